@@ -1,0 +1,5 @@
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(fmt 9 REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(tomlplusplus REQUIRED)
+include(cmake/FindSuiteSparseLibs.cmake)

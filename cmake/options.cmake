@@ -1,0 +1,35 @@
+# One interface target that every target of the project links: warnings, sanitizers, processor.
+add_library(sage_options INTERFACE)
+target_compile_options(sage_options INTERFACE -Wall -Wextra -Wconversion -Wshadow -Wpedantic -Werror)
+# GCC 12 false positives: string concatenation (-Wrestrict) and inlined Eigen products (the others).
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(sage_options INTERFACE -Wno-restrict -Wno-maybe-uninitialized -Wno-array-bounds)
+endif()
+if(SAGE_NATIVE)
+  target_compile_options(sage_options INTERFACE -march=native)
+endif()
+if(SAGE_SANITIZE)
+  target_compile_options(sage_options INTERFACE -fsanitize=${SAGE_SANITIZE} -fno-omit-frame-pointer
+                                                -fno-sanitize-recover=all)
+  target_link_options(sage_options INTERFACE -fsanitize=${SAGE_SANITIZE})
+endif()
+if(SAGE_COVERAGE)
+  target_compile_options(sage_options INTERFACE --coverage)
+  target_link_options(sage_options INTERFACE --coverage)
+endif()
+
+# sage_target(NAME SOURCES ... LINKS ...): one library a folder.
+function(sage_target name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                                            $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/sagefe>)
+  target_link_libraries(${name} PUBLIC ${ARG_LINKS} PRIVATE $<BUILD_INTERFACE:sage_options> ${ARG_PRIVATE_LINKS})
+  # The layout of fixed-size Eigen types must not depend on the processor flags of who includes the headers.
+  target_compile_definitions(${name} PUBLIC EIGEN_MAX_ALIGN_BYTES=32)
+  target_compile_features(${name} PUBLIC cxx_std_20)
+  string(REPLACE "sage_" "" export_name ${name})
+  set_target_properties(${name} PROPERTIES EXPORT_NAME ${export_name})
+  add_library(sage::${export_name} ALIAS ${name})
+  set_property(GLOBAL APPEND PROPERTY SAGE_TARGETS ${name})
+endfunction()

@@ -1,0 +1,83 @@
+// The seam between analysis and elements.  An element is a stateless formulation shared by a whole group.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "sage/core/law.hpp"
+
+namespace sage {
+
+enum class Geometry { plane_strain, axisymmetric };
+
+// Coordinates of an element's nodes, one column a node: (x, y), or (r, z) when axisymmetric.
+using NodeCoordinates = Eigen::Ref<const Eigen::Matrix2Xd>;
+
+struct ElementTraits {
+  std::string_view name;
+  Geometry geometry = Geometry::plane_strain;
+  int nodes = 0;
+  int dofs = 0;      // 2 a node, ordered u1 v1 u2 v2 ...
+  int points = 0;    // integration points
+  int law_size = 4;  // 4 solid, 2 interface
+  bool reduced = false;         // reduced integration: fewer points than full rank needs (hourglass possible)
+  bool locks = false;           // stiffens without bound as nu -> 1/2 (full integration of low order)
+  // Doubles filled by geometry(): for each point its weight w, then B (law_size x dofs, column-major).
+  int geometry_size() const { return points * (1 + law_size * dofs); }
+};
+
+// One element's inputs.  Pointers are to contiguous blocks of the sizes that the traits give.
+struct ElementIn {
+  const double* geometry = nullptr;  // from Element::geometry
+  const double* du = nullptr;        // dofs: displacement since the committed state
+  LawRef law;
+  const double* sigma0 = nullptr;    // points x law_size, committed stress
+  const double* eps0 = nullptr;      // points x law_size, committed strain
+  const double* h0 = nullptr;        // points x history size
+};
+
+struct ElementOut {
+  double* K = nullptr;               // dofs x dofs column-major, overwritten; nullptr = not wanted
+  double* f = nullptr;               // dofs: internal force  sum w B^T sigma, overwritten
+  double* sigma1 = nullptr;          // points x law_size, trial stress
+  double* eps1 = nullptr;            // points x law_size, trial strain
+  double* h1 = nullptr;              // points x history size
+  PointStatus* status = nullptr;     // points
+};
+
+class Element {
+ public:
+  virtual ~Element() = default;
+  virtual const ElementTraits& traits() const = 0;
+
+  // w and B of every integration point.  Strains are small, so one call serves a whole analysis.
+  // w contains detJ, the quadrature weight and the measure: unit thickness, or 2 pi r (full circle).
+  // Throws ElementShapeError (non-positive detJ, crossed, clockwise, negative radius, pairs that do not match).
+  virtual void geometry(const NodeCoordinates& x, std::span<double> geometry) const = 0;
+
+  // f, K and the trial state.  Allocates nothing.
+  virtual Outcome evaluate(const ElementIn& in, ElementOut& out) const = 0;
+
+  // Position of an integration point.
+  virtual Vector2 position(const NodeCoordinates& x, int point) const = 0;
+
+  // f += integral of N^T b dV; b = force per volume in x and y.
+  virtual void body_load(const NodeCoordinates& x, const Vector2& b, std::span<double> f) const = 0;
+
+  // Local node numbers of each edge, counter-clockwise: corner, corner[, mid-side nodes in order].
+  virtual const std::vector<std::vector<int>>& edges() const = 0;
+
+  // f += integral of N^T t dA over an edge.  normal > 0 pushes into the element (a pressure); shear > 0 acts
+  // along the edge in its counter-clockwise direction.  Both vary linearly from first to second corner.
+  virtual void edge_load(const NodeCoordinates& x, int edge, const Vector2& normal, const Vector2& shear,
+                         std::span<double> f) const = 0;
+
+  // Least-squares or exact extrapolation from points to nodes: nodes x points, row-major.
+  virtual std::span<const double> point_to_node() const = 0;
+
+  // Smallest detJ over the mean detJ at the integration points and corners; 1 = parallelogram, <= 0 = unusable.
+  virtual double shape_quality(const NodeCoordinates& x) const = 0;
+};
+
+}  // namespace sage

@@ -1,0 +1,84 @@
+// The seam between elements and materials.  A law sees one point: committed state in, trial state out.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <variant>
+
+#include "sage/core/types.hpp"
+#include "sage/core/units.hpp"
+
+namespace sage {
+
+// A history variable of a law: listing, VTU and restart learn its name from here and nowhere else.
+struct Quantity {
+  std::string_view name;
+  Dimension dimension = Dimension::none;
+  double initial = 0.0;
+};
+
+// What a point is doing; counted per step and shown in every report.
+enum class PointStatus : std::uint8_t {
+  elastic,    // inside its yield surface (or a law that has none)
+  unloading,  // nonlinear elastic, on the unload-reload branch
+  yielded,    // on the yield surface, plastic flow in this increment
+  slipping,   // interface at its shear strength
+  open,       // interface without contact
+  apex,       // at the tip of the yield surface, or cut off in tension
+};
+
+// cut_step: no answer for this increment, a smaller one may have one.  Everything else throws.
+enum class Outcome : std::uint8_t { ok, cut_step };
+
+// All that a law may see.  Tension positive, radians.  N = 4: [xx yy zz xy], engineering shear.
+// N = 2: [shear, normal] traction and relative displacement; normal > 0 opens.
+template <int N>
+struct PointIn {
+  Vector<N> sigma0;              // committed stress
+  Vector<N> eps0;                // committed strain (relative displacement), without deps
+  Vector<N> deps;                // increment since the committed state
+  std::span<const double> h0;    // committed history
+};
+
+// All that a law must produce, every field, on every call.
+template <int N>
+struct PointOut {
+  Vector<N> sigma;               // stress at eps0 + deps
+  Matrix<N> D;                   // consistent tangent d(sigma)/d(deps); may be unsymmetric
+  std::span<double> h1;          // trial history, same length as h0
+  PointStatus status = PointStatus::elastic;
+};
+
+// A constitutive law: immutable, shared by all points of a material; `update` is a pure function.
+template <int N>
+class Law {
+ public:
+  virtual ~Law() = default;
+
+  virtual std::span<const Quantity> history() const { return {}; }
+
+  // D is symmetric in every state.  The choice of solver depends on it, so the default is the safe one.
+  virtual bool symmetric() const { return false; }
+
+  // sigma = sigma0 + D deps with one constant D for ever: the scene may then skip Newton and reassembly.
+  virtual bool linear() const { return false; }
+
+  // Makes a history consistent with an initial stress (tension +).  h arrives with the initial values.
+  // Returns false if the law cannot carry that stress (outside its yield surface): the caller reports it.
+  virtual bool initialise(const Vector<N>& /*sigma*/, std::span<double> /*h*/) const { return true; }
+
+  // Allocates nothing.  deps = 0 must give back sigma0 and h0 when the state is admissible.
+  virtual Outcome update(const PointIn<N>& in, PointOut<N>& out) const = 0;
+
+  // Mobilised fraction of strength at a state, 1 = at yield/slip; 0 for laws without strength.
+  virtual double stress_level(const Vector<N>& /*sigma*/, std::span<const double> /*h*/) const { return 0.0; }
+};
+
+using SolidLaw = Law<4>;
+using InterfaceLaw = Law<2>;
+using LawRef = std::variant<const SolidLaw*, const InterfaceLaw*>;
+using LawPtr = std::variant<std::unique_ptr<SolidLaw>, std::unique_ptr<InterfaceLaw>>;
+
+}  // namespace sage

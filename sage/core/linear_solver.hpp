@@ -1,0 +1,64 @@
+// The seam between analysis and linear solvers.  A solver owns its storage, so that skyline, frontal and
+// sparse libraries all fit.  Nothing is ever silently symmetrised.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace sage {
+
+// The equations of every element: for element e, equations[offset[e] .. offset[e+1]); -1 = prescribed dof.
+struct ElementEquations {
+  std::vector<std::int64_t> offset{0};
+  std::vector<int> equations;
+  int count() const { return static_cast<int>(offset.size()) - 1; }
+  std::span<const int> of(int element) const {
+    const auto e = static_cast<std::size_t>(element);
+    return {equations.data() + offset[e], static_cast<std::size_t>(offset[e + 1] - offset[e])};
+  }
+};
+
+struct SolverTraits {
+  std::string_view name;
+  bool symmetric = false;  // uses only a symmetric K (one triangle); must not be given an unsymmetric one
+};
+
+// What the last factorisation can tell about itself.  Negative = not known.
+struct FactorReport {
+  double smallest_pivot_ratio = -1.0;   // min over equations of |pivot| / largest term of its original row
+  double growth = -1.0;                 // largest term of the factors / largest term of K
+  double reciprocal_condition = -1.0;   // estimate in the 1-norm
+  int negative_pivots = -1;             // LDL^T only
+  std::int64_t factor_entries = -1;     // stored terms of the factors
+  std::size_t memory_bytes = 0;
+};
+
+class LinearSolver {
+ public:
+  virtual ~LinearSolver() = default;
+  virtual const SolverTraits& traits() const = 0;
+
+  // Numbering, symbolic work and storage for a pattern.  Called once per pattern.
+  virtual void analyse(int equations, const ElementEquations& elements) = 0;
+
+  // Zeroes the matrix, keeps the pattern.
+  virtual void clear() = 0;
+
+  // Adds an element matrix: dofs x dofs, column-major, in the order of the element's equations as given to
+  // analyse; rows and columns of equation -1 are left out.  Symmetric solvers read the upper triangle.
+  virtual void add(int element, const double* K) = 0;
+
+  // Throws SingularMatrix.
+  virtual void factorise() = 0;
+
+  // x = K^-1 b.  b and x may be the same vector.  Needs factorise() since the last add().
+  virtual void solve(std::span<const double> b, std::span<double> x) const = 0;
+
+  virtual FactorReport report() const { return {}; }
+};
+
+}  // namespace sage

@@ -1,0 +1,7 @@
+#include "solvers/register_solvers.hpp"
+
+namespace sage {
+
+void register_solvers(Catalogue& /*catalogue*/) {}
+
+}  // namespace sage
