@@ -30,11 +30,11 @@ struct SolverTraits {
 
 // What the last factorisation can tell about itself.  Negative = not known.
 struct FactorReport {
-  double smallest_pivot_ratio = -1.0;   // min over equations of |pivot| / largest term of its original row
-  double growth = -1.0;                 // largest term of the factors / largest term of K
-  double reciprocal_condition = -1.0;   // estimate in the 1-norm
-  int negative_pivots = -1;             // LDL^T only
-  std::int64_t factor_entries = -1;     // stored terms of the factors
+  double smallest_pivot_ratio = -1.0;  // min over equations of |pivot| / largest term of its original row
+  double growth = -1.0;                // largest term of the factors / largest term of K
+  double reciprocal_condition = -1.0;  // estimate in the 1-norm
+  int negative_pivots = -1;            // LDL^T only
+  std::int64_t factor_entries = -1;    // stored terms of the factors
   std::size_t memory_bytes = 0;
 };
 
