@@ -3,7 +3,8 @@
 namespace sage {
 
 ElasticModuli moduli_from_young(double youngs_modulus, double poissons_ratio) {
-  return {youngs_modulus / (3.0 * (1.0 - 2.0 * poissons_ratio)), youngs_modulus / (2.0 * (1.0 + poissons_ratio))};
+  return {youngs_modulus / (3.0 * (1.0 - 2.0 * poissons_ratio)),
+          youngs_modulus / (2.0 * (1.0 + poissons_ratio))};
 }
 
 Matrix4 elastic_matrix(const ElasticModuli& moduli) {

@@ -11,8 +11,9 @@ ElasticModuli checked_moduli(std::span<const double> values, std::size_t at) {
   const double E = values[at], nu = values[at + 1];
   if (!(E > 0.0)) throw ParameterError(static_cast<int>(at), "Young's modulus must be greater than 0");
   if (nu >= 0.5)
-    throw ParameterError(static_cast<int>(at) + 1,
-                         "Poisson's ratio must be below 0.5 (no mixed element here); 0.4999999 is safe with B-bar");
+    throw ParameterError(
+        static_cast<int>(at) + 1,
+        "Poisson's ratio must be below 0.5 (no mixed element here); 0.4999999 is safe with B-bar");
   if (!(nu > -1.0)) throw ParameterError(static_cast<int>(at) + 1, "Poisson's ratio must be greater than -1");
   return moduli_from_young(E, nu);
 }
