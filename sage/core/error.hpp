@@ -62,7 +62,8 @@ class InputError : public std::runtime_error {
 // A law, element or solver refuses one of its parameters; the model builder adds the place in the deck.
 class ParameterError : public std::runtime_error {
  public:
-  ParameterError(int parameter, const std::string& message) : std::runtime_error(message), parameter_(parameter) {}
+  ParameterError(int parameter, const std::string& message)
+      : std::runtime_error(message), parameter_(parameter) {}
   int parameter() const { return parameter_; }  // index into the catalogue entry's parameters, -1 = as a whole
 
  private:
