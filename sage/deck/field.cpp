@@ -10,9 +10,13 @@ namespace sage {
 
 namespace {
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+char lower(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
 
 std::size_t skip_blanks(std::string_view text, std::size_t i) {
   while (i < text.size() && text[i] == ' ') ++i;
@@ -258,14 +262,22 @@ FieldResult read_free_number(std::string_view text, bool integer) {
 
 const char* fault_text(FieldFault fault) {
   switch (fault) {
-    case FieldFault::none: return "is right";
-    case FieldFault::bad_character: return "is not a number";
-    case FieldFault::second_point: return "is not a number";
-    case FieldFault::lone_sign: return "is a sign without a number";
-    case FieldFault::no_exponent: return "has an exponent letter without an exponent";
-    case FieldFault::exponent_range: return "has an exponent out of range";
-    case FieldFault::integer_range: return "is beyond the range of integers (2147483647)";
-    case FieldFault::no_value: return "is not a value of the kind wanted here";
+    case FieldFault::none:
+      return "is right";
+    case FieldFault::bad_character:
+      return "is not a number";
+    case FieldFault::second_point:
+      return "is not a number";
+    case FieldFault::lone_sign:
+      return "is a sign without a number";
+    case FieldFault::no_exponent:
+      return "has an exponent letter without an exponent";
+    case FieldFault::exponent_range:
+      return "has an exponent out of range";
+    case FieldFault::integer_range:
+      return "is beyond the range of integers (2147483647)";
+    case FieldFault::no_value:
+      return "is not a value of the kind wanted here";
   }
   return "is not a number";
 }

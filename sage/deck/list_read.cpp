@@ -8,9 +8,15 @@ namespace sage {
 
 namespace {
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_space(char c) { return c == ' ' || c == '\t'; }
-bool is_separator(char c) { return is_space(c) || c == ',' || c == ';' || c == '/' || c == '\n'; }
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+bool is_space(char c) {
+  return c == ' ' || c == '\t';
+}
+bool is_separator(char c) {
+  return is_space(c) || c == ',' || c == ';' || c == '/' || c == '\n';
+}
 
 std::uint16_t column(std::size_t c) {
   return static_cast<std::uint16_t>(std::min<std::size_t>(c, std::numeric_limits<std::uint16_t>::max()));
@@ -137,10 +143,18 @@ ReadEnd ListRead::next_token(FieldKind kind, Token& token, FieldResult& result) 
 FieldResult ListRead::convert(const Token& token, FieldKind kind) const {
   FieldResult result;
   switch (kind) {
-    case FieldKind::integer: result = read_free_number(token.text, true); break;
-    case FieldKind::real: result = read_free_number(token.text, false); break;
-    case FieldKind::logical: result = read_logical_field(token.text); break;
-    case FieldKind::text: result.blank = token.text.find_first_not_of(' ') == std::string_view::npos; break;
+    case FieldKind::integer:
+      result = read_free_number(token.text, true);
+      break;
+    case FieldKind::real:
+      result = read_free_number(token.text, false);
+      break;
+    case FieldKind::logical:
+      result = read_logical_field(token.text);
+      break;
+    case FieldKind::text:
+      result.blank = token.text.find_first_not_of(' ') == std::string_view::npos;
+      break;
   }
   return result;
 }
