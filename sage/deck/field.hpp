@@ -47,6 +47,7 @@ struct NumberForm {
   int decimals = 0;  // the d of Fw.d: where no point is written, the last d digits are decimals
   int scale = 0;     // the k of kP: divides by 10^k where no exponent is written
   BlankMode blanks = BlankMode::null;
+  bool free = false;  // list-directed: an exponent of any length gives zero or infinity instead of a fault
 };
 
 // Iw.  Leading blanks never count, whatever the mode.

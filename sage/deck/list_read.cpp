@@ -8,6 +8,8 @@ namespace sage {
 
 namespace {
 
+constexpr int largest_repeat = 200000000;  // gfortran's own limit
+
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
@@ -69,7 +71,7 @@ bool ListRead::take_repeat_count(FieldResult& result) {
   const FieldResult count = read_integer_field(record_.substr(position_, end - position_), BlankMode::null);
   position_ = end + 1;
   repeats_ = static_cast<int>(count.value);
-  if (repeats_ < 1) {
+  if (repeats_ < 1 || repeats_ > largest_repeat) {
     result.fault = FieldFault::no_value;
     repeats_ = 1;
   }
@@ -179,7 +181,7 @@ ReadEnd ListRead::read(FieldKind kind, std::vector<FieldValue>& values, std::vec
   const std::size_t offset = static_cast<std::size_t>(source_.skipped()) + token_.first;
   value.first_column = column(offset + 1);
   value.last_column = column(offset + std::max<std::size_t>(token_.text.size() + (token_.quoted ? 2 : 0), 1));
-  if (token_.null) return ReadEnd::complete;
+  if (token_.null && result.fault == FieldFault::none) return ReadEnd::complete;
   if (result.fault == FieldFault::none) result = convert(token_, kind);
   if (again && kind != token_kind_) result.fault = FieldFault::no_value;  // "2*1" into an integer and a real
   value.number = result.value;
