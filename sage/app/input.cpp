@@ -10,21 +10,22 @@
 namespace sage::app {
 
 void add_input_options(CLI::App& parser, InputOptions& options) {
-  parser.add_option("--layout", options.layout, "card layout: a built-in name or a .toml file (default: found from the deck)");
+  parser.add_option("--layout", options.layout,
+                    "card layout: a built-in name or a .toml file (default: found from the deck)");
   parser.add_flag("--strict", options.strict, "treat warnings about the deck as errors");
 }
 
 void add_build_options(CLI::App& parser, BuildOptions& options) {
   parser.add_option("--formulation", options.formulation, "replace the formulation code of all solid elements");
-  parser.add_option("--element", options.element, "replace 4-node quadrilaterals by this element code (mid-side nodes are made)");
+  parser.add_option("--element", options.element,
+                    "replace 4-node quadrilaterals by this element code (mid-side nodes are made)");
   parser.add_option("--geometry", options.geometry, "replace the geometry: 1 plane strain, 2 axisymmetric");
 }
 
 Deck read_input(const std::string& path, const InputOptions& options) {
   ReadOptions read;
   read.strict = options.strict;
-  if (!options.layout.empty()) return read_deck(path, load_layout(options.layout), read);
-  return read_deck(path, layout_for(path), read);
+  return read_deck(path, options.layout.empty() ? layout_for(path) : load_layout(options.layout), read);
 }
 
 void print_diagnostics(const Diagnostics& diagnostics) {
