@@ -27,7 +27,7 @@ class Interface final : public PointElement<2, 4 * Line::nodes, Line::nodes> {
   static constexpr int kPairs = Line::nodes;
   static constexpr int kDofs = 4 * kPairs;
   using MidLine = Eigen::Matrix<double, 2, kPairs>;  // one column a pair
-  using Operator = Eigen::Matrix<double, 2, kDofs>;
+  using Operator = OperatorT<2, kDofs>;
 
   // N and dN/dxi of the pairs at a point, and the weight of the rule.
   struct Point {
