@@ -1,1 +1,257 @@
-// Placeholder until the first step lands.
+#include "sage/analysis/run.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sage/analysis/explain.hpp"
+#include "sage/analysis/loads.hpp"
+#include "sage/analysis/newton.hpp"
+
+namespace sage {
+
+namespace {
+
+// Everything that a run carries from stage to stage.
+class Run {
+ public:
+  Run(const Model& model, const Catalogue& catalogue, const RunSettings& settings,
+      std::span<Observer* const> observers)
+      : model_(model),
+        catalogue_(catalogue),
+        settings_(settings),
+        observers_(observers),
+        scene_(analyse_scene(model)),
+        assembly_(model, scene_, result_.work),
+        activity_(model) {
+    u_.setZero(model.dofs());
+    du_.setZero(model.dofs());
+    external_.setZero(model.dofs());
+  }
+
+  RunResult execute();
+
+ private:
+  void start_states(const std::vector<InitialStress>& initials);
+  void prepare_stage(int s);
+  void make_solver();
+  bool run_stage(int s);
+  bool run_increment(const Stage& stage, StepReport& report, double& reached);
+  NewtonStep attempt(const Stage& stage, double from, double to);
+  void accept(double reached);
+  void reject(const Stage& stage);
+  bool fail(StepReport& report, const NewtonStep& step);
+  EquilibriumAudit audit() const;
+  Solution solution() const;
+  template <class Call>
+  void tell(Call call) {
+    const Timer timer(result_.work.output_seconds);
+    for (Observer* observer : observers_) call(*observer);
+  }
+
+  const Model& model_;
+  const Catalogue& catalogue_;
+  const RunSettings& settings_;
+  std::span<Observer* const> observers_;
+  Scene scene_;
+  RunResult result_;
+  Assembly assembly_;
+  Activity activity_;
+  std::unique_ptr<LinearSolver> solver_;
+  std::string solver_name_;
+  Stiffness stiffness_;
+  Eigen::VectorXd u_, du_, external_, target_, external_start_, force_start_, force_end_, rate_;
+  std::vector<char> held_before_, groups_before_;
+};
+
+Solution Run::solution() const {
+  return {&u_, &assembly_.internal_force(), &external_, &assembly_, &activity_};
+}
+
+void Run::start_states(const std::vector<InitialStress>& initials) {
+  Diagnostics warnings;
+  for (const InitialStress& initial : initials)
+    apply_initial_stress(model_, initial, assembly_.groups()[static_cast<std::size_t>(initial.group)],
+                         warnings);
+  for (const Diagnostic& d : warnings.list()) tell([&](Observer& o) { o.on_warning(d); });
+}
+
+void Run::make_solver() {
+  int code = settings_.solver >= 0 ? settings_.solver : model_.solver;
+  if (code == 0 && settings_.choose_solver)
+    code = settings_.choose_solver(assembly_.equations(), scene_.symmetric);
+  const SolverEntry* entry = catalogue_.solvers.find(code);
+  if (entry == nullptr)
+    throw AnalysisError("solver " + std::to_string(code) + " is unknown; " + catalogue_.solvers.known());
+  if (entry->symmetric && !scene_.symmetric)
+    throw AnalysisError("solver " + entry->name +
+                        " is for symmetric matrices only; this scene has an unsymmetric law");
+  solver_ = entry->make();
+  solver_name_ = entry->name;
+  stiffness_ = {};
+  stiffness_.solver = solver_.get();
+}
+
+// Equations, numbering and the loads at both ends of a stage.  What the forces of removed parts, initial stress
+// and released supports leave out of balance is held at the start and let go in proportion over the stage.
+void Run::prepare_stage(int s) {
+  const Stage& stage = model_.stages[static_cast<std::size_t>(s)];
+  activity_.enter(model_, stage);
+  rate_ = prescribed_rate(model_, stage);
+  assembly_.enter_stage(activity_, rate_);
+  start_states(stage.initials);
+  const bool same_pattern = solver_ && held_before_ == activity_.held && groups_before_ == activity_.group;
+  if (!same_pattern) {
+    make_solver();
+    const Timer timer(result_.work.analyse_seconds);
+    ++result_.work.analyses;
+    solver_->analyse(assembly_.equations(), assembly_.element_equations());
+    held_before_ = activity_.held;
+    groups_before_ = activity_.group;
+  }
+  stiffness_.constant = scene_.linear && settings_.reuse_factors;
+  const bool keep_factors = same_pattern && stiffness_.constant && stiffness_.factorised && rate_.isZero(0.0);
+  if (!keep_factors) stiffness_.assembled = stiffness_.factorised = false;
+  du_.setZero();
+  if (assembly_.evaluate(du_, stiffness_.assembled ? nullptr : solver_.get()) == Outcome::cut_step)
+    throw AnalysisError("stage " + std::to_string(s + 1) + ": a law cannot start from the state it is given");
+  stiffness_.assembled = true;
+  assembly_.commit();
+  force_start_ = assembly_.internal_force();
+  force_end_ = external_force(model_, activity_, s);
+  external_start_ = external_;
+}
+
+NewtonStep Run::attempt(const Stage& stage, double from, double to) {
+  target_ = (1.0 - to) * force_start_ + to * force_end_;
+  const NewtonSettings newton{stage.method, stage.max_iterations, stage.tolerance, settings_.line_search};
+  return newton_step(assembly_, stiffness_, target_, rate_, to - from, newton, result_.work, du_);
+}
+
+void Run::accept(double reached) {
+  assembly_.commit();
+  u_ += du_;
+  external_ = (1.0 - reached) * external_start_ + reached * force_end_;
+}
+
+// Back to the committed state, with its own internal forces and tangent.
+void Run::reject(const Stage& stage) {
+  du_.setZero();
+  const bool keep_K = stiffness_.constant || stage.method == Method::initial_stiffness;
+  if (!keep_K) stiffness_.assembled = stiffness_.factorised = false;
+  assembly_.evaluate(du_, nullptr);
+}
+
+bool Run::run_increment(const Stage& stage, StepReport& report, double& reached) {
+  const double end = static_cast<double>(report.increment) / report.increments;
+  const double whole = 1.0 / report.increments;
+  double size = end - reached;
+  report.substeps = 0;
+  while (reached < end) {
+    const double to = size >= end - reached - 1e-12 * whole ? end : reached + size;
+    if (stage.method == Method::modified_newton && !stiffness_.constant) stiffness_.assembled = false;
+    const NewtonStep step = attempt(stage, reached, to);
+    report.iterations = step.iterations;
+    report.total_iterations += static_cast<int>(step.iterations.size());
+    report.worst = step.worst;
+    if (step.outcome == StepOutcome::converged) {
+      accept(to);
+      reached = to;
+      report.load_factor = reached;
+      ++report.substeps;
+      if (step.iterations.size() <= 6) size *= 2.0;
+      continue;
+    }
+    report.points = assembly_.count_points();
+    if (report.cuts >= settings_.max_cuts || stiffness_.constant) return fail(report, step);
+    reject(stage);
+    ++report.cuts;
+    size = 0.5 * (to - reached);
+  }
+  return true;
+}
+
+bool Run::fail(StepReport& report, const NewtonStep& step) {
+  report.converged = false;
+  if (step.outcome == StepOutcome::singular && step.singular_equation >= 0) {
+    result_.status = RunStatus::singular;
+    result_.reason = "stage " + std::to_string(report.stage + 1) + ", increment " +
+                     std::to_string(report.increment) + ": " +
+                     explain_singular(model_, assembly_, step.singular_equation, step.message);
+  } else {
+    result_.status = RunStatus::not_converged;
+    result_.reason = explain_failure(model_, report, step);
+  }
+  du_.setZero();
+  assembly_.evaluate(du_, nullptr);
+  tell([&](Observer& o) { o.on_failure(model_, report, result_.reason, solution()); });
+  return false;
+}
+
+EquilibriumAudit Run::audit() const {
+  EquilibriumAudit audit;
+  const Eigen::VectorXd& f = assembly_.internal_force();
+  double moment_scale = 0.0, scale[2] = {0, 0};
+  for (int dof = 0; dof < model_.dofs(); ++dof) {
+    const int c = dof % 2;
+    const double reaction = assembly_.equation_of(dof) < 0 ? f[dof] - external_[dof] : 0.0;
+    const double force = external_[dof] + reaction;
+    audit.applied[c] += external_[dof];
+    audit.reactions[c] += reaction;
+    const double arm = c == 0 ? -model_.mesh.x(1, dof / 2) : model_.mesh.x(0, dof / 2);
+    audit.moment += force * arm;
+    scale[c] += std::abs(external_[dof]) + std::abs(reaction);
+    moment_scale += std::abs(force * arm);
+  }
+  audit.scale = std::max(scale[0], scale[1]);
+  const bool plane = model_.geometry == Geometry::plane_strain;
+  if (audit.scale > 0.0) {
+    audit.out_of_balance = std::abs(audit.applied[1] + audit.reactions[1]) / audit.scale;
+    if (plane)  // radial forces of a ring need no sum of zero
+      audit.out_of_balance =
+          std::max(audit.out_of_balance, std::abs(audit.applied[0] + audit.reactions[0]) / audit.scale);
+  }
+  if (plane && moment_scale > 0.0)
+    audit.out_of_balance = std::max(audit.out_of_balance, std::abs(audit.moment) / moment_scale);
+  return audit;
+}
+
+bool Run::run_stage(int s) {
+  const Stage& stage = model_.stages[static_cast<std::size_t>(s)];
+  prepare_stage(s);
+  if (s == 0) tell([&](Observer& o) { o.on_start(model_, scene_, solver_name_, assembly_.equations()); });
+  tell([&](Observer& o) { o.on_stage_start(model_, s, solution()); });
+  double reached = 0.0;
+  for (int i = 1; i <= stage.increments; ++i) {
+    StepReport report;
+    report.stage = s;
+    report.increment = i;
+    report.increments = stage.increments;
+    report.load_factor = reached;
+    if (!run_increment(stage, report, reached)) return false;
+    report.points = assembly_.count_points();
+    report.smallest_pivot_ratio = solver_->report().smallest_pivot_ratio;
+    ++result_.increments_done;
+    tell([&](Observer& o) { o.on_increment(model_, report, solution()); });
+  }
+  ++result_.stages_done;
+  const EquilibriumAudit sums = audit();
+  tell([&](Observer& o) { o.on_stage_end(model_, s, sums, solution()); });
+  return true;
+}
+
+RunResult Run::execute() {
+  start_states(model_.initials);
+  for (int s = 0; s < static_cast<int>(model_.stages.size()); ++s)
+    if (!run_stage(s)) break;
+  tell([&](Observer& o) { o.on_finish(model_, result_); });
+  return result_;
+}
+
+}  // namespace
+
+RunResult run(const Model& model, const Catalogue& catalogue, const RunSettings& settings,
+              std::span<Observer* const> observers) {
+  return Run(model, catalogue, settings, observers).execute();
+}
+
+}  // namespace sage

@@ -19,10 +19,10 @@
 namespace sage {
 
 struct Parameter {
-  std::string name;                 // "friction_angle"
+  std::string name;  // "friction_angle"
   Dimension dimension = Dimension::none;
-  std::string meaning;              // one line for the manual
-  double fallback = 0.0;            // used where the deck gives fewer parameters
+  std::string meaning;    // one line for the manual
+  double fallback = 0.0;  // used where the deck gives fewer parameters
   bool required = true;
 };
 
@@ -38,7 +38,7 @@ struct MaterialEntry {
 
 struct Formulation {
   int code = 0;
-  std::string name;     // "b-bar"
+  std::string name;  // "b-bar"
   std::string summary;
 };
 
@@ -46,9 +46,9 @@ struct ElementEntry {
   std::string name;
   std::string summary;
   int nodes = 0;
-  int corners = 0;                          // nodes beyond these are mid-side nodes on straight or curved edges
+  int corners = 0;  // nodes beyond these are mid-side nodes on straight or curved edges
   int law_size = 4;
-  std::vector<Formulation> formulations;    // the first is the default (deck code 0)
+  std::vector<Formulation> formulations;  // the first is the default (deck code 0)
   // Throws ParameterError for an unknown formulation code.
   std::function<std::unique_ptr<Element>(Geometry geometry, int formulation)> make;
 };
@@ -67,7 +67,8 @@ class Registry {
   void add(int code, Entry entry) {
     for (const auto& [other_code, other] : entries_)
       if (other_code == code || other.name == entry.name)
-        throw std::logic_error("catalogue: code " + std::to_string(code) + " or name " + entry.name + " is taken");
+        throw std::logic_error("catalogue: code " + std::to_string(code) + " or name " + entry.name +
+                               " is taken");
     entries_.emplace(code, std::move(entry));
   }
   const Entry* find(int code) const {

@@ -19,11 +19,11 @@ struct ElementTraits {
   std::string_view name;
   Geometry geometry = Geometry::plane_strain;
   int nodes = 0;
-  int dofs = 0;      // 2 a node, ordered u1 v1 u2 v2 ...
-  int points = 0;    // integration points
-  int law_size = 4;  // 4 solid, 2 interface
-  bool reduced = false;         // reduced integration: fewer points than full rank needs (hourglass possible)
-  bool locks = false;           // stiffens without bound as nu -> 1/2 (full integration of low order)
+  int dofs = 0;          // 2 a node, ordered u1 v1 u2 v2 ...
+  int points = 0;        // integration points
+  int law_size = 4;      // 4 solid, 2 interface
+  bool reduced = false;  // reduced integration: fewer points than full rank needs (hourglass possible)
+  bool locks = false;    // stiffens without bound as nu -> 1/2 (full integration of low order)
   // Doubles filled by geometry(): for each point its weight w, then B^T (dofs x law_size, column-major).
   int geometry_size() const { return points * (1 + law_size * dofs); }
 };
@@ -33,18 +33,18 @@ struct ElementIn {
   const double* geometry = nullptr;  // from Element::geometry
   const double* du = nullptr;        // dofs: displacement since the committed state
   LawRef law;
-  const double* sigma0 = nullptr;    // points x law_size, committed stress
-  const double* eps0 = nullptr;      // points x law_size, committed strain
-  const double* h0 = nullptr;        // points x history size
+  const double* sigma0 = nullptr;  // points x law_size, committed stress
+  const double* eps0 = nullptr;    // points x law_size, committed strain
+  const double* h0 = nullptr;      // points x history size
 };
 
 struct ElementOut {
-  double* K = nullptr;               // dofs x dofs column-major, overwritten; nullptr = not wanted
-  double* f = nullptr;               // dofs: internal force  sum w B^T sigma, overwritten
-  double* sigma1 = nullptr;          // points x law_size, trial stress
-  double* eps1 = nullptr;            // points x law_size, trial strain
-  double* h1 = nullptr;              // points x history size
-  PointStatus* status = nullptr;     // points
+  double* K = nullptr;            // dofs x dofs column-major, overwritten; nullptr = not wanted
+  double* f = nullptr;            // dofs: internal force  sum w B^T sigma, overwritten
+  double* sigma1 = nullptr;       // points x law_size, trial stress
+  double* eps1 = nullptr;         // points x law_size, trial strain
+  double* h1 = nullptr;           // points x history size
+  PointStatus* status = nullptr;  // points
 };
 
 class Element {

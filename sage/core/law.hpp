@@ -36,18 +36,18 @@ enum class Outcome : std::uint8_t { ok, cut_step };
 // N = 2: [shear, normal] traction and relative displacement; normal > 0 opens.
 template <int N>
 struct PointIn {
-  Vector<N> sigma0;              // committed stress
-  Vector<N> eps0;                // committed strain (relative displacement), without deps
-  Vector<N> deps;                // increment since the committed state
-  std::span<const double> h0;    // committed history
+  Vector<N> sigma0;            // committed stress
+  Vector<N> eps0;              // committed strain (relative displacement), without deps
+  Vector<N> deps;              // increment since the committed state
+  std::span<const double> h0;  // committed history
 };
 
 // All that a law must produce, every field, on every call.
 template <int N>
 struct PointOut {
-  Vector<N> sigma;               // stress at eps0 + deps
-  Matrix<N> D;                   // consistent tangent d(sigma)/d(deps); may be unsymmetric
-  std::span<double> h1;          // trial history, same length as h0
+  Vector<N> sigma;       // stress at eps0 + deps
+  Matrix<N> D;           // consistent tangent d(sigma)/d(deps); may be unsymmetric
+  std::span<double> h1;  // trial history, same length as h0
   PointStatus status = PointStatus::elastic;
 };
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <stdexcept>
 #include <string_view>
 #include <vector>
 
@@ -29,11 +30,11 @@ struct SolverTraits {
 
 // What the last factorisation can tell about itself.  Negative = not known.
 struct FactorReport {
-  double smallest_pivot_ratio = -1.0;   // min over equations of |pivot| / largest term of its original row
-  double growth = -1.0;                 // largest term of the factors / largest term of K
-  double reciprocal_condition = -1.0;   // estimate in the 1-norm
-  int negative_pivots = -1;             // LDL^T only
-  std::int64_t factor_entries = -1;     // stored terms of the factors
+  double smallest_pivot_ratio = -1.0;  // min over equations of |pivot| / largest term of its original row
+  double growth = -1.0;                // largest term of the factors / largest term of K
+  double reciprocal_condition = -1.0;  // estimate in the 1-norm
+  int negative_pivots = -1;            // LDL^T only
+  std::int64_t factor_entries = -1;    // stored terms of the factors
   std::size_t memory_bytes = 0;
 };
 
@@ -59,6 +60,18 @@ class LinearSolver {
   virtual void solve(std::span<const double> b, std::span<double> x) const = 0;
 
   virtual FactorReport report() const { return {}; }
+
+  // The three below serve iterative refinement and the estimate of the condition number, on demand.
+  // y = K x, with K as it was added (a factorisation does not destroy it).  x and y must differ.
+  virtual void multiply(std::span<const double> /*x*/, std::span<double> /*y*/) const {
+    throw std::logic_error("this solver does not keep its matrix");
+  }
+  // Largest column sum of |K|.  Negative = not known.
+  virtual double norm1() const { return -1.0; }
+  // x = K^-T b, under the conditions of solve().
+  virtual void solve_transposed(std::span<const double> /*b*/, std::span<double> /*x*/) const {
+    throw std::logic_error("this solver does not solve with the transposed matrix");
+  }
 };
 
 }  // namespace sage

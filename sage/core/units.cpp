@@ -4,13 +4,20 @@ namespace sage {
 
 std::string unit_text(Dimension dimension, const UnitSystem& units) {
   switch (dimension) {
-    case Dimension::none: return "-";
-    case Dimension::length: return units.length;
-    case Dimension::angle: return "deg";
-    case Dimension::force: return units.force;
-    case Dimension::stress: return units.stress;
-    case Dimension::stress_per_length: return units.stress + "/" + units.length;
-    case Dimension::unit_weight: return units.force + "/" + units.length + "^3";
+    case Dimension::none:
+      return "-";
+    case Dimension::length:
+      return units.length;
+    case Dimension::angle:
+      return "deg";
+    case Dimension::force:
+      return units.force;
+    case Dimension::stress:
+      return units.stress;
+    case Dimension::stress_per_length:
+      return units.stress + "/" + units.length;
+    case Dimension::unit_weight:
+      return units.force + "/" + units.length + "^3";
   }
   return "-";
 }

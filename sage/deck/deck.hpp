@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <span>
 #include <string>
@@ -14,41 +15,42 @@ namespace sage {
 
 enum class FieldKind : std::uint8_t { integer, real, text, logical };
 
-// One field as read.  `number` holds integers and logicals (0/1) too; text points into the deck's own copy of the file.
+// One field as read.  `number` holds integers and logicals (0/1) too; text points into the deck's own copy of
+// the file.
 struct FieldValue {
   double number = 0.0;
-  std::string_view text;        // the characters as they stand on the card (whole field, blanks kept)
-  int line = 0;                 // 1-based
+  std::string_view text;  // the characters as they stand on the card (whole field, blanks kept)
+  int line = 0;           // 1-based
   std::uint16_t first_column = 0, last_column = 0;  // 1-based, inclusive; 0 = beyond the end of the record
   FieldKind kind = FieldKind::real;
-  bool blank = true;            // nothing but blanks (or a short record, or a list-directed null)
+  bool blank = true;  // nothing but blanks (or a short record, or a list-directed null)
 };
 
 // A field's definition, from the layout.
 struct FieldSpec {
-  std::string name;             // canonical name that the model builder asks for: "x", "number"
-  std::string label;            // for messages: "x coordinate"
-  std::string unit;             // for messages and the manual: "length", "degrees"; may be empty
+  std::string name;   // canonical name that the model builder asks for: "x", "number"
+  std::string label;  // for messages: "x coordinate"
+  std::string unit;   // for messages and the manual: "length", "degrees"; may be empty
   FieldKind kind = FieldKind::real;
-  bool required = false;        // blank is an error
-  bool has_fallback = false;    // blank gives `fallback` instead of 0
+  bool required = false;      // blank is an error
+  bool has_fallback = false;  // blank gives `fallback` instead of 0
   double fallback = 0.0;
 };
 
 // A card's definition, from the layout.
 struct CardSpec {
-  std::string name;             // canonical name: "node", "element"
-  std::string label;            // the layout's own name for it: "C-3.L3"; same as name where it has none
-  std::string format;           // "(2I5,3F10.0)"; empty = list-directed
+  std::string name;               // canonical name: "node", "element"
+  std::string label;              // the layout's own name for it: "C-3.L3"; same as name where it has none
+  std::string format;             // "(2I5,3F10.0)"; empty = list-directed
   std::vector<FieldSpec> fields;  // one a value; the last may repeat (lists)
 };
 
 struct Card {
-  int spec = 0;                 // index into Deck::specs
-  int line = 0;                 // first line of the card
+  int spec = 0;  // index into Deck::specs
+  int line = 0;  // first line of the card
   std::int32_t first_value = 0;
   std::int32_t value_count = 0;
-  int owner = -1;               // index of the card that opened the enclosing repeated block, -1 = none
+  int owner = -1;  // index of the card that opened the enclosing repeated block, -1 = none
 };
 
 // Reads one card's values by canonical field name.
@@ -56,13 +58,15 @@ class CardView;
 
 class Deck {
  public:
-  std::string file;                       // as given, for messages
-  std::string layout;                     // name of the layout that read it
-  std::shared_ptr<const std::string> source;  // the file's characters; keeps FieldValue::text alive
+  std::string file;                                      // as given, for messages
+  std::string layout;                                    // name of the layout that read it
+  std::shared_ptr<const std::string> source;             // the file's characters; keeps FieldValue::text alive
+  std::vector<std::size_t> line_starts;                  // offset of each line in `source`
+  std::shared_ptr<const std::deque<std::string>> texts;  // free-format texts whose quotes had to be undoubled
   std::vector<CardSpec> specs;
-  std::vector<Card> cards;                // in file order
+  std::vector<Card> cards;  // in file order
   std::vector<FieldValue> values;
-  Diagnostics diagnostics;                // warnings and notes of reading (errors throw InputError)
+  Diagnostics diagnostics;  // warnings and notes of reading (errors throw InputError)
 
   // All cards of a canonical name, in file order (several specs may share a name).
   std::vector<CardView> all(std::string_view name) const;
@@ -106,6 +110,7 @@ class CardView {
 };
 
 // An error at a field, shown with the card and a caret line below it and the column ruler above it.
-Diagnostic card_diagnostic(const Deck& deck, Severity severity, const SourcePosition& where, std::string message);
+Diagnostic card_diagnostic(const Deck& deck, Severity severity, const SourcePosition& where,
+                           std::string message);
 
 }  // namespace sage

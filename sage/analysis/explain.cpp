@@ -1,0 +1,120 @@
+#include "sage/analysis/explain.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace sage {
+
+namespace {
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+struct Neighbours {
+  std::string elements;  // the first few, "12 (quad4 full), 13 (quad4 full)"
+  bool only_interfaces = true;
+  bool open_point = false;
+  bool yielded_point = false;
+  bool zero_shear = false;
+};
+
+// Elements around a node and what their points do.
+Neighbours around(const Assembly& assembly, int node) {
+  Neighbours result;
+  int shown = 0;
+  for (const GroupData& data : assembly.groups()) {
+    if (!data.active) continue;
+    const Group& group = *data.group;
+    const auto points = static_cast<std::size_t>(group.element->traits().points);
+    for (int e = 0; e < group.elements(); ++e) {
+      const int* nodes = group.nodes_of(e);
+      if (std::find(nodes, nodes + group.node_count(), node) == nodes + group.node_count()) continue;
+      if (group.element->traits().law_size == 4) result.only_interfaces = false;
+      for (std::size_t p = 0; p < points; ++p) {
+        const PointStatus status = data.state.trial.status[static_cast<std::size_t>(e) * points + p];
+        result.open_point = result.open_point || status == PointStatus::open;
+        result.yielded_point = result.yielded_point || status == PointStatus::yielded ||
+                               status == PointStatus::apex || status == PointStatus::slipping;
+      }
+      if (++shown > 4) continue;
+      result.elements += (shown > 1 ? ", " : "") +
+                         std::to_string(group.element_numbers[static_cast<std::size_t>(e)]) + " (" +
+                         group.element_name + ")";
+    }
+  }
+  return result;
+}
+
+std::string counts_line(const std::array<long, kStatuses>& points) {
+  static constexpr const char* kNames[] = {"elastic",  "unloading", "yielded",
+                                           "slipping", "open",      "at the apex"};
+  std::string text;
+  for (std::size_t s = 0; s < points.size(); ++s)
+    if (points[s] > 0) text += (text.empty() ? "" : ", ") + std::to_string(points[s]) + " " + kNames[s];
+  return text.empty() ? "none" : text;
+}
+
+}  // namespace
+
+std::string dof_name(const Model& model, int dof) {
+  const bool axisymmetric = model.geometry == Geometry::axisymmetric;
+  const char* direction = dof % 2 == 0 ? (axisymmetric ? "r" : "x") : (axisymmetric ? "z" : "y");
+  return "node " + std::to_string(model.mesh.number[static_cast<std::size_t>(dof / 2)]) + ", direction " +
+         direction;
+}
+
+std::string explain_singular(const Model& model, const Assembly& assembly, int equation,
+                             const std::string& solver_said) {
+  const int dof = assembly.dof_of(equation);
+  const Neighbours near = around(assembly, dof / 2);
+  std::string text =
+      "the stiffness matrix is singular at " + dof_name(model, dof) + " (" + solver_said + ").\n";
+  text += "  elements there: " + near.elements + "\n  likely: ";
+  if (near.open_point)
+    text +=
+        "an interface there is open and carries nothing: the part behind it is loose.\n"
+        "  try: support that part, give the interface a small residual stiffness, or close it first.";
+  else if (near.yielded_point)
+    text +=
+        "a collapse mechanism: the material around it has no stiffness left.\n"
+        "  try: displacement control instead of load control, or read the load reached so far as the limit.";
+  else if (near.only_interfaces)
+    text +=
+        "a node held by interfaces alone, one of whose stiffnesses is zero (k_j = 0, zero friction, a "
+        "Newton-Cotes pair at r = 0).\n"
+        "  try: a fixity for that direction, or row-sum integration.";
+  else
+    text +=
+        "a rigid motion or an hourglass mode: too few fixities, reduced integration on a single layer, or a "
+        "part joined only by\n"
+        "  an interface without stiffness in that direction.\n"
+        "  try: add a fixity, or full integration (see `sagefe list elements`).";
+  return text;
+}
+
+std::string explain_failure(const Model& model, const StepReport& report, const NewtonStep& step) {
+  std::string text = "stage " + std::to_string(report.stage + 1) + ", increment " +
+                     std::to_string(report.increment) + " of " + std::to_string(report.increments) +
+                     ": no equilibrium found after " + std::to_string(report.cuts) + " cuts of the step.\n";
+  text += "  last state in equilibrium: load factor " + number(report.load_factor) + " of the stage\n";
+  if (step.worst.node >= 0)
+    text += "  largest out-of-balance force: " + number(step.worst.residual) + " " + model.units.force +
+            " at " + dof_name(model, 2 * step.worst.node + step.worst.component) + "\n";
+  text += "  points at the last attempt: " + counts_line(report.points) + "\n";
+  if (!step.iterations.empty()) {
+    text += "  relative out-of-balance force by iteration:";
+    const std::size_t first = step.iterations.size() > 6 ? step.iterations.size() - 6 : 0;
+    for (std::size_t i = first; i < step.iterations.size(); ++i) text += " " + number(step.iterations[i].force);
+    text += "\n";
+  }
+  if (step.outcome == StepOutcome::law_cut) text += "  a law found no answer for the strain it was given.\n";
+  text +=
+      "  try: displacement control if a limit load is near; more increments; more iterations; method 2 "
+      "(initial stiffness)";
+  return text;
+}
+
+}  // namespace sage

@@ -1,0 +1,21 @@
+// The page that a person gets when a step fails: where, what, and what to try.
+#pragma once
+
+#include <string>
+
+#include "sage/analysis/newton.hpp"
+#include "sage/analysis/observer.hpp"
+
+namespace sage {
+
+// A singular matrix: which node and dof, and what kind of motion is free.
+std::string explain_singular(const Model& model, const Assembly& assembly, int equation,
+                             const std::string& solver_said);
+
+// A step that did not converge even after all cuts.
+std::string explain_failure(const Model& model, const StepReport& report, const NewtonStep& step);
+
+// "node 12, y (z) direction"
+std::string dof_name(const Model& model, int dof);
+
+}  // namespace sage

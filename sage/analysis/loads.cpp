@@ -1,0 +1,150 @@
+#include "sage/analysis/loads.hpp"
+
+namespace sage {
+
+namespace {
+
+void scatter(const Group& group, int element, const std::vector<double>& f, Eigen::VectorXd& force) {
+  const int* nodes = group.nodes_of(element);
+  for (std::size_t i = 0; i < group.node_count(); ++i) {
+    force[2 * nodes[i]] += f[2 * i];
+    force[2 * nodes[i] + 1] += f[2 * i + 1];
+  }
+}
+
+void add_edge_loads(const Model& model, const Activity& activity, const Stage& stage, Eigen::VectorXd& force) {
+  Eigen::Matrix2Xd x;
+  std::vector<double> f;
+  for (const EdgeLoad& load : stage.pressures) {
+    if (!activity.group[static_cast<std::size_t>(load.group)]) continue;
+    const Group& group = model.groups[static_cast<std::size_t>(load.group)];
+    element_coordinates(model.mesh, group, load.element, x);
+    f.assign(static_cast<std::size_t>(group.element->traits().dofs), 0.0);
+    group.element->edge_load(x, load.edge, load.normal, load.shear, f);
+    scatter(group, load.element, f, force);
+  }
+}
+
+void add_body_forces(const Model& model, const Group& group, const Vector2& gravity, Eigen::VectorXd& force) {
+  const Vector2 b = gravity * model.material_of(group).unit_weight;
+  if (b.isZero(0.0)) return;
+  Eigen::Matrix2Xd x;
+  std::vector<double> f(static_cast<std::size_t>(group.element->traits().dofs));
+  for (int e = 0; e < group.elements(); ++e) {
+    element_coordinates(model.mesh, group, e, x);
+    std::fill(f.begin(), f.end(), 0.0);
+    group.element->body_load(x, b, f);
+    scatter(group, e, f, force);
+  }
+}
+
+// Compression-positive vertical and horizontal stress at a level.
+Vector4 geostatic_stress(const InitialStress& initial, double y) {
+  const double surface = initial.value[0], unit_weight = initial.value[1], K0 = initial.value[2];
+  const double vertical = initial.value[3] + unit_weight * (surface - y);
+  return {K0 * vertical, vertical, K0 * vertical, 0.0};
+}
+
+// Stress of a solid point as the deck states it, turned to tension positive.
+Vector4 solid_stress(const InitialStress& initial, const Vector2& x) {
+  switch (initial.kind) {
+    case InitialKind::geostatic:
+      return -geostatic_stress(initial, x.y());
+    case InitialKind::uniform:
+    case InitialKind::traction:
+      return -Vector4(initial.value[0], initial.value[1], initial.value[2], initial.value[3]);
+    case InitialKind::zero:
+      break;
+  }
+  return Vector4::Zero();
+}
+
+// The initial stress stated for a group (by deck number), for the traction on its interfaces.
+const InitialStress* initial_of_group(const Model& model, int number) {
+  for (const InitialStress& initial : model.initials)
+    if (model.groups[static_cast<std::size_t>(initial.group)].number == number) return &initial;
+  return nullptr;
+}
+
+// Shear and normal traction of a solid stress on the interface through nodes 1 and 2; [shear, normal].
+Vector2 traction(const Vector4& sigma, const Eigen::Matrix2Xd& x) {
+  const Vector2 s = (x.col(1) - x.col(0)).normalized();
+  const Vector2 n(-s.y(), s.x());
+  Matrix2 S;
+  S << sigma[0], sigma[3], sigma[3], sigma[1];
+  const Vector2 t = S * n;
+  return {t.dot(s), t.dot(n)};
+}
+
+template <int N>
+bool start_point(const Law<N>& law, const Vector<N>& sigma, std::size_t point, StateStore& state) {
+  const auto history = static_cast<std::size_t>(state.history_size());
+  Vector<N>::Map(state.committed.sigma.data() + point * N) = sigma;
+  return law.initialise(sigma, {state.committed.h.data() + point * history, history});
+}
+
+}  // namespace
+
+Eigen::VectorXd external_force(const Model& model, const Activity& activity, int last) {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(model.dofs());
+  Vector2 gravity = Vector2::Zero();
+  for (int s = 0; s <= last; ++s) {
+    const Stage& stage = model.stages[static_cast<std::size_t>(s)];
+    gravity += stage.gravity;
+    for (const NodalLoad& load : stage.loads) force.segment<2>(2 * load.node) += load.force;
+    add_edge_loads(model, activity, stage, force);
+  }
+  for (std::size_t g = 0; g < model.groups.size(); ++g)
+    if (activity.group[g]) add_body_forces(model, model.groups[g], gravity, force);
+  return force;
+}
+
+Eigen::VectorXd prescribed_rate(const Model& model, const Stage& stage) {
+  Eigen::VectorXd rate = Eigen::VectorXd::Zero(model.dofs());
+  for (const Fixity& f : stage.fixities)
+    for (int c = 0; c < 2; ++c)
+      if (f.code[static_cast<std::size_t>(c)] == FixityCode::fixed)
+        rate[2 * f.node + c] = f.value[static_cast<std::size_t>(c)];
+  return rate;
+}
+
+void apply_initial_stress(const Model& model, const InitialStress& initial, GroupData& data,
+                          Diagnostics& diagnostics) {
+  const Group& group = *data.group;
+  const ElementTraits& traits = group.element->traits();
+  const InitialStress* neighbour = initial.kind == InitialKind::traction
+                                       ? initial_of_group(model, static_cast<int>(initial.value[0]))
+                                       : nullptr;
+  if (initial.kind == InitialKind::traction && neighbour == nullptr)
+    throw InputError(initial.where,
+                     "group " + std::to_string(static_cast<int>(initial.value[0])) +
+                         ", whose traction the interface should take, has no initial stress card");
+  Eigen::Matrix2Xd x;
+  long refused = 0;
+  for (int e = 0; e < group.elements(); ++e) {
+    element_coordinates(model.mesh, group, e, x);
+    for (int p = 0; p < traits.points; ++p) {
+      const auto point = static_cast<std::size_t>(e * traits.points + p);
+      bool admissible = true;
+      if (traits.law_size == 4) {
+        const Vector4 sigma = solid_stress(initial, group.element->position(x, p));
+        admissible = start_point<4>(*std::get<const SolidLaw*>(data.law), sigma, point, data.state);
+      } else {
+        Vector2 t = Vector2::Zero();
+        if (initial.kind == InitialKind::traction)
+          t = traction(solid_stress(*neighbour, group.element->position(x, p)), x);
+        else if (initial.kind == InitialKind::uniform)
+          t = -Vector2(initial.value[0], initial.value[1]);
+        admissible = start_point<2>(*std::get<const InterfaceLaw*>(data.law), t, point, data.state);
+      }
+      refused += admissible ? 0 : 1;
+    }
+  }
+  if (refused > 0)
+    diagnostics.warning(initial.where, "the initial stress of group " + std::to_string(group.number) +
+                                           " lies outside the yield surface of its law at " +
+                                           std::to_string(refused) +
+                                           " point(s); the first increment will shed it");
+}
+
+}  // namespace sage

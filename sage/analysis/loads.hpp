@@ -1,0 +1,22 @@
+// External loads and initial stress as nodal vectors and point states.
+#pragma once
+
+#include "sage/analysis/assembly.hpp"
+#include "sage/model/activity.hpp"
+#include "sage/model/model.hpp"
+
+namespace sage {
+
+// All loads that act at the end of stage `last` (0-based) on what is active then: nodal loads, edge loads and
+// body forces of the stages up to it.  One entry a dof, tension-positive axes (x, y).
+Eigen::VectorXd external_force(const Model& model, const Activity& activity, int last);
+
+// Displacement that each prescribed dof gets over a stage.
+Eigen::VectorXd prescribed_rate(const Model& model, const Stage& stage);
+
+// Sets the committed stress and history of a group's points.  Stress that a law can't carry is reported as a
+// warning in `diagnostics` with the number of points.
+void apply_initial_stress(const Model& model, const InitialStress& initial, GroupData& data,
+                          Diagnostics& diagnostics);
+
+}  // namespace sage

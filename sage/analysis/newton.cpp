@@ -1,0 +1,210 @@
+#include "sage/analysis/newton.hpp"
+
+#include <cmath>
+
+namespace sage {
+
+namespace {
+
+// Shared by the parts of one step; vectors of equations are sized once.
+class Step {
+ public:
+  Step(Assembly& assembly, Stiffness& stiffness, const Eigen::VectorXd& target, const NewtonSettings& settings,
+       WorkCounters& work, Eigen::VectorXd& du)
+      : assembly_(assembly),
+        stiffness_(stiffness),
+        target_(target),
+        settings_(settings),
+        work_(work),
+        du_(du),
+        residual_(assembly.equations()),
+        correction_(assembly.equations()) {}
+
+  NewtonStep solve(const Eigen::VectorXd& rate, double rate_part);
+
+ private:
+  bool full_newton() const { return settings_.method == Method::newton && !stiffness_.constant; }
+  Outcome evaluate(bool with_K);
+  void form_residual();
+  void factorise_if_needed();
+  void correct();
+  bool predict(const Eigen::VectorXd& rate, double rate_part);
+  bool search_line();
+  IterationRecord measure() const;
+  bool converged(const IterationRecord& record) const;
+  double scale() const;
+  void find_worst();
+  void move(double factor);
+
+  Assembly& assembly_;
+  Stiffness& stiffness_;
+  const Eigen::VectorXd& target_;
+  const NewtonSettings& settings_;
+  WorkCounters& work_;
+  Eigen::VectorXd& du_;
+  Eigen::VectorXd residual_, correction_;
+  double energy_scale_ = 0.0, slope_ = 0.0, step_length_ = 1.0;
+  NewtonStep result_;
+};
+
+Outcome Step::evaluate(bool with_K) {
+  const Outcome outcome = assembly_.evaluate(du_, with_K ? stiffness_.solver : nullptr);
+  if (with_K) {
+    stiffness_.assembled = outcome == Outcome::ok;
+    stiffness_.factorised = false;
+  }
+  return outcome;
+}
+
+void Step::form_residual() {
+  const Eigen::VectorXd& f = assembly_.internal_force();
+  for (int eq = 0; eq < assembly_.equations(); ++eq) {
+    const int dof = assembly_.dof_of(eq);
+    residual_[eq] = target_[dof] - f[dof];
+  }
+}
+
+void Step::factorise_if_needed() {
+  if (stiffness_.factorised) return;
+  const Timer timer(work_.factor_seconds);
+  ++work_.factorisations;
+  stiffness_.solver->factorise();
+  stiffness_.factorised = true;
+}
+
+void Step::correct() {
+  factorise_if_needed();
+  const Timer timer(work_.solve_seconds);
+  ++work_.solves;
+  const auto n = static_cast<std::size_t>(assembly_.equations());
+  stiffness_.solver->solve({residual_.data(), n}, {correction_.data(), n});
+}
+
+void Step::move(double factor) {
+  for (int eq = 0; eq < assembly_.equations(); ++eq) du_[assembly_.dof_of(eq)] += factor * correction_[eq];
+}
+
+// First correction: prescribed displacements enter through K(free, prescribed).
+bool Step::predict(const Eigen::VectorXd& rate, double rate_part) {
+  du_.setZero();
+  if (!stiffness_.assembled && evaluate(true) == Outcome::cut_step) return false;
+  form_residual();
+  const Eigen::VectorXd& coupling = assembly_.coupling();
+  for (int eq = 0; eq < assembly_.equations(); ++eq)
+    residual_[eq] -= rate_part * coupling[assembly_.dof_of(eq)];
+  correct();
+  energy_scale_ = std::abs(correction_.dot(residual_));
+  du_ = rate_part * rate;
+  move(1.0);
+  return true;
+}
+
+double Step::scale() const {
+  double loads = 0.0;
+  for (int eq = 0; eq < assembly_.equations(); ++eq) loads += std::pow(target_[assembly_.dof_of(eq)], 2);
+  return std::max(assembly_.force_scale(), std::sqrt(loads));
+}
+
+IterationRecord Step::measure() const {
+  IterationRecord record;
+  const double force_scale = scale(), size = du_.norm();
+  const double force = residual_.norm(), energy = std::abs(correction_.dot(residual_));
+  record.force = force_scale > 0.0 ? force / force_scale : 0.0;
+  record.displacement = size > 0.0 ? correction_.norm() * step_length_ / size : 0.0;
+  record.energy = energy_scale_ > 0.0 ? energy / energy_scale_ : 0.0;
+  record.step_length = step_length_;
+  return record;
+}
+
+// Equilibrium and energy to the tolerance; the last correction to its root, unless the energy is smaller still
+// (a linear step ends with its first correction, which is then the whole increment).
+bool Step::converged(const IterationRecord& record) const {
+  const double tol = settings_.tolerance;
+  if (!(record.force <= tol)) return false;
+  return record.energy <= tol * tol || record.force <= 1e-3 * tol ||
+         (record.energy <= tol && record.displacement <= std::sqrt(tol));
+}
+
+void Step::find_worst() {
+  if (residual_.size() == 0) return;
+  Eigen::Index worst = 0;
+  residual_.cwiseAbs().maxCoeff(&worst);
+  const int dof = assembly_.dof_of(static_cast<int>(worst));
+  result_.worst = {dof / 2, dof % 2, residual_[worst]};
+}
+
+// Crisfield's criterion on the slope correction . residual: the full step is kept while it is below 0.8 of the
+// start, otherwise the zero of the slope is sought by regula falsi within (0, 1).
+bool Step::search_line() {
+  constexpr double kAccept = 0.8;
+  constexpr int kTrials = 4;
+  double a = 0.0, slope_a = slope_, length = 1.0;
+  double b = 1.0, slope_b = correction_.dot(residual_);
+  for (int trial = 0; trial < kTrials; ++trial) {
+    if (std::abs(slope_b) <= kAccept * std::abs(slope_)) break;
+    double next = slope_a * slope_b < 0.0 ? a - slope_a * (b - a) / (slope_b - slope_a) : 0.5 * length;
+    next = std::clamp(next, 0.1 * length, 0.9 * std::max(length, b));
+    move(next - length);
+    length = next;
+    if (evaluate(full_newton()) == Outcome::cut_step) return false;
+    form_residual();
+    const double slope = correction_.dot(residual_);
+    if (slope_a * slope > 0.0 && next < b) {
+      a = next;
+      slope_a = slope;
+    }
+    b = length;
+    slope_b = slope;
+  }
+  step_length_ = length;
+  return true;
+}
+
+NewtonStep Step::solve(const Eigen::VectorXd& rate, double rate_part) {
+  result_.outcome = StepOutcome::law_cut;
+  if (!predict(rate, rate_part)) return result_;
+  for (int i = 1; i <= settings_.max_iterations; ++i) {
+    const bool with_K = full_newton();
+    if (evaluate(with_K) == Outcome::cut_step) return result_;
+    form_residual();
+    step_length_ = 1.0;
+    if (settings_.line_search && i > 1 && std::abs(correction_.dot(residual_)) > 0.8 * std::abs(slope_) &&
+        !search_line())
+      return result_;
+    const IterationRecord record = measure();
+    result_.iterations.push_back(record);
+    find_worst();
+    if (!std::isfinite(record.force)) return result_;
+    if (converged(record)) {
+      result_.outcome = StepOutcome::converged;
+      return result_;
+    }
+    if (i == settings_.max_iterations) break;
+    slope_ = 0.0;
+    correct();
+    slope_ = correction_.dot(residual_);
+    energy_scale_ = std::max(energy_scale_, std::abs(slope_));
+    move(1.0);
+  }
+  result_.outcome = StepOutcome::not_converged;
+  return result_;
+}
+
+}  // namespace
+
+NewtonStep newton_step(Assembly& assembly, Stiffness& stiffness, const Eigen::VectorXd& target,
+                       const Eigen::VectorXd& rate, double rate_part, const NewtonSettings& settings,
+                       WorkCounters& work, Eigen::VectorXd& du) {
+  Step step(assembly, stiffness, target, settings, work, du);
+  try {
+    return step.solve(rate, rate_part);
+  } catch (const SingularMatrix& error) {
+    NewtonStep result;
+    result.outcome = StepOutcome::singular;
+    result.singular_equation = error.equation();
+    result.message = error.what();
+    return result;
+  }
+}
+
+}  // namespace sage

@@ -1,0 +1,40 @@
+// One step of the nonlinear equilibrium: find du with  F - f(u0 + du) = 0  on the free equations.
+#pragma once
+
+#include "sage/analysis/assembly.hpp"
+#include "sage/core/linear_solver.hpp"
+
+namespace sage {
+
+struct NewtonSettings {
+  Method method = Method::newton;
+  int max_iterations = 25;
+  double tolerance = 1e-8;  // force and energy; displacement sqrt(tolerance)
+  bool line_search = true;
+};
+
+enum class StepOutcome { converged, not_converged, law_cut, singular };
+
+// State of the stiffness that outlives a step.
+struct Stiffness {
+  LinearSolver* solver = nullptr;
+  bool assembled = false;   // the solver holds a K that belongs to the committed state
+  bool factorised = false;  // and its factors
+  bool constant = false;    // K can never change while the pattern stands (a linear scene)
+};
+
+struct NewtonStep {
+  StepOutcome outcome = StepOutcome::not_converged;
+  std::vector<IterationRecord> iterations;
+  WorstDof worst;
+  int singular_equation = -1;
+  std::string message;
+};
+
+// target: external force at the end of the step, every dof.  rate_part: part of the stage's prescribed
+// displacement in this step.  du: in, size of all dofs; out, the increment found.
+NewtonStep newton_step(Assembly& assembly, Stiffness& stiffness, const Eigen::VectorXd& target,
+                       const Eigen::VectorXd& rate, double rate_part, const NewtonSettings& settings,
+                       WorkCounters& work, Eigen::VectorXd& du);
+
+}  // namespace sage

@@ -1,0 +1,32 @@
+// What a run shows to those who watch: listing, CSV, VTU, pictures, tests.  Observers change nothing.
+#pragma once
+
+#include "sage/analysis/assembly.hpp"
+#include "sage/analysis/records.hpp"
+#include "sage/analysis/scene.hpp"
+
+namespace sage {
+
+// Committed state at the end of an increment.
+struct Solution {
+  const Eigen::VectorXd* u = nullptr;         // every dof: displacement since the start of the run
+  const Eigen::VectorXd* internal = nullptr;  // every dof: internal force
+  const Eigen::VectorXd* external = nullptr;  // every dof: applied load
+  const Assembly* assembly = nullptr;         // stresses, strains and histories of all points
+  const Activity* activity = nullptr;
+};
+
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  virtual void on_warning(const Diagnostic&) {}
+  virtual void on_start(const Model&, const Scene&, std::string_view /*solver*/, int /*equations*/) {}
+  // The state before the first increment of a stage: initial stress, births and deaths done.
+  virtual void on_stage_start(const Model&, int /*stage*/, const Solution&) {}
+  virtual void on_increment(const Model&, const StepReport&, const Solution&) {}
+  virtual void on_stage_end(const Model&, int /*stage*/, const EquilibriumAudit&, const Solution&) {}
+  virtual void on_failure(const Model&, const StepReport&, const std::string& /*reason*/, const Solution&) {}
+  virtual void on_finish(const Model&, const RunResult&) {}
+};
+
+}  // namespace sage

@@ -1,0 +1,88 @@
+// What a run tells about itself: iterations, increments, work counters.  Plain data for listings and tests.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "sage/core/law.hpp"
+
+namespace sage {
+
+inline constexpr int kStatuses = 6;  // values of PointStatus
+
+// How often each kind of work ran, and the seconds in it.
+struct WorkCounters {
+  long assemblies = 0;           // passes over the elements that built K
+  long residuals = 0;            // passes over the elements for internal forces only
+  long element_evaluations = 0;  // elements whose law was called
+  long linear_products = 0;      // elements answered by a stored K instead
+  long analyses = 0, factorisations = 0, solves = 0;
+  long condensed = 0;  // equations removed once for all from the iterations
+  double assembly_seconds = 0.0, analyse_seconds = 0.0, factor_seconds = 0.0, solve_seconds = 0.0;
+  double output_seconds = 0.0;
+};
+
+// Adds the time of a scope to a counter.
+class Timer {
+ public:
+  explicit Timer(double& seconds) : seconds_(&seconds), start_(std::chrono::steady_clock::now()) {}
+  Timer(const Timer&) = delete;
+  Timer& operator=(const Timer&) = delete;
+  ~Timer() { *seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  double* seconds_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+struct IterationRecord {
+  double force = 0.0;         // |out-of-balance force| / force scale
+  double displacement = 0.0;  // |correction| / |increment|
+  double energy = 0.0;        // |correction . residual| / work of the increment
+  double step_length = 1.0;   // line search or dogleg factor taken
+};
+
+// Where the largest out-of-balance force stands.
+struct WorstDof {
+  int node = -1;
+  int component = 0;      // 0 = x (r), 1 = y (z)
+  double residual = 0.0;  // in the deck's force unit
+};
+
+struct StepReport {
+  int stage = 0;      // 0-based
+  int increment = 0;  // 1-based within the stage
+  int increments = 0;
+  double load_factor = 0.0;  // part of the stage applied, 0 .. 1
+  bool converged = true;
+  int cuts = 0;  // halvings needed within this increment
+  int substeps = 1;
+  std::vector<IterationRecord> iterations;  // of the last substep
+  int total_iterations = 0;                 // of all substeps, cut ones included
+  std::array<long, kStatuses> points{};     // by PointStatus
+  WorstDof worst;
+  double smallest_pivot_ratio = -1.0;
+};
+
+// Sum of forces over the whole model at the end of a stage.
+struct EquilibriumAudit {
+  double applied[2] = {0, 0};  // external loads in x and y
+  double reactions[2] = {0, 0};
+  double moment = 0.0;          // of loads and reactions together, about the origin (plane strain)
+  double out_of_balance = 0.0;  // largest of |sum| / force scale over the checks that apply
+  double scale = 0.0;           // the largest force or moment that took part
+};
+
+enum class RunStatus { completed, not_converged, singular, failed };
+
+struct RunResult {
+  RunStatus status = RunStatus::completed;
+  std::string reason;  // one page for a person, empty when completed
+  int stages_done = 0;
+  int increments_done = 0;
+  WorkCounters work;
+};
+
+}  // namespace sage

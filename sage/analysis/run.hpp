@@ -1,0 +1,26 @@
+// Runs all stages of a model.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "sage/analysis/observer.hpp"
+#include "sage/core/catalogue.hpp"
+
+namespace sage {
+
+struct RunSettings {
+  int solver = -1;  // catalogue code; -1 = the model's, 0 = automatic
+  // Picks a catalogue code from the scene when automatic: (equations, symmetric) -> code.
+  std::function<int(int, bool)> choose_solver;
+  int max_cuts = 12;  // halvings of an increment before giving up
+  bool line_search = true;
+  bool reuse_factors = true;  // skip: keep the factors while the tangent has not changed
+};
+
+// Throws InputError for what only shows at run time (e.g. a refused initial stress); everything that happens to
+// the numbers ends in RunResult, after the observers have seen the last converged state.
+RunResult run(const Model& model, const Catalogue& catalogue, const RunSettings& settings,
+              std::span<Observer* const> observers);
+
+}  // namespace sage

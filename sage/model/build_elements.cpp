@@ -1,0 +1,290 @@
+// Materials, element groups and element cards (with block generation).
+#include <algorithm>
+#include <cmath>
+
+#include "sage/model/builder.hpp"
+
+namespace sage::build {
+
+namespace {
+
+std::string formulations_of(const ElementEntry& entry) {
+  std::string text;
+  for (const Formulation& f : entry.formulations)
+    text += (text.empty() ? "" : ", ") + std::to_string(f.code) + " " + f.name;
+  return text;
+}
+
+// The deck's element, or the one that BuildOptions puts in its place.
+int chosen_element(const Builder& b, int deck_code) {
+  const ElementEntry* deck_entry = b.catalogue.elements.find(deck_code);
+  if (b.options.element == 0 || deck_entry == nullptr) return deck_code;
+  if (deck_entry->law_size == 4 && deck_entry->nodes == 4) return b.options.element;
+  const ElementEntry* wanted = b.catalogue.elements.find(b.options.element);
+  // Quadratic solids need quadratic interfaces beside them.
+  if (deck_entry->law_size == 2 && deck_entry->nodes == 4 && wanted != nullptr && wanted->nodes > 4)
+    for (const auto& [code, entry] : b.catalogue.elements.entries())
+      if (entry.law_size == 2 && entry.nodes == 6) return code;
+  return deck_code;
+}
+
+int chosen_formulation(const Builder& b, const ElementEntry& entry, int deck_code, bool replaced) {
+  if (entry.law_size != 4) return deck_code;
+  if (b.options.formulation >= 0) return b.options.formulation;
+  return replaced ? 0 : deck_code;
+}
+
+// Node numbers of one element card; trailing blanks are mid-side nodes to be made later (0).
+std::vector<int> card_nodes(const CardView& card) {
+  static constexpr const char* kFields[] = {"n1", "n2", "n3", "n4", "n5", "n6", "n7", "n8"};
+  std::vector<int> nodes;
+  for (const char* field : kFields) nodes.push_back(card.integer(field));
+  while (!nodes.empty() && nodes.back() == 0) nodes.pop_back();
+  return nodes;
+}
+
+struct ElementCard {
+  int number = 0, group = 0;
+  std::vector<int> nodes;  // deck numbers
+};
+
+void add_element(Builder& b, const CardView& card, const ElementCard& element) {
+  Group& group = b.model.groups[static_cast<std::size_t>(element.group)];
+  const ElementEntry& entry = *b.catalogue.elements.find(group.element_code);
+  const std::string name = "element " + std::to_string(element.number);
+  if (element.number < 1) {
+    b.error(card.where("number"), "element number " + std::to_string(element.number) + " must be 1 or more");
+    return;
+  }
+  if (!b.element_place.try_emplace(element.number, ElementPlace{element.group, group.elements()}).second) {
+    b.error(card.where("number"), name + " is defined twice");
+    return;
+  }
+  std::vector<int> index(static_cast<std::size_t>(entry.nodes), -1);
+  for (std::size_t i = 0; i < element.nodes.size(); ++i) {
+    const int number = element.nodes[i];
+    if (number == 0) continue;  // a mid-side node to be made
+    const auto it = b.node_index.find(number);
+    if (it == b.node_index.end()) {
+      b.error(card.where("n" + std::to_string(i + 1)),
+              name + ": node " + std::to_string(number) + " is not defined by any node or fill card");
+      return;
+    }
+    if (std::find(index.begin(), index.end(), it->second) != index.end()) {
+      b.error(card.where("n" + std::to_string(i + 1)),
+              name + ": node " + std::to_string(number) + " stands twice");
+      return;
+    }
+    index[i] = it->second;
+  }
+  group.element_numbers.push_back(element.number);
+  group.element_lines.push_back(card.card().line);
+  group.nodes.insert(group.nodes.end(), index.begin(), index.end());
+}
+
+// A quadrilateral whose last corner repeats a neighbour is a triangle: its twin group is made on demand.
+int triangle_group(Builder& b, int quad_group) {
+  const Group& quads = b.model.groups[static_cast<std::size_t>(quad_group)];
+  const int number = -quads.number;
+  const auto found = b.group_index.find(number);
+  if (found != b.group_index.end()) return found->second;
+  for (const auto& [code, entry] : b.catalogue.elements.entries()) {
+    if (entry.law_size != 4 || entry.nodes != 3) continue;
+    Group group;
+    group.number = quads.number;
+    group.name = quads.name;
+    group.element_code = code;
+    group.element_name = entry.name + " " + entry.formulations.front().name;
+    group.element = entry.make(b.model.geometry, 0);
+    group.material = quads.material;
+    group.where = quads.where;
+    b.group_index.emplace(number, static_cast<int>(b.model.groups.size()));
+    b.model.groups.push_back(std::move(group));
+    return static_cast<int>(b.model.groups.size()) - 1;
+  }
+  return quad_group;
+}
+
+void fold_triangle(Builder& b, ElementCard& element) {
+  const ElementEntry& entry =
+      *b.catalogue.elements.find(b.model.groups[static_cast<std::size_t>(element.group)].element_code);
+  if (entry.law_size != 4 || entry.nodes != 4 || element.nodes.size() != 4) return;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (element.nodes[i] != element.nodes[(i + 1) % 4]) continue;
+    element.nodes.erase(element.nodes.begin() + static_cast<std::ptrdiff_t>(i));
+    element.group = triangle_group(b, element.group);
+    return;
+  }
+}
+
+void read_element_card(Builder& b, const CardView& card) {
+  const auto group = b.group_index.find(card.integer("group", 1));
+  if (group == b.group_index.end()) {
+    b.error(card.where("group"), "group " + std::to_string(card.integer("group", 1)) + " is not defined");
+    return;
+  }
+  const Group& target = b.model.groups[static_cast<std::size_t>(group->second)];
+  if (!target.element) return;  // its own error was reported
+  const ElementEntry& entry = *b.catalogue.elements.find(target.element_code);
+  ElementCard element{card.integer("number"), group->second, card_nodes(card)};
+  const int given = static_cast<int>(element.nodes.size());
+  if (given < entry.corners || given > entry.nodes) {
+    b.error(card.where("n1"), "element " + std::to_string(element.number) + ": a " + entry.name + " has " +
+                                  std::to_string(entry.corners) +
+                                  (entry.nodes > entry.corners ? " to " + std::to_string(entry.nodes) : "") +
+                                  " nodes on its card, not " + std::to_string(given));
+    return;
+  }
+  const int columns = std::max(1, card.integer("columns", 1)), rows = std::max(1, card.integer("rows", 1));
+  const int column_step = card.integer("column_step", 1), row_step = card.integer("row_step", 0);
+  if (static_cast<std::int64_t>(columns) * rows > 50'000'000) {
+    b.error(card.where("columns"), "the block would have more than 50000000 elements");
+    return;
+  }
+  if (rows > 1 && row_step == 0) {
+    b.error(card.where("row_step"), "more than one row of elements needs the node step from row to row");
+    return;
+  }
+  const std::vector<int> corner_nodes = element.nodes;
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < columns; ++i) {
+      ElementCard next{element.number + j * columns + i, group->second, corner_nodes};
+      for (int& n : next.nodes)
+        if (n != 0) n += i * column_step + j * row_step;
+      fold_triangle(b, next);
+      const int before = b.problems.errors();
+      add_element(b, card, next);
+      if (b.problems.errors() > before) return;  // one message a card
+    }
+  }
+}
+
+void read_material(Builder& b, const CardView& card, const std::vector<CardView>& parameter_cards) {
+  Material material;
+  material.number = card.integer("number");
+  material.name = card.text("name");
+  material.code = card.integer("law");
+  material.unit_weight = card.real("unit_weight");
+  material.where = card.where();
+  const MaterialEntry* entry = b.catalogue.materials.find(material.code);
+  const std::string name = "material " + std::to_string(material.number);
+  if (material.number < 1) b.error(card.where("number"), "a material number must be 1 or more");
+  if (!b.material_index.try_emplace(material.number, static_cast<int>(b.model.materials.size())).second)
+    b.error(card.where("number"), name + " is defined twice");
+  b.usable(card, "unit_weight", material.unit_weight);
+  b.model.materials.push_back(std::move(material));
+  Material& m = b.model.materials.back();
+  if (entry == nullptr) {
+    b.error(card.where("law"),
+            name + ": law " + std::to_string(m.code) + " is unknown; known: " + b.catalogue.materials.known());
+    return;
+  }
+  m.law_name = entry->name;
+  std::span<const FieldValue> given;
+  SourcePosition where = card.where();
+  if (!parameter_cards.empty()) {
+    given = parameter_cards.front().list("values");
+    where = parameter_cards.front().where();
+  }
+  if (given.size() > entry->parameters.size()) {
+    b.error(where, name + ": law " + entry->name + " has " + std::to_string(entry->parameters.size()) +
+                       " parameters, the card gives " + std::to_string(given.size()));
+    return;
+  }
+  const int before = b.problems.errors();
+  for (std::size_t i = 0; i < entry->parameters.size(); ++i) {
+    const Parameter& p = entry->parameters[i];
+    const bool present = i < given.size() && !given[i].blank;
+    if (!present && p.required)
+      b.error(i < given.size() ? parameter_cards.front().where(given[i]) : where,
+              name + ": parameter " + std::to_string(i + 1) + " of " + entry->name + ", " + p.name + " (" +
+                  unit_text(p.dimension, b.model.units) + "), is missing");
+    const double value = present ? given[i].number : p.fallback;
+    if (!(std::abs(value) < 1e100))
+      b.error(parameter_cards.front().where(given[i]),
+              name + ": " + p.name + " is too large to compute with (beyond 1e100)");
+    m.parameters.push_back(value);
+  }
+  if (b.problems.errors() > before) return;
+  try {
+    m.law = entry->make(m.parameters, b.model.units);
+  } catch (const ParameterError& e) {
+    const auto i = static_cast<std::size_t>(std::max(0, e.parameter()));
+    const bool known = e.parameter() >= 0 && i < given.size();
+    b.error(known ? parameter_cards.front().where(given[i]) : where,
+            name + " (" + entry->name + "): " + e.what() +
+                (e.parameter() >= 0 ? " [" + entry->parameters[i].name + ", " +
+                                          unit_text(entry->parameters[i].dimension, b.model.units) + "]"
+                                    : ""));
+  }
+}
+
+}  // namespace
+
+void build_materials(Builder& b) {
+  for (const CardView& card : b.deck.all("material")) read_material(b, card, b.deck.all("parameters", card));
+}
+
+void build_groups(Builder& b) {
+  for (const CardView& card : b.deck.all("group")) {
+    Group group;
+    group.number = card.integer("number");
+    group.name = card.text("name");
+    group.where = card.where();
+    const std::string name = "group " + std::to_string(group.number);
+    if (group.number < 1) b.error(card.where("number"), "a group number must be 1 or more");
+    if (!b.group_index.try_emplace(group.number, static_cast<int>(b.model.groups.size())).second)
+      b.error(card.where("number"), name + " is defined twice");
+    const int deck_code = card.integer("element");
+    group.element_code = chosen_element(b, deck_code);
+    const ElementEntry* entry = b.catalogue.elements.find(group.element_code);
+    const auto material = b.material_index.find(card.integer("material"));
+    if (entry == nullptr)
+      b.error(card.where("element"), name + ": element type " + std::to_string(group.element_code) +
+                                         " is unknown; known: " + b.catalogue.elements.known());
+    if (material == b.material_index.end())
+      b.error(card.where("material"),
+              name + ": material " + std::to_string(card.integer("material")) + " is not defined");
+    else
+      group.material = material->second;
+    if (entry != nullptr) {
+      const int formulation =
+          chosen_formulation(b, *entry, card.integer("formulation"), group.element_code != deck_code);
+      const auto found =
+          std::find_if(entry->formulations.begin(), entry->formulations.end(),
+                       [&](const Formulation& f) { return f.code == formulation || formulation == 0; });
+      if (found == entry->formulations.end()) {
+        b.error(card.where("formulation"), name + ": formulation " + std::to_string(formulation) + " of " +
+                                               entry->name + " is unknown; 0 default, " +
+                                               formulations_of(*entry));
+      } else {
+        group.element = entry->make(b.model.geometry, found->code);
+        group.element_name = entry->name + " " + found->name;
+      }
+      if (material != b.material_index.end()) {
+        const Material& m = b.model.materials[static_cast<std::size_t>(material->second)];
+        const MaterialEntry* law = b.catalogue.materials.find(m.code);
+        if (law != nullptr && law->law_size != entry->law_size)
+          b.error(card.where("material"), name + ": a " + entry->name + " needs a law for " +
+                                              (entry->law_size == 4 ? "solids" : "interfaces") + ", material " +
+                                              std::to_string(m.number) + " is " + law->name);
+      }
+    }
+    b.model.groups.push_back(std::move(group));
+  }
+  if (b.model.groups.empty()) b.error(b.deck.one("control").where(), "the deck defines no element groups");
+}
+
+void build_elements(Builder& b) {
+  for (const CardView& card : b.deck.all("element")) read_element_card(b, card);
+  int total_made = 0;
+  for (const Group& group : b.model.groups) total_made += group.elements();
+  const CardView control = b.deck.one("control");
+  if (total_made == 0 && b.problems.errors() == 0) b.error(control.where(), "the deck defines no elements");
+  const int total = control.integer("total_elements");
+  if (total != 0 && total != total_made)
+    b.error(control.where("total_elements"), "the deck says " + std::to_string(total) +
+                                                 " elements, the cards make " + std::to_string(total_made));
+}
+
+}  // namespace sage::build

@@ -1,0 +1,21 @@
+// Gives a deck its meaning: numbers become indices, generation cards become nodes and elements, signs are
+// flipped.
+#pragma once
+
+#include "sage/deck/deck.hpp"
+#include "sage/model/model.hpp"
+
+namespace sage {
+
+struct BuildOptions {
+  int formulation =
+      -1;  // replaces the deck's formulation code of solid groups where it exists; -1 = as the deck says
+  int element =
+      0;  // replaces 4-node quadrilaterals by this element code (mid-side nodes are made); 0 = as the deck
+  int geometry = 0;  // 1 plane strain, 2 axisymmetric; 0 = as the deck says
+};
+
+// Throws InputError with every mistake found.  Warnings and notes end up in Model::diagnostics.
+Model build_model(const Deck& deck, const Catalogue& catalogue, const BuildOptions& options = {});
+
+}  // namespace sage

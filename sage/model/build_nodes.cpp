@@ -1,0 +1,187 @@
+// Node cards (with line generation) and fill cards (blocks between four corner nodes).
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "sage/model/builder.hpp"
+
+namespace sage::build {
+
+namespace {
+
+constexpr int kMaxNodes = 20'000'000;
+
+struct PlacedNode {
+  Vector2 x;
+  bool from_card = false;
+};
+using PlacedNodes = std::map<int, PlacedNode>;  // ordered by number, as listings are
+
+// Fractions 0 .. 1 of `intervals` intervals whose last is `ratio` times the first (0 = equal).
+std::vector<double> graded_fractions(int intervals, double ratio) {
+  std::vector<double> at(static_cast<std::size_t>(intervals) + 1, 0.0);
+  const double q = ratio > 0.0 && intervals > 1 ? std::pow(ratio, 1.0 / (intervals - 1)) : 1.0;
+  double length = 1.0, sum = 0.0;
+  for (int i = 1; i <= intervals; ++i, length *= q) at[static_cast<std::size_t>(i)] = sum += length;
+  for (double& a : at) a /= sum;
+  at.back() = 1.0;
+  return at;
+}
+
+struct NodeCard {
+  int number = 0;
+  bool polar = false;
+  Vector2 given = Vector2::Zero();  // as written: x, y or radius, degrees
+};
+
+Vector2 cartesian(const NodeCard& card) {
+  if (!card.polar) return card.given;
+  const double angle = card.given.y() * kRadiansPerDegree;
+  // Quarter turns are exact, so that symmetry lines are straight.
+  const double quarter = card.given.y() / 90.0;
+  if (quarter == std::floor(quarter)) {
+    const int turn = ((static_cast<int>(quarter) % 4) + 4) % 4;
+    const double c[4] = {1, 0, -1, 0}, s[4] = {0, 1, 0, -1};
+    return card.given.x() * Vector2(c[turn], s[turn]);
+  }
+  return card.given.x() * Vector2(std::cos(angle), std::sin(angle));
+}
+
+void place(Builder& b, PlacedNodes& nodes, const CardView& card, std::string_view field, int number,
+           const Vector2& x, bool from_card) {
+  if (number < 1) {
+    b.error(card.where(field), "node number " + std::to_string(number) + " must be 1 or more");
+    return;
+  }
+  const auto [it, added] = nodes.try_emplace(number, PlacedNode{x, from_card});
+  if (!added && from_card) b.error(card.where(field), "node " + std::to_string(number) + " is defined twice");
+}
+
+void fill_line(Builder& b, PlacedNodes& nodes, const CardView& card, const NodeCard& from, const NodeCard& to,
+               int step, double ratio) {
+  const int span = to.number - from.number;
+  if (span <= 0 || span % step != 0) {
+    b.error(card.where("step"), "the step " + std::to_string(step) + " does not lead from node " +
+                                    std::to_string(from.number) + " to node " + std::to_string(to.number));
+    return;
+  }
+  if (from.polar != to.polar) {
+    b.error(card.where("system"), "both ends of a generated line must use the same coordinate system");
+    return;
+  }
+  const std::vector<double> at = graded_fractions(span / step, ratio);
+  for (int i = 1; i < span / step; ++i) {
+    NodeCard between = from;
+    between.given += at[static_cast<std::size_t>(i)] * (to.given - from.given);
+    place(b, nodes, card, "number", from.number + i * step, cartesian(between), true);
+  }
+}
+
+void read_node_cards(Builder& b, PlacedNodes& nodes) {
+  NodeCard previous;
+  for (const CardView& card : b.deck.all("node")) {
+    NodeCard now{card.integer("number"), card.integer("system") == 1, {card.real("x"), card.real("y")}};
+    const int system = card.integer("system");
+    if (system != 0 && system != 1)
+      b.error(card.where("system"),
+              "coordinate system " + std::to_string(system) + " is unknown; 0 cartesian, 1 polar");
+    if (!b.usable(card, "x", now.given.x()) || !b.usable(card, "y", now.given.y())) continue;
+    const double ratio = card.real("ratio");
+    if (ratio < 0.0) b.error(card.where("ratio"), "the spacing ratio must not be negative");
+    const int step = card.integer("step");
+    if (step < 0) b.error(card.where("step"), "the step must not be negative");
+    if (step > 0 && previous.number == 0)
+      b.error(card.where("step"), "the first node card cannot generate: there is no node before it");
+    else if (step > 0)
+      fill_line(b, nodes, card, previous, now, step, ratio);
+    place(b, nodes, card, "number", now.number, cartesian(now), true);
+    previous = now;
+  }
+}
+
+// The nodes of one side of a block: those defined so far if all are, otherwise a straight graded line.
+std::vector<Vector2> side_points(const PlacedNodes& nodes, int first, int step, int intervals, double ratio) {
+  std::vector<Vector2> points;
+  for (int i = 0; i <= intervals; ++i) {
+    const auto it = nodes.find(first + i * step);
+    if (it == nodes.end()) break;
+    points.push_back(it->second.x);
+  }
+  if (static_cast<int>(points.size()) == intervals + 1) return points;
+  const Vector2 a = nodes.at(first).x, c = nodes.at(first + intervals * step).x;
+  const std::vector<double> at = graded_fractions(intervals, ratio);
+  points.clear();
+  for (double t : at) points.push_back(a + t * (c - a));
+  return points;
+}
+
+void fill_block(Builder& b, PlacedNodes& nodes, const CardView& card) {
+  const int first = card.integer("first"), columns = card.integer("columns"), rows = card.integer("rows");
+  const int column_step = card.integer("column_step", 1), row_step = card.integer("row_step");
+  if (columns < 1 || rows < 1 || column_step < 1 || row_step < 1) {
+    b.error(card.where(), "a fill card needs columns, rows and both steps of 1 or more");
+    return;
+  }
+  if (static_cast<std::int64_t>(columns) * rows > kMaxNodes) {
+    b.error(card.where("columns"), "the block would have more than " + std::to_string(kMaxNodes) + " nodes");
+    return;
+  }
+  const int corners[4] = {first, first + columns * column_step, first + columns * column_step + rows * row_step,
+                          first + rows * row_step};
+  for (int corner : corners) {
+    if (nodes.count(corner)) continue;
+    b.error(card.where("first"),
+            "corner node " + std::to_string(corner) + " of the block is not defined before it");
+    return;
+  }
+  const double cr = card.real("column_ratio"), rr = card.real("row_ratio");
+  if (cr < 0.0 || rr < 0.0) {
+    b.error(card.where(cr < 0.0 ? "column_ratio" : "row_ratio"), "a spacing ratio must not be negative");
+    return;
+  }
+  const auto bottom = side_points(nodes, first, column_step, columns, cr);
+  const auto top = side_points(nodes, corners[3], column_step, columns, cr);
+  const auto left = side_points(nodes, first, row_step, rows, rr);
+  const auto right = side_points(nodes, corners[1], row_step, rows, rr);
+  const auto s_at = graded_fractions(columns, cr), t_at = graded_fractions(rows, rr);
+  for (int j = 0; j <= rows; ++j) {
+    for (int i = 0; i <= columns; ++i) {
+      const auto iu = static_cast<std::size_t>(i), ju = static_cast<std::size_t>(j);
+      const double s = s_at[iu], t = t_at[ju];
+      // Coons patch: exact on all four sides.
+      const Vector2 x = (1 - t) * bottom[iu] + t * top[iu] + (1 - s) * left[ju] + s * right[ju] -
+                        ((1 - s) * (1 - t) * bottom.front() + s * (1 - t) * bottom.back() + s * t * top.back() +
+                         (1 - s) * t * top.front());
+      place(b, nodes, card, "first", first + i * column_step + j * row_step, x, false);
+    }
+  }
+}
+
+}  // namespace
+
+void build_nodes(Builder& b) {
+  PlacedNodes nodes;
+  read_node_cards(b, nodes);
+  for (const CardView& card : b.deck.all("fill")) fill_block(b, nodes, card);
+  if (nodes.empty() && b.problems.errors() == 0)
+    b.error(b.deck.one("control").where(), "the deck defines no nodes");
+
+  Mesh& mesh = b.model.mesh;
+  mesh.x.resize(2, static_cast<Eigen::Index>(nodes.size()));
+  mesh.number.reserve(nodes.size());
+  b.node_index.reserve(nodes.size());
+  for (const auto& [number, node] : nodes) {
+    const int index = mesh.nodes();
+    mesh.x.col(index) = node.x;
+    mesh.number.push_back(number);
+    b.node_index.emplace(number, index);
+  }
+  mesh.deck_nodes = mesh.nodes();
+  const CardView control = b.deck.one("control");
+  const int total = control.integer("total_nodes");
+  if (total != 0 && total != mesh.nodes())
+    b.error(control.where("total_nodes"), "the deck says " + std::to_string(total) + " nodes, the cards make " +
+                                              std::to_string(mesh.nodes()));
+}
+
+}  // namespace sage::build

@@ -1,0 +1,213 @@
+// Fixities, loads, initial stress and stages.
+#include <algorithm>
+
+#include "sage/model/builder.hpp"
+
+namespace sage::build {
+
+namespace {
+
+FixityCode fixity_code(Builder& b, const CardView& card, std::string_view field) {
+  const int code = card.integer(field);
+  if (code == 0) return FixityCode::unchanged;
+  if (code == 1) return FixityCode::fixed;
+  if (code == -1) return FixityCode::released;
+  b.error(card.where(field), "code " + std::to_string(code) + " is unknown; 0 unchanged, 1 fixed, -1 released");
+  return FixityCode::unchanged;
+}
+
+// Nodes first, first+step ... last.  Empty after an error.
+std::vector<int> node_range(Builder& b, const CardView& card) {
+  const int first = card.integer("first"),
+            last = card.integer("last", first) == 0 ? first : card.integer("last", first);
+  const int step = card.integer("step", 1) == 0 ? 1 : card.integer("step", 1);
+  if (last < first || step < 0 || (last - first) % step != 0) {
+    b.error(card.where("first"), "the range " + std::to_string(first) + " to " + std::to_string(last) +
+                                     " in steps of " + std::to_string(step) + " does not end on its last node");
+    return {};
+  }
+  std::vector<int> nodes;
+  for (int number = first; number <= last; number += step) {
+    const int node = b.node(card, number == first ? "first" : "last", number);
+    if (node < 0) return {};
+    nodes.push_back(node);
+  }
+  return nodes;
+}
+
+void read_fixity(Builder& b, const CardView& card, bool in_stage, std::vector<Fixity>& out) {
+  Fixity fixity;
+  fixity.code = {fixity_code(b, card, "x_code"), fixity_code(b, card, "y_code")};
+  fixity.value = {card.real("x_value"), card.real("y_value")};
+  fixity.line = card.card().line;
+  const char* const codes[] = {"x_code", "y_code"};
+  const char* const values[] = {"x_value", "y_value"};
+  for (std::size_t c = 0; c < 2; ++c) {
+    b.usable(card, values[c], fixity.value[c]);
+    if (fixity.value[c] == 0.0) continue;
+    if (!in_stage)
+      b.error(card.where(values[c]), "a displacement other than zero belongs on a fixity card of a stage");
+    else if (fixity.code[c] != FixityCode::fixed)
+      b.error(card.where(codes[c]), "a displacement is given but the code is not 1 (fixed)");
+  }
+  if (!in_stage && (fixity.code[0] == FixityCode::released || fixity.code[1] == FixityCode::released))
+    b.error(card.where("x_code"), "only a stage can release a fixity (code -1)");
+  for (int node : node_range(b, card)) {
+    fixity.node = node;
+    out.push_back(fixity);
+  }
+}
+
+void read_load(Builder& b, const CardView& card, std::vector<NodalLoad>& out) {
+  NodalLoad load{0, {card.real("x_force"), card.real("y_force")}, card.card().line};
+  b.usable(card, "x_force", load.force.x());
+  b.usable(card, "y_force", load.force.y());
+  for (int node : node_range(b, card)) {
+    load.node = node;
+    out.push_back(load);
+  }
+}
+
+void read_pressure(Builder& b, const CardView& card, std::vector<EdgeLoad>& out) {
+  EdgeLoad load;
+  load.normal = {card.real("normal1"), card.real("normal2")};
+  load.shear = {card.real("shear1"), card.real("shear2")};
+  for (const char* field : {"normal1", "normal2", "shear1", "shear2"}) b.usable(card, field, card.real(field));
+  load.edge = card.integer("edge") - 1;
+  load.line = card.card().line;
+  const int first = card.integer("element"), last = std::max(first, card.integer("last", first));
+  const int step = std::max(1, card.integer("step", 1));
+  for (int number = first; number <= last; number += step) {
+    const auto place = b.element_place.find(number);
+    if (place == b.element_place.end()) {
+      b.error(card.where(number == first ? "element" : "last"),
+              "element " + std::to_string(number) + " is not defined");
+      return;
+    }
+    const Group& group = b.model.groups[static_cast<std::size_t>(place->second.group)];
+    const int edges = static_cast<int>(group.element->edges().size());
+    if (load.edge < 0 || load.edge >= edges) {
+      b.error(card.where("edge"), "edge " + std::to_string(load.edge + 1) + ": element " +
+                                      std::to_string(number) + " (" + group.element_name + ") has edges 1 to " +
+                                      std::to_string(edges));
+      return;
+    }
+    load.group = place->second.group;
+    load.element = place->second.element;
+    out.push_back(load);
+  }
+}
+
+void read_initial(Builder& b, const CardView& card, std::vector<InitialStress>& out) {
+  InitialStress initial;
+  initial.where = card.where();
+  const int kind = card.integer("kind");
+  const int number = card.integer("group");
+  if (kind < 0 || kind > 3) {
+    b.error(card.where("kind"),
+            "initial stress kind " + std::to_string(kind) +
+                " is unknown; 0 uniform, 1 geostatic, 2 zero, 3 traction of the neighbours");
+    return;
+  }
+  initial.kind = static_cast<InitialKind>(kind);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const std::string field = "v" + std::to_string(i + 1);
+    initial.value[i] = card.real(field);
+    b.usable(card, field, initial.value[i]);
+  }
+  bool found = false;
+  for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
+    if (b.model.groups[g].number != number) continue;
+    found = true;
+    if (initial.kind == InitialKind::traction && b.model.groups[g].element &&
+        b.model.groups[g].element->traits().law_size != 2)
+      b.error(card.where("kind"), "kind 3 (traction of the neighbours) is for interface groups");
+    initial.group = static_cast<int>(g);
+    out.push_back(initial);
+  }
+  if (!found) b.error(card.where("group"), "group " + std::to_string(number) + " is not defined");
+}
+
+void read_groups(Builder& b, const CardView& card, std::vector<int>& out) {
+  for (const FieldValue& value : card.list("groups")) {
+    bool found = false;
+    for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
+      if (b.model.groups[g].number != static_cast<int>(value.number)) continue;
+      found = true;
+      out.push_back(static_cast<int>(g));
+    }
+    if (!found)
+      b.error(card.where(value), "group " + std::to_string(static_cast<int>(value.number)) + " is not defined");
+  }
+}
+
+Stage read_stage(Builder& b, const CardView& card, int number) {
+  Stage stage;
+  stage.number = number;
+  stage.where = card.where();
+  stage.increments = card.integer("increments", 1) == 0 ? 1 : card.integer("increments", 1);
+  if (stage.increments < 0 || stage.increments > 10'000'000)
+    b.error(card.where("increments"), "the number of increments must be between 1 and 10000000");
+  const int method = card.integer("method");
+  if (method < 0 || method > 2)
+    b.error(card.where("method"), "method " + std::to_string(method) +
+                                      " is unknown; 0 Newton, 1 modified Newton, 2 initial stiffness");
+  else
+    stage.method = static_cast<Method>(method);
+  if (card.integer("max_iterations") != 0) stage.max_iterations = card.integer("max_iterations");
+  if (stage.max_iterations < 1)
+    b.error(card.where("max_iterations"), "the number of iterations must not be negative");
+  stage.output_every = card.integer("output_every");
+  if (stage.output_every < 0) b.error(card.where("output_every"), "the output interval must not be negative");
+  stage.gravity = {card.real("gravity_x"), card.real("gravity_y")};
+  b.usable(card, "gravity_x", stage.gravity.x());
+  b.usable(card, "gravity_y", stage.gravity.y());
+  if (card.real("tolerance") != 0.0) stage.tolerance = card.real("tolerance");
+  if (!(stage.tolerance > 0.0 && stage.tolerance < 1.0))
+    b.error(card.where("tolerance"), "the tolerance must lie between 0 and 1 (blank = 1e-8)");
+  for (const CardView& c : b.deck.all("fixity", card)) read_fixity(b, c, true, stage.fixities);
+  for (const CardView& c : b.deck.all("load", card)) read_load(b, c, stage.loads);
+  for (const CardView& c : b.deck.all("pressure", card)) read_pressure(b, c, stage.pressures);
+  for (const CardView& c : b.deck.all("birth", card)) read_groups(b, c, stage.births);
+  for (const CardView& c : b.deck.all("death", card)) read_groups(b, c, stage.deaths);
+  for (const CardView& c : b.deck.all("initial", card)) read_initial(b, c, stage.initials);
+  return stage;
+}
+
+// The stage cards are owned by nothing or by a block; what belongs to the model as a whole has no stage as
+// owner.
+bool outside_stages(const Deck& deck, const CardView& card) {
+  const int owner = card.card().owner;
+  return owner < 0 || CardView(deck, owner).spec().name != "stage";
+}
+
+void check_births(Builder& b) {
+  std::vector<int> born_twice(b.model.groups.size(), 0);
+  for (const Stage& stage : b.model.stages)
+    for (int g : stage.births)
+      if (++born_twice[static_cast<std::size_t>(g)] > 1)
+        b.error(stage.where, "group " + std::to_string(b.model.groups[static_cast<std::size_t>(g)].number) +
+                                 " is born twice; a group that was removed needs a twin to be placed again");
+}
+
+}  // namespace
+
+void build_stages(Builder& b) {
+  for (const CardView& card : b.deck.all("fixity"))
+    if (outside_stages(b.deck, card)) read_fixity(b, card, false, b.model.fixities);
+  for (const CardView& card : b.deck.all("initial"))
+    if (outside_stages(b.deck, card)) read_initial(b, card, b.model.initials);
+  int number = 0;
+  const std::vector<CardView> titles = b.deck.all("stage_title");
+  for (const CardView& card : b.deck.all("stage")) {
+    b.model.stages.push_back(read_stage(b, card, number + 1));
+    if (static_cast<std::size_t>(number) < titles.size())
+      b.model.stages.back().title = titles[static_cast<std::size_t>(number)].text("title");
+    ++number;
+  }
+  if (b.model.stages.empty())
+    b.error(b.deck.one("control").where(), "the deck has no stages: nothing to compute");
+  check_births(b);
+}
+
+}  // namespace sage::build

@@ -1,0 +1,235 @@
+// What can be known to be wrong before anything is solved.
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "sage/model/activity.hpp"
+#include "sage/model/builder.hpp"
+
+namespace sage::build {
+
+namespace {
+
+SourcePosition line_of(const Builder& b, int line) {
+  return {b.deck.file, line, 0, 0};
+}
+
+void check_shapes(Builder& b) {
+  constexpr int kShown = 20;
+  constexpr double kPoorShape = 0.1;
+  int bad = 0, poor = 0;
+  double worst = 1.0;
+  std::string worst_name;
+  SourcePosition worst_where;
+  Eigen::Matrix2Xd x;
+  std::vector<double> geometry;
+  for (const Group& group : b.model.groups) {
+    geometry.resize(static_cast<std::size_t>(group.element->traits().geometry_size()));
+    std::string caution;
+    int cautioned = 0;
+    for (int e = 0; e < group.elements(); ++e) {
+      element_coordinates(b.model.mesh, group, e, x);
+      const auto eu = static_cast<std::size_t>(e);
+      const std::string name = "element " + std::to_string(group.element_numbers[eu]);
+      try {
+        group.element->geometry(x, geometry);
+        const double quality = group.element->shape_quality(x);
+        if (quality < kPoorShape) ++poor;
+        if (quality < worst) {
+          worst = quality;
+          worst_name = name;
+          worst_where = line_of(b, group.element_lines[eu]);
+        }
+      } catch (const ElementShapeError& error) {
+        if (++bad <= kShown)
+          b.error(line_of(b, group.element_lines[eu]), name + " (" + group.element_name + "): " + error.what());
+      }
+    }
+    if (cautioned > 0) b.warning(group.where, caution);
+  }
+  if (bad > kShown)
+    b.error(b.deck.one("control").where(),
+            "and " + std::to_string(bad - kShown) + " more elements with unusable shapes");
+  if (poor > 0)
+    b.warning(worst_where, std::to_string(poor) + " element(s) badly distorted; worst " + worst_name +
+                               ", smallest over mean Jacobian " + std::to_string(worst));
+}
+
+// In axisymmetry a point on the axis can't move radially.
+void fix_axis(Builder& b) {
+  Model& model = b.model;
+  if (model.geometry != Geometry::axisymmetric) return;
+  const double reach = model.mesh.x.row(0).cwiseAbs().maxCoeff();
+  std::vector<char> held(static_cast<std::size_t>(model.mesh.nodes()), 0);
+  for (const Fixity& f : model.fixities)
+    if (f.code[0] == FixityCode::fixed) held[static_cast<std::size_t>(f.node)] = 1;
+  int added = 0;
+  for (int node = 0; node < model.mesh.nodes(); ++node) {
+    const double r = model.mesh.x(0, node);
+    if (r < -1e-12 * reach) continue;  // its elements are refused
+    if (std::abs(r) > 1e-12 * reach || held[static_cast<std::size_t>(node)]) continue;
+    Fixity fixity;
+    fixity.node = node;
+    fixity.code[0] = FixityCode::fixed;
+    model.fixities.push_back(fixity);
+    ++added;
+  }
+  if (added > 0)
+    b.note({b.deck.file, 0, 0, 0},
+           std::to_string(added) + " node(s) on the axis r = 0 held radially (u_r = 0 by symmetry)");
+}
+
+void note_unused_nodes(Builder& b) {
+  const Model& model = b.model;
+  std::vector<char> used(static_cast<std::size_t>(model.mesh.nodes()), 0);
+  for (const Group& group : model.groups)
+    for (int node : group.nodes) used[static_cast<std::size_t>(node)] = 1;
+  const auto unused = std::count(used.begin(), used.end(), 0);
+  if (unused == 0) return;
+  const auto first = std::find(used.begin(), used.end(), 0) - used.begin();
+  b.note({b.deck.file, 0, 0, 0}, std::to_string(unused) +
+                                     " node(s) belong to no element and are ignored, the first is node " +
+                                     std::to_string(model.mesh.number[static_cast<std::size_t>(first)]));
+  const auto refuse = [&](const Fixity& f) {
+    const bool moved = f.value[0] != 0.0 || f.value[1] != 0.0;
+    if (moved && !used[static_cast<std::size_t>(f.node)])
+      b.error(line_of(b, f.line), "node " +
+                                      std::to_string(model.mesh.number[static_cast<std::size_t>(f.node)]) +
+                                      " is displaced but belongs to no element");
+  };
+  for (const Stage& stage : model.stages) {
+    for (const Fixity& f : stage.fixities) refuse(f);
+    for (const NodalLoad& load : stage.loads)
+      if (!used[static_cast<std::size_t>(load.node)])
+        b.error(line_of(b, load.line),
+                "node " + std::to_string(model.mesh.number[static_cast<std::size_t>(load.node)]) +
+                    " is loaded but belongs to no element");
+  }
+}
+
+// Coincident nodes that no interface joins: often two parts that were meant to be one.
+void note_coincident_nodes(Builder& b) {
+  const Mesh& mesh = b.model.mesh;
+  if (mesh.nodes() < 2) return;
+  const double reach = (mesh.x.rowwise().maxCoeff() - mesh.x.rowwise().minCoeff()).maxCoeff();
+  std::vector<int> order(static_cast<std::size_t>(mesh.nodes()));
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int i, int j) { return mesh.x(0, i) < mesh.x(0, j); });
+  std::vector<char> in_interface(order.size(), 0);
+  for (const Group& group : b.model.groups)
+    if (group.element->traits().law_size == 2)
+      for (int node : group.nodes) in_interface[static_cast<std::size_t>(node)] = 1;
+  const double tolerance = 1e-9 * reach;
+  int pairs = 0;
+  std::string first;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    for (std::size_t j = i + 1; j < order.size() && mesh.x(0, order[j]) - mesh.x(0, order[i]) <= tolerance;
+         ++j) {
+      if ((mesh.x.col(order[i]) - mesh.x.col(order[j])).norm() > tolerance) continue;
+      if (in_interface[static_cast<std::size_t>(order[i])] && in_interface[static_cast<std::size_t>(order[j])])
+        continue;
+      if (++pairs == 1)
+        first = std::to_string(mesh.number[static_cast<std::size_t>(order[i])]) + " and " +
+                std::to_string(mesh.number[static_cast<std::size_t>(order[j])]);
+    }
+  }
+  if (pairs > 0)
+    b.warning({b.deck.file, 0, 0, 0},
+              std::to_string(pairs) + " pair(s) of nodes at one place are joined by no interface, the first " +
+                  first + ": the parts are not connected there");
+}
+
+std::string mode_name(const Eigen::Vector3d& mode) {
+  Eigen::Index largest = 0;
+  mode.cwiseAbs().maxCoeff(&largest);
+  if (largest == 0) return "a rigid translation in x";
+  if (largest == 1) return "a rigid translation in y";
+  return "a rigid rotation";
+}
+
+// Rigid motions left free, by connected part: rank of the supports' rows in the rigid modes.
+void check_supports_of(Builder& b, const Stage& stage, const Activity& activity) {
+  const Model& model = b.model;
+  const std::vector<int> part = connected_parts(model, activity);
+  const int parts = part.empty() ? 0 : *std::max_element(part.begin(), part.end()) + 1;
+  std::vector<Eigen::Matrix3d> gram(static_cast<std::size_t>(parts), Eigen::Matrix3d::Zero());
+  std::vector<int> first_node(static_cast<std::size_t>(parts), -1);
+  const double reach =
+      std::max(1e-300, (model.mesh.x.rowwise().maxCoeff() - model.mesh.x.rowwise().minCoeff()).maxCoeff());
+  std::vector<Vector2> centre(static_cast<std::size_t>(parts), Vector2::Zero());
+  std::vector<int> count(static_cast<std::size_t>(parts), 0);
+  for (int node = 0; node < model.mesh.nodes(); ++node) {
+    const int p = part[static_cast<std::size_t>(node)];
+    if (p < 0) continue;
+    centre[static_cast<std::size_t>(p)] += model.mesh.x.col(node);
+    if (count[static_cast<std::size_t>(p)]++ == 0) first_node[static_cast<std::size_t>(p)] = node;
+  }
+  for (std::size_t p = 0; p < centre.size(); ++p) centre[p] /= std::max(1, count[p]);
+  for (int node = 0; node < model.mesh.nodes(); ++node) {
+    const int p = part[static_cast<std::size_t>(node)];
+    if (p < 0) continue;
+    const auto pu = static_cast<std::size_t>(p);
+    const Vector2 d = (Vector2(model.mesh.x.col(node)) - centre[pu]) / reach;
+    const Eigen::Vector3d row_x(1.0, 0.0, -d.y()), row_y(0.0, 1.0, d.x());
+    if (activity.held[static_cast<std::size_t>(2 * node)]) gram[pu] += row_x * row_x.transpose();
+    if (activity.held[static_cast<std::size_t>(2 * node + 1)]) gram[pu] += row_y * row_y.transpose();
+  }
+  for (std::size_t p = 0; p < gram.size(); ++p) {
+    std::string mode;
+    if (model.geometry == Geometry::axisymmetric) {
+      if (gram[p](1, 1) == 0.0) mode = "a rigid translation along the axis";
+    } else {
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(gram[p]);
+      if (eigen.eigenvalues()[0] < 1e-10) mode = mode_name(eigen.eigenvectors().col(0));
+    }
+    if (mode.empty()) continue;
+    const int number = model.mesh.number[static_cast<std::size_t>(first_node[p])];
+    b.error(stage.where,
+            "stage " + std::to_string(stage.number) + ": nothing holds the " +
+                (gram.size() > 1 ? "part that contains node " + std::to_string(number) : std::string("mesh")) +
+                " against " + mode + "; add fixities");
+    return;
+  }
+}
+
+void check_supports(Builder& b) {
+  Activity activity(b.model);
+  for (const Stage& stage : b.model.stages) {
+    activity.enter(b.model, stage);
+    const int before = b.problems.errors();
+    check_supports_of(b, stage, activity);
+    if (b.problems.errors() > before) return;
+  }
+}
+
+void warn_locking(Builder& b) {
+  for (const Group& group : b.model.groups) {
+    const ElementTraits& traits = group.element->traits();
+    const Material& material = b.model.material_of(group);
+    if (!traits.locks || traits.law_size != 4) continue;
+    const MaterialEntry* entry = b.catalogue.materials.find(material.code);
+    for (std::size_t i = 0; i < entry->parameters.size(); ++i) {
+      if (entry->parameters[i].name != "poissons_ratio" || material.parameters[i] <= 0.45) continue;
+      char nu[32];
+      std::snprintf(nu, sizeof nu, "%.7g", material.parameters[i]);
+      b.warning(group.where, "group " + std::to_string(group.number) + " (" + group.element_name +
+                                 ") has nu = " + nu +
+                                 ": full integration locks near nu = 1/2 and reports too much stiffness; b-bar "
+                                 "(formulation 2) does not");
+    }
+  }
+}
+
+}  // namespace
+
+void check_model(Builder& b) {
+  check_shapes(b);
+  fix_axis(b);
+  note_unused_nodes(b);
+  note_coincident_nodes(b);
+  if (b.problems.errors() == 0) check_supports(b);
+  warn_locking(b);
+}
+
+}  // namespace sage::build

@@ -1,0 +1,147 @@
+// The model: what the deck means.  Plain data with internal signs (tension +) and 0-based indices.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sage/core/catalogue.hpp"
+#include "sage/core/error.hpp"
+
+namespace sage {
+
+struct Mesh {
+  Eigen::Matrix2Xd x;       // one column a node
+  std::vector<int> number;  // the deck's node numbers; mid-side nodes made here get numbers above the deck's
+  int deck_nodes = 0;       // nodes from here on were made by the program
+
+  int nodes() const { return static_cast<int>(number.size()); }
+};
+
+struct Material {
+  int number = 0;
+  std::string name;
+  int code = 0;  // catalogue code of the law
+  std::string law_name;
+  std::vector<double> parameters;  // as the deck writes them
+  double unit_weight = 0.0;        // force / length^3
+  LawPtr law;
+  SourcePosition where;
+
+  LawRef law_ref() const;
+};
+
+// Elements of one formulation and one material; connectivity in one flat array.
+struct Group {
+  int number = 0;
+  std::string name;
+  int element_code = 0;
+  std::string element_name;  // "quad4 b-bar"
+  std::shared_ptr<const Element> element;
+  int material = 0;  // index into Model::materials
+  std::vector<int> element_numbers;
+  std::vector<int> element_lines;  // deck line of each element
+  std::vector<int> nodes;          // element->traits().nodes each
+  SourcePosition where;
+
+  int elements() const { return static_cast<int>(element_numbers.size()); }
+  const int* nodes_of(int e) const { return nodes.data() + static_cast<std::size_t>(e) * node_count(); }
+  std::size_t node_count() const { return static_cast<std::size_t>(element->traits().nodes); }
+};
+
+enum class FixityCode { unchanged, fixed, released };
+
+// From its stage on.  `value` is the displacement added over the stage.
+struct Fixity {
+  int node = 0;
+  std::array<FixityCode, 2> code{};
+  std::array<double, 2> value{};
+  int line = 0;
+};
+
+struct NodalLoad {
+  int node = 0;
+  Vector2 force = Vector2::Zero();  // added over the stage
+  int line = 0;
+};
+
+struct EdgeLoad {
+  int group = 0, element = 0;  // element: index within the group
+  int edge = 0;                // 0-based local edge
+  Vector2 normal =
+      Vector2::Zero();  // pressure > 0 pushes into the element, at the edge's first and second corner
+  Vector2 shear = Vector2::Zero();
+  int line = 0;
+};
+
+enum class InitialKind {
+  uniform,    // given stress (solids: xx yy zz xy; interfaces: shear, normal)
+  geostatic,  // vertical stress from a surface level and unit weight, horizontal by K0
+  zero,       // explicitly none
+  traction,   // interfaces: the traction that the neighbouring group's initial stress puts on the interface
+};
+
+struct InitialStress {
+  int group = 0;  // index into Model::groups
+  InitialKind kind = InitialKind::uniform;
+  std::array<double, 6> value{};  // as the deck writes them; see docs/manual
+  SourcePosition where;
+};
+
+enum class Method { newton, modified_newton, initial_stiffness };
+
+struct Stage {
+  int number = 0;
+  std::string title;
+  int increments = 1;
+  Method method = Method::newton;
+  int max_iterations = 25;
+  int output_every = 1;
+  double tolerance = 1e-8;            // relative out-of-balance force at the end of an increment
+  Vector2 gravity = Vector2::Zero();  // added over the stage, in multiples of the materials' unit weight
+  std::vector<Fixity> fixities;
+  std::vector<NodalLoad> loads;
+  std::vector<EdgeLoad> pressures;
+  std::vector<int> births, deaths;      // groups
+  std::vector<InitialStress> initials;  // of groups born in this stage
+  SourcePosition where;
+};
+
+enum class ReportKind { triaxial = 1, nodes = 2 };
+
+// triaxial: axial force of the listed nodes against the law's own answer for frictionless ends.
+// nodes: displacement and force summed over the listed nodes, a row an increment.
+struct Report {
+  ReportKind kind = ReportKind::triaxial;
+  int group = -1;  // specimen group
+  std::vector<int> nodes;
+  double height = 0.0, area = 0.0, cell_pressure = 0.0;
+  int stage = 0;  // strain and deviator count from the start of this stage (0-based)
+  SourcePosition where;
+};
+
+struct Model {
+  std::string file, title;
+  Geometry geometry = Geometry::plane_strain;
+  UnitSystem units;
+  int solver = 0;  // catalogue code, 0 = automatic
+  Mesh mesh;
+  std::vector<Material> materials;
+  std::vector<Group> groups;
+  std::vector<Fixity> fixities;  // before the first stage; values must be zero
+  std::vector<InitialStress> initials;
+  std::vector<Stage> stages;
+  std::vector<Report> reports;
+  Diagnostics diagnostics;  // warnings and notes of reading and building
+
+  int dofs() const { return 2 * mesh.nodes(); }
+  const Material& material_of(const Group& group) const {
+    return materials[static_cast<std::size_t>(group.material)];
+  }
+};
+
+// Coordinates of an element's nodes, in x (2 x nodes).
+void element_coordinates(const Mesh& mesh, const Group& group, int element, Eigen::Matrix2Xd& x);
+
+}  // namespace sage

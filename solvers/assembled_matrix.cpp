@@ -1,0 +1,165 @@
+#include "solvers/assembled_matrix.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace sage {
+
+namespace {
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+std::size_t at(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+void AssembledMatrix::analyse(const EquationGraph& graph, const ElementEquations& elements, bool symmetric) {
+  symmetric_ = symmetric;
+  equations_ = static_cast<int>(graph.group_of.size());
+  make_pattern(graph);
+  make_slots(elements);
+  value_.assign(row_.size() + 1, 0.0);
+}
+
+void AssembledMatrix::make_pattern(const EquationGraph& graph) {
+  const int groups = graph.members.count();
+  column_start_.assign(at(equations_) + 1, 0);
+  std::int64_t total = 0;
+  for (int equation = 0; equation < equations_; ++equation) {
+    const int group = graph.group_of[at(equation)];
+    int rows = 0;
+    const auto count = [&](int member_group) {
+      for (const int row : graph.members.of(member_group)) rows += !symmetric_ || row <= equation;
+    };
+    count(group);
+    for (const int other : graph.neighbours.of(group)) count(other);
+    total += rows;
+    if (total >= std::numeric_limits<int>::max()) throw std::length_error("matrix has more than 2^31 terms");
+    column_start_[at(equation) + 1] = static_cast<int>(total);
+  }
+  row_.resize(at(total));
+  std::vector<int> rows;
+  for (int group = 0; group < groups; ++group) {
+    rows.clear();
+    const auto append = [&](int g) {
+      rows.insert(rows.end(), graph.members.of(g).begin(), graph.members.of(g).end());
+    };
+    append(group);
+    for (const int other : graph.neighbours.of(group)) append(other);
+    std::ranges::sort(rows);
+    for (const int column : graph.members.of(group))
+      std::copy_n(rows.begin(), column_start_[at(column) + 1] - column_start_[at(column)],
+                  row_.begin() + column_start_[at(column)]);
+  }
+}
+
+std::int64_t AssembledMatrix::packed(std::int64_t r, std::int64_t c, std::int64_t dofs) const {
+  if (!symmetric_) return c * dofs + r;
+  return r <= c ? c * (c + 1) / 2 + r : r * (r + 1) / 2 + c;
+}
+
+void AssembledMatrix::fill_slots(std::span<const int> equations, int element, int column,
+                                 const std::vector<int>& position) {
+  const int dofs = static_cast<int>(equations.size());
+  for (int c = 0; c < dofs; ++c) {
+    if (equations[at(c)] != column) continue;
+    for (int r = 0; r < dofs; ++r) {
+      const int row = equations[at(r)];
+      if (row < 0 || (symmetric_ && row > column)) continue;
+      slot_[at(slot_start_[at(element)] + packed(r, c, dofs))] = position[at(row)];
+      if (symmetric_ && row == column && r < c) repeated_.push_back({element, r, c, position[at(row)]});
+    }
+  }
+}
+
+void AssembledMatrix::make_slots(const ElementEquations& elements) {
+  slot_start_.assign(1, 0);
+  dofs_.clear();
+  repeated_.clear();
+  for (int element = 0; element < elements.count(); ++element) {
+    const auto dofs = static_cast<std::int64_t>(elements.of(element).size());
+    dofs_.push_back(static_cast<int>(dofs));
+    slot_start_.push_back(slot_start_.back() + (symmetric_ ? dofs * (dofs + 1) / 2 : dofs * dofs));
+  }
+  slot_.assign(at(slot_start_.back()), static_cast<int>(row_.size()));
+  const IndexLists elements_of = elements_of_equations(equations_, elements);
+  std::vector<int> position(at(equations_), 0);
+  for (int column = 0; column < equations_; ++column) {
+    for (int k = column_start_[at(column)]; k < column_start_[at(column) + 1]; ++k)
+      position[at(row_[at(k)])] = k;
+    for (const int element : elements_of.of(column))
+      fill_slots(elements.of(element), element, column, position);
+  }
+  std::ranges::sort(repeated_, {}, &Repeated::element);
+}
+
+void AssembledMatrix::clear() {
+  std::ranges::fill(value_, 0.0);
+}
+
+void AssembledMatrix::add(int element, const double* K) {
+  const int* slot = slot_.data() + slot_start_[at(element)];
+  double* value = value_.data();
+  const int dofs = dofs_[at(element)];
+  if (!symmetric_) {
+    for (int k = 0; k < dofs * dofs; ++k) value[slot[k]] += K[k];
+    return;
+  }
+  for (int c = 0; c < dofs; ++c)
+    for (int r = 0; r <= c; ++r) value[*slot++] += K[c * dofs + r];
+  if (repeated_.empty()) return;
+  for (auto it = std::ranges::lower_bound(repeated_, element, {}, &Repeated::element);
+       it != repeated_.end() && it->element == element; ++it)
+    value[it->slot] += K[it->c * dofs + it->r];
+}
+
+void AssembledMatrix::multiply(std::span<const double> x, std::span<double> y) const {
+  std::ranges::fill(y, 0.0);
+  for (int column = 0; column < equations_; ++column) {
+    double mirrored = 0.0;
+    for (int k = column_start_[at(column)]; k < column_start_[at(column) + 1]; ++k) {
+      const int row = row_[at(k)];
+      y[at(row)] += value_[at(k)] * x[at(column)];
+      if (symmetric_ && row != column) mirrored += value_[at(k)] * x[at(row)];
+    }
+    y[at(column)] += mirrored;
+  }
+}
+
+double AssembledMatrix::norm1() const {
+  std::vector<double> sum(at(equations_), 0.0);
+  for (int column = 0; column < equations_; ++column)
+    for (int k = column_start_[at(column)]; k < column_start_[at(column) + 1]; ++k) {
+      const double term = std::abs(value_[at(k)]);
+      sum[at(column)] += term;
+      if (symmetric_ && row_[at(k)] != column) sum[at(row_[at(k)])] += term;
+    }
+  return sum.empty() ? 0.0 : *std::ranges::max_element(sum);
+}
+
+std::vector<double> AssembledMatrix::row_maxima() const {
+  std::vector<double> maximum(at(equations_), 0.0);
+  for (int column = 0; column < equations_; ++column) {
+    double of_column = 0.0;
+    for (int k = column_start_[at(column)]; k < column_start_[at(column) + 1]; ++k) {
+      const double term = std::abs(value_[at(k)]);
+      double& of_row = maximum[at(row_[at(k)])];
+      of_row = std::max(of_row, term);
+      of_column = std::max(of_column, term);
+    }
+    if (symmetric_) maximum[at(column)] = std::max(maximum[at(column)], of_column);
+  }
+  return maximum;
+}
+
+std::size_t AssembledMatrix::memory_bytes() const {
+  return (column_start_.size() + row_.size() + slot_.size() + dofs_.size()) * sizeof(int) +
+         value_.size() * sizeof(double) + slot_start_.size() * sizeof(std::int64_t);
+}
+
+}  // namespace sage

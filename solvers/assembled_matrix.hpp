@@ -1,0 +1,57 @@
+// The assembled matrix in compressed columns, with a precomputed slot for every entry of every element matrix:
+// assembly is a plain scatter.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "sage/core/linear_solver.hpp"
+#include "solvers/equation_graph.hpp"
+
+namespace sage {
+
+// The pattern is structurally symmetric and always has the diagonal.  A symmetric matrix stores only its upper
+// triangle (row <= column).  Rows ascend within a column.
+class AssembledMatrix {
+ public:
+  // Throws std::length_error above 2^31 - 2 stored terms.
+  void analyse(const EquationGraph& graph, const ElementEquations& elements, bool symmetric);
+  void clear();
+  void add(int element, const double* K);
+
+  int equations() const { return equations_; }
+  bool symmetric() const { return symmetric_; }
+  std::span<const int> column_start() const { return column_start_; }  // equations + 1
+  std::span<const int> row() const { return row_; }
+  std::span<const double> value() const { return {value_.data(), row_.size()}; }
+
+  // y = K x.
+  void multiply(std::span<const double> x, std::span<double> y) const;
+  // Largest column sum of |K|.
+  double norm1() const;
+  // Largest |term| of every row.
+  std::vector<double> row_maxima() const;
+  std::size_t memory_bytes() const;
+
+ private:
+  void make_pattern(const EquationGraph& graph);
+  void make_slots(const ElementEquations& elements);
+  void fill_slots(std::span<const int> equations, int element, int column, const std::vector<int>& position);
+  std::int64_t packed(std::int64_t r, std::int64_t c, std::int64_t dofs) const;
+
+  int equations_ = 0;
+  bool symmetric_ = false;
+  std::vector<int> column_start_{0}, row_;
+  std::vector<double> value_;  // one more than stored terms: the last takes what belongs to prescribed dofs
+  // Slots of element e: slot_[slot_start_[e]] ..., all terms column by column, or the upper triangle only.
+  std::vector<std::int64_t> slot_start_;
+  std::vector<int> slot_;
+  // A symmetric element matrix that has one equation twice (tied dofs) adds such a term once more.
+  struct Repeated {
+    int element, r, c, slot;
+  };
+  std::vector<Repeated> repeated_;  // ordered by element
+  std::vector<int> dofs_;           // of every element
+};
+
+}  // namespace sage

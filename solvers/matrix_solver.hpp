@@ -1,0 +1,68 @@
+// What all solvers of this folder share: the assembled matrix, and the checks on its pivots.
+#pragma once
+
+#include "sage/core/error.hpp"
+#include "sage/core/linear_solver.hpp"
+#include "solvers/assembled_matrix.hpp"
+
+namespace sage {
+
+// A pivot below this multiple of the largest term of its original row is rounding error: the matrix is
+// singular. Rigid bodies left free give ratios up to about 1e-14, sound matrices of stiff platens on soft soil
+// 1e-10 and more (docs/theory/solvers.md).
+inline constexpr double kSingularPivotRatio = 1e-13;
+
+class MatrixSolver : public LinearSolver {
+ public:
+  explicit MatrixSolver(SolverTraits traits) : traits_(traits) {}
+  const SolverTraits& traits() const final { return traits_; }
+
+  void analyse(int equations, const ElementEquations& elements) final;
+  void clear() final { matrix_.clear(); }
+  void add(int element, const double* K) final { matrix_.add(element, K); }
+  void multiply(std::span<const double> x, std::span<double> y) const final { matrix_.multiply(x, y); }
+  double norm1() const final { return matrix_.norm1(); }
+  FactorReport report() const final { return report_; }
+
+ protected:
+  // Numbering, symbolic work and storage once matrix() has its pattern.
+  virtual void analyse_matrix(const EquationGraph& graph) = 0;
+
+  const AssembledMatrix& matrix() const { return matrix_; }
+  FactorReport report_;
+
+ private:
+  SolverTraits traits_;
+  AssembledMatrix matrix_;
+};
+
+// Throws SingularMatrix with a text for people who know neither the solver nor its numbering.
+[[noreturn]] void throw_singular(int equation, double pivot_ratio, std::string_view solver);
+
+// Follows the pivots of one factorisation.  Throws SingularMatrix at one that is negligible or not a number.
+class PivotCheck {
+ public:
+  PivotCheck(std::string_view solver, std::vector<double> row_maxima)
+      : solver_(solver), row_maxima_(std::move(row_maxima)) {}
+
+  void take(int equation, double pivot) {
+    const double size = pivot < 0.0 ? -pivot : pivot;
+    const double scale = row_maxima_[static_cast<std::size_t>(equation)];
+    negative_ += pivot < 0.0;
+    // The comparison is written so that a pivot that is not a number fails it.
+    if (!(size > kSingularPivotRatio * scale))
+      throw_singular(equation, scale > 0.0 ? size / scale : 0.0, solver_);
+    if (size < smallest_ratio_ * scale) smallest_ratio_ = size / scale;
+  }
+  double smallest_ratio() const { return smallest_ratio_; }
+  int negative() const { return negative_; }
+  double largest_term() const;  // of the original matrix
+
+ private:
+  std::string_view solver_;
+  std::vector<double> row_maxima_;
+  double smallest_ratio_ = 1e300;
+  int negative_ = 0;
+};
+
+}  // namespace sage

@@ -1,0 +1,12 @@
+// Skyline L U for unsymmetric matrices: no pivoting, but every pivot and the growth of terms are checked.
+#pragma once
+
+#include <memory>
+
+#include "sage/core/linear_solver.hpp"
+
+namespace sage {
+
+std::unique_ptr<LinearSolver> make_skyline_lu();
+
+}  // namespace sage

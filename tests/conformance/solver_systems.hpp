@@ -1,0 +1,57 @@
+// Linear systems for tests and benchmarks of solvers, made here so that neither elements nor laws are needed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "sage/core/linear_solver.hpp"
+
+namespace sage::test {
+
+struct System {
+  int equations = 0;
+  ElementEquations elements;
+  std::vector<Eigen::MatrixXd> K;  // one an element, full size
+
+  void add_element(std::vector<int> element_equations, Eigen::MatrixXd matrix);
+};
+
+// Which displacements of an n x m mesh of Q4 elements are prescribed.
+enum class Supports {
+  triaxial,  // left edge on rollers, bottom fixed, top prescribed
+  bottom,    // bottom fixed
+  none,      // free in space: three rigid-body modes
+};
+
+struct MeshSettings {
+  int columns = 14, rows = 28;
+  Supports supports = Supports::triaxial;
+  double poisson = 0.3;
+  // Share of an unsymmetric rank-one term in every element's modulus, as in non-associated plasticity; 0 =
+  // elastic.
+  double unsymmetric = 0.0;
+  // Modulus of the topmost row of elements over that of the others.
+  double stiff_top = 1.0;
+};
+
+// Unit squares with fully integrated plane-strain Q4 elements, E = 1000.
+System q4_mesh(const MeshSettings& settings);
+
+// Elements of random size and equations, diagonally dominant after assembly; -1 among the equations.
+System random_system(int equations, bool symmetric, unsigned seed);
+
+// Two systems side by side; the equations of the second follow those of the first.
+System join(const System& first, const System& second);
+
+// One spring between two equations (-1 = ground).
+System& add_spring(System& system, int a, int b, double stiffness);
+
+// The assembled matrix; symmetric solvers see the same, because they read the upper triangles.
+Eigen::MatrixXd dense(const System& system);
+
+// analyse, clear and add.
+void load(LinearSolver& solver, const System& system);
+
+}  // namespace sage::test

@@ -1,0 +1,312 @@
+// Every solver of the catalogue gives the answer of a dense L U with pivoting, names what is singular and
+// repeats itself to the last bit.
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "sage/core/error.hpp"
+#include "solvers/register_solvers.hpp"
+#include "tests/conformance/solver_systems.hpp"
+
+namespace sage::test {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+Catalogue solver_catalogue() {
+  Catalogue catalogue;
+  register_solvers(catalogue);
+  return catalogue;
+}
+
+std::vector<int> codes() {
+  std::vector<int> list;
+  const Catalogue catalogue = solver_catalogue();
+  for (const auto& [code, entry] : catalogue.solvers.entries()) list.push_back(code);
+  return list;
+}
+
+VectorXd random_vector(int n, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> term(-1.0, 1.0);
+  return VectorXd::NullaryExpr(n, [&] { return term(random); });
+}
+
+std::span<double> span_of(VectorXd& v) {
+  return {v.data(), static_cast<std::size_t>(v.size())};
+}
+
+class SolverConformance : public testing::TestWithParam<int> {
+ protected:
+  std::unique_ptr<LinearSolver> make() const { return catalogue_.solvers.find(GetParam())->make(); }
+  bool symmetric() const { return catalogue_.solvers.find(GetParam())->symmetric; }
+
+  static VectorXd solve(const LinearSolver& solver, VectorXd b) {
+    VectorXd x = VectorXd::Constant(b.size(), std::numeric_limits<double>::quiet_NaN());
+    solver.solve(span_of(b), span_of(x));
+    return x;
+  }
+
+  // ||K x - b|| <= 1e-12 (||K|| ||x|| + ||b||) in the largest norm: a backward-stable answer has 1e-15 times a
+  // small factor; 1e-12 leaves room for elimination without pivoting.
+  static void expect_solved(const MatrixXd& K, const VectorXd& x, const VectorXd& b) {
+    const double scale =
+        K.cwiseAbs().rowwise().sum().maxCoeff() * x.cwiseAbs().maxCoeff() + b.cwiseAbs().maxCoeff();
+    EXPECT_LE((K * x - b).cwiseAbs().maxCoeff(), 1e-12 * scale);
+  }
+
+  // Against a dense L U with pivoting.  The error may be the condition number times the rounding error, ~1e-12
+  // for these systems (condition below 1e5).
+  void expect_answer(const System& system) const {
+    const auto solver = make();
+    load(*solver, system);
+    solver->factorise();
+    const MatrixXd K = dense(system);
+    const Eigen::PartialPivLU<MatrixXd> reference(K);
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+      const VectorXd b = random_vector(system.equations, seed);
+      const VectorXd x = solve(*solver, b), expected = reference.solve(b);
+      expect_solved(K, x, b);
+      EXPECT_LE((x - expected).cwiseAbs().maxCoeff(), 1e-10 * expected.cwiseAbs().maxCoeff());
+    }
+  }
+
+  SingularMatrix singular(const System& system) const {
+    const auto solver = make();
+    load(*solver, system);
+    try {
+      solver->factorise();
+    } catch (const SingularMatrix& error) {
+      return error;
+    }
+    ADD_FAILURE() << "no SingularMatrix, smallest pivot ratio " << solver->report().smallest_pivot_ratio;
+    return SingularMatrix(-1, 0.0, "");
+  }
+
+ private:
+  Catalogue catalogue_ = solver_catalogue();
+};
+
+std::string name_of(const testing::TestParamInfo<int>& info) {
+  const Catalogue catalogue = solver_catalogue();
+  return catalogue.solvers.find(info.param)->name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogue, SolverConformance, testing::ValuesIn(codes()), name_of);
+
+TEST_P(SolverConformance, TraitsAgreeWithTheCatalogue) {
+  const Catalogue catalogue = solver_catalogue();
+  const SolverEntry& entry = *catalogue.solvers.find(GetParam());
+  EXPECT_EQ(entry.make()->traits().name, entry.name);
+  EXPECT_EQ(entry.make()->traits().symmetric, entry.symmetric);
+}
+
+TEST_P(SolverConformance, SolvesRandomSystemsOfEverySize) {
+  for (const int n : {1, 2, 3, 7, 8, 9, 15, 16, 17, 40, 63, 64, 65, 200}) {
+    SCOPED_TRACE(n);
+    expect_answer(random_system(n, symmetric(), static_cast<unsigned>(n)));
+  }
+}
+
+TEST_P(SolverConformance, SolvesElasticMeshes) {
+  expect_answer(q4_mesh({.columns = 14, .rows = 28}));
+  expect_answer(q4_mesh({.columns = 9, .rows = 5, .supports = Supports::bottom, .poisson = 0.49}));
+  expect_answer(q4_mesh({.columns = 1, .rows = 40, .supports = Supports::triaxial}));
+}
+
+TEST_P(SolverConformance, SolvesUnsymmetricMeshes) {
+  if (symmetric()) GTEST_SKIP() << "symmetric solver";
+  const System system = q4_mesh({.columns = 14, .rows = 28, .unsymmetric = 0.7});
+  ASSERT_GT((dense(system) - dense(system).transpose()).cwiseAbs().maxCoeff(), 50.0);  // of ~1000
+  expect_answer(system);
+}
+
+TEST_P(SolverConformance, SolvesAMeshLargeEnoughForTheSupernodalPath) {
+  const System system = q4_mesh({.columns = 40, .rows = 60, .unsymmetric = symmetric() ? 0.0 : 0.5});
+  const auto solver = make();
+  load(*solver, system);
+  solver->factorise();
+  VectorXd b = random_vector(system.equations, 5), r(system.equations);
+  VectorXd x = solve(*solver, b);
+  solver->multiply(span_of(x), span_of(r));
+  EXPECT_LE((r - b).cwiseAbs().maxCoeff(), 1e-12 * (solver->norm1() * x.cwiseAbs().maxCoeff()));
+}
+
+// A symmetric matrix with negative eigenvalues: softening.  The middle of the mesh is shifted by -K.
+TEST_P(SolverConformance, SolvesAnIndefiniteMatrix) {
+  for (const int columns : {6, 40}) {
+    System system = q4_mesh({.columns = columns, .rows = columns});
+    for (std::size_t e = 0; e < system.K.size(); e += 7) system.K[e] *= -0.5;
+    const auto solver = make();
+    load(*solver, system);
+    solver->factorise();
+    const VectorXd b = random_vector(system.equations, 5);
+    expect_solved(dense(system), solve(*solver, b), b);
+  }
+}
+
+TEST_P(SolverConformance, MultipliesNormsAndSolvesTransposed) {
+  const System system = random_system(60, symmetric(), 3);
+  const auto solver = make();
+  load(*solver, system);
+  solver->factorise();
+  const MatrixXd K = dense(system);
+  VectorXd x = random_vector(60, 1), y(60), z(60);
+  solver->multiply(span_of(x), span_of(y));
+  EXPECT_LE((y - K * x).cwiseAbs().maxCoeff(), 1e-13 * y.cwiseAbs().maxCoeff());
+  EXPECT_NEAR(solver->norm1(), K.cwiseAbs().colwise().sum().maxCoeff(), 1e-13 * solver->norm1());
+  solver->solve_transposed(span_of(x), span_of(z));
+  expect_solved(K.transpose(), z, x);
+}
+
+TEST_P(SolverConformance, SolvesInPlace) {
+  const System system = q4_mesh({.columns = 4, .rows = 4});
+  const auto solver = make();
+  load(*solver, system);
+  solver->factorise();
+  VectorXd b = random_vector(system.equations, 2);
+  const VectorXd x = solve(*solver, b);
+  solver->solve(span_of(b), span_of(b));
+  EXPECT_EQ(x, b);
+}
+
+TEST_P(SolverConformance, FactorisesAgainWithNewValues) {
+  System system = q4_mesh({.columns = 8, .rows = 8});
+  const auto solver = make();
+  load(*solver, system);
+  solver->factorise();
+  const VectorXd b = random_vector(system.equations, 2);
+  const VectorXd first = solve(*solver, b);
+  for (std::size_t e = 0; e < system.K.size(); ++e) system.K[e] *= 1.0 + static_cast<double>(e % 5);
+  solver->clear();
+  for (int e = 0; e < system.elements.count(); ++e)
+    solver->add(e, system.K[static_cast<std::size_t>(e)].data());
+  solver->factorise();
+  expect_solved(dense(system), solve(*solver, b), b);
+  // And a new pattern, smaller than the first.
+  const System other = random_system(20, symmetric(), 8);
+  load(*solver, other);
+  solver->factorise();
+  const VectorXd c = random_vector(20, 2);
+  expect_solved(dense(other), solve(*solver, c), c);
+  load(*solver, q4_mesh({.columns = 8, .rows = 8}));
+  solver->factorise();
+  EXPECT_EQ(solve(*solver, b), first);
+}
+
+TEST_P(SolverConformance, RepeatsItselfToTheLastBit) {
+  const System system = q4_mesh({.columns = 20, .rows = 20});
+  const VectorXd b = random_vector(system.equations, 2);
+  VectorXd first;
+  for (int run = 0; run < 3; ++run) {
+    const auto solver = make();
+    load(*solver, system);
+    solver->factorise();
+    const VectorXd x = solve(*solver, b);
+    if (run == 0) first = x;
+    EXPECT_EQ(x, first);
+  }
+}
+
+TEST_P(SolverConformance, OneEquation) {
+  System system;
+  system.equations = 1;
+  add_spring(system, 0, -1, 4.0);
+  const auto solver = make();
+  load(*solver, system);
+  solver->factorise();
+  EXPECT_DOUBLE_EQ(solve(*solver, VectorXd::Constant(1, 2.0))(0), 0.5);
+}
+
+TEST_P(SolverConformance, NoEquations) {
+  System system;
+  add_spring(system, -1, -1, 4.0);
+  const auto solver = make();
+  load(*solver, system);
+  EXPECT_NO_THROW(solver->factorise());
+  EXPECT_NO_THROW(solver->solve({}, {}));
+}
+
+TEST_P(SolverConformance, AnEquationOfNoElementIsNamed) {
+  System system = q4_mesh({.columns = 3, .rows = 3});
+  const int lonely = system.equations++;
+  EXPECT_EQ(singular(system).equation(), lonely);
+}
+
+TEST_P(SolverConformance, AZeroRowIsNamed) {
+  System system = q4_mesh({.columns = 3, .rows = 3});
+  const int zero = system.equations++;
+  add_spring(system, 4, zero, 0.0);
+  EXPECT_EQ(singular(system).equation(), zero);
+}
+
+// A body held nowhere beside one that is held: the equation belongs to the free one.
+TEST_P(SolverConformance, ABodyLeftFreeIsNamed) {
+  for (const int size : {1, 3, 10, 30}) {
+    SCOPED_TRACE(size);
+    const System held = q4_mesh({.columns = 5, .rows = 5});
+    const System free = q4_mesh({.columns = size, .rows = size, .supports = Supports::none});
+    const SingularMatrix first = singular(join(held, free));
+    EXPECT_GE(first.equation(), held.equations);
+    EXPECT_LE(first.pivot_ratio(), 1e-13);
+    const SingularMatrix second = singular(join(free, held));
+    EXPECT_LT(second.equation(), free.equations);
+    EXPECT_GE(second.equation(), 0);
+  }
+}
+
+// Nearly incompressible, and a stiff block on top: rounding must not hide the rigid-body mode.
+TEST_P(SolverConformance, AFreeBodyOfUnequalStiffnessIsSingular) {
+  singular(q4_mesh({.columns = 8, .rows = 8, .supports = Supports::none, .poisson = 0.499}));
+  singular(q4_mesh({.columns = 8, .rows = 8, .supports = Supports::none, .stiff_top = 1e3}));
+}
+
+TEST_P(SolverConformance, AStiffPlatenOnSoftSoilIsNotSingular) {
+  const System system = q4_mesh({.columns = 8, .rows = 12, .supports = Supports::bottom, .stiff_top = 1e8});
+  const auto solver = make();
+  load(*solver, system);
+  ASSERT_NO_THROW(solver->factorise());
+  const VectorXd b = random_vector(system.equations, 2);
+  expect_solved(dense(system), solve(*solver, b), b);
+}
+
+// Two equations joined by a unit spring and held by a weak one: the pivot ratio is that of the springs, 1e-9.
+TEST_P(SolverConformance, ANearlySingularMatrixIsReported) {
+  System system;
+  system.equations = 2;
+  add_spring(system, 0, 1, 1.0);
+  add_spring(system, 1, -1, 1e-9);
+  const auto solver = make();
+  load(*solver, system);
+  ASSERT_NO_THROW(solver->factorise());
+  const double ratio = solver->report().smallest_pivot_ratio;
+  EXPECT_GT(ratio, 0.99e-9);
+  EXPECT_LT(ratio, 1.01e-9);
+}
+
+TEST_P(SolverConformance, AMatrixThatIsNotANumberIsRefused) {
+  System system = q4_mesh({.columns = 3, .rows = 3});
+  system.K[4](0, 0) = std::numeric_limits<double>::quiet_NaN();
+  const auto solver = make();
+  load(*solver, system);
+  EXPECT_THROW(solver->factorise(), std::runtime_error);
+}
+
+TEST_P(SolverConformance, WorksAgainAfterASingularMatrix) {
+  System system = q4_mesh({.columns = 3, .rows = 3});
+  const auto solver = make();
+  load(*solver, system);
+  solver->clear();
+  EXPECT_THROW(solver->factorise(), SingularMatrix);
+  for (int e = 0; e < system.elements.count(); ++e)
+    solver->add(e, system.K[static_cast<std::size_t>(e)].data());
+  solver->factorise();
+  const VectorXd b = random_vector(system.equations, 2);
+  expect_solved(dense(system), solve(*solver, b), b);
+}
+
+}  // namespace
+}  // namespace sage::test
