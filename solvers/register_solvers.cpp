@@ -1,5 +1,6 @@
 #include "solvers/register_solvers.hpp"
 
+#include "solvers/frontal.hpp"
 #include "solvers/library_module.hpp"
 #include "solvers/skyline_ldlt.hpp"
 #include "solvers/skyline_lu.hpp"
@@ -14,6 +15,7 @@ void register_solvers(Catalogue& catalogue) {
       3, {"cholmod", "SuiteSparse CHOLMOD, symmetric", true, [] { return make_library_solver("cholmod"); }});
   solvers.add(
       4, {"umfpack", "SuiteSparse UMFPACK, unsymmetric", false, [] { return make_library_solver("umfpack"); }});
+  solvers.add(5, {"frontal", "multifrontal L U without pivoting, unsymmetric", false, make_frontal});
 }
 
 }  // namespace sage

@@ -52,10 +52,69 @@ inline void tile_solve(double* C, const double* T, const double* reciprocal, Lan
   for (int i = 0; i < kTile; ++i) lanes(C + i * kTile) = c[i];
 }
 
+// Elimination within a diagonal tile A = L U without pivoting.  On return A holds U and `unit` the
+// unit-diagonal L, transposed; check(k, pivot) sees every pivot before it is used.
+template <class Check>
+inline void tile_factorise(double* A, double* unit, double* reciprocal, Lanes& maximum, Check&& check) {
+  for (int k = 0; k < kTile; ++k) {
+    const double* row = A + k * kTile;
+    check(k, row[k]);
+    tile_raise_maximum(maximum, lanes(row));
+    reciprocal[k] = 1.0 / row[k];
+    for (int i = k + 1; i < kTile; ++i) {
+      const double factor = A[i * kTile + k] * reciprocal[k];
+      unit[k * kTile + i] = factor;
+      for (int j = k; j < kTile; ++j) A[i * kTile + j] -= factor * row[j];
+    }
+  }
+}
+
 inline double largest(const Lanes& x) {
   double maximum = 0.0;
   for (int i = 0; i < kTile; ++i) maximum = x[i] > maximum ? x[i] : maximum;
   return maximum;
+}
+
+// z -= sum over k of tile terms [k][:] y[k], k over `tiles` consecutive tiles.
+inline void tile_forward_panel(const double* tile, const double* y, int tiles, double* z) {
+  Lanes sum[4] = {lanes(z), Lanes{}, Lanes{}, Lanes{}};
+  for (int k = 0; k < tiles * kTile; k += 4)
+#pragma GCC unroll 4
+    for (int m = 0; m < 4; ++m) sum[m] -= y[k + m] * lanes(tile + (k + m) * kTile);
+  lanes(z) = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+// z = T^-1 z with the lower triangular diagonal tile T; reciprocal = nullptr for a unit diagonal.
+inline void tile_forward_diagonal(const double* T, const double* reciprocal, double* z) {
+  for (int k = 0; k < kTile; ++k) {
+    if (reciprocal) z[k] *= reciprocal[k];
+    for (int i = k + 1; i < kTile; ++i) z[i] -= T[k * kTile + i] * z[k];
+  }
+}
+
+// row[i] += lane by lane T[i][:] y: tile_sums() of it is T y.
+inline void tile_multiply_rows(const double* T, const double* y, Lanes* row) {
+  const Lanes factor = lanes(y);
+#pragma GCC unroll 8
+  for (int i = 0; i < kTile; ++i) row[i] += lanes(T + i * kTile) * factor;
+}
+
+// Sum of the lanes of each of eight vectors.
+inline Lanes tile_sums(const Lanes* rows) {
+  Lanes sum{};
+  for (int i = 0; i < kTile; ++i) {
+    const Lanes& r = rows[i];
+    sum[i] = ((r[0] + r[4]) + (r[2] + r[6])) + ((r[1] + r[5]) + (r[3] + r[7]));
+  }
+  return sum;
+}
+
+// z = T^-T z.
+inline void tile_backward_diagonal(const double* T, const double* reciprocal, double* z) {
+  for (int k = kTile - 1; k >= 0; --k) {
+    for (int i = k + 1; i < kTile; ++i) z[k] -= T[k * kTile + i] * z[i];
+    if (reciprocal) z[k] *= reciprocal[k];
+  }
 }
 
 }  // namespace sage

@@ -1,0 +1,13 @@
+// Multifrontal L U for unsymmetric matrices: nested dissection, dense fronts, no pivoting but every pivot and
+// the growth of terms are checked.
+#pragma once
+
+#include <memory>
+
+#include "sage/core/linear_solver.hpp"
+
+namespace sage {
+
+std::unique_ptr<LinearSolver> make_frontal();
+
+}  // namespace sage
