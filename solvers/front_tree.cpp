@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 
 #include "solvers/profile_numbering.hpp"
 #include "solvers/tile_profile.hpp"
@@ -61,7 +62,7 @@ IndexLists border_groups(const EquationGraph& graph, const SeparatorTree& tree, 
   return borders;
 }
 
-void lay_out_fronts(const EquationGraph& graph, const SeparatorTree& tree, FrontTree& fronts) {
+void lay_out_fronts(const EquationGraph& graph, const SeparatorTree& tree, bool symmetric, FrontTree& fronts) {
   std::vector<int> rank(at(graph.members.count()));
   for (std::size_t r = 0; r < rank.size(); ++r) rank[at(tree.groups.item[r])] = static_cast<int>(r);
   const IndexLists borders = border_groups(graph, tree, fronts.children, rank);
@@ -80,7 +81,7 @@ void lay_out_fronts(const EquationGraph& graph, const SeparatorTree& tree, Front
     front.pivot_tiles = whole_tiles(front.pivots);
     front.border_tiles = whole_tiles(front.border);
     front.arms = fronts.factor_terms;
-    fronts.factor_terms += 2 * front.arm_terms();
+    fronts.factor_terms += (symmetric ? 1 : 2) * front.arm_terms();
     fronts.fronts.push_back(front);
   }
 }
@@ -148,8 +149,11 @@ void map_entries(const AssembledMatrix& matrix, FrontTree& tree) {
   for (std::size_t f = 0; f < tree.fronts.size(); ++f) {
     const Front& front = tree.fronts[f];
     set_local(tree, front, local);
-    for (auto s = at(tree.entry_start[f]); s < at(tree.entry_start[f + 1]); ++s)
-      tree.entry_target[s] = arm_target(front, local[at(ends[s][0])], local[at(ends[s][1])]);
+    for (auto s = at(tree.entry_start[f]); s < at(tree.entry_start[f + 1]); ++s) {
+      int i = local[at(ends[s][0])], j = local[at(ends[s][1])];
+      if (matrix.symmetric() && i > j) std::swap(i, j);
+      tree.entry_target[s] = arm_target(front, i, j);
+    }
     for (const int child : tree.children.of(static_cast<int>(f))) {
       const Front& c = tree.fronts[at(child)];
       for (int k = c.border_begin; k < c.border_begin + c.border; ++k)
@@ -165,7 +169,7 @@ FrontTree make_front_tree(const EquationGraph& graph, const AssembledMatrix& mat
   const SeparatorTree tree = nested_dissection(graph, leaf_equations);
   number_equations(graph, tree, fronts);
   list_children(tree.parent, fronts.children);
-  lay_out_fronts(graph, tree, fronts);
+  lay_out_fronts(graph, tree, matrix.symmetric(), fronts);
   place_borders(fronts);
   fronts.in_parent.resize(fronts.border.size());
   map_entries(matrix, fronts);

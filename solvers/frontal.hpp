@@ -8,6 +8,9 @@
 
 namespace sage {
 
+// L U for unsymmetric matrices.
 std::unique_ptr<LinearSolver> make_frontal();
+// L D L^T for symmetric matrices, definite or not.
+std::unique_ptr<LinearSolver> make_frontal_ldlt();
 
 }  // namespace sage

@@ -12,8 +12,8 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-// The level that separates best: few groups for the product of the two sides.  Lopsided cuts, below a fifth, serve
-// only where there is no other.
+// The level that separates best: few groups for the product of the two sides.  Lopsided cuts, below a fifth,
+// serve only where there is no other.
 struct Cut {
   double cost = std::numeric_limits<double>::infinity();
   int level = -1;

@@ -16,6 +16,7 @@ void register_solvers(Catalogue& catalogue) {
   solvers.add(
       4, {"umfpack", "SuiteSparse UMFPACK, unsymmetric", false, [] { return make_library_solver("umfpack"); }});
   solvers.add(5, {"frontal", "multifrontal L U without pivoting, unsymmetric", false, make_frontal});
+  solvers.add(8, {"frontal_ldlt", "multifrontal L D L^T, symmetric", true, make_frontal_ldlt});
 }
 
 }  // namespace sage

@@ -7,6 +7,7 @@ namespace sage {
 
 // Eight doubles that the compiler maps to the registers of the processor (1 x 512, 2 x 256 or 4 x 128 bits).
 using Lanes = double __attribute__((vector_size(64), may_alias));
+using LaneIndex = long long __attribute__((vector_size(64)));
 
 inline const Lanes& lanes(const double* p) {
   return *reinterpret_cast<const Lanes*>(p);
@@ -15,18 +16,34 @@ inline Lanes& lanes(double* p) {
   return *reinterpret_cast<Lanes*>(p);
 }
 
-// C[i][:] -= sum over k of A[k][i] B[k][:], k over `tiles` consecutive tiles of A and B.
-inline void tile_subtract_product(double* C, const double* A, const double* B, int tiles) {
-  Lanes c[kTile];
+// C[i][:] -= sum over k of A[k][i] B[k][:], k over `tiles` consecutive tiles of A and B, for `width` tiles C
+// side by side with their own B; strides are from one such tile to the next.  All of C stays in registers: 24
+// of the 32 that AVX-512 has for width 3.
+template <int width>
+inline void tile_subtract_products(double* C, std::ptrdiff_t c_stride, const double* A, const double* B,
+                                   std::ptrdiff_t b_stride, int tiles) {
+  Lanes c[width][kTile];
+#pragma GCC unroll 4
+  for (int w = 0; w < width; ++w)
 #pragma GCC unroll 8
-  for (int i = 0; i < kTile; ++i) c[i] = lanes(C + i * kTile);
+    for (int i = 0; i < kTile; ++i) c[w][i] = lanes(C + w * c_stride + i * kTile);
   for (int k = 0; k < tiles * kTile; ++k) {
-    const Lanes b = lanes(B + k * kTile);
+    Lanes b[width];
+#pragma GCC unroll 4
+    for (int w = 0; w < width; ++w) b[w] = lanes(B + w * b_stride + k * kTile);
 #pragma GCC unroll 8
-    for (int i = 0; i < kTile; ++i) c[i] -= A[k * kTile + i] * b;
+    for (int i = 0; i < kTile; ++i)
+#pragma GCC unroll 4
+      for (int w = 0; w < width; ++w) c[w][i] -= A[k * kTile + i] * b[w];
   }
+#pragma GCC unroll 4
+  for (int w = 0; w < width; ++w)
 #pragma GCC unroll 8
-  for (int i = 0; i < kTile; ++i) lanes(C + i * kTile) = c[i];
+    for (int i = 0; i < kTile; ++i) lanes(C + w * c_stride + i * kTile) = c[w][i];
+}
+
+inline void tile_subtract_product(double* C, const double* A, const double* B, int tiles) {
+  tile_subtract_products<1>(C, 0, A, B, 0, tiles);
 }
 
 inline void tile_raise_maximum(Lanes& maximum, const Lanes& x) {
@@ -67,6 +84,12 @@ inline void tile_factorise(double* A, double* unit, double* reciprocal, Lanes& m
       for (int j = k; j < kTile; ++j) A[i * kTile + j] -= factor * row[j];
     }
   }
+}
+
+// Copies the upper triangle of a diagonal tile to the lower.
+inline void tile_mirror(double* A) {
+  for (int i = 1; i < kTile; ++i)
+    for (int j = 0; j < i; ++j) A[i * kTile + j] = A[j * kTile + i];
 }
 
 inline double largest(const Lanes& x) {
