@@ -16,8 +16,6 @@ std::size_t at(int i) {
 
 // Largest part of the mesh that becomes one dense front.
 constexpr int kLeafEquations = 16;
-// Tiles of a border that are worked on together.
-constexpr int kWidth = 3;
 
 // A front while it is in work.  K counts tiles of pivots; J counts tiles of pivots, then of the border.
 struct Arms {
@@ -268,7 +266,7 @@ void Frontal::backward(const Front& front, const double* arm, const double* reci
     Lanes row[kTile] = {};
     for (int J = K + 1; J < all; ++J)
       tile_multiply_rows(arm + (std::ptrdiff_t{J} * P + K) * kTileTerms, y + J * kTile, row);
-    lanes(y + K * kTile) -= tile_sums(row);
+    tile_subtract_sums(row, y + K * kTile);
     tile_backward_diagonal(arm + (std::ptrdiff_t{K} * P + K) * kTileTerms,
                            reciprocal ? reciprocal + K * kTile : nullptr, y + K * kTile);
   }

@@ -16,30 +16,40 @@ inline Lanes& lanes(double* p) {
   return *reinterpret_cast<Lanes*>(p);
 }
 
+// A block of tile rows and tiles side by side whose terms stay in registers while sums over k run: 8 rows of 3
+// tiles take 24 of AVX-512's 32 registers; half a tile is what the 16 registers of AVX2 hold.
+#ifdef __AVX512F__
+inline constexpr int kRowsInRegisters = 8, kWidth = 3;
+#else
+inline constexpr int kRowsInRegisters = 4, kWidth = 1;
+#endif
+
 // C[i][:] -= sum over k of A[k][i] B[k][:], k over `tiles` consecutive tiles of A and B, for `width` tiles C
-// side by side with their own B; strides are from one such tile to the next.  All of C stays in registers: 24
-// of the 32 that AVX-512 has for width 3.
+// side by side with their own B; strides are from one such tile to the next.
 template <int width>
 inline void tile_subtract_products(double* C, std::ptrdiff_t c_stride, const double* A, const double* B,
                                    std::ptrdiff_t b_stride, int tiles) {
-  Lanes c[width][kTile];
+  constexpr int rows = kRowsInRegisters;
+  for (int first = 0; first < kTile; first += rows) {
+    Lanes c[width][rows];
 #pragma GCC unroll 4
-  for (int w = 0; w < width; ++w)
+    for (int w = 0; w < width; ++w)
 #pragma GCC unroll 8
-    for (int i = 0; i < kTile; ++i) c[w][i] = lanes(C + w * c_stride + i * kTile);
-  for (int k = 0; k < tiles * kTile; ++k) {
-    Lanes b[width];
+      for (int i = 0; i < rows; ++i) c[w][i] = lanes(C + w * c_stride + (first + i) * kTile);
+    for (int k = 0; k < tiles * kTile; ++k) {
+      Lanes b[width];
 #pragma GCC unroll 4
-    for (int w = 0; w < width; ++w) b[w] = lanes(B + w * b_stride + k * kTile);
+      for (int w = 0; w < width; ++w) b[w] = lanes(B + w * b_stride + k * kTile);
 #pragma GCC unroll 8
-    for (int i = 0; i < kTile; ++i)
+      for (int i = 0; i < rows; ++i)
 #pragma GCC unroll 4
-      for (int w = 0; w < width; ++w) c[w][i] -= A[k * kTile + i] * b[w];
+        for (int w = 0; w < width; ++w) c[w][i] -= A[k * kTile + first + i] * b[w];
+    }
+#pragma GCC unroll 4
+    for (int w = 0; w < width; ++w)
+#pragma GCC unroll 8
+      for (int i = 0; i < rows; ++i) lanes(C + w * c_stride + (first + i) * kTile) = c[w][i];
   }
-#pragma GCC unroll 4
-  for (int w = 0; w < width; ++w)
-#pragma GCC unroll 8
-    for (int i = 0; i < kTile; ++i) lanes(C + w * c_stride + i * kTile) = c[w][i];
 }
 
 inline void tile_subtract_product(double* C, const double* A, const double* B, int tiles) {
@@ -115,21 +125,20 @@ inline void tile_forward_diagonal(const double* T, const double* reciprocal, dou
   }
 }
 
-// row[i] += lane by lane T[i][:] y: tile_sums() of it is T y.
+// row[i] += lane by lane T[i][:] y: the sum of its lanes is (T y)[i].
 inline void tile_multiply_rows(const double* T, const double* y, Lanes* row) {
   const Lanes factor = lanes(y);
 #pragma GCC unroll 8
   for (int i = 0; i < kTile; ++i) row[i] += lanes(T + i * kTile) * factor;
 }
 
-// Sum of the lanes of each of eight vectors.
-inline Lanes tile_sums(const Lanes* rows) {
-  Lanes sum{};
+// z[i] -= sum of the lanes of row[i].
+inline void tile_subtract_sums(const Lanes* row, double* z) {
+#pragma GCC unroll 8
   for (int i = 0; i < kTile; ++i) {
-    const Lanes& r = rows[i];
-    sum[i] = ((r[0] + r[4]) + (r[2] + r[6])) + ((r[1] + r[5]) + (r[3] + r[7]));
+    const Lanes& r = row[i];
+    z[i] -= ((r[0] + r[4]) + (r[2] + r[6])) + ((r[1] + r[5]) + (r[3] + r[7]));
   }
-  return sum;
 }
 
 // z = T^-T z.

@@ -112,7 +112,7 @@ void tile_backward(const TileProfile& profile, const TileTriangle& T, double* x)
     for (const int J : profile.right.of(K))
       tile_multiply_rows(T.tiles + profile.tile(K, J), x + J * kTile, row);
     double* z = x + K * kTile;
-    lanes(z) -= tile_sums(row);
+    tile_subtract_sums(row, z);
     tile_backward_diagonal(T.diagonal + K * kTileTerms, T.reciprocal ? T.reciprocal + K * kTile : nullptr, z);
   }
 }
