@@ -107,7 +107,17 @@ void DeckReader::read_counted(const LayoutEntry& entry, int owner) {
 
 void DeckReader::read_named(const LayoutEntry& entry, int owner) {
   const int first = entry.card >= 0 ? entry.card : entry.entries.front().card;
-  while (!stopped_ && !records_.at_end() && name_matches(rule_of(first))) read_one(entry, owner);
+  bool flagged = entry.until.empty();
+  while (!stopped_ && !records_.at_end() && name_matches(rule_of(first))) {
+    read_one(entry, owner);
+    ++run_.done;
+    if (entry.until.empty()) continue;
+    flagged = truth(entry.until);
+    if (flagged) return;
+  }
+  if (!flagged && run_.done > 0 && !stopped_)
+    log_.add(Severity::warning, log_.line(records_.line()),
+             "this is the last " + card_name(entry) + " card, but it is not marked as such (" + entry.until.source + ")");
 }
 
 void DeckReader::read_until(const LayoutEntry& entry, int owner) {
@@ -141,17 +151,22 @@ void DeckReader::read_one(const LayoutEntry& entry, int owner) {
   if (log_.errors() > most_errors) stop("too many errors: reading stops here", records_.line());
 }
 
-// A layout whose cards bear names: "B-*" stands for every name that begins so.
+// A layout whose cards bear names: "B-*" stands for every name that begins so, "|" separates alternatives.
 bool DeckReader::name_matches(const CardRule& rule) {
   const std::string_view line = records_.peek_line();
   const auto width = static_cast<std::size_t>(layout_.card_name_columns);
   const bool named =
       line.size() >= width && line.substr(width, layout_.card_separator.size()) == layout_.card_separator;
   const std::string_view name = trimmed(named ? line.substr(0, width) : line);
-  const std::string& wanted = rule.spec.label;
-  if (!wanted.empty() && wanted.back() == '*')
-    return named && name.substr(0, wanted.size() - 1) == wanted.substr(0, wanted.size() - 1);
-  return name == wanted;
+  std::string_view wanted = rule.spec.label;
+  for (;;) {
+    const std::size_t bar = std::min(wanted.find('|'), wanted.size());
+    const std::string_view one = wanted.substr(0, bar);
+    const bool open = !one.empty() && one.back() == '*';
+    if (open ? named && name.substr(0, one.size() - 1) == one.substr(0, one.size() - 1) : name == one) return true;
+    if (bar == wanted.size()) return false;
+    wanted.remove_prefix(bar + 1);
+  }
 }
 
 // ---- Expressions
@@ -287,8 +302,11 @@ bool DeckReader::read_formatted(const CardRule& rule, Card& card) {
 }
 
 bool DeckReader::read_listed(const CardRule& rule, Card& card) {
-  ListRead read(records_, *texts_);
-  if (read.begin() != ReadEnd::complete) return false;
+  if (!rule.same_read || !list_read_) {
+    list_read_.emplace(records_, *texts_);
+    if (list_read_->begin() != ReadEnd::complete) return false;
+  }
+  ListRead& read = *list_read_;
   card.line = records_.line();
   const bool complete = read_fields(read, rule);
   if (deck_.values.size() > static_cast<std::size_t>(card.first_value))
