@@ -17,13 +17,10 @@ const std::vector<Parameter>& bulk_and_shear_rows() {
 ElasticModuli moduli_from_young(double youngs_modulus, double poissons_ratio) {
   return {youngs_modulus / (3.0 * (1.0 - 2.0 * poissons_ratio)),
           youngs_modulus / (2.0 * (1.0 + poissons_ratio))};
-<<<<<<< HEAD
 }
 
 ElasticModuli moduli_from_young_and_bulk(double youngs_modulus, double bulk_modulus) {
   return {bulk_modulus, 3.0 * bulk_modulus * youngs_modulus / (9.0 * bulk_modulus - youngs_modulus)};
-=======
->>>>>>> main
 }
 
 Matrix4 elastic_matrix(const ElasticModuli& moduli) {

@@ -25,8 +25,8 @@ int check(const std::string& path, const InputOptions& options) {
     const Model model = build_model(deck, catalogue, options.build);
     print_diagnostics(model.diagnostics);
     const Scene scene = analyse_scene(model);
-    fmt::print("{}: {} nodes, {} elements in {} groups, {} stages; {}, {}: ready to run\n", path, model.mesh.nodes(),
-               scene.elements, model.groups.size(), model.stages.size(),
+    fmt::print("{}: {} nodes, {} elements in {} groups, {} stages; {}, {}: ready to run\n", path,
+               model.mesh.nodes(), scene.elements, model.groups.size(), model.stages.size(),
                model.geometry == Geometry::axisymmetric ? "axisymmetric" : "plane strain", describe(scene));
     return options.strict && model.diagnostics.warnings() > 0 ? kInput : kOk;
   } catch (const InputError& error) {

@@ -7,7 +7,6 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
-#include "sage/deck/read_deck.hpp"
 
 namespace sage::app {
 
@@ -22,7 +21,8 @@ struct EchoOptions {
 
 Command echo_command(CLI::App& root) {
   auto options = std::make_shared<EchoOptions>();
-  CLI::App* parser = root.add_subcommand("echo", "show each card of a deck as it was read, under a column ruler");
+  CLI::App* parser =
+      root.add_subcommand("echo", "show each card of a deck as it was read, under a column ruler");
   parser->add_option("DECK", options->deck, "deck file")->required();
   add_input_options(*parser, options->input);
   return {parser, [options] {

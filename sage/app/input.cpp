@@ -5,26 +5,30 @@
 #include <CLI/Option.hpp>
 #include <filesystem>
 
-#include "sage/deck/read_deck.hpp"
+#include "sage/deck/layout.hpp"
+#include "sage/deck/source.hpp"
 
 namespace sage::app {
 
 void add_input_options(CLI::App& parser, InputOptions& options) {
-  parser.add_option("--layout", options.layout, "card layout: a built-in name or a .toml file (default: found from the deck)");
+  parser.add_option("--layout", options.layout,
+                    "card layout: a built-in name or a .toml file (default: found from the deck)");
   parser.add_flag("--strict", options.strict, "treat warnings about the deck as errors");
 }
 
 void add_build_options(CLI::App& parser, BuildOptions& options) {
   parser.add_option("--formulation", options.formulation, "replace the formulation code of all solid elements");
-  parser.add_option("--element", options.element, "replace 4-node quadrilaterals by this element code (mid-side nodes are made)");
+  parser.add_option("--element", options.element,
+                    "replace 4-node quadrilaterals by this element code (mid-side nodes are made)");
   parser.add_option("--geometry", options.geometry, "replace the geometry: 1 plane strain, 2 axisymmetric");
 }
 
 Deck read_input(const std::string& path, const InputOptions& options) {
   ReadOptions read;
   read.strict = options.strict;
-  if (!options.layout.empty()) return read_deck(path, load_layout(options.layout), read);
-  return read_deck(path, layout_for(path), read);
+  std::string text = read_file(path);
+  const std::string layout = options.layout.empty() ? detect_layout(text) : options.layout;
+  return read_deck_text(std::move(text), path, load_layout(layout), read);
 }
 
 void print_diagnostics(const Diagnostics& diagnostics) {

@@ -16,7 +16,8 @@ void list_elements(const Catalogue& catalogue) {
   fmt::print("code  element, its formulations (code 0 on a group card = the first)\n");
   for (const auto& [code, entry] : catalogue.elements.entries()) {
     fmt::print("{:4}  {}: {}\n", code, entry.name, entry.summary);
-    for (const Formulation& f : entry.formulations) fmt::print("      {:4}  {}: {}\n", f.code, f.name, f.summary);
+    for (const Formulation& f : entry.formulations)
+      fmt::print("      {:4}  {}: {}\n", f.code, f.name, f.summary);
   }
 }
 
@@ -24,11 +25,13 @@ void list_materials(const Catalogue& catalogue) {
   const UnitSystem generic{"length", "force", "stress", 0.0, 0.0};
   fmt::print("code  law, parameters in the order of the card\n");
   for (const auto& [code, entry] : catalogue.materials.entries()) {
-    fmt::print("{:4}  {} ({}): {}\n", code, entry.name, entry.law_size == 4 ? "solid" : "interface", entry.summary);
+    fmt::print("{:4}  {} ({}): {}\n", code, entry.name, entry.law_size == 4 ? "solid" : "interface",
+               entry.summary);
     int number = 0;
     for (const Parameter& p : entry.parameters) {
       const std::string otherwise = p.required ? "required" : fmt::format("blank = {:g}", p.fallback);
-      fmt::print("      {:4}  {} [{}] {}; {}\n", ++number, p.name, unit_text(p.dimension, generic), p.meaning, otherwise);
+      fmt::print("      {:4}  {} [{}] {}; {}\n", ++number, p.name, unit_text(p.dimension, generic), p.meaning,
+                 otherwise);
     }
   }
 }
@@ -36,14 +39,16 @@ void list_materials(const Catalogue& catalogue) {
 void list_solvers(const Catalogue& catalogue) {
   fmt::print("code  solver (code 0 on the control card = chosen from size and symmetry)\n");
   for (const auto& [code, entry] : catalogue.solvers.entries())
-    fmt::print("{:4}  {} ({}): {}\n", code, entry.name, entry.symmetric ? "symmetric" : "unsymmetric", entry.summary);
+    fmt::print("{:4}  {} ({}): {}\n", code, entry.name, entry.symmetric ? "symmetric" : "unsymmetric",
+               entry.summary);
 }
 
 }  // namespace
 
 Command list_command(CLI::App& root) {
   auto what = std::make_shared<std::string>();
-  CLI::App* parser = root.add_subcommand("list", "show the elements, materials or solvers that a deck can ask for");
+  CLI::App* parser =
+      root.add_subcommand("list", "show the elements, materials or solvers that a deck can ask for");
   parser->add_option("WHAT", *what, "elements, materials or solvers")
       ->required()
       ->check(CLI::IsMember({"elements", "materials", "solvers"}));
