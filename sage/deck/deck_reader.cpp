@@ -21,6 +21,12 @@ bool all_blank(std::string_view text) {
   return text.find_first_not_of(" \t\x1a") == std::string_view::npos;
 }
 
+// "a node card", "an element card".
+std::string a_card(const std::string& name) {
+  const bool vowel = !name.empty() && std::string_view("aeiouAEIO").find(name[0]) != std::string_view::npos;
+  return (vowel ? "an " : "a ") + name + " card";
+}
+
 std::string lower_case(std::string_view text) {
   std::string lower(text);
   for (char& c : lower)
@@ -144,7 +150,7 @@ void DeckReader::read_one(const LayoutEntry& entry, int owner) {
   if (!layout_.card_separator.empty() && !name_matches(rule)) {
     const std::string_view line = trimmed(records_.peek_line());
     log_.add(Severity::error, log_.line(records_.next_line()),
-             "card " + rule.key + " is missing: " + quoted(line.substr(0, 30)) + " stands here");
+             "card " + rule.spec.label + " is missing: " + quoted(line.substr(0, 30)) + " stands here");
     return stop("reading stops here", records_.next_line());
   }
   read_card(entry.card, owner);
@@ -232,7 +238,7 @@ std::string DeckReader::count_source(const Expression& expression) const {
     if (node.kind == ExpressionNode::Kind::field)
       if (const FieldValue* value = field_value(node.card, node.field)) {
         const CardRule& rule = rule_of(node.card);
-        return rule.spec.fields[static_cast<std::size_t>(node.field)].label + " of the " + rule.key +
+        return rule.spec.fields[static_cast<std::size_t>(node.field)].label + " of the " + rule.spec.label +
                " card, line " + std::to_string(value->line);
       }
   return expression.source;
@@ -320,7 +326,7 @@ bool DeckReader::read_listed(const CardRule& rule, Card& card) {
 bool DeckReader::read_items(const CardRule& rule, ListRead& read) {
   int count = 0;
   const CardRule& item = rule_of(rule.items_card);
-  if (!count_of(rule.items_count, item.key + " items", count)) return true;
+  if (!count_of(rule.items_count, item.spec.label + " items", count)) return true;
   const int owner = static_cast<int>(deck_.cards.size()) - 1;
   for (int i = 0; i < count && !stopped_; ++i) {
     Card card;
@@ -393,7 +399,7 @@ void DeckReader::check_values(const CardRule& rule, const Card& card) {
     const std::string& wanted = rule.rules[i].must_equal;
     if (!wanted.empty() && lower_case(trimmed(value.text)) != lower_case(wanted)) {
       log_.add(Severity::error, value.first_column ? log_.where(value) : log_.line(card.line),
-               "the " + rule.key + " card must read " + wanted + ", not " + quoted(trimmed(value.text)));
+               "the " + rule.spec.label + " card must read " + wanted + ", not " + quoted(trimmed(value.text)));
       missing = true;
     }
   }
@@ -438,7 +444,7 @@ void DeckReader::check_rest(const CardRule& rule, const Card& card, std::size_t 
   log_.add(Severity::note,
            {deck_.file, records_.line(), offset + static_cast<int>(first),
             offset + static_cast<int>(record.find_last_not_of(" \t\x1a"))},
-           "characters behind the last field of the " + rule.key + " card are ignored");
+           "characters behind the last field of the " + rule.spec.label + " card are ignored");
 }
 
 // Eight digits in 73-80 with blanks before them, where fields reach that far: likely no data.
@@ -455,7 +461,7 @@ void DeckReader::check_sequence_number(const CardRule& rule, const Card& card, s
   sequence_noted_ = true;
   log_.add(Severity::warning,
            {deck_.file, records_.line(), layout_.first_sequence_column, layout_.last_sequence_column},
-           quoted(number) + " looks like a sequence number, but the fields of the " + rule.key +
+           quoted(number) + " looks like a sequence number, but the fields of the " + rule.spec.label +
                " card reach into columns " + std::to_string(layout_.first_sequence_column) + "-" +
                std::to_string(layout_.last_sequence_column) + " (said once)");
   static_cast<void>(card);
@@ -473,11 +479,11 @@ void DeckReader::suggest_count(const CardRule& rule, const Card& card) {
   for (const int other : candidates) {
     if (other == own || !reads_well(rule_of(other), card.line)) continue;
     const bool earlier = other == previous_rule_;
-    std::string hint = "this card reads well as a " + rule_of(other).key + " card: ";
+    std::string hint = "this card reads well as " + a_card(rule_of(other).spec.label) + ": ";
     if (earlier)
-      hint += "is the count of " + rule_of(other).key + " cards too small?";
+      hint += "is the count of " + rule_of(other).spec.label + " cards too small?";
     else if (run_.wanted > 0)
-      hint += "is the count of " + rule.key + " cards too large? (" + std::to_string(run_.wanted) +
+      hint += "is the count of " + rule.spec.label + " cards too large? (" + std::to_string(run_.wanted) +
               " wanted: " + count_source(run_.entry->count) + "; this is number " +
               std::to_string(run_.done + 1) + ")";
     else
@@ -513,11 +519,11 @@ bool DeckReader::reads_well(const CardRule& rule, int line) const {
 std::string DeckReader::card_name(const LayoutEntry& entry) const {
   const LayoutEntry* at = &entry;
   while (at->card < 0) at = &at->entries.front();
-  return rule_of(at->card).key;
+  return rule_of(at->card).spec.label;
 }
 
 void DeckReader::truncated(const LayoutEntry& entry) {
-  std::string message = "the deck ends here, but a " + card_name(entry) + " card was expected";
+  std::string message = "the deck ends here, but " + a_card(card_name(entry)) + " was expected";
   if (run_.wanted > 0) {
     message += " (" + std::to_string(run_.done) + " of " + std::to_string(run_.wanted) + " read, " +
                std::to_string(run_.wanted - run_.done) + " missing";

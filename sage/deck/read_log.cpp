@@ -46,7 +46,7 @@ std::string quoted(std::string_view text) {
 }
 
 std::string field_text(const CardRule& card, const FieldSpec& field) {
-  std::string text = "(" + card.key + " card, " + field.label;
+  std::string text = "(" + card.spec.label + " card, " + field.label;
   if (!field.unit.empty()) text += ", " + field.unit;
   return text + ")";
 }
