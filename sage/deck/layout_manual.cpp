@@ -17,17 +17,22 @@ std::string number_text(double value) {
 
 const char* kind_text(FieldKind kind) {
   switch (kind) {
-    case FieldKind::integer: return "integer";
-    case FieldKind::real: return "real";
-    case FieldKind::text: return "text";
-    case FieldKind::logical: return "T or F";
+    case FieldKind::integer:
+      return "integer";
+    case FieldKind::real:
+      return "real";
+    case FieldKind::text:
+      return "text";
+    case FieldKind::logical:
+      return "T or F";
   }
   return "";
 }
 
 // "|" would end a table's cell.
 std::string cell(std::string text) {
-  for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2)) text.insert(at, "\\");
+  for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
+    text.insert(at, "\\");
   return text;
 }
 
@@ -79,10 +84,18 @@ void add_fields(const CardRule& card, std::string& out) {
 std::string run_text(const LayoutEntry& entry) {
   std::string text;
   switch (entry.run) {
-    case LayoutEntry::Run::once: text = "once"; break;
-    case LayoutEntry::Run::counted: text = "`" + entry.count.source + "` times"; break;
-    case LayoutEntry::Run::named: text = "as often as the name stands"; break;
-    case LayoutEntry::Run::until: text = "repeats"; break;
+    case LayoutEntry::Run::once:
+      text = "once";
+      break;
+    case LayoutEntry::Run::counted:
+      text = "`" + entry.count.source + "` times";
+      break;
+    case LayoutEntry::Run::named:
+      text = "as often as the name stands";
+      break;
+    case LayoutEntry::Run::until:
+      text = "repeats";
+      break;
   }
   if (!entry.until.empty()) text += " until `" + entry.until.source + "`";
   if (!entry.when.empty()) text = "if `" + entry.when.source + "`" + (text == "once" ? "" : ": " + text);
@@ -127,7 +140,8 @@ void add_cards(const Layout& layout, const std::vector<LayoutEntry>& entries, st
 
 std::string layout_manual(const Layout& layout) {
   std::string out = "# " + layout.title + "\n\n";
-  out += "<!-- Written from legacy_inputs/layouts/" + layout.name + ".toml: change that file, not this one. -->\n\n";
+  out += "<!-- Written from legacy_inputs/layouts/" + layout.name +
+         ".toml: change that file, not this one. -->\n\n";
   if (!layout.introduction.empty()) out += layout.introduction + "\n";
   out += "## The cards in order\n\n";
   add_overview(layout, layout.entries, 0, out);

@@ -43,7 +43,9 @@ const char* const kDeck =
     "    1    1       5.0      18.0       0.5\n"
     "END\n";
 
-Deck read(const std::string& text) { return read_deck_text(text, "deck.dat", sage1()); }
+Deck read(const std::string& text) {
+  return read_deck_text(text, "deck.dat", sage1());
+}
 
 TEST(Deck, ReadsFieldsByName) {
   const Deck deck = read(kDeck);
@@ -86,7 +88,7 @@ TEST(Deck, CardsBelongToTheirStage) {
   ASSERT_EQ(deck.all("load", stages[0]).size(), 1u);
   EXPECT_EQ(deck.all("load", stages[0])[0].real("y_force"), -7.5);
   EXPECT_TRUE(deck.all("load", stages[1]).empty());
-  EXPECT_EQ(deck.all("fixity").size(), 2u);             // one of the deck, one of a stage
+  EXPECT_EQ(deck.all("fixity").size(), 2u);  // one of the deck, one of a stage
   EXPECT_EQ(deck.all("fixity")[0].card().owner, -1);
   ASSERT_EQ(deck.all("fixity", stages[1]).size(), 1u);
   EXPECT_EQ(deck.all("fixity", stages[1])[0].real("x_value"), 0.25);
@@ -104,8 +106,8 @@ TEST(Deck, BlankFieldsGiveDefaults) {
   const Deck deck = read(kDeck);
   const CardView element = deck.one("element");
   EXPECT_TRUE(element.blank("column_step"));
-  EXPECT_EQ(element.integer("column_step"), 1);       // the layout's default
-  EXPECT_EQ(element.integer("columns", 5), 5);        // the caller's
+  EXPECT_EQ(element.integer("column_step"), 1);  // the layout's default
+  EXPECT_EQ(element.integer("columns", 5), 5);   // the caller's
   EXPECT_EQ(element.integer("no_such_field", 3), 3);
   EXPECT_TRUE(element.blank("no_such_field"));
   EXPECT_EQ(deck.all("stage")[0].integer("method"), 0);
@@ -137,7 +139,9 @@ TEST(Deck, SurvivesCopyingAndTheSource) {
   EXPECT_EQ(copy.one("material").text("name"), "Sand, loose");
 }
 
-TEST(Deck, MissingCardIsAnError) { EXPECT_THROW(read(kDeck).one("fill"), InputError); }
+TEST(Deck, MissingCardIsAnError) {
+  EXPECT_THROW(read(kDeck).one("fill"), InputError);
+}
 
 // What must not change the values: line ends, sequence numbers, trimmed or padded cards, a byte order mark.
 TEST(Deck, LineEndsAndCardEndsDoNotMatter) {
@@ -182,7 +186,8 @@ TEST(Echo, ShowsEveryCardWithItsFields) {
   const std::string text = echo(read(kDeck));
   EXPECT_NE(text.find("node  (3I5,3F10.0)\n      | ....+....1"), std::string::npos);
   EXPECT_NE(text.find("    6 |     2    1    1    1.D1    .5E+02        2.\n"
-                      "        number = 2  step = 1  system = 1  x = 10  y = 50  ratio = 2\n"), std::string::npos);
+                      "        number = 2  step = 1  system = 1  x = 10  y = 50  ratio = 2\n"),
+            std::string::npos);
   EXPECT_NE(text.find("values(10) = 10"), std::string::npos);
   EXPECT_NE(text.find("name = \"Sand, loose\""), std::string::npos);
 }

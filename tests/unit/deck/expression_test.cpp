@@ -36,7 +36,8 @@ TEST(Expression, ComparisonsAndLogic) {
 }
 
 TEST(Expression, MistakesAreErrors) {
-  for (const char* text : {"", "a.", "a.n +", "(a.n", "a.n a.n", "'open", "1 & 2", "a.unknown", "[x.n", "a.n == "})
+  for (const char* text :
+       {"", "a.", "a.n +", "(a.n", "a.n a.n", "'open", "1 & 2", "a.unknown", "[x.n", "a.n == "})
     EXPECT_THROW(value(text), ExpressionError) << text;
   EXPECT_THROW(value(std::string(1000, '(') + "1" + std::string(1000, ')')), ExpressionError);
 }

@@ -27,7 +27,8 @@ TEST(RealField, ImpliedDecimalsAreThoseOfTheFormat) {
   EXPECT_EQ(real("     12345", 3), 12.345);
   EXPECT_EQ(real("   12345.0", 3), 12345.0);
   EXPECT_EQ(real("        10", 5), 1e-4);  // the classic mistake
-  EXPECT_EQ(read_real_field("        10", {5, 0, BlankMode::null}).hints & hint_implied_point, hint_implied_point);
+  EXPECT_EQ(read_real_field("        10", {5, 0, BlankMode::null}).hints & hint_implied_point,
+            hint_implied_point);
 }
 
 TEST(RealField, IsCorrectlyRounded) {

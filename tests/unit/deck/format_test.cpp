@@ -60,7 +60,8 @@ TEST(Format, MistakesAreFoundAtTheirColumn) {
   EXPECT_NE(error_column("(99999(99999(99999(I5))))"), 0);
   EXPECT_NE(error_column("(*(X),I5)"), 0);
   EXPECT_NE(error_column(std::string(100, '(') + "I5" + std::string(100, ')')), 0);
-  EXPECT_EQ(error_column("(1X,I5 F10.0,1PE12.4E2,T3,TL2,TR1,BN,BZ,SP,SS,S,:,L1,A,A3,G10.3,ES9.2,EN9.2,D9.2)"), 0);
+  EXPECT_EQ(error_column("(1X,I5 F10.0,1PE12.4E2,T3,TL2,TR1,BN,BZ,SP,SS,S,:,L1,A,A3,G10.3,ES9.2,EN9.2,D9.2)"),
+            0);
 }
 
 TEST(FormattedRead, MovesWithinARecord) {

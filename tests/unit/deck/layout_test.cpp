@@ -42,7 +42,8 @@ TEST(Layout, EveryBuiltInLayoutLoads) {
 
 TEST(Layout, TheBuiltInCopyIsTheFile) {
   for (const std::string& name : built_in_layouts())
-    EXPECT_EQ(built_in_layout_text(name), file_text(SAGE_SOURCE_DIR "/legacy_inputs/layouts/" + name + ".toml"));
+    EXPECT_EQ(built_in_layout_text(name),
+              file_text(SAGE_SOURCE_DIR "/legacy_inputs/layouts/" + name + ".toml"));
 }
 
 TEST(Layout, LoadsFromAPath) {
@@ -75,14 +76,16 @@ TEST(Layout, MistakesNameTheirLine) {
             "5: field \"n\" is named twice in card \"a\"");
   EXPECT_EQ(complaint(head + "format = '(2I5)'\nfields = [{ name = 'n', count = 2 }, { name = 'm' }]\n"),
             "5: only the last field of a card can repeat (count)");
-  EXPECT_EQ(complaint(good + "[[card]]\nname = 'a'\nformat = '(I5)'\nfields = [{ name = 'n' }]\n").substr(0, 2), "6:");
+  EXPECT_EQ(complaint(good + "[[card]]\nname = 'a'\nformat = '(I5)'\nfields = [{ name = 'n' }]\n").substr(0, 2),
+            "6:");
   EXPECT_EQ(complaint("name = 'x'\nblanks = 'maybe'\n[[card]]\n"), "2: blanks must be \"null\" or \"zero\"");
 }
 
 TEST(Layout, AFieldTakesItsKindFromTheFormat) {
   const Layout layout = load_layout_text(
       "name = 'x'\n[[card]]\nname = 'a'\nformat = '(I5,F10.0,A3,L1)'\n"
-      "fields = [{ name = 'i' }, { name = 'r' }, { name = 't' }, { name = 'l' }]\n", "my.toml");
+      "fields = [{ name = 'i' }, { name = 'r' }, { name = 't' }, { name = 'l' }]\n",
+      "my.toml");
   const auto& fields = layout.cards[0].spec.fields;
   EXPECT_EQ(fields[0].kind, FieldKind::integer);
   EXPECT_EQ(fields[1].kind, FieldKind::real);
