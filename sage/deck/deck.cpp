@@ -26,8 +26,10 @@ std::string ruler(std::size_t columns) {
 std::string printable(std::string_view text) {
   std::string shown(text);
   for (char& c : shown)
-    if (c == '\t') c = ' ';
-    else if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
+    if (c == '\t')
+      c = ' ';
+    else if (static_cast<unsigned char>(c) < 32 || c == 127)
+      c = '?';
   return shown;
 }
 
@@ -60,7 +62,9 @@ CardView Deck::one(std::string_view name) const {
   return views.front();
 }
 
-bool Deck::has(std::string_view name) const { return !all(name).empty(); }
+bool Deck::has(std::string_view name) const {
+  return !all(name).empty();
+}
 
 std::string_view Deck::line_text(int line) const {
   if (!source || line < 1 || line > static_cast<int>(line_starts.size())) return {};
@@ -109,7 +113,9 @@ std::span<const FieldValue> CardView::list(std::string_view field) const {
   return {first, last_field ? static_cast<std::size_t>(end - first) : 1};
 }
 
-SourcePosition CardView::where() const { return {deck_->file, card().line, 0, 0}; }
+SourcePosition CardView::where() const {
+  return {deck_->file, card().line, 0, 0};
+}
 
 SourcePosition CardView::where(std::string_view field) const {
   const FieldValue* value = find(field);
@@ -126,7 +132,8 @@ std::string CardView::label(std::string_view field) const {
   return std::string(field);
 }
 
-Diagnostic card_diagnostic(const Deck& deck, Severity severity, const SourcePosition& where, std::string message) {
+Diagnostic card_diagnostic(const Deck& deck, Severity severity, const SourcePosition& where,
+                           std::string message) {
   Diagnostic diagnostic{severity, where, std::move(message), {}};
   if (where.line < 1 || where.line > static_cast<int>(deck.line_starts.size())) return diagnostic;
   constexpr std::size_t widest = 200;

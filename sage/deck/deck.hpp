@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <deque>
-#include <iosfwd>
 #include <memory>
 #include <span>
 #include <string>
@@ -59,10 +58,10 @@ class CardView;
 
 class Deck {
  public:
-  std::string file;                           // as given, for messages
-  std::string layout;                         // name of the layout that read it
-  std::shared_ptr<const std::string> source;  // the file's characters; keeps FieldValue::text alive
-  std::vector<std::size_t> line_starts;   // offset of each line in `source`
+  std::string file;                                      // as given, for messages
+  std::string layout;                                    // name of the layout that read it
+  std::shared_ptr<const std::string> source;             // the file's characters; keeps FieldValue::text alive
+  std::vector<std::size_t> line_starts;                  // offset of each line in `source`
   std::shared_ptr<const std::deque<std::string>> texts;  // free-format texts whose quotes had to be undoubled
   std::vector<CardSpec> specs;
   std::vector<Card> cards;  // in file order
@@ -109,21 +108,6 @@ class CardView {
   const Deck* deck_;
   int card_;
 };
-
-struct Layout;
-
-struct ReadOptions {
-  bool strict = false;   // warnings become errors
-  int shown = 50;        // errors (and as many warnings and notes) that are listed; the rest are counted
-};
-
-// Reads a whole deck.  Throws InputError with every mistake found in one pass.
-Deck read_deck(const std::string& path, const Layout& layout, const ReadOptions& options = {});
-Deck read_deck_text(std::string text, const std::string& name, const Layout& layout, const ReadOptions& options = {});
-
-// Every card as it was read: column ruler, the card, and its fields as name = value.
-void echo(const Deck& deck, std::ostream& out);
-std::string echo(const Deck& deck);
 
 // An error at a field, shown with the card and a caret line below it and the column ruler above it.
 Diagnostic card_diagnostic(const Deck& deck, Severity severity, const SourcePosition& where,

@@ -8,7 +8,7 @@ namespace sage {
 
 namespace {
 
-constexpr int most_errors = 1000;        // reading stops there
+constexpr int most_errors = 1000;  // reading stops there
 constexpr double largest_count = 1e9;
 
 std::string_view trimmed(std::string_view text) {
@@ -17,7 +17,9 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-bool all_blank(std::string_view text) { return text.find_first_not_of(" \t\x1a") == std::string_view::npos; }
+bool all_blank(std::string_view text) {
+  return text.find_first_not_of(" \t\x1a") == std::string_view::npos;
+}
 
 std::string lower_case(std::string_view text) {
   std::string lower(text);
@@ -56,7 +58,8 @@ Deck DeckReader::read() {
   return std::move(deck_);
 }
 
-// ---- The sequence of cards -------------------------------------------------------------------------------------
+// ---- The sequence of cards
+// -------------------------------------------------------------------------------------
 
 void DeckReader::read_entries(const std::vector<LayoutEntry>& entries, int owner) {
   for (const LayoutEntry& entry : entries) {
@@ -75,10 +78,18 @@ void DeckReader::read_entry(const LayoutEntry& entry, int owner) {
   for (int i = 0; i < entry.headings && !stopped_; ++i)
     if (!records_.next()) truncated(entry);
   switch (entry.run) {
-    case LayoutEntry::Run::once: read_one(entry, owner); break;
-    case LayoutEntry::Run::counted: read_counted(entry, owner); break;
-    case LayoutEntry::Run::named: read_named(entry, owner); break;
-    case LayoutEntry::Run::until: read_until(entry, owner); break;
+    case LayoutEntry::Run::once:
+      read_one(entry, owner);
+      break;
+    case LayoutEntry::Run::counted:
+      read_counted(entry, owner);
+      break;
+    case LayoutEntry::Run::named:
+      read_named(entry, owner);
+      break;
+    case LayoutEntry::Run::until:
+      read_until(entry, owner);
+      break;
   }
   run_ = outer;
 }
@@ -134,8 +145,8 @@ void DeckReader::read_one(const LayoutEntry& entry, int owner) {
 bool DeckReader::name_matches(const CardRule& rule) {
   const std::string_view line = records_.peek_line();
   const auto width = static_cast<std::size_t>(layout_.card_name_columns);
-  const bool named = line.size() >= width &&
-                     line.substr(width, layout_.card_separator.size()) == layout_.card_separator;
+  const bool named =
+      line.size() >= width && line.substr(width, layout_.card_separator.size()) == layout_.card_separator;
   const std::string_view name = trimmed(named ? line.substr(0, width) : line);
   const std::string& wanted = rule.spec.label;
   if (!wanted.empty() && wanted.back() == '*')
@@ -143,7 +154,8 @@ bool DeckReader::name_matches(const CardRule& rule) {
   return name == wanted;
 }
 
-// ---- Expressions ------------------------------------------------------------------------------------------------
+// ---- Expressions
+// ------------------------------------------------------------------------------------------------
 
 const FieldValue* DeckReader::field_value(int card, int field) const {
   int index = latest_[static_cast<std::size_t>(card)];
@@ -156,7 +168,8 @@ const FieldValue* DeckReader::field_value(int card, int field) const {
     first = static_cast<std::size_t>(read.first_value);
     count = static_cast<std::size_t>(read.value_count);
   }
-  return static_cast<std::size_t>(field) < count ? &deck_.values[first + static_cast<std::size_t>(field)] : nullptr;
+  return static_cast<std::size_t>(field) < count ? &deck_.values[first + static_cast<std::size_t>(field)]
+                                                 : nullptr;
 }
 
 ExpressionValue DeckReader::value_of(int card, int field) const {
@@ -176,7 +189,8 @@ bool DeckReader::count_of(const Expression& expression, const std::string& what,
   for (const ExpressionNode& node : expression.nodes) {
     if (node.kind != ExpressionNode::Kind::field) continue;
     const FieldValue* value = field_value(node.card, node.field);
-    if (value && std::binary_search(faulty_.begin(), faulty_.end(), static_cast<int>(value - deck_.values.data()))) {
+    if (value &&
+        std::binary_search(faulty_.begin(), faulty_.end(), static_cast<int>(value - deck_.values.data()))) {
       stop("the number of " + what + " is not known: reading stops here", records_.line());
       return false;
     }
@@ -190,8 +204,9 @@ bool DeckReader::count_of(const Expression& expression, const std::string& what,
   for (const ExpressionNode& node : expression.nodes)
     if (node.kind == ExpressionNode::Kind::field)
       if (const FieldValue* value = field_value(node.card, node.field)) where = log_.where(*value);
-  log_.add(Severity::error, where, "the number of " + what + " can't be " + quoted(std::to_string(number)) + " (" +
-                                       expression.source + ")");
+  log_.add(
+      Severity::error, where,
+      "the number of " + what + " can't be " + quoted(std::to_string(number)) + " (" + expression.source + ")");
   stopped_ = true;
   return false;
 }
@@ -202,13 +217,14 @@ std::string DeckReader::count_source(const Expression& expression) const {
     if (node.kind == ExpressionNode::Kind::field)
       if (const FieldValue* value = field_value(node.card, node.field)) {
         const CardRule& rule = rule_of(node.card);
-        return rule.spec.fields[static_cast<std::size_t>(node.field)].label + " of the " + rule.key + " card, line " +
-               std::to_string(value->line);
+        return rule.spec.fields[static_cast<std::size_t>(node.field)].label + " of the " + rule.key +
+               " card, line " + std::to_string(value->line);
       }
   return expression.source;
 }
 
-// ---- One card -----------------------------------------------------------------------------------------------------
+// ---- One card
+// -----------------------------------------------------------------------------------------------------
 
 void DeckReader::read_card(int index, int owner) {
   const CardRule& rule = rule_of(index);
@@ -325,7 +341,8 @@ void DeckReader::report_flaws(const CardRule& rule, const Card& card) {
   bool blanks_inside = false;
   for (const FieldFlaw& flaw : flaws_) {
     const auto at = static_cast<std::size_t>(flaw.value);
-    const std::size_t field = std::min(at - static_cast<std::size_t>(card.first_value), rule.spec.fields.size() - 1);
+    const std::size_t field =
+        std::min(at - static_cast<std::size_t>(card.first_value), rule.spec.fields.size() - 1);
     const int errors = log_.errors();
     FieldValue& value = deck_.values[at];
     // A map may take what isn't a number.
@@ -375,11 +392,13 @@ void DeckReader::apply_map(const CardRule& rule, std::size_t field, FieldValue& 
     }
   std::string known;
   for (const auto& [code, number] : rule.rules[field].map) known += (known.empty() ? "" : ", ") + code;
-  log_.add(Severity::error, log_.where(value),
-           quoted(text) + " is not a known code " + field_text(rule, rule.spec.fields[field]) + "; known: " + known);
+  log_.add(
+      Severity::error, log_.where(value),
+      quoted(text) + " is not a known code " + field_text(rule, rule.spec.fields[field]) + "; known: " + known);
 }
 
-// ---- What stands beyond the fields, and counts that don't fit -----------------------------------------------------
+// ---- What stands beyond the fields, and counts that don't fit
+// -----------------------------------------------------
 
 void DeckReader::check_rest(const CardRule& rule, const Card& card, std::size_t last_field_end) {
   const std::string_view beyond = records_.beyond();
@@ -389,7 +408,8 @@ void DeckReader::check_rest(const CardRule& rule, const Card& card, std::size_t 
     log_.add(Severity::note, {deck_.file, records_.line(), first, first + static_cast<int>(beyond.size()) - 1},
              "characters beyond column " + std::to_string(first - 1) + " are ignored (said once)");
   }
-  if (layout_.last_sequence_column > 0 && last_field_end >= static_cast<std::size_t>(layout_.first_sequence_column))
+  if (layout_.last_sequence_column > 0 &&
+      last_field_end >= static_cast<std::size_t>(layout_.first_sequence_column))
     check_sequence_number(rule, card, last_field_end);
   std::string_view record = records_.record();
   const auto sequence = static_cast<std::size_t>(layout_.first_sequence_column);
@@ -439,8 +459,9 @@ void DeckReader::suggest_count(const CardRule& rule, const Card& card) {
     if (earlier)
       hint += "is the count of " + rule_of(other).key + " cards too small?";
     else if (run_.wanted > 0)
-      hint += "is the count of " + rule.key + " cards too large? (" + std::to_string(run_.wanted) + " wanted: " +
-              count_source(run_.entry->count) + "; this is number " + std::to_string(run_.done + 1) + ")";
+      hint += "is the count of " + rule.key + " cards too large? (" + std::to_string(run_.wanted) +
+              " wanted: " + count_source(run_.entry->count) + "; this is number " +
+              std::to_string(run_.done + 1) + ")";
     else
       hint += "is a card missing?";
     return log_.add_hint(hint);
@@ -464,10 +485,12 @@ bool DeckReader::reads_well(const CardRule& rule, int line) const {
   }
   if (!flaws.empty()) return false;
   const std::size_t end = read.last_field_end();
-  return records.record().size() <= end || all_blank(records.record().substr(end, 72 - std::min<std::size_t>(end, 72)));
+  return records.record().size() <= end ||
+         all_blank(records.record().substr(end, 72 - std::min<std::size_t>(end, 72)));
 }
 
-// ---- The end ------------------------------------------------------------------------------------------------------
+// ---- The end
+// ------------------------------------------------------------------------------------------------------
 
 std::string DeckReader::card_name(const LayoutEntry& entry) const {
   const LayoutEntry* at = &entry;
@@ -497,18 +520,27 @@ void DeckReader::check_after_end() {
     if (all_blank(records_.record())) continue;
     const bool separator = !layout_.card_separator.empty();
     log_.add(separator ? Severity::error : Severity::warning, log_.line(records_.line()),
-             separator ? "this card has no place here" : "the deck is complete, but more lines follow: they are ignored");
+             separator ? "this card has no place here"
+                       : "the deck is complete, but more lines follow: they are ignored");
     return;
   }
 }
 
-// ---- Entry points ---------------------------------------------------------------------------------------------------
+// ---- Entry points
+// ---------------------------------------------------------------------------------------------------
 
-Deck read_deck_text(std::string text, const std::string& name, const Layout& layout, const ReadOptions& options) {
+Deck read_deck_text(std::string text, const std::string& name, const Layout& layout,
+                    const ReadOptions& options) {
   check_is_text(text, name);
   if (text.compare(0, 3, "\xef\xbb\xbf") == 0) text.erase(0, 3);  // an editor's mark, no part of column 1
   const SourceText source(std::move(text), name);
   return DeckReader(source, layout, options).read();
+}
+
+Layout layout_for(const std::string& path) {
+  const std::string text = read_file(path);
+  check_is_text(text, path);
+  return load_layout(detect_layout(text));
 }
 
 Deck read_deck(const std::string& path, const Layout& layout, const ReadOptions& options) {

@@ -9,8 +9,12 @@ namespace {
 
 using Kind = ExpressionNode::Kind;
 
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
 
 constexpr int max_depth = 50;
 
@@ -179,7 +183,8 @@ Expression compile_expression(std::string_view text, const FieldResolver& resolv
   return ExpressionParser(text, resolve).parse();
 }
 
-double evaluate(const Expression& expression, const std::function<ExpressionValue(int card, int field)>& value_of) {
+double evaluate(const Expression& expression,
+                const std::function<ExpressionValue(int card, int field)>& value_of) {
   struct Operand {
     ExpressionValue value;
     bool quoted = false;
@@ -208,18 +213,41 @@ double evaluate(const Expression& expression, const std::function<ExpressionValu
     const double x = a.value.number, y = b.value.number;
     double result = 0.0;
     switch (node.kind) {
-      case Kind::add: result = x + y; break;
-      case Kind::subtract: result = x - y; break;
-      case Kind::multiply: result = x * y; break;
-      case Kind::equal: result = same(a.value, b.value, a.quoted || b.quoted); break;
-      case Kind::unequal: result = !same(a.value, b.value, a.quoted || b.quoted); break;
-      case Kind::less: result = x < y; break;
-      case Kind::less_equal: result = x <= y; break;
-      case Kind::greater: result = x > y; break;
-      case Kind::greater_equal: result = x >= y; break;
-      case Kind::both: result = x != 0.0 && y != 0.0; break;
-      case Kind::either: result = x != 0.0 || y != 0.0; break;
-      default: break;
+      case Kind::add:
+        result = x + y;
+        break;
+      case Kind::subtract:
+        result = x - y;
+        break;
+      case Kind::multiply:
+        result = x * y;
+        break;
+      case Kind::equal:
+        result = same(a.value, b.value, a.quoted || b.quoted);
+        break;
+      case Kind::unequal:
+        result = !same(a.value, b.value, a.quoted || b.quoted);
+        break;
+      case Kind::less:
+        result = x < y;
+        break;
+      case Kind::less_equal:
+        result = x <= y;
+        break;
+      case Kind::greater:
+        result = x > y;
+        break;
+      case Kind::greater_equal:
+        result = x >= y;
+        break;
+      case Kind::both:
+        result = x != 0.0 && y != 0.0;
+        break;
+      case Kind::either:
+        result = x != 0.0 || y != 0.0;
+        break;
+      default:
+        break;
     }
     a = {{result, {}}, false};
   }

@@ -10,12 +10,27 @@
 namespace sage {
 
 struct ExpressionNode {
-  enum class Kind { number, text, field, negate, add, subtract, multiply, equal, unequal, less, less_equal, greater,
-                    greater_equal, both, either };
+  enum class Kind {
+    number,
+    text,
+    field,
+    negate,
+    add,
+    subtract,
+    multiply,
+    equal,
+    unequal,
+    less,
+    less_equal,
+    greater,
+    greater_equal,
+    both,
+    either
+  };
   Kind kind = Kind::number;
   double number = 0.0;
-  std::string text;       // of a quoted text
-  int card = -1;          // of a field: index into the layout's cards
+  std::string text;  // of a quoted text
+  int card = -1;     // of a field: index into the layout's cards
   int field = -1;
 };
 
@@ -43,6 +58,7 @@ using FieldResolver = std::function<void(std::string_view card, std::string_view
 Expression compile_expression(std::string_view text, const FieldResolver& resolve);
 
 // `value_of` gives the value of a field node.
-double evaluate(const Expression& expression, const std::function<ExpressionValue(int card, int field)>& value_of);
+double evaluate(const Expression& expression,
+                const std::function<ExpressionValue(int card, int field)>& value_of);
 
 }  // namespace sage

@@ -1,5 +1,6 @@
 #include "sage/deck/field.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -10,9 +11,15 @@ namespace sage {
 
 namespace {
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+constexpr int largest_free_exponent = 99999;
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+char lower(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
 
 std::size_t skip_blanks(std::string_view text, std::size_t i) {
   while (i < text.size() && text[i] == ' ') ++i;
@@ -73,7 +80,7 @@ bool read_not_finite(std::string_view text, double& value) {
 }
 
 // Exponent of a real field: blanks, sign, digits.  Sets the fault if it isn't one.
-int read_exponent(std::string_view text, std::size_t i, BlankMode blanks, FieldResult& result) {
+int read_exponent(std::string_view text, std::size_t i, NumberForm form, FieldResult& result) {
   i = skip_blanks(text, i);
   const bool negative = i < text.size() && text[i] == '-';
   if (i < text.size() && (text[i] == '-' || text[i] == '+')) ++i;
@@ -84,12 +91,13 @@ int read_exponent(std::string_view text, std::size_t i, BlankMode blanks, FieldR
   int exponent = 0;
   for (; i < text.size(); ++i) {
     const char c = text[i];
-    if (c == ' ' && blanks == BlankMode::null) continue;
+    if (c == ' ' && form.blanks == BlankMode::null) continue;
     if (!is_digit(c) && c != ' ') {
       result = fail(result, FieldFault::bad_character, i);
       return 0;
     }
     exponent = 10 * exponent + (c == ' ' ? 0 : c - '0');
+    if (form.free) exponent = std::min(exponent, largest_free_exponent);
     if (exponent > 999999) {
       result = fail(result, FieldFault::exponent_range, i);
       return 0;
@@ -167,7 +175,6 @@ FieldResult read_real_field(std::string_view text, NumberForm form) {
   if (text[i] == '-' || text[i] == '+') i = skip_blanks(text, i + 1);
   if (i == text.size()) {  // gfortran: a lone sign is zero
     result.hints |= hint_lone_mark;
-    result.value = negative ? -0.0 : 0.0;
     return result;
   }
   if (text.size() - i >= 3 && (lower(text[i]) == 'n' || lower(text[i]) == 'i')) {
@@ -209,13 +216,14 @@ FieldResult read_real_field(std::string_view text, NumberForm form) {
     }
   }
   int exponent = -form.scale;
-  if (has_exponent) exponent = read_exponent(text, i, form.blanks, result);
+  if (has_exponent) exponent = read_exponent(text, i, form, result);
   if (result.fault != FieldFault::none) return result;
   if (!point) {
     exponent -= form.decimals;
     if (form.decimals > 0 && !has_exponent) result.hints |= hint_implied_point;
   }
-  if (exponent >= 10000 || exponent <= -10000) return fail(result, FieldFault::exponent_range, text.size() - 1);
+  if (!form.free && (exponent >= 10000 || exponent <= -10000))
+    return fail(result, FieldFault::exponent_range, text.size() - 1);
   if (!digit) {
     result.hints |= hint_lone_mark;
     mantissa.push('0');
@@ -249,7 +257,7 @@ FieldResult read_free_number(std::string_view text, bool integer) {
     result = read_integer_field(text, BlankMode::null);
   } else {
     const bool letter_first = text.size() > (sign ? 1u : 0u) && !is_digit(text[sign]) && text[sign] != '.';
-    result = read_real_field(text, {});
+    result = read_real_field(text, {0, 0, BlankMode::null, true});
     if (letter_first && !(result.hints & hint_not_finite)) return fail(result, FieldFault::bad_character, sign);
     if (result.hints & hint_lone_mark) return fail(result, FieldFault::bad_character, 0);
   }
@@ -258,14 +266,22 @@ FieldResult read_free_number(std::string_view text, bool integer) {
 
 const char* fault_text(FieldFault fault) {
   switch (fault) {
-    case FieldFault::none: return "is right";
-    case FieldFault::bad_character: return "is not a number";
-    case FieldFault::second_point: return "is not a number";
-    case FieldFault::lone_sign: return "is a sign without a number";
-    case FieldFault::no_exponent: return "has an exponent letter without an exponent";
-    case FieldFault::exponent_range: return "has an exponent out of range";
-    case FieldFault::integer_range: return "is beyond the range of integers (2147483647)";
-    case FieldFault::no_value: return "is not a value of the kind wanted here";
+    case FieldFault::none:
+      return "is right";
+    case FieldFault::bad_character:
+      return "is not a number";
+    case FieldFault::second_point:
+      return "is not a number";
+    case FieldFault::lone_sign:
+      return "is a sign without a number";
+    case FieldFault::no_exponent:
+      return "has an exponent letter without an exponent";
+    case FieldFault::exponent_range:
+      return "has an exponent out of range";
+    case FieldFault::integer_range:
+      return "is beyond the range of integers (2147483647)";
+    case FieldFault::no_value:
+      return "is not a value of the kind wanted here";
   }
   return "is not a number";
 }

@@ -128,7 +128,8 @@ class FormatParser {
     add(Edit::group_end);
     bool data = false;
     for (std::size_t i = begin; i < end; ++i) data = data || is_data(format_.steps[i].edit);
-    if (!data && count == std::numeric_limits<int>::max()) fail("an unlimited group without a field never ends");
+    if (!data && count == std::numeric_limits<int>::max())
+      fail("an unlimited group without a field never ends");
     format_.steps[end].partner = static_cast<int>(begin);
     format_.steps[begin].partner = static_cast<int>(end);
   }
@@ -137,24 +138,37 @@ class FormatParser {
     const char c = peek();
     ++at_;
     switch (c) {
-      case 'I': return integer(count);
-      case 'F': return real(count, true);
-      case 'D': return real(count, true);
+      case 'I':
+        return integer(count);
+      case 'F':
+        return real(count, true);
+      case 'D':
+        return real(count, true);
       case 'E':
         if (peek() == 'S' || peek() == 'N') ++at_;
         return real(count, true);
-      case 'G': return general(count);
-      case 'L': return add(Edit::logical, count, needed_number("width of L"));
-      case 'A': return add(Edit::text, count, is_number() ? needed_number("width of A") : 0);
-      case 'X': return add(Edit::tab_by, 1, count);
-      case '/': return add(Edit::next_record, 1, count);
-      case ':': return add(Edit::stop);
-      case 'T': break;
-      case 'B': break;
+      case 'G':
+        return general(count);
+      case 'L':
+        return add(Edit::logical, count, needed_number("width of L"));
+      case 'A':
+        return add(Edit::text, count, is_number() ? needed_number("width of A") : 0);
+      case 'X':
+        return add(Edit::tab_by, 1, count);
+      case '/':
+        return add(Edit::next_record, 1, count);
+      case ':':
+        return add(Edit::stop);
+      case 'T':
+        break;
+      case 'B':
+        break;
       case 'S':
         if (peek() == 'P' || peek() == 'S') ++at_;
         return;  // signs of output: nothing to do when reading
-      default: --at_; fail(std::string("unexpected \"") + (c ? std::string(1, c) : std::string("end")) + "\"");
+      default:
+        --at_;
+        fail(std::string("unexpected \"") + (c ? std::string(1, c) : std::string("end")) + "\"");
     }
     if (counted) fail("a repeat count has no place here");
     c == 'T' ? tab() : blanks();
@@ -214,7 +228,9 @@ class FormatParser {
 
 }  // namespace
 
-Format compile_format(std::string_view text) { return FormatParser(text).parse(); }
+Format compile_format(std::string_view text) {
+  return FormatParser(text).parse();
+}
 
 const FormatStep& FormatWalker::next() {
   if (left_ > 0) {
@@ -224,7 +240,8 @@ const FormatStep& FormatWalker::next() {
   for (;;) {
     const FormatStep& step = steps_[at_];
     switch (step.edit) {
-      case Edit::end: return step;
+      case Edit::end:
+        return step;
       case Edit::group_begin:
         loops_[depth_++] = {at_, step.repeat - 1};
         ++at_;

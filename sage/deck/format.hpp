@@ -24,15 +24,15 @@ enum class Edit : std::uint8_t {
   scale,        // kP
   group_begin,
   group_end,
-  end           // the closing parenthesis of the FORMAT
+  end  // the closing parenthesis of the FORMAT
 };
 
 struct FormatStep {
   Edit edit = Edit::end;
-  int repeat = 1;    // data edits and groups
-  int width = 0;     // field width (0 = A without a width); columns of T and X; k of P
+  int repeat = 1;  // data edits and groups
+  int width = 0;   // field width (0 = A without a width); columns of T and X; k of P
   int decimals = 0;
-  int partner = 0;   // group_end: index of its group_begin, group_begin: index of its end
+  int partner = 0;  // group_end: index of its group_begin, group_begin: index of its end
 };
 
 class FormatError : public std::runtime_error {
@@ -44,7 +44,9 @@ class FormatError : public std::runtime_error {
   int column_;
 };
 
-inline bool is_data(Edit edit) { return edit <= Edit::text; }
+inline bool is_data(Edit edit) {
+  return edit <= Edit::text;
+}
 
 struct Format {
   std::string text;
@@ -53,7 +55,8 @@ struct Format {
   bool reversion_has_data = false;
 };
 
-// Throws FormatError.  Blanks are insignificant, letters of either case, commas may be left out as gfortran allows.
+// Throws FormatError.  Blanks are insignificant, letters of either case, commas may be left out as gfortran
+// allows.
 Format compile_format(std::string_view text);
 
 // Hands out the steps of a FORMAT one after the other, with repeats and groups unrolled.

@@ -22,11 +22,12 @@ std::string named_layout(std::string_view first_line) {
 }
 
 bool has_marks(const Layout& layout, const SourceText& deck) {
-  return !layout.marks.empty() && std::all_of(layout.marks.begin(), layout.marks.end(), [&](const LayoutMark& mark) {
-    const std::string_view line = deck.line(mark.line);
-    const auto column = static_cast<std::size_t>(mark.column) - 1;
-    return column < line.size() && line.substr(column, mark.text.size()) == mark.text;
-  });
+  return !layout.marks.empty() &&
+         std::all_of(layout.marks.begin(), layout.marks.end(), [&](const LayoutMark& mark) {
+           const std::string_view line = deck.line(mark.line);
+           const auto column = static_cast<std::size_t>(mark.column) - 1;
+           return column < line.size() && line.substr(column, mark.text.size()) == mark.text;
+         });
 }
 
 }  // namespace
@@ -50,8 +51,8 @@ Layout load_layout(const std::string& path_or_name) {
   if (path) return load_layout_text(read_file(path_or_name), path_or_name);
   std::string known;
   for (const std::string& name : built_in_layouts()) known += (known.empty() ? "" : ", ") + name;
-  throw InputError({path_or_name, 0, 0, 0}, "no layout of this name is built in (known: " + known +
-                                                "); give the path of a layout file");
+  throw InputError({path_or_name, 0, 0, 0},
+                   "no layout of this name is built in (known: " + known + "); give the path of a layout file");
 }
 
 std::string detect_layout(std::string_view deck_text) {

@@ -16,10 +16,11 @@ namespace sage {
 
 // What a layout says of a field beyond the FieldSpec.
 struct FieldRule {
-  std::string codes;                                 // allowed codes, for the manual: "1 plane strain, 2 axisymmetric"
-  std::vector<std::pair<std::string, double>> map;   // foreign code -> ours; keys are the field's trimmed characters
-  std::string must_equal;                            // the card is wrong unless the field reads this
-  Expression count;                                  // how many values the last field repeats; empty = one
+  std::string codes;  // allowed codes, for the manual: "1 plane strain, 2 axisymmetric"
+  std::vector<std::pair<std::string, double>>
+      map;                 // foreign code -> ours; keys are the field's trimmed characters
+  std::string must_equal;  // the card is wrong unless the field reads this
+  Expression count;        // how many values the last field repeats; empty = one
 };
 
 struct CardRule {
@@ -29,10 +30,10 @@ struct CardRule {
   std::vector<FieldRule> rules;  // one a field of spec.fields
   bool list_directed = false;
   Format format;
-  int items_card = -1;           // the cards that the rest of this READ makes, one an item; -1 = none
+  int items_card = -1;  // the cards that the rest of this READ makes, one an item; -1 = none
   Expression items_count;
   bool is_item = false;
-  int line = 0;                  // of the layout file
+  int line = 0;  // of the layout file
 };
 
 // One entry of the sequence of cards: a card, or a block of entries read together.
@@ -42,11 +43,11 @@ struct LayoutEntry {
   std::vector<LayoutEntry> entries;  // of a block
   bool opens = false;                // the cards after it in its block belong to it
   Run run = Run::once;
-  Expression when;                   // read only if true
-  Expression count;                  // Run::counted
-  Expression until;                  // Run::until: the run ends after the card for which it is true
-  bool drop_last = false;            // that card only ends the run and is not kept
-  int headings = 0;                  // lines before the first card of the run that are passed over
+  Expression when;         // read only if true
+  Expression count;        // Run::counted
+  Expression until;        // Run::until: the run ends after the card for which it is true
+  bool drop_last = false;  // that card only ends the run and is not kept
+  int headings = 0;        // lines before the first card of the run that are passed over
   int line = 0;
 };
 
@@ -63,8 +64,8 @@ struct Layout {
   int first_sequence_column = 0, last_sequence_column = 0;  // 0 = the layout has none
   std::string card_separator;  // "!!" between the card's name and the record; empty = cards have no names
   int card_name_columns = 0;
-  std::string introduction, closing, example;               // for the manual
-  std::vector<LayoutMark> marks;                            // all must be found
+  std::string introduction, closing, example;  // for the manual
+  std::vector<LayoutMark> marks;               // all must be found
   std::vector<CardRule> cards;
   std::vector<LayoutEntry> entries;
 };

@@ -16,8 +16,9 @@ class LayoutReader {
 
   Layout read() {
     layout_.file = file_;
-    known_keys(root_, {"name", "title", "blanks", "comment", "record_length", "sequence_columns", "card_separator",
-                       "card_name_columns", "introduction", "closing", "example", "marks", "card"});
+    known_keys(root_,
+               {"name", "title", "blanks", "comment", "record_length", "sequence_columns", "card_separator",
+                "card_name_columns", "introduction", "closing", "example", "marks", "card"});
     layout_.name = text(root_, "name", true);
     layout_.title = text(root_, "title");
     layout_.introduction = text(root_, "introduction");
@@ -82,7 +83,8 @@ class LayoutReader {
     layout_.card_separator = text(root_, "card_separator");
     layout_.card_name_columns = integer(root_, "card_name_columns", 0, 0, 1000);
     if (!layout_.card_separator.empty())
-      layout_.records.skip_columns = layout_.card_name_columns + static_cast<int>(layout_.card_separator.size());
+      layout_.records.skip_columns =
+          layout_.card_name_columns + static_cast<int>(layout_.card_separator.size());
     layout_.records.separator = layout_.card_separator;
     if (const toml::node* node = root_.get("sequence_columns")) {
       const toml::array* pair = node->as_array();
@@ -102,8 +104,8 @@ class LayoutReader {
       const toml::table* table = entry.as_table();
       if (!table) fail(entry, "a mark is {line, column, text}");
       known_keys(*table, {"line", "column", "text"});
-      layout_.marks.push_back(
-          {integer(*table, "line", 1, 1, 1000), integer(*table, "column", 1, 1, 1000), text(*table, "text", true)});
+      layout_.marks.push_back({integer(*table, "line", 1, 1, 1000), integer(*table, "column", 1, 1, 1000),
+                               text(*table, "text", true)});
     }
   }
 
@@ -117,8 +119,8 @@ class LayoutReader {
   }
 
   LayoutEntry read_entry(const toml::table& table, int depth) {
-    known_keys(table, {"name", "as", "label", "about", "format", "fields", "items", "block", "card", "opens", "repeat",
-                       "until", "until_dropped", "when", "headings"});
+    known_keys(table, {"name", "as", "label", "about", "format", "fields", "items", "block", "card", "opens",
+                       "repeat", "until", "until_dropped", "when", "headings"});
     LayoutEntry entry;
     entry.line = static_cast<int>(table.source().begin.line);
     const bool block = table.contains("block");
@@ -150,7 +152,8 @@ class LayoutReader {
     if (repeat) {
       const toml::node& node = *table.get("repeat");
       if (node.value_exact<std::string>() == "named") {
-        if (layout_.card_separator.empty()) fail(node, "repeat = \"named\" needs cards with names (card_separator)");
+        if (layout_.card_separator.empty())
+          fail(node, "repeat = \"named\" needs cards with names (card_separator)");
         entry.run = LayoutEntry::Run::named;
       } else {
         entry.run = LayoutEntry::Run::counted;
@@ -169,7 +172,8 @@ class LayoutReader {
   // The first card of a block opens it unless another says so.
   void finish_block(const toml::table& table, LayoutEntry& entry) {
     if (table.contains("until") || table.contains("until_dropped")) read_until(table, entry);
-    const bool chosen = std::any_of(entry.entries.begin(), entry.entries.end(), [](auto& e) { return e.opens; });
+    const bool chosen =
+        std::any_of(entry.entries.begin(), entry.entries.end(), [](auto& e) { return e.opens; });
     if (!chosen) entry.entries.front().opens = true;
     for (const LayoutEntry& inner : entry.entries)
       if (inner.opens && (inner.card < 0 || inner.run != LayoutEntry::Run::once))
@@ -213,7 +217,8 @@ class LayoutReader {
   void read_fields(const toml::table& table, CardRule& card) {
     const toml::node* node = table.get("fields");
     const toml::array* fields = node ? node->as_array() : nullptr;
-    if (!fields || fields->empty()) fail(node ? *node : table, "card \"" + card.key + "\" needs fields = [ ... ]");
+    if (!fields || fields->empty())
+      fail(node ? *node : table, "card \"" + card.key + "\" needs fields = [ ... ]");
     for (const toml::node& entry : *fields) {
       const toml::table* field = entry.as_table();
       if (!field) fail(entry, "a field is { name = ..., ... }");
@@ -224,12 +229,14 @@ class LayoutReader {
   }
 
   void read_field(const toml::table& table, CardRule& card) {
-    known_keys(table, {"name", "label", "unit", "kind", "required", "default", "codes", "map", "equals", "count"});
+    known_keys(table,
+               {"name", "label", "unit", "kind", "required", "default", "codes", "map", "equals", "count"});
     FieldSpec spec;
     FieldRule rule;
     spec.name = text(table, "name", true);
     for (const FieldSpec& other : card.spec.fields)
-      if (other.name == spec.name) fail(table, "field \"" + spec.name + "\" is named twice in card \"" + card.key + "\"");
+      if (other.name == spec.name)
+        fail(table, "field \"" + spec.name + "\" is named twice in card \"" + card.key + "\"");
     spec.label = table.contains("label") ? text(table, "label") : spec.name;
     spec.unit = text(table, "unit");
     spec.kind = field_kind(table, card);
@@ -266,7 +273,8 @@ class LayoutReader {
     for (int passes = 0;;) {
       const FormatStep& step = walker.next();
       if (step.edit == Edit::end) {
-        if (!card.format.reversion_has_data || ++passes > 10000) fail(table, "the FORMAT has no field for this");
+        if (!card.format.reversion_has_data || ++passes > 10000)
+          fail(table, "the FORMAT has no field for this");
         walker.revert();
       }
       if (!is_data(step.edit)) continue;
@@ -297,7 +305,8 @@ class LayoutReader {
     for (int guard = 0; field < card.spec.fields.size(); ++guard) {
       const FormatStep& step = walker.next();
       if (step.edit == Edit::end) {
-        if (!card.format.reversion_has_data || guard > 100000) fail(table, "the FORMAT has fewer fields than the card");
+        if (!card.format.reversion_has_data || guard > 100000)
+          fail(table, "the FORMAT has fewer fields than the card");
         walker.revert();
       }
       if (!is_data(step.edit)) continue;
@@ -342,9 +351,8 @@ class LayoutReader {
     if (!source) fail(node, "\"" + std::string(key) + "\" must be a number or an expression in quotes");
     const int bare = own >= 0 ? own : bare_card_;
     try {
-      return compile_expression(*source, [&](std::string_view card, std::string_view field, ExpressionNode& found) {
-        resolve(card, field, bare, found);
-      });
+      return compile_expression(*source, [&](std::string_view card, std::string_view field,
+                                             ExpressionNode& found) { resolve(card, field, bare, found); });
     } catch (const ExpressionError& error) {
       fail(node, error.what());
     }
@@ -360,8 +368,8 @@ class LayoutReader {
         found.field = static_cast<int>(i);
         return;
       }
-    throw ExpressionError("card \"" + layout_.cards[static_cast<std::size_t>(index)].key + "\" has no field \"" +
-                          std::string(field) + "\"");
+    throw ExpressionError("card \"" + layout_.cards[static_cast<std::size_t>(index)].key +
+                          "\" has no field \"" + std::string(field) + "\"");
   }
 
   const toml::table& root_;
@@ -377,8 +385,9 @@ Layout load_layout_text(std::string_view toml_text, const std::string& file) {
     const toml::table root = toml::parse(toml_text, file);
     return LayoutReader(root, file).read();
   } catch (const toml::parse_error& error) {
-    throw InputError({file, static_cast<int>(error.source().begin.line), static_cast<int>(error.source().begin.column), 0},
-                     std::string(error.description()));
+    throw InputError(
+        {file, static_cast<int>(error.source().begin.line), static_cast<int>(error.source().begin.column), 0},
+        std::string(error.description()));
   }
 }
 

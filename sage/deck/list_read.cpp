@@ -8,9 +8,17 @@ namespace sage {
 
 namespace {
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_space(char c) { return c == ' ' || c == '\t'; }
-bool is_separator(char c) { return is_space(c) || c == ',' || c == ';' || c == '/' || c == '\n'; }
+constexpr int largest_repeat = 200000000;  // gfortran's own limit
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+bool is_space(char c) {
+  return c == ' ' || c == '\t';
+}
+bool is_separator(char c) {
+  return is_space(c) || c == ',' || c == ';' || c == '/' || c == '\n';
+}
 
 std::uint16_t column(std::size_t c) {
   return static_cast<std::uint16_t>(std::min<std::size_t>(c, std::numeric_limits<std::uint16_t>::max()));
@@ -63,7 +71,7 @@ bool ListRead::take_repeat_count(FieldResult& result) {
   const FieldResult count = read_integer_field(record_.substr(position_, end - position_), BlankMode::null);
   position_ = end + 1;
   repeats_ = static_cast<int>(count.value);
-  if (repeats_ < 1) {
+  if (repeats_ < 1 || repeats_ > largest_repeat) {
     result.fault = FieldFault::no_value;
     repeats_ = 1;
   }
@@ -137,10 +145,18 @@ ReadEnd ListRead::next_token(FieldKind kind, Token& token, FieldResult& result) 
 FieldResult ListRead::convert(const Token& token, FieldKind kind) const {
   FieldResult result;
   switch (kind) {
-    case FieldKind::integer: result = read_free_number(token.text, true); break;
-    case FieldKind::real: result = read_free_number(token.text, false); break;
-    case FieldKind::logical: result = read_logical_field(token.text); break;
-    case FieldKind::text: result.blank = token.text.find_first_not_of(' ') == std::string_view::npos; break;
+    case FieldKind::integer:
+      result = read_free_number(token.text, true);
+      break;
+    case FieldKind::real:
+      result = read_free_number(token.text, false);
+      break;
+    case FieldKind::logical:
+      result = read_logical_field(token.text);
+      break;
+    case FieldKind::text:
+      result.blank = token.text.find_first_not_of(' ') == std::string_view::npos;
+      break;
   }
   return result;
 }
@@ -165,7 +181,7 @@ ReadEnd ListRead::read(FieldKind kind, std::vector<FieldValue>& values, std::vec
   const std::size_t offset = static_cast<std::size_t>(source_.skipped()) + token_.first;
   value.first_column = column(offset + 1);
   value.last_column = column(offset + std::max<std::size_t>(token_.text.size() + (token_.quoted ? 2 : 0), 1));
-  if (token_.null) return ReadEnd::complete;
+  if (token_.null && result.fault == FieldFault::none) return ReadEnd::complete;
   if (result.fault == FieldFault::none) result = convert(token_, kind);
   if (again && kind != token_kind_) result.fault = FieldFault::no_value;  // "2*1" into an integer and a real
   value.number = result.value;

@@ -7,7 +7,9 @@ namespace sage {
 
 namespace {
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
 
 // Blank ends taken off, so that the message shows the number and not its field.
 std::string_view trimmed(std::string_view text) {
@@ -23,7 +25,8 @@ std::string character_hint(std::string_view text, std::size_t at, FieldKind kind
   if (c == '\t') return "a tab counts as one column: replace tabs by blanks";
   if (static_cast<unsigned char>(c) >= 128) return "a character that is not plain ASCII (a no-break space?)";
   if (static_cast<unsigned char>(c) < 32) return "a control character stands in the field";
-  if ((c == 'O' || c == 'o') && (digits || text.size() <= 5)) return "the letter O stands where the digit 0 may be meant";
+  if ((c == 'O' || c == 'o') && (digits || text.size() <= 5))
+    return "the letter O stands where the digit 0 may be meant";
   if ((c == 'l' || c == 'I') && (digits || text.size() <= 5))
     return "the letter " + std::string(1, c) + " stands where the digit 1 may be meant";
   if (kind == FieldKind::integer && (c == '.' || c == 'E' || c == 'e') && digits)
@@ -63,10 +66,12 @@ void ReadLog::add_hint(const std::string& hint) {
   if (last_shown_ && !list_.empty()) list_.back().detail.push_back("note: " + hint);
 }
 
-void ReadLog::flaw(const CardRule& card, const FieldSpec& field, const FieldValue& value, const FieldFlaw& flaw) {
+void ReadLog::flaw(const CardRule& card, const FieldSpec& field, const FieldValue& value,
+                   const FieldFlaw& flaw) {
   if (flaw.fault != FieldFault::none) {
     const char* what = fault_text(flaw.fault);
-    if (field.kind == FieldKind::integer && (flaw.fault == FieldFault::bad_character)) what = "is not an integer";
+    if (field.kind == FieldKind::integer && (flaw.fault == FieldFault::bad_character))
+      what = "is not an integer";
     if (field.kind == FieldKind::logical) what = "is not T or F";
     if (field.kind == FieldKind::text) what = "is not a text in quotes";
     add(Severity::error, where(value), quoted(trimmed(value.text)) + " " + what + " " + field_text(card, field),
@@ -88,23 +93,23 @@ void ReadLog::hints(const CardRule& card, const FieldSpec& field, const FieldVal
   if (hints & hint_comma)
     add(Severity::warning, at, "a comma ended the field after " + text + place,
         "the fields behind it start right after the comma, not at their columns");
-  if (hints & hint_lone_mark)
-    add(Severity::warning, at, text + " has no digit and reads as 0" + place);
+  if (hints & hint_lone_mark) add(Severity::warning, at, text + " has no digit and reads as 0" + place);
   if (hints & hint_cut)
     add(Severity::warning, at, "the card ends inside the field of " + text + place,
         "blanks count as zeros in this layout; were blanks at the card's end cut off by an editor?");
-  if (hints & hint_trailing_blank)
-    add(Severity::note, at, "blanks behind " + text + " count as zeros" + place);
+  if (hints & hint_trailing_blank) add(Severity::note, at, "blanks behind " + text + " count as zeros" + place);
   if (hints & hint_implied_point)
-    add(Severity::note, at, text + " has no point: its last digits are taken as decimals, " +
-                                card.spec.format + place);
+    add(Severity::note, at,
+        text + " has no point: its last digits are taken as decimals, " + card.spec.format + place);
 }
 
 void ReadLog::finish() {
   const auto more = [&](int count, Severity severity, const char* what) {
     if (count <= options_.shown) return;
-    list_.push_back({severity, {deck_.file, 0, 0, 0},
-                     "and " + std::to_string(count - options_.shown) + " more " + what, {}});
+    list_.push_back({severity,
+                     {deck_.file, 0, 0, 0},
+                     "and " + std::to_string(count - options_.shown) + " more " + what,
+                     {}});
   };
   more(errors_, Severity::error, "errors");
   more(warnings_, Severity::warning, "warnings");

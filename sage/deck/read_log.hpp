@@ -3,8 +3,7 @@
 
 #include <string>
 
-#include "sage/deck/deck.hpp"
-#include "sage/deck/layout.hpp"
+#include "sage/deck/read_deck.hpp"
 #include "sage/deck/record.hpp"
 
 namespace sage {

@@ -14,17 +14,22 @@ std::uint16_t column(std::size_t c) {
 // The separator stands right before the record proper.
 bool has_separator(std::string_view line, const RecordRules& rules) {
   const auto skip = static_cast<std::size_t>(rules.skip_columns);
-  return line.size() >= skip && line.substr(skip - rules.separator.size(), rules.separator.size()) == rules.separator;
+  return line.size() >= skip &&
+         line.substr(skip - rules.separator.size(), rules.separator.size()) == rules.separator;
 }
 
 }  // namespace
 
 bool edit_fits(Edit edit, FieldKind kind) {
   switch (kind) {
-    case FieldKind::integer: return edit == Edit::integer || edit == Edit::general;
-    case FieldKind::real: return edit == Edit::real || edit == Edit::general;
-    case FieldKind::logical: return edit == Edit::logical || edit == Edit::general;
-    case FieldKind::text: return edit == Edit::text || edit == Edit::general;
+    case FieldKind::integer:
+      return edit == Edit::integer || edit == Edit::general;
+    case FieldKind::real:
+      return edit == Edit::real || edit == Edit::general;
+    case FieldKind::logical:
+      return edit == Edit::logical || edit == Edit::general;
+    case FieldKind::text:
+      return edit == Edit::text || edit == Edit::general;
   }
   return false;
 }
@@ -60,9 +65,13 @@ bool RecordSource::next() {
   return true;
 }
 
-bool RecordSource::at_end() const { return skip_comments(line_ + 1) > source_->line_count(); }
+bool RecordSource::at_end() const {
+  return skip_comments(line_ + 1) > source_->line_count();
+}
 
-std::string_view RecordSource::peek_line() const { return source_->line(skip_comments(line_ + 1)); }
+std::string_view RecordSource::peek_line() const {
+  return source_->line(skip_comments(line_ + 1));
+}
 
 ReadEnd FormattedRead::new_record() {
   position_ = 0;
@@ -78,7 +87,9 @@ ReadEnd FormattedRead::new_record() {
 // Everything of a FORMAT that moves no data.
 ReadEnd FormattedRead::control(const FormatStep& step) {
   switch (step.edit) {
-    case Edit::tab_to: position_ = static_cast<std::size_t>(step.width) - 1; break;
+    case Edit::tab_to:
+      position_ = static_cast<std::size_t>(step.width) - 1;
+      break;
     case Edit::tab_by:
       if (step.width < 0 && position_ < static_cast<std::size_t>(-step.width))
         position_ = 0;
@@ -89,10 +100,17 @@ ReadEnd FormattedRead::control(const FormatStep& step) {
       for (int i = 0; i < step.width; ++i)
         if (const ReadEnd end = new_record(); end != ReadEnd::complete) return end;
       break;
-    case Edit::blanks_null: blanks_ = BlankMode::null; break;
-    case Edit::blanks_zero: blanks_ = BlankMode::zero; break;
-    case Edit::scale: scale_ = step.width; break;
-    default: break;
+    case Edit::blanks_null:
+      blanks_ = BlankMode::null;
+      break;
+    case Edit::blanks_zero:
+      blanks_ = BlankMode::zero;
+      break;
+    case Edit::scale:
+      scale_ = step.width;
+      break;
+    default:
+      break;
   }
   return ReadEnd::complete;
 }
@@ -127,10 +145,18 @@ void FormattedRead::take_field(const FormatStep& step, FieldKind kind, int text_
     value.last_column = column(offset + field.size());
   }
   switch (kind) {
-    case FieldKind::integer: result = read_integer_field(field, blanks_); break;
-    case FieldKind::real: result = read_real_field(field, {step.decimals, scale_, blanks_}); break;
-    case FieldKind::logical: result = read_logical_field(field); break;
-    case FieldKind::text: result.blank = field.find_first_not_of(' ') == std::string_view::npos; break;
+    case FieldKind::integer:
+      result = read_integer_field(field, blanks_);
+      break;
+    case FieldKind::real:
+      result = read_real_field(field, {step.decimals, scale_, blanks_});
+      break;
+    case FieldKind::logical:
+      result = read_logical_field(field);
+      break;
+    case FieldKind::text:
+      result.blank = field.find_first_not_of(' ') == std::string_view::npos;
+      break;
   }
   if (kind == FieldKind::text && text_length > 0 && width > static_cast<std::size_t>(text_length)) {
     const std::size_t drop = std::min(field.size(), width - static_cast<std::size_t>(text_length));
@@ -152,7 +178,8 @@ ReadEnd FormattedRead::read(FieldKind kind, std::vector<FieldValue>& values, std
       if (!edit_fits(step.edit, kind)) return ReadEnd::wrong_edit;
       const std::size_t left = position_ < record_.size() ? record_.size() - position_ : 0;
       const auto width = static_cast<std::size_t>(step.width);
-      if (!source_.rules().pad && left < width && record_.substr(record_.size() - left).find(',') == std::string::npos)
+      if (!source_.rules().pad && left < width &&
+          record_.substr(record_.size() - left).find(',') == std::string::npos)
         return ReadEnd::end_of_record;
       FieldResult result;
       take_field(step, kind, text_length, values.emplace_back(), result);

@@ -16,11 +16,11 @@ namespace sage {
 
 // Where records begin and end, and which lines are none.
 struct RecordRules {
-  char comment = '\0';      // lines that start with it are skipped; '\0' = no comments
-  int skip_columns = 0;     // characters before the record proper: a card's name and the separator
-  std::string separator;    // ends those characters; lines without it there are records as a whole
-  int record_length = 0;    // columns beyond are not read; 0 = no limit
-  bool pad = true;          // short records read as if blanks followed
+  char comment = '\0';    // lines that start with it are skipped; '\0' = no comments
+  int skip_columns = 0;   // characters before the record proper: a card's name and the separator
+  std::string separator;  // ends those characters; lines without it there are records as a whole
+  int record_length = 0;  // columns beyond are not read; 0 = no limit
+  bool pad = true;        // short records read as if blanks followed
   BlankMode blanks = BlankMode::null;
 };
 
@@ -63,7 +63,14 @@ struct FieldFlaw {
   std::uint16_t at = 0;
 };
 
-enum class ReadEnd : std::uint8_t { complete, end_of_file, end_of_record, wrong_edit, format_exhausted, ended_by_slash };
+enum class ReadEnd : std::uint8_t {
+  complete,
+  end_of_file,
+  end_of_record,
+  wrong_edit,
+  format_exhausted,
+  ended_by_slash
+};
 
 // One READ statement: begin, as many values as wanted, finish.
 class FormattedRead {
@@ -72,8 +79,10 @@ class FormattedRead {
       : source_(source), walker_(format), format_(format), blanks_(source.rules().blanks) {}
 
   ReadEnd begin() { return new_record(); }
-  // Appends one value.  text_length: characters that the variable holds, for A without a width (0 = rest of record).
-  ReadEnd read(FieldKind kind, std::vector<FieldValue>& values, std::vector<FieldFlaw>& flaws, int text_length = 0);
+  // Appends one value.  text_length: characters that the variable holds, for A without a width (0 = rest of
+  // record).
+  ReadEnd read(FieldKind kind, std::vector<FieldValue>& values, std::vector<FieldFlaw>& flaws,
+               int text_length = 0);
   // Format control after the last value: trailing slashes, then the rest of the record is passed over.
   ReadEnd finish();
   std::size_t position() const { return position_; }  // columns of the present record used so far
@@ -83,7 +92,8 @@ class FormattedRead {
  private:
   ReadEnd new_record();
   ReadEnd control(const FormatStep& step);
-  void take_field(const FormatStep& step, FieldKind kind, int text_length, FieldValue& value, FieldResult& result);
+  void take_field(const FormatStep& step, FieldKind kind, int text_length, FieldValue& value,
+                  FieldResult& result);
   std::string_view cut_field(std::size_t width, bool numeric, bool& comma);
 
   RecordSource& source_;

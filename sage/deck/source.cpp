@@ -35,7 +35,9 @@ std::vector<std::size_t> find_lines(std::string_view text) {
 }  // namespace
 
 SourceText::SourceText(std::string text, std::string name)
-    : name_(std::move(name)), text_(std::make_shared<const std::string>(std::move(text))), starts_(find_lines(*text_)) {}
+    : name_(std::move(name)),
+      text_(std::make_shared<const std::string>(std::move(text))),
+      starts_(find_lines(*text_)) {}
 
 std::string_view line_at(std::string_view text, std::size_t start) {
   const char* begin = text.data() + start;
@@ -54,7 +56,8 @@ std::string_view SourceText::line(int number) const {
 
 std::string read_file(const std::string& path) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw InputError({path, 0, 0, 0}, "is a directory, not a file");
+  if (std::filesystem::is_directory(path, ignored))
+    throw InputError({path, 0, 0, 0}, "is a directory, not a file");
   const std::unique_ptr<std::FILE, FileCloser> file(std::fopen(path.c_str(), "rb"));
   if (!file) throw InputError({path, 0, 0, 0}, std::string("can't be opened: ") + std::strerror(errno));
   std::string text;
@@ -68,7 +71,8 @@ std::string read_file(const std::string& path) {
     if (got < room) break;
     room = text.size();
   }
-  if (std::ferror(file.get())) throw InputError({path, 0, 0, 0}, std::string("can't be read: ") + std::strerror(errno));
+  if (std::ferror(file.get()))
+    throw InputError({path, 0, 0, 0}, std::string("can't be read: ") + std::strerror(errno));
   return text;
 }
 
@@ -80,8 +84,8 @@ void check_is_text(std::string_view text, const std::string& name) {
   if (nul == std::string_view::npos) return;
   const bool wide = text.size() > 1 && (text.substr(0, 2) == "\xff\xfe" || text.substr(0, 2) == "\xfe\xff");
   throw InputError({name, 0, 0, 0}, wide ? "the file is UTF-16 text: save it as plain ASCII or UTF-8"
-                                         : "the file is binary (a NUL character at byte " + std::to_string(nul + 1) +
-                                               "), not a deck of cards");
+                                         : "the file is binary (a NUL character at byte " +
+                                               std::to_string(nul + 1) + "), not a deck of cards");
 }
 
 }  // namespace sage
