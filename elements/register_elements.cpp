@@ -1,7 +1,37 @@
 #include "elements/register_elements.hpp"
 
+#include <utility>
+
+#include "elements/entries.hpp"
+
 namespace sage {
 
-void register_elements(Catalogue& /*catalogue*/) {}
+ElementEntry element_entry(std::string name, std::string summary, int nodes, int corners, int law_size,
+                           std::vector<Choice> choices) {
+  ElementEntry entry{std::move(name), std::move(summary), nodes, corners, law_size, {}, {}};
+  for (const Choice& choice : choices) entry.formulations.push_back(choice.formulation);
+  entry.make = [name = entry.name, choices = std::move(choices)](Geometry geometry, int code) {
+    if (code == 0) return choices.front().make(geometry);
+    std::string known;
+    for (const Choice& choice : choices) {
+      if (choice.formulation.code == code) return choice.make(geometry);
+      known +=
+          (known.empty() ? "" : ", ") + std::to_string(choice.formulation.code) + " " + choice.formulation.name;
+    }
+    throw ParameterError(-1, name + ": formulation " + std::to_string(code) + " unknown; known: " + known);
+  };
+  return entry;
+}
+
+void register_elements(Catalogue& catalogue) {
+  catalogue.elements.add(1, quad4_entry());
+  catalogue.elements.add(2, quad8_entry());
+  catalogue.elements.add(3, tri3_entry());
+  catalogue.elements.add(4, tri6_entry());
+  catalogue.elements.add(5, quad9_entry());
+  catalogue.elements.add(6, tri15_entry());
+  catalogue.elements.add(11, interface4_entry());
+  catalogue.elements.add(12, interface6_entry());
+}
 
 }  // namespace sage

@@ -1,6 +1,8 @@
 // Isotropic linear elasticity in bulk and shear modulus, so that nu -> 1/2 loses no more than K/G does.
+// docs/theory/linear_elastic.md
 #pragma once
 
+#include "materials/parameters.hpp"
 #include "sage/core/law.hpp"
 
 namespace sage {
@@ -11,6 +13,9 @@ struct ElasticModuli {
 
 // From Young's modulus and Poisson's ratio: K = E/3(1-2nu), G = E/2(1+nu).
 ElasticModuli moduli_from_young(double youngs_modulus, double poissons_ratio);
+
+// From Young's and bulk modulus: G = 3KE/(9K-E), finite for nu = 1/2.        [Duncan et al. 1980]
+ElasticModuli moduli_from_young_and_bulk(double youngs_modulus, double bulk_modulus);
 
 // D = K 1x1 + 2G I_dev with engineering shear.                              [chapter 7, E matrix]
 Matrix4 elastic_matrix(const ElasticModuli& moduli);
@@ -30,5 +35,12 @@ class LinearElastic final : public SolidLaw {
  private:
   Matrix4 D_;
 };
+
+// Young's modulus and Poisson's ratio as decks give them (parameters `at` and `at + 1`).
+ElasticModuli elastic_parameters(const Parameters& p, int at);
+std::vector<Parameter> elastic_rows();
+
+MaterialEntry linear_elastic_entry();     // E, nu
+MaterialEntry linear_elastic_kg_entry();  // K, G
 
 }  // namespace sage

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -23,7 +24,7 @@ struct ElementTraits {
   int law_size = 4;      // 4 solid, 2 interface
   bool reduced = false;  // reduced integration: fewer points than full rank needs (hourglass possible)
   bool locks = false;    // stiffens without bound as nu -> 1/2 (full integration of low order)
-  // Doubles filled by geometry(): for each point its weight w, then B (law_size x dofs, column-major).
+  // Doubles filled by geometry(): for each point its weight w, then B^T (dofs x law_size, column-major).
   int geometry_size() const { return points * (1 + law_size * dofs); }
 };
 
@@ -76,8 +77,14 @@ class Element {
   // Least-squares or exact extrapolation from points to nodes: nodes x points, row-major.
   virtual std::span<const double> point_to_node() const = 0;
 
+  // The same for one element; differs only where the rule depends on the place (a quadratic interface at r = 0).
+  virtual std::span<const double> point_to_node_at(const NodeCoordinates& /*x*/) const { return point_to_node(); }
+
   // Smallest detJ over the mean detJ at the integration points and corners; 1 = parallelogram, <= 0 = unusable.
   virtual double shape_quality(const NodeCoordinates& x) const = 0;
+
+  // A warning for the user about a usable element, empty if there is none: e.g. a pair of nodes without stiffness.
+  virtual std::string caution(const NodeCoordinates& /*x*/) const { return {}; }
 };
 
 }  // namespace sage

@@ -1,1 +1,148 @@
-// Placeholder until the first step lands.
+#include "sage/deck/deck.hpp"
+
+#include <algorithm>
+
+#include "sage/deck/source.hpp"
+#include "sage/deck/text.hpp"
+
+namespace sage {
+
+namespace {
+
+// "....+....1....+....2" up to a column.
+std::string ruler(std::size_t columns) {
+  std::string text;
+  for (std::size_t c = 1; c <= columns; ++c)
+    text.push_back(c % 10 == 0 ? static_cast<char>('0' + c / 10 % 10) : (c % 5 == 0 ? '+' : '.'));
+  return text;
+}
+
+// Control characters would move the carets.
+std::string printable(std::string_view text) {
+  std::string shown(text);
+  for (char& c : shown)
+    if (c == '\t')
+      c = ' ';
+    else if (static_cast<unsigned char>(c) < 32 || c == 127)
+      c = '?';
+  return shown;
+}
+
+}  // namespace
+
+std::vector<CardView> Deck::all(std::string_view name) const {
+  std::vector<char> wanted(specs.size());
+  for (std::size_t i = 0; i < specs.size(); ++i) wanted[i] = specs[i].name == name;
+  std::vector<CardView> views;
+  for (std::size_t i = 0; i < cards.size(); ++i)
+    if (wanted[static_cast<std::size_t>(cards[i].spec)]) views.emplace_back(*this, static_cast<int>(i));
+  return views;
+}
+
+// An owner's cards stand between it and the next card of its kind.
+std::vector<CardView> Deck::all(std::string_view name, const CardView& owner) const {
+  std::vector<CardView> views;
+  const int own_spec = owner.card().spec;
+  for (std::size_t i = static_cast<std::size_t>(owner.index()) + 1; i < cards.size(); ++i) {
+    if (cards[i].spec == own_spec) break;
+    if (cards[i].owner == owner.index() && specs[static_cast<std::size_t>(cards[i].spec)].name == name)
+      views.emplace_back(*this, static_cast<int>(i));
+  }
+  return views;
+}
+
+CardView Deck::one(std::string_view name) const {
+  const std::vector<CardView> views = all(name);
+  if (views.empty()) throw InputError({file, 0, 0, 0}, "the deck has no " + std::string(name) + " card");
+  return views.front();
+}
+
+bool Deck::has(std::string_view name) const {
+  return !all(name).empty();
+}
+
+std::string_view Deck::line_text(int line) const {
+  if (!source || line < 1 || line > static_cast<int>(line_starts.size())) return {};
+  return line_at(*source, line_starts[static_cast<std::size_t>(line) - 1]);
+}
+
+const FieldValue* CardView::find(std::string_view field) const {
+  const auto& fields = spec().fields;
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    if (fields[i].name == field) {
+      if (static_cast<std::int32_t>(i) >= card().value_count) return nullptr;
+      return &deck_->values[static_cast<std::size_t>(card().first_value) + i];
+    }
+  return nullptr;
+}
+
+double CardView::real(std::string_view field, double fallback) const {
+  const FieldValue* value = find(field);
+  if (!value) return fallback;
+  if (!value->blank) return value->number;
+  for (const FieldSpec& s : spec().fields)
+    if (s.name == field && s.has_fallback) return s.fallback;
+  return fallback;
+}
+
+int CardView::integer(std::string_view field, int fallback) const {
+  const double number = real(field, fallback);
+  return static_cast<int>(std::clamp(number, -2147483648.0, 2147483647.0));
+}
+
+std::string CardView::text(std::string_view field, std::string_view fallback) const {
+  const FieldValue* value = find(field);
+  return std::string(value && !value->blank ? trimmed(value->text) : fallback);
+}
+
+bool CardView::blank(std::string_view field) const {
+  const FieldValue* value = find(field);
+  return !value || value->blank;
+}
+
+std::span<const FieldValue> CardView::list(std::string_view field) const {
+  const FieldValue* first = find(field);
+  if (!first) return {};
+  const bool last_field = spec().fields.back().name == field;
+  const FieldValue* end = deck_->values.data() + card().first_value + card().value_count;
+  return {first, last_field ? static_cast<std::size_t>(end - first) : 1};
+}
+
+SourcePosition CardView::where() const {
+  return {deck_->file, card().line, 0, 0};
+}
+
+SourcePosition CardView::where(std::string_view field) const {
+  const FieldValue* value = find(field);
+  return value ? where(*value) : where();
+}
+
+SourcePosition CardView::where(const FieldValue& value) const {
+  return {deck_->file, value.line, value.first_column, value.last_column};
+}
+
+std::string CardView::label(std::string_view field) const {
+  for (const FieldSpec& s : spec().fields)
+    if (s.name == field) return s.unit.empty() ? s.label : s.label + ", " + s.unit;
+  return std::string(field);
+}
+
+Diagnostic card_diagnostic(const Deck& deck, Severity severity, const SourcePosition& where,
+                           std::string message) {
+  Diagnostic diagnostic{severity, where, std::move(message), {}};
+  if (where.line < 1 || where.line > static_cast<int>(deck.line_starts.size())) return diagnostic;
+  constexpr std::size_t widest = 200;
+  const std::string card = printable(deck.line_text(where.line).substr(0, widest));
+  const auto first = static_cast<std::size_t>(std::max(where.first_column, 0));
+  const auto last = static_cast<std::size_t>(std::max(where.last_column, where.first_column));
+  std::string number = std::to_string(where.line);
+  if (number.size() < 5) number.insert(0, 5 - number.size(), ' ');
+  const std::string gap(number.size(), ' ');
+  diagnostic.detail.push_back(gap + " | " + ruler(std::max<std::size_t>(card.size(), 10)));
+  diagnostic.detail.push_back(number + " | " + card);
+  if (first > 0 && last <= widest)
+    diagnostic.detail.push_back(gap + " | " + std::string(first - 1, ' ') + std::string(last - first + 1, '^'));
+  return diagnostic;
+}
+
+}  // namespace sage

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <span>
 #include <string>
@@ -57,9 +58,11 @@ class CardView;
 
 class Deck {
  public:
-  std::string file;                           // as given, for messages
-  std::string layout;                         // name of the layout that read it
-  std::shared_ptr<const std::string> source;  // the file's characters; keeps FieldValue::text alive
+  std::string file;                                      // as given, for messages
+  std::string layout;                                    // name of the layout that read it
+  std::shared_ptr<const std::string> source;             // the file's characters; keeps FieldValue::text alive
+  std::vector<std::size_t> line_starts;                  // offset of each line in `source`
+  std::shared_ptr<const std::deque<std::string>> texts;  // free-format texts whose quotes had to be undoubled
   std::vector<CardSpec> specs;
   std::vector<Card> cards;  // in file order
   std::vector<FieldValue> values;

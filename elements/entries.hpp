@@ -1,0 +1,33 @@
+// One function an element: its catalogue entry with names, formulations and how to make it.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sage/core/catalogue.hpp"
+
+namespace sage {
+
+// A formulation and the function that makes it.
+struct Choice {
+  Formulation formulation;
+  std::function<std::unique_ptr<Element>(Geometry)> make;
+};
+
+// An entry whose make() takes code 0 as the first choice and throws ParameterError for a code that isn't
+// listed.
+ElementEntry element_entry(std::string name, std::string summary, int nodes, int corners, int law_size,
+                           std::vector<Choice> choices);
+
+ElementEntry quad4_entry();
+ElementEntry quad8_entry();
+ElementEntry quad9_entry();
+ElementEntry tri3_entry();
+ElementEntry tri6_entry();
+ElementEntry tri15_entry();
+ElementEntry interface4_entry();
+ElementEntry interface6_entry();
+
+}  // namespace sage

@@ -1,0 +1,54 @@
+#include "elements/extrapolation.hpp"
+
+#include <Eigen/Cholesky>
+
+namespace sage {
+
+namespace {
+
+// One row a position, one column a term.
+Eigen::MatrixXd terms(std::span<const ParentPoint> at, Basis basis) {
+  static constexpr int kTerms[] = {1, 2, 3, 3, 4, 6};
+  Eigen::MatrixXd V(static_cast<Eigen::Index>(at.size()), kTerms[static_cast<int>(basis)]);
+  for (Eigen::Index i = 0; i < V.rows(); ++i) {
+    const auto [x, y] = at[static_cast<std::size_t>(i)];
+    switch (basis) {
+      case Basis::constant:
+        V.row(i) << 1.0;
+        break;
+      case Basis::line_linear:
+        V.row(i) << 1.0, x;
+        break;
+      case Basis::line_quadratic:
+        V.row(i) << 1.0, x, x * x;
+        break;
+      case Basis::linear:
+        V.row(i) << 1.0, x, y;
+        break;
+      case Basis::bilinear:
+        V.row(i) << 1.0, x, y, x * y;
+        break;
+      case Basis::quadratic:
+        V.row(i) << 1.0, x, y, x * x, x * y, y * y;
+        break;
+    }
+  }
+  return V;
+}
+
+}  // namespace
+
+// E = V_nodes (V^T V)^-1 V^T
+std::vector<double> extrapolation_matrix(std::span<const ParentPoint> points,
+                                         std::span<const ParentPoint> nodes, Basis basis) {
+  const Eigen::MatrixXd V = terms(points, basis);
+  const Eigen::MatrixXd normal = V.transpose() * V;
+  const Eigen::MatrixXd fit = normal.ldlt().solve(V.transpose());
+  const Eigen::MatrixXd E = terms(nodes, basis) * fit;
+  std::vector<double> rows(nodes.size() * points.size());
+  Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(rows.data(), E.rows(),
+                                                                                     E.cols()) = E;
+  return rows;
+}
+
+}  // namespace sage

@@ -1,0 +1,179 @@
+// Isoparametric solid: shape x kinematics x rule (x volumetric part).  All it does is to make w and B;
+// point_kernel.hpp does the rest.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "elements/edge_load.hpp"
+#include "elements/extrapolation.hpp"
+#include "elements/kinematics.hpp"
+#include "elements/point_kernel.hpp"
+#include "elements/shape_check.hpp"
+#include "elements/shapes.hpp"
+
+namespace sage {
+
+// Where the volumetric part of B comes from: each point itself, the element's mean (B-bar), or its centre.
+enum class Volumetric { pointwise, mean, centre };
+
+// N and dN/d(xi, eta) at one place of the parent shape.
+template <class Shape>
+struct ShapeAt {
+  Vector<Shape::nodes> N;
+  Eigen::Matrix<double, Shape::nodes, 2> dN;
+  double w = 0.0;  // weight of the rule
+
+  ShapeAt() = default;
+  explicit ShapeAt(const ParentPoint& q, double weight = 0.0) : N(Shape::N(q)), dN(Shape::dN(q)), w(weight) {}
+};
+
+inline double determinant(const Matrix2& J) {
+  return J(0, 0) * J(1, 1) - J(0, 1) * J(1, 0);
+}
+
+template <class Shape, class Kinematics, class Rule, Volumetric volumetric = Volumetric::pointwise>
+class Solid final : public PointElement<4, 2 * Shape::nodes, Rule::points> {
+  static constexpr int kDofs = 2 * Shape::nodes;
+  static constexpr int kStride = kPointStride<4, kDofs>;
+  using Coordinates = Eigen::Matrix<double, 2, Shape::nodes>;
+  using Operator = OperatorT<4, kDofs>;
+  using VolumetricPart = Vector<kDofs>;
+
+ public:
+  Solid(std::string_view name, bool reduced, bool locks)
+      : PointElement<4, kDofs, Rule::points>({.name = name,
+                                              .geometry = Kinematics::geometry,
+                                              .nodes = Shape::nodes,
+                                              .dofs = kDofs,
+                                              .points = Rule::points,
+                                              .law_size = 4,
+                                              .reduced = reduced,
+                                              .locks = locks}) {
+    std::vector<ParentPoint> at;
+    for (std::size_t p = 0; p < Rule::points; ++p) {
+      const RulePoint& q = Rule::table[p];
+      points_[p] = ShapeAt<Shape>({q.xi, q.eta}, q.w);
+      at.push_back({q.xi, q.eta});
+    }
+    for (std::size_t c = 0; c < Shape::corners; ++c) corners_[c] = ShapeAt<Shape>(Shape::node_at[c]);
+    to_nodes_ =
+        extrapolation_matrix(at, Shape::node_at, Rule::points == 1 ? Basis::constant : Shape::stress_basis);
+  }
+
+  void geometry(const NodeCoordinates& nodes, std::span<double> geometry) const override {
+    assert(nodes.cols() == Shape::nodes && static_cast<int>(geometry.size()) == this->traits().geometry_size());
+    const Coordinates x = nodes;
+    check(x);
+    double* block = geometry.data();
+    for (const ShapeAt<Shape>& point : points_) {
+      const Matrix2 J = x.lazyProduct(point.dN);
+      *block = point.w * determinant(J) * Kinematics::measure(x.row(0).dot(point.N));
+      Eigen::Map<Operator>(block + 1) = strain_operator(x, point);
+      block += kStride;
+    }
+    if constexpr (volumetric == Volumetric::mean)
+      replace_volumetric_part(geometry.data(), mean_volumetric_part(geometry.data()));
+    if constexpr (volumetric == Volumetric::centre)
+      replace_volumetric_part(geometry.data(), volumetric_part(strain_operator(x, ShapeAt<Shape>({0.0, 0.0}))));
+  }
+
+  Vector2 position(const NodeCoordinates& x, int point) const override {
+    return x * points_[static_cast<std::size_t>(point)].N;
+  }
+
+  // f_i += integral N_i b dV
+  void body_load(const NodeCoordinates& nodes, const Vector2& b, std::span<double> f) const override {
+    const Coordinates x = nodes;
+    Eigen::Map<Eigen::Matrix<double, 2, Shape::nodes>> forces(f.data());
+    for (const RulePoint& q : Shape::LoadRule::table) {
+      const ShapeAt<Shape> at({q.xi, q.eta});
+      const Matrix2 J = x * at.dN;
+      const double w = q.w * determinant(J) * Kinematics::measure(x.row(0).dot(at.N));
+      forces += w * b * at.N.transpose();
+    }
+  }
+
+  const std::vector<std::vector<int>>& edges() const override { return Shape::edges(); }
+
+  void edge_load(const NodeCoordinates& x, int edge, const Vector2& normal, const Vector2& shear,
+                 std::span<double> f) const override {
+    using Edge = typename Shape::Edge;
+    const std::vector<int>& nodes = edges().at(static_cast<std::size_t>(edge));
+    Eigen::Matrix<double, 2, Edge::nodes> ends;
+    for (int i = 0; i < Edge::nodes; ++i) ends.col(i) = x.col(nodes[static_cast<std::size_t>(i)]);
+    add_edge_load<Edge, Kinematics>(ends, normal, shear, nodes, f);
+  }
+
+  std::span<const double> point_to_node() const override { return to_nodes_; }
+
+  double shape_quality(const NodeCoordinates& x) const override { return quality(x); }
+
+ private:
+  // B = [N,x 0; 0 N,y; N/r 0; N,y N,x] for each node.
+  static Operator strain_operator(const Coordinates& x, const ShapeAt<Shape>& point) {
+    const Matrix2 J = x.lazyProduct(point.dN);
+    const Matrix2 inverse = (Matrix2() << J(1, 1), -J(0, 1), -J(1, 0), J(0, 0)).finished() / determinant(J);
+    const Eigen::Matrix<double, Shape::nodes, 2> dNdx = point.dN.lazyProduct(inverse);
+    const double r = x.row(0).dot(point.N);
+    Operator Bt;
+    for (int i = 0; i < Shape::nodes; ++i) {
+      const double Nx = dNdx(i, 0), Ny = dNdx(i, 1);
+      Bt.row(2 * i) << Nx, 0.0, Kinematics::hoop(point.N(i), r), Ny;
+      Bt.row(2 * i + 1) << 0.0, Ny, 0.0, Nx;
+    }
+    return Bt;
+  }
+
+  // Volumetric strain per dof: b = B^T [1 1 1 0].
+  static VolumetricPart volumetric_part(const Operator& Bt) { return Bt.col(0) + Bt.col(1) + Bt.col(2); }
+
+  // b_mean = sum w b / sum w; w contains r, so the mean is over the volume of the ring.
+  static VolumetricPart mean_volumetric_part(const double* block) {
+    VolumetricPart sum = VolumetricPart::Zero();
+    double volume = 0.0;
+    for (int p = 0; p < Rule::points; ++p, block += kStride) {
+      sum += *block * volumetric_part(Eigen::Map<const Operator>(block + 1));
+      volume += *block;
+    }
+    return sum / volume;
+  }
+
+  // B-bar^T = B^T + (b_new - b) [1 1 1 0] / 3               [Hughes 1980; Simo, Taylor & Pister 1985]
+  static void replace_volumetric_part(double* block, const VolumetricPart& b_new) {
+    for (int p = 0; p < Rule::points; ++p, block += kStride) {
+      Eigen::Map<Operator> Bt(block + 1);
+      const VolumetricPart third = (b_new - volumetric_part(Bt)) / 3.0;
+      Bt.template leftCols<3>().colwise() += third;
+    }
+  }
+
+  // Smallest detJ over mean detJ at points and corners; 0 or -1 where there is no area or a negative one.
+  double quality(const Coordinates& x) const {
+    double least = std::numeric_limits<double>::infinity(), sum = 0.0;
+    const auto visit = [&](const ShapeAt<Shape>& at) {
+      const double detJ = determinant(x.lazyProduct(at.dN));
+      least = std::min(least, detJ);
+      sum += detJ;
+    };
+    for (const auto& at : points_) visit(at);
+    for (const auto& at : corners_) visit(at);
+    const double mean = sum / (Rule::points + Shape::corners);
+    const double size = extent(x);
+    if (!(mean > 1e-12 * size * size)) return mean < 0.0 ? -1.0 : 0.0;
+    return least / mean;
+  }
+
+  void check(const Coordinates& x) const {
+    if constexpr (Kinematics::geometry == Geometry::axisymmetric) check_radii(x);
+    if (!(quality(x) > kSmallestQuality)) reject_shape(x, Shape::corners, Shape::edges());
+  }
+
+  std::array<ShapeAt<Shape>, Rule::points> points_;
+  std::array<ShapeAt<Shape>, Shape::corners> corners_;
+  std::vector<double> to_nodes_;
+};
+
+}  // namespace sage

@@ -1,0 +1,229 @@
+#include "materials/drucker_prager.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "materials/dual.hpp"
+#include "materials/stress_measures.hpp"
+
+namespace sage {
+
+namespace {
+
+constexpr double kRounding = 1e-12;  // relative to DruckerPrager::scale
+constexpr double kApexStiffness =
+    1e-7;  // share of D_elastic left in the tangent where the true one is singular
+
+const std::vector<Parameter>& rows() {
+  static const std::vector<Parameter> table = [] {
+    std::vector<Parameter> r = elastic_rows();
+    r.push_back(required("cohesion", Dimension::stress, "cohesion c"));
+    r.push_back(required("friction_angle", Dimension::angle, "friction angle phi"));
+    r.push_back(optional("dilation_angle", Dimension::angle, "dilation angle psi, at most phi", 0.0));
+    r.push_back(optional("cone", Dimension::none,
+                         "1 triaxial compression, 2 extension, 3 plane strain associated, "
+                         "4 plane strain without volume change, 5 inner",
+                         1.0));
+    r.push_back(optional("flow", Dimension::none, "0 from the dilation angle, 1 without volume change", 0.0));
+    r.push_back(
+        optional("mean_tension_limit", Dimension::stress, "largest mean tension; -1 = the apex only", -1.0));
+    r.push_back(optional("integration", Dimension::none, "0 radial return, 1 exact (no volume change)", 0.0));
+    return r;
+  }();
+  return table;
+}
+
+LawPtr make(std::span<const double> values, const UnitSystem& units) {
+  const Parameters p(rows(), values, units);
+  DruckerPragerParameters law{};
+  law.elastic = elastic_parameters(p, 0);
+  const double phi = p.angle(3), psi = p.angle(4);
+  if (psi > phi) p.refuse(4, "must not exceed the friction angle");
+  const auto match = static_cast<ConeMatch>(p.code(5, {1, 2, 3, 4, 5}));
+  law.cone = match_cone(match, phi, p.not_negative(2));
+  law.beta = p.code(6, {0, 1}) == 1 ? 0.0 : match_cone(match, psi, 0.0).alpha;
+  const bool limited = p.number(7) != -1.0;
+  law.mean_tension = limited ? p.not_negative(7) : std::numeric_limits<double>::infinity();
+  law.exact = p.code(8, {0, 1}) == 1;
+  if (law.exact && law.beta != 0.0) p.refuse(8, "can be 1 only for flow without volume change");
+  return std::make_unique<DruckerPrager>(law);
+}
+
+}  // namespace
+
+Cone match_cone(ConeMatch match, double phi, double c) {
+  const double s = std::sin(phi), root3 = std::sqrt(3.0);
+  switch (match) {
+    case ConeMatch::triaxial_compression:
+      return {2.0 * s / (root3 * (3.0 - s)), 6.0 * c * std::cos(phi) / (root3 * (3.0 - s))};  // 7.26, 7.27
+    case ConeMatch::triaxial_extension:
+      return {2.0 * s / (root3 * (3.0 + s)), 6.0 * c * std::cos(phi) / (root3 * (3.0 + s))};
+    case ConeMatch::plane_strain_associated:
+    case ConeMatch::inner: {
+      const double t = std::tan(phi), root = std::sqrt(9.0 + 12.0 * t * t);
+      return {t / root, 3.0 * c / root};
+    }
+    case ConeMatch::plane_strain_deviatoric:
+      return {s / 3.0, c * std::cos(phi)};
+  }
+  return {0.0, 0.0};
+}
+
+DruckerPrager::DruckerPrager(const DruckerPragerParameters& parameters)
+    : p_(parameters), p_max_(parameters.mean_tension), D_elastic_(elastic_matrix(parameters.elastic)) {
+  if (p_.cone.alpha > 0.0) p_max_ = std::min(p_max_, p_.cone.k / (3.0 * p_.cone.alpha));
+}
+
+double DruckerPrager::scale(double p, double q) const {
+  return p_.cone.k + 3.0 * p_.cone.alpha * std::abs(p) + q + 0.01 * std::abs(p);  // the last: rounding of s
+}
+
+double DruckerPrager::stress_level(const Vector4& sigma, std::span<const double> /*h*/) const {
+  const double p = mean_stress(sigma), q = sqrt_j2(sigma);
+  const double strength = p_.cone.k - 3.0 * p_.cone.alpha * p;
+  const double nothing = 1e-9 * scale(p, q);
+  if (strength > nothing) return q / strength;
+  const bool at_apex = strength >= -nothing && q <= nothing;
+  return at_apex ? 1.0 : std::numeric_limits<double>::infinity();
+}
+
+bool DruckerPrager::initialise(const Vector4& sigma, std::span<double> h) const {
+  h[kShear] = h[kVolume] = 0.0;
+  const double p = mean_stress(sigma), q = sqrt_j2(sigma);
+  const double f = q + 3.0 * p_.cone.alpha * p - p_.cone.k;
+  return f <= 1e-8 * scale(p, q) && p <= p_max_ + 1e-8 * scale(p, q);
+}
+
+Outcome DruckerPrager::update(const PointIn<4>& in, PointOut<4>& out) const {
+  const auto [K, G] = p_.elastic;
+  const auto [alpha, k] = p_.cone;
+  std::copy(in.h0.begin(), in.h0.end(), out.h1.begin());
+
+  // Elastic predictor.  The initial stress is part of sigma0.
+  const Vector4 trial = in.sigma0 + D_elastic_ * in.deps;
+  const Vector4 s = deviator(trial);
+  const double p_trial = mean_stress(trial), q_trial = std::sqrt(0.5 * contract(s, s));
+  const double f = q_trial + 3.0 * alpha * p_trial - k;  // Equation 7.25
+  const double rounding = kRounding * scale(p_trial, q_trial);
+  if (f <= rounding && p_trial <= p_max_ + rounding) {
+    out.sigma = trial;
+    out.D = D_elastic_;
+    out.status = PointStatus::elastic;
+    return Outcome::ok;
+  }
+
+  // Return: to the cone, if that is in front of its tip and of the tension limit.
+  const double dlambda = f / (G + 9.0 * K * alpha * p_.beta);
+  const double p_cone = p_trial - 3.0 * K * p_.beta * dlambda;
+  const bool on_cone = f > rounding && p_cone <= p_max_ + rounding;  // in front of the tip: theta >= 0
+  if (!on_cone) {
+    return_to_cap(s, q_trial, out);
+  } else if (!p_.exact || !integrate_exactly(in, out)) {
+    return_to_cone(s, q_trial, p_trial, p_cone, out);
+  }
+  out.h1[kShear] += sqrt_j2(trial - out.sigma) / G;
+  out.h1[kVolume] += mean_stress(trial - out.sigma) / K;
+  return Outcome::ok;
+}
+
+// s = theta s_tr,  p = p_tr - 3 K beta dlambda; tangent of MODELS: de Souza Neto, Peric & Owen (2008), ch. 8.
+void DruckerPrager::return_to_cone(const Vector4& s_trial, double q_trial, double p_trial, double p,
+                                   PointOut<4>& out) const {
+  const auto [K, G] = p_.elastic;
+  const auto [alpha, k] = p_.cone;
+  const double beta = p_.beta, A = 1.0 / (G + 9.0 * K * alpha * beta);
+  if (beta == 0.0) p = p_trial;
+  const double q = std::max(k - 3.0 * alpha * p, 0.0);  // on the surface to the last digit
+  const double theta = q / q_trial;
+  const Vector4 one = unit_tensor();
+  const Vector4 n = s_trial / (std::sqrt(2.0) * q_trial);
+
+  out.sigma = theta * s_trial + p * one;
+  out.D = 2.0 * G * theta * deviatoric_projection();
+  out.D += 2.0 * G * (1.0 - theta - G * A) * n * n.transpose();
+  out.D -= 3.0 * std::sqrt(2.0) * G * K * A * (alpha * n * one.transpose() + beta * one * n.transpose());
+  out.D += K * (1.0 - 9.0 * K * alpha * beta * A) * one * one.transpose();
+  out.status = PointStatus::yielded;
+}
+
+// p = p_max; the deviator is cut to what the cone leaves there, which is nothing at the apex.
+void DruckerPrager::return_to_cap(const Vector4& s_trial, double q_trial, PointOut<4>& out) const {
+  const double left = std::max(p_.cone.k - 3.0 * p_.cone.alpha * p_max_, 0.0);
+  const bool at_apex = p_max_ < p_.mean_tension || left <= kRounding * p_.cone.k;
+  const bool corner = q_trial > left;
+  const double theta = at_apex ? 0.0 : corner ? left / q_trial : 1.0;
+
+  out.sigma = theta * s_trial + p_max_ * unit_tensor();
+  out.D = 2.0 * p_.elastic.G * theta * deviatoric_projection();
+  if (corner && theta > 0.0) {
+    const Vector4 n = s_trial / (std::sqrt(2.0) * q_trial);
+    out.D -= 2.0 * p_.elastic.G * theta * n * n.transpose();
+  }
+  out.D += kApexStiffness * D_elastic_;
+  out.status = PointStatus::apex;
+}
+
+// The increment taken at constant rate, beta = 0: elastic up to the cone, then R = |s| changes linearly while s
+// turns towards the strain rate, tan(psi/2) = exp(-kappa) tan(psi0/2), kappa = 2 G |de| / logarithmic mean of
+// R. Krieg & Krieg (1977), Loret & Prevost (1986), Szabo & Kossa (2012).  False where the formula doesn't
+// apply.
+bool DruckerPrager::integrate_exactly(const PointIn<4>& in, PointOut<4>& out) const {
+  using Real = Dual<4>;
+  using Tensor = std::array<Real, 4>;
+  const auto [K, G] = p_.elastic;
+  const auto [alpha, k] = p_.cone;
+  const auto dot = [](const Tensor& a, const Tensor& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2.0 * a[3] * b[3];
+  };
+
+  // Start, and the elastic change of the whole increment: ds = 2 G de, and of the radius sqrt2 (k - 3 alpha p).
+  const Vector4 s0 = deviator(in.sigma0);
+  const double p0 = mean_stress(in.sigma0), R0 = std::sqrt(2.0) * (k - 3.0 * alpha * p0);
+  const Vector4 change = 2.0 * G * deviatoric_projection() * in.deps;
+  const Matrix4 dchange = 2.0 * G * deviatoric_projection();
+  Tensor start, ds;
+  for (int i = 0; i < 4; ++i) {
+    start[i] = s0[i];
+    ds[i] = Real(change[i], dchange.row(i).transpose());
+  }
+  const Real dp(K * unit_tensor().dot(in.deps), K * unit_tensor());
+  const Real dR = -3.0 * std::sqrt(2.0) * alpha * dp;
+  const Real length = sqrt(dot(ds, ds));
+  if (!(length.v > kRounding * R0) || !(R0 + dR.v > kRounding * R0)) return false;
+
+  // Share t of the increment until |s0 + t ds| = R0 + t dR.
+  const Real a = dot(ds, ds) - dR * dR, b = dot(start, ds) - R0 * dR, c = dot(start, start) - R0 * R0;
+  Real t = 0.0;
+  if (c.v < -kRounding * R0 * R0 || b.v < 0.0) {
+    const Real discriminant = b * b - a * c;
+    if (!(discriminant.v > 0.0)) return false;
+    const Real root = sqrt(discriminant);
+    t = b.v > 0.0 ? -c / (b + root) : (root - b) / a;
+    if (!(t.v >= 0.0 && t.v <= 1.0)) return false;
+  }
+  const Real R_start = R0 + t * dR, R_end = R0 + dR, ratio = R_end / R_start;
+  const Real change_of_R = R_end - R_start;
+  const Real mean_R = std::abs(ratio.v - 1.0) > 1e-5 ? change_of_R / log(ratio) : 0.5 * (R_start + R_end);
+  const Real E = exp(-((1.0 - t) * length / mean_R));
+  Tensor m;
+  for (int i = 0; i < 4; ++i) m[i] = (start[i] + t * ds[i]) / R_start;
+  const Real C = dot(m, ds) / length;
+  const Real toward = ((1.0 - E) * (1.0 - E) * C + 1.0 - E * E) / length;
+  const Real whole = (1.0 + E * E) + C * (1.0 - E * E);
+  if (!(whole.v > 0.0)) return false;
+  for (int i = 0; i < 4; ++i) {
+    const Real s = R_end * (2.0 * E * m[i] + toward * ds[i]) / whole;
+    const double on_diagonal = i < 3 ? 1.0 : 0.0;
+    out.sigma[i] = s.v + on_diagonal * (p0 + dp.v);
+    out.D.row(i) = (s.d + on_diagonal * dp.d).transpose();
+  }
+  out.status = PointStatus::yielded;
+  return true;
+}
+
+MaterialEntry drucker_prager_entry() {
+  return {"drucker_prager", "Drucker-Prager cone, elastic - perfectly plastic, any dilation", 4, rows(), make};
+}
+
+}  // namespace sage

@@ -1,0 +1,36 @@
+// Goodman, Taylor & Brekke (1968): joint with constant stiffness, no stress while open.
+// docs/theory/goodman.md
+#pragma once
+
+#include <array>
+
+#include "materials/parameters.hpp"
+#include "sage/core/law.hpp"
+
+namespace sage {
+
+struct GoodmanParameters {
+  double k_s, k_n;  // shear and normal stiffness                            [stress/length]
+  bool opens;       // false: bonded for ever, and then the law is linear
+};
+
+// tau = k_s w_s, sigma_n = k_n w_n (Equation 7.14); both zero while the normal stress would be tensile.
+// The joint closes again when the opening, kept as history, is used up.
+class Goodman final : public InterfaceLaw {
+ public:
+  explicit Goodman(const GoodmanParameters& parameters) : p_(parameters) {}
+  std::span<const Quantity> history() const override { return kHistory; }
+  bool symmetric() const override { return true; }
+  bool linear() const override { return !p_.opens; }
+  bool initialise(const Vector2& sigma, std::span<double> h) const override;
+  Outcome update(const PointIn<2>& in, PointOut<2>& out) const override;
+
+ private:
+  enum { kGap };
+  static constexpr std::array<Quantity, 1> kHistory{{{"gap", Dimension::length, 0.0}}};
+  GoodmanParameters p_;
+};
+
+MaterialEntry goodman_entry();
+
+}  // namespace sage

@@ -1,0 +1,62 @@
+// Invariants and principal values of [xx yy zz xy]; zz is always principal.  Tension positive.
+#pragma once
+
+#include <cmath>
+
+#include "sage/core/types.hpp"
+
+namespace sage {
+
+inline double mean_stress(const Vector4& sigma) {
+  return (sigma[0] + sigma[1] + sigma[2]) / 3.0;
+}
+
+// Deviator with the tensor shear component in place 3.
+inline Vector4 deviator(const Vector4& sigma) {
+  const double p = mean_stress(sigma);
+  return {sigma[0] - p, sigma[1] - p, sigma[2] - p, sigma[3]};
+}
+
+// a:b of two symmetric tensors in tensor components.
+inline double contract(const Vector4& a, const Vector4& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2.0 * a[3] * b[3];
+}
+
+// sqrt(J2D)
+inline double sqrt_j2(const Vector4& sigma) {
+  const Vector4 s = deviator(sigma);
+  return std::sqrt(0.5 * contract(s, s));
+}
+
+// Unit tensor, and I_dev such that I_dev eps is the deviator of eps, engineering shear in, tensor shear out.
+inline Vector4 unit_tensor() {
+  return {1.0, 1.0, 1.0, 0.0};
+}
+inline Matrix4 deviatoric_projection() {
+  Matrix4 I = Matrix4::Zero();
+  I.topLeftCorner<3, 3>().setConstant(-1.0 / 3.0);
+  I.diagonal() << 2.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0, 0.5;
+  return I;
+}
+
+// Principal stresses: a >= b in the plane, a at the angle (cos, sin) from x; zz out of it.
+struct Principal {
+  double a, b, zz;
+  double cos, sin;
+};
+inline Principal principal(const Vector4& sigma) {
+  const double mean = 0.5 * (sigma[0] + sigma[1]), half = 0.5 * (sigma[0] - sigma[1]);
+  const double radius = std::hypot(half, sigma[3]);
+  const double angle = radius > 0.0 ? 0.5 * std::atan2(sigma[3], half) : 0.0;
+  return {mean + radius, mean - radius, sigma[2], std::cos(angle), std::sin(angle)};
+}
+
+// [xx yy zz xy] = T [a b zz ab] for axes a, b turned by the angle (cos, sin) from x, y.
+inline Matrix4 stress_from_principal_axes(double c, double s) {
+  Matrix4 T;
+  T << c * c, s * s, 0.0, -2.0 * c * s, s * s, c * c, 0.0, 2.0 * c * s, 0.0, 0.0, 1.0, 0.0, c * s, -c * s, 0.0,
+      c * c - s * s;
+  return T;
+}
+
+}  // namespace sage

@@ -1,0 +1,53 @@
+// sagefe check: reads and validates, draws nothing, solves nothing.
+#include <fmt/format.h>
+
+#include <CLI/Option.hpp>
+#include <memory>
+
+#include "sage/analysis/scene.hpp"
+#include "sage/app/commands.hpp"
+#include "sage/app/exit_codes.hpp"
+#include "sage/app/input.hpp"
+
+namespace sage::app {
+
+namespace {
+
+struct CheckOptions {
+  std::vector<std::string> decks;
+  InputOptions input;
+};
+
+int check(const std::string& path, const InputOptions& options) {
+  try {
+    const Catalogue catalogue = full_catalogue();
+    const Deck deck = read_input(path, options);
+    const Model model = build_model(deck, catalogue, options.build);
+    print_diagnostics(model.diagnostics);
+    const Scene scene = analyse_scene(model);
+    fmt::print("{}: {} nodes, {} elements in {} groups, {} stages; {}, {}: ready to run\n", path,
+               model.mesh.nodes(), scene.elements, model.groups.size(), model.stages.size(),
+               model.geometry == Geometry::axisymmetric ? "axisymmetric" : "plane strain", describe(scene));
+    return options.strict && model.diagnostics.warnings() > 0 ? kInput : kOk;
+  } catch (const InputError& error) {
+    print_diagnostics(error.diagnostics());
+    return kInput;
+  }
+}
+
+}  // namespace
+
+Command check_command(CLI::App& root) {
+  auto options = std::make_shared<CheckOptions>();
+  CLI::App* parser = root.add_subcommand("check", "read and validate decks; compute nothing");
+  parser->add_option("DECK", options->decks, "deck files")->required();
+  add_input_options(*parser, options->input);
+  add_build_options(*parser, options->input.build);
+  return {parser, [options] {
+            int worst = kOk;
+            for (const std::string& path : options->decks) worst = std::max(worst, check(path, options->input));
+            return worst;
+          }};
+}
+
+}  // namespace sage::app

@@ -1,0 +1,25 @@
+// The subcommands.  Each adds its options to the command line and returns what main() calls when it was chosen.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <functional>
+
+#include "sage/core/catalogue.hpp"
+
+namespace sage::app {
+
+struct Command {
+  CLI::App* parser = nullptr;
+  std::function<int()> execute;  // an exit code
+};
+
+// Everything that exists: elements, materials, solvers.
+Catalogue full_catalogue();
+
+Command run_command(CLI::App& root);
+Command check_command(CLI::App& root);
+Command echo_command(CLI::App& root);
+Command list_command(CLI::App& root);
+Command tables_command(CLI::App& root);
+
+}  // namespace sage::app

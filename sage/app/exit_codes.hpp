@@ -1,0 +1,12 @@
+// What the process tells the shell; listed in `sagefe --help`.
+#pragma once
+
+namespace sage::app {
+
+inline constexpr int kOk = 0;
+inline constexpr int kUsage = 1;         // the command line
+inline constexpr int kInput = 2;         // a deck, layout or mesh file
+inline constexpr int kNotConverged = 3;  // the analysis: no equilibrium, singular matrix
+inline constexpr int kOutput = 4;        // results could not be written
+
+}  // namespace sage::app

@@ -1,0 +1,32 @@
+// From a file name to a model, with every message shown.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+
+#include "sage/core/catalogue.hpp"
+#include "sage/deck/deck.hpp"
+#include "sage/model/build_model.hpp"
+
+namespace sage::app {
+
+// Options that every command which reads a deck shares.
+struct InputOptions {
+  std::string layout;   // name or path of a layout; empty = the deck's own, else the built-in one
+  bool strict = false;  // warnings are errors
+  BuildOptions build;
+};
+
+void add_input_options(CLI::App& parser, InputOptions& options);
+// Those that change how the deck's elements are computed.
+void add_build_options(CLI::App& parser, BuildOptions& options);
+
+Deck read_input(const std::string& path, const InputOptions& options);
+
+// To standard error; errors first are not reordered, at most 50 are shown.
+void print_diagnostics(const Diagnostics& diagnostics);
+
+// "case" for .../case/deck.dat, otherwise the file's name without its ending.
+std::string case_name(const std::string& path);
+
+}  // namespace sage::app

@@ -1,0 +1,64 @@
+// sagefe list: what a deck can ask for, from the same catalogue that the reader uses.
+#include <fmt/format.h>
+
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+#include <memory>
+
+#include "sage/app/commands.hpp"
+#include "sage/app/exit_codes.hpp"
+
+namespace sage::app {
+
+namespace {
+
+void list_elements(const Catalogue& catalogue) {
+  fmt::print("code  element, its formulations (code 0 on a group card = the first)\n");
+  for (const auto& [code, entry] : catalogue.elements.entries()) {
+    fmt::print("{:4}  {}: {}\n", code, entry.name, entry.summary);
+    for (const Formulation& f : entry.formulations)
+      fmt::print("      {:4}  {}: {}\n", f.code, f.name, f.summary);
+  }
+}
+
+void list_materials(const Catalogue& catalogue) {
+  const UnitSystem generic{"length", "force", "stress", 0.0, 0.0};
+  fmt::print("code  law, parameters in the order of the card\n");
+  for (const auto& [code, entry] : catalogue.materials.entries()) {
+    fmt::print("{:4}  {} ({}): {}\n", code, entry.name, entry.law_size == 4 ? "solid" : "interface",
+               entry.summary);
+    int number = 0;
+    for (const Parameter& p : entry.parameters) {
+      const std::string otherwise = p.required ? "required" : fmt::format("blank = {:g}", p.fallback);
+      fmt::print("      {:4}  {} [{}] {}; {}\n", ++number, p.name, unit_text(p.dimension, generic), p.meaning,
+                 otherwise);
+    }
+  }
+}
+
+void list_solvers(const Catalogue& catalogue) {
+  fmt::print("code  solver (code 0 on the control card = chosen from size and symmetry)\n");
+  for (const auto& [code, entry] : catalogue.solvers.entries())
+    fmt::print("{:4}  {} ({}): {}\n", code, entry.name, entry.symmetric ? "symmetric" : "unsymmetric",
+               entry.summary);
+}
+
+}  // namespace
+
+Command list_command(CLI::App& root) {
+  auto what = std::make_shared<std::string>();
+  CLI::App* parser =
+      root.add_subcommand("list", "show the elements, materials or solvers that a deck can ask for");
+  parser->add_option("WHAT", *what, "elements, materials or solvers")
+      ->required()
+      ->check(CLI::IsMember({"elements", "materials", "solvers"}));
+  return {parser, [what] {
+            const Catalogue catalogue = full_catalogue();
+            if (*what == "elements") list_elements(catalogue);
+            if (*what == "materials") list_materials(catalogue);
+            if (*what == "solvers") list_solvers(catalogue);
+            return kOk;
+          }};
+}
+
+}  // namespace sage::app

@@ -1,0 +1,128 @@
+#include "sage/core/point_driver.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "sage/core/error.hpp"
+
+namespace sage {
+
+namespace {
+
+constexpr double kTolerance = 1e-12;  // of the largest stress in play
+constexpr int kIterations = 40;
+constexpr int kHalvings = 12;
+
+}  // namespace
+
+template <int N>
+PointDriver<N>::PointDriver(const Law<N>& law, const Vector<N>& sigma)
+    : law_(law), sigma_(sigma), eps_(Vector<N>::Zero()) {
+  for (const Quantity& quantity : law.history()) h_.push_back(quantity.initial);
+  h_trial_ = h_;
+  if (!law_.initialise(sigma_, h_)) throw AnalysisError("point driver: the law can't carry the initial stress");
+}
+
+template <int N>
+Outcome PointDriver<N>::call(const Vector<N>& deps, PointOut<N>& out) {
+  ++iterations_;
+  return law_.update({sigma_, eps_, deps, h_}, out);
+}
+
+namespace {
+
+// What the stress-controlled components still lack; zero for the others.
+template <int N>
+Vector<N> lack(const std::array<Control, N>& control, const Vector<N>& target, const Vector<N>& sigma) {
+  Vector<N> r = Vector<N>::Zero();
+  for (int i = 0; i < N; ++i)
+    if (control[static_cast<std::size_t>(i)] == Control::stress) r[i] = target[i] - sigma[i];
+  return r;
+}
+
+// The tangent with the rows of strain-controlled components replaced by "no correction".
+template <int N>
+Matrix<N> constrained(const std::array<Control, N>& control, Matrix<N> D) {
+  for (int i = 0; i < N; ++i)
+    if (control[static_cast<std::size_t>(i)] == Control::strain) D.row(i) = Vector<N>::Unit(i).transpose();
+  return D;
+}
+
+}  // namespace
+
+// Newton; unknowns are the strain increments of the stress-controlled components.  A correction that makes
+// things worse is halved, seven times at most.
+template <int N>
+bool PointDriver<N>::attempt(const std::array<Control, N>& control, const Vector<N>& target) {
+  PointOut<N> out;
+  out.h1 = h_trial_;
+  Vector<N> deps = Vector<N>::Zero();
+  for (int i = 0; i < N; ++i)
+    if (control[static_cast<std::size_t>(i)] == Control::strain) deps[i] = target[i];
+  if (call(deps, out) != Outcome::ok) return false;
+
+  double scale = sigma_.cwiseAbs().maxCoeff();  // largest stress met on the way
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    const Vector<N> r = lack<N>(control, target, out.sigma);
+    scale = std::max(scale, out.sigma.cwiseAbs().maxCoeff());
+    if (!r.allFinite()) return false;
+    if (r.cwiseAbs().maxCoeff() <= kTolerance * scale) {
+      sigma_ = out.sigma;
+      eps_ += deps;
+      h_.swap(h_trial_);
+      status_ = out.status;
+      ++steps_;
+      return true;
+    }
+    const Eigen::FullPivLU<Matrix<N>> lu(constrained<N>(control, out.D));
+    if (!lu.isInvertible()) return false;
+    const Vector<N> base = deps, correction = lu.solve(r);
+    for (int cut = 0; cut < 8; ++cut) {
+      deps = base + std::ldexp(1.0, -cut) * correction;
+      if (call(deps, out) == Outcome::ok && lack<N>(control, target, out.sigma).norm() < r.norm()) break;
+    }
+  }
+  return false;
+}
+
+template <int N>
+void PointDriver<N>::advance(const std::array<Control, N>& control, const Vector<N>& target) {
+  double done = 0.0, share = 1.0;  // of the step
+  const Vector<N> sigma_start = sigma_;
+  const double smallest = std::ldexp(1.0, -kHalvings);
+  while (done < 1.0) {
+    Vector<N> part;
+    for (int i = 0; i < N; ++i)
+      part[i] = control[static_cast<std::size_t>(i)] == Control::strain
+                    ? share * target[i]
+                    : sigma_start[i] + (done + share) * (target[i] - sigma_start[i]);
+    if (attempt(control, part)) {
+      done += share;
+    } else {
+      share *= 0.5;
+      if (share < smallest) throw AnalysisError("point driver: the path can't be followed further");
+    }
+  }
+}
+
+template class PointDriver<2>;
+template class PointDriver<4>;
+
+std::vector<TriaxialPoint> triaxial_test(const SolidLaw& law, double cell_pressure, double axial_strain,
+                                         int steps) {
+  constexpr std::array<Control, 4> kTriaxial{Control::stress, Control::strain, Control::stress,
+                                             Control::strain};
+  const Vector4 isotropic{-cell_pressure, -cell_pressure, -cell_pressure, 0.0};
+  const Vector4 step{-cell_pressure, -axial_strain / steps, -cell_pressure, 0.0};
+  PointDriver<4> driver(law, isotropic);
+  std::vector<TriaxialPoint> path = {{0.0, 0.0, 0.0, driver.status()}};
+  for (int i = 0; i < steps; ++i) {
+    driver.advance(kTriaxial, step);
+    const Vector4 &eps = driver.eps(), &sigma = driver.sigma();
+    path.push_back({-eps[1], -eps.head<3>().sum(), sigma[0] - sigma[1], driver.status()});
+  }
+  return path;
+}
+
+}  // namespace sage

@@ -1,0 +1,65 @@
+// One point of a law, driven without a mesh.  Laboratory paths (triaxial, oedometer, direct shear) are such
+// paths, and so is the answer of any test with uniform stress: the "correct" response that a mesh is compared
+// with.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "sage/core/law.hpp"
+
+namespace sage {
+
+enum class Control { strain, stress };
+
+// Tension positive, components as in law.hpp.
+template <int N>
+class PointDriver {
+ public:
+  // Starts from an initial stress, strain zero.  Throws AnalysisError if the law can't carry that stress.
+  // The law must outlive the driver.
+  explicit PointDriver(const Law<N>& law, const Vector<N>& sigma = Vector<N>::Zero());
+
+  // One step.  target[i] is the strain increment of a strain-controlled component, or the stress that a
+  // stress-controlled one has at the end.  Newton on the law's tangent; a step that fails is halved, up to
+  // 2^12 parts.  Throws AnalysisError when that fails too (the path can't be followed: collapse, lost contact);
+  // the state is then the last one that was reached.
+  void advance(const std::array<Control, N>& control, const Vector<N>& target);
+
+  const Vector<N>& sigma() const { return sigma_; }
+  const Vector<N>& eps() const { return eps_; }
+  std::span<const double> history() const { return h_; }
+  PointStatus status() const { return status_; }
+  double stress_level() const { return law_.stress_level(sigma_, h_); }
+  int iterations() const {
+    return iterations_;
+  }                                     // Newton iterations so far, 1 a step where the guess was right
+  int steps() const { return steps_; }  // accepted parts so far
+
+ private:
+  bool attempt(const std::array<Control, N>& control, const Vector<N>& target);
+  Outcome call(const Vector<N>& deps, PointOut<N>& out);
+
+  const Law<N>& law_;
+  Vector<N> sigma_, eps_;
+  std::vector<double> h_, h_trial_;
+  PointStatus status_ = PointStatus::elastic;
+  int iterations_ = 0, steps_ = 0;
+};
+
+extern template class PointDriver<2>;
+extern template class PointDriver<4>;
+
+// Compression positive, as the laboratory plots it.
+struct TriaxialPoint {
+  double axial_strain, volume_strain, deviator;
+  PointStatus status;
+};
+
+// Drained triaxial test on a specimen with frictionless ends: isotropic cell pressure, then axial strain in
+// equal steps while the radial stress stays at the cell pressure.  axial_strain > 0 shortens, < 0 is extension.
+// Returns steps + 1 points, the first at zero strain.
+std::vector<TriaxialPoint> triaxial_test(const SolidLaw& law, double cell_pressure, double axial_strain,
+                                         int steps);
+
+}  // namespace sage

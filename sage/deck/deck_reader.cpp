@@ -1,0 +1,287 @@
+#include "sage/deck/deck_reader.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "sage/deck/text.hpp"
+
+namespace sage {
+
+namespace {
+
+constexpr int most_errors = 1000;  // reading stops there
+
+}  // namespace
+
+DeckReader::DeckReader(const SourceText& source, const Layout& layout, const ReadOptions& options)
+    : source_(source),
+      layout_(layout),
+      records_(source, layout.records),
+      log_(deck_, options),
+      texts_(std::make_shared<std::deque<std::string>>()),
+      latest_(layout.cards.size(), -1),
+      suggested_(layout.cards.size(), 0) {
+  deck_.file = source.name();
+  deck_.layout = layout.name;
+  deck_.source = source.text();
+  deck_.line_starts = source.starts();
+  for (const CardRule& rule : layout.cards) {
+    deck_.specs.push_back(rule.spec);
+    const bool plain = std::all_of(rule.rules.begin(), rule.rules.end(),
+                                   [](const FieldRule& r) { return r.map.empty() && r.must_equal.empty(); });
+    plain_.push_back(plain);
+  }
+}
+
+Deck DeckReader::read() {
+  read_entries(layout_.entries, -1);
+  if (!stopped_) check_after_end();
+  deck_.texts = texts_;
+  log_.finish();
+  return std::move(deck_);
+}
+
+// ---- The sequence of cards
+// -------------------------------------------------------------------------------------
+
+void DeckReader::read_entries(const std::vector<LayoutEntry>& entries, int owner) {
+  for (const LayoutEntry& entry : entries) {
+    if (stopped_) return;
+    read_entry(entry, owner);
+    if (entry.opens && entry.card >= 0) owner = latest_[static_cast<std::size_t>(entry.card)];
+  }
+}
+
+void DeckReader::read_entry(const LayoutEntry& entry, int owner) {
+  if (!entry.when.empty() && !truth(entry.when)) return;
+  const RunState outer = run_;
+  run_ = {&entry, 0, 0};
+  const int before = deck_.cards.empty() ? -1 : deck_.cards.back().spec;
+  if (entry.card >= 0 && before != entry.card) previous_rule_ = before;
+  for (int i = 0; i < entry.headings && !stopped_; ++i)
+    if (!records_.next()) truncated(entry);
+  switch (entry.run) {
+    case LayoutEntry::Run::once:
+      read_one(entry, owner);
+      break;
+    case LayoutEntry::Run::counted:
+      read_counted(entry, owner);
+      break;
+    case LayoutEntry::Run::named:
+      read_named(entry, owner);
+      break;
+    case LayoutEntry::Run::until:
+      read_until(entry, owner);
+      break;
+  }
+  run_ = outer;
+}
+
+void DeckReader::read_counted(const LayoutEntry& entry, int owner) {
+  int count = 0;
+  if (!count_of(entry.count, card_name(entry) + " cards", count)) return;
+  run_.wanted = count;
+  for (int i = 0; i < count && !stopped_; ++i) {
+    run_.done = i;
+    if (records_.at_end()) return truncated(entry);
+    read_one(entry, owner);
+  }
+}
+
+void DeckReader::read_named(const LayoutEntry& entry, int owner) {
+  const int first = entry.card >= 0 ? entry.card : entry.entries.front().card;
+  bool flagged = entry.until.empty();
+  while (!stopped_ && !records_.at_end() && name_matches(rule_of(first))) {
+    read_one(entry, owner);
+    ++run_.done;
+    if (entry.until.empty()) continue;
+    flagged = truth(entry.until);
+    if (flagged) return;
+  }
+  if (!flagged && run_.done > 0 && !stopped_)
+    log_.add(Severity::warning, log_.line(records_.line()),
+             "this is the last " + card_name(entry) + " card, but it is not marked as such (" +
+                 entry.until.source + ")");
+}
+
+void DeckReader::read_until(const LayoutEntry& entry, int owner) {
+  for (;;) {
+    if (stopped_) return;
+    if (records_.at_end()) return truncated(entry);
+    const std::size_t cards = deck_.cards.size(), values = deck_.values.size();
+    read_one(entry, owner);
+    ++run_.done;
+    if (stopped_ || !truth(entry.until)) continue;
+    if (entry.drop_last && deck_.cards.size() > cards) {
+      if (entry.card >= 0) latest_[static_cast<std::size_t>(entry.card)] = -1;
+      deck_.cards.resize(cards);
+      deck_.values.resize(values);
+    }
+    return;
+  }
+}
+
+void DeckReader::read_one(const LayoutEntry& entry, int owner) {
+  if (entry.card < 0) return read_entries(entry.entries, owner);
+  if (records_.at_end()) return truncated(entry);
+  const CardRule& rule = rule_of(entry.card);
+  if (!layout_.card_separator.empty() && !name_matches(rule)) {
+    const std::string_view line = trimmed(records_.peek_line());
+    log_.add(Severity::error, log_.line(records_.next_line()),
+             "card " + rule.spec.label + " is missing: " + quoted(line.substr(0, 30)) + " stands here");
+    return stop("reading stops here", records_.next_line());
+  }
+  read_card(entry.card, owner);
+  if (log_.errors() > most_errors) stop("too many errors: reading stops here", records_.line());
+}
+
+// A layout whose cards bear names: "B-*" stands for every name that begins so, "|" separates alternatives.
+bool DeckReader::name_matches(const CardRule& rule) {
+  const std::string_view line = records_.peek_line();
+  const auto width = static_cast<std::size_t>(layout_.card_name_columns);
+  const bool named =
+      line.size() >= width && line.substr(width, layout_.card_separator.size()) == layout_.card_separator;
+  const std::string_view name = trimmed(named ? line.substr(0, width) : line);
+  std::string_view wanted = rule.spec.label;
+  for (;;) {
+    const std::size_t bar = std::min(wanted.find('|'), wanted.size());
+    const std::string_view one = wanted.substr(0, bar);
+    const bool open = !one.empty() && one.back() == '*';
+    if (open ? named && name.substr(0, one.size() - 1) == one.substr(0, one.size() - 1) : name == one)
+      return true;
+    if (bar == wanted.size()) return false;
+    wanted.remove_prefix(bar + 1);
+  }
+}
+
+// ---- One card
+// -----------------------------------------------------------------------------------------------------
+
+void DeckReader::read_card(int index, int owner) {
+  const CardRule& rule = rule_of(index);
+  const auto slot = static_cast<std::size_t>(index);
+  Card card;
+  card.spec = index;
+  card.owner = owner;
+  card.first_value = static_cast<std::int32_t>(deck_.values.size());
+  own_card_ = card.first_value;
+  own_rule_ = index;
+  flaws_.clear();
+  latest_[slot] = static_cast<int>(deck_.cards.size());
+  const bool complete = rule.list_directed ? read_listed(rule, card) : read_formatted(rule, card);
+  own_card_ = own_rule_ = -1;
+  if (!complete && !stopped_ && run_.entry) truncated(*run_.entry);
+}
+
+template <class Read>
+bool DeckReader::read_fields(Read& read, const CardRule& rule) {
+  for (std::size_t i = 0; i < rule.rules.size(); ++i) {
+    if (!rule.rules[i].count.empty()) return read_list(read, rule, i);
+    const ReadEnd end = read.read(rule.spec.fields[i].kind, deck_.values, flaws_);
+    if (end == ReadEnd::ended_by_slash) return true;
+    if (end != ReadEnd::complete) return false;
+  }
+  return true;
+}
+
+template <class Read>
+bool DeckReader::read_list(Read& read, const CardRule& rule, std::size_t field) {
+  int count = 0;
+  if (!count_of(rule.rules[field].count, rule.spec.fields[field].label, count)) return true;
+  const std::size_t left = source_.text()->size();
+  if (!rule.list_directed && static_cast<std::size_t>(count) > left) {
+    log_.add(Severity::error, log_.line(records_.line()),
+             std::to_string(count) + " values of " + rule.spec.fields[field].label + " can't be in a deck of " +
+                 std::to_string(left) + " characters (" + count_source(rule.rules[field].count) + ")");
+    stopped_ = true;
+    return true;
+  }
+  for (int i = 0; i < count; ++i) {
+    const ReadEnd end = read.read(rule.spec.fields[field].kind, deck_.values, flaws_);
+    if (end == ReadEnd::ended_by_slash) return true;
+    if (end != ReadEnd::complete) return false;
+    if (static_cast<int>(flaws_.size()) > most_errors) return true;
+  }
+  return true;
+}
+
+bool DeckReader::read_formatted(const CardRule& rule, Card& card) {
+  FormattedRead read(records_, rule.format);
+  if (read.begin() != ReadEnd::complete) return false;
+  card.line = records_.line();
+  const bool complete = read_fields(read, rule);
+  const std::size_t last_field_end = read.last_field_end();
+  read.finish();
+  close_card(rule, card);
+  if (complete) check_rest(rule, card, last_field_end);
+  return complete;
+}
+
+bool DeckReader::read_listed(const CardRule& rule, Card& card) {
+  if (!rule.same_read || !list_read_) {
+    list_read_.emplace(records_, *texts_);
+    if (list_read_->begin() != ReadEnd::complete) return false;
+  }
+  ListRead& read = *list_read_;
+  card.line = records_.line();
+  const bool complete = read_fields(read, rule);
+  if (deck_.values.size() > static_cast<std::size_t>(card.first_value))
+    card.line = deck_.values[static_cast<std::size_t>(card.first_value)].line;
+  close_card(rule, card);
+  if (!complete || stopped_) return complete;
+  return rule.items_card < 0 || read_items(rule, read);
+}
+
+// The rest of the READ: n items, each a card of its own.
+bool DeckReader::read_items(const CardRule& rule, ListRead& read) {
+  int count = 0;
+  const CardRule& item = rule_of(rule.items_card);
+  if (!count_of(rule.items_count, item.spec.label + " items", count)) return true;
+  const int owner = static_cast<int>(deck_.cards.size()) - 1;
+  for (int i = 0; i < count && !stopped_; ++i) {
+    Card card;
+    card.spec = rule.items_card;
+    card.owner = owner;
+    card.first_value = static_cast<std::int32_t>(deck_.values.size());
+    flaws_.clear();
+    own_card_ = card.first_value;
+    own_rule_ = rule.items_card;
+    const bool complete = read_fields(read, item);
+    own_card_ = own_rule_ = -1;
+    const auto first = static_cast<std::size_t>(card.first_value);
+    if (read.ended_by_slash() && deck_.values.size() == first) return true;
+    card.line = deck_.values.size() > first ? deck_.values[first].line : records_.line();
+    latest_[static_cast<std::size_t>(rule.items_card)] = static_cast<int>(deck_.cards.size());
+    close_card(item, card);
+    if (!complete) {
+      run_.wanted = count;
+      run_.done = i;
+      return false;
+    }
+    if (log_.errors() > most_errors) stop("too many errors: reading stops here", records_.line());
+  }
+  return true;
+}
+
+// ---- Entry points
+// ---------------------------------------------------------------------------------------------------
+
+Deck read_deck_text(std::string text, const std::string& name, const Layout& layout,
+                    const ReadOptions& options) {
+  check_is_text(text, name);
+  if (text.compare(0, 3, "\xef\xbb\xbf") == 0) text.erase(0, 3);  // an editor's mark, no part of column 1
+  const SourceText source(std::move(text), name);
+  return DeckReader(source, layout, options).read();
+}
+
+Layout layout_for(const std::string& path) {
+  const std::string text = read_file(path);
+  check_is_text(text, path);
+  return load_layout(detect_layout(text));
+}
+
+Deck read_deck(const std::string& path, const Layout& layout, const ReadOptions& options) {
+  return read_deck_text(read_file(path), path, layout, options);
+}
+
+}  // namespace sage

@@ -1,0 +1,88 @@
+// Walks a layout's sequence of cards over a deck.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sage/deck/layout.hpp"
+#include "sage/deck/read_log.hpp"
+
+namespace sage {
+
+class DeckReader {
+ public:
+  DeckReader(const SourceText& source, const Layout& layout, const ReadOptions& options);
+
+  // Throws InputError with all errors.
+  Deck read();
+
+ private:
+  // How a card comes to be read: for messages about counts.
+  struct RunState {
+    const LayoutEntry* entry = nullptr;
+    int wanted = 0;  // 0 = not counted
+    int done = 0;
+  };
+
+  void read_entries(const std::vector<LayoutEntry>& entries, int owner);
+  void read_entry(const LayoutEntry& entry, int owner);
+  void read_counted(const LayoutEntry& entry, int owner);
+  void read_named(const LayoutEntry& entry, int owner);
+  void read_until(const LayoutEntry& entry, int owner);
+  void read_one(const LayoutEntry& entry, int owner);
+
+  // One card.
+  void read_card(int rule, int owner);
+  bool read_formatted(const CardRule& rule, Card& card);
+  bool read_listed(const CardRule& rule, Card& card);
+  bool read_items(const CardRule& rule, ListRead& read);
+  template <class Read>
+  bool read_fields(Read& read, const CardRule& rule);
+  template <class Read>
+  bool read_list(Read& read, const CardRule& rule, std::size_t field);
+  void close_card(const CardRule& rule, Card card);
+  void check_values(const CardRule& rule, const Card& card);
+  void apply_map(const CardRule& rule, std::size_t field, FieldValue& value);
+  void report_flaws(const CardRule& rule, const Card& card);
+  void check_rest(const CardRule& rule, const Card& card, std::size_t last_field_end);
+  void check_sequence_number(const CardRule& rule, const Card& card, std::size_t last_field_end);
+  void suggest_count(const CardRule& rule, const Card& card);
+  bool reads_well(const CardRule& rule, int line) const;
+  bool name_matches(const CardRule& rule);
+
+  // Expressions.
+  ExpressionValue value_of(int card, int field) const;
+  bool truth(const Expression& expression) const;
+  bool count_of(const Expression& expression, const std::string& what, int& count);
+  std::string count_source(const Expression& expression) const;
+  const FieldValue* field_value(int card, int field) const;
+
+  void truncated(const LayoutEntry& entry);
+  void stop(const std::string& why, int line);
+  void check_after_end();
+  std::string card_name(const LayoutEntry& entry) const;
+  const CardRule& rule_of(int index) const { return layout_.cards[static_cast<std::size_t>(index)]; }
+
+  const SourceText& source_;
+  const Layout& layout_;
+  Deck deck_;
+  RecordSource records_;
+  ReadLog log_;
+  std::shared_ptr<std::deque<std::string>> texts_;
+  std::vector<FieldFlaw> flaws_;
+  std::vector<int> latest_;            // last card of each rule, -1 = none
+  std::vector<int> faulty_;            // values with errors, ascending
+  std::vector<char> suggested_;        // rules about whose counts something was said
+  std::vector<char> plain_;            // rules whose fields need no map and no comparison
+  std::optional<ListRead> list_read_;  // the last list-directed READ, for cards that go on in it
+  RunState run_;
+  int previous_rule_ = -1;             // last rule before the present run
+  int own_card_ = -1, own_rule_ = -1;  // the card being read, for counts that name its own fields
+  bool stopped_ = false;
+  bool overlong_noted_ = false, sequence_noted_ = false;
+};
+
+}  // namespace sage

@@ -1,0 +1,92 @@
+// What `sagefe echo` prints.
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <ostream>
+#include <sstream>
+
+#include "sage/deck/read_deck.hpp"
+#include "sage/deck/text.hpp"
+
+namespace sage {
+
+namespace {
+
+// Shortest digits that give the same number back.
+std::string number_text(double value) {
+  std::array<char, 40> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
+}
+
+std::string value_text(const FieldValue& value) {
+  if (value.kind == FieldKind::text) return '"' + std::string(trimmed(value.text)) + '"';
+  if (value.kind == FieldKind::logical) return value.number != 0.0 ? "true" : "false";
+  return number_text(value.number);
+}
+
+void echo_values(const Deck& deck, const Card& card, std::ostream& out) {
+  const CardSpec& spec = deck.specs[static_cast<std::size_t>(card.spec)];
+  std::string line = "      ";
+  for (std::int32_t i = 0; i < card.value_count; ++i) {
+    const auto field = std::min(static_cast<std::size_t>(i), spec.fields.size() - 1);
+    const FieldValue& value = deck.values[static_cast<std::size_t>(card.first_value + i)];
+    if (value.blank) continue;
+    std::string item = "  " + spec.fields[field].name;
+    if (static_cast<std::size_t>(card.value_count) > spec.fields.size() && field + 1 == spec.fields.size())
+      item += "(" + std::to_string(static_cast<std::size_t>(i) - field + 1) + ")";
+    item += " = " + value_text(value);
+    if (line.size() + item.size() > 110) {
+      out << line << '\n';
+      line = "      ";
+    }
+    line += item;
+  }
+  out << line << '\n';
+}
+
+std::string line_number(int line) {
+  std::string text = std::to_string(line);
+  if (text.size() < 5) text.insert(0, 5 - text.size(), ' ');
+  return text + " | ";
+}
+
+// Lines of a card: from its own to that of its last value.
+int last_line(const Deck& deck, const Card& card) {
+  int line = card.line;
+  for (std::int32_t i = 0; i < card.value_count; ++i)
+    line = std::max(line, deck.values[static_cast<std::size_t>(card.first_value + i)].line);
+  return line;
+}
+
+}  // namespace
+
+void echo(const Deck& deck, std::ostream& out) {
+  static constexpr std::string_view ruler =
+      "....+....1....+....2....+....3....+....4....+....5....+....6....+....7....+....8";
+  out << deck.file << ", layout " << deck.layout << '\n';
+  int shown_line = 0, shown_spec = -1;
+  for (const Card& card : deck.cards) {
+    const CardSpec& spec = deck.specs[static_cast<std::size_t>(card.spec)];
+    if (card.spec != shown_spec) {
+      out << '\n' << spec.name;
+      if (spec.label != spec.name) out << " [" << spec.label << "]";
+      out << "  " << (spec.format.empty() ? "list-directed" : spec.format) << '\n'
+          << "      | " << ruler << '\n';
+      shown_spec = card.spec;
+    }
+    for (int line = std::max(card.line, shown_line + 1); line <= last_line(deck, card); ++line) {
+      out << line_number(line) << deck.line_text(line) << '\n';
+      shown_line = line;
+    }
+    echo_values(deck, card, out);
+  }
+}
+
+std::string echo(const Deck& deck) {
+  std::ostringstream out;
+  echo(deck, out);
+  return out.str();
+}
+
+}  // namespace sage

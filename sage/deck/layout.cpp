@@ -1,0 +1,70 @@
+#include "sage/deck/layout.hpp"
+
+#include <algorithm>
+
+#include "sage/deck/embedded.hpp"
+#include "sage/deck/source.hpp"
+
+namespace sage {
+
+namespace {
+
+constexpr std::string_view standard_layout = "sage1";
+
+// "* layout: quad4m" in the first line of a deck.
+std::string named_layout(std::string_view first_line) {
+  const std::size_t at = first_line.find("layout:");
+  if (first_line.empty() || first_line[0] != '*' || at == std::string_view::npos) return {};
+  const std::string_view rest = first_line.substr(at + 7);
+  const std::size_t begin = rest.find_first_not_of(' ');
+  if (begin == std::string_view::npos) return {};
+  return std::string(rest.substr(begin, rest.find(' ', begin) - begin));
+}
+
+bool has_marks(const Layout& layout, const SourceText& deck) {
+  return !layout.marks.empty() &&
+         std::all_of(layout.marks.begin(), layout.marks.end(), [&](const LayoutMark& mark) {
+           const std::string_view line = deck.line(mark.line);
+           const auto column = static_cast<std::size_t>(mark.column) - 1;
+           return column < line.size() &&
+                  std::any_of(mark.texts.begin(), mark.texts.end(), [&](const std::string& text) {
+                    return line.substr(column, text.size()) == text;
+                  });
+         });
+}
+
+}  // namespace
+
+std::vector<std::string> built_in_layouts() {
+  std::vector<std::string> names;
+  for (const EmbeddedLayout& layout : embedded_layouts()) names.emplace_back(layout.name);
+  return names;
+}
+
+std::string_view built_in_layout_text(std::string_view name) {
+  for (const EmbeddedLayout& layout : embedded_layouts())
+    if (layout.name == name) return layout.text;
+  return {};
+}
+
+Layout load_layout(const std::string& path_or_name) {
+  const std::string_view built_in = built_in_layout_text(path_or_name);
+  if (!built_in.empty()) return load_layout_text(built_in, path_or_name + ".toml");
+  const bool path = path_or_name.find('/') != std::string::npos || path_or_name.find('.') != std::string::npos;
+  if (path) return load_layout_text(read_file(path_or_name), path_or_name);
+  std::string known;
+  for (const std::string& name : built_in_layouts()) known += (known.empty() ? "" : ", ") + name;
+  throw InputError({path_or_name, 0, 0, 0},
+                   "no layout of this name is built in (known: " + known + "); give the path of a layout file");
+}
+
+std::string detect_layout(std::string_view deck_text) {
+  const SourceText deck(std::string(deck_text.substr(0, 4000)), "");
+  if (const std::string named = named_layout(deck.line(1)); !named.empty()) return named;
+  for (const EmbeddedLayout& embedded : embedded_layouts())
+    if (has_marks(load_layout_text(embedded.text, std::string(embedded.name)), deck))
+      return std::string(embedded.name);
+  return std::string(standard_layout);
+}
+
+}  // namespace sage

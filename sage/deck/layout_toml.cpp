@@ -1,0 +1,403 @@
+// Layout files: TOML -> Layout, with the layout file's own line in every complaint.
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "sage/deck/layout.hpp"
+
+namespace sage {
+
+namespace {
+
+class LayoutReader {
+ public:
+  LayoutReader(const toml::table& root, std::string file) : root_(root), file_(std::move(file)) {}
+
+  Layout read() {
+    layout_.file = file_;
+    known_keys(root_,
+               {"name", "title", "blanks", "comment", "record_length", "sequence_columns", "card_separator",
+                "card_name_columns", "introduction", "closing", "example", "marks", "card"});
+    layout_.name = text(root_, "name", true);
+    layout_.title = text(root_, "title");
+    layout_.introduction = text(root_, "introduction");
+    layout_.closing = text(root_, "closing");
+    layout_.example = text(root_, "example");
+    read_record_rules();
+    read_marks();
+    const toml::array* cards = root_["card"].as_array();
+    if (!cards) fail(root_, "a layout needs [[card]] entries");
+    read_entries(*cards, layout_.entries, 1);
+    return std::move(layout_);
+  }
+
+ private:
+  [[noreturn]] void fail(const toml::node& node, const std::string& message) const {
+    const toml::source_position at = node.source().begin;
+    throw InputError({file_, static_cast<int>(at.line), 0, 0}, message);
+  }
+
+  void known_keys(const toml::table& table, std::initializer_list<std::string_view> keys) const {
+    for (const auto& [key, value] : table)
+      if (std::find(keys.begin(), keys.end(), key.str()) == keys.end())
+        fail(value, "unknown key \"" + std::string(key.str()) + "\"");
+  }
+
+  std::string text(const toml::table& table, std::string_view key, bool required = false) const {
+    const toml::node* node = table.get(key);
+    if (!node) {
+      if (required) fail(table, "\"" + std::string(key) + "\" is missing");
+      return {};
+    }
+    if (const auto value = node->value_exact<std::string>()) return *value;
+    fail(*node, "\"" + std::string(key) + "\" must be a text in quotes");
+  }
+
+  int integer(const toml::table& table, std::string_view key, int fallback, int low, int high) const {
+    const toml::node* node = table.get(key);
+    if (!node) return fallback;
+    const auto value = node->value_exact<std::int64_t>();
+    if (!value || *value < low || *value > high)
+      fail(*node, "\"" + std::string(key) + "\" must be an integer from " + std::to_string(low) + " to " +
+                      std::to_string(high));
+    return static_cast<int>(*value);
+  }
+
+  bool flag(const toml::table& table, std::string_view key) const {
+    const toml::node* node = table.get(key);
+    if (!node) return false;
+    if (const auto value = node->value_exact<bool>()) return *value;
+    fail(*node, "\"" + std::string(key) + "\" must be true or false");
+  }
+
+  void read_record_rules() {
+    const std::string blanks = text(root_, "blanks");
+    if (!blanks.empty() && blanks != "null" && blanks != "zero")
+      fail(*root_.get("blanks"), "blanks must be \"null\" or \"zero\"");
+    layout_.records.blanks = blanks == "zero" ? BlankMode::zero : BlankMode::null;
+    const std::string comment = text(root_, "comment");
+    if (comment.size() > 1) fail(*root_.get("comment"), "comment must be one character");
+    layout_.records.comment = comment.empty() ? '\0' : comment[0];
+    layout_.records.record_length = integer(root_, "record_length", 0, 0, 10000);
+    layout_.card_separator = text(root_, "card_separator");
+    layout_.card_name_columns = integer(root_, "card_name_columns", 0, 0, 1000);
+    if (!layout_.card_separator.empty())
+      layout_.records.skip_columns =
+          layout_.card_name_columns + static_cast<int>(layout_.card_separator.size());
+    layout_.records.separator = layout_.card_separator;
+    if (const toml::node* node = root_.get("sequence_columns")) {
+      const toml::array* pair = node->as_array();
+      if (!pair || pair->size() != 2 || !(*pair)[0].is_integer() || !(*pair)[1].is_integer())
+        fail(*node, "sequence_columns must be [first, last]");
+      layout_.first_sequence_column = static_cast<int>((*pair)[0].value_or(0));
+      layout_.last_sequence_column = static_cast<int>((*pair)[1].value_or(0));
+    }
+  }
+
+  void read_marks() {
+    const toml::node* node = root_.get("marks");
+    if (!node) return;
+    const toml::array* marks = node->as_array();
+    if (!marks) fail(*node, "marks must be an array of {line, column, text}");
+    for (const toml::node& entry : *marks) {
+      const toml::table* table = entry.as_table();
+      if (!table) fail(entry, "a mark is {line, column, text}");
+      known_keys(*table, {"line", "column", "text"});
+      LayoutMark mark{integer(*table, "line", 1, 1, 1000), integer(*table, "column", 1, 1, 1000), {}};
+      std::string rest = text(*table, "text", true);
+      for (std::size_t bar = rest.find('|'); bar != std::string::npos; bar = rest.find('|')) {
+        mark.texts.push_back(rest.substr(0, bar));
+        rest.erase(0, bar + 1);
+      }
+      mark.texts.push_back(rest);
+      layout_.marks.push_back(mark);
+    }
+  }
+
+  void read_entries(const toml::array& array, std::vector<LayoutEntry>& entries, int depth) {
+    if (depth > 8) fail(array, "blocks are nested too deeply");
+    for (const toml::node& node : array) {
+      const toml::table* table = node.as_table();
+      if (!table) fail(node, "a [[card]] entry is a table");
+      entries.push_back(read_entry(*table, depth));
+    }
+  }
+
+  LayoutEntry read_entry(const toml::table& table, int depth) {
+    known_keys(table, {"name", "as", "label", "about", "format", "fields", "items", "block", "card", "opens",
+                       "repeat", "until", "until_dropped", "when", "headings", "same_read"});
+    LayoutEntry entry;
+    entry.line = static_cast<int>(table.source().begin.line);
+    const bool block = table.contains("block");
+    if (!block) {
+      entry.card = read_card(table, false);
+      bare_card_ = entry.card;
+    }
+    read_run(table, entry);
+    entry.opens = flag(table, "opens");
+    entry.headings = integer(table, "headings", 0, 0, 1000);
+    if (const toml::node* inner = table.get("card")) {
+      if (!block) fail(*inner, "only a block holds cards: give it block = \"name\"");
+      if (!inner->as_array()) fail(*inner, "[[card.card]] entries were expected");
+      read_entries(*inner->as_array(), entry.entries, depth + 1);
+    }
+    if (block) {
+      if (entry.entries.empty()) fail(table, "a block needs cards");
+      finish_block(table, entry);
+    }
+    return entry;
+  }
+
+  // When, count and until of an entry.  A block's `until` is read after its cards, since it speaks of them.
+  void read_run(const toml::table& table, LayoutEntry& entry) {
+    if (table.contains("when")) entry.when = expression(table, "when", -1);
+    const bool repeat = table.contains("repeat");
+    const bool until = table.contains("until") || table.contains("until_dropped");
+    if (repeat) {
+      const toml::node& node = *table.get("repeat");
+      if (node.value_exact<std::string>() == "named") {
+        if (layout_.card_separator.empty())
+          fail(node, "repeat = \"named\" needs cards with names (card_separator)");
+        entry.run = LayoutEntry::Run::named;
+      } else {
+        entry.run = LayoutEntry::Run::counted;
+        entry.count = expression(table, "repeat", -1);
+      }
+    }
+    if (until && entry.card >= 0) read_until(table, entry);
+  }
+
+  void read_until(const toml::table& table, LayoutEntry& entry) {
+    if (entry.run == LayoutEntry::Run::counted) fail(table, "repeat = a count and until can't both be given");
+    if (entry.run == LayoutEntry::Run::once) entry.run = LayoutEntry::Run::until;
+    entry.drop_last = table.contains("until_dropped");
+    entry.until = expression(table, entry.drop_last ? "until_dropped" : "until", entry.card);
+  }
+
+  // The first card of a block opens it unless another says so.
+  void finish_block(const toml::table& table, LayoutEntry& entry) {
+    if (table.contains("until") || table.contains("until_dropped")) read_until(table, entry);
+    const bool chosen =
+        std::any_of(entry.entries.begin(), entry.entries.end(), [](auto& e) { return e.opens; });
+    if (!chosen) entry.entries.front().opens = true;
+    for (const LayoutEntry& inner : entry.entries)
+      if (inner.opens && (inner.card < 0 || inner.run != LayoutEntry::Run::once))
+        fail(table, "the card that opens a block must be a single card");
+    if (entry.run == LayoutEntry::Run::named && entry.entries.front().card < 0)
+      fail(table, "a block repeated by name must begin with a card");
+  }
+
+  int read_card(const toml::table& table, bool is_item) {
+    CardRule card;
+    card.line = static_cast<int>(table.source().begin.line);
+    card.key = text(table, "name", true);
+    card.spec.name = table.contains("as") ? text(table, "as") : card.key;
+    card.spec.label = table.contains("label") ? text(table, "label") : card.key;
+    card.about = text(table, "about");
+    card.is_item = is_item;
+    card.same_read = flag(table, "same_read");
+    if (find_card(card.key) >= 0) fail(table, "card \"" + card.key + "\" is defined twice");
+    if (!is_item) read_format(table, card);
+    if (card.same_read && !card.list_directed) fail(table, "same_read belongs to list-directed cards");
+    const auto index = layout_.cards.size();
+    layout_.cards.push_back(card);  // its own fields may be named by its counts
+    bare_card_ = static_cast<int>(index);
+    read_fields(table, layout_.cards[index]);
+    if (!layout_.cards[index].list_directed && !is_item) check_format(table, layout_.cards[index]);
+    read_items(table, static_cast<int>(index));
+    return static_cast<int>(index);
+  }
+
+  void read_format(const toml::table& table, CardRule& card) {
+    const std::string format = text(table, "format", true);
+    card.list_directed = format == "*";
+    if (card.list_directed) return;
+    card.spec.format = format;
+    try {
+      card.format = compile_format(format);
+    } catch (const FormatError& error) {
+      fail(*table.get("format"),
+           "FORMAT " + format + ", character " + std::to_string(error.column()) + ": " + error.what());
+    }
+  }
+
+  void read_fields(const toml::table& table, CardRule& card) {
+    const toml::node* node = table.get("fields");
+    const toml::array* fields = node ? node->as_array() : nullptr;
+    if (!node && table.contains("items")) return;  // the whole READ is a list of items
+    if (!fields || fields->empty())
+      fail(node ? *node : table, "card \"" + card.key + "\" needs fields = [ ... ]");
+    for (const toml::node& entry : *fields) {
+      const toml::table* field = entry.as_table();
+      if (!field) fail(entry, "a field is { name = ..., ... }");
+      if (!card.rules.empty() && !card.rules.back().count.empty())
+        fail(entry, "only the last field of a card can repeat (count)");
+      read_field(*field, card);
+    }
+  }
+
+  void read_field(const toml::table& table, CardRule& card) {
+    known_keys(table,
+               {"name", "label", "unit", "kind", "required", "default", "codes", "map", "equals", "count"});
+    FieldSpec spec;
+    FieldRule rule;
+    spec.name = text(table, "name", true);
+    for (const FieldSpec& other : card.spec.fields)
+      if (other.name == spec.name)
+        fail(table, "field \"" + spec.name + "\" is named twice in card \"" + card.key + "\"");
+    spec.label = table.contains("label") ? text(table, "label") : spec.name;
+    spec.unit = text(table, "unit");
+    spec.kind = field_kind(table, card);
+    spec.required = flag(table, "required");
+    if (const toml::node* node = table.get("default")) {
+      const auto value = node->value<double>();
+      if (!value) fail(*node, "default must be a number");
+      spec.has_fallback = true;
+      spec.fallback = *value;
+    }
+    rule.codes = text(table, "codes");
+    rule.must_equal = text(table, "equals");
+    read_map(table, rule);
+    card.spec.fields.push_back(spec);
+    card.rules.push_back(rule);
+    if (table.contains("count")) card.rules.back().count = expression(table, "count", -1);
+  }
+
+  FieldKind field_kind(const toml::table& table, const CardRule& card) const {
+    const std::string kind = text(table, "kind");
+    if (kind == "integer") return FieldKind::integer;
+    if (kind == "real") return FieldKind::real;
+    if (kind == "text") return FieldKind::text;
+    if (kind == "logical") return FieldKind::logical;
+    if (!kind.empty()) fail(*table.get("kind"), "kind must be integer, real, text or logical");
+    if (card.list_directed || card.is_item) fail(table, "a field of a list-directed card needs its kind");
+    return kind_from_format(table, card);
+  }
+
+  // The FORMAT tells the kind of its n-th field.
+  FieldKind kind_from_format(const toml::table& table, const CardRule& card) const {
+    FormatWalker walker(card.format);
+    std::size_t wanted = card.spec.fields.size();
+    for (int passes = 0;;) {
+      const FormatStep& step = walker.next();
+      if (step.edit == Edit::end) {
+        if (!card.format.reversion_has_data || ++passes > 10000)
+          fail(table, "the FORMAT has no field for this");
+        walker.revert();
+      }
+      if (!is_data(step.edit)) continue;
+      if (wanted-- > 0) continue;
+      if (step.edit == Edit::integer) return FieldKind::integer;
+      if (step.edit == Edit::text) return FieldKind::text;
+      if (step.edit == Edit::logical) return FieldKind::logical;
+      return FieldKind::real;
+    }
+  }
+
+  void read_map(const toml::table& table, FieldRule& rule) const {
+    const toml::node* node = table.get("map");
+    if (!node) return;
+    const toml::table* map = node->as_table();
+    if (!map) fail(*node, "map must be { foreign = ours, ... }");
+    for (const auto& [key, value] : *map) {
+      const auto number = value.value<double>();
+      if (!number) fail(value, "a map gives numbers");
+      rule.map.emplace_back(std::string(key.str()), *number);
+    }
+  }
+
+  // Every field must meet an edit descriptor of its kind.
+  void check_format(const toml::table& table, const CardRule& card) const {
+    FormatWalker walker(card.format);
+    std::size_t field = 0;
+    for (int guard = 0; field < card.spec.fields.size(); ++guard) {
+      const FormatStep& step = walker.next();
+      if (step.edit == Edit::end) {
+        if (!card.format.reversion_has_data || guard > 100000)
+          fail(table, "the FORMAT has fewer fields than the card");
+        walker.revert();
+      }
+      if (!is_data(step.edit)) continue;
+      if (!edit_fits(step.edit, card.spec.fields[field].kind))
+        fail(*table.get("format"), "FORMAT " + card.spec.format + " doesn't suit field \"" +
+                                       card.spec.fields[field].name + "\": its kind is another");
+      ++field;
+    }
+  }
+
+  void read_items(const toml::table& table, int index) {
+    const toml::node* node = table.get("items");
+    if (!node) return;
+    const toml::table* items = node->as_table();
+    if (!items) fail(*node, "items must be a table");
+    known_keys(*items, {"name", "as", "label", "about", "fields", "count"});
+    if (!layout_.cards[static_cast<std::size_t>(index)].list_directed)
+      fail(*node, "items belong to list-directed cards");
+    if (!items->contains("count")) fail(*node, "items need a count");
+    const int item = read_card(*items, true);
+    bare_card_ = index;
+    CardRule& card = layout_.cards[static_cast<std::size_t>(index)];
+    card.items_card = item;
+    card.items_count = expression(*items, "count", -1);
+  }
+
+  int find_card(std::string_view key) const {
+    for (std::size_t i = 0; i < layout_.cards.size(); ++i)
+      if (layout_.cards[i].key == key) return static_cast<int>(i);
+    return -1;
+  }
+
+  // `own` is the card that a bare field name means; -1 = the card being read.
+  Expression expression(const toml::table& table, std::string_view key, int own) const {
+    const toml::node& node = *table.get(key);
+    if (const auto number = node.value_exact<std::int64_t>()) {
+      Expression constant{std::to_string(*number), {{}}};
+      constant.nodes[0].number = static_cast<double>(*number);
+      return constant;
+    }
+    const auto source = node.value_exact<std::string>();
+    if (!source) fail(node, "\"" + std::string(key) + "\" must be a number or an expression in quotes");
+    const int bare = own >= 0 ? own : bare_card_;
+    try {
+      return compile_expression(*source, [&](std::string_view card, std::string_view field,
+                                             ExpressionNode& found) { resolve(card, field, bare, found); });
+    } catch (const ExpressionError& error) {
+      fail(node, error.what());
+    }
+  }
+
+  void resolve(std::string_view card, std::string_view field, int bare, ExpressionNode& found) const {
+    const int index = card.empty() ? bare : find_card(card);
+    if (index < 0) throw ExpressionError("no card \"" + std::string(card) + "\" stands before this");
+    const auto& fields = layout_.cards[static_cast<std::size_t>(index)].spec.fields;
+    for (std::size_t i = 0; i < fields.size(); ++i)
+      if (fields[i].name == field) {
+        found.card = index;
+        found.field = static_cast<int>(i);
+        return;
+      }
+    throw ExpressionError("card \"" + layout_.cards[static_cast<std::size_t>(index)].key +
+                          "\" has no field \"" + std::string(field) + "\"");
+  }
+
+  const toml::table& root_;
+  std::string file_;
+  Layout layout_;
+  int bare_card_ = -1;
+};
+
+}  // namespace
+
+Layout load_layout_text(std::string_view toml_text, const std::string& file) {
+  try {
+    const toml::table root = toml::parse(toml_text, file);
+    return LayoutReader(root, file).read();
+  } catch (const toml::parse_error& error) {
+    throw InputError(
+        {file, static_cast<int>(error.source().begin.line), static_cast<int>(error.source().begin.column), 0},
+        std::string(error.description()));
+  }
+}
+
+}  // namespace sage

@@ -1,0 +1,91 @@
+#include "sage/deck/source.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <system_error>
+
+#include "sage/core/error.hpp"
+
+namespace sage {
+
+namespace {
+
+struct FileCloser {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+// Lines end with LF, CR LF or CR alone; the last may have no end.
+std::vector<std::size_t> find_lines(std::string_view text) {
+  std::vector<std::size_t> starts;
+  starts.reserve(text.size() / 40 + 1);
+  const bool any_cr = text.find('\r') != std::string_view::npos;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    starts.push_back(at);
+    const std::size_t end = any_cr ? text.find_first_of("\r\n", at) : text.find('\n', at);
+    if (end == std::string_view::npos) break;
+    at = end + (text[end] == '\r' && end + 1 < text.size() && text[end + 1] == '\n' ? 2 : 1);
+  }
+  return starts;
+}
+
+}  // namespace
+
+SourceText::SourceText(std::string text, std::string name)
+    : name_(std::move(name)),
+      text_(std::make_shared<const std::string>(std::move(text))),
+      starts_(find_lines(*text_)) {}
+
+std::string_view line_at(std::string_view text, std::size_t start) {
+  const char* begin = text.data() + start;
+  const std::size_t size = text.size() - start;
+  const void* feed = std::memchr(begin, '\n', size);
+  std::size_t length = feed ? static_cast<std::size_t>(static_cast<const char*>(feed) - begin) : size;
+  const void* ret = std::memchr(begin, '\r', length);
+  if (ret) length = static_cast<std::size_t>(static_cast<const char*>(ret) - begin);
+  return {begin, length};
+}
+
+std::string_view SourceText::line(int number) const {
+  if (number < 1 || number > line_count()) return {};
+  return line_at(*text_, starts_[static_cast<std::size_t>(number) - 1]);
+}
+
+std::string read_file(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    throw InputError({path, 0, 0, 0}, "is a directory, not a file");
+  const std::unique_ptr<std::FILE, FileCloser> file(std::fopen(path.c_str(), "rb"));
+  if (!file) throw InputError({path, 0, 0, 0}, std::string("can't be opened: ") + std::strerror(errno));
+  std::string text;
+  const auto size = std::filesystem::file_size(path, ignored);
+  std::size_t room = ignored || size > (1u << 30) ? 65536 : static_cast<std::size_t>(size) + 1;
+  for (;;) {
+    const std::size_t have = text.size();
+    text.resize(have + room);
+    const std::size_t got = std::fread(text.data() + have, 1, room, file.get());
+    text.resize(have + got);
+    if (got < room) break;
+    room = text.size();
+  }
+  if (std::ferror(file.get()))
+    throw InputError({path, 0, 0, 0}, std::string("can't be read: ") + std::strerror(errno));
+  return text;
+}
+
+void check_is_text(std::string_view text, const std::string& name) {
+  if (text.empty()) throw InputError({name, 0, 0, 0}, "the file is empty");
+  if (text.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    throw InputError({name, 0, 0, 0}, "the file is larger than 2 GiB");
+  const std::size_t nul = text.find('\0');
+  if (nul == std::string_view::npos) return;
+  const bool wide = text.size() > 1 && (text.substr(0, 2) == "\xff\xfe" || text.substr(0, 2) == "\xfe\xff");
+  throw InputError({name, 0, 0, 0}, wide ? "the file is UTF-16 text: save it as plain ASCII or UTF-8"
+                                         : "the file is binary (a NUL character at byte " +
+                                               std::to_string(nul + 1) + "), not a deck of cards");
+}
+
+}  // namespace sage

@@ -1,0 +1,38 @@
+// A text file as records: lines without their ends, found once.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sage {
+
+class SourceText {
+ public:
+  SourceText(std::string text, std::string name);
+
+  const std::string& name() const { return name_; }
+  const std::shared_ptr<const std::string>& text() const { return text_; }
+  int line_count() const { return static_cast<int>(starts_.size()); }
+  // 1-based; without LF, CR LF or CR.  Empty for a line that doesn't exist.
+  std::string_view line(int number) const;
+  // Offset of each line's first character.
+  const std::vector<std::size_t>& starts() const { return starts_; }
+
+ private:
+  std::string name_;
+  std::shared_ptr<const std::string> text_;
+  std::vector<std::size_t> starts_;
+};
+
+// The characters from `start` to the end of its line.
+std::string_view line_at(std::string_view text, std::size_t start);
+
+// The whole file.  Throws InputError: missing, a directory, unreadable.
+std::string read_file(const std::string& path);
+
+// Throws InputError for a text that can't be a deck: empty, or holding NUL characters.
+void check_is_text(std::string_view text, const std::string& name);
+
+}  // namespace sage

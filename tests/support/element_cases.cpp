@@ -1,0 +1,155 @@
+#include "tests/support/element_cases.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <variant>
+
+#include "elements/register_elements.hpp"
+#include "elements/shapes.hpp"
+
+namespace sage::test {
+
+namespace {
+
+template <class Shape>
+Eigen::Matrix2Xd nodes_of() {
+  Eigen::Matrix2Xd nodes(2, Shape::nodes);
+  for (std::size_t i = 0; i < Shape::nodes; ++i)
+    nodes.col(static_cast<Eigen::Index>(i)) << Shape::node_at[i][0], Shape::node_at[i][1];
+  return nodes;
+}
+
+std::vector<ElementCase> cases_with(int law_size) {
+  std::vector<ElementCase> cases;
+  for (const auto& [code, entry] : element_catalogue().elements.entries())
+    for (const Formulation& formulation : entry.formulations)
+      for (const Geometry geometry : {Geometry::plane_strain, Geometry::axisymmetric})
+        if (law_size == 0 || entry.law_size == law_size)
+          cases.push_back({code, formulation.code, geometry, &entry,
+                           entry.name + " " + formulation.name +
+                               (geometry == Geometry::axisymmetric ? " axisymmetric" : " plane strain")});
+  return cases;
+}
+
+Eigen::Matrix2Xd columns(std::initializer_list<Vector2> points) {
+  Eigen::Matrix2Xd x(2, static_cast<Eigen::Index>(points.size()));
+  Eigen::Index i = 0;
+  for (const Vector2& p : points) x.col(i++) = p;
+  return x;
+}
+
+Eigen::VectorXd history_start(std::span<const Quantity> history) {
+  Eigen::VectorXd h(static_cast<Eigen::Index>(history.size()));
+  for (std::size_t i = 0; i < history.size(); ++i) h(static_cast<Eigen::Index>(i)) = history[i].initial;
+  return h;
+}
+
+}  // namespace
+
+const Catalogue& element_catalogue() {
+  static const Catalogue catalogue = [] {
+    Catalogue c;
+    register_elements(c);
+    return c;
+  }();
+  return catalogue;
+}
+
+std::vector<ElementCase> element_cases() {
+  return cases_with(0);
+}
+std::vector<ElementCase> solid_cases() {
+  return cases_with(4);
+}
+std::vector<ElementCase> interface_cases() {
+  return cases_with(2);
+}
+
+ElementCase element_case(int code, int formulation, Geometry geometry) {
+  for (const ElementCase& c : element_cases())
+    if (c.code == code && c.formulation == formulation && c.geometry == geometry) return c;
+  throw std::logic_error("no such element");
+}
+
+Eigen::Matrix2Xd parent_nodes(const ElementEntry& entry) {
+  if (entry.name == "quad4") return nodes_of<Quad4>();
+  if (entry.name == "quad8") return nodes_of<Quad8>();
+  if (entry.name == "quad9") return nodes_of<Quad9>();
+  if (entry.name == "tri3") return nodes_of<Tri3>();
+  if (entry.name == "tri6") return nodes_of<Tri6>();
+  if (entry.name == "tri15") return nodes_of<Tri15>();
+  if (entry.name == "interface4") return columns({{-1, 0}, {1, 0}, {1, 0}, {-1, 0}});
+  if (entry.name == "interface6") return columns({{-1, 0}, {1, 0}, {1, 0}, {-1, 0}, {0, 0}, {0, 0}});
+  throw std::logic_error("parent_nodes: add " + entry.name);
+}
+
+Eigen::Matrix2Xd straight_element(const ElementEntry& entry, const Eigen::Matrix2Xd& corners) {
+  const Eigen::Matrix2Xd parent = parent_nodes(entry);
+  Eigen::Matrix2Xd x(2, parent.cols());
+  for (Eigen::Index i = 0; i < parent.cols(); ++i) {
+    const ParentPoint q{parent(0, i), parent(1, i)};
+    if (corners.cols() == 2) x.col(i) = corners * Line2::N(q[0]);
+    if (corners.cols() == 3) x.col(i) = corners * Tri3::N(q);
+    if (corners.cols() == 4) x.col(i) = corners * Quad4::N(q);
+  }
+  return x;
+}
+
+Eigen::Matrix2Xd sample_shape(const ElementEntry& entry) {
+  if (entry.law_size == 2) return straight_element(entry, columns({{1.0, 0.5}, {2.2, 1.1}}));
+  if (entry.corners == 3) return straight_element(entry, columns({{1.0, 0.2}, {2.3, 0.5}, {1.4, 1.7}}));
+  return straight_element(entry, columns({{1.0, 0.1}, {2.4, 0.3}, {2.0, 1.6}, {1.2, 1.2}}));
+}
+
+Eigen::Matrix2Xd sample_shape_on_axis(const ElementEntry& entry) {
+  if (entry.law_size == 2) return straight_element(entry, columns({{0.0, 0.5}, {1.2, 1.1}}));
+  if (entry.corners == 3) return straight_element(entry, columns({{0.0, 0.2}, {1.3, 0.5}, {0.4, 1.7}}));
+  return straight_element(entry, columns({{0.0, 0.1}, {1.4, 0.3}, {1.0, 1.6}, {0.0, 1.2}}));
+}
+
+Eigen::Matrix2Xd sample_shape_curved(const ElementEntry& entry) {
+  Eigen::Matrix2Xd x = sample_shape(entry);
+  if (entry.nodes == entry.corners) return x;
+  for (Eigen::Index i = 0; i < x.cols(); ++i) {
+    const Vector2 p = x.col(i);
+    x.col(i) += 0.06 * Vector2(std::sin(2.0 * p.y()), std::cos(2.0 * p.x()));
+  }
+  return x;
+}
+
+ElementRun::ElementRun(const Element& e, const Eigen::Matrix2Xd& x, LawRef l) : element(&e), law(l) {
+  const ElementTraits& t = e.traits();
+  const auto points = static_cast<std::size_t>(t.points), n = static_cast<std::size_t>(t.law_size);
+  const Eigen::VectorXd start =
+      std::visit([](const auto* held) { return history_start(held->history()); }, law);
+  history = static_cast<int>(start.size());
+  geometry.resize(static_cast<std::size_t>(t.geometry_size()));
+  e.geometry(x, geometry);
+  sigma0.assign(points * n, 0.0);
+  eps0 = sigma1 = eps1 = sigma0;
+  for (std::size_t p = 0; p < points; ++p) h0.insert(h0.end(), start.begin(), start.end());
+  h1.assign(h0.size(), 0.0);
+  status.assign(points, PointStatus::elastic);
+  K.setZero(t.dofs, t.dofs);
+  f.setZero(t.dofs);
+}
+
+Outcome ElementRun::evaluate(const Eigen::VectorXd& du, bool want_stiffness) {
+  const ElementIn in{geometry.data(), du.data(), law, sigma0.data(), eps0.data(), h0.data()};
+  ElementOut out{
+      want_stiffness ? K.data() : nullptr, f.data(), sigma1.data(), eps1.data(), h1.data(), status.data()};
+  return element->evaluate(in, out);
+}
+
+double ElementRun::weight(int point) const {
+  const ElementTraits& t = element->traits();
+  return geometry[static_cast<std::size_t>(point * (1 + t.law_size * t.dofs))];
+}
+
+Eigen::MatrixXd ElementRun::B(int point) const {
+  const ElementTraits& t = element->traits();
+  const double* block = geometry.data() + point * (1 + t.law_size * t.dofs);
+  return Eigen::Map<const Eigen::MatrixXd>(block + 1, t.dofs, t.law_size).transpose();
+}
+
+}  // namespace sage::test

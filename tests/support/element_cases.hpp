@@ -1,0 +1,58 @@
+// Every element of the catalogue in both geometries, sample shapes for each, and a run of one element.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sage/core/catalogue.hpp"
+
+namespace sage::test {
+
+struct ElementCase {
+  int code = 0, formulation = 0;
+  Geometry geometry = Geometry::plane_strain;
+  const ElementEntry* entry = nullptr;
+  std::string name;
+
+  std::unique_ptr<Element> make() const { return entry->make(geometry, formulation); }
+  bool axisymmetric() const { return geometry == Geometry::axisymmetric; }
+};
+
+const Catalogue& element_catalogue();
+std::vector<ElementCase> element_cases();    // all
+std::vector<ElementCase> solid_cases();      // law_size 4
+std::vector<ElementCase> interface_cases();  // law_size 2
+ElementCase element_case(int code, int formulation, Geometry geometry);
+
+// Nodes of the parent shape, 2 x nodes; for an interface (xi, 0).
+Eigen::Matrix2Xd parent_nodes(const ElementEntry& entry);
+
+// The straight-sided element over these corners: 2 x 4 or 2 x 3; for an interface the two ends.
+Eigen::Matrix2Xd straight_element(const ElementEntry& entry, const Eigen::Matrix2Xd& corners);
+
+// A distorted straight-sided element away from the axis, one that touches it, and one with curved sides.
+// (An element without mid-side nodes stays straight.)
+Eigen::Matrix2Xd sample_shape(const ElementEntry& entry);
+Eigen::Matrix2Xd sample_shape_on_axis(const ElementEntry& entry);
+Eigen::Matrix2Xd sample_shape_curved(const ElementEntry& entry);
+
+// One element with its arrays.
+struct ElementRun {
+  ElementRun(const Element& element, const Eigen::Matrix2Xd& x, LawRef law);
+
+  Outcome evaluate(const Eigen::VectorXd& du, bool want_stiffness = true);
+  int history_size() const { return history; }
+  double weight(int point) const;
+  Eigen::MatrixXd B(int point) const;  // law_size x dofs
+
+  const Element* element;
+  LawRef law;
+  int history = 0;
+  std::vector<double> geometry, sigma0, eps0, h0, sigma1, eps1, h1;
+  std::vector<PointStatus> status;
+  Eigen::MatrixXd K;
+  Eigen::VectorXd f;
+};
+
+}  // namespace sage::test

@@ -1,0 +1,67 @@
+// Laws for tests of elements: linear with any D, and a smooth nonlinear unsymmetric one with history.
+#pragma once
+
+#include <array>
+
+#include "sage/core/law.hpp"
+
+namespace sage::test {
+
+template <int N>
+class LinearLaw final : public Law<N> {
+ public:
+  explicit LinearLaw(const Matrix<N>& D) : D_(D) {}
+  bool symmetric() const override { return D_.isApprox(D_.transpose()); }
+  bool linear() const override { return true; }
+  Outcome update(const PointIn<N>& in, PointOut<N>& out) const override {
+    out.sigma.noalias() = in.sigma0 + D_ * in.deps;
+    out.D = D_;
+    out.status = PointStatus::elastic;
+    return Outcome::ok;
+  }
+
+ private:
+  Matrix<N> D_;
+};
+
+// Shear and normal stiffness of an interface, uncoupled.                                    [chapter 7,
+// Eq 7.14]
+inline LinearLaw<2> interface_law(double k_s, double k_n) {
+  Matrix2 k = Matrix2::Zero();
+  k.diagonal() << k_s, k_n;
+  return LinearLaw<2>(k);
+}
+
+// sigma = sigma0 + A deps + c (b . deps)^2, D = A + 2 c (b . deps) b^T: D is unsymmetric.
+// History: {sum of deps so far, number of updates}.  Refuses deps with a component beyond `limit`.
+template <int N>
+class SmoothLaw final : public Law<N> {
+ public:
+  explicit SmoothLaw(double limit = 1e9) : limit_(limit) {
+    for (int i = 0; i < N; ++i) {
+      c_(i) = 30.0 - 7.0 * i;
+      b_(i) = 1.0 + 0.4 * i * i;
+      for (int j = 0; j < N; ++j) A_(i, j) = (i == j ? 50.0 : 0.0) + 3.0 * i - 5.0 * j + 2.0 * i * j;
+    }
+  }
+  std::span<const Quantity> history() const override { return kHistory; }
+  Outcome update(const PointIn<N>& in, PointOut<N>& out) const override {
+    if (in.deps.cwiseAbs().maxCoeff() > limit_) return Outcome::cut_step;
+    const double s = b_.dot(in.deps);
+    out.sigma = in.sigma0 + A_ * in.deps + c_ * (s * s);
+    out.D = A_ + 2.0 * s * c_ * b_.transpose();
+    out.h1[0] = in.h0[0] + in.deps.sum();
+    out.h1[1] = in.h0[1] + 1.0;
+    out.status = PointStatus::yielded;
+    return Outcome::ok;
+  }
+
+ private:
+  static constexpr std::array<Quantity, 2> kHistory{
+      {{"sum", Dimension::none, 0.25}, {"updates", Dimension::none, 0.0}}};
+  double limit_;
+  Matrix<N> A_;
+  Vector<N> b_, c_;
+};
+
+}  // namespace sage::test

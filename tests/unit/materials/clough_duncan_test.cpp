@@ -1,0 +1,209 @@
+// Closed forms: the hyperbola at constant sigma_n, tau = w/(1/k_si + w R_f/tau_f); Coulomb slip.
+#include "materials/clough_duncan.hpp"
+
+#include <gtest/gtest.h>
+
+#include "sage/core/point_driver.hpp"
+#include "tests/support/laws.hpp"
+
+namespace sage {
+namespace {
+
+constexpr std::array<Control, 2> kShearAtConstantNormal{Control::strain, Control::stress};
+constexpr std::array<Control, 2> kStrain{Control::strain, Control::strain};
+
+// c phi sigma_t R_f k_j n k_nc k_nt k_sf rule floor unloading
+std::vector<double> joint(double R_f, double rule) {
+  return {2.0, 30.0, 0.0, R_f, 5000.0, 0.9, 1e9, 1e9, 0.0, rule, 1e-6, 0.0};
+}
+const double kTauF = 2.0 + 50.0 * std::tan(30.0 * kRadiansPerDegree);
+const double kInitial = 5000.0 * 0.036111 * std::pow(50.0 / 14.696, 0.9);
+double hyperbola(double w, double R_f) {
+  return w / (1.0 / kInitial + w * R_f / kTauF);
+}
+
+double sheared(const std::vector<double>& values, double w, int steps) {
+  const auto law = test::interface(22, values);
+  PointDriver<2> point(*law, {0.0, -50.0});
+  for (int i = 0; i < steps; ++i) point.advance(kShearAtConstantNormal, {w / steps, -50.0});
+  return point.sigma()[0];
+}
+
+// Chapter, Table 7.2 (R_f = 0): linear with k_j gamma_w (sigma_n/p_a)^n.
+TEST(CloughDuncan, LinearForZeroFailureRatio) {
+  EXPECT_NEAR(sheared(joint(0.0, 0), 0.01, 1), kInitial * 0.01, 1e-11);
+  EXPECT_NEAR(sheared(joint(0.0, 0), -0.01, 3), -kInitial * 0.01, 1e-11);
+}
+
+// The exact rule follows the hyperbola with any number of steps; 1e-11: rounding.
+TEST(CloughDuncan, ExactRuleIsTheHyperbola) {
+  for (const int steps : {1, 7}) EXPECT_NEAR(sheared(joint(0.8, 2), 0.04, steps), hyperbola(0.04, 0.8), 1e-10);
+}
+
+// Error of the tangent rule is O(dw), of the midpoint rule O(dw^2): halving the step divides it by 2 and 4.
+TEST(CloughDuncan, OrderOfTheRules) {
+  const double exact = hyperbola(0.04, 0.8);
+  const auto ratio = [&](double rule) {
+    return (sheared(joint(0.8, rule), 0.04, 64) - exact) / (sheared(joint(0.8, rule), 0.04, 128) - exact);
+  };
+  EXPECT_NEAR(ratio(0), 2.0, 0.1);
+  EXPECT_NEAR(ratio(1), 4.0, 0.1);
+  EXPECT_GT(sheared(joint(0.8, 0), 0.04, 64), exact);  // a tangent at the start overshoots
+}
+
+// The tangent rule takes k_s from the committed stress: a first increment that also loads the joint from
+// nothing sees only the floor, the second one sees the 50 of the first.
+TEST(CloughDuncan, TangentRuleUsesTheCommittedState) {
+  const auto law = test::interface(22, joint(0.0, 0));
+  PointDriver<2> point(*law);
+  point.advance(kShearAtConstantNormal, {0.01, -50.0});
+  const double at_floor = 5000.0 * 0.036111 * std::pow(1e-6, 0.9) * 0.01;
+  EXPECT_NEAR(point.sigma()[0], at_floor, 1e-12 * at_floor);
+  point.advance(kShearAtConstantNormal, {0.01, -50.0});
+  EXPECT_NEAR(point.sigma()[0], at_floor + kInitial * 0.01, 1e-10);
+}
+
+// Midpoint rule from nothing: k_s at sigma_n = 25.
+TEST(CloughDuncan, MidpointRuleSeesHalfTheNormalStress) {
+  const auto law = test::interface(22, joint(0.0, 1));
+  PointDriver<2> point(*law);
+  point.advance(kShearAtConstantNormal, {0.01, -50.0});
+  EXPECT_NEAR(point.sigma()[0], 5000.0 * 0.036111 * std::pow(25.0 / 14.696, 0.9) * 0.01, 1e-10);
+}
+
+TEST(CloughDuncan, SlipsAtTheStrength) {
+  for (const double rule : {0.0, 1.0, 2.0}) {
+    EXPECT_NEAR(sheared(joint(0.0, rule), 1.0, 5), kTauF, 1e-12 * kTauF);
+    EXPECT_NEAR(sheared(joint(0.8, rule), -1.0, 5), -kTauF, 1e-12 * kTauF);
+  }
+}
+
+// Shear column: the elastic part alone comes back.  Linear, slip at w_y = tau_f/k, then back by tau_f/k: tau =
+// 0.
+TEST(CloughDuncan, SlipIsPermanent) {
+  const auto law = test::interface(22, joint(0.0, 0));
+  PointDriver<2> point(*law, {0.0, -50.0});
+  const double w_y = kTauF / kInitial;
+  point.advance(kShearAtConstantNormal, {3.0 * w_y, -50.0});
+  EXPECT_EQ(point.status(), PointStatus::slipping);
+  EXPECT_NEAR(point.history()[4], 2.0 * w_y, 1e-12);
+  EXPECT_NEAR(point.stress_level(), 1.0, 1e-12);
+  point.advance(kShearAtConstantNormal, {-w_y, -50.0});
+  EXPECT_NEAR(point.sigma()[0], 0.0, 1e-11 * kTauF);
+  EXPECT_EQ(point.status(), PointStatus::elastic);
+}
+
+// Slip with k_sf: tau = tau_f + k_sf (w - w_y), in one step or in many.
+TEST(CloughDuncan, StiffnessAfterSlip) {
+  std::vector<double> values = joint(0.0, 0);
+  values[8] = 20.0;
+  const double w_y = kTauF / kInitial;
+  for (const int steps : {1, 10}) EXPECT_NEAR(sheared(values, 1.0, steps), kTauF + 20.0 * (1.0 - w_y), 1e-10);
+}
+
+// While slipping: d tau/d w_n = -k_n tan phi sign(tau) (tension positive), d tau/d w_s = 0.
+TEST(CloughDuncan, SlipTangentIsUnsymmetric) {
+  const auto law = test::interface(22, joint(0.0, 0));
+  const Vector2 start{kTauF, -50.0};
+  const auto a = test::update<2>(*law, start, {0.1, 0.0}, test::initial_history<2>(*law, start));
+  EXPECT_EQ(a.status, PointStatus::slipping);
+  EXPECT_NEAR(a.D(0, 1), -1e9 * std::tan(30.0 * kRadiansPerDegree), 1e-3);
+  EXPECT_EQ(a.D(0, 0), 0.0);
+  EXPECT_EQ(a.D(1, 0), 0.0);
+  const auto b = test::update<2>(*law, -start.cwiseProduct(Vector2(1.0, -1.0)), {-0.1, 0.0},
+                                 test::initial_history<2>(*law, start));
+  EXPECT_NEAR(b.D(0, 1), +1e9 * std::tan(30.0 * kRadiansPerDegree), 1e-3);
+}
+
+// Unload and reload with k_si, then on along the same hyperbola.
+TEST(CloughDuncan, UnloadsLinearlyAndRemembers) {
+  const auto law = test::interface(22, joint(0.8, 2));
+  PointDriver<2> point(*law, {0.0, -50.0});
+  point.advance(kShearAtConstantNormal, {0.03, -50.0});
+  const double top = hyperbola(0.03, 0.8);
+  point.advance(kShearAtConstantNormal, {-0.01, -50.0});
+  EXPECT_NEAR(point.sigma()[0], top - 0.01 * kInitial, 1e-10);
+  EXPECT_EQ(point.status(), PointStatus::unloading);
+  point.advance(kShearAtConstantNormal, {0.01 + 0.01, -50.0});  // across the memory in one step
+  EXPECT_NEAR(point.sigma()[0], hyperbola(0.04, 0.8), 1e-10);
+  EXPECT_EQ(point.status(), PointStatus::elastic);
+}
+
+// Without memory the hyperbola takes over as soon as |tau| grows.
+TEST(CloughDuncan, UnloadingWithoutMemory) {
+  std::vector<double> values = joint(0.8, 2);
+  values[11] = 1.0;
+  const auto law = test::interface(22, values);
+  PointDriver<2> point(*law, {0.0, -50.0});
+  point.advance(kShearAtConstantNormal, {0.03, -50.0});
+  point.advance(kShearAtConstantNormal, {-0.01, -50.0});
+  point.advance(kShearAtConstantNormal, {0.01, -50.0});
+  EXPECT_LT(point.sigma()[0], hyperbola(0.03, 0.8) - 1.0);
+}
+
+// Opens at sigma_n = 0, closes when the gap is used up; only sliding in contact counts: half of 0.02 here.
+TEST(CloughDuncan, OpensAndCloses) {
+  std::vector<double> values = joint(0.0, 1);
+  values[6] = values[7] = 1000.0;
+  values[4] = 100.0;
+  values[5] = 0.0;
+  const auto law = test::interface(22, values);
+  PointDriver<2> point(*law, {1.0, -10.0});
+  point.advance(kStrain, {0.0, 0.03});
+  EXPECT_EQ(point.status(), PointStatus::open);
+  EXPECT_EQ(point.sigma().norm(), 0.0);
+  EXPECT_NEAR(point.history()[0], 0.02, 1e-15);
+  point.advance(kStrain, {0.02, -0.04});
+  EXPECT_NEAR(point.sigma()[1], -20.0, 1e-12);
+  EXPECT_NEAR(point.sigma()[0], 100.0 * 0.036111 * 0.01, 1e-12);
+}
+
+// Tensile strength and stiffness are separate: k_nt up to sigma_t, then open for good.
+TEST(CloughDuncan, TensileStrengthIsLostOnce) {
+  std::vector<double> values = joint(0.0, 0);
+  values[2] = 5.0;
+  values[6] = 1000.0;
+  values[7] = 500.0;
+  const auto law = test::interface(22, values);
+  PointDriver<2> point(*law);
+  point.advance(kStrain, {0.0, 0.008});
+  EXPECT_NEAR(point.sigma()[1], 4.0, 1e-12);
+  point.advance(kStrain, {0.0, 0.004});
+  EXPECT_EQ(point.status(), PointStatus::open);
+  point.advance(kStrain, {0.0, -0.008});  // still 0.004 open: no tension any more
+  EXPECT_EQ(point.sigma()[1], 0.0);
+  point.advance(kStrain, {0.0, -0.014});
+  EXPECT_NEAR(point.sigma()[1], -10.0, 1e-12);
+}
+
+// Free ends of Table 7.2: no stiffness, no strength, no failure of the check at zero stress.
+TEST(CloughDuncan, FreeEnds) {
+  const auto law = test::interface(22, {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1e9, 1e9, 0.0});
+  EXPECT_TRUE(law->symmetric());
+  PointDriver<2> point(*law);
+  point.advance(kStrain, {0.1, -1e-8});
+  EXPECT_EQ(point.sigma()[0], 0.0);
+  EXPECT_NEAR(point.sigma()[1], -10.0, 1e-12);
+  EXPECT_EQ(point.status(), PointStatus::elastic);
+}
+
+// sigma_n = 0, c = 0: the strength is zero and so is the stress: the joint sticks.
+TEST(CloughDuncan, SticksAtZeroStress) {
+  const auto law = test::interface(22, {0.0, 28.5, 0.0, 0.5, 5000.0, 0.9, 1e9, 1e9, 0.0});
+  const auto a = test::update<2>(*law, Vector2::Zero(), Vector2::Zero(), std::vector<double>(5, 0.0));
+  EXPECT_EQ(a.status, PointStatus::elastic);
+  EXPECT_TRUE(a.D.allFinite());
+  EXPECT_GT(a.D(1, 1), 0.0);
+}
+
+TEST(CloughDuncan, InitialStressMustBeAdmissible) {
+  const auto law = test::interface(22, joint(0.5, 0));
+  std::array<double, 5> h{};
+  EXPECT_TRUE(law->initialise({0.99 * kTauF, -50.0}, h));
+  EXPECT_DOUBLE_EQ(h[2], 0.99 * kTauF);
+  EXPECT_FALSE(law->initialise({1.01 * kTauF, -50.0}, h));
+  EXPECT_FALSE(law->initialise({0.0, 0.1}, h));
+}
+
+}  // namespace
+}  // namespace sage
