@@ -84,7 +84,7 @@ TEST(ProfileNumbering, NumbersAShuffledChainFromEndToEnd) {
 }
 
 TEST(ProfileNumbering, NumbersAShuffledRectangleLineByLine) {
-  const System mesh = q4_mesh({.columns = 6, .rows = 20, .supports = Supports::none});
+  const System mesh = q4_mesh({.columns = 14, .rows = 28, .supports = Supports::none});
   const EquationGraph natural = graph_of(mesh), random = graph_of(shuffled(mesh));
   std::vector<int> line_by_line(at(natural.members.count()));
   std::iota(line_by_line.begin(), line_by_line.end(), 0);
