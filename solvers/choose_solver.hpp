@@ -3,8 +3,8 @@
 
 namespace sage {
 
-// Catalogue code for a system.  Measured (docs/theory/solvers.md): own solvers only, so that a run never waits for
-// the libraries to load; profile below kProfileEquations, multifrontal above.
+// Catalogue code for a system.  Measured (docs/theory/solvers.md): own solvers only, so that a run never waits
+// for the libraries to load; profile below kProfileEquations, multifrontal above.
 int choose_solver(int equations, bool symmetric);
 
 inline constexpr int kProfileEquations = 3000;
