@@ -7,6 +7,7 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
+#include "sage/deck/read_deck.hpp"
 
 namespace sage::app {
 

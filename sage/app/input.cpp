@@ -5,8 +5,7 @@
 #include <CLI/Option.hpp>
 #include <filesystem>
 
-#include "sage/deck/layout.hpp"
-#include "sage/deck/source.hpp"
+#include "sage/deck/read_deck.hpp"
 
 namespace sage::app {
 
@@ -26,9 +25,7 @@ void add_build_options(CLI::App& parser, BuildOptions& options) {
 Deck read_input(const std::string& path, const InputOptions& options) {
   ReadOptions read;
   read.strict = options.strict;
-  std::string text = read_file(path);
-  const std::string layout = options.layout.empty() ? detect_layout(text) : options.layout;
-  return read_deck_text(std::move(text), path, load_layout(layout), read);
+  return read_deck(path, options.layout.empty() ? layout_for(path) : load_layout(options.layout), read);
 }
 
 void print_diagnostics(const Diagnostics& diagnostics) {

@@ -1,0 +1,117 @@
+// What was done: increments, equilibrium, reports, work.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+#include "sage/output/listing_parts.hpp"
+#include "sage/output/number.hpp"
+
+namespace sage::listing {
+
+namespace {
+
+auto to(std::string& text) {
+  return std::back_inserter(text);
+}
+
+void put(std::string& text, double value, int width, int digits) {
+  if (std::isnan(value))
+    fmt::format_to(to(text), "{:>{}}", "-", width);
+  else
+    append_scientific(text, value, width, digits);
+}
+
+void triaxial_rows(std::string& text, const Model& model, const std::vector<TriaxialRow>& rows) {
+  const std::string& stress = model.units.stress;
+  fmt::format_to(
+      to(text), "   measured: force on the report's nodes / area.  correct: the law with frictionless ends.\n");
+  fmt::format_to(to(text), "   {:>5}{:>6}{:>12}{:>14}{:>14}{:>14}{:>14}{:>14}{:>10}\n", "stage", "incr",
+                 "strain", "force", "meas. deviator", "corr. deviator", "meas. axial", "corr. axial", "ratio");
+  fmt::format_to(to(text), "   {:>5}{:>6}{:>12}{:>14}{:>14}{:>14}{:>14}{:>14}{:>10}\n", "", "", "-",
+                 model.units.force, stress, stress, stress, stress, "-");
+  for (const TriaxialRow& r : rows) {
+    fmt::format_to(to(text), "   {:>5}{:>6}", r.stage, r.increment);
+    put(text, r.axial_strain, 12, 5);
+    for (double v : {r.force, r.measured_deviator, r.correct_deviator, r.measured_axial, r.correct_axial})
+      put(text, v, 14, 6);
+    fmt::format_to(to(text), "{:>10}\n",
+                   std::isnan(r.ratio) ? std::string("-") : fmt::format("{:.5f}", r.ratio));
+  }
+}
+
+void node_rows(std::string& text, const Model& model, const std::vector<NodesRow>& rows) {
+  const AxisNames& names = axis_names(model.geometry);
+  fmt::format_to(
+      to(text), "   {:>5}{:>6}{:>14}{:>14}{:>14}{:>14}    (mean displacement {}, sum of forces {})\n", "stage",
+      "incr", fmt::format("u-{}", names.x), fmt::format("u-{}", names.y), fmt::format("force-{}", names.x),
+      fmt::format("force-{}", names.y), model.units.length, model.units.force);
+  for (const NodesRow& r : rows) {
+    fmt::format_to(to(text), "   {:>5}{:>6}", r.stage, r.increment);
+    for (double v : {r.displacement[0], r.displacement[1], r.force[0], r.force[1]}) put(text, v, 14, 6);
+    text += '\n';
+  }
+}
+
+}  // namespace
+
+void increment_columns(std::string& text) {
+  text +=
+      "\n    incr  load factor  iter  rel. force  rel. displ  rel. energy  cuts   yielded  slipping      open  "
+      "    apex\n";
+}
+
+void increment(std::string& text, const StepReport& report) {
+  const IterationRecord last = report.iterations.empty() ? IterationRecord{} : report.iterations.back();
+  append_integer(text, report.increment, 8);
+  append_scientific(text, report.load_factor, 13, 6);
+  append_integer(text, report.total_iterations, 6);
+  append_scientific(text, last.force, 12, 3);
+  append_scientific(text, last.displacement, 12, 3);
+  append_scientific(text, last.energy, 13, 3);
+  append_integer(text, report.cuts, 6);
+  for (PointStatus s : {PointStatus::yielded, PointStatus::slipping, PointStatus::open, PointStatus::apex})
+    append_integer(text, report.points[static_cast<std::size_t>(s)], 10);
+  text += report.converged ? "\n" : "   NOT CONVERGED\n";
+}
+
+void audit(std::string& text, const Model& model, const EquilibriumAudit& audit) {
+  const AxisNames& names = axis_names(model.geometry);
+  fmt::format_to(to(text), "\n   Equilibrium of the whole model ({})\n   {:>12}{:>16}{:>16}{:>16}\n",
+                 model.units.force, "", "applied", "reactions", "sum");
+  for (int c = 0; c < 2; ++c) {
+    fmt::format_to(to(text), "   {:>12}", c == 0 ? names.x : names.y);
+    for (double v : {audit.applied[c], audit.reactions[c], audit.applied[c] + audit.reactions[c]})
+      put(text, v, 16, 8);
+    text += c == 0 && model.geometry == Geometry::axisymmetric
+                ? "   (radial forces of a ring need no sum of zero)\n"
+                : "\n";
+  }
+  if (model.geometry == Geometry::plane_strain)
+    fmt::format_to(to(text), "   {:>12}{:>48.3E}   (about the origin)\n", "moment", audit.moment);
+  fmt::format_to(to(text), "   largest out of balance / force scale: {:.2e}\n", audit.out_of_balance);
+}
+
+void report_rows(std::string& text, const Model& model, const Reports& reports) {
+  for (std::size_t i = 0; i < reports.count(); ++i) {
+    const bool triaxial = model.reports[i].kind == ReportKind::triaxial;
+    heading(text,
+            fmt::format("REPORT {}: {}", i + 1, triaxial ? "TRIAXIAL TEST (COMPRESSION POSITIVE)" : "NODES"));
+    triaxial ? triaxial_rows(text, model, reports.triaxial(i)) : node_rows(text, model, reports.nodes(i));
+  }
+}
+
+void work(std::string& text, const RunResult& result) {
+  const WorkCounters& w = result.work;
+  heading(text, "WORK");
+  fmt::format_to(to(text), "   stages done {}, increments done {}\n", result.stages_done,
+                 result.increments_done);
+  fmt::format_to(
+      to(text),
+      "   stiffness assemblies {}, force-only passes {}, element evaluations {}, linear products {}\n",
+      w.assemblies, w.residuals, w.element_evaluations, w.linear_products);
+  fmt::format_to(to(text), "   patterns analysed {}, factorisations {}, solves {}\n", w.analyses,
+                 w.factorisations, w.solves);
+}
+
+}  // namespace sage::listing

@@ -1,0 +1,51 @@
+// A result file that bears its name only when it is complete.
+#pragma once
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace sage {
+
+// Written to NAME.partial in the same folder, renamed by finish().  Text is collected and written in large
+// pieces.  Every failure is an OutputError that names the file and the reason; after one, nothing more is
+// tried.
+class OutFile {
+ public:
+  OutFile() = default;
+  // Opens at once, so that an unwritable folder shows before anything is computed.  Makes missing folders.
+  explicit OutFile(std::filesystem::path path);
+  // Without finish() what was collected is written (errors are ignored) and stays as NAME.partial.
+  ~OutFile();
+  OutFile(OutFile&&) noexcept = default;
+  OutFile& operator=(OutFile&&) noexcept = default;
+
+  // Append here.
+  std::string& text() { return text_; }
+  // Writes if much is waiting or half a second has passed: a killed run then leaves a useful NAME.partial.
+  void checkpoint();
+  // Writes the rest, closes, renames.
+  void finish();
+
+  bool open() const { return file_ != nullptr; }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  void write();
+  [[noreturn]] void fail(const std::filesystem::path& path, int error);
+
+  std::filesystem::path path_, partial_;
+  std::unique_ptr<std::FILE, Close> file_;
+  std::string text_;
+  std::chrono::steady_clock::time_point last_write_{};
+};
+
+// A whole file at once, by the same way.
+void write_file(const std::filesystem::path& path, std::string text);
+
+}  // namespace sage

@@ -1,0 +1,29 @@
+// What all outputs to files have in common.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "sage/analysis/observer.hpp"
+
+namespace sage {
+
+class Output : public Observer {
+ public:
+  // The complete files, in the order of writing.
+  virtual std::vector<std::filesystem::path> files() const = 0;
+  // For a run that an exception ended, so that on_finish never comes: the file says so and gets its name.
+  virtual void stop(const std::string& reason) = 0;
+};
+
+// The deck's choice (every n-th increment), and always the last of a stage.
+inline bool is_output_increment(const Stage& stage, const StepReport& report) {
+  return report.increment == report.increments ||
+         (stage.output_every > 0 && report.increment % stage.output_every == 0);
+}
+
+inline const Stage& stage_of(const Model& model, int stage) {
+  return model.stages[static_cast<std::size_t>(stage)];
+}
+
+}  // namespace sage

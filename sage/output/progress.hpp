@@ -1,0 +1,39 @@
+// A line on the terminal while a run goes on; nothing where stderr is not a terminal.
+#pragma once
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+
+#include "sage/analysis/observer.hpp"
+
+namespace sage {
+
+class Progress final : public Observer {
+ public:
+  Progress() : on_(isatty(STDERR_FILENO) != 0), next_(Clock::now() + std::chrono::milliseconds(500)) {}
+  ~Progress() override { clear(); }
+
+  void on_increment(const Model& model, const StepReport& report, const Solution&) override {
+    if (!on_ || Clock::now() < next_) return;
+    next_ = Clock::now() + std::chrono::milliseconds(100);
+    std::fprintf(stderr, "\r\033[Kstage %d of %zu, increment %d of %d, %d iterations", report.stage + 1,
+                 model.stages.size(), report.increment, report.increments, report.total_iterations);
+    std::fflush(stderr);
+    shown_ = true;
+  }
+  void on_finish(const Model&, const RunResult&) override { clear(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void clear() {
+    if (shown_) std::fputs("\r\033[K", stderr);
+    shown_ = false;
+  }
+
+  bool on_, shown_ = false;
+  Clock::time_point next_;
+};
+
+}  // namespace sage

@@ -1,0 +1,184 @@
+#include "sage/output/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "sage/output/values.hpp"
+
+namespace sage {
+
+namespace {
+
+constexpr std::size_t kRows = 6;     // of a triaxial table
+constexpr std::size_t kReports = 2;  // shown; the others are in their files
+
+auto to(std::string& text) {
+  return std::back_inserter(text);
+}
+
+std::string status_words(const RunResult& result) {
+  switch (result.status) {
+    case RunStatus::completed:
+      return "completed: every increment in equilibrium";
+    case RunStatus::not_converged:
+      return "NOT CONVERGED";
+    case RunStatus::singular:
+      return "NOT CONVERGED: singular stiffness matrix";
+    case RunStatus::failed:
+      return "FAILED";
+  }
+  return "FAILED";
+}
+
+std::string point_words(const std::array<long, kStatuses>& points) {
+  std::string text;
+  for (PointStatus s : {PointStatus::yielded, PointStatus::slipping, PointStatus::open, PointStatus::apex}) {
+    const long count = points[static_cast<std::size_t>(s)];
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, status_name(s));
+  }
+  return text.empty() ? "none yielded, slipping or open" : text;
+}
+
+// Rows spread evenly over the path; the last of each stage is kept.
+std::vector<TriaxialRow> chosen(const std::vector<TriaxialRow>& rows) {
+  if (rows.size() <= kRows) return rows;
+  std::vector<std::size_t> ends;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (i + 1 == rows.size() || rows[i + 1].stage != rows[i].stage) ends.push_back(i);
+  const std::size_t stages = std::min(ends.size(), kRows);
+  std::vector<std::size_t> take(ends.end() - static_cast<std::ptrdiff_t>(stages), ends.end());
+  const std::size_t between = kRows - take.size();
+  for (std::size_t k = 1; k <= between; ++k) take.push_back(k * rows.size() / (between + 1) - 1);
+  std::sort(take.begin(), take.end());
+  take.erase(std::unique(take.begin(), take.end()), take.end());
+  std::vector<TriaxialRow> result;
+  for (std::size_t i : take) result.push_back(rows[i]);
+  return result;
+}
+
+void triaxial_table(std::string& text, const Model& model, std::size_t index,
+                    const std::vector<TriaxialRow>& rows) {
+  fmt::format_to(to(text), "  triaxial {:<8}{:>7}{:>11}{:>18}{:>18}{:>10}\n", index + 1, "incr", "strain",
+                 "measured [" + model.units.stress + "]", "correct [" + model.units.stress + "]", "ratio");
+  const auto number = [](double v, const char* format) {
+    return std::isnan(v) ? std::string("-") : fmt::format(fmt::runtime(format), v);
+  };
+  for (const TriaxialRow& r : chosen(rows))
+    fmt::format_to(to(text), "    stage {:<7}{:>7}{:>11}{:>18}{:>18}{:>10}\n", r.stage, r.increment,
+                   number(r.axial_strain, "{:.4g}"), number(r.measured_deviator, "{:.5g}"),
+                   number(r.correct_deviator, "{:.5g}"), number(r.ratio, "{:.4f}"));
+}
+
+void status_lines(std::string& text, const Model& model, const RunRecord& record) {
+  const RunResult& result = record.result;
+  fmt::format_to(to(text), "  status      {}\n", status_words(result));
+  if (result.status == RunStatus::completed) return;
+  fmt::format_to(
+      to(text),
+      "              stopped in stage {} of {}, increment {} of {}; last equilibrium at load factor {:.4g} of "
+      "the stage\n",
+      record.failed.stage + 1, model.stages.size(), record.failed.increment, record.failed.increments,
+      record.failed.load_factor);
+}
+
+void counts(std::string& text, const Model& model, const RunRecord& record) {
+  RunRecord::StageCount sum;
+  for (const auto& stage : record.stages) {
+    sum.increments += stage.increments;
+    sum.iterations += stage.iterations;
+    sum.cuts += stage.cuts;
+  }
+  fmt::format_to(to(text), "  scene       {}, {}; {} elements, {} points, {} equations\n",
+                 model.geometry == Geometry::axisymmetric ? "axisymmetric" : "plane strain",
+                 describe(record.scene), record.scene.elements, record.scene.points, record.equations);
+  fmt::format_to(to(text), "  solver      {}\n", record.solver);
+  fmt::format_to(to(text), "  path        {} of {} stages, {} increments, {} iterations, {} cuts\n",
+                 record.result.stages_done, model.stages.size(), record.result.increments_done, sum.iterations,
+                 sum.cuts);
+  fmt::format_to(to(text), "  points      {}\n", point_words(record.points));
+}
+
+void work_lines(std::string& text, const RunRecord& record) {
+  const WorkCounters& w = record.result.work;
+  fmt::format_to(to(text),
+                 "  work        {} assemblies and {} force passes {:.3g} s, {} factorisations {:.3g} s, {} "
+                 "solves {:.3g} s\n",
+                 w.assemblies, w.residuals, w.assembly_seconds, w.factorisations, w.factor_seconds, w.solves,
+                 w.solve_seconds);
+  fmt::format_to(to(text), "              numbering {:.3g} s, output {:.3g} s", w.analyse_seconds,
+                 w.output_seconds);
+  text += record.seconds > 0.0 ? fmt::format(", whole run {:.3g} s\n", record.seconds) : "\n";
+}
+
+void file_lines(std::string& text, const std::vector<std::filesystem::path>& files) {
+  constexpr std::size_t kShown = 5;
+  for (std::size_t i = 0; i < std::min(files.size(), kShown); ++i)
+    fmt::format_to(to(text), "  {:<12}{}\n", i == 0 ? "files" : "", files[i].string());
+  if (files.size() > kShown) fmt::format_to(to(text), "  {:<12}and {} more\n", "", files.size() - kShown);
+}
+
+}  // namespace
+
+void RunRecord::on_start(const Model& model, const Scene& scene_found, std::string_view solver_name,
+                         int equation_count) {
+  scene = scene_found;
+  solver = solver_name;
+  equations = equation_count;
+  warnings += model.diagnostics.warnings();
+}
+
+void RunRecord::on_increment(const Model&, const StepReport& report, const Solution&) {
+  stages.resize(std::max(stages.size(), static_cast<std::size_t>(report.stage) + 1));
+  StageCount& stage = stages[static_cast<std::size_t>(report.stage)];
+  ++stage.increments;
+  stage.iterations += report.total_iterations;
+  stage.cuts += report.cuts;
+  points = report.points;
+}
+
+void RunRecord::on_stage_end(const Model&, int, const EquilibriumAudit& audit, const Solution&) {
+  out_of_balance = std::max(out_of_balance, audit.out_of_balance);
+  ++audited;
+}
+
+void RunRecord::on_failure(const Model& model, const StepReport& report, const std::string&,
+                           const Solution& solution) {
+  on_increment(model, report, solution);
+  --stages.back().increments;
+  failed = report;
+}
+
+void RunRecord::on_finish(const Model&, const RunResult& run_result) {
+  result = run_result;
+}
+
+std::string summary(const Model& model, const RunRecord& record, const Reports* reports,
+                    const std::vector<std::filesystem::path>& files) {
+  const bool ring = model.geometry == Geometry::axisymmetric;
+  const UnitSystem& u = model.units;
+  std::string text = model.title + "\n";
+  status_lines(text, model, record);
+  counts(text, model, record);
+  std::size_t shown = 0;
+  for (std::size_t i = 0; reports != nullptr && i < reports->count(); ++i)
+    if (!reports->triaxial(i).empty() && shown++ < kReports)
+      triaxial_table(text, model, i, reports->triaxial(i));
+  if (record.audited > 0)
+    fmt::format_to(to(text), "  equilibrium whole model out of balance by {:.1e} of its largest force\n",
+                   record.out_of_balance);
+  work_lines(text, record);
+  if (record.warnings > 0) fmt::format_to(to(text), "  warnings    {} (see the listing)\n", record.warnings);
+  file_lines(text, files);
+  fmt::format_to(to(text), "  signs       compression positive; units {}, {}, {}; forces {}\n", u.length,
+                 u.force, u.stress, ring ? "for the full circle" : "per unit thickness");
+  if (record.result.status != RunStatus::completed)
+    fmt::format_to(
+        to(text), "  {}\n",
+        "NOT CONVERGED: the results end at the last state in equilibrium; see the listing for the reason");
+  return text;
+}
+
+}  // namespace sage

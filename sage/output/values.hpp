@@ -1,0 +1,53 @@
+// Values as people read them: compression positive, with words for what a point does.  Signs turn here on the
+// way out and nowhere else.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sage/analysis/observer.hpp"
+
+namespace sage {
+
+// Stress, strain, traction and relative displacement: the program's tension + becomes compression +.  Never -0.
+inline double outward(double internal) {
+  return 0.0 - internal;
+}
+
+std::string_view status_name(PointStatus status);  // "yielded"
+std::string_view method_name(Method method);       // "Newton"
+
+struct AxisNames {
+  std::string_view x, y;                           // x y, or r z
+  std::array<std::string_view, 4> stress, strain;  // in the order of the components
+};
+const AxisNames& axis_names(Geometry geometry);
+
+// A point's mobilised strength, asked from its law at the committed state.
+double stress_level(const GroupData& data, std::size_t point);
+
+std::span<const Quantity> history_of(const GroupData& data);
+// A history variable as people read it: the law's own sign, angles in degrees.
+double outward(const Quantity& quantity, double value);
+
+// What the supports do to the mesh at a held dof, along +x or +y: internal force minus applied load.
+inline double reaction(const Solution& solution, int dof) {
+  return (*solution.internal)[dof] - (*solution.external)[dof];
+}
+
+// Mean stress (compression +) and q = sqrt(3 J2) of a stress [xx yy zz xy].
+double mean_stress(const double* sigma);
+double deviator_stress(const double* sigma);
+
+// Nodes that belong to an element of an active group.
+std::vector<char> active_nodes(const Model& model, const Activity& activity);
+
+// The first line of a text, for comments in files.
+std::string one_line(const std::string& text);
+
+// The sign convention in a few lines; `mark` stands before each.
+std::string sign_convention(const Model& model, std::string_view mark);
+
+}  // namespace sage
