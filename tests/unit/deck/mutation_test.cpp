@@ -1,5 +1,5 @@
-// Every field of every small deck that is shipped, damaged in turn: the reader answers with errors, warnings or a
-// deck, never with a crash, and some damages must be errors.
+// Every field of every small deck that is shipped, damaged in turn: the reader answers with errors, warnings or
+// a deck, never with a crash, and some damages must be errors.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,7 +49,8 @@ struct Counts {
 void mutate_field(const Deck& deck, const Layout& layout, const FieldSpec& spec, const FieldValue& value,
                   Counts& counts) {
   const std::string& text = *deck.source;
-  if (value.text.empty() || value.text.data() < text.data() || value.text.data() >= text.data() + text.size()) return;
+  if (value.text.empty() || value.text.data() < text.data() || value.text.data() >= text.data() + text.size())
+    return;
   const auto at = static_cast<std::size_t>(value.text.data() - text.data());
   const std::size_t size = value.text.size();
   const std::size_t line = deck.line_starts[static_cast<std::size_t>(value.line) - 1];
@@ -71,7 +72,8 @@ void mutate_field(const Deck& deck, const Layout& layout, const FieldSpec& spec,
   counts.add(answer(replaced(text, at, size, "1e999"), layout));
   counts.add(answer(text.substr(0, at), layout));
   counts.add(answer(shifted(text, line), layout));
-  counts.add(answer(text.substr(0, line) + text.substr(std::min(text.size(), text.find('\n', line) + 1)), layout));
+  counts.add(
+      answer(text.substr(0, line) + text.substr(std::min(text.size(), text.find('\n', line) + 1)), layout));
 }
 
 Counts mutate(const std::string& text, const Layout& layout) {
@@ -81,7 +83,8 @@ Counts mutate(const std::string& text, const Layout& layout) {
     for (std::int32_t i = 0; i < card.value_count; ++i) {
       const auto& fields = deck.specs[static_cast<std::size_t>(card.spec)].fields;
       const std::size_t field = std::min(static_cast<std::size_t>(i), fields.size() - 1);
-      mutate_field(deck, layout, fields[field], deck.values[static_cast<std::size_t>(card.first_value + i)], counts);
+      mutate_field(deck, layout, fields[field], deck.values[static_cast<std::size_t>(card.first_value + i)],
+                   counts);
     }
   return counts;
 }
@@ -120,7 +123,9 @@ TEST(Mutation, ForeignDecks) {
   for (const char* name : {"p51_1", "p51_5", "p52", "p61", "p63", "p66", "p68", "p69", "p611_1"}) {
     SCOPED_TRACE(name);
     const std::string program = std::string(name).substr(0, std::string(name).find('_'));
-    EXPECT_GT(mutate(file_text(kInputs / "smith_griffiths" / (std::string(name) + ".dat")), load_layout("sg_" + program)).fields,
+    EXPECT_GT(mutate(file_text(kInputs / "smith_griffiths" / (std::string(name) + ".dat")),
+                     load_layout("sg_" + program))
+                  .fields,
               20);
   }
 }
