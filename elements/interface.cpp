@@ -94,10 +94,10 @@ void Interface<Line, Kinematics>::geometry(const NodeCoordinates& x, std::span<d
     const double J = d.norm();
     const Matrix2 T = (Matrix2() << d.x(), d.y(), -d.y(), d.x()).finished() / J;
     *block = lumped ? sums(p) : point.w * J * Kinematics::measure(line.row(0).dot(point.N));
-    Eigen::Map<Operator> B(block + 1);
+    Eigen::Map<Operator> Bt(block + 1);
     for (int k = 0; k < kPairs; ++k) {
-      B.template middleCols<2>(2 * kBottom[static_cast<std::size_t>(k)]) = -point.N(k) * T;
-      B.template middleCols<2>(2 * kTop[static_cast<std::size_t>(k)]) = point.N(k) * T;
+      Bt.template middleRows<2>(2 * kBottom[static_cast<std::size_t>(k)]) = -point.N(k) * T.transpose();
+      Bt.template middleRows<2>(2 * kTop[static_cast<std::size_t>(k)]) = point.N(k) * T.transpose();
     }
     block += kPointStride<2, kDofs>;
     ++p;

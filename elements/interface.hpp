@@ -1,7 +1,7 @@
-// Zero-thickness interface (Goodman, Taylor & Brekke 1968; isoparametric after Beer 1985).
-// docs/theory/elements.md. Nodes: 1 2 along one side, 3 4 back along the other; pairs (1,4) (2,3).  Quadratic:
-// 5 between 1 and 2, 6 between 3 and 4; pair (5,6).  w = T (u_top - u_bottom) = [shear, normal], top = side of
-// 3 and 4; normal > 0 opens.
+// Zero-thickness interface (Goodman, Taylor & Brekke 1968; isoparametric after Beer 1985),
+// docs/theory/elements.md. Nodes: 1 2 along one side, 3 4 back along the other; pairs (1,4) (2,3). Quadratic: 5
+// between 1 and 2, 6 between 3 and 4; pair (5,6). w = T (u_top - u_bottom) = [shear, normal]; top = side of 3
+// and 4; normal > 0 opens.
 #pragma once
 
 #include <array>
@@ -14,10 +14,10 @@
 
 namespace sage {
 
-// row_sum: points at the pairs, weight = integral N_i dA with r inside.  One pair knows nothing of the others,
-// and no
-//   pair of a linear element has zero weight.  An element whose row sum leaves a pair less than 1/100 of the
-//   area (a quadratic one at r = 0) is integrated by Gauss instead.
+// row_sum: points at the pairs, weight = integral N_i dA with r inside.  No pair acts on another, and no pair
+// of a
+//   linear element has zero weight.  Where a pair would get less than 1/100 of the area (a quadratic element at
+//   r = 0), the element uses Gauss.
 // gauss: 2 or 3 points.
 // newton_cotes: points at the pairs, trapezoid or Simpson, r of the point.  A pair at r = 0 has no weight.
 enum class InterfaceRule { row_sum, gauss, newton_cotes };
@@ -27,7 +27,7 @@ class Interface final : public PointElement<2, 4 * Line::nodes, Line::nodes> {
   static constexpr int kPairs = Line::nodes;
   static constexpr int kDofs = 4 * kPairs;
   using MidLine = Eigen::Matrix<double, 2, kPairs>;  // one column a pair
-  using Operator = Eigen::Matrix<double, 2, kDofs>;
+  using Operator = OperatorT<2, kDofs>;
 
   // N and dN/dxi of the pairs at a point, and the weight of the rule.
   struct Point {

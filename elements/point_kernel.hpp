@@ -1,5 +1,5 @@
-// The one kernel of every element.  An element is a list of points, each with a weight w and an operator B
-// (law_size x dofs).  Full integration, B-bar and interfaces differ only in how geometry() makes w and B.
+// The one kernel of every element.  An element is a list of points, each with a weight w and a strain operator
+// B. Full integration, B-bar and interfaces differ only in how geometry() makes w and B.
 #pragma once
 
 #include <cassert>
@@ -9,44 +9,63 @@
 
 namespace sage {
 
-// Doubles from one point's w to the next one's; B follows w, column-major.
+// B^T of one point, dofs x law_size: a column is a strain component, so that products with B^T run down whole
+// columns.
+template <int LawSize, int Dofs>
+using OperatorT = Eigen::Matrix<double, Dofs, LawSize>;
+
+// Doubles from one point's w to the next one's; B^T follows w.
 template <int LawSize, int Dofs>
 inline constexpr int kPointStride = 1 + LawSize* Dofs;
 
-// K += B^T (w D) B.  No symmetry is assumed.  lazyProduct: Eigen's blocked product is slower at these sizes.
-template <int LawSize, int Dofs>
-void add_stiffness(Eigen::Map<Matrix<Dofs>>& K, const Eigen::Matrix<double, LawSize, Dofs>& B,
-                   const Matrix<LawSize>& wD) {
-  const Eigen::Matrix<double, Dofs, LawSize> Bt = B.transpose();
-  const Eigen::Matrix<double, LawSize, Dofs> wDB = wD.lazyProduct(B);
-  for (int j = 0; j < Dofs; ++j) K.col(j).noalias() += Bt.lazyProduct(wDB.col(j));
+// B^T and (w D B)^T of all points side by side.  Rows are filled up with zeros to whole vector registers.
+template <int LawSize, int Dofs, int Points>
+struct StackedOperators {
+  static constexpr int kRows = (Dofs + 7) / 8 * 8;
+  Eigen::Matrix<double, kRows, LawSize * Points> Bt, wDBt;
+
+  void set(int p, const Eigen::Map<const OperatorT<LawSize, Dofs>>& point_Bt, const Matrix<LawSize>& wD) {
+    auto padded = Bt.template middleCols<LawSize>(p * LawSize);
+    padded.template topRows<Dofs>() = point_Bt;
+    padded.template bottomRows<kRows - Dofs>().setZero();
+    const Matrix<LawSize> wDt = wD.transpose();
+    wDBt.template middleCols<LawSize>(p * LawSize).noalias() = padded.lazyProduct(wDt);
+  }
+};
+
+// K = sum B^T w D B over the points, column by column.  No symmetry is assumed.
+template <int LawSize, int Dofs, int Points>
+void sum_stiffness(const StackedOperators<LawSize, Dofs, Points>& all, Eigen::Map<Matrix<Dofs>> K) {
+  for (int j = 0; j < Dofs; ++j) {
+    Vector<all.kRows> column = all.Bt.col(0) * all.wDBt(j, 0);
+    for (int k = 1; k < LawSize * Points; ++k) column += all.Bt.col(k) * all.wDBt(j, k);
+    K.col(j) = column.template head<Dofs>();
+  }
 }
 
 // f = sum w B^T sigma, K = sum w B^T D B and the trial state.  Allocates nothing.
+// lazyProduct: Eigen's blocked product is slower at these sizes.
 template <int LawSize, int Dofs, int Points>
 Outcome evaluate_points(const ElementIn& in, ElementOut& out) {
   const auto* const* held = std::get_if<const Law<LawSize>*>(&in.law);
   assert(held && "the model builder pairs elements with laws of the same size");
   const Law<LawSize>& law = **held;
   const std::size_t history = law.history().size();
-
   const Eigen::Map<const Vector<Dofs>> du(in.du);
-  Eigen::Map<Vector<Dofs>> f(out.f);
-  f.setZero();
-  if (out.K) Eigen::Map<Matrix<Dofs>>(out.K).setZero();
 
+  Vector<Dofs> f = Vector<Dofs>::Zero();
+  StackedOperators<LawSize, Dofs, Points> all;
   PointIn<LawSize> point;
   PointOut<LawSize> result;
   for (int p = 0; p < Points; ++p) {
     const double* const geometry = in.geometry + p * kPointStride<LawSize, Dofs>;
     const double w = *geometry;
-    const Eigen::Matrix<double, LawSize, Dofs> B =
-        Eigen::Map<const Eigen::Matrix<double, LawSize, Dofs>>(geometry + 1);
+    const Eigen::Map<const OperatorT<LawSize, Dofs>> Bt(geometry + 1);
     const std::size_t h = static_cast<std::size_t>(p) * history;
 
     point.sigma0 = Eigen::Map<const Vector<LawSize>>(in.sigma0 + p * LawSize);
     point.eps0 = Eigen::Map<const Vector<LawSize>>(in.eps0 + p * LawSize);
-    point.deps = B.lazyProduct(du);
+    point.deps.noalias() = Bt.transpose().lazyProduct(du);
     point.h0 = {in.h0 + h, history};
     result.h1 = {out.h1 + h, history};
     if (law.update(point, result) != Outcome::ok) return Outcome::cut_step;
@@ -54,13 +73,11 @@ Outcome evaluate_points(const ElementIn& in, ElementOut& out) {
     Eigen::Map<Vector<LawSize>>(out.sigma1 + p * LawSize) = result.sigma;
     Eigen::Map<Vector<LawSize>>(out.eps1 + p * LawSize) = point.eps0 + point.deps;
     out.status[p] = result.status;
-
-    f.noalias() += B.transpose().lazyProduct(w * result.sigma);
-    if (out.K) {
-      Eigen::Map<Matrix<Dofs>> K(out.K);
-      add_stiffness<LawSize, Dofs>(K, B, w * result.D);
-    }
+    f.noalias() += Bt.lazyProduct(w * result.sigma);
+    if (out.K) all.set(p, Bt, w * result.D);
   }
+  Eigen::Map<Vector<Dofs>>(out.f) = f;
+  if (out.K) sum_stiffness(all, Eigen::Map<Matrix<Dofs>>(out.K));
   return Outcome::ok;
 }
 

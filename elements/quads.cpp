@@ -21,12 +21,14 @@ ElementEntry quad8_entry() {
       "quad8", "eight-node quadrilateral, serendipity", 8, 4, 4,
       {{{1, "reduced", "2x2 Gauss; one hourglass that cannot spread"},
         solid<Quad8, GaussSquare<2>>("quad8 reduced", {.reduced_plane = true, .reduced_axisymmetric = true})},
-       {{2, "full", "3x3 Gauss"}, solid<Quad8, GaussSquare<3>>("quad8 full")}});
+       {{2, "full", "3x3 Gauss; locks as nu -> 1/2"},
+        solid<Quad8, GaussSquare<3>>("quad8 full", {.locks = true})}});
 }
 
 ElementEntry quad9_entry() {
   return element_entry("quad9", "nine-node quadrilateral, biquadratic", 9, 4, 4,
-                       {{{1, "full", "3x3 Gauss"}, solid<Quad9, GaussSquare<3>>("quad9 full")}});
+                       {{{1, "full", "3x3 Gauss; locks as nu -> 1/2"},
+                         solid<Quad9, GaussSquare<3>>("quad9 full", {.locks = true})}});
 }
 
 }  // namespace sage

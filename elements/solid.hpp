@@ -39,8 +39,8 @@ class Solid final : public PointElement<4, 2 * Shape::nodes, Rule::points> {
   static constexpr int kDofs = 2 * Shape::nodes;
   static constexpr int kStride = kPointStride<4, kDofs>;
   using Coordinates = Eigen::Matrix<double, 2, Shape::nodes>;
-  using Operator = Eigen::Matrix<double, 4, kDofs>;
-  using VolumetricRow = Eigen::Matrix<double, 1, kDofs>;
+  using Operator = OperatorT<4, kDofs>;
+  using VolumetricPart = Vector<kDofs>;
 
  public:
   Solid(std::string_view name, bool reduced, bool locks)
@@ -75,9 +75,9 @@ class Solid final : public PointElement<4, 2 * Shape::nodes, Rule::points> {
       block += kStride;
     }
     if constexpr (volumetric == Volumetric::mean)
-      replace_volumetric_part(geometry.data(), mean_volumetric_row(geometry.data()));
+      replace_volumetric_part(geometry.data(), mean_volumetric_part(geometry.data()));
     if constexpr (volumetric == Volumetric::centre)
-      replace_volumetric_part(geometry.data(), volumetric_row(strain_operator(x, ShapeAt<Shape>({0.0, 0.0}))));
+      replace_volumetric_part(geometry.data(), volumetric_part(strain_operator(x, ShapeAt<Shape>({0.0, 0.0}))));
   }
 
   Vector2 position(const NodeCoordinates& x, int point) const override {
@@ -112,42 +112,41 @@ class Solid final : public PointElement<4, 2 * Shape::nodes, Rule::points> {
   double shape_quality(const NodeCoordinates& x) const override { return quality(x); }
 
  private:
-  // [N,x 0; 0 N,y; N/r 0; N,y N,x] for each node.
+  // B = [N,x 0; 0 N,y; N/r 0; N,y N,x] for each node.
   static Operator strain_operator(const Coordinates& x, const ShapeAt<Shape>& point) {
     const Matrix2 J = x.lazyProduct(point.dN);
     const Matrix2 inverse = (Matrix2() << J(1, 1), -J(0, 1), -J(1, 0), J(0, 0)).finished() / determinant(J);
     const Eigen::Matrix<double, Shape::nodes, 2> dNdx = point.dN.lazyProduct(inverse);
     const double r = x.row(0).dot(point.N);
-    Operator B;
+    Operator Bt;
     for (int i = 0; i < Shape::nodes; ++i) {
       const double Nx = dNdx(i, 0), Ny = dNdx(i, 1);
-      B.col(2 * i) << Nx, 0.0, Kinematics::hoop(point.N(i), r), Ny;
-      B.col(2 * i + 1) << 0.0, Ny, 0.0, Nx;
+      Bt.row(2 * i) << Nx, 0.0, Kinematics::hoop(point.N(i), r), Ny;
+      Bt.row(2 * i + 1) << 0.0, Ny, 0.0, Nx;
     }
-    return B;
+    return Bt;
   }
 
-  // Volumetric strain per dof: b = [1 1 1 0] B.
-  static VolumetricRow volumetric_row(const Operator& B) { return B.row(0) + B.row(1) + B.row(2); }
+  // Volumetric strain per dof: b = B^T [1 1 1 0].
+  static VolumetricPart volumetric_part(const Operator& Bt) { return Bt.col(0) + Bt.col(1) + Bt.col(2); }
 
   // b_mean = sum w b / sum w; w contains r, so the mean is over the volume of the ring.
-  static VolumetricRow mean_volumetric_row(const double* block) {
-    VolumetricRow sum = VolumetricRow::Zero();
+  static VolumetricPart mean_volumetric_part(const double* block) {
+    VolumetricPart sum = VolumetricPart::Zero();
     double volume = 0.0;
     for (int p = 0; p < Rule::points; ++p, block += kStride) {
-      sum += *block * volumetric_row(Eigen::Map<const Operator>(block + 1));
+      sum += *block * volumetric_part(Eigen::Map<const Operator>(block + 1));
       volume += *block;
     }
     return sum / volume;
   }
 
-  // B-bar = B + [1 1 1 0]^T (b_new - b) / 3                                  [Hughes 1980; Simo, Taylor &
-  // Pister 1985]
-  static void replace_volumetric_part(double* block, const VolumetricRow& b_new) {
+  // B-bar^T = B^T + (b_new - b) [1 1 1 0] / 3               [Hughes 1980; Simo, Taylor & Pister 1985]
+  static void replace_volumetric_part(double* block, const VolumetricPart& b_new) {
     for (int p = 0; p < Rule::points; ++p, block += kStride) {
-      Eigen::Map<Operator> B(block + 1);
-      const VolumetricRow third = (b_new - volumetric_row(B)) / 3.0;
-      B.template topRows<3>().rowwise() += third;
+      Eigen::Map<Operator> Bt(block + 1);
+      const VolumetricPart third = (b_new - volumetric_part(Bt)) / 3.0;
+      Bt.template leftCols<3>().colwise() += third;
     }
   }
 

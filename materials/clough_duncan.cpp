@@ -92,7 +92,9 @@ CloughDuncan::Normal CloughDuncan::normal_response(const PointIn<2>& in) const {
 //   d tau/dw = k_i y^2,  y = 1 - R_f tau/tau_f
 CloughDuncan::Shear CloughDuncan::primary(const Real& tau0, const Real& w, const Real& k_i,
                                           const Real& tau_f) const {
-  const Real b = tau_f.v > 0.0 ? Real(p_.R_f) / tau_f : Real(0.0);
+  // Without strength to speak of the stress slips anyway; dividing by it could overflow.
+  const double smallest = 1e-12 * (p_.c + p_.floor * p_.p_a * p_.tan_phi);
+  const Real b = tau_f.v > smallest ? Real(p_.R_f) / tau_f : Real(0.0);
   const Real y0 = max(1.0 - b * tau0, Real(1.0 - p_.R_f));
   const Real g = k_i * b * w * y0;
   Shear shear;

@@ -37,8 +37,10 @@ class CloughDuncan final : public InterfaceLaw {
  public:
   explicit CloughDuncan(const CloughDuncanParameters& parameters) : p_(parameters) {}
   std::span<const Quantity> history() const override { return kHistory; }
-  // Only a joint without friction and shear stiffness ("free ends") never couples shear with normal.
-  bool symmetric() const override { return p_.tan_phi == 0.0 && p_.k_unit == 0.0; }
+  // Without friction, and without shear stiffness ("free ends") or any strength, shear never meets normal.
+  bool symmetric() const override {
+    return p_.tan_phi == 0.0 && (p_.k_unit == 0.0 || (p_.c == 0.0 && p_.k_sf == 0.0));
+  }
   bool initialise(const Vector2& sigma, std::span<double> h) const override;
   Outcome update(const PointIn<2>& in, PointOut<2>& out) const override;
   double stress_level(const Vector2& sigma, std::span<const double> h) const override;

@@ -76,7 +76,7 @@ DruckerPrager::DruckerPrager(const DruckerPragerParameters& parameters)
 }
 
 double DruckerPrager::scale(double p, double q) const {
-  return p_.cone.k + 3.0 * p_.cone.alpha * std::abs(p) + q;
+  return p_.cone.k + 3.0 * p_.cone.alpha * std::abs(p) + q + 0.01 * std::abs(p);  // the last: rounding of s
 }
 
 double DruckerPrager::stress_level(const Vector4& sigma, std::span<const double> /*h*/) const {
@@ -84,7 +84,8 @@ double DruckerPrager::stress_level(const Vector4& sigma, std::span<const double>
   const double strength = p_.cone.k - 3.0 * p_.cone.alpha * p;
   const double nothing = 1e-9 * scale(p, q);
   if (strength > nothing) return q / strength;
-  return q <= nothing ? 1.0 : std::numeric_limits<double>::infinity();  // at the apex; outside
+  const bool at_apex = strength >= -nothing && q <= nothing;
+  return at_apex ? 1.0 : std::numeric_limits<double>::infinity();
 }
 
 bool DruckerPrager::initialise(const Vector4& sigma, std::span<double> h) const {
@@ -115,14 +116,14 @@ Outcome DruckerPrager::update(const PointIn<4>& in, PointOut<4>& out) const {
   // Return: to the cone, if that is in front of its tip and of the tension limit.
   const double dlambda = f / (G + 9.0 * K * alpha * p_.beta);
   const double p_cone = p_trial - 3.0 * K * p_.beta * dlambda;
-  const bool on_cone = f > rounding && G * dlambda <= q_trial && p_cone <= p_max_ + rounding;
+  const bool on_cone = f > rounding && p_cone <= p_max_ + rounding;  // in front of the tip: theta >= 0
   if (!on_cone) {
     return_to_cap(s, q_trial, out);
   } else if (!p_.exact || !integrate_exactly(in, out)) {
     return_to_cone(s, q_trial, p_trial, p_cone, out);
   }
-  out.h1[kShear] += std::max(q_trial - sqrt_j2(out.sigma), 0.0) / G;
-  out.h1[kVolume] += (p_trial - mean_stress(out.sigma)) / K;
+  out.h1[kShear] += sqrt_j2(trial - out.sigma) / G;
+  out.h1[kVolume] += mean_stress(trial - out.sigma) / K;
   return Outcome::ok;
 }
 

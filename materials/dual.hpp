@@ -55,6 +55,14 @@ Dual<N> exp(const Dual<N>& a) {
   return {e, e * a.d};
 }
 template <int N>
+Dual<N> sin(const Dual<N>& a) {
+  return {std::sin(a.v), std::cos(a.v) * a.d};
+}
+template <int N>
+Dual<N> cos(const Dual<N>& a) {
+  return {std::cos(a.v), -std::sin(a.v) * a.d};
+}
+template <int N>
 Dual<N> pow(const Dual<N>& a, double n) {
   const double power = std::pow(a.v, n);
   return {power, n * power / a.v * a.d};

@@ -3,8 +3,11 @@
 
 #include "materials/clough_duncan.hpp"
 #include "materials/drucker_prager.hpp"
+#include "materials/duncan_chang.hpp"
 #include "materials/goodman.hpp"
+#include "materials/hyperbolic_mohr_coulomb.hpp"
 #include "materials/linear_elastic.hpp"
+#include "materials/mohr_coulomb.hpp"
 
 namespace sage {
 
@@ -13,6 +16,10 @@ void register_materials(Catalogue& catalogue) {
   catalogue.materials.add(1, linear_elastic_entry());
   catalogue.materials.add(2, linear_elastic_kg_entry());
   catalogue.materials.add(3, drucker_prager_entry());
+  catalogue.materials.add(4, mohr_coulomb_entry());
+  catalogue.materials.add(5, duncan_chang_1970_entry());
+  catalogue.materials.add(6, duncan_chang_eb_entry());
+  catalogue.materials.add(7, hyperbolic_mohr_coulomb_entry());
   // Interfaces
   catalogue.materials.add(21, goodman_entry());
   catalogue.materials.add(22, clough_duncan_entry());

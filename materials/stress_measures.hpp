@@ -39,4 +39,24 @@ inline Matrix4 deviatoric_projection() {
   return I;
 }
 
+// Principal stresses: a >= b in the plane, a at the angle (cos, sin) from x; zz out of it.
+struct Principal {
+  double a, b, zz;
+  double cos, sin;
+};
+inline Principal principal(const Vector4& sigma) {
+  const double mean = 0.5 * (sigma[0] + sigma[1]), half = 0.5 * (sigma[0] - sigma[1]);
+  const double radius = std::hypot(half, sigma[3]);
+  const double angle = radius > 0.0 ? 0.5 * std::atan2(sigma[3], half) : 0.0;
+  return {mean + radius, mean - radius, sigma[2], std::cos(angle), std::sin(angle)};
+}
+
+// [xx yy zz xy] = T [a b zz ab] for axes a, b turned by the angle (cos, sin) from x, y.
+inline Matrix4 stress_from_principal_axes(double c, double s) {
+  Matrix4 T;
+  T << c * c, s * s, 0.0, -2.0 * c * s, s * s, c * c, 0.0, 2.0 * c * s, 0.0, 0.0, 1.0, 0.0, c * s, -c * s, 0.0,
+      c * c - s * s;
+  return T;
+}
+
 }  // namespace sage

@@ -1,6 +1,7 @@
 #include "solvers/matrix_solver.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -11,6 +12,10 @@ void MatrixSolver::analyse(int equations, const ElementEquations& elements) {
   const EquationGraph graph = make_equation_graph(equations, elements);
   matrix_.analyse(graph, elements, traits_.symmetric);
   analyse_matrix(graph);
+}
+
+double singular_pivot_ratio(int equations) {
+  return 3e-14 * std::sqrt(static_cast<double>(equations));
 }
 
 void throw_singular(int equation, double pivot_ratio, std::string_view solver) {

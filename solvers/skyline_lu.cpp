@@ -26,10 +26,8 @@ class SkylineLu final : public MatrixSolver {
     for (int J = 0; J < profile_.tiles; ++J) {
       fill_column(J);
       for (int K = profile_.top[at(J)]; K < J; ++K) reduce_tile(K, J, maximum);
-      reduce_diagonal(J, check);
+      reduce_diagonal(J, check, maximum);
     }
-    for (std::size_t i = 0; i < diagonal_u_.size(); i += kTile)
-      tile_raise_maximum(maximum, lanes(diagonal_u_.data() + i));
     report_.smallest_pivot_ratio = profile_.equations > 0 ? check.smallest_ratio() : 1.0;
     report_.growth = profile_.equations > 0 ? largest(maximum) / check.largest_term() : 1.0;
   }
@@ -50,16 +48,16 @@ class SkylineLu final : public MatrixSolver {
     upper_ = tiles_.data();
     diagonal_ = upper_ + profile_.terms();
     lower_ = diagonal_ + diagonal_terms;
-    diagonal_u_ = AlignedArray(diagonal_terms);
+    unit_ = AlignedArray(diagonal_terms);
     reciprocal_.assign(at(profile_.tiles) * kTile, 1.0);
     report_.factor_entries = static_cast<std::int64_t>(tiles_.size());
-    report_.memory_bytes = matrix().memory_bytes() + (tiles_.size() + diagonal_u_.size()) * sizeof(double) +
+    report_.memory_bytes = matrix().memory_bytes() + (tiles_.size() + unit_.size()) * sizeof(double) +
                            2 * scatter_.source.size() * sizeof(int);
   }
 
  private:
-  TileTriangle lower() const { return {lower_, diagonal_, nullptr}; }
-  TileTriangle upper() const { return {upper_, diagonal_u_.data(), reciprocal_.data()}; }
+  TileTriangle lower() const { return {lower_, unit_.data(), nullptr}; }
+  TileTriangle upper() const { return {upper_, diagonal_, reciprocal_.data()}; }
 
   void fill_column(int J) {
     const std::int64_t begin = profile_.offset[at(J)], end = profile_.offset[at(J) + 1];
@@ -78,30 +76,20 @@ class SkylineLu final : public MatrixSolver {
     const std::int64_t kj = profile_.tile(K, J), mj = profile_.tile(first, J), mk = profile_.tile(first, K);
     tile_subtract_product(upper_ + kj, lower_ + mk, upper_ + mj, K - first);
     tile_subtract_product(lower_ + kj, upper_ + mk, lower_ + mj, K - first);
-    tile_solve<true>(upper_ + kj, diagonal_ + K * kTileTerms, nullptr, maximum);
-    tile_solve<false>(lower_ + kj, diagonal_u_.data() + K * kTileTerms, reciprocal_.data() + K * kTile,
-                      maximum);
+    tile_solve<true>(upper_ + kj, unit_.data() + K * kTileTerms, nullptr, maximum);
+    tile_solve<false>(lower_ + kj, diagonal_ + K * kTileTerms, reciprocal_.data() + K * kTile, maximum);
   }
 
-  // Plain elimination of the diagonal tile; leaves U in diagonal_u_ and L, transposed, in diagonal_.
-  void reduce_diagonal(int J, PivotCheck& check) {
+  void reduce_diagonal(int J, PivotCheck& check, Lanes& maximum) {
     double* A = diagonal_ + J * kTileTerms;
-    double* U = diagonal_u_.data() + J * kTileTerms;
     const std::int64_t column = profile_.offset[at(J)];
     tile_subtract_product(A, lower_ + column, upper_ + column, profile_.height(J));
-    for (int k = 0; k < kTile; ++k) {
-      const int position = J * kTile + k;
-      if (position < profile_.equations) check.take(profile_.order[at(position)], A[k * kTile + k]);
-      const double reciprocal = 1.0 / A[k * kTile + k];
-      reciprocal_[at(position)] = reciprocal;
-      for (int i = 0; i < kTile; ++i) U[k * kTile + i] = i < k ? 0.0 : A[k * kTile + i];
-      double factor[kTile];
-      for (int i = k + 1; i < kTile; ++i) factor[i] = A[i * kTile + k] * reciprocal;
-      for (int i = k + 1; i < kTile; ++i) {
-        for (int j = k + 1; j < kTile; ++j) A[i * kTile + j] -= factor[i] * U[k * kTile + j];
-      }
-      for (int i = k + 1; i < kTile; ++i) A[k * kTile + i] = factor[i];
-    }
+    const int live = std::min(kTile, profile_.equations - J * kTile);
+    const int* equation = profile_.order.data() + J * kTile;
+    tile_factorise(A, unit_.data() + J * kTileTerms, reciprocal_.data() + J * kTile, maximum,
+                   [&](int k, double pivot) {
+                     if (k < live) check.take(equation[k], pivot);
+                   });
   }
 
   void solve_triangles(std::span<const double> b, std::span<double> x, const TileTriangle& first,
@@ -121,7 +109,7 @@ class SkylineLu final : public MatrixSolver {
   double* upper_ = nullptr;
   double* diagonal_ = nullptr;
   double* lower_ = nullptr;
-  AlignedArray diagonal_u_;
+  AlignedArray unit_;  // diagonal tiles of L, transposed; those of U stay in diagonal_
   std::vector<double> reciprocal_;
 };
 

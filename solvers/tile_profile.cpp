@@ -45,16 +45,6 @@ void list_rows(TileProfile& profile) {
     for (int K = profile.top[at(J)]; K < J; ++K) right.item[at(end[at(K)]++)] = J;
 }
 
-// Sum of the lanes of each of eight vectors.
-Lanes sums(const Lanes* rows) {
-  Lanes sum;
-  for (int i = 0; i < kTile; ++i) {
-    const Lanes& r = rows[i];
-    sum[i] = ((r[0] + r[4]) + (r[2] + r[6])) + ((r[1] + r[5]) + (r[3] + r[7]));
-  }
-  return sum;
-}
-
 }  // namespace
 
 TileProfile make_tile_profile(const EquationGraph& graph) {
@@ -110,38 +100,20 @@ TileScatter make_tile_scatter(const TileProfile& profile, const AssembledMatrix&
 
 void tile_forward(const TileProfile& profile, const TileTriangle& T, double* x) {
   for (int J = 0; J < profile.tiles; ++J) {
-    const double* tile = T.tiles + profile.offset[at(J)];
-    const double* y = x + profile.top[at(J)] * kTile;
-    Lanes sum[4] = {lanes(x + J * kTile), Lanes{}, Lanes{}, Lanes{}};
-    for (int k = 0; k < profile.height(J) * kTile; k += 4)
-#pragma GCC unroll 4
-      for (int m = 0; m < 4; ++m) sum[m] -= y[k + m] * lanes(tile + (k + m) * kTile);
-    lanes(x + J * kTile) = (sum[0] + sum[1]) + (sum[2] + sum[3]);
     double* z = x + J * kTile;
-    const double* diagonal = T.diagonal + J * kTileTerms;
-    for (int k = 0; k < kTile; ++k) {
-      if (T.reciprocal) z[k] *= T.reciprocal[J * kTile + k];
-      for (int i = k + 1; i < kTile; ++i) z[i] -= diagonal[k * kTile + i] * z[k];
-    }
+    tile_forward_panel(T.tiles + profile.offset[at(J)], x + profile.top[at(J)] * kTile, profile.height(J), z);
+    tile_forward_diagonal(T.diagonal + J * kTileTerms, T.reciprocal ? T.reciprocal + J * kTile : nullptr, z);
   }
 }
 
 void tile_backward(const TileProfile& profile, const TileTriangle& T, double* x) {
   for (int K = profile.tiles - 1; K >= 0; --K) {
     Lanes row[kTile] = {};
-    for (const int J : profile.right.of(K)) {
-      const double* tile = T.tiles + profile.tile(K, J);
-      const Lanes y = lanes(x + J * kTile);
-#pragma GCC unroll 8
-      for (int i = 0; i < kTile; ++i) row[i] += lanes(tile + i * kTile) * y;
-    }
-    lanes(x + K * kTile) -= sums(row);
+    for (const int J : profile.right.of(K))
+      tile_multiply_rows(T.tiles + profile.tile(K, J), x + J * kTile, row);
     double* z = x + K * kTile;
-    const double* diagonal = T.diagonal + K * kTileTerms;
-    for (int k = kTile - 1; k >= 0; --k) {
-      for (int i = k + 1; i < kTile; ++i) z[k] -= diagonal[k * kTile + i] * z[i];
-      if (T.reciprocal) z[k] *= T.reciprocal[K * kTile + k];
-    }
+    tile_subtract_sums(row, z);
+    tile_backward_diagonal(T.diagonal + K * kTileTerms, T.reciprocal ? T.reciprocal + K * kTile : nullptr, z);
   }
 }
 

@@ -24,7 +24,7 @@ struct ElementTraits {
   int law_size = 4;      // 4 solid, 2 interface
   bool reduced = false;  // reduced integration: fewer points than full rank needs (hourglass possible)
   bool locks = false;    // stiffens without bound as nu -> 1/2 (full integration of low order)
-  // Doubles filled by geometry(): for each point its weight w, then B (law_size x dofs, column-major).
+  // Doubles filled by geometry(): for each point its weight w, then B^T (dofs x law_size, column-major).
   int geometry_size() const { return points * (1 + law_size * dofs); }
 };
 

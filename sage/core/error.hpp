@@ -89,12 +89,6 @@ class SingularMatrix : public std::runtime_error {
   double pivot_ratio_;
 };
 
-// Results can't be written: disk full, no such folder, no permission (exit code 4).
-class OutputError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 // The analysis could not go on (exit code 3).  What was computed before stays written.
 class AnalysisError : public std::runtime_error {
  public:

@@ -3,16 +3,11 @@
 #include <algorithm>
 
 #include "sage/deck/source.hpp"
+#include "sage/deck/text.hpp"
 
 namespace sage {
 
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(' ');
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(' ') - first + 1);
-}
 
 // "....+....1....+....2" up to a column.
 std::string ruler(std::size_t columns) {

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -72,10 +73,11 @@ class DeckReader {
   ReadLog log_;
   std::shared_ptr<std::deque<std::string>> texts_;
   std::vector<FieldFlaw> flaws_;
-  std::vector<int> latest_;      // last card of each rule, -1 = none
-  std::vector<int> faulty_;      // values with errors, ascending
-  std::vector<char> suggested_;  // rules about whose counts something was said
-  std::vector<char> plain_;      // rules whose fields need no map and no comparison
+  std::vector<int> latest_;            // last card of each rule, -1 = none
+  std::vector<int> faulty_;            // values with errors, ascending
+  std::vector<char> suggested_;        // rules about whose counts something was said
+  std::vector<char> plain_;            // rules whose fields need no map and no comparison
+  std::optional<ListRead> list_read_;  // the last list-directed READ, for cards that go on in it
   RunState run_;
   int previous_rule_ = -1;             // last rule before the present run
   int own_card_ = -1, own_rule_ = -1;  // the card being read, for counts that name its own fields

@@ -6,16 +6,11 @@
 #include <sstream>
 
 #include "sage/deck/read_deck.hpp"
+#include "sage/deck/text.hpp"
 
 namespace sage {
 
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(' ');
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(' ') - first + 1);
-}
 
 // Shortest digits that give the same number back.
 std::string number_text(double value) {

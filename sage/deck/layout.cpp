@@ -26,7 +26,10 @@ bool has_marks(const Layout& layout, const SourceText& deck) {
          std::all_of(layout.marks.begin(), layout.marks.end(), [&](const LayoutMark& mark) {
            const std::string_view line = deck.line(mark.line);
            const auto column = static_cast<std::size_t>(mark.column) - 1;
-           return column < line.size() && line.substr(column, mark.text.size()) == mark.text;
+           return column < line.size() &&
+                  std::any_of(mark.texts.begin(), mark.texts.end(), [&](const std::string& text) {
+                    return line.substr(column, text.size()) == text;
+                  });
          });
 }
 

@@ -29,6 +29,7 @@ struct CardRule {
   std::string about;             // a sentence for the manual
   std::vector<FieldRule> rules;  // one a field of spec.fields
   bool list_directed = false;
+  bool same_read = false;  // goes on in the READ of the list-directed card before, instead of a new record
   Format format;
   int items_card = -1;  // the cards that the rest of this READ makes, one an item; -1 = none
   Expression items_count;
@@ -55,7 +56,7 @@ struct LayoutEntry {
 struct LayoutMark {
   int line = 1;
   int column = 1;
-  std::string text;
+  std::vector<std::string> texts;  // one of these
 };
 
 struct Layout {

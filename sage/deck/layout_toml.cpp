@@ -104,8 +104,14 @@ class LayoutReader {
       const toml::table* table = entry.as_table();
       if (!table) fail(entry, "a mark is {line, column, text}");
       known_keys(*table, {"line", "column", "text"});
-      layout_.marks.push_back({integer(*table, "line", 1, 1, 1000), integer(*table, "column", 1, 1, 1000),
-                               text(*table, "text", true)});
+      LayoutMark mark{integer(*table, "line", 1, 1, 1000), integer(*table, "column", 1, 1, 1000), {}};
+      std::string rest = text(*table, "text", true);
+      for (std::size_t bar = rest.find('|'); bar != std::string::npos; bar = rest.find('|')) {
+        mark.texts.push_back(rest.substr(0, bar));
+        rest.erase(0, bar + 1);
+      }
+      mark.texts.push_back(rest);
+      layout_.marks.push_back(mark);
     }
   }
 
@@ -120,7 +126,7 @@ class LayoutReader {
 
   LayoutEntry read_entry(const toml::table& table, int depth) {
     known_keys(table, {"name", "as", "label", "about", "format", "fields", "items", "block", "card", "opens",
-                       "repeat", "until", "until_dropped", "when", "headings"});
+                       "repeat", "until", "until_dropped", "when", "headings", "same_read"});
     LayoutEntry entry;
     entry.line = static_cast<int>(table.source().begin.line);
     const bool block = table.contains("block");
@@ -148,7 +154,6 @@ class LayoutReader {
     if (table.contains("when")) entry.when = expression(table, "when", -1);
     const bool repeat = table.contains("repeat");
     const bool until = table.contains("until") || table.contains("until_dropped");
-    if (repeat && until) fail(table, "repeat and until can't both be given");
     if (repeat) {
       const toml::node& node = *table.get("repeat");
       if (node.value_exact<std::string>() == "named") {
@@ -164,7 +169,8 @@ class LayoutReader {
   }
 
   void read_until(const toml::table& table, LayoutEntry& entry) {
-    entry.run = LayoutEntry::Run::until;
+    if (entry.run == LayoutEntry::Run::counted) fail(table, "repeat = a count and until can't both be given");
+    if (entry.run == LayoutEntry::Run::once) entry.run = LayoutEntry::Run::until;
     entry.drop_last = table.contains("until_dropped");
     entry.until = expression(table, entry.drop_last ? "until_dropped" : "until", entry.card);
   }
@@ -190,8 +196,10 @@ class LayoutReader {
     card.spec.label = table.contains("label") ? text(table, "label") : card.key;
     card.about = text(table, "about");
     card.is_item = is_item;
+    card.same_read = flag(table, "same_read");
     if (find_card(card.key) >= 0) fail(table, "card \"" + card.key + "\" is defined twice");
     if (!is_item) read_format(table, card);
+    if (card.same_read && !card.list_directed) fail(table, "same_read belongs to list-directed cards");
     const auto index = layout_.cards.size();
     layout_.cards.push_back(card);  // its own fields may be named by its counts
     bare_card_ = static_cast<int>(index);
@@ -217,6 +225,7 @@ class LayoutReader {
   void read_fields(const toml::table& table, CardRule& card) {
     const toml::node* node = table.get("fields");
     const toml::array* fields = node ? node->as_array() : nullptr;
+    if (!node && table.contains("items")) return;  // the whole READ is a list of items
     if (!fields || fields->empty())
       fail(node ? *node : table, "card \"" + card.key + "\" needs fields = [ ... ]");
     for (const toml::node& entry : *fields) {

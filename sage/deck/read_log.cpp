@@ -3,19 +3,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "sage/deck/text.hpp"
+
 namespace sage {
 
 namespace {
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
-}
-
-// Blank ends taken off, so that the message shows the number and not its field.
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(' ');
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(' ') - first + 1);
 }
 
 // A guess at how the character that spoils a number came there.
@@ -46,7 +41,7 @@ std::string quoted(std::string_view text) {
 }
 
 std::string field_text(const CardRule& card, const FieldSpec& field) {
-  std::string text = "(" + card.key + " card, " + field.label;
+  std::string text = "(" + card.spec.label + " card, " + field.label;
   if (!field.unit.empty()) text += ", " + field.unit;
   return text + ")";
 }

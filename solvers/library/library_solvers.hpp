@@ -9,5 +9,6 @@ namespace sage {
 
 std::unique_ptr<LinearSolver> make_cholmod();
 std::unique_ptr<LinearSolver> make_umfpack();
+std::unique_ptr<LinearSolver> make_mumps();  // only where SAGE_HAVE_MUMPS
 
 }  // namespace sage

@@ -15,6 +15,9 @@ sage::LinearSolver* sage_make_library_solver(const char* name) {
   const std::string_view wanted = name;
   if (wanted == "cholmod") return sage::make_cholmod().release();
   if (wanted == "umfpack") return sage::make_umfpack().release();
+#ifdef SAGE_HAVE_MUMPS
+  if (wanted == "mumps") return sage::make_mumps().release();
+#endif
   return nullptr;
 }
 

@@ -149,7 +149,7 @@ double ElementRun::weight(int point) const {
 Eigen::MatrixXd ElementRun::B(int point) const {
   const ElementTraits& t = element->traits();
   const double* block = geometry.data() + point * (1 + t.law_size * t.dofs);
-  return Eigen::Map<const Eigen::MatrixXd>(block + 1, t.law_size, t.dofs);
+  return Eigen::Map<const Eigen::MatrixXd>(block + 1, t.dofs, t.law_size).transpose();
 }
 
 }  // namespace sage::test

@@ -1,0 +1,11 @@
+# Sequential MUMPS, optional: defines the target sage_mumps where library and header are there.
+find_path(MUMPS_INCLUDE_DIR dmumps_c.h)
+find_library(MUMPS_LIBRARY dmumps_seq)
+if(MUMPS_INCLUDE_DIR AND MUMPS_LIBRARY)
+  add_library(sage_mumps INTERFACE)
+  target_include_directories(sage_mumps SYSTEM INTERFACE ${MUMPS_INCLUDE_DIR})
+  target_link_libraries(sage_mumps INTERFACE ${MUMPS_LIBRARY})
+  message(STATUS "MUMPS: ${MUMPS_LIBRARY}")
+else()
+  message(STATUS "MUMPS: not found, the solver mumps is left out")
+endif()

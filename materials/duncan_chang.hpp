@@ -1,0 +1,39 @@
+// Hyperbolic nonlinear elasticity: Duncan & Chang (1970) and Duncan, Byrne, Wong & Mabry (1980).
+// docs/theory/hyperbolic.md
+#pragma once
+
+#include <array>
+
+#include "materials/hyperbolic_steps.hpp"
+#include "sage/core/law.hpp"
+
+namespace sage {
+
+enum class HyperbolicTangent {
+  consistent,  // derivative of the computed stress; unsymmetric, quadratic Newton
+  isotropic,   // mean stiffness of the step; symmetric, linear convergence
+};
+
+// d sigma = D(E, B or nu) d eps with stress-dependent moduli.  No yield surface: the stress level may pass 1,
+// with the stiffness that is left there (use hyperbolic_mohr_coulomb to bound it).
+class DuncanChang final : public SolidLaw {
+ public:
+  DuncanChang(const HyperbolicSteps& steps, HyperbolicTangent tangent) : steps_(steps), tangent_(tangent) {}
+  std::span<const Quantity> history() const override { return kHistory; }
+  bool symmetric() const override { return tangent_ == HyperbolicTangent::isotropic; }
+  // False above the strength.
+  bool initialise(const Vector4& sigma, std::span<double> h) const override;
+  Outcome update(const PointIn<4>& in, PointOut<4>& out) const override;
+  double stress_level(const Vector4& sigma, std::span<const double> h) const override;
+
+ private:
+  enum { kMemory };
+  static constexpr std::array<Quantity, 1> kHistory{{{"largest_stress_state", Dimension::none, 0.0}}};
+  HyperbolicSteps steps_;
+  HyperbolicTangent tangent_;
+};
+
+MaterialEntry duncan_chang_1970_entry();
+MaterialEntry duncan_chang_eb_entry();
+
+}  // namespace sage

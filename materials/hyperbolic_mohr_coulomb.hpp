@@ -1,0 +1,31 @@
+// Hyperbolic moduli inside a Mohr-Coulomb surface, after the idea of Morrison (1995): the hyperbola bends
+// towards its strength, and plasticity keeps it from overshooting.  docs/theory/hyperbolic_mohr_coulomb.md
+#pragma once
+
+#include <array>
+
+#include "materials/hyperbolic_steps.hpp"
+#include "sage/core/law.hpp"
+
+namespace sage {
+
+// Each substep: trial with the mean tangent moduli (E_t or E_ur, B) of its two ends, then return to the
+// envelope sigma_1 = sigma_3 + (sigma_1 - sigma_3)_f with those moduli frozen and flow of the dilation angle.
+class HyperbolicMohrCoulomb final : public SolidLaw {
+ public:
+  explicit HyperbolicMohrCoulomb(const HyperbolicSteps& steps) : steps_(steps) {}
+  std::span<const Quantity> history() const override { return kHistory; }
+  bool initialise(const Vector4& sigma, std::span<double> h) const override;
+  Outcome update(const PointIn<4>& in, PointOut<4>& out) const override;
+  // (sigma_1 - sigma_3) / (sigma_1 - sigma_3)_f
+  double stress_level(const Vector4& sigma, std::span<const double> h) const override;
+
+ private:
+  enum { kMemory };
+  static constexpr std::array<Quantity, 1> kHistory{{{"largest_stress_state", Dimension::none, 0.0}}};
+  HyperbolicSteps steps_;
+};
+
+MaterialEntry hyperbolic_mohr_coulomb_entry();
+
+}  // namespace sage

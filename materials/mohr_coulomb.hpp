@@ -1,0 +1,44 @@
+// Mohr-Coulomb, elastic - perfectly plastic, any dilation, optional tension cut-off.
+// docs/theory/mohr_coulomb.md
+#pragma once
+
+#include <array>
+
+#include "materials/linear_elastic.hpp"
+#include "materials/mohr_coulomb_return.hpp"
+#include "materials/parameters.hpp"
+#include "sage/core/law.hpp"
+
+namespace sage {
+
+// Angles in radians.  T: tension cut-off, infinite for none.  phi = 0 is Tresca.
+MohrCoulombPlanes mohr_coulomb_planes(double c, double phi, double psi, double T);
+
+// (s1 - s3) / (2 c cos phi - (s1 + s3) sin phi), tension positive, or s1/T if that is larger; 1 at the apex.
+double mohr_coulomb_level(const MohrCoulombPlanes& planes, const Vector4& sigma);
+
+class MohrCoulomb final : public SolidLaw {
+ public:
+  MohrCoulomb(const ElasticModuli& elastic, const MohrCoulombPlanes& planes)
+      : elastic_(elastic), planes_(planes), D_elastic_(elastic_matrix(elastic)) {}
+  std::span<const Quantity> history() const override { return kHistory; }
+  bool symmetric() const override { return planes_.N == planes_.M; }
+  bool initialise(const Vector4& sigma, std::span<double> h) const override;
+  Outcome update(const PointIn<4>& in, PointOut<4>& out) const override;
+  double stress_level(const Vector4& sigma, std::span<const double> /*h*/) const override {
+    return mohr_coulomb_level(planes_, sigma);
+  }
+
+ private:
+  enum { kShear, kVolume };
+  // Sums of sqrt(2 de_p:de_p) and of the plastic volume strain (+ dilates).
+  static constexpr std::array<Quantity, 2> kHistory{
+      {{"plastic_shear_strain", Dimension::none, 0.0}, {"plastic_volume_strain", Dimension::none, 0.0}}};
+  ElasticModuli elastic_;
+  MohrCoulombPlanes planes_;
+  Matrix4 D_elastic_;
+};
+
+MaterialEntry mohr_coulomb_entry();
+
+}  // namespace sage

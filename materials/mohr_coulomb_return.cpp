@@ -1,0 +1,174 @@
+#include "materials/mohr_coulomb_return.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "materials/stress_measures.hpp"
+
+namespace sage {
+
+namespace {
+
+using Vector3 = Vector<3>;
+using Matrix3 = Matrix<3>;
+
+constexpr double kRounding = 1e-12;
+constexpr double kApexStiffness = 1e-7;  // share of D_elastic left where the true tangent is zero
+
+// Planes that can be active when s1 >= s2 >= s3: Mohr-Coulomb in the pairs 13, 12, 23 and tension in 1, 2, 3.
+enum Plane { f13, f12, f23, t1, t2, t3, none };
+using ActiveSet = std::array<Plane, 3>;
+constexpr std::array<ActiveSet, 3> kMohrCoulombSets{{{f13, none, none}, {f13, f12, none}, {f13, f23, none}}};
+constexpr std::array<ActiveSet, 12> kTensionSets{{{t1, none, none},
+                                                  {f13, none, none},
+                                                  {t1, t2, none},
+                                                  {f13, t1, none},
+                                                  {f13, f12, none},
+                                                  {f13, f23, none},
+                                                  {t1, t2, t3},
+                                                  {f13, f12, t1},
+                                                  {f13, t1, t2},
+                                                  {f13, f23, t1},
+                                                  {f13, f23, t2},
+                                                  {f23, t1, t2}}};
+
+// n . s, with slope = N for the plane, M for the flow.
+Vector3 normal(Plane plane, double slope) {
+  switch (plane) {
+    case f13:
+      return {slope, 0.0, -1.0};
+    case f12:
+      return {slope, -1.0, 0.0};
+    case f23:
+      return {0.0, slope, -1.0};
+    case t1:
+      return {1.0, 0.0, 0.0};
+    case t2:
+      return {0.0, 1.0, 0.0};
+    case t3:
+      return {0.0, 0.0, 1.0};
+    case none:
+      break;
+  }
+  return Vector3::Zero();
+}
+
+struct Candidate {
+  Vector3 sigma;
+  Matrix3 R;
+  double smallest_multiplier;
+  bool vertex;  // three planes: the stress can't move
+};
+
+// Koiter: s = s_tr - D B lambda,  lambda = (A^T D B)^-1 (A^T s_tr - y).  Unused columns are kept as identity.
+Candidate return_to_set(const MohrCoulombPlanes& planes, const Matrix3& D, const ActiveSet& set,
+                        const Vector3& trial) {
+  Matrix3 A, B, unused = Matrix3::Zero();
+  Vector3 y;
+  for (int i = 0; i < 3; ++i) {
+    const Plane plane = set[static_cast<std::size_t>(i)];
+    A.col(i) = normal(plane, planes.N);
+    B.col(i) = normal(plane, planes.M);
+    y[i] = plane < t1 ? planes.Y : plane < none ? planes.T : 0.0;
+    if (plane == none) unused(i, i) = 1.0;
+  }
+  const Matrix3 DB = D * B;
+  const Eigen::PartialPivLU<Matrix3> S(A.transpose() * DB + unused);
+  Vector3 lambda = S.solve(A.transpose() * trial - y);
+  Candidate c;
+  c.vertex = set[2] != none;
+  c.smallest_multiplier = lambda.minCoeff();
+  c.sigma = trial - DB * lambda;
+  // A trial stress far away leaves its rounding on the planes: take it off again.
+  for (int repeat = 0; repeat < 2; ++repeat) c.sigma -= DB * S.solve(A.transpose() * c.sigma - y);
+  c.R = Matrix3::Identity() - DB * S.solve(A.transpose());
+  return c;
+}
+
+// Order kept and no plane exceeded, to the rounding of the trial stress.
+bool acceptable(const MohrCoulombPlanes& planes, const Vector3& s, double cut_off, double rounding) {
+  const bool ordered = s[0] >= s[1] - rounding && s[1] >= s[2] - rounding;
+  return ordered && s[0] <= cut_off + rounding && planes.N * s[0] - s[2] - planes.Y <= planes.N * rounding;
+}
+
+// The sets are tried from few planes to many; a set with multipliers >= 0 is the answer.
+template <std::size_t Count>
+bool find_set(const MohrCoulombPlanes& planes, const Matrix3& D, const std::array<ActiveSet, Count>& sets,
+              const Vector3& trial, double cut_off, Candidate& found) {
+  const double rounding = kRounding * trial.cwiseAbs().maxCoeff();
+  for (const ActiveSet& set : sets) {
+    found = return_to_set(planes, D, set, trial);
+    const double negative = -rounding / D(0, 0);
+    if (found.smallest_multiplier >= negative && acceptable(planes, found.sigma, cut_off, rounding))
+      return true;
+  }
+  return false;
+}
+
+// Sorted trial stress to sorted answer.
+Candidate return_sorted(const MohrCoulombPlanes& planes, const Matrix3& D, const Vector3& trial) {
+  const double apex = planes.apex();
+  Candidate c;
+  const bool found = planes.T < apex ? find_set(planes, D, kTensionSets, trial, planes.T, c)
+                                     : find_set(planes, D, kMohrCoulombSets, trial, apex, c);
+  const double tip = std::min(planes.T, apex);
+  if (found || !std::isfinite(tip)) return c;  // without a tip the last edge differs by rounding only
+  return {Vector3::Constant(tip), Matrix3::Zero(), 0.0, true};
+}
+
+}  // namespace
+
+double MohrCoulombPlanes::apex() const {
+  return N > 1.0 ? Y / (N - 1.0) : std::numeric_limits<double>::infinity();
+}
+
+bool outside(const MohrCoulombPlanes& planes, const Vector4& sigma) {
+  const Principal s = principal(sigma);
+  const double s1 = std::max(s.a, s.zz), s3 = std::min(s.b, s.zz);
+  const double scale = planes.Y + planes.N * std::abs(s1) + std::abs(s3);
+  return planes.N * s1 - s3 - planes.Y > kRounding * scale ||
+         s1 - std::min(planes.T, planes.apex()) > kRounding * scale;
+}
+
+MohrCoulombReturn return_to_planes(const MohrCoulombPlanes& planes, const ElasticModuli& elastic,
+                                   const Vector4& trial) {
+  // Trial principals [a b zz], and their order from largest to smallest.
+  const Principal axes = principal(trial);
+  const Vector3 value{axes.a, axes.b, axes.zz};
+  const std::array<int, 3> order = axes.zz >= axes.a   ? std::array<int, 3>{2, 0, 1}
+                                   : axes.zz >= axes.b ? std::array<int, 3>{0, 2, 1}
+                                                       : std::array<int, 3>{0, 1, 2};
+  Vector3 sorted;
+  for (int i = 0; i < 3; ++i) sorted[i] = value[order[static_cast<std::size_t>(i)]];
+
+  const Matrix3 D = elastic_matrix(elastic).topLeftCorner<3, 3>();
+  const Candidate answer = return_sorted(planes, D, sorted);
+
+  // Back to [a b zz ab].  The shear ab turns with the axes: (sa - sb)/(sa_tr - sb_tr).   [Clausen et al. 2006]
+  Vector4 sigma = Vector4::Zero();
+  Matrix4 R = Matrix4::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const int row = order[static_cast<std::size_t>(i)];
+    sigma[row] = answer.sigma[i];
+    for (int j = 0; j < 3; ++j) R(row, order[static_cast<std::size_t>(j)]) = answer.R(i, j);
+  }
+  const double apart = axes.a - axes.b;
+  const bool distinct = apart > 1e-9 * value.cwiseAbs().maxCoeff();
+  R(3, 3) = distinct ? (sigma[0] - sigma[1]) / apart : 0.5 * (R(0, 0) - R(0, 1) - R(1, 0) + R(1, 1));
+
+  const Matrix4 T = stress_from_principal_axes(axes.cos, axes.sin);
+  const Matrix4 T_back = stress_from_principal_axes(axes.cos, -axes.sin);
+  MohrCoulombReturn result;
+  result.sigma = T * sigma;
+  result.R = T * R * T_back;
+  if (answer.vertex) result.R += kApexStiffness * Matrix4::Identity();
+  const double tip = std::min(planes.T, planes.apex());
+  const bool cut_off = answer.sigma[0] >= tip - kRounding * value.cwiseAbs().maxCoeff();
+  result.status = answer.vertex || cut_off ? PointStatus::apex : PointStatus::yielded;
+  return result;
+}
+
+}  // namespace sage

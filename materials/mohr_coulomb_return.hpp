@@ -1,0 +1,34 @@
+// Return to the planes of Mohr-Coulomb and of a tension cut-off, in principal stresses.
+// Clausen, Damkilde & Andersen (2006, 2007); docs/theory/mohr_coulomb.md
+#pragma once
+
+#include "materials/linear_elastic.hpp"
+#include "sage/core/law.hpp"
+
+namespace sage {
+
+// With s1 >= s2 >= s3, tension positive:  f = N s1 - s3 - Y <= 0 and s1 <= T; flow g = M s1 - s3.
+struct MohrCoulombPlanes {
+  double N;  // (1 + sin phi)/(1 - sin phi)                                  [-]
+  double Y;  // 2 c sqrt(N), the unconfined compressive strength             [stress]
+  double M;  // N with the dilation angle                                    [-]
+  double T;  // tension cut-off, infinite for none; the apex counts anyway   [stress]
+
+  double apex() const;  // s1 = s2 = s3 = Y/(N-1), infinite for N = 1
+};
+
+struct MohrCoulombReturn {
+  Vector4 sigma;
+  Matrix4 R;  // d sigma/d sigma_trial; the tangent is R D_elastic
+  PointStatus status;
+};
+
+// f > 0 or s1 > T by more than rounding?
+bool outside(const MohrCoulombPlanes& planes, const Vector4& sigma);
+
+// For a trial stress that is outside.  Finds the set of active planes whose multipliers are not negative and
+// whose stress keeps the order of the principals; the apex where there is none.
+MohrCoulombReturn return_to_planes(const MohrCoulombPlanes& planes, const ElasticModuli& elastic,
+                                   const Vector4& trial);
+
+}  // namespace sage

@@ -1,0 +1,84 @@
+// sagefe run: computes decks and writes their results.
+#include <fmt/format.h>
+
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+#include <algorithm>
+#include <set>
+
+#include "sage/app/commands.hpp"
+#include "sage/app/exit_codes.hpp"
+#include "sage/app/run_deck.hpp"
+
+namespace sage::app {
+
+namespace {
+
+struct RunOptions {
+  std::vector<std::string> decks;
+  RunRequest request;
+  std::string tables = "auto";
+  bool quiet = false;
+};
+
+Tables tables_of(const std::string& name) {
+  if (name == "none") return Tables::none;
+  if (name == "stage") return Tables::stage_end;
+  if (name == "all") return Tables::all;
+  return Tables::automatic;
+}
+
+// One deck's failure does not keep the next from running.
+int run_one(const RunOptions& options, const std::string& deck, const Catalogue& catalogue) {
+  RunRequest request = options.request;
+  request.deck = deck;
+  request.output.tables = tables_of(options.tables);
+  try {
+    const RunOutcome outcome = run_deck(request, catalogue);
+    if (outcome.record.stages.empty()) return outcome.exit_code;  // --strict stopped it
+    if (!options.quiet)
+      fmt::print("{}\n", summary(*outcome.model, outcome.record, outcome.reports.get(), outcome.files));
+    if (outcome.exit_code != kOk) fmt::print(stderr, "{}: {}\n", deck, outcome.record.result.reason);
+    return outcome.exit_code;
+  } catch (const InputError& error) {
+    print_diagnostics(error.diagnostics());
+    return kInput;
+  }
+}
+
+int run_all(const RunOptions& options) {
+  const Catalogue catalogue = full_catalogue();
+  std::set<std::string> names;
+  for (const std::string& deck : options.decks)
+    if (!names.insert(case_name(deck)).second) {
+      fmt::print(stderr, "sagefe: two decks would both write {}.*; run them into different folders (-o)\n",
+                 case_name(deck));
+      return kUsage;
+    }
+  int worst = kOk;
+  for (const std::string& deck : options.decks) worst = std::max(worst, run_one(options, deck, catalogue));
+  return worst;
+}
+
+}  // namespace
+
+Command run_command(CLI::App& root) {
+  auto options = std::make_shared<RunOptions>();
+  RunRequest& request = options->request;
+  CLI::App* parser =
+      root.add_subcommand("run", "compute decks; listing, CSV and reports go to the output folder");
+  parser->add_option("DECK", options->decks, "deck files")->required();
+  parser->add_option("-o,--output", request.output.folder, "folder for results (default: out)");
+  parser->add_option("--solver", request.solver, "solver by name (see sagefe list solvers)");
+  parser->add_option("--tables", options->tables, "tables in the listing: auto, none, stage, all")
+      ->check(CLI::IsMember({"auto", "none", "stage", "all"}));
+  parser->add_flag("--nodes", request.output.nodes, "write STEM.nodes.csv: displacements and reactions");
+  parser->add_flag("--points", request.output.points, "write STEM.points.csv: stress and state of all points");
+  parser->add_flag("!--no-listing", request.output.listing, "write no listing");
+  parser->add_flag("-q,--quiet", options->quiet, "print no summary");
+  add_input_options(*parser, request.input);
+  add_build_options(*parser, request.input.build);
+  return {parser, [options] { return run_all(*options); }};
+}
+
+}  // namespace sage::app

@@ -1,0 +1,83 @@
+#include "sage/app/run_deck.hpp"
+
+#include <chrono>
+
+#include "sage/app/exit_codes.hpp"
+#include "sage/output/csv.hpp"
+#include "sage/output/progress.hpp"
+#include "solvers/choose_solver.hpp"
+
+namespace sage::app {
+
+namespace {
+
+int solver_code(const Catalogue& catalogue, const std::string& name) {
+  if (name.empty()) return -1;
+  for (const auto& [code, entry] : catalogue.solvers.entries())
+    if (entry.name == name) return code;
+  throw InputError({}, "solver " + name + " is unknown; " + catalogue.solvers.known());
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw OutputError("the folder " + folder.string() + " can't be made: " + error.message());
+}
+
+// The outputs that were asked for; the first is always the reports.
+std::vector<std::unique_ptr<Output>> make_outputs(const RunRequest& request, const Catalogue& catalogue,
+                                                  const Reports& reports) {
+  const OutputOptions& options = request.output;
+  const std::string stem = case_name(request.deck);
+  std::vector<std::unique_ptr<Output>> outputs;
+  if (options.listing)
+    outputs.push_back(std::make_unique<Listing>(options.folder, stem, catalogue,
+                                                ListingOptions{options.tables, "", &reports}));
+  if (options.increments || options.nodes || options.points)
+    outputs.push_back(std::make_unique<Csv>(options.folder, stem,
+                                            CsvOptions{options.increments, options.nodes, options.points}));
+  return outputs;
+}
+
+}  // namespace
+
+RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
+  const auto start = std::chrono::steady_clock::now();
+  RunOutcome outcome;
+  {
+    const Deck deck = read_input(request.deck, request.input);
+    outcome.model = std::make_unique<Model>(build_model(deck, catalogue, request.input.build));
+  }
+  const Model& model = *outcome.model;
+  if (!request.quiet) print_diagnostics(model.diagnostics);
+  if (request.input.strict && model.diagnostics.warnings() > 0) {
+    outcome.exit_code = kInput;
+    return outcome;
+  }
+  RunSettings settings;
+  settings.solver = solver_code(catalogue, request.solver);
+  settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
+  make_folder(request.output.folder);
+  outcome.reports = std::make_unique<Reports>(request.output.folder, case_name(request.deck));
+  std::vector<std::unique_ptr<Output>> outputs = make_outputs(request, catalogue, *outcome.reports);
+  Progress progress;
+  std::vector<Observer*> observers{&outcome.record, outcome.reports.get()};
+  for (const auto& output : outputs) observers.push_back(output.get());
+  observers.push_back(&progress);
+  try {
+    const RunResult result = run(model, catalogue, settings, observers);
+    outcome.exit_code = result.status == RunStatus::completed ? kOk : kNotConverged;
+  } catch (const std::exception& error) {
+    for (const auto& output : outputs) output->stop(error.what());
+    outcome.reports->stop(error.what());
+    throw;
+  }
+  outcome.files = outcome.reports->files();
+  for (const auto& output : outputs)
+    for (const std::filesystem::path& file : output->files()) outcome.files.push_back(file);
+  outcome.record.warnings += model.diagnostics.warnings();
+  outcome.record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return outcome;
+}
+
+}  // namespace sage::app

@@ -1,0 +1,44 @@
+// One deck from file to results: what `run`, `tables` and the regression tests share.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "sage/analysis/run.hpp"
+#include "sage/app/input.hpp"
+#include "sage/output/listing.hpp"
+#include "sage/output/report.hpp"
+#include "sage/output/summary.hpp"
+
+namespace sage::app {
+
+struct OutputOptions {
+  std::filesystem::path folder = "out";
+  bool listing = true;
+  Tables tables = Tables::automatic;
+  bool increments = true;  // STEM.increments.csv
+  bool nodes = false, points = false;
+  bool vtu = false;
+};
+
+struct RunRequest {
+  std::string deck;
+  InputOptions input;
+  OutputOptions output;
+  std::string solver;  // a name of the catalogue; empty = the deck's choice
+  bool quiet = false;  // no messages about the deck
+};
+
+// Reports and record stay readable after the run.
+struct RunOutcome {
+  int exit_code = 0;
+  std::unique_ptr<Model> model;
+  std::unique_ptr<Reports> reports;
+  RunRecord record;
+  std::vector<std::filesystem::path> files;
+};
+
+// Throws InputError, OutputError.
+RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue);
+
+}  // namespace sage::app

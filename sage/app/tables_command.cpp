@@ -1,0 +1,110 @@
+// sagefe tables: the source chapter's Tables 7.3 and 7.4, rerun from decks, beside the chapter's numbers.
+#include <fmt/format.h>
+
+#include <CLI/Option.hpp>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "sage/app/commands.hpp"
+#include "sage/app/exit_codes.hpp"
+#include "sage/app/run_deck.hpp"
+
+namespace sage::app {
+
+namespace {
+
+struct TableOptions {
+  std::filesystem::path cases = SAGE_CASES_DIR "/chapter7";
+  std::filesystem::path folder = "out";
+  bool pinned = false;
+};
+
+// A line of tables.csv.
+struct Entry {
+  std::string table, row, column, deck;
+  int stage = 0, increment = 0;
+  double chapter = 0.0, converged = 0.0;  // converged: 0 = not known
+};
+
+std::vector<Entry> read_entries(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  if (!in) throw InputError({path.string(), 0, 0, 0}, "the list of table entries can't be read (see --cases)");
+  std::vector<Entry> entries;
+  std::string line;
+  bool header = true;
+  while (std::getline(in, line)) {
+    if (line.empty() || line[0] == '#') continue;
+    if (std::exchange(header, false)) continue;
+    std::vector<std::string> cells;
+    std::stringstream stream(line);
+    for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+    cells.resize(8);
+    entries.push_back({cells[0], cells[1], cells[2], cells[3], std::stoi(cells[4]), std::stoi(cells[5]),
+                       std::stod(cells[6]), cells[7].empty() ? 0.0 : std::stod(cells[7])});
+  }
+  return entries;
+}
+
+double ratio_of(const RunOutcome& outcome, const Entry& entry) {
+  for (const TriaxialRow& row : outcome.reports->triaxial(0))
+    if (row.stage == entry.stage && row.increment == entry.increment) return row.ratio;
+  return std::nan("");
+}
+
+void print_header(const std::string& table) {
+  fmt::print("\nTable {}: measured / correct axial stress\n", table);
+  fmt::print("{:<15} {:<22} {:>8} {:>9} {:>10} {:>10} {:>13}\n", "", "", "chapter", "sagefe", "difference",
+             "converged", "chapter error");
+}
+
+void print_entry(const Entry& entry, double ratio) {
+  fmt::print("{:<15} {:<22} {:8.4f} {:9.5f} {:+10.5f}", entry.row, entry.column, entry.chapter, ratio,
+             ratio - entry.chapter);
+  if (entry.converged > 0.0)
+    fmt::print(" {:10.5f} {:+12.2f}%", entry.converged, 100.0 * (entry.chapter / entry.converged - 1.0));
+  fmt::print("\n");
+}
+
+int print_tables(const TableOptions& options) {
+  const Catalogue catalogue = full_catalogue();
+  std::map<std::string, RunOutcome> runs;
+  std::string table;
+  int worst = kOk;
+  for (const Entry& entry : read_entries(options.cases / "tables.csv")) {
+    if (options.pinned && !entry.column.starts_with("pinned")) continue;
+    if (!runs.count(entry.deck)) {
+      RunRequest request;
+      request.deck = (options.cases / entry.deck / "deck.dat").string();
+      request.output.folder = options.folder;
+      request.quiet = true;
+      runs.emplace(entry.deck, run_deck(request, catalogue));
+      const RunOutcome& outcome = runs.at(entry.deck);
+      worst = std::max(worst, outcome.exit_code);
+      if (outcome.exit_code != kOk) fmt::print(stderr, "{}: {}\n", request.deck, outcome.record.result.reason);
+    }
+    if (entry.table != table) print_header(table = entry.table);
+    print_entry(entry, ratio_of(runs.at(entry.deck), entry));
+  }
+  fmt::print(
+      "\nsagefe: the deck as the chapter ran it (4-node elements, full 2x2 integration). Compression "
+      "positive.\n"
+      "Full integration locks near nu = 1/2; the converged answer needs b-bar or 8-node elements.\n"
+      "Results of all decks: {}\n",
+      options.folder.string());
+  return worst;
+}
+
+}  // namespace
+
+Command tables_command(CLI::App& root) {
+  auto options = std::make_shared<TableOptions>();
+  CLI::App* parser =
+      root.add_subcommand("tables", "rerun the source chapter's Tables 7.3 and 7.4 beside its numbers");
+  parser->add_option("--cases", options->cases, "folder with tables.csv and the decks");
+  parser->add_option("-o,--output", options->folder, "folder for results (default: out)");
+  parser->add_flag("--pinned", options->pinned, "only the columns with pinned ends");
+  return {parser, [options] { return print_tables(*options); }};
+}
+
+}  // namespace sage::app

@@ -1,0 +1,123 @@
+// What a card that was read is held against: faults of its fields, what stands behind them, required values,
+// codes.
+#include <algorithm>
+
+#include "sage/deck/deck_reader.hpp"
+#include "sage/deck/text.hpp"
+
+namespace sage {
+
+void DeckReader::close_card(const CardRule& rule, Card card) {
+  card.value_count = static_cast<std::int32_t>(deck_.values.size()) - card.first_value;
+  deck_.cards.push_back(card);
+  if (!flaws_.empty()) report_flaws(rule, card);
+  check_values(rule, card);
+}
+
+void DeckReader::report_flaws(const CardRule& rule, const Card& card) {
+  const int before = log_.errors();
+  bool blanks_inside = false;
+  for (const FieldFlaw& flaw : flaws_) {
+    const auto at = static_cast<std::size_t>(flaw.value);
+    const std::size_t field =
+        std::min(at - static_cast<std::size_t>(card.first_value), rule.spec.fields.size() - 1);
+    const int errors = log_.errors();
+    FieldValue& value = deck_.values[at];
+    // A map may take what isn't a number.
+    if (!rule.rules[field].map.empty() && flaw.fault != FieldFault::none) continue;
+    log_.flaw(rule, rule.spec.fields[field], value, flaw);
+    if (log_.errors() > errors) {
+      faulty_.push_back(flaw.value);
+      value.number = 0.0;
+    }
+    blanks_inside = blanks_inside || (flaw.hints & hint_inner_blank) != 0;
+  }
+  if (log_.errors() > before || blanks_inside) suggest_count(rule, card);
+}
+
+void DeckReader::check_values(const CardRule& rule, const Card& card) {
+  const auto first = static_cast<std::size_t>(card.first_value);
+  const auto count = std::min(static_cast<std::size_t>(card.value_count), rule.rules.size());
+  bool missing = false;
+  for (std::size_t i = 0; i < count; ++i) {
+    FieldValue& value = deck_.values[first + i];
+    const FieldSpec& spec = rule.spec.fields[i];
+    if (value.blank && spec.required) {
+      log_.add(Severity::error, value.first_column ? log_.where(value) : log_.line(card.line),
+               "a value is missing " + field_text(rule, spec));
+      faulty_.push_back(static_cast<int>(first + i));
+      missing = true;
+    }
+    if (plain_[static_cast<std::size_t>(card.spec)]) continue;
+    if (!rule.rules[i].map.empty()) apply_map(rule, i, value);
+    const std::string& wanted = rule.rules[i].must_equal;
+    if (!wanted.empty() && lower_case(trimmed(value.text)) != lower_case(wanted)) {
+      log_.add(Severity::error, value.first_column ? log_.where(value) : log_.line(card.line),
+               "the " + rule.spec.label + " card must read " + wanted + ", not " + quoted(trimmed(value.text)));
+      missing = true;
+    }
+  }
+  if (missing) suggest_count(rule, card);
+}
+
+void DeckReader::apply_map(const CardRule& rule, std::size_t field, FieldValue& value) {
+  if (value.blank && value.kind != FieldKind::text) return;
+  const std::string_view text = trimmed(value.text);
+  for (const auto& [code, number] : rule.rules[field].map)
+    if (code == text) {
+      value.number = number;
+      return;
+    }
+  std::string known;
+  for (const auto& [code, number] : rule.rules[field].map) known += (known.empty() ? "" : ", ") + code;
+  log_.add(
+      Severity::error, log_.where(value),
+      quoted(text) + " is not a known code " + field_text(rule, rule.spec.fields[field]) + "; known: " + known);
+}
+
+// -----------------------------------------------------
+
+void DeckReader::check_rest(const CardRule& rule, const Card& card, std::size_t last_field_end) {
+  const std::string_view beyond = records_.beyond();
+  if (!overlong_noted_ && !beyond.empty() && !all_blank(beyond)) {
+    overlong_noted_ = true;
+    const int first = layout_.records.record_length + 1;
+    log_.add(Severity::note, {deck_.file, records_.line(), first, first + static_cast<int>(beyond.size()) - 1},
+             "characters beyond column " + std::to_string(first - 1) + " are ignored (said once)");
+  }
+  if (layout_.last_sequence_column > 0 &&
+      last_field_end >= static_cast<std::size_t>(layout_.first_sequence_column))
+    check_sequence_number(rule, card, last_field_end);
+  std::string_view record = records_.record();
+  const auto sequence = static_cast<std::size_t>(layout_.first_sequence_column);
+  if (sequence > 0 && record.size() >= sequence) record = record.substr(0, sequence - 1);
+  if (last_field_end >= record.size() || all_blank(record.substr(last_field_end))) return;
+  const std::size_t first = last_field_end + record.substr(last_field_end).find_first_not_of(" \t\x1a");
+  const int offset = records_.skipped() + 1;
+  log_.add(Severity::note,
+           {deck_.file, records_.line(), offset + static_cast<int>(first),
+            offset + static_cast<int>(record.find_last_not_of(" \t\x1a"))},
+           "characters behind the last field of the " + rule.spec.label + " card are ignored");
+}
+
+// Eight digits in 73-80 with blanks before them, where fields reach that far: likely no data.
+void DeckReader::check_sequence_number(const CardRule& rule, const Card& card, std::size_t) {
+  if (sequence_noted_) return;
+  const std::string_view record = records_.record();
+  const auto first = static_cast<std::size_t>(layout_.first_sequence_column) - 1;
+  const auto size = static_cast<std::size_t>(layout_.last_sequence_column) - first;
+  if (record.size() < first + size || first < 2) return;
+  const FieldSpec& last = rule.spec.fields.back();
+  const std::string_view number = record.substr(first, size);
+  const bool digits = std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
+  if (!digits || last.kind == FieldKind::text || !all_blank(record.substr(first - 2, 2))) return;
+  sequence_noted_ = true;
+  log_.add(Severity::warning,
+           {deck_.file, records_.line(), layout_.first_sequence_column, layout_.last_sequence_column},
+           quoted(number) + " looks like a sequence number, but the fields of the " + rule.spec.label +
+               " card reach into columns " + std::to_string(layout_.first_sequence_column) + "-" +
+               std::to_string(layout_.last_sequence_column) + " (said once)");
+  static_cast<void>(card);
+}
+
+}  // namespace sage

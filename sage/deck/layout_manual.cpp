@@ -1,0 +1,155 @@
+// Writes the manual of a layout from the layout itself.
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "sage/deck/layout.hpp"
+
+namespace sage {
+
+namespace {
+
+std::string number_text(double value) {
+  std::array<char, 40> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
+}
+
+const char* kind_text(FieldKind kind) {
+  switch (kind) {
+    case FieldKind::integer:
+      return "integer";
+    case FieldKind::real:
+      return "real";
+    case FieldKind::text:
+      return "text";
+    case FieldKind::logical:
+      return "T or F";
+  }
+  return "";
+}
+
+// "|" would end a table's cell.
+std::string cell(std::string text) {
+  for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
+    text.insert(at, "\\");
+  return text;
+}
+
+// "1-5", "6-10", ... of a FORMAT's fields; a card behind the first is said.
+std::vector<std::string> field_columns(const CardRule& card) {
+  std::vector<std::string> columns;
+  FormatWalker walker(card.format);
+  int at = 1, record = 1;
+  while (columns.size() < card.spec.fields.size()) {
+    const FormatStep& step = walker.next();
+    if (step.edit == Edit::tab_to) at = step.width;
+    if (step.edit == Edit::tab_by) at = std::max(1, at + step.width);
+    if (step.edit == Edit::next_record || step.edit == Edit::end) {
+      record += step.edit == Edit::end ? 1 : step.width;
+      at = 1;
+    }
+    if (step.edit == Edit::end) walker.revert();
+    if (!is_data(step.edit)) continue;
+    const std::string last = step.width == 0 ? std::string("end") : std::to_string(at + step.width - 1);
+    std::string place = step.width == 1 ? std::to_string(at) : std::to_string(at) + "-" + last;
+    if (record > 1) place += " (card " + std::to_string(record) + ")";
+    columns.push_back(place);
+    at += step.width;
+  }
+  return columns;
+}
+
+void add_field(const FieldSpec& spec, const FieldRule& rule, const std::string& place, std::string& out) {
+  std::string notes = rule.codes;
+  const auto note = [&](const std::string& text) { notes += (notes.empty() ? "" : "; ") + text; };
+  if (spec.required) note("must be given");
+  if (spec.has_fallback) note("blank gives " + number_text(spec.fallback));
+  if (!rule.must_equal.empty()) note("must read " + rule.must_equal);
+  if (!rule.count.empty()) note("repeats: " + rule.count.source);
+  out += "| " + place + " | `" + spec.name + "` | " + kind_text(spec.kind) + " | " + cell(spec.label) + " | " +
+         cell(spec.unit) + " | " + cell(notes) + " |\n";
+}
+
+void add_fields(const CardRule& card, std::string& out) {
+  const bool columns = !card.list_directed && !card.is_item;
+  out += columns ? "| Columns |" : "| Value |";
+  out += " Field | Kind | Meaning | Unit | Codes and defaults |\n|---|---|---|---|---|---|\n";
+  const std::vector<std::string> places = columns ? field_columns(card) : std::vector<std::string>();
+  for (std::size_t i = 0; i < card.spec.fields.size(); ++i)
+    add_field(card.spec.fields[i], card.rules[i], columns ? places[i] : std::to_string(i + 1), out);
+  out += '\n';
+}
+
+std::string run_text(const LayoutEntry& entry) {
+  std::string text;
+  switch (entry.run) {
+    case LayoutEntry::Run::once:
+      text = "once";
+      break;
+    case LayoutEntry::Run::counted:
+      text = "`" + entry.count.source + "` times";
+      break;
+    case LayoutEntry::Run::named:
+      text = "as often as the name stands";
+      break;
+    case LayoutEntry::Run::until:
+      text = "repeats";
+      break;
+  }
+  if (!entry.until.empty()) text += " until `" + entry.until.source + "`";
+  if (!entry.when.empty()) text = "if `" + entry.when.source + "`" + (text == "once" ? "" : ": " + text);
+  return text;
+}
+
+void add_overview(const Layout& layout, const std::vector<LayoutEntry>& entries, int depth, std::string& out) {
+  for (const LayoutEntry& entry : entries) {
+    out += std::string(static_cast<std::size_t>(2 * depth), ' ') + "- ";
+    if (entry.card < 0) {
+      out += "the following cards, " + run_text(entry) + ":\n";
+      add_overview(layout, entry.entries, depth + 1, out);
+      continue;
+    }
+    const CardRule& card = layout.cards[static_cast<std::size_t>(entry.card)];
+    out += "`" + card.key + "`, " + run_text(entry);
+    if (entry.headings > 0) out += ", below " + std::to_string(entry.headings) + " heading line(s)";
+    out += '\n';
+  }
+}
+
+void add_cards(const Layout& layout, const std::vector<LayoutEntry>& entries, std::string& out) {
+  for (const LayoutEntry& entry : entries) {
+    add_cards(layout, entry.entries, out);
+    if (entry.card < 0) continue;
+    const CardRule& card = layout.cards[static_cast<std::size_t>(entry.card)];
+    out += "### " + card.key;
+    if (card.spec.name != card.key) out += " (`" + card.spec.name + "`)";
+    out += "\n\n";
+    if (!card.about.empty()) out += card.about + "\n\n";
+    out += card.list_directed ? std::string("List-directed") : "FORMAT `" + card.spec.format + "`";
+    out += ", " + run_text(entry) + ".\n\n";
+    if (!card.spec.fields.empty()) add_fields(card, out);
+    if (card.items_card < 0) continue;
+    const CardRule& item = layout.cards[static_cast<std::size_t>(card.items_card)];
+    out += "Then, in the same READ, `" + card.items_count.source + "` times (`" + item.spec.name + "`):\n\n";
+    add_fields(item, out);
+  }
+}
+
+}  // namespace
+
+std::string layout_manual(const Layout& layout) {
+  std::string out = "# " + layout.title + "\n\n";
+  out += "<!-- Written from legacy_inputs/layouts/" + layout.name +
+         ".toml: change that file, not this one. -->\n\n";
+  if (!layout.introduction.empty()) out += layout.introduction + "\n";
+  out += "## The cards in order\n\n";
+  add_overview(layout, layout.entries, 0, out);
+  out += "\n## Card by card\n\n";
+  add_cards(layout, layout.entries, out);
+  if (!layout.example.empty()) out += "## An example\n\n```\n" + layout.example + "```\n";
+  if (!layout.closing.empty()) out += "\n" + layout.closing;
+  return out;
+}
+
+}  // namespace sage

@@ -1,0 +1,28 @@
+// Small helpers for characters of cards.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace sage {
+
+// Without blanks and tabs at both ends.
+inline std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+// Nothing to read: blanks, tabs, and the mark that old systems put at the end of a file.
+inline bool all_blank(std::string_view text) {
+  return text.find_first_not_of(" \t\x1a") == std::string_view::npos;
+}
+
+inline std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return lower;
+}
+
+}  // namespace sage

@@ -1,0 +1,179 @@
+#include "solvers/front_tree.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
+
+#include "solvers/profile_numbering.hpp"
+#include "solvers/tile_profile.hpp"
+
+namespace sage {
+
+namespace {
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+int whole_tiles(int n) {
+  return (n + kTile - 1) / kTile;
+}
+
+void number_equations(const EquationGraph& graph, const SeparatorTree& tree, FrontTree& fronts) {
+  fronts.order = expand(graph, tree.groups.item);
+  fronts.position.resize(fronts.order.size());
+  for (std::size_t p = 0; p < fronts.order.size(); ++p)
+    fronts.position[at(fronts.order[p])] = static_cast<int>(p);
+}
+
+void list_children(const std::vector<int>& parent, IndexLists& children) {
+  children.start.assign(parent.size() + 1, 0);
+  for (const int p : parent)
+    if (p >= 0) ++children.start[at(p) + 1];
+  for (std::size_t f = 1; f < children.start.size(); ++f) children.start[f] += children.start[f - 1];
+  children.item.resize(at(children.start.back()));
+  std::vector<int> end(children.start.begin(), children.start.end() - 1);
+  for (std::size_t f = 0; f < parent.size(); ++f)
+    if (parent[f] >= 0) children.item[at(end[at(parent[f])]++)] = static_cast<int>(f);
+}
+
+// Border of a front: what its pivots and its children's borders touch beyond its own pivots.  Groups are listed
+// by their rank in the elimination.
+IndexLists border_groups(const EquationGraph& graph, const SeparatorTree& tree, const IndexLists& children,
+                         std::span<const int> rank) {
+  IndexLists borders;
+  std::vector<int> seen(rank.size(), -1);
+  for (int f = 0; f < tree.groups.count(); ++f) {
+    const int last = tree.groups.start[at(f) + 1] - 1;
+    const auto begin = static_cast<std::ptrdiff_t>(borders.item.size());
+    const auto take = [&](int r) {
+      if (r <= last || seen[at(r)] == f) return;
+      seen[at(r)] = f;
+      borders.item.push_back(r);
+    };
+    for (const int group : tree.groups.of(f))
+      for (const int other : graph.neighbours.of(group)) take(rank[at(other)]);
+    for (const int child : children.of(f))
+      for (int k = borders.start[at(child)]; k < borders.start[at(child) + 1]; ++k) take(borders.item[at(k)]);
+    std::sort(borders.item.begin() + begin, borders.item.end());
+    borders.start.push_back(static_cast<int>(borders.item.size()));
+  }
+  return borders;
+}
+
+void lay_out_fronts(const EquationGraph& graph, const SeparatorTree& tree, bool symmetric, FrontTree& fronts) {
+  std::vector<int> rank(at(graph.members.count()));
+  for (std::size_t r = 0; r < rank.size(); ++r) rank[at(tree.groups.item[r])] = static_cast<int>(r);
+  const IndexLists borders = border_groups(graph, tree, fronts.children, rank);
+  int first = 0;
+  for (int f = 0; f < tree.groups.count(); ++f) {
+    Front front;
+    front.parent = tree.parent[at(f)];
+    front.first = first;
+    for (const int group : tree.groups.of(f)) front.pivots += static_cast<int>(graph.members.of(group).size());
+    first += front.pivots;
+    front.border_begin = static_cast<int>(fronts.border.size());
+    for (const int r : borders.of(f))
+      for (const int equation : graph.members.of(tree.groups.item[at(r)]))
+        fronts.border.push_back(fronts.position[at(equation)]);
+    front.border = static_cast<int>(fronts.border.size()) - front.border_begin;
+    front.pivot_tiles = whole_tiles(front.pivots);
+    front.border_tiles = whole_tiles(front.border);
+    front.arms = fronts.factor_terms;
+    fronts.factor_terms += (symmetric ? 1 : 2) * front.arm_terms();
+    fronts.fronts.push_back(front);
+  }
+}
+
+// Border matrices live from their front to its parent, first in, last out.  Two stacks, for fronts at even and
+// odd depth, let a front build its own while those of its children are still there.
+void place_borders(FrontTree& tree) {
+  std::vector<int> depth(tree.fronts.size(), 0);
+  for (std::size_t f = tree.fronts.size(); f-- > 0;)
+    if (tree.fronts[f].parent >= 0) depth[f] = depth[at(tree.fronts[f].parent)] + 1;
+  std::array<std::int64_t, 2> top{}, highest{};
+  for (std::size_t f = 0; f < tree.fronts.size(); ++f) {
+    const auto own = at(depth[f] % 2), below = 1 - own;
+    tree.fronts[f].workspace = top[own];
+    top[own] += tree.fronts[f].border_terms();
+    highest[own] = std::max(highest[own], top[own]);
+    for (const int child : tree.children.of(static_cast<int>(f)))
+      top[below] -= tree.fronts[at(child)].border_terms();
+  }
+  for (std::size_t f = 0; f < tree.fronts.size(); ++f)
+    if (depth[f] % 2 == 1) tree.fronts[f].workspace += highest[0];
+  tree.workspace_terms = highest[0] + highest[1];
+}
+
+// local[position] for all equations of a front.
+void set_local(const FrontTree& tree, const Front& front, std::vector<int>& local) {
+  for (int k = 0; k < front.pivots; ++k) local[at(front.first + k)] = k;
+  for (int k = 0; k < front.border; ++k)
+    local[at(tree.border[at(front.border_begin + k)])] = front.pivot_tiles * kTile + k;
+}
+
+// Where entry (i, j), local indices, lies in the arms.
+std::int64_t arm_target(const Front& front, int i, int j) {
+  const int I = i / kTile, J = j / kTile;
+  const bool upper = I <= J;
+  const int column = upper ? J : I, k = upper ? i : j, v = (upper ? j : i) % kTile;
+  return (upper ? 0 : front.arm_terms()) + (std::int64_t{64} * column * front.pivot_tiles) + k * kTile + v;
+}
+
+void map_entries(const AssembledMatrix& matrix, FrontTree& tree) {
+  std::vector<int> front_of(tree.order.size());
+  for (std::size_t f = 0; f < tree.fronts.size(); ++f)
+    for (int k = 0; k < tree.fronts[f].pivots; ++k)
+      front_of[at(tree.fronts[f].first + k)] = static_cast<int>(f);
+  const auto visit = [&](auto&& use) {
+    for (int column = 0; column < matrix.equations(); ++column)
+      for (int k = matrix.column_start()[at(column)]; k < matrix.column_start()[at(column) + 1]; ++k) {
+        const int i = tree.position[at(matrix.row()[at(k)])], j = tree.position[at(column)];
+        use(front_of[at(std::min(i, j))], k, i, j);
+      }
+  };
+  tree.entry_start.assign(tree.fronts.size() + 1, 0);
+  visit([&](int f, int, int, int) { ++tree.entry_start[at(f) + 1]; });
+  for (std::size_t f = 1; f < tree.entry_start.size(); ++f) tree.entry_start[f] += tree.entry_start[f - 1];
+  tree.entry_source.resize(matrix.row().size());
+  tree.entry_target.resize(matrix.row().size());
+  std::vector<int> end(tree.entry_start.begin(), tree.entry_start.end() - 1);
+  std::vector<std::array<int, 2>> ends(matrix.row().size());
+  visit([&](int f, int k, int i, int j) {
+    const auto slot = at(end[at(f)]++);
+    tree.entry_source[slot] = k;
+    ends[slot] = {i, j};
+  });
+  std::vector<int> local(tree.order.size());
+  for (std::size_t f = 0; f < tree.fronts.size(); ++f) {
+    const Front& front = tree.fronts[f];
+    set_local(tree, front, local);
+    for (auto s = at(tree.entry_start[f]); s < at(tree.entry_start[f + 1]); ++s) {
+      int i = local[at(ends[s][0])], j = local[at(ends[s][1])];
+      if (matrix.symmetric() && i > j) std::swap(i, j);
+      tree.entry_target[s] = arm_target(front, i, j);
+    }
+    for (const int child : tree.children.of(static_cast<int>(f))) {
+      const Front& c = tree.fronts[at(child)];
+      for (int k = c.border_begin; k < c.border_begin + c.border; ++k)
+        tree.in_parent[at(k)] = local[at(tree.border[at(k)])];
+    }
+  }
+}
+
+}  // namespace
+
+FrontTree make_front_tree(const EquationGraph& graph, const AssembledMatrix& matrix, int leaf_equations) {
+  FrontTree fronts;
+  const SeparatorTree tree = nested_dissection(graph, leaf_equations);
+  number_equations(graph, tree, fronts);
+  list_children(tree.parent, fronts.children);
+  lay_out_fronts(graph, tree, matrix.symmetric(), fronts);
+  place_borders(fronts);
+  fronts.in_parent.resize(fronts.border.size());
+  map_entries(matrix, fronts);
+  return fronts;
+}
+
+}  // namespace sage

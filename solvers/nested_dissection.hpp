@@ -1,0 +1,22 @@
+// Nested dissection without coordinates: separators are levels of breadth-first searches.
+#pragma once
+
+#include <vector>
+
+#include "solvers/equation_graph.hpp"
+
+namespace sage {
+
+// Parts in the order of elimination: children before their parent, every subtree contiguous.  A leaf is a part
+// of the graph small enough to be one dense block; any other part is the separator of what lies below it.
+struct SeparatorTree {
+  IndexLists groups;        // part -> groups, ascending
+  std::vector<int> parent;  // part -> part, -1 = root
+};
+
+// Parts of at most `leaf_equations` equations are not divided further.  George & Liu (1981), chapter 8: a level
+// of the search separates what lies before it from what lies behind.  Two searches compete: from the end of a
+// pseudo-diameter, and from the separator above; the smaller balanced separator wins.
+SeparatorTree nested_dissection(const EquationGraph& graph, int leaf_equations);
+
+}  // namespace sage

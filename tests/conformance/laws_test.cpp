@@ -1,0 +1,427 @@
+// One suite over every law of the catalogue.  A new law needs a row of parameters in `samples`, nothing else.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "materials/stress_measures.hpp"
+#include "tests/support/allocations.hpp"
+#include "tests/support/laws.hpp"
+
+namespace sage {
+namespace {
+
+// Parameters in kPa, m, degrees.  `strain` is an increment that takes the law well into its nonlinear range.
+struct Sample {
+  std::string what;
+  int code;
+  std::vector<double> values;
+  double strain;
+  bool bounded;  // has a yield surface that stress_level must respect
+};
+
+std::vector<Sample> samples() {
+  const double inf_like = -1.0;  // "none"
+  return {
+      {"elastic", 1, {1e4, 0.3}, 0.01, false},
+      {"elastic_incompressible", 1, {1e4, 0.4999999}, 0.01, false},
+      {"elastic_kg", 2, {1e4, 4e3}, 0.01, false},
+      {"dp_chapter", 3, {2e4, 0.495, 0, 36.87, 0, 1, 1}, 0.01, true},
+      {"dp_associated", 3, {2e4, 0.3, 10, 30, 30}, 0.01, true},
+      {"dp_dilating", 3, {2e4, 0.3, 5, 35, 10, 3}, 0.01, true},
+      {"dp_von_mises", 3, {2e4, 0.3, 50, 0}, 0.01, true},
+      {"dp_exact", 3, {2e4, 0.3, 5, 30, 0, 4, 1, inf_like, 1}, 0.01, true},
+      {"dp_tension_limit", 3, {2e4, 0.3, 30, 20, 5, 1, 0, 5}, 0.01, true},
+      {"dp_strengthless", 3, {2e4, 0.3, 0, 0}, 0.01, true},
+      {"dp_89", 3, {2e4, 0.3, 1, 89, 0}, 0.01, true},
+      {"mc", 4, {2e4, 0.3, 5, 30, 0}, 0.01, true},
+      {"mc_associated", 4, {2e4, 0.3, 5, 30, 30}, 0.01, true},
+      {"mc_cohesionless", 4, {2e4, 0.3, 0, 35, 10}, 0.01, true},
+      {"mc_tresca", 4, {2e4, 0.49, 40, 0}, 0.01, true},
+      {"mc_cut_off", 4, {2e4, 0.3, 20, 30, 10, 3}, 0.01, true},
+      {"mc_no_tension", 4, {2e4, 0.3, 20, 30, 0, 0}, 0.01, true},
+      {"mc_strengthless", 4, {2e4, 0.3, 0, 0}, 0.01, true},
+      {"mc_89", 4, {2e4, 0.3, 1, 89, 0}, 0.01, true},
+      {"dc_1970", 5, {400, 0.5, 0.8, 600, 0.4, 0.1, 3.0, 5, 33, 2}, 0.002, false},
+      {"dc_eb", 6, {400, 0.5, 0.8, 600, 250, 0.3, 5, 33, 2}, 0.002, false},
+      {"dc_eb_rf1", 6, {400, 0.5, 1.0, 600, 250, 0.3, 0, 33}, 0.002, false},
+      {"dc_eb_in_plane", 6, {400, 0.5, 0.8, 600, 250, 0.3, 5, 33, 0, 0.49, 0.01, 0, 1}, 0.002, false},
+      {"dc_strengthless", 6, {400, 0.5, 0.8, 600, 250, 0.3, 0, 0}, 0.002, false},
+      {"hyperbolic_mc", 7, {400, 0.5, 0.8, 600, 250, 0.3, 5, 33}, 0.004, true},
+      {"hyperbolic_mc_curved", 7, {400, 0.5, 0.8, 600, 250, 0.3, 0, 38, 6}, 0.004, true},
+      {"hyperbolic_mc_dilating", 7, {400, 0.5, 0.7, 600, 250, 0.3, 5, 33, 0, 8}, 0.004, true},
+      {"hyperbolic_mc_cut_off", 7, {400, 0.5, 0.7, 600, 250, 0.3, 20, 33, 0, 0, 2}, 0.004, true},
+      {"goodman", 21, {2e4, 1e6}, 1e-3, false},
+      {"goodman_bonded", 21, {2e4, 1e6, 1}, 1e-3, false},
+      {"cd_chapter", 22, {0, 28.5, 0, 0, 5000, 0.9, 1e6, 1e6, 0}, 1e-3, true},
+      {"cd_free", 22, {0, 0, 0, 0, 0, 0, 1e6, 1e6, 0}, 1e-3, true},
+      {"cd_tangent", 22, {5, 30, 10, 0.85, 5000, 0.7, 1e6, 5e5, 0, 0}, 1e-3, true},
+      {"cd_midpoint", 22, {5, 30, 10, 0.85, 5000, 0.7, 1e6, 5e5, 100, 1}, 1e-3, true},
+      {"cd_exact", 22, {5, 30, 0, 0.85, 5000, 0.7, 1e6, 1e6, 0, 2}, 1e-3, true},
+      {"cd_exact_no_memory", 22, {0, 30, 0, 1, 5000, 0.7, 1e6, 1e6, 100, 2, 1e-3, 1}, 1e-3, true},
+      {"cd_strengthless", 22, {0, 0, 0, 0.8, 5000, 0.7, 1e6, 1e6, 0, 1}, 1e-3, true},
+      {"cd_89", 22, {1, 89, 0, 0.8, 5000, 0.7, 1e6, 1e6, 0, 2}, 1e-3, true},
+  };
+}
+
+void PrintTo(const Sample& sample, std::ostream* out) {
+  *out << sample.what;
+}
+
+class Laws : public ::testing::TestWithParam<Sample> {
+ protected:
+  // Runs `check` with the law of this sample, whatever its size.
+  template <class Check>
+  static void with_law(const Check& check, const std::vector<double>& values, const UnitSystem& units) {
+    const LawPtr law = test::make_law(GetParam().code, values, units);
+    std::visit([&](const auto& p) { check(*p); }, law);
+  }
+  template <class Check>
+  static void with_law(const Check& check) {
+    with_law(check, GetParam().values, test::kpa_units());
+  }
+};
+
+// Random but reproducible states: an admissible isotropic start, then a few random increments.
+class Walker {
+ public:
+  explicit Walker(unsigned seed) : random_(seed) {}
+  template <int N>
+  Vector<N> increment(double size) {
+    Vector<N> d;
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    for (int i = 0; i < N; ++i) d[i] = size * uniform(random_);
+    return d;
+  }
+  Vector4 strain(double size, Vector<4>*) {  // mostly shearing: volume change a fifth of the rest
+    Vector4 d = increment<4>(size);
+    const double mean = d.head<3>().mean();
+    d.head<3>().array() -= 0.8 * mean;
+    return d;
+  }
+  Vector2 strain(double size, Vector<2>*) {  // normal stiffness is 50 times the shear stiffness
+    return increment<2>(size).cwiseProduct(Vector2(1.0, 0.05));
+  }
+
+ private:
+  std::mt19937 random_;
+};
+
+Vector4 start_stress(const SolidLaw&) {
+  return {-60.0, -60.0, -60.0, 0.0};
+}
+Vector2 start_stress(const InterfaceLaw&) {
+  return {0.0, -60.0};
+}
+
+template <int N>
+struct State {
+  Vector<N> sigma;
+  std::vector<double> h;
+};
+
+// A state after `steps` random increments.  Steps that the law refuses are left out, as the analysis would.
+template <int N>
+State<N> wander(const Law<N>& law, Walker& walker, double size, int steps) {
+  State<N> s{start_stress(law), {}};
+  s.h = test::initial_history<N>(law, s.sigma);
+  for (int i = 0; i < steps; ++i) {
+    const Vector<N> deps = walker.strain(size, static_cast<Vector<N>*>(nullptr));
+    const auto a = test::update<N>(law, s.sigma, deps, s.h);
+    if (a.outcome == Outcome::ok) s = {a.sigma, a.h};
+  }
+  return s;
+}
+
+template <int N>
+void check_zero_increment(const Law<N>& law, double size) {
+  Walker walker(11);
+  for (int trial = 0; trial < 100; ++trial) {
+    const State<N> s = wander<N>(law, walker, size, trial % 7);
+    const auto a = test::update<N>(law, s.sigma, Vector<N>::Zero(), s.h);
+    EXPECT_EQ(a.outcome, Outcome::ok);
+    EXPECT_LE((a.sigma - s.sigma).norm(), 1e-13 * (s.sigma.norm() + 60.0)) << trial;
+    for (std::size_t i = 0; i < s.h.size(); ++i) EXPECT_NEAR(a.h[i], s.h[i], 1e-13 * (1.0 + std::abs(s.h[i])));
+  }
+}
+// 1e-13 of the stress: returning from exactly on the surface may change the last digit.
+TEST_P(Laws, ZeroIncrementIsAFixedPoint) {
+  with_law([](const auto& law) { check_zero_increment(law, GetParam().strain); });
+}
+
+// The fraction of states where the tangent and central differences agree must be all but the kinks: at a corner
+// of a yield surface or a branch of the law one-sided derivatives differ, so 3 % of random states may fail.
+// Step: 1e-6 of the increment.  Tolerance 2e-5 of the largest term of D: truncation and rounding of the
+// differences.
+template <int N>
+void check_tangent(const Law<N>& law, double size) {
+  Walker walker(7);
+  int kinks = 0;
+  const int states = 300;
+  for (int trial = 0; trial < states; ++trial) {
+    const State<N> s = wander<N>(law, walker, size, trial % 5);
+    const Vector<N> deps = walker.strain(size, static_cast<Vector<N>*>(nullptr));
+    const auto a = test::update<N>(law, s.sigma, deps, s.h);
+    if (a.outcome != Outcome::ok) continue;
+    const Matrix<N> D = test::difference_tangent<N>(law, s.sigma, deps, s.h, 1e-6 * size);
+    // Where the true tangent vanishes the law may leave up to 1e-6 of its elastic one.
+    const double largest = std::max(a.D.cwiseAbs().maxCoeff(), D.cwiseAbs().maxCoeff());
+    const double initial = test::update<N>(law, start_stress(law), Vector<N>::Zero(),
+                                           test::initial_history<N>(law, start_stress(law)))
+                               .D.cwiseAbs()
+                               .maxCoeff();
+    if (!((a.D - D).cwiseAbs().maxCoeff() <= 2e-5 * largest + 1e-6 * initial)) ++kinks;
+  }
+  EXPECT_LE(kinks, states * 3 / 100);
+}
+TEST_P(Laws, TangentIsTheDerivative) {
+  with_law([](const auto& law) { check_tangent(law, GetParam().strain); });
+}
+
+// symmetric() = true must hold in every state; a law that says false must show an unsymmetric tangent
+// somewhere.
+template <int N>
+void check_symmetry(const Law<N>& law, double size) {
+  Walker walker(5);
+  double worst = 0.0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const State<N> s = wander<N>(law, walker, size, trial % 5);
+    const auto a = test::update<N>(law, s.sigma, walker.strain(size, static_cast<Vector<N>*>(nullptr)), s.h);
+    const double largest = a.D.cwiseAbs().maxCoeff();
+    if (largest > 0.0) worst = std::max(worst, (a.D - a.D.transpose()).cwiseAbs().maxCoeff() / largest);
+  }
+  if (law.symmetric()) {
+    EXPECT_LE(worst, 1e-12);
+  } else {
+    EXPECT_GT(worst, 1e-6) << "the law could say that it is symmetric";
+  }
+}
+TEST_P(Laws, SymmetryIsHonest) {
+  with_law([](const auto& law) { check_symmetry(law, GetParam().strain); });
+}
+
+// linear() = true: one D for ever, sigma = sigma0 + D deps.
+template <int N>
+void check_linear(const Law<N>& law, double size) {
+  if (!law.linear()) return;
+  Walker walker(3);
+  const Matrix<N> D = test::update<N>(law, Vector<N>::Zero(), Vector<N>::Zero(),
+                                      test::initial_history<N>(law, Vector<N>::Zero()))
+                          .D;
+  for (int trial = 0; trial < 50; ++trial) {
+    const State<N> s = wander<N>(law, walker, size, 3);
+    const Vector<N> deps = walker.strain(100.0 * size, static_cast<Vector<N>*>(nullptr));
+    const auto a = test::update<N>(law, s.sigma, deps, s.h);
+    EXPECT_EQ((a.D - D).norm(), 0.0);
+    EXPECT_LE((a.sigma - s.sigma - D * deps).norm(), 1e-13 * a.sigma.norm());
+  }
+}
+TEST_P(Laws, LinearIsHonest) {
+  with_law([](const auto& law) { check_linear(law, GetParam().strain); });
+}
+
+// stress_level <= 1 + 1e-8 after any increment, from a thousandth of the sample's strain to a thousand times
+// it; increments that the law refuses (cut_step) aren't an answer.
+template <int N>
+void check_surface(const Law<N>& law, double size) {
+  Walker walker(2);
+  for (int trial = 0; trial < 600; ++trial) {
+    const State<N> s = wander<N>(law, walker, size, trial % 5);
+    const double factor = std::pow(10.0, trial % 7 - 3);
+    const auto a =
+        test::update<N>(law, s.sigma, walker.strain(factor * size, static_cast<Vector<N>*>(nullptr)), s.h);
+    if (a.outcome != Outcome::ok) continue;
+    EXPECT_LE(law.stress_level(a.sigma, a.h), 1.0 + 1e-8) << trial << " " << a.sigma;
+  }
+}
+TEST_P(Laws, StrengthIsNeverExceeded) {
+  if (GetParam().bounded) with_law([](const auto& law) { check_surface(law, GetParam().strain); });
+}
+
+// Status says what happened: yielded, slipping and apex only at stress level 1, elastic only inside or on it.
+template <int N>
+void check_status(const Law<N>& law, double size) {
+  Walker walker(23);
+  int yielded = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const State<N> s = wander<N>(law, walker, size, trial % 5);
+    const auto a = test::update<N>(law, s.sigma, walker.strain(size, static_cast<Vector<N>*>(nullptr)), s.h);
+    const double level = law.stress_level(a.sigma, a.h);
+    const bool fails = a.status == PointStatus::yielded || a.status == PointStatus::slipping;
+    const bool strengthless = a.status == PointStatus::slipping && level == 0.0;
+    if (fails && !strengthless) {
+      EXPECT_NEAR(level, 1.0, 1e-8);
+    }
+    if (a.status == PointStatus::open) {
+      EXPECT_EQ(a.sigma.norm(), 0.0);
+    }
+    if (fails) ++yielded;
+  }
+  EXPECT_GT(yielded, 0);
+}
+TEST_P(Laws, StatusIsHonest) {
+  // Without shear stiffness there is nothing to slip, and 89 degrees of friction need more than these
+  // increments.
+  const bool can_yield = GetParam().bounded && GetParam().what != "cd_free" && GetParam().what != "cd_89";
+  if (can_yield) with_law([](const auto& law) { check_status(law, GetParam().strain); });
+}
+
+// Finite numbers for any increment: 1e3 of strain, 1e-300, pure tension, from an unstressed start as well.
+template <int N>
+void check_finite(const Law<N>& law) {
+  Walker walker(17);
+  for (int trial = 0; trial < 400; ++trial) {
+    const double size = trial % 4 == 0 ? 1e3 : trial % 4 == 1 ? 1.0 : trial % 4 == 2 ? 1e-9 : 1e-300;
+    const Vector<N> sigma = trial % 3 == 0 ? Vector<N>(Vector<N>::Zero()) : Vector<N>(start_stress(law));
+    const auto h = test::initial_history<N>(law, sigma);
+    const auto a = test::update<N>(law, sigma, walker.increment<N>(size), h);
+    EXPECT_TRUE(a.sigma.allFinite()) << a.sigma;
+    EXPECT_TRUE(a.D.allFinite()) << a.D;
+    for (const double value : a.h) EXPECT_TRUE(std::isfinite(value));
+    EXPECT_FALSE(std::isnan(law.stress_level(a.sigma, a.h)));
+  }
+}
+TEST_P(Laws, NoNotANumber) {
+  with_law([](const auto& law) { check_finite(law); });
+}
+
+// Every field of the answer is written, history included: the fixture fills them with -12345.
+TEST_P(Laws, EveryFieldIsWritten) {
+  with_law([](const auto& law) {
+    Walker walker(29);
+    for (int trial = 0; trial < 20; ++trial) {
+      const auto s = wander(law, walker, GetParam().strain, trial % 4);
+      auto deps = s.sigma;
+      deps = walker.strain(GetParam().strain, &deps);
+      const auto a = test::update(law, s.sigma, deps, s.h);
+      EXPECT_EQ(a.h.size(), law.history().size());
+      for (const double value : a.h) EXPECT_NE(value, -12345.0);
+      EXPECT_EQ((a.D.array() == -12345.0).count(), 0);
+    }
+  });
+}
+
+// Stress-like parameters and stresses times 1e12 or 1e-12: same status, same relative stress.  1e-9: the
+// substeps of the hyperbolic laws and the corners of the planes amplify rounding.
+template <int N>
+void check_scaling(const Law<N>& law, const Law<N>& scaled, double factor, double size) {
+  Walker walker(31);
+  for (int trial = 0; trial < 100; ++trial) {
+    const State<N> s = wander<N>(law, walker, size, trial % 5);
+    const Vector<N> deps = walker.strain(size, static_cast<Vector<N>*>(nullptr));
+    std::vector<double> h = s.h;
+    const auto quantities = law.history();
+    for (std::size_t i = 0; i < h.size(); ++i)
+      if (quantities[i].dimension == Dimension::stress) h[i] *= factor;
+    const auto a = test::update<N>(law, s.sigma, deps, s.h);
+    const auto b = test::update<N>(scaled, factor * s.sigma, deps, h);
+    EXPECT_EQ(a.status, b.status);
+    EXPECT_LE((b.sigma / factor - a.sigma).norm(), 1e-9 * (a.sigma.norm() + 60.0)) << trial;
+    EXPECT_LE((b.D / factor - a.D).norm(), 1e-7 * a.D.norm()) << trial;
+  }
+}
+TEST_P(Laws, NoHiddenUnits) {
+  for (const double factor : {1e12, 1e-12}) {
+    UnitSystem units = test::kpa_units();
+    units.atmospheric_pressure *= factor;
+    units.water_unit_weight *= factor;  // stress per length
+    std::vector<double> values = GetParam().values;
+    const auto& rows = test::catalogue().materials.find(GetParam().code)->parameters;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const bool stress =
+          rows[i].dimension == Dimension::stress || rows[i].dimension == Dimension::stress_per_length;
+      if (stress && values[i] != -1.0) values[i] *= factor;
+    }
+    with_law([&](const auto& law) {
+      with_law(
+          [&](const auto& scaled) {
+            if constexpr (std::is_same_v<decltype(law), decltype(scaled)>)
+              check_scaling(law, scaled, factor, GetParam().strain);
+          },
+          values, units);
+    });
+  }
+}
+
+// Turning by 90 degrees: xx and yy change places and the shear its sign.
+TEST_P(Laws, TurnsWithTheAxes) {
+  with_law([](const auto& law) {
+    if constexpr (std::is_convertible_v<decltype(law), const SolidLaw&>) {
+      Matrix4 turn = Matrix4::Zero();
+      turn(0, 1) = turn(1, 0) = turn(2, 2) = 1.0;
+      turn(3, 3) = -1.0;
+      Walker walker(37);
+      for (int trial = 0; trial < 100; ++trial) {
+        const auto s = wander<4>(law, walker, GetParam().strain, trial % 5);
+        const Vector4 deps = walker.strain(GetParam().strain, static_cast<Vector4*>(nullptr));
+        const auto a = test::update<4>(law, s.sigma, deps, s.h);
+        const auto b = test::update<4>(law, turn * s.sigma, turn * deps, s.h);
+        EXPECT_LE((turn * a.sigma - b.sigma).norm(), 1e-9 * (a.sigma.norm() + 60.0)) << trial;
+        EXPECT_LE((turn * a.D * turn - b.D).norm(), 1e-6 * a.D.norm()) << trial;
+      }
+    }
+  });
+}
+
+// A state that `initialise` accepts is a state that update keeps.
+TEST_P(Laws, InitialStressIsKept) {
+  with_law([](const auto& law) {
+    auto h = test::initial_history(law, start_stress(law));
+    const bool accepted = law.initialise(start_stress(law), h);
+    EXPECT_TRUE(accepted);
+    auto zero = start_stress(law);
+    zero.setZero();
+    const auto a = test::update(law, start_stress(law), zero, h);
+    EXPECT_EQ((a.sigma - start_stress(law)).norm(), 0.0);
+    EXPECT_EQ(a.h, h);
+  });
+}
+
+TEST_P(Laws, UpdateAllocatesNothing) {
+  with_law([](const auto& law) {
+    Walker walker(41);
+    auto sigma = start_stress(law);
+    auto h0 = test::initial_history(law, sigma);
+    auto h1 = h0;
+    auto deps = sigma;
+    using Vec = decltype(deps);
+    constexpr int N = Vec::RowsAtCompileTime;
+    PointOut<N> out;
+    out.h1 = h1;
+    const long before = test::allocations();
+    for (int trial = 0; trial < 50; ++trial) {
+      deps = walker.strain(GetParam().strain * std::pow(10.0, trial % 4 - 1), &deps);
+      law.update({sigma, Vec::Zero(), deps, h0}, out);
+      law.stress_level(out.sigma, h1);
+    }
+    EXPECT_EQ(test::allocations(), before);
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogue, Laws, ::testing::ValuesIn(samples()),
+                         [](const auto& param_info) { return param_info.param.what; });
+
+// A law without a sample would escape the suite.
+TEST(Catalogue, EveryLawHasASample) {
+  for (const auto& [code, entry] : test::catalogue().materials.entries()) {
+    int count = 0;
+    for (const Sample& sample : samples()) count += sample.code == code;
+    EXPECT_GT(count, 0) << entry.name;
+  }
+}
+
+// The manual and the parser read the rows: they must be complete.
+TEST(Catalogue, RowsAreComplete) {
+  for (const auto& [code, entry] : test::catalogue().materials.entries()) {
+    EXPECT_FALSE(entry.summary.empty());
+    bool optional_seen = false;
+    for (const Parameter& row : entry.parameters) {
+      EXPECT_FALSE(row.name.empty() || row.meaning.empty()) << entry.name;
+      EXPECT_FALSE(optional_seen && row.required) << entry.name << ": required after optional";
+      optional_seen = optional_seen || !row.required;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sage

@@ -1,0 +1,129 @@
+#include "sage/deck/layout.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "sage/deck/read_deck.hpp"
+
+namespace sage {
+namespace {
+
+std::string file_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+// "7: message" of the first complaint about a layout; empty if there is none.
+std::string complaint(const std::string& toml) {
+  try {
+    load_layout_text(toml, "my.toml");
+  } catch (const InputError& error) {
+    const Diagnostic& d = error.diagnostics().list().front();
+    EXPECT_EQ(d.where.file, "my.toml");
+    return std::to_string(d.where.line) + ": " + d.message;
+  }
+  return {};
+}
+
+TEST(Layout, EveryBuiltInLayoutLoads) {
+  const std::vector<std::string> names = built_in_layouts();
+  EXPECT_EQ(names.size(), 11u);
+  for (const std::string& name : names) {
+    const Layout layout = load_layout(name);
+    EXPECT_EQ(layout.name, name);
+    EXPECT_FALSE(layout.cards.empty());
+    EXPECT_FALSE(layout_manual(layout).empty());
+  }
+}
+
+TEST(Layout, TheBuiltInCopyIsTheFile) {
+  for (const std::string& name : built_in_layouts())
+    EXPECT_EQ(built_in_layout_text(name),
+              file_text(SAGE_SOURCE_DIR "/legacy_inputs/layouts/" + name + ".toml"));
+}
+
+TEST(Layout, LoadsFromAPath) {
+  const Layout layout = load_layout(SAGE_SOURCE_DIR "/legacy_inputs/layouts/quad4m.toml");
+  EXPECT_EQ(layout.name, "quad4m");
+  EXPECT_THROW(load_layout("no_such_layout"), InputError);
+  EXPECT_THROW(load_layout("./no_such_layout.toml"), InputError);
+}
+
+TEST(Layout, MistakesNameTheirLine) {
+  const std::string head = "name = 'x'\n[[card]]\nname = 'a'\n";
+  const std::string good = head + "format = '(I5)'\nfields = [{ name = 'n' }]\n";
+  EXPECT_EQ(complaint(good), "");
+  EXPECT_EQ(complaint("name = \n").substr(0, 2), "1:");
+  EXPECT_EQ(complaint("[[card]]\n").substr(0, 2), "1:");
+  EXPECT_EQ(complaint(head + "format = '(F10)'\nfields = [{ name = 'n' }]\n"),
+            "4: FORMAT (F10), character 5: a real field needs its decimals: F10.0, not F10");
+  EXPECT_EQ(complaint(head + "format = '(I5)'\nfields = [{ name = 'n', kind = 'real' }]\n"),
+            "4: FORMAT (I5) doesn't suit field \"n\": its kind is another");
+  EXPECT_EQ(complaint(head + "format = '(I5)'\nfields = [{ name = 'n', colour = 'red' }]\n"),
+            "5: unknown key \"colour\"");
+  EXPECT_EQ(complaint(good + "repeat = 'b.n'\n"), "6: no card \"b\" stands before this");
+  EXPECT_EQ(complaint(good + "repeat = 'a.m'\n"), "6: card \"a\" has no field \"m\"");
+  EXPECT_EQ(complaint(good + "repeat = 'n +'\n").substr(0, 2), "6:");
+  EXPECT_EQ(complaint(good + "repeat = 'named'\n"),
+            "6: repeat = \"named\" needs cards with names (card_separator)");
+  EXPECT_EQ(complaint(head + "format = '*'\nfields = [{ name = 'n' }]\n"),
+            "5: a field of a list-directed card needs its kind");
+  EXPECT_EQ(complaint(head + "format = '(2I5)'\nfields = [{ name = 'n' }, { name = 'n' }]\n"),
+            "5: field \"n\" is named twice in card \"a\"");
+  EXPECT_EQ(complaint(head + "format = '(2I5)'\nfields = [{ name = 'n', count = 2 }, { name = 'm' }]\n"),
+            "5: only the last field of a card can repeat (count)");
+  EXPECT_EQ(complaint(good + "[[card]]\nname = 'a'\nformat = '(I5)'\nfields = [{ name = 'n' }]\n").substr(0, 2),
+            "6:");
+  EXPECT_EQ(complaint("name = 'x'\nblanks = 'maybe'\n[[card]]\n"), "2: blanks must be \"null\" or \"zero\"");
+}
+
+TEST(Layout, AFieldTakesItsKindFromTheFormat) {
+  const Layout layout = load_layout_text(
+      "name = 'x'\n[[card]]\nname = 'a'\nformat = '(I5,F10.0,A3,L1)'\n"
+      "fields = [{ name = 'i' }, { name = 'r' }, { name = 't' }, { name = 'l' }]\n",
+      "my.toml");
+  const auto& fields = layout.cards[0].spec.fields;
+  EXPECT_EQ(fields[0].kind, FieldKind::integer);
+  EXPECT_EQ(fields[1].kind, FieldKind::real);
+  EXPECT_EQ(fields[2].kind, FieldKind::text);
+  EXPECT_EQ(fields[3].kind, FieldKind::logical);
+}
+
+TEST(Layout, IsFoundFromTheDeck) {
+  EXPECT_EQ(detect_layout("Any title\nm       kN      kPa\n"), "sage1");
+  EXPECT_EQ(detect_layout("* layout: sg_p61\n8 4 1\n"), "sg_p61");
+  EXPECT_EQ(detect_layout("                      A-1!!ANALYS   3\n"), "cande_level3");
+  EXPECT_EQ(detect_layout("test\nUNITS (E for English, S for SI):\nS\n"), "quad4m");
+  EXPECT_EQ(detect_layout("'axisymmetric'\n'quadrilateral' 4 'z'\n"), "sg_p51");
+  EXPECT_EQ(detect_layout(""), "sage1");
+}
+
+// docs/manual/deck_format.md is written by layout_manual: write it anew when this fails
+// (SAGE_WRITE_MANUAL=1 test_deck --gtest_filter=Manual.*).
+TEST(Manual, TheCommittedFileIsTheGeneratedText) {
+  const std::string path = SAGE_SOURCE_DIR "/docs/manual/deck_format.md";
+  const std::string manual = layout_manual(load_layout("sage1"));
+  if (std::getenv("SAGE_WRITE_MANUAL")) std::ofstream(path, std::ios::binary) << manual;
+  EXPECT_EQ(file_text(path), manual);
+}
+
+TEST(Manual, ColumnsFollowTheFormat) {
+  const std::string manual = layout_manual(load_layout("sage1"));
+  EXPECT_NE(manual.find("| 16-25 | `x` | real | x or radius | length |"), std::string::npos);
+  EXPECT_NE(manual.find("| 61-65 | `total_elements` |"), std::string::npos);
+}
+
+TEST(Manual, TheExampleReadsWithoutAWord) {
+  const Layout layout = load_layout("sage1");
+  const Deck deck = read_deck_text(layout.example, "example", layout);
+  for (const Diagnostic& d : deck.diagnostics.list()) ADD_FAILURE() << to_string(d);
+  EXPECT_EQ(deck.all("node").size(), 4u);
+  EXPECT_EQ(deck.one("report").real("cell_pressure"), 100.0);
+}
+
+}  // namespace
+}  // namespace sage

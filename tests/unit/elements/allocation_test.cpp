@@ -1,0 +1,38 @@
+// evaluate() and geometry() of every element allocate nothing.
+#include <gtest/gtest.h>
+
+#include "tests/support/allocation_counter.hpp"
+#include "tests/support/element_cases.hpp"
+#include "tests/support/test_laws.hpp"
+
+namespace sage::test {
+namespace {
+
+TEST(Allocation, NoneInEvaluateAndGeometry) {
+  const SmoothLaw<4> solid;
+  const SmoothLaw<2> interface;
+  for (const ElementCase& c : element_cases()) {
+    SCOPED_TRACE(c.name);
+    const LawRef law = c.entry->law_size == 4 ? LawRef(static_cast<const SolidLaw*>(&solid))
+                                              : LawRef(static_cast<const InterfaceLaw*>(&interface));
+    const auto element = c.make();
+    const Eigen::Matrix2Xd x = sample_shape_on_axis(*c.entry);
+    ElementRun run(*element, x, law);
+    const Eigen::VectorXd du = Eigen::VectorXd::Constant(element->traits().dofs, 0.1);
+    const std::size_t before = allocations();
+    element->geometry(x, run.geometry);
+    run.evaluate(du);
+    run.evaluate(du, false);
+    EXPECT_EQ(allocations(), before);
+  }
+}
+
+// The counter must be able to fail.
+TEST(Allocation, TheCounterCounts) {
+  const std::size_t before = allocations();
+  const std::vector<double> some(10, 1.0);
+  EXPECT_EQ(allocations(), before + 1) << some.front();
+}
+
+}  // namespace
+}  // namespace sage::test
