@@ -137,8 +137,8 @@ std::vector<std::string> cases() {
   return names;
 }
 
-INSTANTIATE_TEST_SUITE_P(LegacyInputs, RegressionCase, testing::ValuesIn(cases()), [](const auto& info) {
-  std::string name = info.param;
+INSTANTIATE_TEST_SUITE_P(LegacyInputs, RegressionCase, testing::ValuesIn(cases()), [](const auto& one) {
+  std::string name = one.param;
   for (char& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
   return name;
