@@ -1,4 +1,4 @@
-#include "deck_writer.hpp"
+#include "tests/support/deck_writer.hpp"
 
 #include <cstdio>
 #include <stdexcept>
@@ -29,7 +29,9 @@ void append(std::string& text, const std::vector<std::string>& cards) {
   for (const std::string& card : cards) text += card + "\n";
 }
 
-int size_of(const std::vector<std::string>& cards) { return static_cast<int>(cards.size()); }
+int size_of(const std::vector<std::string>& cards) {
+  return static_cast<int>(cards.size());
+}
 
 std::string stage_text(const StageCards& stage) {
   std::string text = "stage\n" + integers({stage.increments, stage.method, stage.max_iterations, 0});
@@ -154,8 +156,7 @@ void Block::write_elements(DeckWriter& deck, int group) const {
           break;
         case Cell::quad8:
         case Cell::quad9:  // the middle node is the program's
-          deck.element(number, group,
-                       {n(0, 0), n(2, 0), n(2, 2), n(0, 2), n(1, 0), n(2, 1), n(1, 2), n(0, 1)});
+          deck.element(number, group, {n(0, 0), n(2, 0), n(2, 2), n(0, 2), n(1, 0), n(2, 1), n(1, 2), n(0, 1)});
           break;
         case Cell::tri3:
           deck.element(number, group, {n(0, 0), n(1, 0), n(0, 1)});

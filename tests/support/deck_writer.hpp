@@ -1,4 +1,5 @@
-// Writes decks of layout sage1 for tests that run whole models, card by card as docs/manual/deck_format.md has them.
+// Writes decks of layout sage1 for tests that run whole models, card by card as docs/manual/deck_format.md has
+// them.
 #pragma once
 
 #include <functional>
@@ -23,7 +24,8 @@ struct StageCards {
   void fix(int node, int x_code, int y_code, double x = 0.0, double y = 0.0);
   void load(int node, double x, double y);
   // Edge counts from 1; pressure > 0 pushes into the element.
-  void pressure(int element, int edge, double normal1, double normal2, double shear1 = 0.0, double shear2 = 0.0);
+  void pressure(int element, int edge, double normal1, double normal2, double shear1 = 0.0,
+                double shear2 = 0.0);
   void initial(int group, int kind, const std::vector<double>& values);
 };
 

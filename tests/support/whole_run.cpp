@@ -1,4 +1,4 @@
-#include "whole_run.hpp"
+#include "tests/support/whole_run.hpp"
 
 #include "sage/app/commands.hpp"
 #include "sage/deck/read_deck.hpp"
@@ -61,9 +61,13 @@ int WholeRun::index(int number) const {
   throw std::out_of_range("node " + std::to_string(number));
 }
 
-Vector2 WholeRun::u(int number) const { return last().u.segment<2>(2 * index(number)); }
+Vector2 WholeRun::u(int number) const {
+  return last().u.segment<2>(2 * index(number));
+}
 
-Vector2 WholeRun::position(int number) const { return model->mesh.x.col(index(number)); }
+Vector2 WholeRun::position(int number) const {
+  return model->mesh.x.col(index(number));
+}
 
 Vector2 WholeRun::reaction(const Snapshot& at, int number) const {
   const int dof = 2 * index(number);
@@ -84,8 +88,8 @@ int WholeRun::iterations() const {
 
 WholeRun run_text(const std::string& deck, const BuildOptions& options, const RunSettings& settings) {
   WholeRun run;
-  run.model = std::make_unique<Model>(
-      build_model(read_deck_text(deck, "deck", layout()), catalogue(), options));
+  run.model =
+      std::make_unique<Model>(build_model(read_deck_text(deck, "deck", layout()), catalogue(), options));
   for (const Diagnostic& d : run.model->diagnostics.list())
     if (d.severity == Severity::warning) run.warnings.push_back(d.message);
   RunSettings with_choice = settings;

@@ -33,8 +33,8 @@ struct WholeRun {
 
   bool completed() const { return result.status == RunStatus::completed; }
   const Snapshot& last() const { return increments.back(); }
-  int index(int number) const;           // of a deck node
-  Vector2 u(int number) const;           // at the end
+  int index(int number) const;  // of a deck node
+  Vector2 u(int number) const;  // at the end
   Vector2 position(int number) const;
   // What supports put on a node at the end: internal force minus load.
   Vector2 reaction(int number) const { return reaction(last(), number); }
