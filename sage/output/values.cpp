@@ -83,6 +83,29 @@ std::string one_line(const std::string& text) {
   return text.substr(0, text.find('\n'));
 }
 
+std::string xml_text(std::string_view text) {
+  std::string result;
+  for (char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
 std::string sign_convention(const Model& model, std::string_view mark) {
   const bool ring = model.geometry == Geometry::axisymmetric;
   const UnitSystem& u = model.units;
