@@ -46,13 +46,13 @@ Vector2 at(const Model& model, int number) {
 TEST(NodeCards, FillALineInProportion) {
   // Five nodes, last interval twice the first: intervals 1, 2^(1/3), 2^(2/3), 2 over their sum.
   const Model model =
-      build(deck({"    1    0    0        0.        0.", "    9    2    0        1.        0.        2.",
+      build(deck({"    1    0    0        0.        0.", "    5    1    0        1.        0.        2.",
                   "   10    0    0        1.        1.", "   11    0    0        0.        1."},
-                 {}, {"    1    1    1    9   10   11"}));
+                 {}, {"    1    1    1    5   10   11"}));
   const double q = std::cbrt(2.0), sum = 1.0 + q + q * q + 2.0;
-  EXPECT_NEAR(at(model, 3).x(), 1.0 / sum, 1e-15);
-  EXPECT_NEAR(at(model, 5).x(), (1.0 + q) / sum, 1e-15);
-  EXPECT_NEAR(at(model, 7).x(), (1.0 + q + q * q) / sum, 1e-15);
+  EXPECT_NEAR(at(model, 2).x(), 1.0 / sum, 1e-15);
+  EXPECT_NEAR(at(model, 3).x(), (1.0 + q) / sum, 1e-15);
+  EXPECT_NEAR(at(model, 4).x(), (1.0 + q + q * q) / sum, 1e-15);
 }
 
 TEST(NodeCards, PolarNodesLieOnTheArc) {
