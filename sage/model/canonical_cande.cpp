@@ -1,8 +1,8 @@
 // CANDE Level 3 decks: soil elements by load step.  Beams, interfaces and links have no element here.
 #include <algorithm>
 #include <map>
-#include <tuple>
 
+#include "sage/core/types.hpp"
 #include "sage/model/canonical.hpp"
 
 namespace sage::canonical {
@@ -92,11 +92,44 @@ GroupKey key_of(const CardView& element) {
           n4 == 0 || n4 == n3};
 }
 
+// Those decks turn elements either way; this program wants them counter-clockwise.
+class Turner {
+ public:
+  explicit Turner(const Deck& deck) {
+    for (const CardView& node : deck.all("node"))
+      place_.insert_or_assign(node.integer("number"), Vector2(node.real("x"), node.real("y")));
+  }
+  // The fields n1 ... in counter-clockwise order.
+  std::vector<NewField> nodes(const CardView& element, bool triangle) {
+    std::vector<NewField> list;
+    for (const char* node : {"n1", "n2", "n3", "n4"})
+      if (!triangle || node[1] != '4') list.push_back(take(element, node));
+    double twice_area = 0.0;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const auto a = place_.find(static_cast<int>(list[i].number));
+      const auto b = place_.find(static_cast<int>(list[(i + 1) % list.size()].number));
+      if (a == place_.end() || b == place_.end()) return list;
+      twice_area += a->second.x() * b->second.y() - b->second.x() * a->second.y();
+    }
+    if (twice_area >= 0.0) return list;
+    ++turned_;
+    std::reverse(list.begin(), list.end());
+    for (std::size_t i = 0; i < list.size(); ++i) list[i].name = "n" + std::to_string(i + 1);
+    return list;
+  }
+  int turned() const { return turned_; }
+
+ private:
+  std::map<int, Vector2> place_;
+  int turned_ = 0;
+};
+
 bool is_soil(const CardView& element) {
   return element.integer("n3") != 0 && element.integer("class") == 0;
 }
 
-void warn_left_out(const Deck& deck, CardWriter& out) {
+// Without its beams the pipe would be a hole with loose soil above; its nodes are held: a rigid pipe that stays.
+void leave_out(const Deck& deck, CardWriter& out) {
   int beams = 0, interfaces = 0, links = 0;
   SourcePosition where;
   for (const CardView& element : deck.all("element")) {
@@ -104,11 +137,15 @@ void warn_left_out(const Deck& deck, CardWriter& out) {
     if (where.line == 0) where = element.where();
     const int kind = element.integer("class");
     ++(kind == 1 ? interfaces : kind > 1 ? links : beams);
+    if (kind != 0) continue;
+    for (const char* node : {"n1", "n2"})
+      out.add("fixity", element.where(node), {take(element, node, "first"), {"x_code", 1.0}, {"y_code", 1.0}});
   }
   if (beams + interfaces + links == 0) return;
   out.warning(where, "left out: " + std::to_string(beams) + " beam element(s) (the pipe), " +
                          std::to_string(interfaces) + " interface(s), " + std::to_string(links) +
-                         " link(s); this program has no such elements, so the soil around them is unsupported");
+                         " link(s); this program has no such elements. The beams' nodes are held in x and y: "
+                         "the soil rests on a pipe that does not move");
 }
 
 Groups add_groups(const Deck& deck, const Catalogue& catalogue, CardWriter& out) {
@@ -129,14 +166,17 @@ Groups add_groups(const Deck& deck, const Catalogue& catalogue, CardWriter& out)
              {"material", static_cast<double>(key.material)},
              {"name", 0.0, {}, "step " + std::to_string(key.birth)}});
   }
+  Turner turner(deck);
   for (const CardView& element : deck.all("element")) {
     if (!is_soil(element)) continue;
     const GroupKey key = key_of(element);
     std::vector<NewField> fields{take(element, "number"), {"group", groups.at(key)}};
-    for (const char* node : {"n1", "n2", "n3", "n4"})
-      if (!key.triangle || node[1] != '4') fields.push_back(take(element, node));
+    for (NewField& node : turner.nodes(element, key.triangle)) fields.push_back(std::move(node));
     out.add("element", element.where(), fields);
   }
+  if (turner.turned() > 0)
+    out.note({deck.file, 0, 0, 0}, std::to_string(turner.turned()) +
+                                       " element(s) listed clockwise were turned round");
   return groups;
 }
 
@@ -197,7 +237,7 @@ Deck cande_deck(const Deck& deck, const Catalogue& catalogue) {
   out.add("control", control.where(), {{"geometry", 1.0}, take(control, "total_nodes")});
   add_nodes(deck, out);
   add_materials(deck, catalogue, out);
-  warn_left_out(deck, out);
+  leave_out(deck, out);
   const Groups groups = add_groups(deck, catalogue, out);
   add_boundary(deck, out, 0, -1);
   for (const CardView& factor : deck.all("load_factor"))

@@ -1,6 +1,5 @@
 // QUAD4M decks: a dynamic program's mesh and small-strain moduli, loaded here by their own weight.
 #include <map>
-#include <tuple>
 
 #include "sage/model/canonical.hpp"
 
