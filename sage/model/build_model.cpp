@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sage/model/builder.hpp"
+#include "sage/model/canonical.hpp"
 
 namespace sage {
 
@@ -58,10 +59,14 @@ void build_reports(Builder& b) {
     report.kind = static_cast<ReportKind>(kind);
     const int first = card.integer("first"), last = std::max(first, card.integer("last", first));
     const int step = std::max(1, card.integer("step", 1));
-    for (int number = first; number <= last; number += step) {
+    for (int number = first; number <= last && card.blank("nodes"); number += step) {
       const int node = b.node(card, number == first ? "first" : "last", number);
       if (node < 0) break;
       report.nodes.push_back(node);
+    }
+    for (const FieldValue& value : card.list("nodes")) {
+      const int node = b.node(card, "nodes", static_cast<int>(value.number));
+      if (node >= 0) report.nodes.push_back(node);
     }
     report.height = card.real("height");
     report.area = card.real("area");
@@ -87,7 +92,8 @@ void build_reports(Builder& b) {
 
 }  // namespace build
 
-Model build_model(const Deck& deck, const Catalogue& catalogue, const BuildOptions& options) {
+Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOptions& options) {
+  const Deck deck = canonical_deck(as_read, catalogue);
   build::Builder b{deck, catalogue, options, {}, {}, {}, {}, {}, {}};
   b.model.diagnostics = deck.diagnostics;
   build::build_control(b);
