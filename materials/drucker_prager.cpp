@@ -28,6 +28,9 @@ const std::vector<Parameter>& rows() {
     r.push_back(optional("flow", Dimension::none, "0 from the dilation angle, 1 without volume change", 0.0));
     r.push_back(
         optional("mean_tension_limit", Dimension::stress, "largest mean tension; -1 = the apex only", -1.0));
+    r.push_back(optional("apex", Dimension::none,
+                         "beyond the apex 0 the mean stress returns to it, 1 stays elastic (no volume change)",
+                         0.0));
     r.push_back(optional("integration", Dimension::none, "0 radial return, 1 exact (no volume change)", 0.0));
     return r;
   }();
@@ -45,8 +48,11 @@ LawPtr make(std::span<const double> values, const UnitSystem& units) {
   law.beta = p.code(6, {0, 1}) == 1 ? 0.0 : match_cone(match, psi, 0.0).alpha;
   const bool limited = p.number(7) != -1.0;
   law.mean_tension = limited ? p.not_negative(7) : std::numeric_limits<double>::infinity();
-  law.exact = p.code(8, {0, 1}) == 1;
-  if (law.exact && law.beta != 0.0) p.refuse(8, "can be 1 only for flow without volume change");
+  law.free_mean = p.code(8, {0, 1}) == 1;
+  if (law.free_mean && (law.beta != 0.0 || limited))
+    p.refuse(8, "can be 1 only for flow without volume change and without a tension limit");
+  law.exact = p.code(9, {0, 1}) == 1;
+  if (law.exact && law.beta != 0.0) p.refuse(9, "can be 1 only for flow without volume change");
   return std::make_unique<DruckerPrager>(law);
 }
 
@@ -106,7 +112,7 @@ Outcome DruckerPrager::update(const PointIn<4>& in, PointOut<4>& out) const {
   const double p_trial = mean_stress(trial), q_trial = std::sqrt(0.5 * contract(s, s));
   const double f = q_trial + 3.0 * alpha * p_trial - k;  // Equation 7.25
   const double rounding = kRounding * scale(p_trial, q_trial);
-  if (f <= rounding && p_trial <= p_max_ + rounding) {
+  if (f <= rounding && p_trial <= p_max_ + rounding) {  // elastic
     out.sigma = trial;
     out.D = D_elastic_;
     out.status = PointStatus::elastic;
@@ -117,7 +123,9 @@ Outcome DruckerPrager::update(const PointIn<4>& in, PointOut<4>& out) const {
   const double dlambda = f / (G + 9.0 * K * alpha * p_.beta);
   const double p_cone = p_trial - 3.0 * K * p_.beta * dlambda;
   const bool on_cone = f > rounding && p_cone <= p_max_ + rounding;  // in front of the tip: theta >= 0
-  if (!on_cone) {
+  if (!on_cone && p_.free_mean) {
+    drop_deviator(p_trial, out);
+  } else if (!on_cone) {
     return_to_cap(s, q_trial, out);
   } else if (!p_.exact || !integrate_exactly(in, out)) {
     return_to_cone(s, q_trial, p_trial, p_cone, out);
@@ -127,7 +135,7 @@ Outcome DruckerPrager::update(const PointIn<4>& in, PointOut<4>& out) const {
   return Outcome::ok;
 }
 
-// s = theta s_tr,  p = p_tr - 3 K beta dlambda; tangent of MODELS: de Souza Neto, Peric & Owen (2008), ch. 8.
+// s = theta s_tr,  p = p_tr - 3 K beta dlambda; tangent: de Souza Neto, Peric & Owen (2008), ch. 8.
 void DruckerPrager::return_to_cone(const Vector4& s_trial, double q_trial, double p_trial, double p,
                                    PointOut<4>& out) const {
   const auto [K, G] = p_.elastic;
@@ -145,6 +153,14 @@ void DruckerPrager::return_to_cone(const Vector4& s_trial, double q_trial, doubl
   out.D -= 3.0 * std::sqrt(2.0) * G * K * A * (alpha * n * one.transpose() + beta * one * n.transpose());
   out.D += K * (1.0 - 9.0 * K * alpha * beta * A) * one * one.transpose();
   out.status = PointStatus::yielded;
+}
+
+// s = 0,  p = p_trial.
+void DruckerPrager::drop_deviator(double p_trial, PointOut<4>& out) const {
+  const Vector4 one = unit_tensor();
+  out.sigma = p_trial * one;
+  out.D = p_.elastic.K * one * one.transpose() + kApexStiffness * D_elastic_;
+  out.status = PointStatus::apex;
 }
 
 // p = p_max; the deviator is cut to what the cone leaves there, which is nothing at the apex.

@@ -30,10 +30,13 @@ struct DruckerPragerParameters {
   double beta;          // flow potential sqrt(J2D) + beta I1               [-]
   double mean_tension;  // largest mean stress; infinite = only the apex    [stress]
   bool exact;           // constant-rate integration instead of radial return; needs beta = 0
+  bool free_mean;       // beyond the apex the mean stress stays elastic; needs beta = 0
 };
 
 // f = sqrt(J2D) + alpha I1 - k,  g = sqrt(J2D) + beta I1.  Beyond the apex, or beyond the mean tension limit,
 // the mean stress is held there and the deviator is what the cone leaves: zero at the apex, whatever beta is.
+// With free_mean the flow stays without volume change there too: only the deviator goes, the mean stress may be
+// tensile.  That is what a program does which knows no apex, the source chapter's among them.
 class DruckerPrager final : public SolidLaw {
  public:
   explicit DruckerPrager(const DruckerPragerParameters& parameters);
@@ -53,6 +56,7 @@ class DruckerPrager final : public SolidLaw {
 
   double scale(double p, double q) const;  // the stress that tolerances are relative to
   void return_to_cone(const Vector4& s_trial, double q_trial, double p_trial, double p, PointOut<4>& out) const;
+  void drop_deviator(double p_trial, PointOut<4>& out) const;
   void return_to_cap(const Vector4& s_trial, double q_trial, PointOut<4>& out) const;
   bool integrate_exactly(const PointIn<4>& in, PointOut<4>& out) const;
 

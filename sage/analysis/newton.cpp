@@ -1,6 +1,9 @@
 #include "sage/analysis/newton.hpp"
 
 #include <cmath>
+#include <limits>
+
+#include "sage/analysis/dogleg.hpp"
 
 namespace sage {
 
@@ -23,7 +26,12 @@ class Step {
   NewtonStep solve(const Eigen::VectorXd& rate, double rate_part);
 
  private:
-  bool full_newton() const { return settings_.method == Method::newton && !stiffness_.constant; }
+  bool full_newton() const {
+    return (settings_.method == Method::newton || settings_.method == Method::dogleg) && !stiffness_.constant;
+  }
+  NewtonStep& iterate_with_line_search();
+  NewtonStep& iterate_with_dogleg();
+  bool record_iteration();
   Outcome evaluate(bool with_K);
   void form_residual();
   void factorise_if_needed();
@@ -110,7 +118,7 @@ IterationRecord Step::measure() const {
   const double force_scale = scale(), size = du_.norm();
   const double force = residual_.norm(), energy = std::abs(correction_.dot(residual_));
   record.force = force_scale > 0.0 ? force / force_scale : 0.0;
-  record.displacement = size > 0.0 ? correction_.norm() * step_length_ / size : 0.0;
+  record.displacement = size > 0.0 ? correction_.norm() / size : 0.0;
   record.energy = energy_scale_ > 0.0 ? energy / energy_scale_ : 0.0;
   record.step_length = step_length_;
   return record;
@@ -160,31 +168,65 @@ bool Step::search_line() {
   return true;
 }
 
+// True once converged.
+bool Step::record_iteration() {
+  const IterationRecord record = measure();
+  result_.iterations.push_back(record);
+  find_worst();
+  if (!converged(record)) return false;
+  result_.outcome = StepOutcome::converged;
+  return true;
+}
+
 NewtonStep Step::solve(const Eigen::VectorXd& rate, double rate_part) {
   result_.outcome = StepOutcome::law_cut;
   if (!predict(rate, rate_part)) return result_;
+  return settings_.method == Method::dogleg ? iterate_with_dogleg() : iterate_with_line_search();
+}
+
+NewtonStep& Step::iterate_with_line_search() {
   for (int i = 1; i <= settings_.max_iterations; ++i) {
-    const bool with_K = full_newton();
-    if (evaluate(with_K) == Outcome::cut_step) return result_;
+    if (evaluate(full_newton()) == Outcome::cut_step) return result_;
     form_residual();
     step_length_ = 1.0;
     if (settings_.line_search && i > 1 && std::abs(correction_.dot(residual_)) > 0.8 * std::abs(slope_) &&
         !search_line())
       return result_;
-    const IterationRecord record = measure();
-    result_.iterations.push_back(record);
-    find_worst();
-    if (!std::isfinite(record.force)) return result_;
-    if (converged(record)) {
-      result_.outcome = StepOutcome::converged;
-      return result_;
-    }
+    if (!std::isfinite(residual_.squaredNorm()) || record_iteration()) return result_;
     if (i == settings_.max_iterations) break;
-    slope_ = 0.0;
     correct();
     slope_ = correction_.dot(residual_);
     energy_scale_ = std::max(energy_scale_, std::abs(slope_));
     move(1.0);
+  }
+  result_.outcome = StepOutcome::not_converged;
+  return result_;
+}
+
+// A rejected step leaves K and its factors as they were: only the residual is computed anew.
+NewtonStep& Step::iterate_with_dogleg() {
+  Dogleg dogleg;
+  if (evaluate(full_newton()) == Outcome::cut_step) return result_;
+  form_residual();
+  Eigen::VectorXd newton(residual_.size()), old_residual;
+  for (int i = 1; i <= settings_.max_iterations; ++i) {
+    if (!std::isfinite(residual_.squaredNorm()) || record_iteration()) return result_;
+    correct();
+    newton = correction_;
+    energy_scale_ = std::max(energy_scale_, std::abs(newton.dot(residual_)));
+    old_residual = residual_;
+    dogleg.choose(*stiffness_.solver, residual_, newton, correction_);
+    step_length_ = dogleg.step_length();
+    move(1.0);
+    const bool computed = evaluate(false) == Outcome::ok;
+    if (computed) form_residual();
+    const double new_norm = computed ? residual_.norm() : std::numeric_limits<double>::infinity();
+    if (!dogleg.accept(old_residual.norm(), new_norm)) {
+      move(-1.0);
+      residual_ = old_residual;
+      continue;
+    }
+    if (full_newton() && evaluate(true) == Outcome::cut_step) return result_;
   }
   result_.outcome = StepOutcome::not_converged;
   return result_;

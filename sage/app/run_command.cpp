@@ -9,6 +9,7 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/run_deck.hpp"
+#include "sage/output/picture.hpp"
 
 namespace sage::app {
 
@@ -74,6 +75,15 @@ Command run_command(CLI::App& root) {
       ->check(CLI::IsMember({"auto", "none", "stage", "all"}));
   parser->add_flag("--nodes", request.output.nodes, "write STEM.nodes.csv: displacements and reactions");
   parser->add_flag("--points", request.output.points, "write STEM.points.csv: stress and state of all points");
+  parser->add_flag("--vtu", request.output.vtu, "write VTU files and a PVD for ParaView");
+  parser
+      ->add_option(
+          "--picture", request.output.pictures,
+          "SVG pictures at the end of each stage: stress_xx, stress_yy, stress_zz, stress_xy, mean_stress, "
+          "deviator, stress_level, displacement_x, displacement_y, displacement")
+      ->check([](const std::string& name) {
+        return field_from_name(name) ? std::string() : "unknown field " + name;
+      });
   parser->add_flag("!--no-listing", request.output.listing, "write no listing");
   parser->add_flag("-q,--quiet", options->quiet, "print no summary");
   add_input_options(*parser, request.input);

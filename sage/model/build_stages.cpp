@@ -149,9 +149,10 @@ Stage read_stage(Builder& b, const CardView& card, int number) {
   if (stage.increments < 0 || stage.increments > 10'000'000)
     b.error(card.where("increments"), "the number of increments must be between 1 and 10000000");
   const int method = card.integer("method");
-  if (method < 0 || method > 2)
-    b.error(card.where("method"), "method " + std::to_string(method) +
-                                      " is unknown; 0 Newton, 1 modified Newton, 2 initial stiffness");
+  if (method < 0 || method > 3)
+    b.error(card.where("method"),
+            "method " + std::to_string(method) +
+                " is unknown; 0 Newton, 1 modified Newton, 2 initial stiffness, 3 dogleg");
   else
     stage.method = static_cast<Method>(method);
   if (card.integer("max_iterations") != 0) stage.max_iterations = card.integer("max_iterations");

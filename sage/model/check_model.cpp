@@ -35,6 +35,8 @@ void check_shapes(Builder& b) {
       try {
         group.element->geometry(x, geometry);
         const double quality = group.element->shape_quality(x);
+        if (const std::string words = group.element->caution(x); !words.empty() && ++cautioned == 1)
+          caution = name + " (" + group.element_name + "): " + words;
         if (quality < kPoorShape) ++poor;
         if (quality < worst) {
           worst = quality;
@@ -46,6 +48,7 @@ void check_shapes(Builder& b) {
           b.error(line_of(b, group.element_lines[eu]), name + " (" + group.element_name + "): " + error.what());
       }
     }
+    if (cautioned > 1) caution += " (and " + std::to_string(cautioned - 1) + " more)";
     if (cautioned > 0) b.warning(group.where, caution);
   }
   if (bad > kShown)

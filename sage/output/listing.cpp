@@ -129,7 +129,7 @@ void Listing::on_finish(const Model& model, const RunResult& result) {
   else
     fmt::format_to(
         std::back_inserter(text),
-        "\n   NOT CONVERGED: the run ended before its last stage; the last state in equilibrium is {}\n",
+        "\n   NOT CONVERGED: the run ended before its last stage.\n   Last state in equilibrium: {}\n",
         last_state_);
   file_.finish();
 }

@@ -16,7 +16,7 @@ inline constexpr int kManyPoints = 20000;
 
 struct ListingOptions {
   Tables tables = Tables::automatic;
-  std::string date;                  // shown if given; left out, so that listings compare
+  std::string date = {};             // shown if given; left out, so that listings compare
   const Reports* reports = nullptr;  // whose rows the listing repeats at its end
 };
 

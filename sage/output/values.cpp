@@ -32,6 +32,8 @@ std::string_view method_name(Method method) {
       return "modified Newton";
     case Method::initial_stiffness:
       return "initial stiffness";
+    case Method::dogleg:
+      return "Newton with dogleg";
   }
   return "?";
 }
@@ -81,6 +83,29 @@ std::vector<char> active_nodes(const Model& model, const Activity& activity) {
 
 std::string one_line(const std::string& text) {
   return text.substr(0, text.find('\n'));
+}
+
+std::string xml_text(std::string_view text) {
+  std::string result;
+  for (char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
 }
 
 std::string sign_convention(const Model& model, std::string_view mark) {

@@ -47,6 +47,9 @@ std::vector<char> active_nodes(const Model& model, const Activity& activity);
 // The first line of a text, for comments in files.
 std::string one_line(const std::string& text);
 
+// With & < > " replaced, for XML and SVG.
+std::string xml_text(std::string_view text);
+
 // The sign convention in a few lines; `mark` stands before each.
 std::string sign_convention(const Model& model, std::string_view mark);
 

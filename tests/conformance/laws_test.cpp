@@ -30,7 +30,7 @@ std::vector<Sample> samples() {
       {"dp_associated", 3, {2e4, 0.3, 10, 30, 30}, 0.01, true},
       {"dp_dilating", 3, {2e4, 0.3, 5, 35, 10, 3}, 0.01, true},
       {"dp_von_mises", 3, {2e4, 0.3, 50, 0}, 0.01, true},
-      {"dp_exact", 3, {2e4, 0.3, 5, 30, 0, 4, 1, inf_like, 1}, 0.01, true},
+      {"dp_exact", 3, {2e4, 0.3, 5, 30, 0, 4, 1, inf_like, 0, 1}, 0.01, true},
       {"dp_tension_limit", 3, {2e4, 0.3, 30, 20, 5, 1, 0, 5}, 0.01, true},
       {"dp_strengthless", 3, {2e4, 0.3, 0, 0}, 0.01, true},
       {"dp_89", 3, {2e4, 0.3, 1, 89, 0}, 0.01, true},

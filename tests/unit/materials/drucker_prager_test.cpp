@@ -150,7 +150,7 @@ class ConstantRate : public ::testing::TestWithParam<RateCase> {
   }
   DruckerPragerParameters parameters(bool exact) const {
     const double G = 1000.0, K = 2.0 * G * 1.3 / (3.0 * 0.4);
-    return {{K, G}, {GetParam().alpha, 10.0}, GetParam().beta, std::numeric_limits<double>::infinity(), exact};
+    return {{K, G}, {GetParam().alpha, 10.0}, GetParam().beta, std::numeric_limits<double>::infinity(), exact, false};
   }
 };
 

@@ -86,8 +86,8 @@ TEST(TriaxialReport, CountsFromTheStartOfItsStage) {
   EXPECT_NEAR(row.correct_axial, 50.0 + Specimen::kE * 0.02, 1e-8);
 }
 
-// Drucker-Prager with isochoric flow: the deviator stops at q = (k - 3 alpha sigma_1-dependent) ...  Here by
-// the Mohr-Coulomb match in triaxial compression: q_f = (2 c cos phi + 2 sigma_3 sin phi) / (1 - sin phi).
+// The cone is matched to Mohr-Coulomb in triaxial compression, so the deviator stops at
+// q_f = (2 c cos phi + 2 sigma_3 sin phi) / (1 - sin phi).
 TEST(CorrectTest, DruckerPragerStopsAtTheMohrCoulombStrength) {
   Catalogue catalogue = Specimen().catalogue;
   const MaterialEntry* entry = nullptr;

@@ -1,0 +1,68 @@
+#include "sage/output/contour.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sage/output/plot.hpp"
+#include "sage/output/svg.hpp"
+
+namespace sage {
+
+std::vector<double> band_limits(double low, double high, int bands) {
+  const double size = std::max(std::abs(low), std::abs(high));
+  if (!(high - low > 1e-7 * size)) return {low, high};  // one value everywhere
+  std::vector<double> limits = round_ticks(low, high, bands);
+  if (limits.size() < 2) return {low, high};
+  const double step = limits[1] - limits[0], slack = 1e-6 * step;
+  if (limits.front() > low + slack) limits.insert(limits.begin(), limits.front() - step);
+  if (limits.back() < high - slack) limits.push_back(limits.back() + step);
+  return limits;
+}
+
+std::vector<Corner> above(const std::vector<Corner>& polygon, double limit) {
+  std::vector<Corner> result;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Corner &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    if (a.value >= limit) result.push_back(a);
+    if ((a.value >= limit) != (b.value >= limit)) {
+      const double t = (limit - a.value) / (b.value - a.value);
+      result.push_back({a.at + t * (b.at - a.at), limit});
+    }
+  }
+  return result;
+}
+
+void append_path(std::string& path, const std::vector<Corner>& polygon) {
+  if (polygon.size() < 3) return;
+  char pen = 'M';
+  for (const Corner& corner : polygon) {
+    path += pen;
+    svg::number(path, corner.at.x());
+    path += ' ';
+    svg::number(path, corner.at.y());
+    pen = 'L';
+  }
+  path += 'Z';
+}
+
+std::vector<std::string> band_paths(const std::vector<Patch>& patches, const std::vector<double>& limits) {
+  std::vector<std::string> paths(std::max<std::size_t>(limits.size(), 2) - 1);
+  for (const Patch& patch : patches) {
+    double low = patch.centre.value, high = low;
+    for (const Corner& corner : patch.outline) {
+      low = std::min(low, corner.value);
+      high = std::max(high, corner.value);
+    }
+    std::size_t first = 0;  // the band of the lowest value: the whole element
+    while (first + 1 < paths.size() && low >= limits[first + 1]) ++first;
+    append_path(paths[first], patch.outline);
+    for (std::size_t band = first + 1; band < paths.size() && high > limits[band]; ++band)
+      for (std::size_t i = 0; i < patch.outline.size(); ++i)
+        append_path(paths[band],
+                    above({patch.outline[i], patch.outline[(i + 1) % patch.outline.size()], patch.centre},
+                          limits[band]));
+  }
+  return paths;
+}
+
+}  // namespace sage

@@ -1,0 +1,34 @@
+// What a field looks like: elements as polygons with values, cut into bands of one colour.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sage/core/types.hpp"
+
+namespace sage {
+
+struct Corner {
+  Vector2 at;
+  double value = 0.0;
+};
+
+// An element's outline (corners and mid-side nodes in order) and its centre.
+struct Patch {
+  std::vector<Corner> outline;
+  Corner centre;
+};
+
+// Round limits of the bands: the first at or below `low`, the last at or above `high`; at least two.
+std::vector<double> band_limits(double low, double high, int bands);
+
+// The part of a polygon where value >= limit; values vary linearly along its edges.
+std::vector<Corner> above(const std::vector<Corner>& polygon, double limit);
+
+// SVG path data of every band, to be painted in this order: each band covers what is above its lower limit, and
+// the next is painted over it, so that no gaps can show.
+std::vector<std::string> band_paths(const std::vector<Patch>& patches, const std::vector<double>& limits);
+
+void append_path(std::string& path, const std::vector<Corner>& polygon);
+
+}  // namespace sage
