@@ -45,10 +45,12 @@ Vector2 at(const Model& model, int number) {
 
 TEST(NodeCards, FillALineInProportion) {
   // Five nodes, last interval twice the first: intervals 1, 2^(1/3), 2^(2/3), 2 over their sum.
-  const Model model =
-      build(deck({"    1    0    0        0.        0.", "    5    1    0        1.        0.        2.",
-                  "   10    0    0        1.        1.", "   11    0    0        0.        1."},
-                 {}, {"    1    1    1    5   10   11"}));
+  std::string text =
+      deck({"    1    0    0        0.        0.", "    5    1    0        1.        0.        2.",
+            "   10    0    0        1.        1.", "   11    0    0        0.        1."},
+           {}, {"    1    1    1    5   10   11"});
+  const std::string held = "    1    2    1    1    1\n";
+  const Model model = build(text.replace(text.find(held), held.size(), "    1    5    4    1    1\n"));
   const double q = std::cbrt(2.0), sum = 1.0 + q + q * q + 2.0;
   EXPECT_NEAR(at(model, 2).x(), 1.0 / sum, 1e-15);
   EXPECT_NEAR(at(model, 3).x(), (1.0 + q) / sum, 1e-15);
