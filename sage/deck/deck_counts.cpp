@@ -71,10 +71,8 @@ bool DeckReader::count_of(const Expression& expression, const std::string& what,
   for (const ExpressionNode& node : expression.nodes)
     if (node.kind == ExpressionNode::Kind::field)
       if (const FieldValue* value = field_value(node.card, node.field)) where = log_.where(*value);
-  log_.add(Severity::error, where,
-           "the number of " + what + " can't be " + std::to_string(static_cast<long>(number)) + " (" +
-               expression.source + ")");
-  stopped_ = true;
+  fail_and_stop(where,
+                "the number of " + what + " can't be " + number_text(number) + " (" + expression.source + ")");
   return false;
 }
 
@@ -204,8 +202,7 @@ std::string DeckReader::announced(int rule) const {
   const std::string source = " (" + count_source(entry->count) + ")";
   if (count == 0.0) return "none was announced" + source;
   if (count == 1.0) return "the one that was announced" + source + " has been read";
-  return "the " + std::to_string(static_cast<long>(count)) + " that were announced" + source +
-         " have been read";
+  return "the " + number_text(count) + " that were announced" + source + " have been read";
 }
 
 bool DeckReader::reads_well(const CardRule& rule, int line) const {
@@ -250,6 +247,18 @@ void DeckReader::truncated(const LayoutEntry& entry) {
 void DeckReader::stop(const std::string& why, int line) {
   log_.add(Severity::note, log_.line(line), why);
   stopped_ = true;
+}
+
+void DeckReader::fail_and_stop(const SourcePosition& where, const std::string& message) {
+  log_.add(Severity::error, where, message);
+  stopped_ = true;
+}
+
+// Memory grows with the file, not with what a count says: a value takes a character, but repeats ("500*1") may
+// give more.
+bool DeckReader::fits_the_file(int count, bool repeats) const {
+  const double size = static_cast<double>(source_.text()->size());
+  return count <= (repeats ? 1e5 + 2.0 * size : size);
 }
 
 void DeckReader::check_after_end() {

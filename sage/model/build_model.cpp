@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sage/model/builder.hpp"
+#include "sage/model/canonical.hpp"
 
 namespace sage {
 
@@ -78,11 +79,15 @@ void build_reports(Builder& b) {
       continue;
     }
     report.kind = static_cast<ReportKind>(kind);
-    const NumberRange range = b.range(card, "first");
+    const NumberRange range = card.blank("nodes") ? b.range(card, "first") : NumberRange{};
     for (std::int64_t number = range.first; number <= range.last; number += range.step) {
       const int node = b.node(card, number == range.first ? "first" : "last", number);
       if (node < 0) break;
       report.nodes.push_back(node);
+    }
+    for (const FieldValue& value : card.list("nodes")) {
+      const int node = b.node(card, "nodes", static_cast<int>(value.number));
+      if (node >= 0) report.nodes.push_back(node);
     }
     report.height = card.real("height");
     report.area = card.real("area");
@@ -123,7 +128,8 @@ void check_totals(Builder& b) {
 
 }  // namespace build
 
-Model build_model(const Deck& deck, const Catalogue& catalogue, const BuildOptions& options) {
+Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOptions& options) {
+  const Deck deck = canonical_deck(as_read, catalogue);
   build::Builder b{deck, catalogue, options, {}, {}, {}, {}, {}, {}};
   b.model.diagnostics = deck.diagnostics;
   build::build_control(b);
