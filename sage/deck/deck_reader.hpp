@@ -58,6 +58,9 @@ class DeckReader {
   // Is this line a card of another kind?  Then the counts are wrong; reading goes on where it can.
   enum class Misplaced { no, left_over, belongs_later };
   bool is_doubtful(const CardRule& rule, const Card& card) const;
+  bool has_a_gap(const CardRule& rule, const Card& card) const;
+  int closing_card(int line) const;
+  std::string expected_card(const CardRule& rule) const;
   Misplaced check_place(const CardRule& rule, const Card& card);
   bool cut_list(const CardRule& rule, const Card& card);
   std::string announced(int rule) const;
