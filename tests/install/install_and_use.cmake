@@ -2,7 +2,7 @@
 set(prefix ${SCRATCH}/prefix)
 file(REMOVE_RECURSE ${prefix} ${SCRATCH}/consumer ${SCRATCH}/out)
 
-# Runs a command; stops the test where it fails; its output goes to the variable `output`.
+# Runs a command; stops the test where it fails; what it says goes to `output` and `errors`.
 function(step what)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE err
                   WORKING_DIRECTORY ${SCRATCH})
@@ -10,6 +10,7 @@ function(step what)
     message(FATAL_ERROR "${what}: ${code}\n${out}\n${err}")
   endif()
   set(output "${out}" PARENT_SCOPE)
+  set(errors "${err}" PARENT_SCOPE)
 endfunction()
 
 function(expect text pattern)
@@ -53,5 +54,6 @@ if(output MATCHES "pinned L/D = 1")
 endif()
 
 # The module of library solvers is found from the program's own place.
-step("a library solver" ${CMAKE_COMMAND} -E env --unset=SAGE_SOLVER_MODULE ${prefix}/bin/sagefe run --quiet
+step("a library solver" ${CMAKE_COMMAND} -E env --unset=SAGE_SOLVER_MODULE LD_DEBUG=files ${prefix}/bin/sagefe run --quiet
      ${prefix}/share/sagefe/legacy_inputs/chapter7/pinned_ld2_nu025/deck.dat --solver umfpack -o ${SCRATCH}/out)
+expect("${errors}" "calling init: ${prefix}/lib[^ \n]*/sagefe/libsage_library_solvers")
