@@ -164,7 +164,7 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
       continue;
     }
     report.points = assembly_.count_points();
-    report.failed_at = std::min(report.failed_at, to);
+    report.failed_at = to;  // beyond `reached`, which may have passed an earlier failure
     if (report.cuts >= settings_.max_cuts || stiffness_.constant) return fail(report, step);
     reject(stage);
     ++report.cuts;
