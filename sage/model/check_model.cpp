@@ -207,6 +207,8 @@ void check_supports(Builder& b) {
 }
 
 void warn_locking(Builder& b) {
+  constexpr int kShown = 5;
+  int found = 0;
   for (const Group& group : b.model.groups) {
     const ElementTraits& traits = group.element->traits();
     const Material& material = b.model.material_of(group);
@@ -214,6 +216,7 @@ void warn_locking(Builder& b) {
     const MaterialEntry* entry = b.catalogue.materials.find(material.code);
     for (std::size_t i = 0; i < entry->parameters.size(); ++i) {
       if (entry->parameters[i].name != "poissons_ratio" || material.parameters[i] <= 0.45) continue;
+      if (++found > kShown) continue;
       char nu[32];
       std::snprintf(nu, sizeof nu, "%.7g", material.parameters[i]);
       b.warning(group.where, "group " + std::to_string(group.number) + " (" + group.element_name +
@@ -222,6 +225,9 @@ void warn_locking(Builder& b) {
                                  "(formulation 2) does not");
     }
   }
+  if (found > kShown)
+    b.warning({b.deck.file, 0, 0, 0},
+              "and " + std::to_string(found - kShown) + " more groups whose elements lock near nu = 1/2");
 }
 
 }  // namespace
