@@ -37,6 +37,7 @@ class Run {
   bool run_stage(int s);
   bool run_increment(const Stage& stage, StepReport& report, double& reached);
   NewtonStep attempt(const Stage& stage, double from, double to);
+  void renew_tangent();
   void accept(double reached);
   void reject(const Stage& stage);
   bool fail(StepReport& report, const NewtonStep& step);
@@ -129,6 +130,15 @@ NewtonStep Run::attempt(const Stage& stage, double from, double to) {
   return newton_step(assembly_, stiffness_, target_, rate_, to - from, newton, result_.work, du_);
 }
 
+// Modified Newton: the tangent at the end of a step serves the next one.  It must be taken with the step still
+// in hand: at du = 0 a law on its yield surface answers elastically.
+void Run::renew_tangent() {
+  if (stiffness_.constant) return;
+  assembly_.evaluate(du_, solver_.get());
+  stiffness_.assembled = true;
+  stiffness_.factorised = false;
+}
+
 void Run::accept(double reached) {
   assembly_.commit();
   u_ += du_;
@@ -150,12 +160,12 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
   report.substeps = 0;
   while (reached < end) {
     const double to = size >= end - reached - 1e-12 * whole ? end : reached + size;
-    if (stage.method == Method::modified_newton && !stiffness_.constant) stiffness_.assembled = false;
     const NewtonStep step = attempt(stage, reached, to);
     report.iterations = step.iterations;
     report.total_iterations += static_cast<int>(step.iterations.size());
     report.worst = step.worst;
     if (step.outcome == StepOutcome::converged) {
+      if (stage.method == Method::modified_newton) renew_tangent();
       accept(to);
       reached = to;
       report.load_factor = reached;
@@ -164,7 +174,7 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
       continue;
     }
     report.points = assembly_.count_points();
-    report.failed_at = std::min(report.failed_at, to);
+    report.failed_at = to;  // beyond `reached`, which may have passed an earlier failure
     if (report.cuts >= settings_.max_cuts || stiffness_.constant) return fail(report, step);
     reject(stage);
     ++report.cuts;

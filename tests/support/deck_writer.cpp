@@ -76,8 +76,8 @@ void StageCards::pressure(int element, int edge, double normal1, double normal2,
   pressures.push_back(integers({element, edge, 0, 0}) + reals({normal1, normal2, shear1, shear2}));
 }
 
-void StageCards::initial(int group, int kind, const std::vector<double>& values) {
-  initials.push_back(integers({group, kind}) + reals(values));
+void StageCards::initial(int group, int kind, double v1, double v2, double v3, double v4) {
+  initials.push_back(integers({group, kind}) + reals({v1, v2, v3, v4}));
 }
 
 void DeckWriter::node(int number, double x, double y, bool polar) {
@@ -104,8 +104,8 @@ void DeckWriter::fix(int node, int x_code, int y_code) {
   fixities.push_back(integers({node, 0, 0, x_code, y_code}));
 }
 
-void DeckWriter::initial(int group, int kind, const std::vector<double>& values) {
-  initials.push_back(integers({group, kind}) + reals(values));
+void DeckWriter::initial(int group, int kind, double v1, double v2, double v3, double v4) {
+  initials.push_back(integers({group, kind}) + reals({v1, v2, v3, v4}));
 }
 
 StageCards& DeckWriter::stage(int increments) {

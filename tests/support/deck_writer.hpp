@@ -26,7 +26,7 @@ struct StageCards {
   // Edge counts from 1; pressure > 0 pushes into the element.
   void pressure(int element, int edge, double normal1, double normal2, double shear1 = 0.0,
                 double shear2 = 0.0);
-  void initial(int group, int kind, const std::vector<double>& values);
+  void initial(int group, int kind, double v1, double v2 = 0.0, double v3 = 0.0, double v4 = 0.0);
 };
 
 struct DeckWriter {
@@ -42,7 +42,8 @@ struct DeckWriter {
   void group(int number, int element, int formulation, int material);
   void element(int number, int group, const std::vector<int>& element_nodes);
   void fix(int node, int x_code, int y_code);
-  void initial(int group, int kind, const std::vector<double>& values);
+  // Values one by one: GCC 12 with AVX-512 stores a list {x, x, x, 0} of constants as {x, x, x, x}.
+  void initial(int group, int kind, double v1, double v2 = 0.0, double v3 = 0.0, double v4 = 0.0);
   StageCards& stage(int increments = 1);
 
   std::string text() const;

@@ -77,7 +77,7 @@ std::string SpecimenDeck::text() const {
   for (int j = 0; j <= rows; ++j) deck.fix(node(across * j + 1), 1, 0);
   for (int n : platen()) deck.fix(n, 1, 1);
   const double p = kCell * v.stress;
-  deck.initial(1, 0, {p, p, p});
+  deck.initial(1, 0, p, p, p);
 
   StageCards& stage = deck.stage(increments);
   for (int n : platen()) stage.fix(n, 0, 1, 0.0, -sign * v.length * axial_strain * kHeight);

@@ -61,8 +61,8 @@ TEST(ShearColumn, ElasticSlipAndReturn) {
   for (int j = 0; j < block.up(); ++j)
     for (int i = 0; i < block.across(); ++i) deck.fix(block.node(i, j), 0, 1);
   for (int n : base) deck.fix(n, 1, 1);
-  deck.initial(1, 0, {0.0, sigma_n, 0.0, 0.0});  // the sides are free
-  deck.initial(2, 0, {0.0, sigma_n});
+  deck.initial(1, 0, 0.0, sigma_n, 0.0, 0.0);  // the sides are free
+  deck.initial(2, 0, 0.0, sigma_n);
   const double moves[] = {0.05, 0.06, -0.04}, yield = strength * flexibility;
   const double stress[] = {moves[0] / flexibility, strength, strength + moves[2] / flexibility};
   for (double move : moves) {

@@ -51,7 +51,7 @@ TEST_P(NullStage, NothingMoves) {
   ground.deck.material(1, c.law, parameters, kWeight);
   ground.deck.group(1, static_cast<int>(c.cell), c.formulation, 1);
   ground.block.write_elements(ground.deck, 1);
-  ground.deck.initial(1, 1, {0.0, kWeight, c.K0, 0.0});
+  ground.deck.initial(1, 1, 0.0, kWeight, c.K0, 0.0);
   ground.deck.stage(3).gravity_y = -1.0;
   const WholeRun run = run_text(ground.deck.text());
   ASSERT_TRUE(run.completed()) << run.failure;
@@ -83,7 +83,7 @@ TEST(NullStageWarning, InadmissibleK0IsReported) {
   ground.deck.material(1, 4, {kE, kNu, 0.0, 30.0, 0.0}, kWeight);  // K0 = 0.2 < Ka = 1/3
   ground.deck.group(1, 1, 0, 1);
   ground.block.write_elements(ground.deck, 1);
-  ground.deck.initial(1, 1, {0.0, kWeight, 0.2, 0.0});
+  ground.deck.initial(1, 1, 0.0, kWeight, 0.2, 0.0);
   ground.deck.stage(4).gravity_y = -1.0;
   const WholeRun run = run_text(ground.deck.text());
   bool told = false;
@@ -129,7 +129,7 @@ WholeRun dig(int geometry, const std::vector<int>& portions, bool initial_stress
       ground.deck.elements[static_cast<std::size_t>(all.element(i, j) - 1)] = card.elements.front();
     }
   if (initial_stress)
-    for (int g = 1; g <= 1 + deep; ++g) ground.deck.initial(g, 1, {0.0, kWeight, 0.7, 0.0});
+    for (int g = 1; g <= 1 + deep; ++g) ground.deck.initial(g, 1, 0.0, kWeight, 0.7, 0.0);
   ground.deck.stage().gravity_y = -1.0;
   int next = 2;
   for (int portion : portions) {

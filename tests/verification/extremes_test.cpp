@@ -1,0 +1,141 @@
+// Decks at the edge of what makes sense: no strength at all, one huge step, tiny steps, nothing to do, methods
+// beside each other.  Whatever happens, numbers stay finite and a run that is not complete says so.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "tests/support/deck_writer.hpp"
+#include "tests/support/specimen_deck.hpp"
+#include "tests/support/whole_run.hpp"
+
+namespace sage::test {
+namespace {
+
+void expect_clean_end(const WholeRun& run) {
+  EXPECT_EQ(run.completed(), run.failure.empty());
+  EXPECT_EQ(run.completed(), run.result.reason.empty());
+  for (const Snapshot& s : run.increments) {
+    EXPECT_TRUE(s.u.allFinite());
+    EXPECT_TRUE(s.internal.allFinite());
+  }
+  for (const PointStresses& stress : run.stress) EXPECT_TRUE(stress.allFinite());
+  if (run.completed()) {
+    EXPECT_LT(run.out_of_balance, 1e-6);
+  }
+}
+
+// A specimen of one law between smooth plates, cell pressure p, compressed by `strain`.
+WholeRun compress(int law, const std::vector<double>& parameters, double p, double strain, int increments,
+                  int method = 0) {
+  Block block;
+  block.columns = 3;
+  block.rows = 6;
+  block.place = rectangle(0.0, 1.0, 0.0, 2.0);
+  DeckWriter deck(2);
+  block.write_nodes(deck);
+  deck.material(1, law, parameters);
+  deck.group(1, 1, 2, 1);
+  block.write_elements(deck, 1);
+  for (int n : block.bottom()) deck.fix(n, 1, 1);  // a rough base, so that stress is not uniform
+  for (int n : block.left()) deck.fix(n, 1, 0);
+  deck.initial(1, 0, p, p, p);
+  StageCards& stage = deck.stage(increments);
+  stage.method = method;
+  if (method == 1 || method == 2) stage.max_iterations = 2000;  // they converge linearly
+  for (int n : block.top()) stage.fix(n, 0, 1, 0.0, -2.0 * strain);
+  for (int j = 0; j < block.rows; ++j) stage.pressure(block.element(2, j), 2, p, p);
+  return run_text(deck.text());
+}
+
+class PlasticLaw : public testing::TestWithParam<int> {};
+
+// No cohesion, no friction: a fluid.  Under an all-round pressure it stays in equilibrium; sheared it has no
+// stiffness, and the program may say so, but not invent numbers.
+TEST_P(PlasticLaw, WithoutStrength) {
+  for (double strain : {0.0, 0.01}) {
+    const WholeRun run = compress(GetParam(), {1000.0, 0.3, 0.0, 0.0, 0.0}, 50.0, strain, 4);
+    expect_clean_end(run);
+    std::printf("    law %d, strain %.2f: %s, %d increments\n", GetParam(), strain,
+                run.completed() ? "completed" : "stopped", run.result.increments_done);
+    if (strain == 0.0) {
+      EXPECT_TRUE(run.completed()) << run.failure;
+      EXPECT_LT(run.largest_u(), 1e-10);
+    }
+  }
+}
+
+// A hundred per cent in one increment: small-strain theory has an answer, the limit state.
+TEST_P(PlasticLaw, OneHugeStep) {
+  const WholeRun run = compress(GetParam(), {3000.0, 0.3, 10.0, 30.0, 0.0}, 50.0, 1.0, 1);
+  expect_clean_end(run);
+  std::printf("    law %d: %s, %d iterations, %d cuts\n", GetParam(), run.completed() ? "completed" : "stopped",
+              run.last().iterations, run.last().cuts);
+  EXPECT_TRUE(run.completed()) << run.failure;
+}
+
+// Increments of 1e-13 of strain: elastic, and the same stiffness as with one increment of the sum.
+TEST_P(PlasticLaw, TinySteps) {
+  const double strain = 2e-12;
+  const WholeRun many = compress(GetParam(), {3000.0, 0.3, 10.0, 30.0, 0.0}, 0.0, strain, 20);
+  const WholeRun one = compress(GetParam(), {3000.0, 0.3, 10.0, 30.0, 0.0}, 0.0, strain, 1);
+  expect_clean_end(many);
+  ASSERT_TRUE(many.completed() && one.completed()) << many.failure << one.failure;
+  const double size = one.last().internal.cwiseAbs().maxCoeff();
+  EXPECT_GT(size, 0.0);
+  EXPECT_LT((many.last().internal - one.last().internal).cwiseAbs().maxCoeff(), 1e-9 * size);
+}
+
+// Nothing is loaded: a stage without anything to do is complete, and nothing moves.
+TEST_P(PlasticLaw, NothingToDo) {
+  const WholeRun run = compress(GetParam(), {3000.0, 0.3, 10.0, 30.0, 0.0}, 0.0, 0.0, 3);
+  expect_clean_end(run);
+  EXPECT_TRUE(run.completed()) << run.failure;
+  EXPECT_EQ(run.largest_u(), 0.0);
+}
+
+// Newton, modified Newton, initial stiffness and dogleg are ways to the same answer.  Modified Newton has the
+// tangent of a yielding specimen, and must need far fewer iterations than the elastic one.
+TEST_P(PlasticLaw, MethodsAgree) {
+  const std::vector<double> parameters{3000.0, 0.3, 10.0, 30.0, 0.0};
+  const WholeRun newton = compress(GetParam(), parameters, 50.0, 0.06, 30);
+  ASSERT_TRUE(newton.completed()) << newton.failure;
+  const double size = newton.last().internal.cwiseAbs().maxCoeff();
+  EXPECT_GT(newton.last().points[static_cast<std::size_t>(PointStatus::yielded)], 0);
+  int iterations[4] = {};
+  for (int method : {1, 2, 3}) {
+    if (method == 2 && GetParam() == 4) continue;  // thousands of iterations: too long for a test
+    const WholeRun other = compress(GetParam(), parameters, 50.0, 0.06, 30, method);
+    expect_clean_end(other);
+    std::printf("    law %d, method %d: %s, %d iterations (Newton %d)\n", GetParam(), method,
+                other.completed() ? "completed" : "stopped", other.iterations(), newton.iterations());
+    ASSERT_TRUE(other.completed()) << other.failure;
+    iterations[method] = other.iterations();
+    EXPECT_LT((other.last().internal - newton.last().internal).cwiseAbs().maxCoeff(), 1e-5 * size) << method;
+  }
+  if (GetParam() == 3) {
+    EXPECT_LT(2 * iterations[1], iterations[2]);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, PlasticLaw, testing::Values(3, 4),
+                         [](const auto& one) { return one.param == 3 ? "DruckerPrager" : "MohrCoulomb"; });
+
+// The chapter's kind of specimen on its interface, in one increment of 100 % and in tiny ones.
+TEST(Specimen, HugeAndTinySteps) {
+  for (double strain : {1.0, 1e-9})
+    for (bool drucker_prager : {false, true}) {
+      SpecimenDeck deck;
+      deck.drucker_prager = drucker_prager;
+      deck.increments = strain < 1.0 ? 50 : 1;
+      deck.axial_strain = strain;
+      const WholeRun run = run_text(deck.text());
+      expect_clean_end(run);
+      std::printf("    %s, strain %.0e: %s, %d iterations\n", drucker_prager ? "Drucker-Prager" : "elastic",
+                  strain, run.completed() ? "completed" : "stopped", run.iterations());
+      EXPECT_TRUE(run.completed()) << run.failure;
+    }
+}
+
+}  // namespace
+}  // namespace sage::test
