@@ -13,6 +13,7 @@ namespace sage {
 struct FieldText {
   std::string text;
   bool exact = true;
+  double change = 0.0;  // relative
 };
 FieldText field_text(double value, int width);
 

@@ -11,7 +11,7 @@ namespace sage {
 
 namespace {
 
-// "0.05" -> ".05", "1.5e-07" -> "1.5E-7", "12" -> "12."; all read the same.
+// "0.050" -> ".05", "1.5e-07" -> "1.5E-7", "12" -> "12."; all read the same.
 std::string shortened(std::string text) {
   const std::size_t e = text.find('e');
   std::string mantissa = text.substr(0, e), exponent;
@@ -20,6 +20,7 @@ std::string shortened(std::string text) {
     exponent = (power < 0 ? "E-" : "E") + std::to_string(std::abs(power));
   }
   if (mantissa.find('.') == std::string::npos) mantissa += '.';
+  while (mantissa.back() == '0') mantissa.pop_back();
   const std::size_t zero = mantissa.find("0.");
   if (mantissa.size() > 2 && zero != std::string::npos && (zero == 0 || (zero == 1 && mantissa[0] == '-')))
     mantissa.erase(zero, 1);
@@ -45,7 +46,7 @@ class Writer {
     const FieldText field = field_text(value, 10);
     if (!field.exact) {
       ++inexact_;
-      largest_ = std::max(largest_, std::abs(std::strtod(field.text.c_str(), nullptr) / value - 1.0));
+      largest_ = std::max(largest_, field.change);
     }
     text_.append(10 - field.text.size(), ' ') += field.text;
   }
@@ -291,7 +292,7 @@ std::string Writer::deck() {
 }  // namespace
 
 FieldText field_text(double value, int width) {
-  if (value == 0.0) return {"0.", true};
+  if (value == 0.0) return {"0.", true, 0.0};
   char buffer[64];
   std::string nearest;
   double nearest_error = HUGE_VAL;
@@ -303,17 +304,20 @@ FieldText field_text(double value, int width) {
       const auto end = digits == 0 ? std::to_chars(buffer, buffer + sizeof buffer, value, style)
                                    : std::to_chars(buffer, buffer + sizeof buffer, value, style, 17 - digits);
       if (end.ec != std::errc()) continue;
-      const std::string text = shortened(std::string(buffer, end.ptr));
-      if (static_cast<int>(text.size()) > width) continue;
+      std::string text = shortened(std::string(buffer, end.ptr));
       const double error = std::abs(std::strtod(text.c_str(), nullptr) - value);
-      if (error == 0.0) return {text, true};
+      // 1.5E-7 may be written 1.5-7 on a card.
+      if (static_cast<int>(text.size()) == width + 1 && text.find("E-") != std::string::npos)
+        text.erase(text.find('E'), 1);
+      if (static_cast<int>(text.size()) > width) continue;
+      if (error == 0.0) return {text, true, 0.0};
       if (error < nearest_error) {
         nearest = text;
         nearest_error = error;
       }
     }
   }
-  return {nearest, false};
+  return {nearest, false, nearest_error / std::abs(value)};
 }
 
 std::string sage1_text(const Model& model, const Catalogue& catalogue, Diagnostics& diagnostics) {
