@@ -51,7 +51,7 @@ class Step {
   WorkCounters& work_;
   Eigen::VectorXd& du_;
   Eigen::VectorXd residual_, correction_;
-  double energy_scale_ = 0.0, slope_ = 0.0, step_length_ = 1.0;
+  double energy_scale_ = 0.0, start_scale_ = 0.0, slope_ = 0.0, step_length_ = 1.0;
   NewtonStep result_;
 };
 
@@ -96,6 +96,7 @@ void Step::move(double factor) {
 bool Step::predict(const Eigen::VectorXd& rate, double rate_part) {
   du_.setZero();
   if (!stiffness_.assembled && evaluate(true) == Outcome::cut_step) return false;
+  start_scale_ = assembly_.force_scale();  // a step may end without any stress
   form_residual();
   const Eigen::VectorXd& coupling = assembly_.coupling();
   for (int eq = 0; eq < assembly_.equations(); ++eq)
@@ -110,7 +111,7 @@ bool Step::predict(const Eigen::VectorXd& rate, double rate_part) {
 double Step::scale() const {
   double loads = 0.0;
   for (int eq = 0; eq < assembly_.equations(); ++eq) loads += std::pow(target_[assembly_.dof_of(eq)], 2);
-  return std::max(assembly_.force_scale(), std::sqrt(loads));
+  return std::max({assembly_.force_scale(), std::sqrt(loads), start_scale_});
 }
 
 IterationRecord Step::measure() const {
@@ -126,8 +127,13 @@ IterationRecord Step::measure() const {
 
 // Equilibrium and energy to the tolerance; the last correction to its root, unless the energy is smaller still
 // (a linear step ends with its first correction, which is then the whole increment).
+// Forces of very stiff joints are k times differences of displacements and can't be balanced better than those
+// are rounded: a full correction that no longer changes the displacements ends the step too.
 bool Step::converged(const IterationRecord& record) const {
+  constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
   const double tol = settings_.tolerance;
+  if (record.displacement <= kRounding && record.step_length >= 1.0 && record.force <= std::sqrt(tol))
+    return true;
   if (!(record.force <= tol)) return false;
   return record.energy <= tol * tol || record.force <= 1e-3 * tol ||
          (record.energy <= tol && record.displacement <= std::sqrt(tol));

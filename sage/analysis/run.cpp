@@ -203,8 +203,10 @@ EquilibriumAudit Run::audit() const {
     audit.reactions[c] += reaction;
     const double arm = c == 0 ? -model_.mesh.x(1, dof / 2) : model_.mesh.x(0, dof / 2);
     audit.moment += force * arm;
-    scale[c] += std::abs(external_[dof]) + std::abs(reaction);
-    moment_scale += std::abs(force * arm);
+    // A stage may end without any force: its start counts too.
+    const double size = std::max(std::abs(external_[dof]) + std::abs(reaction), std::abs(force_start_[dof]));
+    scale[c] += size;
+    moment_scale += size * std::abs(arm);
   }
   audit.scale = std::max(scale[0], scale[1]);
   const bool plane = model_.geometry == Geometry::plane_strain;

@@ -34,17 +34,22 @@ int run_one(const RunOptions& options, const std::string& deck, const Catalogue&
   RunRequest request = options.request;
   request.deck = deck;
   request.output.tables = tables_of(options.tables);
-  try {
+  return guarded(deck, [&] {
     const RunOutcome outcome = run_deck(request, catalogue);
     if (outcome.record.stages.empty()) return outcome.exit_code;  // --strict stopped it
     if (!options.quiet)
       fmt::print("{}\n", summary(*outcome.model, outcome.record, outcome.reports.get(), outcome.files));
     if (outcome.exit_code != kOk) fmt::print(stderr, "{}: {}\n", deck, outcome.record.result.reason);
     return outcome.exit_code;
-  } catch (const InputError& error) {
-    print_diagnostics(error.diagnostics());
-    return kInput;
-  }
+  });
+}
+
+// A message if no solver has this name.
+std::string unknown_solver(const std::string& name) {
+  const Catalogue catalogue = full_catalogue();
+  for (const auto& [code, entry] : catalogue.solvers.entries())
+    if (entry.name == name) return {};
+  return "unknown solver " + name + "; known: " + catalogue.solvers.known();
 }
 
 int run_all(const RunOptions& options) {
@@ -70,7 +75,8 @@ Command run_command(CLI::App& root) {
       root.add_subcommand("run", "compute decks; listing, CSV and reports go to the output folder");
   parser->add_option("DECK", options->decks, "deck files")->required();
   parser->add_option("-o,--output", request.output.folder, "folder for results (default: out)");
-  parser->add_option("--solver", request.solver, "solver by name (see sagefe list solvers)");
+  parser->add_option("--solver", request.solver, "solver by name (see sagefe list solvers)")
+      ->check(unknown_solver);
   parser->add_option("--tables", options->tables, "tables in the listing: auto, none, stage, all")
       ->check(CLI::IsMember({"auto", "none", "stage", "all"}));
   parser->add_flag("--nodes", request.output.nodes, "write STEM.nodes.csv: displacements and reactions");

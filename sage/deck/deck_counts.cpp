@@ -71,10 +71,8 @@ bool DeckReader::count_of(const Expression& expression, const std::string& what,
   for (const ExpressionNode& node : expression.nodes)
     if (node.kind == ExpressionNode::Kind::field)
       if (const FieldValue* value = field_value(node.card, node.field)) where = log_.where(*value);
-  log_.add(Severity::error, where,
-           "the number of " + what + " can't be " + std::to_string(static_cast<long>(number)) + " (" +
-               expression.source + ")");
-  stopped_ = true;
+  fail_and_stop(where,
+                "the number of " + what + " can't be " + number_text(number) + " (" + expression.source + ")");
   return false;
 }
 
@@ -105,9 +103,52 @@ bool DeckReader::is_doubtful(const CardRule& rule, const Card& card) const {
   return false;
 }
 
+// A required number that was left out before others that stand there: a slip on a card of the right kind.
+bool DeckReader::has_a_gap(const CardRule& rule, const Card& card) const {
+  if (!flaws_.empty()) return false;
+  const auto first = static_cast<std::size_t>(card.first_value);
+  const std::size_t count = std::min(deck_.values.size() - first, rule.rules.size());
+  bool missing = false;
+  for (std::size_t i = 0; i < count; ++i) {
+    const FieldValue& value = deck_.values[first + i];
+    missing = missing || (value.blank && rule.spec.fields[i].required);
+    if (missing && !value.blank && value.kind != FieldKind::text) return true;
+  }
+  return false;
+}
+
+// The card that closes the deck by its word (END), if this line is it; -1 otherwise.
+int DeckReader::closing_card(int line) const {
+  const std::string text = lower_case(trimmed(source_.line(line)));
+  for (std::size_t i = 0; i < layout_.cards.size(); ++i) {
+    const CardRule& rule = layout_.cards[i];
+    if (rule.rules.size() == 1 && !rule.rules[0].must_equal.empty() &&
+        text == lower_case(rule.rules[0].must_equal))
+      return static_cast<int>(i);
+  }
+  return -1;
+}
+
+// "a fill card was expected: 0 of 1 read (number of fill cards of the control card, line 3)".
+std::string DeckReader::expected_card(const CardRule& rule) const {
+  std::string text = a_card(rule.spec.label) + " was expected";
+  if (run_.wanted > 0)
+    text += ": " + std::to_string(run_.done) + " of " + std::to_string(run_.wanted) + " read (" +
+            count_source(run_.entry->count) + ")";
+  return text;
+}
+
 // A card that doesn't fit its place but reads well as one of its neighbours' kind: then a count is wrong.
 DeckReader::Misplaced DeckReader::check_place(const CardRule& rule, const Card& card) {
   const int own = card.spec;
+  if (closing_card(card.line) > own) {
+    log_.add(Severity::error, log_.line(card.line),
+             quoted(trimmed(source_.line(card.line))) + " closes the deck, but " + expected_card(rule),
+             "cards are missing, or a count further up is too large");
+    stopped_ = true;
+    return Misplaced::belongs_later;
+  }
+  if (has_a_gap(rule, card)) return Misplaced::no;
   const int earliest = previous_rule_ >= 0 && previous_rule_ < own ? previous_rule_ : own - 1;
   const int latest = std::min(static_cast<int>(layout_.cards.size()) - 1, own + 3);
   for (int other = earliest; other <= latest; ++other) {
@@ -118,11 +159,8 @@ DeckReader::Misplaced DeckReader::check_place(const CardRule& rule, const Card& 
       return Misplaced::left_over;
     }
     if (run_.wanted == 0 && run_.entry && run_.entry->run != LayoutEntry::Run::once) return Misplaced::no;
-    std::string message = reads + ", but " + a_card(rule.spec.label) + " was expected";
-    if (run_.wanted > 0)
-      message += ": " + std::to_string(run_.done) + " of " + std::to_string(run_.wanted) + " read (" +
-                 count_source(run_.entry->count) + ")";
-    log_.add(Severity::error, log_.line(card.line), message);
+    log_.add(Severity::error, log_.line(card.line), reads + ", but " + expected_card(rule),
+             run_.wanted > 0 ? "where that count is right, one further up is too large" : "");
     records_.rewind_to(card.line);
     end_run_ = run_.wanted > 0;
     return Misplaced::belongs_later;
@@ -164,8 +202,7 @@ std::string DeckReader::announced(int rule) const {
   const std::string source = " (" + count_source(entry->count) + ")";
   if (count == 0.0) return "none was announced" + source;
   if (count == 1.0) return "the one that was announced" + source + " has been read";
-  return "the " + std::to_string(static_cast<long>(count)) + " that were announced" + source +
-         " have been read";
+  return "the " + number_text(count) + " that were announced" + source + " have been read";
 }
 
 bool DeckReader::reads_well(const CardRule& rule, int line) const {
@@ -210,6 +247,18 @@ void DeckReader::truncated(const LayoutEntry& entry) {
 void DeckReader::stop(const std::string& why, int line) {
   log_.add(Severity::note, log_.line(line), why);
   stopped_ = true;
+}
+
+void DeckReader::fail_and_stop(const SourcePosition& where, const std::string& message) {
+  log_.add(Severity::error, where, message);
+  stopped_ = true;
+}
+
+// Memory grows with the file, not with what a count says: a value takes a character, but repeats ("500*1") may
+// give more.
+bool DeckReader::fits_the_file(int count, bool repeats) const {
+  const double size = static_cast<double>(source_.text()->size());
+  return count <= (repeats ? 1e5 + 2.0 * size : size);
 }
 
 void DeckReader::check_after_end() {

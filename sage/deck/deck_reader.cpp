@@ -103,8 +103,9 @@ void DeckReader::read_counted(const LayoutEntry& entry, int owner) {
   for (int i = 0; i < count && !stopped_; ++i) {
     run_.done = i;
     if (records_.at_end()) return truncated(entry);
+    const Place before = place();
     read_one(entry, owner);
-    if (end_run_) break;
+    if (end_run_ || place() == before) break;  // a block of which nothing is to be read
   }
   end_run_ = false;
 }
@@ -113,8 +114,10 @@ void DeckReader::read_named(const LayoutEntry& entry, int owner) {
   const int first = entry.card >= 0 ? entry.card : entry.entries.front().card;
   bool flagged = entry.until.empty();
   while (!stopped_ && !records_.at_end() && name_matches(rule_of(first))) {
+    const Place before = place();
     read_one(entry, owner);
     ++run_.done;
+    if (place() == before) return;
     if (entry.until.empty()) continue;
     flagged = truth(entry.until);
     if (flagged) return;
@@ -130,8 +133,11 @@ void DeckReader::read_until(const LayoutEntry& entry, int owner) {
     if (stopped_) return;
     if (records_.at_end()) return truncated(entry);
     const std::size_t cards = deck_.cards.size(), values = deck_.values.size();
+    const Place before = place();
     read_one(entry, owner);
     ++run_.done;
+    if (!stopped_ && place() == before)
+      return fail_and_stop(log_.line(records_.next_line()), "no card of this block can be read here");
     if (stopped_ || !truth(entry.until)) continue;
     if (entry.drop_last && deck_.cards.size() > cards) {
       if (entry.card >= 0) latest_[static_cast<std::size_t>(entry.card)] = -1;
@@ -206,12 +212,11 @@ template <class Read>
 bool DeckReader::read_list(Read& read, const CardRule& rule, std::size_t field) {
   int count = 0;
   if (!count_of(rule.rules[field].count, rule.spec.fields[field].label, count)) return true;
-  const std::size_t left = source_.text()->size();
-  if (!rule.list_directed && static_cast<std::size_t>(count) > left) {
-    log_.add(Severity::error, log_.line(records_.line()),
-             std::to_string(count) + " values of " + rule.spec.fields[field].label + " can't be in a deck of " +
-                 std::to_string(left) + " characters (" + count_source(rule.rules[field].count) + ")");
-    stopped_ = true;
+  if (!fits_the_file(count, rule.list_directed || rule.is_item)) {
+    fail_and_stop(log_.line(records_.line()), std::to_string(count) + " values of " +
+                                                  rule.spec.fields[field].label + " can't be in a deck of " +
+                                                  std::to_string(source_.text()->size()) + " characters (" +
+                                                  count_source(rule.rules[field].count) + ")");
     return true;
   }
   for (int i = 0; i < count; ++i) {
@@ -268,6 +273,13 @@ bool DeckReader::read_items(const CardRule& rule, ListRead& read) {
   const CardRule& item = rule_of(rule.items_card);
   if (!count_of(rule.items_count, item.spec.label + " items", count)) return true;
   const int owner = static_cast<int>(deck_.cards.size()) - 1;
+  if (!fits_the_file(count, true)) {
+    fail_and_stop(log_.line(records_.line()), std::to_string(count) + " " + item.spec.label +
+                                                  " items can't be in a deck of " +
+                                                  std::to_string(source_.text()->size()) + " characters (" +
+                                                  count_source(rule.items_count) + ")");
+    return true;
+  }
   for (int i = 0; i < count && !stopped_; ++i) {
     Card card;
     card.spec = rule.items_card;

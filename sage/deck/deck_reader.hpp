@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sage/deck/layout.hpp"
@@ -26,6 +27,10 @@ class DeckReader {
     int wanted = 0;  // 0 = not counted
     int done = 0;
   };
+
+  // Line and values read so far: what doesn't move them would be read for ever.
+  using Place = std::pair<int, std::size_t>;
+  Place place() const { return {records_.line(), deck_.values.size()}; }
 
   void find_entries(const std::vector<LayoutEntry>& entries);
   void read_entries(const std::vector<LayoutEntry>& entries, int owner);
@@ -53,6 +58,9 @@ class DeckReader {
   // Is this line a card of another kind?  Then the counts are wrong; reading goes on where it can.
   enum class Misplaced { no, left_over, belongs_later };
   bool is_doubtful(const CardRule& rule, const Card& card) const;
+  bool has_a_gap(const CardRule& rule, const Card& card) const;
+  int closing_card(int line) const;
+  std::string expected_card(const CardRule& rule) const;
   Misplaced check_place(const CardRule& rule, const Card& card);
   bool cut_list(const CardRule& rule, const Card& card);
   std::string announced(int rule) const;
@@ -67,7 +75,9 @@ class DeckReader {
   const FieldValue* field_value(int card, int field) const;
 
   void truncated(const LayoutEntry& entry);
-  void stop(const std::string& why, int line);
+  void stop(const std::string& why, int line);  // a note below an error that was said
+  void fail_and_stop(const SourcePosition& where, const std::string& message);
+  bool fits_the_file(int count, bool repeats) const;
   void check_after_end();
   std::string card_name(const LayoutEntry& entry) const;
   const CardRule& rule_of(int index) const { return layout_.cards[static_cast<std::size_t>(index)]; }

@@ -233,6 +233,19 @@ TEST(Diagnostics, CountsThatCannotBe) {
                    "of the material card, line 14)"}));
 }
 
+// "200000000*1" would be eight gigabytes of values.
+TEST(Diagnostics, RepeatsDoNotFillTheMemory) {
+  const Layout layout = load_layout("sg_p51");
+  const std::string head = "'plane'\n'quadrilateral' 4 'x'\n10000 20000 1 2\n2*1e6 2*.3\n";
+  EXPECT_EQ(messages(head + "200000000*1\n", layout)[0],
+            "deck.dat:5: error: 200000000 values of material of the element can't be in a deck of 69 "
+            "characters (columns of "
+            "elements nxe of the rectangle card, line 3)");
+  EXPECT_EQ(
+      messages("'plane'\n'quadrilateral' 4 'x'\n10 20 1 2\n2*1e6 2*.3\n200*1\n11*0 21*0\n0\n0\n0\n", layout),
+      Lines{});
+}
+
 TEST(Diagnostics, TheEnd) {
   EXPECT_EQ(messages(with_line(35, "STOP")),
             (Lines{"deck.dat:35:1-3: error: the end card must read END, not \"STO\"",

@@ -27,8 +27,9 @@ TEST(HyperbolicMohrCoulomb, NoOvershoot) {
   EXPECT_GT(triaxial_test(*test::solid(6, kSoil), 100.0, 0.06, 100).back().deviator, 260.0);
 }
 
-// 1 increment against 100 on straight strain paths that reach failure: the law finds its own substeps.  1e-3: a few
-// times their error next to the surface.  (A triaxial test is another matter: its strain path is curved, see below.)
+// 1 increment against 100 on straight strain paths that reach failure: the law finds its own substeps.  1e-3: a
+// few times their error next to the surface.  (A triaxial test is another matter: its strain path is curved,
+// see below.)
 TEST(HyperbolicMohrCoulomb, IncrementSizeDoesNotMatter) {
   const auto law = test::solid(7, kSoil);
   const Vector4 start{-100, -100, -100, 0};
