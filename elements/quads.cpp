@@ -13,7 +13,9 @@ ElementEntry quad4_entry() {
         solid<Quad4, GaussSquare<2>>("quad4 full", {.locks = true})},
        {{3, "selective",
          "2x2 Gauss, dilatation of the centre: b-bar in plane strain, inexact in distorted rings"},
-        solid<Quad4, GaussSquare<2>, Volumetric::centre>("quad4 selective")}});
+        solid<Quad4, GaussSquare<2>, Volumetric::centre>("quad4 selective")},
+       {{4, "full 3x3", "3x3 Gauss, for the hoop strain of coarse rings; locks as nu -> 1/2"},
+        solid<Quad4, GaussSquare<3>>("quad4 full 3x3", {.locks = true})}});
 }
 
 ElementEntry quad8_entry() {

@@ -39,8 +39,6 @@ class Solid final : public PointElement<4, 2 * Shape::nodes, Rule::points> {
   static constexpr int kDofs = 2 * Shape::nodes;
   static constexpr int kStride = kPointStride<4, kDofs>;
   using Coordinates = Eigen::Matrix<double, 2, Shape::nodes>;
-  using Operator = OperatorT<4, kDofs>;
-  using VolumetricPart = Vector<kDofs>;
 
  public:
   Solid(std::string_view name, bool reduced, bool locks)
@@ -67,17 +65,21 @@ class Solid final : public PointElement<4, 2 * Shape::nodes, Rule::points> {
     assert(nodes.cols() == Shape::nodes && static_cast<int>(geometry.size()) == this->traits().geometry_size());
     const Coordinates x = nodes;
     check(x);
+    std::array<Gradients, Rule::points> at_points;
+    for (std::size_t p = 0; p < Rule::points; ++p) at_points[p] = gradients(x, points_[p]);
+    NodePairs b_new;
+    if constexpr (volumetric == Volumetric::mean) b_new = mean_volumetric_part(at_points);
+    if constexpr (volumetric == Volumetric::centre)
+      b_new = gradients(x, ShapeAt<Shape>({0.0, 0.0})).volumetric_part();
     double* block = geometry.data();
-    for (const ShapeAt<Shape>& point : points_) {
-      const Matrix2 J = x.lazyProduct(point.dN);
-      *block = point.w * determinant(J) * Kinematics::measure(x.row(0).dot(point.N));
-      Eigen::Map<Operator>(block + 1) = strain_operator(x, point);
+    for (const Gradients& g : at_points) {
+      *block = g.w;
+      if constexpr (volumetric == Volumetric::pointwise)
+        write_operator(g, NodePairs::Zero(), block + 1);
+      else
+        write_operator(g, (b_new - g.volumetric_part()) / 3.0, block + 1);
       block += kStride;
     }
-    if constexpr (volumetric == Volumetric::mean)
-      replace_volumetric_part(geometry.data(), mean_volumetric_part(geometry.data()));
-    if constexpr (volumetric == Volumetric::centre)
-      replace_volumetric_part(geometry.data(), volumetric_part(strain_operator(x, ShapeAt<Shape>({0.0, 0.0}))));
   }
 
   Vector2 position(const NodeCoordinates& x, int point) const override {
@@ -112,41 +114,53 @@ class Solid final : public PointElement<4, 2 * Shape::nodes, Rule::points> {
   double shape_quality(const NodeCoordinates& x) const override { return quality(x); }
 
  private:
-  // B = [N,x 0; 0 N,y; N/r 0; N,y N,x] for each node.
-  static Operator strain_operator(const Coordinates& x, const ShapeAt<Shape>& point) {
-    const Matrix2 J = x.lazyProduct(point.dN);
-    const Matrix2 inverse = (Matrix2() << J(1, 1), -J(0, 1), -J(1, 0), J(0, 0)).finished() / determinant(J);
-    const Eigen::Matrix<double, Shape::nodes, 2> dNdx = point.dN.lazyProduct(inverse);
-    const double r = x.row(0).dot(point.N);
-    Operator Bt;
-    for (int i = 0; i < Shape::nodes; ++i) {
-      const double Nx = dNdx(i, 0), Ny = dNdx(i, 1);
-      Bt.row(2 * i) << Nx, 0.0, Kinematics::hoop(point.N(i), r), Ny;
-      Bt.row(2 * i + 1) << 0.0, Ny, 0.0, Nx;
+  // A value for each dof: one row a node, columns u and v.
+  using NodePairs = Eigen::Matrix<double, Shape::nodes, 2>;
+
+  // What B and w are made of at one place.
+  struct Gradients {
+    NodePairs dNdx;
+    Vector<Shape::nodes> hoop;  // N / r
+    double w = 0.0;
+
+    // Volumetric strain per dof, b = [1 1 1 0] B.
+    NodePairs volumetric_part() const {
+      NodePairs b = dNdx;
+      b.col(0) += hoop;
+      return b;
     }
-    return Bt;
+  };
+
+  static Gradients gradients(const Coordinates& x, const ShapeAt<Shape>& at) {
+    const Matrix2 J = x.lazyProduct(at.dN);
+    const double detJ = determinant(J), r = x.row(0).dot(at.N);
+    const Matrix2 inverse = (Matrix2() << J(1, 1), -J(0, 1), -J(1, 0), J(0, 0)).finished() / detJ;
+    Gradients g;
+    g.dNdx = at.dN.lazyProduct(inverse);
+    for (int i = 0; i < Shape::nodes; ++i) g.hoop(i) = Kinematics::hoop(at.N(i), r);
+    g.w = at.w * detJ * Kinematics::measure(r);
+    return g;
   }
 
-  // Volumetric strain per dof: b = B^T [1 1 1 0].
-  static VolumetricPart volumetric_part(const Operator& Bt) { return Bt.col(0) + Bt.col(1) + Bt.col(2); }
-
   // b_mean = sum w b / sum w; w contains r, so the mean is over the volume of the ring.
-  static VolumetricPart mean_volumetric_part(const double* block) {
-    VolumetricPart sum = VolumetricPart::Zero();
+  static NodePairs mean_volumetric_part(const std::array<Gradients, Rule::points>& at_points) {
+    NodePairs sum = NodePairs::Zero();
     double volume = 0.0;
-    for (int p = 0; p < Rule::points; ++p, block += kStride) {
-      sum += *block * volumetric_part(Eigen::Map<const Operator>(block + 1));
-      volume += *block;
+    for (const Gradients& g : at_points) {
+      sum += g.w * g.volumetric_part();
+      volume += g.w;
     }
     return sum / volume;
   }
 
-  // B-bar^T = B^T + (b_new - b) [1 1 1 0] / 3               [Hughes 1980; Simo, Taylor & Pister 1985]
-  static void replace_volumetric_part(double* block, const VolumetricPart& b_new) {
-    for (int p = 0; p < Rule::points; ++p, block += kStride) {
-      Eigen::Map<Operator> Bt(block + 1);
-      const VolumetricPart third = (b_new - volumetric_part(Bt)) / 3.0;
-      Bt.template leftCols<3>().colwise() += third;
+  // B = [N,x 0; 0 N,y; N/r 0; N,y N,x] for each node, plus c in its first three rows:
+  // B-bar = B + [1 1 1 0]^T c, c = (b_new - b) / 3                  [Hughes 1980; Simo, Taylor & Pister 1985]
+  static void write_operator(const Gradients& g, const NodePairs& c, double* block) {
+    Eigen::Map<OperatorT<4, kDofs>> Bt(block);
+    for (int i = 0; i < Shape::nodes; ++i) {
+      const double Nx = g.dNdx(i, 0), Ny = g.dNdx(i, 1), u = c(i, 0), v = c(i, 1);
+      Bt.row(2 * i) << Nx + u, u, g.hoop(i) + u, Ny;
+      Bt.row(2 * i + 1) << v, Ny + v, v, Nx;
     }
   }
 

@@ -90,7 +90,7 @@ double DruckerPrager::stress_level(const Vector4& sigma, std::span<const double>
   const double strength = p_.cone.k - 3.0 * p_.cone.alpha * p;
   const double nothing = 1e-9 * scale(p, q);
   if (strength > nothing) return q / strength;
-  const bool at_apex = strength >= -nothing && q <= nothing;
+  const bool at_apex = q <= nothing && (strength >= -nothing || p_.free_mean);
   return at_apex ? 1.0 : std::numeric_limits<double>::infinity();
 }
 

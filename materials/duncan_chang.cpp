@@ -11,7 +11,8 @@ std::vector<Parameter> rows(VolumeRule volume) {
   r.push_back(optional("tangent", Dimension::none, "0 consistent (unsymmetric), 1 isotropic (symmetric)", 0.0));
   r.push_back(
       optional("principals", Dimension::none, "sigma_1, sigma_3 of 0 all three, 1 those in the plane", 0.0));
-  r.push_back(optional("step_tolerance", Dimension::none, "relative error of a substep", 1e-4));
+  r.push_back(
+      optional("step_tolerance", Dimension::none, "relative error of a substep, by its Euler half", 1e-3));
   return r;
 }
 

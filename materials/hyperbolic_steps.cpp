@@ -9,7 +9,7 @@ namespace sage {
 
 namespace {
 
-constexpr int kMostSubsteps = 500;
+constexpr int kMostSubsteps = 300;
 constexpr int kEnvelopeIterations = 25;
 constexpr double kEnvelopeTolerance = 1e-11;
 

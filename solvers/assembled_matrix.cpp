@@ -131,6 +131,16 @@ void AssembledMatrix::multiply(std::span<const double> x, std::span<double> y) c
   }
 }
 
+void AssembledMatrix::multiply_transposed(std::span<const double> x, std::span<double> y) const {
+  if (symmetric_) return multiply(x, y);
+  for (int column = 0; column < equations_; ++column) {
+    double sum = 0.0;
+    for (int k = column_start_[at(column)]; k < column_start_[at(column) + 1]; ++k)
+      sum += value_[at(k)] * x[at(row_[at(k)])];
+    y[at(column)] = sum;
+  }
+}
+
 double AssembledMatrix::norm1() const {
   std::vector<double> sum(at(equations_), 0.0);
   for (int column = 0; column < equations_; ++column)

@@ -27,6 +27,8 @@ class AssembledMatrix {
 
   // y = K x.
   void multiply(std::span<const double> x, std::span<double> y) const;
+  // y = K^T x.
+  void multiply_transposed(std::span<const double> x, std::span<double> y) const;
   // Largest column sum of |K|.
   double norm1() const;
   // Largest |term| of every row.

@@ -7,6 +7,6 @@ namespace sage {
 // for the libraries to load; profile below kProfileEquations, multifrontal above.
 int choose_solver(int equations, bool symmetric);
 
-inline constexpr int kProfileEquations = 6000;
+inline constexpr int kProfileEquations = 3000;
 
 }  // namespace sage

@@ -27,27 +27,46 @@ struct Arms {
   double* l(int K, int I) const { return lower + (std::ptrdiff_t{I} * pivot_tiles + K) * kTileTerms; }
 };
 
-// Neighbouring columns of a child that stay neighbours within one tile of the parent: lane i goes to lane i +
-// shift.
-struct LaneShift {
-  int count = 0;
-  LaneIndex from{}, inside{};  // source lane of every target lane, and whether there is one (-1 or 0)
-  LaneShift(const int* to, int begin, int end, int source_lane) {
-    const int target_lane = to[begin] % kTile;
-    while (begin + count < end && to[begin + count] == to[begin] + count && target_lane + count < kTile)
-      ++count;
-    for (int i = 0; i < kTile; ++i) {
-      const bool hit = i >= target_lane && i < target_lane + count;
-      from[i] = hit ? i - target_lane + source_lane : 0;
-      inside[i] = hit ? -1 : 0;
-    }
-  }
+// Neighbouring columns of a child that stay neighbours within one tile of the parent.
+struct Run {
+  int source_lane, target_lane, count;
 };
 
-void add_rows(double* target, const double* source, const int* to, int begin, int end, const LaneShift& shift) {
-  for (int r = begin; r < end; ++r) {
-    const Lanes moved = __builtin_shuffle(lanes(source + r * kTile), shift.from);
-    lanes(target + to[r] * kTile) += shift.inside ? moved : Lanes{};
+Run find_run(const int* to, int begin, int end, int source_lane) {
+  Run run{source_lane, to[begin] % kTile, 1};
+  while (begin + run.count < end && to[begin + run.count] == to[begin] + run.count &&
+         run.target_lane + run.count < kTile)
+    ++run.count;
+  return run;
+}
+
+// A length known to the compiler becomes one or two vector operations a row.
+template <int count>
+void add_rows_of(double* target, const double* source, const int* to, int begin, int end) {
+  for (int r = begin; r < end; ++r)
+    for (int m = 0; m < count; ++m) target[to[r] * kTile + m] += source[r * kTile + m];
+}
+
+void add_rows(double* target, const double* source, const int* to, int begin, int end, const Run& run) {
+  source += run.source_lane;
+  target += run.target_lane;
+  switch (run.count) {
+    case 1:
+      return add_rows_of<1>(target, source, to, begin, end);
+    case 2:
+      return add_rows_of<2>(target, source, to, begin, end);
+    case 3:
+      return add_rows_of<3>(target, source, to, begin, end);
+    case 4:
+      return add_rows_of<4>(target, source, to, begin, end);
+    case 5:
+      return add_rows_of<5>(target, source, to, begin, end);
+    case 6:
+      return add_rows_of<6>(target, source, to, begin, end);
+    case 7:
+      return add_rows_of<7>(target, source, to, begin, end);
+    default:
+      return add_rows_of<8>(target, source, to, begin, end);
   }
 }
 
@@ -144,19 +163,19 @@ class Frontal final : public MatrixSolver {
           workspace_.data() + child.workspace + std::ptrdiff_t{c} * child.border_tiles * kTile;
       const int end = std::min(c + kTile, child.border);
       for (int s = c; s < end;) {
-        const LaneShift shift(to, s, end, s - c);
-        const int J = to[s] / kTile, rows = traits().symmetric ? s + shift.count : child.border;
+        const Run run = find_run(to, s, end, s - c);
+        const int J = to[s] / kTile, rows = traits().symmetric ? s + run.count : child.border;
         if (s < split) {  // a pivot column: rows up to its own tile belong to U, the others to L
           const int own = std::min(rows, rows_below((J + 1) * kTile));
-          add_rows(a.u(0, J), source, to, 0, own, shift);
+          add_rows(a.u(0, J), source, to, 0, own, run);
           if (!traits().symmetric)
-            add_transposed(a.lower, front.pivot_tiles, source, to, own, rows, s, shift.count, s - c);
+            add_transposed(a.lower, front.pivot_tiles, source, to, own, rows, s, run.count, s - c);
         } else {
           const std::ptrdiff_t panel = std::ptrdiff_t{J - front.pivot_tiles} * front.border_tiles * kTileTerms;
-          add_rows(a.u(0, J), source, to, 0, split, shift);
-          add_rows(border + panel - std::ptrdiff_t{pivot_rows} * kTile, source, to, split, rows, shift);
+          add_rows(a.u(0, J), source, to, 0, split, run);
+          add_rows(border + panel - std::ptrdiff_t{pivot_rows} * kTile, source, to, split, rows, run);
         }
-        s += shift.count;
+        s += run.count;
       }
     }
   }
@@ -197,8 +216,7 @@ class Frontal final : public MatrixSolver {
         if (!traits().symmetric)
           tile_solve<false>(a.l(K, w), a.u(K, K), reciprocal, maximum);
         else
-          for (int k = 0; k < kTile; ++k)
-            lanes(a.l(K, w) + k * kTile) = reciprocal[k] * lanes(a.u(K, w) + k * kTile);
+          tile_scale_rows(a.l(K, w), a.u(K, w), reciprocal);
       }
     }
   }

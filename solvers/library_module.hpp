@@ -9,7 +9,7 @@
 namespace sage {
 
 // Changes with LinearSolver and with what the module shares with the program; other modules are not accepted.
-inline constexpr char kSolverModuleVersion[] = "sage-solvers-1";
+inline constexpr char kSolverModuleVersion[] = "sage-solvers-2";
 
 // Looks for the module where SAGE_SOLVER_MODULE says, beside the executable (../<lib>/sagefe), where it was
 // built and where it was installed.  Throws AnalysisError that lists these places.

@@ -21,6 +21,9 @@ class MatrixSolver : public LinearSolver {
   void clear() final { matrix_.clear(); }
   void add(int element, const double* K) final { matrix_.add(element, K); }
   void multiply(std::span<const double> x, std::span<double> y) const final { matrix_.multiply(x, y); }
+  void multiply_transposed(std::span<const double> x, std::span<double> y) const final {
+    matrix_.multiply_transposed(x, y);
+  }
   double norm1() const final { return matrix_.norm1(); }
   FactorReport report() const final { return report_; }
 

@@ -1,9 +1,8 @@
 #include "solvers/profile_numbering.hpp"
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 #include <numeric>
-#include <queue>
 #include <utility>
 
 namespace sage {
@@ -14,202 +13,142 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-int degree(const EquationGraph& graph, int group) {
-  return static_cast<int>(graph.neighbours.of(group).size());
-}
-
-// Two ends of a pseudo-diameter of the part that holds `seed`, and the levels from the first.
-struct Ends {
-  int first = 0, last = 0;
-  IndexLists levels;
-};
-
-int least_degree(const EquationGraph& graph, std::span<const int> groups) {
-  return *std::ranges::min_element(groups, {}, [&](int g) { return std::pair{degree(graph, g), g}; });
-}
-
-Ends pseudo_diameter(const EquationGraph& graph, int seed, std::vector<int>& distance) {
-  Ends ends;
-  ends.first = seed;
-  for (int previous_depth = 0;;) {
-    const std::array<int, 1> root{ends.first};
-    ends.levels = levels_from(graph, root, distance);
-    const int depth = ends.levels.count();
-    ends.last = least_degree(graph, ends.levels.of(depth - 1));
-    for (const int g : ends.levels.item) distance[at(g)] = -1;
-    if (depth <= previous_depth) return ends;
-    previous_depth = depth;
-    std::swap(ends.first, ends.last);
-  }
-}
-
-void cuthill_mckee_part(const EquationGraph& graph, int root, std::vector<char>& done,
-                        std::vector<int>& order) {
-  std::size_t head = order.size();
-  order.push_back(root);
-  done[at(root)] = 1;
-  while (head < order.size()) {
-    const auto tail = static_cast<std::ptrdiff_t>(order.size());
-    for (const int other : graph.neighbours.of(order[head])) {
-      if (done[at(other)]) continue;
-      done[at(other)] = 1;
-      order.push_back(other);
-    }
-    std::sort(order.begin() + tail, order.end(), [&](int a, int b) {
-      return std::pair{degree(graph, a), a} < std::pair{degree(graph, b), b};
-    });
-    ++head;
-  }
-}
-
-// One connected part by Sloan's algorithm; distance holds the distance from the last end.
-class SloanPart {
+class CuthillMckee {
  public:
-  SloanPart(const EquationGraph& graph, std::vector<int>& order) : graph_(graph), order_(order) {
-    const auto groups = at(graph.members.count());
-    status_.assign(groups, inactive);
-    priority_.assign(groups, 0);
+  explicit CuthillMckee(const EquationGraph& graph) : graph_(graph) {
+    distance_.assign(at(graph.members.count()), -1);
+    done_.assign(at(graph.members.count()), 0);
+    order_.reserve(at(graph.members.count()));
   }
 
-  void number(int start, std::span<const int> part, const std::vector<int>& distance) {
-    for (const int g : part) priority_[at(g)] = 1 * distance[at(g)] - 2 * (degree(graph_, g) + 1);
-    activate(start);
-    while (!queue_.empty()) {
-      const auto [priority, minus_group] = queue_.top();
-      queue_.pop();
-      const int group = -minus_group;
-      if (status_[at(group)] == numbered || priority != priority_[at(group)]) continue;
-      if (status_[at(group)] == preactive)
-        for (const int other : graph_.neighbours.of(group)) raise(other);
-      order_.push_back(group);
-      status_[at(group)] = numbered;
-      for (const int other : graph_.neighbours.of(group))
-        if (status_[at(other)] == preactive) {
-          raise(other);
-          status_[at(other)] = active;
-          for (const int further : graph_.neighbours.of(other))
-            if (status_[at(further)] != numbered) raise(further);
-        }
+  std::vector<int> run(Beginning beginning) {
+    for (int seed = 0; seed < graph_.members.count(); ++seed) {
+      if (done_[at(seed)]) continue;
+      const auto begin = static_cast<std::ptrdiff_t>(order_.size());
+      number_part(beginning == Beginning::end ? std::vector<int>{far_ends(seed).first} : side(seed));
+      std::reverse(order_.begin() + begin, order_.end());
     }
+    return std::move(order_);
   }
 
  private:
-  enum Status : char { inactive, preactive, active, numbered };
+  std::pair<std::size_t, int> rank(int group) const { return {graph_.neighbours.of(group).size(), group}; }
 
-  void activate(int group) {
-    status_[at(group)] = preactive;
-    queue_.emplace(priority_[at(group)], -group);
+  void number_part(std::span<const int> roots) {
+    std::size_t head = order_.size();
+    for (const int root : roots) take(root);
+    for (; head < order_.size(); ++head) {
+      const auto tail = static_cast<std::ptrdiff_t>(order_.size());
+      for (const int other : graph_.neighbours.of(order_[head]))
+        if (!done_[at(other)]) take(other);
+      std::sort(order_.begin() + tail, order_.end(), [&](int a, int b) { return rank(a) < rank(b); });
+    }
   }
-  // One more neighbour is in the front: numbering this group costs less.
-  void raise(int group) {
-    if (status_[at(group)] == numbered) return;
-    priority_[at(group)] += 2;
-    if (status_[at(group)] == inactive) status_[at(group)] = preactive;
-    queue_.emplace(priority_[at(group)], -group);  // the entry with the old priority is skipped later
+
+  void take(int group) {
+    done_[at(group)] = 1;
+    order_.push_back(group);
+  }
+
+  // Levels of a breadth-first search; distance_ is left clean.
+  IndexLists search(std::span<const int> roots) {
+    IndexLists levels;
+    levels.item.assign(roots.begin(), roots.end());
+    for (const int root : roots) distance_[at(root)] = 0;
+    std::size_t head = 0;
+    while (head < levels.item.size()) {
+      const std::size_t end = levels.item.size();
+      levels.start.push_back(static_cast<int>(end));
+      for (; head < end; ++head)
+        for (const int other : graph_.neighbours.of(levels.item[head])) {
+          if (distance_[at(other)] >= 0) continue;
+          distance_[at(other)] = levels.count();
+          levels.item.push_back(other);
+        }
+    }
+    for (const int group : levels.item) distance_[at(group)] = -1;
+    return levels;
+  }
+
+  // The deeper end of a pseudo-diameter first.
+  std::pair<int, int> far_ends(int seed) {
+    std::pair<int, int> ends{seed, seed};
+    for (int depth = 0;;) {
+      const IndexLists levels = search({&ends.first, 1});
+      const auto last = levels.of(levels.count() - 1);
+      ends.second = *std::ranges::min_element(last, {}, [&](int g) { return rank(g); });
+      if (levels.count() <= depth) return ends;
+      depth = levels.count();
+      std::swap(ends.first, ends.second);
+    }
+  }
+
+  // All that is farthest from an end, in the order of the distance from one of its corners.
+  std::vector<int> side(int seed) {
+    const int end = far_ends(seed).first;
+    const IndexLists levels = search({&end, 1});
+    const auto last = levels.of(levels.count() - 1);
+    std::vector<int> groups(last.begin(), last.end());
+    const IndexLists across = search({&groups.front(), 1});
+    std::vector<char> is_wanted(done_.size(), 0);
+    for (const int group : groups) is_wanted[at(group)] = 1;
+    // The corner is the wanted group that is farthest from the first; from there outwards.
+    const auto corner =
+        std::find_if(across.item.rbegin(), across.item.rend(), [&](int g) { return is_wanted[at(g)]; });
+    const IndexLists outwards = search({&*corner, 1});
+    groups.clear();
+    std::ranges::copy_if(outwards.item, std::back_inserter(groups),
+                         [&](int g) { return is_wanted[at(g)] != 0; });
+    return groups;
   }
 
   const EquationGraph& graph_;
-  std::vector<int>& order_;
-  std::vector<Status> status_;
-  std::vector<int> priority_;
-  std::priority_queue<std::pair<int, int>> queue_;
+  std::vector<int> order_, distance_;
+  std::vector<char> done_;
 };
 
-// Lowest position in the elimination that a column reaches, for every position.
-std::vector<int> column_tops(const EquationGraph& graph, std::span<const int> order) {
-  std::vector<int> first_position(order.size());
+// Lowest position in the elimination that the column of every group reaches.
+std::vector<int> first_positions(const EquationGraph& graph, std::span<const int> order) {
+  std::vector<int> first(order.size());
   int position = 0;
   for (const int group : order) {
-    first_position[at(group)] = position;
+    first[at(group)] = position;
     position += static_cast<int>(graph.members.of(group).size());
   }
-  std::vector<int> tops;
-  tops.reserve(at(position));
-  for (const int group : order) {
-    int top = first_position[at(group)];
-    for (const int other : graph.neighbours.of(group)) top = std::min(top, first_position[at(other)]);
-    tops.insert(tops.end(), graph.members.of(group).size(), top);
-  }
-  return tops;
+  return first;
 }
 
 }  // namespace
 
-IndexLists levels_from(const EquationGraph& graph, std::span<const int> roots, std::vector<int>& distance) {
-  IndexLists levels;
-  for (const int root : roots) {
-    distance[at(root)] = 0;
-    levels.item.push_back(root);
-  }
-  std::size_t head = 0;
-  for (int level = 1; head < levels.item.size(); ++level) {
-    const std::size_t end = levels.item.size();
-    levels.start.push_back(static_cast<int>(end));
-    for (; head < end; ++head)
-      for (const int other : graph.neighbours.of(levels.item[head])) {
-        if (distance[at(other)] >= 0) continue;
-        distance[at(other)] = level;
-        levels.item.push_back(other);
-      }
-  }
-  return levels;
-}
-
-std::vector<int> reverse_cuthill_mckee(const EquationGraph& graph) {
-  const int groups = graph.members.count();
-  std::vector<int> order, distance(at(groups), -1);
-  std::vector<char> done(at(groups), 0);
-  order.reserve(at(groups));
-  for (int seed = 0; seed < groups; ++seed) {
-    if (done[at(seed)]) continue;
-    const auto begin = static_cast<std::ptrdiff_t>(order.size());
-    cuthill_mckee_part(graph, pseudo_diameter(graph, seed, distance).first, done, order);
-    std::reverse(order.begin() + begin, order.end());
-  }
-  return order;
-}
-
-std::vector<int> sloan(const EquationGraph& graph) {
-  const int groups = graph.members.count();
-  std::vector<int> order, distance(at(groups), -1), from_end(at(groups), -1);
-  order.reserve(at(groups));
-  SloanPart part(graph, order);
-  for (int seed = 0; seed < groups; ++seed) {
-    if (from_end[at(seed)] >= 0) continue;
-    const Ends ends = pseudo_diameter(graph, seed, distance);
-    const std::array<int, 1> root{ends.last};
-    levels_from(graph, root, from_end);
-    part.number(ends.first, ends.levels.item, from_end);
-  }
-  return order;
+std::vector<int> reverse_cuthill_mckee(const EquationGraph& graph, Beginning beginning) {
+  return CuthillMckee(graph).run(beginning);
 }
 
 double profile_cost(const EquationGraph& graph, std::span<const int> order) {
+  const std::vector<int> first = first_positions(graph, order);
   double cost = 0.0;
-  const std::vector<int> tops = column_tops(graph, order);
-  for (std::size_t i = 0; i < tops.size(); ++i) {
-    const double height = static_cast<double>(i) - tops[i] + 1.0;
-    cost += height * height;
+  for (const int group : order) {
+    int top = first[at(group)];
+    for (const int other : graph.neighbours.of(group)) top = std::min(top, first[at(other)]);
+    const int size = static_cast<int>(graph.members.of(group).size());
+    for (int k = 1; k <= size; ++k) {
+      const double height = first[at(group)] + k - top;
+      cost += height * height;
+    }
   }
   return cost;
-}
-
-double profile_terms(const EquationGraph& graph, std::span<const int> order) {
-  double terms = 0.0;
-  const std::vector<int> tops = column_tops(graph, order);
-  for (std::size_t i = 0; i < tops.size(); ++i) terms += 2.0 * (static_cast<double>(i) - tops[i]) + 1.0;
-  return terms;
 }
 
 std::vector<int> best_profile_numbering(const EquationGraph& graph) {
   std::vector<int> best(at(graph.members.count()));
   std::iota(best.begin(), best.end(), 0);
   double least = profile_cost(graph, best);
-  for (auto&& candidate : {reverse_cuthill_mckee(graph), sloan(graph)}) {
+  for (const Beginning beginning : {Beginning::end, Beginning::side}) {
+    std::vector<int> candidate = reverse_cuthill_mckee(graph, beginning);
     const double cost = profile_cost(graph, candidate);
     if (cost >= least) continue;
     least = cost;
-    best = candidate;
+    best = std::move(candidate);
   }
   return best;
 }

@@ -1,5 +1,6 @@
-// Numberings that keep the profile of the factors small: reverse Cuthill-McKee and Sloan.
-// Every function returns the groups in the order of elimination; parts that are not connected come one by one.
+// Numberings that keep the profile of the factors small: reverse Cuthill-McKee from an end or from a whole
+// side. Every function returns the groups in the order of elimination; parts that are not connected come one by
+// one.
 #pragma once
 
 #include <span>
@@ -9,26 +10,20 @@
 
 namespace sage {
 
-// Cuthill & McKee (1969), reversed (George 1971), from a pseudo-peripheral group (Gibbs, Poole & Stockmeyer
-// 1976).
-std::vector<int> reverse_cuthill_mckee(const EquationGraph& graph);
+// Where a numbering begins: at one end of a pseudo-diameter (Gibbs, Poole & Stockmeyer 1976), or with all
+// groups that are farthest from its other end.  A rectangle is numbered line by line only from a whole side.
+enum class Beginning { end, side };
 
-// Sloan (1989), "A FORTRAN program for profile and wavefront reduction", Int. J. Num. Meth. Engng 28.
-std::vector<int> sloan(const EquationGraph& graph);
+// Cuthill & McKee (1969), reversed (George 1971).
+std::vector<int> reverse_cuthill_mckee(const EquationGraph& graph, Beginning beginning);
 
 // Sum over the equations of the squared height of their column: proportional to the work of a profile solver.
 double profile_cost(const EquationGraph& graph, std::span<const int> order);
 
-// Terms within the profile, both triangles and diagonal: what a profile solver stores.
-double profile_terms(const EquationGraph& graph, std::span<const int> order);
-
-// The cheapest of the given numbering, reverse Cuthill-McKee and Sloan.
+// The cheapest of the given numbering and the two above.
 std::vector<int> best_profile_numbering(const EquationGraph& graph);
 
 // Equations in the order of elimination, group by group.
 std::vector<int> expand(const EquationGraph& graph, std::span<const int> order);
-
-// Groups at every distance from the roots, as far as they are connected: levels of a breadth-first search.
-IndexLists levels_from(const EquationGraph& graph, std::span<const int> roots, std::vector<int>& distance);
 
 }  // namespace sage

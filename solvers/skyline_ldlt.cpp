@@ -87,8 +87,7 @@ class SkylineLdlt final : public MatrixSolver {
   void scale_tile(int K, int J) {
     const double* G = column_.data() + (K - profile_.top[at(J)]) * kTileTerms;
     double* L = tiles_.data() + profile_.tile(K, J);
-    for (int k = 0; k < kTile; ++k)
-      lanes(L + k * kTile) = reciprocal_[at(K * kTile + k)] * lanes(G + k * kTile);
+    tile_scale_rows(L, G, reciprocal_.data() + K * kTile);
   }
 
   // Elimination of the upper triangle of the diagonal tile; leaves L, transposed, in its place.

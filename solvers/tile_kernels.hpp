@@ -5,9 +5,16 @@
 
 namespace sage {
 
-// Eight doubles that the compiler maps to the registers of the processor (1 x 512, 2 x 256 or 4 x 128 bits).
-using Lanes = double __attribute__((vector_size(64), may_alias));
-using LaneIndex = long long __attribute__((vector_size(64)));
+// One register of doubles, and the block of a tile whose terms stay in registers while sums over k run.
+// AVX-512: 8 rows of 3 tiles take 24 of its 32 registers.  AVX2 and SSE2: 4 rows of 2 registers take 8 of 16.
+#if defined(__AVX512F__)
+inline constexpr int kLanes = 8, kBlockRows = 8, kBlockParts = 1, kWidth = 3;
+#elif defined(__AVX2__)
+inline constexpr int kLanes = 4, kBlockRows = 4, kBlockParts = 2, kWidth = 1;
+#else
+inline constexpr int kLanes = 2, kBlockRows = 4, kBlockParts = 2, kWidth = 1;
+#endif
+using Lanes = double __attribute__((vector_size(kLanes * sizeof(double)), may_alias));
 
 inline const Lanes& lanes(const double* p) {
   return *reinterpret_cast<const Lanes*>(p);
@@ -16,40 +23,43 @@ inline Lanes& lanes(double* p) {
   return *reinterpret_cast<Lanes*>(p);
 }
 
-// A block of tile rows and tiles side by side whose terms stay in registers while sums over k run: 8 rows of 3
-// tiles take 24 of AVX-512's 32 registers; half a tile is what the 16 registers of AVX2 hold.
-#ifdef __AVX512F__
-inline constexpr int kRowsInRegisters = 8, kWidth = 3;
-#else
-inline constexpr int kRowsInRegisters = 4, kWidth = 1;
-#endif
+// C[i][:] -= sum over k of A[k][i] B[k][:] for rows i from `row` and lanes from `lane`: what fits the
+// registers.
+template <int width>
+inline void tile_subtract_block(double* C, std::ptrdiff_t c_stride, const double* A, const double* B,
+                                std::ptrdiff_t b_stride, int tiles, int row, int lane) {
+  constexpr int columns = width * kBlockParts;
+  const auto column = [&](std::ptrdiff_t stride, int v) {
+    return (v / kBlockParts) * stride + lane + (v % kBlockParts) * kLanes;
+  };
+  Lanes c[columns][kBlockRows];
+#pragma GCC unroll 4
+  for (int v = 0; v < columns; ++v)
+#pragma GCC unroll 8
+    for (int i = 0; i < kBlockRows; ++i) c[v][i] = lanes(C + column(c_stride, v) + (row + i) * kTile);
+  for (int k = 0; k < tiles * kTile; ++k) {
+    Lanes b[columns];
+#pragma GCC unroll 4
+    for (int v = 0; v < columns; ++v) b[v] = lanes(B + column(b_stride, v) + k * kTile);
+#pragma GCC unroll 8
+    for (int i = 0; i < kBlockRows; ++i)
+#pragma GCC unroll 4
+      for (int v = 0; v < columns; ++v) c[v][i] -= A[k * kTile + row + i] * b[v];
+  }
+#pragma GCC unroll 4
+  for (int v = 0; v < columns; ++v)
+#pragma GCC unroll 8
+    for (int i = 0; i < kBlockRows; ++i) lanes(C + column(c_stride, v) + (row + i) * kTile) = c[v][i];
+}
 
 // C[i][:] -= sum over k of A[k][i] B[k][:], k over `tiles` consecutive tiles of A and B, for `width` tiles C
 // side by side with their own B; strides are from one such tile to the next.
 template <int width>
 inline void tile_subtract_products(double* C, std::ptrdiff_t c_stride, const double* A, const double* B,
                                    std::ptrdiff_t b_stride, int tiles) {
-  constexpr int rows = kRowsInRegisters;
-  for (int first = 0; first < kTile; first += rows) {
-    Lanes c[width][rows];
-#pragma GCC unroll 4
-    for (int w = 0; w < width; ++w)
-#pragma GCC unroll 8
-      for (int i = 0; i < rows; ++i) c[w][i] = lanes(C + w * c_stride + (first + i) * kTile);
-    for (int k = 0; k < tiles * kTile; ++k) {
-      Lanes b[width];
-#pragma GCC unroll 4
-      for (int w = 0; w < width; ++w) b[w] = lanes(B + w * b_stride + k * kTile);
-#pragma GCC unroll 8
-      for (int i = 0; i < rows; ++i)
-#pragma GCC unroll 4
-        for (int w = 0; w < width; ++w) c[w][i] -= A[k * kTile + first + i] * b[w];
-    }
-#pragma GCC unroll 4
-    for (int w = 0; w < width; ++w)
-#pragma GCC unroll 8
-      for (int i = 0; i < rows; ++i) lanes(C + w * c_stride + (first + i) * kTile) = c[w][i];
-  }
+  for (int row = 0; row < kTile; row += kBlockRows)
+    for (int lane = 0; lane < kTile; lane += kBlockParts * kLanes)
+      tile_subtract_block<width>(C, c_stride, A, B, b_stride, tiles, row, lane);
 }
 
 inline void tile_subtract_product(double* C, const double* A, const double* B, int tiles) {
@@ -65,18 +75,27 @@ inline void tile_raise_maximum(Lanes& maximum, const Lanes& x) {
 // by the diagonal: a term of the reduced matrix.
 template <bool unit>
 inline void tile_solve(double* C, const double* T, const double* reciprocal, Lanes& maximum) {
-  Lanes c[kTile];
+  for (int lane = 0; lane < kTile; lane += kLanes) {
+    Lanes c[kTile];
 #pragma GCC unroll 8
-  for (int i = 0; i < kTile; ++i) c[i] = lanes(C + i * kTile);
+    for (int i = 0; i < kTile; ++i) c[i] = lanes(C + i * kTile + lane);
 #pragma GCC unroll 8
-  for (int k = 0; k < kTile; ++k) {
-    tile_raise_maximum(maximum, c[k]);
-    if constexpr (!unit) c[k] *= reciprocal[k];
+    for (int k = 0; k < kTile; ++k) {
+      tile_raise_maximum(maximum, c[k]);
+      if constexpr (!unit) c[k] *= reciprocal[k];
 #pragma GCC unroll 8
-    for (int i = k + 1; i < kTile; ++i) c[i] -= T[k * kTile + i] * c[k];
+      for (int i = k + 1; i < kTile; ++i) c[i] -= T[k * kTile + i] * c[k];
+    }
+#pragma GCC unroll 8
+    for (int i = 0; i < kTile; ++i) lanes(C + i * kTile + lane) = c[i];
   }
-#pragma GCC unroll 8
-  for (int i = 0; i < kTile; ++i) lanes(C + i * kTile) = c[i];
+}
+
+// target[k][:] = factor[k] source[k][:].
+inline void tile_scale_rows(double* target, const double* source, const double* factor) {
+  for (int k = 0; k < kTile; ++k)
+    for (int lane = 0; lane < kTile; lane += kLanes)
+      lanes(target + k * kTile + lane) = factor[k] * lanes(source + k * kTile + lane);
 }
 
 // Elimination within a diagonal tile A = L U without pivoting.  On return A holds U and `unit` the
@@ -86,7 +105,7 @@ inline void tile_factorise(double* A, double* unit, double* reciprocal, Lanes& m
   for (int k = 0; k < kTile; ++k) {
     const double* row = A + k * kTile;
     check(k, row[k]);
-    tile_raise_maximum(maximum, lanes(row));
+    for (int lane = 0; lane < kTile; lane += kLanes) tile_raise_maximum(maximum, lanes(row + lane));
     reciprocal[k] = 1.0 / row[k];
     for (int i = k + 1; i < kTile; ++i) {
       const double factor = A[i * kTile + k] * reciprocal[k];
@@ -104,17 +123,19 @@ inline void tile_mirror(double* A) {
 
 inline double largest(const Lanes& x) {
   double maximum = 0.0;
-  for (int i = 0; i < kTile; ++i) maximum = x[i] > maximum ? x[i] : maximum;
+  for (int i = 0; i < kLanes; ++i) maximum = x[i] > maximum ? x[i] : maximum;
   return maximum;
 }
 
 // z -= sum over k of tile terms [k][:] y[k], k over `tiles` consecutive tiles.
 inline void tile_forward_panel(const double* tile, const double* y, int tiles, double* z) {
-  Lanes sum[4] = {lanes(z), Lanes{}, Lanes{}, Lanes{}};
-  for (int k = 0; k < tiles * kTile; k += 4)
+  for (int lane = 0; lane < kTile; lane += kLanes) {
+    Lanes sum[4] = {lanes(z + lane), Lanes{}, Lanes{}, Lanes{}};
+    for (int k = 0; k < tiles * kTile; k += 4)
 #pragma GCC unroll 4
-    for (int m = 0; m < 4; ++m) sum[m] -= y[k + m] * lanes(tile + (k + m) * kTile);
-  lanes(z) = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+      for (int m = 0; m < 4; ++m) sum[m] -= y[k + m] * lanes(tile + (k + m) * kTile + lane);
+    lanes(z + lane) = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  }
 }
 
 // z = T^-1 z with the lower triangular diagonal tile T; reciprocal = nullptr for a unit diagonal.
@@ -127,17 +148,23 @@ inline void tile_forward_diagonal(const double* T, const double* reciprocal, dou
 
 // row[i] += lane by lane T[i][:] y: the sum of its lanes is (T y)[i].
 inline void tile_multiply_rows(const double* T, const double* y, Lanes* row) {
-  const Lanes factor = lanes(y);
+  for (int lane = 0; lane < kTile; lane += kLanes) {
+    const Lanes factor = lanes(y + lane);
 #pragma GCC unroll 8
-  for (int i = 0; i < kTile; ++i) row[i] += lanes(T + i * kTile) * factor;
+    for (int i = 0; i < kTile; ++i) row[i] += lanes(T + i * kTile + lane) * factor;
+  }
 }
 
 // z[i] -= sum of the lanes of row[i].
 inline void tile_subtract_sums(const Lanes* row, double* z) {
 #pragma GCC unroll 8
   for (int i = 0; i < kTile; ++i) {
-    const Lanes& r = row[i];
-    z[i] -= ((r[0] + r[4]) + (r[2] + r[6])) + ((r[1] + r[5]) + (r[3] + r[7]));
+    Lanes sum = row[i];
+#pragma GCC unroll 4
+    for (int half = kLanes / 2; half > 0; half /= 2)
+#pragma GCC unroll 4
+      for (int l = 0; l < half; ++l) sum[l] += sum[l + half];
+    z[i] -= sum[0];
   }
 }
 

@@ -7,18 +7,11 @@ namespace sage {
 
 namespace {
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
-
 struct Neighbours {
   std::string elements;  // the first few, "12 (quad4 full), 13 (quad4 full)"
   bool only_interfaces = true;
   bool open_point = false;
   bool yielded_point = false;
-  bool zero_shear = false;
 };
 
 // Elements around a node and what their points do.
@@ -57,7 +50,29 @@ std::string counts_line(const std::array<long, kStatuses>& points) {
   return text.empty() ? "none" : text;
 }
 
+std::array<long, kStatuses> trial_points(const Assembly& assembly) {
+  std::array<long, kStatuses> counts{};
+  for (const GroupData& data : assembly.groups())
+    if (data.active)
+      for (PointStatus status : data.state.trial.status) ++counts[static_cast<std::size_t>(status)];
+  return counts;
+}
+
 }  // namespace
+
+std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+std::string bracket_line(const Model& model, const StepReport& report) {
+  const Stage& stage = model.stages[static_cast<std::size_t>(report.stage)];
+  const bool loads = !stage.loads.empty() || !stage.pressures.empty() || !stage.gravity.isZero(0.0);
+  return std::string(loads ? "  limit load: " : "  equilibrium ends: ") + "between " +
+         short_number(report.load_factor) + " and " + short_number(report.failed_at) + " of the stage's " +
+         (loads ? "load" : "displacement") + " (equilibrium was found at the first, not at the second)\n";
+}
 
 std::string dof_name(const Model& model, int dof) {
   const bool axisymmetric = model.geometry == Geometry::axisymmetric;
@@ -95,19 +110,22 @@ std::string explain_singular(const Model& model, const Assembly& assembly, int e
   return text;
 }
 
-std::string explain_failure(const Model& model, const StepReport& report, const NewtonStep& step) {
+std::string explain_failure(const Model& model, const Assembly& assembly, const StepReport& report,
+                            const NewtonStep& step) {
   std::string text = "stage " + std::to_string(report.stage + 1) + ", increment " +
                      std::to_string(report.increment) + " of " + std::to_string(report.increments) +
                      ": no equilibrium found after " + std::to_string(report.cuts) + " cuts of the step.\n";
-  text += "  last state in equilibrium: load factor " + number(report.load_factor) + " of the stage\n";
+  text += bracket_line(model, report);
   if (step.worst.node >= 0)
-    text += "  largest out-of-balance force: " + number(step.worst.residual) + " " + model.units.force +
-            " at " + dof_name(model, 2 * step.worst.node + step.worst.component) + "\n";
-  text += "  points at the last attempt: " + counts_line(report.points) + "\n";
+    text += "  largest out-of-balance force: " + short_number(step.worst.residual) + " " + model.units.force +
+            " at " + dof_name(model, 2 * step.worst.node + step.worst.component) + ", between elements " +
+            around(assembly, step.worst.node).elements + "\n";
+  text += "  points at the last attempt: " + counts_line(trial_points(assembly)) + "\n";
   if (!step.iterations.empty()) {
     text += "  relative out-of-balance force by iteration:";
     const std::size_t first = step.iterations.size() > 6 ? step.iterations.size() - 6 : 0;
-    for (std::size_t i = first; i < step.iterations.size(); ++i) text += " " + number(step.iterations[i].force);
+    for (std::size_t i = first; i < step.iterations.size(); ++i)
+      text += " " + short_number(step.iterations[i].force);
     text += "\n";
   }
   if (step.outcome == StepOutcome::law_cut) text += "  a law found no answer for the strain it was given.\n";

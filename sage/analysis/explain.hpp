@@ -12,10 +12,17 @@ namespace sage {
 std::string explain_singular(const Model& model, const Assembly& assembly, int equation,
                              const std::string& solver_said);
 
-// A step that did not converge even after all cuts.
-std::string explain_failure(const Model& model, const StepReport& report, const NewtonStep& step);
+// "limit load: between 0.71 and 0.72 of the stage's load".
+std::string bracket_line(const Model& model, const StepReport& report);
 
-// "node 12, y (z) direction"
+// A step that did not converge even after all cuts.
+std::string explain_failure(const Model& model, const Assembly& assembly, const StepReport& report,
+                            const NewtonStep& step);
+
+// "0.001234", four digits.
+std::string short_number(double value);
+
+// "node 12, direction y" (r, z when axisymmetric)
 std::string dof_name(const Model& model, int dof);
 
 }  // namespace sage

@@ -1,6 +1,9 @@
 #include "sage/analysis/newton.hpp"
 
 #include <cmath>
+#include <limits>
+
+#include "sage/analysis/dogleg.hpp"
 
 namespace sage {
 
@@ -23,7 +26,12 @@ class Step {
   NewtonStep solve(const Eigen::VectorXd& rate, double rate_part);
 
  private:
-  bool full_newton() const { return settings_.method == Method::newton && !stiffness_.constant; }
+  bool full_newton() const {
+    return (settings_.method == Method::newton || settings_.method == Method::dogleg) && !stiffness_.constant;
+  }
+  NewtonStep& iterate_with_line_search();
+  NewtonStep& iterate_with_dogleg();
+  bool record_iteration();
   Outcome evaluate(bool with_K);
   void form_residual();
   void factorise_if_needed();
@@ -43,7 +51,7 @@ class Step {
   WorkCounters& work_;
   Eigen::VectorXd& du_;
   Eigen::VectorXd residual_, correction_;
-  double energy_scale_ = 0.0, slope_ = 0.0, step_length_ = 1.0;
+  double energy_scale_ = 0.0, start_scale_ = 0.0, slope_ = 0.0, step_length_ = 1.0;
   NewtonStep result_;
 };
 
@@ -88,6 +96,7 @@ void Step::move(double factor) {
 bool Step::predict(const Eigen::VectorXd& rate, double rate_part) {
   du_.setZero();
   if (!stiffness_.assembled && evaluate(true) == Outcome::cut_step) return false;
+  start_scale_ = assembly_.force_scale();  // a step may end without any stress
   form_residual();
   const Eigen::VectorXd& coupling = assembly_.coupling();
   for (int eq = 0; eq < assembly_.equations(); ++eq)
@@ -102,7 +111,7 @@ bool Step::predict(const Eigen::VectorXd& rate, double rate_part) {
 double Step::scale() const {
   double loads = 0.0;
   for (int eq = 0; eq < assembly_.equations(); ++eq) loads += std::pow(target_[assembly_.dof_of(eq)], 2);
-  return std::max(assembly_.force_scale(), std::sqrt(loads));
+  return std::max({assembly_.force_scale(), std::sqrt(loads), start_scale_});
 }
 
 IterationRecord Step::measure() const {
@@ -110,7 +119,7 @@ IterationRecord Step::measure() const {
   const double force_scale = scale(), size = du_.norm();
   const double force = residual_.norm(), energy = std::abs(correction_.dot(residual_));
   record.force = force_scale > 0.0 ? force / force_scale : 0.0;
-  record.displacement = size > 0.0 ? correction_.norm() * step_length_ / size : 0.0;
+  record.displacement = size > 0.0 ? correction_.norm() / size : 0.0;
   record.energy = energy_scale_ > 0.0 ? energy / energy_scale_ : 0.0;
   record.step_length = step_length_;
   return record;
@@ -118,8 +127,13 @@ IterationRecord Step::measure() const {
 
 // Equilibrium and energy to the tolerance; the last correction to its root, unless the energy is smaller still
 // (a linear step ends with its first correction, which is then the whole increment).
+// Forces of very stiff joints are k times differences of displacements and can't be balanced better than those
+// are rounded: a full correction that no longer changes the displacements ends the step too.
 bool Step::converged(const IterationRecord& record) const {
+  constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
   const double tol = settings_.tolerance;
+  if (record.displacement <= kRounding && record.step_length >= 1.0 && record.force <= std::sqrt(tol))
+    return true;
   if (!(record.force <= tol)) return false;
   return record.energy <= tol * tol || record.force <= 1e-3 * tol ||
          (record.energy <= tol && record.displacement <= std::sqrt(tol));
@@ -160,31 +174,65 @@ bool Step::search_line() {
   return true;
 }
 
+// True once converged.
+bool Step::record_iteration() {
+  const IterationRecord record = measure();
+  result_.iterations.push_back(record);
+  find_worst();
+  if (!converged(record)) return false;
+  result_.outcome = StepOutcome::converged;
+  return true;
+}
+
 NewtonStep Step::solve(const Eigen::VectorXd& rate, double rate_part) {
   result_.outcome = StepOutcome::law_cut;
   if (!predict(rate, rate_part)) return result_;
+  return settings_.method == Method::dogleg ? iterate_with_dogleg() : iterate_with_line_search();
+}
+
+NewtonStep& Step::iterate_with_line_search() {
   for (int i = 1; i <= settings_.max_iterations; ++i) {
-    const bool with_K = full_newton();
-    if (evaluate(with_K) == Outcome::cut_step) return result_;
+    if (evaluate(full_newton()) == Outcome::cut_step) return result_;
     form_residual();
     step_length_ = 1.0;
     if (settings_.line_search && i > 1 && std::abs(correction_.dot(residual_)) > 0.8 * std::abs(slope_) &&
         !search_line())
       return result_;
-    const IterationRecord record = measure();
-    result_.iterations.push_back(record);
-    find_worst();
-    if (!std::isfinite(record.force)) return result_;
-    if (converged(record)) {
-      result_.outcome = StepOutcome::converged;
-      return result_;
-    }
+    if (!std::isfinite(residual_.squaredNorm()) || record_iteration()) return result_;
     if (i == settings_.max_iterations) break;
-    slope_ = 0.0;
     correct();
     slope_ = correction_.dot(residual_);
     energy_scale_ = std::max(energy_scale_, std::abs(slope_));
     move(1.0);
+  }
+  result_.outcome = StepOutcome::not_converged;
+  return result_;
+}
+
+// A rejected step leaves K and its factors as they were: only the residual is computed anew.
+NewtonStep& Step::iterate_with_dogleg() {
+  Dogleg dogleg;
+  if (evaluate(full_newton()) == Outcome::cut_step) return result_;
+  form_residual();
+  Eigen::VectorXd newton(residual_.size()), old_residual;
+  for (int i = 1; i <= settings_.max_iterations; ++i) {
+    if (!std::isfinite(residual_.squaredNorm()) || record_iteration()) return result_;
+    correct();
+    newton = correction_;
+    energy_scale_ = std::max(energy_scale_, std::abs(newton.dot(residual_)));
+    old_residual = residual_;
+    dogleg.choose(*stiffness_.solver, residual_, newton, correction_);
+    step_length_ = dogleg.step_length();
+    move(1.0);
+    const bool computed = evaluate(false) == Outcome::ok;
+    if (computed) form_residual();
+    const double new_norm = computed ? residual_.norm() : std::numeric_limits<double>::infinity();
+    if (!dogleg.accept(old_residual.norm(), new_norm)) {
+      move(-1.0);
+      residual_ = old_residual;
+      continue;
+    }
+    if (full_newton() && evaluate(true) == Outcome::cut_step) return result_;
   }
   result_.outcome = StepOutcome::not_converged;
   return result_;

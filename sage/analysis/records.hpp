@@ -41,7 +41,7 @@ struct IterationRecord {
   double force = 0.0;         // |out-of-balance force| / force scale
   double displacement = 0.0;  // |correction| / |increment|
   double energy = 0.0;        // |correction . residual| / work of the increment
-  double step_length = 1.0;   // line search or dogleg factor taken
+  double step_length = 1.0;   // line search: factor on the correction; dogleg: |step| / |Newton step|
 };
 
 // Where the largest out-of-balance force stands.
@@ -56,6 +56,7 @@ struct StepReport {
   int increment = 0;  // 1-based within the stage
   int increments = 0;
   double load_factor = 0.0;  // part of the stage applied, 0 .. 1
+  double failed_at = 2.0;    // smallest load factor at which no equilibrium was found; 2 = none
   bool converged = true;
   int cuts = 0;  // halvings needed within this increment
   int substeps = 1;

@@ -41,6 +41,8 @@ class Run {
   void reject(const Stage& stage);
   bool fail(StepReport& report, const NewtonStep& step);
   EquilibriumAudit audit() const;
+  void warn_about_numbers(int s, const EquilibriumAudit& sums);
+  void warn(const Stage& stage, const std::string& message);
   Solution solution() const;
   template <class Call>
   void tell(Call call) {
@@ -162,6 +164,7 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
       continue;
     }
     report.points = assembly_.count_points();
+    report.failed_at = std::min(report.failed_at, to);
     if (report.cuts >= settings_.max_cuts || stiffness_.constant) return fail(report, step);
     reject(stage);
     ++report.cuts;
@@ -176,10 +179,11 @@ bool Run::fail(StepReport& report, const NewtonStep& step) {
     result_.status = RunStatus::singular;
     result_.reason = "stage " + std::to_string(report.stage + 1) + ", increment " +
                      std::to_string(report.increment) + ": " +
-                     explain_singular(model_, assembly_, step.singular_equation, step.message);
+                     explain_singular(model_, assembly_, step.singular_equation, step.message) + "\n" +
+                     bracket_line(model_, report);
   } else {
     result_.status = RunStatus::not_converged;
-    result_.reason = explain_failure(model_, report, step);
+    result_.reason = explain_failure(model_, assembly_, report, step);
   }
   du_.setZero();
   assembly_.evaluate(du_, nullptr);
@@ -199,8 +203,10 @@ EquilibriumAudit Run::audit() const {
     audit.reactions[c] += reaction;
     const double arm = c == 0 ? -model_.mesh.x(1, dof / 2) : model_.mesh.x(0, dof / 2);
     audit.moment += force * arm;
-    scale[c] += std::abs(external_[dof]) + std::abs(reaction);
-    moment_scale += std::abs(force * arm);
+    // A stage may end without any force: its start counts too.
+    const double size = std::max(std::abs(external_[dof]) + std::abs(reaction), std::abs(force_start_[dof]));
+    scale[c] += size;
+    moment_scale += size * std::abs(arm);
   }
   audit.scale = std::max(scale[0], scale[1]);
   const bool plane = model_.geometry == Geometry::plane_strain;
@@ -213,6 +219,32 @@ EquilibriumAudit Run::audit() const {
   if (plane && moment_scale > 0.0)
     audit.out_of_balance = std::max(audit.out_of_balance, std::abs(audit.moment) / moment_scale);
   return audit;
+}
+
+void Run::warn(const Stage& stage, const std::string& message) {
+  const Diagnostic diagnostic{
+      Severity::warning, stage.where, "stage " + std::to_string(stage.number) + ": " + message, {}};
+  tell([&](Observer& o) { o.on_warning(diagnostic); });
+}
+
+// What a reader of the results should know before trusting them.
+void Run::warn_about_numbers(int s, const EquilibriumAudit& sums) {
+  constexpr double kPoorAudit = 1e-6, kPoorPivot = 1e-9;
+  const Stage& stage = model_.stages[static_cast<std::size_t>(s)];
+  if (sums.out_of_balance > kPoorAudit)
+    warn(stage, "loads and reactions of the whole model are out of balance by " +
+                    short_number(sums.out_of_balance) + " of the largest force");
+  const double pivot = solver_->report().smallest_pivot_ratio;
+  if (pivot > 0.0 && pivot < kPoorPivot)
+    warn(stage, "about " + std::to_string(static_cast<int>(-std::log10(pivot))) +
+                    " of 16 digits are lost in the equations (smallest pivot " + short_number(pivot) +
+                    " of its row): very stiff beside very soft parts, or nearly a mechanism");
+  const auto points = assembly_.count_points();
+  const long apex = points[static_cast<std::size_t>(PointStatus::apex)];
+  if (apex > 0)
+    warn(stage,
+         std::to_string(apex) +
+             " point(s) at the apex or cut off in tension: results there depend on how the law treats tension");
 }
 
 bool Run::run_stage(int s) {
@@ -235,6 +267,7 @@ bool Run::run_stage(int s) {
   }
   ++result_.stages_done;
   const EquilibriumAudit sums = audit();
+  warn_about_numbers(s, sums);
   tell([&](Observer& o) { o.on_stage_end(model_, s, sums, solution()); });
   return true;
 }

@@ -3,6 +3,7 @@
 
 #include <CLI/App.hpp>
 #include <functional>
+#include <string>
 
 #include "sage/core/catalogue.hpp"
 
@@ -15,6 +16,10 @@ struct Command {
 
 // Everything that exists: elements, materials, solvers.
 Catalogue full_catalogue();
+
+// Does the work; what it throws goes to standard error, and its kind into the exit code.  `name` stands before
+// messages that name no place in a file.
+int guarded(const std::string& name, const std::function<int()>& work);
 
 Command run_command(CLI::App& root);
 Command check_command(CLI::App& root);

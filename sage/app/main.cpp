@@ -1,17 +1,11 @@
 // sagefe: the command line.  The only folder that knows all others.
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
-#include <new>
 
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
-#include "sage/app/input.hpp"
-#include "sage/core/error.hpp"
 
 namespace {
 
-using namespace sage;
 using namespace sage::app;
 
 constexpr const char* kDescription =
@@ -22,27 +16,6 @@ constexpr const char* kDescription =
 constexpr const char* kFooter =
     "Signs: outside, compression is positive for stress and strain; inside and in displacements, axes are.\n"
     "Exit codes: 0 done, 1 command line, 2 input, 3 no equilibrium or singular, 4 output could not be written.";
-
-int execute(const Command& command) {
-  try {
-    return command.execute();
-  } catch (const InputError& error) {
-    print_diagnostics(error.diagnostics());
-    return kInput;
-  } catch (const OutputError& error) {
-    fmt::print(stderr, "sagefe: {}\n", error.what());
-    return kOutput;
-  } catch (const AnalysisError& error) {
-    fmt::print(stderr, "sagefe: {}\n", error.what());
-    return kNotConverged;
-  } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "sagefe: not enough memory for this model\n");
-    return kNotConverged;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "sagefe: {}\n", error.what());
-    return kNotConverged;
-  }
-}
 
 }  // namespace
 
@@ -59,6 +32,6 @@ int main(int argc, char** argv) {
     return root.exit(error) == 0 ? kOk : kUsage;
   }
   for (const Command& command : commands)
-    if (command.parser->parsed()) return execute(command);
+    if (command.parser->parsed()) return guarded("sagefe", command.execute);
   return kUsage;
 }

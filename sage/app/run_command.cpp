@@ -9,6 +9,7 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/run_deck.hpp"
+#include "sage/output/picture.hpp"
 
 namespace sage::app {
 
@@ -33,17 +34,22 @@ int run_one(const RunOptions& options, const std::string& deck, const Catalogue&
   RunRequest request = options.request;
   request.deck = deck;
   request.output.tables = tables_of(options.tables);
-  try {
+  return guarded(deck, [&] {
     const RunOutcome outcome = run_deck(request, catalogue);
     if (outcome.record.stages.empty()) return outcome.exit_code;  // --strict stopped it
     if (!options.quiet)
       fmt::print("{}\n", summary(*outcome.model, outcome.record, outcome.reports.get(), outcome.files));
     if (outcome.exit_code != kOk) fmt::print(stderr, "{}: {}\n", deck, outcome.record.result.reason);
     return outcome.exit_code;
-  } catch (const InputError& error) {
-    print_diagnostics(error.diagnostics());
-    return kInput;
-  }
+  });
+}
+
+// A message if no solver has this name.
+std::string unknown_solver(const std::string& name) {
+  const Catalogue catalogue = full_catalogue();
+  for (const auto& [code, entry] : catalogue.solvers.entries())
+    if (entry.name == name) return {};
+  return "unknown solver " + name + "; known: " + catalogue.solvers.known();
 }
 
 int run_all(const RunOptions& options) {
@@ -69,11 +75,21 @@ Command run_command(CLI::App& root) {
       root.add_subcommand("run", "compute decks; listing, CSV and reports go to the output folder");
   parser->add_option("DECK", options->decks, "deck files")->required();
   parser->add_option("-o,--output", request.output.folder, "folder for results (default: out)");
-  parser->add_option("--solver", request.solver, "solver by name (see sagefe list solvers)");
+  parser->add_option("--solver", request.solver, "solver by name (see sagefe list solvers)")
+      ->check(unknown_solver);
   parser->add_option("--tables", options->tables, "tables in the listing: auto, none, stage, all")
       ->check(CLI::IsMember({"auto", "none", "stage", "all"}));
   parser->add_flag("--nodes", request.output.nodes, "write STEM.nodes.csv: displacements and reactions");
   parser->add_flag("--points", request.output.points, "write STEM.points.csv: stress and state of all points");
+  parser->add_flag("--vtu", request.output.vtu, "write VTU files and a PVD for ParaView");
+  parser
+      ->add_option(
+          "--picture", request.output.pictures,
+          "SVG pictures at the end of each stage: stress_xx, stress_yy, stress_zz, stress_xy, mean_stress, "
+          "deviator, stress_level, displacement_x, displacement_y, displacement")
+      ->check([](const std::string& name) {
+        return field_from_name(name) ? std::string() : "unknown field " + name;
+      });
   parser->add_flag("!--no-listing", request.output.listing, "write no listing");
   parser->add_flag("-q,--quiet", options->quiet, "print no summary");
   add_input_options(*parser, request.input);

@@ -4,7 +4,9 @@
 
 #include "sage/app/exit_codes.hpp"
 #include "sage/output/csv.hpp"
+#include "sage/output/picture.hpp"
 #include "sage/output/progress.hpp"
+#include "sage/output/vtu.hpp"
 #include "solvers/choose_solver.hpp"
 
 namespace sage::app {
@@ -36,6 +38,10 @@ std::vector<std::unique_ptr<Output>> make_outputs(const RunRequest& request, con
   if (options.increments || options.nodes || options.points)
     outputs.push_back(std::make_unique<Csv>(options.folder, stem,
                                             CsvOptions{options.increments, options.nodes, options.points}));
+  if (options.vtu) outputs.push_back(std::make_unique<Vtu>(options.folder, stem));
+  std::vector<Field> fields;
+  for (const std::string& name : options.pictures) fields.push_back(field_from_name(name).value());
+  if (!fields.empty()) outputs.push_back(std::make_unique<Pictures>(options.folder, stem, fields));
   return outputs;
 }
 

@@ -18,7 +18,8 @@ struct OutputOptions {
   Tables tables = Tables::automatic;
   bool increments = true;  // STEM.increments.csv
   bool nodes = false, points = false;
-  bool vtu = false;
+  bool vtu = false;                   // STEM_0001.vtu ... and STEM.pvd
+  std::vector<std::string> pictures;  // fields, as SVG at the end of each stage
 };
 
 struct RunRequest {

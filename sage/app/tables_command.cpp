@@ -14,8 +14,17 @@ namespace sage::app {
 
 namespace {
 
+// The cases beside an installed program, else those of the source tree.
+std::filesystem::path default_cases() {
+  std::error_code error;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+  const auto installed = (program.parent_path() / SAGE_CASES_RELATIVE).lexically_normal() / "chapter7";
+  if (!error && std::filesystem::exists(installed / "tables.csv", error)) return installed;
+  return SAGE_CASES_DIR "/chapter7";
+}
+
 struct TableOptions {
-  std::filesystem::path cases = SAGE_CASES_DIR "/chapter7";
+  std::filesystem::path cases = default_cases();
   std::filesystem::path folder = "out";
   bool pinned = false;
 };

@@ -61,9 +61,13 @@ class LinearSolver {
 
   virtual FactorReport report() const { return {}; }
 
-  // The three below serve iterative refinement and the estimate of the condition number, on demand.
+  // Those below serve iterative refinement, the dogleg and the estimate of the condition number, on demand.
   // y = K x, with K as it was added (a factorisation does not destroy it).  x and y must differ.
   virtual void multiply(std::span<const double> /*x*/, std::span<double> /*y*/) const {
+    throw std::logic_error("this solver does not keep its matrix");
+  }
+  // y = K^T x, likewise.
+  virtual void multiply_transposed(std::span<const double> /*x*/, std::span<double> /*y*/) const {
     throw std::logic_error("this solver does not keep its matrix");
   }
   // Largest column sum of |K|.  Negative = not known.

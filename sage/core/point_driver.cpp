@@ -1,6 +1,6 @@
 #include "sage/core/point_driver.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -41,12 +41,16 @@ Vector<N> lack(const std::array<Control, N>& control, const Vector<N>& target, c
   return r;
 }
 
-// The tangent with the rows of strain-controlled components replaced by "no correction".
+// Strain correction for a lack of stress; none for strain-controlled components.  The smallest one where the
+// tangent is singular, as on an edge of a yield surface, where the split between two equal principal strains is
+// free.
 template <int N>
-Matrix<N> constrained(const std::array<Control, N>& control, Matrix<N> D) {
+Vector<N> correction_for(const std::array<Control, N>& control, const Vector<N>& r, Matrix<N> D) {
+  const double size = D.cwiseAbs().maxCoeff();
   for (int i = 0; i < N; ++i)
-    if (control[static_cast<std::size_t>(i)] == Control::strain) D.row(i) = Vector<N>::Unit(i).transpose();
-  return D;
+    if (control[static_cast<std::size_t>(i)] == Control::strain)
+      D.row(i) = size * Vector<N>::Unit(i).transpose();
+  return Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(D).solve(r);
 }
 
 }  // namespace
@@ -75,9 +79,7 @@ bool PointDriver<N>::attempt(const std::array<Control, N>& control, const Vector
       ++steps_;
       return true;
     }
-    const Eigen::FullPivLU<Matrix<N>> lu(constrained<N>(control, out.D));
-    if (!lu.isInvertible()) return false;
-    const Vector<N> base = deps, correction = lu.solve(r);
+    const Vector<N> base = deps, correction = correction_for<N>(control, r, out.D);
     for (int cut = 0; cut < 8; ++cut) {
       deps = base + std::ldexp(1.0, -cut) * correction;
       if (call(deps, out) == Outcome::ok && lack<N>(control, target, out.sigma).norm() < r.norm()) break;

@@ -13,13 +13,11 @@ constexpr double largest_count = 1e9;
 
 // "a node card", "an element card".
 std::string a_card(const std::string& name) {
-  const bool vowel = !name.empty() && std::string_view("aeiouAEIO").find(name[0]) != std::string_view::npos;
+  const bool vowel = !name.empty() && std::string_view("aeioAEIO").find(name[0]) != std::string_view::npos;
   return (vowel ? "an " : "a ") + name + " card";
 }
 
 }  // namespace
-
-// ------------------------------------------------------------------------------------------------
 
 const FieldValue* DeckReader::field_value(int card, int field) const {
   int index = latest_[static_cast<std::size_t>(card)];
@@ -53,8 +51,13 @@ bool DeckReader::count_of(const Expression& expression, const std::string& what,
   for (const ExpressionNode& node : expression.nodes) {
     if (node.kind != ExpressionNode::Kind::field) continue;
     const FieldValue* value = field_value(node.card, node.field);
-    if (value &&
-        std::binary_search(faulty_.begin(), faulty_.end(), static_cast<int>(value - deck_.values.data()))) {
+    if (!value && log_.errors() > 0) {
+      stop("the " + rule_of(node.card).spec.label + " card is missing: reading stops here",
+           records_.next_line());
+      return false;
+    }
+    if (value && std::find(faulty_.begin(), faulty_.end(), static_cast<int>(value - deck_.values.data())) !=
+                     faulty_.end()) {
       stop("the number of " + what + " is not known: reading stops here", records_.line());
       return false;
     }
@@ -68,10 +71,8 @@ bool DeckReader::count_of(const Expression& expression, const std::string& what,
   for (const ExpressionNode& node : expression.nodes)
     if (node.kind == ExpressionNode::Kind::field)
       if (const FieldValue* value = field_value(node.card, node.field)) where = log_.where(*value);
-  log_.add(
-      Severity::error, where,
-      "the number of " + what + " can't be " + quoted(std::to_string(number)) + " (" + expression.source + ")");
-  stopped_ = true;
+  fail_and_stop(where,
+                "the number of " + what + " can't be " + number_text(number) + " (" + expression.source + ")");
   return false;
 }
 
@@ -87,53 +88,143 @@ std::string DeckReader::count_source(const Expression& expression) const {
   return expression.source;
 }
 
-// A card that doesn't fit its place may be one of its neighbours' kind: then a count is wrong.
-void DeckReader::suggest_count(const CardRule& rule, const Card& card) {
-  const int own = card.spec;
-  if (rule.list_directed || rule.is_item || suggested_[static_cast<std::size_t>(own)]) return;
-  suggested_[static_cast<std::size_t>(own)] = 1;
-  std::vector<int> candidates;
-  if (previous_rule_ >= 0) candidates.push_back(previous_rule_);
-  for (int next = own + 1; next < static_cast<int>(layout_.cards.size()) && next <= own + 3; ++next)
-    candidates.push_back(next);
-  for (const int other : candidates) {
-    if (other == own || !reads_well(rule_of(other), card.line)) continue;
-    const bool earlier = other == previous_rule_;
-    std::string hint = "this card reads well as " + a_card(rule_of(other).spec.label) + ": ";
-    if (earlier)
-      hint += "is the count of " + rule_of(other).spec.label + " cards too small?";
-    else if (run_.wanted > 0)
-      hint += "is the count of " + rule.spec.label + " cards too large? (" + std::to_string(run_.wanted) +
-              " wanted: " + count_source(run_.entry->count) + "; this is number " +
-              std::to_string(run_.done + 1) + ")";
-    else
-      hint += "is a card missing?";
-    return log_.add_hint(hint);
+// Faults, blanks inside numbers, missing values or the wrong word: the card may be of another kind.
+bool DeckReader::is_doubtful(const CardRule& rule, const Card& card) const {
+  for (const FieldFlaw& flaw : flaws_)
+    if (flaw.fault != FieldFault::none || (flaw.hints & hint_inner_blank)) return true;
+  const auto first = static_cast<std::size_t>(card.first_value);
+  const std::size_t count = std::min(deck_.values.size() - first, rule.rules.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const FieldValue& value = deck_.values[first + i];
+    if (value.blank && rule.spec.fields[i].required) return true;
+    const std::string& wanted = rule.rules[i].must_equal;
+    if (!wanted.empty() && lower_case(trimmed(value.text)) != lower_case(wanted)) return true;
   }
+  return false;
+}
+
+// A required number that was left out before others that stand there: a slip on a card of the right kind.
+bool DeckReader::has_a_gap(const CardRule& rule, const Card& card) const {
+  if (!flaws_.empty()) return false;
+  const auto first = static_cast<std::size_t>(card.first_value);
+  const std::size_t count = std::min(deck_.values.size() - first, rule.rules.size());
+  bool missing = false;
+  for (std::size_t i = 0; i < count; ++i) {
+    const FieldValue& value = deck_.values[first + i];
+    missing = missing || (value.blank && rule.spec.fields[i].required);
+    if (missing && !value.blank && value.kind != FieldKind::text) return true;
+  }
+  return false;
+}
+
+// The card that closes the deck by its word (END), if this line is it; -1 otherwise.
+int DeckReader::closing_card(int line) const {
+  const std::string text = lower_case(trimmed(source_.line(line)));
+  for (std::size_t i = 0; i < layout_.cards.size(); ++i) {
+    const CardRule& rule = layout_.cards[i];
+    if (rule.rules.size() == 1 && !rule.rules[0].must_equal.empty() &&
+        text == lower_case(rule.rules[0].must_equal))
+      return static_cast<int>(i);
+  }
+  return -1;
+}
+
+// "a fill card was expected: 0 of 1 read (number of fill cards of the control card, line 3)".
+std::string DeckReader::expected_card(const CardRule& rule) const {
+  std::string text = a_card(rule.spec.label) + " was expected";
+  if (run_.wanted > 0)
+    text += ": " + std::to_string(run_.done) + " of " + std::to_string(run_.wanted) + " read (" +
+            count_source(run_.entry->count) + ")";
+  return text;
+}
+
+// A card that doesn't fit its place but reads well as one of its neighbours' kind: then a count is wrong.
+DeckReader::Misplaced DeckReader::check_place(const CardRule& rule, const Card& card) {
+  const int own = card.spec;
+  if (closing_card(card.line) > own) {
+    log_.add(Severity::error, log_.line(card.line),
+             quoted(trimmed(source_.line(card.line))) + " closes the deck, but " + expected_card(rule),
+             "cards are missing, or a count further up is too large");
+    stopped_ = true;
+    return Misplaced::belongs_later;
+  }
+  if (has_a_gap(rule, card)) return Misplaced::no;
+  const int earliest = previous_rule_ >= 0 && previous_rule_ < own ? previous_rule_ : own - 1;
+  const int latest = std::min(static_cast<int>(layout_.cards.size()) - 1, own + 3);
+  for (int other = earliest; other <= latest; ++other) {
+    if (other < 0 || other == own || !reads_well(rule_of(other), card.line)) continue;
+    const std::string reads = "this reads as " + a_card(rule_of(other).spec.label);
+    if (other < own) {
+      log_.add(Severity::error, log_.line(card.line), reads + ", but " + announced(other));
+      return Misplaced::left_over;
+    }
+    if (run_.wanted == 0 && run_.entry && run_.entry->run != LayoutEntry::Run::once) return Misplaced::no;
+    log_.add(Severity::error, log_.line(card.line), reads + ", but " + expected_card(rule),
+             run_.wanted > 0 ? "where that count is right, one further up is too large" : "");
+    records_.rewind_to(card.line);
+    end_run_ = run_.wanted > 0;
+    return Misplaced::belongs_later;
+  }
+  return Misplaced::no;
+}
+
+// A list that runs into cards of another kind: it is cut before the first of them.
+bool DeckReader::cut_list(const CardRule& rule, const Card& card) {
+  const auto first = static_cast<std::size_t>(card.first_value);
+  for (const FieldFlaw& flaw : flaws_) {
+    const int line = deck_.values[static_cast<std::size_t>(flaw.value)].line;
+    if (line == card.line || (flaw.fault == FieldFault::none && !(flaw.hints & hint_inner_blank))) continue;
+    for (int other = card.spec - 1; other <= card.spec + 3 && other < static_cast<int>(layout_.cards.size());
+         ++other) {
+      if (other < 0 || other == card.spec || !reads_well(rule_of(other), line)) continue;
+      const std::size_t wanted = deck_.values.size() - first;
+      std::size_t kept = 0;
+      while (deck_.values[first + kept].line < line) ++kept;
+      log_.add(Severity::error, log_.line(line),
+               "this reads as " + a_card(rule_of(other).spec.label) + ", but the " + rule.spec.label +
+                   " card goes on: " + std::to_string(kept) + " of " + std::to_string(wanted) +
+                   " values read (" + count_source(rule.rules.back().count) + ")");
+      deck_.values.resize(first + kept);
+      std::erase_if(flaws_,
+                    [&](const FieldFlaw& f) { return static_cast<std::size_t>(f.value) >= first + kept; });
+      records_.rewind_to(line);
+      return true;
+    }
+  }
+  return false;
+}
+
+// "the 4 that were announced (...) are read", for a card that came too late.
+std::string DeckReader::announced(int rule) const {
+  const LayoutEntry* entry = entry_of_[static_cast<std::size_t>(rule)];
+  if (!entry || entry->run != LayoutEntry::Run::counted) return "its place is earlier";
+  const double count = evaluate(entry->count, [this](int card, int field) { return value_of(card, field); });
+  const std::string source = " (" + count_source(entry->count) + ")";
+  if (count == 0.0) return "none was announced" + source;
+  if (count == 1.0) return "the one that was announced" + source + " has been read";
+  return "the " + number_text(count) + " that were announced" + source + " have been read";
 }
 
 bool DeckReader::reads_well(const CardRule& rule, int line) const {
   if (rule.list_directed || rule.is_item || !rule.rules.back().count.empty()) return false;
-  const bool numbers = std::any_of(rule.spec.fields.begin(), rule.spec.fields.end(),
-                                   [](const FieldSpec& s) { return s.kind != FieldKind::text; });
-  if (!numbers) return false;
+  if (rule.spec.fields.front().kind == FieldKind::text) return false;  // reads anything
   RecordSource records = records_;
   records.rewind_to(line);
   FormattedRead read(records, rule.format);
   if (read.begin() != ReadEnd::complete || all_blank(records.record())) return false;
   std::vector<FieldValue> values;
   std::vector<FieldFlaw> flaws;
+  int given = 0;
   for (const FieldSpec& spec : rule.spec.fields) {
     if (read.read(spec.kind, values, flaws) != ReadEnd::complete || records.line() != line) return false;
     if (spec.required && values.back().blank) return false;
+    if (!values.back().blank) ++given;
   }
-  if (!flaws.empty()) return false;
+  if (!flaws.empty() || given < 3) return false;  // one or two numbers fit everywhere
   const std::size_t end = read.last_field_end();
   return records.record().size() <= end ||
          all_blank(records.record().substr(end, 72 - std::min<std::size_t>(end, 72)));
 }
-
-// ------------------------------------------------------------------------------------------------------
 
 std::string DeckReader::card_name(const LayoutEntry& entry) const {
   const LayoutEntry* at = &entry;
@@ -156,6 +247,18 @@ void DeckReader::truncated(const LayoutEntry& entry) {
 void DeckReader::stop(const std::string& why, int line) {
   log_.add(Severity::note, log_.line(line), why);
   stopped_ = true;
+}
+
+void DeckReader::fail_and_stop(const SourcePosition& where, const std::string& message) {
+  log_.add(Severity::error, where, message);
+  stopped_ = true;
+}
+
+// Memory grows with the file, not with what a count says: a value takes a character, but repeats ("500*1") may
+// give more.
+bool DeckReader::fits_the_file(int count, bool repeats) const {
+  const double size = static_cast<double>(source_.text()->size());
+  return count <= (repeats ? 1e5 + 2.0 * size : size);
 }
 
 void DeckReader::check_after_end() {

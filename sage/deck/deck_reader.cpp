@@ -20,16 +20,33 @@ DeckReader::DeckReader(const SourceText& source, const Layout& layout, const Rea
       log_(deck_, options),
       texts_(std::make_shared<std::deque<std::string>>()),
       latest_(layout.cards.size(), -1),
-      suggested_(layout.cards.size(), 0) {
+      entry_of_(layout.cards.size(), nullptr) {
   deck_.file = source.name();
   deck_.layout = layout.name;
   deck_.source = source.text();
   deck_.line_starts = source.starts();
+  deck_.cards.reserve(source.starts().size());
+  deck_.values.reserve(source.text()->size() / 8);  // a guess; pages that stay unused cost nothing
   for (const CardRule& rule : layout.cards) {
     deck_.specs.push_back(rule.spec);
     const bool plain = std::all_of(rule.rules.begin(), rule.rules.end(),
                                    [](const FieldRule& r) { return r.map.empty() && r.must_equal.empty(); });
     plain_.push_back(plain);
+  }
+  find_entries(layout.entries);
+}
+
+void DeckReader::find_entries(const std::vector<LayoutEntry>& entries) {
+  for (const LayoutEntry& entry : entries) {
+    if (entry.card >= 0) entry_of_[static_cast<std::size_t>(entry.card)] = &entry;
+    // The first card of a block is counted by the block.
+    if (entry.card < 0 && entry.entries.front().card >= 0) {
+      find_entries(entry.entries);
+      if (entry.entries.front().run == LayoutEntry::Run::once)
+        entry_of_[static_cast<std::size_t>(entry.entries.front().card)] = &entry;
+    } else {
+      find_entries(entry.entries);
+    }
   }
 }
 
@@ -42,11 +59,10 @@ Deck DeckReader::read() {
 }
 
 // ---- The sequence of cards
-// -------------------------------------------------------------------------------------
 
 void DeckReader::read_entries(const std::vector<LayoutEntry>& entries, int owner) {
   for (const LayoutEntry& entry : entries) {
-    if (stopped_) return;
+    if (stopped_ || end_run_) return;
     read_entry(entry, owner);
     if (entry.opens && entry.card >= 0) owner = latest_[static_cast<std::size_t>(entry.card)];
   }
@@ -55,7 +71,10 @@ void DeckReader::read_entries(const std::vector<LayoutEntry>& entries, int owner
 void DeckReader::read_entry(const LayoutEntry& entry, int owner) {
   if (!entry.when.empty() && !truth(entry.when)) return;
   const RunState outer = run_;
-  run_ = {&entry, 0, 0};
+  // The first card of a block counts as the block.
+  const bool opens_block = entry.run == LayoutEntry::Run::once && run_.entry && run_.entry->card < 0 &&
+                           &entry == &run_.entry->entries.front();
+  if (!opens_block) run_ = {&entry, 0, 0};
   const int before = deck_.cards.empty() ? -1 : deck_.cards.back().spec;
   if (entry.card >= 0 && before != entry.card) previous_rule_ = before;
   for (int i = 0; i < entry.headings && !stopped_; ++i)
@@ -84,16 +103,21 @@ void DeckReader::read_counted(const LayoutEntry& entry, int owner) {
   for (int i = 0; i < count && !stopped_; ++i) {
     run_.done = i;
     if (records_.at_end()) return truncated(entry);
+    const Place before = place();
     read_one(entry, owner);
+    if (end_run_ || place() == before) break;  // a block of which nothing is to be read
   }
+  end_run_ = false;
 }
 
 void DeckReader::read_named(const LayoutEntry& entry, int owner) {
   const int first = entry.card >= 0 ? entry.card : entry.entries.front().card;
   bool flagged = entry.until.empty();
   while (!stopped_ && !records_.at_end() && name_matches(rule_of(first))) {
+    const Place before = place();
     read_one(entry, owner);
     ++run_.done;
+    if (place() == before) return;
     if (entry.until.empty()) continue;
     flagged = truth(entry.until);
     if (flagged) return;
@@ -109,8 +133,11 @@ void DeckReader::read_until(const LayoutEntry& entry, int owner) {
     if (stopped_) return;
     if (records_.at_end()) return truncated(entry);
     const std::size_t cards = deck_.cards.size(), values = deck_.values.size();
+    const Place before = place();
     read_one(entry, owner);
     ++run_.done;
+    if (!stopped_ && place() == before)
+      return fail_and_stop(log_.line(records_.next_line()), "no card of this block can be read here");
     if (stopped_ || !truth(entry.until)) continue;
     if (entry.drop_last && deck_.cards.size() > cards) {
       if (entry.card >= 0) latest_[static_cast<std::size_t>(entry.card)] = -1;
@@ -155,11 +182,9 @@ bool DeckReader::name_matches(const CardRule& rule) {
 }
 
 // ---- One card
-// -----------------------------------------------------------------------------------------------------
 
 void DeckReader::read_card(int index, int owner) {
   const CardRule& rule = rule_of(index);
-  const auto slot = static_cast<std::size_t>(index);
   Card card;
   card.spec = index;
   card.owner = owner;
@@ -167,7 +192,6 @@ void DeckReader::read_card(int index, int owner) {
   own_card_ = card.first_value;
   own_rule_ = index;
   flaws_.clear();
-  latest_[slot] = static_cast<int>(deck_.cards.size());
   const bool complete = rule.list_directed ? read_listed(rule, card) : read_formatted(rule, card);
   own_card_ = own_rule_ = -1;
   if (!complete && !stopped_ && run_.entry) truncated(*run_.entry);
@@ -188,12 +212,11 @@ template <class Read>
 bool DeckReader::read_list(Read& read, const CardRule& rule, std::size_t field) {
   int count = 0;
   if (!count_of(rule.rules[field].count, rule.spec.fields[field].label, count)) return true;
-  const std::size_t left = source_.text()->size();
-  if (!rule.list_directed && static_cast<std::size_t>(count) > left) {
-    log_.add(Severity::error, log_.line(records_.line()),
-             std::to_string(count) + " values of " + rule.spec.fields[field].label + " can't be in a deck of " +
-                 std::to_string(left) + " characters (" + count_source(rule.rules[field].count) + ")");
-    stopped_ = true;
+  if (!fits_the_file(count, rule.list_directed || rule.is_item)) {
+    fail_and_stop(log_.line(records_.line()), std::to_string(count) + " values of " +
+                                                  rule.spec.fields[field].label + " can't be in a deck of " +
+                                                  std::to_string(source_.text()->size()) + " characters (" +
+                                                  count_source(rule.rules[field].count) + ")");
     return true;
   }
   for (int i = 0; i < count; ++i) {
@@ -206,15 +229,27 @@ bool DeckReader::read_list(Read& read, const CardRule& rule, std::size_t field) 
 }
 
 bool DeckReader::read_formatted(const CardRule& rule, Card& card) {
-  FormattedRead read(records_, rule.format);
-  if (read.begin() != ReadEnd::complete) return false;
-  card.line = records_.line();
-  const bool complete = read_fields(read, rule);
-  const std::size_t last_field_end = read.last_field_end();
-  read.finish();
-  close_card(rule, card);
-  if (complete) check_rest(rule, card, last_field_end);
-  return complete;
+  for (;;) {
+    FormattedRead read(records_, rule.format);
+    if (read.begin() != ReadEnd::complete) return false;
+    card.line = records_.line();
+    const bool complete = read_fields(read, rule);
+    const std::size_t last_field_end = read.last_field_end();
+    read.finish();
+    const bool list = records_.line() != card.line;
+    const bool cut = complete && list && cut_list(rule, card);
+    Misplaced misplaced = Misplaced::no;
+    if (complete && !stopped_ && !list && is_doubtful(rule, card)) misplaced = check_place(rule, card);
+    if (misplaced == Misplaced::no) {
+      close_card(rule, card, complete);
+      if (complete && !stopped_ && !cut) check_rest(rule, card, last_field_end);
+      return complete;
+    }
+    // Another kind of card: it is reported and left out, so that the cards behind it can be read.
+    deck_.values.resize(static_cast<std::size_t>(card.first_value));
+    flaws_.clear();
+    if (misplaced == Misplaced::belongs_later) return true;
+  }
 }
 
 bool DeckReader::read_listed(const CardRule& rule, Card& card) {
@@ -227,7 +262,7 @@ bool DeckReader::read_listed(const CardRule& rule, Card& card) {
   const bool complete = read_fields(read, rule);
   if (deck_.values.size() > static_cast<std::size_t>(card.first_value))
     card.line = deck_.values[static_cast<std::size_t>(card.first_value)].line;
-  close_card(rule, card);
+  close_card(rule, card, complete);
   if (!complete || stopped_) return complete;
   return rule.items_card < 0 || read_items(rule, read);
 }
@@ -238,6 +273,13 @@ bool DeckReader::read_items(const CardRule& rule, ListRead& read) {
   const CardRule& item = rule_of(rule.items_card);
   if (!count_of(rule.items_count, item.spec.label + " items", count)) return true;
   const int owner = static_cast<int>(deck_.cards.size()) - 1;
+  if (!fits_the_file(count, true)) {
+    fail_and_stop(log_.line(records_.line()), std::to_string(count) + " " + item.spec.label +
+                                                  " items can't be in a deck of " +
+                                                  std::to_string(source_.text()->size()) + " characters (" +
+                                                  count_source(rule.items_count) + ")");
+    return true;
+  }
   for (int i = 0; i < count && !stopped_; ++i) {
     Card card;
     card.spec = rule.items_card;
@@ -251,8 +293,7 @@ bool DeckReader::read_items(const CardRule& rule, ListRead& read) {
     const auto first = static_cast<std::size_t>(card.first_value);
     if (read.ended_by_slash() && deck_.values.size() == first) return true;
     card.line = deck_.values.size() > first ? deck_.values[first].line : records_.line();
-    latest_[static_cast<std::size_t>(rule.items_card)] = static_cast<int>(deck_.cards.size());
-    close_card(item, card);
+    close_card(item, card, complete);
     if (!complete) {
       run_.wanted = count;
       run_.done = i;
@@ -264,7 +305,6 @@ bool DeckReader::read_items(const CardRule& rule, ListRead& read) {
 }
 
 // ---- Entry points
-// ---------------------------------------------------------------------------------------------------
 
 Deck read_deck_text(std::string text, const std::string& name, const Layout& layout,
                     const ReadOptions& options) {

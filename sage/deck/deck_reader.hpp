@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sage/deck/layout.hpp"
@@ -27,6 +28,11 @@ class DeckReader {
     int done = 0;
   };
 
+  // Line and values read so far: what doesn't move them would be read for ever.
+  using Place = std::pair<int, std::size_t>;
+  Place place() const { return {records_.line(), deck_.values.size()}; }
+
+  void find_entries(const std::vector<LayoutEntry>& entries);
   void read_entries(const std::vector<LayoutEntry>& entries, int owner);
   void read_entry(const LayoutEntry& entry, int owner);
   void read_counted(const LayoutEntry& entry, int owner);
@@ -43,13 +49,21 @@ class DeckReader {
   bool read_fields(Read& read, const CardRule& rule);
   template <class Read>
   bool read_list(Read& read, const CardRule& rule, std::size_t field);
-  void close_card(const CardRule& rule, Card card);
+  void close_card(const CardRule& rule, Card card, bool complete);
   void check_values(const CardRule& rule, const Card& card);
   void apply_map(const CardRule& rule, std::size_t field, FieldValue& value);
   void report_flaws(const CardRule& rule, const Card& card);
   void check_rest(const CardRule& rule, const Card& card, std::size_t last_field_end);
   void check_sequence_number(const CardRule& rule, const Card& card, std::size_t last_field_end);
-  void suggest_count(const CardRule& rule, const Card& card);
+  // Is this line a card of another kind?  Then the counts are wrong; reading goes on where it can.
+  enum class Misplaced { no, left_over, belongs_later };
+  bool is_doubtful(const CardRule& rule, const Card& card) const;
+  bool has_a_gap(const CardRule& rule, const Card& card) const;
+  int closing_card(int line) const;
+  std::string expected_card(const CardRule& rule) const;
+  Misplaced check_place(const CardRule& rule, const Card& card);
+  bool cut_list(const CardRule& rule, const Card& card);
+  std::string announced(int rule) const;
   bool reads_well(const CardRule& rule, int line) const;
   bool name_matches(const CardRule& rule);
 
@@ -61,7 +75,9 @@ class DeckReader {
   const FieldValue* field_value(int card, int field) const;
 
   void truncated(const LayoutEntry& entry);
-  void stop(const std::string& why, int line);
+  void stop(const std::string& why, int line);  // a note below an error that was said
+  void fail_and_stop(const SourcePosition& where, const std::string& message);
+  bool fits_the_file(int count, bool repeats) const;
   void check_after_end();
   std::string card_name(const LayoutEntry& entry) const;
   const CardRule& rule_of(int index) const { return layout_.cards[static_cast<std::size_t>(index)]; }
@@ -73,15 +89,16 @@ class DeckReader {
   ReadLog log_;
   std::shared_ptr<std::deque<std::string>> texts_;
   std::vector<FieldFlaw> flaws_;
-  std::vector<int> latest_;            // last card of each rule, -1 = none
-  std::vector<int> faulty_;            // values with errors, ascending
-  std::vector<char> suggested_;        // rules about whose counts something was said
-  std::vector<char> plain_;            // rules whose fields need no map and no comparison
-  std::optional<ListRead> list_read_;  // the last list-directed READ, for cards that go on in it
+  std::vector<int> latest_;                   // last card of each rule, -1 = none
+  std::vector<int> faulty_;                   // values with errors, ascending
+  std::vector<const LayoutEntry*> entry_of_;  // the entry that counts a rule's cards
+  std::vector<char> plain_;                   // rules whose fields need no map and no comparison
+  std::optional<ListRead> list_read_;         // the last list-directed READ, for cards that go on in it
   RunState run_;
   int previous_rule_ = -1;             // last rule before the present run
   int own_card_ = -1, own_rule_ = -1;  // the card being read, for counts that name its own fields
   bool stopped_ = false;
+  bool end_run_ = false;  // the present run ends early: the next card is of a later kind
   bool overlong_noted_ = false, sequence_noted_ = false;
 };
 

@@ -7,17 +7,19 @@
 
 namespace sage {
 
-void DeckReader::close_card(const CardRule& rule, Card card) {
+void DeckReader::close_card(const CardRule& rule, Card card, bool complete) {
   card.value_count = static_cast<std::int32_t>(deck_.values.size()) - card.first_value;
+  latest_[static_cast<std::size_t>(card.spec)] = static_cast<int>(deck_.cards.size());
   deck_.cards.push_back(card);
   if (!flaws_.empty()) report_flaws(rule, card);
-  check_values(rule, card);
+  if (complete) check_values(rule, card);  // else the deck ended in the card, which is said
 }
 
 void DeckReader::report_flaws(const CardRule& rule, const Card& card) {
-  const int before = log_.errors();
-  bool blanks_inside = false;
-  for (const FieldFlaw& flaw : flaws_) {
+  bool comma_said = false;
+  for (FieldFlaw& flaw : flaws_) {
+    if (comma_said) flaw.hints = static_cast<std::uint8_t>(flaw.hints & ~hint_comma);
+    comma_said = comma_said || (flaw.hints & hint_comma) != 0;
     const auto at = static_cast<std::size_t>(flaw.value);
     const std::size_t field =
         std::min(at - static_cast<std::size_t>(card.first_value), rule.spec.fields.size() - 1);
@@ -30,15 +32,12 @@ void DeckReader::report_flaws(const CardRule& rule, const Card& card) {
       faulty_.push_back(flaw.value);
       value.number = 0.0;
     }
-    blanks_inside = blanks_inside || (flaw.hints & hint_inner_blank) != 0;
   }
-  if (log_.errors() > before || blanks_inside) suggest_count(rule, card);
 }
 
 void DeckReader::check_values(const CardRule& rule, const Card& card) {
   const auto first = static_cast<std::size_t>(card.first_value);
   const auto count = std::min(static_cast<std::size_t>(card.value_count), rule.rules.size());
-  bool missing = false;
   for (std::size_t i = 0; i < count; ++i) {
     FieldValue& value = deck_.values[first + i];
     const FieldSpec& spec = rule.spec.fields[i];
@@ -46,7 +45,6 @@ void DeckReader::check_values(const CardRule& rule, const Card& card) {
       log_.add(Severity::error, value.first_column ? log_.where(value) : log_.line(card.line),
                "a value is missing " + field_text(rule, spec));
       faulty_.push_back(static_cast<int>(first + i));
-      missing = true;
     }
     if (plain_[static_cast<std::size_t>(card.spec)]) continue;
     if (!rule.rules[i].map.empty()) apply_map(rule, i, value);
@@ -54,10 +52,13 @@ void DeckReader::check_values(const CardRule& rule, const Card& card) {
     if (!wanted.empty() && lower_case(trimmed(value.text)) != lower_case(wanted)) {
       log_.add(Severity::error, value.first_column ? log_.where(value) : log_.line(card.line),
                "the " + rule.spec.label + " card must read " + wanted + ", not " + quoted(trimmed(value.text)));
-      missing = true;
     }
   }
-  if (missing) suggest_count(rule, card);
+  // A slash may end a list-directed card early.
+  for (std::size_t i = count; i < rule.rules.size(); ++i)
+    if (rule.spec.fields[i].required && rule.rules[i].count.empty())
+      log_.add(Severity::error, log_.line(card.line),
+               "a value is missing " + field_text(rule, rule.spec.fields[i]));
 }
 
 void DeckReader::apply_map(const CardRule& rule, std::size_t field, FieldValue& value) {

@@ -1,7 +1,5 @@
 // What `sagefe echo` prints.
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <ostream>
 #include <sstream>
 
@@ -11,13 +9,6 @@
 namespace sage {
 
 namespace {
-
-// Shortest digits that give the same number back.
-std::string number_text(double value) {
-  std::array<char, 40> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
-}
 
 std::string value_text(const FieldValue& value) {
   if (value.kind == FieldKind::text) return '"' + std::string(trimmed(value.text)) + '"';

@@ -173,8 +173,33 @@ class ExpressionParser {
   Expression expression_;
 };
 
-bool same(const ExpressionValue& a, const ExpressionValue& b, bool as_text) {
-  return as_text ? a.text == b.text : a.number == b.number;
+struct Operand {
+  ExpressionValue value;
+  bool quoted = false;
+};
+
+bool same(const Operand& a, const Operand& b) {
+  return a.quoted || b.quoted ? a.value.text == b.value.text : a.value.number == b.value.number;
+}
+
+double combine(Kind kind, const Operand& a, const Operand& b) {
+  const double x = a.value.number, y = b.value.number;
+  // clang-format off
+  switch (kind) {
+    case Kind::add: return x + y;
+    case Kind::subtract: return x - y;
+    case Kind::multiply: return x * y;
+    case Kind::equal: return same(a, b);
+    case Kind::unequal: return !same(a, b);
+    case Kind::less: return x < y;
+    case Kind::less_equal: return x <= y;
+    case Kind::greater: return x > y;
+    case Kind::greater_equal: return x >= y;
+    case Kind::both: return x != 0.0 && y != 0.0;
+    case Kind::either: return x != 0.0 || y != 0.0;
+    default: return 0.0;
+  }
+  // clang-format on
 }
 
 }  // namespace
@@ -185,71 +210,21 @@ Expression compile_expression(std::string_view text, const FieldResolver& resolv
 
 double evaluate(const Expression& expression,
                 const std::function<ExpressionValue(int card, int field)>& value_of) {
-  struct Operand {
-    ExpressionValue value;
-    bool quoted = false;
-  };
   std::vector<Operand> stack;
   for (const ExpressionNode& node : expression.nodes) {
     if (node.kind == Kind::number) {
       stack.push_back({{node.number, {}}, false});
-      continue;
-    }
-    if (node.kind == Kind::text) {
+    } else if (node.kind == Kind::text) {
       stack.push_back({{0.0, node.text}, true});
-      continue;
-    }
-    if (node.kind == Kind::field) {
+    } else if (node.kind == Kind::field) {
       stack.push_back({value_of(node.card, node.field), false});
-      continue;
-    }
-    if (node.kind == Kind::negate) {
+    } else if (node.kind == Kind::negate) {
       stack.back().value.number = -stack.back().value.number;
-      continue;
+    } else {
+      const Operand b = stack.back();
+      stack.pop_back();
+      stack.back() = {{combine(node.kind, stack.back(), b), {}}, false};
     }
-    const Operand b = stack.back();
-    stack.pop_back();
-    Operand& a = stack.back();
-    const double x = a.value.number, y = b.value.number;
-    double result = 0.0;
-    switch (node.kind) {
-      case Kind::add:
-        result = x + y;
-        break;
-      case Kind::subtract:
-        result = x - y;
-        break;
-      case Kind::multiply:
-        result = x * y;
-        break;
-      case Kind::equal:
-        result = same(a.value, b.value, a.quoted || b.quoted);
-        break;
-      case Kind::unequal:
-        result = !same(a.value, b.value, a.quoted || b.quoted);
-        break;
-      case Kind::less:
-        result = x < y;
-        break;
-      case Kind::less_equal:
-        result = x <= y;
-        break;
-      case Kind::greater:
-        result = x > y;
-        break;
-      case Kind::greater_equal:
-        result = x >= y;
-        break;
-      case Kind::both:
-        result = x != 0.0 && y != 0.0;
-        break;
-      case Kind::either:
-        result = x != 0.0 || y != 0.0;
-        break;
-      default:
-        break;
-    }
-    a = {{result, {}}, false};
   }
   return stack.empty() ? 0.0 : stack.back().value.number;
 }

@@ -106,11 +106,9 @@ int read_exponent(std::string_view text, std::size_t i, NumberForm form, FieldRe
   return negative ? -exponent : exponent;
 }
 
-}  // namespace
-
-double decimal_value(std::string_view mantissa, int exponent, bool& overflow) {
-  DigitBuffer digits;
-  for (char c : mantissa) digits.push(c);
+// Correctly rounded value of the digits times 10^exponent; infinity where no double is large enough.
+double decimal_value(DigitBuffer& digits, int exponent) {
+  const std::size_t mantissa_size = digits.view().size();
   if (exponent != 0) {
     std::array<char, 16> text{};
     const auto end = std::to_chars(text.data(), text.data() + text.size(), exponent).ptr;
@@ -120,14 +118,53 @@ double decimal_value(std::string_view mantissa, int exponent, bool& overflow) {
   const std::string_view all = digits.view();
   double value = 0.0;
   const auto outcome = std::from_chars(all.data(), all.data() + all.size(), value);
-  if (outcome.ec == std::errc::result_out_of_range) {
-    int power = 0;
-    const bool large = leading_power(mantissa, power) && power + exponent > 0;
-    value = large ? std::numeric_limits<double>::infinity() : 0.0;
-  }
-  overflow = std::isinf(value);
-  return value;
+  if (outcome.ec != std::errc::result_out_of_range) return value;
+  int power = 0;
+  const bool large = leading_power(all.substr(0, mantissa_size), power) && power + exponent > 0;
+  return large ? std::numeric_limits<double>::infinity() : 0.0;
 }
+
+struct Mantissa {
+  DigitBuffer digits;  // with its point, and with zeros where the mode makes blanks zeros
+  bool point = false;
+  bool ended_by_exponent = false;
+};
+
+// Digits, blanks and one point, from text[i] to the end or to an exponent, whose place is returned.
+std::size_t scan_mantissa(std::string_view text, std::size_t i, BlankMode blanks, Mantissa& mantissa,
+                          FieldResult& result) {
+  bool digit = false, blank_behind = false;
+  for (; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == ' ') {
+      blank_behind = digit || mantissa.point;
+      if (blanks == BlankMode::null) continue;
+      digit = true;
+      mantissa.digits.push('0');
+      continue;
+    }
+    const char letter = lower(c);
+    mantissa.ended_by_exponent = c == '+' || c == '-' || letter == 'e' || letter == 'd' || letter == 'q';
+    if (mantissa.ended_by_exponent) break;
+    if (!is_digit(c) && c != '.') result = fail(result, FieldFault::bad_character, i);
+    if (c == '.' && mantissa.point) result = fail(result, FieldFault::second_point, i);
+    if (result.fault != FieldFault::none) return i;
+    if (blank_behind) result.hints |= hint_inner_blank;
+    blank_behind = false;
+    if (c == '.' && !digit) mantissa.digits.push('0');
+    mantissa.digits.push(c);
+    (c == '.' ? mantissa.point : digit) = true;
+  }
+  if (!digit) {
+    result.hints |= hint_lone_mark;
+    mantissa.digits.push('0');
+  }
+  if (blank_behind) result.hints |= hint_trailing_blank;
+  const bool letter = i < text.size() && text[i] != '+' && text[i] != '-';
+  return letter ? i + 1 : i;  // a sign belongs to the exponent
+}
+
+}  // namespace
 
 FieldResult read_integer_field(std::string_view text, BlankMode blanks) {
   FieldResult result;
@@ -183,55 +220,20 @@ FieldResult read_real_field(std::string_view text, NumberForm form) {
     if (negative) result.value = -result.value;
     return result;
   }
-
-  DigitBuffer mantissa;
-  bool point = false, digit = false, blank_after_digit = false, has_exponent = false;
-  for (; i < text.size() && !has_exponent; ++i) {
-    const char c = text[i];
-    if (is_digit(c)) {
-      if (blank_after_digit) result.hints |= hint_inner_blank;
-      blank_after_digit = false;
-      digit = true;
-      mantissa.push(c);
-    } else if (c == ' ') {
-      blank_after_digit = digit || point;
-      if (form.blanks == BlankMode::zero) {
-        digit = true;
-        mantissa.push('0');
-      }
-    } else if (c == '.') {
-      if (point) return fail(result, FieldFault::second_point, i);
-      if (blank_after_digit) result.hints |= hint_inner_blank;
-      point = true;
-      blank_after_digit = false;
-      if (!digit) mantissa.push('0');
-      mantissa.push('.');
-    } else if (c == '+' || c == '-') {
-      has_exponent = true;
-      --i;  // the sign belongs to the exponent
-    } else if (lower(c) == 'e' || lower(c) == 'd' || lower(c) == 'q') {
-      has_exponent = true;
-    } else {
-      return fail(result, FieldFault::bad_character, i);
-    }
-  }
+  Mantissa mantissa;
+  i = scan_mantissa(text, i, form.blanks, mantissa, result);
   int exponent = -form.scale;
-  if (has_exponent) exponent = read_exponent(text, i, form, result);
+  if (mantissa.ended_by_exponent && result.fault == FieldFault::none)
+    exponent = read_exponent(text, i, form, result);
   if (result.fault != FieldFault::none) return result;
-  if (!point) {
+  if (!mantissa.point) {
     exponent -= form.decimals;
-    if (form.decimals > 0 && !has_exponent) result.hints |= hint_implied_point;
+    if (form.decimals > 0 && !mantissa.ended_by_exponent) result.hints |= hint_implied_point;
   }
   if (!form.free && (exponent >= 10000 || exponent <= -10000))
     return fail(result, FieldFault::exponent_range, text.size() - 1);
-  if (!digit) {
-    result.hints |= hint_lone_mark;
-    mantissa.push('0');
-  }
-  if (blank_after_digit) result.hints |= hint_trailing_blank;
-  bool overflow = false;
-  const double magnitude = decimal_value(mantissa.view(), exponent, overflow);
-  if (overflow) result.hints |= hint_overflow;
+  const double magnitude = decimal_value(mantissa.digits, exponent);
+  if (std::isinf(magnitude)) result.hints |= hint_overflow;
   result.value = negative ? -magnitude : magnitude;
   return result;
 }

@@ -63,9 +63,6 @@ FieldResult read_logical_field(std::string_view text);
 // only.
 FieldResult read_free_number(std::string_view text, bool integer);
 
-// Correctly rounded value of "[digits][.digits]" times 10^exponent; overflow gives infinity and the hint.
-double decimal_value(std::string_view mantissa, int exponent, bool& overflow);
-
 // "is not a number": what the fault means, for messages.
 const char* fault_text(FieldFault fault);
 

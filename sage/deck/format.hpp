@@ -73,15 +73,15 @@ class FormatWalker {
 
  private:
   struct Loop {
-    int begin = 0;
-    int left = 0;
+    int begin, left;
   };
   const FormatStep* steps_;
   int revert_to_;
   int at_ = 0;
   int left_ = 0;  // further repeats of the data edit at `at_`
   int depth_ = 0;
-  Loop loops_[max_depth];
+  Loop loops_[max_depth];  // the first depth_ are in use; the rest is not set, since a walker is made for every
+                           // card
 };
 
 }  // namespace sage

@@ -62,7 +62,7 @@ std::string detect_layout(std::string_view deck_text) {
   const SourceText deck(std::string(deck_text.substr(0, 4000)), "");
   if (const std::string named = named_layout(deck.line(1)); !named.empty()) return named;
   for (const EmbeddedLayout& embedded : embedded_layouts())
-    if (has_marks(load_layout_text(embedded.text, std::string(embedded.name)), deck))
+    if (has_marks(load_layout_heading(embedded.text, std::string(embedded.name)), deck))
       return std::string(embedded.name);
   return std::string(standard_layout);
 }

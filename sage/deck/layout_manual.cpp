@@ -1,19 +1,12 @@
 // Writes the manual of a layout from the layout itself.
 #include <algorithm>
-#include <array>
-#include <charconv>
 
 #include "sage/deck/layout.hpp"
+#include "sage/deck/text.hpp"
 
 namespace sage {
 
 namespace {
-
-std::string number_text(double value) {
-  std::array<char, 40> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
-}
 
 const char* kind_text(FieldKind kind) {
   switch (kind) {

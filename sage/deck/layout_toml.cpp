@@ -1,20 +1,17 @@
 // Layout files: TOML -> Layout, with the layout file's own line in every complaint.
-#include <toml++/toml.h>
-
-#include <algorithm>
-#include <charconv>
-
 #include "sage/deck/layout.hpp"
+#include "sage/deck/toml_file.hpp"
 
 namespace sage {
 
 namespace {
 
-class LayoutReader {
+class LayoutReader : private TomlFile {
  public:
-  LayoutReader(const toml::table& root, std::string file) : root_(root), file_(std::move(file)) {}
+  LayoutReader(const toml::table& root, std::string file) : TomlFile(std::move(file)), root_(root) {}
 
-  Layout read() {
+  // Everything but the cards.
+  Layout read_heading() {
     layout_.file = file_;
     known_keys(root_,
                {"name", "title", "blanks", "comment", "record_length", "sequence_columns", "card_separator",
@@ -26,6 +23,11 @@ class LayoutReader {
     layout_.example = text(root_, "example");
     read_record_rules();
     read_marks();
+    return std::move(layout_);
+  }
+
+  Layout read() {
+    layout_ = read_heading();
     const toml::array* cards = root_["card"].as_array();
     if (!cards) fail(root_, "a layout needs [[card]] entries");
     read_entries(*cards, layout_.entries, 1);
@@ -33,44 +35,6 @@ class LayoutReader {
   }
 
  private:
-  [[noreturn]] void fail(const toml::node& node, const std::string& message) const {
-    const toml::source_position at = node.source().begin;
-    throw InputError({file_, static_cast<int>(at.line), 0, 0}, message);
-  }
-
-  void known_keys(const toml::table& table, std::initializer_list<std::string_view> keys) const {
-    for (const auto& [key, value] : table)
-      if (std::find(keys.begin(), keys.end(), key.str()) == keys.end())
-        fail(value, "unknown key \"" + std::string(key.str()) + "\"");
-  }
-
-  std::string text(const toml::table& table, std::string_view key, bool required = false) const {
-    const toml::node* node = table.get(key);
-    if (!node) {
-      if (required) fail(table, "\"" + std::string(key) + "\" is missing");
-      return {};
-    }
-    if (const auto value = node->value_exact<std::string>()) return *value;
-    fail(*node, "\"" + std::string(key) + "\" must be a text in quotes");
-  }
-
-  int integer(const toml::table& table, std::string_view key, int fallback, int low, int high) const {
-    const toml::node* node = table.get(key);
-    if (!node) return fallback;
-    const auto value = node->value_exact<std::int64_t>();
-    if (!value || *value < low || *value > high)
-      fail(*node, "\"" + std::string(key) + "\" must be an integer from " + std::to_string(low) + " to " +
-                      std::to_string(high));
-    return static_cast<int>(*value);
-  }
-
-  bool flag(const toml::table& table, std::string_view key) const {
-    const toml::node* node = table.get(key);
-    if (!node) return false;
-    if (const auto value = node->value_exact<bool>()) return *value;
-    fail(*node, "\"" + std::string(key) + "\" must be true or false");
-  }
-
   void read_record_rules() {
     const std::string blanks = text(root_, "blanks");
     if (!blanks.empty() && blanks != "null" && blanks != "zero")
@@ -308,21 +272,28 @@ class LayoutReader {
   }
 
   // Every field must meet an edit descriptor of its kind.
+  // A list goes on with the edits behind it and, on reversion, with the last group: two passes show them all.
   void check_format(const toml::table& table, const CardRule& card) const {
     FormatWalker walker(card.format);
+    const bool list = !card.rules.back().count.empty();
     std::size_t field = 0;
-    for (int guard = 0; field < card.spec.fields.size(); ++guard) {
+    int passes = 0;
+    for (int steps = 0; steps < 100000; ++steps) {
+      const bool complete = field == card.spec.fields.size();
+      if (complete && (!list || passes > 2)) return;
       const FormatStep& step = walker.next();
       if (step.edit == Edit::end) {
-        if (!card.format.reversion_has_data || guard > 100000)
+        ++passes;
+        if (!card.format.reversion_has_data && !(complete && !list))
           fail(table, "the FORMAT has fewer fields than the card");
         walker.revert();
       }
       if (!is_data(step.edit)) continue;
-      if (!edit_fits(step.edit, card.spec.fields[field].kind))
-        fail(*table.get("format"), "FORMAT " + card.spec.format + " doesn't suit field \"" +
-                                       card.spec.fields[field].name + "\": its kind is another");
-      ++field;
+      const FieldSpec& spec = card.spec.fields[std::min(field, card.spec.fields.size() - 1)];
+      if (!edit_fits(step.edit, spec.kind))
+        fail(*table.get("format"),
+             "FORMAT " + card.spec.format + " doesn't suit field \"" + spec.name + "\": its kind is another");
+      if (!complete) ++field;
     }
   }
 
@@ -382,22 +353,30 @@ class LayoutReader {
   }
 
   const toml::table& root_;
-  std::string file_;
   Layout layout_;
   int bare_card_ = -1;
 };
 
+toml::table parse(std::string_view text, const std::string& file) {
+  try {
+    return toml::parse(text, file);
+  } catch (const toml::parse_error& error) {
+    const toml::source_position at = error.source().begin;
+    throw InputError({file, static_cast<int>(at.line), static_cast<int>(at.column), 0},
+                     std::string(error.description()));
+  }
+}
+
 }  // namespace
 
 Layout load_layout_text(std::string_view toml_text, const std::string& file) {
-  try {
-    const toml::table root = toml::parse(toml_text, file);
-    return LayoutReader(root, file).read();
-  } catch (const toml::parse_error& error) {
-    throw InputError(
-        {file, static_cast<int>(error.source().begin.line), static_cast<int>(error.source().begin.column), 0},
-        std::string(error.description()));
-  }
+  const toml::table root = parse(toml_text, file);
+  return LayoutReader(root, file).read();
+}
+
+Layout load_layout_heading(std::string_view toml_text, const std::string& file) {
+  const toml::table root = parse(toml_text.substr(0, toml_text.find("\n[[card]]")), file);
+  return LayoutReader(root, file).read_heading();
 }
 
 }  // namespace sage

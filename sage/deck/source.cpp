@@ -80,6 +80,8 @@ void check_is_text(std::string_view text, const std::string& name) {
   if (text.empty()) throw InputError({name, 0, 0, 0}, "the file is empty");
   if (text.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
     throw InputError({name, 0, 0, 0}, "the file is larger than 2 GiB");
+  if (text.find_first_not_of(" \t\r\n\x1a") == std::string_view::npos)
+    throw InputError({name, 0, 0, 0}, "the file holds nothing but blanks");
   const std::size_t nul = text.find('\0');
   if (nul == std::string_view::npos) return;
   const bool wide = text.size() > 1 && (text.substr(0, 2) == "\xff\xfe" || text.substr(0, 2) == "\xfe\xff");

@@ -1,6 +1,7 @@
 // Materials, element groups and element cards (with block generation).
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sage/model/builder.hpp"
 
@@ -34,9 +35,13 @@ int chosen_formulation(const Builder& b, const ElementEntry& entry, int deck_cod
   return replaced ? 0 : deck_code;
 }
 
+constexpr int kMaxElements = 50'000'000;
+constexpr std::int64_t kLargestNumber = std::numeric_limits<int>::max();
+
 // Node numbers of one element card; trailing blanks are mid-side nodes to be made later (0).
 std::vector<int> card_nodes(const CardView& card) {
-  static constexpr const char* kFields[] = {"n1", "n2", "n3", "n4", "n5", "n6", "n7", "n8"};
+  static constexpr const char* kFields[] = {"n1", "n2", "n3", "n4",  "n5",  "n6",  "n7", "n8",
+                                            "n9", "n10", "n11", "n12", "n13", "n14", "n15"};
   std::vector<int> nodes;
   for (const char* field : kFields) nodes.push_back(card.integer(field));
   while (!nodes.empty() && nodes.back() == 0) nodes.pop_back();
@@ -52,10 +57,6 @@ void add_element(Builder& b, const CardView& card, const ElementCard& element) {
   Group& group = b.model.groups[static_cast<std::size_t>(element.group)];
   const ElementEntry& entry = *b.catalogue.elements.find(group.element_code);
   const std::string name = "element " + std::to_string(element.number);
-  if (element.number < 1) {
-    b.error(card.where("number"), "element number " + std::to_string(element.number) + " must be 1 or more");
-    return;
-  }
   if (!b.element_place.try_emplace(element.number, ElementPlace{element.group, group.elements()}).second) {
     b.error(card.where("number"), name + " is defined twice");
     return;
@@ -66,8 +67,9 @@ void add_element(Builder& b, const CardView& card, const ElementCard& element) {
     if (number == 0) continue;  // a mid-side node to be made
     const auto it = b.node_index.find(number);
     if (it == b.node_index.end()) {
-      b.error(card.where("n" + std::to_string(i + 1)),
-              name + ": node " + std::to_string(number) + " is not defined by any node or fill card");
+      if (b.nodes_known)
+        b.error(card.where("n" + std::to_string(i + 1)),
+                name + ": node " + std::to_string(number) + " is not defined by any node or fill card");
       return;
     }
     if (std::find(index.begin(), index.end(), it->second) != index.end()) {
@@ -117,10 +119,50 @@ void fold_triangle(Builder& b, ElementCard& element) {
   }
 }
 
+// A block of elements that starts with the one on the card.
+struct Block {
+  int columns = 1, rows = 1, column_step = 1, row_step = 0;  // steps of node numbers
+};
+
+// False, and an error, where the card's block can't be counted out.
+bool read_block(Builder& b, const CardView& card, const ElementCard& element, Block& block) {
+  block = {std::max(1, card.integer("columns")), std::max(1, card.integer("rows")),
+           card.integer("column_step", 1), card.integer("row_step")};
+  const int before = b.problems.errors();
+  for (const char* field : {"columns", "rows"})
+    if (card.integer(field) < 0)
+      b.error(card.where(field), "the " + card.label(field) + " must not be negative");
+  const std::int64_t count = std::int64_t{block.columns} * block.rows;
+  if (count > kMaxElements)
+    b.error(card.where("columns"),
+            "the block would have more than " + std::to_string(kMaxElements) + " elements");
+  if (block.columns > 1 && block.column_step == 0)
+    b.error(card.where("column_step"), "more than one column of elements needs the node step along a row");
+  if (block.rows > 1 && block.row_step == 0)
+    b.error(card.where("row_step"), "more than one row of elements needs the node step from row to row");
+  if (element.number < 1 || (count <= kMaxElements && element.number + count - 1 > kLargestNumber))
+    b.error(card.where("number"),
+            "element number " + std::to_string(element.number) +
+                (element.number < 1 ? " must be 1 or more" : " is too large for the block"));
+  if (b.problems.errors() > before) return false;
+  // Every node number of the block lies between those of its corner elements.
+  for (const std::int64_t i : {0, block.columns - 1})
+    for (const std::int64_t j : {0, block.rows - 1})
+      for (const int n : element.nodes) {
+        const std::int64_t number = n + i * block.column_step + j * block.row_step;
+        if (n == 0 || (number >= 1 && number <= kLargestNumber)) continue;
+        b.error(card.where("n1"), "element " + std::to_string(element.number) + ": its block leads to node " +
+                                      std::to_string(number) + ", which can't exist");
+        return false;
+      }
+  return true;
+}
+
 void read_element_card(Builder& b, const CardView& card) {
-  const auto group = b.group_index.find(card.integer("group", 1));
-  if (group == b.group_index.end()) {
-    b.error(card.where("group"), "group " + std::to_string(card.integer("group", 1)) + " is not defined");
+  const int group_number = card.integer("group", 1);
+  const auto group = b.group_index.find(group_number);
+  if (group == b.group_index.end() || group_number < 1) {
+    b.group_missing(card.where("group"), group_number);
     return;
   }
   const Group& target = b.model.groups[static_cast<std::size_t>(group->second)];
@@ -135,22 +177,22 @@ void read_element_card(Builder& b, const CardView& card) {
                                   " nodes on its card, not " + std::to_string(given));
     return;
   }
-  const int columns = std::max(1, card.integer("columns", 1)), rows = std::max(1, card.integer("rows", 1));
-  const int column_step = card.integer("column_step", 1), row_step = card.integer("row_step", 0);
-  if (static_cast<std::int64_t>(columns) * rows > 50'000'000) {
-    b.error(card.where("columns"), "the block would have more than 50000000 elements");
+  for (int c = 0; c < entry.corners; ++c) {
+    if (element.nodes[static_cast<std::size_t>(c)] != 0) continue;
+    const std::string field = "n" + std::to_string(c + 1);
+    b.error(card.where(field), "element " + std::to_string(element.number) + ": corner node " +
+                                   std::to_string(c + 1) + " of the " + entry.name + " is missing");
     return;
   }
-  if (rows > 1 && row_step == 0) {
-    b.error(card.where("row_step"), "more than one row of elements needs the node step from row to row");
-    return;
-  }
-  const std::vector<int> corner_nodes = element.nodes;
-  for (int j = 0; j < rows; ++j) {
-    for (int i = 0; i < columns; ++i) {
-      ElementCard next{element.number + j * columns + i, group->second, corner_nodes};
+  Block block;
+  if (!read_block(b, card, element, block)) return;
+  const std::vector<int> first_nodes = element.nodes;
+  const int target_group = group->second;  // folding triangles may add to the index
+  for (int j = 0; j < block.rows; ++j) {
+    for (int i = 0; i < block.columns; ++i) {
+      ElementCard next{element.number + j * block.columns + i, target_group, first_nodes};
       for (int& n : next.nodes)
-        if (n != 0) n += i * column_step + j * row_step;
+        if (n != 0) n += i * block.column_step + j * block.row_step;
       fold_triangle(b, next);
       const int before = b.problems.errors();
       add_element(b, card, next);
@@ -222,10 +264,13 @@ void read_material(Builder& b, const CardView& card, const std::vector<CardView>
 }  // namespace
 
 void build_materials(Builder& b) {
+  const int before = b.problems.errors();
   for (const CardView& card : b.deck.all("material")) read_material(b, card, b.deck.all("parameters", card));
+  b.materials_known = b.problems.errors() == before;
 }
 
 void build_groups(Builder& b) {
+  const int before = b.problems.errors();
   for (const CardView& card : b.deck.all("group")) {
     Group group;
     group.number = card.integer("number");
@@ -242,11 +287,11 @@ void build_groups(Builder& b) {
     if (entry == nullptr)
       b.error(card.where("element"), name + ": element type " + std::to_string(group.element_code) +
                                          " is unknown; known: " + b.catalogue.elements.known());
-    if (material == b.material_index.end())
-      b.error(card.where("material"),
-              name + ": material " + std::to_string(card.integer("material")) + " is not defined");
-    else
+    if (material != b.material_index.end())
       group.material = material->second;
+    else if (b.materials_known)
+      b.error(card.where("material"), name + ": material " + std::to_string(card.integer("material")) +
+                                          " is not defined by any material card");
     if (entry != nullptr) {
       const int formulation =
           chosen_formulation(b, *entry, card.integer("formulation"), group.element_code != deck_code);
@@ -273,18 +318,15 @@ void build_groups(Builder& b) {
     b.model.groups.push_back(std::move(group));
   }
   if (b.model.groups.empty()) b.error(b.deck.one("control").where(), "the deck defines no element groups");
+  b.groups_known = b.problems.errors() == before;
 }
 
 void build_elements(Builder& b) {
+  const int before = b.problems.errors();
   for (const CardView& card : b.deck.all("element")) read_element_card(b, card);
-  int total_made = 0;
-  for (const Group& group : b.model.groups) total_made += group.elements();
-  const CardView control = b.deck.one("control");
-  if (total_made == 0 && b.problems.errors() == 0) b.error(control.where(), "the deck defines no elements");
-  const int total = control.integer("total_elements");
-  if (total != 0 && total != total_made)
-    b.error(control.where("total_elements"), "the deck says " + std::to_string(total) +
-                                                 " elements, the cards make " + std::to_string(total_made));
+  b.elements_known = b.nodes_known && b.groups_known && b.problems.errors() == before;
+  if (b.element_place.empty() && b.problems.errors() == 0)
+    b.error(b.deck.one("control").where(), "the deck defines no elements");
 }
 
 }  // namespace sage::build

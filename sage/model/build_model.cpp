@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sage/model/builder.hpp"
+#include "sage/model/canonical.hpp"
 
 namespace sage {
 
@@ -14,11 +15,33 @@ bool Builder::usable(const CardView& card, std::string_view field, double value)
   return false;
 }
 
-int Builder::node(const CardView& card, std::string_view field, int number) {
-  const auto it = node_index.find(number);
+int Builder::node(const CardView& card, std::string_view field, std::int64_t number) {
+  const auto it = node_index.find(static_cast<int>(number));
   if (it != node_index.end()) return it->second;
-  error(card.where(field), "node " + std::to_string(number) + " is not defined by any node or fill card");
+  if (nodes_known)
+    error(card.where(field), "node " + std::to_string(number) + " is not defined by any node or fill card");
   return -1;
+}
+
+NumberRange Builder::range(const CardView& card, std::string_view first_field) {
+  const int first = card.integer(first_field);
+  const int last = card.integer("last") == 0 ? first : card.integer("last");
+  const int step = card.integer("step") == 0 ? 1 : card.integer("step");
+  if (step < 0)
+    error(card.where("step"), "the " + card.label("step") + " must not be negative");
+  else if (last < first)
+    error(card.where("last"),
+          "the range runs backwards, from " + std::to_string(first) + " to " + std::to_string(last));
+  else if ((std::int64_t{last} - first) % step != 0)
+    error(card.where("step"), "steps of " + std::to_string(step) + " from " + std::to_string(first) +
+                                  " do not meet the last, " + std::to_string(last));
+  else
+    return {first, last, step};
+  return {};
+}
+
+void Builder::group_missing(const SourcePosition& where, int number) {
+  if (groups_known) error(where, "group " + std::to_string(number) + " is not defined by any group card");
 }
 
 void build_control(Builder& b) {
@@ -56,24 +79,28 @@ void build_reports(Builder& b) {
       continue;
     }
     report.kind = static_cast<ReportKind>(kind);
-    const int first = card.integer("first"), last = std::max(first, card.integer("last", first));
-    const int step = std::max(1, card.integer("step", 1));
-    for (int number = first; number <= last; number += step) {
-      const int node = b.node(card, number == first ? "first" : "last", number);
+    const NumberRange range = card.blank("nodes") ? b.range(card, "first") : NumberRange{};
+    for (std::int64_t number = range.first; number <= range.last; number += range.step) {
+      const int node = b.node(card, number == range.first ? "first" : "last", number);
       if (node < 0) break;
       report.nodes.push_back(node);
+    }
+    for (const FieldValue& value : card.list("nodes")) {
+      const int node = b.node(card, "nodes", static_cast<int>(value.number));
+      if (node >= 0) report.nodes.push_back(node);
     }
     report.height = card.real("height");
     report.area = card.real("area");
     report.cell_pressure = card.real("cell_pressure");
-    report.stage = std::max(1, card.integer("stage", 1)) - 1;
-    if (report.stage >= static_cast<int>(b.model.stages.size()))
-      b.error(card.where("stage"), "the report starts at stage " + std::to_string(report.stage + 1) + " of " +
+    const int stage = card.integer("stage") == 0 ? 1 : card.integer("stage");
+    report.stage = stage - 1;
+    if (stage < 1 || stage > static_cast<int>(b.model.stages.size()))
+      b.error(card.where("stage"), "the report starts at stage " + std::to_string(stage) + "; the deck has " +
                                        std::to_string(b.model.stages.size()));
     if (report.kind == ReportKind::triaxial) {
       const auto group = b.group_index.find(card.integer("group"));
       if (group == b.group_index.end())
-        b.error(card.where("group"), "group " + std::to_string(card.integer("group")) + " is not defined");
+        b.group_missing(card.where("group"), card.integer("group"));
       else
         report.group = group->second;
       if (!(report.height > 0.0))
@@ -85,9 +112,24 @@ void build_reports(Builder& b) {
   }
 }
 
+void check_totals(Builder& b) {
+  const CardView control = b.deck.one("control");
+  int elements = 0;
+  for (const Group& group : b.model.groups) elements += group.elements();
+  const auto compare = [&](const char* field, const char* what, int made) {
+    const int total = control.integer(field);
+    if (total != 0 && total != made)
+      b.error(control.where(field), "the deck says " + std::to_string(total) + " " + what +
+                                        ", the cards make " + std::to_string(made));
+  };
+  compare("total_nodes", "nodes", b.model.mesh.nodes());
+  compare("total_elements", "elements", elements);
+}
+
 }  // namespace build
 
-Model build_model(const Deck& deck, const Catalogue& catalogue, const BuildOptions& options) {
+Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOptions& options) {
+  const Deck deck = canonical_deck(as_read, catalogue);
   build::Builder b{deck, catalogue, options, {}, {}, {}, {}, {}, {}};
   b.model.diagnostics = deck.diagnostics;
   build::build_control(b);
@@ -97,6 +139,7 @@ Model build_model(const Deck& deck, const Catalogue& catalogue, const BuildOptio
   build::build_elements(b);
   build::build_stages(b);
   build::build_reports(b);
+  if (b.problems.errors() == 0) build::check_totals(b);
   if (b.problems.errors() > 0) throw InputError(b.problems);
   build::make_mid_nodes(b);
   build::check_model(b);

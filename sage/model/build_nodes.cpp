@@ -1,6 +1,8 @@
 // Node cards (with line generation) and fill cards (blocks between four corner nodes).
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numeric>
 #include <vector>
 
 #include "sage/model/builder.hpp"
@@ -10,12 +12,9 @@ namespace sage::build {
 namespace {
 
 constexpr int kMaxNodes = 20'000'000;
+constexpr std::int64_t kLargestNumber = std::numeric_limits<int>::max();
 
-struct PlacedNode {
-  Vector2 x;
-  bool from_card = false;
-};
-using PlacedNodes = std::map<int, PlacedNode>;  // ordered by number, as listings are
+using PlacedNodes = std::map<int, Vector2>;  // ordered by number, as listings are
 
 // Fractions 0 .. 1 of `intervals` intervals whose last is `ratio` times the first (0 = equal).
 std::vector<double> graded_fractions(int intervals, double ratio) {
@@ -40,26 +39,27 @@ Vector2 cartesian(const NodeCard& card) {
   // Quarter turns are exact, so that symmetry lines are straight.
   const double quarter = card.given.y() / 90.0;
   if (quarter == std::floor(quarter)) {
-    const int turn = ((static_cast<int>(quarter) % 4) + 4) % 4;
+    const int turn = (static_cast<int>(std::fmod(quarter, 4.0)) + 4) % 4;
     const double c[4] = {1, 0, -1, 0}, s[4] = {0, 1, 0, -1};
     return card.given.x() * Vector2(c[turn], s[turn]);
   }
   return card.given.x() * Vector2(std::cos(angle), std::sin(angle));
 }
 
-void place(Builder& b, PlacedNodes& nodes, const CardView& card, std::string_view field, int number,
-           const Vector2& x, bool from_card) {
+// False after an error.
+bool place(Builder& b, PlacedNodes& nodes, const CardView& card, int number, const Vector2& x) {
   if (number < 1) {
-    b.error(card.where(field), "node number " + std::to_string(number) + " must be 1 or more");
-    return;
+    b.error(card.where("number"), "node number " + std::to_string(number) + " must be 1 or more");
+    return false;
   }
-  const auto [it, added] = nodes.try_emplace(number, PlacedNode{x, from_card});
-  if (!added && from_card) b.error(card.where(field), "node " + std::to_string(number) + " is defined twice");
+  if (nodes.try_emplace(number, x).second) return true;
+  b.error(card.where("number"), "node " + std::to_string(number) + " is defined twice");
+  return false;
 }
 
 void fill_line(Builder& b, PlacedNodes& nodes, const CardView& card, const NodeCard& from, const NodeCard& to,
                int step, double ratio) {
-  const int span = to.number - from.number;
+  const std::int64_t span = std::int64_t{to.number} - from.number;
   if (span <= 0 || span % step != 0) {
     b.error(card.where("step"), "the step " + std::to_string(step) + " does not lead from node " +
                                     std::to_string(from.number) + " to node " + std::to_string(to.number));
@@ -69,11 +69,16 @@ void fill_line(Builder& b, PlacedNodes& nodes, const CardView& card, const NodeC
     b.error(card.where("system"), "both ends of a generated line must use the same coordinate system");
     return;
   }
-  const std::vector<double> at = graded_fractions(span / step, ratio);
-  for (int i = 1; i < span / step; ++i) {
+  if (span / step > kMaxNodes) {
+    b.error(card.where("step"), "the line would have more than " + std::to_string(kMaxNodes) + " nodes");
+    return;
+  }
+  const int intervals = static_cast<int>(span / step);
+  const std::vector<double> at = graded_fractions(intervals, ratio);
+  for (int i = 1; i < intervals; ++i) {
     NodeCard between = from;
     between.given += at[static_cast<std::size_t>(i)] * (to.given - from.given);
-    place(b, nodes, card, "number", from.number + i * step, cartesian(between), true);
+    if (!place(b, nodes, card, from.number + i * step, cartesian(between))) return;  // one message a card
   }
 }
 
@@ -85,16 +90,17 @@ void read_node_cards(Builder& b, PlacedNodes& nodes) {
     if (system != 0 && system != 1)
       b.error(card.where("system"),
               "coordinate system " + std::to_string(system) + " is unknown; 0 cartesian, 1 polar");
-    if (!b.usable(card, "x", now.given.x()) || !b.usable(card, "y", now.given.y())) continue;
+    if (!b.usable(card, "x", now.given.x()) || !b.usable(card, "y", now.given.y())) now.given.setZero();
     const double ratio = card.real("ratio");
-    if (ratio < 0.0) b.error(card.where("ratio"), "the spacing ratio must not be negative");
+    if (b.usable(card, "ratio", ratio) && ratio < 0.0)
+      b.error(card.where("ratio"), "the spacing ratio must not be negative");
     const int step = card.integer("step");
     if (step < 0) b.error(card.where("step"), "the step must not be negative");
     if (step > 0 && previous.number == 0)
       b.error(card.where("step"), "the first node card cannot generate: there is no node before it");
     else if (step > 0)
       fill_line(b, nodes, card, previous, now, step, ratio);
-    place(b, nodes, card, "number", now.number, cartesian(now), true);
+    place(b, nodes, card, now.number, cartesian(now));
     previous = now;
   }
 }
@@ -105,17 +111,17 @@ std::vector<Vector2> side_points(const PlacedNodes& nodes, int first, int step, 
   for (int i = 0; i <= intervals; ++i) {
     const auto it = nodes.find(first + i * step);
     if (it == nodes.end()) break;
-    points.push_back(it->second.x);
+    points.push_back(it->second);
   }
   if (static_cast<int>(points.size()) == intervals + 1) return points;
-  const Vector2 a = nodes.at(first).x, c = nodes.at(first + intervals * step).x;
+  const Vector2 a = nodes.at(first), c = nodes.at(first + intervals * step);
   const std::vector<double> at = graded_fractions(intervals, ratio);
   points.clear();
   for (double t : at) points.push_back(a + t * (c - a));
   return points;
 }
 
-void fill_block(Builder& b, PlacedNodes& nodes, const CardView& card) {
+void fill_block(Builder& b, PlacedNodes& nodes, const CardView& card, int errors_before) {
   const int first = card.integer("first"), columns = card.integer("columns"), rows = card.integer("rows");
   const int column_step = card.integer("column_step", 1), row_step = card.integer("row_step");
   if (columns < 1 || rows < 1 || column_step < 1 || row_step < 1) {
@@ -126,15 +132,27 @@ void fill_block(Builder& b, PlacedNodes& nodes, const CardView& card) {
     b.error(card.where("columns"), "the block would have more than " + std::to_string(kMaxNodes) + " nodes");
     return;
   }
-  const int corners[4] = {first, first + columns * column_step, first + columns * column_step + rows * row_step,
-                          first + rows * row_step};
-  for (int corner : corners) {
-    if (nodes.count(corner)) continue;
-    b.error(card.where("first"),
-            "corner node " + std::to_string(corner) + " of the block is not defined before it");
+  // i columns and j rows further is the same number where i * column_step = j * row_step.
+  const int common = std::gcd(column_step, row_step);
+  if (row_step / common <= columns && column_step / common <= rows) {
+    b.error(card.where("row_step"),
+            "the block would number two of its nodes alike: the step from row to row, " +
+                std::to_string(row_step) + ", does not clear " + std::to_string(columns) +
+                " columns in steps of " + std::to_string(column_step));
     return;
   }
+  const std::int64_t across = std::int64_t{columns} * column_step, up = std::int64_t{rows} * row_step;
+  for (const std::int64_t corner : {std::int64_t{first}, first + across, first + across + up, first + up}) {
+    if (corner <= kLargestNumber && nodes.count(static_cast<int>(corner))) continue;
+    if (b.problems.errors() == errors_before)  // else the card that should define it is what is wrong
+      b.error(card.where("first"),
+              "corner node " + std::to_string(corner) + " of the block is not defined before it");
+    return;
+  }
+  const int corners[4] = {first, static_cast<int>(first + across), static_cast<int>(first + across + up),
+                          static_cast<int>(first + up)};
   const double cr = card.real("column_ratio"), rr = card.real("row_ratio");
+  if (!b.usable(card, "column_ratio", cr) || !b.usable(card, "row_ratio", rr)) return;
   if (cr < 0.0 || rr < 0.0) {
     b.error(card.where(cr < 0.0 ? "column_ratio" : "row_ratio"), "a spacing ratio must not be negative");
     return;
@@ -152,7 +170,7 @@ void fill_block(Builder& b, PlacedNodes& nodes, const CardView& card) {
       const Vector2 x = (1 - t) * bottom[iu] + t * top[iu] + (1 - s) * left[ju] + s * right[ju] -
                         ((1 - s) * (1 - t) * bottom.front() + s * (1 - t) * bottom.back() + s * t * top.back() +
                          (1 - s) * t * top.front());
-      place(b, nodes, card, "first", first + i * column_step + j * row_step, x, false);
+      nodes.try_emplace(first + i * column_step + j * row_step, x);  // nodes of cards stay
     }
   }
 }
@@ -161,8 +179,10 @@ void fill_block(Builder& b, PlacedNodes& nodes, const CardView& card) {
 
 void build_nodes(Builder& b) {
   PlacedNodes nodes;
+  const int before = b.problems.errors();
   read_node_cards(b, nodes);
-  for (const CardView& card : b.deck.all("fill")) fill_block(b, nodes, card);
+  for (const CardView& card : b.deck.all("fill")) fill_block(b, nodes, card, before);
+  b.nodes_known = b.problems.errors() == before;
   if (nodes.empty() && b.problems.errors() == 0)
     b.error(b.deck.one("control").where(), "the deck defines no nodes");
 
@@ -172,16 +192,11 @@ void build_nodes(Builder& b) {
   b.node_index.reserve(nodes.size());
   for (const auto& [number, node] : nodes) {
     const int index = mesh.nodes();
-    mesh.x.col(index) = node.x;
+    mesh.x.col(index) = node;
     mesh.number.push_back(number);
     b.node_index.emplace(number, index);
   }
   mesh.deck_nodes = mesh.nodes();
-  const CardView control = b.deck.one("control");
-  const int total = control.integer("total_nodes");
-  if (total != 0 && total != mesh.nodes())
-    b.error(control.where("total_nodes"), "the deck says " + std::to_string(total) + " nodes, the cards make " +
-                                              std::to_string(mesh.nodes()));
 }
 
 }  // namespace sage::build

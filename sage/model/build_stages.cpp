@@ -18,17 +18,10 @@ FixityCode fixity_code(Builder& b, const CardView& card, std::string_view field)
 
 // Nodes first, first+step ... last.  Empty after an error.
 std::vector<int> node_range(Builder& b, const CardView& card) {
-  const int first = card.integer("first"),
-            last = card.integer("last", first) == 0 ? first : card.integer("last", first);
-  const int step = card.integer("step", 1) == 0 ? 1 : card.integer("step", 1);
-  if (last < first || step < 0 || (last - first) % step != 0) {
-    b.error(card.where("first"), "the range " + std::to_string(first) + " to " + std::to_string(last) +
-                                     " in steps of " + std::to_string(step) + " does not end on its last node");
-    return {};
-  }
+  const NumberRange range = b.range(card, "first");
   std::vector<int> nodes;
-  for (int number = first; number <= last; number += step) {
-    const int node = b.node(card, number == first ? "first" : "last", number);
+  for (std::int64_t number = range.first; number <= range.last; number += range.step) {
+    const int node = b.node(card, number == range.first ? "first" : "last", number);
     if (node < 0) return {};
     nodes.push_back(node);
   }
@@ -47,11 +40,12 @@ void read_fixity(Builder& b, const CardView& card, bool in_stage, std::vector<Fi
     if (fixity.value[c] == 0.0) continue;
     if (!in_stage)
       b.error(card.where(values[c]), "a displacement other than zero belongs on a fixity card of a stage");
-    else if (fixity.code[c] != FixityCode::fixed)
+    else if (const int code = card.integer(codes[c]); code == 0 || code == -1)
       b.error(card.where(codes[c]), "a displacement is given but the code is not 1 (fixed)");
   }
-  if (!in_stage && (fixity.code[0] == FixityCode::released || fixity.code[1] == FixityCode::released))
-    b.error(card.where("x_code"), "only a stage can release a fixity (code -1)");
+  for (std::size_t c = 0; c < 2; ++c)
+    if (!in_stage && fixity.code[c] == FixityCode::released)
+      b.error(card.where(codes[c]), "only a stage can release a fixity (code -1)");
   for (int node : node_range(b, card)) {
     fixity.node = node;
     out.push_back(fixity);
@@ -75,13 +69,13 @@ void read_pressure(Builder& b, const CardView& card, std::vector<EdgeLoad>& out)
   for (const char* field : {"normal1", "normal2", "shear1", "shear2"}) b.usable(card, field, card.real(field));
   load.edge = card.integer("edge") - 1;
   load.line = card.card().line;
-  const int first = card.integer("element"), last = std::max(first, card.integer("last", first));
-  const int step = std::max(1, card.integer("step", 1));
-  for (int number = first; number <= last; number += step) {
-    const auto place = b.element_place.find(number);
+  const NumberRange range = b.range(card, "element");
+  for (std::int64_t number = range.first; number <= range.last; number += range.step) {
+    const auto place = b.element_place.find(static_cast<int>(number));
     if (place == b.element_place.end()) {
-      b.error(card.where(number == first ? "element" : "last"),
-              "element " + std::to_string(number) + " is not defined");
+      if (b.elements_known)
+        b.error(card.where(number == range.first ? "element" : "last"),
+                "element " + std::to_string(number) + " is not defined by any element card");
       return;
     }
     const Group& group = b.model.groups[static_cast<std::size_t>(place->second.group)];
@@ -125,19 +119,32 @@ void read_initial(Builder& b, const CardView& card, std::vector<InitialStress>& 
     initial.group = static_cast<int>(g);
     out.push_back(initial);
   }
-  if (!found) b.error(card.where("group"), "group " + std::to_string(number) + " is not defined");
+  if (!found) b.group_missing(card.where("group"), number);
+}
+
+// An interface can take the traction of a group only if that group's stress is stated.
+void check_traction(Builder& b, const CardView& card) {
+  if (card.integer("kind") != static_cast<int>(InitialKind::traction)) return;
+  const int wanted = card.integer("v1");
+  for (const InitialStress& initial : b.model.initials) {
+    const Group& group = b.model.groups[static_cast<std::size_t>(initial.group)];
+    if (group.number == wanted && group.element && group.element->traits().law_size == 4) return;
+  }
+  if (b.groups_known)
+    b.error(card.where("v1"), "group " + std::to_string(wanted) +
+                                  ", whose traction the interface should take, has no initial card of its own "
+                                  "or is no solid");
 }
 
 void read_groups(Builder& b, const CardView& card, std::vector<int>& out) {
   for (const FieldValue& value : card.list("groups")) {
     bool found = false;
     for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
-      if (b.model.groups[g].number != static_cast<int>(value.number)) continue;
+      if (static_cast<double>(b.model.groups[g].number) != value.number) continue;
       found = true;
       out.push_back(static_cast<int>(g));
     }
-    if (!found)
-      b.error(card.where(value), "group " + std::to_string(static_cast<int>(value.number)) + " is not defined");
+    if (!found) b.group_missing(card.where(value), static_cast<int>(std::clamp(value.number, -2e9, 2e9)));
   }
 }
 
@@ -149,9 +156,10 @@ Stage read_stage(Builder& b, const CardView& card, int number) {
   if (stage.increments < 0 || stage.increments > 10'000'000)
     b.error(card.where("increments"), "the number of increments must be between 1 and 10000000");
   const int method = card.integer("method");
-  if (method < 0 || method > 2)
-    b.error(card.where("method"), "method " + std::to_string(method) +
-                                      " is unknown; 0 Newton, 1 modified Newton, 2 initial stiffness");
+  if (method < 0 || method > 3)
+    b.error(card.where("method"),
+            "method " + std::to_string(method) +
+                " is unknown; 0 Newton, 1 modified Newton, 2 initial stiffness, 3 dogleg");
   else
     stage.method = static_cast<Method>(method);
   if (card.integer("max_iterations") != 0) stage.max_iterations = card.integer("max_iterations");
@@ -197,6 +205,7 @@ void build_stages(Builder& b) {
     if (outside_stages(b.deck, card)) read_fixity(b, card, false, b.model.fixities);
   for (const CardView& card : b.deck.all("initial"))
     if (outside_stages(b.deck, card)) read_initial(b, card, b.model.initials);
+  for (const CardView& card : b.deck.all("initial")) check_traction(b, card);
   int number = 0;
   const std::vector<CardView> titles = b.deck.all("stage_title");
   for (const CardView& card : b.deck.all("stage")) {

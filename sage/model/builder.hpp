@@ -1,6 +1,7 @@
 // Shared by the files that build a model; not part of the public interface.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <unordered_map>
 
@@ -15,6 +16,12 @@ struct ElementPlace {
   int group = 0, element = 0;
 };
 
+// Numbers first, first + step ... last.  Wider than the deck's integers, so that counting past the last is
+// safe.
+struct NumberRange {
+  std::int64_t first = 0, last = -1, step = 1;  // empty as it stands
+};
+
 // Everything that the steps of building share.
 struct Builder {
   const Deck& deck;
@@ -26,6 +33,8 @@ struct Builder {
   std::unordered_map<int, int> group_index;
   std::unordered_map<int, int> material_index;
   std::unordered_map<int, ElementPlace> element_place;
+  // False once a card of that kind was refused: what refers to it is then not reported as missing as well.
+  bool nodes_known = true, materials_known = true, groups_known = true, elements_known = true;
 
   // Adds a message that shows the card.
   void error(const SourcePosition& where, const std::string& message) {
@@ -40,7 +49,12 @@ struct Builder {
   // A number that an analysis can use: finite and below 1e100 (its square must not overflow).
   bool usable(const CardView& card, std::string_view field, double value);
   // Index of a deck node; -1 and an error where it doesn't exist.
-  int node(const CardView& card, std::string_view field, int number);
+  int node(const CardView& card, std::string_view field, std::int64_t number);
+  // The fields `first_field`, last and step of a card.  A blank or zero last means the first only, step 0 is 1.
+  // Empty, and an error, where they make no range.
+  NumberRange range(const CardView& card, std::string_view first_field);
+  // Error at a place that names a group which no card defines.
+  void group_missing(const SourcePosition& where, int number);
 };
 
 void build_control(Builder& b);
@@ -50,6 +64,8 @@ void build_groups(Builder& b);
 void build_elements(Builder& b);
 void build_stages(Builder& b);
 void build_reports(Builder& b);
+// Nodes and elements made against the totals that the control card states.
+void check_totals(Builder& b);
 // Mid-side and inner nodes that element cards leave blank; fixities are inherited along boundary edges.
 void make_mid_nodes(Builder& b);
 // Shapes, supports, unused nodes, radii.

@@ -35,6 +35,8 @@ void check_shapes(Builder& b) {
       try {
         group.element->geometry(x, geometry);
         const double quality = group.element->shape_quality(x);
+        if (const std::string words = group.element->caution(x); !words.empty() && ++cautioned == 1)
+          caution = name + " (" + group.element_name + "): " + words;
         if (quality < kPoorShape) ++poor;
         if (quality < worst) {
           worst = quality;
@@ -46,6 +48,7 @@ void check_shapes(Builder& b) {
           b.error(line_of(b, group.element_lines[eu]), name + " (" + group.element_name + "): " + error.what());
       }
     }
+    if (cautioned > 1) caution += " (and " + std::to_string(cautioned - 1) + " more)";
     if (cautioned > 0) b.warning(group.where, caution);
   }
   if (bad > kShown)
@@ -204,6 +207,8 @@ void check_supports(Builder& b) {
 }
 
 void warn_locking(Builder& b) {
+  constexpr int kShown = 5;
+  int found = 0;
   for (const Group& group : b.model.groups) {
     const ElementTraits& traits = group.element->traits();
     const Material& material = b.model.material_of(group);
@@ -211,6 +216,7 @@ void warn_locking(Builder& b) {
     const MaterialEntry* entry = b.catalogue.materials.find(material.code);
     for (std::size_t i = 0; i < entry->parameters.size(); ++i) {
       if (entry->parameters[i].name != "poissons_ratio" || material.parameters[i] <= 0.45) continue;
+      if (++found > kShown) continue;
       char nu[32];
       std::snprintf(nu, sizeof nu, "%.7g", material.parameters[i]);
       b.warning(group.where, "group " + std::to_string(group.number) + " (" + group.element_name +
@@ -219,6 +225,9 @@ void warn_locking(Builder& b) {
                                  "(formulation 2) does not");
     }
   }
+  if (found > kShown)
+    b.warning({b.deck.file, 0, 0, 0},
+              "and " + std::to_string(found - kShown) + " more groups whose elements lock near nu = 1/2");
 }
 
 }  // namespace

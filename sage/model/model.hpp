@@ -89,7 +89,7 @@ struct InitialStress {
   SourcePosition where;
 };
 
-enum class Method { newton, modified_newton, initial_stiffness };
+enum class Method { newton, modified_newton, initial_stiffness, dogleg };
 
 struct Stage {
   int number = 0;

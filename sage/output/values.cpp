@@ -32,6 +32,8 @@ std::string_view method_name(Method method) {
       return "modified Newton";
     case Method::initial_stiffness:
       return "initial stiffness";
+    case Method::dogleg:
+      return "Newton with dogleg";
   }
   return "?";
 }

@@ -56,7 +56,7 @@ TEST(Catalogue, UnknownFormulationListsTheKnownOnes) {
     element_catalogue().elements.find(1)->make(Geometry::plane_strain, 7);
     FAIL() << "no exception";
   } catch (const ParameterError& e) {
-    EXPECT_STREQ(e.what(), "quad4: formulation 7 unknown; known: 2 b-bar, 1 full, 3 selective");
+    EXPECT_STREQ(e.what(), "quad4: formulation 7 unknown; known: 2 b-bar, 1 full, 3 selective, 4 full 3x3");
   }
 }
 

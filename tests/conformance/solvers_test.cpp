@@ -158,6 +158,8 @@ TEST_P(SolverConformance, MultipliesNormsAndSolvesTransposed) {
   VectorXd x = random_vector(60, 1), y(60), z(60);
   solver->multiply(span_of(x), span_of(y));
   EXPECT_LE((y - K * x).cwiseAbs().maxCoeff(), 1e-13 * y.cwiseAbs().maxCoeff());
+  solver->multiply_transposed(span_of(x), span_of(y));
+  EXPECT_LE((y - K.transpose() * x).cwiseAbs().maxCoeff(), 1e-13 * y.cwiseAbs().maxCoeff());
   EXPECT_NEAR(solver->norm1(), K.cwiseAbs().colwise().sum().maxCoeff(), 1e-13 * solver->norm1());
   solver->solve_transposed(span_of(x), span_of(z));
   expect_solved(K.transpose(), z, x);

@@ -81,6 +81,27 @@ TEST(Layout, MistakesNameTheirLine) {
   EXPECT_EQ(complaint("name = 'x'\nblanks = 'maybe'\n[[card]]\n"), "2: blanks must be \"null\" or \"zero\"");
 }
 
+TEST(Layout, AListMustSuitTheWholeFormat) {
+  const std::string head = "name = 'x'\n[[card]]\nname = 'a'\n";
+  const std::string fields = "fields = [{ name = 'n' }, { name = 'v', count = 'n' }]\n";
+  EXPECT_EQ(complaint(head + "format = '(I5,(3F10.0))'\n" + fields), "");
+  EXPECT_EQ(complaint(head + "format = '(I5,3F10.0)'\n" + fields),  // reversion meets I5 again
+            "4: FORMAT (I5,3F10.0) doesn't suit field \"v\": its kind is another");
+  EXPECT_EQ(complaint(head + "format = '(I5,F10.0,A3)'\n" + fields).substr(0, 2), "4:");
+}
+
+// Blocks of which nothing can be read must not be read for ever.
+TEST(Layout, EmptyBlocksEnd) {
+  const std::string head =
+      "name = 'x'\n[[card]]\nname = 'a'\nformat = '(I5)'\nfields = [{ name = 'n' }]\n[[card]]\nblock = 'b'\n";
+  const std::string inner =
+      "[[card.card]]\nname = 'c'\nwhen = 'a.n > 5'\nformat = '(I5)'\nfields = [{ name = 'n' }]\n";
+  const Layout counted = load_layout_text(head + "repeat = 'a.n * 100000000'\n" + inner, "my.toml");
+  EXPECT_EQ(read_deck_text("    4\n    1\n", "deck", counted).cards.size(), 1u);
+  const Layout until = load_layout_text(head + "until = 'c.n == 9'\n" + inner, "my.toml");
+  EXPECT_THROW(read_deck_text("    4\n    1\n", "deck", until), InputError);
+}
+
 TEST(Layout, AFieldTakesItsKindFromTheFormat) {
   const Layout layout = load_layout_text(
       "name = 'x'\n[[card]]\nname = 'a'\nformat = '(I5,F10.0,A3,L1)'\n"

@@ -116,6 +116,16 @@ TEST(DruckerPrager, ApexForAnyDilation) {
   }
 }
 
+// Without an apex: the mean stress stays elastic, p = K eps_v, and nothing else is left.
+TEST(DruckerPrager, FreeMeanStress) {
+  const auto law = test::solid(3, {3000.0, 0.3, 10.0, 30.0, 0.0, 1.0, 1.0, -1.0, 1.0});
+  const auto a = test::update<4>(*law, Vector4::Zero(), {0.1, 0.1, 0.09, 0.001}, {0.0, 0.0});
+  EXPECT_EQ(a.status, PointStatus::apex);
+  EXPECT_NEAR(mean_stress(a.sigma), 2500.0 * 0.29, 1e-10);
+  EXPECT_EQ(sqrt_j2(a.sigma), 0.0);
+  EXPECT_NEAR(a.h[1], 0.0, 1e-16);
+}
+
 // Mean tension limit on a von Mises soil: uniaxial tension stretches until p = 2, the deviator is untouched.
 TEST(DruckerPrager, MeanTensionLimit) {
   const auto law = test::solid(3, {3000.0, 0.25, 100.0, 0.0, 0.0, 1.0, 0.0, 2.0});
@@ -150,7 +160,8 @@ class ConstantRate : public ::testing::TestWithParam<RateCase> {
   }
   DruckerPragerParameters parameters(bool exact) const {
     const double G = 1000.0, K = 2.0 * G * 1.3 / (3.0 * 0.4);
-    return {{K, G}, {GetParam().alpha, 10.0}, GetParam().beta, std::numeric_limits<double>::infinity(), exact};
+    return {{K, G}, {GetParam().alpha, 10.0}, GetParam().beta, std::numeric_limits<double>::infinity(), exact,
+            false};
   }
 };
 

@@ -1,0 +1,27 @@
+// Powell's dogleg for  R = F - f(u) = 0: a step between the steepest descent of |R|^2 / 2 and Newton's, as long
+// as the region in which the linearised residual has proved itself.  Powell (1970); Dennis & Schnabel (1983),
+// ch. 6.
+#pragma once
+
+#include "sage/core/linear_solver.hpp"
+
+namespace sage {
+
+class Dogleg {
+ public:
+  // newton = K^-1 R; the solver still knows K.  Writes the step to take.
+  void choose(const LinearSolver& solver, const Eigen::VectorXd& residual, const Eigen::VectorXd& newton,
+              Eigen::VectorXd& step);
+  // After the residual at the step is known.  True: the step stays.  False: take it back and choose again.
+  bool accept(double old_norm, double new_norm);
+
+  double step_length() const { return step_length_; }  // |step| / |newton|
+
+ private:
+  double radius_ = -1.0;    // of trust; < 0 = not set yet
+  double size_ = 0.0;       // |step|
+  double predicted_ = 0.0;  // |R - K step|
+  double step_length_ = 1.0;
+};
+
+}  // namespace sage

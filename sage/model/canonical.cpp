@@ -1,0 +1,137 @@
+#include "sage/model/canonical.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace sage {
+
+namespace canonical {
+
+CardWriter::CardWriter(const Deck& from) : from_(&from), texts_(std::make_shared<std::deque<std::string>>()) {
+  deck_.file = from.file;
+  deck_.layout = from.layout;
+  deck_.source = from.source;
+  deck_.line_starts = from.line_starts;
+  deck_.diagnostics = from.diagnostics;
+}
+
+std::string_view CardWriter::keep(const std::string& text) {
+  texts_->push_back(text);
+  return texts_->back();
+}
+
+int CardWriter::spec_of(const std::string& name, const std::vector<NewField>& fields) {
+  std::string key = name;
+  CardSpec spec{name, name, "", {}};
+  for (const NewField& field : fields) {
+    if (!spec.fields.empty() && spec.fields.back().name == field.name) break;
+    key += " " + field.name;
+    FieldSpec one;
+    one.name = field.name;
+    one.label = field.name;
+    std::replace(one.label.begin(), one.label.end(), '_', ' ');
+    spec.fields.push_back(std::move(one));
+  }
+  const auto [it, added] = specs_.try_emplace(key, static_cast<int>(deck_.specs.size()));
+  if (added) deck_.specs.push_back(std::move(spec));
+  return it->second;
+}
+
+int CardWriter::add(const std::string& name, const SourcePosition& where, const std::vector<NewField>& fields,
+                    int owner) {
+  Card card;
+  card.spec = spec_of(name, fields);
+  card.line = where.line;
+  card.first_value = static_cast<std::int32_t>(deck_.values.size());
+  card.value_count = static_cast<std::int32_t>(fields.size());
+  card.owner = owner;
+  for (const NewField& field : fields) {
+    const SourcePosition& place = field.where.line > 0 ? field.where : where;
+    FieldValue value;
+    value.number = field.number;
+    value.line = place.line;
+    value.first_column = static_cast<std::uint16_t>(place.first_column);
+    value.last_column = static_cast<std::uint16_t>(place.last_column);
+    value.blank = false;
+    if (!field.text.empty()) {
+      value.text = keep(field.text);
+      value.kind = FieldKind::text;
+    }
+    deck_.values.push_back(value);
+  }
+  deck_.cards.push_back(card);
+  return static_cast<int>(deck_.cards.size()) - 1;
+}
+
+void CardWriter::warning(const SourcePosition& where, const std::string& message) {
+  deck_.diagnostics.add(card_diagnostic(*from_, Severity::warning, where, message));
+}
+
+void CardWriter::note(const SourcePosition& where, const std::string& message) {
+  deck_.diagnostics.add(card_diagnostic(*from_, Severity::note, where, message));
+}
+
+void CardWriter::copy(std::string_view name) {
+  for (const CardView& card : from_->all(name)) {
+    std::vector<NewField> fields;
+    for (const FieldSpec& field : card.spec().fields) {
+      if (card.blank(field.name)) continue;
+      const bool text = field.kind == FieldKind::text;
+      fields.push_back({field.name, text ? 0.0 : card.real(field.name), card.where(field.name),
+                        text ? card.text(field.name) : std::string()});
+    }
+    add(std::string(name), card.where(), fields);
+  }
+}
+
+Deck CardWriter::take() {
+  deck_.texts = texts_;
+  return std::move(deck_);
+}
+
+NewField take(const CardView& card, std::string_view field, std::string_view as, double factor) {
+  return {std::string(as.empty() ? field : as), factor * card.real(field), card.where(field), {}};
+}
+
+namespace {
+
+template <class Entry>
+int code_of(const Registry<Entry>& registry, std::string_view name) {
+  for (const auto& [code, entry] : registry.entries())
+    if (entry.name == name) return code;
+  throw std::logic_error("the catalogue has no " + std::string(name));
+}
+
+bool has_field(const Deck& deck, std::string_view card, std::string_view field) {
+  for (const CardSpec& spec : deck.specs)
+    if (spec.name == card)
+      for (const FieldSpec& one : spec.fields)
+        if (one.name == field) return true;
+  return false;
+}
+
+}  // namespace
+
+int element_code(const Catalogue& catalogue, std::string_view name) {
+  return code_of(catalogue.elements, name);
+}
+
+int law_code(const Catalogue& catalogue, std::string_view name) {
+  return code_of(catalogue.materials, name);
+}
+
+}  // namespace canonical
+
+// The cards decide, not the layout's name: a layout file of the user's own gets the same meaning.
+Deck canonical_deck(const Deck& deck, const Catalogue& catalogue) {
+  if (deck.has("foundation"))
+    throw InputError({deck.file, 0, 0, 0},
+                     "an embankment mesh numbered by rule (program 6.9) can be read and echoed, but no model is "
+                     "built from it; write its mesh as node and element cards");
+  if (deck.has("rectangle")) return canonical::rectangle_deck(deck, catalogue);
+  if (canonical::has_field(deck, "element", "shear_modulus")) return canonical::quad4m_deck(deck, catalogue);
+  if (canonical::has_field(deck, "element", "class")) return canonical::cande_deck(deck, catalogue);
+  return deck;
+}
+
+}  // namespace sage

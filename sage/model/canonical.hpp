@@ -1,0 +1,64 @@
+// Foreign decks: cards with another program's meaning become the cards that the builder knows (those of sage1).
+// Every value keeps its place in the file, so that later messages still show the foreign card.
+#pragma once
+
+#include <initializer_list>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sage/core/catalogue.hpp"
+#include "sage/deck/deck.hpp"
+
+namespace sage {
+
+// The deck itself if its cards are canonical already.  Throws InputError for decks that can't become a model.
+Deck canonical_deck(const Deck& deck, const Catalogue& catalogue);
+
+namespace canonical {
+
+// One field of a new card.  A name that stands again continues the list that it began.
+struct NewField {
+  std::string name;
+  double number = 0.0;
+  SourcePosition where = {};  // where the number comes from; line 0: where the card comes from
+  std::string text = {};      // text fields only
+};
+
+class CardWriter {
+ public:
+  explicit CardWriter(const Deck& from);
+
+  // Returns the card's index, for `owner` of later cards.
+  int add(const std::string& name, const SourcePosition& where, const std::vector<NewField>& fields,
+          int owner = -1);
+  // A message that shows the foreign card.
+  void warning(const SourcePosition& where, const std::string& message);
+  void note(const SourcePosition& where, const std::string& message);
+  // The same card again, for those that mean the same in both decks.
+  void copy(std::string_view name);
+  Deck take();
+
+ private:
+  int spec_of(const std::string& name, const std::vector<NewField>& fields);
+  std::string_view keep(const std::string& text);
+
+  const Deck* from_;
+  Deck deck_;
+  std::shared_ptr<std::deque<std::string>> texts_;
+  std::map<std::string, int> specs_;
+};
+
+// The field of a card, to be put into a new one.
+NewField take(const CardView& card, std::string_view field, std::string_view as = {}, double factor = 1.0);
+// Catalogue codes by name; throws std::logic_error for one that does not exist.
+int element_code(const Catalogue& catalogue, std::string_view name);
+int law_code(const Catalogue& catalogue, std::string_view name);
+
+Deck rectangle_deck(const Deck& deck, const Catalogue& catalogue);  // meshes numbered by rule
+Deck quad4m_deck(const Deck& deck, const Catalogue& catalogue);
+Deck cande_deck(const Deck& deck, const Catalogue& catalogue);
+
+}  // namespace canonical
+}  // namespace sage

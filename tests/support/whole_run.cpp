@@ -1,0 +1,103 @@
+#include "tests/support/whole_run.hpp"
+
+#include "sage/app/commands.hpp"
+#include "sage/deck/read_deck.hpp"
+#include "solvers/choose_solver.hpp"
+
+namespace sage::test {
+
+namespace {
+
+class Keeper final : public Observer {
+ public:
+  explicit Keeper(WholeRun& run) : run_(&run) {}
+
+  void on_warning(const Diagnostic& d) override { run_->warnings.push_back(d.message); }
+  void on_increment(const Model&, const StepReport& report, const Solution& now) override {
+    run_->increments.push_back({report.stage, report.load_factor, report.total_iterations, report.cuts, *now.u,
+                                *now.internal, *now.external, report.points});
+    keep_stress(*now.assembly);
+  }
+  void on_stage_end(const Model&, int, const EquilibriumAudit& audit, const Solution&) override {
+    run_->out_of_balance = std::max(run_->out_of_balance, audit.out_of_balance);
+  }
+  void on_failure(const Model&, const StepReport& report, const std::string& reason,
+                  const Solution& now) override {
+    run_->failure = reason;
+    run_->increments.push_back({report.stage, report.load_factor, report.total_iterations, report.cuts, *now.u,
+                                *now.internal, *now.external, report.points});
+    keep_stress(*now.assembly);
+  }
+
+ private:
+  void keep_stress(const Assembly& assembly) {
+    run_->stress.clear();
+    for (const GroupData& data : assembly.groups()) {
+      const std::vector<double>& sigma = data.state.committed.sigma;
+      const int rows = data.state.law_size();
+      run_->stress.emplace_back(Eigen::Map<const Eigen::MatrixXd>(
+          sigma.data(), rows, static_cast<Eigen::Index>(sigma.size()) / rows));
+    }
+  }
+
+  WholeRun* run_;
+};
+
+const Catalogue& catalogue() {
+  static const Catalogue all = app::full_catalogue();
+  return all;
+}
+
+const Layout& layout() {
+  static const Layout sage1 = load_layout("sage1");
+  return sage1;
+}
+
+}  // namespace
+
+int WholeRun::index(int number) const {
+  for (int i = 0; i < model->mesh.nodes(); ++i)
+    if (model->mesh.number[static_cast<std::size_t>(i)] == number) return i;
+  throw std::out_of_range("node " + std::to_string(number));
+}
+
+Vector2 WholeRun::u(int number) const {
+  return last().u.segment<2>(2 * index(number));
+}
+
+Vector2 WholeRun::position(int number) const {
+  return model->mesh.x.col(index(number));
+}
+
+Vector2 WholeRun::reaction(const Snapshot& at, int number) const {
+  const int dof = 2 * index(number);
+  return at.internal.segment<2>(dof) - at.external.segment<2>(dof);
+}
+
+double WholeRun::reaction(const Snapshot& at, const std::vector<int>& numbers, int component) const {
+  double sum = 0.0;
+  for (int number : numbers) sum += reaction(at, number)[component];
+  return sum;
+}
+
+int WholeRun::iterations() const {
+  int sum = 0;
+  for (const Snapshot& s : increments) sum += s.iterations;
+  return sum;
+}
+
+WholeRun run_text(const std::string& deck, const BuildOptions& options, const RunSettings& settings) {
+  WholeRun run;
+  run.model =
+      std::make_unique<Model>(build_model(read_deck_text(deck, "deck", layout()), catalogue(), options));
+  for (const Diagnostic& d : run.model->diagnostics.list())
+    if (d.severity == Severity::warning) run.warnings.push_back(d.message);
+  RunSettings with_choice = settings;
+  with_choice.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
+  Keeper keeper(run);
+  Observer* observers[] = {&keeper};
+  run.result = sage::run(*run.model, catalogue(), with_choice, observers);
+  return run;
+}
+
+}  // namespace sage::test

@@ -1,0 +1,148 @@
+// Steps of the analysis on small models: methods, cuts, limit-load bracket, failure reports.
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+#include "sage/analysis/dogleg.hpp"
+#include "sage/analysis/run.hpp"
+#include "sage/app/commands.hpp"
+#include "sage/deck/read_deck.hpp"
+#include "sage/model/build_model.hpp"
+#include "solvers/choose_solver.hpp"
+#include "tests/support/deck_writer.hpp"
+
+namespace sage {
+namespace {
+
+// Dense matrix behind the seam, for the dogleg alone.
+class DenseSolver final : public LinearSolver {
+ public:
+  explicit DenseSolver(Matrix2 K) : K_(K) {}
+  const SolverTraits& traits() const override { return traits_; }
+  void analyse(int, const ElementEquations&) override {}
+  void clear() override {}
+  void add(int, const double*) override {}
+  void factorise() override {}
+  void solve(std::span<const double>, std::span<double>) const override {}
+  void multiply(std::span<const double> x, std::span<double> y) const override {
+    Vector2::Map(y.data()) = K_ * Vector2::Map(x.data());
+  }
+  void multiply_transposed(std::span<const double> x, std::span<double> y) const override {
+    Vector2::Map(y.data()) = K_.transpose() * Vector2::Map(x.data());
+  }
+
+ private:
+  SolverTraits traits_{"dense", false};
+  Matrix2 K_;
+};
+
+TEST(Dogleg, StaysInTheTrustRegionAndBendsTowardsDescent) {
+  Matrix2 K;
+  K << 1.0, 0.5, 0.0, 100.0;
+  const DenseSolver solver(K);
+  const Eigen::VectorXd R = Vector2(1.0, 1.0);
+  const Eigen::VectorXd newton = K.inverse() * R;
+  Eigen::VectorXd step;
+  Dogleg dogleg;
+  dogleg.choose(solver, R, newton, step);
+  EXPECT_NEAR((step - newton).norm(), 0.0, 1e-15) << "the first step is Newton's";
+  EXPECT_FALSE(dogleg.accept(R.norm(), 10.0 * R.norm()));
+  dogleg.choose(solver, R, newton, step);
+  EXPECT_NEAR(step.norm(), 0.25 * newton.norm(), 1e-14) << "a quarter of the rejected step";
+  EXPECT_LT((R - K * step).norm(), R.norm()) << "and downhill";
+  for (int i = 0; i < 12; ++i) {
+    EXPECT_FALSE(dogleg.accept(R.norm(), 2.0 * R.norm()));
+    dogleg.choose(solver, R, newton, step);
+  }
+  const Vector2 descent = (K.transpose() * R).normalized();
+  EXPECT_NEAR(descent.dot(step.normalized()), 1.0, 1e-12) << "a tiny region leaves steepest descent";
+  EXPECT_TRUE(dogleg.accept(R.norm(), (R - K * step).norm())) << "as good as hoped";
+}
+
+struct Outcome {
+  RunResult result;
+  std::vector<StepReport> steps;
+  double settlement = 0.0;  // of the top at the last converged state
+};
+
+class Watch final : public Observer {
+ public:
+  explicit Watch(Outcome& outcome) : outcome_(outcome) {}
+  void on_increment(const Model&, const StepReport& report, const Solution& solution) override {
+    outcome_.steps.push_back(report);
+    outcome_.settlement = -solution.u->minCoeff();
+  }
+  void on_failure(const Model&, const StepReport& report, const std::string&,
+                  const Solution& solution) override {
+    outcome_.steps.push_back(report);
+    outcome_.settlement = -solution.u->minCoeff();
+  }
+
+ private:
+  Outcome& outcome_;
+};
+
+// A column 1 x 2 of four b-bar elements in plane strain, sides free, base smooth, pressed by `pressure` in 10
+// increments.  Tresca, c = 10: it fails at 2 c = 20.
+Outcome press(double pressure, int method, int law = 4) {
+  test::DeckWriter deck(1);
+  test::Block block;
+  block.columns = 1;
+  block.rows = 4;
+  block.place = test::rectangle(0.0, 1.0, 0.0, 2.0);
+  block.write_nodes(deck);
+  block.write_elements(deck, 1);
+  if (law == 1)
+    deck.material(1, 1, {1000.0, 0.3});
+  else
+    deck.material(1, 4, {1000.0, 0.3, 10.0, 0.0, 0.0});
+  deck.group(1, 1, 2, 1);
+  for (int node : block.bottom()) deck.fix(node, node == 1 ? 1 : 0, 1);
+  test::StageCards& stage = deck.stage(10);
+  stage.method = method;
+  stage.max_iterations = method == 0 ? 0 : 200;
+  stage.pressure(block.element(0, 3), 3, pressure, pressure);
+  static const Catalogue catalogue = app::full_catalogue();
+  const Model model = build_model(read_deck_text(deck.text(), "column.dat", load_layout("sage1")), catalogue);
+  RunSettings settings;
+  settings.choose_solver = choose_solver;
+  Outcome outcome;
+  Watch watch(outcome);
+  Observer* observers[] = {&watch};
+  outcome.result = run(model, catalogue, settings, observers);
+  return outcome;
+}
+
+// Plane strain, free sides: settlement = p H (1 - nu^2) / E.
+TEST(Methods, AllFindTheElasticAnswer) {
+  for (int method : {0, 1, 2, 3}) {
+    const Outcome outcome = press(15.0, method);
+    EXPECT_EQ(outcome.result.status, RunStatus::completed) << "method " << method;
+    EXPECT_NEAR(outcome.settlement, 15.0 * 2.0 * (1.0 - 0.09) / 1000.0, 1e-12) << "method " << method;
+  }
+}
+
+TEST(LimitLoad, IsBracketedAndTheLastEquilibriumKept) {
+  for (int method : {0, 3}) {
+    const Outcome outcome = press(25.0, method);
+    EXPECT_NE(outcome.result.status, RunStatus::completed);
+    ASSERT_FALSE(outcome.steps.empty());
+    const StepReport& last = outcome.steps.back();
+    EXPECT_FALSE(last.converged);
+    EXPECT_LE(25.0 * last.load_factor, 20.0 * (1.0 + 1e-6)) << "equilibrium cannot exist above 2 c";
+    EXPECT_GE(25.0 * last.failed_at, 20.0 * (1.0 - 1e-6)) << "and must be found below it";
+    EXPECT_LT(last.failed_at - last.load_factor, 0.01) << "cuts close in on the limit";
+    EXPECT_NE(outcome.result.reason.find("limit load: between"), std::string::npos) << outcome.result.reason;
+    EXPECT_TRUE(std::isfinite(outcome.settlement));
+  }
+}
+
+TEST(LinearScene, FactorisesOncePerStage) {
+  const Outcome outcome = press(15.0, 0, 1);
+  EXPECT_EQ(outcome.result.work.factorisations, 1);
+  EXPECT_EQ(outcome.result.work.assemblies, 1);
+  EXPECT_EQ(outcome.result.work.solves, 10);
+}
+
+}  // namespace
+}  // namespace sage

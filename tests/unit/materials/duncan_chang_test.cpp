@@ -1,0 +1,145 @@
+// Closed form at constant sigma_3: q = eps/(1/E_i + eps R_f/q_f); E_i = 40264.128, q_f = 257.62971.
+#include "materials/duncan_chang.hpp"
+
+#include <gtest/gtest.h>
+
+#include "sage/core/point_driver.hpp"
+#include "tests/support/laws.hpp"
+
+namespace sage {
+namespace {
+
+const std::vector<double> kEb = {400, 0.5, 0.8, 600, 250, 0.3, 5, 33};
+const std::vector<double> k1970 = {400, 0.5, 0.8, 600, 0.35, 0.05, 2.0, 5, 33};
+
+struct Point {
+  double strain, q;
+};
+constexpr Point kTable[] = {{0.001, 35.789399}, {0.005, 123.878397}, {0.010, 178.928255}, {0.020, 230.042010}};
+
+double deviator(int code, const std::vector<double>& values, double strain, int steps) {
+  return triaxial_test(*test::solid(code, values), 100.0, strain, steps).back().deviator;
+}
+
+// Fine steps give the printed digits; 1e-6 relative: the second-order error of 2000 steps is below that.
+TEST(DuncanChang, HyperbolaOfTheTriaxialTest) {
+  for (const Point& p : kTable) {
+    EXPECT_NEAR(deviator(6, kEb, p.strain, 2000), p.q, 1e-6 * p.q);
+    EXPECT_NEAR(deviator(5, k1970, p.strain, 2000), p.q, 1e-6 * p.q);
+  }
+}
+
+// A straight strain path in one increment equals the same path in 100: the law finds its own substeps.
+// The tolerance (1e-3 by default) is on the Euler half of a substep; Heun's is smaller: 1e-4 here, 1e-6 for
+// 1e-5.
+TEST(DuncanChang, IncrementSizeDoesNotMatter) {
+  std::vector<double> fine = kEb;
+  fine.insert(fine.end(), {0.0, 0.49, 0.01, 0.0, 0.0, 1e-5});
+  const Vector4 start{-100, -100, -100, 0}, deps{0.001, -0.003, 0.001, 0.0015};
+  for (const auto& [values, tolerance] : {std::pair{kEb, 1e-4}, std::pair{fine, 1e-6}}) {
+    const auto law = test::solid(6, values);
+    const auto one = test::update<4>(*law, start, deps, test::initial_history<4>(*law, start));
+    test::Answer<4> many = test::update<4>(*law, start, Vector4::Zero(), test::initial_history<4>(*law, start));
+    for (int i = 0; i < 100; ++i) many = test::update<4>(*law, many.sigma, deps / 100, many.h);
+    EXPECT_EQ(one.outcome, Outcome::ok);
+    EXPECT_LT((one.sigma - many.sigma).norm(), tolerance * many.sigma.norm());
+  }
+}
+
+// In a triaxial test few increments mean a polygon of strain instead of the curved path of constant sigma_3,
+// which no law can repair: second order in the number of increments.  10 are good to 0.2 %.
+TEST(DuncanChang, FewIncrementsOfATriaxialTest) {
+  for (const Point& p : kTable) EXPECT_NEAR(deviator(6, kEb, p.strain, 10), p.q, 2e-3 * p.q);
+}
+
+// B rules the volume: d p = B d eps_v while B is constant (m = 0): q/3 = B eps_v at constant sigma_3.
+TEST(DuncanChang, VolumeFromTheBulkModulus) {
+  std::vector<double> values = kEb;
+  values[5] = 0.0;
+  const auto path = triaxial_test(*test::solid(6, values), 100.0, 0.005, 100);
+  EXPECT_NEAR(path.back().volume_strain, path.back().deviator / 3.0 / (250 * 101.325), 1e-9);
+}
+
+// Unload and reload: unloading ends with slope E_ur, reloading comes back to the hyperbola and goes on along
+// it.
+TEST(DuncanChang, UnloadReload) {
+  constexpr std::array<Control, 4> kTriaxial{Control::stress, Control::strain, Control::stress,
+                                             Control::strain};
+  const auto law = test::solid(6, kEb);
+  PointDriver<4> point(*law, {-100, -100, -100, 0});
+  const auto compress = [&](double strain, int steps) {
+    for (int i = 0; i < steps; ++i) point.advance(kTriaxial, {-100.0, -strain / steps, -100.0, 0.0});
+    return point.sigma()[0] - point.sigma()[1];
+  };
+  EXPECT_NEAR(compress(0.01, 200), 178.928255, 2e-3);
+  // Unloaded past 3/4 of the highest level in 1e-3 of strain, then another 1e-4 with E_ur.
+  const double before = compress(-0.002, 20);
+  EXPECT_EQ(point.status(), PointStatus::unloading);
+  const double after = compress(-1e-4, 1);
+  const double E_ur = 600 * 101.325 * std::sqrt(100 / 101.325);
+  EXPECT_NEAR((before - after) / 1e-4, E_ur, 1e-6 * E_ur);
+  // Reload to the stress of before: the memory is reached with q = 178.93, and then primary loading goes on.
+  double strain = 0.0, q = after;
+  while (q < 178.928255 - 0.05) {
+    q = compress(1e-5, 1);
+    strain += 1e-5;
+  }
+  EXPECT_LT(strain, 0.0022);  // stiffer than first loading, which took 0.0055 for the same stress
+  q = compress(0.005, 50);
+  EXPECT_EQ(point.status(), PointStatus::elastic);
+  const auto from = [](double stress) { return stress / 40264.128 / (1 - 0.8 * stress / 257.62971); };
+  EXPECT_NEAR(q, (from(178.928255) + 0.005) / (1 / 40264.128 + (from(178.928255) + 0.005) * 0.8 / 257.62971),
+              0.1);
+}
+
+// Newton on the consistent tangent: triaxial steps of 0.5 % (two unknown strains) converge within 6 iterations.
+TEST(DuncanChang, ConsistentTangentConvergesQuickly) {
+  constexpr std::array<Control, 4> kTriaxial{Control::stress, Control::strain, Control::stress,
+                                             Control::strain};
+  const auto law = test::solid(6, kEb);
+  PointDriver<4> point(*law, {-100, -100, -100, 0});
+  for (int i = 0; i < 4; ++i) point.advance(kTriaxial, {-100.0, -0.005, -100.0, 0.0});
+  EXPECT_EQ(point.steps(), 4);
+  EXPECT_LE(point.iterations(), 4 * 6);
+}
+
+// The isotropic tangent is symmetric and is the secant of the step.
+TEST(DuncanChang, IsotropicTangent) {
+  std::vector<double> values = kEb;
+  values.insert(values.end(), {0.0, 0.49, 0.01, 1.0});
+  const auto law = test::solid(6, values);
+  EXPECT_TRUE(law->symmetric());
+  const Vector4 start{-100, -150, -110, 10}, deps{0.001, -0.004, 0.0, 0.003};
+  const auto a = test::update<4>(*law, start, deps, test::initial_history<4>(*law, start));
+  EXPECT_EQ((a.D - a.D.transpose()).norm(), 0.0);
+  EXPECT_LT((a.sigma - start - a.D * deps).norm(), 1e-10 * a.sigma.norm());
+}
+
+// Principals in the plane only: sigma_zz has no say.
+TEST(DuncanChang, PrincipalsInThePlane) {
+  std::vector<double> values = kEb;
+  values.insert(values.end(), {0.0, 0.49, 0.01, 0.0, 1.0});
+  const Vector4 sigma{-100, -200, -20, 0};
+  EXPECT_NEAR(test::solid(6, values)->stress_level(sigma, {}), 100 / 257.62971, 1e-7);
+  EXPECT_GT(test::solid(6, kEb)->stress_level(sigma, {}), 1.0);
+}
+
+TEST(DuncanChang, InitialStressMustBeAdmissible) {
+  const auto law = test::solid(6, kEb);
+  std::array<double, 1> h{};
+  EXPECT_TRUE(law->initialise({-100, -357, -100, 0}, h));
+  EXPECT_GT(h[0], 0.99);
+  EXPECT_FALSE(law->initialise({-100, -358, -100, 0}, h));
+  EXPECT_TRUE(law->initialise({0, 0, 0, 0}, h));
+}
+
+// An increment far beyond what the substeps can follow is refused.
+TEST(DuncanChang, RefusesWhatItCannotFollow) {
+  const auto law = test::solid(6, kEb);
+  const Vector4 start{-100, -100, -100, 0};
+  const auto a = test::update<4>(*law, start, {10, -20, 3, 5}, test::initial_history<4>(*law, start));
+  EXPECT_EQ(a.outcome, Outcome::cut_step);
+}
+
+}  // namespace
+}  // namespace sage

@@ -1,0 +1,106 @@
+// Assembly into compressed columns against a dense sum.
+#include <gtest/gtest.h>
+
+#include "solvers/assembled_matrix.hpp"
+#include "tests/conformance/solver_systems.hpp"
+
+namespace sage::test {
+namespace {
+
+using Eigen::MatrixXd;
+
+AssembledMatrix assemble(const System& system, bool symmetric) {
+  AssembledMatrix matrix;
+  matrix.analyse(make_equation_graph(system.equations, system.elements), system.elements, symmetric);
+  for (int e = 0; e < system.elements.count(); ++e) matrix.add(e, system.K[static_cast<std::size_t>(e)].data());
+  return matrix;
+}
+
+MatrixXd dense(const AssembledMatrix& matrix) {
+  MatrixXd A = MatrixXd::Zero(matrix.equations(), matrix.equations());
+  for (int j = 0; j < matrix.equations(); ++j)
+    for (auto k = matrix.column_start()[static_cast<std::size_t>(j)];
+         k < matrix.column_start()[static_cast<std::size_t>(j) + 1]; ++k) {
+      const int i = matrix.row()[static_cast<std::size_t>(k)];
+      A(i, j) = matrix.value()[static_cast<std::size_t>(k)];
+      if (matrix.symmetric()) A(j, i) = A(i, j);
+    }
+  return A;
+}
+
+// Random systems repeat equations within an element, as tied dofs do, and have prescribed ones.
+TEST(AssembledMatrix, SumsElementMatrices) {
+  for (const bool symmetric : {false, true})
+    for (const unsigned seed : {1u, 2u, 3u}) {
+      const System system = random_system(30, symmetric, seed);
+      const MatrixXd expected = test::dense(system);
+      // Sums of some twenty terms of size 20 in another order: rounding of 1e-14.
+      EXPECT_LE((dense(assemble(system, symmetric)) - expected).cwiseAbs().maxCoeff(), 1e-12);
+    }
+}
+
+TEST(AssembledMatrix, ASymmetricOneReadsTheUpperTriangleOnly) {
+  System system;
+  system.equations = 2;
+  MatrixXd K(2, 2);
+  K << 2.0, 1.0, 77.0, 3.0;
+  system.add_element({1, 0}, K);
+  MatrixXd expected(2, 2);
+  expected << 3.0, 1.0, 1.0, 2.0;
+  EXPECT_EQ(dense(assemble(system, true)), expected);
+}
+
+// Both nodes of a bar on one rigid platen: K11 + K12 + K21 + K22 on one diagonal.
+TEST(AssembledMatrix, TiedEquationsAddAllTheirTerms) {
+  System system;
+  system.equations = 1;
+  MatrixXd K(2, 2);
+  K << 5.0, -2.0, -2.0, 4.0;
+  system.add_element({0, 0}, K);
+  EXPECT_EQ(dense(assemble(system, true))(0, 0), 5.0);
+  EXPECT_EQ(dense(assemble(system, false))(0, 0), 5.0);
+}
+
+TEST(AssembledMatrix, ClearKeepsThePattern) {
+  const System system = random_system(12, false, 4);
+  AssembledMatrix matrix = assemble(system, false);
+  const auto terms = matrix.row().size();
+  matrix.clear();
+  EXPECT_EQ(dense(matrix), MatrixXd::Zero(12, 12));
+  EXPECT_EQ(matrix.row().size(), terms);
+}
+
+TEST(AssembledMatrix, ColumnsAscendAndHoldTheDiagonal) {
+  System system = random_system(25, false, 9);
+  system.equations += 1;  // of no element
+  const AssembledMatrix matrix = assemble(system, false);
+  for (int j = 0; j < matrix.equations(); ++j) {
+    bool diagonal = false;
+    for (auto k = matrix.column_start()[static_cast<std::size_t>(j)];
+         k < matrix.column_start()[static_cast<std::size_t>(j) + 1]; ++k) {
+      diagonal |= matrix.row()[static_cast<std::size_t>(k)] == j;
+      if (k > matrix.column_start()[static_cast<std::size_t>(j)]) {
+        EXPECT_LT(matrix.row()[static_cast<std::size_t>(k - 1)], matrix.row()[static_cast<std::size_t>(k)]);
+      }
+    }
+    EXPECT_TRUE(diagonal);
+  }
+}
+
+TEST(AssembledMatrix, RowMaximaAndNorm) {
+  System system;
+  system.equations = 3;
+  MatrixXd K(3, 3);
+  K << 1, -7, 0, 2, 3, 4, -9, 0, 5;
+  system.add_element({0, 1, 2}, K);
+  const AssembledMatrix matrix = assemble(system, false);
+  EXPECT_EQ(matrix.row_maxima(), (std::vector{7.0, 4.0, 9.0}));
+  EXPECT_EQ(matrix.norm1(), 12.0);
+  // Upper triangle mirrored: [[1 -7 0] [-7 3 4] [0 4 5]].
+  const AssembledMatrix symmetric = assemble(system, true);
+  EXPECT_EQ(symmetric.row_maxima(), (std::vector{7.0, 7.0, 5.0}));
+  EXPECT_EQ(symmetric.norm1(), 14.0);
+}
+
+}  // namespace
+}  // namespace sage::test

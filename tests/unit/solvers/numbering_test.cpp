@@ -1,0 +1,159 @@
+// Groups, numberings and separators of small meshes whose best answers are known by counting.
+#include <algorithm>
+#include <numeric>
+#include <random>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "solvers/nested_dissection.hpp"
+#include "solvers/profile_numbering.hpp"
+#include "tests/conformance/solver_systems.hpp"
+
+namespace sage::test {
+namespace {
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+EquationGraph graph_of(const System& system) {
+  return make_equation_graph(system.equations, system.elements);
+}
+
+// The same mesh with its equations in random order, pairs of a node apart too.
+System shuffled(const System& system) {
+  std::vector<int> to(at(system.equations));
+  std::iota(to.begin(), to.end(), 0);
+  std::shuffle(to.begin(), to.end(), std::mt19937(5));
+  System other = system;
+  for (int& equation : other.elements.equations)
+    if (equation >= 0) equation = to[at(equation)];
+  return other;
+}
+
+bool is_permutation_of_groups(const EquationGraph& graph, std::vector<int> order) {
+  std::vector<int> all(at(graph.members.count()));
+  std::iota(all.begin(), all.end(), 0);
+  std::ranges::sort(order);
+  return order == all;
+}
+
+// A chain of n bars: equation i meets i - 1 and i + 1.
+System chain(int n) {
+  System system;
+  system.equations = n;
+  for (int i = 0; i + 1 < n; ++i) add_spring(system, i, i + 1, 1.0);
+  return system;
+}
+
+TEST(EquationGraph, TakesTheTwoEquationsOfANodeTogether) {
+  const EquationGraph graph = graph_of(q4_mesh({.columns = 3, .rows = 2, .supports = Supports::none}));
+  ASSERT_EQ(graph.members.count(), 12);
+  for (int g = 0; g < 12; ++g) EXPECT_EQ(graph.members.of(g).size(), 2u);
+  // Node 0 is a corner with 3 neighbours, node 5 lies inside with 8.
+  EXPECT_EQ(std::vector(graph.neighbours.of(0).begin(), graph.neighbours.of(0).end()), (std::vector{1, 4, 5}));
+  EXPECT_EQ(graph.neighbours.of(5).size(), 8u);
+}
+
+TEST(EquationGraph, FindsGroupsWhateverTheNumbering) {
+  const EquationGraph graph =
+      graph_of(shuffled(q4_mesh({.columns = 6, .rows = 4, .supports = Supports::none})));
+  EXPECT_EQ(graph.members.count(), 35);
+}
+
+TEST(EquationGraph, LeavesOutPrescribedAndKeepsLonelyEquations) {
+  System system;
+  system.equations = 3;
+  add_spring(system, 0, -1, 1.0);
+  add_spring(system, 0, 2, 1.0);
+  const EquationGraph graph = graph_of(system);
+  ASSERT_EQ(graph.members.count(), 3);
+  EXPECT_TRUE(graph.neighbours.of(graph.group_of[1]).empty());
+  EXPECT_EQ(graph.neighbours.of(graph.group_of[0]).size(), 1u);
+}
+
+TEST(ProfileNumbering, NumbersAShuffledChainFromEndToEnd) {
+  const EquationGraph graph = graph_of(shuffled(chain(50)));
+  for (const Beginning beginning : {Beginning::end, Beginning::side}) {
+    const std::vector<int> order = reverse_cuthill_mckee(graph, beginning);
+    EXPECT_TRUE(is_permutation_of_groups(graph, order));
+    // Columns of height 1, 2, 2, ...: 1 + 49 * 4.
+    EXPECT_EQ(profile_cost(graph, order), 197.0);
+  }
+}
+
+TEST(ProfileNumbering, NumbersAShuffledRectangleLineByLine) {
+  const System mesh = q4_mesh({.columns = 14, .rows = 28, .supports = Supports::none});
+  const EquationGraph natural = graph_of(mesh), random = graph_of(shuffled(mesh));
+  std::vector<int> line_by_line(at(natural.members.count()));
+  std::iota(line_by_line.begin(), line_by_line.end(), 0);
+  const double best = profile_cost(natural, line_by_line);
+  EXPECT_LE(profile_cost(random, best_profile_numbering(random)), 1.001 * best);
+  // From a corner the levels are bent: clearly more.
+  EXPECT_GT(profile_cost(random, reverse_cuthill_mckee(random, Beginning::end)), 1.2 * best);
+}
+
+TEST(ProfileNumbering, KeepsANumberingThatIsBest) {
+  const EquationGraph graph = graph_of(q4_mesh({.columns = 6, .rows = 20, .supports = Supports::none}));
+  std::vector<int> identity(at(graph.members.count()));
+  std::iota(identity.begin(), identity.end(), 0);
+  EXPECT_EQ(best_profile_numbering(graph), identity);
+}
+
+TEST(ProfileNumbering, NumbersPartsOneByOne) {
+  System system = join(chain(10), q4_mesh({.columns = 2, .rows = 2}));
+  system.equations += 2;  // two of no element
+  const EquationGraph graph = graph_of(system);
+  for (const Beginning beginning : {Beginning::end, Beginning::side}) {
+    const std::vector<int> order = reverse_cuthill_mckee(graph, beginning);
+    EXPECT_TRUE(is_permutation_of_groups(graph, order));
+    // The chain fills ten places in a row.
+    const auto in_chain = [&](int g) { return graph.members.of(g).front() < 10; };
+    const auto first = std::ranges::find_if(order, in_chain);
+    EXPECT_TRUE(std::all_of(first, first + 10, in_chain));
+  }
+  const std::vector<int> equations = expand(graph, best_profile_numbering(graph));
+  EXPECT_EQ(std::set(equations.begin(), equations.end()).size(), at(system.equations));
+}
+
+class Dissected : public testing::TestWithParam<int> {};
+
+TEST_P(Dissected, PartsTouchOnlyAncestorsAndDescendants) {
+  const System mesh = q4_mesh({.columns = 17, .rows = 23, .supports = Supports::none});
+  const EquationGraph graph = graph_of(GetParam() == 0 ? mesh : shuffled(mesh));
+  const SeparatorTree tree = nested_dissection(graph, 16);
+  EXPECT_TRUE(is_permutation_of_groups(graph, tree.groups.item));
+  std::vector<int> part(at(graph.members.count()));
+  for (int p = 0; p < tree.groups.count(); ++p)
+    for (const int g : tree.groups.of(p)) part[at(g)] = p;
+  const auto is_ancestor = [&](int high, int low) {
+    while (low >= 0 && low < high) low = tree.parent[at(low)];
+    return low == high;
+  };
+  for (int g = 0; g < graph.members.count(); ++g)
+    for (const int other : graph.neighbours.of(g))
+      EXPECT_TRUE(is_ancestor(std::max(part[at(g)], part[at(other)]), std::min(part[at(g)], part[at(other)])));
+  for (int p = 0; p < tree.groups.count(); ++p) EXPECT_TRUE(tree.parent[at(p)] == -1 || tree.parent[at(p)] > p);
+}
+INSTANTIATE_TEST_SUITE_P(Orders, Dissected, testing::Values(0, 1));
+
+// 21 x 41 nodes: the straight cut across has 21 nodes, and each side about half of the rest.
+TEST(NestedDissection, CutsARectangleAcross) {
+  const System mesh = shuffled(q4_mesh({.columns = 20, .rows = 40, .supports = Supports::none}));
+  const EquationGraph graph = graph_of(mesh);
+  const SeparatorTree tree = nested_dissection(graph, 16);
+  EXPECT_LE(tree.groups.of(tree.groups.count() - 1).size(), 22u);
+}
+
+TEST(NestedDissection, TakesWhatAllTouchEachOtherAsOnePart) {
+  System system;
+  system.equations = 60;
+  std::vector<int> all(60);
+  std::iota(all.begin(), all.end(), 0);
+  system.add_element(all, Eigen::MatrixXd::Identity(60, 60));
+  EXPECT_EQ(nested_dissection(graph_of(system), 16).groups.count(), 1);
+}
+
+}  // namespace
+}  // namespace sage::test

@@ -1,0 +1,160 @@
+// Thick cylinder and thick sphere under internal pressure, whole models against Lame's closed forms.
+// a = 1, b = 2, p = E = 1.  Cylinder: 90-degree sector in plane strain and a strip of the ring in axisymmetry;
+// sphere: a quadrant of the (r, z) plane with nodes on the axis.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "tests/support/deck_writer.hpp"
+#include "tests/support/whole_run.hpp"
+
+namespace sage::test {
+namespace {
+
+enum class Body { sector, strip, sphere };
+
+constexpr double kA = 1.0, kB = 2.0;
+
+// Radial displacement; cylinder: u_z = 0.
+double lame(Body body, double nu, double r) {
+  if (body == Body::sphere)
+    return (std::pow(kA, 3) / (std::pow(kB, 3) - std::pow(kA, 3))) *
+           ((1 - 2 * nu) * r + (1 + nu) * std::pow(kB, 3) / (2 * r * r));
+  return (1 + nu) * kA * kA / (kB * kB - kA * kA) * ((1 - 2 * nu) * r + kB * kB / r);
+}
+
+Block block_of(Body body, Cell cell, int n) {
+  Block block;
+  block.cell = cell;
+  block.columns = n;
+  block.rows = body == Body::strip ? std::max(1, n / 2) : n;
+  block.polar = body != Body::strip;
+  block.place = body == Body::strip ? rectangle(kA, kB, 0.0, 0.5) : rectangle(kA, kB, 0.0, 90.0);
+  return block;
+}
+
+// The inner face is the fourth edge of a quadrilateral and the third of a triangle's first half.
+std::string deck_of(Body body, Cell cell, int formulation, int n, double nu) {
+  const Block block = block_of(body, cell, n);
+  DeckWriter deck(body == Body::sector ? 1 : 2);
+  block.write_nodes(deck);
+  deck.material(1, 1, {1.0, nu});
+  deck.group(1, static_cast<int>(cell), formulation, 1);
+  block.write_elements(deck, 1);
+  for (int node : block.bottom()) deck.fix(node, 0, 1);
+  for (int node : block.top()) deck.fix(node, body == Body::strip ? 0 : 1, body == Body::strip ? 1 : 0);
+  StageCards& stage = deck.stage();
+  const int inner = cell == Cell::tri3 || cell == Cell::tri6 ? 3 : 4;
+  for (int j = 0; j < block.rows; ++j) stage.pressure(block.element(0, j), inner, 1.0, 1.0);
+  return deck.text();
+}
+
+// Relative error of the displacements at all nodes (root of the sum of squares).
+double error_of(const WholeRun& run, Body body, double nu) {
+  double error = 0.0, size = 0.0;
+  for (int i = 0; i < run.model->mesh.nodes(); ++i) {
+    const Vector2 x = run.model->mesh.x.col(i);
+    const double r = body == Body::strip ? x.x() : x.norm();
+    const Vector2 direction = body == Body::strip ? Vector2(1.0, 0.0) : Vector2(x / r);
+    const Vector2 exact = lame(body, nu, r) * direction;
+    error += (run.last().u.segment<2>(2 * i) - exact).squaredNorm();
+    size += exact.squaredNorm();
+  }
+  return std::sqrt(error / size);
+}
+
+double error_at(Body body, Cell cell, int formulation, int n, double nu) {
+  const WholeRun run = run_text(deck_of(body, cell, formulation, n, nu));
+  EXPECT_TRUE(run.completed()) << run.failure;
+  EXPECT_LT(run.out_of_balance, 1e-8);  // K/G = 5e6 times rounding at the largest nu
+  return error_of(run, body, nu);
+}
+
+struct LameCase {
+  const char* name;
+  Cell cell;
+  int formulation, coarsest;
+  double order;  // of the displacements, theory
+  double loss;   // most growth of the error from nu = .3 to .4999999 on one mesh; 0 = locks
+};
+
+const LameCase kCases[] = {
+    {"Quad4Full", Cell::quad4, 1, 4, 2.0, 0.0},
+    {"Quad4BBar", Cell::quad4, 2, 4, 2.0, 2.0},
+    {"Quad8Reduced", Cell::quad8, 1, 2, 3.0, 2.0},
+    {"Quad8Full", Cell::quad8, 2, 2, 3.0, 0.0},
+    {"Quad9", Cell::quad9, 1, 2, 3.0, 0.0},
+    {"Tri3", Cell::tri3, 1, 8, 2.0, 0.0},
+    // Three volume constraints a triangle are too many for order 3 at nu = 1/2, too few to lock: measured 13.
+    {"Tri6ThreePoints", Cell::tri6, 1, 2, 3.0, 20.0},
+    {"Tri6SixPoints", Cell::tri6, 2, 2, 3.0, 0.0},
+};
+
+const char* name_of(Body body) {
+  return body == Body::sector ? "Sector" : body == Body::strip ? "Strip" : "Sphere";
+}
+
+class Lame : public testing::TestWithParam<std::tuple<Body, LameCase>> {};
+
+// Theory: order 2 for linear, 3 for quadratic elements; 0.15 for meshes that are not yet asymptotic.
+TEST_P(Lame, DisplacementsConvergeAtTheoryRate) {
+  const auto& [body, c] = GetParam();
+  double error[3];
+  for (int level = 0; level < 3; ++level)
+    error[level] = error_at(body, c.cell, c.formulation, c.coarsest << level, 0.3);
+  const double slope = std::log2(error[0] / error[2]) / 2.0, last = std::log2(error[1] / error[2]);
+  std::printf("    %-7s %-16s errors %.3e %.3e %.3e  orders %.2f, last %.2f\n", name_of(body), c.name, error[0],
+              error[1], error[2], slope, last);
+  EXPECT_LT(error[2], 0.02);
+  // Quad8 reduced on the strip: the volumetric strain of the interpolated 1/r vanishes at the two Gauss points,
+  // and the nodes are exact.
+  if (error[2] < 1e-12) return;
+  EXPECT_GE(slope, c.order - 0.15);
+  EXPECT_GE(last, c.order - 0.15);
+}
+
+bool warns_of_locking(const WholeRun& run) {
+  for (const std::string& warning : run.warnings)
+    if (warning.find("lock") != std::string::npos) return true;
+  return false;
+}
+
+// Elements that don't lock keep their error; those that lock lose most of the displacement or a multiple of
+// their accuracy, and the program says so before it runs.
+TEST_P(Lame, NearlyIncompressible) {
+  const auto& [body, c] = GetParam();
+  const int n = 2 * c.coarsest;
+  const WholeRun run = run_text(deck_of(body, c.cell, c.formulation, n, 0.4999999));
+  const double compressible = error_at(body, c.cell, c.formulation, n, 0.3);
+  const double incompressible = error_of(run, body, 0.4999999);
+  std::printf("    %-7s %-16s error at nu .3 %.3e, at .4999999 %.3e\n", name_of(body), c.name, compressible,
+              incompressible);
+  EXPECT_EQ(warns_of_locking(run), c.loss == 0.0);
+  const double rounding = 1e-8;  // K/G = 5e6 times 1e-16, times the number of operations
+  if (c.loss > 0.0)
+    EXPECT_LT(incompressible, std::max(c.loss * compressible, rounding));
+  else
+    EXPECT_GT(incompressible, 4.0 * compressible);
+}
+
+// The source chapter's element gives less than a thousandth of the displacement.
+TEST(LameLocking, FullyIntegratedQuad4) {
+  for (Body body : {Body::sector, Body::strip, Body::sphere}) {
+    const WholeRun run = run_text(deck_of(body, Cell::quad4, 1, 4, 0.4999999));
+    EXPECT_GT(error_of(run, body, 0.4999999), 0.999) << name_of(body);
+    EXPECT_FALSE(warns_of_locking(run_text(deck_of(body, Cell::quad4, 1, 4, 0.3)))) << name_of(body);
+  }
+}
+
+std::string label(const testing::TestParamInfo<std::tuple<Body, LameCase>>& info) {
+  return std::string(name_of(std::get<0>(info.param))) + std::get<1>(info.param).name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Bodies, Lame,
+                         testing::Combine(testing::Values(Body::sector, Body::strip, Body::sphere),
+                                          testing::ValuesIn(kCases)),
+                         label);
+
+}  // namespace
+}  // namespace sage::test
