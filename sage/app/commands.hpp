@@ -26,5 +26,6 @@ Command check_command(CLI::App& root);
 Command echo_command(CLI::App& root);
 Command list_command(CLI::App& root);
 Command tables_command(CLI::App& root);
+Command convert_command(CLI::App& root);
 
 }  // namespace sage::app

@@ -128,7 +128,8 @@ bool is_soil(const CardView& element) {
   return element.integer("n3") != 0 && element.integer("class") == 0;
 }
 
-// Without its beams the pipe would be a hole with loose soil above; its nodes are held: a rigid pipe that stays.
+// Without its beams the pipe would be a hole with loose soil above; its nodes are held: a rigid pipe that
+// stays.
 void leave_out(const Deck& deck, CardWriter& out) {
   int beams = 0, interfaces = 0, links = 0;
   SourcePosition where;
@@ -153,8 +154,9 @@ Groups add_groups(const Deck& deck, const Catalogue& catalogue, CardWriter& out)
   for (const CardView& element : deck.all("element")) {
     for (const char* field : {"node_increment", "rows", "row_increment"})
       if (element.integer(field) > 1)
-        fail(deck, element.where(field), "element generation (" + element.label(field) +
-                                             ") is not built; give every element on a card of its own");
+        fail(deck, element.where(field),
+             "element generation (" + element.label(field) +
+                 ") is not built; give every element on a card of its own");
     if (is_soil(element)) groups.try_emplace(key_of(element), 0.0);
   }
   double number = 0.0;
@@ -175,8 +177,8 @@ Groups add_groups(const Deck& deck, const Catalogue& catalogue, CardWriter& out)
     out.add("element", element.where(), fields);
   }
   if (turner.turned() > 0)
-    out.note({deck.file, 0, 0, 0}, std::to_string(turner.turned()) +
-                                       " element(s) listed clockwise were turned round");
+    out.note({deck.file, 0, 0, 0},
+             std::to_string(turner.turned()) + " element(s) listed clockwise were turned round");
   return groups;
 }
 
@@ -194,12 +196,17 @@ void add_boundary(const Deck& deck, CardWriter& out, int step, int stage) {
     const NewField last = take(card, "last"), by = take(card, "step");
     if (x || y)
       out.add("fixity", card.where(),
-              {take(card, "first"), last, by, {"x_code", x ? 1.0 : 0.0}, {"y_code", y ? 1.0 : 0.0},
-               {"x_value", x ? vx : 0.0}, {"y_value", y ? vy : 0.0}},
+              {take(card, "first"),
+               last,
+               by,
+               {"x_code", x ? 1.0 : 0.0},
+               {"y_code", y ? 1.0 : 0.0},
+               {"x_value", x ? vx : 0.0},
+               {"y_value", y ? vy : 0.0}},
               stage);
     if ((!x && vx != 0.0) || (!y && vy != 0.0))
-      out.add("load", card.where(), {take(card, "first"), last, by, {"x_force", x ? 0.0 : vx},
-                                     {"y_force", y ? 0.0 : vy}}, stage);
+      out.add("load", card.where(),
+              {take(card, "first"), last, by, {"x_force", x ? 0.0 : vx}, {"y_force", y ? 0.0 : vy}}, stage);
   }
 }
 
@@ -209,8 +216,8 @@ void add_stages(const Deck& deck, CardWriter& out, const Groups& groups) {
   for (const auto& [key, number] : groups) steps = std::max({steps, key.birth, key.death});
   for (int step = 1; step <= steps; ++step) {
     out.add("stage_title", control.where(), {{"title", 0.0, {}, "load step " + std::to_string(step)}});
-    const int stage = out.add("stage", control.where(),
-                              {{"increments", 1.0}, {"gravity_y", step == 1 ? -1.0 : 0.0}});
+    const int stage =
+        out.add("stage", control.where(), {{"increments", 1.0}, {"gravity_y", step == 1 ? -1.0 : 0.0}});
     std::vector<NewField> births, deaths;
     for (const auto& [key, number] : groups) {
       if (step > 1 && key.birth == step) births.push_back({"groups", number});

@@ -64,12 +64,11 @@ struct Kind {
 
 // The integration that the deck asks for; blank = 4 points of the 8-node quadrilateral.
 Kind element_kind(const Source& s) {
-  static constexpr Kind kKinds[] = {{"tri3", 1, 1},  {"tri3", 3, 2},  {"tri6", 3, 1},   {"tri6", 6, 2},
+  static constexpr Kind kKinds[] = {{"tri3", 1, 1},   {"tri3", 3, 2},   {"tri6", 3, 1},  {"tri6", 6, 2},
                                     {"tri15", 12, 1}, {"tri15", 16, 2}, {"quad4", 4, 1}, {"quad4", 9, 4},
-                                    {"quad8", 4, 1}, {"quad8", 9, 2}, {"quad9", 9, 1}};
+                                    {"quad8", 4, 1},  {"quad8", 9, 2},  {"quad9", 9, 1}};
   const int points = s.card.integer("integration_points", 4);
-  const std::string name =
-      (s.mesh.triangles ? "tri" : "quad") + std::to_string(s.mesh.nodes_per_element);
+  const std::string name = (s.mesh.triangles ? "tri" : "quad") + std::to_string(s.mesh.nodes_per_element);
   std::string known;
   for (const Kind& kind : kKinds) {
     if (kind.element != name) continue;
@@ -112,12 +111,11 @@ void add_materials(const Source& s, CardWriter& out) {
     if (row.real("bulk_modulus") != 0.0)
       refuse(s, row, "bulk_modulus",
              "pore water with a bulk modulus is not modelled; drained only (bulk modulus 0)");
-    const int card =
-        out.add("material", row.where(),
-                {{"number", static_cast<double>(++number)},
-                 {"law", static_cast<double>(law_code(s.catalogue, law))},
-                 {"unit_weight", row.real("unit_weight"), row.where("unit_weight")},
-                 {"name", 0.0, {}, "material " + std::to_string(number)}});
+    const int card = out.add("material", row.where(),
+                             {{"number", static_cast<double>(++number)},
+                              {"law", static_cast<double>(law_code(s.catalogue, law))},
+                              {"unit_weight", row.real("unit_weight"), row.where("unit_weight")},
+                              {"name", 0.0, {}, "material " + std::to_string(number)}});
     out.add("parameters", row.where(), values, card);
   }
 }
@@ -171,7 +169,8 @@ void add_fixities(const Source& s, CardWriter& out) {
     }
 }
 
-int add_stage(const Source& s, CardWriter& out, const std::string& title, int increments, double gravity = 0.0) {
+int add_stage(const Source& s, CardWriter& out, const std::string& title, int increments,
+              double gravity = 0.0) {
   out.add("stage_title", s.card.where(), {{"title", 0.0, {}, title}});
   return out.add("stage", s.card.where(),
                  {{"increments", static_cast<double>(increments)}, {"gravity_y", gravity}});
@@ -225,7 +224,8 @@ void add_footing(const Source& s, CardWriter& out) {
   std::vector<int> nodes;
   const int footing = s.card.integer("footing");
   if (footing < 1 || footing > s.mesh.columns())
-    refuse(s, s.card, "footing", "the footing must cover 1 to " + std::to_string(s.mesh.columns()) + " columns");
+    refuse(s, s.card, "footing",
+           "the footing must cover 1 to " + std::to_string(s.mesh.columns()) + " columns");
   for (int i = 0; i <= 2 * footing; ++i) nodes.push_back(s.mesh.number(i, 0));
   for (int node : nodes)
     add_displacement(out, {"first", static_cast<double>(node), steps.where("displacement")}, false,
@@ -237,8 +237,8 @@ void add_footing(const Source& s, CardWriter& out) {
 void add_triaxial(const Source& s, CardWriter& out) {
   const double cell = -s.deck.one("material_values").real("consolidation");
   int stage = add_stage(s, out, "consolidation", 1);
-  out.add("initial", s.card.where(),
-          {{"group", 1.0}, {"kind", 0.0}, {"v1", cell}, {"v2", cell}, {"v3", cell}}, stage);
+  out.add("initial", s.card.where(), {{"group", 1.0}, {"kind", 0.0}, {"v1", cell}, {"v2", cell}, {"v3", cell}},
+          stage);
   add_pressure(s, out, true, cell, stage);
   add_pressure(s, out, false, cell, stage);
   const CardView steps = s.deck.one("iteration");
@@ -252,7 +252,8 @@ void add_triaxial(const Source& s, CardWriter& out) {
   }
   const double height = std::abs(s.mesh.y.back() - s.mesh.y.front());
   add_report(s, out,
-             {{"kind", 1.0}, {"group", 1.0}, {"stage", 2.0}, {"height", height}, {"cell_pressure", cell}}, nodes);
+             {{"kind", 1.0}, {"group", 1.0}, {"stage", 2.0}, {"height", height}, {"cell_pressure", cell}},
+             nodes);
 }
 
 // Forces that come with factors, one stage a step; or one elastic step with displacements too.
@@ -274,8 +275,9 @@ void add_steps(const Source& s, CardWriter& out) {
 Deck rectangle_deck(const Deck& deck, const Catalogue& catalogue) {
   Source s{deck, catalogue, deck.one("rectangle"), {}, false};
   if (!s.card.blank("harmonic"))
-    refuse(s, s.card, "harmonic",
-           "a body of revolution under a harmonic load has three displacements a node: no model is built from it");
+    refuse(
+        s, s.card, "harmonic",
+        "a body of revolution under a harmonic load has three displacements a node: no model is built from it");
   read_mesh(s);
   CardWriter out(deck);
   out.add("title", s.card.where(), {{"title", 0.0, {}, deck.layout + " deck, mesh numbered by rule"}});

@@ -5,7 +5,8 @@
 namespace sage {
 
 int Rectangle::intervals() const {
-  if (triangles) return nodes_per_element == 3 ? 1 : nodes_per_element == 6 ? 2 : nodes_per_element == 15 ? 4 : 0;
+  if (triangles)
+    return nodes_per_element == 3 ? 1 : nodes_per_element == 6 ? 2 : nodes_per_element == 15 ? 4 : 0;
   return nodes_per_element == 4 ? 1 : nodes_per_element == 8 || nodes_per_element == 9 ? 2 : 0;
 }
 

@@ -9,7 +9,7 @@
 namespace sage {
 
 struct Rectangle {
-  bool triangles = false;     // two a cell, the diagonal from lower left to upper right of a cell that runs down
+  bool triangles = false;  // two a cell, the diagonal from lower left to upper right of a cell that runs down
   int nodes_per_element = 8;  // 3 6 15 or 4 8 9
   bool along_x = true;        // nodes and elements are counted along x first
   std::vector<double> x, y;   // edges of the columns and rows, in the order of counting

@@ -67,8 +67,8 @@ void Listing::on_start(const Model& model, const Scene& scene, std::string_view 
   if (tables_ == Tables::none)
     fmt::format_to(
         std::back_inserter(text),
-        "\n   {} integration points: tables of nodes and points are left out.  To get them: option tables "
-        "= stage_end or all.\n",
+        "\n   {} integration points: tables of nodes and points are left out.  To get them: --tables stage or "
+        "--tables all.\n",
         scene.points);
 }
 
@@ -117,7 +117,7 @@ void Listing::on_failure(const Model& model, const StepReport& report, const std
   if (options_.tables != Tables::none)
     states(text, model, solution);
   else
-    text += "   (no tables: option tables = none)\n";
+    text += "   (no tables: --tables none)\n";
 }
 
 void Listing::on_finish(const Model& model, const RunResult& result) {

@@ -26,15 +26,15 @@ void triaxial_rows(std::string& text, const Model& model, const std::vector<Tria
   const std::string& stress = model.units.stress;
   fmt::format_to(
       to(text), "   measured: force on the report's nodes / area.  correct: the law with frictionless ends.\n");
-  fmt::format_to(to(text), "   {:>5}{:>6}{:>12}{:>14}{:>14}{:>14}{:>14}{:>14}{:>10}\n", "stage", "incr",
+  fmt::format_to(to(text), "   {:>5}{:>6}{:>12}{:>15}{:>15}{:>15}{:>15}{:>15}{:>10}\n", "stage", "incr",
                  "strain", "force", "meas. deviator", "corr. deviator", "meas. axial", "corr. axial", "ratio");
-  fmt::format_to(to(text), "   {:>5}{:>6}{:>12}{:>14}{:>14}{:>14}{:>14}{:>14}{:>10}\n", "", "", "-",
+  fmt::format_to(to(text), "   {:>5}{:>6}{:>12}{:>15}{:>15}{:>15}{:>15}{:>15}{:>10}\n", "", "", "-",
                  model.units.force, stress, stress, stress, stress, "-");
   for (const TriaxialRow& r : rows) {
     fmt::format_to(to(text), "   {:>5}{:>6}", r.stage, r.increment);
     put(text, r.axial_strain, 12, 5);
     for (double v : {r.force, r.measured_deviator, r.correct_deviator, r.measured_axial, r.correct_axial})
-      put(text, v, 14, 6);
+      put(text, v, 15, 6);
     fmt::format_to(to(text), "{:>10}\n",
                    std::isnan(r.ratio) ? std::string("-") : fmt::format("{:.5f}", r.ratio));
   }

@@ -10,6 +10,7 @@
 #include "sage/output/colour_map.hpp"
 #include "sage/output/contour.hpp"
 #include "sage/output/nodal_values.hpp"
+#include "sage/output/picture_field.hpp"
 #include "sage/output/plot.hpp"
 #include "sage/output/svg.hpp"
 #include "sage/output/values.hpp"
@@ -19,85 +20,7 @@ namespace sage {
 namespace {
 
 constexpr int kFont = 13, kTitleFont = 16, kBands = 10, kMostElements = 6000;
-constexpr double kLeft = 70.0, kRight = 130.0, kTop = 78.0, kBottom = 54.0;
-
-constexpr std::pair<Field, std::string_view> kFields[] = {
-    {Field::stress_xx, "stress_xx"},           {Field::stress_yy, "stress_yy"},
-    {Field::stress_zz, "stress_zz"},           {Field::stress_xy, "stress_xy"},
-    {Field::mean_stress, "mean_stress"},       {Field::deviator, "deviator"},
-    {Field::stress_level, "stress_level"},     {Field::displacement_x, "displacement_x"},
-    {Field::displacement_y, "displacement_y"}, {Field::displacement, "displacement"},
-};
-
-bool is_displacement(Field field) {
-  return field == Field::displacement_x || field == Field::displacement_y || field == Field::displacement;
-}
-
-// "Vertical stress sig-z [psi], compression positive"
-std::string describe_field(const Model& model, Field field) {
-  const AxisNames& names = axis_names(model.geometry);
-  const std::string &stress = model.units.stress, &length = model.units.length;
-  switch (field) {
-    case Field::stress_xx:
-    case Field::stress_yy:
-    case Field::stress_zz:
-    case Field::stress_xy:
-      return fmt::format("{} [{}], compression positive", names.stress[static_cast<std::size_t>(field)],
-                         stress);
-    case Field::mean_stress:
-      return fmt::format("mean stress p [{}], compression positive", stress);
-    case Field::deviator:
-      return fmt::format("deviator stress q [{}]", stress);
-    case Field::stress_level:
-      return "stress level (1 = at strength)";
-    case Field::displacement_x:
-      return fmt::format("displacement u-{} [{}], positive along +{}", names.x, length, names.x);
-    case Field::displacement_y:
-      return fmt::format("displacement u-{} [{}], positive along +{}", names.y, length, names.y);
-    case Field::displacement:
-      return fmt::format("length of displacement [{}]", length);
-  }
-  return "";
-}
-
-// sigma (tension +) and stress level of a point; nothing for interfaces.
-void stress_values(const GroupData& data, std::size_t point, double* values) {
-  const bool solid = data.state.law_size() == 4;
-  for (std::size_t i = 0; i < 4; ++i) values[i] = solid ? data.state.committed.sigma[4 * point + i] : 0.0;
-  values[4] = solid ? stress_level(data, point) : 0.0;
-}
-
-double scalar(Field field, const double* values) {
-  switch (field) {
-    case Field::mean_stress:
-      return mean_stress(values);
-    case Field::deviator:
-      return deviator_stress(values);
-    case Field::stress_level:
-      return std::max(values[4], 0.0);
-    default:
-      return outward(values[static_cast<std::size_t>(field)]);
-  }
-}
-
-double displacement_value(const Solution& s, Field field, int node) {
-  const Vector2 u = s.u->segment<2>(2 * node);
-  if (field == Field::displacement) return u.norm();
-  return field == Field::displacement_x ? u.x() : u.y();
-}
-
-// The field at the entries of a layout.
-std::vector<double> field_values(const Model& model, const Solution& s, const NodalLayout& layout,
-                                 Field field) {
-  std::vector<double> result;
-  if (is_displacement(field)) {
-    for (int node : layout.node) result.push_back(displacement_value(s, field, node));
-    return result;
-  }
-  const std::vector<double> stress = nodal_average(model, s, layout, 5, stress_values);
-  for (std::size_t e = 0; e < layout.node.size(); ++e) result.push_back(scalar(field, stress.data() + 5 * e));
-  return result;
-}
+constexpr double kLeft = 70.0, kRight = 130.0, kTop = 108.0, kBottom = 54.0, kLegendText = 70.0;
 
 // Where the deformed mesh stands on the paper.
 struct View {
@@ -218,6 +141,26 @@ void flatten(std::vector<Patch>& all) {
   }
 }
 
+std::pair<double, double> range_of(const std::vector<Patch>& all) {
+  if (all.empty()) return {0.0, 0.0};
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Patch& patch : all)
+    for (const Corner& c : patch.outline) {
+      low = std::min(low, c.value);
+      high = std::max(high, c.value);
+    }
+  return {low, high};
+}
+
+// The three lines above a picture.
+struct Heading {
+  std::string title, what, range;
+};
+
+double length(const std::string& text) {
+  return static_cast<double>(text.size());
+}
+
 void draw_bands(std::string& out, const std::vector<Patch>& all, const std::vector<double>& limits) {
   const std::vector<std::string> paths = band_paths(all, limits);
   for (std::size_t band = 0; band < paths.size(); ++band) {
@@ -326,52 +269,37 @@ void draw_legend(std::string& out, const std::vector<double>& limits, double lef
 
 }  // namespace
 
-std::string_view field_name(Field field) {
-  for (const auto& [f, name] : kFields)
-    if (f == field) return name;
-  return "";
-}
-
-std::optional<Field> field_from_name(std::string_view name) {
-  for (const auto& [field, n] : kFields)
-    if (n == name) return field;
-  return std::nullopt;
-}
-
 std::string field_svg(const Model& model, const Solution& solution, Field field,
                       const PictureOptions& options) {
   Scenery scenery{model, solution, nodal_layout(model, *solution.activity), {}, {}};
   scenery.view = make_view(model, solution, scenery.layout, options);
   scenery.values = field_values(model, solution, scenery.layout, field);
   std::vector<Patch> all = patches(scenery);
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const Patch& patch : all)
-    for (const Corner& c : patch.outline) {
-      low = std::min(low, c.value);
-      high = std::max(high, c.value);
-    }
-  if (all.empty()) low = high = 0.0;
-  const std::string range = fmt::format("{}; from {:.4g} to {:.4g}", describe_field(model, field), low, high);
-  if (!std::isnan(options.low)) low = options.low;
-  if (!std::isnan(options.high)) high = options.high;
-  const std::vector<double> limits = band_limits(low, high, kBands);
+  const auto [lowest, highest] = range_of(all);
+  const std::vector<double> limits = band_limits(std::isnan(options.low) ? lowest : options.low,
+                                                 std::isnan(options.high) ? highest : options.high, kBands);
   if (!options.smooth) flatten(all);
 
   const View& view = scenery.view;
-  const int height =
-      static_cast<int>(kTop + std::max(view.height, 16.0 * static_cast<double>(limits.size())) + kBottom);
-  std::string out = svg::open(options.width, height);
-  svg::text(out, 8.0, 24.0, options.title.empty() ? model.title : options.title, kTitleFont, "start",
-            "font-weight=\"bold\"");
-  svg::text(out, 8.0, 45.0,
-            range + (view.deformation > 0.0 ? fmt::format("; deformation x {:g}", view.deformation) : ""),
-            kFont, "start");
+  const Heading words{
+      options.title.empty() ? model.title : options.title,
+      (options.state.empty() ? "" : options.state + ": ") + describe_field(model, field),
+      fmt::format("from {:.4g} to {:.4g}", lowest, highest) +
+          (view.deformation > 0.0 ? fmt::format("; deformation x {:g}", view.deformation) : "")};
+  const double legend = std::max(view.at(view.high).x() + 36.0, kLeft + 120.0);
+  const double width = std::max({legend + 28.0 + kLegendText, 16.0 + 0.64 * kTitleFont * length(words.title),
+                                 16.0 + 0.56 * kFont * length(words.what)});
+  const double height = kTop + std::max(view.height, 16.0 * static_cast<double>(limits.size())) + kBottom;
+  std::string out = svg::open(static_cast<int>(width), static_cast<int>(height));
+  svg::text(out, 8.0, 24.0, words.title, kTitleFont, "start", "font-weight=\"bold\"");
+  svg::text(out, 8.0, 46.0, words.what, kFont, "start");
+  svg::text(out, 8.0, 64.0, words.range, kFont, "start");
   draw_bands(out, all, limits);
   if (options.mesh && all.size() <= kMostElements) draw_mesh(out, all);
   if (view.deformation > 0.0) draw_outline(out, scenery);
   draw_interfaces(out, scenery);
   draw_axes(out, scenery);
-  draw_legend(out, limits, std::max(view.at(view.high).x() + 36.0, kLeft + 120.0), view.height);
+  draw_legend(out, limits, legend, view.height);
   out += svg::kClose;
   return out;
 }
@@ -386,8 +314,7 @@ Pictures::Pictures(std::filesystem::path folder, std::string stem, std::vector<F
 void Pictures::draw(const Model& model, const Solution& solution, const std::string& state,
                     const std::string& caption) {
   PictureOptions options = options_;
-  if (options.title.empty()) options.title = model.title;
-  options.title += " (" + caption + ")";
+  options.state = caption;
   for (Field field : fields_) {
     files_.push_back(folder_ / fmt::format("{}_{}_{}.svg", stem_, state, field_name(field)));
     write_file(files_.back(), field_svg(model, solution, field, options));

@@ -29,7 +29,8 @@ std::optional<Field> field_from_name(std::string_view name);
 
 struct PictureOptions {
   std::string title = {};  // empty = the model's
-  int width = 760;         // the height follows from the mesh
+  std::string state = {};  // "end of stage 2", before the name of the field
+  int width = 760;         // at most, for the mesh; the height follows from it
   bool deformed = true;    // with the undeformed outline dashed
   double scale =
       0.0;           // of the displacements; 0 = such that the largest is about 5 % of the mesh, but at least 1

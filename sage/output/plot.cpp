@@ -57,15 +57,15 @@ Ticks ticks_of(const Axis& axis) {
     return ticks;
   }
   const bool narrow = axis.high - axis.low < 1.5;  // decades alone would be too few
+  const bool plain = axis.low > -3.5 && axis.high < 4.5;
   const int step = std::max(1, static_cast<int>((axis.high - axis.low) / 8.0));
   for (int decade = static_cast<int>(std::floor(axis.low)); decade <= std::ceil(axis.high); decade += step)
-    for (double part : {1.0, 2.0, 5.0}) {
-      if (part > 1.0 && !narrow) break;
+    for (int part : {1, 2, 5}) {
+      if (part > 1 && !narrow) break;
       const double value = part * std::pow(10.0, decade);
       if (axis.map(value) < axis.low || axis.map(value) > axis.high) continue;
       ticks.values.push_back(value);
-      ticks.labels.push_back(decade >= -3 && decade <= 4 ? fmt::format("{:g}", value)
-                                                         : fmt::format("{:.0e}", value));
+      ticks.labels.push_back(plain ? fmt::format("{:g}", value) : fmt::format("{}e{}", part, decade));
     }
   return ticks;
 }

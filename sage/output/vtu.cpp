@@ -1,4 +1,4 @@
-// docs/decisions/0003-own-vtu-writer.md says why this does not call the VTK libraries.
+// docs/decisions/0004-own-vtu-writer.md says why this does not call the VTK libraries.
 #include "sage/output/vtu.hpp"
 
 #include <fmt/format.h>

@@ -1,1 +1,180 @@
+// The command line: help, exit codes, several decks in one call, and what is left behind when a run fails.
 #include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "tests/regression/program.hpp"
+
+namespace sage::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+void expect_words(const std::string& text, std::initializer_list<const char*> words) {
+  for (const char* word : words)
+    EXPECT_NE(text.find(word), std::string::npos) << word << " is not in\n" << text;
+}
+
+// The cells of the first line of a table that begins with `start`.
+std::vector<std::string> row(const std::string& table, const std::string& start) {
+  std::stringstream lines(table);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind(start, 0) != 0) continue;
+    std::vector<std::string> cells;
+    std::stringstream stream(line);
+    for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+    return cells;
+  }
+  return {};
+}
+
+TEST(CommandLine, HelpOfEverySubcommandNamesItsOptions) {
+  const fs::path folder = empty_folder("help");
+  const std::vector<std::pair<std::string, std::vector<const char*>>> commands = {
+      {"", {"run", "check", "echo", "list", "tables", "--help", "--version", "Exit codes"}},
+      {"run",
+       {"DECK", "--output", "--solver", "--tables", "--nodes", "--points", "--no-listing", "--vtu", "--picture",
+        "--quiet", "--layout", "--strict", "--formulation", "--element", "--geometry"}},
+      {"check", {"DECK", "--layout", "--strict", "--formulation", "--element", "--geometry"}},
+      {"echo", {"DECK", "--layout", "--strict"}},
+      {"list", {"WHAT", "elements", "materials", "solvers"}},
+      {"tables", {"--cases", "--output", "--pinned"}},
+  };
+  for (const auto& [command, words] : commands) {
+    const Finished help = sagefe(folder, command + " --help");
+    EXPECT_EQ(help.exit_code, 0) << command;
+    EXPECT_EQ(help.err, "");
+    for (const char* word : words) expect_words(help.out, {word});
+  }
+}
+
+TEST(CommandLine, VersionIsThreeNumbers) {
+  const Finished version = sagefe(empty_folder("version"), "--version");
+  EXPECT_EQ(version.exit_code, 0);
+  int a = -1, b = -1, c = -1;
+  EXPECT_EQ(std::sscanf(version.out.c_str(), "sagefe %d.%d.%d", &a, &b, &c), 3) << version.out;
+}
+
+TEST(CommandLine, MistakesGiveExitCode1AndNameTheWord) {
+  const fs::path folder = empty_folder("usage");
+  write(folder / "deck.dat", block_deck().text());
+  const std::pair<const char*, const char*> calls[] = {
+      {"", "subcommand"},
+      {"frobnicate", "frobnicate"},
+      {"run", "DECK"},
+      {"run deck.dat --frobnicate", "--frobnicate"},
+      {"run deck.dat --solver nonsense", "unknown solver nonsense"},
+      {"run deck.dat --tables nonsense", "nonsense"},
+      {"run deck.dat --picture nonsense", "nonsense"},
+      {"run deck.dat --geometry two", "two"},
+      {"list nonsense", "nonsense"},
+      {"check", "DECK"},
+      {"echo deck.dat another.dat", "another.dat"},
+  };
+  for (const auto& [call, word] : calls) {
+    const Finished run = sagefe(folder, call);
+    EXPECT_EQ(run.exit_code, 1) << call << "\n" << run.err;
+    expect_words(run.err, {word});
+    EXPECT_FALSE(fs::exists(folder / "out")) << call;
+  }
+}
+
+TEST(CommandLine, ListsWhatDecksCanAskFor) {
+  const fs::path folder = empty_folder("list");
+  const auto list = [&](const char* what) {
+    const Finished run = sagefe(folder, std::string("list ") + what);
+    EXPECT_EQ(run.exit_code, 0);
+    return run.out;
+  };
+  expect_words(list("elements"), {"   1  quad4", "b-bar", "  11  interface4", "Newton-Cotes"});
+  expect_words(list("materials"),
+               {"   1  linear_elastic (solid)", "youngs_modulus [stress]", "; required",
+                "  21  goodman (interface)", "shear_stiffness [stress/length]", "blank = 0"});
+  expect_words(list("solvers"), {"skyline_lu (unsymmetric)", "skyline_ldlt (symmetric)", "umfpack"});
+}
+
+TEST(CommandLine, EchoShowsEachCardUnderARuler) {
+  const fs::path folder = empty_folder("echo");
+  write(folder / "deck.dat", block_deck().text());
+  const Finished echo = sagefe(folder, "echo deck.dat");
+  EXPECT_EQ(echo.exit_code, 0) << echo.err;
+  expect_words(echo.out, {"....+....1....+....2", "    8 |     1    2    1    2    3", "fill  (5I5,2F10.0)",
+                          "first = 1  columns = 2  column_step = 1  rows = 2  row_step = 3", "\"psi\""});
+}
+
+TEST(CommandLine, ABadDeckDoesNotKeepTheNextFromRunning) {
+  const fs::path folder = empty_folder("two_decks");
+  write(folder / "bad.dat", block_deck().with("parameters", card({}, {"-1.", ".3"})).text());
+  write(folder / "good.dat", block_deck().text());
+  write(folder / "weak.dat", collapse_deck().text());
+  const Finished run = sagefe(folder, "run bad.dat good.dat -o out");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_TRUE(fs::exists(folder / "out" / "good.lst"));
+  EXPECT_FALSE(fs::exists(folder / "out" / "bad.lst"));
+  // The worst code is the answer, whatever the order.
+  EXPECT_EQ(sagefe(folder, "run weak.dat bad.dat good.dat -o out").exit_code, 3);
+  EXPECT_EQ(sagefe(folder, "run good.dat -o out").exit_code, 0);
+  EXPECT_EQ(sagefe(folder, "check bad.dat good.dat").exit_code, 2);
+}
+
+TEST(CommandLine, DecksThatWouldOverwriteEachOtherAreRefused) {
+  const fs::path folder = empty_folder("same_names");
+  for (const char* part : {"a", "b"}) {
+    fs::create_directories(folder / part);
+    write(folder / part / "one.dat", block_deck().text());
+  }
+  const Finished run = sagefe(folder, "run a/one.dat b/one.dat -o out");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST(CommandLine, AFolderThatCantBeMadeIsExitCode4) {
+  const fs::path folder = empty_folder("no_folder");
+  write(folder / "deck.dat", block_deck().text());
+  write(folder / "file", "not a folder");
+  for (const char* out : {"file", "file/out"}) {
+    const Finished run = sagefe(folder, std::string("run deck.dat -o ") + out);
+    EXPECT_EQ(run.exit_code, 4) << run.err;
+    expect_words(run.err, {out});
+  }
+  EXPECT_EQ(read(folder / "file"), "not a folder");
+}
+
+// c = 10, phi = 0: the limit of the pressure is 2 c = 20, two thirds of the 30 that the deck asks for.
+TEST(FailedRuns, CollapseKeepsTheLastStateInEquilibrium) {
+  const fs::path folder = empty_folder("collapse");
+  write(folder / "deck.dat", collapse_deck().text());
+  const Finished run = sagefe(folder, "run deck.dat -o out");
+  EXPECT_EQ(run.exit_code, 3);
+  expect_words(run.err, {"stage 1, increment 7", "limit load: between 0.666"});
+  expect_words(run.out, {"NOT CONVERGED"});
+  expect_words(read(folder / "out" / "deck.lst"), {"NOT CONVERGED", "the run ended before its last stage"});
+  const std::string table = read(folder / "out" / "deck.increments.csv");
+  EXPECT_EQ(row(table, "1,6,").at(3), "1") << "increment 6, at 18, is in equilibrium";
+  const std::vector<std::string> last = row(table, "1,7,");
+  EXPECT_EQ(last.at(3), "0");
+  // Twelve cuts of a tenth: the last factor reached is within 0.1 / 2^12 below 2/3, and so within 5e-5 of it.
+  EXPECT_NEAR(std::stod(last.at(2)), 2.0 / 3.0, 1e-4);
+  EXPECT_LT(std::stod(last.at(2)), 2.0 / 3.0);
+  expect_words(table, {"# NOT CONVERGED in stage 1, increment 7"});
+}
+
+// The upper element stands on a joint without shear stiffness: nothing resists the push in x.
+TEST(FailedRuns, FrictionlessBlockIsSingularAndNamed) {
+  const fs::path folder = empty_folder("loose");
+  write(folder / "deck.dat", joint_deck().with("parameters_joint", card({}, {"0.", "1.E6"})).text());
+  EXPECT_EQ(sagefe(folder, "check deck.dat").exit_code, 0) << "supports alone look sufficient";
+  for (const char* solver : {"skyline_ldlt", "skyline_lu", "cholmod", "umfpack", "frontal", "frontal_ldlt"}) {
+    const Finished run = sagefe(folder, std::string("run deck.dat -o out --solver ") + solver);
+    EXPECT_EQ(run.exit_code, 3) << solver;
+    expect_words(run.err, {"deck.dat: stage 1, increment 1: the stiffness matrix is singular at node ",
+                           ", direction x", solver, "3 (quad4", "interface without stiffness"});
+    const std::string said =
+        run.err.substr(std::min(run.err.size(), run.err.find("singular at node ") + 17), 1);
+    EXPECT_NE(std::string("5678").find(said), std::string::npos) << "not a node of the loose element: " << said;
+    expect_words(read(folder / "out" / "deck.lst"), {"NOT CONVERGED", "singular"});
+  }
+}
+
+}  // namespace
+}  // namespace sage::test

@@ -133,7 +133,8 @@ fs::path deck_of(const fs::path& expected) {
   const std::string stem = expected.stem().stem().string();
   for (const auto& entry : fs::directory_iterator(expected.parent_path())) {
     const std::string ending = entry.path().extension().string();
-    if (entry.path().stem() == stem && ending != ".csv" && ending != ".res" && ending != ".md") return entry.path();
+    if (entry.path().stem() == stem && ending != ".csv" && ending != ".res" && ending != ".md")
+      return entry.path();
   }
   return {};
 }

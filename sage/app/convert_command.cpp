@@ -1,0 +1,77 @@
+// sagefe convert: a deck or mesh into another program's input, or into a sage1 deck.
+#include <fmt/format.h>
+
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+#include <fstream>
+#include <iterator>
+
+#include "sage/app/commands.hpp"
+#include "sage/app/exit_codes.hpp"
+#include "sage/app/input.hpp"
+#include "sage/model/msh_model.hpp"
+#include "sage/output/convert.hpp"
+#include "sage/output/out_file.hpp"
+
+namespace sage::app {
+
+namespace {
+
+struct ConvertOptions {
+  std::string from, to;
+  InputOptions input;
+  MshOptions mesh;
+};
+
+std::string ending(const std::string& path) {
+  return std::filesystem::path(path).extension().string();
+}
+
+Model read_model(const ConvertOptions& options, const Catalogue& catalogue) {
+  if (ending(options.from) != ".msh")
+    return build_model(read_input(options.from, options.input), catalogue, options.input.build);
+  std::ifstream in(options.from, std::ios::binary);
+  if (!in) throw InputError({options.from, 0, 0, 0}, "the file can't be read");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  MshOptions mesh = options.mesh;
+  if (options.input.build.geometry == 2) mesh.geometry = Geometry::axisymmetric;
+  return model_from_msh(text, options.from, catalogue, mesh);
+}
+
+int convert(const ConvertOptions& options) {
+  const std::string to = ending(options.to);
+  if (to != ".dat" && to != ".msh" && to != ".inp") {
+    fmt::print(stderr, "sagefe: {}: the ending tells the format: .dat deck, .msh Gmsh, .inp CalculiX\n",
+               options.to);
+    return kUsage;
+  }
+  const Catalogue catalogue = full_catalogue();
+  Model model = read_model(options, catalogue);
+  OutFile file(options.to);
+  file.text() = to == ".dat"   ? sage1_text(model, catalogue, model.diagnostics)
+                : to == ".msh" ? msh_text(model, catalogue, model.diagnostics)
+                               : inp_text(model, catalogue, model.diagnostics);
+  file.finish();
+  print_diagnostics(model.diagnostics);
+  fmt::print("{}: {} nodes, {} groups, {} stages\n", options.to, model.mesh.nodes(), model.groups.size(),
+             model.stages.size());
+  return options.input.strict && model.diagnostics.warnings() > 0 ? kInput : kOk;
+}
+
+}  // namespace
+
+Command convert_command(CLI::App& root) {
+  auto options = std::make_shared<ConvertOptions>();
+  CLI::App* parser = root.add_subcommand(
+      "convert", "write a deck or Gmsh mesh as sage1 deck (.dat), Gmsh mesh (.msh) or CalculiX input (.inp)");
+  parser->add_option("IN", options->from, "deck of any layout, or .msh (MSH 4.1 ASCII)")->required();
+  parser->add_option("OUT", options->to, "file to write: .dat, .msh or .inp")->required();
+  parser->add_option("--young", options->mesh.youngs_modulus, "from .msh: Young's modulus of all groups");
+  parser->add_option("--poisson", options->mesh.poissons_ratio, "from .msh: Poisson's ratio of all groups");
+  parser->add_option("--weight", options->mesh.unit_weight, "from .msh: unit weight of all groups");
+  add_input_options(*parser, options->input);
+  add_build_options(*parser, options->input.build);
+  return {parser, [options] { return convert(*options); }};
+}
+
+}  // namespace sage::app

@@ -1,0 +1,183 @@
+// A model as Abaqus-style input for CalculiX.
+#include <fmt/format.h>
+
+#include <map>
+
+#include "sage/output/convert.hpp"
+
+namespace sage {
+
+namespace {
+
+// CPE4, CAX8R, ...; empty for what CalculiX has no two-dimensional element for.
+std::string element_type(const Model& model, const Group& group, const ElementEntry& entry) {
+  const std::string family = model.geometry == Geometry::axisymmetric ? "CAX" : "CPE";
+  if (entry.name == "tri3") return family + "3";
+  if (entry.name == "tri6") return family + "6";
+  if (entry.name == "quad4") return family + "4";
+  if (entry.name == "quad8") return family + (group.element->traits().points == 4 ? "8R" : "8");
+  return {};
+}
+
+std::string set_name(const Group& group, std::size_t index) {
+  return "G" + std::to_string(index + 1) + "_" + std::to_string(group.number);
+}
+
+class Writer {
+ public:
+  Writer(const Model& model, const Catalogue& catalogue, Diagnostics& diagnostics)
+      : model_(model), catalogue_(catalogue), diagnostics_(diagnostics) {}
+
+  std::string text() {
+    heading();
+    elements();
+    materials();
+    boundary("", model_.fixities);
+    for (const Stage& stage : model_.stages) step(stage);
+    return std::move(text_);
+  }
+
+ private:
+  void warning(const std::string& message) {
+    diagnostics_.add({Severity::warning, {model_.file, 0, 0, 0}, message, {}});
+  }
+  int number(int node) const { return model_.mesh.number[static_cast<std::size_t>(node)]; }
+
+  void heading() {
+    text_ += "*HEADING\n" + model_.title + "\n*NODE, NSET=NALL\n";
+    for (int i = 0; i < model_.mesh.nodes(); ++i)
+      text_ += fmt::format("{}, {}, {}, 0.\n", number(i), model_.mesh.x(0, i), model_.mesh.x(1, i));
+  }
+
+  void elements() {
+    for (std::size_t g = 0; g < model_.groups.size(); ++g) {
+      const Group& group = model_.groups[g];
+      const std::string type = element_type(model_, group, *catalogue_.elements.find(group.element_code));
+      written_.push_back(!type.empty() && group.elements() > 0);
+      if (type.empty() && group.elements() > 0)
+        warning(std::to_string(group.elements()) + " " + group.element_name +
+                " element(s) left out: CalculiX has none");
+      if (!written_.back()) continue;
+      text_ += fmt::format("*ELEMENT, TYPE={}, ELSET={}\n", type, set_name(group, g));
+      for (int e = 0; e < group.elements(); ++e) {
+        text_ += std::to_string(group.element_numbers[static_cast<std::size_t>(e)]);
+        for (std::size_t i = 0; i < group.node_count(); ++i)
+          text_ += ", " + std::to_string(number(group.nodes_of(e)[i]));
+        text_ += '\n';
+      }
+    }
+  }
+
+  // The elastic constants that a law states; others have none to give.
+  static double value_of(const MaterialEntry& entry, const Material& material, std::string_view name) {
+    for (std::size_t i = 0; i < entry.parameters.size(); ++i)
+      if (entry.parameters[i].name == name) return material.parameters[i];
+    return -1.0;
+  }
+
+  void materials() {
+    for (std::size_t g = 0; g < model_.groups.size(); ++g) {
+      if (!written_[g]) continue;
+      const Material& material = model_.material_of(model_.groups[g]);
+      const MaterialEntry& entry = *catalogue_.materials.find(material.code);
+      const double E = value_of(entry, material, "youngs_modulus"),
+                   nu = value_of(entry, material, "poissons_ratio");
+      const std::string set = set_name(model_.groups[g], g);
+      // Density 1 x gravity in this program's units: unit weight.
+      text_ += fmt::format("*MATERIAL, NAME=M_{}\n", set);
+      if (E > 0.0)
+        text_ += fmt::format("*ELASTIC\n{}, {}\n", E, nu);
+      else
+        warning("material " + std::to_string(material.number) + " (" + entry.name +
+                ") has no Young's modulus: its *ELASTIC must be added by hand");
+      if (E > 0.0 && entry.name != "linear_elastic")
+        warning("material " + std::to_string(material.number) + " (" + entry.name +
+                "): only its elastic constants are written");
+      if (material.unit_weight > 0.0) text_ += fmt::format("*DENSITY\n{}\n", material.unit_weight);
+      text_ += fmt::format("*SOLID SECTION, ELSET={}, MATERIAL=M_{}\n", set, set);
+      if (model_.geometry == Geometry::plane_strain) text_ += "1.\n";
+    }
+  }
+
+  void boundary(const std::string& options, const std::vector<Fixity>& fixities) {
+    bool begun = false;
+    for (const Fixity& fixity : fixities)
+      for (std::size_t c = 0; c < 2; ++c) {
+        if (fixity.code[c] == FixityCode::released) {
+          warning("the release of node " + std::to_string(number(fixity.node)) + " is left out");
+          continue;
+        }
+        if (fixity.code[c] != FixityCode::fixed) continue;
+        if (!begun) text_ += "*BOUNDARY" + options + "\n";
+        begun = true;
+        double& total = displacement_[{fixity.node, static_cast<int>(c)}];
+        total += fixity.value[c];
+        text_ += fmt::format("{}, {}, {}, {}\n", number(fixity.node), c + 1, c + 1, total);
+      }
+  }
+
+  // Loads here are added stage by stage, there the last value stands: totals are written.
+  void step(const Stage& stage) {
+    text_ += fmt::format("*STEP, INC={}\n*STATIC\n{}, 1.\n", 100 * stage.increments, 1.0 / stage.increments);
+    if (!stage.births.empty() || !stage.deaths.empty())
+      warning("stage " + std::to_string(stage.number) + ": births and deaths of groups are left out");
+    if (!stage.initials.empty())
+      warning("stage " + std::to_string(stage.number) + ": initial stresses are left out");
+    boundary("", stage.fixities);
+    if (!stage.loads.empty()) text_ += "*CLOAD\n";
+    for (const NodalLoad& load : stage.loads)
+      for (int c = 0; c < 2; ++c) {
+        if (load.force[c] == 0.0) continue;
+        double& total = force_[{load.node, c}];
+        total += load.force[c];
+        text_ += fmt::format("{}, {}, {}\n", number(load.node), c + 1, total);
+      }
+    distributed(stage);
+    text_ += "*NODE PRINT, NSET=NALL\nU\n*END STEP\n";
+  }
+
+  void distributed(const Stage& stage) {
+    gravity_ += stage.gravity;
+    const bool weight = stage.gravity.norm() > 0.0;
+    if (weight || !stage.pressures.empty()) text_ += "*DLOAD\n";
+    if (weight) {
+      const Vector2 direction = gravity_ / std::max(gravity_.norm(), 1e-300);
+      for (std::size_t g = 0; g < model_.groups.size(); ++g)
+        if (written_[g] && model_.material_of(model_.groups[g]).unit_weight > 0.0)
+          text_ += fmt::format("{}, GRAV, {}, {}, {}, 0.\n", set_name(model_.groups[g], g), gravity_.norm(),
+                               direction.x(), direction.y());
+    }
+    int uneven = 0, shear = 0;
+    for (const EdgeLoad& load : stage.pressures) {
+      const Group& group = model_.groups[static_cast<std::size_t>(load.group)];
+      if (load.normal[0] != load.normal[1]) ++uneven;
+      if (load.shear.norm() > 0.0) ++shear;
+      const int element = group.element_numbers[static_cast<std::size_t>(load.element)];
+      double& total = pressure_[{element, load.edge}];
+      total += load.normal.mean();
+      if (written_[static_cast<std::size_t>(load.group)])
+        text_ += fmt::format("{}, P{}, {}\n", element, load.edge + 1, total);
+    }
+    if (uneven > 0)
+      warning(std::to_string(uneven) + " pressure(s) that vary along an edge are written as their mean");
+    if (shear > 0) warning(std::to_string(shear) + " edge shear load(s) left out");
+  }
+
+  const Model& model_;
+  const Catalogue& catalogue_;
+  Diagnostics& diagnostics_;
+  std::string text_;
+  std::vector<char> written_;
+  std::map<std::pair<int, int>, double> displacement_, force_, pressure_;
+  Vector2 gravity_ = Vector2::Zero();
+};
+
+}  // namespace
+
+std::string inp_text(const Model& model, const Catalogue& catalogue, Diagnostics& diagnostics) {
+  if (!model.initials.empty())
+    diagnostics.add({Severity::warning, {model.file, 0, 0, 0}, "initial stresses are left out", {}});
+  return Writer(model, catalogue, diagnostics).text();
+}
+
+}  // namespace sage

@@ -1,0 +1,140 @@
+// A model's mesh as Gmsh MSH 4.1 ASCII.  Gmsh counts nodes of an element as this program does.
+#include <fmt/format.h>
+
+#include <map>
+
+#include "sage/output/boundary_edges.hpp"
+#include "sage/output/convert.hpp"
+
+namespace sage {
+
+namespace {
+
+// Gmsh's code for a solid, 0 for what it doesn't know.
+int solid_type(const ElementEntry& entry) {
+  static const std::map<std::string, int> kTypes{{"tri3", 2},   {"quad4", 3},  {"tri6", 9},
+                                                 {"quad9", 10}, {"quad8", 16}, {"tri15", 23}};
+  const auto it = kTypes.find(entry.name);
+  return it == kTypes.end() ? 0 : it->second;
+}
+
+int line_type(std::size_t nodes) {
+  return nodes == 2 ? 1 : nodes == 3 ? 8 : 27;
+}
+
+struct Block {
+  int dimension = 2, type = 0, tag = 0;
+  std::string name;
+  std::vector<std::vector<int>> elements;  // number, then node numbers
+};
+
+std::vector<Block> surfaces(const Model& model, const Catalogue& catalogue, int& left_out, int& largest) {
+  std::vector<Block> blocks;
+  for (const Group& group : model.groups) {
+    const int type = solid_type(*catalogue.elements.find(group.element_code));
+    if (type == 0) left_out += group.elements();
+    if (type == 0 || group.elements() == 0) continue;
+    Block block{2,
+                type,
+                static_cast<int>(blocks.size()) + 1,
+                group.name.empty() ? "group " + std::to_string(group.number) : group.name,
+                {}};
+    for (const Block& other : blocks)
+      if (other.name == block.name) {
+        block.name += " " + std::to_string(group.number) + "/" + std::to_string(block.tag);
+        break;
+      }
+    for (int e = 0; e < group.elements(); ++e) {
+      std::vector<int> row{group.element_numbers[static_cast<std::size_t>(e)]};
+      largest = std::max(largest, row[0]);
+      for (std::size_t i = 0; i < group.node_count(); ++i)
+        row.push_back(model.mesh.number[static_cast<std::size_t>(group.nodes_of(e)[i])]);
+      block.elements.push_back(std::move(row));
+    }
+    blocks.push_back(std::move(block));
+  }
+  return blocks;
+}
+
+std::vector<Block> supports(const Model& model, int first_number) {
+  const std::vector<char> held = held_dofs(model);
+  std::map<std::pair<std::string, std::size_t>, Block> by_name;
+  std::map<std::string, int> tags;
+  for (const BoundaryEdge& edge : boundary_edges(model)) {
+    const std::string name = support_name(held, edge);
+    if (name.empty()) continue;
+    Block& block = by_name[{name, edge.nodes.size()}];
+    block.dimension = 1;
+    block.type = line_type(edge.nodes.size());
+    block.name = name;
+    block.tag = tags.try_emplace(name, static_cast<int>(tags.size()) + 1).first->second;
+    std::vector<int> row{first_number++};
+    for (int node : edge.nodes) row.push_back(model.mesh.number[static_cast<std::size_t>(node)]);
+    block.elements.push_back(std::move(row));
+  }
+  std::vector<Block> blocks;
+  for (auto& [key, block] : by_name) blocks.push_back(std::move(block));
+  return blocks;
+}
+
+std::string clean(std::string name) {
+  for (char& c : name)
+    if (c == '"') c = '\'';
+  return name;
+}
+
+std::string entities(const Model& model, const std::vector<Block>& blocks) {
+  const Vector2 low = model.mesh.x.rowwise().minCoeff(), high = model.mesh.x.rowwise().maxCoeff();
+  const std::string box = fmt::format("{} {} 0 {} {} 0", low[0], low[1], high[0], high[1]);
+  std::map<std::pair<int, int>, bool> known;
+  std::string curves, faces;
+  int counts[2] = {0, 0};
+  for (const Block& block : blocks) {
+    if (!known.try_emplace({block.dimension, block.tag}, true).second) continue;
+    ++counts[block.dimension - 1];
+    (block.dimension == 1 ? curves : faces) += fmt::format("{} {} 1 {} 0\n", block.tag, box, block.tag);
+  }
+  return fmt::format("$Entities\n0 {} {} 0\n{}{}$EndEntities\n", counts[0], counts[1], curves, faces);
+}
+
+}  // namespace
+
+std::string msh_text(const Model& model, const Catalogue& catalogue, Diagnostics& diagnostics) {
+  int left_out = 0, largest = 0;
+  std::vector<Block> blocks = surfaces(model, catalogue, left_out, largest);
+  for (Block& block : supports(model, largest + 1)) blocks.push_back(std::move(block));
+  if (left_out > 0)
+    diagnostics.add({Severity::warning,
+                     {model.file, 0, 0, 0},
+                     std::to_string(left_out) + " interface element(s) left out: MSH has no type for them",
+                     {}});
+  std::map<std::pair<int, int>, std::string> names;
+  std::size_t elements = 0;
+  int lowest = largest;
+  for (const Block& block : blocks) {
+    names.try_emplace({block.dimension, block.tag}, clean(block.name));
+    elements += block.elements.size();
+    for (const auto& row : block.elements) {
+      lowest = std::min(lowest, row[0]);
+      largest = std::max(largest, row[0]);
+    }
+  }
+  std::string text =
+      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n" + std::to_string(names.size()) + "\n";
+  for (const auto& [key, name] : names) text += fmt::format("{} {} \"{}\"\n", key.first, key.second, name);
+  text += "$EndPhysicalNames\n" + entities(model, blocks);
+  const auto& number = model.mesh.number;
+  text += fmt::format("$Nodes\n1 {} {} {}\n2 1 0 {}\n", number.size(), number.empty() ? 0 : number.front(),
+                      number.empty() ? 0 : *std::max_element(number.begin(), number.end()), number.size());
+  for (int n : number) text += fmt::format("{}\n", n);
+  for (int i = 0; i < model.mesh.nodes(); ++i)
+    text += fmt::format("{} {} 0\n", model.mesh.x(0, i) + 0.0, model.mesh.x(1, i) + 0.0);
+  text += fmt::format("$EndNodes\n$Elements\n{} {} {} {}\n", blocks.size(), elements, lowest, largest);
+  for (const Block& block : blocks) {
+    text += fmt::format("{} {} {} {}\n", block.dimension, block.tag, block.type, block.elements.size());
+    for (const auto& row : block.elements) text += fmt::format("{}\n", fmt::join(row, " "));
+  }
+  return text + "$EndElements\n";
+}
+
+}  // namespace sage

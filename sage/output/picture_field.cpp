@@ -1,0 +1,118 @@
+#include "sage/output/picture_field.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sage/output/values.hpp"
+
+namespace sage {
+
+namespace {
+
+constexpr double kRoundOff = 1e-9;  // of the largest stress or displacement: not worth a colour
+
+constexpr std::pair<Field, std::string_view> kFields[] = {
+    {Field::stress_xx, "stress_xx"},           {Field::stress_yy, "stress_yy"},
+    {Field::stress_zz, "stress_zz"},           {Field::stress_xy, "stress_xy"},
+    {Field::mean_stress, "mean_stress"},       {Field::deviator, "deviator"},
+    {Field::stress_level, "stress_level"},     {Field::displacement_x, "displacement_x"},
+    {Field::displacement_y, "displacement_y"}, {Field::displacement, "displacement"},
+};
+
+bool is_displacement(Field field) {
+  return field == Field::displacement_x || field == Field::displacement_y || field == Field::displacement;
+}
+
+// sigma (tension +) and stress level of a point; nothing for interfaces.
+void stress_values(const GroupData& data, std::size_t point, double* values) {
+  const bool solid = data.state.law_size() == 4;
+  for (std::size_t i = 0; i < 4; ++i) values[i] = solid ? data.state.committed.sigma[4 * point + i] : 0.0;
+  values[4] = solid ? stress_level(data, point) : 0.0;
+}
+
+double scalar(Field field, const double* values) {
+  switch (field) {
+    case Field::mean_stress:
+      return mean_stress(values);
+    case Field::deviator:
+      return deviator_stress(values);
+    case Field::stress_level:
+      return std::max(values[4], 0.0);
+    default:
+      return outward(values[static_cast<std::size_t>(field)]);
+  }
+}
+
+double displacement_value(const Solution& s, Field field, int node) {
+  const Vector2 u = s.u->segment<2>(2 * node);
+  if (field == Field::displacement) return u.norm();
+  return field == Field::displacement_x ? u.x() : u.y();
+}
+
+}  // namespace
+
+std::string_view field_name(Field field) {
+  for (const auto& [f, name] : kFields)
+    if (f == field) return name;
+  return "";
+}
+
+std::optional<Field> field_from_name(std::string_view name) {
+  for (const auto& [field, n] : kFields)
+    if (n == name) return field;
+  return std::nullopt;
+}
+
+std::string describe_field(const Model& model, Field field) {
+  const AxisNames& names = axis_names(model.geometry);
+  const std::string &stress = model.units.stress, &length = model.units.length;
+  switch (field) {
+    case Field::stress_xx:
+    case Field::stress_yy:
+    case Field::stress_zz:
+    case Field::stress_xy:
+      return fmt::format("{} [{}], compression positive", names.stress[static_cast<std::size_t>(field)],
+                         stress);
+    case Field::mean_stress:
+      return fmt::format("mean stress p [{}], compression positive", stress);
+    case Field::deviator:
+      return fmt::format("deviator stress q [{}]", stress);
+    case Field::stress_level:
+      return "stress level (1 = at strength)";
+    case Field::displacement_x:
+      return fmt::format("displacement u-{} [{}], positive along +{}", names.x, length, names.x);
+    case Field::displacement_y:
+      return fmt::format("displacement u-{} [{}], positive along +{}", names.y, length, names.y);
+    case Field::displacement:
+      return fmt::format("length of displacement [{}]", length);
+  }
+  return "";
+}
+
+std::vector<double> field_values(const Model& model, const Solution& s, const NodalLayout& layout,
+                                 Field field) {
+  std::vector<double> result;
+  double largest = 0.0;
+  if (is_displacement(field)) {
+    for (int node : layout.node) {
+      result.push_back(displacement_value(s, field, node));
+      largest = std::max(largest, displacement_value(s, Field::displacement, node));
+    }
+  } else {
+    const std::vector<double> stress = nodal_average(model, s, layout, 5, stress_values);
+    for (std::size_t e = 0; e < layout.node.size(); ++e) {
+      const double* values = stress.data() + 5 * e;
+      result.push_back(scalar(field, values));
+      for (int i = 0; i < 4 && field != Field::stress_level; ++i)
+        largest = std::max(largest, std::abs(values[i]));
+    }
+  }
+  for (double& value : result)
+    if (std::abs(value) < kRoundOff * largest) value = 0.0;
+  return result;
+}
+
+}  // namespace sage

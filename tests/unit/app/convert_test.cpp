@@ -1,0 +1,285 @@
+// Decks into decks, Gmsh meshes and CalculiX input, and back.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+#include "sage/app/commands.hpp"
+#include "sage/app/run_deck.hpp"
+#include "sage/model/msh_model.hpp"
+#include "sage/output/convert.hpp"
+
+namespace sage::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kInputs = SAGE_SOURCE_DIR "/legacy_inputs/";
+
+fs::path scratch() {
+  const fs::path folder = fs::path(testing::TempDir()) / "sage_convert";
+  fs::create_directories(folder);
+  return folder;
+}
+
+std::string read(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string write(const std::string& name, const std::string& text) {
+  const fs::path path = scratch() / name;
+  std::ofstream(path, std::ios::binary) << text;
+  return path.string();
+}
+
+Model model_of(const std::string& path, const std::string& layout = "") {
+  InputOptions input;
+  input.layout = layout;
+  return build_model(read_input(path, input), full_catalogue());
+}
+
+// Displacements and reactions with all their digits.
+std::string results(const std::string& deck) {
+  RunRequest request;
+  request.deck = deck;
+  request.quiet = true;
+  request.output.folder = scratch() / "out";
+  request.output.nodes = true;
+  request.output.points = true;
+  const RunOutcome outcome = run_deck(request, full_catalogue());
+  EXPECT_EQ(outcome.exit_code, 0);
+  std::string all;
+  for (const char* kind : {".nodes.csv", ".points.csv"}) {
+    const fs::path path = request.output.folder / (case_name(deck) + kind);
+    EXPECT_TRUE(fs::exists(path));
+    all += read(path);
+  }
+  return all;
+}
+
+// Two stages, two laws, all kinds of loads; every number fits ten columns.
+const char* const kDeck = R"(Strip on a layer
+* length force   stress         p_a   gamma_w
+m       kN      kPa        101.325      9.81
+* geom solv node fill matl grup elem fixi init stag rept nnod nele
+    1    0    4    1    2    2    2    3    1    2    1   15    8
+    1    0    0       0.0       0.0
+    3    1    0       1.0       0.0
+   13    0    0       0.0       2.0
+   15    1    0       1.0       2.0
+    1    2    1    4    3
+    1    1    2      18.5 clay
+    20000.      0.30
+    2    4    5      19.0 sand
+    30000.      0.25       5.0       32.        2.
+    1    1    2    1 lower
+    2    1    1    2 upper
+    1    1    1    2    5    4                        2    2    1    3
+    5    2    7    8   11   10                        2    2    1    3
+    1   13    3    1    0
+    3   15    3    1    0
+    1    3    1    0    1
+    1    0        5.       10.        5.        0.
+Weight
+    1    0    0    0    0    0    0    0    0    0       0.0      -1.0       0.0
+Load
+    4    0   25    1    1    1    2    0    0    0       0.0       0.0    1.0E-9
+   15    0    1    0    1       0.0   -0.0015
+   14    0    19.765625-4      -1.5
+    7    3    8    1      10.0      20.0       0.5       0.0
+    5    4    7    2       1.0       1.0
+    2    0   13   15    1    1
+END
+)";
+
+// As a FORMAT reads it: 1.5-7 is 1.5E-7.
+double value_of(std::string text) {
+  const std::size_t sign = text.find_first_of("+-", 1);
+  if (sign != std::string::npos && text[sign - 1] != 'E') text.insert(sign, "E");
+  return std::strtod(text.c_str(), nullptr);
+}
+
+TEST(FieldText, ReadsBackExactlyOrSaysNot) {
+  for (double value :
+       {0.0, 1.0, -0.05, 0.125, 101.325, 2.0e5, 1.5e-7, -1e-12, 3.0e18, 99999999.0, 1.0 / 1024}) {
+    const FieldText field = field_text(value, 10);
+    EXPECT_TRUE(field.exact) << value;
+    EXPECT_EQ(value_of(field.text), value) << field.text;
+    EXPECT_LE(field.text.size(), 10u);
+    EXPECT_NE(field.text.find('.'), std::string::npos)
+        << "a FORMAT would put the point elsewhere: " << field.text;
+  }
+  for (double value : {1.0 / 3.0, -1.0 / 3.0, -2.0e-5 / 3.0, 1.23456789012e-205, 123456789012.5}) {
+    const FieldText field = field_text(value, 10);
+    EXPECT_FALSE(field.exact) << value;
+    EXPECT_LE(field.text.size(), 10u);
+    EXPECT_NEAR(value_of(field.text) / value, 1.0, 1.01 * field.change) << field.text;
+  }
+  EXPECT_EQ(field_text(-1.0 / 3.0, 10).text, "-.33333333");
+  EXPECT_NEAR(field_text(-1.0 / 3.0, 10).change, 1e-8, 1e-12);
+  EXPECT_EQ(field_text(1.0 / 1024, 10).text, "9.765625-4");
+}
+
+TEST(Convert, DeckToDeckGivesTheSameResultsBitForBit) {
+  const std::string first = write("strip.dat", kDeck);
+  Model model = model_of(first);
+  const std::string text = sage1_text(model, full_catalogue(), model.diagnostics);
+  EXPECT_EQ(model.diagnostics.warnings(), 0);
+  const std::string before = results(first);
+  const std::string second = write("strip.dat", text);
+  EXPECT_EQ(results(second), before);
+  Model again = model_of(second);
+  EXPECT_EQ(sage1_text(again, full_catalogue(), again.diagnostics), text);
+}
+
+TEST(Convert, TellsTheLargestChangeOfNumbersThatDoNotFit) {
+  Model model = model_of(kInputs + "smith_griffiths/p51_5.dat");
+  const std::string text = sage1_text(model, full_catalogue(), model.diagnostics);
+  ASSERT_EQ(model.diagnostics.warnings(), 1);
+  EXPECT_NE(model.diagnostics.list().back().message.find("3 number(s) need more digits"), std::string::npos)
+      << model.diagnostics.list().back().message;
+  EXPECT_NO_THROW(model_of(write("p51_5.dat", text)));
+}
+
+TEST(Convert, ElementsThatNoCardHoldsAreRefused) {
+  Model model = model_of(kInputs + "smith_griffiths/p51_2.dat");
+  EXPECT_THROW(sage1_text(model, full_catalogue(), model.diagnostics), InputError);
+}
+
+TEST(Convert, DeckToGmshToDeckKeepsTheMesh) {
+  for (const std::string& deck : {write("strip.dat", kDeck), kInputs + "smith_griffiths/p51_5.dat",
+                                  kInputs + "smith_griffiths/p51_2.dat", kInputs + "quad4m/MDL.Q4I"}) {
+    Model model = model_of(deck);
+    const std::string msh = msh_text(model, full_catalogue(), model.diagnostics);
+    const Model back = model_from_msh(msh, "mesh.msh", full_catalogue(), {});
+    EXPECT_EQ(back.mesh.number, model.mesh.number);
+    EXPECT_EQ(back.mesh.x, model.mesh.x);
+    ASSERT_EQ(back.groups.size(), model.groups.size());
+    for (std::size_t g = 0; g < model.groups.size(); ++g) {
+      EXPECT_EQ(back.groups[g].nodes, model.groups[g].nodes);
+      EXPECT_EQ(back.groups[g].element_numbers, model.groups[g].element_numbers);
+      EXPECT_EQ(back.groups[g].element_code, model.groups[g].element_code);
+    }
+    EXPECT_FALSE(back.fixities.empty());
+  }
+}
+
+// A square of two triangles as Gmsh writes one, the second clockwise.
+const char* const kMesh = R"($MeshFormat
+4.1 0 8
+$EndMeshFormat
+$PhysicalNames
+4
+1 1 "fix_xy"
+1 2 "pressure=25"
+1 3 "wall"
+2 4 "sand"
+$EndPhysicalNames
+$Entities
+1 3 1 0
+1 0 0 0 0
+1 0 0 0 1 0 0 1 1 2 1 -1
+2 0 1 0 1 1 0 1 2 2 1 -1
+3 0 0 0 0 1 0 1 3 2 1 -1
+1 0 0 0 1 1 0 1 4 0
+$EndEntities
+$Nodes
+1 4 1 4
+2 1 0 4
+1
+2
+3
+4
+0 0 0
+1 0 0
+1 1 0
+0 1 0
+$EndNodes
+$Elements
+5 6 1 6
+0 1 15 1
+1 1
+1 1 1 1
+2 1 2
+1 2 1 1
+3 3 4
+1 3 1 1
+4 4 1
+2 1 2 2
+5 1 2 3
+6 1 4 3
+$EndElements
+)";
+
+TEST(Convert, GmshMeshBecomesASkeletonThatCheckExplains) {
+  Model skeleton = model_from_msh(kMesh, "square.msh", full_catalogue(), {});
+  ASSERT_EQ(skeleton.groups.size(), 1u);
+  EXPECT_EQ(skeleton.groups[0].nodes, (std::vector<int>{0, 1, 2, 0, 2, 3}));
+  EXPECT_EQ(skeleton.fixities.size(), 2u);
+  ASSERT_EQ(skeleton.stages[0].pressures.size(), 1u);
+  EXPECT_EQ(skeleton.stages[0].pressures[0].normal[0], 25.0);
+  EXPECT_EQ(skeleton.stages[0].pressures[0].element, 1);
+  EXPECT_EQ(skeleton.diagnostics.warnings(), 1) << "the curve 'wall'";
+  const std::string deck = write("square.dat", sage1_text(skeleton, full_catalogue(), skeleton.diagnostics));
+  try {
+    model_of(deck);
+    FAIL() << "a placeholder must not run";
+  } catch (const InputError& error) {
+    EXPECT_NE(error.diagnostics().list().front().message.find("youngs_modulus must be greater than 0"),
+              std::string::npos);
+  }
+  Model filled =
+      model_from_msh(kMesh, "square.msh", full_catalogue(), {Geometry::plane_strain, 1000.0, 0.3, 18.0});
+  EXPECT_FALSE(results(write("square.dat", sage1_text(filled, full_catalogue(), filled.diagnostics))).empty());
+}
+
+TEST(Convert, BrokenMeshesAreRefusedWithTheirLine) {
+  const std::string good = kMesh;
+  for (std::size_t cut = 0; cut + 40 < good.size(); cut += 7) {
+    try {
+      model_from_msh(good.substr(0, cut), "cut.msh", full_catalogue(), {});
+      ADD_FAILURE() << "cut at " << cut;
+    } catch (const InputError& error) {
+      EXPECT_GE(error.diagnostics().list().front().where.line, 0);
+    }
+  }
+  std::string other = good;
+  other.replace(other.find("4.1"), 3, "2.2");
+  EXPECT_THROW(model_from_msh(other, "old.msh", full_catalogue(), {}), InputError);
+}
+
+TEST(Convert, MeshioReadsTheMesh) {
+  const char* const python = "/usr/bin/python3";
+  if (std::system((std::string(python) + " -c 'import meshio' 2> /dev/null").c_str()) != 0)
+    GTEST_SKIP() << "meshio is not installed";
+  Model model = model_of(write("strip.dat", kDeck));
+  const std::string path = write("strip.msh", msh_text(model, full_catalogue(), model.diagnostics));
+  const std::string script = "import meshio; m = meshio.read('" + path +
+                             "'); q = sum(len(c.data) for c in m.cells if c.type == 'quad'); "
+                             "assert len(m.points) == 15 and q == 8, (len(m.points), q); "
+                             "assert {'lower', 'upper', 'fix_x', 'fix_y'} <= set(m.field_data), m.field_data";
+  EXPECT_EQ(std::system((std::string(python) + " -c \"" + script + "\" > /dev/null").c_str()), 0);
+}
+
+TEST(Convert, CalculixFindsTheSameDisplacements) {
+  if (std::system("command -v ccx > /dev/null 2>&1") != 0) GTEST_SKIP() << "ccx is not installed";
+  // Constant strain: every program must find the exact answer, -0.91e-6 at the top (p51_1.res).
+  Model model = model_of(kInputs + "smith_griffiths/p51_1.dat");
+  write("p51_1.inp", inp_text(model, full_catalogue(), model.diagnostics));
+  ASSERT_EQ(std::system(("cd " + scratch().string() + " && ccx p51_1 > ccx.log 2>&1").c_str()), 0);
+  std::ifstream in(scratch() / "p51_1.dat");
+  int found = 0;
+  for (std::string line; std::getline(in, line);) {
+    int node = 0;
+    double u[3];
+    if (std::sscanf(line.c_str(), "%d %lf %lf %lf", &node, &u[0], &u[1], &u[2]) != 4 || node > 3) continue;
+    EXPECT_NEAR(u[1], -0.91e-6, 1e-11) << "node " << node;
+    ++found;
+  }
+  EXPECT_EQ(found, 3);
+}
+
+}  // namespace
+}  // namespace sage::app

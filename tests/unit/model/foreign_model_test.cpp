@@ -1,0 +1,129 @@
+// Decks of other programs as models.  Expected values: the decks' own counts and QUAD4M's own echo of its
+// areas.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+#include <set>
+
+#include "sage/app/commands.hpp"
+#include "sage/app/run_deck.hpp"
+
+namespace sage::app {
+namespace {
+
+const std::string kInputs = SAGE_SOURCE_DIR "/legacy_inputs/";
+
+Model model_of(const std::string& deck, const std::string& layout = "") {
+  InputOptions input;
+  input.layout = layout;
+  return build_model(read_input(kInputs + deck, input), full_catalogue());
+}
+
+std::string refusal(const std::string& deck, const std::string& layout) {
+  try {
+    model_of(deck, layout);
+  } catch (const InputError& error) {
+    return error.diagnostics().list().front().message;
+  }
+  return "";
+}
+
+bool mentions(const Diagnostics& diagnostics, Severity severity, const std::string& text) {
+  for (const Diagnostic& d : diagnostics.list())
+    if (d.severity == severity && d.message.find(text) != std::string::npos) return true;
+  return false;
+}
+
+RunOutcome run_of(const std::string& deck) {
+  RunRequest request;
+  request.deck = kInputs + deck;
+  request.quiet = true;
+  request.output.folder = std::filesystem::path(testing::TempDir()) / "sage_foreign";
+  return run_deck(request, full_catalogue());
+}
+
+TEST(ForeignModel, Quad4mAreasAgreeWithItsOwnEcho) {
+  const Model model = model_of("quad4m/MDL.Q4I");
+  EXPECT_EQ(model.mesh.nodes(), 2289);
+  std::map<int, double> area;
+  for (const Group& group : model.groups) {
+    std::vector<double> geometry(static_cast<std::size_t>(group.element->traits().geometry_size()));
+    const ElementTraits& traits = group.element->traits();
+    Eigen::Matrix2Xd x;
+    for (int e = 0; e < group.elements(); ++e) {
+      element_coordinates(model.mesh, group, e, x);
+      group.element->geometry(x, geometry);
+      double& sum = area[group.element_numbers[static_cast<std::size_t>(e)]];
+      for (int p = 0; p < traits.points; ++p)
+        sum += geometry[static_cast<std::size_t>(p * (1 + traits.law_size * traits.dofs))];
+    }
+  }
+  std::ifstream in(SAGE_SOURCE_DIR "/tests/unit/model/data/quad4m_areas.csv");
+  int compared = 0;
+  for (std::string line; std::getline(in, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    int number = 0;
+    double echoed = 0.0;
+    ASSERT_EQ(std::sscanf(line.c_str(), "%d,%lf", &number, &echoed), 2);
+    // Printed with three decimals, computed there in single precision.
+    EXPECT_NEAR(area.at(number), echoed, 0.0006 + 1e-5 * echoed) << "element " << number;
+    ++compared;
+  }
+  EXPECT_EQ(compared, 2933);
+}
+
+TEST(ForeignModel, Quad4mCarriesItsWeight) {
+  const RunOutcome outcome = run_of("quad4m/MDL.Q4I");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.record.result.reason;
+  EXPECT_LT(outcome.record.out_of_balance, 1e-9);
+  EXPECT_TRUE(mentions(outcome.model->diagnostics, Severity::note, "30 node(s) of a transmitting base"));
+  // N/m^3 in the deck, kN/m^3 here; E = 2 G (1 + nu) of element 1.
+  EXPECT_DOUBLE_EQ(outcome.model->materials.front().unit_weight, 22.0);
+  EXPECT_NEAR(outcome.model->materials.front().parameters[0], 2 * 4855861.0 * 1.392, 1.0);
+}
+
+TEST(ForeignModel, CandeLeavesOutItsPipeAndSaysSo) {
+  const RunOutcome outcome = run_of("cande_level3/candejar_input_test1.cid");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.record.result.reason;
+  EXPECT_LT(outcome.record.out_of_balance, 1e-9);
+  const Model& model = *outcome.model;
+  int elements = 0;
+  for (const Group& group : model.groups) elements += group.elements();
+  EXPECT_EQ(elements, 2047 - 36);
+  EXPECT_EQ(model.mesh.nodes(), 1471);
+  EXPECT_EQ(model.stages.size(), 28u);
+  EXPECT_TRUE(mentions(model.diagnostics, Severity::warning, "left out: 36 beam element(s)"));
+  EXPECT_TRUE(mentions(model.diagnostics, Severity::warning, "material 2 (CL90)"));
+  EXPECT_TRUE(mentions(model.diagnostics, Severity::note, "1 element(s) listed clockwise"));
+  // 115 lbf/ft^3 in inches.
+  EXPECT_NEAR(model.materials[1].unit_weight, 115.0 / 1728.0, 1e-15);
+}
+
+TEST(ForeignModel, AxisymmetricForcesAreForOneRadian) {
+  const Model model = model_of("smith_griffiths/p51_5.dat");
+  EXPECT_EQ(model.geometry, Geometry::axisymmetric);
+  EXPECT_NEAR(model.stages[0].loads[2].force.y(), -24.0 * 2 * 3.14159265358979, 1e-10);
+  EXPECT_EQ(model.groups[0].element_name, "quad4 full 3x3");
+}
+
+TEST(ForeignModel, FootingPrograms) {
+  const Model model = model_of("smith_griffiths/p66.dat", "sg_p66");
+  EXPECT_EQ(model.stages.size(), 10u);
+  EXPECT_EQ(model.mesh.nodes(), 121);
+  std::set<std::pair<int, std::size_t>> held;
+  for (const Fixity& f : model.fixities)
+    for (std::size_t c = 0; c < 2; ++c)
+      if (f.code[c] == FixityCode::fixed) held.insert({f.node, c});
+  EXPECT_EQ(static_cast<std::size_t>(model.dofs()) - held.size(), 192u) << "equations, as p66.res counts them";
+}
+
+TEST(ForeignModel, WhatCanNotBecomeAModelIsRefused) {
+  EXPECT_NE(refusal("smith_griffiths/p52.dat", "sg_p52").find("three displacements a node"), std::string::npos);
+  EXPECT_NE(refusal("smith_griffiths/p69.dat", "sg_p69").find("program 6.9"), std::string::npos);
+  EXPECT_NE(refusal("cande_level3/candejar_cidmock_standard_lines.cid", "").find("no nodes"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace sage::app
