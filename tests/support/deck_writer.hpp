@@ -42,7 +42,7 @@ struct DeckWriter {
   void group(int number, int element, int formulation, int material);
   void element(int number, int group, const std::vector<int>& element_nodes);
   void fix(int node, int x_code, int y_code);
-  // Values one by one: GCC 12 with AVX-512 stores a list {x, x, x, 0} of constants as {x, x, x, x}.
+  // Values one by one: GCC 12.2 (-O2 -march=native) stores a list {x, x, x, 0} of constants as {x, x, x, x}.
   void initial(int group, int kind, double v1, double v2 = 0.0, double v3 = 0.0, double v4 = 0.0);
   StageCards& stage(int increments = 1);
 
