@@ -95,8 +95,8 @@ class AnalysisError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// A result file can't be written: full disk, missing rights, a folder that is a file.  The message names the file
-// and the system's reason (exit code 4).
+// A result file can't be written: full disk, missing rights, a folder that is a file.  The message names the
+// file and the system's reason (exit code 4).
 class OutputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -40,7 +40,7 @@ constexpr std::int64_t kLargestNumber = std::numeric_limits<int>::max();
 
 // Node numbers of one element card; trailing blanks are mid-side nodes to be made later (0).
 std::vector<int> card_nodes(const CardView& card) {
-  static constexpr const char* kFields[] = {"n1", "n2", "n3", "n4",  "n5",  "n6",  "n7", "n8",
+  static constexpr const char* kFields[] = {"n1", "n2",  "n3",  "n4",  "n5",  "n6",  "n7", "n8",
                                             "n9", "n10", "n11", "n12", "n13", "n14", "n15"};
   std::vector<int> nodes;
   for (const char* field : kFields) nodes.push_back(card.integer(field));

@@ -114,7 +114,7 @@ std::vector<Vector2> side_points(const PlacedNodes& nodes, int first, int step, 
     points.push_back(it->second);
   }
   if (static_cast<int>(points.size()) == intervals + 1) return points;
-  const Vector2& a = nodes.at(first), c = nodes.at(first + intervals * step);
+  const Vector2 &a = nodes.at(first), c = nodes.at(first + intervals * step);
   const std::vector<double> at = graded_fractions(intervals, ratio);
   points.clear();
   for (double t : at) points.push_back(a + t * (c - a));

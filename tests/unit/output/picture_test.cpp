@@ -22,7 +22,8 @@ TEST(FieldSvg, SaysCompressionPositiveWithUnits) {
   Specimen specimen;
   specimen.compress(0.01);
   const std::string svg = field_svg(specimen.model, specimen.solution(), Field::stress_yy);
-  EXPECT_TRUE(has(svg, "sig-z [psi], compression positive<") && has(svg, "from 10 to 10")) << svg.substr(0, 800);
+  EXPECT_TRUE(has(svg, "sig-z [psi], compression positive<") && has(svg, "from 10 to 10"))
+      << svg.substr(0, 800);
   EXPECT_TRUE(has(svg, "compressed specimen"));
   EXPECT_TRUE(has(svg, "r [in]"));
   EXPECT_TRUE(svg.starts_with("<svg"));
