@@ -56,7 +56,7 @@ struct StepReport {
   int increment = 0;  // 1-based within the stage
   int increments = 0;
   double load_factor = 0.0;  // part of the stage applied, 0 .. 1
-  double failed_at = 2.0;    // smallest load factor at which no equilibrium was found; 2 = none
+  double failed_at = 2.0;    // load factor of the last attempt that found no equilibrium; 2 = none
   bool converged = true;
   int cuts = 0;  // halvings needed within this increment
   int substeps = 1;
