@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sage/core/catalogue.hpp"
+#include "sage/study/whole_run.hpp"
 
 namespace sage::app {
 
@@ -16,6 +17,9 @@ struct Command {
 
 // Everything that exists: elements, materials, solvers.
 Catalogue full_catalogue();
+
+// The same, to run decks that the program writes itself.
+study::Workbench make_workbench();
 
 // Does the work; what it throws goes to standard error, and its kind into the exit code.  `name` stands before
 // messages that name no place in a file.

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "tests/support/deck_writer.hpp"
-#include "tests/support/whole_run.hpp"
+#include "tests/support/run_text.hpp"
 
 namespace sage::test {
 namespace {

@@ -7,8 +7,7 @@
 #include <numeric>
 #include <random>
 
-#include "tests/support/specimen_deck.hpp"
-#include "tests/support/whole_run.hpp"
+#include "tests/support/run_text.hpp"
 
 namespace sage::test {
 namespace {

@@ -9,7 +9,7 @@
 #include "sage/deck/read_deck.hpp"
 #include "sage/model/build_model.hpp"
 #include "solvers/choose_solver.hpp"
-#include "tests/support/deck_writer.hpp"
+#include "tests/support/run_text.hpp"
 
 namespace sage {
 namespace {

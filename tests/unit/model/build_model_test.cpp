@@ -5,7 +5,7 @@
 
 #include "sage/app/commands.hpp"
 #include "sage/deck/read_deck.hpp"
-#include "tests/support/deck_writer.hpp"
+#include "tests/support/run_text.hpp"
 
 namespace sage {
 namespace {

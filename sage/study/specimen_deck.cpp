@@ -1,8 +1,8 @@
-#include "tests/support/specimen_deck.hpp"
+#include "sage/study/specimen_deck.hpp"
 
 #include <algorithm>
 
-namespace sage::test {
+namespace sage::study {
 
 namespace {
 
@@ -87,4 +87,4 @@ std::string SpecimenDeck::text() const {
   return deck.text();
 }
 
-}  // namespace sage::test
+}  // namespace sage::study

@@ -1,9 +1,9 @@
-#include "tests/support/deck_writer.hpp"
+#include "sage/study/deck_writer.hpp"
 
 #include <cstdio>
 #include <stdexcept>
 
-namespace sage::test {
+namespace sage::study {
 
 namespace {
 
@@ -198,4 +198,4 @@ std::function<Vector2(double, double)> rectangle(double x0, double x1, double y0
   return [=](double s, double t) { return Vector2(x0 + s * (x1 - x0), y0 + t * (y1 - y0)); };
 }
 
-}  // namespace sage::test
+}  // namespace sage::study

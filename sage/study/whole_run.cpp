@@ -1,10 +1,9 @@
-#include "tests/support/whole_run.hpp"
+#include "sage/study/whole_run.hpp"
 
-#include "sage/app/commands.hpp"
-#include "sage/deck/read_deck.hpp"
-#include "solvers/choose_solver.hpp"
+#include <algorithm>
+#include <stdexcept>
 
-namespace sage::test {
+namespace sage::study {
 
 namespace {
 
@@ -43,16 +42,6 @@ class Keeper final : public Observer {
   WholeRun* run_;
 };
 
-const Catalogue& catalogue() {
-  static const Catalogue all = app::full_catalogue();
-  return all;
-}
-
-const Layout& layout() {
-  static const Layout sage1 = load_layout("sage1");
-  return sage1;
-}
-
 }  // namespace
 
 int WholeRun::index(int number) const {
@@ -86,18 +75,23 @@ int WholeRun::iterations() const {
   return sum;
 }
 
-WholeRun run_text(const std::string& deck, const BuildOptions& options, const RunSettings& settings) {
+Workbench::Workbench(Catalogue catalogue, std::function<int(int, bool)> choose_solver)
+    : catalogue_(std::move(catalogue)),
+      layout_(load_layout("sage1")),
+      choose_solver_(std::move(choose_solver)) {}
+
+WholeRun Workbench::run(const std::string& deck, const BuildOptions& options,
+                        const RunSettings& settings) const {
   WholeRun run;
-  run.model =
-      std::make_unique<Model>(build_model(read_deck_text(deck, "deck", layout()), catalogue(), options));
+  run.model = std::make_unique<Model>(build_model(read_deck_text(deck, "deck", layout_), catalogue_, options));
   for (const Diagnostic& d : run.model->diagnostics.list())
     if (d.severity == Severity::warning) run.warnings.push_back(d.message);
   RunSettings with_choice = settings;
-  with_choice.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
+  with_choice.choose_solver = choose_solver_;
   Keeper keeper(run);
   Observer* observers[] = {&keeper};
-  run.result = sage::run(*run.model, catalogue(), with_choice, observers);
+  run.result = sage::run(*run.model, catalogue_, with_choice, observers);
   return run;
 }
 
-}  // namespace sage::test
+}  // namespace sage::study

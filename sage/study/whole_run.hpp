@@ -1,4 +1,4 @@
-// Runs a deck in memory through reader, model builder and analysis, and keeps what tests look at.
+// Runs a deck in memory through reader, model builder and analysis, and keeps what a study looks at.
 #pragma once
 
 #include <memory>
@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "sage/analysis/run.hpp"
+#include "sage/deck/read_deck.hpp"
 #include "sage/model/build_model.hpp"
 
-namespace sage::test {
+namespace sage::study {
 
 // The state at the end of an increment.  Tension positive; one entry a dof.
 struct Snapshot {
@@ -45,6 +46,20 @@ struct WholeRun {
   int iterations() const;  // of all increments
 };
 
-WholeRun run_text(const std::string& deck, const BuildOptions& options = {}, const RunSettings& settings = {});
+// What decks are run with: all elements, laws and solvers, the built-in layout, the rule that picks a solver.
+class Workbench {
+ public:
+  Workbench(Catalogue catalogue, std::function<int(int, bool)> choose_solver);
 
-}  // namespace sage::test
+  const Catalogue& catalogue() const { return catalogue_; }
+  // Throws InputError for a deck with mistakes.
+  WholeRun run(const std::string& deck, const BuildOptions& options = {},
+               const RunSettings& settings = {}) const;
+
+ private:
+  Catalogue catalogue_;
+  Layout layout_;
+  std::function<int(int, bool)> choose_solver_;
+};
+
+}  // namespace sage::study

@@ -4,9 +4,9 @@
 
 #include <functional>
 
-#include "tests/support/deck_writer.hpp"
+#include "sage/study/deck_writer.hpp"
 
-namespace sage::test {
+namespace sage::study {
 
 struct SpecimenVariant {
   double length = 1.0, stress = 1.0;  // factors on every length and every stress
@@ -27,4 +27,4 @@ struct SpecimenDeck {
   std::vector<int> solid_nodes() const;  // of the specimen, in the plain deck's order
 };
 
-}  // namespace sage::test
+}  // namespace sage::study

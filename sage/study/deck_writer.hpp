@@ -1,5 +1,5 @@
-// Writes decks of layout sage1 for tests that run whole models, card by card as docs/manual/deck_format.md has
-// them.
+// Writes decks of layout sage1, card by card as docs/manual/deck_format.md has them: for verification cases,
+// stress tests and tests that run whole models.
 #pragma once
 
 #include <functional>
@@ -8,7 +8,7 @@
 
 #include "sage/core/types.hpp"
 
-namespace sage::test {
+namespace sage::study {
 
 // A real number in ten columns, with its point and as many digits as fit.
 std::string ten_columns(double value);
@@ -79,4 +79,4 @@ struct Block {
 // The rectangle [x0, x1] x [y0, y1].
 std::function<Vector2(double, double)> rectangle(double x0, double x1, double y0, double y1);
 
-}  // namespace sage::test
+}  // namespace sage::study
