@@ -4,6 +4,7 @@
 #include "sage/analysis/assembly.hpp"
 #include "sage/analysis/records.hpp"
 #include "sage/analysis/scene.hpp"
+#include "sage/core/archive.hpp"
 
 namespace sage {
 
@@ -27,6 +28,9 @@ class Observer {
   virtual void on_stage_end(const Model&, int /*stage*/, const EquilibriumAudit&, const Solution&) {}
   virtual void on_failure(const Model&, const StepReport&, const std::string& /*reason*/, const Solution&) {}
   virtual void on_finish(const Model&, const RunResult&) {}
+  // What the observer has gathered, to a checkpoint or back from it.  Reading comes after on_start of the
+  // resumed run and takes the place of everything that was seen before.
+  virtual void exchange(Archive&) {}
 };
 
 }  // namespace sage

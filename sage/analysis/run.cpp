@@ -31,16 +31,25 @@ class Run {
   RunResult execute();
 
  private:
+  // Where a run stands: increments of a stage that are done.
+  struct Place {
+    int stage = 0, increment = 0;
+  };
+
   void start_states(const std::vector<InitialStress>& initials);
+  bool open_stage(int s);
   void prepare_stage(int s);
   void make_solver();
-  bool run_stage(int s);
+  bool run_stage(int s, int done);
   bool run_increment(const Stage& stage, StepReport& report, double& reached);
   NewtonStep attempt(const Stage& stage, double from, double to);
   void renew_tangent();
   void accept(double reached);
   void reject(const Stage& stage);
   bool fail(StepReport& report, const NewtonStep& step);
+  void exchange(Archive& archive, const Place& place);
+  void offer_checkpoint(Place place);
+  Place resume();
   EquilibriumAudit audit() const;
   void warn_about_numbers(int s, const EquilibriumAudit& sums);
   void warn(const Stage& stage, const std::string& message);
@@ -94,14 +103,12 @@ void Run::make_solver() {
   stiffness_.solver = solver_.get();
 }
 
-// Equations, numbering and the loads at both ends of a stage.  What the forces of removed parts, initial stress
-// and released supports leave out of balance is held at the start and let go in proportion over the stage.
-void Run::prepare_stage(int s) {
+// What takes part, equations and numbering.  True if the pattern is that of the stage before.
+bool Run::open_stage(int s) {
   const Stage& stage = model_.stages[static_cast<std::size_t>(s)];
   activity_.enter(model_, stage);
   rate_ = prescribed_rate(model_, stage);
   assembly_.enter_stage(activity_, rate_);
-  start_states(stage.initials);
   const bool same_pattern = solver_ && held_before_ == activity_.held && groups_before_ == activity_.group;
   if (!same_pattern) {
     make_solver();
@@ -112,6 +119,14 @@ void Run::prepare_stage(int s) {
     groups_before_ = activity_.group;
   }
   stiffness_.constant = scene_.linear && settings_.reuse_factors;
+  return same_pattern;
+}
+
+// The states and the loads at both ends of a stage.  What the forces of removed parts, initial stress and
+// released supports leave out of balance is held at the start and let go in proportion over the stage.
+void Run::prepare_stage(int s) {
+  const bool same_pattern = open_stage(s);
+  start_states(model_.stages[static_cast<std::size_t>(s)].initials);
   const bool keep_factors = same_pattern && stiffness_.constant && stiffness_.factorised && rate_.isZero(0.0);
   if (!keep_factors) stiffness_.assembled = stiffness_.factorised = false;
   du_.setZero();
@@ -257,13 +272,74 @@ void Run::warn_about_numbers(int s, const EquilibriumAudit& sums) {
              " point(s) at the apex or cut off in tension: results there depend on how the law treats tension");
 }
 
-bool Run::run_stage(int s) {
+// Writing: as the state stands after an increment (place.increment > 0), or between two stages.  Within a stage
+// the states before the last step are kept beside that step, because the tangent that the next step starts with
+// was taken there.
+void Run::exchange(Archive& archive, const Place& place) {
+  const bool within = place.increment > 0;
+  archive(u_);
+  archive(external_);
+  archive(result_.stages_done);
+  archive(result_.increments_done);
+  archive(result_.work);
+  if (within) {
+    archive(du_);
+    archive(external_start_);
+    archive(force_start_);
+    archive(force_end_);
+  }
+  for (GroupData& data : assembly_.groups()) {
+    const bool before_step = within && data.active && !archive.reading();
+    PointStates& states = before_step ? data.state.trial : data.state.committed;
+    archive(states.sigma);
+    archive(states.eps);
+    archive(states.h);
+    archive(states.status);
+  }
+}
+
+void Run::offer_checkpoint(Place place) {
+  if (!settings_.checkpoint_due || !settings_.checkpoint_due()) return;
+  const Timer timer(result_.work.output_seconds);
+  Archive archive;
+  archive(place);
+  exchange(archive, place);
+  for (Observer* observer : observers_) observer->exchange(archive);
+  settings_.save_checkpoint(archive.bytes());
+}
+
+// To the state of a checkpoint.  The last step's end is evaluated once more: that gives its tangent too.
+Run::Place Run::resume() {
+  Archive archive(settings_.resume_from);
+  Place place;
+  archive(place);
+  for (int s = 0; s < place.stage; ++s) activity_.enter(model_, model_.stages[static_cast<std::size_t>(s)]);
+  if (place.increment > 0) open_stage(place.stage);
+  exchange(archive, place);
+  const WorkCounters work = result_.work;
+  if (place.increment > 0) {
+    if (assembly_.evaluate(du_, solver_.get()) == Outcome::cut_step)
+      throw InputError({}, "the checkpoint does not belong to this model");
+    stiffness_.assembled = true;
+    assembly_.commit();
+  }
+  tell([&](Observer& o) { o.on_start(model_, scene_, solver_name_, assembly_.equations()); });
+  for (Observer* observer : observers_) observer->exchange(archive);
+  if (!archive.at_end()) throw InputError({}, "the checkpoint is longer than it should be");
+  result_.work = work;
+  return place;
+}
+
+bool Run::run_stage(int s, int done) {
   const Stage& stage = model_.stages[static_cast<std::size_t>(s)];
-  prepare_stage(s);
-  if (s == 0) tell([&](Observer& o) { o.on_start(model_, scene_, solver_name_, assembly_.equations()); });
-  tell([&](Observer& o) { o.on_stage_start(model_, s, solution()); });
-  double reached = 0.0;
-  for (int i = 1; i <= stage.increments; ++i) {
+  if (done == 0) {
+    prepare_stage(s);
+    if (s == 0) tell([&](Observer& o) { o.on_start(model_, scene_, solver_name_, assembly_.equations()); });
+    tell([&](Observer& o) { o.on_stage_start(model_, s, solution()); });
+  }
+  const bool whole_stages_only = stage.method == Method::initial_stiffness && !stiffness_.constant;
+  double reached = static_cast<double>(done) / stage.increments;
+  for (int i = done + 1; i <= stage.increments; ++i) {
     StepReport report;
     report.stage = s;
     report.increment = i;
@@ -274,18 +350,24 @@ bool Run::run_stage(int s) {
     report.smallest_pivot_ratio = solver_->report().smallest_pivot_ratio;
     ++result_.increments_done;
     tell([&](Observer& o) { o.on_increment(model_, report, solution()); });
+    if (i < stage.increments && !whole_stages_only) offer_checkpoint({s, i});
   }
   ++result_.stages_done;
   const EquilibriumAudit sums = audit();
   warn_about_numbers(s, sums);
   tell([&](Observer& o) { o.on_stage_end(model_, s, sums, solution()); });
+  if (s + 1 < static_cast<int>(model_.stages.size())) offer_checkpoint({s + 1, 0});
   return true;
 }
 
 RunResult Run::execute() {
-  start_states(model_.initials);
-  for (int s = 0; s < static_cast<int>(model_.stages.size()); ++s)
-    if (!run_stage(s)) break;
+  Place place;
+  if (settings_.resume_from.empty())
+    start_states(model_.initials);
+  else
+    place = resume();
+  for (int s = place.stage; s < static_cast<int>(model_.stages.size()); ++s)
+    if (!run_stage(s, s == place.stage ? place.increment : 0)) break;
   tell([&](Observer& o) { o.on_finish(model_, result_); });
   return result_;
 }

@@ -16,6 +16,13 @@ struct RunSettings {
   int max_cuts = 12;  // halvings of an increment before giving up
   bool line_search = true;
   bool reuse_factors = true;  // skip: keep the factors while the tangent has not changed
+
+  // Checkpoints: after an increment for which `checkpoint_due` says yes, `save_checkpoint` gets the bytes from
+  // which `resume_from` continues to the same results, bit for bit.  With initial stiffness (whose tangent
+  // belongs to the start of the stage) only between stages.
+  std::function<bool()> checkpoint_due;
+  std::function<void(const std::string&)> save_checkpoint;
+  std::string resume_from;
 };
 
 // Throws InputError for what only shows at run time (e.g. a refused initial stress); everything that happens to

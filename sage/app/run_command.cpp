@@ -91,6 +91,10 @@ Command run_command(CLI::App& root) {
         return field_from_name(name) ? std::string() : "unknown field " + name;
       });
   parser->add_flag("!--no-listing", request.output.listing, "write no listing");
+  parser->add_flag("--restart", request.restart,
+                   "go on from the checkpoint (STEM.restart) that a stopped run left in the output folder");
+  parser->add_option("--checkpoint", request.checkpoint_seconds,
+                     "seconds between checkpoints (default: 30; 0 = after every increment, negative = none)");
   parser->add_flag("-q,--quiet", options->quiet, "print no summary");
   add_input_options(*parser, request.input);
   add_build_options(*parser, request.input.build);

@@ -1,8 +1,12 @@
 #include "sage/app/run_deck.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
 
+#include "sage/app/checkpoint.hpp"
 #include "sage/app/exit_codes.hpp"
+#include "sage/model/fingerprint.hpp"
 #include "sage/output/csv.hpp"
 #include "sage/output/picture.hpp"
 #include "sage/output/progress.hpp"
@@ -45,6 +49,23 @@ std::vector<std::unique_ptr<Output>> make_outputs(const RunRequest& request, con
   return outputs;
 }
 
+Checkpoint checkpoint_of(const RunRequest& request, const Model& model) {
+  const OutputOptions& o = request.output;
+  std::string run = fmt::format("{:016x} {} {} {} {}{}{}{}{}", fingerprint(model), request.solver, SAGE_VERSION,
+                                static_cast<int>(o.tables), o.listing, o.increments, o.nodes, o.points, o.vtu);
+  for (const std::string& picture : o.pictures) run += " " + picture;
+  return {o.folder / (case_name(request.deck) + ".restart"), request.checkpoint_seconds, run};
+}
+
+// The bytes to go on from; empty, and said, where there are none.
+std::string resume_from(const Checkpoint& checkpoint, const RunRequest& request) {
+  std::optional<std::string> state = checkpoint.load();
+  if (!state && !request.quiet)
+    fmt::print(stderr, "{}: no checkpoint in {}: from the start\n", request.deck,
+               request.output.folder.string());
+  return state.value_or("");
+}
+
 }  // namespace
 
 RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
@@ -64,6 +85,10 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   settings.solver = solver_code(catalogue, request.solver);
   settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
   make_folder(request.output.folder);
+  Checkpoint checkpoint = checkpoint_of(request, model);
+  settings.checkpoint_due = [&] { return checkpoint.due(); };
+  settings.save_checkpoint = [&](const std::string& state) { checkpoint.save(state); };
+  if (request.restart) settings.resume_from = resume_from(checkpoint, request);
   outcome.reports = std::make_unique<Reports>(request.output.folder, case_name(request.deck));
   std::vector<std::unique_ptr<Output>> outputs = make_outputs(request, catalogue, *outcome.reports);
   Progress progress;
@@ -72,6 +97,7 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   observers.push_back(&progress);
   try {
     const RunResult result = run(model, catalogue, settings, observers);
+    checkpoint.remove();
     outcome.exit_code = result.status == RunStatus::completed ? kOk : kNotConverged;
   } catch (const std::exception& error) {
     for (const auto& output : outputs) output->stop(error.what());

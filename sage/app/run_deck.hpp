@@ -26,8 +26,10 @@ struct RunRequest {
   std::string deck;
   InputOptions input;
   OutputOptions output;
-  std::string solver;  // a name of the catalogue; empty = the deck's choice
-  bool quiet = false;  // no messages about the deck
+  std::string solver;                // a name of the catalogue; empty = the deck's choice
+  bool quiet = false;                // no messages about the deck
+  bool restart = false;              // go on from STEM.restart, if there is one
+  double checkpoint_seconds = 30.0;  // between checkpoints; 0 = after every increment, negative = none
 };
 
 // Reports and record stay readable after the run.

@@ -213,6 +213,10 @@ void Csv::on_increment(const Model& model, const StepReport& report, const Solut
   if (is_output_increment(stage_of(model, report.stage), report)) add_states(model, report, solution);
 }
 
+void Csv::exchange(Archive& archive) {
+  for (OutFile* file : all()) file->exchange(archive);
+}
+
 void Csv::comment(const std::string& line) {
   for (OutFile* file : all())
     if (file->open()) file->text() += "# " + line + "\n";

@@ -134,6 +134,12 @@ void Listing::on_finish(const Model& model, const RunResult& result) {
   file_.finish();
 }
 
+void Listing::exchange(Archive& archive) {
+  file_.exchange(archive);
+  archive(columns_shown_);
+  archive(last_state_);
+}
+
 void Listing::stop(const std::string& reason) {
   if (!file_.open()) return;
   std::string& text = file_.text();

@@ -34,6 +34,7 @@ class Listing final : public Output {
   void on_stage_end(const Model&, int stage, const EquilibriumAudit&, const Solution&) override;
   void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
   void on_finish(const Model&, const RunResult&) override;
+  void exchange(Archive& archive) override;
   void stop(const std::string& reason) override;
   std::vector<std::filesystem::path> files() const override;
 

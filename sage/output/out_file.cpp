@@ -1,5 +1,7 @@
 #include "sage/output/out_file.hpp"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <system_error>
 
@@ -11,16 +13,22 @@ namespace {
 
 constexpr std::size_t kMuch = 1 << 18;
 
+bool has(const std::filesystem::path& file, std::uint64_t bytes) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  return !error && size >= bytes;
+}
+
 }  // namespace
 
 OutFile::OutFile(std::filesystem::path path) : path_(std::move(path)), partial_(path_) {
   partial_ += ".partial";
-  file_.reset(std::fopen(partial_.c_str(), "wb"));
+  file_.reset(std::fopen(partial_.c_str(), "ab"));
   if (!file_ && errno == ENOENT) {
     std::error_code error;
     std::filesystem::create_directories(path_.parent_path(), error);
     if (error) fail(path_.parent_path(), error.value());
-    file_.reset(std::fopen(partial_.c_str(), "wb"));
+    file_.reset(std::fopen(partial_.c_str(), "ab"));
   }
   if (!file_) fail(partial_, errno);
   std::setvbuf(file_.get(), nullptr, _IONBF, 0);  // text_ is the buffer
@@ -28,7 +36,16 @@ OutFile::OutFile(std::filesystem::path path) : path_(std::move(path)), partial_(
 }
 
 OutFile::~OutFile() {
-  if (file_ && !text_.empty()) std::fwrite(text_.data(), 1, text_.size(), file_.get());
+  if (!file_ || text_.empty()) return;
+  if (!begun_ && ftruncate(fileno(file_.get()), 0) != 0) return;
+  std::fwrite(text_.data(), 1, text_.size(), file_.get());
+}
+
+void OutFile::cut_to(std::uint64_t size) {
+  const bool cut = ftruncate(fileno(file_.get()), static_cast<off_t>(size)) == 0;
+  if (!cut && errno != EINVAL) fail(partial_, errno);  // EINVAL: a pipe or a device
+  written_ = size;
+  begun_ = true;
 }
 
 void OutFile::fail(const std::filesystem::path& path, int error) {
@@ -38,12 +55,36 @@ void OutFile::fail(const std::filesystem::path& path, int error) {
 }
 
 void OutFile::write() {
-  if (!file_ || text_.empty()) return;
+  if (!file_) return;
+  if (!begun_) cut_to(0);
+  if (text_.empty()) return;
   errno = 0;
   const bool complete = std::fwrite(text_.data(), 1, text_.size(), file_.get()) == text_.size();
   if (!complete) fail(partial_, errno != 0 ? errno : EIO);
+  written_ += text_.size();
   text_.clear();
   last_write_ = std::chrono::steady_clock::now();
+}
+
+void OutFile::exchange(Archive& archive) {
+  bool in_use = open();
+  archive(in_use);
+  if (in_use != open()) throw InputError({}, "the checkpoint was made with other outputs");
+  if (!in_use) return;
+  if (!archive.reading()) {
+    write();
+    archive(written_);
+    return;
+  }
+  std::uint64_t size = 0;
+  archive(size);
+  std::error_code error;
+  if (!has(partial_, size) && has(path_, size))  // a run stopped by an error has ended its files
+    std::filesystem::copy_file(path_, partial_, std::filesystem::copy_options::overwrite_existing, error);
+  if (!has(partial_, size))
+    throw InputError({}, partial_.string() + " is shorter than at the time of the checkpoint");
+  text_.clear();
+  cut_to(size);
 }
 
 void OutFile::checkpoint() {

@@ -2,16 +2,19 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
 
+#include "sage/core/archive.hpp"
+
 namespace sage {
 
-// Written to NAME.partial in the same folder, renamed by finish().  Text is collected and written in large
-// pieces.  Every failure is an OutputError that names the file and the reason; after one, nothing more is
-// tried.
+// Written to NAME.partial in the same folder, renamed by finish().  What a stopped run left there stays until
+// the first write, so that a run that is continued can keep it.  Text is collected and written in large pieces.
+// Every failure is an OutputError that names the file and the reason; after one, nothing more is tried.
 class OutFile {
  public:
   OutFile() = default;
@@ -29,6 +32,10 @@ class OutFile {
   // Writes the rest, closes, renames.
   void finish();
 
+  // Checkpoint: everything so far is written, and where it ends is kept.  Reading: NAME.partial is cut back to
+  // that place and goes on from there.  Throws InputError if it is shorter.
+  void exchange(Archive& archive);
+
   bool open() const { return file_ != nullptr; }
   const std::filesystem::path& path() const { return path_; }
 
@@ -37,11 +44,14 @@ class OutFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
   void write();
+  void cut_to(std::uint64_t size);
   [[noreturn]] void fail(const std::filesystem::path& path, int error);
 
   std::filesystem::path path_, partial_;
   std::unique_ptr<std::FILE, Close> file_;
   std::string text_;
+  std::uint64_t written_ = 0;
+  bool begun_ = false;  // what an earlier run left is gone
   std::chrono::steady_clock::time_point last_write_{};
 };
 

@@ -321,6 +321,17 @@ void Pictures::draw(const Model& model, const Solution& solution, const std::str
   }
 }
 
+void Pictures::exchange(Archive& archive) {
+  std::size_t count = files_.size();
+  archive(count);
+  files_.resize(count);
+  for (std::filesystem::path& file : files_) {
+    std::string name = file.filename().string();
+    archive(name);
+    file = folder_ / name;
+  }
+}
+
 void Pictures::on_stage_end(const Model& model, int stage, const EquilibriumAudit&, const Solution& solution) {
   draw(model, solution, fmt::format("stage{}", stage + 1), fmt::format("end of stage {}", stage + 1));
 }

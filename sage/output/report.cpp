@@ -111,6 +111,7 @@ double report_area(const Model& model, const Report& report) {
 }
 
 void Reports::on_start(const Model& model, const Scene&, std::string_view, int) {
+  model_ = &model;
   for (std::size_t i = 0; i < model.reports.size(); ++i) {
     Series series;
     series.file = OutFile(folder_ / (stem_ + ".report" + std::to_string(i + 1) + ".csv"));
@@ -129,11 +130,15 @@ void Reports::on_stage_start(const Model& model, int stage, const Solution& solu
     const NodeSums sums = sum_nodes(report, solution);
     std::copy(sums.displacement, sums.displacement + 2, series.start_displacement);
     series.start_force = -sums.force[1];
-    if (report.kind != ReportKind::triaxial) continue;
-    series.area = report_area(model, report);
-    if (const SolidLaw* law = specimen_law(model, report))
-      series.correct = std::make_unique<CorrectTest>(*law, model.geometry, report.cell_pressure);
+    begin(series, model, report);
   }
+}
+
+void Reports::begin(Series& series, const Model& model, const Report& report) {
+  if (report.kind != ReportKind::triaxial) return;
+  series.area = report_area(model, report);
+  if (const SolidLaw* law = specimen_law(model, report))
+    series.correct = std::make_unique<CorrectTest>(*law, model.geometry, report.cell_pressure);
 }
 
 void Reports::add_rows(const Model& model, const StepReport& step, const Solution& solution) {
@@ -197,6 +202,24 @@ void Reports::finish() {
 
 void Reports::on_finish(const Model&, const RunResult&) {
   finish();
+}
+
+// The law's own test is driven again through the strains of the rows so far.
+void Reports::exchange(Archive& archive) {
+  for (std::size_t i = 0; i < series_.size(); ++i) {
+    Series& series = series_[i];
+    series.file.exchange(archive);
+    archive(series.begun);
+    archive(series.start_displacement);
+    archive(series.start_force);
+    archive(series.last_load_factor);
+    archive(series.triaxial);
+    archive(series.nodes);
+    if (!archive.reading() || !series.begun) continue;
+    begin(series, *model_, model_->reports[i]);
+    if (series.correct)
+      for (const TriaxialRow& row : series.triaxial) series.correct->deviator_at(row.axial_strain);
+  }
 }
 
 void Reports::stop(const std::string& reason) {

@@ -66,6 +66,7 @@ class Reports final : public Output {
   void on_increment(const Model&, const StepReport&, const Solution&) override;
   void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
   void on_finish(const Model&, const RunResult&) override;
+  void exchange(Archive& archive) override;
   void stop(const std::string& reason) override;
   std::vector<std::filesystem::path> files() const override { return files_; }
 
@@ -79,12 +80,14 @@ class Reports final : public Output {
     std::vector<TriaxialRow> triaxial;
     std::vector<NodesRow> nodes;
   };
+  static void begin(Series& series, const Model& model, const Report& report);
   void add_rows(const Model&, const StepReport&, const Solution&);
   void finish();
 
   std::filesystem::path folder_;
   std::string stem_;
   std::vector<Series> series_;
+  const Model* model_ = nullptr;  // since on_start
   std::vector<std::filesystem::path> files_;
 };
 

@@ -122,6 +122,16 @@ void file_lines(std::string& text, const std::vector<std::filesystem::path>& fil
 
 }  // namespace
 
+void RunRecord::exchange(Archive& archive) {
+  archive(solver);
+  archive(equations);
+  archive(warnings);
+  archive(stages);
+  archive(points);
+  archive(out_of_balance);
+  archive(audited);
+}
+
 void RunRecord::on_start(const Model& model, const Scene& scene_found, std::string_view solver_name,
                          int equation_count) {
   scene = scene_found;

@@ -21,6 +21,7 @@ class RunRecord final : public Observer {
   void on_stage_end(const Model&, int stage, const EquilibriumAudit&, const Solution&) override;
   void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
   void on_finish(const Model&, const RunResult&) override;
+  void exchange(Archive& archive) override;
 
   Scene scene;
   std::string solver;

@@ -218,11 +218,15 @@ Vtu::Vtu(std::filesystem::path folder, std::string stem)
       "<Collection>\n";
 }
 
+std::filesystem::path Vtu::file(int number) const {
+  return folder_ / fmt::format("{}_{:04}.vtu", stem_, number);
+}
+
 void Vtu::add(const Model& model, const StepReport& report, const Solution& solution,
               std::string_view comment) {
-  const std::string name = fmt::format("{}_{:04}.vtu", stem_, ++count_);
-  write_file(folder_ / name, vtu_text(model, solution, comment));
-  files_.push_back(folder_ / name);
+  files_.push_back(file(++count_));
+  const std::string name = files_.back().filename().string();
+  write_file(files_.back(), vtu_text(model, solution, comment));
   pvd_.text() += fmt::format("    <DataSet timestep=\"{:.9g}\" part=\"0\" file=\"{}\"/>\n",
                              report.stage + report.load_factor, xml_text(name));
   pvd_.checkpoint();
@@ -249,6 +253,13 @@ void Vtu::finish(std::string_view comment) {
 
 void Vtu::on_finish(const Model&, const RunResult&) {
   finish("");
+}
+
+void Vtu::exchange(Archive& archive) {
+  pvd_.exchange(archive);
+  archive(count_);
+  files_.clear();
+  for (int i = 1; i <= count_; ++i) files_.push_back(file(i));
 }
 
 void Vtu::stop(const std::string&) {

@@ -27,12 +27,14 @@ class Vtu final : public Output {
   void on_increment(const Model&, const StepReport&, const Solution&) override;
   void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
   void on_finish(const Model&, const RunResult&) override;
+  void exchange(Archive& archive) override;
   void stop(const std::string& reason) override;
   std::vector<std::filesystem::path> files() const override { return files_; }
 
  private:
   void add(const Model&, const StepReport&, const Solution&, std::string_view comment);
   void finish(std::string_view comment);
+  std::filesystem::path file(int number) const;  // from 1
 
   std::filesystem::path folder_;
   std::string stem_;

@@ -34,7 +34,8 @@ int size_of(const std::vector<std::string>& cards) {
 }
 
 std::string stage_text(const StageCards& stage) {
-  std::string text = "stage\n" + integers({stage.increments, stage.method, stage.max_iterations, 0});
+  std::string text =
+      "stage\n" + integers({stage.increments, stage.method, stage.max_iterations, stage.output_every});
   text += integers({size_of(stage.fixities), size_of(stage.loads), size_of(stage.pressures),
                     static_cast<int>(stage.births.size()), static_cast<int>(stage.deaths.size()),
                     size_of(stage.initials)});

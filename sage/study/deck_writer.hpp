@@ -15,7 +15,7 @@ std::string ten_columns(double value);
 
 // One stage; cards are stored as text.
 struct StageCards {
-  int increments = 1, method = 0, max_iterations = 0;
+  int increments = 1, method = 0, max_iterations = 0, output_every = 0;
   double gravity_x = 0.0, gravity_y = 0.0, tolerance = 0.0;
   std::vector<int> births, deaths;
   std::vector<std::string> fixities, loads, pressures, initials;

@@ -80,6 +80,9 @@ std::string SpecimenDeck::text() const {
   deck.initial(1, 0, p, p, p);
 
   StageCards& stage = deck.stage(increments);
+  stage.method = method;
+  stage.max_iterations = max_iterations;
+  stage.output_every = output_every;
   for (int n : platen()) stage.fix(n, 0, 1, 0.0, -sign * v.length * axial_strain * kHeight);
   // Edges: side 2 and end 3 of a plain element; of a mirrored one 3 and 2, both counter-clockwise from node 1.
   for (int j = 0; j < rows; ++j) stage.pressure(columns * (j + 1), v.mirrored ? 3 : 2, p, p);

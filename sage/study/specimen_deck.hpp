@@ -17,7 +17,7 @@ struct SpecimenVariant {
 };
 
 struct SpecimenDeck {
-  int columns = 6, rows = 12, increments = 20;
+  int columns = 6, rows = 12, increments = 20, method = 0, max_iterations = 0, output_every = 0;
   bool drucker_prager = false;
   double axial_strain = 0.10;
   SpecimenVariant variant;

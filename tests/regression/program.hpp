@@ -45,8 +45,10 @@ struct Finished {
   std::string out, err;
 };
 
-// Runs sagefe in a folder, so that messages name the files as they stand in `arguments`.
-Finished sagefe(const std::filesystem::path& folder, const std::string& arguments);
+// Runs sagefe in a folder, so that messages name the files as they stand in `arguments`.  `under`: a command
+// that runs it, e.g. one that kills it.
+Finished sagefe(const std::filesystem::path& folder, const std::string& arguments,
+                const std::string& under = "timeout 60");
 
 // An empty folder of the test's own.
 std::filesystem::path empty_folder(const std::string& name);

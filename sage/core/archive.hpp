@@ -1,0 +1,86 @@
+// Values to bytes and back, for checkpoints.  One function names the values for both directions, so that
+// writing and reading cannot drift apart.  The bytes are those of this machine: a checkpoint is for the same
+// program.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "sage/core/error.hpp"
+
+namespace sage {
+
+class Archive {
+ public:
+  Archive() = default;                                                               // collects
+  explicit Archive(std::string bytes) : bytes_(std::move(bytes)), reading_(true) {}  // gives back
+
+  bool reading() const { return reading_; }
+  const std::string& bytes() const { return bytes_; }
+  bool at_end() const { return at_ == bytes_.size(); }
+
+  // Writes the value, or replaces it by what was written.  Throws InputError where nothing is left to read.
+  template <class T>
+  void operator()(T& value) {
+    static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>);
+    raw(&value, sizeof value);
+  }
+  void operator()(std::string& text) { list(text); }
+  template <class T>
+  void operator()(std::vector<T>& values) {
+    static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>);
+    list(values);
+  }
+  void operator()(Eigen::VectorXd& v) {
+    auto size = static_cast<std::size_t>(v.size());
+    (*this)(size);
+    if (reading_) {
+      expect(size * sizeof(double));
+      v.resize(static_cast<Eigen::Index>(size));
+    }
+    raw(v.data(), size * sizeof(double));
+  }
+
+ private:
+  template <class List>
+  void list(List& values) {
+    std::size_t size = values.size();
+    (*this)(size);
+    if (reading_) {
+      expect(size * sizeof(values[0]));
+      values.resize(size);
+    }
+    raw(values.data(), size * sizeof(values[0]));
+  }
+  void expect(std::size_t count) const {
+    if (count > bytes_.size() - at_) throw InputError({}, "the checkpoint is shorter than it should be");
+  }
+  void raw(void* value, std::size_t count) {
+    if (reading_) {
+      expect(count);
+      if (count > 0) std::memcpy(value, bytes_.data() + at_, count);
+      at_ += count;
+    } else {
+      bytes_.append(static_cast<const char*>(value), count);
+    }
+  }
+
+  std::string bytes_;
+  std::size_t at_ = 0;
+  bool reading_ = false;
+};
+
+// FNV-1a: tells whether bytes are those of before (no protection against intent).
+inline std::uint64_t checksum(std::string_view bytes) {
+  std::uint64_t sum = 14695981039346656037ULL;
+  for (unsigned char byte : bytes) sum = (sum ^ byte) * 1099511628211ULL;
+  return sum;
+}
+
+}  // namespace sage

@@ -1,0 +1,13 @@
+// Tells whether two models are the same one: for checkpoints.
+#pragma once
+
+#include <cstdint>
+
+#include "sage/model/model.hpp"
+
+namespace sage {
+
+// Depends on everything that an analysis of the model depends on; not on file names, titles and lines.
+std::uint64_t fingerprint(const Model& model);
+
+}  // namespace sage

@@ -1,0 +1,174 @@
+// Runs that are killed, that find the disk full or the folder closed: outputs are whole or absent, and a
+// restart ends with the same bytes as a run that nothing disturbed.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <map>
+#include <random>
+
+#include "sage/study/specimen_deck.hpp"
+#include "tests/regression/program.hpp"
+
+namespace sage::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kOptions = "--nodes --points --vtu --picture stress_yy --tables all --checkpoint 0";
+
+// A plastic specimen on a sliding interface, with a report.
+std::string deck_text(int increments = 30) {
+  study::SpecimenDeck deck;
+  deck.columns = 4;
+  deck.rows = 6;
+  deck.increments = increments;
+  deck.output_every = 1;
+  deck.drucker_prager = true;
+  return deck.text();
+}
+
+// Names and bytes of the finished results.
+std::map<std::string, std::string> results(const fs::path& folder) {
+  std::map<std::string, std::string> found;
+  for (const fs::directory_entry& file : fs::directory_iterator(folder))
+    if (file.path().extension() != ".partial" && file.path().extension() != ".restart")
+      found[file.path().filename()] = read(file.path());
+  return found;
+}
+
+std::map<std::string, std::string> undisturbed(const fs::path& folder) {
+  const Finished run = sagefe(folder, std::string("run deck.dat -o whole ") + kOptions);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_FALSE(fs::exists(folder / "whole/deck.restart"));
+  return results(folder / "whole");
+}
+
+void expect_equal(const std::map<std::string, std::string>& a, const std::map<std::string, std::string>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (const auto& [name, bytes] : a) {
+    ASSERT_TRUE(b.contains(name)) << name;
+    EXPECT_TRUE(bytes == b.at(name)) << name << " differs";
+  }
+}
+
+fs::path folder_with_deck(const std::string& name) {
+  const fs::path folder = empty_folder(name);
+  write(folder / "deck.dat", deck_text());
+  return folder;
+}
+
+// What a killed run leaves under a final name must be a whole file of the undisturbed run: VTU files and
+// pictures of increments that were done.
+void expect_whole_or_absent(const fs::path& folder, const std::map<std::string, std::string>& whole) {
+  if (!fs::exists(folder)) return;
+  for (const auto& [name, bytes] : results(folder)) {
+    ASSERT_TRUE(whole.contains(name)) << name;
+    EXPECT_TRUE(bytes == whole.at(name)) << name << " is not whole";
+  }
+}
+
+TEST(Fault, KilledAtRandomMomentsAndRestarted) {
+  const fs::path folder = folder_with_deck("killed");
+  const auto whole = undisturbed(folder);
+  std::mt19937 random(20240611);  // the moments vary with the machine, their list does not
+  std::uniform_real_distribution<double> moment(0.002, 0.120);
+  int killed = 0, resumed = 0;
+  for (int trial = 0; trial < 8; ++trial) {
+    fs::remove_all(folder / "out");
+    int exit_code = 137;
+    for (int attempt = 0; attempt < 40 && exit_code == 137; ++attempt) {
+      const bool had_checkpoint = fs::exists(folder / "out/deck.restart");
+      const std::string limit = std::to_string(moment(random) * (1 + attempt));
+      exit_code =
+          sagefe(folder, std::string("run deck.dat -q --restart ") + kOptions, "timeout -s KILL " + limit)
+              .exit_code;
+      if (exit_code == 137) {
+        ++killed;
+        expect_whole_or_absent(folder / "out", whole);
+      }
+      resumed += had_checkpoint ? 1 : 0;
+    }
+    ASSERT_EQ(exit_code, 0);
+    expect_equal(results(folder / "out"), whole);
+  }
+  EXPECT_GE(killed, 4);
+  EXPECT_GE(resumed, 2);
+}
+
+// A limit on the size of files stands for the disk: the write that passes it fails in the same way.
+TEST(Fault, FullDiskAndRestart) {
+  const fs::path folder = folder_with_deck("full_disk");
+  const auto whole = undisturbed(folder);
+  for (int blocks : {1, 16, 64, 256}) {  // of 1024 bytes
+    fs::remove_all(folder / "out");
+    const std::string limit =
+        "bash -c 'trap \"\" XFSZ; ulimit -f " + std::to_string(blocks) + "; exec \"$@\"' -";
+    const Finished full = sagefe(folder, std::string("run deck.dat -q ") + kOptions, limit);
+    EXPECT_EQ(full.exit_code, 4) << blocks << "\n" << full.err;
+    EXPECT_NE(full.err.find("cannot write"), std::string::npos) << full.err;
+    const Finished again = sagefe(folder, std::string("run deck.dat -q --restart ") + kOptions);
+    ASSERT_EQ(again.exit_code, 0) << again.err;
+    expect_equal(results(folder / "out"), whole);
+  }
+}
+
+TEST(Fault, UnwritableFolderAndRestart) {
+  if (geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  const fs::path folder = folder_with_deck("unwritable");
+  const auto whole = undisturbed(folder);
+  fs::create_directories(folder / "out");
+  fs::permissions(folder / "out", fs::perms::owner_read | fs::perms::owner_exec);
+  const Finished closed = sagefe(folder, std::string("run deck.dat -q ") + kOptions);
+  fs::permissions(folder / "out", fs::perms::owner_all);
+  EXPECT_EQ(closed.exit_code, 4) << closed.err;
+  ASSERT_EQ(sagefe(folder, std::string("run deck.dat -q --restart ") + kOptions).exit_code, 0);
+  expect_equal(results(folder / "out"), whole);
+}
+
+TEST(Fault, AFileInThePlaceOfTheFolder) {
+  const fs::path folder = folder_with_deck("no_folder");
+  write(folder / "out", "");
+  const Finished run = sagefe(folder, "run deck.dat");
+  EXPECT_EQ(run.exit_code, 4) << run.err;
+  EXPECT_NE(run.err.find("out"), std::string::npos) << run.err;
+}
+
+TEST(Fault, AReadOnlyDeckIsEnough) {
+  const fs::path folder = folder_with_deck("read_only");
+  fs::permissions(folder / "deck.dat", fs::perms::owner_read);
+  EXPECT_EQ(sagefe(folder, "run deck.dat -q").exit_code, 0);
+}
+
+TEST(Fault, ACheckpointOfAnotherRunIsRefused) {
+  const fs::path folder = folder_with_deck("other");
+  const std::string killed = "bash -c 'trap \"\" XFSZ; ulimit -f 256; exec \"$@\"' -";
+  sagefe(folder, std::string("run deck.dat -q ") + kOptions, killed);
+  ASSERT_TRUE(fs::exists(folder / "out/deck.restart"));
+  const std::string before = read(folder / "out/deck.restart");
+
+  const Finished other_output = sagefe(folder, "run deck.dat -q --restart");
+  EXPECT_EQ(other_output.exit_code, 2);
+  EXPECT_NE(other_output.err.find("belongs to another run"), std::string::npos) << other_output.err;
+  EXPECT_EQ(read(folder / "out/deck.restart"), before);
+
+  write(folder / "deck.dat", deck_text(31));
+  EXPECT_EQ(sagefe(folder, std::string("run deck.dat -q --restart ") + kOptions).exit_code, 2);
+
+  for (const std::string& damaged :
+       {before.substr(0, before.size() / 2), before + "x", std::string("nonsense")}) {
+    write(folder / "out/deck.restart", damaged);
+    const Finished run = sagefe(folder, std::string("run deck.dat -q --restart ") + kOptions);
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_NE(run.err.find("deck.restart"), std::string::npos) << run.err;
+  }
+}
+
+TEST(Fault, WithoutACheckpointARestartIsARun) {
+  const fs::path folder = folder_with_deck("nothing_to_restart");
+  const Finished run = sagefe(folder, "run deck.dat --restart");
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_NE(run.err.find("no checkpoint"), std::string::npos) << run.err;
+}
+
+}  // namespace
+}  // namespace sage::test
