@@ -1,23 +1,35 @@
 #include "sage/analysis/assembly.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace sage {
 
 namespace {
 
-using ConstMatrix = Eigen::Map<const Eigen::MatrixXd>;
-using ConstVector = Eigen::Map<const Eigen::VectorXd>;
-using MutableVector = Eigen::Map<Eigen::VectorXd>;
+// Matrices of nonlinear groups are kept to see whether K has changed, as long as they are not the bulk of the
+// memory.
+constexpr std::size_t kMostKept = std::size_t{1} << 26;  // bytes
 
 std::span<const Quantity> history_of(const LawRef& law) {
   return std::visit([](const auto* l) { return l->history(); }, law);
 }
 
+std::size_t matrix_size(const GroupData& data) {
+  const auto dofs = static_cast<std::size_t>(data.group->element->traits().dofs);
+  return dofs * dofs;
+}
+
+bool stress_free(const GroupData& data) {
+  const std::vector<double>& sigma = data.state.committed.sigma;
+  return std::all_of(sigma.begin(), sigma.end(), [](double s) { return s == 0.0; });
+}
+
 }  // namespace
 
-Assembly::Assembly(const Model& model, const Scene& scene, WorkCounters& work)
-    : model_(&model), scene_(&scene), work_(&work) {
+Assembly::Assembly(const Model& model, const Scene& scene, const Skips& skips, WorkCounters& work)
+    : model_(&model), scene_(&scene), skips_(skips), work_(&work) {
   std::size_t dofs = 0, geometry = 0;
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     const Group& group = model.groups[g];
@@ -26,11 +38,11 @@ Assembly::Assembly(const Model& model, const Scene& scene, WorkCounters& work)
     data.group = &group;
     data.law = model.material_of(group).law_ref();
     data.linear = scene.group_linear[g] != 0;
-    data.state = StateStore(static_cast<std::size_t>(group.elements() * traits.points), traits.law_size,
-                            history_of(data.law));
+    data.constant = data.linear && skips.elements;
     dofs = std::max(dofs, static_cast<std::size_t>(traits.dofs));
     geometry = std::max(geometry, static_cast<std::size_t>(traits.geometry_size()));
     groups_.push_back(std::move(data));
+    reset_group(g);
   }
   scratch_geometry_.resize(geometry);
   scratch_K_.resize(dofs * dofs);
@@ -38,15 +50,27 @@ Assembly::Assembly(const Model& model, const Scene& scene, WorkCounters& work)
   scratch_du_.resize(dofs);
   internal_.setZero(model.dofs());
   coupling_.setZero(model.dofs());
+  behind_.setZero(model.dofs());
+  changing_.setZero(model.dofs());
+}
+
+void Assembly::reset_group(std::size_t group) {
+  GroupData& data = groups_[group];
+  const ElementTraits& traits = data.group->element->traits();
+  data.state = StateStore(static_cast<std::size_t>(data.group->elements() * traits.points), traits.law_size,
+                          history_of(data.law));
 }
 
 void Assembly::enter_stage(const Activity& activity, const Eigen::VectorXd& rate) {
+  recover_states();
   rate_ = rate;
+  filled_ = nullptr;
   const auto dofs = static_cast<std::size_t>(model_->dofs());
   std::vector<char> used(dofs, 0);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     groups_[g].active = activity.group[g] != 0;
     if (!groups_[g].active) continue;
+    if (!keeps_matrices(groups_[g]) && groups_[g].group->elements() > 0) keep_matrices(groups_[g]);
     for (int node : groups_[g].group->nodes) used[2 * static_cast<std::size_t>(node)] = 1;
   }
   equation_of_dof_.assign(dofs, -1);
@@ -57,9 +81,16 @@ void Assembly::enter_stage(const Activity& activity, const Eigen::VectorXd& rate
     dof_of_equation_.push_back(static_cast<int>(dof));
   }
   equations_ = static_cast<int>(dof_of_equation_.size());
+  condensation_.reset();
+  number_elements();
+}
+
+// The elements of the system: all active ones, or with a condensed region those of changing groups and the
+// region's dense matrix last.
+void Assembly::number_elements() {
   element_equations_ = {};
   for (GroupData& data : groups_) {
-    if (!data.active) continue;
+    if (!data.active || (condensation_ && data.constant)) continue;
     data.first_element = element_equations_.count();
     const Group& group = *data.group;
     for (int e = 0; e < group.elements(); ++e) {
@@ -70,23 +101,124 @@ void Assembly::enter_stage(const Activity& activity, const Eigen::VectorXd& rate
       element_equations_.offset.push_back(static_cast<std::int64_t>(element_equations_.equations.size()));
     }
   }
+  if (!condensation_) return;
+  for (int eq = 0; eq < equations_; ++eq) element_equations_.equations.push_back(eq);
+  element_equations_.offset.push_back(static_cast<std::int64_t>(element_equations_.equations.size()));
 }
 
-void Assembly::add_to_globals(const GroupData& data, int element, const double* f, const double* K,
-                              LinearSolver* solver) {
+void Assembly::condense(int increments, const SolverMaker& make) {
+  // Measured: the matrix of the border costs a solution for each of its dofs, an iteration saves about eight.
+  constexpr int kMostKept = 400, kFewestCondensed = 100, kBorderPerIncrement = 15;
+  if (!skips_.condensation || scene_->linear) return;
+  std::vector<char> keep(static_cast<std::size_t>(model_->dofs()), 0);
+  for (const GroupData& data : groups_) {
+    if (!data.active || data.constant) continue;
+    for (int node : data.group->nodes)
+      for (int c = 0; c < 2; ++c) keep[static_cast<std::size_t>(2 * node + c)] = 1;
+  }
+  const auto kept =
+      static_cast<int>(std::count_if(dof_of_equation_.begin(), dof_of_equation_.end(),
+                                     [&](int dof) { return keep[static_cast<std::size_t>(dof)] != 0; }));
+  const int condensed = equations_ - kept;
+  if (kept == 0 || kept > kMostKept || condensed < kFewestCondensed || condensed < 4 * kept ||
+      kept > kBorderPerIncrement * increments)
+    return;
+  try {
+    condensation_ = std::make_unique<Condensation>(groups_, dof_of_equation_, keep, make);
+  } catch (const SingularMatrix&) {
+    return;  // a region that only its border holds: the whole system says what is wrong, or solves it
+  }
+  constexpr double kPoorPivot = 1e-6;  // of an ill-conditioned region: its elimination would cost digits
+  if (condensation_->report().smallest_pivot_ratio < kPoorPivot) {
+    condensation_.reset();
+    return;
+  }
+  work_->condensed = condensed;
+  for (int dof : dof_of_equation_) equation_of_dof_[static_cast<std::size_t>(dof)] = -1;
+  dof_of_equation_ = condensation_->kept();
+  equations_ = kept;
+  for (int eq = 0; eq < equations_; ++eq)
+    equation_of_dof_[static_cast<std::size_t>(dof_of_equation_[static_cast<std::size_t>(eq)])] = eq;
+  number_elements();
+}
+
+// Room for the matrices that are kept: of every shape once where the group is constant, else of every element.
+void Assembly::keep_matrices(GroupData& data) {
+  const auto elements = static_cast<std::size_t>(data.group->elements());
+  if (data.constant) {
+    data.matrix = scene_->shapes[static_cast<std::size_t>(&data - groups_.data())];
+    const int shapes = *std::max_element(data.matrix.begin(), data.matrix.end()) + 1;
+    data.K.resize(static_cast<std::size_t>(shapes) * matrix_size(data));
+    int made = 0;
+    for (int e = 0; e < data.group->elements(); ++e) {
+      if (data.matrix[static_cast<std::size_t>(e)] != made) continue;
+      evaluate_element(data, e, nullptr, data.K.data() + static_cast<std::size_t>(made) * matrix_size(data));
+      ++made;
+    }
+    make_shifts(data, made);
+    work_->element_evaluations += made;
+    const auto forces = elements * static_cast<std::size_t>(data.group->element->traits().dofs);
+    data.force.assign(forces, 0.0);
+    data.trial_force.assign(forces, 0.0);
+  } else if (skips_.factors && !scene_->linear && elements * matrix_size(data) * sizeof(double) <= kMostKept) {
+    data.matrix.resize(elements);
+    for (std::size_t e = 0; e < elements; ++e) data.matrix[e] = static_cast<int>(e);
+    data.K.assign(elements * matrix_size(data), 0.0);
+  }
+}
+
+void Assembly::make_shifts(GroupData& data, int matrices) const {
+  const std::size_t n = data.dofs();
+  data.shift.assign(static_cast<std::size_t>(matrices) * n, 0.0);
+  const bool ring = model_->geometry == Geometry::axisymmetric && data.group->element->traits().law_size == 4;
+  if (!ring) return;
+  for (std::size_t m = 0; m < static_cast<std::size_t>(matrices); ++m)
+    for (std::size_t j = 0; j < n; j += 2)
+      for (std::size_t i = 0; i < n; ++i) data.shift[m * n + i] += data.K[(m * n + j) * n + i];
+}
+
+void Assembly::take_states() {
+  for (GroupData& data : groups_) {
+    if (!data.active || !data.constant) continue;
+    if (stress_free(data)) {
+      std::fill(data.force.begin(), data.force.end(), 0.0);
+      continue;
+    }
+    const auto dofs = static_cast<std::size_t>(data.group->element->traits().dofs);
+    for (int e = 0; e < data.group->elements(); ++e) {
+      evaluate_element(data, e, nullptr, nullptr);
+      std::copy_n(scratch_f_.data(), dofs, data.force.data() + static_cast<std::size_t>(e) * dofs);
+    }
+    work_->element_evaluations += data.group->elements();
+  }
+}
+
+void Assembly::gather(const GroupData& data, int element, const Eigen::VectorXd& u) {
+  const int* nodes = data.group->nodes_of(element);
+  for (std::size_t i = 0; i < data.group->node_count(); ++i) {
+    scratch_du_[2 * i] = u[2 * nodes[i]];
+    scratch_du_[2 * i + 1] = u[2 * nodes[i] + 1];
+  }
+}
+
+// Returns |f|^2.
+double Assembly::add_force(const GroupData& data, int element, const double* f, Eigen::VectorXd& to) const {
   const int* nodes = data.group->nodes_of(element);
   const int n = static_cast<int>(data.group->node_count());
-  bool moving = false;
+  double sum = 0.0;
   for (int i = 0; i < n; ++i) {
     const int dof = 2 * nodes[i];
-    internal_[dof] += f[2 * i];
-    internal_[dof + 1] += f[2 * i + 1];
-    scale_sum_ += f[2 * i] * f[2 * i] + f[2 * i + 1] * f[2 * i + 1];
-    moving = moving || rate_[dof] != 0.0 || rate_[dof + 1] != 0.0;
+    to[dof] += f[2 * i];
+    to[dof + 1] += f[2 * i + 1];
+    sum += f[2 * i] * f[2 * i] + f[2 * i + 1] * f[2 * i + 1];
   }
-  if (solver == nullptr) return;
-  solver->add(data.first_element + element, K);
-  if (!moving) return;
+  return sum;
+}
+
+void Assembly::add_matrix(const GroupData& data, int element, const double* K, LinearSolver& solver) {
+  solver.add(data.first_element + element, K);
+  const int* nodes = data.group->nodes_of(element);
+  const int n = static_cast<int>(data.group->node_count());
   for (int j = 0; j < 2 * n; ++j) {
     const double rate = rate_[2 * nodes[j / 2] + j % 2];
     if (rate == 0.0) continue;
@@ -94,77 +226,233 @@ void Assembly::add_to_globals(const GroupData& data, int element, const double* 
   }
 }
 
-Outcome Assembly::evaluate_group(GroupData& data, const Eigen::VectorXd& du, LinearSolver* solver) {
+const double* Assembly::geometry_of(GroupData& data, int element) {
   const Group& group = *data.group;
-  const ElementTraits& traits = group.element->traits();
-  const auto geometry_size = static_cast<std::size_t>(traits.geometry_size());
+  const auto size = static_cast<std::size_t>(group.element->traits().geometry_size());
+  const bool keep = !scene_->linear && !data.constant;
+  if (!keep) {
+    element_coordinates(model_->mesh, group, element, scratch_x_);
+    group.element->geometry(scratch_x_, {scratch_geometry_.data(), size});
+    return scratch_geometry_.data();
+  }
+  if (data.geometry.empty()) {
+    data.geometry.resize(size * static_cast<std::size_t>(group.elements()));
+    for (int e = 0; e < group.elements(); ++e) {
+      element_coordinates(model_->mesh, group, e, scratch_x_);
+      group.element->geometry(scratch_x_, {data.geometry.data() + static_cast<std::size_t>(e) * size, size});
+    }
+  }
+  return data.geometry.data() + static_cast<std::size_t>(element) * size;
+}
+
+// Forces into scratch_f_, states into the trial side.  du = nullptr: none.
+Outcome Assembly::evaluate_element(GroupData& data, int element, const Eigen::VectorXd* du, double* K) {
+  const ElementTraits& traits = data.group->element->traits();
   const auto points = static_cast<std::size_t>(traits.points);
   const auto law_size = static_cast<std::size_t>(traits.law_size);
   const auto history = static_cast<std::size_t>(data.state.history_size());
-  const bool keep_geometry = !scene_->linear;
-  if (keep_geometry && data.geometry.empty()) {
-    data.geometry.resize(geometry_size * static_cast<std::size_t>(group.elements()));
-    for (int e = 0; e < group.elements(); ++e) {
-      element_coordinates(model_->mesh, group, e, scratch_x_);
-      group.element->geometry(
-          scratch_x_, {data.geometry.data() + static_cast<std::size_t>(e) * geometry_size, geometry_size});
-    }
-  }
+  const auto e = static_cast<std::size_t>(element);
+  if (du != nullptr)
+    gather(data, element, *du);
+  else
+    std::fill(scratch_du_.begin(), scratch_du_.end(), 0.0);
+  const std::size_t at = e * points * law_size;
   ElementIn in;
-  in.law = data.law;
+  in.geometry = geometry_of(data, element);
   in.du = scratch_du_.data();
+  in.law = data.law;
+  in.sigma0 = data.state.committed.sigma.data() + at;
+  in.eps0 = data.state.committed.eps.data() + at;
+  in.h0 = data.state.committed.h.data() + e * points * history;
   ElementOut out;
+  out.K = K;
   out.f = scratch_f_.data();
-  out.K = solver != nullptr ? scratch_K_.data() : nullptr;
-  for (int e = 0; e < group.elements(); ++e) {
-    const auto eu = static_cast<std::size_t>(e);
-    if (keep_geometry) {
-      in.geometry = data.geometry.data() + eu * geometry_size;
-    } else {
-      element_coordinates(model_->mesh, group, e, scratch_x_);
-      group.element->geometry(scratch_x_, {scratch_geometry_.data(), geometry_size});
-      in.geometry = scratch_geometry_.data();
+  out.sigma1 = data.state.trial.sigma.data() + at;
+  out.eps1 = data.state.trial.eps.data() + at;
+  out.h1 = data.state.trial.h.data() + e * points * history;
+  out.status = data.state.trial.status.data() + e * points;
+  return data.group->element->evaluate(in, out);
+}
+
+Outcome Assembly::evaluate_group(GroupData& data, const Eigen::VectorXd& du, LinearSolver* solver) {
+  const std::size_t size = matrix_size(data);
+  const bool compare = solver != nullptr && keeps_matrices(data);
+  for (int e = 0; e < data.group->elements(); ++e) {
+    if (evaluate_element(data, e, &du, solver != nullptr ? scratch_K_.data() : nullptr) == Outcome::cut_step)
+      return Outcome::cut_step;
+    changing_sum_ += add_force(data, e, scratch_f_.data(), changing_);
+    if (compare) {
+      double* kept = data.K.data() + static_cast<std::size_t>(e) * size;
+      if (std::memcmp(kept, scratch_K_.data(), size * sizeof(double)) == 0) continue;
+      std::copy_n(scratch_K_.data(), size, kept);
+      matrix_changed_ = true;
+    } else if (solver != nullptr) {
+      add_matrix(data, e, scratch_K_.data(), *solver);
     }
-    const int* nodes = group.nodes_of(e);
-    for (std::size_t i = 0; i < group.node_count(); ++i) {
-      scratch_du_[2 * i] = du[2 * nodes[i]];
-      scratch_du_[2 * i + 1] = du[2 * nodes[i] + 1];
-    }
-    const std::size_t at = eu * points * law_size;
-    in.sigma0 = data.state.committed.sigma.data() + at;
-    in.eps0 = data.state.committed.eps.data() + at;
-    in.h0 = data.state.committed.h.data() + eu * points * history;
-    out.sigma1 = data.state.trial.sigma.data() + at;
-    out.eps1 = data.state.trial.eps.data() + at;
-    out.h1 = data.state.trial.h.data() + eu * points * history;
-    out.status = data.state.trial.status.data() + eu * points;
-    if (group.element->evaluate(in, out) == Outcome::cut_step) return Outcome::cut_step;
-    add_to_globals(data, e, out.f, out.K, solver);
   }
-  work_->element_evaluations += group.elements();
+  work_->element_evaluations += data.group->elements();
   return Outcome::ok;
+}
+
+// K times displacements relative to the first node: differences of neighbours are exact where they are small,
+// and stiff joints and nu near 1/2 make much of every rounding.  A shift along y costs nothing, one along x
+// only in a ring.
+void Assembly::evaluate_constant(GroupData& data, const Eigen::VectorXd& du) {
+  const std::size_t n = data.dofs();
+  for (int e = 0; e < data.group->elements(); ++e) {
+    gather(data, e, du);
+    const double x = scratch_du_[0], y = scratch_du_[1];
+    for (std::size_t i = 0; i < n; i += 2) {
+      scratch_du_[i] -= x;
+      scratch_du_[i + 1] -= y;
+    }
+    const double* K = data.matrix_of(e);
+    const double* shift =
+        data.shift.data() + static_cast<std::size_t>(data.matrix[static_cast<std::size_t>(e)]) * n;
+    const double* f0 = data.force.data() + static_cast<std::size_t>(e) * n;
+    double* f = data.trial_force.data() + static_cast<std::size_t>(e) * n;
+    for (std::size_t i = 0; i < n; ++i) f[i] = f0[i] + shift[i] * x;
+    for (std::size_t j = 2; j < n; ++j)
+      for (std::size_t i = 0; i < n; ++i) f[i] += K[j * n + i] * scratch_du_[j];
+    constant_sum_ += add_force(data, e, f, internal_);
+  }
+  work_->linear_products += data.group->elements();
+}
+
+// All matrices that are kept go to the solver (those of other groups went there as they were made).
+void Assembly::fill(LinearSolver& solver) {
+  for (const GroupData& data : groups_) {
+    if (!data.active || !keeps_matrices(data) || (condensation_ && data.constant)) continue;
+    for (int e = 0; e < data.group->elements(); ++e) add_matrix(data, e, data.matrix_of(e), solver);
+  }
+  if (condensation_) solver.add(element_equations_.count() - 1, condensation_->S().data());
+}
+
+// Forces and matrices of the groups that are not constant, and all kept matrices into the solver.
+Outcome Assembly::evaluate_changing(const Eigen::VectorXd& du, LinearSolver* solver) {
+  ++(solver != nullptr ? work_->assemblies : work_->residuals);
+  changing_.setZero();
+  changing_sum_ = 0.0;
+  const bool all_kept = std::all_of(groups_.begin(), groups_.end(), [&](const GroupData& data) {
+    return !data.active || data.group->elements() == 0 || keeps_matrices(data);
+  });
+  const auto clear = [&] {
+    solver->clear();
+    coupling_.setZero();
+  };
+  if (solver != nullptr) {
+    matrix_changed_ = !all_kept || filled_ != solver;
+    if (!all_kept) clear();
+  }
+  for (GroupData& data : groups_) {
+    if (!data.active || data.constant) continue;
+    if (evaluate_group(data, du, solver) == Outcome::cut_step) {
+      if (solver != nullptr) filled_ = nullptr;
+      return Outcome::cut_step;
+    }
+  }
+  if (solver != nullptr && matrix_changed_) {
+    if (all_kept) clear();
+    fill(*solver);
+    filled_ = solver;
+  }
+  return std::isfinite(changing_sum_) ? Outcome::ok : Outcome::cut_step;
+}
+
+void Assembly::add_constant(const Eigen::VectorXd& du) {
+  internal_ = changing_;
+  constant_sum_ = 0.0;
+  for (GroupData& data : groups_)
+    if (data.active && data.constant) evaluate_constant(data, du);
+  force_scale_ = std::sqrt(changing_sum_ + constant_sum_);
 }
 
 Outcome Assembly::evaluate(const Eigen::VectorXd& du, LinearSolver* solver) {
   const Timer timer(work_->assembly_seconds);
-  ++(solver != nullptr ? work_->assemblies : work_->residuals);
-  internal_.setZero();
-  scale_sum_ = 0.0;
-  if (solver != nullptr) {
-    solver->clear();
-    coupling_.setZero();
-  }
-  for (GroupData& data : groups_) {
-    if (!data.active) continue;
-    if (evaluate_group(data, du, solver) == Outcome::cut_step) return Outcome::cut_step;
-  }
-  force_scale_ = std::sqrt(scale_sum_);
+  if (evaluate_changing(du, solver) == Outcome::cut_step) return Outcome::cut_step;
+  add_constant(du);
   return std::isfinite(force_scale_) ? Outcome::ok : Outcome::cut_step;
 }
 
-void Assembly::commit() {
-  for (GroupData& data : groups_)
-    if (data.active) data.state.commit();
+void Assembly::begin_step(const Eigen::VectorXd& target, double rate_part) {
+  if (!condensation_) return;
+  const Timer timer(work_->solve_seconds);
+  constant_force_.setZero(model_->dofs());
+  for (const GroupData& data : groups_) {
+    if (!data.active || !data.constant) continue;
+    for (int e = 0; e < data.group->elements(); ++e)
+      add_force(data, e, data.force.data() + static_cast<std::size_t>(e) * data.dofs(), constant_force_);
+  }
+  prescribed_ = rate_part * rate_;
+  condensation_->begin_step(target, prescribed_, constant_force_);
+  internal_ = changing_;
+  condensation_->add_forces(Eigen::VectorXd::Zero(model_->dofs()), internal_);
+}
+
+// The force scale of the linear region is that of the last whole evaluation.
+Outcome Assembly::iterate(const Eigen::VectorXd& du, LinearSolver* solver) {
+  if (!condensation_) return evaluate(du, solver);
+  const Timer timer(work_->assembly_seconds);
+  if (evaluate_changing(du, solver) == Outcome::cut_step) return Outcome::cut_step;
+  internal_ = changing_;
+  condensation_->add_forces(du, internal_);
+  force_scale_ = std::sqrt(changing_sum_ + constant_sum_);
+  return Outcome::ok;
+}
+
+void Assembly::complete(Eigen::VectorXd& du) {
+  if (!condensation_) return;
+  const Timer timer(work_->assembly_seconds);
+  condensation_->complete(du);
+  add_constant(du);
+}
+
+void Assembly::commit_again() {
+  for (GroupData& data : groups_) {
+    if (!data.active) continue;
+    if (data.constant)
+      std::swap(data.force, data.trial_force);
+    else
+      data.state.commit();
+  }
+}
+
+void Assembly::commit(const Eigen::VectorXd& du) {
+  commit_again();
+  const bool constant = std::any_of(groups_.begin(), groups_.end(),
+                                    [](const GroupData& data) { return data.active && data.constant; });
+  if (!constant) return;
+  behind_ += du;
+  is_behind_ = true;
+  if (!skips_.states) recover_states();
+}
+
+void Assembly::recover_states() {
+  if (!is_behind_) return;
+  const Timer timer(work_->assembly_seconds);
+  for (GroupData& data : groups_) {
+    if (!data.active || !data.constant) continue;
+    for (int e = 0; e < data.group->elements(); ++e) evaluate_element(data, e, &behind_, nullptr);
+    data.state.commit();
+    work_->element_evaluations += data.group->elements();
+  }
+  behind_.setZero();
+  is_behind_ = false;
+}
+
+void Assembly::exchange(Archive& archive, bool before_step) {
+  for (GroupData& data : groups_) {
+    const bool trial = before_step && data.active && !data.constant && !archive.reading();
+    PointStates& states = trial ? data.state.trial : data.state.committed;
+    archive(states.sigma);
+    archive(states.eps);
+    archive(states.h);
+    archive(states.status);
+    if (data.constant)
+      archive(before_step && data.active && !archive.reading() ? data.trial_force : data.force);
+  }
+  archive(behind_);
+  archive(is_behind_);
 }
 
 std::array<long, kStatuses> Assembly::count_points() const {

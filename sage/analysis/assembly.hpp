@@ -3,67 +3,102 @@
 
 #include <vector>
 
+#include "sage/analysis/condensation.hpp"
+#include "sage/analysis/group_data.hpp"
 #include "sage/analysis/records.hpp"
 #include "sage/analysis/scene.hpp"
-#include "sage/core/linear_solver.hpp"
-#include "sage/core/state_store.hpp"
+#include "sage/analysis/skips.hpp"
+#include "sage/core/archive.hpp"
 #include "sage/model/activity.hpp"
-#include "sage/model/model.hpp"
 
 namespace sage {
 
-// A group's points and what is kept of its elements between passes.
-struct GroupData {
-  const Group* group = nullptr;
-  LawRef law;
-  bool active = false;
-  bool linear = false;
-  StateStore state;
-  std::vector<double> geometry;  // w and B of all elements; empty = made anew in each pass
-  int first_element = 0;         // in the solver's element order, while active
-};
-
 class Assembly {
  public:
-  Assembly(const Model& model, const Scene& scene, WorkCounters& work);
+  Assembly(const Model& model, const Scene& scene, const Skips& skips, WorkCounters& work);
 
   // Equations and element order of a stage.  rate: displacement of every prescribed dof over the stage.
   void enter_stage(const Activity& activity, const Eigen::VectorXd& rate);
+  // A group that is placed: free of stress, with its first history.
+  void reset_group(std::size_t group);
+  // After committed states were set from outside (initial stress): the forces that belong to them.
+  void take_states();
 
   int equations() const { return equations_; }
   const ElementEquations& element_equations() const { return element_equations_; }
   int equation_of(int dof) const { return equation_of_dof_[static_cast<std::size_t>(dof)]; }
   int dof_of(int equation) const { return dof_of_equation_[static_cast<std::size_t>(equation)]; }
 
-  // Internal forces at committed state + du.  With a solver, K too: added to it, and its product with the
+  // Takes the linear region out of the iterations where that pays in so many increments.
+  void condense(int increments, const SolverMaker& make);
+  const Condensation* condensation() const { return condensation_.get(); }
+
+  // A step begins: target = loads at its end, rate_part = its part of the prescribed displacements.  Needed by
+  // iterate().
+  void begin_step(const Eigen::VectorXd& target, double rate_part);
+  // As evaluate(), within the iterations of a step: a condensed region acts by its border.
+  Outcome iterate(const Eigen::VectorXd& du, LinearSolver* solver);
+  // The last iterate() was the end of the step: fills in du of condensed dofs, and their elements' forces.
+  void complete(Eigen::VectorXd& du);
+
+  // Internal forces at committed state + du.  With a solver, K too: given to it, and its product with the
   // prescribed displacements' rate kept (coupling()).
   Outcome evaluate(const Eigen::VectorXd& du, LinearSolver* solver);
-  // Trial states become committed.
-  void commit();
+  // False: the last evaluation with a solver found the very K that the solver holds, and left it alone.
+  bool matrix_changed() const { return matrix_changed_; }
+  // Trial states become committed; du as in the evaluation before.
+  void commit(const Eigen::VectorXd& du);
+  // The same for a step that a checkpoint has counted already.
+  void commit_again();
+  // Brings the states of constant groups up to date; others always are.
+  void recover_states();
 
   const Eigen::VectorXd& internal_force() const { return internal_; }  // every dof
   const Eigen::VectorXd& coupling() const { return coupling_; }        // K(free, prescribed) rate, every dof
   // sqrt(sum over elements of |f_e|^2): a force scale that vanishes only in a stress-free mesh.
   double force_scale() const { return force_scale_; }
 
+  // States of all groups and what goes with them.  before_step: those of active groups as they were before the
+  // last commit (reading gives them back as committed).
+  void exchange(Archive& archive, bool before_step);
+
   std::vector<GroupData>& groups() { return groups_; }
   const std::vector<GroupData>& groups() const { return groups_; }
   std::array<long, kStatuses> count_points() const;  // committed states of active groups
 
  private:
+  const double* geometry_of(GroupData& data, int element);
+  Outcome evaluate_element(GroupData& data, int element, const Eigen::VectorXd* du, double* K);
+  Outcome evaluate_changing(const Eigen::VectorXd& du, LinearSolver* solver);
+  void add_constant(const Eigen::VectorXd& du);
+  void number_elements();
   Outcome evaluate_group(GroupData& data, const Eigen::VectorXd& du, LinearSolver* solver);
-  void add_to_globals(const GroupData& data, int element, const double* f, const double* K,
-                      LinearSolver* solver);
+  void evaluate_constant(GroupData& data, const Eigen::VectorXd& du);
+  void keep_matrices(GroupData& data);
+  void make_shifts(GroupData& data, int matrices) const;
+  void gather(const GroupData& data, int element, const Eigen::VectorXd& u);
+  double add_force(const GroupData& data, int element, const double* f, Eigen::VectorXd& to) const;
+  void add_matrix(const GroupData& data, int element, const double* K, LinearSolver& solver);
+  void fill(LinearSolver& solver);
+  bool keeps_matrices(const GroupData& data) const { return !data.matrix.empty(); }
 
   const Model* model_;
   const Scene* scene_;
+  Skips skips_;
   WorkCounters* work_;
   std::vector<GroupData> groups_;
   int equations_ = 0;
   std::vector<int> equation_of_dof_, dof_of_equation_;
   ElementEquations element_equations_;
   Eigen::VectorXd rate_, internal_, coupling_;
-  double force_scale_ = 0.0, scale_sum_ = 0.0;
+  Eigen::VectorXd changing_;  // internal forces of groups that are not constant, every dof
+  std::unique_ptr<Condensation> condensation_;
+  Eigen::VectorXd prescribed_, constant_force_;
+  Eigen::VectorXd behind_;  // displacement that the states of constant groups do not know yet, every dof
+  bool is_behind_ = false;
+  double force_scale_ = 0.0, changing_sum_ = 0.0, constant_sum_ = 0.0;
+  const LinearSolver* filled_ = nullptr;  // the solver that holds K as it is kept here
+  bool matrix_changed_ = true;
   std::vector<double> scratch_geometry_, scratch_K_, scratch_f_, scratch_du_;
   Eigen::Matrix2Xd scratch_x_;
 };

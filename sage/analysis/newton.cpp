@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sage/analysis/acceleration.hpp"
 #include "sage/analysis/dogleg.hpp"
 
 namespace sage {
@@ -29,6 +30,10 @@ class Step {
   bool full_newton() const {
     return (settings_.method == Method::newton || settings_.method == Method::dogleg) && !stiffness_.constant;
   }
+  bool new_K_each_iteration() const { return full_newton() && !settings_.contract; }
+  bool accelerated() const { return !full_newton() && !stiffness_.constant; }
+  bool repeats();
+  void accelerate(double old_norm);
   NewtonStep& iterate_with_line_search();
   NewtonStep& iterate_with_dogleg();
   bool record_iteration();
@@ -50,16 +55,18 @@ class Step {
   const NewtonSettings& settings_;
   WorkCounters& work_;
   Eigen::VectorXd& du_;
-  Eigen::VectorXd residual_, correction_;
+  Eigen::VectorXd residual_, correction_, start_residual_;
+  Acceleration acceleration_;
+  bool start_known_ = false;  // start_residual_ is the residual at du = 0
   double energy_scale_ = 0.0, start_scale_ = 0.0, slope_ = 0.0, step_length_ = 1.0;
   NewtonStep result_;
 };
 
 Outcome Step::evaluate(bool with_K) {
-  const Outcome outcome = assembly_.evaluate(du_, with_K ? stiffness_.solver : nullptr);
+  const Outcome outcome = assembly_.iterate(du_, with_K ? stiffness_.solver : nullptr);
   if (with_K) {
     stiffness_.assembled = outcome == Outcome::ok;
-    stiffness_.factorised = false;
+    if (outcome != Outcome::ok || assembly_.matrix_changed()) stiffness_.factorised = false;
   }
   return outcome;
 }
@@ -73,7 +80,10 @@ void Step::form_residual() {
 }
 
 void Step::factorise_if_needed() {
-  if (stiffness_.factorised) return;
+  if (stiffness_.factorised) {
+    ++work_.kept_factors;
+    return;
+  }
   const Timer timer(work_.factor_seconds);
   ++work_.factorisations;
   stiffness_.solver->factorise();
@@ -92,12 +102,37 @@ void Step::move(double factor) {
   for (int eq = 0; eq < assembly_.equations(); ++eq) du_[assembly_.dof_of(eq)] += factor * correction_[eq];
 }
 
+// An increment after one that was linear to the last digit: the same step again, if it leaves next to nothing
+// out of balance.  It costs one force pass.
+bool Step::repeats() {
+  if (!stiffness_.assembled) return false;
+  start_scale_ = assembly_.force_scale();
+  form_residual();
+  start_residual_ = residual_;
+  start_known_ = true;
+  if (evaluate(false) == Outcome::cut_step) return false;
+  form_residual();
+  correction_.setZero();
+  const IterationRecord record = measure();
+  if (!(record.force <= 1e-3 * settings_.tolerance)) return false;
+  result_.iterations.push_back(record);
+  find_worst();
+  result_.outcome = StepOutcome::converged;
+  result_.repeated = true;
+  ++work_.repeats;
+  return true;
+}
+
 // First correction: prescribed displacements enter through K(free, prescribed).
 bool Step::predict(const Eigen::VectorXd& rate, double rate_part) {
   du_.setZero();
   if (!stiffness_.assembled && evaluate(true) == Outcome::cut_step) return false;
-  start_scale_ = assembly_.force_scale();  // a step may end without any stress
-  form_residual();
+  if (start_known_) {
+    residual_ = start_residual_;
+  } else {
+    start_scale_ = assembly_.force_scale();  // a step may end without any stress
+    form_residual();
+  }
   const Eigen::VectorXd& coupling = assembly_.coupling();
   for (int eq = 0; eq < assembly_.equations(); ++eq)
     residual_[eq] -= rate_part * coupling[assembly_.dof_of(eq)];
@@ -160,7 +195,7 @@ bool Step::search_line() {
     next = std::clamp(next, 0.1 * length, 0.9 * std::max(length, b));
     move(next - length);
     length = next;
-    if (evaluate(full_newton()) == Outcome::cut_step) return false;
+    if (evaluate(new_K_each_iteration()) == Outcome::cut_step) return false;
     form_residual();
     const double slope = correction_.dot(residual_);
     if (slope_a * slope > 0.0 && next < b) {
@@ -186,21 +221,38 @@ bool Step::record_iteration() {
 
 NewtonStep Step::solve(const Eigen::VectorXd& rate, double rate_part) {
   result_.outcome = StepOutcome::law_cut;
+  assembly_.begin_step(target_, rate_part);
+  if (settings_.repeat && repeats()) return result_;
   if (!predict(rate, rate_part)) return result_;
   return settings_.method == Method::dogleg ? iterate_with_dogleg() : iterate_with_line_search();
 }
 
+// The tangent is not that of the place reached: earlier corrections help.  A step that made things worse starts
+// anew.
+void Step::accelerate(double old_norm) {
+  if (residual_.norm() > 2.0 * old_norm) acceleration_.restart();
+  acceleration_.improve(correction_);
+}
+
 NewtonStep& Step::iterate_with_line_search() {
+  constexpr double kGoodContraction = 0.2;
+  double old_norm = residual_.norm();
+  if (accelerated()) acceleration_.improve(correction_);
   for (int i = 1; i <= settings_.max_iterations; ++i) {
-    if (evaluate(full_newton()) == Outcome::cut_step) return result_;
+    if (evaluate(new_K_each_iteration()) == Outcome::cut_step) return result_;
     form_residual();
     step_length_ = 1.0;
-    if (settings_.line_search && i > 1 && std::abs(correction_.dot(residual_)) > 0.8 * std::abs(slope_) &&
-        !search_line())
+    if (settings_.line_search && !accelerated() && i > 1 &&
+        std::abs(correction_.dot(residual_)) > 0.8 * std::abs(slope_) && !search_line())
       return result_;
     if (!std::isfinite(residual_.squaredNorm()) || record_iteration()) return result_;
     if (i == settings_.max_iterations) break;
+    const double norm = residual_.norm();
+    if (settings_.contract && norm > kGoodContraction * old_norm && evaluate(true) == Outcome::cut_step)
+      return result_;
     correct();
+    if (accelerated()) accelerate(old_norm);
+    old_norm = norm;
     slope_ = correction_.dot(residual_);
     energy_scale_ = std::max(energy_scale_, std::abs(slope_));
     move(1.0);
@@ -245,7 +297,9 @@ NewtonStep newton_step(Assembly& assembly, Stiffness& stiffness, const Eigen::Ve
                        WorkCounters& work, Eigen::VectorXd& du) {
   Step step(assembly, stiffness, target, settings, work, du);
   try {
-    return step.solve(rate, rate_part);
+    NewtonStep result = step.solve(rate, rate_part);
+    if (result.outcome == StepOutcome::converged) assembly.complete(du);
+    return result;
   } catch (const SingularMatrix& error) {
     NewtonStep result;
     result.outcome = StepOutcome::singular;

@@ -11,6 +11,8 @@ struct NewtonSettings {
   int max_iterations = 25;
   double tolerance = 1e-8;  // force and energy; displacement sqrt(tolerance)
   bool line_search = true;
+  bool repeat = false;    // du holds the step before, which was linear: it is tried first
+  bool contract = false;  // factors are kept while they contract well; K may then be behind du at the end
 };
 
 enum class StepOutcome { converged, not_converged, law_cut, singular };
@@ -25,6 +27,7 @@ struct Stiffness {
 
 struct NewtonStep {
   StepOutcome outcome = StepOutcome::not_converged;
+  bool repeated = false;  // the step before once more
   std::vector<IterationRecord> iterations;
   WorstDof worst;
   int singular_equation = -1;

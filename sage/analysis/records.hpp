@@ -19,7 +19,9 @@ struct WorkCounters {
   long element_evaluations = 0;  // elements whose law was called
   long linear_products = 0;      // elements answered by a stored K instead
   long analyses = 0, factorisations = 0, solves = 0;
-  long condensed = 0;  // equations removed once for all from the iterations
+  long kept_factors = 0;  // corrections with factors that were there already
+  long repeats = 0;       // increments that were the one before once more
+  long condensed = 0;     // equations removed once for all from the iterations
   double assembly_seconds = 0.0, analyse_seconds = 0.0, factor_seconds = 0.0, solve_seconds = 0.0;
   double output_seconds = 0.0;
 };

@@ -21,8 +21,9 @@ class Run {
         settings_(settings),
         observers_(observers),
         scene_(analyse_scene(model)),
-        assembly_(model, scene_, result_.work),
-        activity_(model) {
+        assembly_(model, scene_, settings.skips, result_.work),
+        activity_(model),
+        lived_(model.groups.size(), 0) {
     u_.setZero(model.dofs());
     du_.setZero(model.dofs());
     external_.setZero(model.dofs());
@@ -36,21 +37,28 @@ class Run {
     int stage = 0, increment = 0;
   };
 
+  void place_groups(const Stage& stage);
   void start_states(const std::vector<InitialStress>& initials);
   bool open_stage(int s);
   void prepare_stage(int s);
+  const SolverEntry* choose_solver(int equations, bool symmetric) const;
   void make_solver();
   bool run_stage(int s, int done);
   bool run_increment(const Stage& stage, StepReport& report, double& reached);
   NewtonStep attempt(const Stage& stage, double from, double to);
   void renew_tangent();
+  bool contracts(const Stage& stage) const;
+  bool can_repeat(const Stage& stage, double size) const;
   void accept(double reached);
   void reject(const Stage& stage);
   bool fail(StepReport& report, const NewtonStep& step);
   void exchange(Archive& archive, const Place& place);
   void offer_checkpoint(Place place);
+  void recover_for(const StepReport& report);
   Place resume();
   EquilibriumAudit audit() const;
+  int all_equations() const;
+  double smallest_pivot() const;
   void warn_about_numbers(int s, const EquilibriumAudit& sums);
   void warn(const Stage& stage, const std::string& message);
   Solution solution() const;
@@ -72,7 +80,8 @@ class Run {
   std::string solver_name_;
   Stiffness stiffness_;
   Eigen::VectorXd u_, du_, external_, target_, external_start_, force_start_, force_end_, rate_;
-  std::vector<char> held_before_, groups_before_;
+  double linear_size_ = 0.0;  // of the last step, where it was linear; 0 = it was not
+  std::vector<char> held_before_, groups_before_, lived_;
 };
 
 Solution Run::solution() const {
@@ -87,20 +96,31 @@ void Run::start_states(const std::vector<InitialStress>& initials) {
   for (const Diagnostic& d : warnings.list()) tell([&](Observer& o) { o.on_warning(d); });
 }
 
-void Run::make_solver() {
+const SolverEntry* Run::choose_solver(int equations, bool symmetric) const {
   int code = settings_.solver >= 0 ? settings_.solver : model_.solver;
-  if (code == 0 && settings_.choose_solver)
-    code = settings_.choose_solver(assembly_.equations(), scene_.symmetric);
+  if (code == 0 && settings_.choose_solver) code = settings_.choose_solver(equations, symmetric);
   const SolverEntry* entry = catalogue_.solvers.find(code);
   if (entry == nullptr)
     throw AnalysisError("solver " + std::to_string(code) + " is unknown; " + catalogue_.solvers.known());
-  if (entry->symmetric && !scene_.symmetric)
+  if (entry->symmetric && !symmetric)
     throw AnalysisError("solver " + entry->name +
                         " is for symmetric matrices only; this scene has an unsymmetric law");
+  return entry;
+}
+
+void Run::make_solver() {
+  const SolverEntry* entry = choose_solver(assembly_.equations(), scene_.symmetric);
   solver_ = entry->make();
   solver_name_ = entry->name;
   stiffness_ = {};
   stiffness_.solver = solver_.get();
+}
+
+// A group that has lived before comes back without stress and history.
+void Run::place_groups(const Stage& stage) {
+  for (int g : stage.births)
+    if (lived_[static_cast<std::size_t>(g)]) assembly_.reset_group(static_cast<std::size_t>(g));
+  for (std::size_t g = 0; g < lived_.size(); ++g) lived_[g] = lived_[g] || activity_.group[g];
 }
 
 // What takes part, equations and numbering.  True if the pattern is that of the stage before.
@@ -108,8 +128,14 @@ bool Run::open_stage(int s) {
   const Stage& stage = model_.stages[static_cast<std::size_t>(s)];
   activity_.enter(model_, stage);
   rate_ = prescribed_rate(model_, stage);
+  place_groups(stage);
+  const bool condensed_before = assembly_.condensation() != nullptr;
   assembly_.enter_stage(activity_, rate_);
-  const bool same_pattern = solver_ && held_before_ == activity_.held && groups_before_ == activity_.group;
+  assembly_.condense(stage.increments, [&](int equations, bool symmetric) {
+    return choose_solver(equations, symmetric)->make();
+  });
+  const bool same_pattern = solver_ && !condensed_before && !assembly_.condensation() &&
+                            held_before_ == activity_.held && groups_before_ == activity_.group;
   if (!same_pattern) {
     make_solver();
     const Timer timer(result_.work.analyse_seconds);
@@ -118,7 +144,7 @@ bool Run::open_stage(int s) {
     held_before_ = activity_.held;
     groups_before_ = activity_.group;
   }
-  stiffness_.constant = scene_.linear && settings_.reuse_factors;
+  stiffness_.constant = scene_.linear && settings_.skips.factors;
   return same_pattern;
 }
 
@@ -127,21 +153,38 @@ bool Run::open_stage(int s) {
 void Run::prepare_stage(int s) {
   const bool same_pattern = open_stage(s);
   start_states(model_.stages[static_cast<std::size_t>(s)].initials);
+  assembly_.take_states();
   const bool keep_factors = same_pattern && stiffness_.constant && stiffness_.factorised && rate_.isZero(0.0);
   if (!keep_factors) stiffness_.assembled = stiffness_.factorised = false;
   du_.setZero();
+  linear_size_ = 0.0;
   if (assembly_.evaluate(du_, stiffness_.assembled ? nullptr : solver_.get()) == Outcome::cut_step)
     throw AnalysisError("stage " + std::to_string(s + 1) + ": a law cannot start from the state it is given");
   stiffness_.assembled = true;
-  assembly_.commit();
+  assembly_.commit(du_);
   force_start_ = assembly_.internal_force();
   force_end_ = external_force(model_, activity_, s);
   external_start_ = external_;
 }
 
+bool Run::contracts(const Stage& stage) const {
+  constexpr int kLarge = 20000;  // equations: a factorisation costs a dozen force passes and solutions
+  return settings_.skips.contraction && stage.method == Method::newton && !stiffness_.constant &&
+         assembly_.equations() > kLarge;
+}
+
+// After a step of the same size that was linear: one correction, and the very same K at its end.
+bool Run::can_repeat(const Stage& stage, double size) const {
+  const bool newton = stage.method == Method::newton || stage.method == Method::dogleg;
+  return settings_.skips.repeats && newton && !stiffness_.constant && linear_size_ > 0.0 &&
+         std::abs(size - linear_size_) < 1e-12;
+}
+
 NewtonStep Run::attempt(const Stage& stage, double from, double to) {
   target_ = (1.0 - to) * force_start_ + to * force_end_;
-  const NewtonSettings newton{stage.method, stage.max_iterations, stage.tolerance, settings_.line_search};
+  NewtonSettings newton{stage.method, stage.max_iterations, stage.tolerance, settings_.line_search};
+  newton.repeat = can_repeat(stage, to - from);
+  newton.contract = contracts(stage);
   return newton_step(assembly_, stiffness_, target_, rate_, to - from, newton, result_.work, du_);
 }
 
@@ -151,11 +194,11 @@ void Run::renew_tangent() {
   if (stiffness_.constant) return;
   assembly_.evaluate(du_, solver_.get());
   stiffness_.assembled = true;
-  stiffness_.factorised = false;
+  if (assembly_.matrix_changed()) stiffness_.factorised = false;
 }
 
 void Run::accept(double reached) {
-  assembly_.commit();
+  assembly_.commit(du_);
   u_ += du_;
   external_ = (1.0 - reached) * external_start_ + reached * force_end_;
 }
@@ -180,7 +223,9 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
     report.total_iterations += static_cast<int>(step.iterations.size());
     report.worst = step.worst;
     if (step.outcome == StepOutcome::converged) {
-      if (stage.method == Method::modified_newton) renew_tangent();
+      if (stage.method == Method::modified_newton || contracts(stage)) renew_tangent();
+      const bool linear = step.repeated || (step.iterations.size() == 1 && !assembly_.matrix_changed());
+      linear_size_ = linear ? to - reached : 0.0;
       accept(to);
       reached = to;
       report.load_factor = reached;
@@ -192,6 +237,7 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
     report.failed_at = to;  // beyond `reached`, which may have passed an earlier failure
     if (report.cuts >= settings_.max_cuts || stiffness_.constant) return fail(report, step);
     reject(stage);
+    linear_size_ = 0.0;
     ++report.cuts;
     size = 0.5 * (to - reached);
   }
@@ -212,6 +258,7 @@ bool Run::fail(StepReport& report, const NewtonStep& step) {
   }
   du_.setZero();
   assembly_.evaluate(du_, nullptr);
+  assembly_.recover_states();
   tell([&](Observer& o) { o.on_failure(model_, report, result_.reason, solution()); });
   return false;
 }
@@ -246,6 +293,18 @@ EquilibriumAudit Run::audit() const {
   return audit;
 }
 
+// Condensed ones too.
+int Run::all_equations() const {
+  return assembly_.equations() + (assembly_.condensation() ? assembly_.condensation()->condensed() : 0);
+}
+
+double Run::smallest_pivot() const {
+  const double own = solver_->report().smallest_pivot_ratio;
+  if (!assembly_.condensation()) return own;
+  const double inner = assembly_.condensation()->report().smallest_pivot_ratio;
+  return own < 0.0 || inner < 0.0 ? std::max(own, inner) : std::min(own, inner);
+}
+
 void Run::warn(const Stage& stage, const std::string& message) {
   const Diagnostic diagnostic{
       Severity::warning, stage.where, "stage " + std::to_string(stage.number) + ": " + message, {}};
@@ -259,7 +318,7 @@ void Run::warn_about_numbers(int s, const EquilibriumAudit& sums) {
   if (sums.out_of_balance > kPoorAudit)
     warn(stage, "loads and reactions of the whole model are out of balance by " +
                     short_number(sums.out_of_balance) + " of the largest force");
-  const double pivot = solver_->report().smallest_pivot_ratio;
+  const double pivot = smallest_pivot();
   if (pivot > 0.0 && pivot < kPoorPivot)
     warn(stage, "about " + std::to_string(static_cast<int>(-std::log10(pivot))) +
                     " of 16 digits are lost in the equations (smallest pivot " + short_number(pivot) +
@@ -284,18 +343,19 @@ void Run::exchange(Archive& archive, const Place& place) {
   archive(result_.work);
   if (within) {
     archive(du_);
+    archive(linear_size_);
     archive(external_start_);
     archive(force_start_);
     archive(force_end_);
   }
-  for (GroupData& data : assembly_.groups()) {
-    const bool before_step = within && data.active && !archive.reading();
-    PointStates& states = before_step ? data.state.trial : data.state.committed;
-    archive(states.sigma);
-    archive(states.eps);
-    archive(states.h);
-    archive(states.status);
-  }
+  assembly_.exchange(archive, within);
+}
+
+// Stress and strain of linear elements, if somebody will look at them.
+void Run::recover_for(const StepReport& report) {
+  if (std::any_of(observers_.begin(), observers_.end(),
+                  [&](const Observer* o) { return o->wants_states(model_, report); }))
+    assembly_.recover_states();
 }
 
 void Run::offer_checkpoint(Place place) {
@@ -313,7 +373,10 @@ Run::Place Run::resume() {
   Archive archive(settings_.resume_from);
   Place place;
   archive(place);
-  for (int s = 0; s < place.stage; ++s) activity_.enter(model_, model_.stages[static_cast<std::size_t>(s)]);
+  for (int s = 0; s < place.stage; ++s) {
+    activity_.enter(model_, model_.stages[static_cast<std::size_t>(s)]);
+    place_groups(model_.stages[static_cast<std::size_t>(s)]);
+  }
   if (place.increment > 0) open_stage(place.stage);
   exchange(archive, place);
   const WorkCounters work = result_.work;
@@ -321,9 +384,9 @@ Run::Place Run::resume() {
     if (assembly_.evaluate(du_, solver_.get()) == Outcome::cut_step)
       throw InputError({}, "the checkpoint does not belong to this model");
     stiffness_.assembled = true;
-    assembly_.commit();
+    assembly_.commit_again();
   }
-  tell([&](Observer& o) { o.on_start(model_, scene_, solver_name_, assembly_.equations()); });
+  tell([&](Observer& o) { o.on_start(model_, scene_, solver_name_, all_equations()); });
   for (Observer* observer : observers_) observer->exchange(archive);
   if (!archive.at_end()) throw InputError({}, "the checkpoint is longer than it should be");
   result_.work = work;
@@ -334,7 +397,7 @@ bool Run::run_stage(int s, int done) {
   const Stage& stage = model_.stages[static_cast<std::size_t>(s)];
   if (done == 0) {
     prepare_stage(s);
-    if (s == 0) tell([&](Observer& o) { o.on_start(model_, scene_, solver_name_, assembly_.equations()); });
+    if (s == 0) tell([&](Observer& o) { o.on_start(model_, scene_, solver_name_, all_equations()); });
     tell([&](Observer& o) { o.on_stage_start(model_, s, solution()); });
   }
   const bool whole_stages_only = stage.method == Method::initial_stiffness && !stiffness_.constant;
@@ -347,8 +410,9 @@ bool Run::run_stage(int s, int done) {
     report.load_factor = reached;
     if (!run_increment(stage, report, reached)) return false;
     report.points = assembly_.count_points();
-    report.smallest_pivot_ratio = solver_->report().smallest_pivot_ratio;
+    report.smallest_pivot_ratio = smallest_pivot();
     ++result_.increments_done;
+    recover_for(report);
     tell([&](Observer& o) { o.on_increment(model_, report, solution()); });
     if (i < stage.increments && !whole_stages_only) offer_checkpoint({s, i});
   }

@@ -15,7 +15,7 @@ struct RunSettings {
   std::function<int(int, bool)> choose_solver;
   int max_cuts = 12;  // halvings of an increment before giving up
   bool line_search = true;
-  bool reuse_factors = true;  // skip: keep the factors while the tangent has not changed
+  Skips skips;
 
   // Checkpoints: after an increment for which `checkpoint_due` says yes, `save_checkpoint` gets the bytes from
   // which `resume_from` continues to the same results, bit for bit.  With initial stiffness (whose tangent

@@ -1,5 +1,9 @@
 #include "sage/analysis/scene.hpp"
 
+#include <algorithm>
+
+#include "sage/analysis/congruent.hpp"
+
 namespace sage {
 
 namespace {
@@ -14,6 +18,7 @@ bool ask(const LawRef& law, Question question) {
 Scene analyse_scene(const Model& model) {
   Scene scene;
   scene.dofs = model.dofs();
+  std::vector<char> nonlinear(static_cast<std::size_t>(model.mesh.nodes()), 0);
   for (const Group& group : model.groups) {
     const LawRef law = model.material_of(group).law_ref();
     const bool linear = ask(law, [](const auto& l) { return l.linear(); });
@@ -23,13 +28,29 @@ Scene analyse_scene(const Model& model) {
     scene.symmetric = scene.symmetric && symmetric;
     scene.elements += group.elements();
     scene.points += group.elements() * group.element->traits().points;
+    std::vector<int>& shapes = scene.shapes.emplace_back();
+    if (linear) {
+      shapes = shapes_of(model.mesh, group, model.geometry);
+      scene.linear_elements += group.elements();
+      scene.linear_shapes += shapes.empty() ? 0 : *std::max_element(shapes.begin(), shapes.end()) + 1;
+    } else {
+      for (int node : group.nodes) nonlinear[static_cast<std::size_t>(node)] = 1;
+    }
   }
+  scene.nonlinear_dofs = 2 * static_cast<int>(std::count(nonlinear.begin(), nonlinear.end(), 1));
   return scene;
 }
 
 std::string describe(const Scene& scene) {
   std::string text = scene.linear ? "linear" : "nonlinear";
   text += scene.symmetric ? ", symmetric" : ", unsymmetric";
+  if (scene.linear_elements > 0 && !scene.linear)
+    text += "; " + std::to_string(scene.linear_elements) + " of " + std::to_string(scene.elements) +
+            " elements linear, " + std::to_string(scene.nonlinear_dofs) + " of " + std::to_string(scene.dofs) +
+            " dofs touch the others";
+  if (scene.linear_elements > 0 && scene.linear_shapes < scene.linear_elements)
+    text += "; " + std::to_string(scene.linear_elements) + " linear elements of " +
+            std::to_string(scene.linear_shapes) + (scene.linear_shapes == 1 ? " shape" : " shapes");
   return text;
 }
 

@@ -19,6 +19,7 @@ struct RunOptions {
   std::vector<std::string> decks;
   RunRequest request;
   std::string tables = "auto";
+  std::vector<std::string> without;
   bool quiet = false;
 };
 
@@ -34,6 +35,9 @@ int run_one(const RunOptions& options, const std::string& deck, const Catalogue&
   RunRequest request = options.request;
   request.deck = deck;
   request.output.tables = tables_of(options.tables);
+  for (const std::string& name : options.without)
+    for (const SkipName& skip : kSkipNames)
+      if (name == skip.name || name == "all") request.skips.*skip.flag = false;
   return guarded(deck, [&] {
     const RunOutcome outcome = run_deck(request, catalogue);
     if (outcome.record.stages.empty()) return outcome.exit_code;  // --strict stopped it
@@ -42,6 +46,18 @@ int run_one(const RunOptions& options, const std::string& deck, const Catalogue&
     if (outcome.exit_code != kOk) fmt::print(stderr, "{}: {}\n", deck, outcome.record.result.reason);
     return outcome.exit_code;
   });
+}
+
+std::vector<std::string> skip_list() {
+  std::vector<std::string> names{"all"};
+  for (const SkipName& skip : kSkipNames) names.emplace_back(skip.name);
+  return names;
+}
+
+std::string skip_names() {
+  std::string text;
+  for (const SkipName& skip : kSkipNames) text += (text.empty() ? "" : ", ") + std::string(skip.name);
+  return text;
 }
 
 // A message if no solver has this name.
@@ -91,6 +107,12 @@ Command run_command(CLI::App& root) {
         return field_from_name(name) ? std::string() : "unknown field " + name;
       });
   parser->add_flag("!--no-listing", request.output.listing, "write no listing");
+  parser
+      ->add_option(
+          "--without", options->without,
+          "switch off what the program leaves out where a scene does not need it: " + skip_names() + ", all")
+      ->delimiter(',')
+      ->check(CLI::IsMember(skip_list()));
   parser->add_flag("--restart", request.restart,
                    "go on from the checkpoint (STEM.restart) that a stopped run left in the output folder");
   parser->add_option("--checkpoint", request.checkpoint_seconds,

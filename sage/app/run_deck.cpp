@@ -82,6 +82,7 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
     return outcome;
   }
   RunSettings settings;
+  settings.skips = request.skips;
   settings.solver = solver_code(catalogue, request.solver);
   settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
   make_folder(request.output.folder);

@@ -28,6 +28,7 @@ struct RunRequest {
   OutputOptions output;
   std::string solver;                // a name of the catalogue; empty = the deck's choice
   bool quiet = false;                // no messages about the deck
+  Skips skips;                       // all are on
   bool restart = false;              // go on from STEM.restart, if there is one
   double checkpoint_seconds = 30.0;  // between checkpoints; 0 = after every increment, negative = none
 };

@@ -22,6 +22,9 @@ class Csv final : public Output {
   void on_increment(const Model&, const StepReport&, const Solution&) override;
   void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
   void on_finish(const Model&, const RunResult&) override;
+  bool wants_states(const Model& model, const StepReport& report) const override {
+    return points_.file.open() && is_output_increment(stage_of(model, report.stage), report);
+  }
   void exchange(Archive& archive) override;
   void stop(const std::string& reason) override;
   std::vector<std::filesystem::path> files() const override { return files_; }

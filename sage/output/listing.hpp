@@ -34,6 +34,11 @@ class Listing final : public Output {
   void on_stage_end(const Model&, int stage, const EquilibriumAudit&, const Solution&) override;
   void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
   void on_finish(const Model&, const RunResult&) override;
+  bool wants_states(const Model& model, const StepReport& report) const override {
+    const bool last = report.increment == report.increments;
+    return last ? tables_ != Tables::none
+                : tables_ == Tables::all && is_output_increment(stage_of(model, report.stage), report);
+  }
   void exchange(Archive& archive) override;
   void stop(const std::string& reason) override;
   std::vector<std::filesystem::path> files() const override;

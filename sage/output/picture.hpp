@@ -53,6 +53,9 @@ class Pictures final : public Output {
 
   void on_stage_end(const Model&, int stage, const EquilibriumAudit&, const Solution&) override;
   void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
+  bool wants_states(const Model&, const StepReport& report) const override {
+    return report.increment == report.increments;
+  }
   void exchange(Archive& archive) override;
   void stop(const std::string&) override {}
   std::vector<std::filesystem::path> files() const override { return files_; }

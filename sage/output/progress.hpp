@@ -23,6 +23,7 @@ class Progress final : public Observer {
     std::fflush(stderr);
     shown_ = true;
   }
+  bool wants_states(const Model&, const StepReport&) const override { return false; }
   void on_finish(const Model&, const RunResult&) override { clear(); }
 
  private:

@@ -65,6 +65,7 @@ class Reports final : public Output {
   void on_stage_start(const Model&, int stage, const Solution&) override;
   void on_increment(const Model&, const StepReport&, const Solution&) override;
   void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
+  bool wants_states(const Model&, const StepReport&) const override { return false; }
   void on_finish(const Model&, const RunResult&) override;
   void exchange(Archive& archive) override;
   void stop(const std::string& reason) override;

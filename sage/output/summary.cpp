@@ -101,6 +101,19 @@ void counts(std::string& text, const Model& model, const RunRecord& record) {
   fmt::format_to(to(text), "  points      {}\n", point_words(record.points));
 }
 
+// What was left out, in one line; nothing if nothing was.
+std::string skipped(const WorkCounters& w) {
+  std::string parts;
+  const auto add = [&](long count, const char* what) {
+    if (count > 0) parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", count, what);
+  };
+  add(w.condensed, "equations condensed");
+  add(w.linear_products, "elements by K u");
+  add(w.kept_factors, "solves with kept factors");
+  add(w.repeats, "increments repeated");
+  return parts.empty() ? "" : "  left out    " + parts + "\n";
+}
+
 void work_lines(std::string& text, const RunRecord& record) {
   const WorkCounters& w = record.result.work;
   fmt::format_to(to(text),
@@ -108,6 +121,7 @@ void work_lines(std::string& text, const RunRecord& record) {
                  "solves {:.3g} s\n",
                  w.assemblies, w.residuals, w.assembly_seconds, w.factorisations, w.factor_seconds, w.solves,
                  w.solve_seconds);
+  text += skipped(w);
   fmt::format_to(to(text), "              numbering {:.3g} s, output {:.3g} s", w.analyse_seconds,
                  w.output_seconds);
   text += record.seconds > 0.0 ? fmt::format(", whole run {:.3g} s\n", record.seconds) : "\n";

@@ -20,6 +20,7 @@ class RunRecord final : public Observer {
   void on_increment(const Model&, const StepReport&, const Solution&) override;
   void on_stage_end(const Model&, int stage, const EquilibriumAudit&, const Solution&) override;
   void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
+  bool wants_states(const Model&, const StepReport&) const override { return false; }
   void on_finish(const Model&, const RunResult&) override;
   void exchange(Archive& archive) override;
 

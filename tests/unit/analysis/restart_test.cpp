@@ -39,6 +39,7 @@ void expect_same_from_every_checkpoint(const std::string& deck, std::size_t chec
   for (const std::string& state : first.checkpoints) {
     RunSettings settings;
     settings.resume_from = state;
+    SCOPED_TRACE("checkpoint " + std::to_string(&state - first.checkpoints.data()));
     expect_same_end(run_text(deck, {}, settings), first.whole);
   }
 }

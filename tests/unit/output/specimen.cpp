@@ -85,14 +85,14 @@ Specimen::Specimen(Geometry geometry, bool interface) : with_interface(interface
     stage.fixities.push_back({node, {FixityCode::fixed, FixityCode::fixed}, {0, 0}, 0});
   model.stages.push_back(stage);
   scene = analyse_scene(model);
-  assembly = std::make_unique<Assembly>(model, scene, work);
+  assembly = std::make_unique<Assembly>(model, scene, Skips{}, work);
   activity = std::make_unique<Activity>(model);
   activity->enter(model, model.stages[0]);
   assembly->enter_stage(*activity, Eigen::VectorXd::Zero(model.dofs()));
   u.setZero(model.dofs());
   external.setZero(model.dofs());
   if (assembly->evaluate(u, nullptr) != Outcome::ok) throw std::logic_error("specimen");
-  assembly->commit();
+  assembly->commit(u);
 }
 
 void Specimen::compress(double e) {
@@ -111,7 +111,8 @@ void Specimen::compress(double e) {
     }
   const Eigen::VectorXd du = next - u;
   if (assembly->evaluate(du, nullptr) != Outcome::ok) throw std::logic_error("specimen");
-  assembly->commit();
+  assembly->commit(du);
+  assembly->recover_states();
   u = next;
 }
 

@@ -153,7 +153,7 @@ TEST_F(VtuReadBack, KnowsEveryShape) {
     model.groups.push_back(group);
     const Scene scene = analyse_scene(model);
     WorkCounters work;
-    Assembly assembly(model, scene, work);
+    Assembly assembly(model, scene, Skips{}, work);
     const Activity activity(model);
     const Eigen::VectorXd u = Eigen::VectorXd::LinSpaced(model.dofs(), 0.0, 1.0);
     assembly.enter_stage(activity, Eigen::VectorXd::Zero(model.dofs()));

@@ -1,0 +1,123 @@
+#include "sage/analysis/condensation.hpp"
+
+namespace sage {
+
+namespace {
+
+bool symmetric(const LawRef& law) {
+  return std::visit([](const auto* l) { return l->symmetric(); }, law);
+}
+
+}  // namespace
+
+Condensation::Condensation(const std::vector<GroupData>& groups, const std::vector<int>& dofs,
+                           const std::vector<char>& keep, const SolverMaker& make)
+    : groups_(&groups) {
+  std::vector<int> equation(keep.size(), -1);
+  for (int dof : dofs) {
+    if (keep[static_cast<std::size_t>(dof)]) {
+      kept_.push_back(dof);
+    } else {
+      equation[static_cast<std::size_t>(dof)] = condensed();
+      condensed_.push_back(dof);
+    }
+  }
+  ElementEquations elements;
+  bool all_symmetric = true;
+  for (const GroupData& data : groups) {
+    if (!data.active || !data.constant) continue;
+    all_symmetric = all_symmetric && symmetric(data.law);
+    for (int e = 0; e < data.group->elements(); ++e) {
+      const int* nodes = data.group->nodes_of(e);
+      for (std::size_t i = 0; i < data.group->node_count(); ++i)
+        for (int c = 0; c < 2; ++c)
+          elements.equations.push_back(equation[static_cast<std::size_t>(2 * nodes[i] + c)]);
+      elements.offset.push_back(static_cast<std::int64_t>(elements.equations.size()));
+    }
+  }
+  solver_ = make(condensed(), all_symmetric);
+  solver_->analyse(condensed(), elements);
+  solver_->clear();
+  int element = 0;
+  for (const GroupData& data : groups) {
+    if (!data.active || !data.constant) continue;
+    for (int e = 0; e < data.group->elements(); ++e) solver_->add(element++, data.matrix_of(e));
+  }
+  solver_->factorise();
+
+  const auto n = static_cast<Eigen::Index>(kept_.size());
+  const auto all = static_cast<Eigen::Index>(keep.size());
+  rhs_.resize(condensed());
+  load_.setZero(condensed());
+  g_.setZero(n);
+  kept_du_.resize(n);
+  kept_f_.resize(n);
+  work_x_.setZero(all);
+  work_y_.setZero(all);
+  S_.resize(n, n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    work_x_.setZero();
+    work_x_[kept_[static_cast<std::size_t>(j)]] = 1.0;
+    solve_condensed(work_x_);
+    multiply(work_x_, work_y_);
+    for (Eigen::Index i = 0; i < n; ++i) S_(i, j) = work_y_[kept_[static_cast<std::size_t>(i)]];
+  }
+}
+
+void Condensation::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+  y.setZero();
+  for (const GroupData& data : *groups_) {
+    if (!data.active || !data.constant) continue;
+    const std::size_t nodes = data.group->node_count(), dofs = 2 * nodes;
+    for (int e = 0; e < data.group->elements(); ++e) {
+      const int* node = data.group->nodes_of(e);
+      const double* K = data.matrix_of(e);
+      for (std::size_t j = 0; j < dofs; ++j) {
+        const double xj = x[2 * node[j / 2] + static_cast<int>(j % 2)];
+        if (xj == 0.0) continue;
+        for (std::size_t i = 0; i < nodes; ++i) {
+          y[2 * node[i]] += K[j * dofs + 2 * i] * xj;
+          y[2 * node[i] + 1] += K[j * dofs + 2 * i + 1] * xj;
+        }
+      }
+    }
+  }
+}
+
+// x: kept and prescribed dofs given, condensed ones 0 on entry and filled in.
+void Condensation::solve_condensed(Eigen::VectorXd& x) {
+  multiply(x, work_y_);
+  for (Eigen::Index i = 0; i < rhs_.size(); ++i)
+    rhs_[i] = load_[i] - work_y_[condensed_[static_cast<std::size_t>(i)]];
+  const auto n = static_cast<std::size_t>(condensed());
+  solver_->solve({rhs_.data(), n}, {rhs_.data(), n});
+  for (Eigen::Index i = 0; i < rhs_.size(); ++i) x[condensed_[static_cast<std::size_t>(i)]] = rhs_[i];
+}
+
+void Condensation::begin_step(const Eigen::VectorXd& target, const Eigen::VectorXd& prescribed,
+                              const Eigen::VectorXd& f0) {
+  for (Eigen::Index i = 0; i < load_.size(); ++i) {
+    const int dof = condensed_[static_cast<std::size_t>(i)];
+    load_[i] = target[dof] - f0[dof];
+  }
+  work_x_ = prescribed;
+  solve_condensed(work_x_);
+  multiply(work_x_, work_y_);
+  for (Eigen::Index i = 0; i < g_.size(); ++i) {
+    const int dof = kept_[static_cast<std::size_t>(i)];
+    g_[i] = f0[dof] + work_y_[dof];
+  }
+}
+
+void Condensation::add_forces(const Eigen::VectorXd& du, Eigen::VectorXd& f) const {
+  for (Eigen::Index i = 0; i < g_.size(); ++i) kept_du_[i] = du[kept_[static_cast<std::size_t>(i)]];
+  kept_f_.noalias() = S_ * kept_du_;
+  for (Eigen::Index i = 0; i < g_.size(); ++i) f[kept_[static_cast<std::size_t>(i)]] += g_[i] + kept_f_[i];
+}
+
+void Condensation::complete(Eigen::VectorXd& du) {
+  for (int dof : condensed_) du[dof] = 0.0;
+  solve_condensed(du);
+}
+
+}  // namespace sage

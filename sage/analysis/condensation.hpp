@@ -1,0 +1,57 @@
+// Static condensation: free dofs that belong to constant (linear) elements only are eliminated once for all;
+// the iterations see the others, the kept ones, and one dense matrix that stands for the whole linear region.
+//
+// With l = condensed, n = kept, p = prescribed dofs of the linear region, f0 its internal forces at the start
+// of a step and F the loads at its end:
+//   K_ll du_l = F_l - f0_l - K_ln du_n - K_lp du_p
+//   f_n = g + S du_n,   S = K_nn - K_nl K_ll^-1 K_ln,   g = f0_n + K_np du_p + K_nl K_ll^-1 (F_l - f0_l - K_lp
+//   du_p)
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "sage/analysis/group_data.hpp"
+#include "sage/core/linear_solver.hpp"
+
+namespace sage {
+
+// Makes a solver for so many equations; symmetric: the matrix is.
+using SolverMaker = std::function<std::unique_ptr<LinearSolver>(int equations, bool symmetric)>;
+
+class Condensation {
+ public:
+  // dofs: all free ones.  keep: a flag a dof, for those that belong to other elements too.  Throws
+  // SingularMatrix.
+  Condensation(const std::vector<GroupData>& groups, const std::vector<int>& dofs,
+               const std::vector<char>& keep, const SolverMaker& make);
+
+  const std::vector<int>& kept() const { return kept_; }  // dofs
+  int condensed() const { return static_cast<int>(condensed_.size()); }
+  const Eigen::MatrixXd& S() const { return S_; }
+  FactorReport report() const { return solver_->report(); }
+
+  // target: loads at the end of the step; prescribed: its displacement of every prescribed dof (others 0); f0:
+  // internal forces of the linear region.  One entry a dof.
+  void begin_step(const Eigen::VectorXd& target, const Eigen::VectorXd& prescribed, const Eigen::VectorXd& f0);
+  // f += forces of the linear region on the kept dofs.
+  void add_forces(const Eigen::VectorXd& du, Eigen::VectorXd& f) const;
+  // Fills in du of the condensed dofs.
+  void complete(Eigen::VectorXd& du);
+
+ private:
+  void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;  // y = K x of the linear region
+  void solve_condensed(Eigen::VectorXd& x);                           // K_ll x_l = rhs_
+
+  const std::vector<GroupData>* groups_;
+  std::vector<int> kept_, condensed_;
+  std::unique_ptr<LinearSolver> solver_;
+  Eigen::MatrixXd S_;
+  Eigen::VectorXd g_;     // a kept dof each
+  Eigen::VectorXd load_;  // F_l - f0_l, a condensed dof each
+  Eigen::VectorXd rhs_, work_x_, work_y_;
+  mutable Eigen::VectorXd kept_du_, kept_f_;
+};
+
+}  // namespace sage

@@ -1,0 +1,33 @@
+// A group's points and what is kept of its elements between passes.
+#pragma once
+
+#include <vector>
+
+#include "sage/core/state_store.hpp"
+#include "sage/model/model.hpp"
+
+namespace sage {
+
+struct GroupData {
+  const Group* group = nullptr;
+  LawRef law;
+  bool active = false;
+  bool linear = false;
+  bool constant = false;  // linear, and its matrices and forces are kept: iterations call no law
+  StateStore state;
+  std::vector<double> geometry;  // w and B of all elements; empty = made anew in each pass
+  int first_element = 0;         // in the solver's element order, while it is part of the system
+  std::vector<double> K;         // kept element matrices, column-major
+  std::vector<double>
+      shift;  // constant: forces of a unit displacement of the whole element along x, one a matrix
+  std::vector<int> matrix;  // of each element: its place in K, counted in matrices; empty = none are kept
+  std::vector<double> force,
+      trial_force;  // constant: internal force of each element at the committed state, and tried
+
+  std::size_t dofs() const { return static_cast<std::size_t>(group->element->traits().dofs); }
+  const double* matrix_of(int element) const {
+    return K.data() + static_cast<std::size_t>(matrix[static_cast<std::size_t>(element)]) * dofs() * dofs();
+  }
+};
+
+}  // namespace sage

@@ -1,0 +1,34 @@
+// What a run leaves out because the scene does not need it.  Every skip can be switched off; the results with
+// and without it then differ by rounding only.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace sage {
+
+struct Skips {
+  bool factors = true;       // factors are kept while K has not changed
+  bool elements = true;      // linear elements: K once, one for congruent elements; forces by K u
+  bool states = true;        // linear elements: stress and strain only where an output asks for them
+  bool condensation = true;  // a large linear region leaves the iterations: only its border stays
+  bool repeats = true;       // after an increment that was linear to the last digit, the next is its repetition
+  bool contraction = true;   // large systems: Newton keeps its factors while they contract well
+};
+
+struct SkipName {
+  std::string_view name;
+  bool Skips::*flag;
+  std::string_view what;
+};
+
+inline constexpr std::array<SkipName, 6> kSkipNames{{
+    {"factors", &Skips::factors, "factors are kept while K has not changed"},
+    {"elements", &Skips::elements, "linear elements: K once, one for congruent elements; forces by K u"},
+    {"states", &Skips::states, "linear elements: stress only where an output asks"},
+    {"condensation", &Skips::condensation, "a large linear region leaves the iterations"},
+    {"repeats", &Skips::repeats, "an increment like the linear one before it"},
+    {"contraction", &Skips::contraction, "large systems: factors kept while Newton contracts well"},
+}};
+
+}  // namespace sage

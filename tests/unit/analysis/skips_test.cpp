@@ -1,0 +1,141 @@
+// What a run leaves out must not change what comes out: each skip off, and all off, against all on.
+#include <gtest/gtest.h>
+
+#include "tests/support/run_text.hpp"
+
+namespace sage::test {
+namespace {
+
+// An elastic specimen on a hyperbolic interface: a large linear region.  Increments are many enough to condense
+// it.
+std::string friction() {
+  SpecimenDeck deck;
+  deck.columns = 8;
+  deck.rows = 16;
+  deck.increments = 10;
+  return deck.text();
+}
+
+std::string plastic() {
+  SpecimenDeck deck;
+  deck.columns = 5;
+  deck.rows = 8;
+  deck.increments = 10;
+  deck.axial_strain = 0.06;
+  deck.drucker_prager = true;
+  return deck.text();
+}
+
+// Ground that is filled and dug, elastic or strong enough to stay so for a while; K0 stress at the start.
+std::string staged(int law, double cohesion) {
+  DeckWriter deck(1);
+  Block ground{8, 4, Cell::quad8, 1, 1, rectangle(0.0, 8.0, -4.0, 0.0)};
+  ground.write_nodes(deck);
+  for (int n : ground.left()) deck.fix(n, 1, 0);
+  for (int n : ground.right()) deck.fix(n, 1, 0);
+  for (int n : ground.bottom()) deck.fix(n, 1, 1);
+  deck.material(1, law,
+                law == 1 ? std::vector<double>{1e4, 0.3} : std::vector<double>{1e4, 0.3, cohesion, 30.0, 0.0},
+                20.0);
+  for (int g : {1, 2}) deck.group(g, 2, 0, 1);
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 8; ++i) {
+      const auto n = [&](int a, int b) { return ground.node(2 * i + a, 2 * j + b); };
+      deck.element(ground.element(i, j), j >= 2 && i < 3 ? 2 : 1,
+                   {n(0, 0), n(2, 0), n(2, 2), n(0, 2), n(1, 0), n(2, 1), n(1, 2), n(0, 1)});
+    }
+  for (int g : {1, 2}) deck.initial(g, 1, 0.0, 20.0, 0.5, 0.0);
+  deck.stage(1).gravity_y = -1.0;
+  deck.stage(4).deaths = {2};
+  StageCards& load = deck.stage(4);
+  load.pressure(ground.element(6, 3), 3, 30.0, 30.0);
+  load.pressure(ground.element(7, 3), 3, 30.0, 30.0);
+  return deck.text();
+}
+
+struct SkipCase {
+  const char* name;
+  std::string deck;
+};
+
+class Skipping : public testing::TestWithParam<SkipCase> {};
+
+// Newton's residual is 1e-8 of the forces at most and quadratic convergence leaves far less; without the skips
+// the sums are taken in another order.
+void expect_same(const WholeRun& a, const WholeRun& b, double tolerance) {
+  ASSERT_TRUE(a.completed()) << a.failure;
+  ASSERT_EQ(a.increments.size(), b.increments.size());
+  const auto close = [&](const Eigen::MatrixXd& x, const Eigen::MatrixXd& y) {
+    return (x - y).cwiseAbs().maxCoeff() <= tolerance * y.cwiseAbs().maxCoeff();
+  };
+  for (std::size_t i = 0; i < a.increments.size(); ++i) {
+    EXPECT_TRUE(close(a.increments[i].u, b.increments[i].u)) << "increment " << i;
+    EXPECT_TRUE(close(a.increments[i].internal, b.increments[i].internal)) << "increment " << i;
+  }
+  for (std::size_t g = 0; g < a.stress.size(); ++g)
+    EXPECT_TRUE(close(a.stress[g], b.stress[g])) << "group " << g;
+}
+
+TEST_P(Skipping, EachSkipLeavesTheResult) {
+  const WholeRun all_on = run_text(GetParam().deck);
+  ASSERT_TRUE(all_on.completed()) << all_on.failure;
+  RunSettings none;
+  for (const SkipName& skip : kSkipNames) {
+    SCOPED_TRACE(std::string(skip.name));
+    RunSettings settings;
+    settings.skips.*skip.flag = false;
+    none.skips.*skip.flag = false;
+    expect_same(run_text(GetParam().deck, {}, settings), all_on, 1e-10);
+  }
+  SCOPED_TRACE("all");
+  expect_same(run_text(GetParam().deck, {}, none), all_on, 1e-10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Skipping,
+                         testing::Values(SkipCase{"Friction", friction()}, SkipCase{"Plastic", plastic()},
+                                         SkipCase{"StagedElastic", staged(1, 0.0)},
+                                         SkipCase{"StagedPlastic", staged(4, 5.0)},
+                                         SkipCase{"StagedStrong", staged(4, 500.0)}),
+                         [](const auto& one) { return std::string(one.param.name); });
+
+// Each skip does something where it should: counters, not clocks.
+TEST(Skips, AreTaken) {
+  const WorkCounters friction_work = run_text(friction()).result.work;
+  EXPECT_GT(friction_work.condensed, 200);
+  EXPECT_GT(friction_work.linear_products, 0);
+  const WorkCounters elastic = run_text(staged(1, 0.0)).result.work;
+  EXPECT_GT(elastic.kept_factors, 0);
+  const WorkCounters strong = run_text(staged(4, 500.0)).result.work;
+  EXPECT_GT(strong.repeats, 2);
+  EXPECT_LE(strong.factorisations, 3);
+}
+
+TEST(Skips, OffMeansOff) {
+  RunSettings none;
+  for (const SkipName& skip : kSkipNames) none.skips.*skip.flag = false;
+  const WorkCounters friction_work = run_text(friction(), {}, none).result.work;
+  EXPECT_EQ(friction_work.condensed, 0);
+  EXPECT_EQ(friction_work.linear_products, 0);
+  const WorkCounters strong = run_text(staged(4, 500.0), {}, none).result.work;
+  EXPECT_EQ(strong.repeats, 0);
+  EXPECT_EQ(strong.kept_factors, 0);
+}
+
+// Congruent elements: 8 x 4 cells of one size have one matrix; in a ring one for each column.
+TEST(Skips, CongruentElementsShareAMatrix) {
+  for (int geometry : {1, 2}) {
+    DeckWriter deck(geometry);
+    Block block{8, 4, Cell::quad4, 1, 1, rectangle(0.0, 4.0, 0.0, 1.0)};
+    block.write_nodes(deck);
+    block.write_elements(deck, 1);
+    deck.material(1, 1, {1e4, 0.3});
+    deck.group(1, 1, 0, 1);
+    for (int n : block.bottom()) deck.fix(n, 1, 1);
+    deck.stage(1).load(block.top().back(), 0.0, -1.0);
+    const WholeRun run = run_text(deck.text());
+    EXPECT_EQ(analyse_scene(*run.model).linear_shapes, geometry == 1 ? 1 : 8);
+  }
+}
+
+}  // namespace
+}  // namespace sage::test
