@@ -1,5 +1,5 @@
-// Integration of d sigma = D(sigma) d eps with hyperbolic moduli: equal substeps of the modified Euler (Heun)
-// method, as many as its error estimate asks for (Sloan 1987), with the exact derivative of what was computed.
+// Integration of d sigma = D(sigma) d eps with hyperbolic moduli: substeps of the modified Euler (Heun)
+// method, as long as its error estimate allows (Sloan 1987), with the exact derivative of what was computed.
 // An optional Mohr-Coulomb surface bounds the stress.  docs/theory/hyperbolic.md
 #pragma once
 
