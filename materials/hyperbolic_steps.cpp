@@ -193,6 +193,22 @@ MohrCoulombPlanes tangent_planes(const HyperbolicSteps& steps, double sigma_3) {
   return {N, at + q_f.v - N * at, steps.M, steps.T};
 }
 
+double path_error(const HyperbolicSteps& steps, const PointIn<4>& in, const Vector4& sigma, double memory0,
+                  double memory1) {
+  const auto moduli = [&](const Vector4& at, double memory) {
+    const Extremes s = extremes(at, steps.in_plane);
+    const HyperbolicModuli law = hyperbolic_moduli(steps.moduli, s.sigma_1, s.sigma_3, memory);
+    const bool flows = steps.bounded && !inside(steps, {at, Matrix4::Zero()});
+    return ElasticModuli{law.K.v, flows ? 0.0 : law.G.v};
+  };
+  const ElasticModuli start = moduli(in.sigma0, memory0), end = moduli(sigma, memory1);
+  const double lag_K = 0.25 * (end.K - start.K) / (end.K + start.K);
+  const double lag_G = start.G + end.G > 0.0 ? 0.25 * (end.G - start.G) / (end.G + start.G) : 0.0;
+  const double lag = std::max(std::abs(lag_K), std::abs(lag_G));
+  const double size = std::max(sigma.norm(), steps.moduli.floor * steps.moduli.p_a);
+  return 3.0 * lag * lag * (sigma - in.sigma0).norm() / size;
+}
+
 // The lengths of the substeps are continuous functions of deps, and so is the stress: the last substep is what
 // remains, and comes into being with length zero.
 HyperbolicAnswer integrate(const HyperbolicSteps& steps, const Vector4& sigma0, const Vector4& deps,

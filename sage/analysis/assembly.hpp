@@ -38,6 +38,8 @@ class Assembly {
   // Internal forces at committed state + du.  With a solver, K too: added to it, and its product with the
   // prescribed displacements' rate kept (coupling()).
   Outcome evaluate(const Eigen::VectorXd& du, LinearSolver* solver);
+  // Law::path_error of the trial states, the mean over all points by the work of their stress increments.
+  double path_error() const;
   // Trial states become committed.
   void commit();
 
