@@ -41,7 +41,7 @@ class Solid final : public PointElement<4, 2 * Shape::nodes, Rule::points> {
   using Coordinates = Eigen::Matrix<double, 2, Shape::nodes>;
 
  public:
-  Solid(std::string_view name, bool reduced, bool locks)
+  Solid(std::string_view name, bool reduced, bool locks, bool loses_order)
       : PointElement<4, kDofs, Rule::points>({.name = name,
                                               .geometry = Kinematics::geometry,
                                               .nodes = Shape::nodes,
@@ -49,7 +49,8 @@ class Solid final : public PointElement<4, 2 * Shape::nodes, Rule::points> {
                                               .points = Rule::points,
                                               .law_size = 4,
                                               .reduced = reduced,
-                                              .locks = locks}) {
+                                              .locks = locks,
+                                              .loses_order = loses_order}) {
     std::vector<ParentPoint> at;
     for (std::size_t p = 0; p < Rule::points; ++p) {
       const RulePoint& q = Rule::table[p];

@@ -24,6 +24,9 @@ class DuncanChang final : public SolidLaw {
   // False above the strength.
   bool initialise(const Vector4& sigma, std::span<double> h) const override;
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override;
+  double path_error(const PointIn<4>& in, const Vector4& sigma, std::span<const double> h) const override {
+    return sage::path_error(steps_, in, sigma, in.h0[kMemory], h[kMemory]);
+  }
   double stress_level(const Vector4& sigma, std::span<const double> h) const override;
 
  private:

@@ -17,6 +17,9 @@ class HyperbolicMohrCoulomb final : public SolidLaw {
   std::span<const Quantity> history() const override { return kHistory; }
   bool initialise(const Vector4& sigma, std::span<double> h) const override;
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override;
+  double path_error(const PointIn<4>& in, const Vector4& sigma, std::span<const double> h) const override {
+    return sage::path_error(steps_, in, sigma, in.h0[kMemory], h[kMemory]);
+  }
   // (sigma_1 - sigma_3) / (sigma_1 - sigma_3)_f
   double stress_level(const Vector4& sigma, std::span<const double> h) const override;
 

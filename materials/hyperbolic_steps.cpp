@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "materials/dual.hpp"
 #include "materials/stress_measures.hpp"
 
 namespace sage {
@@ -10,6 +11,10 @@ namespace sage {
 namespace {
 
 constexpr int kMostSubsteps = 300;
+constexpr int kMostTrials = 6;       // lengths tried for one substep
+constexpr double kWorstError = 4.0;  // of a substep that the trials could not bring to its tolerance
+constexpr int kCrossingIterations = 30;
+constexpr double kOnSurface = 1e-9;  // relative distance to the envelope
 constexpr int kEnvelopeIterations = 25;
 constexpr double kEnvelopeTolerance = 1e-11;
 
@@ -60,7 +65,6 @@ Memory remember(const HyperbolicSteps& steps, const Memory& memory, const Point&
 // on its tangent planes, and the last plane makes the derivative exact.
 MohrCoulombReturn bounded(const HyperbolicSteps& steps, const ElasticModuli& moduli, const Vector4& trial) {
   MohrCoulombReturn back{trial, Matrix4::Identity(), PointStatus::elastic};
-  if (!steps.bounded) return back;
   for (int i = 0; i < kEnvelopeIterations; ++i) {
     const double sigma_3 = extremes(back.sigma, false).sigma_3;
     const MohrCoulombPlanes planes = tangent_planes(steps, sigma_3);
@@ -73,17 +77,23 @@ MohrCoulombReturn bounded(const HyperbolicSteps& steps, const ElasticModuli& mod
   return back;
 }
 
+// Share of deps in a substep, and its derivative with respect to deps.
+using Share = Dual<4>;
+
 // One substep d = share * deps with given moduli: trial, return, and the derivative of both.
 //   sigma_tr = sigma + D d,  sigma = sigma_tr - D eps_p,  d sigma = R (d sigma_tr - dD eps_p)
-Point move(const HyperbolicSteps& steps, const Point& from, const Stiffness& k, const Vector4& d,
-           double share) {
+Point move(const HyperbolicSteps& steps, const Point& from, const Stiffness& k, const Vector4& deps,
+           const Share& share, bool within_surface) {
   const Matrix4 D = elastic_matrix(k.moduli);
-  const Vector4 trial = from.sigma + D * d;
+  const Vector4 d = share.v * deps, along = D * deps;
+  const Vector4 trial = from.sigma + share.v * along;
   const Vector4 one = unit_tensor();
   const double volume = one.dot(d);
   const Vector4 shear = 2.0 * (deviatoric_projection() * d);
-  Matrix4 J = from.J + share * D + volume * one * k.dK.transpose() + shear * k.dG.transpose();
+  Matrix4 J = from.J + share.v * D + along * share.d.transpose() + volume * one * k.dK.transpose() +
+              shear * k.dG.transpose();
 
+  if (!within_surface) return {trial, J, PointStatus::elastic};
   const MohrCoulombReturn back = bounded(steps, k.moduli, trial);
   if (back.status == PointStatus::elastic) return {trial, J, back.status};
   const Vector4 removed = trial - back.sigma;
@@ -92,35 +102,76 @@ Point move(const HyperbolicSteps& steps, const Point& from, const Stiffness& k, 
   return {back.sigma, back.R * J, back.status};
 }
 
-struct Run {
-  HyperbolicAnswer answer;
-  double error;  // largest estimate of a substep, relative
+struct Heun {
+  Point end;
+  ElasticModuli moduli;
+  bool unloading;
+  Share error;  // of its Euler half, before the return, in tolerances
 };
 
-Run run(const HyperbolicSteps& steps, const Vector4& sigma0, const Vector4& deps, double memory0,
-        int substeps) {
-  const double share = 1.0 / substeps;
-  const Vector4 d = share * deps;
-  const double smallest_stress = steps.moduli.floor * steps.moduli.p_a;
-  Point at{sigma0, Matrix4::Zero()};
-  Memory memory{memory0, Vector4::Zero()};
-  Matrix4 D = Matrix4::Zero();
-  bool unloading = false;
-  double error = 0.0;
-  for (int i = 0; i < substeps; ++i) {
-    const Stiffness start = stiffness(steps, at, memory);
-    const Point euler = move(steps, at, start, d, share);
-    const Stiffness both = mean(start, stiffness(steps, euler, memory));
-    at = move(steps, at, both, d, share);  // Heun
-    error = std::max(error, (at.sigma - euler.sigma).norm() / std::max(at.sigma.norm(), smallest_stress));
-    memory = remember(steps, memory, at);
-    unloading = both.unloading;
-    D += share * elastic_matrix(both.moduli);
+// |a| and its derivative.
+Share length(const Vector4& a, const Matrix4& da) {
+  const double norm = a.norm();
+  if (!(norm > 0.0)) return norm;
+  return {norm, da.transpose() * a / norm};
+}
+
+// The error is taken before the return: two stresses far apart may return to the same point, the apex say.
+Heun heun(const HyperbolicSteps& steps, const Point& from, const Stiffness& start, const Memory& memory,
+          const Vector4& deps, const Share& share, bool within_surface) {
+  const Point euler = move(steps, from, start, deps, share, within_surface);
+  const Stiffness both = mean(start, stiffness(steps, euler, memory));
+  const Point end = move(steps, from, both, deps, share, within_surface);
+  const Vector4 one = unit_tensor(), volume = one.dot(deps) * one,
+                shear = 2.0 * (deviatoric_projection() * deps);
+  const Vector4 change = (both.moduli.K - start.moduli.K) * volume + (both.moduli.G - start.moduli.G) * shear;
+  const Matrix4 d_change = volume * (both.dK - start.dK).transpose() +
+                           shear * (both.dG - start.dG).transpose() +
+                           elastic_matrix({both.moduli.K - start.moduli.K, both.moduli.G - start.moduli.G});
+  const Share size = max(length(end.sigma, end.J), Share(steps.moduli.floor * steps.moduli.p_a));
+  return {end, both.moduli, both.unloading, share * length(change, d_change) / (steps.tolerance * size)};
+}
+
+// sigma_1 - sigma_3 beyond the envelope.
+Share excess(const HyperbolicSteps& steps, const Point& at) {
+  const Extremes s = extremes(at.sigma, false);
+  const MohrCoulombPlanes planes = tangent_planes(steps, s.sigma_3);
+  return {s.sigma_1 - planes.N * s.sigma_3 - planes.Y,
+          at.J.transpose() * (s.gradient_1 - planes.N * s.gradient_3)};
+}
+
+bool inside(const HyperbolicSteps& steps, const Point& at) {
+  const Extremes s = extremes(at.sigma, false);
+  return excess(steps, at).v < -kOnSurface * (std::abs(s.sigma_1) + steps.moduli.floor * steps.moduli.p_a);
+}
+
+// The part of a substep that ends on the envelope: regula falsi (Illinois) between its two ends.  [Sloan 1987]
+template <class Excess>
+Share crossing(const Excess& beyond, double share, double at_start, double at_end) {
+  double a = 0.0, fa = at_start, b = share, fb = at_end, x = share;
+  const double close = kOnSurface * std::abs(at_end - at_start);
+  for (int i = 0; i < kCrossingIterations; ++i) {
+    x = (a * fb - b * fa) / (fb - fa);
+    const double f = beyond(x).v;
+    if (std::abs(f) <= 1e-3 * close) break;
+    if (f * fb < 0.0) {
+      a = b;
+      fa = fb;
+    } else {
+      fa *= 0.5;
+    }
+    b = x;
+    fb = f;
   }
-  if (at.status == PointStatus::elastic && extremes(at.sigma, steps.in_plane).sigma_3 < 0.0)
-    at.status = PointStatus::apex;
-  if (at.status == PointStatus::elastic && unloading) at.status = PointStatus::unloading;
-  return {{at.sigma, at.J, D, memory.value, at.status, true}, error};
+  const double h = 1e-5 * x;
+  const double slope = (beyond(x + h).v - beyond(x - h).v) / (2.0 * h);
+  return {x, -beyond(x).d / slope};
+}
+
+// Factor on the length of a substep with this error.  1 at the tolerance and continuous, since the stress must
+// not jump when deps changes a little: Newton on a mesh would not settle there.
+Share shortened(const Share& error) {
+  return 1.0 / (sqrt(error) * (0.75 + 0.25 * min(error, Share(2.0))));
 }
 
 }  // namespace
@@ -142,20 +193,66 @@ MohrCoulombPlanes tangent_planes(const HyperbolicSteps& steps, double sigma_3) {
   return {N, at + q_f.v - N * at, steps.M, steps.T};
 }
 
+double path_error(const HyperbolicSteps& steps, const PointIn<4>& in, const Vector4& sigma, double memory0,
+                  double memory1) {
+  const auto moduli = [&](const Vector4& at, double memory) {
+    const Extremes s = extremes(at, steps.in_plane);
+    const HyperbolicModuli law = hyperbolic_moduli(steps.moduli, s.sigma_1, s.sigma_3, memory);
+    const bool flows = steps.bounded && !inside(steps, {at, Matrix4::Zero()});
+    return ElasticModuli{law.K.v, flows ? 0.0 : law.G.v};
+  };
+  const ElasticModuli start = moduli(in.sigma0, memory0), end = moduli(sigma, memory1);
+  const double lag_K = 0.25 * (end.K - start.K) / (end.K + start.K);
+  const double lag_G = start.G + end.G > 0.0 ? 0.25 * (end.G - start.G) / (end.G + start.G) : 0.0;
+  const double lag = std::max(std::abs(lag_K), std::abs(lag_G));
+  const double size = std::max(sigma.norm(), steps.moduli.floor * steps.moduli.p_a);
+  return 3.0 * lag * lag * (sigma - in.sigma0).norm() / size;
+}
+
+// The lengths of the substeps are continuous functions of deps, and so is the stress: the last substep is what
+// remains, and comes into being with length zero.
 HyperbolicAnswer integrate(const HyperbolicSteps& steps, const Vector4& sigma0, const Vector4& deps,
-                           double memory) {
-  int substeps = 1;
-  for (;;) {
-    Run r = run(steps, sigma0, deps, memory, substeps);
-    if (deps.isZero(0.0)) r.answer.memory = memory;
-    if (r.error <= steps.tolerance || substeps == kMostSubsteps || !std::isfinite(r.error)) {
-      r.answer.accurate = r.error <= steps.tolerance;
-      return r.answer;
+                           double memory0) {
+  Point at{sigma0, Matrix4::Zero()};
+  Memory memory{memory0, Vector4::Zero()};
+  Matrix4 D = Matrix4::Zero();
+  bool unloading = false;
+  Share remaining = 1.0, next = 1.0;
+  int substeps = 0;
+  while (substeps < kMostSubsteps && remaining.v > 0.0) {
+    const Stiffness start = stiffness(steps, at, memory);
+    Share share = min(next, remaining);
+    const auto advance = [&](const Share& part, bool bounded) {
+      return heun(steps, at, start, memory, deps, part, bounded);
+    };
+    Heun step = advance(share, steps.bounded);
+    for (int trial = 1; trial < kMostTrials && step.error.v > 1.0; ++trial) {
+      share = share * shortened(step.error);
+      step = advance(share, steps.bounded);
     }
-    // The estimate falls with the square of the substep.
-    const double wanted = std::ceil(1.2 * substeps * std::sqrt(r.error / steps.tolerance));
-    substeps = static_cast<int>(std::min(std::max(wanted, substeps + 1.0), static_cast<double>(kMostSubsteps)));
+    if (!(step.error.v <= kWorstError)) break;
+    next = share * min(0.8 / sqrt(max(step.error, Share(0.04))), Share(4.0));
+    if (step.end.status != PointStatus::elastic && inside(steps, at)) {
+      const auto beyond = [&](double part) { return excess(steps, advance(part, false).end); };
+      const double end = beyond(share.v).v;
+      if (end > 0.0) {
+        share = crossing(beyond, share.v, excess(steps, at).v, end);
+        step = advance(share, false);
+        step.end.status = PointStatus::yielded;
+      }
+    }
+    remaining = share.v < remaining.v ? remaining - share : Share(0.0);
+    at = step.end;
+    memory = remember(steps, memory, at);
+    unloading = step.unloading;
+    D += share.v * elastic_matrix(step.moduli);
+    ++substeps;
   }
+  if (at.status == PointStatus::elastic && extremes(at.sigma, steps.in_plane).sigma_3 < 0.0)
+    at.status = PointStatus::apex;
+  if (at.status == PointStatus::elastic && unloading) at.status = PointStatus::unloading;
+  const double memory1 = deps.isZero(0.0) ? memory0 : memory.value;
+  return {at.sigma, at.J, D, memory1, at.status, !(remaining.v > 0.0)};
 }
 
 }  // namespace sage

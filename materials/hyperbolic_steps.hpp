@@ -1,5 +1,5 @@
-// Integration of d sigma = D(sigma) d eps with hyperbolic moduli: equal substeps of the modified Euler (Heun)
-// method, as many as its error estimate asks for (Sloan 1987), with the exact derivative of what was computed.
+// Integration of d sigma = D(sigma) d eps with hyperbolic moduli: substeps of the modified Euler (Heun)
+// method, as long as its error estimate allows (Sloan 1987), with the exact derivative of what was computed.
 // An optional Mohr-Coulomb surface bounds the stress.  docs/theory/hyperbolic.md
 #pragma once
 
@@ -35,6 +35,13 @@ Extremes extremes(const Vector4& sigma, bool in_plane);
 
 HyperbolicAnswer integrate(const HyperbolicSteps& steps, const Vector4& sigma0, const Vector4& deps,
                            double memory);
+
+// Law::path_error.  With compliances linear in the stress, volume and shear strain lag halfway by a =
+// (K1-K0)/(4(K0+K1)) and (G1-G0)/(4(G0+G1)) of their increments, not alike, and neighbours still differently:
+// the strain path bends by up to a.  A stress about a |d sigma| off changes the moduli by about a of its share,
+// so the end is off by 3 a^2 |d sigma|; the 3 is measured, in triaxial tests and under footings.
+double path_error(const HyperbolicSteps& steps, const PointIn<4>& in, const Vector4& sigma, double memory0,
+                  double memory1);
 
 // The planes that touch the strength envelope sigma_1 = sigma_3 + (sigma_1 - sigma_3)_f at a given sigma_3.
 MohrCoulombPlanes tangent_planes(const HyperbolicSteps& steps, double sigma_3);

@@ -1,5 +1,6 @@
 #include "sage/analysis/assembly.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -14,6 +15,22 @@ constexpr std::size_t kMostKept = std::size_t{1} << 26;  // bytes
 
 std::span<const Quantity> history_of(const LawRef& law) {
   return std::visit([](const auto* l) { return l->history(); }, law);
+}
+
+// K u cannot be better than rounding of its largest terms.  Near nu = 1/2 those belong to a change of volume that all but
+// vanishes, and summing B u first keeps the digits.
+bool well_conditioned(const LawRef& law) {
+  constexpr double kMostRatio = 1e4;  // of the largest to the smallest stiffness; nu = .4998
+  const auto* solid = std::get_if<const SolidLaw*>(&law);
+  if (solid == nullptr) return true;  // of joints the relative displacement is taken first
+  std::vector<double> h(history_of(law).size());
+  PointIn<4> in{Vector4::Zero(), Vector4::Zero(), Vector4::Zero(), h};
+  std::vector<double> h1 = h;
+  PointOut<4> out;
+  out.h1 = h1;
+  if ((*solid)->update(in, out) != Outcome::ok) return false;
+  const Vector4 stiffness = out.D.selfadjointView<Eigen::Lower>().eigenvalues();
+  return stiffness[3] <= kMostRatio * stiffness[0];
 }
 
 std::size_t matrix_size(const GroupData& data) {
@@ -38,7 +55,7 @@ Assembly::Assembly(const Model& model, const Scene& scene, const Skips& skips, W
     data.group = &group;
     data.law = model.material_of(group).law_ref();
     data.linear = scene.group_linear[g] != 0;
-    data.constant = data.linear && skips.elements;
+    data.constant = data.linear && skips.elements && well_conditioned(data.law);
     dofs = std::max(dofs, static_cast<std::size_t>(traits.dofs));
     geometry = std::max(geometry, static_cast<std::size_t>(traits.geometry_size()));
     groups_.push_back(std::move(data));
@@ -372,6 +389,42 @@ Outcome Assembly::evaluate(const Eigen::VectorXd& du, LinearSolver* solver) {
   if (evaluate_changing(du, solver) == Outcome::cut_step) return Outcome::cut_step;
   add_constant(du);
   return std::isfinite(force_scale_) ? Outcome::ok : Outcome::cut_step;
+}
+
+namespace {
+
+struct WeightedMean {
+  double sum = 0.0, weight = 0.0;
+};
+
+template <int N>
+void add_path_error(const GroupData& data, const Law<N>& law, WeightedMean& mean) {
+  const StateStore& state = data.state;
+  const ElementTraits& traits = data.group->element->traits();
+  const auto stride = static_cast<std::size_t>(traits.geometry_size() / traits.points);
+  const auto history = static_cast<std::size_t>(state.history_size());
+  const std::size_t points = state.committed.status.size();
+  for (std::size_t p = 0; p < points; ++p) {
+    const auto at = [&](const std::vector<double>& v) { return Eigen::Map<const Vector<N>>(v.data() + p * N); };
+    const auto h = [&](const PointStates& s) {
+      return std::span<const double>(s.h.data() + p * history, history);
+    };
+    const Vector<N> sigma0 = at(state.committed.sigma), sigma1 = at(state.trial.sigma);
+    const Vector<N> eps0 = at(state.committed.eps), deps = at(state.trial.eps) - eps0;
+    const double work = data.geometry[p * stride] * std::abs((sigma1 - sigma0).dot(deps));
+    mean.weight += work;
+    mean.sum += work * law.path_error({sigma0, eps0, deps, h(state.committed)}, sigma1, h(state.trial));
+  }
+}
+
+}  // namespace
+
+double Assembly::path_error() const {
+  if (scene_->linear) return 0.0;
+  WeightedMean mean;
+  for (const GroupData& data : groups_)
+    if (data.active && !data.constant) std::visit([&](const auto* law) { add_path_error(data, *law, mean); }, data.law);
+  return mean.weight > 0.0 ? mean.sum / mean.weight : 0.0;
 }
 
 void Assembly::begin_step(const Eigen::VectorXd& target, double rate_part) {

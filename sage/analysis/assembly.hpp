@@ -46,6 +46,8 @@ class Assembly {
   Outcome evaluate(const Eigen::VectorXd& du, LinearSolver* solver);
   // False: the last evaluation with a solver found the very K that the solver holds, and left it alone.
   bool matrix_changed() const { return matrix_changed_; }
+  // Law::path_error of the trial states, the mean over all points by the work of their stress increments.
+  double path_error() const;
   // Trial states become committed; du as in the evaluation before.
   void commit(const Eigen::VectorXd& du);
   // The same for a step that a checkpoint has counted already.

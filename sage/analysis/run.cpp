@@ -82,6 +82,7 @@ class Run {
   Eigen::VectorXd u_, du_, external_, target_, external_start_, force_start_, force_end_, rate_;
   double linear_size_ = 0.0;  // of the last step, where it was linear; 0 = it was not
   std::vector<char> held_before_, groups_before_, lived_;
+  double path_error_ = 0.0;  // largest of the stage
 };
 
 Solution Run::solution() const {
@@ -223,6 +224,15 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
     report.total_iterations += static_cast<int>(step.iterations.size());
     report.worst = step.worst;
     if (step.outcome == StepOutcome::converged) {
+      const double error = assembly_.path_error();
+      if (error > kPathTolerance && to - reached > 1.001 * kSmallestPart * whole) {
+        reject(stage);
+        linear_size_ = 0.0;
+        size = (to - reached) * std::clamp(0.9 * std::cbrt(kPathTolerance / error), 0.25, 0.75);
+        size = std::max(size, kSmallestPart * whole);
+        continue;
+      }
+      path_error_ = std::max(path_error_, error);
       if (stage.method == Method::modified_newton || contracts(stage)) renew_tangent();
       const bool linear = step.repeated || (step.iterations.size() == 1 && !assembly_.matrix_changed());
       linear_size_ = linear ? to - reached : 0.0;
@@ -230,7 +240,7 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
       reached = to;
       report.load_factor = reached;
       ++report.substeps;
-      if (step.iterations.size() <= 6) size *= 2.0;
+      if (step.iterations.size() <= 6 && 8.0 * error <= kPathTolerance) size *= 2.0;
       continue;
     }
     report.points = assembly_.count_points();
@@ -323,6 +333,10 @@ void Run::warn_about_numbers(int s, const EquilibriumAudit& sums) {
     warn(stage, "about " + std::to_string(static_cast<int>(-std::log10(pivot))) +
                     " of 16 digits are lost in the equations (smallest pivot " + short_number(pivot) +
                     " of its row): very stiff beside very soft parts, or nearly a mechanism");
+  if (path_error_ > kPathTolerance)
+    warn(stage,
+         "the stiffness of a hyperbolic law changes so much that an increment in 64 parts is still too long; "
+         "with more increments the results would change by more than 1 %");
   const auto points = assembly_.count_points();
   const long apex = points[static_cast<std::size_t>(PointStatus::apex)];
   if (apex > 0)
@@ -344,6 +358,7 @@ void Run::exchange(Archive& archive, const Place& place) {
   if (within) {
     archive(du_);
     archive(linear_size_);
+    archive(path_error_);
     archive(external_start_);
     archive(force_start_);
     archive(force_end_);
@@ -397,6 +412,7 @@ bool Run::run_stage(int s, int done) {
   const Stage& stage = model_.stages[static_cast<std::size_t>(s)];
   if (done == 0) {
     prepare_stage(s);
+    path_error_ = 0.0;
     if (s == 0) tell([&](Observer& o) { o.on_start(model_, scene_, solver_name_, all_equations()); });
     tell([&](Observer& o) { o.on_stage_start(model_, s, solution()); });
   }

@@ -72,9 +72,22 @@ class Law {
   // Allocates nothing.  deps = 0 must give back sigma0 and h0 when the state is admissible.
   virtual Outcome update(const PointIn<N>& in, PointOut<N>& out) const = 0;
 
+  // For an increment that is finished: about how much its stress would change, relatively, if it were taken in
+  // many small ones.  An update follows the straight line of deps; at given stresses the strains bend as the
+  // stiffness changes.  0 where that does not matter, or where there is no estimate.
+  virtual double path_error(const PointIn<N>& /*in*/, const Vector<N>& /*sigma*/,
+                            std::span<const double> /*h*/) const {
+    return 0.0;
+  }
+
   // Mobilised fraction of strength at a state, 1 = at yield/slip; 0 for laws without strength.
   virtual double stress_level(const Vector<N>& /*sigma*/, std::span<const double> /*h*/) const { return 0.0; }
 };
+
+// An increment with a larger path_error (mean of its points) is taken in parts: 1 increment or 100 then agree
+// within 1 %.
+inline constexpr double kPathTolerance = 4e-3;
+inline constexpr double kSmallestPart = 1.0 / 64.0;  // of an increment, for this reason
 
 using SolidLaw = Law<4>;
 using InterfaceLaw = Law<2>;

@@ -58,7 +58,7 @@ Vector<N> correction_for(const std::array<Control, N>& control, const Vector<N>&
 // Newton; unknowns are the strain increments of the stress-controlled components.  A correction that makes
 // things worse is halved, seven times at most.
 template <int N>
-bool PointDriver<N>::attempt(const std::array<Control, N>& control, const Vector<N>& target) {
+bool PointDriver<N>::attempt(const std::array<Control, N>& control, const Vector<N>& target, bool may_divide) {
   PointOut<N> out;
   out.h1 = h_trial_;
   Vector<N> deps = Vector<N>::Zero();
@@ -72,6 +72,8 @@ bool PointDriver<N>::attempt(const std::array<Control, N>& control, const Vector
     scale = std::max(scale, out.sigma.cwiseAbs().maxCoeff());
     if (!r.allFinite()) return false;
     if (r.cwiseAbs().maxCoeff() <= kTolerance * scale) {
+      if (may_divide && law_.path_error({sigma_, eps_, deps, h_}, out.sigma, h_trial_) > kPathTolerance)
+        return false;
       sigma_ = out.sigma;
       eps_ += deps;
       h_.swap(h_trial_);
@@ -99,7 +101,7 @@ void PointDriver<N>::advance(const std::array<Control, N>& control, const Vector
       part[i] = control[static_cast<std::size_t>(i)] == Control::strain
                     ? share * target[i]
                     : sigma_start[i] + (done + share) * (target[i] - sigma_start[i]);
-    if (attempt(control, part)) {
+    if (attempt(control, part, share > kSmallestPart)) {
       done += share;
     } else {
       share *= 0.5;

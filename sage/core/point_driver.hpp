@@ -37,7 +37,7 @@ class PointDriver {
   int steps() const { return steps_; }  // accepted parts so far
 
  private:
-  bool attempt(const std::array<Control, N>& control, const Vector<N>& target);
+  bool attempt(const std::array<Control, N>& control, const Vector<N>& target, bool may_divide);
   Outcome call(const Vector<N>& deps, PointOut<N>& out);
 
   const Law<N>& law_;

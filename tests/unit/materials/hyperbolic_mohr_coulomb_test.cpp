@@ -56,6 +56,17 @@ TEST(HyperbolicMohrCoulomb, FewIncrementsOfATriaxialTest) {
   }
 }
 
+// One step or a hundred: 1 % of the deviator, whatever the strain; a step too long for its bend is divided.
+TEST(HyperbolicMohrCoulomb, OneStepOrAHundred) {
+  for (const int code : {6, 7})
+    for (const double strain : {0.002, 0.005, 0.01, 0.015, 0.02, 0.03, 0.04, 0.06, 0.1}) {
+      const auto law = test::solid(code, kSoil);
+      const double many = triaxial_test(*law, 100.0, strain, 100).back().deviator;
+      for (const int few : {1, 2, 5})
+        EXPECT_NEAR(triaxial_test(*law, 100.0, strain, few).back().deviator, many, 0.01 * many) << strain;
+    }
+}
+
 // psi = 0: no volume change at failure.  psi = 10: d eps_v/d eps_1 = 1 - K_psi.
 TEST(HyperbolicMohrCoulomb, VolumeChangeAtFailure) {
   const auto rate = [](double psi) {

@@ -1,0 +1,93 @@
+// Hyperbolic soils in whole models: the answer must not depend on how many increments the user asks for.  The
+// run divides an increment that is too long for the bend of its strain path (Law::path_error).  1 % is what is
+// promised.
+#include <gtest/gtest.h>
+
+#include "tests/support/run_text.hpp"
+
+namespace sage::test {
+namespace {
+
+const std::vector<double> kBulk = {400, 0.5, 0.8, 600, 250, 0.3, 5, 33};         // laws 6, 7
+const std::vector<double> k1970 = {400, 0.5, 0.8, 600, 0.35, 0.05, 2.0, 5, 33};  // law 5
+constexpr double kCell = 100.0;
+
+struct Answer {
+  double value;
+  int iterations;
+};
+
+int increments_in(const WholeRun& run) {
+  return static_cast<int>(run.increments.size());
+}
+
+// Frictionless ends, cell pressure 100 kPa, one element: deviator at an axial strain.
+Answer triaxial(int law, double strain, int increments) {
+  Block block;
+  block.place = rectangle(0.0, 1.0, 0.0, 2.0);
+  DeckWriter deck(2);
+  block.write_nodes(deck);
+  deck.material(1, law, law == 5 ? k1970 : kBulk);
+  deck.group(1, static_cast<int>(Cell::quad4), 0, 1);
+  block.write_elements(deck, 1);
+  for (int n : block.bottom()) deck.fix(n, 0, 1);
+  for (int n : block.left()) deck.fix(n, 1, 0);
+  deck.initial(1, 0, kCell, kCell, kCell, 0.0);
+  StageCards& stage = deck.stage(increments);
+  for (int n : block.top()) stage.fix(n, 0, 1, 0.0, -2.0 * strain);
+  stage.pressure(1, 2, kCell, kCell);
+  const WholeRun run = run_text(deck.text());
+  EXPECT_TRUE(run.completed()) << run.failure;
+  EXPECT_EQ(increments_in(run), increments);
+  return {-run.reaction(run.last(), block.top(), 1) / M_PI - kCell, run.iterations()};
+}
+
+class HyperbolicIncrements : public testing::TestWithParam<int> {};
+
+TEST_P(HyperbolicIncrements, OneOrAHundredInATriaxialTest) {
+  for (const double strain : {0.002, 0.005, 0.01, 0.015, 0.02, 0.03, 0.05, 0.10}) {
+    const Answer hundred = triaxial(GetParam(), strain, 100);
+    for (const int increments : {1, 2, 5}) {
+      const Answer few = triaxial(GetParam(), strain, increments);
+      EXPECT_NEAR(few.value, hundred.value, 0.01 * hundred.value) << strain << " in " << increments;
+      EXPECT_LE(few.iterations, 200);  // parts of an increment, not hundreds
+    }
+  }
+}
+
+// A hundred increments need no help: 3 or 4 iterations each.
+TEST_P(HyperbolicIncrements, SmallOnesAreNotDivided) {
+  EXPECT_LE(triaxial(GetParam(), 0.02, 100).iterations, 400);
+}
+
+// Half of a strip, 2 m wide, 100 kPa on a layer with own weight: settlement of its middle.
+TEST_P(HyperbolicIncrements, OneOrAHundredUnderAStrip) {
+  const auto settlement = [](int increments) {
+    Block block;
+    block.columns = 8;
+    block.rows = 6;
+    block.place = rectangle(0.0, 8.0, -6.0, 0.0);
+    DeckWriter deck(1);
+    block.write_nodes(deck);
+    deck.material(1, GetParam(), GetParam() == 5 ? k1970 : kBulk, 18.0);
+    deck.group(1, static_cast<int>(Cell::quad4), 2, 1);
+    block.write_elements(deck, 1);
+    for (int n : block.bottom()) deck.fix(n, 1, 1);
+    for (int n : block.left()) deck.fix(n, 1, 0);
+    for (int n : block.right()) deck.fix(n, 1, 0);
+    deck.initial(1, 1, 0.0, 18.0, 0.5, 0.0);
+    deck.stage().gravity_y = -1.0;
+    deck.stage(increments).pressure(block.element(0, 5), 3, 100.0, 100.0);
+    const WholeRun run = run_text(deck.text());
+    EXPECT_TRUE(run.completed()) << run.failure;
+    return -run.u(block.node(0, 6)).y();
+  };
+  const double hundred = settlement(100);
+  EXPECT_GT(hundred, 0.01);
+  for (const int increments : {1, 3, 10}) EXPECT_NEAR(settlement(increments), hundred, 0.01 * hundred);
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, HyperbolicIncrements, testing::Values(5, 6, 7));
+
+}  // namespace
+}  // namespace sage::test
