@@ -18,7 +18,7 @@ void DeckReader::close_card(const CardRule& rule, Card card, bool complete) {
 void DeckReader::report_flaws(const CardRule& rule, const Card& card) {
   bool comma_said = false;
   for (FieldFlaw& flaw : flaws_) {
-    if (comma_said) flaw.hints = static_cast<std::uint8_t>(flaw.hints & ~hint_comma);
+    if (comma_said) flaw.hints = static_cast<std::uint16_t>(flaw.hints & ~hint_comma);
     comma_said = comma_said || (flaw.hints & hint_comma) != 0;
     const auto at = static_cast<std::size_t>(flaw.value);
     const std::size_t field =

@@ -59,7 +59,7 @@ bool edit_fits(Edit edit, FieldKind kind);
 struct FieldFlaw {
   int value = 0;  // index into the values read by this statement
   FieldFault fault = FieldFault::none;
-  std::uint8_t hints = hint_none;
+  std::uint16_t hints = hint_none;
   std::uint16_t at = 0;
 };
 

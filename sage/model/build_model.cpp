@@ -63,7 +63,7 @@ void build_control(Builder& b) {
     b.error(card.where("geometry"),
             "geometry " + std::to_string(code) + " is unknown; 1 plane strain, 2 axisymmetric");
   model.geometry = code == 2 ? Geometry::axisymmetric : Geometry::plane_strain;
-  model.solver = card.integer("solver", 0);
+  model.solver = b.options.solver >= 0 ? b.options.solver : card.integer("solver", 0);
   if (model.solver != 0 && b.catalogue.solvers.find(model.solver) == nullptr)
     b.error(card.where("solver"), "solver " + std::to_string(model.solver) + " is unknown; 0 automatic, " +
                                       b.catalogue.solvers.known());

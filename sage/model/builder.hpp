@@ -68,7 +68,9 @@ void build_reports(Builder& b);
 void check_totals(Builder& b);
 // Mid-side and inner nodes that element cards leave blank; fixities are inherited along boundary edges.
 void make_mid_nodes(Builder& b);
-// Shapes, supports, unused nodes, radii.
+// Interfaces whose sides belong to the wrong bodies.
+void check_interfaces(Builder& b);
+// Shapes, supports, unused nodes, radii, solver.
 void check_model(Builder& b);
 
 }  // namespace sage::build
