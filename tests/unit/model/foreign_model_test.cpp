@@ -4,10 +4,12 @@
 
 #include <cstdio>
 #include <fstream>
+#include <iterator>
 #include <set>
 
 #include "sage/app/commands.hpp"
 #include "sage/app/run_deck.hpp"
+#include "sage/deck/read_deck.hpp"
 
 namespace sage::app {
 namespace {
@@ -98,6 +100,52 @@ TEST(ForeignModel, CandeLeavesOutItsPipeAndSaysSo) {
   EXPECT_TRUE(mentions(model.diagnostics, Severity::note, "1 element(s) listed clockwise"));
   // 115 lbf/ft^3 in inches.
   EXPECT_NEAR(model.materials[1].unit_weight, 115.0 / 1728.0, 1e-15);
+}
+
+std::string cande_text() {
+  std::ifstream file(kInputs + "cande_level3/candejar_input_test.cid");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+Model cande_model(const std::string& text) {
+  return build_model(read_deck_text(text, "deck.cid", load_layout("cande_level3")), full_catalogue());
+}
+
+// No deck at hand gives a soil of Duncan's with its numbers: the real one with those cards put in.
+TEST(ForeignModel, CandeSoilOfDuncan) {
+  const std::string model_card = "               D-2.Duncan!!    0       0.5    1";
+  const std::string cards =
+      "               D-3.Duncan!!       1.5      36.0       5.0     450.0      0.35      0.80\n"
+      "               D-4.Duncan!!     300.0      0.10       0.0\n";
+  std::string text = cande_text();
+  const std::size_t at = text.find(model_card), end = text.find('\n', at) + 1;
+  text.insert(end, cards);
+  const Model selig = cande_model(text);
+  EXPECT_EQ(selig.materials[1].law_name, "linear_elastic");
+  EXPECT_TRUE(mentions(selig.diagnostics, Severity::warning, "bulk modulus is that of Selig (code 1)"));
+  text[at + model_card.size() - 1] = '0';
+  const Model duncan = cande_model(text);
+  EXPECT_EQ(duncan.materials[1].law_name, "duncan_chang_eb");
+  const std::vector<double> expected{450.0, 0.35, 0.80, 450.0, 300.0,
+                                     0.10,  1.5,  36.0, 5.0};  // K n Rf Kur Kb m c phi dphi
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_EQ(duncan.materials[1].parameters[i], expected[i]) << "parameter " << i + 1;
+  EXPECT_TRUE(mentions(duncan.diagnostics, Severity::warning, "no modulus for unloading"));
+}
+
+TEST(ForeignModel, CandeGenerationIsRefusedWithItsField) {
+  std::string text = cande_text();
+  const std::size_t tenth = text.find("C-4.L3!!   10"), line = text.rfind('\n', tenth) + 1;
+  ASSERT_NE(tenth, std::string::npos);
+  text.erase(line, text.find('\n', tenth) + 1 - line);
+  try {
+    cande_model(text);
+    FAIL() << "a gap in the elements was taken as it is";
+  } catch (const InputError& error) {
+    const Diagnostic& d = error.diagnostics().list().front();
+    EXPECT_NE(d.message.find("elements 10 to 10 are not given"), std::string::npos) << d.message;
+    EXPECT_GT(d.where.first_column, 0);
+  }
 }
 
 TEST(ForeignModel, AxisymmetricForcesAreForOneRadian) {
