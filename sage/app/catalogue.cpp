@@ -14,6 +14,18 @@ Catalogue full_catalogue() {
   return catalogue;
 }
 
+int solver_code(const Catalogue& catalogue, const std::string& name) {
+  for (const auto& [code, entry] : catalogue.solvers.entries())
+    if (entry.name == name) return code;
+  return -1;
+}
+
+std::string unknown_solver(const std::string& name) {
+  const Catalogue catalogue = full_catalogue();
+  if (solver_code(catalogue, name) >= 0) return {};
+  return "unknown solver " + name + "; known: " + catalogue.solvers.known();
+}
+
 study::Workbench make_workbench() {
   return {full_catalogue(), choose_solver};
 }

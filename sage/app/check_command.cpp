@@ -16,6 +16,7 @@ namespace {
 struct CheckOptions {
   std::vector<std::string> decks;
   InputOptions input;
+  std::string solver;
 };
 
 int check(const std::string& path, const InputOptions& options) {
@@ -43,8 +44,12 @@ Command check_command(CLI::App& root) {
   parser->add_option("DECK", options->decks, "deck files")->required();
   add_input_options(*parser, options->input);
   add_build_options(*parser, options->input.build);
+  parser->add_option("--solver", options->solver, "solver by name, as `run` would be told")
+      ->check(unknown_solver);
   return {parser, [options] {
             int worst = kOk;
+            if (!options->solver.empty())
+              options->input.build.solver = solver_code(full_catalogue(), options->solver);
             for (const std::string& path : options->decks) worst = std::max(worst, check(path, options->input));
             return worst;
           }};

@@ -18,6 +18,11 @@ struct Command {
 // Everything that exists: elements, materials, solvers.
 Catalogue full_catalogue();
 
+// Catalogue code of a solver's name; -1 for an unknown one.
+int solver_code(const Catalogue& catalogue, const std::string& name);
+// A message if no solver has this name (a check of CLI11).
+std::string unknown_solver(const std::string& name);
+
 // The same, to run decks that the program writes itself.
 study::Workbench make_workbench();
 

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "sage/app/checkpoint.hpp"
+#include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/model/fingerprint.hpp"
 #include "sage/output/csv.hpp"
@@ -16,13 +17,6 @@
 namespace sage::app {
 
 namespace {
-
-int solver_code(const Catalogue& catalogue, const std::string& name) {
-  if (name.empty()) return -1;
-  for (const auto& [code, entry] : catalogue.solvers.entries())
-    if (entry.name == name) return code;
-  throw InputError({}, "solver " + name + " is unknown; " + catalogue.solvers.known());
-}
 
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
@@ -73,7 +67,9 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   RunOutcome outcome;
   {
     const Deck deck = read_input(request.deck, request.input);
-    outcome.model = std::make_unique<Model>(build_model(deck, catalogue, request.input.build));
+    BuildOptions build = request.input.build;
+    if (!request.solver.empty()) build.solver = solver_code(catalogue, request.solver);
+    outcome.model = std::make_unique<Model>(build_model(deck, catalogue, build));
   }
   const Model& model = *outcome.model;
   if (!request.quiet) print_diagnostics(model.diagnostics);
@@ -83,7 +79,6 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   }
   RunSettings settings;
   settings.skips = request.skips;
-  settings.solver = solver_code(catalogue, request.solver);
   settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
   make_folder(request.output.folder);
   Checkpoint checkpoint = checkpoint_of(request, model);

@@ -26,6 +26,13 @@ struct FieldValue {
   bool blank = true;  // nothing but blanks (or a short record, or a list-directed null)
 };
 
+// Whether a field that is left blank is worth a note, though it has a meaning.
+enum class BlankNote : std::uint8_t {
+  never,
+  always,
+  compared,  // where another card of the kind has something else than the blank gives
+};
+
 // A field's definition, from the layout.
 struct FieldSpec {
   std::string name;   // canonical name that the model builder asks for: "x", "number"
@@ -35,6 +42,7 @@ struct FieldSpec {
   bool required = false;      // blank is an error
   bool has_fallback = false;  // blank gives `fallback` instead of 0
   double fallback = 0.0;
+  BlankNote blank_note = BlankNote::never;
 };
 
 // A card's definition, from the layout.

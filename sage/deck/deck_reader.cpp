@@ -52,7 +52,9 @@ void DeckReader::find_entries(const std::vector<LayoutEntry>& entries) {
 
 Deck DeckReader::read() {
   read_entries(layout_.entries, -1);
+  if (!stopped_) note_list_rest();
   if (!stopped_) check_after_end();
+  if (log_.errors() == 0) note_blanks();
   deck_.texts = texts_;
   log_.finish();
   return std::move(deck_);
@@ -254,6 +256,7 @@ bool DeckReader::read_formatted(const CardRule& rule, Card& card) {
 
 bool DeckReader::read_listed(const CardRule& rule, Card& card) {
   if (!rule.same_read || !list_read_) {
+    note_list_rest();
     list_read_.emplace(records_, *texts_);
     if (list_read_->begin() != ReadEnd::complete) return false;
   }

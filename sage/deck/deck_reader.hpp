@@ -51,6 +51,8 @@ class DeckReader {
   bool read_list(Read& read, const CardRule& rule, std::size_t field);
   void close_card(const CardRule& rule, Card card, bool complete);
   void check_values(const CardRule& rule, const Card& card);
+  void note_blanks();
+  void note_list_rest();
   void apply_map(const CardRule& rule, std::size_t field, FieldValue& value);
   void report_flaws(const CardRule& rule, const Card& card);
   void check_rest(const CardRule& rule, const Card& card, std::size_t last_field_end);

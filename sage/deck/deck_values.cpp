@@ -18,7 +18,7 @@ void DeckReader::close_card(const CardRule& rule, Card card, bool complete) {
 void DeckReader::report_flaws(const CardRule& rule, const Card& card) {
   bool comma_said = false;
   for (FieldFlaw& flaw : flaws_) {
-    if (comma_said) flaw.hints = static_cast<std::uint8_t>(flaw.hints & ~hint_comma);
+    if (comma_said) flaw.hints = static_cast<std::uint16_t>(flaw.hints & ~hint_comma);
     comma_said = comma_said || (flaw.hints & hint_comma) != 0;
     const auto at = static_cast<std::size_t>(flaw.value);
     const std::size_t field =
@@ -74,6 +74,60 @@ void DeckReader::apply_map(const CardRule& rule, std::size_t field, FieldValue& 
   log_.add(
       Severity::error, log_.where(value),
       quoted(text) + " is not a known code " + field_text(rule, rule.spec.fields[field]) + "; known: " + known);
+}
+
+// A list-directed READ passes over what is left of its last record: a count that is too small loses values so.
+void DeckReader::note_list_rest() {
+  if (!list_read_ || list_read_->ended_by_slash()) return;
+  const std::string_view rest = list_read_->rest();
+  const std::size_t first = rest.find_first_not_of(" \t,;\r");
+  if (first == std::string_view::npos) return;
+  const int column = records_.skipped() + static_cast<int>(list_read_->position() + first) + 1;
+  const int last = column + static_cast<int>(rest.find_last_not_of(" \t\r") - first);
+  log_.add(Severity::warning, {deck_.file, records_.line(), column, last},
+           "not read: the values before it are all that this READ takes");
+}
+
+// Fields that old hands leave blank on purpose and others by mistake: one note for all cards of a kind.
+void DeckReader::note_blanks() {
+  struct Blanks {
+    int count = 0;
+    const Card* first = nullptr;
+    bool others = false;  // a card of the kind has something else
+  };
+  std::vector<std::vector<Blanks>> blanks(deck_.specs.size());
+  for (std::size_t s = 0; s < deck_.specs.size(); ++s) {
+    const auto& fields = deck_.specs[s].fields;
+    const bool any = std::any_of(fields.begin(), fields.end(),
+                                 [](const FieldSpec& f) { return f.blank_note != BlankNote::never; });
+    if (any) blanks[s].resize(fields.size());
+  }
+  for (const Card& card : deck_.cards) {
+    std::vector<Blanks>& of_card = blanks[static_cast<std::size_t>(card.spec)];
+    const auto& fields = deck_.specs[static_cast<std::size_t>(card.spec)].fields;
+    for (std::size_t i = 0; i < std::min(of_card.size(), static_cast<std::size_t>(card.value_count)); ++i) {
+      if (fields[i].blank_note == BlankNote::never) continue;
+      const FieldValue& value = deck_.values[static_cast<std::size_t>(card.first_value) + i];
+      if (!value.blank)
+        of_card[i].others = of_card[i].others || value.number != fields[i].fallback;
+      else if (++of_card[i].count == 1)
+        of_card[i].first = &card;
+    }
+  }
+  for (std::size_t s = 0; s < blanks.size(); ++s)
+    for (std::size_t i = 0; i < blanks[s].size(); ++i) {
+      const Blanks& found = blanks[s][i];
+      const FieldSpec& field = deck_.specs[s].fields[i];
+      if (found.count == 0 || (field.blank_note == BlankNote::compared && !found.others)) continue;
+      const CardRule& rule = rule_of(static_cast<int>(s));
+      const FieldValue& value = deck_.values[static_cast<std::size_t>(found.first->first_value) + i];
+      const auto number = static_cast<int>(field.fallback);
+      log_.add(
+          Severity::note, value.first_column ? log_.where(value) : log_.line(found.first->line),
+          "left blank, which reads as " + std::to_string(number) + " " + field_text(rule, field) +
+              (found.count > 1 ? "; and on " + std::to_string(found.count - 1) + " more of these cards" : "") +
+              (field.blank_note == BlankNote::compared ? "; other cards of this kind have a value there" : ""));
+    }
 }
 
 // -----------------------------------------------------

@@ -145,6 +145,7 @@ std::size_t scan_mantissa(std::string_view text, std::size_t i, BlankMode blanks
     }
     const char letter = lower(c);
     mantissa.ended_by_exponent = c == '+' || c == '-' || letter == 'e' || letter == 'd' || letter == 'q';
+    if (letter == 'q') result.hints |= hint_q_exponent;
     if (mantissa.ended_by_exponent) break;
     if (!is_digit(c) && c != '.') result = fail(result, FieldFault::bad_character, i);
     if (c == '.' && mantissa.point) result = fail(result, FieldFault::second_point, i);

@@ -22,7 +22,7 @@ enum class FieldFault : std::uint8_t {
 };
 
 // What a careful reader would wonder about, though it reads.
-enum FieldHint : std::uint8_t {
+enum FieldHint : std::uint16_t {
   hint_none = 0,
   hint_inner_blank = 1,      // digits on both sides of a blank
   hint_implied_point = 2,    // no point written and d > 0: the decimals were implied
@@ -31,13 +31,14 @@ enum FieldHint : std::uint8_t {
   hint_comma = 16,           // a comma ended the field early
   hint_lone_mark = 32,       // a sign or point without a digit, taken as zero
   hint_trailing_blank = 64,  // blanks after the last digit (they count as zeros in zero mode)
-  hint_cut = 128             // zero mode, and the record ends inside the field: the zeros are missing
+  hint_cut = 128,            // zero mode, and the record ends inside the field: the zeros are missing
+  hint_q_exponent = 256      // "1.5Q3": gfortran's own exponent letter for quadruple precision
 };
 
 struct FieldResult {
   double value = 0.0;  // holds every 32-bit integer exactly
   FieldFault fault = FieldFault::none;
-  std::uint8_t hints = hint_none;
+  std::uint16_t hints = hint_none;
   bool blank = false;    // nothing but blanks: the value is 0
   std::uint16_t at = 0;  // offset of the character that is to blame
 };

@@ -57,6 +57,8 @@ void add_field(const FieldSpec& spec, const FieldRule& rule, const std::string& 
   std::string notes = rule.codes;
   const auto note = [&](const std::string& text) { notes += (notes.empty() ? "" : "; ") + text; };
   if (spec.required) note("must be given");
+  if (spec.blank_note == BlankNote::always) note("a blank is noted");
+  if (spec.blank_note == BlankNote::compared) note("a blank is noted where other cards have a value");
   if (spec.has_fallback) note("blank gives " + number_text(spec.fallback));
   if (!rule.must_equal.empty()) note("must read " + rule.must_equal);
   if (!rule.count.empty()) note("repeats: " + rule.count.source);

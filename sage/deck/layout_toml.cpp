@@ -202,8 +202,8 @@ class LayoutReader : private TomlFile {
   }
 
   void read_field(const toml::table& table, CardRule& card) {
-    known_keys(table,
-               {"name", "label", "unit", "kind", "required", "default", "codes", "map", "equals", "count"});
+    known_keys(table, {"name", "label", "unit", "kind", "required", "default", "codes", "map", "equals",
+                       "count", "blank"});
     FieldSpec spec;
     FieldRule rule;
     spec.name = text(table, "name", true);
@@ -220,6 +220,10 @@ class LayoutReader : private TomlFile {
       spec.has_fallback = true;
       spec.fallback = *value;
     }
+    if (const std::string blank = text(table, "blank"); blank == "noted" || blank == "compared")
+      spec.blank_note = blank == "noted" ? BlankNote::always : BlankNote::compared;
+    else if (!blank.empty())
+      fail(*table.get("blank"), "blank must be noted or compared");
     rule.codes = text(table, "codes");
     rule.must_equal = text(table, "equals");
     read_map(table, rule);

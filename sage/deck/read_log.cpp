@@ -88,6 +88,9 @@ void ReadLog::hints(const CardRule& card, const FieldSpec& field, const FieldVal
   if (hints & hint_comma)
     add(Severity::warning, at, "a comma ended the field after " + text + place,
         "the fields behind it start right after the comma, not at their columns");
+  if (hints & hint_q_exponent)
+    add(Severity::warning, at, text + " has the exponent letter Q and reads as if it were E" + place,
+        "gfortran reads it so, the Fortran standard and other compilers know only E and D");
   if (hints & hint_lone_mark) add(Severity::warning, at, text + " has no digit and reads as 0" + place);
   if (hints & hint_cut)
     add(Severity::warning, at, "the card ends inside the field of " + text + place,

@@ -166,7 +166,7 @@ void FormattedRead::take_field(const FormatStep& step, FieldKind kind, int text_
   value.blank = result.blank;
   if (comma) result.hints |= hint_comma;
   const bool zeros = blanks_ == BlankMode::zero && kind != FieldKind::text && kind != FieldKind::logical;
-  if (!zeros) result.hints = static_cast<std::uint8_t>(result.hints & ~hint_trailing_blank);
+  if (!zeros) result.hints = static_cast<std::uint16_t>(result.hints & ~hint_trailing_blank);
   if (zeros && !comma && !result.blank && field.size() < width) result.hints |= hint_cut;
 }
 

@@ -1,6 +1,7 @@
 // Reads values from records under a FORMAT or list-directed, as one Fortran READ statement would.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <string>
@@ -59,7 +60,7 @@ bool edit_fits(Edit edit, FieldKind kind);
 struct FieldFlaw {
   int value = 0;  // index into the values read by this statement
   FieldFault fault = FieldFault::none;
-  std::uint8_t hints = hint_none;
+  std::uint16_t hints = hint_none;
   std::uint16_t at = 0;
 };
 
@@ -117,6 +118,8 @@ class ListRead {
   ReadEnd finish() { return ReadEnd::complete; }
   std::size_t position() const { return position_; }
   bool ended_by_slash() const { return slash_; }
+  // What stands behind the last value in its record; the READ passes over it.
+  std::string_view rest() const { return record_.substr(std::min(position_, record_.size())); }
 
  private:
   struct Token {

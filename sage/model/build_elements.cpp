@@ -177,6 +177,17 @@ void read_element_card(Builder& b, const CardView& card) {
                                   " nodes on its card, not " + std::to_string(given));
     return;
   }
+  if (std::find(element.nodes.begin() + entry.corners, element.nodes.end(), 0) != element.nodes.end() ||
+      (given > entry.corners && given < entry.nodes))
+    b.note(card.where(), "element " + std::to_string(element.number) +
+                             ": some of its mid-side nodes are left blank "
+                             "and will be made, though others are given");
+  for (const char* field : {"column_step", "row_step"}) {
+    const bool column = field[0] == 'c';
+    if (card.blank(field) || card.integer(field) == 0 || !card.blank(column ? "columns" : "rows")) continue;
+    b.note(card.where(field), "the " + card.label(field) + " is given but the number of " +
+                                  (column ? "columns" : "rows") + " is left blank, which reads as 1");
+  }
   for (int c = 0; c < entry.corners; ++c) {
     if (element.nodes[static_cast<std::size_t>(c)] != 0) continue;
     const std::string field = "n" + std::to_string(c + 1);
@@ -214,6 +225,7 @@ void read_material(Builder& b, const CardView& card, const std::vector<CardView>
   if (!b.material_index.try_emplace(material.number, static_cast<int>(b.model.materials.size())).second)
     b.error(card.where("number"), name + " is defined twice");
   b.usable(card, "unit_weight", material.unit_weight);
+  if (card.blank("unit_weight")) b.blank_weights.push_back(material.number);
   b.model.materials.push_back(std::move(material));
   Material& m = b.model.materials.back();
   if (entry == nullptr) {
@@ -242,6 +254,13 @@ void read_material(Builder& b, const CardView& card, const std::vector<CardView>
               name + ": parameter " + std::to_string(i + 1) + " of " + entry->name + ", " + p.name + " (" +
                   unit_text(p.dimension, b.model.units) + "), is missing");
     const double value = present ? given[i].number : p.fallback;
+    if (!present && i < given.size() && !p.required) {
+      char fallback[32];
+      std::snprintf(fallback, sizeof fallback, "%.6g", p.fallback);
+      b.note(parameter_cards.front().where(given[i]), name + ": parameter " + std::to_string(i + 1) + " of " +
+                                                          entry->name + ", " + p.name +
+                                                          ", is left blank: " + fallback + " is used");
+    }
     if (!(std::abs(value) < 1e100))
       b.error(parameter_cards.front().where(given[i]),
               name + ": " + p.name + " is too large to compute with (beyond 1e100)");

@@ -35,8 +35,14 @@ NumberRange Builder::range(const CardView& card, std::string_view first_field) {
   else if ((std::int64_t{last} - first) % step != 0)
     error(card.where("step"), "steps of " + std::to_string(step) + " from " + std::to_string(first) +
                                   " do not meet the last, " + std::to_string(last));
-  else
+  else {
+    if (card.blank("last") && !card.blank("step") && card.integer("step") != 0)
+      note(card.where("step"), "a step is given but no last: only " + std::to_string(first) + " is meant");
+    if (card.blank("step") && last > first)
+      note(card.where(), "the step is left blank, which reads as 1: all from " + std::to_string(first) +
+                             " to " + std::to_string(last));
     return {first, last, step};
+  }
   return {};
 }
 
@@ -63,7 +69,7 @@ void build_control(Builder& b) {
     b.error(card.where("geometry"),
             "geometry " + std::to_string(code) + " is unknown; 1 plane strain, 2 axisymmetric");
   model.geometry = code == 2 ? Geometry::axisymmetric : Geometry::plane_strain;
-  model.solver = card.integer("solver", 0);
+  model.solver = b.options.solver >= 0 ? b.options.solver : card.integer("solver", 0);
   if (model.solver != 0 && b.catalogue.solvers.find(model.solver) == nullptr)
     b.error(card.where("solver"), "solver " + std::to_string(model.solver) + " is unknown; 0 automatic, " +
                                       b.catalogue.solvers.known());
@@ -106,6 +112,8 @@ void build_reports(Builder& b) {
       if (!(report.height > 0.0))
         b.error(card.where("height"), "a triaxial report needs the specimen height (> 0)");
       if (report.area < 0.0) b.error(card.where("area"), "the area must not be negative");
+      if (card.blank("cell_pressure"))
+        b.note(card.where(), "the cell pressure of this triaxial report is left blank, which reads as 0");
       for (const char* field : {"height", "area", "cell_pressure"}) b.usable(card, field, card.real(field));
     }
     b.model.reports.push_back(std::move(report));
@@ -130,7 +138,7 @@ void check_totals(Builder& b) {
 
 Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOptions& options) {
   const Deck deck = canonical_deck(as_read, catalogue);
-  build::Builder b{deck, catalogue, options, {}, {}, {}, {}, {}, {}};
+  build::Builder b{deck, catalogue, options, {}, {}, {}, {}, {}, {}, {}};
   b.model.diagnostics = deck.diagnostics;
   build::build_control(b);
   build::build_nodes(b);
@@ -143,6 +151,7 @@ Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOp
   if (b.problems.errors() > 0) throw InputError(b.problems);
   build::make_mid_nodes(b);
   build::check_model(b);
+  if (b.problems.errors() == 0) build::check_plausible(b);
   if (b.problems.errors() > 0) throw InputError(b.problems);
   return std::move(b.model);
 }

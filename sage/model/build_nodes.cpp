@@ -157,6 +157,9 @@ void fill_block(Builder& b, PlacedNodes& nodes, const CardView& card, int errors
     b.error(card.where(cr < 0.0 ? "column_ratio" : "row_ratio"), "a spacing ratio must not be negative");
     return;
   }
+  for (const char* field : {"column_ratio", "row_ratio"})
+    if (const double ratio = card.real(field); ratio != 0.0 && !(ratio > 1e-3 && ratio < 1e3))
+      b.warning(card.where(field), "the " + card.label(field) + " is extreme");
   const auto bottom = side_points(nodes, first, column_step, columns, cr);
   const auto top = side_points(nodes, corners[3], column_step, columns, cr);
   const auto left = side_points(nodes, first, row_step, rows, rr);

@@ -37,12 +37,17 @@ void read_fixity(Builder& b, const CardView& card, bool in_stage, std::vector<Fi
   const char* const values[] = {"x_value", "y_value"};
   for (std::size_t c = 0; c < 2; ++c) {
     b.usable(card, values[c], fixity.value[c]);
+    if (in_stage && fixity.code[c] == FixityCode::fixed && card.blank(values[c]))
+      b.note(card.where(codes[c]),
+             "the " + card.label(values[c]) + " is left blank: held where it is, displacement 0");
     if (fixity.value[c] == 0.0) continue;
     if (!in_stage)
       b.error(card.where(values[c]), "a displacement other than zero belongs on a fixity card of a stage");
     else if (const int code = card.integer(codes[c]); code == 0 || code == -1)
       b.error(card.where(codes[c]), "a displacement is given but the code is not 1 (fixed)");
   }
+  if (fixity.code[0] == FixityCode::unchanged && fixity.code[1] == FixityCode::unchanged)
+    b.note(card.where(), "this fixity card changes nothing: both its codes are 0 or blank");
   for (std::size_t c = 0; c < 2; ++c)
     if (!in_stage && fixity.code[c] == FixityCode::released)
       b.error(card.where(codes[c]), "only a stage can release a fixity (code -1)");
@@ -92,6 +97,24 @@ void read_pressure(Builder& b, const CardView& card, std::vector<EdgeLoad>& out)
   }
 }
 
+// Values that this kind of initial stress takes and the card leaves blank.
+void note_blank_stresses(Builder& b, const CardView& card, InitialKind kind, int group_number) {
+  const auto group = b.group_index.find(group_number);
+  const bool interface =
+      group != b.group_index.end() && b.model.groups[static_cast<std::size_t>(group->second)].element &&
+      b.model.groups[static_cast<std::size_t>(group->second)].element->traits().law_size == 2;
+  const int values = kind == InitialKind::uniform     ? (interface ? 2 : 3)
+                     : kind == InitialKind::geostatic ? 3
+                                                      : 0;
+  std::string blank;
+  if (card.blank("kind")) blank = "kind (0, uniform)";
+  for (int i = 1; i <= values; ++i)
+    if (card.blank("v" + std::to_string(i)))
+      blank += (blank.empty() ? "" : ", ") + std::string("value ") + std::to_string(i);
+  if (!blank.empty())
+    b.note(card.where(), "left blank on this initial stress card, which reads as 0: " + blank);
+}
+
 void read_initial(Builder& b, const CardView& card, std::vector<InitialStress>& out) {
   InitialStress initial;
   initial.where = card.where();
@@ -109,6 +132,7 @@ void read_initial(Builder& b, const CardView& card, std::vector<InitialStress>& 
     initial.value[i] = card.real(field);
     b.usable(card, field, initial.value[i]);
   }
+  note_blank_stresses(b, card, initial.kind, number);
   bool found = false;
   for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
     if (b.model.groups[g].number != number) continue;

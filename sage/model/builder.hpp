@@ -33,6 +33,7 @@ struct Builder {
   std::unordered_map<int, int> group_index;
   std::unordered_map<int, int> material_index;
   std::unordered_map<int, ElementPlace> element_place;
+  std::vector<int> blank_weights;  // materials whose unit weight is left blank
   // False once a card of that kind was refused: what refers to it is then not reported as missing as well.
   bool nodes_known = true, materials_known = true, groups_known = true, elements_known = true;
 
@@ -68,7 +69,11 @@ void build_reports(Builder& b);
 void check_totals(Builder& b);
 // Mid-side and inner nodes that element cards leave blank; fixities are inherited along boundary edges.
 void make_mid_nodes(Builder& b);
-// Shapes, supports, unused nodes, radii.
+// Numbers that are valid and yet unlikely: warnings and notes.
+void check_plausible(Builder& b);
+// Interfaces whose sides belong to the wrong bodies.
+void check_interfaces(Builder& b);
+// Shapes, supports, unused nodes, radii, solver.
 void check_model(Builder& b);
 
 }  // namespace sage::build

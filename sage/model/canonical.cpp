@@ -124,11 +124,7 @@ int law_code(const Catalogue& catalogue, std::string_view name) {
 
 // The cards decide, not the layout's name: a layout file of the user's own gets the same meaning.
 Deck canonical_deck(const Deck& deck, const Catalogue& catalogue) {
-  if (deck.has("foundation"))
-    throw InputError(
-        {deck.file, 0, 0, 0},
-        "an embankment mesh numbered by rule (program 6.9) can be read and echoed, but no model is "
-        "built from it; write its mesh as node and element cards");
+  if (deck.has("foundation")) return canonical::embankment_deck(deck, catalogue);
   if (deck.has("rectangle")) return canonical::rectangle_deck(deck, catalogue);
   if (canonical::has_field(deck, "element", "shear_modulus")) return canonical::quad4m_deck(deck, catalogue);
   if (canonical::has_field(deck, "element", "class")) return canonical::cande_deck(deck, catalogue);

@@ -56,7 +56,8 @@ NewField take(const CardView& card, std::string_view field, std::string_view as 
 int element_code(const Catalogue& catalogue, std::string_view name);
 int law_code(const Catalogue& catalogue, std::string_view name);
 
-Deck rectangle_deck(const Deck& deck, const Catalogue& catalogue);  // meshes numbered by rule
+Deck rectangle_deck(const Deck& deck, const Catalogue& catalogue);   // meshes numbered by rule
+Deck embankment_deck(const Deck& deck, const Catalogue& catalogue);  // built in lifts
 Deck quad4m_deck(const Deck& deck, const Catalogue& catalogue);
 Deck cande_deck(const Deck& deck, const Catalogue& catalogue);
 

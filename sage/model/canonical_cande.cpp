@@ -27,8 +27,35 @@ void add_nodes(const Deck& deck, CardWriter& out) {
   }
 }
 
+// The law of Duncan et al. (1980) from the cards D-2 to D-4, where these hold its numbers.  Decks may name a
+// standard soil instead (SW95 ...), whose numbers stand in CANDE.
+std::vector<NewField> duncan_parameters(const CardView& model, const CardView& strength, const CardView& bulk,
+                                        CardWriter& out) {
+  if (model.integer("model") != 0) {
+    out.warning(model.where("model"), "this soil's bulk modulus is that of Selig (code " +
+                                          model.text("model", "1") +
+                                          "), which is not known here; only code 0, that of Duncan, is");
+    return {};
+  }
+  if (!(bulk.real("bulk_number") > 0.0)) {
+    out.warning(bulk.where("bulk_number"),
+                "without a bulk modulus number this soil has a constant Poisson's ratio, which "
+                "is not known here");
+    return {};
+  }
+  out.warning(strength.where("modulus_number"),
+              "computed as duncan_chang_eb; the deck has no modulus for unloading: the modulus number K serves "
+              "for both");
+  return {take(strength, "modulus_number", "values"), take(strength, "modulus_exponent", "values"),
+          take(strength, "failure_ratio", "values"),  take(strength, "modulus_number", "values"),
+          take(bulk, "bulk_number", "values"),        take(bulk, "bulk_exponent", "values"),
+          take(strength, "cohesion", "values"),       take(strength, "friction_angle", "values"),
+          take(strength, "friction_drop", "values")};
+}
+
 // The parameters of a material, empty where the deck doesn't give a law that exists here.
-std::vector<NewField> parameters(const Deck& deck, const CardView& material, std::string& law) {
+std::vector<NewField> parameters(const Deck& deck, const CardView& material, std::string& law,
+                                 CardWriter& out) {
   std::vector<NewField> values;
   const auto add = [&](const CardView& card, std::initializer_list<const char*> fields) {
     for (const char* field : fields) values.push_back(take(card, field, "values"));
@@ -40,6 +67,11 @@ std::vector<NewField> parameters(const Deck& deck, const CardView& material, std
   } else if (!mohr.empty()) {
     law = "mohr_coulomb";
     add(mohr.front(), {"youngs_modulus", "poissons_ratio", "cohesion", "friction_angle"});
+  } else if (const auto model = deck.all("duncan", material), strength = deck.all("duncan_strength", material),
+             bulk = deck.all("duncan_bulk", material);
+             !model.empty() && !strength.empty() && !bulk.empty()) {
+    law = "duncan_chang_eb";
+    values = duncan_parameters(model.front(), strength.front(), bulk.front(), out);
   }
   return values;
 }
@@ -50,13 +82,13 @@ void add_materials(const Deck& deck, const Catalogue& catalogue, CardWriter& out
   std::string ignored, stand_in_name;
   for (const CardView& material : deck.all("material")) {
     if (deck.all("isotropic", material).empty()) continue;
-    stand_in = parameters(deck, material, ignored);
+    stand_in = parameters(deck, material, ignored, out);
     stand_in_name = material.text("number") + " (" + material.text("name") + ")";
     break;
   }
   for (const CardView& material : deck.all("material")) {
     std::string law;
-    std::vector<NewField> values = parameters(deck, material, law);
+    std::vector<NewField> values = parameters(deck, material, law, out);
     if (values.empty()) {
       const std::string name = "material " + material.text("number") + " (" + material.text("name") + ")";
       if (material.integer("law") == 6 || material.integer("law") == 7) continue;
@@ -151,12 +183,20 @@ void leave_out(const Deck& deck, CardWriter& out) {
 
 Groups add_groups(const Deck& deck, const Catalogue& catalogue, CardWriter& out) {
   Groups groups;
+  int before = 0;
   for (const CardView& element : deck.all("element")) {
     for (const char* field : {"node_increment", "rows", "row_increment"})
       if (element.integer(field) > 1)
         fail(deck, element.where(field),
              "element generation (" + element.label(field) +
                  ") is not built; give every element on a card of its own");
+    if (const int number = element.integer("number"); before > 0 && number > before + 1)
+      fail(deck, element.where("number"),
+           "elements " + std::to_string(before + 1) + " to " + std::to_string(number - 1) +
+               " are not given: CANDE fills such a gap by generation, which is not built; give every element "
+               "on a card "
+               "of its own");
+    before = element.integer("number");
     if (is_soil(element)) groups.try_emplace(key_of(element), 0.0);
   }
   double number = 0.0;

@@ -214,6 +214,24 @@ double poissons_ratio(const Builder& b, const Material& material) {
   return 0.0;
 }
 
+// A solver that would use one half of the matrix for both.
+void check_solver(Builder& b) {
+  const SolverEntry* solver = b.catalogue.solvers.find(b.model.solver);
+  if (solver == nullptr || !solver->symmetric) return;
+  for (const Group& group : b.model.groups) {
+    const Material& material = b.model.material_of(group);
+    if (std::visit([](const auto* law) { return law->symmetric(); }, material.law_ref())) continue;
+    const bool from_deck = b.options.solver < 0;
+    b.error(from_deck ? b.deck.one("control").where("solver") : SourcePosition{b.deck.file, 0, 0, 0},
+            std::string(from_deck ? "solver " + std::to_string(b.model.solver) : "the option --solver") + ": " +
+                solver->name + " is for symmetric matrices only, but material " +
+                std::to_string(material.number) + " (" + material.law_name + ") of group " +
+                std::to_string(group.number) +
+                " has an unsymmetric tangent; 0 chooses a solver that fits, `sagefe list solvers` shows them");
+    return;
+  }
+}
+
 void warn_locking(Builder& b) {
   constexpr int kShown = 5;
   int found = 0;
@@ -242,10 +260,12 @@ void warn_locking(Builder& b) {
 
 void check_model(Builder& b) {
   check_shapes(b);
+  if (b.problems.errors() == 0) check_interfaces(b);
   fix_axis(b);
   note_unused_nodes(b);
   note_coincident_nodes(b);
   if (b.problems.errors() == 0) check_supports(b);
+  check_solver(b);
   warn_locking(b);
 }
 

@@ -19,6 +19,13 @@ void bad_counts(Cases& c) {
                control({"1", "77", "4", "1", "1", "1", "1", "2", "1", "1", "1", "9", "4"}),
                "control:6-10",
                {"solver 77 is unknown", "skyline_lu"}});
+  c.push_back(
+      {"solver_for_symmetric_matrices",
+       control({"1", "2", "4", "1", "1", "1", "1", "2", "1", "1", "1", "9", "4"})
+           .with("material", card({"1", "4", "5"}, {""}))
+           .with("parameters", card({}, {"3000.", ".25", "10.", "30.", "0."})),
+       "control:6-10",
+       {"solver 2: skyline_ldlt is for symmetric matrices only", "material 1 (mohr_coulomb)", "group 1"}});
   c.push_back({"too_few_nodes_announced",
                control({"1", "0", "3", "1", "1", "1", "1", "2", "1", "1", "1", "9", "4"}),
                "node9",
@@ -304,6 +311,19 @@ void bad_elements(Cases& c) {
                j.with("element_joint", card({"2", "2", "3", "4", "5", "6"})),
                "element_joint",
                {"element 2", "node order 1 2 4 3"}});
+  c.push_back(
+      {"interface_sides_swapped",
+       j.with("element_joint", card({"2", "2", "5", "6", "4", "3"})),
+       "element_joint:11-30",
+       {"element 2 (interface4", "its sides are swapped",
+        "element 3, which owns its nodes 1 and 2, lies to the left of the line from node 1 to node 2",
+        "element 1, which owns its nodes 3 and 4, lies to the right", "node order 4 3 2 1 would be right"}});
+  c.push_back({"interface_both_bodies_on_one_side",
+               j.with("element_top", card({"3", "3", "3", "4", "8", "7"}))
+                   .with("element_joint", card({"2", "2", "3", "4", "6", "5"}))
+                   .with("element_bottom", card({"1", "1", "5", "6", "8", "7"})),
+               "element_joint:11-30",
+               {"both sides belong to bodies on the left", "which overlap there"}});
   c.push_back({"interface_zero_length",
                j.with("element_joint", card({"2", "2", "3", "4", "6", "5"}))
                    .with("node4", card({"4", "", ""}, {"0.", "1."}))

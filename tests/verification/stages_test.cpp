@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <sstream>
 
 #include "tests/support/run_text.hpp"
 
@@ -161,6 +163,48 @@ TEST(Excavation, OneStageEqualsSeveral) {
       const int floor = once.index(2 * 7 + 1);  // on the left side, two rows above the base
       EXPECT_GT(once.last().u[2 * floor + 1], once.increments[0].u[2 * floor + 1]);
     }
+}
+
+std::string shipped(const std::string& name) {
+  std::ifstream file(SAGE_SOURCE_DIR "/legacy_inputs/stages/" + name + "/deck.dat");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+// The same over decks that are shipped, with a wall and its interfaces; and the base carries the weight that is
+// left.
+TEST(Excavation, ShippedTwinsAgree) {
+  for (const std::string name : {"cut", "shaft"}) {
+    SCOPED_TRACE(name);
+    const WholeRun lifts = run_text(shipped(name + "_lifts")), once = run_text(shipped(name + "_at_once"));
+    ASSERT_TRUE(lifts.completed() && once.completed()) << lifts.failure << once.failure;
+    EXPECT_LT(lifts.increments.front().u.cwiseAbs().maxCoeff(), 1e-13) << "the null step";
+    double difference = 0.0, size = 0.0;
+    for (std::size_t g = 0; g < once.model->groups.size(); ++g) {
+      const Group& group = once.model->groups[g];
+      if (group.name != "ground" && group.name != "wall") continue;
+      for (const int node : group.nodes) {
+        const Vector2 a = lifts.last().u.segment<2>(2 * node), b = once.last().u.segment<2>(2 * node);
+        difference = std::max(difference, (a - b).norm());
+        size = std::max(size, a.norm());
+      }
+      EXPECT_LT((lifts.stress[g] - once.stress[g]).cwiseAbs().maxCoeff(),
+                1e-9 * once.stress[g].cwiseAbs().maxCoeff());
+    }
+    EXPECT_LT(difference, 1e-10 * size);
+    EXPECT_GT(size, 1e-3);
+    for (std::size_t stage = 0; stage < lifts.increments.size(); ++stage) {
+      const auto dug = static_cast<double>(stage);
+      double up = 0.0;
+      for (int i = 0; i < lifts.model->mesh.nodes(); ++i)
+        if (std::abs(lifts.model->mesh.x(1, i) + 10.0) < 1e-9)
+          up += lifts.reaction(lifts.increments[stage], lifts.model->mesh.number[static_cast<std::size_t>(i)])
+                    .y();
+      const double left = name == "cut" ? 16.5 * 10.0 - 4.0 * dug : M_PI * (16.5 * 16.5 * 10.0 - 16.0 * dug);
+      EXPECT_NEAR(up, 18.0 * left, 1e-9 * 18.0 * left) << "stage " << stage + 1;
+    }
+  }
 }
 
 // A free standing excavation carries no traction on its new surface: reactions equal the weight that is left.

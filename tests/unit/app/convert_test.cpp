@@ -235,6 +235,41 @@ TEST(Convert, GmshMeshBecomesASkeletonThatCheckExplains) {
   EXPECT_FALSE(results(write("square.dat", sage1_text(filled, full_catalogue(), filled.diagnostics))).empty());
 }
 
+double area_of(const Model& model, const Group& group) {
+  std::vector<double> geometry(static_cast<std::size_t>(group.element->traits().geometry_size()));
+  const ElementTraits& traits = group.element->traits();
+  Eigen::Matrix2Xd x;
+  double area = 0.0;
+  for (int e = 0; e < group.elements(); ++e) {
+    element_coordinates(model.mesh, group, e, x);
+    group.element->geometry(x, geometry);
+    for (int p = 0; p < traits.points; ++p)
+      area += geometry[static_cast<std::size_t>(p * (1 + traits.law_size * traits.dofs))];
+  }
+  return area;
+}
+
+// A file that Gmsh itself wrote (data/README.md): quadrilaterals and triangles of second order, curved edges.
+TEST(Convert, AMeshThatGmshWroteRuns) {
+  const std::string text = read(SAGE_SOURCE_DIR "/tests/unit/app/data/slope.msh");
+  Model mesh =
+      model_from_msh(text, "slope.msh", full_catalogue(), {Geometry::plane_strain, 20000.0, 0.3, 18.0});
+  EXPECT_EQ(mesh.diagnostics.warnings(), 0);
+  ASSERT_EQ(mesh.groups.size(), 2u);
+  EXPECT_EQ(mesh.groups[0].name, "layer");
+  EXPECT_EQ(mesh.groups[0].element->traits().nodes, 8);
+  EXPECT_EQ(mesh.groups[1].name, "bank");
+  EXPECT_EQ(mesh.groups[1].element->traits().nodes, 6);
+  const std::string deck = write("slope.dat", sage1_text(mesh, full_catalogue(), mesh.diagnostics));
+  const Model model = model_of(deck);
+  EXPECT_EQ(model.diagnostics.warnings(), 0);
+  // 20 x 6 without a half circle of radius 2, which parabolas follow to 3e-4; a bank 8 to 4 wide and 4 high.
+  EXPECT_NEAR(area_of(model, model.groups[0]), 120.0 - 2.0 * M_PI, 3e-3);
+  EXPECT_NEAR(area_of(model, model.groups[1]), 24.0, 1e-6);
+  EXPECT_EQ(model.stages[0].pressures.size(), 2u) << "the crest, 4 wide, has two edges";
+  EXPECT_FALSE(results(deck).empty());
+}
+
 TEST(Convert, BrokenMeshesAreRefusedWithTheirLine) {
   const std::string good = kMesh;
   for (std::size_t cut = 0; cut + 40 < good.size(); cut += 7) {

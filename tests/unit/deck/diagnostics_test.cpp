@@ -117,6 +117,10 @@ TEST(Diagnostics, NearMissesAreWarnings) {
       messages(with_line(10, "   25    1    0         -      0.05       0.5")),
       (Lines{
           "deck.dat:10:16-25: warning: \"-\" has no digit and reads as 0 (node card, x or radius, length)"}));
+  EXPECT_EQ(
+      messages(with_line(10, "   25    1    0    0.5Q-1      0.05       0.5")),
+      (Lines{"deck.dat:10:16-25: warning: \"0.5Q-1\" has the exponent letter Q and reads as if it were E (node "
+             "card, x or radius, length)"}));
   EXPECT_EQ(messages(with_line(10, lines()[9] + "      oops")),
             (Lines{"deck.dat:10:52-55: note: characters behind the last field of the node card are ignored"}));
   EXPECT_EQ(messages(with_line(10, lines()[9] + std::string(40, ' ') + "oops")),

@@ -1,0 +1,316 @@
+// Valid numbers that are unlikely to be meant: a unit system whose atmosphere is not one, gravity without
+// weight, a pressure beyond Young's modulus.  Warnings and notes only; thresholds are far from what sound decks
+// hold.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sage/model/activity.hpp"
+#include "sage/model/builder.hpp"
+
+namespace sage::build {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+SourcePosition line_of(const Builder& b, int line) {
+  return {b.deck.file, line, 0, 0};
+}
+
+std::string text(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.4g", value);
+  return buffer;
+}
+
+struct NamedUnit {
+  const char* name;
+  double si;  // in m, N, Pa
+};
+
+constexpr NamedUnit kLengths[] = {{"m", 1.0},     {"cm", 0.01},   {"mm", 0.001},
+                                  {"km", 1000.0}, {"in", 0.0254}, {"ft", 0.3048}};
+constexpr NamedUnit kForces[] = {{"n", 1.0},        {"kn", 1e3},        {"mn", 1e6},      {"lbf", 4.4482216},
+                                 {"lb", 4.4482216}, {"kip", 4448.2216}, {"kgf", 9.80665}, {"tf", 9806.65}};
+constexpr NamedUnit kStresses[] = {{"pa", 1.0},        {"kpa", 1e3},       {"mpa", 1e6},
+                                   {"kn/m2", 1e3},     {"n/mm2", 1e6},     {"psi", 6894.7573},
+                                   {"psf", 47.880259}, {"ksf", 47880.259}, {"ksi", 6894757.3},
+                                   {"bar", 1e5},       {"tsf", 95760.518}, {"kgf/cm2", 98066.5}};
+constexpr double kAtmosphere = 101325.0, kWater = 9806.65;
+
+// 0 = a unit that isn't known here.
+template <std::size_t n>
+double si(const NamedUnit (&units)[n], std::string name) {
+  for (char& c : name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  for (const NamedUnit& unit : units)
+    if (name == unit.name) return unit.si;
+  return 0.0;
+}
+
+// The atmosphere and water are the same everywhere: a deck of known units can be checked.
+void check_units(Builder& b) {
+  if (!b.deck.has("units")) return;
+  const CardView card = b.deck.one("units");
+  const UnitSystem& units = b.model.units;
+  const double length = si(kLengths, units.length), force = si(kForces, units.force);
+  const double stress = si(kStresses, units.stress);
+  const auto check = [&](const char* field, double given, double unit, double right, const std::string& name) {
+    if (given == 0.0 || unit == 0.0 || std::abs(given * unit / right - 1.0) < 0.1) return;
+    b.warning(card.where(field), "the " + card.label(field) + " is " + text(given) +
+                                     "; in these units it is about " + text(right / unit) + " " + name);
+  };
+  check("atmospheric_pressure", units.atmospheric_pressure, stress, kAtmosphere, units.stress);
+  check("water_unit_weight", units.water_unit_weight, length > 0.0 ? force / (length * length * length) : 0.0,
+        kWater, unit_text(Dimension::unit_weight, units));
+  if (stress > 0.0 && force > 0.0 && length > 0.0) {
+    const double ratio = stress / (force / (length * length));
+    if (std::abs(ratio - 1.0) > 0.01)
+      b.warning(card.where("stress"), "1 " + units.stress + " is " + text(ratio) + " " + units.force + "/" +
+                                          units.length +
+                                          "^2: forces, lengths and stresses of a deck must belong together");
+  }
+}
+
+// Young's modulus of a solid, as far as its law has one; 0 = none.
+double stiffness(const Builder& b, const Material& material) {
+  const MaterialEntry* entry = b.catalogue.materials.find(material.code);
+  if (entry == nullptr || entry->law_size != 4) return 0.0;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < material.parameters.size(); ++i) {
+    const std::string_view name = entry->parameters[i].name;
+    if (name == "youngs_modulus" || name == "bulk_modulus" || name == "shear_modulus")
+      largest = std::max(largest, material.parameters[i]);
+    if (name == "modulus_number" || name == "unload_number")
+      largest = std::max(largest, material.parameters[i] * b.model.units.atmospheric_pressure);
+  }
+  return largest;
+}
+
+struct Size {
+  double length = 0.0;     // of the mesh
+  double stiffness = 0.0;  // largest of all solids; 0 = unknown
+};
+
+Size size_of(const Builder& b) {
+  Size size;
+  const Mesh& mesh = b.model.mesh;
+  size.length = (mesh.x.rowwise().maxCoeff() - mesh.x.rowwise().minCoeff()).maxCoeff();
+  for (const Group& group : b.model.groups)
+    size.stiffness = std::max(size.stiffness, stiffness(b, b.model.material_of(group)));
+  return size;
+}
+
+void check_initial(Builder& b, const InitialStress& initial) {
+  const Group& group = b.model.groups[static_cast<std::size_t>(initial.group)];
+  const bool solid = group.element->traits().law_size == 4;
+  const double modulus = stiffness(b, b.model.material_of(group));
+  const std::string name = "group " + std::to_string(group.number) + ": ";
+  if (initial.kind == InitialKind::geostatic) {
+    const double k0 = initial.value[2], weight = initial.value[1];
+    if (k0 < 0.0 || k0 > 10.0)
+      b.warning(initial.where, name + "the coefficient of earth pressure at rest is " + text(k0) +
+                                   "; soils have about 0.3 to 3");
+    if (weight < 0.0) b.warning(initial.where, name + "the unit weight of the initial stress is negative");
+    const auto [low, high] = std::pair(b.model.mesh.x.row(1).minCoeff(), b.model.mesh.x.row(1).maxCoeff());
+    if (initial.value[0] > high + 2.0 * (high - low) || initial.value[0] < low)
+      b.warning(initial.where, name + "the ground level of the initial stress, " + text(initial.value[0]) +
+                                   ", is far from the mesh, " + text(low) + " to " + text(high));
+    if (modulus > 0.0 && std::abs(weight) * (high - low) + std::abs(initial.value[3]) > modulus)
+      b.warning(initial.where, name + "the initial stress exceeds the material's modulus, " + text(modulus));
+  }
+  if (initial.kind != InitialKind::uniform) return;
+  const std::size_t normals = solid ? 3 : 2;
+  for (std::size_t i = solid ? 0 : 1; i < normals; ++i) {
+    if (initial.value[i] >= 0.0) continue;
+    b.note(initial.where, name + "value " + std::to_string(i + 1) +
+                              " of the initial stress is tension (decks write compression positive)");
+    break;
+  }
+  double largest = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) largest = std::max(largest, std::abs(initial.value[i]));
+  if (modulus > 0.0 && largest > modulus)
+    b.warning(initial.where, name + "the initial stress, " + text(largest) +
+                                 ", exceeds the material's modulus, " + text(modulus));
+}
+
+// Elements that are needles: a coordinate with a digit too many stretches its elements long before they fold.
+void check_slender(Builder& b) {
+  constexpr double kSlender = 1e4;
+  double worst = 0.0;
+  int number = 0, line = 0, found = 0;
+  for (const Group& group : b.model.groups) {
+    if (group.element->traits().law_size != 4) continue;
+    for (int e = 0; e < group.elements(); ++e) {
+      double longest = 0.0, shortest = 1e300;
+      for (const std::vector<int>& edge : group.element->edges()) {
+        const int* n = group.nodes_of(e);
+        const double length = (b.model.mesh.x.col(n[edge[0]]) - b.model.mesh.x.col(n[edge[1]])).norm();
+        longest = std::max(longest, length);
+        shortest = std::min(shortest, length);
+      }
+      if (longest <= kSlender * shortest) continue;
+      ++found;
+      if (longest <= worst * shortest) continue;
+      worst = longest / shortest;
+      number = group.element_numbers[static_cast<std::size_t>(e)];
+      line = group.element_lines[static_cast<std::size_t>(e)];
+    }
+  }
+  if (found > 0)
+    b.warning(line_of(b, line), std::to_string(found) +
+                                    " element(s) are more than 10000 times as long as wide, the worst is "
+                                    "element " +
+                                    std::to_string(number) + ", " + text(worst) +
+                                    " times: is a coordinate wrong?");
+}
+
+// Poisson's ratio below zero is possible, but no soil has it.
+void check_poisson(Builder& b) {
+  for (const Material& material : b.model.materials) {
+    const MaterialEntry* entry = b.catalogue.materials.find(material.code);
+    for (std::size_t i = 0; entry != nullptr && i < material.parameters.size(); ++i)
+      if (entry->parameters[i].name == "poissons_ratio" && material.parameters[i] < 0.0)
+        b.warning(material.where, "material " + std::to_string(material.number) +
+                                      ": Poisson's ratio is negative, " + text(material.parameters[i]));
+  }
+}
+
+void check_fixities(Builder& b, const Stage& stage, const Activity& before, const Size& size) {
+  int last_line = 0;
+  for (const Fixity& f : stage.fixities) {
+    if (f.line == last_line) continue;  // one message a card
+    for (std::size_t c = 0; c < 2; ++c) {
+      if (std::abs(f.value[c]) > size.length) {
+        last_line = f.line;
+        b.warning(line_of(b, f.line), "the displacement " + text(f.value[c]) + " is larger than the mesh, " +
+                                          text(size.length) + "; strains are taken as small");
+      }
+      if (f.code[c] == FixityCode::released && !before.held[2 * static_cast<std::size_t>(f.node) + c]) {
+        last_line = f.line;
+        b.note(line_of(b, f.line), "code -1 releases node " +
+                                       std::to_string(b.model.mesh.number[static_cast<std::size_t>(f.node)]) +
+                                       (c == 0 ? " in x" : " in y") + ", which nothing held");
+      }
+    }
+  }
+}
+
+void check_loads(Builder& b, const Stage& stage, const Size& size) {
+  const double reach = b.model.geometry == Geometry::axisymmetric ? 2.0 * kPi * size.length : 1.0;
+  int last_line = 0;
+  for (const NodalLoad& load : stage.loads) {
+    if (load.line == last_line || size.stiffness == 0.0) continue;
+    if (load.force.cwiseAbs().maxCoeff() <= size.stiffness * size.length * reach) continue;
+    last_line = load.line;
+    b.warning(line_of(b, load.line), "the force " + text(load.force.cwiseAbs().maxCoeff()) +
+                                         " would strain the whole mesh by more than 1 (largest modulus " +
+                                         text(size.stiffness) + ")");
+  }
+  for (const EdgeLoad& load : stage.pressures) {
+    if (load.line == last_line) continue;
+    const double largest = std::max(load.normal.cwiseAbs().maxCoeff(), load.shear.cwiseAbs().maxCoeff());
+    if (size.stiffness > 0.0 && largest > size.stiffness) {
+      b.warning(line_of(b, load.line), "the pressure or shear " + text(largest) +
+                                           " exceeds the largest modulus, " + text(size.stiffness));
+    } else if (load.normal.minCoeff() < 0.0) {
+      b.note(line_of(b, load.line), "a negative pressure pulls at the edge");
+    } else {
+      continue;
+    }
+    last_line = load.line;
+  }
+}
+
+// Weight without gravity is allowed; gravity without weight is a mistake.
+void check_gravity(Builder& b) {
+  const Stage* first = nullptr;
+  Vector2 total = Vector2::Zero();
+  for (const Stage& stage : b.model.stages) {
+    if (stage.gravity.norm() > 0.0 && first == nullptr) first = &stage;
+    total += stage.gravity;
+    const std::string name = "stage " + std::to_string(stage.number) + ": ";
+    if (stage.gravity.norm() > 1000.0)
+      b.warning(stage.where, name + "gravity is " + text(stage.gravity.norm()) + " times the unit weights");
+    if (total.y() > 1e-9) b.note(stage.where, name + "gravity acts upwards (gravity_y > 0 in sum)");
+    if (stage.increments > 10000)
+      b.note(stage.where,
+             name + std::to_string(stage.increments) + " increments: each is a solution of its own");
+  }
+  bool weight = false;
+  for (const Group& group : b.model.groups) weight = weight || b.model.material_of(group).unit_weight != 0.0;
+  if (first != nullptr && !weight)
+    b.warning(first->where,
+              "stage " + std::to_string(first->number) + ": gravity acts, but no material has a unit weight");
+  for (const Material& material : b.model.materials) {
+    if (material.unit_weight < 0.0)
+      b.warning(material.where,
+                "material " + std::to_string(material.number) + ": the unit weight is negative");
+    if (first == nullptr || !weight || !std::holds_alternative<std::unique_ptr<SolidLaw>>(material.law))
+      continue;
+    if (std::find(b.blank_weights.begin(), b.blank_weights.end(), material.number) != b.blank_weights.end())
+      b.note(material.where, "material " + std::to_string(material.number) +
+                                 ": its unit weight is left blank, which reads as 0, though gravity acts");
+  }
+  if (first == nullptr) return;
+  const double height = b.model.mesh.x.row(1).maxCoeff() - b.model.mesh.x.row(1).minCoeff();
+  for (const Group& group : b.model.groups) {
+    const Material& material = b.model.material_of(group);
+    const double modulus = stiffness(b, material);
+    if (modulus == 0.0 || std::abs(material.unit_weight) * height <= modulus) continue;
+    b.warning(material.where,
+              "material " + std::to_string(material.number) + ": the weight of a column as high as the mesh, " +
+                  text(material.unit_weight * height) + ", exceeds its modulus, " + text(modulus));
+    break;
+  }
+}
+
+void note_null_stage(Builder& b, const Stage& stage) {
+  bool any = !stage.loads.empty() || !stage.pressures.empty() || !stage.births.empty() ||
+             !stage.deaths.empty() || !stage.initials.empty() || stage.gravity.norm() > 0.0;
+  for (const Fixity& f : stage.fixities)
+    for (std::size_t c = 0; c < 2; ++c) any = any || f.value[c] != 0.0 || f.code[c] == FixityCode::released;
+  if (any) return;
+  b.note(stage.where,
+         "stage " + std::to_string(stage.number) +
+             " adds nothing (no load, displacement, gravity, birth or death): a null step, which only "
+             "brings what is out of balance into equilibrium");
+}
+
+void check_reports(Builder& b, const Size& size) {
+  for (const Report& report : b.model.reports) {
+    if (report.kind != ReportKind::triaxial) continue;
+    if (report.height > 10.0 * size.length || report.height < 0.01 * size.length)
+      b.warning(report.where, "the report's height, " + text(report.height) + ", does not fit the mesh, " +
+                                  text(size.length));
+    if (report.area > 100.0 * size.length * std::max(size.length, 1.0))
+      b.warning(report.where, "the report's area, " + text(report.area) + ", does not fit the mesh, " +
+                                  text(size.length) + " long");
+    if (report.cell_pressure < 0.0) b.note(report.where, "the report's cell pressure is negative");
+    if (size.stiffness > 0.0 && report.cell_pressure > size.stiffness)
+      b.warning(report.where,
+                "the report's cell pressure exceeds the largest modulus, " + text(size.stiffness));
+  }
+}
+
+}  // namespace
+
+void check_plausible(Builder& b) {
+  const Size size = size_of(b);
+  check_units(b);
+  check_slender(b);
+  check_poisson(b);
+  for (const InitialStress& initial : b.model.initials) check_initial(b, initial);
+  Activity activity(b.model);
+  for (const Stage& stage : b.model.stages) {
+    check_fixities(b, stage, activity, size);
+    activity.enter(b.model, stage);
+    check_loads(b, stage, size);
+    note_null_stage(b, stage);
+    for (const InitialStress& initial : stage.initials) check_initial(b, initial);
+  }
+  check_gravity(b);
+  check_reports(b, size);
+}
+
+}  // namespace sage::build

@@ -1,0 +1,21 @@
+// A layer of quadrilaterals with a half-round trench in its surface, and a bank of triangles beside it.
+lc = 2.0;
+Point(1) = {0, 0, 0, lc};   Point(2) = {20, 0, 0, lc};
+Point(3) = {20, 6, 0, lc};  Point(4) = {12, 6, 0, lc};
+Point(5) = {6, 6, 0, lc};   Point(6) = {4, 6, 0, lc};
+Point(7) = {2, 6, 0, lc};   Point(8) = {0, 6, 0, lc};
+Point(9) = {4, 6, 0, lc};
+Point(10) = {20, 10, 0, lc}; Point(11) = {16, 10, 0, lc};
+Line(1) = {1, 2};  Line(2) = {2, 3};  Line(3) = {3, 4};  Line(4) = {4, 5};
+Point(12) = {4, 4, 0, lc};
+Circle(5) = {5, 9, 12}; Circle(6) = {12, 9, 7};
+Line(7) = {7, 8};  Line(8) = {8, 1};
+Line(9) = {3, 10}; Line(10) = {10, 11}; Line(11) = {11, 4};
+Curve Loop(1) = {1, 2, 3, 4, 5, 6, 7, 8}; Plane Surface(1) = {1};
+Curve Loop(2) = {-3, 9, 10, 11}; Plane Surface(2) = {2};
+Recombine Surface {1};
+Mesh.RecombinationAlgorithm = 1;
+Mesh.ElementOrder = 2; Mesh.SecondOrderIncomplete = 1;
+Physical Surface("layer") = {1}; Physical Surface("bank") = {2};
+Physical Curve("fix_xy") = {1}; Physical Curve("fix_x") = {2, 8, 9};
+Physical Curve("pressure=25") = {10};
