@@ -98,6 +98,7 @@ void Run::make_solver() {
     throw AnalysisError("solver " + entry->name +
                         " is for symmetric matrices only; this scene has an unsymmetric law");
   solver_ = entry->make();
+  solver_->set_threads(settings_.threads);
   solver_name_ = entry->name;
   stiffness_ = {};
   stiffness_.solver = solver_.get();

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <thread>
 
 #include "sage/app/checkpoint.hpp"
 #include "sage/app/exit_codes.hpp"
@@ -22,6 +24,10 @@ int solver_code(const Catalogue& catalogue, const std::string& name) {
   for (const auto& [code, entry] : catalogue.solvers.entries())
     if (entry.name == name) return code;
   throw InputError({}, "solver " + name + " is unknown; " + catalogue.solvers.known());
+}
+
+int processors() {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 void make_folder(const std::filesystem::path& folder) {
@@ -83,6 +89,7 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   }
   RunSettings settings;
   settings.solver = solver_code(catalogue, request.solver);
+  settings.threads = request.threads > 0 ? request.threads : processors();
   settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
   make_folder(request.output.folder);
   Checkpoint checkpoint = checkpoint_of(request, model);

@@ -27,6 +27,7 @@ struct RunRequest {
   InputOptions input;
   OutputOptions output;
   std::string solver;                // a name of the catalogue; empty = the deck's choice
+  int threads = 0;                   // of the linear solver; 0 = one for each processor
   bool quiet = false;                // no messages about the deck
   bool restart = false;              // go on from STEM.restart, if there is one
   double checkpoint_seconds = 30.0;  // between checkpoints; 0 = after every increment, negative = none
