@@ -6,6 +6,8 @@
 #include <memory>
 #include <new>
 
+#include "sage/core/large_pages.hpp"
+
 namespace sage {
 
 class AlignedArray {
@@ -13,8 +15,7 @@ class AlignedArray {
   AlignedArray() = default;
   // Throws std::bad_alloc.
   explicit AlignedArray(std::size_t size) : size_(size) {
-    const std::size_t bytes = (size * sizeof(double) + 63) / 64 * 64;
-    data_.reset(static_cast<double*>(std::aligned_alloc(64, bytes == 0 ? 64 : bytes)));
+    data_.reset(static_cast<double*>(allocate_block(size * sizeof(double))));
     if (!data_) throw std::bad_alloc();
   }
   double* data() { return data_.get(); }

@@ -152,8 +152,8 @@ double AssembledMatrix::norm1() const {
   return sum.empty() ? 0.0 : *std::ranges::max_element(sum);
 }
 
-std::vector<double> AssembledMatrix::row_maxima() const {
-  std::vector<double> maximum(at(equations_), 0.0);
+void AssembledMatrix::row_maxima(std::vector<double>& maximum) const {
+  maximum.assign(at(equations_), 0.0);
   for (int column = 0; column < equations_; ++column) {
     double of_column = 0.0;
     for (int k = column_start_[at(column)]; k < column_start_[at(column) + 1]; ++k) {
@@ -164,7 +164,6 @@ std::vector<double> AssembledMatrix::row_maxima() const {
     }
     if (symmetric_) maximum[at(column)] = std::max(maximum[at(column)], of_column);
   }
-  return maximum;
 }
 
 std::size_t AssembledMatrix::memory_bytes() const {

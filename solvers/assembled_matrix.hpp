@@ -32,7 +32,7 @@ class AssembledMatrix {
   // Largest column sum of |K|.
   double norm1() const;
   // Largest |term| of every row.
-  std::vector<double> row_maxima() const;
+  void row_maxima(std::vector<double>& maximum) const;
   std::size_t memory_bytes() const;
 
  private:

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <span>
+#include <stdexcept>
 #include <utility>
 
 #include "solvers/profile_numbering.hpp"
@@ -80,30 +82,111 @@ void lay_out_fronts(const EquationGraph& graph, const SeparatorTree& tree, bool 
     front.border = static_cast<int>(fronts.border.size()) - front.border_begin;
     front.pivot_tiles = whole_tiles(front.pivots);
     front.border_tiles = whole_tiles(front.border);
+    if (2 * front.arm_terms() > std::numeric_limits<int>::max())
+      throw std::length_error("a front of the matrix has more than 2^31 terms");
     front.arms = fronts.factor_terms;
     fronts.factor_terms += (symmetric ? 1 : 2) * front.arm_terms();
     fronts.fronts.push_back(front);
   }
 }
 
+// Multiplications and additions of a front's elimination, about.
+double work_of(const Front& front) {
+  const double p = front.pivots, b = front.border;
+  return p * (p * p / 3.0 + p * b + b * b);
+}
+
+// Cuts the tree below fronts of much work: small subtrees are balanced by taking them one after the other.
+void divide_work(FrontTree& tree) {
+  constexpr double kParts = 8.0, kLeastWork = 2e7;
+  const std::size_t count = tree.fronts.size();
+  std::vector<double> below(count, 0.0);  // work of the whole subtree
+  std::vector<int> begin(count);          // its first front
+  double all = 0.0;
+  for (std::size_t f = 0; f < count; ++f) begin[f] = static_cast<int>(f);
+  for (std::size_t f = 0; f < count; ++f) {
+    below[f] += work_of(tree.fronts[f]);
+    all += work_of(tree.fronts[f]);
+    const int parent = tree.fronts[f].parent;
+    if (parent < 0) continue;
+    below[at(parent)] += below[f];
+    begin[at(parent)] = std::min(begin[at(parent)], begin[f]);
+  }
+  const double largest = std::max(all / kParts, kLeastWork);
+  std::vector<char> is_top(count, 0);
+  for (std::size_t f = count; f-- > 0;) {
+    const int parent = tree.fronts[f].parent;
+    if (parent >= 0 && !is_top[at(parent)]) continue;  // within a subtree
+    is_top[f] = below[f] > largest;
+    if (is_top[f])
+      tree.top.push_back(static_cast<int>(f));
+    else
+      tree.subtrees.push_back({begin[f], static_cast<int>(f) + 1});
+  }
+  std::ranges::reverse(tree.top);
+  std::ranges::reverse(tree.subtrees);
+}
+
 // Border matrices live from their front to its parent, first in, last out.  Two stacks, for fronts at even and
-// odd depth, let a front build its own while those of its children are still there.
-void place_borders(FrontTree& tree) {
-  std::vector<int> depth(tree.fronts.size(), 0);
-  for (std::size_t f = tree.fronts.size(); f-- > 0;)
-    if (tree.fronts[f].parent >= 0) depth[f] = depth[at(tree.fronts[f].parent)] + 1;
+// odd depth, let a front build its own while those of its children are still there.  The root of a subtree
+// leaves its border where the fronts above find it.
+void place_borders(const Subtree& subtree, FrontTree& tree) {
+  const auto begin = at(subtree.begin), root = at(subtree.end - 1);
+  std::vector<int> depth(root + 1 - begin, 0);
+  for (std::size_t f = root; f-- > begin;) depth[f - begin] = depth[at(tree.fronts[f].parent) - begin] + 1;
   std::array<std::int64_t, 2> top{}, highest{};
-  for (std::size_t f = 0; f < tree.fronts.size(); ++f) {
-    const auto own = at(depth[f] % 2), below = 1 - own;
-    tree.fronts[f].workspace = top[own];
+  for (std::size_t f = begin; f < root; ++f) {
+    const auto own = at(depth[f - begin] % 2), below = 1 - own;
+    tree.fronts[f].border_at = top[own];
     top[own] += tree.fronts[f].border_terms();
     highest[own] = std::max(highest[own], top[own]);
     for (const int child : tree.children.of(static_cast<int>(f)))
       top[below] -= tree.fronts[at(child)].border_terms();
   }
-  for (std::size_t f = 0; f < tree.fronts.size(); ++f)
-    if (depth[f] % 2 == 1) tree.fronts[f].workspace += highest[0];
-  tree.workspace_terms = highest[0] + highest[1];
+  for (std::size_t f = begin; f < root; ++f)
+    if (depth[f - begin] % 2 == 1) tree.fronts[f].border_at += highest[0];
+  tree.subtree_terms = std::max(tree.subtree_terms, highest[0] + highest[1]);
+}
+
+// Places of the borders that outlive their subtree: the first gap that is large enough.
+class SharedPlaces {
+ public:
+  std::int64_t take(std::int64_t terms) {
+    std::int64_t place = 0;
+    auto next = used_.begin();
+    for (; next != used_.end() && next->begin < place + terms; ++next) place = next->end;
+    used_.insert(next, {place, place + terms});
+    highest_ = std::max(highest_, place + terms);
+    return place;
+  }
+  void release(std::int64_t place) { used_.erase(std::ranges::find(used_, place, &Used::begin)); }
+  std::int64_t highest() const { return highest_; }
+
+ private:
+  struct Used {
+    std::int64_t begin, end;
+  };
+  std::vector<Used> used_;  // ascending
+  std::int64_t highest_ = 0;
+};
+
+void place_borders(FrontTree& tree) {
+  SharedPlaces places;
+  const auto share = [&](int f) {
+    Front& front = tree.fronts[at(f)];
+    front.shared = true;
+    if (front.border_terms() > 0) front.border_at = places.take(front.border_terms());
+  };
+  for (const Subtree& subtree : tree.subtrees) {
+    place_borders(subtree, tree);
+    share(subtree.end - 1);
+  }
+  for (const int f : tree.top) {
+    share(f);
+    for (const int child : tree.children.of(f))
+      if (tree.fronts[at(child)].border_terms() > 0) places.release(tree.fronts[at(child)].border_at);
+  }
+  tree.shared_terms = places.highest();
 }
 
 // local[position] for all equations of a front.
@@ -118,7 +201,7 @@ std::int64_t arm_target(const Front& front, int i, int j) {
   const int I = i / kTile, J = j / kTile;
   const bool upper = I <= J;
   const int column = upper ? J : I, k = upper ? i : j, v = (upper ? j : i) % kTile;
-  return (upper ? 0 : front.arm_terms()) + (std::int64_t{64} * column * front.pivot_tiles) + k * kTile + v;
+  return (upper ? 0 : front.arm_terms()) + front.panel(column) + k * kTile + v;
 }
 
 void map_entries(const AssembledMatrix& matrix, FrontTree& tree) {
@@ -152,7 +235,7 @@ void map_entries(const AssembledMatrix& matrix, FrontTree& tree) {
     for (auto s = at(tree.entry_start[f]); s < at(tree.entry_start[f + 1]); ++s) {
       int i = local[at(ends[s][0])], j = local[at(ends[s][1])];
       if (matrix.symmetric() && i > j) std::swap(i, j);
-      tree.entry_target[s] = arm_target(front, i, j);
+      tree.entry_target[s] = static_cast<int>(arm_target(front, i, j));
     }
     for (const int child : tree.children.of(static_cast<int>(f))) {
       const Front& c = tree.fronts[at(child)];
@@ -170,6 +253,7 @@ FrontTree make_front_tree(const EquationGraph& graph, const AssembledMatrix& mat
   number_equations(graph, tree, fronts);
   list_children(tree.parent, fronts.children);
   lay_out_fronts(graph, tree, matrix.symmetric(), fronts);
+  divide_work(fronts);
   place_borders(fronts);
   fronts.in_parent.resize(fronts.border.size());
   map_entries(matrix, fronts);

@@ -3,9 +3,9 @@
 //
 // A front has the pivots of its part and the equations that they touch later, its border.  Its local index runs
 // over pivots and border, each padded to whole tiles of 8.  Arms hold the pivot rows (U) and, transposed, the
-// pivot columns (L), as tiles of tile_profile.hpp: tile (K, J) with K < pivot tiles begins at term (J * pivot
-// tiles + K) * 64.  The border matrix, which goes to the parent, is stored in panels of 8 columns: tile (I, J)
-// at (J * border tiles + I) * 64.
+// pivot columns (L) in panels of 8 columns: term k * 8 + v of panel J couples pivot k to column v of J.  A
+// panel has a row for each pivot up to its own last one, and none for padding.  The border matrix, which goes
+// to the parent, is stored in panels of 8 columns too: tile (I, J) at (J * border tiles + I) * 64.
 #pragma once
 
 #include <cstdint>
@@ -24,10 +24,24 @@ struct Front {
   int border = 0;
   int pivot_tiles = 0, border_tiles = 0;
   std::int64_t arms = 0;       // first term of its arms in the factors: U, then L
-  std::int64_t workspace = 0;  // first term of its border matrix in the workspace
+  std::int64_t border_at = 0;  // first term of its border matrix: in the workspace of its subtree, or
+  bool shared = false;         // in the one that all share
 
-  std::int64_t arm_terms() const { return std::int64_t{64} * pivot_tiles * (pivot_tiles + border_tiles); }
+  // First term of panel J in an arm.
+  std::int64_t panel(int J) const {
+    return J < pivot_tiles ? std::int64_t{32} * J * (J + 1)
+                           : pivot_terms() + std::int64_t{8} * pivots * (J - pivot_tiles);
+  }
+  std::int64_t pivot_terms() const {  // the panels of pivots: the last one has no padding
+    return std::int64_t{32} * pivot_tiles * (pivot_tiles - 1) + std::int64_t{8} * pivots;
+  }
+  std::int64_t arm_terms() const { return panel(pivot_tiles + border_tiles); }
   std::int64_t border_terms() const { return std::int64_t{64} * border_tiles * border_tiles; }
+};
+
+// Fronts begin .. end - 1: a whole subtree, whose root is end - 1.
+struct Subtree {
+  int begin = 0, end = 0;
 };
 
 struct FrontTree {
@@ -36,13 +50,20 @@ struct FrontTree {
   IndexLists children;               // front -> fronts
   std::vector<int> border;           // positions of every front's border, ascending
   std::vector<int> in_parent;        // their local indices in the parent front
-  std::int64_t factor_terms = 0, workspace_terms = 0;
+  std::int64_t factor_terms = 0;
+
+  // Work that can be done side by side: subtrees first, each with a workspace, then the fronts above them in
+  // turn.  The division depends on the tree alone, so that answers do not depend on the number of threads.
+  std::vector<Subtree> subtrees;
+  std::vector<int> top;
+  std::int64_t subtree_terms = 0, shared_terms = 0;  // of the workspaces
 
   // Terms of the assembled matrix that front f takes: entries entry_start[f] .. entry_start[f + 1] - 1.
   std::vector<int> entry_start, entry_source;
-  std::vector<std::int64_t> entry_target;  // term within the arms of its front
+  std::vector<int> entry_target;  // term within the arms of its front
 };
 
+// Throws std::length_error where a front has more than 2^31 - 1 terms.
 FrontTree make_front_tree(const EquationGraph& graph, const AssembledMatrix& matrix, int leaf_equations);
 
 }  // namespace sage

@@ -4,6 +4,7 @@
 
 #include "solvers/front_tree.hpp"
 #include "solvers/matrix_solver.hpp"
+#include "solvers/thread_pool.hpp"
 #include "solvers/tile_kernels.hpp"
 
 namespace sage {
@@ -19,12 +20,21 @@ constexpr int kLeafEquations = 16;
 
 // A front while it is in work.  K counts tiles of pivots; J counts tiles of pivots, then of the border.
 struct Arms {
+  const Front& front;
   double* upper;       // U; for symmetric matrices D L^T
-  double* lower;       // L, transposed; for symmetric matrices in a scratch array that all fronts share
+  double* lower;       // L, transposed; for symmetric matrices in a scratch array
   double* reciprocal;  // of the pivots
-  int pivot_tiles;
-  double* u(int K, int J) const { return upper + (std::ptrdiff_t{J} * pivot_tiles + K) * kTileTerms; }
-  double* l(int K, int I) const { return lower + (std::ptrdiff_t{I} * pivot_tiles + K) * kTileTerms; }
+  double* u(int K, int J) const { return upper + front.panel(J) + K * kTileTerms; }
+  double* l(int K, int I) const { return lower + front.panel(I) + K * kTileTerms; }
+  std::ptrdiff_t stride() const { return std::ptrdiff_t{kTile} * front.pivots; }  // between border panels
+  int live(int K) const { return std::min(kTile, front.pivots - K * kTile); }     // rows of tile row K
+};
+
+// What one thread has of its own.
+struct Lane {
+  AlignedArray workspace, scratch;
+  PivotCheck check{"", {}};
+  Lanes maximum{};
 };
 
 // Neighbouring columns of a child that stay neighbours within one tile of the parent.
@@ -70,10 +80,10 @@ void add_rows(double* target, const double* source, const int* to, int begin, in
   }
 }
 
-void add_transposed(double* lower, int pivot_tiles, const double* source, const int* to, int begin, int end,
-                    int column, int columns, int lane) {
+void add_transposed(const Arms& a, const double* source, const int* to, int begin, int end, int column,
+                    int columns, int lane) {
   for (int r = begin; r < end; ++r) {
-    double* panel = lower + std::ptrdiff_t{to[r] / kTile} * pivot_tiles * kTileTerms + to[r] % kTile;
+    double* panel = a.l(0, to[r] / kTile) + to[r] % kTile;
     for (int m = 0; m < columns; ++m) panel[to[column + m] * kTile] += source[r * kTile + lane + m];
   }
 }
@@ -83,17 +93,27 @@ class Frontal final : public MatrixSolver {
  public:
   explicit Frontal(SolverTraits solver_traits) : MatrixSolver(solver_traits) {}
 
+  void set_threads(int threads) override { wanted_threads_ = std::max(1, threads); }
+
   void factorise() override {
-    PivotCheck check(traits().name, matrix().row_maxima());
-    Lanes maximum{};
-    for (int f = 0; f < static_cast<int>(tree_.fronts.size()); ++f) {
-      assemble(f);
-      eliminate(f, check, maximum);
+    const std::span<const double> maxima = row_maxima();
+    for (Lane& lane : lanes_) {
+      lane.check = PivotCheck(traits().name, maxima);
+      lane.maximum = Lanes{};
     }
-    const bool any = matrix().equations() > 0;
-    report_.smallest_pivot_ratio = any ? check.smallest_ratio() : 1.0;
-    report_.growth = any ? largest(maximum) / check.largest_term() : 1.0;
-    if (traits().symmetric) report_.negative_pivots = check.negative();
+    const auto eliminate_subtree = [this](int s, int thread) {
+      const Subtree& subtree = tree_.subtrees[at(s)];
+      for (int f = subtree.begin; f < subtree.end; ++f) {
+        assemble(f, lanes_[at(thread)]);
+        eliminate(f, lanes_[at(thread)]);
+      }
+    };
+    pool_->run(static_cast<int>(tree_.subtrees.size()), eliminate_subtree);
+    for (const int f : tree_.top) {
+      assemble(f, lanes_[0]);
+      eliminate_together(f);
+    }
+    take_report();
   }
 
   void solve(std::span<const double> b, std::span<double> x) const override {
@@ -107,60 +127,97 @@ class Frontal final : public MatrixSolver {
   void analyse_matrix(const EquationGraph& graph) override {
     tree_ = make_front_tree(graph, matrix(), kLeafEquations);
     factors_ = AlignedArray(static_cast<std::size_t>(tree_.factor_terms));
-    workspace_ = AlignedArray(static_cast<std::size_t>(tree_.workspace_terms));
-    first_tile_.assign(1, 0);
-    widest_ = 0;
-    std::int64_t largest_arm = 0;
+    shared_ = AlignedArray(static_cast<std::size_t>(tree_.shared_terms));
+    first_pivot_.assign(1, 0);
+    int widest = 0;  // tiles of the widest front
     for (const Front& front : tree_.fronts) {
-      first_tile_.push_back(first_tile_.back() + front.pivot_tiles);
-      widest_ = std::max(widest_, front.pivot_tiles + front.border_tiles);
-      largest_arm = std::max(largest_arm, front.arm_terms());
+      first_pivot_.push_back(first_pivot_.back() + front.pivot_tiles * kTile);
+      widest = std::max(widest, front.pivot_tiles + front.border_tiles);
     }
-    scratch_ = AlignedArray(traits().symmetric ? static_cast<std::size_t>(largest_arm) : 0);
-    reciprocal_.assign(at(first_tile_.back()) * kTile, 1.0);
+    reciprocal_.assign(at(first_pivot_.back()), 1.0);
+    position_values_ = AlignedArray(at(matrix().equations()));
+    front_values_ = AlignedArray(at(widest) * kTile);
+    make_lanes();
     report_.factor_entries = tree_.factor_terms;
-    report_.memory_bytes = matrix().memory_bytes() +
-                           (factors_.size() + workspace_.size() + scratch_.size()) * sizeof(double) +
-                           tree_.entry_source.size() * (sizeof(int) + sizeof(std::int64_t));
+    report_.memory_bytes =
+        matrix().memory_bytes() +
+        (factors_.size() + shared_.size() + reciprocal_.size() + position_values_.size()) * sizeof(double) +
+        (2 * tree_.entry_source.size() + 2 * tree_.border.size() + 2 * tree_.order.size()) * sizeof(int);
+    for (const Lane& lane : lanes_)
+      report_.memory_bytes += (lane.workspace.size() + lane.scratch.size()) * sizeof(double);
   }
 
  private:
-  Arms arms(int f) {
+  // The first thread works on the fronts above the subtrees too, and all others in the arms of the first.
+  void make_lanes() {
+    const int useful = std::max(1, static_cast<int>(tree_.subtrees.size()));
+    const int threads = std::min(wanted_threads_, useful);
+    if (!pool_ || pool_->threads() != threads) pool_ = std::make_unique<ThreadPool>(threads);
+    std::int64_t largest_below = 0, largest_arm = 0;
+    for (const Subtree& subtree : tree_.subtrees)
+      for (int f = subtree.begin; f < subtree.end; ++f)
+        largest_below = std::max(largest_below, tree_.fronts[at(f)].arm_terms());
+    for (const Front& front : tree_.fronts) largest_arm = std::max(largest_arm, front.arm_terms());
+    lanes_.clear();
+    for (int t = 0; t < threads; ++t) {
+      Lane lane;
+      lane.workspace = AlignedArray(static_cast<std::size_t>(tree_.subtree_terms));
+      if (traits().symmetric)
+        lane.scratch = AlignedArray(static_cast<std::size_t>(t == 0 ? largest_arm : largest_below));
+      lanes_.push_back(std::move(lane));
+    }
+  }
+
+  void take_report() {
+    const bool any = matrix().equations() > 0;
+    double ratio = any ? 1e300 : 1.0, size = 0.0;
+    int negative = 0;
+    for (const Lane& lane : lanes_) {
+      ratio = std::min(ratio, any ? lane.check.smallest_ratio() : 1.0);
+      size = std::max(size, largest(lane.maximum));
+      negative += lane.check.negative();
+    }
+    report_.smallest_pivot_ratio = ratio;
+    report_.growth = any ? size / lanes_[0].check.largest_term() : 1.0;
+    if (traits().symmetric) report_.negative_pivots = negative;
+  }
+
+  Arms arms(int f, Lane& lane) {
     const Front& front = tree_.fronts[at(f)];
     double* upper = factors_.data() + front.arms;
-    double* lower = traits().symmetric ? scratch_.data() : upper + front.arm_terms();
-    return {upper, lower, reciprocal_.data() + first_tile_[at(f)] * kTile, front.pivot_tiles};
+    double* lower = traits().symmetric ? lane.scratch.data() : upper + front.arm_terms();
+    return {front, upper, lower, reciprocal_.data() + first_pivot_[at(f)]};
+  }
+  double* border(const Front& front, Lane& lane) {
+    return (front.shared ? shared_ : lane.workspace).data() + front.border_at;
   }
 
   // Original terms and the border matrices of the children.  Of a symmetric matrix only the upper triangle is
   // assembled; what lands below the diagonal of a diagonal tile is never read.
-  void assemble(int f) {
+  void assemble(int f, Lane& lane) {
     const Front& front = tree_.fronts[at(f)];
     double* terms = factors_.data() + front.arms;
     std::fill_n(terms, (traits().symmetric ? 1 : 2) * front.arm_terms(), 0.0);
-    std::fill_n(workspace_.data() + front.workspace, front.border_terms(), 0.0);
+    std::fill_n(border(front, lane), front.border_terms(), 0.0);
     const double* value = matrix().value().data();
     for (auto s = at(tree_.entry_start[at(f)]); s < at(tree_.entry_start[at(f) + 1]); ++s)
       terms[tree_.entry_target[s]] = value[tree_.entry_source[s]];
-    const Arms a = arms(f);
-    for (int i = front.pivots; i < front.pivot_tiles * kTile;
-         ++i)  // whole tiles: the last rows are the identity
-      a.u(i / kTile, i / kTile)[(i % kTile) * kTile + i % kTile] = 1.0;
-    for (const int child : tree_.children.of(f)) add_border(tree_.fronts[at(child)], front, a);
+    const Arms a = arms(f, lane);
+    for (const int child : tree_.children.of(f))
+      add_border(tree_.fronts[at(child)], border(tree_.fronts[at(child)], lane), a, border(front, lane));
   }
 
   // Extended addition of a child's border matrix, eight columns at a time.
-  void add_border(const Front& child, const Front& front, const Arms& a) {
+  void add_border(const Front& child, const double* child_border, const Arms& a, double* border) {
+    const Front& front = a.front;
     const int* to = tree_.in_parent.data() + child.border_begin;
     const int pivot_rows = front.pivot_tiles * kTile;
-    double* border = workspace_.data() + front.workspace;
     const auto rows_below = [&](int end) {
       return static_cast<int>(std::lower_bound(to, to + child.border, end) - to);
     };
     const int split = rows_below(pivot_rows);
     for (int c = 0; c < child.border; c += kTile) {
-      const double* source =
-          workspace_.data() + child.workspace + std::ptrdiff_t{c} * child.border_tiles * kTile;
+      const double* source = child_border + std::ptrdiff_t{c} * child.border_tiles * kTile;
       const int end = std::min(c + kTile, child.border);
       for (int s = c; s < end;) {
         const Run run = find_run(to, s, end, s - c);
@@ -168,8 +225,7 @@ class Frontal final : public MatrixSolver {
         if (s < split) {  // a pivot column: rows up to its own tile belong to U, the others to L
           const int own = std::min(rows, rows_below((J + 1) * kTile));
           add_rows(a.u(0, J), source, to, 0, own, run);
-          if (!traits().symmetric)
-            add_transposed(a.lower, front.pivot_tiles, source, to, own, rows, s, run.count, s - c);
+          if (!traits().symmetric) add_transposed(a, source, to, own, rows, s, run.count, s - c);
         } else {
           const std::ptrdiff_t panel = std::ptrdiff_t{J - front.pivot_tiles} * front.border_tiles * kTileTerms;
           add_rows(a.u(0, J), source, to, 0, split, run);
@@ -181,77 +237,109 @@ class Frontal final : public MatrixSolver {
   }
 
   // Elimination of the pivots: as in the skyline solver with full columns, and then the border matrix.
-  void eliminate(int f, PivotCheck& check, Lanes& maximum) {
-    const Front& front = tree_.fronts[at(f)];
-    const Arms a = arms(f);
-    const int P = front.pivot_tiles, Q = front.border_tiles;
-    for (int J = 0; J < P; ++J) {
-      reduce_columns<1>(a, J, J, maximum);
-      reduce_diagonal(a, front, J, check, maximum);
+  void eliminate(int f, Lane& lane) {
+    const Arms a = arms(f, lane);
+    eliminate_pivots(a, lane);
+    reduce_border_columns(a, 0, a.front.border_tiles, lane);
+    update_border(a, border(a.front, lane), 0, a.front.border_tiles);
+  }
+
+  // The same with the columns of the border divided among all threads.
+  void eliminate_together(int f) {
+    constexpr int kReduced = 24, kUpdated = 6;  // columns of tiles taken at a time: multiples of kWidth
+    const Arms a = arms(f, lanes_[0]);
+    const int Q = a.front.border_tiles;
+    eliminate_pivots(a, lanes_[0]);
+    const auto reduce = [&](int part, int thread) {
+      reduce_border_columns(a, part * kReduced, std::min(Q, (part + 1) * kReduced), lanes_[at(thread)]);
+    };
+    pool_->run((Q + kReduced - 1) / kReduced, reduce);
+    double* const border_matrix = border(a.front, lanes_[0]);
+    const auto update = [&](int part, int) {
+      update_border(a, border_matrix, part * kUpdated, std::min(Q, (part + 1) * kUpdated));
+    };
+    pool_->run((Q + kUpdated - 1) / kUpdated, update);
+  }
+
+  void eliminate_pivots(const Arms& a, Lane& lane) const {
+    for (int J = 0; J < a.front.pivot_tiles; ++J) {
+      reduce_columns<1>(a, J, J, lane.maximum);
+      reduce_diagonal(a, J, lane);
     }
-    int J = P;
-    for (; J + kWidth <= P + Q; J += kWidth) reduce_columns<kWidth>(a, P, J, maximum);
-    for (; J < P + Q; ++J) reduce_columns<1>(a, P, J, maximum);
-    double* border = workspace_.data() + front.workspace;
-    // Blocks of pivots whose arms stay in the nearest cache.
-    constexpr int kBlock = 16;
-    for (int K = 0; K < P; K += kBlock) {
-      for (J = 0; J + kWidth <= Q; J += kWidth)
-        update_border<kWidth>(a, border, Q, K, std::min(kBlock, P - K), J);
-      for (; J < Q; ++J) update_border<1>(a, border, Q, K, std::min(kBlock, P - K), J);
-    }
+  }
+
+  void reduce_border_columns(const Arms& a, int begin, int end, Lane& lane) const {
+    const int P = a.front.pivot_tiles;
+    int J = begin;
+    for (; J + kWidth <= end; J += kWidth) reduce_columns<kWidth>(a, P, P + J, lane.maximum);
+    for (; J < end; ++J) reduce_columns<1>(a, P, P + J, lane.maximum);
   }
 
   // Tile rows 0 .. rows - 1 of U in `width` tile columns beginning at J, and the same of L.
   template <int width>
   void reduce_columns(const Arms& a, int rows, int J, Lanes& maximum) const {
-    const std::ptrdiff_t stride = std::ptrdiff_t{a.pivot_tiles} * kTileTerms;
     for (int K = 0; K < rows; ++K) {
-      tile_subtract_products<width>(a.u(K, J), stride, a.l(0, K), a.u(0, J), stride, K);
+      const int live = a.live(K);
+      tile_subtract_products<width>(a.u(K, J), a.stride(), a.l(0, K), a.u(0, J), a.stride(), K * kTile, live);
       if (!traits().symmetric)
-        tile_subtract_products<width>(a.l(K, J), stride, a.u(0, K), a.l(0, J), stride, K);
+        tile_subtract_products<width>(a.l(K, J), a.stride(), a.u(0, K), a.l(0, J), a.stride(), K * kTile, live);
       const double* reciprocal = a.reciprocal + K * kTile;
       for (int w = J; w < J + width; ++w) {
-        tile_solve<true>(a.u(K, w), a.l(K, K), nullptr, maximum);
+        tile_solve_rows<true>(live, a.u(K, w), a.l(K, K), nullptr, maximum);
         if (!traits().symmetric)
-          tile_solve<false>(a.l(K, w), a.u(K, K), reciprocal, maximum);
+          tile_solve_rows<false>(live, a.l(K, w), a.u(K, K), reciprocal, maximum);
         else
-          tile_scale_rows(a.l(K, w), a.u(K, w), reciprocal);
+          tile_scale_rows(a.l(K, w), a.u(K, w), reciprocal, live);
       }
     }
   }
 
-  void reduce_diagonal(const Arms& a, const Front& front, int J, PivotCheck& check, Lanes& maximum) const {
+  void reduce_diagonal(const Arms& a, int J, Lane& lane) const {
     double* A = a.u(J, J);
-    if (traits().symmetric) tile_mirror(A);
-    tile_subtract_product(A, a.l(0, J), a.u(0, J), J);
-    const int live = std::min(kTile, front.pivots - J * kTile);
-    const int* equation = tree_.order.data() + front.first + J * kTile;
-    tile_factorise(A, a.l(J, J), a.reciprocal + J * kTile, maximum, [&](int k, double pivot) {
-      if (k < live) check.take(equation[k], pivot);
-    });
+    const int live = a.live(J);
+    if (traits().symmetric) tile_mirror(A, live);
+    tile_subtract_products<1>(A, 0, a.l(0, J), a.u(0, J), 0, J * kTile, live);
+    const int* equation = tree_.order.data() + a.front.first + J * kTile;
+    tile_factorise(
+        A, a.l(J, J), a.reciprocal + J * kTile, lane.maximum,
+        [&](int k, double pivot) { lane.check.take(equation[k], pivot); }, live);
   }
 
-  // Border columns J .. J + width - 1 take the product of `tiles` pivot tiles beginning at K.
+  // Border columns begin .. end - 1 take the product of all pivots, in blocks of pivots whose arms stay in the
+  // nearest cache.
+  void update_border(const Arms& a, double* border_matrix, int begin, int end) const {
+    constexpr int kBlock = 16;
+    for (int K = 0; K < a.front.pivot_tiles; K += kBlock) {
+      const int count = std::min(kBlock * kTile, a.front.pivots - K * kTile);
+      int J = begin;
+      for (; J + kWidth <= end; J += kWidth) update_columns<kWidth>(a, border_matrix, K, count, J);
+      for (; J < end; ++J) update_columns<1>(a, border_matrix, K, count, J);
+    }
+  }
+
+  // Border columns J .. J + width - 1 take the product of `count` pivots from tile K on.
   template <int width>
-  void update_border(const Arms& a, double* border, int Q, int K, int tiles, int J) const {
-    const std::ptrdiff_t arm_stride = std::ptrdiff_t{a.pivot_tiles} * kTileTerms,
-                         stride = std::ptrdiff_t{Q} * kTileTerms;
-    const int P = a.pivot_tiles, rows = traits().symmetric ? J + width : Q;
+  void update_columns(const Arms& a, double* border_matrix, int K, int count, int J) const {
+    const int P = a.front.pivot_tiles, Q = a.front.border_tiles;
+    const std::ptrdiff_t stride = std::ptrdiff_t{Q} * kTileTerms;
+    const int rows = traits().symmetric ? J + width : Q;
     for (int I = 0; I < rows; ++I)
-      tile_subtract_products<width>(border + J * stride + I * kTileTerms, stride, a.l(K, P + I), a.u(K, P + J),
-                                    arm_stride, tiles);
+      tile_subtract_products<width>(border_matrix + J * stride + I * kTileTerms, stride, a.l(K, P + I),
+                                    a.u(K, P + J), a.stride(), count);
   }
 
   void solve_fronts(std::span<const double> b, std::span<double> x, bool transposed) const;
   void forward(const Front& front, const double* arm, const double* reciprocal, double* w, double* y) const;
   void backward(const Front& front, const double* arm, const double* reciprocal, double* w, double* y) const;
 
+  int wanted_threads_ = 1;
   FrontTree tree_;
-  AlignedArray factors_, workspace_, scratch_;
-  std::vector<int> first_tile_;  // of every front's pivots, in reciprocal_
+  AlignedArray factors_, shared_;
+  std::vector<Lane> lanes_;
+  std::unique_ptr<ThreadPool> pool_;
+  std::vector<int> first_pivot_;  // of every front, in reciprocal_
   std::vector<double> reciprocal_;
-  int widest_ = 0;  // tiles of the widest front
+  mutable AlignedArray position_values_, front_values_;  // used by one solution at a time
 };
 
 // Pivots of one front by forward substitution; their share of the border goes to w.
@@ -262,11 +350,11 @@ void Frontal::forward(const Front& front, const double* arm, const double* recip
   std::copy_n(w + front.first, front.pivots, y);
   std::fill(y + front.pivots, y + (P + front.border_tiles) * kTile, 0.0);
   for (int J = 0; J < P + front.border_tiles; ++J) {
-    const double* panel = arm + std::ptrdiff_t{J} * P * kTileTerms;
-    tile_forward_panel(panel, y, std::min(J, P), y + J * kTile);
+    const double* panel = arm + front.panel(J);
+    tile_forward_rows(panel, y, std::min(J * kTile, front.pivots), y + J * kTile);
     if (J < P)
       tile_forward_diagonal(panel + J * kTileTerms, reciprocal ? reciprocal + J * kTile : nullptr,
-                            y + J * kTile);
+                            y + J * kTile, std::min(kTile, front.pivots - J * kTile));
   }
   std::copy_n(y, front.pivots, w + front.first);
   for (int k = 0; k < front.border; ++k) w[border[k]] += y[P * kTile + k];
@@ -281,42 +369,43 @@ void Frontal::backward(const Front& front, const double* arm, const double* reci
   std::copy_n(w + front.first, front.pivots, y);
   for (int k = 0; k < front.border; ++k) y[P * kTile + k] = w[border[k]];
   for (int K = P - 1; K >= 0; --K) {
+    const int live = std::min(kTile, front.pivots - K * kTile);
     Lanes row[kTile] = {};
     for (int J = K + 1; J < all; ++J)
-      tile_multiply_rows(arm + (std::ptrdiff_t{J} * P + K) * kTileTerms, y + J * kTile, row);
+      tile_multiply_rows(arm + front.panel(J) + K * kTileTerms, y + J * kTile, row, live);
     tile_subtract_sums(row, y + K * kTile);
-    tile_backward_diagonal(arm + (std::ptrdiff_t{K} * P + K) * kTileTerms,
-                           reciprocal ? reciprocal + K * kTile : nullptr, y + K * kTile);
+    tile_backward_diagonal(arm + front.panel(K) + K * kTileTerms, reciprocal ? reciprocal + K * kTile : nullptr,
+                           y + K * kTile, live);
   }
   std::copy_n(y, front.pivots, w + front.first);
 }
 
 // L then U; transposed: U^T, then L^T.  For symmetric matrices L^T = D^-1 U.
 void Frontal::solve_fronts(std::span<const double> b, std::span<double> x, bool transposed) const {
-  std::vector<double> w(at(matrix().equations()));
-  AlignedArray local(at(widest_) * kTile);
-  for (std::size_t p = 0; p < w.size(); ++p) w[p] = b[at(tree_.order[p])];
+  double* const w = position_values_.data();
+  double* const y = front_values_.data();
+  for (std::size_t p = 0; p < tree_.order.size(); ++p) w[p] = b[at(tree_.order[p])];
   for (std::size_t f = 0; f < tree_.fronts.size(); ++f) {
     const Front& front = tree_.fronts[f];
     const double* upper = factors_.data() + front.arms;
-    const double* reciprocal = reciprocal_.data() + first_tile_[f] * kTile;
+    const double* reciprocal = reciprocal_.data() + first_pivot_[f];
     if (transposed)
-      forward(front, upper, reciprocal, w.data(), local.data());
+      forward(front, upper, reciprocal, w, y);
     else
-      forward(front, upper + front.arm_terms(), nullptr, w.data(), local.data());
+      forward(front, upper + front.arm_terms(), nullptr, w, y);
     if (traits().symmetric)
-      for (int k = 0; k < front.pivots; ++k) w[at(front.first + k)] /= reciprocal[k];
+      for (int k = 0; k < front.pivots; ++k) w[front.first + k] /= reciprocal[k];
   }
   for (std::size_t f = tree_.fronts.size(); f-- > 0;) {
     const Front& front = tree_.fronts[f];
     const double* upper = factors_.data() + front.arms;
-    const double* reciprocal = reciprocal_.data() + first_tile_[f] * kTile;
+    const double* reciprocal = reciprocal_.data() + first_pivot_[f];
     if (transposed && !traits().symmetric)
-      backward(front, upper + front.arm_terms(), nullptr, w.data(), local.data());
+      backward(front, upper + front.arm_terms(), nullptr, w, y);
     else
-      backward(front, upper, reciprocal, w.data(), local.data());
+      backward(front, upper, reciprocal, w, y);
   }
-  for (std::size_t p = 0; p < w.size(); ++p) x[at(tree_.order[p])] = w[p];
+  for (std::size_t p = 0; p < tree_.order.size(); ++p) x[at(tree_.order[p])] = w[p];
 }
 
 }  // namespace

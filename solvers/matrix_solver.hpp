@@ -32,11 +32,17 @@ class MatrixSolver : public LinearSolver {
   virtual void analyse_matrix(const EquationGraph& graph) = 0;
 
   const AssembledMatrix& matrix() const { return matrix_; }
+  // Largest |term| of every row of the matrix as it stands; the same array at every call.
+  std::span<const double> row_maxima() {
+    matrix_.row_maxima(row_maxima_);
+    return row_maxima_;
+  }
   FactorReport report_;
 
  private:
   SolverTraits traits_;
   AssembledMatrix matrix_;
+  std::vector<double> row_maxima_;
 };
 
 // Throws SingularMatrix with a text for people who know neither the solver nor its numbering.
@@ -45,9 +51,10 @@ class MatrixSolver : public LinearSolver {
 // Follows the pivots of one factorisation.  Throws SingularMatrix at one that is negligible or not a number.
 class PivotCheck {
  public:
-  PivotCheck(std::string_view solver, std::vector<double> row_maxima)
+  // The row maxima must outlive it.
+  PivotCheck(std::string_view solver, std::span<const double> row_maxima)
       : solver_(solver),
-        row_maxima_(std::move(row_maxima)),
+        row_maxima_(row_maxima),
         negligible_(singular_pivot_ratio(static_cast<int>(row_maxima_.size()))) {}
 
   void take(int equation, double pivot) {
@@ -64,7 +71,7 @@ class PivotCheck {
 
  private:
   std::string_view solver_;
-  std::vector<double> row_maxima_;
+  std::span<const double> row_maxima_;
   double negligible_;
   double smallest_ratio_ = 1e300;
   int negative_ = 0;

@@ -21,7 +21,7 @@ class SkylineLdlt final : public MatrixSolver {
   SkylineLdlt() : MatrixSolver({"skyline_ldlt", true}) {}
 
   void factorise() override {
-    PivotCheck check(traits().name, matrix().row_maxima());
+    PivotCheck check(traits().name, row_maxima());
     Lanes maximum{};
     for (int J = 0; J < profile_.tiles; ++J) {
       fill_column(J);

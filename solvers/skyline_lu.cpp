@@ -21,7 +21,7 @@ class SkylineLu final : public MatrixSolver {
   SkylineLu() : MatrixSolver({"skyline_lu", false}) {}
 
   void factorise() override {
-    PivotCheck check(traits().name, matrix().row_maxima());
+    PivotCheck check(traits().name, row_maxima());
     Lanes maximum{};
     for (int J = 0; J < profile_.tiles; ++J) {
       fill_column(J);

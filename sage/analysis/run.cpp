@@ -112,6 +112,7 @@ const SolverEntry* Run::choose_solver(int equations, bool symmetric) const {
 void Run::make_solver() {
   const SolverEntry* entry = choose_solver(assembly_.equations(), scene_.symmetric);
   solver_ = entry->make();
+  solver_->set_threads(settings_.threads);
   solver_name_ = entry->name;
   stiffness_ = {};
   stiffness_.solver = solver_.get();

@@ -85,6 +85,12 @@ Command run_command(CLI::App& root) {
   parser->add_option("-o,--output", request.output.folder, "folder for results (default: out)");
   parser->add_option("--solver", request.solver, "solver by name (see sagefe list solvers)")
       ->check(unknown_solver);
+  parser
+      ->add_option(
+          "--threads", request.threads,
+          "threads of the linear solver (default: one for each processor, in systems that gain); results "
+          "are the same to the last bit")
+      ->check(CLI::Range(0, 256));
   parser->add_option("--tables", options->tables, "tables in the listing: auto, none, stage, all")
       ->check(CLI::IsMember({"auto", "none", "stage", "all"}));
   parser->add_flag("--nodes", request.output.nodes, "write STEM.nodes.csv: displacements and reactions");

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <thread>
 
 #include "sage/app/checkpoint.hpp"
 #include "sage/app/commands.hpp"
@@ -17,6 +19,10 @@
 namespace sage::app {
 
 namespace {
+
+int processors() {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
 
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
@@ -79,6 +85,7 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   }
   RunSettings settings;
   settings.skips = request.skips;
+  settings.threads = request.threads > 0 ? request.threads : processors();
   settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
   make_folder(request.output.folder);
   Checkpoint checkpoint = checkpoint_of(request, model);

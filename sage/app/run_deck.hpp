@@ -27,6 +27,7 @@ struct RunRequest {
   InputOptions input;
   OutputOptions output;
   std::string solver;                // a name of the catalogue; empty = the deck's choice
+  int threads = 0;                   // of the linear solver; 0 = one for each processor
   bool quiet = false;                // no messages about the deck
   Skips skips;                       // all are on
   bool restart = false;              // go on from STEM.restart, if there is one

@@ -43,6 +43,10 @@ class LinearSolver {
   virtual ~LinearSolver() = default;
   virtual const SolverTraits& traits() const = 0;
 
+  // How many threads factorise() may use from the next analyse() on.  Answers do not depend on it, to the last
+  // bit.  Solvers without threads of their own do nothing.
+  virtual void set_threads(int /*threads*/) {}
+
   // Numbering, symbolic work and storage for a pattern.  Called once per pattern.
   virtual void analyse(int equations, const ElementEquations& elements) = 0;
 

@@ -94,7 +94,7 @@ class CholmodSolver final : public MatrixSolver {
     cholmod_l_factorize(&K, factor_, &common_);
     if (common_.status == CHOLMOD_NOT_POSDEF) return false;
     throw_unless_ok();
-    PivotCheck check(traits().name, matrix().row_maxima());
+    PivotCheck check(traits().name, row_maxima());
     const auto *first = as_long(factor_->super), *rows = as_long(factor_->pi), *start = as_long(factor_->px);
     const auto* L = static_cast<const double*>(factor_->x);
     for (std::size_t s = 0; s < factor_->nsuper; ++s)
@@ -115,7 +115,7 @@ class CholmodSolver final : public MatrixSolver {
     cholmod_l_factorize(&K, current_, &common_);
     const bool stopped = common_.status == CHOLMOD_NOT_POSDEF;
     if (!stopped) throw_unless_ok();
-    PivotCheck check(traits().name, matrix().row_maxima());
+    PivotCheck check(traits().name, row_maxima());
     const auto n = static_cast<SuiteSparse_long>(current_->n);
     const auto minor = std::min(n, static_cast<SuiteSparse_long>(current_->minor));
     const auto* start = as_long(current_->p);

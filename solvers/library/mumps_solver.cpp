@@ -39,7 +39,7 @@ class MumpsSolver final : public MatrixSolver {
     for (const double term : matrix().value())
       if (!std::isfinite(term)) throw AnalysisError("the matrix holds a term that is not a number");
     // MUMPS compares with the norm of the scaled matrix; a zero matrix has none.
-    const std::vector<double> maxima = matrix().row_maxima();
+    const std::span<const double> maxima = row_maxima();
     for (int i = 0; i < n; ++i)
       if (maxima[static_cast<std::size_t>(i)] == 0.0) throw_singular(i, 0.0, traits().name);
     set_blas_threads(n);

@@ -80,7 +80,7 @@ class UmfpackSolver final : public MatrixSolver {
     SuiteSparse_long multiply = 0;
     throw_unless_ok(umfpack_dl_get_numeric(nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, row.data(),
                                            nullptr, pivot.data(), &multiply, row_scale.data(), numeric_.get()));
-    PivotCheck check(traits().name, matrix().row_maxima());
+    PivotCheck check(traits().name, row_maxima());
     for (std::size_t k = 0; k < n; ++k) {
       const double scale = row_scale[static_cast<std::size_t>(row[k])];
       check.take(static_cast<int>(row[k]), multiply ? pivot[k] / scale : pivot[k] * scale);

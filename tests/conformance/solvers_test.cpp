@@ -44,6 +44,12 @@ class SolverConformance : public testing::TestWithParam<int> {
  protected:
   std::unique_ptr<LinearSolver> make() const { return catalogue_.solvers.find(GetParam())->make(); }
   bool symmetric() const { return catalogue_.solvers.find(GetParam())->symmetric; }
+  // Libraries take no number of threads, and their BLAS may round otherwise from one place in memory to the
+  // next (MUMPS does, from some thousand equations).
+  bool own() const {
+    const std::string& name = catalogue_.solvers.find(GetParam())->name;
+    return name.starts_with("skyline") || name.starts_with("frontal");
+  }
 
   static VectorXd solve(const LinearSolver& solver, VectorXd b) {
     VectorXd x = VectorXd::Constant(b.size(), std::numeric_limits<double>::quiet_NaN());
@@ -212,6 +218,68 @@ TEST_P(SolverConformance, RepeatsItselfToTheLastBit) {
     if (run == 0) first = x;
     EXPECT_EQ(x, first);
   }
+}
+
+// Answers, transposed answers and the report; the last mesh is large enough to be divided among threads.
+TEST_P(SolverConformance, ThreadsChangeNoBit) {
+  if (!own()) GTEST_SKIP() << "a library";
+  const double share = symmetric() ? 0.0 : 0.5;
+  const System systems[] = {
+      random_system(65, symmetric(), 4), q4_mesh({.columns = 14, .rows = 28}),
+      join(q4_mesh({.columns = 40, .rows = 60, .unsymmetric = share}), q4_mesh({.columns = 9, .rows = 9})),
+      q4_mesh({.columns = 70, .rows = 90, .unsymmetric = share})};
+  for (const System& system : systems) {
+    VectorXd b = random_vector(system.equations, 2), first, first_transposed;
+    FactorReport first_report;
+    for (const int threads : {1, 2, 3}) {
+      const auto solver = make();
+      solver->set_threads(threads);
+      load(*solver, system);
+      for (int again = 0; again < 2; ++again) solver->factorise();
+      const VectorXd x = solve(*solver, b);
+      VectorXd z(system.equations);
+      solver->solve_transposed(span_of(b), span_of(z));
+      const FactorReport report = solver->report();
+      if (threads == 1) {
+        first = x;
+        first_transposed = z;
+        first_report = report;
+      }
+      EXPECT_EQ(x, first) << threads;
+      EXPECT_EQ(z, first_transposed) << threads;
+      EXPECT_EQ(report.smallest_pivot_ratio, first_report.smallest_pivot_ratio);
+      EXPECT_EQ(report.growth, first_report.growth);
+      EXPECT_EQ(report.negative_pivots, first_report.negative_pivots);
+    }
+  }
+}
+
+// Two bodies left free: every number of threads names the same equation, and all threads work again afterwards.
+TEST_P(SolverConformance, ThreadsNameTheSameSingularEquation) {
+  if (!own()) GTEST_SKIP() << "a library";
+  const System free = q4_mesh({.columns = 50, .rows = 50, .supports = Supports::none});
+  const System system = join(join(q4_mesh({.columns = 50, .rows = 50}), free), free);
+  std::vector<int> named;
+  for (const int threads : {1, 2, 3}) {
+    const auto solver = make();
+    solver->set_threads(threads);
+    load(*solver, system);
+    try {
+      solver->factorise();
+    } catch (const SingularMatrix& error) {
+      named.push_back(error.equation());
+    }
+    const System sound = q4_mesh({.columns = 50, .rows = 50});
+    load(*solver, sound);
+    solver->factorise();
+    VectorXd b = random_vector(sound.equations, 2), r(sound.equations);
+    VectorXd x = solve(*solver, b);
+    solver->multiply(span_of(x), span_of(r));
+    EXPECT_LE((r - b).cwiseAbs().maxCoeff(), 1e-12 * (solver->norm1() * x.cwiseAbs().maxCoeff()));
+  }
+  ASSERT_EQ(named.size(), 3u);
+  EXPECT_EQ(named[0], named[1]);
+  EXPECT_EQ(named[0], named[2]);
 }
 
 TEST_P(SolverConformance, OneEquation) {

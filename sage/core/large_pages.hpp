@@ -1,0 +1,28 @@
+// Memory in large pages: touching a new page of 4 kB costs more than filling it, and a run touches each once.
+#pragma once
+
+#include <cstddef>
+#include <cstdlib>
+
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
+namespace sage {
+
+inline constexpr std::size_t kLargePage = 2 * 1024 * 1024;
+
+// A block for std::free, not initialised; nullptr if there is no memory.  Blocks that hold some large pages
+// begin on one and ask the system for them; the rest of the last one stays small, so that little is wasted.
+inline void* allocate_block(std::size_t bytes) {
+  constexpr std::size_t kCacheLine = 64;
+  const bool large = bytes >= 2 * kLargePage;
+  void* p = nullptr;
+  if (posix_memalign(&p, large ? kLargePage : kCacheLine, bytes > 0 ? bytes : 1) != 0) return nullptr;
+#if defined(__linux__) && defined(MADV_HUGEPAGE)
+  if (large) madvise(p, bytes / kLargePage * kLargePage, MADV_HUGEPAGE);  // a wish: failure costs only time
+#endif
+  return p;
+}
+
+}  // namespace sage

@@ -1,0 +1,48 @@
+#include "solvers/thread_pool.hpp"
+
+#include <atomic>
+#include <stdexcept>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace sage::test {
+namespace {
+
+TEST(ThreadPool, EveryIndexRunsOnceInEveryRound) {
+  for (const int threads : {1, 2, 5}) {
+    ThreadPool pool(threads);
+    for (int round = 0; round < 50; ++round) {
+      std::vector<std::atomic<int>> runs(37);
+      const auto work = [&](int index, int thread) {
+        ++runs[static_cast<std::size_t>(index)];
+        EXPECT_LT(thread, pool.threads());
+      };
+      pool.run(37, work);
+      for (const auto& count : runs) EXPECT_EQ(count, 1);
+    }
+    const auto nothing = [](int, int) { FAIL(); };
+    pool.run(0, nothing);
+  }
+}
+
+TEST(ThreadPool, TheExceptionOfTheSmallestIndexArrivesAndAllOthersRun) {
+  ThreadPool pool(3);
+  for (int round = 0; round < 50; ++round) {
+    std::atomic<int> runs{0};
+    const auto work = [&](int index, int) {
+      ++runs;
+      if (index % 5 == 3) throw std::out_of_range(std::to_string(index));
+    };
+    try {
+      pool.run(20, work);
+      FAIL();
+    } catch (const std::out_of_range& error) {
+      EXPECT_STREQ(error.what(), "3");
+    }
+    EXPECT_EQ(runs, 20);
+  }
+}
+
+}  // namespace
+}  // namespace sage::test
