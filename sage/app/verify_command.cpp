@@ -55,6 +55,10 @@ void write_book(const std::filesystem::path& path, const std::vector<Chapter>& c
 int run_book(const VerifyOptions& options) {
   const std::vector<Section> sections = book();
   if (options.list) return list_cases(options, sections);
+  if (!options.write.empty() && !options.only.empty()) {
+    fmt::print(stderr, "sagefe verify: --write writes the whole book; leave --only away\n");
+    return kUsage;
+  }
   const study::Workbench bench = make_workbench();
   std::vector<Chapter> chapters;
   int cases = 0, rows = 0, failing = 0;
