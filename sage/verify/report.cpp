@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "sage/output/plot.hpp"
 #include "sage/verify/book.hpp"
@@ -63,6 +64,56 @@ std::string cell(std::string text) {
   return text;
 }
 
+// Sequences of one case, geometry and quantity (the name up to its comma): a picture.
+struct Group {
+  std::string file, title;
+  std::vector<const Sequence*> sequences;
+};
+
+std::vector<Group> groups_of(const CaseResult& result) {
+  std::vector<Group> groups;
+  for (const Sequence& s : result.sequences) {
+    const std::string quantity = s.name.substr(0, s.name.find(','));
+    const std::string title = fmt::format("{}: error of {}, {}", result.of->name, quantity, name_of(s.where));
+    const auto same =
+        std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.title == title; });
+    if (same != groups.end()) {
+      same->sequences.push_back(&s);
+      continue;
+    }
+    groups.push_back({fmt::format("{}_{}.svg", result.of->name, groups.size() + 1), title, {&s}});
+  }
+  return groups;
+}
+
+// The theory's slopes pass below the curves.
+Plot plot_of(const Group& group) {
+  Plot plot;
+  plot.title = group.title;
+  plot.x_label = "size of cells or steps [-]";
+  plot.y_label = "relative error [-]";
+  plot.log_x = plot.log_y = true;
+  plot.width = 900;
+  std::map<double, std::pair<double, const Sequence*>> lowest;  // by theory: last error of the best curve
+  for (const Sequence* s : group.sequences) {
+    const std::size_t comma = s->name.find(',');
+    plot.series.push_back({comma == std::string::npos ? s->name : s->name.substr(comma + 2), s->size, s->error,
+                           true, true, false});
+    auto& [error, best] = lowest[s->theory];
+    if (best == nullptr || s->error.back() < error) error = s->error.back(), best = s;
+  }
+  for (const auto& [theory, end] : lowest) {
+    const double first = end.second->size.front(), last = end.second->size.back(), low = 0.5 * end.first;
+    plot.series.push_back({fmt::format("theory: order {:.3g}", theory),
+                           {first, last},
+                           {low * std::pow(first / last, theory), low},
+                           true,
+                           false,
+                           true});
+  }
+  return plot;
+}
+
 std::string case_markdown(const CaseResult& outcome, const std::string& picture_folder) {
   const Case& c = *outcome.of;
   std::string text = fmt::format("### {}: {}\n\n", c.name, c.title);
@@ -77,8 +128,8 @@ std::string case_markdown(const CaseResult& outcome, const std::string& picture_
     text += fmt::format("| {} | {} | {} | {} | {} | {} |{} {} |\n", name_of(row.where), cell(row.what),
                         value(row.reference), value(row.computed), error_text(row), gate_text(row),
                         orders ? " " + order_text(row) + " |" : "", row.pass ? "pass" : "**FAIL**");
-  if (!outcome.sequences.empty())
-    text += fmt::format("\n![errors of {}]({}/{}.svg)\n", c.name, picture_folder, c.name);
+  for (const Group& group : groups_of(outcome))
+    text += fmt::format("\n![{}]({}/{})\n", group.title, picture_folder, group.file);
   return text + "\n";
 }
 
@@ -180,18 +231,8 @@ std::string markdown_text(const std::vector<Chapter>& chapters, const std::strin
 std::vector<NamedPicture> pictures(const std::vector<Chapter>& chapters) {
   std::vector<NamedPicture> list;
   for (const Chapter& chapter : chapters)
-    for (const CaseResult& outcome : chapter.outcomes) {
-      if (outcome.sequences.empty()) continue;
-      Plot plot;
-      plot.title = outcome.of->title;
-      plot.x_label = "size of cells or steps [-]";
-      plot.y_label = "relative error [-]";
-      plot.log_x = plot.log_y = true;
-      for (const Sequence& s : outcome.sequences)
-        plot.series.push_back({fmt::format("{}, {}", s.name, name_of(s.where)), s.size, s.error, true, true,
-                               s.where == Where::axisymmetric});
-      list.push_back({outcome.of->name + ".svg", plot_svg(plot)});
-    }
+    for (const CaseResult& result : chapter.outcomes)
+      for (const Group& group : groups_of(result)) list.push_back({group.file, plot_svg(plot_of(group))});
   return list;
 }
 
