@@ -60,6 +60,44 @@ void shear_column(Record& record) {
               moves[0] + moves[1] - yield + stress[2] / ks, 1e-8);
 }
 
+// The twin: a ring c = 1, b = 2 of height H that moves up along its outer face (u_r = 0 everywhere) on a rigid
+// core: delta = P (ln(b/c)/G + 1/(k_s c))/(2 pi H), and P = 2 pi c H (c + sigma_n tan phi) once it slides.
+void shear_ring(Record& record) {
+  const double H = 0.5, E = 1000.0, nu = 0.25, G = E / (2 * (1 + nu)), ks = 500.0, c = 3.0, sigma_n = 20.0;
+  const double flexibility = (std::log(2.0) / G + 1.0 / ks) / (2 * kPi * H);
+  const double strength = 2 * kPi * H * (c + sigma_n * std::tan(30.0 * kDegree));
+  Block block;
+  block.cell = Cell::quad8;
+  block.columns = 8;
+  block.place = rectangle(1.0, 2.0, 0.0, H);
+  DeckWriter deck(2);
+  deck.water_unit_weight = 1.0;
+  block.write_nodes(deck);
+  const std::vector<int> core = copy_row(deck, block, block.left(), 101);
+  deck.material(1, 1, {E, nu});
+  deck.material(2, 22, coulomb(c, 30.0, ks, 1e6));
+  deck.group(1, 2, 1, 1);
+  deck.group(2, 12, 0, 2);
+  block.write_elements(deck, 1);
+  join(deck, 101, 2, block.left(), core, 2);
+  for (int j = 0; j < block.up(); ++j)
+    for (int i = 0; i < block.across(); ++i)
+      if (block.exists(i, j)) deck.fix(block.node(i, j), 1, 0);
+  for (int n : core) deck.fix(n, 1, 1);
+  deck.initial(2, 0, 0.0, sigma_n);
+  const double moves[] = {0.05, 0.06, -0.04};
+  for (double move : moves) {
+    StageCards& stage = deck.stage(2);
+    for (int n : block.right()) stage.fix(n, 0, 1, 0.0, move);
+  }
+  const WholeRun run = record.run(deck);
+  const double force[] = {moves[0] / flexibility, strength, strength + moves[2] / flexibility};
+  const char* names[] = {"elastic", "sliding", "on the way back"};
+  for (std::size_t s = 0; s < 3; ++s)
+    record.near(Where::axisymmetric, fmt::format("force, {}", names[s]),
+                run.reaction(run.increments[2 * s + 1], block.right(), 1), force[s], s == 1 ? 1e-8 : 1e-4);
+}
+
 // A heavy block, 4 x 1, on an interface.
 struct BlockOnPlane {
   static constexpr double kWeight = 20.0, kLength = 4.0;
@@ -234,9 +272,13 @@ Section interface_cases() {
   return {
       "Interfaces",
       {
-          {"interface.shear_column", "block on an interface: elastic, sliding, back",
-           "tau = delta/(H/G + 1/k_s), c + sigma_n tan phi", Grade::exact, "Newton's tolerance, 1e-8",
-           shear_column},
+          {"interface.shear_column", "block or ring on an interface: elastic, sliding, back",
+           "tau = delta/(H/G + 1/k_s), c + sigma_n tan phi; ring: ln(b/c)/G + 1/(k_s c)", Grade::exact,
+           "Newton's tolerance, 1e-8; the ring's elastic part: 8 quad8, 1e-4",
+           [](Record& r) {
+             shear_column(r);
+             shear_ring(r);
+           }},
           {"interface.sliding_block", "heavy block pushed over a rough plane", "P = W tan phi", Grade::exact,
            "Newton's tolerance, 1e-8", sliding_block},
           {"interface.slope", "block on a slope: steepest angle, factor of safety of the infinite slope",
