@@ -65,37 +65,37 @@ std::string cell(std::string text) {
 }
 
 // Sequences of one case, geometry and quantity (the name up to its comma): a picture.
-struct Group {
+struct Figure {
   std::string file, title;
   std::vector<const Sequence*> sequences;
 };
 
-std::vector<Group> groups_of(const CaseResult& result) {
-  std::vector<Group> groups;
+std::vector<Figure> figures_of(const CaseResult& result) {
+  std::vector<Figure> figures;
   for (const Sequence& s : result.sequences) {
     const std::string quantity = s.name.substr(0, s.name.find(','));
     const std::string title = fmt::format("{}: error of {}, {}", result.of->name, quantity, name_of(s.where));
     const auto same =
-        std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.title == title; });
-    if (same != groups.end()) {
+        std::find_if(figures.begin(), figures.end(), [&](const Figure& g) { return g.title == title; });
+    if (same != figures.end()) {
       same->sequences.push_back(&s);
       continue;
     }
-    groups.push_back({fmt::format("{}_{}.svg", result.of->name, groups.size() + 1), title, {&s}});
+    figures.push_back({fmt::format("{}_{}.svg", result.of->name, figures.size() + 1), title, {&s}});
   }
-  return groups;
+  return figures;
 }
 
 // The theory's slopes pass below the curves.
-Plot plot_of(const Group& group) {
+Plot plot_of(const Figure& figure) {
   Plot plot;
-  plot.title = group.title;
+  plot.title = figure.title;
   plot.x_label = "size of cells or steps [-]";
   plot.y_label = "relative error [-]";
   plot.log_x = plot.log_y = true;
   plot.width = 900;
   std::map<double, std::pair<double, const Sequence*>> lowest;  // by theory: last error of the best curve
-  for (const Sequence* s : group.sequences) {
+  for (const Sequence* s : figure.sequences) {
     const std::size_t comma = s->name.find(',');
     plot.series.push_back({comma == std::string::npos ? s->name : s->name.substr(comma + 2), s->size, s->error,
                            true, true, false});
@@ -128,8 +128,8 @@ std::string case_markdown(const CaseResult& outcome, const std::string& picture_
     text += fmt::format("| {} | {} | {} | {} | {} | {} |{} {} |\n", name_of(row.where), cell(row.what),
                         value(row.reference), value(row.computed), error_text(row), gate_text(row),
                         orders ? " " + order_text(row) + " |" : "", row.pass ? "pass" : "**FAIL**");
-  for (const Group& group : groups_of(outcome))
-    text += fmt::format("\n![{}]({}/{})\n", group.title, picture_folder, group.file);
+  for (const Figure& figure : figures_of(outcome))
+    text += fmt::format("\n![{}]({}/{})\n", figure.title, picture_folder, figure.file);
   return text + "\n";
 }
 
@@ -231,7 +231,7 @@ std::vector<NamedPicture> pictures(const std::vector<Chapter>& chapters) {
   std::vector<NamedPicture> list;
   for (const Chapter& chapter : chapters)
     for (const CaseResult& result : chapter.outcomes)
-      for (const Group& group : groups_of(result)) list.push_back({group.file, plot_svg(plot_of(group))});
+      for (const Figure& figure : figures_of(result)) list.push_back({figure.file, plot_svg(plot_of(figure))});
   return list;
 }
 
