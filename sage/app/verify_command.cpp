@@ -45,11 +45,12 @@ void show_progress(const std::string& name) {
   std::fflush(stderr);
 }
 
-void write_book(const std::filesystem::path& path, const std::vector<Chapter>& chapters) {
-  const std::string folder = path.stem().string();
+void write_book(OutFile& book, const std::vector<Chapter>& chapters) {
+  const std::string folder = book.path().stem().string();
   for (const NamedPicture& picture : pictures(chapters))
-    write_file(path.parent_path() / folder / picture.file, picture.svg);
-  write_file(path, markdown_text(chapters, folder));
+    write_file(book.path().parent_path() / folder / picture.file, picture.svg);
+  book.text() = markdown_text(chapters, folder);
+  book.finish();
 }
 
 int run_book(const VerifyOptions& options) {
@@ -59,6 +60,9 @@ int run_book(const VerifyOptions& options) {
     fmt::print(stderr, "sagefe verify: --write writes the whole book; leave --only away\n");
     return kUsage;
   }
+  OutFile csv, written;  // opened first: an unwritable folder shows before anything is computed
+  if (!options.csv.empty()) csv = OutFile(options.csv);
+  if (!options.write.empty()) written = OutFile(options.write);
   const study::Workbench bench = make_workbench();
   std::vector<Chapter> chapters;
   int cases = 0, rows = 0, failing = 0;
@@ -89,8 +93,11 @@ int run_book(const VerifyOptions& options) {
       "unit "
       "thickness or full circle; consistent units\n",
       cases, rows, failing, seconds);
-  if (!options.csv.empty()) write_file(options.csv, csv_text(chapters));
-  if (!options.write.empty()) write_book(options.write, chapters);
+  if (csv.open()) {
+    csv.text() = csv_text(chapters);
+    csv.finish();
+  }
+  if (written.open()) write_book(written, chapters);
   return failing > 0 ? kNotConverged : kOk;
 }
 

@@ -215,6 +215,18 @@ struct Cavity {
   }
 };
 
+// Points of a cylinder whose axial stress is not between the two others, by more than rounding.
+int axial_not_middle(const WholeRun& run, bool strip) {
+  int count = 0;
+  for (Eigen::Index p = 0; p < run.stress[0].cols(); ++p) {
+    const Vector4 s = run.stress[0].col(p);
+    const double axial = strip ? s[1] : s[2], a = s[0], b = strip ? s[2] : s[1];
+    const double middle = 0.5 * (a + b), reach = std::hypot(0.5 * (a - b), s[3]);
+    if (std::abs(axial - middle) > reach + 1e-6 * std::abs(middle)) ++count;
+  }
+  return count;
+}
+
 // c = 0, sin phi = 3/5, p0 = 50: with A = (1 + sin phi)/(1 - sin phi) = 4 and kk = 1 (cylinder) or 2 (sphere),
 // first yield at p0 + delta, delta = kk (A - 1) p0/(kk + A); the plastic zone reaches c where (c/a)^(kk
 // (A-1)/A) = p/(p0 + delta).  Outside u = delta c/(2 kk G) (c/r)^kk, which gives c from a displacement.  Around
@@ -236,6 +248,9 @@ void frictional_cavity(Record& record, Cavity::Body body, const std::vector<int>
       before = p;
     }
     const WholeRun run = record.run(deck);
+    if (body != Cavity::Body::sphere)
+      record.within(cavity.where(), "points whose axial stress is not the middle one: condition of the formula",
+                    axial_not_middle(run, cavity.strip()), 0.0, 0.5);
     std::size_t stage = 0;
     for (double c : {1.5, 2.0}) {
       const Snapshot& at = run.increments[12 * ++stage];
