@@ -45,6 +45,7 @@ class Step {
   bool search_line();
   IterationRecord measure() const;
   bool converged(const IterationRecord& record) const;
+  bool linear_rounding(const IterationRecord& record) const;
   double scale() const;
   void find_worst();
   void move(double factor);
@@ -160,6 +161,14 @@ IterationRecord Step::measure() const {
   return record;
 }
 
+// With a constant tangent the second correction removes all but rounding: what does not fall any more is that
+// of the internal forces themselves, near nu = 1/2 K/G times that of the displacements.  The run warns of it.
+bool Step::linear_rounding(const IterationRecord& record) const {
+  const std::size_t done = result_.iterations.size();
+  return stiffness_.constant && done >= 3 && record.force > 0.5 * result_.iterations[done - 2].force &&
+         record.force <= std::sqrt(settings_.tolerance);
+}
+
 // Equilibrium and energy to the tolerance; the last correction to its root, unless the energy is smaller still
 // (a linear step ends with its first correction, which is then the whole increment).
 // Forces of very stiff joints are k times differences of displacements and can't be balanced better than those
@@ -169,7 +178,7 @@ bool Step::converged(const IterationRecord& record) const {
   const double tol = settings_.tolerance;
   if (record.displacement <= kRounding && record.step_length >= 1.0 && record.force <= std::sqrt(tol))
     return true;
-  if (!(record.force <= tol)) return false;
+  if (!(record.force <= tol)) return linear_rounding(record);
   return record.energy <= tol * tol || record.force <= 1e-3 * tol ||
          (record.energy <= tol && record.displacement <= std::sqrt(tol));
 }

@@ -418,6 +418,7 @@ bool Run::run_stage(int s, int done) {
     tell([&](Observer& o) { o.on_stage_start(model_, s, solution()); });
   }
   const bool whole_stages_only = stage.method == Method::initial_stiffness && !stiffness_.constant;
+  double last_force = 0.0;  // out of balance at the end of the last increment, relative
   double reached = static_cast<double>(done) / stage.increments;
   for (int i = done + 1; i <= stage.increments; ++i) {
     StepReport report;
@@ -426,6 +427,7 @@ bool Run::run_stage(int s, int done) {
     report.increments = stage.increments;
     report.load_factor = reached;
     if (!run_increment(stage, report, reached)) return false;
+    if (!report.iterations.empty()) last_force = report.iterations.back().force;
     report.points = assembly_.count_points();
     report.smallest_pivot_ratio = smallest_pivot();
     ++result_.increments_done;
@@ -436,6 +438,12 @@ bool Run::run_stage(int s, int done) {
   ++result_.stages_done;
   const EquilibriumAudit sums = audit();
   warn_about_numbers(s, sums);
+  if (last_force > stage.tolerance)
+    warn(stage,
+         "equilibrium to " + short_number(last_force) + " of the forces only, the tolerance is " +
+             short_number(stage.tolerance) +
+             ": no correction improves it further, what is left is rounding (very stiff beside very soft "
+             "parts, or nu close to 1/2)");
   tell([&](Observer& o) { o.on_stage_end(model_, s, sums, solution()); });
   if (s + 1 < static_cast<int>(model_.stages.size())) offer_checkpoint({s + 1, 0});
   return true;

@@ -36,5 +36,6 @@ Command echo_command(CLI::App& root);
 Command list_command(CLI::App& root);
 Command tables_command(CLI::App& root);
 Command convert_command(CLI::App& root);
+Command verify_command(CLI::App& root);
 
 }  // namespace sage::app

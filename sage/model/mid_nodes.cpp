@@ -74,6 +74,13 @@ void inherit(std::vector<Fixity>& fixities, const std::map<EdgeKey, MadeEdge>& e
   }
 }
 
+// Nodes within the edges.
+std::size_t on_edges(const Element& element) {
+  std::size_t count = 0;
+  for (const std::vector<int>& edge : element.edges()) count += edge.size() - 2;
+  return count;
+}
+
 // Interfaces use an edge too, but its other side is not the same body: only solids count for "boundary".
 void make_group(Builder& b, Group& group, std::map<EdgeKey, MadeEdge>& edges, std::vector<Vector2>& made) {
   const Mesh& mesh = b.model.mesh;
@@ -106,12 +113,15 @@ void make_group(Builder& b, Group& group, std::map<EdgeKey, MadeEdge>& edges, st
       }
     }
     if (!solid) continue;
-    // A centre node that no edge holds.
-    for (std::size_t i = static_cast<std::size_t>(entry.corners); i < n; ++i) {
-      if (nodes[i] >= 0) continue;
-      Vector2 centre = Vector2::Zero();
-      for (int c = 0; c < entry.corners; ++c) centre += coordinates(nodes[c]) / entry.corners;
-      nodes[i] = add_node(made, mesh.nodes(), centre);
+    // Nodes inside, which no edge holds: the centre, or one on the way from the centre to each corner, in their
+    // order (quartic triangle: area coordinates 1/2, 1/4, 1/4).
+    Vector2 centre = Vector2::Zero();
+    for (int c = 0; c < entry.corners; ++c) centre += coordinates(nodes[c]) / entry.corners;
+    const std::size_t inside = n - static_cast<std::size_t>(entry.corners) - on_edges(*group.element);
+    for (std::size_t i = n - inside; i < n; ++i) {
+      const Vector2 x =
+          inside == 1 ? centre : Vector2(0.75 * centre + 0.25 * coordinates(nodes[i + inside - n]));
+      if (nodes[i] < 0) nodes[i] = add_node(made, mesh.nodes(), x);
     }
   }
 }

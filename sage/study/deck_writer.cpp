@@ -136,6 +136,8 @@ bool Block::exists(int i, int j) const {
 }
 
 Vector2 Block::at(int i, int j) const {
+  if (straight && order() == 2 && i % 2 == 1) return 0.5 * (at(i - 1, j) + at(i + 1, j));
+  if (straight && order() == 2 && j % 2 == 1) return 0.5 * (at(i, j - 1) + at(i, j + 1));
   return place(static_cast<double>(i) / (across() - 1), static_cast<double>(j) / (up() - 1));
 }
 
@@ -193,6 +195,28 @@ std::vector<int> Block::top() const {
   std::vector<int> list;
   for (int i = 0; i < across(); ++i) list.push_back(node(i, up() - 1));
   return list;
+}
+
+void join(DeckWriter& deck, int first, int group, const std::vector<int>& lower, const std::vector<int>& upper,
+          int order) {
+  const auto step = static_cast<std::size_t>(order);
+  for (std::size_t i = 0; i + step < lower.size(); i += step) {
+    std::vector<int> nodes{lower[i], lower[i + step], upper[i + step], upper[i]};
+    if (order == 2) nodes.insert(nodes.end(), {lower[i + 1], upper[i + 1]});
+    deck.element(first++, group, nodes);
+  }
+}
+
+std::vector<int> copy_row(DeckWriter& deck, const Block& block, const std::vector<int>& row, int first) {
+  std::vector<int> copy;
+  for (int j = 0; j < block.up(); ++j)
+    for (int i = 0; i < block.across(); ++i)
+      for (int n : row)
+        if (block.node(i, j) == n) {
+          deck.node(first, block.at(i, j).x(), block.at(i, j).y(), block.polar);
+          copy.push_back(first++);
+        }
+  return copy;
 }
 
 std::function<Vector2(double, double)> rectangle(double x0, double x1, double y0, double y1) {

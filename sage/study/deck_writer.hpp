@@ -59,6 +59,7 @@ struct Block {
   int first_node = 1, first_element = 1;
   std::function<Vector2(double, double)> place;  // cartesian, or radius and degrees when polar
   bool polar = false;
+  bool straight = false;  // mid-side nodes halfway between their corners instead of where `place` puts them
 
   int order() const { return cell == Cell::quad4 || cell == Cell::tri3 ? 1 : 2; }
   int across() const { return order() * columns + 1; }
@@ -75,6 +76,13 @@ struct Block {
   // Node numbers along an edge of the block.
   std::vector<int> left() const, right() const, bottom() const, top() const;
 };
+
+// Interface elements, numbered from `first`, between two rows of nodes: node 1 to 2 along `lower`, `upper` on
+// its left.  order: 1 linear, 2 quadratic (every second node is mid-side).
+void join(DeckWriter& deck, int first, int group, const std::vector<int>& lower, const std::vector<int>& upper,
+          int order);
+// New nodes, numbered from `first`, at the places of a row of the block's nodes.
+std::vector<int> copy_row(DeckWriter& deck, const Block& block, const std::vector<int>& row, int first);
 
 // The rectangle [x0, x1] x [y0, y1].
 std::function<Vector2(double, double)> rectangle(double x0, double x1, double y0, double y1);

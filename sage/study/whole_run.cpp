@@ -80,10 +80,13 @@ Workbench::Workbench(Catalogue catalogue, std::function<int(int, bool)> choose_s
       layout_(load_layout("sage1")),
       choose_solver_(std::move(choose_solver)) {}
 
-WholeRun Workbench::run(const std::string& deck, const BuildOptions& options,
-                        const RunSettings& settings) const {
+Model Workbench::build(const std::string& deck, const BuildOptions& options) const {
+  return build_model(read_deck_text(deck, "deck", layout_), catalogue_, options);
+}
+
+WholeRun Workbench::run(Model model, const RunSettings& settings) const {
   WholeRun run;
-  run.model = std::make_unique<Model>(build_model(read_deck_text(deck, "deck", layout_), catalogue_, options));
+  run.model = std::make_unique<Model>(std::move(model));
   for (const Diagnostic& d : run.model->diagnostics.list())
     if (d.severity == Severity::warning) run.warnings.push_back(d.message);
   RunSettings with_choice = settings;
@@ -92,6 +95,11 @@ WholeRun Workbench::run(const std::string& deck, const BuildOptions& options,
   Observer* observers[] = {&keeper};
   run.result = sage::run(*run.model, catalogue_, with_choice, observers);
   return run;
+}
+
+WholeRun Workbench::run(const std::string& deck, const BuildOptions& options,
+                        const RunSettings& settings) const {
+  return run(build(deck, options), settings);
 }
 
 }  // namespace sage::study

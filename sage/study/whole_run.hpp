@@ -53,6 +53,9 @@ class Workbench {
 
   const Catalogue& catalogue() const { return catalogue_; }
   // Throws InputError for a deck with mistakes.
+  Model build(const std::string& deck, const BuildOptions& options = {}) const;
+  // A built model, perhaps with loads or places that a card's ten columns can't hold.
+  WholeRun run(Model model, const RunSettings& settings = {}) const;
   WholeRun run(const std::string& deck, const BuildOptions& options = {},
                const RunSettings& settings = {}) const;
 

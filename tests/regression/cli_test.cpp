@@ -39,6 +39,7 @@ TEST(CommandLine, HelpOfEverySubcommandNamesItsOptions) {
       {"echo", {"DECK", "--layout", "--strict"}},
       {"list", {"WHAT", "elements", "materials", "solvers"}},
       {"tables", {"--cases", "--output", "--pinned"}},
+      {"verify", {"--list", "--only", "--rows", "--csv", "--write"}},
   };
   for (const auto& [command, words] : commands) {
     const Finished help = sagefe(folder, command + " --help");
@@ -53,6 +54,21 @@ TEST(CommandLine, VersionIsThreeNumbers) {
   EXPECT_EQ(version.exit_code, 0);
   int a = -1, b = -1, c = -1;
   EXPECT_EQ(std::sscanf(version.out.c_str(), "sagefe %d.%d.%d", &a, &b, &c), 3) << version.out;
+}
+
+TEST(CommandLine, VerifyListsRunsAndWritesRows) {
+  const fs::path folder = empty_folder("verify");
+  const Finished list = sagefe(folder, "verify --list");
+  EXPECT_EQ(list.exit_code, 0);
+  expect_words(list.out, {"lame.two_rings", "closed form"});
+  const Finished run = sagefe(folder, "verify --only interface.p5 --rows --csv rows.csv");
+  EXPECT_EQ(run.exit_code, 0) << run.out;
+  EXPECT_EQ(run.err, "");  // progress on a terminal only
+  expect_words(run.out,
+               {"interface4 row-sum, r1 = 0", "pass", "1 cases, 12 rows, 0 failing", "compression positive"});
+  EXPECT_GE(row(read(folder / "rows.csv"), "\"Patch tests of interfaces\"").size(), 15u);
+  EXPECT_EQ(sagefe(folder, "verify --only nothing").exit_code, 1);
+  EXPECT_EQ(sagefe(folder, "verify --only interface.p5 --write").exit_code, 1);
 }
 
 TEST(CommandLine, MistakesGiveExitCode1AndNameTheWord) {

@@ -1,0 +1,16 @@
+#include "sage/verify/book.hpp"
+
+#include "sage/verify/cases.hpp"
+
+namespace sage::verify {
+
+std::vector<Section> book() {
+  return {patch_cases(),     interface_patch_cases(),
+          lame_cases(),      manufactured_cases(),
+          box_cases(),       restrained_cylinder_cases(),
+          interface_cases(), cavity_cases(),
+          bearing_cases(),   slope_cases(),
+          ground_cases(),    law_cases()};
+}
+
+}  // namespace sage::verify

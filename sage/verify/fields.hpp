@@ -1,0 +1,44 @@
+// Exact fields against computed ones, and models whose loads and supports come from them at full precision.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "sage/verify/record.hpp"
+
+namespace sage::verify {
+
+using VectorField = std::function<Vector2(const Vector2&)>;
+using TensorField = std::function<Vector4(const Vector2&)>;
+
+// Nodes on edges of solids that belong to one element only, one flag a node.
+std::vector<char> boundary_nodes(const Model& model);
+
+// Holds both components of flagged nodes at u(x) from the first stage on.  In rings u_r on the axis stays 0.
+void hold(Model& model, const std::vector<char>& nodes, const VectorField& u);
+// One node, in the given components.
+void hold(Model& model, int node, bool x, bool y, const Vector2& u);
+
+// Nodal loads of a body force b(x) per volume in the first stage, by the elements' load rule.
+void add_body_force(Model& model, const VectorField& b);
+
+// Stress of a law without stress before, tension positive.
+Vector4 stress_of(const Material& material, const Vector4& strain);
+
+// Errors over the volume (measure included), relative to the exact field's own size.
+struct FieldErrors {
+  double displacement = 0.0;  // L2, in the integration points of the load rule
+  double stress = 0.0;        // L2, in the points of the element
+};
+FieldErrors field_errors(const WholeRun& run, const VectorField& u, const TensorField& sigma);
+
+// Largest difference of any point's stress of a group from sigma, over the largest norm of sigma.
+double largest_stress_error(const WholeRun& run, std::size_t group, const TensorField& sigma);
+
+// Position of a point of a group, points counted through all its elements.
+Vector2 point_position(const Model& model, std::size_t group, Eigen::Index point);
+
+// Stress at a node: mean of what the elements of the group around it extrapolate.
+Vector4 stress_at_node(const WholeRun& run, std::size_t group, int number);
+
+}  // namespace sage::verify

@@ -1,0 +1,196 @@
+// Laws on one point against closed forms.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "sage/core/point_driver.hpp"
+#include "sage/verify/cases.hpp"
+
+namespace sage::verify {
+
+namespace {
+
+constexpr double kDegree = kRadiansPerDegree;
+
+const UnitSystem kKilopascal{"m", "kN", "kPa", 101.325, 9.81};
+
+std::unique_ptr<SolidLaw> solid(const Record& record, int code, const std::vector<double>& parameters) {
+  LawPtr law = record.bench().catalogue().materials.find(code)->make(parameters, kKilopascal);
+  return std::move(std::get<std::unique_ptr<SolidLaw>>(law));
+}
+
+// sigma3 = 50, E = 3000, sin phi = 3/5, c = 0: K_p = 4, q_f = 150, yield at eps_a = 5 %, then flow without
+// volume change: eps_r = -nu eps_y - (eps_a - eps_y)/2.  With cohesion q_f = sigma3 (K_p - 1) + 2 c sqrt(K_p).
+void triaxial_compression(Record& record) {
+  const double nu = 0.3, phi = std::asin(0.6) / kDegree;
+  for (int code : {3, 4}) {
+    const char* name = code == 3 ? "Drucker-Prager" : "Mohr-Coulomb";
+    for (int steps : {1, 20}) {
+      const auto path = triaxial_test(*solid(record, code, {3000.0, nu, 0.0, phi, 0.0}), 50.0, 0.10, steps);
+      record.near(Where::point, fmt::format("{}, {} steps: deviator at 10 %", name, steps),
+                  path.back().deviator, 150.0, 1e-9);
+      // eps_v = eps_a + 2 eps_r, compression positive: all of it elastic, eps_y (1 - 2 nu).
+      record.near(Where::point, fmt::format("{}, {} steps: volume strain at 10 %", name, steps),
+                  path.back().volume_strain, 0.05 * (1 - 2 * nu), 1e-9);
+    }
+    const auto cohesive = triaxial_test(*solid(record, code, {3000.0, nu, 12.0, phi, 0.0}), 50.0, 0.20, 5);
+    record.near(Where::point, fmt::format("{}, c = 12: deviator at failure", name), cohesive.back().deviator,
+                50.0 * 3 + 2 * 12.0 * 2, 1e-9);
+  }
+}
+
+// Cone of triaxial compression in extension: q = M p with M = 6 sin phi/(3 - sin phi), cell = p + q/3, axial =
+// p - 2q/3, so sin phi_e = 3 M/(6 - M).  Mohr-Coulomb keeps phi.
+void triaxial_extension(Record& record) {
+  const double cell = 100.0;
+  for (double phi : {20.0, 30.0}) {
+    const double M = 6 * std::sin(phi * kDegree) / (3 - std::sin(phi * kDegree)), sine = 3 * M / (6 - M);
+    for (int code : {3, 4}) {
+      const auto path = triaxial_test(*solid(record, code, {3e4, 0.3, 0.0, phi, 0.0}), cell, -0.10, 10);
+      const double axial = cell + path.back().deviator;  // the smallest principal stress
+      const double mobilised = (cell - axial) / (cell + axial);
+      const double reference = code == 4 ? std::sin(phi * kDegree) : sine;
+      record.near(Where::point,
+                  fmt::format("sin of mobilised friction, {}, phi = {:g}",
+                              code == 3 ? "Drucker-Prager" : "Mohr-Coulomb", phi),
+                  mobilised, reference, 1e-6);
+    }
+  }
+}
+
+// Passive compression in plane strain, tension +: sigma_xx = -p held, eps_yy driven.  Friction at collapse.
+double plane_strain_sine(const SolidLaw& law, double p) {
+  PointDriver<4> driver(law, {-p, -p, -p, 0.0});
+  for (int i = 0; i < 400; ++i)
+    driver.advance({Control::stress, Control::strain, Control::strain, Control::strain},
+                   {-p, -0.005, 0.0, 0.0});
+  return (driver.sigma()[0] - driver.sigma()[1]) / -(driver.sigma()[0] + driver.sigma()[1]);
+}
+
+// sin phi* = 3 alpha sqrt(1 - 3 beta^2)/(1 - 3 alpha beta); alpha = beta = 2 sin phi/(sqrt 3 (3 - sin phi)) for
+// the cone of compression.
+void plane_strain_cone(Record& record) {
+  for (double phi : {20.0, 30.0}) {
+    const double s = std::sin(phi * kDegree), alpha = 2 * s / (std::sqrt(3.0) * (3 - s));
+    const double level = 100.0;
+    record.near(Where::point, fmt::format("compression cone, no volume change, phi = {:g}", phi),
+                plane_strain_sine(*solid(record, 3, {1e5, 0.3, 0.0, phi, 0.0, 1.0, 1.0}), level), 3 * alpha,
+                1e-6);
+    record.near(Where::point, fmt::format("compression cone, associated, phi = {:g}", phi),
+                plane_strain_sine(*solid(record, 3, {1e5, 0.3, 0.0, phi, phi, 1.0, 0.0}), level),
+                3 * alpha * std::sqrt(1 - 3 * alpha * alpha) / (1 - 3 * alpha * alpha), 1e-6);
+    record.near(Where::point, fmt::format("plane strain cone, associated, phi = {:g}", phi),
+                plane_strain_sine(*solid(record, 3, {1e5, 0.3, 0.0, phi, phi, 3.0, 0.0}), level), s, 1e-6);
+    record.near(Where::point, fmt::format("plane strain cone, no volume change, phi = {:g}", phi),
+                plane_strain_sine(*solid(record, 3, {1e5, 0.3, 0.0, phi, 0.0, 4.0, 1.0}), level), s, 1e-6);
+    record.near(Where::point, fmt::format("Mohr-Coulomb, phi = {:g}", phi),
+                plane_strain_sine(*solid(record, 4, {1e5, 0.3, 0.0, phi, 0.0}), level), s, 1e-9);
+  }
+}
+
+// The angle whose cone of triaxial compression has this alpha (friction) or beta (dilation).
+double cone_angle(double alpha) {
+  return std::asin(3 * std::sqrt(3.0) * alpha / (2 + std::sqrt(3.0) * alpha)) / kDegree;
+}
+
+// Constant strain rate from a point on the cone: R = |s| = sqrt2 (k - alpha I1), psi the angle between s and
+// de. Without volume change R = R0 + B, tan(psi/2) = tan(psi0/2) (R/R0)^(-2 G e/B), e = |de|, B = -3 sqrt2 K
+// alpha deps_v. With dilation: the rate equations R psi' = -2 G e sin psi, R' = A cos psi + B, integrated to 10
+// digits.
+void constant_rate(Record& record) {
+  const double G = 1000.0, nu = 0.3, K = 2 * G * (1 + nu) / (3 * (1 - 2 * nu)), E = 2 * G * (1 + nu);
+  const double alpha = 0.2, k = 10.0, phi = cone_angle(alpha);
+  const double c = k * std::sqrt(3.0) * (3 - std::sin(phi * kDegree)) / (6 * std::cos(phi * kDegree));
+  const double p0 = -20.0, volume = -0.004;  // mean stress, tension +; volume strain
+  const double R0 = std::sqrt(2.0) * (k - alpha * 3 * p0);
+  const Vector4 one(1, 1, 1, 0), direction = Vector4(2.0, -1.0, -1.0, 0.0) / std::sqrt(6.0);
+  const Vector4 sigma0 = R0 * direction + p0 * one;
+  const Vector4 de = 0.02 * (0.3 * direction + 0.8 * Vector4(0.0, 1.0, -1.0, 0.0) / std::sqrt(2.0));
+  struct Answer {
+    double R, p, psi;
+  };
+  const auto follow = [&](const SolidLaw& law, int steps) -> Answer {
+    PointDriver<4> driver(law, sigma0);
+    const Vector4 step = (de + volume / 3 * one) / steps;
+    for (int i = 0; i < steps; ++i)
+      driver.advance({Control::strain, Control::strain, Control::strain, Control::strain}, step);
+    const double p = driver.sigma().head<3>().mean();
+    const Vector4 s = driver.sigma() - p * one;
+    return {s.norm(), p, std::acos(s.dot(de) / (s.norm() * de.norm()))};
+  };
+
+  const double e = de.norm(), B = -3 * std::sqrt(2.0) * alpha * K * volume, R1 = R0 + B;
+  const double psi0 = std::acos(de.dot(direction) / e);
+  const double psi1 = 2 * std::atan(std::tan(psi0 / 2) * std::pow(R1 / R0, -2 * G * e / B));
+  const Answer exact = follow(*solid(record, 3, {E, nu, c, phi, 0.0, 1.0, 1.0, -1.0, 0.0, 1.0}), 1);
+  record.near(Where::point, "exact integration in one step: angle of the deviator", exact.psi, psi1, 1e-9);
+  record.near(Where::point, "exact integration in one step: size of the deviator", exact.R, R1, 1e-9);
+
+  struct Reference {
+    double beta;
+    Answer end;
+  };
+  const Reference references[] = {{0.0, {38.466608897, -28.66666667, 0.5059691287}},
+                                  {0.05, {41.025704081, -31.68258926, 0.5187885227}},
+                                  {0.2, {45.268943836, -36.68329527, 0.5386025838}}};
+  for (const auto& [beta, end] : references) {
+    const auto law = solid(record, 3, {E, nu, c, phi, cone_angle(beta), 1.0, beta == 0.0 ? 1.0 : 0.0});
+    std::vector<double> size, error;
+    for (int steps : {20, 40, 80}) {
+      const Answer found = follow(*law, steps);
+      size.push_back(1.0 / steps);
+      error.push_back(std::abs(found.psi / end.psi - 1.0));
+    }
+    record.order(Where::point, fmt::format("angle of the deviator, radial return, beta = {:g}", beta), size,
+                 error, 1.0);
+    const Answer fine = follow(*law, 4000);
+    record.near(Where::point, fmt::format("size of the deviator, 4000 steps, beta = {:g}", beta), fine.R, end.R,
+                1e-4);
+    record.near(Where::point, fmt::format("mean stress (tension +), 4000 steps, beta = {:g}", beta), fine.p,
+                end.p, 1e-4);
+  }
+}
+
+// q = eps/(1/E_i + eps R_f/q_f).  K = 400, n = .5, R_f = .8, c = 5, phi = 33, sigma3 = 100.
+void duncan_chang(Record& record) {
+  const double strain[] = {0.001, 0.005, 0.01, 0.02}, q[] = {35.789399, 123.878397, 178.928255, 230.042010};
+  const std::vector<double> parameters{400, 0.5, 0.8, 600, 200, 0.2, 5.0, 33.0, 0.0};
+  const std::vector<double> poisson{400, 0.5, 0.8, 600, 0.3, 0.0, 0.0, 5.0, 33.0};  // nu = .3
+  const std::map<int, const char*> names{
+      {5, "Duncan & Chang 1970"}, {6, "Duncan et al. 1980"}, {7, "inside Mohr-Coulomb"}};
+  for (const auto& [code, name] : names)
+    for (int steps : {20, 80}) {
+      const auto law = solid(record, code, code == 5 ? poisson : parameters);
+      for (std::size_t i = 0; i < 4; ++i)
+        record.near(Where::point, fmt::format("{}, {} steps: deviator at {:g} %", name, steps, 100 * strain[i]),
+                    triaxial_test(*law, 100.0, strain[i], steps).back().deviator, q[i], 2e-3);
+    }
+  // Beyond failure the law inside Mohr-Coulomb may not overshoot q_f = 257.62971.
+  record.near(Where::point, "inside Mohr-Coulomb: deviator at 10 %",
+              triaxial_test(*solid(record, 7, parameters), 100.0, 0.10, 20).back().deviator, 257.62971, 1e-7);
+}
+
+}  // namespace
+
+Section law_cases() {
+  return {"Laws on one point",
+          {
+              {"law.triaxial_compression", "Drucker-Prager and Mohr-Coulomb, drained compression",
+               "q_f = sigma3 (K_p - 1) + 2 c sqrt(K_p)", Grade::exact, "the same with any step: 1e-9",
+               triaxial_compression},
+              {"law.triaxial_extension", "the cone of triaxial compression in extension",
+               "sin phi_e = 3M/(6 - M), M = 6 sin phi/(3 - sin phi)", Grade::exact, "flow to the limit: 1e-6",
+               triaxial_extension},
+              {"law.plane_strain", "friction that the cones give in plane strain collapse",
+               "sin phi* = 3 alpha sqrt(1 - 3 beta^2)/(1 - 3 alpha beta)", Grade::exact,
+               "flow to the limit: 1e-6", plane_strain_cone},
+              {"law.constant_rate", "Drucker-Prager under a constant strain rate",
+               "tan(psi/2) = tan(psi0/2)(R/R0)^(-2Ge/B); Krieg & Krieg 1977 for alpha = 0", Grade::exact,
+               "rounding 1e-9; radial return is of order 1: 1e-4 with 4000 steps", constant_rate},
+              {"law.hyperbola", "hyperbolic laws, drained compression", "q = eps/(1/E_i + eps R_f/q_f)",
+               Grade::exact, "substepping tolerance 1e-3 a substep: 2e-3; strength 1e-7", duncan_chang},
+          }};
+}
+
+}  // namespace sage::verify
