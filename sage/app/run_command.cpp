@@ -38,7 +38,8 @@ int run_one(const RunOptions& options, const std::string& deck, const Catalogue&
     const RunOutcome outcome = run_deck(request, catalogue);
     if (outcome.record.stages.empty()) return outcome.exit_code;  // --strict stopped it
     if (!options.quiet)
-      fmt::print("{}\n", summary(*outcome.model, outcome.record, outcome.reports.get(), outcome.files));
+      fmt::print("{}\n", summary(*outcome.model, outcome.record, outcome.reports.get(), outcome.files,
+                                 outcome.error.get()));
     if (outcome.exit_code != kOk) fmt::print(stderr, "{}: {}\n", deck, outcome.record.result.reason);
     return outcome.exit_code;
   });
@@ -90,6 +91,7 @@ Command run_command(CLI::App& root) {
       ->check([](const std::string& name) {
         return field_from_name(name) ? std::string() : "unknown field " + name;
       });
+  parser->add_flag("--error", request.output.error, "estimate the error of the mesh (Zienkiewicz-Zhu)");
   parser->add_flag("!--no-listing", request.output.listing, "write no listing");
   parser->add_flag("--restart", request.restart,
                    "go on from the checkpoint (STEM.restart) that a stopped run left in the output folder");

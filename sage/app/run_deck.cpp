@@ -93,6 +93,10 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   std::vector<std::unique_ptr<Output>> outputs = make_outputs(request, catalogue, *outcome.reports);
   Progress progress;
   std::vector<Observer*> observers{&outcome.record, outcome.reports.get()};
+  if (request.output.error) {
+    outcome.error = std::make_unique<DiscretisationError>(*outcome.reports);
+    observers.push_back(outcome.error.get());
+  }
   for (const auto& output : outputs) observers.push_back(output.get());
   observers.push_back(&progress);
   try {

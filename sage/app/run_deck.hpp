@@ -18,6 +18,7 @@ struct OutputOptions {
   Tables tables = Tables::automatic;
   bool increments = true;  // STEM.increments.csv
   bool nodes = false, points = false;
+  bool error = false;                 // estimate of the discretisation error
   bool vtu = false;                   // STEM_0001.vtu ... and STEM.pvd
   std::vector<std::string> pictures;  // fields, as SVG at the end of each stage
 };
@@ -37,6 +38,7 @@ struct RunOutcome {
   int exit_code = 0;
   std::unique_ptr<Model> model;
   std::unique_ptr<Reports> reports;
+  std::unique_ptr<DiscretisationError> error;  // where asked for
   RunRecord record;
   std::vector<std::filesystem::path> files;
 };

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sage/model/builder.hpp"
+#include "sage/model/edges.hpp"
 
 namespace sage::build {
 
@@ -48,6 +48,20 @@ std::vector<int> card_nodes(const CardView& card) {
   return nodes;
 }
 
+// Elements of high degree take their corners and mid-side nodes from the card and have the rest made.
+constexpr int kMostCardNodes = 15;
+
+int card_limit(const ElementEntry& entry) {
+  return entry.nodes > kMostCardNodes ? 2 * entry.corners : entry.nodes;
+}
+
+// Local node that the i-th node of a card is.
+std::size_t local_node(const Group& group, const ElementEntry& entry, std::size_t i) {
+  const auto corners = static_cast<std::size_t>(entry.corners);
+  if (entry.nodes <= kMostCardNodes || i < corners) return i;
+  return static_cast<std::size_t>(middle_of(group.element->edges()[i - corners]));
+}
+
 struct ElementCard {
   int number = 0, group = 0;
   std::vector<int> nodes;  // deck numbers
@@ -77,7 +91,7 @@ void add_element(Builder& b, const CardView& card, const ElementCard& element) {
               name + ": node " + std::to_string(number) + " stands twice");
       return;
     }
-    index[i] = it->second;
+    index[local_node(group, entry, i)] = it->second;
   }
   group.element_numbers.push_back(element.number);
   group.element_lines.push_back(card.card().line);
@@ -170,11 +184,12 @@ void read_element_card(Builder& b, const CardView& card) {
   const ElementEntry& entry = *b.catalogue.elements.find(target.element_code);
   ElementCard element{card.integer("number"), group->second, card_nodes(card)};
   const int given = static_cast<int>(element.nodes.size());
-  if (given < entry.corners || given > entry.nodes) {
-    b.error(card.where("n1"), "element " + std::to_string(element.number) + ": a " + entry.name + " has " +
-                                  std::to_string(entry.corners) +
-                                  (entry.nodes > entry.corners ? " to " + std::to_string(entry.nodes) : "") +
-                                  " nodes on its card, not " + std::to_string(given));
+  if (given < entry.corners || given > card_limit(entry)) {
+    b.error(card.where("n1"),
+            "element " + std::to_string(element.number) + ": a " + entry.name + " has " +
+                std::to_string(entry.corners) +
+                (entry.nodes > entry.corners ? " to " + std::to_string(card_limit(entry)) : "") +
+                " nodes on its card, not " + std::to_string(given));
     return;
   }
   for (int c = 0; c < entry.corners; ++c) {
