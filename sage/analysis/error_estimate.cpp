@@ -7,6 +7,8 @@
 #include <map>
 #include <optional>
 
+#include "sage/model/coarse_shape.hpp"
+
 namespace sage {
 
 namespace {
@@ -44,6 +46,8 @@ class Fit {
       low = low.cwiseMin(e->sample_at.rowwise().minCoeff());
       high = high.cwiseMax(e->sample_at.rowwise().maxCoeff());
     }
+    // The stress wants degree p; one more takes less from the fit, where there are samples enough for it.
+    if (3 * terms_of(degree_ + 1) <= 2 * samples) ++degree_;
     while (degree_ > 0 && terms_of(degree_) > samples) --degree_;
     centre_ = 0.5 * (low + high);
     scale_ = 0.5 * (high - low).cwiseMax(1e-300);
@@ -77,6 +81,7 @@ class Fit {
 
 // A rule given by the share of each corner in its points: linear on triangles, bilinear on quadrilaterals.
 struct CornerRule {
+  std::vector<Place> at;
   Eigen::MatrixXd shares;  // points x corners
   Eigen::VectorXd w;       // sum 1
 };
@@ -90,6 +95,7 @@ CornerRule corner_rule(int corners) {
     rule.w.resize(9);
     for (int i = 0; i < 9; ++i) {
       const double x = at[i % 3], y = at[i / 3];
+      rule.at.push_back({x, y});
       rule.shares.row(i) << (1 - x) * (1 - y) / 4, (1 + x) * (1 - y) / 4, (1 + x) * (1 + y) / 4,
           (1 - x) * (1 + y) / 4;
       rule.w(i) = w[i % 3] * w[i / 3];
@@ -103,6 +109,7 @@ CornerRule corner_rule(int corners) {
   for (int i = 0; i < 6; ++i) {
     rule.shares.row(i).setConstant(b[i / 3]);
     rule.shares(i, i % 3) = 1.0 - 2.0 * b[i / 3];
+    rule.at.push_back({rule.shares(i, 1), rule.shares(i, 2)});
     rule.w(i) = w[i / 3];
   }
   return rule;
@@ -110,7 +117,7 @@ CornerRule corner_rule(int corners) {
 
 // At the points of a reduced rule the error of a smooth solution vanishes: it is measured at others, where the
 // stress is the linear or bilinear one through those points.
-void measure_between_points(const Element& element, ElementStress& s) {
+void measure_between_points(const Element& element, const Eigen::Matrix2Xd& x, ElementStress& s) {
   const Eigen::Index points = s.points.rows(), corners = s.corners;
   const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> to_nodes(
       element.point_to_node().data(), element.traits().nodes, points);
@@ -120,8 +127,17 @@ void measure_between_points(const Element& element, ElementStress& s) {
   const Eigen::VectorXd density = map * s.w;
   s.w = (rule.w.array() * density.array()).matrix();
   s.w *= volume / s.w.sum();
-  if (points > 1) s.point_at = s.point_at * map.transpose();
   s.points = map * s.points;
+  CoarseShape shape;
+  shape.corners = s.corners;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(s.corners); ++k) {
+    shape.corner[k] = x.col(static_cast<Eigen::Index>(k));
+    const std::vector<int>& edge = element.edges()[k];
+    if (edge.size() > 2) shape.middle[k] = x.col(edge[2]);
+  }
+  s.point_at.resize(2, rule.w.size());
+  for (std::size_t i = 0; i < rule.at.size(); ++i)
+    s.point_at.col(static_cast<Eigen::Index>(i)) = shape.at(rule.at[i]);
 }
 
 ElementStress element_stress(const Model& model, const GroupData& data, int e,
@@ -167,8 +183,8 @@ ElementStress element_stress(const Model& model, const GroupData& data, int e,
       s.samples = s.points.colwise().mean();
       s.sample_at = s.point_at.rowwise().mean();
     }
-    if (s.degree <= 2) measure_between_points(element, s);
-    if (points == 1) s.point_at = x * corner_rule(s.corners).shares.transpose();
+    const bool reduced = s.degree <= 2 && (s.corners == 4 || points < 3 * s.degree);
+    if (reduced) measure_between_points(element, x, s);
   } else {
     const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> to_samples(
         map.data(), static_cast<Eigen::Index>(map.size()) / points, points);

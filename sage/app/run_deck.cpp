@@ -81,6 +81,10 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
     outcome.exit_code = kInput;
     return outcome;
   }
+  if (request.max_dofs > 0 && model.dofs() > request.max_dofs) {
+    outcome.too_large = true;
+    return outcome;
+  }
   RunSettings settings;
   settings.solver = solver_code(catalogue, request.solver);
   settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };

@@ -29,6 +29,7 @@ struct RunRequest {
   OutputOptions output;
   std::string solver;                // a name of the catalogue; empty = the deck's choice
   bool quiet = false;                // no messages about the deck
+  int max_dofs = 0;                  // larger models are built but not run; 0 = no limit
   bool restart = false;              // go on from STEM.restart, if there is one
   double checkpoint_seconds = 30.0;  // between checkpoints; 0 = after every increment, negative = none
 };
@@ -36,6 +37,7 @@ struct RunRequest {
 // Reports and record stay readable after the run.
 struct RunOutcome {
   int exit_code = 0;
+  bool too_large = false;  // more than max_dofs: not run
   std::unique_ptr<Model> model;
   std::unique_ptr<Reports> reports;
   std::unique_ptr<DiscretisationError> error;  // where asked for

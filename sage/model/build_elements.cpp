@@ -16,11 +16,21 @@ std::string formulations_of(const ElementEntry& entry) {
   return text;
 }
 
+// Elements of higher degree take their corners and mid-side nodes from the card and have the rest made.
+constexpr int kMostCardNodes = 15;
+
 // The deck's element, or the one that BuildOptions puts in its place.
 int chosen_element(const Builder& b, int deck_code) {
   const ElementEntry* deck_entry = b.catalogue.elements.find(deck_code);
   if (b.options.element == 0 || deck_entry == nullptr) return deck_code;
   if (deck_entry->law_size == 4 && deck_entry->nodes == 4) return b.options.element;
+  // Elements of high degree take the mid-side nodes of a card for the curve of its sides.
+  const auto quad_of_high_degree = [](const ElementEntry* e) {
+    return e != nullptr && e->corners == 4 && e->nodes > kMostCardNodes;
+  };
+  if (quad_of_high_degree(b.catalogue.elements.find(b.options.element)) && deck_entry->law_size == 4 &&
+      (deck_entry->nodes == 8 || quad_of_high_degree(deck_entry)))
+    return b.options.element;
   const ElementEntry* wanted = b.catalogue.elements.find(b.options.element);
   // Quadratic solids need quadratic interfaces beside them.
   if (deck_entry->law_size == 2 && deck_entry->nodes == 4 && wanted != nullptr && wanted->nodes > 4)
@@ -47,9 +57,6 @@ std::vector<int> card_nodes(const CardView& card) {
   while (!nodes.empty() && nodes.back() == 0) nodes.pop_back();
   return nodes;
 }
-
-// Elements of high degree take their corners and mid-side nodes from the card and have the rest made.
-constexpr int kMostCardNodes = 15;
 
 int card_limit(const ElementEntry& entry) {
   return entry.nodes > kMostCardNodes ? 2 * entry.corners : entry.nodes;

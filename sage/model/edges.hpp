@@ -3,13 +3,12 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <map>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "sage/model/builder.hpp"
+#include "sage/model/coarse_shape.hpp"
 
 namespace sage::build {
 
@@ -23,7 +22,9 @@ inline EdgeKey edge_key(int a, int z) {
 struct MadeEdge {
   std::vector<int> nodes;
   std::vector<double> at;  // place of each, 0 ... 1
-  int solids = 0;          // solids that have the edge; 1 = boundary (an interface beyond it is another body)
+  // Solids that have the edge; 1 = boundary (an interface beyond it is another body), 0 = an interface on a
+  // rigid body.
+  int solids = 0;
 };
 
 using MadeEdges = std::map<EdgeKey, MadeEdge>;
@@ -56,25 +57,5 @@ class NewNodes {
 inline int middle_of(const std::vector<int>& edge) {
   return edge.size() > 2 ? edge[2 + (edge.size() - 3) / 2] : -1;
 }
-
-// The parent coordinates of a corner, and of a place between corners.
-using Place = std::array<double, 2>;
-
-// Straight, or the parabola through a middle node; t from a to z.
-Vector2 along_edge(const Vector2& a, const Vector2& z, const std::optional<Vector2>& middle, double t);
-
-// Shape of an element that is known by its corners and by the middle nodes of the sides that are curved: the
-// serendipity quadrilateral or the six-node triangle with straight sides where no middle node is given.
-struct CoarseShape {
-  int corners = 4;
-  std::array<Vector2, 4> corner;
-  std::array<std::optional<Vector2>, 4> middle;  // of the side after each corner
-
-  bool curved() const;
-  Vector2 at(const Place& q) const;
-};
-
-// Corners of the parent shapes, counter-clockwise.
-const std::array<Place, 4>& parent_corners(int corners);
 
 }  // namespace sage::build

@@ -17,7 +17,7 @@ std::vector<char> used_nodes(const Model& model) {
 void drop_lost_nodes(Builder& b, std::vector<char> lost) {
   Model& model = b.model;
   const std::vector<char> used = used_nodes(model);
-  lost.resize(used.size(), 0);
+  lost.resize(used.size(), 1);  // also those that one layer made and the next one cut off
   const auto is_lost = [&](int node) {
     return lost[static_cast<std::size_t>(node)] && !used[static_cast<std::size_t>(node)];
   };

@@ -1,10 +1,10 @@
 // Where the elastic solution of a mesh is singular, from its boundary: the angle inside and what holds both
 // sides. Williams (1952): stress ~ r^(lambda - 1).  A side that is held in one direction mirrors the corner.
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
 
-#include "sage/model/activity.hpp"
 #include "sage/model/subdivide.hpp"
 
 namespace sage::build {
@@ -22,12 +22,32 @@ double degrees(double radians) {
   return radians / kRadiansPerDegree;
 }
 
-// Boundary edges by their ends, angles of the body at each node.
+// Boundary edges by their ends, angles of the body at each node.  An edge is held where one list of fixities
+// holds both of its ends: the ends of a long edge may belong to two other sides.  The same rule makes nodes on
+// it inherit.
 struct Outline {
   std::vector<BoundaryEdge> edges;
   std::map<int, std::vector<std::size_t>> leaving, arriving;
-  std::map<int, double> angle;  // degrees
-  std::set<EdgeKey> joined;     // an interface lies on them
+  std::map<int, double> angle;            // degrees
+  std::set<EdgeKey> joined;               // an interface lies on them
+  std::vector<std::array<bool, 2>> held;  // by edge and direction
+
+  void apply(const std::vector<Fixity>& fixities) {
+    std::map<int, std::array<FixityCode, 2>> codes;
+    for (const Fixity& f : fixities)
+      for (std::size_t c = 0; c < 2; ++c)
+        if (f.code[c] != FixityCode::unchanged) codes[f.node][c] = f.code[c];
+    held.resize(edges.size(), {false, false});
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const auto a = codes.find(edges[i].a), z = codes.find(edges[i].z);
+      for (std::size_t c = 0; c < 2; ++c) {
+        const FixityCode at_a = a == codes.end() ? FixityCode::unchanged : a->second[c];
+        const FixityCode at_z = z == codes.end() ? FixityCode::unchanged : z->second[c];
+        if (at_a == FixityCode::fixed && at_z == FixityCode::fixed) held[i][c] = true;
+        if (at_a == FixityCode::released || at_z == FixityCode::released) held[i][c] = false;
+      }
+    }
+  }
 };
 
 Outline outline_of(const Model& model) {
@@ -68,18 +88,15 @@ struct SideKind {
   bool x = false;  // of a mirror: held in x
 };
 
-SideKind kind_of(const Model& model, const Outline& outline, const std::vector<char>& held,
-                 const BoundaryEdge& e) {
+SideKind kind_of(const Model& model, const Outline& outline, std::size_t edge) {
+  const BoundaryEdge& e = outline.edges[edge];
   if (outline.joined.count(edge_key(e.a, e.z))) return {Side::held, false};
-  const auto both = [&](int c) {
-    return held[static_cast<std::size_t>(2 * e.a + c)] && held[static_cast<std::size_t>(2 * e.z + c)];
-  };
   const Vector2 along = model.mesh.x.col(e.z) - model.mesh.x.col(e.a);
   const double length = along.norm();
   const bool on_axis = model.geometry == Geometry::axisymmetric &&
                        std::abs(model.mesh.x(0, e.a)) < 1e-9 * length &&
                        std::abs(model.mesh.x(0, e.z)) < 1e-9 * length;
-  const bool x = both(0) || on_axis, y = both(1);
+  const bool x = outline.held[edge][0] || on_axis, y = outline.held[edge][1];
   if (!x && !y) return {Side::free, false};
   if (x && y) return {Side::held, false};
   const bool square = std::abs(along.x()) < 1e-6 * length || std::abs(along.y()) < 1e-6 * length;
@@ -98,16 +115,15 @@ bool is_singular(const SideKind& a, const SideKind& b, double angle) {
   return angle > 60.0;  // held and free: from 55 to 65 degrees on, by Poisson's ratio
 }
 
-void find_by_supports(const Model& model, const Outline& outline, const std::vector<char>& held,
-                      std::set<int>& found) {
+void find_by_supports(const Model& model, const Outline& outline, std::set<int>& found) {
   for (const auto& [node, leaving] : outline.leaving) {
     const auto& arriving = outline.arriving.at(node);
     if (leaving.size() != 1) {
       found.insert(node);  // two parts touch in a point
       continue;
     }
-    const SideKind in = kind_of(model, outline, held, outline.edges[arriving.front()]);
-    const SideKind out = kind_of(model, outline, held, outline.edges[leaving.front()]);
+    const SideKind in = kind_of(model, outline, arriving.front());
+    const SideKind out = kind_of(model, outline, leaving.front());
     if (is_singular(in, out, outline.angle.at(node))) found.insert(node);
   }
 }
@@ -138,12 +154,12 @@ void find_by_loads(const Outline& outline, const Stage& stage, std::set<int>& fo
 }  // namespace
 
 std::vector<int> singular_corners(const Model& model) {
-  const Outline outline = outline_of(model);
+  Outline outline = outline_of(model);
+  outline.apply(model.fixities);
   std::set<int> found;
-  Activity activity(model);
   for (const Stage& stage : model.stages) {
-    activity.enter(model, stage);
-    find_by_supports(model, outline, activity.held, found);
+    outline.apply(stage.fixities);
+    find_by_supports(model, outline, found);
     find_by_loads(outline, stage, found);
   }
   return {found.begin(), found.end()};

@@ -69,10 +69,10 @@ Subdivision::Subdivision(Builder& b) : b_(&b), nodes_(b.model.mesh) {
   for (const Group& group : b.model.groups) {
     check_nodes(b, group, b.catalogue.elements.find(group.element_code)->corners);
     for (const int number : group.element_numbers) last_number_ = std::max(last_number_, number);
-    if (is_interface(group)) continue;
     for (int e = 0; e < group.elements(); ++e)
       for (const auto& edge : group.element->edges())
-        ++edges_[edge_key(group.nodes_of(e)[edge[0]], group.nodes_of(e)[edge[1]])].solids;
+        edges_[edge_key(group.nodes_of(e)[edge[0]], group.nodes_of(e)[edge[1]])].solids +=
+            is_interface(group) ? 0 : 1;
   }
 }
 

@@ -40,7 +40,7 @@ class Subdivision {
 
   Builder* b_;
   NewNodes nodes_;
-  MadeEdges edges_;                                 // every solid edge there was before, with what was cut
+  MadeEdges edges_;                                 // every edge there was before, with what was cut
   std::map<std::tuple<int, int, long>, int> cuts_;  // near end, far end, place
   std::map<std::tuple<int, int, int>, std::vector<Segment>> segments_;  // group, element, edge
   int last_number_ = 0;
