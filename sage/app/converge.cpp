@@ -205,6 +205,8 @@ int converge(const RunRequest& request, const ConvergeOptions& options, const Ca
     RunRequest one = request;
     one.input.build = rung.build;
     one.quiet = true;
+    one.restart = false;
+    one.checkpoint_seconds = -1.0;
     one.output = {};
     one.output.folder = request.output.folder;
     one.output.listing = one.output.increments = false;

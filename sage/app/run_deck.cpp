@@ -51,8 +51,9 @@ std::vector<std::unique_ptr<Output>> make_outputs(const RunRequest& request, con
 
 Checkpoint checkpoint_of(const RunRequest& request, const Model& model) {
   const OutputOptions& o = request.output;
-  std::string run = fmt::format("{:016x} {} {} {} {}{}{}{}{}", fingerprint(model), request.solver, SAGE_VERSION,
-                                static_cast<int>(o.tables), o.listing, o.increments, o.nodes, o.points, o.vtu);
+  std::string run =
+      fmt::format("{:016x} {} {} {} {}{}{}{}{}{}", fingerprint(model), request.solver, SAGE_VERSION,
+                  static_cast<int>(o.tables), o.listing, o.increments, o.nodes, o.points, o.vtu, o.error);
   for (const std::string& picture : o.pictures) run += " " + picture;
   return {o.folder / (case_name(request.deck) + ".restart"), request.checkpoint_seconds, run};
 }

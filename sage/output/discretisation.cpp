@@ -70,6 +70,14 @@ void DiscretisationError::compute(const Model& model, const Solution& solution) 
   if (moved > 0.0 && correct_force > 0.0) ratio_error_ = estimate_->error / moved / correct_force;
 }
 
+void DiscretisationError::exchange(Archive& archive) {
+  std::size_t groups = start_ ? start_->size() : 0;
+  archive(groups);
+  if (groups == 0) return;
+  if (archive.reading()) start_.emplace(groups);
+  for (std::vector<double>& sigma : *start_) archive(sigma);
+}
+
 std::string DiscretisationError::text(const Model& model) const {
   if (!estimate_) return {};
   std::string text =

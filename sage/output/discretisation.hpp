@@ -21,6 +21,8 @@ class DiscretisationError final : public Observer {
   void on_stage_end(const Model&, int stage, const EquilibriumAudit&, const Solution&) override;
   void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
 
+  void exchange(Archive&) override;
+
   const std::optional<ErrorEstimate>& estimate() const { return estimate_; }
   // Error of the last ratio of the first triaxial report; nothing where it does not follow from the energy.
   //
