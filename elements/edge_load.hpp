@@ -1,6 +1,7 @@
 // Consistent nodal forces of a traction on one edge.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -12,11 +13,12 @@ namespace sage {
 
 // f_i += integral N_i (p n + q s) measure(r) dL.  s is the unit tangent in the edge's own direction, n = (-s_y,
 // s_x) points into the element because edges run counter-clockwise.  p and q vary linearly in xi from the first
-// to the second corner.  x: one column a node of the edge, end, end, inner nodes.  Exact on straight edges.
+// to the second corner.  x: one column a node of the edge, end, end, inner nodes.  Exact on straight edges: N p
+// r is of degree nodes + 1.
 template <class Line, class Kinematics>
 void add_edge_load(const Eigen::Matrix<double, 2, Line::nodes>& x, const Vector2& normal, const Vector2& shear,
                    const std::vector<int>& edge, std::span<double> f) {
-  for (const LinePoint& point : GaussLine<5>::table) {
+  for (const LinePoint& point : GaussLine<std::max(5, Line::nodes)>::table) {
     const Vector<Line::nodes> N = Line::N(point.xi);
     const Vector2 ds = x * Line::dN(point.xi);  // tangent times J
     const Vector2 into(-ds.y(), ds.x());

@@ -24,6 +24,9 @@ ElementEntry element_entry(std::string name, std::string summary, int nodes, int
 ElementEntry quad4_entry();
 ElementEntry quad8_entry();
 ElementEntry quad9_entry();
+ElementEntry quad25_entry();
+ElementEntry quad49_entry();
+ElementEntry quad81_entry();
 ElementEntry tri3_entry();
 ElementEntry tri6_entry();
 ElementEntry tri15_entry();

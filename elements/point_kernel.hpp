@@ -2,6 +2,7 @@
 // B. Full integration, B-bar and interfaces differ only in how geometry() makes w and B.
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <variant>
 
@@ -18,10 +19,23 @@ using OperatorT = Eigen::Matrix<double, Dofs, LawSize>;
 template <int LawSize, int Dofs>
 inline constexpr int kPointStride = 1 + LawSize* Dofs;
 
-// B^T and (w D B)^T of all points side by side.  Rows are filled up with zeros to whole vector registers.
+// Points taken together: all of them, or for large elements one row of their square, so that the operators stay
+// in the cache.
+constexpr int points_together(int points) {
+  if (points <= 16) return points;
+  int row = 5;
+  while (row * row < points) ++row;
+  return points % row == 0 ? row : points;
+}
+
+// B^T and (w D B)^T of some points side by side.  Rows are filled up with zeros to whole vector registers, in
+// blocks that one column of K can hold in registers while it is summed.
 template <int LawSize, int Dofs, int Points>
 struct StackedOperators {
-  static constexpr int kRows = (Dofs + 7) / 8 * 8;
+  static constexpr int kBlocks = (Dofs + 55) / 56;
+  static constexpr int kBlockRows =
+      kBlocks == 1 ? (Dofs + 7) / 8 * 8 : ((Dofs + kBlocks - 1) / kBlocks + 3) / 4 * 4;
+  static constexpr int kRows = kBlocks * kBlockRows;
   Eigen::Matrix<double, kRows, LawSize * Points> Bt, wDBt;
 
   void set(int p, const Eigen::Map<const OperatorT<LawSize, Dofs>>& point_Bt, const Matrix<LawSize>& wD) {
@@ -33,13 +47,30 @@ struct StackedOperators {
   }
 };
 
-// K = sum B^T w D B over the points, column by column.  No symmetry is assumed.
+// K = sum B^T w D B over the points, column by column; added to K where `first` is false.  No symmetry is
+// assumed.
 template <int LawSize, int Dofs, int Points>
-void sum_stiffness(const StackedOperators<LawSize, Dofs, Points>& all, Eigen::Map<Matrix<Dofs>> K) {
-  for (int j = 0; j < Dofs; ++j) {
-    Vector<all.kRows> column = all.Bt.col(0) * all.wDBt(j, 0);
-    for (int k = 1; k < LawSize * Points; ++k) column += all.Bt.col(k) * all.wDBt(j, k);
-    K.col(j) = column.template head<Dofs>();
+void sum_stiffness(const StackedOperators<LawSize, Dofs, Points>& all, bool first, Eigen::Map<Matrix<Dofs>> K) {
+  using Operators = StackedOperators<LawSize, Dofs, Points>;
+  constexpr int rows = Operators::kBlockRows;
+  for (int top = 0; top < Dofs; top += rows) {
+    const int used = std::min(rows, Dofs - top);
+    for (int j = 0; j < Dofs; ++j) {
+      Vector<rows> column = all.Bt.col(0).template segment<rows>(top) * all.wDBt(j, 0);
+      for (int k = 1; k < LawSize * Points; ++k)
+        column += all.Bt.col(k).template segment<rows>(top) * all.wDBt(j, k);
+      if constexpr (Operators::kBlocks == 1) {
+        if (first)
+          K.col(j) = column.template head<Dofs>();
+        else
+          K.col(j) += column.template head<Dofs>();
+      } else {
+        if (first)
+          K.col(j).segment(top, used) = column.head(used);
+        else
+          K.col(j).segment(top, used) += column.head(used);
+      }
+    }
   }
 }
 
@@ -54,7 +85,8 @@ Outcome evaluate_points(const ElementIn& in, ElementOut& out) {
   const Eigen::Map<const Vector<Dofs>> du(in.du);
 
   Vector<Dofs> f = Vector<Dofs>::Zero();
-  StackedOperators<LawSize, Dofs, Points> all;
+  constexpr int kTogether = points_together(Points);
+  StackedOperators<LawSize, Dofs, kTogether> some;
   PointIn<LawSize> point;
   PointOut<LawSize> result;
   for (int p = 0; p < Points; ++p) {
@@ -74,10 +106,11 @@ Outcome evaluate_points(const ElementIn& in, ElementOut& out) {
     Eigen::Map<Vector<LawSize>>(out.eps1 + p * LawSize) = point.eps0 + point.deps;
     out.status[p] = result.status;
     f.noalias() += Bt.lazyProduct(w * result.sigma);
-    if (out.K) all.set(p, Bt, w * result.D);
+    if (!out.K) continue;
+    some.set(p % kTogether, Bt, w * result.D);
+    if ((p + 1) % kTogether == 0) sum_stiffness(some, p < kTogether, Eigen::Map<Matrix<Dofs>>(out.K));
   }
   Eigen::Map<Vector<Dofs>>(out.f) = f;
-  if (out.K) sum_stiffness(all, Eigen::Map<Matrix<Dofs>>(out.K));
   return Outcome::ok;
 }
 

@@ -30,6 +30,9 @@ void register_elements(Catalogue& catalogue) {
   catalogue.elements.add(4, tri6_entry());
   catalogue.elements.add(5, quad9_entry());
   catalogue.elements.add(6, tri15_entry());
+  catalogue.elements.add(7, quad25_entry());
+  catalogue.elements.add(8, quad49_entry());
+  catalogue.elements.add(9, quad81_entry());
   catalogue.elements.add(11, interface4_entry());
   catalogue.elements.add(12, interface6_entry());
 }

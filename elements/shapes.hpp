@@ -15,8 +15,9 @@ using ParentPoint = std::array<double, 2>;
 using EdgeNodes = std::vector<std::vector<int>>;
 
 // Polynomial that is fitted to the stress of the points to find it at the nodes:
-// {1}, {1 xi}, {1 xi xi^2}, {1 xi eta}, {1 xi eta xi.eta}, {1 xi eta xi^2 xi.eta eta^2}.
-enum class Basis { constant, line_linear, line_quadratic, linear, bilinear, quadratic };
+// {1}, {1 xi}, {1 xi xi^2}, {1 xi eta}, {1 xi eta xi.eta}, {1 xi eta xi^2 xi.eta eta^2}.  tensor: all that n x
+// n points can tell, degree n - 1 in xi and in eta; tensor_lower: degree n - 2.
+enum class Basis { constant, line_linear, line_quadratic, linear, bilinear, quadratic, tensor, tensor_lower };
 
 // ---- lines: end, end, inner nodes in order ----
 
@@ -45,7 +46,7 @@ struct Line5 {
 
 // Bilinear.  N_i = (1 + xi xi_i)(1 + eta eta_i) / 4
 struct Quad4 {
-  static constexpr int nodes = 4, corners = 4;
+  static constexpr int nodes = 4, corners = 4, degree = 1;
   static constexpr std::array<ParentPoint, 4> node_at{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
   static constexpr Basis stress_basis = Basis::bilinear;
   using Edge = Line2;
@@ -58,7 +59,7 @@ struct Quad4 {
 // Serendipity.  Corners (1 + xi xi_i)(1 + eta eta_i)(xi xi_i + eta eta_i - 1) / 4, mid-sides (1 - xi^2)(1 + eta
 // eta_i) / 2
 struct Quad8 {
-  static constexpr int nodes = 8, corners = 4;
+  static constexpr int nodes = 8, corners = 4, degree = 2;
   static constexpr std::array<ParentPoint, 8> node_at{
       {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, -1}, {1, 0}, {0, 1}, {-1, 0}}};
   static constexpr Basis stress_basis = Basis::bilinear;
@@ -71,7 +72,7 @@ struct Quad8 {
 
 // Biquadratic: products of Line3; node 9 is the centre.
 struct Quad9 {
-  static constexpr int nodes = 9, corners = 4;
+  static constexpr int nodes = 9, corners = 4, degree = 2;
   static constexpr std::array<ParentPoint, 9> node_at{
       {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, -1}, {1, 0}, {0, 1}, {-1, 0}, {0, 0}}};
   static constexpr Basis stress_basis = Basis::bilinear;
@@ -86,7 +87,7 @@ struct Quad9 {
 
 // N_i = L_i
 struct Tri3 {
-  static constexpr int nodes = 3, corners = 3;
+  static constexpr int nodes = 3, corners = 3, degree = 1;
   static constexpr std::array<ParentPoint, 3> node_at{{{0, 0}, {1, 0}, {0, 1}}};
   static constexpr Basis stress_basis = Basis::linear;
   using Edge = Line2;
@@ -98,7 +99,7 @@ struct Tri3 {
 
 // Corners L_i (2 L_i - 1), mid-sides 4 L_i L_j
 struct Tri6 {
-  static constexpr int nodes = 6, corners = 3;
+  static constexpr int nodes = 6, corners = 3, degree = 2;
   static constexpr std::array<ParentPoint, 6> node_at{{{0, 0}, {1, 0}, {0, 1}, {.5, 0}, {.5, .5}, {0, .5}}};
   static constexpr Basis stress_basis = Basis::linear;
   using Edge = Line3;
@@ -111,7 +112,7 @@ struct Tri6 {
 // Quartic: three nodes inside each edge and three inside the triangle.
 // N = P_i(L1) P_j(L2) P_k(L3), i + j + k = 4, P_m(L) = prod_{s<m} (4 L - s) / (s + 1).
 struct Tri15 {
-  static constexpr int nodes = 15, corners = 3;
+  static constexpr int nodes = 15, corners = 3, degree = 4;
   static constexpr std::array<ParentPoint, 15> node_at{{{0, 0},
                                                         {1, 0},
                                                         {0, 1},

@@ -60,6 +60,11 @@ class Solid final : public PointElement<4, 2 * Shape::nodes, Rule::points> {
     for (std::size_t c = 0; c < Shape::corners; ++c) corners_[c] = ShapeAt<Shape>(Shape::node_at[c]);
     to_nodes_ =
         extrapolation_matrix(at, Shape::node_at, Rule::points == 1 ? Basis::constant : Shape::stress_basis);
+    if constexpr (Shape::corners == 4 && Rule::points > Shape::degree * Shape::degree) {
+      std::vector<ParentPoint> samples;
+      for (const RulePoint& q : GaussSquare<Shape::degree>::table) samples.push_back({q.xi, q.eta});
+      to_samples_ = extrapolation_matrix(at, samples, Basis::tensor);
+    }
   }
 
   void geometry(const NodeCoordinates& nodes, std::span<double> geometry) const override {
@@ -111,6 +116,10 @@ class Solid final : public PointElement<4, 2 * Shape::nodes, Rule::points> {
   }
 
   std::span<const double> point_to_node() const override { return to_nodes_; }
+
+  std::span<const std::array<double, 2>> parent_nodes() const override { return Shape::node_at; }
+  std::span<const double> point_to_sample() const override { return to_samples_; }
+  int degree() const override { return Shape::degree; }
 
   double shape_quality(const NodeCoordinates& x) const override { return quality(x); }
 
@@ -188,7 +197,7 @@ class Solid final : public PointElement<4, 2 * Shape::nodes, Rule::points> {
 
   std::array<ShapeAt<Shape>, Rule::points> points_;
   std::array<ShapeAt<Shape>, Shape::corners> corners_;
-  std::vector<double> to_nodes_;
+  std::vector<double> to_nodes_, to_samples_;
 };
 
 }  // namespace sage

@@ -3,8 +3,13 @@
 #include <fmt/format.h>
 
 #include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+#include <charconv>
 #include <filesystem>
+#include <sstream>
+#include <stdexcept>
 
+#include "sage/app/commands.hpp"
 #include "sage/deck/read_deck.hpp"
 
 namespace sage::app {
@@ -15,10 +20,76 @@ void add_input_options(CLI::App& parser, InputOptions& options) {
   parser.add_flag("--strict", options.strict, "treat warnings about the deck as errors");
 }
 
+namespace {
+
+// By code or name; -1 = there is none.  Codes are checked when the model is built.
+int element_code(const std::string& text) {
+  int code = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), code);
+  if (error == std::errc() && end == text.data() + text.size()) return code;
+  const Catalogue catalogue = full_catalogue();
+  for (const auto& [number, entry] : catalogue.elements.entries())
+    if (entry.name == text) return number;
+  return -1;
+}
+
+}  // namespace
+
+Grading grading_from(const std::string& text) {
+  const std::string usage = "--grade " + text +
+                            ": wanted NODE[:layers[:ratio]] or auto[:layers[:ratio]], layers 1 to 30, "
+                            "ratio 0.01 to 0.9";
+  Grading grading;
+  std::stringstream parts(text);
+  std::string part, node;
+  std::getline(parts, node, ':');
+  const auto number = [&](const std::string& digits, auto& value) {
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error != std::errc() || end != digits.data() + digits.size()) throw std::invalid_argument(usage);
+  };
+  if (node != "auto") {
+    number(node, grading.node);
+    if (grading.node < 1) throw std::invalid_argument(usage);
+  }
+  if (std::getline(parts, part, ':')) number(part, grading.layers);
+  if (std::getline(parts, part, ':')) number(part, grading.ratio);
+  if (std::getline(parts, part, ':') || grading.layers < 1 || grading.layers > 30 ||
+      !(grading.ratio >= 0.01 && grading.ratio <= 0.9))
+    throw std::invalid_argument(usage);
+  return grading;
+}
+
 void add_build_options(CLI::App& parser, BuildOptions& options) {
   parser.add_option("--formulation", options.formulation, "replace the formulation code of all solid elements");
-  parser.add_option("--element", options.element,
-                    "replace 4-node quadrilaterals by this element code (mid-side nodes are made)");
+  parser
+      .add_option_function<std::string>(
+          "--element", [&options](const std::string& text) { options.element = element_code(text); },
+          "replace 4-node quadrilaterals by this element, code or name (its other nodes are made)")
+      ->check([](const std::string& text) {
+        return element_code(text) >= 0
+                   ? std::string()
+                   : "unknown element " + text + "; known: " + full_catalogue().elements.known();
+      });
+  parser
+      .add_option_function<int>(
+          "--refine", [&options](int times) { options.refine = times; },
+          "split every element into four, so many times")
+      ->check(CLI::Range(0, 12));
+  parser
+      .add_option_function<std::vector<std::string>>(
+          "--grade",
+          [&options](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) options.gradings.push_back(grading_from(text));
+          },
+          "smaller elements towards a corner: NODE[:layers[:ratio]], or auto for all singular corners")
+      ->check([](const std::string& text) {
+        try {
+          grading_from(text);
+          return std::string();
+        } catch (const std::invalid_argument& error) {
+          return std::string(error.what());
+        }
+      });
   parser.add_option("--geometry", options.geometry, "replace the geometry: 1 plane strain, 2 axisymmetric");
 }
 

@@ -18,6 +18,9 @@ struct InputOptions {
 };
 
 void add_input_options(CLI::App& parser, InputOptions& options);
+// NODE[:layers[:ratio]] or auto[:layers[:ratio]].  Throws std::invalid_argument that says what is wanted.
+Grading grading_from(const std::string& text);
+
 // Those that change how the deck's elements are computed.
 void add_build_options(CLI::App& parser, BuildOptions& options);
 

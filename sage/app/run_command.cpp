@@ -7,6 +7,7 @@
 #include <set>
 
 #include "sage/app/commands.hpp"
+#include "sage/app/converge.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/run_deck.hpp"
 #include "sage/output/picture.hpp"
@@ -18,6 +19,7 @@ namespace {
 struct RunOptions {
   std::vector<std::string> decks;
   RunRequest request;
+  ConvergeOptions converge;
   std::string tables = "auto";
   std::vector<std::string> without;
   bool quiet = false;
@@ -39,10 +41,12 @@ int run_one(const RunOptions& options, const std::string& deck, const Catalogue&
     for (const SkipName& skip : kSkipNames)
       if (name == skip.name || name == "all") request.skips.*skip.flag = false;
   return guarded(deck, [&] {
+    if (options.converge.tolerance > 0.0) return converge(request, options.converge, catalogue);
     const RunOutcome outcome = run_deck(request, catalogue);
     if (outcome.record.stages.empty()) return outcome.exit_code;  // --strict stopped it
     if (!options.quiet)
-      fmt::print("{}\n", summary(*outcome.model, outcome.record, outcome.reports.get(), outcome.files));
+      fmt::print("{}\n", summary(*outcome.model, outcome.record, outcome.reports.get(), outcome.files,
+                                 outcome.error.get()));
     if (outcome.exit_code != kOk) fmt::print(stderr, "{}: {}\n", deck, outcome.record.result.reason);
     return outcome.exit_code;
   });
@@ -104,6 +108,17 @@ Command run_command(CLI::App& root) {
       ->check([](const std::string& name) {
         return field_from_name(name) ? std::string() : "unknown field " + name;
       });
+  parser->add_flag("--error", request.output.error, "estimate the error of the mesh (Zienkiewicz-Zhu)");
+  parser
+      ->add_option("--converge", options->converge.tolerance,
+                   "finer and finer meshes until the reports are certain to this relative error, e.g. 1e-5")
+      ->check(CLI::Range(1e-12, 0.5));
+  parser
+      ->add_option("--max-dofs", options->converge.max_dofs, "with --converge: largest model (default 400000)")
+      ->check(CLI::PositiveNumber);
+  parser
+      ->add_option("--max-seconds", options->converge.max_seconds, "with --converge: time limit (default 120)")
+      ->check(CLI::PositiveNumber);
   parser->add_flag("!--no-listing", request.output.listing, "write no listing");
   parser
       ->add_option(

@@ -51,8 +51,9 @@ std::vector<std::unique_ptr<Output>> make_outputs(const RunRequest& request, con
 
 Checkpoint checkpoint_of(const RunRequest& request, const Model& model) {
   const OutputOptions& o = request.output;
-  std::string run = fmt::format("{:016x} {} {} {} {}{}{}{}{}", fingerprint(model), request.solver, SAGE_VERSION,
-                                static_cast<int>(o.tables), o.listing, o.increments, o.nodes, o.points, o.vtu);
+  std::string run =
+      fmt::format("{:016x} {} {} {} {}{}{}{}{}{}", fingerprint(model), request.solver, SAGE_VERSION,
+                  static_cast<int>(o.tables), o.listing, o.increments, o.nodes, o.points, o.vtu, o.error);
   for (const std::string& picture : o.pictures) run += " " + picture;
   return {o.folder / (case_name(request.deck) + ".restart"), request.checkpoint_seconds, run};
 }
@@ -83,6 +84,10 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
     outcome.exit_code = kInput;
     return outcome;
   }
+  if (request.max_dofs > 0 && model.dofs() > request.max_dofs) {
+    outcome.too_large = true;
+    return outcome;
+  }
   RunSettings settings;
   settings.skips = request.skips;
   settings.threads = request.threads > 0 ? request.threads : processors();
@@ -96,6 +101,10 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   std::vector<std::unique_ptr<Output>> outputs = make_outputs(request, catalogue, *outcome.reports);
   Progress progress;
   std::vector<Observer*> observers{&outcome.record, outcome.reports.get()};
+  if (request.output.error) {
+    outcome.error = std::make_unique<DiscretisationError>(*outcome.reports);
+    observers.push_back(outcome.error.get());
+  }
   for (const auto& output : outputs) observers.push_back(output.get());
   observers.push_back(&progress);
   try {

@@ -18,6 +18,7 @@ struct OutputOptions {
   Tables tables = Tables::automatic;
   bool increments = true;  // STEM.increments.csv
   bool nodes = false, points = false;
+  bool error = false;                 // estimate of the discretisation error
   bool vtu = false;                   // STEM_0001.vtu ... and STEM.pvd
   std::vector<std::string> pictures;  // fields, as SVG at the end of each stage
 };
@@ -30,6 +31,7 @@ struct RunRequest {
   int threads = 0;                   // of the linear solver; 0 = one for each processor
   bool quiet = false;                // no messages about the deck
   Skips skips;                       // all are on
+  int max_dofs = 0;                  // larger models are built but not run; 0 = no limit
   bool restart = false;              // go on from STEM.restart, if there is one
   double checkpoint_seconds = 30.0;  // between checkpoints; 0 = after every increment, negative = none
 };
@@ -37,8 +39,10 @@ struct RunRequest {
 // Reports and record stay readable after the run.
 struct RunOutcome {
   int exit_code = 0;
+  bool too_large = false;  // more than max_dofs: not run
   std::unique_ptr<Model> model;
   std::unique_ptr<Reports> reports;
+  std::unique_ptr<DiscretisationError> error;  // where asked for
   RunRecord record;
   std::vector<std::filesystem::path> files;
 };

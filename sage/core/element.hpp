@@ -1,6 +1,7 @@
 // The seam between analysis and elements.  An element is a stateless formulation shared by a whole group.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -74,6 +75,17 @@ class Element {
   // along the edge in its counter-clockwise direction.  Both vary linearly from first to second corner.
   virtual void edge_load(const NodeCoordinates& x, int edge, const Vector2& normal, const Vector2& shear,
                          std::span<double> f) const = 0;
+
+  // Places of the nodes in the parent shape: squares (-1, 1)^2, triangles (0, 0) (1, 0) (0, 1).  Empty:
+  // interfaces.
+  virtual std::span<const std::array<double, 2>> parent_nodes() const { return {}; }
+
+  // Stress at the places where it is most accurate (p x p Gauss points of a quadrilateral of degree p), from
+  // the stress at the points: samples x points, row-major.  Empty: the points are those places.
+  virtual std::span<const double> point_to_sample() const { return {}; }
+
+  // Polynomial degree of the displacements.
+  virtual int degree() const { return 1; }
 
   // Least-squares or exact extrapolation from points to nodes: nodes x points, row-major.
   virtual std::span<const double> point_to_node() const = 0;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sage/model/builder.hpp"
+#include "sage/model/edges.hpp"
 
 namespace sage::build {
 
@@ -16,11 +16,21 @@ std::string formulations_of(const ElementEntry& entry) {
   return text;
 }
 
+// Elements of higher degree take their corners and mid-side nodes from the card and have the rest made.
+constexpr int kMostCardNodes = 15;
+
 // The deck's element, or the one that BuildOptions puts in its place.
 int chosen_element(const Builder& b, int deck_code) {
   const ElementEntry* deck_entry = b.catalogue.elements.find(deck_code);
   if (b.options.element == 0 || deck_entry == nullptr) return deck_code;
   if (deck_entry->law_size == 4 && deck_entry->nodes == 4) return b.options.element;
+  // Elements of high degree take the mid-side nodes of a card for the curve of its sides.
+  const auto quad_of_high_degree = [](const ElementEntry* e) {
+    return e != nullptr && e->corners == 4 && e->nodes > kMostCardNodes;
+  };
+  if (quad_of_high_degree(b.catalogue.elements.find(b.options.element)) && deck_entry->law_size == 4 &&
+      (deck_entry->nodes == 8 || quad_of_high_degree(deck_entry)))
+    return b.options.element;
   const ElementEntry* wanted = b.catalogue.elements.find(b.options.element);
   // Quadratic solids need quadratic interfaces beside them.
   if (deck_entry->law_size == 2 && deck_entry->nodes == 4 && wanted != nullptr && wanted->nodes > 4)
@@ -46,6 +56,17 @@ std::vector<int> card_nodes(const CardView& card) {
   for (const char* field : kFields) nodes.push_back(card.integer(field));
   while (!nodes.empty() && nodes.back() == 0) nodes.pop_back();
   return nodes;
+}
+
+int card_limit(const ElementEntry& entry) {
+  return entry.nodes > kMostCardNodes ? 2 * entry.corners : entry.nodes;
+}
+
+// Local node that the i-th node of a card is.
+std::size_t local_node(const Group& group, const ElementEntry& entry, std::size_t i) {
+  const auto corners = static_cast<std::size_t>(entry.corners);
+  if (entry.nodes <= kMostCardNodes || i < corners) return i;
+  return static_cast<std::size_t>(middle_of(group.element->edges()[i - corners]));
 }
 
 struct ElementCard {
@@ -77,7 +98,7 @@ void add_element(Builder& b, const CardView& card, const ElementCard& element) {
               name + ": node " + std::to_string(number) + " stands twice");
       return;
     }
-    index[i] = it->second;
+    index[local_node(group, entry, i)] = it->second;
   }
   group.element_numbers.push_back(element.number);
   group.element_lines.push_back(card.card().line);
@@ -170,11 +191,12 @@ void read_element_card(Builder& b, const CardView& card) {
   const ElementEntry& entry = *b.catalogue.elements.find(target.element_code);
   ElementCard element{card.integer("number"), group->second, card_nodes(card)};
   const int given = static_cast<int>(element.nodes.size());
-  if (given < entry.corners || given > entry.nodes) {
-    b.error(card.where("n1"), "element " + std::to_string(element.number) + ": a " + entry.name + " has " +
-                                  std::to_string(entry.corners) +
-                                  (entry.nodes > entry.corners ? " to " + std::to_string(entry.nodes) : "") +
-                                  " nodes on its card, not " + std::to_string(given));
+  if (given < entry.corners || given > card_limit(entry)) {
+    b.error(card.where("n1"),
+            "element " + std::to_string(element.number) + ": a " + entry.name + " has " +
+                std::to_string(entry.corners) +
+                (entry.nodes > entry.corners ? " to " + std::to_string(card_limit(entry)) : "") +
+                " nodes on its card, not " + std::to_string(given));
     return;
   }
   if (std::find(element.nodes.begin() + entry.corners, element.nodes.end(), 0) != element.nodes.end() ||

@@ -149,7 +149,10 @@ Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOp
   build::build_reports(b);
   if (b.problems.errors() == 0) build::check_totals(b);
   if (b.problems.errors() > 0) throw InputError(b.problems);
+  build::refine_as_asked(b);
+  if (b.problems.errors() > 0) throw InputError(b.problems);
   build::make_mid_nodes(b);
+  if (b.problems.errors() > 0) throw InputError(b.problems);
   build::check_model(b);
   if (b.problems.errors() == 0) build::check_plausible(b);
   if (b.problems.errors() > 0) throw InputError(b.problems);

@@ -7,13 +7,22 @@
 
 namespace sage {
 
+// Layers of smaller elements around a node.
+struct Grading {
+  int node = 0;  // the deck's number; 0 = every singular corner that the supports and loads show
+  int layers = 5;
+  double ratio = 0.15;  // of one layer's size to the next larger one's
+};
+
 struct BuildOptions {
   int formulation =
       -1;  // replaces the deck's formulation code of solid groups where it exists; -1 = as the deck says
   int element =
       0;  // replaces 4-node quadrilaterals by this element code (mid-side nodes are made); 0 = as the deck
   int solver = -1;   // catalogue code, 0 automatic; -1 = as the deck says
-  int geometry = 0;  // 1 plane strain, 2 axisymmetric; 0 = as the deck says
+  int geometry = 0;               // 1 plane strain, 2 axisymmetric; 0 = as the deck says
+  int refine = 0;                 // every element into four, so many times
+  std::vector<Grading> gradings;  // after refining
 };
 
 // Throws InputError with every mistake found.  Warnings and notes end up in Model::diagnostics.

@@ -67,6 +67,8 @@ void build_stages(Builder& b);
 void build_reports(Builder& b);
 // Nodes and elements made against the totals that the control card states.
 void check_totals(Builder& b);
+// Refinement and grading that the options ask for.
+void refine_as_asked(Builder& b);
 // Mid-side and inner nodes that element cards leave blank; fixities are inherited along boundary edges.
 void make_mid_nodes(Builder& b);
 // Numbers that are valid and yet unlikely: warnings and notes.

@@ -1,153 +1,127 @@
-// Mid-side and inner nodes that element cards leave blank.  They lie on straight edges, are shared by all
-// elements of the edge, and inherit what both ends of a boundary edge are held to.
+// Mid-side and inner nodes that element cards leave blank.  Those on an edge are shared by all elements that
+// have it and lie where the element's shape wants them (Gauss-Lobatto places in elements of high degree), on
+// the straight edge or on the parabola through a given middle node; inner nodes lie on the map of the sides.
 #include <algorithm>
-#include <map>
-#include <unordered_map>
+#include <cmath>
 
-#include "sage/model/builder.hpp"
+#include "sage/model/edges.hpp"
 
 namespace sage::build {
 
 namespace {
 
-using EdgeKey = std::pair<int, int>;  // end nodes, smaller first
-
-struct MadeEdge {
-  std::vector<int> nodes;  // from the smaller to the larger end node
-  int uses = 0;
+// What has been made so far on the edges, and which element began each.
+struct Making {
+  NewNodes nodes;
+  MadeEdges edges;
+  std::map<EdgeKey, std::pair<std::size_t, std::string>> owner;  // inner nodes, "element 7 (quad8)"
+  std::map<EdgeKey, int> given;                                  // middle nodes that cards give
 };
 
-int add_node(std::vector<Vector2>& made, int first_new, const Vector2& x) {
-  made.push_back(x);
-  return first_new + static_cast<int>(made.size()) - 1;
+// Place of an edge's inner node between its ends.
+double place_on_edge(std::span<const Place> parent, const std::vector<int>& edge, std::size_t i) {
+  if (parent.empty()) return static_cast<double>(i - 1) / static_cast<double>(edge.size() - 1);
+  const auto point = [&](int local) { return parent[static_cast<std::size_t>(local)]; };
+  const auto distance = [](const Place& a, const Place& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); };
+  return distance(point(edge[i]), point(edge[0])) / distance(point(edge[1]), point(edge[0]));
 }
 
-void append_nodes(Mesh& mesh, const std::vector<Vector2>& made) {
-  if (made.empty()) return;
-  const Eigen::Index old = mesh.x.cols();
-  mesh.x.conservativeResize(2, old + static_cast<Eigen::Index>(made.size()));
-  int number = *std::max_element(mesh.number.begin(), mesh.number.end());
-  for (std::size_t i = 0; i < made.size(); ++i) {
-    mesh.x.col(old + static_cast<Eigen::Index>(i)) = made[i];
-    mesh.number.push_back(++number);
+// False, and an error, where a neighbour has another number of nodes on the edge.
+bool fits(Builder& b, const Group& group, int e, Making& made, const EdgeKey& key, std::size_t inner) {
+  const auto eu = static_cast<std::size_t>(e);
+  const std::string name =
+      "element " + std::to_string(group.element_numbers[eu]) + " (" + group.element_name + ")";
+  const auto [it, is_new] = made.owner.try_emplace(key, inner, name);
+  if (is_new || it->second.first == inner) return true;
+  const auto number = [&](int node) {
+    return std::to_string(b.model.mesh.number[static_cast<std::size_t>(node)]);
+  };
+  b.error({b.deck.file, group.element_lines[eu], 0, 0},
+          name + " has " + std::to_string(inner) + " node(s) inside its edge from node " + number(key.first) +
+              " to " + number(key.second) + ", its neighbour " + it->second.second + " has " +
+              std::to_string(it->second.first) + ": elements of different degree don't fit together");
+  return false;
+}
+
+void make_edge(Builder& b, const Group& group, int e, int* nodes, const std::vector<int>& local, Making& made) {
+  const int a = nodes[local[0]], z = nodes[local[1]];
+  const std::size_t inner = local.size() - 2;
+  const EdgeKey key = edge_key(a, z);
+  if (!fits(b, group, e, made, key, inner)) return;
+  MadeEdge& edge = made.edges[key];
+  if (group.element->traits().law_size == 4) ++edge.solids;
+  if (inner == 0) return;
+  const bool begun = !edge.nodes.empty();
+  if (!begun) {
+    edge.nodes.assign(inner, -1);
+    edge.at.assign(inner, 0.0);
+  }
+  const std::span<const Place> parent = group.element->parent_nodes();
+  int& middle_node = nodes[middle_of(local)];
+  if (const auto it = made.given.find(key); middle_node < 0 && it != made.given.end()) middle_node = it->second;
+  std::optional<Vector2> middle;
+  if (middle_node >= 0) middle = made.nodes.at(middle_node);
+  for (std::size_t i = 0; i < inner; ++i) {
+    const std::size_t from_small = a < z ? i : inner - 1 - i;
+    int& mid = nodes[local[i + 2]];
+    if (mid < 0 && begun) mid = edge.nodes[from_small];
+    if (begun) continue;
+    const double t = place_on_edge(parent, local, i + 2);
+    if (mid < 0) mid = made.nodes.add(along_edge(made.nodes.at(a), made.nodes.at(z), middle, t));
+    edge.nodes[from_small] = mid;
+    edge.at[from_small] = a < z ? t : 1 - t;
   }
 }
 
-// Fixities of nodes: for each component the last code and value stated in the list.
-using NodeFixities = std::unordered_map<int, const Fixity*>;
-
-void inherit(std::vector<Fixity>& fixities, const std::map<EdgeKey, MadeEdge>& edges) {
-  std::unordered_map<int, std::vector<Fixity>> of_node;
-  for (const Fixity& f : fixities) of_node[f.node].push_back(f);
-  const auto combined = [&](int node) {
-    Fixity all;
-    all.node = node;
-    const auto it = of_node.find(node);
-    if (it == of_node.end()) return all;
-    for (const Fixity& f : it->second) {
-      all.line = f.line;
-      for (std::size_t c = 0; c < 2; ++c)
-        if (f.code[c] != FixityCode::unchanged) {
-          all.code[c] = f.code[c];
-          all.value[c] = f.value[c];
-        }
-    }
-    return all;
-  };
-  for (const auto& [ends, edge] : edges) {
-    if (edge.uses != 1) continue;
-    const Fixity a = combined(ends.first), z = combined(ends.second);
-    Fixity mid;
-    mid.line = a.line;
-    bool any = false;
-    for (std::size_t i = 0; i < edge.nodes.size(); ++i) {
-      const double t = static_cast<double>(i + 1) / static_cast<double>(edge.nodes.size() + 1);
-      for (std::size_t c = 0; c < 2; ++c) {
-        mid.code[c] = a.code[c] == z.code[c] ? a.code[c] : FixityCode::unchanged;
-        mid.value[c] = mid.code[c] == FixityCode::fixed ? (1 - t) * a.value[c] + t * z.value[c] : 0.0;
-        any = any || mid.code[c] != FixityCode::unchanged;
-      }
-      if (!any) break;
-      mid.node = edge.nodes[i];
-      fixities.push_back(mid);
-    }
-  }
-}
-
-// Nodes within the edges.
-std::size_t on_edges(const Element& element) {
-  std::size_t count = 0;
-  for (const std::vector<int>& edge : element.edges()) count += edge.size() - 2;
-  return count;
-}
-
-// Interfaces use an edge too, but its other side is not the same body: only solids count for "boundary".
-void make_group(Builder& b, Group& group, std::map<EdgeKey, MadeEdge>& edges, std::vector<Vector2>& made) {
-  const Mesh& mesh = b.model.mesh;
-  const ElementEntry& entry = *b.catalogue.elements.find(group.element_code);
-  const auto n = group.node_count();
-  const bool solid = group.element->traits().law_size == 4;
-  const auto coordinates = [&](int node) -> Vector2 {
-    return node < mesh.nodes() ? Vector2(mesh.x.col(node))
-                               : made[static_cast<std::size_t>(node - mesh.nodes())];
-  };
-  for (int e = 0; e < group.elements(); ++e) {
-    int* nodes = group.nodes.data() + static_cast<std::size_t>(e) * n;
+// A middle node that only one of the elements of an edge gives is that of the others too.
+void find_given(const Group& group, std::map<EdgeKey, int>& given) {
+  for (int e = 0; e < group.elements(); ++e)
     for (const std::vector<int>& local : group.element->edges()) {
-      const int a = nodes[local[0]], z = nodes[local[1]];
-      MadeEdge& edge = edges[{std::min(a, z), std::max(a, z)}];
-      if (solid) ++edge.uses;
-      const std::size_t inner = local.size() - 2;
-      for (std::size_t i = 0; i < inner; ++i) {
-        const std::size_t from_small = a < z ? i : inner - 1 - i;
-        int& mid = nodes[local[i + 2]];
-        if (mid < 0 && edge.nodes.size() > from_small) mid = edge.nodes[from_small];
-      }
-      if (inner == 0 || !edge.nodes.empty()) continue;
-      edge.nodes.assign(inner, -1);
-      for (std::size_t i = 0; i < inner; ++i) {
-        const double t = static_cast<double>(i + 1) / static_cast<double>(inner + 1);
-        int& mid = nodes[local[i + 2]];
-        if (mid < 0) mid = add_node(made, mesh.nodes(), (1 - t) * coordinates(a) + t * coordinates(z));
-        edge.nodes[a < z ? i : inner - 1 - i] = mid;
-      }
+      const int* nodes = group.nodes_of(e);
+      const int middle = middle_of(local);
+      if (middle >= 0 && nodes[middle] >= 0)
+        given.try_emplace(edge_key(nodes[local[0]], nodes[local[1]]), nodes[middle]);
     }
-    if (!solid) continue;
-    // Nodes inside, which no edge holds: the centre, or one on the way from the centre to each corner, in their
-    // order (quartic triangle: area coordinates 1/2, 1/4, 1/4).
-    Vector2 centre = Vector2::Zero();
-    for (int c = 0; c < entry.corners; ++c) centre += coordinates(nodes[c]) / entry.corners;
-    const std::size_t inside = n - static_cast<std::size_t>(entry.corners) - on_edges(*group.element);
-    for (std::size_t i = n - inside; i < n; ++i) {
-      const Vector2 x =
-          inside == 1 ? centre : Vector2(0.75 * centre + 0.25 * coordinates(nodes[i + inside - n]));
-      if (nodes[i] < 0) nodes[i] = add_node(made, mesh.nodes(), x);
-    }
+}
+
+// Nodes inside a solid that no edge holds.
+void make_inner(const Group& group, int corners, int* nodes, Making& made) {
+  const std::span<const Place> parent = group.element->parent_nodes();
+  CoarseShape shape;
+  shape.corners = corners;
+  for (int k = 0; k < corners; ++k) {
+    const auto ku = static_cast<std::size_t>(k);
+    shape.corner[ku] = made.nodes.at(nodes[k]);
+    const int middle = middle_of(group.element->edges()[ku]);
+    if (middle >= 0) shape.middle[ku] = made.nodes.at(nodes[middle]);
+  }
+  for (std::size_t i = static_cast<std::size_t>(corners); i < group.node_count(); ++i)
+    if (nodes[i] < 0) nodes[i] = made.nodes.add(shape.at(parent[i]));
+}
+
+void make_group(Builder& b, Group& group, Making& made) {
+  const int corners = b.catalogue.elements.find(group.element_code)->corners;
+  for (int e = 0; e < group.elements(); ++e) {
+    int* nodes = group.nodes.data() + static_cast<std::size_t>(e) * group.node_count();
+    const int before = b.problems.errors();
+    for (const std::vector<int>& local : group.element->edges()) make_edge(b, group, e, nodes, local, made);
+    if (b.problems.errors() > before) return;  // one message a group
+    if (group.element->traits().law_size == 4) make_inner(group, corners, nodes, made);
   }
 }
 
 }  // namespace
 
 void make_mid_nodes(Builder& b) {
-  std::map<EdgeKey, MadeEdge> edges;
-  std::vector<Vector2> made;
   bool any = false;
   for (const Group& group : b.model.groups)
     any = any || std::find(group.nodes.begin(), group.nodes.end(), -1) != group.nodes.end();
   if (!any) return;
-  for (Group& group : b.model.groups) make_group(b, group, edges, made);
-  append_nodes(b.model.mesh, made);
-  inherit(b.model.fixities, edges);
-  for (Stage& stage : b.model.stages) inherit(stage.fixities, edges);
-  for (Report& report : b.model.reports) {
-    // A report along a boundary takes the mid-side nodes with it.
-    const std::vector<int> corners = report.nodes;
-    for (const auto& [ends, edge] : edges) {
-      const bool both = std::find(corners.begin(), corners.end(), ends.first) != corners.end() &&
-                        std::find(corners.begin(), corners.end(), ends.second) != corners.end();
-      if (both && edge.uses == 1) report.nodes.insert(report.nodes.end(), edge.nodes.begin(), edge.nodes.end());
-    }
-  }
+  Making made{NewNodes(b.model.mesh), {}, {}, {}};
+  for (const Group& group : b.model.groups) find_given(group, made.given);
+  for (Group& group : b.model.groups) make_group(b, group, made);
+  made.nodes.append();
+  inherit_along_edges(b.model, made.edges);
 }
 
 }  // namespace sage::build

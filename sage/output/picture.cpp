@@ -89,12 +89,15 @@ std::vector<std::size_t> outline_nodes(const Element& element) {
   return order;
 }
 
-// Shape functions at the centre of an element: exact for 4, 6, 8 and 9 nodes.
+// Shape functions at the centre of an element: exact for 4, 6, 8, 9, 25, 49 and 81 nodes.
 std::vector<double> centre_weights(std::size_t nodes, std::size_t corners) {
   std::vector<double> w(nodes, 0.0);
   const bool serendipity = nodes == 8 || nodes == 6;
-  if (nodes == 9) {
-    w[8] = 1.0;
+  const auto side = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(nodes))));
+  if (corners == 4 && side > 2 && side * side == nodes) {
+    // Squares of odd sides have a node there: 9, 25, 49, 81; their inner nodes come last, row by row.
+    const std::size_t inner = (side - 2) * (side - 2);
+    w[nodes - inner + inner / 2] = 1.0;
   } else if (serendipity) {
     for (std::size_t i = 0; i < nodes; ++i)
       w[i] = nodes == 8 ? (i < corners ? -0.25 : 0.5) : (i < corners ? -1.0 / 9.0 : 4.0 / 9.0);

@@ -18,18 +18,23 @@ constexpr int kSubsteps = 10;  // of the law, an increment
 constexpr int kDigits = 10;
 
 struct NodeSums {
-  double displacement[2] = {0, 0};  // mean
-  double force[2] = {0, 0};         // sum of internal forces
+  double displacement[2] = {0,
+                            0};  // mean over the deck's own nodes, so that it keeps its meaning in finer meshes
+  double force[2] = {0, 0};      // sum of internal forces
 };
 
-NodeSums sum_nodes(const Report& report, const Solution& solution) {
+NodeSums sum_nodes(const Model& model, const Report& report, const Solution& solution) {
   NodeSums sums;
-  for (int node : report.nodes)
+  int own = 0;
+  for (int node : report.nodes) {
+    const bool of_deck = node < model.mesh.deck_nodes;
+    own += of_deck ? 1 : 0;
     for (int c = 0; c < 2; ++c) {
-      sums.displacement[c] += (*solution.u)[2 * node + c];
+      if (of_deck) sums.displacement[c] += (*solution.u)[2 * node + c];
       sums.force[c] += (*solution.internal)[2 * node + c];
     }
-  for (double& d : sums.displacement) d /= static_cast<double>(std::max<std::size_t>(report.nodes.size(), 1));
+  }
+  for (double& d : sums.displacement) d /= std::max(own, 1);
   return sums;
 }
 
@@ -127,7 +132,7 @@ void Reports::on_stage_start(const Model& model, int stage, const Solution& solu
     series.last_load_factor = 0.0;
     if (series.begun || stage < report.stage) continue;
     series.begun = true;
-    const NodeSums sums = sum_nodes(report, solution);
+    const NodeSums sums = sum_nodes(model, report, solution);
     std::copy(sums.displacement, sums.displacement + 2, series.start_displacement);
     series.start_force = -sums.force[1];
     begin(series, model, report);
@@ -147,7 +152,7 @@ void Reports::add_rows(const Model& model, const StepReport& step, const Solutio
     const Report& report = model.reports[i];
     if (!series.begun) continue;
     series.last_load_factor = step.load_factor;
-    const NodeSums sums = sum_nodes(report, solution);
+    const NodeSums sums = sum_nodes(model, report, solution);
     if (report.kind == ReportKind::nodes) {
       series.nodes.push_back({step.stage + 1,
                               step.increment,

@@ -180,7 +180,7 @@ void RunRecord::on_finish(const Model&, const RunResult& run_result) {
 }
 
 std::string summary(const Model& model, const RunRecord& record, const Reports* reports,
-                    const std::vector<std::filesystem::path>& files) {
+                    const std::vector<std::filesystem::path>& files, const DiscretisationError* error) {
   const bool ring = model.geometry == Geometry::axisymmetric;
   const UnitSystem& u = model.units;
   std::string text = model.title + "\n";
@@ -190,6 +190,7 @@ std::string summary(const Model& model, const RunRecord& record, const Reports* 
   for (std::size_t i = 0; reports != nullptr && i < reports->count(); ++i)
     if (!reports->triaxial(i).empty() && shown++ < kReports)
       triaxial_table(text, model, i, reports->triaxial(i));
+  if (error != nullptr) text += error->text(model);
   if (record.audited > 0)
     fmt::format_to(to(text), "  equilibrium whole model out of balance by {:.1e} of its largest force\n",
                    record.out_of_balance);

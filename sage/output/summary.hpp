@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "sage/output/discretisation.hpp"
 #include "sage/output/output.hpp"
 #include "sage/output/report.hpp"
 
@@ -39,6 +40,7 @@ class RunRecord final : public Observer {
 
 // About 30 lines.  A run that did not converge says so in its second line and in its last.
 std::string summary(const Model& model, const RunRecord& record, const Reports* reports,
-                    const std::vector<std::filesystem::path>& files);
+                    const std::vector<std::filesystem::path>& files,
+                    const DiscretisationError* error = nullptr);
 
 }  // namespace sage

@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <limits>
+#include <numeric>
 
 #include "sage/output/nodal_values.hpp"
 #include "sage/output/values.hpp"
@@ -81,8 +84,24 @@ CellType cell_type(const ElementTraits& traits) {
       return {28, 9};
     case 15:
       return {69, 15};
+    case 25:
+    case 49:
+    case 81:
+      return {70, static_cast<std::size_t>(traits.nodes)};
   }
   return {static_cast<std::uint8_t>(7), static_cast<std::size_t>(traits.nodes)};  // a polygon
+}
+
+// VTK's Lagrange quadrilateral (70) has the nodes of its third and fourth side in the direction of the first
+// two.
+std::vector<std::size_t> cell_order(const CellType& cell) {
+  std::vector<std::size_t> order(cell.nodes);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (cell.type != 70) return order;
+  const auto side = static_cast<std::ptrdiff_t>(std::lround(std::sqrt(static_cast<double>(cell.nodes)))) - 2;
+  for (const std::ptrdiff_t first : {4 + 2 * side, 4 + 3 * side})
+    std::reverse(order.begin() + first, order.begin() + first + side);
+  return order;
 }
 
 void add_points(VtuText& vtu, const Model& model, const NodalLayout& layout) {
@@ -101,8 +120,9 @@ void add_cells(VtuText& vtu, const Model& model, const NodalLayout& layout) {
     const std::vector<int>& entries = layout.of_group[g];
     if (entries.empty()) continue;
     const CellType cell = cell_type(model.groups[g].element->traits());
+    const std::vector<std::size_t> order = cell_order(cell);
     for (std::size_t at = 0; at < entries.size(); at += model.groups[g].node_count()) {
-      for (std::size_t i = 0; i < cell.nodes; ++i) connectivity.push_back(entries[at + i]);
+      for (std::size_t i : order) connectivity.push_back(entries[at + i]);
       offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
       types.push_back(cell.type);
     }

@@ -114,14 +114,21 @@ StageCards& DeckWriter::stage(int increments) {
   return stages.back();
 }
 
+void DeckWriter::triaxial_report(int group_number, int first, int last, int from_stage, double height,
+                                 double cell_pressure) {
+  reports.push_back(integers({1, group_number, first, last, 1, from_stage}) + ten_columns(height) +
+                    ten_columns(0.0) + ten_columns(cell_pressure));
+}
+
 std::string DeckWriter::text() const {
   std::string text = "verification\nm       kN      kPa     ";
   text += ten_columns(atmospheric_pressure) + ten_columns(water_unit_weight) + "\n";
   text += integers({geometry, 0, size_of(nodes), 0, size_of(materials), size_of(groups), size_of(elements),
-                    size_of(fixities), size_of(initials), static_cast<int>(stages.size())}) +
+                    size_of(fixities), size_of(initials), static_cast<int>(stages.size()), size_of(reports)}) +
           "\n";
   for (const auto* cards : {&nodes, &materials, &groups, &elements, &fixities, &initials}) append(text, *cards);
   for (const StageCards& stage : stages) text += stage_text(stage);
+  append(text, reports);
   return text + "END\n";
 }
 

@@ -34,7 +34,7 @@ struct DeckWriter {
 
   int geometry = 1;  // 1 plane strain, 2 axisymmetric
   double atmospheric_pressure = 101.325, water_unit_weight = 9.81;
-  std::vector<std::string> nodes, materials, groups, elements, fixities, initials;
+  std::vector<std::string> nodes, materials, groups, elements, fixities, initials, reports;
   std::vector<StageCards> stages;
 
   void node(int number, double x, double y, bool polar = false);
@@ -45,6 +45,8 @@ struct DeckWriter {
   // Values one by one: GCC 12.2 (-O2 -march=native) stores a list {x, x, x, 0} of constants as {x, x, x, x}.
   void initial(int group, int kind, double v1, double v2 = 0.0, double v3 = 0.0, double v4 = 0.0);
   StageCards& stage(int increments = 1);
+  // Axial force of nodes first ... last against a frictionless test, from a stage (from 1) on.
+  void triaxial_report(int group, int first, int last, int stage, double height, double cell_pressure = 0.0);
 
   std::string text() const;
 };

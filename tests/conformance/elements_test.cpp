@@ -39,7 +39,7 @@ struct SmoothLaws {
 
 TEST(Catalogue, CodesNamesAndDefaults) {
   const auto& entries = element_catalogue().elements.entries();
-  ASSERT_EQ(entries.size(), 8u);
+  ASSERT_EQ(entries.size(), 11u);
   EXPECT_EQ(entries.at(1).formulations.front().name, "b-bar");
   EXPECT_EQ(entries.at(2).formulations.front().name, "reduced");
   EXPECT_EQ(entries.at(11).formulations.front().name, "row-sum");

@@ -53,6 +53,8 @@ BuildOptions options_of(const std::string& text) {
     if (key == "--formulation") options.formulation = std::stoi(value);
     if (key == "--element") options.element = std::stoi(value);
     if (key == "--geometry") options.geometry = std::stoi(value);
+    if (key == "--refine") options.refine = std::stoi(value);
+    if (key == "--grade") options.gradings.push_back(grading_from(value));
   }
   return options;
 }

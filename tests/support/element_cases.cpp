@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <variant>
 
+#include "elements/lobatto.hpp"
 #include "elements/register_elements.hpp"
 #include "elements/shapes.hpp"
 
@@ -75,6 +76,9 @@ Eigen::Matrix2Xd parent_nodes(const ElementEntry& entry) {
   if (entry.name == "quad4") return nodes_of<Quad4>();
   if (entry.name == "quad8") return nodes_of<Quad8>();
   if (entry.name == "quad9") return nodes_of<Quad9>();
+  if (entry.name == "quad25") return nodes_of<LobattoQuad<4>>();
+  if (entry.name == "quad49") return nodes_of<LobattoQuad<6>>();
+  if (entry.name == "quad81") return nodes_of<LobattoQuad<8>>();
   if (entry.name == "tri3") return nodes_of<Tri3>();
   if (entry.name == "tri6") return nodes_of<Tri6>();
   if (entry.name == "tri15") return nodes_of<Tri15>();

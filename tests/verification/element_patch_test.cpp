@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
+#include "elements/shapes.hpp"
 #include "materials/linear_elastic.hpp"
 #include "tests/support/patch.hpp"
 #include "tests/support/test_laws.hpp"
@@ -29,6 +31,11 @@ std::vector<char> prescribed_dofs(const PatchMesh& mesh, const ElementCase& c, c
     fixed.push_back(slides ? char{0} : on);
   }
   return fixed;
+}
+
+// Rounding.  The condition of K grows as p^4, for degree 8 sixteen times that of degree 4.
+double rounding(const ElementCase& c) {
+  return c.entry->nodes > 49 ? 5e-12 : 1e-12;
 }
 
 struct PatchErrors {
@@ -143,12 +150,12 @@ TEST(PatchP2, Axisymmetric) {
     SCOPED_TRACE(c.name);
     for (const CornerMesh& corners : patches()) {
       const PatchErrors e = p2_errors(c, corners, 0.25);
-      EXPECT_LT(e.displacement, 1e-12);
-      EXPECT_LT(e.stress, 1e-12);
+      EXPECT_LT(e.displacement, rounding(c));
+      EXPECT_LT(e.stress, rounding(c));
       const PatchErrors near = p2_errors(c, corners, 0.4999999);
       EXPECT_LT(near.balance, 1e-12);
-      EXPECT_LT(near.displacement, kNearlyIncompressible);
-      EXPECT_LT(near.stress, kNearlyIncompressible);
+      EXPECT_LT(near.displacement, kNearlyIncompressible * rounding(c) / 1e-12);
+      EXPECT_LT(near.stress, kNearlyIncompressible * rounding(c) / 1e-12);
     }
   }
 }
@@ -181,24 +188,37 @@ TEST(PatchP3, AxisymmetricShear) {
       Eigen::Matrix2Xd exact = Eigen::Matrix2Xd::Zero(2, mesh.x.cols());
       exact.row(1) = C * mesh.x.row(0);
       const PatchErrors e = run_patch(c, mesh, law, exact, Vector4(0.0, 0.0, 0.0, C), load);
-      EXPECT_LT(e.displacement, 1e-12);
-      EXPECT_LT(e.stress, 1e-12);
+      EXPECT_LT(e.displacement, rounding(c));
+      EXPECT_LT(e.stress, rounding(c));
     }
   }
 }
 
 // Curved sides.  Plane strain needs detJ N,x integrated, of degree 3 in each direction: 2x2 Gauss does.  A ring
 // adds r: degree 5, so 3x3 is needed and the reduced quad8 is exact on straight sides only.
+// Elements of high degree take their sides as parabolas, as the model builder makes them.
 TEST(PatchCurved, ExactWhereTheRuleIs) {
   const LinearElastic law(moduli_from_young(kYoung, 0.25));
   for (const ElementCase& c : solid_cases()) {
     if (c.entry->nodes == c.entry->corners || c.entry->nodes == 15) continue;
     SCOPED_TRACE(c.name);
-    PatchMesh mesh = make_mesh(*c.entry, macneal_harder());
+    const bool high = c.entry->nodes > 15;
+    const ElementEntry& shape = high ? *element_catalogue().elements.find(2) : *c.entry;
+    PatchMesh mesh = make_mesh(shape, macneal_harder());
     for (Eigen::Index i = 0; i < mesh.x.cols(); ++i) {
       const Vector2 p = mesh.x.col(i);
       const double bubble = p.x() * (0.24 - p.x()) * p.y() * (0.12 - p.y()) / 5e-5;
       mesh.x.col(i) += 0.004 * bubble * Vector2(std::sin(60.0 * p.y()), std::cos(40.0 * p.x()));
+    }
+    if (high) {
+      const PatchMesh sides = std::exchange(mesh, make_mesh(*c.entry, macneal_harder()));
+      const Eigen::Matrix2Xd parent = parent_nodes(*c.entry);
+      for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+        for (std::size_t i = 0; i < mesh.elements[e].size(); ++i) {
+          const auto column = static_cast<Eigen::Index>(i);
+          mesh.x.col(mesh.elements[e][i]) =
+              element_nodes(sides.x, sides.elements[e]) * Quad8::N({parent(0, column), parent(1, column)});
+        }
     }
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(mesh.dofs());
     const PatchErrors e = c.axisymmetric()
@@ -209,7 +229,7 @@ TEST(PatchCurved, ExactWhereTheRuleIs) {
     if (too_few)
       EXPECT_GT(e.stress, 1e-6);
     else
-      EXPECT_LT(e.stress, 1e-12);
+      EXPECT_LT(e.stress, rounding(c));
   }
 }
 

@@ -162,6 +162,57 @@ TEST(LameLocking, FullyIntegratedQuad4) {
   }
 }
 
+WholeRun high_degree(Body body, Cell cell, int element, int n, double nu) {
+  BuildOptions options;
+  options.element = element;
+  return run_text(deck_of(body, cell, 0, n, nu), options);
+}
+
+// Elements of degree p on straight sides: order p + 1.
+TEST(LameHighDegree, DisplacementsConvergeAtDegreePlusOne) {
+  for (const auto& [element, degree, finest] : {std::tuple{7, 4, 8}, {8, 6, 4}, {9, 8, 2}}) {
+    double before = 0.0;
+    for (int n = 1; n <= finest; n *= 2) {
+      const double error = error_of(high_degree(Body::strip, Cell::quad4, element, n, 0.3), Body::strip, 0.3);
+      std::printf("    degree %d n %d error %.3e order %.2f\n", degree, n, error,
+                  before > 0.0 ? std::log2(before / error) : 0.0);
+      if (before > 0.0) {
+        EXPECT_GE(std::log2(before / error), degree + 1 - 0.15);
+      }
+      before = error;
+    }
+    EXPECT_LT(before, 1e-6);
+  }
+}
+
+// Sides that are parabolas through the arc: their distance from it, of order h^4, is the error that is left.
+TEST(LameHighDegree, CurvedSidesAreFollowed) {
+  for (const Body body : {Body::sector, Body::sphere}) {
+    double error[3];
+    for (int level = 0; level < 3; ++level)
+      error[level] = error_of(high_degree(body, Cell::quad8, 7, 2 << level, 0.3), body, 0.3);
+    std::printf("    %-7s errors %.3e %.3e %.3e\n", name_of(body), error[0], error[1], error[2]);
+    EXPECT_GE(std::log2(error[1] / error[2]), 4.0 - 0.15);
+    EXPECT_LT(error[2], 1e-5);
+  }
+}
+
+TEST(LameHighDegree, DoesNotLock) {
+  const double rounding = 1e-8;  // K/G = 5e6 times 1e-16, times the number of operations
+  for (const int element : {7, 8, 9})
+    for (const Body body : {Body::sector, Body::strip, Body::sphere}) {
+      const Cell cell = body == Body::strip ? Cell::quad4 : Cell::quad8;
+      const double compressible = error_of(high_degree(body, cell, element, 2, 0.3), body, 0.3);
+      const WholeRun run = high_degree(body, cell, element, 2, 0.4999999);
+      const double incompressible = error_of(run, body, 0.4999999);
+      std::printf("    %-7s code %d error at nu .3 %.3e, at .4999999 %.3e\n", name_of(body), element,
+                  compressible, incompressible);
+      EXPECT_LT(incompressible, std::max(20.0 * compressible, rounding))
+          << name_of(body) << " code " << element;
+      EXPECT_FALSE(warns_of_locking(run));
+    }
+}
+
 std::string label(const testing::TestParamInfo<std::tuple<Body, LameCase>>& info) {
   return std::string(name_of(std::get<0>(info.param))) + std::get<1>(info.param).name;
 }

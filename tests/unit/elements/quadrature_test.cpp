@@ -52,6 +52,10 @@ TEST(GaussLines, Degrees) {
   expect_line_degree(GaussLine<3>::table, 5);
   expect_line_degree(GaussLine<4>::table, 7);
   expect_line_degree(GaussLine<5>::table, 9);
+  expect_line_degree(GaussLine<6>::table, 11);
+  expect_line_degree(GaussLine<7>::table, 13);
+  expect_line_degree(GaussLine<8>::table, 15);
+  expect_line_degree(GaussLine<9>::table, 17);
 }
 
 TEST(GaussSquares, ProductOfLines) {

@@ -1,0 +1,319 @@
+#include "sage/analysis/error_estimate.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "sage/model/coarse_shape.hpp"
+
+namespace sage {
+
+namespace {
+
+using Stress4 = Eigen::Matrix<double, Eigen::Dynamic, 4>;
+
+struct ElementRef {
+  std::size_t group = 0;
+  int element = 0;
+};
+
+// What is known of one element: places and stress of its samples, and of the points where the error is
+// measured, with their weights.
+struct ElementStress {
+  Eigen::Matrix2Xd sample_at, point_at;
+  Stress4 samples, points;
+  Eigen::VectorXd w;
+  int degree = 1, corners = 4;
+};
+
+int terms_of(int degree) {
+  return (degree + 1) * (degree + 2) / 2;
+}
+
+// A polynomial of full degree in x and y for each stress component, over a patch of elements.
+class Fit {
+ public:
+  explicit Fit(const std::vector<const ElementStress*>& patch) {
+    Eigen::Index samples = 0;
+    degree_ = patch.front()->degree;
+    Vector2 low = patch.front()->sample_at.col(0), high = low;
+    for (const ElementStress* e : patch) {
+      samples += e->sample_at.cols();
+      degree_ = std::min(degree_, e->degree);
+      low = low.cwiseMin(e->sample_at.rowwise().minCoeff());
+      high = high.cwiseMax(e->sample_at.rowwise().maxCoeff());
+    }
+    // The stress wants degree p; one more takes less from the fit, where there are samples enough for it.
+    if (3 * terms_of(degree_ + 1) <= 2 * samples) ++degree_;
+    while (degree_ > 0 && terms_of(degree_) > samples) --degree_;
+    centre_ = 0.5 * (low + high);
+    scale_ = 0.5 * (high - low).cwiseMax(1e-300);
+    Eigen::MatrixXd V(samples, terms_of(degree_));
+    Stress4 values(samples, 4);
+    Eigen::Index row = 0;
+    for (const ElementStress* e : patch)
+      for (Eigen::Index i = 0; i < e->sample_at.cols(); ++i, ++row) {
+        V.row(row) = terms(e->sample_at.col(i));
+        values.row(row) = e->samples.row(i);
+      }
+    coefficients_ = V.colPivHouseholderQr().solve(values);
+  }
+
+  Eigen::RowVector4d at(const Vector2& x) const { return terms(x) * coefficients_; }
+
+ private:
+  Eigen::RowVectorXd terms(const Vector2& x) const {
+    const double a = (x.x() - centre_.x()) / scale_.x(), b = (x.y() - centre_.y()) / scale_.y();
+    Eigen::RowVectorXd row(terms_of(degree_));
+    Eigen::Index k = 0;
+    for (int d = 0; d <= degree_; ++d)
+      for (int j = 0; j <= d; ++j) row(k++) = std::pow(a, d - j) * std::pow(b, j);
+    return row;
+  }
+
+  int degree_ = 0;
+  Vector2 centre_, scale_;
+  Eigen::MatrixXd coefficients_;
+};
+
+// A rule given by the share of each corner in its points: linear on triangles, bilinear on quadrilaterals.
+struct CornerRule {
+  std::vector<Place> at;
+  Eigen::MatrixXd shares;  // points x corners
+  Eigen::VectorXd w;       // sum 1
+};
+
+// 3 x 3 Gauss, or Dunavant's rule of degree 4.
+CornerRule corner_rule(int corners) {
+  CornerRule rule;
+  if (corners == 4) {
+    const double at[3] = {-std::sqrt(0.6), 0.0, std::sqrt(0.6)}, w[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+    rule.shares.resize(9, 4);
+    rule.w.resize(9);
+    for (int i = 0; i < 9; ++i) {
+      const double x = at[i % 3], y = at[i / 3];
+      rule.at.push_back({x, y});
+      rule.shares.row(i) << (1 - x) * (1 - y) / 4, (1 + x) * (1 - y) / 4, (1 + x) * (1 + y) / 4,
+          (1 - x) * (1 + y) / 4;
+      rule.w(i) = w[i % 3] * w[i / 3];
+    }
+    return rule;
+  }
+  rule.shares.resize(6, 3);
+  rule.w.resize(6);
+  const double b[2] = {0.44594849091596488632, 0.09157621350977074346},
+               w[2] = {0.2233815896780114657, 0.10995174365532186764};
+  for (int i = 0; i < 6; ++i) {
+    rule.shares.row(i).setConstant(b[i / 3]);
+    rule.shares(i, i % 3) = 1.0 - 2.0 * b[i / 3];
+    rule.at.push_back({rule.shares(i, 1), rule.shares(i, 2)});
+    rule.w(i) = w[i / 3];
+  }
+  return rule;
+}
+
+// At the points of a reduced rule the error of a smooth solution vanishes: it is measured at others, where the
+// stress is the linear or bilinear one through those points.
+void measure_between_points(const Element& element, const Eigen::Matrix2Xd& x, ElementStress& s) {
+  const Eigen::Index points = s.points.rows(), corners = s.corners;
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> to_nodes(
+      element.point_to_node().data(), element.traits().nodes, points);
+  const CornerRule rule = corner_rule(s.corners);
+  const Eigen::MatrixXd map = rule.shares * to_nodes.topRows(corners);
+  const double volume = s.w.sum();
+  const Eigen::VectorXd density = map * s.w;
+  s.w = (rule.w.array() * density.array()).matrix();
+  s.w *= volume / s.w.sum();
+  s.points = map * s.points;
+  CoarseShape shape;
+  shape.corners = s.corners;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(s.corners); ++k) {
+    shape.corner[k] = x.col(static_cast<Eigen::Index>(k));
+    const std::vector<int>& edge = element.edges()[k];
+    if (edge.size() > 2) shape.middle[k] = x.col(edge[2]);
+  }
+  s.point_at.resize(2, rule.w.size());
+  for (std::size_t i = 0; i < rule.at.size(); ++i)
+    s.point_at.col(static_cast<Eigen::Index>(i)) = shape.at(rule.at[i]);
+}
+
+ElementStress element_stress(const Model& model, const GroupData& data, int e,
+                             const std::vector<double>* start) {
+  const Group& group = *data.group;
+  const Element& element = *group.element;
+  const ElementTraits& traits = element.traits();
+  Eigen::Matrix2Xd x;
+  element_coordinates(model.mesh, group, e, x);
+  ElementStress s;
+  s.degree = element.degree();
+  s.corners = static_cast<int>(element.edges().size());
+  const Eigen::Index points = traits.points;
+  s.points.resize(points, 4);
+  s.point_at.resize(2, points);
+  s.w.resize(points);
+  std::vector<double> made;
+  const auto stride = static_cast<std::size_t>(1 + traits.law_size * traits.dofs);
+  const double* geometry = nullptr;
+  if (data.geometry.empty()) {
+    made.resize(static_cast<std::size_t>(traits.geometry_size()));
+    element.geometry(x, made);
+    geometry = made.data();
+  } else {
+    geometry =
+        data.geometry.data() + static_cast<std::size_t>(e) * static_cast<std::size_t>(traits.geometry_size());
+  }
+  for (Eigen::Index p = 0; p < points; ++p) {
+    const auto at =
+        4 * (static_cast<std::size_t>(e) * static_cast<std::size_t>(points) + static_cast<std::size_t>(p));
+    for (Eigen::Index c = 0; c < 4; ++c) {
+      const std::size_t i = at + static_cast<std::size_t>(c);
+      s.points(p, c) = data.state.committed.sigma[i] - (start != nullptr ? (*start)[i] : 0.0);
+    }
+    s.point_at.col(p) = element.position(x, static_cast<int>(p));
+    s.w(p) = geometry[static_cast<std::size_t>(p) * stride];
+  }
+  const std::span<const double> map = element.point_to_sample();
+  if (map.empty()) {
+    s.samples = s.points;
+    s.sample_at = s.point_at;
+    if (s.degree == 1) {  // a triangle's stress is best in its middle
+      s.samples = s.points.colwise().mean();
+      s.sample_at = s.point_at.rowwise().mean();
+    }
+    const bool reduced = s.degree <= 2 && (s.corners == 4 || points < 3 * s.degree);
+    if (reduced) measure_between_points(element, x, s);
+  } else {
+    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> to_samples(
+        map.data(), static_cast<Eigen::Index>(map.size()) / points, points);
+    s.samples = to_samples * s.points;
+    s.sample_at = s.point_at * to_samples.transpose();
+  }
+  return s;
+}
+
+// Elements of one material around each vertex.
+class Patches {
+ public:
+  Patches(const Model& model, int material, const std::vector<ElementRef>& elements) {
+    std::map<std::pair<int, int>, int> uses;
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      const Group& group = model.groups[elements[k].group];
+      if (group.material != material) continue;
+      const int* nodes = group.nodes_of(elements[k].element);
+      for (const auto& edge : group.element->edges()) {
+        around_[nodes[edge[0]]].push_back(k);
+        ++uses[std::minmax(nodes[edge[0]], nodes[edge[1]])];
+      }
+    }
+    for (const auto& [ends, count] : uses)
+      if (count == 1) on_boundary_[ends.first] = on_boundary_[ends.second] = true;
+  }
+
+  const std::vector<std::size_t>& around(int vertex) const { return around_.at(vertex); }
+  bool inside(int vertex) const { return on_boundary_.count(vertex) == 0; }
+
+ private:
+  std::map<int, std::vector<std::size_t>> around_;
+  std::map<int, bool> on_boundary_;
+};
+
+// D^-1 of a linear law; the unit matrix for the others.
+Matrix4 compliance(const SolidLaw& law) {
+  if (!law.linear()) return Matrix4::Identity();
+  PointIn<4> in{Vector4::Zero(), Vector4::Zero(), Vector4::Zero(), {}};
+  PointOut<4> out;
+  law.update(in, out);
+  return out.D.inverse();
+}
+
+const SolidLaw* solid_law(const GroupData& data) {
+  const auto* law = std::get_if<const SolidLaw*>(&data.law);
+  return data.active && law != nullptr ? *law : nullptr;
+}
+
+}  // namespace
+
+double ErrorEstimate::relative() const {
+  return size + error > 0.0 ? std::sqrt(error / (size + error)) : 0.0;
+}
+
+StressState stress_state(const Assembly& assembly) {
+  StressState state;
+  for (const GroupData& data : assembly.groups()) state.push_back(data.state.committed.sigma);
+  return state;
+}
+
+ErrorEstimate estimate_error(const Model& model, const Solution& solution, const StressState* start) {
+  ErrorEstimate result;
+  const std::vector<GroupData>& groups = solution.assembly->groups();
+  result.element.resize(groups.size());
+  std::vector<ElementRef> elements;
+  std::vector<ElementStress> stress;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const SolidLaw* law = solid_law(groups[g]);
+    if (law == nullptr) continue;
+    result.energy = result.energy && law->linear();
+    for (int e = 0; e < groups[g].group->elements(); ++e) {
+      elements.push_back({g, e});
+      stress.push_back(element_stress(model, groups[g], e, start != nullptr ? &(*start)[g] : nullptr));
+    }
+  }
+
+  std::map<int, Patches> patches;
+  std::map<std::pair<int, int>, Fit> fits;  // by material and vertex
+  const auto fit_of = [&](const std::vector<std::size_t>& patch) {
+    std::vector<const ElementStress*> members;
+    for (std::size_t k : patch) members.push_back(&stress[k]);
+    return Fit(members);
+  };
+  for (std::size_t k = 0; k < elements.size(); ++k) {
+    const GroupData& data = groups[elements[k].group];
+    const Group& group = *data.group;
+    const Patches& of_material =
+        patches.try_emplace(group.material, model, group.material, elements).first->second;
+    const int* nodes = group.nodes_of(elements[k].element);
+    std::vector<const Fit*> use;
+    std::vector<std::size_t> neighbours;
+    for (int c = 0; c < stress[k].corners; ++c) {
+      const std::vector<std::size_t>& patch = of_material.around(nodes[c]);
+      neighbours.insert(neighbours.end(), patch.begin(), patch.end());
+      if (!of_material.inside(nodes[c])) continue;
+      auto it = fits.find({group.material, nodes[c]});
+      if (it == fits.end()) it = fits.emplace(std::pair{group.material, nodes[c]}, fit_of(patch)).first;
+      use.push_back(&it->second);
+    }
+    std::optional<Fit> own;  // an element without a vertex inside: all of its neighbours
+    if (use.empty()) {
+      std::sort(neighbours.begin(), neighbours.end());
+      neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+      own.emplace(fit_of(neighbours));
+      use.push_back(&*own);
+    }
+    const Matrix4 C = result.energy ? compliance(*solid_law(data)) : Matrix4::Identity();
+    double error = 0.0;
+    for (Eigen::Index p = 0; p < stress[k].points.rows(); ++p) {
+      Eigen::RowVector4d smooth = Eigen::RowVector4d::Zero();
+      for (const Fit* fit : use) smooth += fit->at(stress[k].point_at.col(p)) / static_cast<double>(use.size());
+      const Vector4 own_stress = stress[k].points.row(p), difference = smooth.transpose() - own_stress;
+      const double w = stress[k].w(p);
+      error += w * difference.dot(C * difference);
+      result.size += w * own_stress.dot(C * own_stress);
+    }
+    result.error += error;
+    auto& of_group = result.element[elements[k].group];
+    of_group.push_back(error);
+    const bool worst =
+        result.worst_group < 0 || error > result.element[static_cast<std::size_t>(result.worst_group)]
+                                                        [static_cast<std::size_t>(result.worst_element)];
+    if (error > 0.0 && worst) {
+      result.worst_group = static_cast<int>(elements[k].group);
+      result.worst_element = elements[k].element;
+    }
+  }
+  return result;
+}
+
+}  // namespace sage

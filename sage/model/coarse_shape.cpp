@@ -1,0 +1,44 @@
+#include "sage/model/coarse_shape.hpp"
+
+#include <algorithm>
+
+namespace sage {
+
+Vector2 along_edge(const Vector2& a, const Vector2& z, const std::optional<Vector2>& middle, double t) {
+  if (!middle) return (1 - t) * a + t * z;
+  return (1 - t) * (1 - 2 * t) * a + t * (2 * t - 1) * z + 4 * t * (1 - t) * *middle;
+}
+
+bool CoarseShape::curved() const {
+  return std::any_of(middle.begin(), middle.end(), [](const auto& m) { return m.has_value(); });
+}
+
+// Corner part plus, for each curved side, its middle node's distance from the chord times the middle node's
+// function.
+Vector2 CoarseShape::at(const Place& q) const {
+  const auto [x, y] = q;
+  std::array<double, 4> linear{}, bubble{};
+  if (corners == 4) {
+    linear = {(1 - x) * (1 - y) / 4, (1 + x) * (1 - y) / 4, (1 + x) * (1 + y) / 4, (1 - x) * (1 + y) / 4};
+    bubble = {(1 - x * x) * (1 - y) / 2, (1 + x) * (1 - y * y) / 2, (1 - x * x) * (1 + y) / 2,
+              (1 - x) * (1 - y * y) / 2};
+  } else {
+    linear = {1 - x - y, x, y, 0.0};
+    bubble = {4 * (1 - x - y) * x, 4 * x * y, 4 * y * (1 - x - y), 0.0};
+  }
+  Vector2 point = Vector2::Zero();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(corners); ++k) {
+    point += linear[k] * corner[k];
+    const std::size_t next = (k + 1) % static_cast<std::size_t>(corners);
+    if (middle[k]) point += bubble[k] * (*middle[k] - 0.5 * (corner[k] + corner[next]));
+  }
+  return point;
+}
+
+const std::array<Place, 4>& parent_corners(int corners) {
+  static const std::array<Place, 4> square{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+  static const std::array<Place, 4> triangle{{{0, 0}, {1, 0}, {0, 1}, {0, 0}}};
+  return corners == 4 ? square : triangle;
+}
+
+}  // namespace sage

@@ -1,0 +1,79 @@
+// Refinement and grading that BuildOptions ask for, and what they mean for the rest of the model.
+#include "sage/model/subdivide.hpp"
+
+namespace sage::build {
+
+namespace {
+
+std::vector<char> used_nodes(const Model& model) {
+  std::vector<char> used(static_cast<std::size_t>(model.mesh.nodes()), 0);
+  for (const Group& group : model.groups)
+    for (int node : group.nodes)
+      if (node >= 0) used[static_cast<std::size_t>(node)] = 1;
+  return used;
+}
+
+// Mid-side nodes that grading left without an element.
+void drop_lost_nodes(Builder& b, std::vector<char> lost) {
+  Model& model = b.model;
+  const std::vector<char> used = used_nodes(model);
+  lost.resize(used.size(), 1);  // also those that one layer made and the next one cut off
+  const auto is_lost = [&](int node) {
+    return lost[static_cast<std::size_t>(node)] && !used[static_cast<std::size_t>(node)];
+  };
+  std::erase_if(model.fixities, [&](const Fixity& f) { return is_lost(f.node); });
+  for (Stage& stage : model.stages) {
+    std::erase_if(stage.fixities, [&](const Fixity& f) { return is_lost(f.node); });
+    for (const NodalLoad& load : stage.loads)
+      if (is_lost(load.node))
+        b.error({b.deck.file, load.line, 0, 0},
+                "node " + std::to_string(model.mesh.number[static_cast<std::size_t>(load.node)]) +
+                    " is loaded but is no node of the graded mesh; load its edge by a pressure card");
+  }
+  for (Report& report : model.reports) std::erase_if(report.nodes, is_lost);
+}
+
+void warn_point_loads(Builder& b) {
+  for (const Stage& stage : b.model.stages)
+    if (!stage.loads.empty()) {
+      b.warning(
+          {b.deck.file, stage.loads.front().line, 0, 0},
+          "loads on nodes stay point loads in a refined mesh: the displacement under them does not converge");
+      return;
+    }
+}
+
+std::vector<int> nodes_of(Builder& b, const Grading& grading) {
+  if (grading.node == 0) {
+    const std::vector<int> found = singular_corners(b.model);
+    if (found.empty()) b.note({b.deck.file, 0, 0, 0}, "no singular corner found: the mesh is not graded");
+    return found;
+  }
+  const auto it = b.node_index.find(grading.node);
+  if (it != b.node_index.end()) return {it->second};
+  b.error(b.deck.one("control").where(), "the mesh can't be graded towards node " +
+                                             std::to_string(grading.node) +
+                                             ": the deck has none of that number");
+  return {};
+}
+
+}  // namespace
+
+void refine_as_asked(Builder& b) {
+  const BuildOptions& options = b.options;
+  if (options.refine <= 0 && options.gradings.empty()) return;
+  const std::vector<char> before = used_nodes(b.model);
+  warn_point_loads(b);
+  refine(b, options.refine);
+  for (const Grading& grading : options.gradings)
+    for (const int node : nodes_of(b, grading)) {
+      grade(b, node, grading.layers, grading.ratio);
+      b.warning(
+          {b.deck.file, 0, 0, 0},
+          "mesh graded towards node " + std::to_string(b.model.mesh.number[static_cast<std::size_t>(node)]) +
+              ": where the corner is singular the stress at it does not converge, it grows with every layer");
+    }
+  drop_lost_nodes(b, before);
+}
+
+}  // namespace sage::build

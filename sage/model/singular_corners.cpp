@@ -1,0 +1,168 @@
+// Where the elastic solution of a mesh is singular, from its boundary: the angle inside and what holds both
+// sides. Williams (1952): stress ~ r^(lambda - 1).  A side that is held in one direction mirrors the corner.
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "sage/model/subdivide.hpp"
+
+namespace sage::build {
+
+namespace {
+
+enum class Side { free, held, mirror };  // mirror: held along or across only
+
+struct BoundaryEdge {
+  int a = 0, z = 0;  // counter-clockwise: the body is to the left
+  int group = 0, element = 0, edge = 0;
+};
+
+double degrees(double radians) {
+  return radians / kRadiansPerDegree;
+}
+
+// Boundary edges by their ends, angles of the body at each node.  An edge is held where one list of fixities
+// holds both of its ends: the ends of a long edge may belong to two other sides.  The same rule makes nodes on
+// it inherit.
+struct Outline {
+  std::vector<BoundaryEdge> edges;
+  std::map<int, std::vector<std::size_t>> leaving, arriving;
+  std::map<int, double> angle;            // degrees
+  std::set<EdgeKey> joined;               // an interface lies on them
+  std::vector<std::array<bool, 2>> held;  // by edge and direction
+
+  void apply(const std::vector<Fixity>& fixities) {
+    std::map<int, std::array<FixityCode, 2>> codes;
+    for (const Fixity& f : fixities)
+      for (std::size_t c = 0; c < 2; ++c)
+        if (f.code[c] != FixityCode::unchanged) codes[f.node][c] = f.code[c];
+    held.resize(edges.size(), {false, false});
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const auto a = codes.find(edges[i].a), z = codes.find(edges[i].z);
+      for (std::size_t c = 0; c < 2; ++c) {
+        const FixityCode at_a = a == codes.end() ? FixityCode::unchanged : a->second[c];
+        const FixityCode at_z = z == codes.end() ? FixityCode::unchanged : z->second[c];
+        if (at_a == FixityCode::fixed && at_z == FixityCode::fixed) held[i][c] = true;
+        if (at_a == FixityCode::released || at_z == FixityCode::released) held[i][c] = false;
+      }
+    }
+  }
+};
+
+Outline outline_of(const Model& model) {
+  Outline outline;
+  std::map<EdgeKey, int> uses;
+  std::vector<BoundaryEdge> all;
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const Group& group = model.groups[g];
+    const auto& edges = group.element->edges();
+    for (int e = 0; e < group.elements(); ++e) {
+      const int* n = group.nodes_of(e);
+      if (group.element->traits().law_size == 2) {
+        for (const auto& edge : edges) outline.joined.insert(edge_key(n[edge[0]], n[edge[1]]));
+        continue;
+      }
+      for (std::size_t i = 0; i < edges.size(); ++i) {
+        const int a = n[edges[i][0]], z = n[edges[i][1]];
+        const int before = n[edges[(i + edges.size() - 1) % edges.size()][0]];
+        ++uses[edge_key(a, z)];
+        all.push_back({a, z, static_cast<int>(g), e, static_cast<int>(i)});
+        const Vector2 out = model.mesh.x.col(z) - model.mesh.x.col(a),
+                      in = model.mesh.x.col(before) - model.mesh.x.col(a);
+        outline.angle[a] += degrees(std::atan2(out.x() * in.y() - out.y() * in.x(), out.dot(in)));
+      }
+    }
+  }
+  for (const BoundaryEdge& edge : all) {
+    if (uses[edge_key(edge.a, edge.z)] != 1) continue;
+    outline.leaving[edge.a].push_back(outline.edges.size());
+    outline.arriving[edge.z].push_back(outline.edges.size());
+    outline.edges.push_back(edge);
+  }
+  return outline;
+}
+
+struct SideKind {
+  Side side = Side::free;
+  bool x = false;  // of a mirror: held in x
+};
+
+SideKind kind_of(const Model& model, const Outline& outline, std::size_t edge) {
+  const BoundaryEdge& e = outline.edges[edge];
+  if (outline.joined.count(edge_key(e.a, e.z))) return {Side::held, false};
+  const Vector2 along = model.mesh.x.col(e.z) - model.mesh.x.col(e.a);
+  const double length = along.norm();
+  const bool on_axis = model.geometry == Geometry::axisymmetric &&
+                       std::abs(model.mesh.x(0, e.a)) < 1e-9 * length &&
+                       std::abs(model.mesh.x(0, e.z)) < 1e-9 * length;
+  const bool x = outline.held[edge][0] || on_axis, y = outline.held[edge][1];
+  if (!x && !y) return {Side::free, false};
+  if (x && y) return {Side::held, false};
+  const bool square = std::abs(along.x()) < 1e-6 * length || std::abs(along.y()) < 1e-6 * length;
+  return {square ? Side::mirror : Side::held, x};
+}
+
+// Angles from which on the stress has no bound, with 2 degrees for meshers.
+bool is_singular(const SideKind& a, const SideKind& b, double angle) {
+  constexpr double kSlack = 2.0;
+  const bool straight = std::abs(angle - 180.0) < kSlack;
+  if (a.side == b.side) {
+    if (a.side != Side::mirror) return angle > 180.0 + kSlack;
+    return straight ? a.x != b.x : angle > 90.0 + kSlack;
+  }
+  if (a.side == Side::mirror || b.side == Side::mirror) return angle > 90.0 + kSlack;
+  return angle > 60.0;  // held and free: from 55 to 65 degrees on, by Poisson's ratio
+}
+
+void find_by_supports(const Model& model, const Outline& outline, std::set<int>& found) {
+  for (const auto& [node, leaving] : outline.leaving) {
+    const auto& arriving = outline.arriving.at(node);
+    if (leaving.size() != 1) {
+      found.insert(node);  // two parts touch in a point
+      continue;
+    }
+    const SideKind in = kind_of(model, outline, arriving.front());
+    const SideKind out = kind_of(model, outline, leaving.front());
+    if (is_singular(in, out, outline.angle.at(node))) found.insert(node);
+  }
+}
+
+// A pressure that ends on a straight side: the stress is bounded, its slope is not.
+void find_by_loads(const Outline& outline, const Stage& stage, std::set<int>& found) {
+  std::map<std::tuple<int, int, int>, std::array<Vector2, 2>> load;  // at both ends of an edge
+  double largest = 0.0;
+  for (const EdgeLoad& p : stage.pressures) {
+    auto [it, is_new] = load.try_emplace({p.group, p.element, p.edge},
+                                         std::array<Vector2, 2>{Vector2::Zero(), Vector2::Zero()});
+    it->second[0] += Vector2(p.normal.x(), p.shear.x());
+    it->second[1] += Vector2(p.normal.y(), p.shear.y());
+    largest = std::max({largest, p.normal.cwiseAbs().maxCoeff(), p.shear.cwiseAbs().maxCoeff()});
+  }
+  const auto value = [&](const BoundaryEdge& e, std::size_t end) -> Vector2 {
+    const auto it = load.find({e.group, e.element, e.edge});
+    return it == load.end() ? Vector2::Zero() : it->second[end];
+  };
+  for (const auto& [node, leaving] : outline.leaving) {
+    if (leaving.size() != 1 || std::abs(outline.angle.at(node) - 180.0) > 10.0) continue;
+    const Vector2 jump =
+        value(outline.edges[leaving.front()], 0) - value(outline.edges[outline.arriving.at(node).front()], 1);
+    if (jump.norm() > 1e-6 * largest) found.insert(node);
+  }
+}
+
+}  // namespace
+
+std::vector<int> singular_corners(const Model& model) {
+  Outline outline = outline_of(model);
+  outline.apply(model.fixities);
+  std::set<int> found;
+  for (const Stage& stage : model.stages) {
+    outline.apply(stage.fixities);
+    find_by_supports(model, outline, found);
+    find_by_loads(outline, stage, found);
+  }
+  return {found.begin(), found.end()};
+}
+
+}  // namespace sage::build

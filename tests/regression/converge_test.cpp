@@ -1,0 +1,172 @@
+// --error and --converge on decks whose answer is known: the stated error must hold the true one.
+#include "sage/app/converge.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "sage/app/commands.hpp"
+#include "sage/app/exit_codes.hpp"
+#include "sage/study/deck_writer.hpp"
+
+namespace sage::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path scratch() {
+  const fs::path folder = fs::path(testing::TempDir()) / "sage_converge";
+  fs::create_directories(folder);
+  return folder;
+}
+
+// Quarter of the restrained cylinder, a = 1, E = 1, strain 1 %: columns x rows quadrilaterals.  Converged
+// ratios: two independent hp solutions (docs/theory/accuracy.md).
+std::string cylinder(int columns, int rows, double slenderness, double nu, int formulation = 2) {
+  study::Block block;
+  block.columns = columns;
+  block.rows = rows;
+  block.place = study::rectangle(0.0, 1.0, 0.0, slenderness);
+  study::DeckWriter deck(2);
+  block.write_nodes(deck);
+  deck.material(1, 1, {1.0, nu});
+  deck.group(1, 1, formulation, 1);
+  block.write_elements(deck, 1);
+  for (int node : block.bottom()) deck.fix(node, 0, 1);
+  for (int node : block.left()) deck.fix(node, 1, 0);
+  study::StageCards& stage = deck.stage();
+  for (int node : block.top()) stage.fix(node, 1, 1, 0.0, -0.01 * slenderness);
+  deck.triaxial_report(1, block.top().front(), block.top().back(), 1, slenderness);
+  return deck.text();
+}
+
+std::string write(const std::string& name, const std::string& text) {
+  const fs::path path = scratch() / (name + ".dat");
+  std::ofstream(path) << text;
+  return path.string();
+}
+
+RunRequest request_for(const std::string& path) {
+  RunRequest request;
+  request.deck = path;
+  request.quiet = true;
+  request.output.folder = scratch();
+  request.output.listing = request.output.increments = false;
+  return request;
+}
+
+struct Row {
+  double dofs = 0.0, value = 0.0, error = NAN;
+};
+
+std::vector<Row> table_of(const std::string& name, std::string& last) {
+  std::ifstream in(scratch() / (name + ".convergence.csv"));
+  std::vector<Row> rows;
+  for (std::string line; std::getline(in, line);) {
+    if (line[0] == '#') last = line;
+    if (!std::isdigit(static_cast<unsigned char>(line[0]))) continue;
+    std::vector<std::string> cells;
+    std::stringstream stream(line);
+    for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+    rows.push_back({std::stod(cells[2]), std::stod(cells[3]), cells[4].empty() ? NAN : std::stod(cells[4])});
+  }
+  return rows;
+}
+
+struct Known {
+  double slenderness, nu, ratio;
+};
+
+TEST(Converge, SpectralMeshesHoldTheTrueValue) {
+  for (const Known& k :
+       {Known{1, .25, 1.036223}, {1, .495, 1.190558}, {2, .25, 1.017629}, {2, .495, 1.086254}}) {
+    const std::string path =
+        write("spectral", cylinder(1, static_cast<int>(k.slenderness), k.slenderness, k.nu));
+    ConvergeOptions options;
+    options.tolerance = 1e-5;
+    EXPECT_EQ(converge(request_for(path), options, full_catalogue()), kOk);
+    std::string last;
+    const std::vector<Row> rows = table_of("spectral", last);
+    ASSERT_GE(rows.size(), 2u);
+    for (const Row& row : rows) {
+      if (std::isnan(row.error)) continue;
+      EXPECT_LE(std::abs(row.value - k.ratio), row.error + 2e-6) << "reference to 2e-6";
+    }
+    EXPECT_LT(std::abs(rows.back().value - k.ratio), 1e-5 * k.ratio + 2e-6);
+    EXPECT_NE(last.find("result    report1.ratio"), std::string::npos) << last;
+  }
+}
+
+// The deck's own elements, halved: nine-node elements have no other way.
+TEST(Converge, HalvedMeshesHoldTheTrueValue) {
+  const std::string path = write("halved", cylinder(2, 2, 1.0, 0.25));
+  RunRequest request = request_for(path);
+  ConvergeOptions options;
+  options.tolerance = 2e-4;
+  request.input.build.element = 5;
+  EXPECT_EQ(converge(request, options, full_catalogue()), kOk);
+  std::string last;
+  const std::vector<Row> rows = table_of("halved", last);
+  ASSERT_GE(rows.size(), 3u);
+  // value +- error of the last line.
+  const auto at = last.find("report1.ratio ");
+  ASSERT_NE(at, std::string::npos);
+  double value = 0.0, error = 0.0;
+  ASSERT_EQ(std::sscanf(last.c_str() + at, "report1.ratio %lf +- %lf", &value, &error), 2) << last;
+  EXPECT_LE(std::abs(value - 1.036223), error + 1e-6) << last;
+  EXPECT_LE(error, 2.5e-4 * value);
+}
+
+TEST(Converge, StopsAtItsLimitsAndSaysSo) {
+  const std::string path = write("limited", cylinder(1, 1, 1.0, 0.495));
+  ConvergeOptions options;
+  options.tolerance = 1e-9;
+  options.max_dofs = 2000;
+  EXPECT_EQ(converge(request_for(path), options, full_catalogue()), kNotConverged);
+  std::string last;
+  EXPECT_GE(table_of("limited", last).size(), 1u);
+  EXPECT_NE(last.find("NOT REACHED"), std::string::npos) << last;
+  EXPECT_NE(last.find("--max-dofs"), std::string::npos) << last;
+  options.max_dofs = 10;
+  EXPECT_THROW(converge(request_for(path), options, full_catalogue()), InputError) << "not even the first mesh";
+}
+
+TEST(Converge, NeedsAReport) {
+  study::DeckWriter deck(1);
+  for (int i = 0; i < 4; ++i) deck.node(i + 1, i % 2, i / 2);
+  deck.material(1, 1, {1.0, 0.3});
+  deck.group(1, 1, 0, 1);
+  deck.element(1, 1, {1, 2, 4, 3});
+  deck.fix(1, 1, 1);
+  deck.fix(2, 0, 1);
+  deck.stage();
+  ConvergeOptions options;
+  options.tolerance = 1e-3;
+  EXPECT_THROW(converge(request_for(write("none", deck.text())), options, full_catalogue()), InputError);
+}
+
+// The energy of the error is the error of the ratio.  A singular corner: within a factor of two for the
+// four-node elements.
+TEST(ErrorOption, RatioOfTheRestrainedCylinder) {
+  for (const Known& k : {Known{1, .25, 1.036223}, {2, .495, 1.086254}})
+    for (const int formulation : {1, 2}) {
+      const int n = 12;
+      RunRequest request = request_for(
+          write("zz", cylinder(n, static_cast<int>(n * k.slenderness), k.slenderness, k.nu, formulation)));
+      request.output.error = true;
+      const RunOutcome outcome = run_deck(request, full_catalogue());
+      ASSERT_EQ(outcome.exit_code, kOk);
+      ASSERT_TRUE(outcome.error->ratio_error().has_value());
+      const double truth = outcome.reports->triaxial(0).back().ratio - k.ratio,
+                   estimate = *outcome.error->ratio_error();
+      std::printf("    nu %.3f formulation %d: true %.2e, estimate %.2e\n", k.nu, formulation, truth, estimate);
+      EXPECT_GT(truth, 0.0) << "displacement-driven: too stiff";
+      EXPECT_GT(estimate, 0.5 * truth);
+      EXPECT_LT(estimate, 2.0 * truth);
+    }
+}
+
+}  // namespace
+}  // namespace sage::app
