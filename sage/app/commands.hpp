@@ -31,5 +31,6 @@ Command echo_command(CLI::App& root);
 Command list_command(CLI::App& root);
 Command tables_command(CLI::App& root);
 Command convert_command(CLI::App& root);
+Command compare_command(CLI::App& root);
 
 }  // namespace sage::app

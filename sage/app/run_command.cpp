@@ -44,14 +44,6 @@ int run_one(const RunOptions& options, const std::string& deck, const Catalogue&
   });
 }
 
-// A message if no solver has this name.
-std::string unknown_solver(const std::string& name) {
-  const Catalogue catalogue = full_catalogue();
-  for (const auto& [code, entry] : catalogue.solvers.entries())
-    if (entry.name == name) return {};
-  return "unknown solver " + name + "; known: " + catalogue.solvers.known();
-}
-
 int run_all(const RunOptions& options) {
   const Catalogue catalogue = full_catalogue();
   std::set<std::string> names;

@@ -39,6 +39,10 @@ TEST(CommandLine, HelpOfEverySubcommandNamesItsOptions) {
       {"echo", {"DECK", "--layout", "--strict"}},
       {"list", {"WHAT", "elements", "materials", "solvers"}},
       {"tables", {"--cases", "--output", "--pinned"}},
+      {"compare",
+       {"DECK", "--both", "--formulation", "--element", "--geometry", "--solver", "--formulation-b",
+        "--element-b", "--geometry-b", "--solver-b", "--layout-b", "--line", "--point", "--picture", "--output",
+        "--strict"}},
   };
   for (const auto& [command, words] : commands) {
     const Finished help = sagefe(folder, command + " --help");
@@ -46,6 +50,23 @@ TEST(CommandLine, HelpOfEverySubcommandNamesItsOptions) {
     EXPECT_EQ(help.err, "");
     for (const char* word : words) expect_words(help.out, {word});
   }
+}
+
+// One side that can't be read: the other is reported, and the shell hears of it.
+TEST(CommandLine, CompareReportsTheSideThatRuns) {
+  const fs::path folder = empty_folder("compare");
+  write(folder / "deck.dat", block_deck().text());
+  write(folder / "bad.dat", "nothing\n");
+  const Finished both = sagefe(folder, "compare deck.dat --both --point 0.5,0.5 --picture stress_yy");
+  EXPECT_EQ(both.exit_code, 0) << both.err;
+  expect_words(both.out, {"A: deck.dat, plane strain", "B: deck.dat, axisymmetric", "forces per unit thickness",
+                          "forces for the full circle", "compression positive", "point"});
+  EXPECT_TRUE(fs::exists(folder / "out" / "deck.compare.csv"));
+  EXPECT_TRUE(fs::exists(folder / "out" / "deck.compare_stress_yy.svg"));
+  const Finished half = sagefe(folder, "compare deck.dat bad.dat");
+  EXPECT_EQ(half.exit_code, 3);
+  expect_words(half.out, {"completed", "NO RESULTS", "mean normal stress"});
+  EXPECT_EQ(sagefe(folder, "compare bad.dat --both").exit_code, 2);
 }
 
 TEST(CommandLine, VersionIsThreeNumbers) {
@@ -68,6 +89,11 @@ TEST(CommandLine, MistakesGiveExitCode1AndNameTheWord) {
       {"run deck.dat --picture nonsense", "nonsense"},
       {"run deck.dat --geometry two", "two"},
       {"list nonsense", "nonsense"},
+      {"compare deck.dat", "--both"},
+      {"compare deck.dat --both --geometry-b 1", "--geometry-b"},
+      {"compare deck.dat --both --line 1,2,3", "has 3 numbers"},
+      {"compare deck.dat --both --picture nonsense", "nonsense"},
+      {"compare deck.dat deck.dat deck.dat", "deck.dat"},
       {"check", "DECK"},
       {"echo deck.dat another.dat", "another.dat"},
   };
