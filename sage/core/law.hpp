@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <variant>
 
@@ -71,6 +72,10 @@ class Law {
 
   // Allocates nothing.  deps = 0 must give back sigma0 and h0 when the state is admissible.
   virtual Outcome update(const PointIn<N>& in, PointOut<N>& out) const = 0;
+
+  // A warning for the user about parameters that are allowed but rarely meant, empty if there is none: e.g. a
+  // joint without any shear resistance.
+  virtual std::string caution() const { return {}; }
 
   // Mobilised fraction of strength at a state, 1 = at yield/slip; 0 for laws without strength.
   virtual double stress_level(const Vector<N>& /*sigma*/, std::span<const double> /*h*/) const { return 0.0; }

@@ -70,5 +70,7 @@ void check_totals(Builder& b);
 void make_mid_nodes(Builder& b);
 // Shapes, supports, unused nodes, radii.
 void check_model(Builder& b);
+// Nodes at one place, hanging nodes.
+void check_joints(Builder& b);
 
 }  // namespace sage::build
