@@ -105,7 +105,8 @@ void chapter_replay(Sweep& s) {
   for (const Case& c : {Case{"quad4 full: the chapter's 1.2403", 1, 1.24032, 1e-5},
                         Case{"b-bar: converged 1.19056", 2, 1.190558, 3e-3}}) {
     Block block;
-    block.columns = block.rows = 20;
+    // The singular corner lets the error fall as h^1.2 only: b-bar needs twice the mesh for 0.3 %.
+    block.columns = block.rows = c.formulation == 1 ? 20 : 40;
     block.place = rectangle(0.0, 1.0, 0.0, 1.0);
     DeckWriter deck(2);
     block.write_nodes(deck);
@@ -252,7 +253,7 @@ void apex(Sweep& s) {
         const double tip = c / std::tan(phi * kRadiansPerDegree);
         const std::vector<double> parameters{3000.0, 0.3, c, phi, associated ? phi : 0.0};
         const double past = 2.0 * tip / (3000.0 / (1 - 0.6));  // isotropic strain 2 tip / 3K
-        const Ran ran = blow_up(s, law, parameters, {past, -0.5 * past, past, -3.0 * past, 3.0 * past});
+        const Ran ran = blow_up(s, law, parameters, {past, -0.5 * past, past, -3.0 * past, 4.0 * past});
         double error = kUnknown;
         if (ran.completed()) error = (ran.run->stress[0].topRows(3).array() - tip).abs().maxCoeff() / tip;
         const std::string label =
@@ -263,20 +264,23 @@ void apex(Sweep& s) {
       }
 }
 
-// Mohr-Coulomb with a tension cut-off: stretched along y the stress is the cut-off's, and no cycle gains
-// energy.
+// Mohr-Coulomb with a tension cut-off: stretched along y the stress is the cut-off's, or the strength of shear,
+// 2 c cos phi/(1 + sin phi), if that is less; and no cycle gains energy.  One row of elements, so that
+// displacements alone say where it yields.
 void tension(Sweep& s) {
+  const double shear = 20.0 * std::cos(kPi / 6.0) / 1.5;
   for (double cut_off : {0.0, 1e-6, 1.0, 5.0, 17.0}) {
     TriaxialDeck deck;
     deck.law = 4;
     deck.parameters = {3000.0, 0.3, 10.0, 30.0, 0.0, cut_off};
     deck.strains = {-0.05, 0.10, -0.12, 0.06};
     deck.increments = 8;
+    deck.rows = 1;
     const Ran ran = s.run(deck.text());
     double error = kUnknown, work = 0.0;
     bool negative = false;
     if (ran.completed()) {
-      error = std::abs(-axial_stress(deck, *ran.run, 0) - cut_off) / 10.0;  // of the cohesion
+      error = std::abs(-axial_stress(deck, *ran.run, 0) - std::min(cut_off, shear)) / 10.0;  // of the cohesion
       double force = 0.0, u = 0.0;
       for (const study::Snapshot& at : ran.run->increments) {
         const double now = ran.run->reaction(at, deck.block().top(), 1);
@@ -292,6 +296,11 @@ void tension(Sweep& s) {
     s.holds(label, kUnknown, ran.completed() && !negative, "work never negative",
             fmt::format("work {:.4g}", work));
   }
+  TriaxialDeck two_rows;  // which of them tears?
+  two_rows.law = 4;
+  two_rows.parameters = {3000.0, 0.3, 10.0, 30.0, 0.0, 1.0};
+  two_rows.strains = {-0.05};
+  s.says("cut-off 1, two rows of elements", kUnknown, s.run(two_rows.text()), "a collapse mechanism");
 }
 
 // Strip footing on a surcharge q = 1, c = 0: associated Nq = exp(pi tan phi) tan^2(45 + phi/2).  Without
@@ -330,8 +339,8 @@ void non_associated(Sweep& s) {
       const Ran ran = s.run(deck.text());
       const double load = ran.run ? -(ran.run->reaction(ran.run->last(), base, 1)) + 1.0 : kUnknown;
       const double exact = Nq + 0.05 * (Nq - 1.0) / t;
-      s.clean(fmt::format("{} x {} elements, {} increments", block.columns, block.rows, increments), kUnknown,
-              ran);
+      s.says(fmt::format("{} x {} elements, {} increments", block.columns, block.rows, increments), kUnknown,
+             ran, "loss of uniqueness");
       s.holds("the same: load", kUnknown, load > 0.4 * exact && load < 2.0 * exact,
               "between 0.4 and 2 of the associated collapse load",
               fmt::format("reached {:.3f} of {:.2f}", load / exact, exact));

@@ -47,7 +47,7 @@ bool Ran::finite() const {
 std::string Ran::words() const {
   std::string text = refusal;
   if (!run) return text;
-  for (const Diagnostic& d : run->model->diagnostics.list()) text += d.message + "\n";
+  for (const Diagnostic& d : run->model->diagnostics.list()) text += to_string(d) + "\n";
   for (const std::string& warning : run->warnings) text += warning + "\n";
   return text + run->failure;
 }

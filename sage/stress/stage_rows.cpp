@@ -113,7 +113,7 @@ bool same_end(const WholeRun& a, const WholeRun& b) {
 void failed_step(Sweep& s) {
   int found = 0;
   for (int law : {3, 4})
-    for (double strain : {0.03, 0.06, 0.1})
+    for (double strain : {0.01, 0.02, 0.03, 0.04, 0.06, 0.08, 0.1, 0.15})
       for (int most : {3, 4, 5, 6, 7, 8}) {
         TriaxialDeck whole;
         whole.law = law;

@@ -39,6 +39,7 @@ TEST(CommandLine, HelpOfEverySubcommandNamesItsOptions) {
       {"echo", {"DECK", "--layout", "--strict"}},
       {"list", {"WHAT", "elements", "materials", "solvers"}},
       {"tables", {"--cases", "--output", "--pinned"}},
+      {"stress", {"--list", "--only", "--details", "--csv", "--write"}},
       {"compare",
        {"DECK", "--both", "--formulation", "--element", "--geometry", "--solver", "--formulation-b",
         "--element-b", "--geometry-b", "--solver-b", "--layout-b", "--line", "--point", "--picture", "--output",
@@ -69,6 +70,17 @@ TEST(CommandLine, CompareReportsTheSideThatRuns) {
   EXPECT_EQ(sagefe(folder, "compare bad.dat --both").exit_code, 2);
 }
 
+TEST(CommandLine, StressWritesItsPageAndPlots) {
+  const fs::path folder = empty_folder("stress");
+  const Finished run =
+      sagefe(folder, "stress --only poisson-refused distortion --csv s.csv --write docs/stress.md");
+  EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+  expect_words(run.out, {"poisson-refused", "distortion", "2 rows, 0 failed"});
+  EXPECT_TRUE(fs::exists(folder / "s.csv"));
+  EXPECT_TRUE(fs::exists(folder / "docs" / "stress.md"));
+  EXPECT_TRUE(fs::exists(folder / "docs" / "stress" / "distortion.svg"));
+}
+
 TEST(CommandLine, VersionIsThreeNumbers) {
   const Finished version = sagefe(empty_folder("version"), "--version");
   EXPECT_EQ(version.exit_code, 0);
@@ -89,6 +101,7 @@ TEST(CommandLine, MistakesGiveExitCode1AndNameTheWord) {
       {"run deck.dat --picture nonsense", "nonsense"},
       {"run deck.dat --geometry two", "two"},
       {"list nonsense", "nonsense"},
+      {"stress --only nonsense", "nonsense"},
       {"compare deck.dat", "--both"},
       {"compare deck.dat --both --geometry-b 1", "--geometry-b"},
       {"compare deck.dat --both --line 1,2,3", "has 3 numbers"},
