@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "sage/analysis/uniqueness.hpp"
+
 namespace sage {
 
 namespace {
@@ -165,6 +167,11 @@ std::string explain_failure(const Model& model, const Assembly& assembly, const 
       text += " " + short_number(step.iterations[i].force);
     text += "\n";
   }
+  const UniquenessCount unique = count_loss_of_uniqueness(assembly, StepKind::attempted);
+  if (unique.lost > 0)
+    text += "  loss of uniqueness: the determinant of the acoustic tensor is negative at " +
+            std::to_string(unique.lost) + " of " + std::to_string(unique.plastic) +
+            " yielding points (flow is not associated): a dilation angle nearer to friction helps\n";
   if (step.outcome == StepOutcome::law_cut) text += "  a law found no answer for the strain it was given.\n";
   text +=
       "  try: displacement control if a limit load is near; more increments; more iterations; method 2 "

@@ -36,12 +36,14 @@ double smallest_acoustic_ratio(const Matrix4& D, const Matrix4& elastic) {
   return least;
 }
 
-UniquenessCount count_loss_of_uniqueness(const Assembly& assembly) {
+UniquenessCount count_loss_of_uniqueness(const Assembly& assembly, StepKind step) {
   UniquenessCount count;
   for (const GroupData& data : assembly.groups()) {
     const auto* law = std::get_if<const SolidLaw*>(&data.law);
     if (!data.active || law == nullptr || (*law)->symmetric()) continue;
-    const PointStates &now = data.state.committed, &before = data.state.trial;
+    const bool done = step == StepKind::committed;
+    const PointStates& now = done ? data.state.committed : data.state.trial;
+    const PointStates& before = done ? data.state.trial : data.state.committed;
     const auto history = static_cast<std::size_t>(data.state.history_size());
     std::vector<double> h(history);
     for (std::size_t p = 0; p < now.status.size(); ++p) {

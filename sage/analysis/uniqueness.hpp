@@ -13,8 +13,11 @@ struct UniquenessCount {
   long lost = 0, plastic = 0;  // points with a negative ratio, of those that yield
 };
 
-// From the last step: right after a commit the trial states hold what stood before it.  Laws with a symmetric
-// tangent are left out, and so are interfaces.                                     [Rudnicki & Rice 1975]
-UniquenessCount count_loss_of_uniqueness(const Assembly& assembly);
+// Which step: the last one that was committed (right after it the trial states hold what stood before), or the
+// attempt that the trial states hold.
+enum class StepKind { committed, attempted };
+
+// Laws with a symmetric tangent are left out, and so are interfaces.               [Rudnicki & Rice 1975]
+UniquenessCount count_loss_of_uniqueness(const Assembly& assembly, StepKind step = StepKind::committed);
 
 }  // namespace sage

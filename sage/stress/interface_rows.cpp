@@ -35,6 +35,49 @@ void normal_stiffness(Sweep& s) {
   }
 }
 
+// Two blocks and a joint between them, turned by an angle, pressed along their axis (nu = 0): uniform traction,
+// and the ends approach by p (2/E + 1/kn).
+void inclined_patch(Sweep& s) {
+  const double p = 0.01;
+  for (double angle : {0.0, 30.0, 90.0})
+    for (int power = 0; power <= 12; power += 2) {
+      const double kn = std::pow(10.0, power), c = std::cos(angle * kRadiansPerDegree),
+                   t = std::sin(angle * kRadiansPerDegree);
+      const auto turned = [=](double low) {
+        return [=](double a, double b) { return Vector2(a * c - (low + b) * t, a * t + (low + b) * c); };
+      };
+      Block lower, upper;
+      lower.columns = upper.columns = 3;
+      lower.rows = upper.rows = 2;
+      upper.first_node = upper.first_element = 101;
+      lower.place = turned(0.0);
+      upper.place = turned(1.0);
+      DeckWriter deck(1);
+      lower.write_nodes(deck);
+      upper.write_nodes(deck);
+      deck.material(1, 1, {1.0, 0.0});
+      deck.material(2, 21, {kn, kn, 1.0});
+      deck.group(1, 1, 1, 1);
+      deck.group(2, 11, 0, 2);
+      lower.write_elements(deck, 1);
+      upper.write_elements(deck, 1);
+      join(deck, 201, 2, lower.top(), upper.bottom(), 1);
+      for (int n : lower.bottom()) deck.fix(n, 1, 1);
+      StageCards& stage = deck.stage();
+      for (int i = 0; i < 3; ++i) stage.pressure(upper.element(i, 1), 3, p, p);
+      const Ran ran = s.run(deck.text());
+      double error = kUnknown;
+      if (ran.completed()) {
+        error = (ran.run->stress[1].row(1).array() + p).abs().maxCoeff() / p;
+        const Vector2 u = ran.run->u(upper.top().front()), exact = p * (2.0 + 1.0 / kn) * Vector2(t, -c);
+        error = std::max(error, (u - exact).norm() / exact.norm());
+      }
+      Trial& trial = s.right(fmt::format("{:g} degrees, kn = 1e{} E/a", angle, power), kn, ran, error,
+                             1e-7 + 100.0 * kUnit * kn);
+      trial.series = fmt::format("{:g} degrees", angle);
+    }
+}
+
 // kn to infinity is one ring: what is missing is the interface's own flexibility.
 void bonded_limit(Sweep& s) {
   for (int power = 2; power <= 12; ++power) {
@@ -221,6 +264,9 @@ std::vector<Row> interface_rows() {
        "displacement; "
        "u = 1.1e-16",
        "kn a/E", true, normal_stiffness},
+      {"interface-patch", family, "kn from 1 to 1e12 E/a, a joint at 0, 30 and 90 degrees",
+       "uniform traction, closed form. Allowed: 1e-7 (coordinates of ten columns) + 100 u kn a/E", "kn a/E",
+       true, inclined_patch},
       {"interface-bonded", family, "kn to 1e12: the limit is the bonded ring",
        "Lame's one ring. Allowed: the interface's own flexibility 2 E/(kn a), and rounding 10 u kn a/E",
        "kn a/E", true, bonded_limit},

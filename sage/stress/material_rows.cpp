@@ -125,6 +125,73 @@ void chapter_replay(Sweep& s) {
   }
 }
 
+// Bonded cylinder L/D = 1 with b-bar: apparent modulus / E against an independent hp solution.  The error is
+// that of the mesh at the singular corner, and grows little with nu.
+void bonded_cylinder(Sweep& s) {
+  struct Value {
+    double nu, ratio;
+  };
+  for (const Value& v : {Value{.25, 1.036223}, Value{.3, 1.054303}, Value{.4, 1.107421}, Value{.45, 1.145877},
+                         Value{.49, 1.185011}, Value{.495, 1.190558}, Value{.499, 1.195115},
+                         Value{.4999, 1.196155}, Value{.4999999, 1.19627}}) {
+    Block block;
+    block.columns = block.rows = 40;
+    block.place = rectangle(0.0, 1.0, 0.0, 1.0);
+    DeckWriter deck(2);
+    block.write_nodes(deck);
+    deck.material(1, 1, {1.0, v.nu});
+    deck.group(1, 1, 2, 1);
+    block.write_elements(deck, 1);
+    for (int n : block.bottom()) deck.fix(n, 0, 1);
+    for (int n : block.left()) deck.fix(n, 1, 0);
+    StageCards& stage = deck.stage();
+    for (int n : block.top()) stage.fix(n, 1, 1, 0.0, -0.01);
+    const Ran ran = s.run(deck.text());
+    const double ratio =
+        ran.completed() ? -ran.run->reaction(ran.run->last(), block.top(), 1) / (kPi * 0.01) : kUnknown;
+    s.right(fmt::format("nu = {:.7g}", v.nu), 1.0 - 2.0 * v.nu, ran, ratio / v.ratio - 1.0, 3e-3);
+  }
+}
+
+// Cook's membrane in plane strain, 16 x 16: the top corner moves 22.61049 (nu = 1/3) and 19.4279 (nu = .4999).
+void cook(Sweep& s) {
+  struct Kind {
+    const char* name;
+    Cell cell;
+    int formulation;
+  };
+  for (const Kind& kind : {Kind{"quad4 b-bar", Cell::quad4, 2}, Kind{"quad8 reduced", Cell::quad8, 1},
+                           Kind{"quad4 full", Cell::quad4, 1}})
+    for (double nu : {1.0 / 3.0, 0.4999}) {
+      const bool locks = kind.formulation == 1 && kind.cell == Cell::quad4;
+      if (locks && nu < 0.4) continue;  // right, with a larger error of the mesh
+      Block block;
+      block.cell = kind.cell;
+      block.columns = block.rows = 16;
+      block.place = [](double a, double b) {
+        const double low = 44.0 * a, high = 44.0 + 16.0 * a;
+        return Vector2(48.0 * a, low + b * (high - low));
+      };
+      DeckWriter deck(1);
+      block.write_nodes(deck);
+      deck.material(1, 1, {1.0, nu});
+      deck.group(1, static_cast<int>(kind.cell), kind.formulation, 1);
+      block.write_elements(deck, 1);
+      for (int n : block.left()) deck.fix(n, 1, 1);
+      StageCards& stage = deck.stage();
+      for (int j = 0; j < block.rows; ++j)
+        stage.pressure(block.element(block.columns - 1, j), 2, 0.0, 0.0, 1.0 / 16.0, 1.0 / 16.0);
+      const Ran ran = s.run(deck.text());
+      const double exact = nu > 0.4 ? 19.4279 : 22.61049;
+      const double error = ran.completed() ? ran.run->u(block.top().back()).y() / exact - 1.0 : kUnknown;
+      const std::string label = fmt::format("{}, nu = {:.4g}", kind.name, nu);
+      if (locks)
+        s.says(label, kUnknown, ran, "full integration locks").error = std::abs(error);
+      else
+        s.right(label, kUnknown, ran, error, 0.03);
+    }
+}
+
 // Triaxial compression far beyond yield: q = sigma3 (N-1) + 2 c sqrt(N), for the cone too, which is matched
 // there.
 void friction(Sweep& s) {
@@ -363,6 +430,11 @@ std::vector<Row> material_rows() {
       {"poisson-refused", family, "nu = 0.5 and beyond", "-1 < nu < 1/2", "", false, poisson_refused},
       {"chapter-replay", family, "the source chapter's bonded specimen, nu = 0.495, both ways",
        "chapter 1.2403 (locked); converged hp solution 1.190558, 0.3 %", "", false, chapter_replay},
+      {"bonded-cylinder", family, "nu to 0.4999999: bonded ends, b-bar",
+       "independent hp solutions (the limit nu = 1/2 for the last), 40 x 40 elements. Allowed: 0.3 %",
+       "1 - 2 nu", true, bonded_cylinder},
+      {"cook", family, "Cook's membrane in plane strain",
+       "converged solutions 22.61049 and 19.4279 of the top corner, E = F = 1. Allowed: 3 %", "", false, cook},
       {"friction", family, "friction angle 0 to 89 degrees",
        "strength in triaxial compression, closed form. Allowed: 1e-8, the tolerance of equilibrium",
        "friction angle [degrees]", false, friction},

@@ -57,8 +57,9 @@ Ran Sweep::run(const std::string& deck, const BuildOptions& options, const RunSe
   try {
     ran.run = bench_->run(deck, options, settings);
   } catch (const InputError& error) {
-    for (const Diagnostic& d : error.diagnostics().list())
-      if (d.severity == Severity::error) ran.refusal += to_string(d) + "\n";
+    for (const Severity severity : {Severity::error, Severity::warning})
+      for (const Diagnostic& d : error.diagnostics().list())
+        if (d.severity == severity) ran.refusal += to_string(d) + "\n";
   } catch (const AnalysisError& error) {
     ran.refusal = error.what();
   }

@@ -10,6 +10,12 @@
 #include "sage/stress/report.hpp"
 
 namespace sage::stress {
+
+void PrintTo(const Row& row, std::ostream* out);
+void PrintTo(const Row& row, std::ostream* out) {
+  *out << row.name;
+}
+
 namespace {
 
 const study::Workbench& bench() {
@@ -28,10 +34,6 @@ std::string label(const testing::TestParamInfo<Row>& info) {
   std::string name = info.param.name;
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
-}
-
-void PrintTo(const Row& row, std::ostream* out) {
-  *out << row.name;
 }
 
 INSTANTIATE_TEST_SUITE_P(All, StressRow, testing::ValuesIn(all_rows()), label);
