@@ -106,7 +106,7 @@ TEST(CommandLine, MistakesGiveExitCode1AndNameTheWord) {
       {"compare deck.dat --both --geometry-b 1", "--geometry-b"},
       {"compare deck.dat --both --line 1,2,3", "has 3 numbers"},
       {"compare deck.dat --both --picture nonsense", "nonsense"},
-      {"compare deck.dat deck.dat deck.dat", "deck.dat"},
+      {"compare deck.dat deck.dat deck.dat", "At Most 2"},
       {"check", "DECK"},
       {"echo deck.dat another.dat", "another.dat"},
   };
