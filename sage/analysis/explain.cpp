@@ -108,9 +108,17 @@ std::string short_number(double value) {
 std::string bracket_line(const Model& model, const StepReport& report) {
   const Stage& stage = model.stages[static_cast<std::size_t>(report.stage)];
   const bool loads = !stage.loads.empty() || !stage.pressures.empty() || !stage.gravity.isZero(0.0);
-  return std::string(loads ? "  limit load: " : "  equilibrium ends: ") + "between " +
-         short_number(report.load_factor) + " and " + short_number(report.failed_at) + " of the stage's " +
-         (loads ? "load" : "displacement") + " (equilibrium was found at the first, not at the second)\n";
+  std::string from = short_number(report.load_factor), to = short_number(report.failed_at);
+  if (from == to) {  // a bracket narrower than four digits
+    char text[2][32];
+    std::snprintf(text[0], sizeof text[0], "%.9g", report.load_factor);
+    std::snprintf(text[1], sizeof text[1], "%.9g", report.failed_at);
+    from = text[0];
+    to = text[1];
+  }
+  return std::string(loads ? "  limit load: " : "  equilibrium ends: ") + "between " + from + " and " + to +
+         " of the stage's " + (loads ? "load" : "displacement") +
+         " (equilibrium was found at the first, not at the second)\n";
 }
 
 std::string dof_name(const Model& model, int dof) {

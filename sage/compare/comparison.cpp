@@ -183,10 +183,20 @@ std::map<std::pair<int, int>, ReportRow> by_step(const std::vector<ReportRow>& r
   return map;
 }
 
-std::set<std::pair<int, int>> stage_ends(const std::set<std::pair<int, int>>& steps) {
+// The last step of every stage, and the last that both sides reached.
+template <class ReportRow>
+std::set<std::pair<int, int>> shown_steps(const std::map<std::pair<int, int>, ReportRow>& a,
+                                          const std::map<std::pair<int, int>, ReportRow>& b) {
   std::map<int, int> last;
-  for (const auto& [stage, increment] : steps) last[stage] = std::max(last[stage], increment);
-  return {last.begin(), last.end()};
+  std::pair<int, int> common{0, 0};
+  for (const auto* rows : {&a, &b})
+    for (const auto& [step, row] : *rows) {
+      last[step.first] = std::max(last[step.first], step.second);
+      if (a.count(step) && b.count(step)) common = std::max(common, step);
+    }
+  std::set<std::pair<int, int>> shown(last.begin(), last.end());
+  if (common.first > 0) shown.insert(common);
+  return shown;
 }
 
 void add_triaxial(Comparison& c, const Side& a, const Side& b, std::size_t i) {
@@ -198,7 +208,7 @@ void add_triaxial(Comparison& c, const Side& a, const Side& b, std::size_t i) {
   std::set<std::pair<int, int>> steps;
   for (const auto* map : {&ra, &rb})
     for (const auto& [step, row] : *map) steps.insert(step);
-  const auto ends = stage_ends(steps);
+  const auto ends = shown_steps(ra, rb);
   const UnitSystem& u = units_of(a, b);
   for (const auto& step : steps) {
     std::vector<Row>& list = ends.count(step) ? c.rows : c.details;
@@ -231,7 +241,7 @@ void add_node_report(Comparison& c, const Side& a, const Side& b, std::size_t i)
   std::set<std::pair<int, int>> steps;
   for (const auto* map : {&ra, &rb})
     for (const auto& [step, row] : *map) steps.insert(step);
-  const auto ends = stage_ends(steps);
+  const auto ends = shown_steps(ra, rb);
   const auto area = [&](const Side& side) {
     return side.has_model() && i < side.model().reports.size()
                ? report_area(side.model(), side.model().reports[i])
@@ -376,6 +386,16 @@ void add_notes(Comparison& c, const Side& a, const Side& b) {
         "Forces are not comparable as they stand: axisymmetry has the full circle (2 pi r), plane strain a "
         "unit "
         "thickness. Compare the mean stresses of the sides.");
+  if (a.has_state() && b.has_state()) {
+    const StageState &last_a = a.stages().back(), &last_b = b.stages().back();
+    if (last_a.stage != last_b.stage || last_a.load_factor != last_b.load_factor)
+      c.notes.push_back(
+          fmt::format("The runs end at different loads, so that ends of stages, fields and theory are not for "
+                      "the same state: A at "
+                      "{:.4g} of stage {}, B at {:.4g} of stage {}. The reports also show the last increment "
+                      "that both reached.",
+                      last_a.load_factor, last_a.stage + 1, last_b.load_factor, last_b.stage + 1));
+  }
   const auto differ = [](const std::string& x, const std::string& y) { return x != "-" && y != "-" && x != y; };
   if (differ(ma.units.length, mb.units.length) || differ(ma.units.force, mb.units.force) ||
       differ(ma.units.stress, mb.units.stress))

@@ -314,6 +314,7 @@ TEST(Compare, OneSideFails) {
   EXPECT_NE(b.error(), "");
   const Comparison c = compare(a, b, {});
   EXPECT_NE(to_text(c, a, b).find("NOT COMPLETE"), std::string::npos);
+  EXPECT_NE(to_text(c, a, b).find("The runs end at different loads"), std::string::npos);
   EXPECT_NEAR(find(c.rows, "sides", "top: mean normal stress")->a, kCell + 0.01 * kE, 1e-8);
   EXPECT_NE(pair_svg(a, b, Field::stress_yy).find("NOT COMPLETE"), std::string::npos);
 
