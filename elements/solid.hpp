@@ -121,6 +121,13 @@ class Solid final : public PointElement<4, 2 * Shape::nodes, Rule::points> {
   std::span<const double> point_to_sample() const override { return to_samples_; }
   int degree() const override { return Shape::degree; }
 
+  bool shape_functions(const Vector2& parent, std::span<double> N, std::span<double> dN) const override {
+    const ShapeAt<Shape> at({parent.x(), parent.y()});
+    Eigen::Map<Vector<Shape::nodes>>(N.data()) = at.N;
+    Eigen::Map<Eigen::Matrix<double, Shape::nodes, 2>>(dN.data()) = at.dN;
+    return true;
+  }
+
   double shape_quality(const NodeCoordinates& x) const override { return quality(x); }
 
  private:

@@ -43,6 +43,12 @@ class CloughDuncan final : public InterfaceLaw {
   }
   bool initialise(const Vector2& sigma, std::span<double> h) const override;
   Outcome update(const PointIn<2>& in, PointOut<2>& out) const override;
+  std::string caution() const override {
+    if (p_.k_unit == 0.0) return "no shear resistance: the stiffness number k_j is zero";
+    if (p_.c == 0.0 && p_.tan_phi == 0.0 && p_.k_sf == 0.0)
+      return "no shear resistance: adhesion and friction are zero, and so is the stiffness after slip";
+    return {};
+  }
   double stress_level(const Vector2& sigma, std::span<const double> h) const override;
 
  private:

@@ -81,6 +81,19 @@ DruckerPrager::DruckerPrager(const DruckerPragerParameters& parameters)
   if (p_.cone.alpha > 0.0) p_max_ = std::min(p_max_, p_.cone.k / (3.0 * p_.cone.alpha));
 }
 
+// Triaxial extension meets sigma_3 = 0 along the whole cone where M = 3 sqrt(3) alpha = 3/2.
+std::string DruckerPrager::caution() const {
+  const double limit = 0.5 / std::sqrt(3.0);
+  if (p_.cone.alpha == 0.0 && p_.cone.k == 0.0)
+    return "cohesion and friction are zero: the material has no shear strength, any shear makes it a mechanism";
+  if (p_.cone.alpha >= limit * (1.0 - 1e-9))
+    return "the cone equals or exceeds the tension limit of Mohr-Coulomb (sin phi >= 3/5 where it is matched "
+           "in "
+           "triaxial compression): in triaxial extension it has no strength limit, and in plane strain with "
+           "associated flow it has none";
+  return {};
+}
+
 double DruckerPrager::scale(double p, double q) const {
   return p_.cone.k + 3.0 * p_.cone.alpha * std::abs(p) + q + 0.01 * std::abs(p);  // the last: rounding of s
 }

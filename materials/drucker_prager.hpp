@@ -44,6 +44,8 @@ class DruckerPrager final : public SolidLaw {
   bool symmetric() const override { return p_.cone.alpha == p_.beta && !p_.exact; }
   bool initialise(const Vector4& sigma, std::span<double> h) const override;
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override;
+  // A cone that reaches beyond Mohr-Coulomb's tension limit in triaxial extension, or no strength at all.
+  std::string caution() const override;
   // sqrt(J2D) / (alpha J1 + K) of the source chapter, J1 compression positive.
   double stress_level(const Vector4& sigma, std::span<const double> h) const override;
 

@@ -24,6 +24,9 @@ class Goodman final : public InterfaceLaw {
   bool linear() const override { return !p_.opens; }
   bool initialise(const Vector2& sigma, std::span<double> h) const override;
   Outcome update(const PointIn<2>& in, PointOut<2>& out) const override;
+  std::string caution() const override {
+    return p_.k_s > 0.0 ? "" : "no shear resistance: the shear stiffness is zero";
+  }
 
  private:
   enum { kGap };

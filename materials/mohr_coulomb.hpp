@@ -25,6 +25,10 @@ class MohrCoulomb final : public SolidLaw {
   bool symmetric() const override { return planes_.N == planes_.M; }
   bool initialise(const Vector4& sigma, std::span<double> h) const override;
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override;
+  std::string caution() const override {
+    if (planes_.Y > 0.0 || planes_.N > 1.0) return {};
+    return "cohesion and friction are zero: the material has no shear strength, any shear makes it a mechanism";
+  }
   double stress_level(const Vector4& sigma, std::span<const double> /*h*/) const override {
     return mohr_coulomb_level(planes_, sigma);
   }

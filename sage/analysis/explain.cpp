@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "sage/analysis/uniqueness.hpp"
+
 namespace sage {
 
 namespace {
@@ -41,6 +43,43 @@ Neighbours around(const Assembly& assembly, int node) {
   return result;
 }
 
+// True where a node's part of the mesh hangs on interfaces that are open at all their points: without those it
+// has no supports.
+bool behind_open_joint(const Model& model, const Assembly& assembly, int node) {
+  std::vector<std::vector<int>> bodies;  // nodes of each element that carries something
+  std::vector<char> reached(static_cast<std::size_t>(model.mesh.nodes()), 0);
+  bool any_open = false;
+  for (const GroupData& data : assembly.groups()) {
+    if (!data.active) continue;
+    const Group& group = *data.group;
+    const auto points = static_cast<std::size_t>(group.element->traits().points);
+    for (int e = 0; e < group.elements(); ++e) {
+      const auto first =
+          data.state.trial.status.begin() + static_cast<std::ptrdiff_t>(e * static_cast<int>(points));
+      const bool open = std::all_of(first, first + static_cast<std::ptrdiff_t>(points),
+                                    [](PointStatus s) { return s == PointStatus::open; });
+      any_open = any_open || open;
+      if (!open) bodies.emplace_back(group.nodes_of(e), group.nodes_of(e) + group.node_count());
+    }
+  }
+  if (!any_open) return false;
+  reached[static_cast<std::size_t>(node)] = 1;
+  for (bool grown = true; grown;) {
+    grown = false;
+    for (const std::vector<int>& nodes : bodies) {
+      const auto in = [&](int n) { return reached[static_cast<std::size_t>(n)] != 0; };
+      if (!std::any_of(nodes.begin(), nodes.end(), in) || std::all_of(nodes.begin(), nodes.end(), in)) continue;
+      for (int n : nodes) reached[static_cast<std::size_t>(n)] = 1;
+      grown = true;
+    }
+  }
+  for (std::size_t n = 0; n < reached.size(); ++n)
+    if (reached[n])
+      for (int c : {0, 1})
+        if (assembly.equation_of(2 * static_cast<int>(n) + c) < 0) return false;
+  return true;
+}
+
 std::string counts_line(const std::array<long, kStatuses>& points) {
   static constexpr const char* kNames[] = {"elastic",  "unloading", "yielded",
                                            "slipping", "open",      "at the apex"};
@@ -69,9 +108,17 @@ std::string short_number(double value) {
 std::string bracket_line(const Model& model, const StepReport& report) {
   const Stage& stage = model.stages[static_cast<std::size_t>(report.stage)];
   const bool loads = !stage.loads.empty() || !stage.pressures.empty() || !stage.gravity.isZero(0.0);
-  return std::string(loads ? "  limit load: " : "  equilibrium ends: ") + "between " +
-         short_number(report.load_factor) + " and " + short_number(report.failed_at) + " of the stage's " +
-         (loads ? "load" : "displacement") + " (equilibrium was found at the first, not at the second)\n";
+  std::string from = short_number(report.load_factor), to = short_number(report.failed_at);
+  if (from == to) {  // a bracket narrower than four digits
+    char text[2][32];
+    std::snprintf(text[0], sizeof text[0], "%.9g", report.load_factor);
+    std::snprintf(text[1], sizeof text[1], "%.9g", report.failed_at);
+    from = text[0];
+    to = text[1];
+  }
+  return std::string(loads ? "  limit load: " : "  equilibrium ends: ") + "between " + from + " and " + to +
+         " of the stage's " + (loads ? "load" : "displacement") +
+         " (equilibrium was found at the first, not at the second)\n";
 }
 
 std::string dof_name(const Model& model, int dof) {
@@ -88,7 +135,7 @@ std::string explain_singular(const Model& model, const Assembly& assembly, int e
   std::string text =
       "the stiffness matrix is singular at " + dof_name(model, dof) + " (" + solver_said + ").\n";
   text += "  elements there: " + near.elements + "\n  likely: ";
-  if (near.open_point)
+  if (near.open_point || behind_open_joint(model, assembly, dof / 2))
     text +=
         "an interface there is open and carries nothing: the part behind it is loose.\n"
         "  try: support that part, give the interface a small residual stiffness, or close it first.";
@@ -128,6 +175,11 @@ std::string explain_failure(const Model& model, const Assembly& assembly, const 
       text += " " + short_number(step.iterations[i].force);
     text += "\n";
   }
+  const UniquenessCount unique = count_loss_of_uniqueness(assembly, StepKind::attempted);
+  if (unique.lost > 0)
+    text += "  loss of uniqueness: the determinant of the acoustic tensor is negative at " +
+            std::to_string(unique.lost) + " of " + std::to_string(unique.plastic) +
+            " yielding points (flow is not associated): a dilation angle nearer to friction helps\n";
   if (step.outcome == StepOutcome::law_cut) text += "  a law found no answer for the strain it was given.\n";
   text +=
       "  try: displacement control if a limit load is near; more increments; more iterations; method 2 "

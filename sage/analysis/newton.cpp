@@ -46,6 +46,7 @@ class Step {
   IterationRecord measure() const;
   bool converged(const IterationRecord& record) const;
   bool linear_rounding(const IterationRecord& record) const;
+  bool at_rounding(const IterationRecord& record) const;
   double scale() const;
   void find_worst();
   void move(double factor);
@@ -178,9 +179,20 @@ bool Step::converged(const IterationRecord& record) const {
   const double tol = settings_.tolerance;
   if (record.displacement <= kRounding && record.step_length >= 1.0 && record.force <= std::sqrt(tol))
     return true;
-  if (!(record.force <= tol)) return linear_rounding(record);
+  if (!(record.force <= tol)) return at_rounding(record) || linear_rounding(record);
   return record.energy <= tol * tol || record.force <= 1e-3 * tol ||
          (record.energy <= tol && record.displacement <= std::sqrt(tol));
+}
+
+// Forces are K times displacements: what the rounding of those makes can't be balanced (stiff joints, nu near
+// 1/2). A residual of that size ends the step once corrections are tiny, if it is small beside the forces, or
+// if those are nothing but rounding themselves (a loose part that is moved without stress).
+bool Step::at_rounding(const IterationRecord& record) const {
+  constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon(), kTiny = 1e-6;
+  if (!(record.displacement <= kTiny) || record.step_length < 1.0 || residual_.size() == 0) return false;
+  const double floor = kRounding * stiffness_.solver->norm1() * du_.lpNorm<Eigen::Infinity>();
+  if (!(residual_.lpNorm<Eigen::Infinity>() <= floor)) return false;  // also where the solver has no norm
+  return record.force <= std::sqrt(settings_.tolerance) || scale() <= 1e3 * floor;
 }
 
 void Step::find_worst() {

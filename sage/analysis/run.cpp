@@ -6,6 +6,7 @@
 #include "sage/analysis/explain.hpp"
 #include "sage/analysis/loads.hpp"
 #include "sage/analysis/newton.hpp"
+#include "sage/analysis/uniqueness.hpp"
 
 namespace sage {
 
@@ -344,6 +345,11 @@ void Run::warn_about_numbers(int s, const EquilibriumAudit& sums) {
     warn(stage,
          std::to_string(apex) +
              " point(s) at the apex or cut off in tension: results there depend on how the law treats tension");
+  const UniquenessCount unique = count_loss_of_uniqueness(assembly_);
+  if (unique.lost > 0)
+    warn(stage, "loss of uniqueness: the determinant of the acoustic tensor is negative at " +
+                    std::to_string(unique.lost) + " of " + std::to_string(unique.plastic) +
+                    " yielding points (flow is not associated): the answer can depend on mesh and steps");
 }
 
 // Writing: as the state stands after an increment (place.increment > 0), or between two stages.  Within a stage

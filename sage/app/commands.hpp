@@ -37,5 +37,7 @@ Command list_command(CLI::App& root);
 Command tables_command(CLI::App& root);
 Command convert_command(CLI::App& root);
 Command verify_command(CLI::App& root);
+Command compare_command(CLI::App& root);
+Command stress_command(CLI::App& root);
 
 }  // namespace sage::app

@@ -96,6 +96,14 @@ class Element {
     return point_to_node();
   }
 
+  // N (nodes) and dN/d(xi, eta) (nodes x 2, column-major) at a place of the parent shape: the square (-1, 1)^2,
+  // or the triangle (0, 0) (1, 0) (0, 1) where there are three edges.  False: the element has no inside
+  // (interfaces).
+  virtual bool shape_functions(const Vector2& /*parent*/, std::span<double> /*N*/,
+                               std::span<double> /*dN*/) const {
+    return false;
+  }
+
   // Smallest detJ over the mean detJ at the integration points and corners; 1 = parallelogram, <= 0 = unusable.
   virtual double shape_quality(const NodeCoordinates& x) const = 0;
 

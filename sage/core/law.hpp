@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <variant>
 
@@ -79,6 +80,10 @@ class Law {
                             std::span<const double> /*h*/) const {
     return 0.0;
   }
+
+  // A warning for the user about parameters that are allowed but rarely meant, empty if there is none: e.g. a
+  // joint without any shear resistance.
+  virtual std::string caution() const { return {}; }
 
   // Mobilised fraction of strength at a state, 1 = at yield/slip; 0 for laws without strength.
   virtual double stress_level(const Vector<N>& /*sigma*/, std::span<const double> /*h*/) const { return 0.0; }

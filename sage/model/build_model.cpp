@@ -136,6 +136,19 @@ void check_totals(Builder& b) {
 
 }  // namespace build
 
+namespace {
+
+// With what reading warned of: a number that reads as zero may be why the model makes no sense.
+InputError refusal(const Deck& deck, const Diagnostics& problems) {
+  Diagnostics all;
+  for (const Diagnostic& d : deck.diagnostics.list())
+    if (d.severity == Severity::warning) all.add(d);
+  for (const Diagnostic& d : problems.list()) all.add(d);
+  return InputError(std::move(all));
+}
+
+}  // namespace
+
 Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOptions& options) {
   const Deck deck = canonical_deck(as_read, catalogue);
   build::Builder b{deck, catalogue, options, {}, {}, {}, {}, {}, {}, {}};
@@ -148,14 +161,14 @@ Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOp
   build::build_stages(b);
   build::build_reports(b);
   if (b.problems.errors() == 0) build::check_totals(b);
-  if (b.problems.errors() > 0) throw InputError(b.problems);
+  if (b.problems.errors() > 0) throw refusal(deck, b.problems);
   build::refine_as_asked(b);
-  if (b.problems.errors() > 0) throw InputError(b.problems);
+  if (b.problems.errors() > 0) throw refusal(deck, b.problems);
   build::make_mid_nodes(b);
   if (b.problems.errors() > 0) throw InputError(b.problems);
   build::check_model(b);
   if (b.problems.errors() == 0) build::check_plausible(b);
-  if (b.problems.errors() > 0) throw InputError(b.problems);
+  if (b.problems.errors() > 0) throw refusal(deck, b.problems);
   return std::move(b.model);
 }
 

@@ -77,5 +77,7 @@ void check_plausible(Builder& b);
 void check_interfaces(Builder& b);
 // Shapes, supports, unused nodes, radii, solver.
 void check_model(Builder& b);
+// Nodes at one place, hanging nodes.
+void check_joints(Builder& b);
 
 }  // namespace sage::build

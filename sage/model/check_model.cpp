@@ -2,7 +2,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <cstdio>
 
 #include "sage/model/activity.hpp"
 #include "sage/model/builder.hpp"
@@ -15,11 +15,30 @@ SourcePosition line_of(const Builder& b, int line) {
   return {b.deck.file, line, 0, 0};
 }
 
+std::string short_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+// Between the straight sides at the corners of a solid, in degrees.
+double largest_angle(const Eigen::Matrix2Xd& x, const Element& element) {
+  const auto& edges = element.edges();
+  double largest = 0.0;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const auto& before = edges[(i + edges.size() - 1) % edges.size()];
+    const Vector2 in = x.col(edges[i][0]) - x.col(before[0]), out = x.col(edges[i][1]) - x.col(edges[i][0]);
+    const double turn = std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out));
+    largest = std::max(largest, 180.0 - turn / kRadiansPerDegree);
+  }
+  return largest;
+}
+
 void check_shapes(Builder& b) {
   constexpr int kShown = 20;
   constexpr double kPoorShape = 0.1;
   int bad = 0, poor = 0;
-  double worst = 1.0;
+  double worst = 1.0, worst_angle = 0.0;
   std::string worst_name;
   SourcePosition worst_where;
   Eigen::Matrix2Xd x;
@@ -40,6 +59,7 @@ void check_shapes(Builder& b) {
         if (quality < kPoorShape) ++poor;
         if (quality < worst) {
           worst = quality;
+          worst_angle = largest_angle(x, *group.element);
           worst_name = name;
           worst_where = line_of(b, group.element_lines[eu]);
         }
@@ -56,7 +76,8 @@ void check_shapes(Builder& b) {
             "and " + std::to_string(bad - kShown) + " more elements with unusable shapes");
   if (poor > 0)
     b.warning(worst_where, std::to_string(poor) + " element(s) badly distorted; worst " + worst_name +
-                               ", smallest over mean Jacobian " + std::to_string(worst));
+                               ", smallest over mean Jacobian " + short_text(worst) + ", largest inner angle " +
+                               short_text(worst_angle) + " degrees");
 }
 
 // In axisymmetry a point on the axis can't move radially.
@@ -111,36 +132,27 @@ void note_unused_nodes(Builder& b) {
   }
 }
 
-// Coincident nodes that no interface joins: often two parts that were meant to be one.
-void note_coincident_nodes(Builder& b) {
-  const Mesh& mesh = b.model.mesh;
-  if (mesh.nodes() < 2) return;
-  const double reach = (mesh.x.rowwise().maxCoeff() - mesh.x.rowwise().minCoeff()).maxCoeff();
-  std::vector<int> order(static_cast<std::size_t>(mesh.nodes()));
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int i, int j) { return mesh.x(0, i) < mesh.x(0, j); });
-  std::vector<char> in_interface(order.size(), 0);
-  for (const Group& group : b.model.groups)
-    if (group.element->traits().law_size == 2)
-      for (int node : group.nodes) in_interface[static_cast<std::size_t>(node)] = 1;
-  const double tolerance = 1e-9 * reach;
-  int pairs = 0;
-  std::string first;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    for (std::size_t j = i + 1; j < order.size() && mesh.x(0, order[j]) - mesh.x(0, order[i]) <= tolerance;
-         ++j) {
-      if ((mesh.x.col(order[i]) - mesh.x.col(order[j])).norm() > tolerance) continue;
-      if (in_interface[static_cast<std::size_t>(order[i])] && in_interface[static_cast<std::size_t>(order[j])])
-        continue;
-      if (++pairs == 1)
-        first = std::to_string(mesh.number[static_cast<std::size_t>(order[i])]) + " and " +
-                std::to_string(mesh.number[static_cast<std::size_t>(order[j])]);
-    }
+// Materials that no group refers to are read and then ignored.
+void note_unused_materials(Builder& b) {
+  std::vector<char> used(b.model.materials.size(), 0);
+  for (const Group& group : b.model.groups) used[static_cast<std::size_t>(group.material)] = 1;
+  for (std::size_t m = 0; m < used.size(); ++m)
+    if (!used[m])
+      b.note(b.model.materials[m].where,
+             "material " + std::to_string(b.model.materials[m].number) + " is used by no group and is ignored");
+}
+
+// What the laws themselves find worth a warning, once a group.
+void warn_materials(Builder& b) {
+  for (const Group& group : b.model.groups) {
+    const Material& material = b.model.material_of(group);
+    const std::string words = std::visit([](const auto* law) { return law->caution(); }, material.law_ref());
+    if (words.empty()) continue;
+    const bool interface = group.element->traits().law_size == 2;
+    b.warning(group.where, (interface ? "interface set " : "group ") + std::to_string(group.number) +
+                               ", material " + std::to_string(material.number) + " (" + material.law_name +
+                               "): " + words);
   }
-  if (pairs > 0)
-    b.warning({b.deck.file, 0, 0, 0},
-              std::to_string(pairs) + " pair(s) of nodes at one place are joined by no interface, the first " +
-                  first + ": the parts are not connected there");
 }
 
 std::string mode_name(const Eigen::Vector3d& mode) {
@@ -151,13 +163,27 @@ std::string mode_name(const Eigen::Vector3d& mode) {
   return "a rigid rotation";
 }
 
+// "part that contains node 5 (4 nodes: 5, 6, 7, 8)"
+std::string part_name(const Model& model, const std::vector<int>& part, int p) {
+  constexpr int kShown = 8;
+  std::string first, list;
+  int count = 0;
+  for (std::size_t node = 0; node < part.size(); ++node) {
+    if (part[node] != p) continue;
+    const std::string number = std::to_string(model.mesh.number[node]);
+    if (++count == 1) first = number;
+    if (count <= kShown) list += (count > 1 ? ", " : "") + number;
+  }
+  return "part that contains node " + first + " (" + std::to_string(count) + " nodes: " + list +
+         (count > kShown ? ", ..." : "") + ")";
+}
+
 // Rigid motions left free, by connected part: rank of the supports' rows in the rigid modes.
 void check_supports_of(Builder& b, const Stage& stage, const Activity& activity) {
   const Model& model = b.model;
   const std::vector<int> part = connected_parts(model, activity);
   const int parts = part.empty() ? 0 : *std::max_element(part.begin(), part.end()) + 1;
   std::vector<Eigen::Matrix3d> gram(static_cast<std::size_t>(parts), Eigen::Matrix3d::Zero());
-  std::vector<int> first_node(static_cast<std::size_t>(parts), -1);
   const double reach =
       std::max(1e-300, (model.mesh.x.rowwise().maxCoeff() - model.mesh.x.rowwise().minCoeff()).maxCoeff());
   std::vector<Vector2> centre(static_cast<std::size_t>(parts), Vector2::Zero());
@@ -166,7 +192,7 @@ void check_supports_of(Builder& b, const Stage& stage, const Activity& activity)
     const int p = part[static_cast<std::size_t>(node)];
     if (p < 0) continue;
     centre[static_cast<std::size_t>(p)] += model.mesh.x.col(node);
-    if (count[static_cast<std::size_t>(p)]++ == 0) first_node[static_cast<std::size_t>(p)] = node;
+    ++count[static_cast<std::size_t>(p)];
   }
   for (std::size_t p = 0; p < centre.size(); ++p) centre[p] /= std::max(1, count[p]);
   for (int node = 0; node < model.mesh.nodes(); ++node) {
@@ -178,6 +204,8 @@ void check_supports_of(Builder& b, const Stage& stage, const Activity& activity)
     if (activity.held[static_cast<std::size_t>(2 * node)]) gram[pu] += row_x * row_x.transpose();
     if (activity.held[static_cast<std::size_t>(2 * node + 1)]) gram[pu] += row_y * row_y.transpose();
   }
+  constexpr int kShown = 5;
+  int loose = 0;
   for (std::size_t p = 0; p < gram.size(); ++p) {
     std::string mode;
     if (model.geometry == Geometry::axisymmetric) {
@@ -187,12 +215,10 @@ void check_supports_of(Builder& b, const Stage& stage, const Activity& activity)
       if (eigen.eigenvalues()[0] < 1e-10) mode = mode_name(eigen.eigenvectors().col(0));
     }
     if (mode.empty()) continue;
-    const int number = model.mesh.number[static_cast<std::size_t>(first_node[p])];
-    b.error(stage.where,
-            "stage " + std::to_string(stage.number) + ": nothing holds the " +
-                (gram.size() > 1 ? "part that contains node " + std::to_string(number) : std::string("mesh")) +
-                " against " + mode + "; add fixities");
-    return;
+    if (++loose > kShown) continue;
+    b.error(stage.where, "stage " + std::to_string(stage.number) + ": nothing holds the " +
+                             (gram.size() > 1 ? part_name(model, part, static_cast<int>(p)) : "mesh") +
+                             " against " + mode + "; add fixities");
   }
 }
 
@@ -263,7 +289,9 @@ void check_model(Builder& b) {
   if (b.problems.errors() == 0) check_interfaces(b);
   fix_axis(b);
   note_unused_nodes(b);
-  note_coincident_nodes(b);
+  note_unused_materials(b);
+  check_joints(b);
+  warn_materials(b);
   if (b.problems.errors() == 0) check_supports(b);
   check_solver(b);
   warn_locking(b);

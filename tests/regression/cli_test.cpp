@@ -42,6 +42,11 @@ TEST(CommandLine, HelpOfEverySubcommandNamesItsOptions) {
       {"list", {"WHAT", "elements", "materials", "solvers"}},
       {"tables", {"--cases", "--output", "--pinned"}},
       {"verify", {"--list", "--only", "--rows", "--csv", "--write"}},
+      {"stress", {"--list", "--only", "--details", "--csv", "--write"}},
+      {"compare",
+       {"DECK", "--both", "--formulation", "--element", "--geometry", "--solver", "--formulation-b",
+        "--element-b", "--geometry-b", "--solver-b", "--layout-b", "--line", "--point", "--picture", "--output",
+        "--strict"}},
   };
   for (const auto& [command, words] : commands) {
     const Finished help = sagefe(folder, command + " --help");
@@ -49,6 +54,34 @@ TEST(CommandLine, HelpOfEverySubcommandNamesItsOptions) {
     EXPECT_EQ(help.err, "");
     for (const char* word : words) expect_words(help.out, {word});
   }
+}
+
+// One side that can't be read: the other is reported, and the shell hears of it.
+TEST(CommandLine, CompareReportsTheSideThatRuns) {
+  const fs::path folder = empty_folder("compare");
+  write(folder / "deck.dat", block_deck().text());
+  write(folder / "bad.dat", "nothing\n");
+  const Finished both = sagefe(folder, "compare deck.dat --both --point 0.5,0.5 --picture stress_yy");
+  EXPECT_EQ(both.exit_code, 0) << both.err;
+  expect_words(both.out, {"A: deck.dat, plane strain", "B: deck.dat, axisymmetric", "forces per unit thickness",
+                          "forces for the full circle", "compression positive", "point"});
+  EXPECT_TRUE(fs::exists(folder / "out" / "deck.compare.csv"));
+  EXPECT_TRUE(fs::exists(folder / "out" / "deck.compare_stress_yy.svg"));
+  const Finished half = sagefe(folder, "compare deck.dat bad.dat");
+  EXPECT_EQ(half.exit_code, 3);
+  expect_words(half.out, {"completed", "NO RESULTS", "mean normal stress"});
+  EXPECT_EQ(sagefe(folder, "compare bad.dat --both").exit_code, 2);
+}
+
+TEST(CommandLine, StressWritesItsPageAndPlots) {
+  const fs::path folder = empty_folder("stress");
+  const Finished run =
+      sagefe(folder, "stress --only poisson-refused distortion --csv s.csv --write docs/stress.md");
+  EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+  expect_words(run.out, {"poisson-refused", "distortion", "2 rows, 0 failed"});
+  EXPECT_TRUE(fs::exists(folder / "s.csv"));
+  EXPECT_TRUE(fs::exists(folder / "docs" / "stress.md"));
+  EXPECT_TRUE(fs::exists(folder / "docs" / "stress" / "distortion.svg"));
 }
 
 TEST(CommandLine, VersionIsThreeNumbers) {
@@ -90,6 +123,12 @@ TEST(CommandLine, MistakesGiveExitCode1AndNameTheWord) {
       {"run deck.dat --grade corner", "corner"},
       {"run deck.dat --converge 0", "--converge"},
       {"list nonsense", "nonsense"},
+      {"stress --only nonsense", "nonsense"},
+      {"compare deck.dat", "--both"},
+      {"compare deck.dat --both --geometry-b 1", "--geometry-b"},
+      {"compare deck.dat --both --line 1,2,3", "has 3 numbers"},
+      {"compare deck.dat --both --picture nonsense", "nonsense"},
+      {"compare deck.dat deck.dat deck.dat", "At Most 2"},
       {"check", "DECK"},
       {"echo deck.dat another.dat", "another.dat"},
   };

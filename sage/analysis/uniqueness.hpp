@@ -1,0 +1,23 @@
+// Points whose tangent has lost uniqueness: a band of shear may form there at no cost.
+#pragma once
+
+#include "sage/analysis/assembly.hpp"
+
+namespace sage {
+
+// det of the acoustic tensor n D n for a direction in the plane, over that of the elastic tangent; the smallest
+// over all directions (a fan of 5 degrees).
+double smallest_acoustic_ratio(const Matrix4& D, const Matrix4& elastic);
+
+struct UniquenessCount {
+  long lost = 0, plastic = 0;  // points with a negative ratio, of those that yield
+};
+
+// Which step: the last one that was committed (right after it the trial states hold what stood before), or the
+// attempt that the trial states hold.
+enum class StepKind { committed, attempted };
+
+// Laws with a symmetric tangent are left out, and so are interfaces.               [Rudnicki & Rice 1975]
+UniquenessCount count_loss_of_uniqueness(const Assembly& assembly, StepKind step = StepKind::committed);
+
+}  // namespace sage

@@ -1,0 +1,473 @@
+#include "sage/compare/comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include "sage/output/values.hpp"
+
+namespace sage::compare {
+
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<double> numbers(const std::string& text, std::size_t count) {
+  std::vector<double> values;
+  std::size_t at = 0;
+  while (at <= text.size()) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    const std::string word = text.substr(at, comma - at);
+    std::size_t used = 0;
+    try {
+      values.push_back(std::stod(word, &used));
+    } catch (const std::exception&) {
+      used = std::string::npos;
+    }
+    if (used != word.size() || !std::isfinite(values.back()))
+      throw std::invalid_argument("\"" + word + "\" in \"" + text + "\" is not a number");
+    at = comma + 1;
+  }
+  if (values.size() != count)
+    throw std::invalid_argument(
+        fmt::format("\"{}\" has {} numbers, {} are needed", text, values.size(), count));
+  return values;
+}
+
+// The parts between colons.
+std::vector<std::string> parts_of(const std::string& text, std::size_t most) {
+  std::vector<std::string> parts{""};
+  for (char c : text) {
+    if (c == ':' && parts.size() < most)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+// Values of the same quantities of one side, by their place in a list.
+using Values = std::vector<std::pair<std::string, double>>;
+
+struct Table {
+  Comparison& comparison;
+  std::string section, unit;
+
+  void add(const std::string& name, double a, double b, double expected = kUnknown) const {
+    comparison.rows.push_back({section, name, unit, a, b, expected});
+  }
+  // Quantities by name; what only one side has stands with it alone.
+  void add(const Values& a, const Values& b) const {
+    const auto find = [](const Values& list, const std::string& name) {
+      for (const auto& [n, value] : list)
+        if (n == name) return value;
+      return kUnknown;
+    };
+    for (const auto& [name, value] : a) add(name, value, find(b, name));
+    for (const auto& [name, value] : b)
+      if (std::none_of(a.begin(), a.end(), [&, n = name](const auto& one) { return one.first == n; }))
+        add(name, kUnknown, value);
+  }
+};
+
+const Model* model_of(const Side& side) {
+  return side.has_model() ? &side.model() : nullptr;
+}
+
+const UnitSystem& units_of(const Side& a, const Side& b) {
+  static const UnitSystem none;
+  return model_of(a) != nullptr ? a.model().units : model_of(b) != nullptr ? b.model().units : none;
+}
+
+double part(long count, long all) {
+  return all > 0 ? static_cast<double>(count) / static_cast<double>(all) : kUnknown;
+}
+
+void add_course(Comparison& c, const Side& a, const Side& b) {
+  const auto course = [](const Side& side) {
+    Values v;
+    if (!side.has_model()) return v;
+    const RunRecord& r = side.record();
+    RunRecord::StageCount sum;
+    for (const auto& stage : r.stages) {
+      sum.increments += stage.increments;
+      sum.iterations += stage.iterations;
+      sum.cuts += stage.cuts;
+    }
+    v = {{"elements", r.scene.elements},
+         {"equations", r.equations},
+         {"stages done", r.result.stages_done},
+         {"increments done", r.result.increments_done},
+         {"iterations", sum.iterations},
+         {"cuts of a step", sum.cuts},
+         {"factorisations", static_cast<double>(r.result.work.factorisations)},
+         {"warnings", r.warnings}};
+    return v;
+  };
+  Table{c, "course", "-"}.add(course(a), course(b));
+  const Table time{c, "course", "s"};
+  time.add("time", a.has_model() ? a.record().seconds : kUnknown,
+           b.has_model() ? b.record().seconds : kUnknown);
+}
+
+void add_points(Comparison& c, const Side& a, const Side& b) {
+  const auto fractions = [](const Side& side) {
+    Values v;
+    if (!side.has_state()) return v;
+    const PointCounts n = count_points(side.last());
+    v.emplace_back("solids: yielded", part(n.yielded, n.solids));
+    v.emplace_back("solids: at the apex or cut off", part(n.apex, n.solids));
+    if (n.interfaces > 0) {
+      v.emplace_back("interfaces: slipping", part(n.slipping, n.interfaces));
+      v.emplace_back("interfaces: open", part(n.open, n.interfaces));
+    }
+    return v;
+  };
+  Table{c, "points", "-"}.add(fractions(a), fractions(b));
+}
+
+std::string axis(const Side& a, const Side& b, int component) {
+  const auto ring = [](const Side& s) { return s.has_model() && s.model().geometry == Geometry::axisymmetric; };
+  if (component == 0) return ring(a) && ring(b) ? "r" : ring(a) || ring(b) ? "x (r)" : "x";
+  return ring(a) && ring(b) ? "z" : ring(a) || ring(b) ? "y (z)" : "y";
+}
+
+void add_totals(Comparison& c, const Side& a, const Side& b) {
+  const std::size_t stages = std::max(a.stages().size(), b.stages().size());
+  for (std::size_t s = 0; s < stages; ++s) {
+    const Table table{c, fmt::format("forces, end of stage {}", s + 1), units_of(a, b).force};
+    const auto value = [&](const Side& side, Vector2 StageState::*what, int component) {
+      return s < side.stages().size() ? (side.stages()[s].*what)[component] : kUnknown;
+    };
+    for (int k : {0, 1})
+      for (const auto& [name, what] :
+           {std::pair{"loads", &StageState::applied}, std::pair{"reactions", &StageState::reactions}})
+        table.add(fmt::format("{} along {}", name, axis(a, b, k)), value(a, what, k), value(b, what, k));
+  }
+}
+
+void add_faces(Comparison& c, const Side& a, const Side& b) {
+  const std::size_t stages = std::max(a.stages().size(), b.stages().size());
+  for (std::size_t s = 0; s < stages; ++s) {
+    const auto stresses = [&](const Side& side) {
+      Values v;
+      if (s >= side.stages().size() || side.stages()[s].faces.empty()) return v;
+      for (std::size_t i = 0; i < side.faces().size(); ++i) {
+        const Face& face = side.faces()[i];
+        v.emplace_back(face.name + ": mean normal stress", normal_stress(face, side.stages()[s].faces[i]));
+        v.emplace_back(face.name + ": mean shear stress", shear_stress(face, side.stages()[s].faces[i]));
+      }
+      return v;
+    };
+    Table{c, fmt::format("sides, end of stage {}", s + 1), units_of(a, b).stress}.add(stresses(a), stresses(b));
+    const auto moduli = [&](const Side& side) {
+      Values v;
+      if (s >= side.stages().size() || side.stages()[s].faces.empty()) return v;
+      const double modulus = apparent_modulus(side, s);
+      if (!std::isnan(modulus)) v.emplace_back("stress of the top / strain of the height", modulus);
+      return v;
+    };
+    Table{c, fmt::format("sides, end of stage {}", s + 1), units_of(a, b).stress}.add(moduli(a), moduli(b));
+  }
+}
+
+// Rows of a report by stage and increment.
+template <class ReportRow>
+std::map<std::pair<int, int>, ReportRow> by_step(const std::vector<ReportRow>& rows) {
+  std::map<std::pair<int, int>, ReportRow> map;
+  for (const ReportRow& row : rows) map[{row.stage, row.increment}] = row;
+  return map;
+}
+
+// The last step of every stage, and the last that both sides reached.
+template <class ReportRow>
+std::set<std::pair<int, int>> shown_steps(const std::map<std::pair<int, int>, ReportRow>& a,
+                                          const std::map<std::pair<int, int>, ReportRow>& b) {
+  std::map<int, int> last;
+  std::pair<int, int> common{0, 0};
+  for (const auto* rows : {&a, &b})
+    for (const auto& [step, row] : *rows) {
+      last[step.first] = std::max(last[step.first], step.second);
+      if (a.count(step) && b.count(step)) common = std::max(common, step);
+    }
+  std::set<std::pair<int, int>> shown(last.begin(), last.end());
+  if (common.first > 0) shown.insert(common);
+  return shown;
+}
+
+void add_triaxial(Comparison& c, const Side& a, const Side& b, std::size_t i) {
+  const auto rows = [&](const Side& side) {
+    return side.has_model() && i < side.reports().count() ? by_step(side.reports().triaxial(i))
+                                                          : std::map<std::pair<int, int>, TriaxialRow>{};
+  };
+  const auto ra = rows(a), rb = rows(b);
+  std::set<std::pair<int, int>> steps;
+  for (const auto* map : {&ra, &rb})
+    for (const auto& [step, row] : *map) steps.insert(step);
+  const auto ends = shown_steps(ra, rb);
+  const UnitSystem& u = units_of(a, b);
+  for (const auto& step : steps) {
+    std::vector<Row>& list = ends.count(step) ? c.rows : c.details;
+    const auto value = [&](const auto& map, double TriaxialRow::*what) {
+      const auto it = map.find(step);
+      return it == map.end() ? kUnknown : it->second.*what;
+    };
+    const std::string section =
+        fmt::format("report {}, stage {}, increment {}", i + 1, step.first, step.second);
+    const auto add = [&](const char* name, const std::string& unit, double TriaxialRow::*what,
+                         double expected = kUnknown) {
+      list.push_back({section, name, unit, value(ra, what), value(rb, what), expected});
+    };
+    const double expected =
+        value(rb, &TriaxialRow::correct_deviator) / value(ra, &TriaxialRow::correct_deviator);
+    add("axial strain", "-", &TriaxialRow::axial_strain);
+    add("force", u.force, &TriaxialRow::force);
+    add("measured deviator", u.stress, &TriaxialRow::measured_deviator, expected);
+    add("correct deviator", u.stress, &TriaxialRow::correct_deviator);
+    add("measured / correct", "-", &TriaxialRow::ratio);
+  }
+}
+
+void add_node_report(Comparison& c, const Side& a, const Side& b, std::size_t i) {
+  const auto rows = [&](const Side& side) {
+    return side.has_model() && i < side.reports().count() ? by_step(side.reports().nodes(i))
+                                                          : std::map<std::pair<int, int>, NodesRow>{};
+  };
+  const auto ra = rows(a), rb = rows(b);
+  std::set<std::pair<int, int>> steps;
+  for (const auto* map : {&ra, &rb})
+    for (const auto& [step, row] : *map) steps.insert(step);
+  const auto ends = shown_steps(ra, rb);
+  const auto area = [&](const Side& side) {
+    return side.has_model() && i < side.model().reports.size()
+               ? report_area(side.model(), side.model().reports[i])
+               : kUnknown;
+  };
+  const UnitSystem& u = units_of(a, b);
+  for (const auto& step : steps) {
+    std::vector<Row>& list = ends.count(step) ? c.rows : c.details;
+    const std::string section =
+        fmt::format("report {}, stage {}, increment {}", i + 1, step.first, step.second);
+    for (int k : {0, 1}) {
+      const auto value = [&](const auto& map, auto what) {
+        const auto it = map.find(step);
+        return it == map.end() ? kUnknown : what(it->second)[k];
+      };
+      const auto moved = [](const NodesRow& row) { return row.displacement; };
+      const auto force = [](const NodesRow& row) { return row.force; };
+      const double fa = value(ra, force), fb = value(rb, force), area_a = area(a), area_b = area(b);
+      list.push_back({section, "mean displacement along " + axis(a, b, k), u.length, value(ra, moved),
+                      value(rb, moved), kUnknown});
+      list.push_back({section, "force along " + axis(a, b, k), u.force, fa, fb, kUnknown});
+      if (area_a > 0.0 || area_b > 0.0)
+        list.push_back({section, "force / area along " + axis(a, b, k), u.stress,
+                        area_a > 0.0 ? fa / area_a : kUnknown, area_b > 0.0 ? fb / area_b : kUnknown,
+                        kUnknown});
+    }
+  }
+}
+
+void add_reports(Comparison& c, const Side& a, const Side& b) {
+  const auto count = [](const Side& side) { return side.has_model() ? side.reports().count() : 0; };
+  for (std::size_t i = 0; i < std::max(count(a), count(b)); ++i) {
+    const Side& any = i < count(a) ? a : b;
+    if (any.model().reports[i].kind == ReportKind::triaxial)
+      add_triaxial(c, a, b, i);
+    else
+      add_node_report(c, a, b, i);
+  }
+}
+
+struct Component {
+  const char* name;
+  bool length;  // unit: length or stress
+  double (*of)(const Sample&);
+};
+
+constexpr Component kComponents[] = {
+    {"u_x", true, [](const Sample& s) { return s.u.x(); }},
+    {"u_y", true, [](const Sample& s) { return s.u.y(); }},
+    {"sigma_xx", false, [](const Sample& s) { return s.stress[0]; }},
+    {"sigma_yy", false, [](const Sample& s) { return s.stress[1]; }},
+    {"sigma_zz", false, [](const Sample& s) { return s.stress[2]; }},
+    {"sigma_xy", false, [](const Sample& s) { return s.stress[3]; }},
+    {"mean stress p", false, [](const Sample& s) { return s.mean; }},
+    {"deviator q", false, [](const Sample& s) { return s.deviator; }},
+};
+
+// A point is shown whole; a line by the means of its places, which are in the CSV one by one.
+void add_line(Comparison& c, const Side& a, const Side& b, const Line& line) {
+  const UnitSystem& u = units_of(a, b);
+  std::vector<Sample> samples[2];
+  const Side* sides[2] = {&a, &b};
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (!sides[k]->has_state()) continue;
+    const Solution last = sides[k]->last();
+    const Sampler sampler(sides[k]->model(), last);
+    for (int i = 0; i < line.n; ++i) {
+      const double t = line.n > 1 ? static_cast<double>(i) / (line.n - 1) : 0.0;
+      samples[k].push_back(sampler.at((1.0 - t) * line.from + t * line.to));
+    }
+  }
+  const auto value = [&](std::size_t k, int i, const Component& component) {
+    return samples[k].empty() ? kUnknown : component.of(samples[k][static_cast<std::size_t>(i)]);
+  };
+  for (int i = 0; i < line.n; ++i) {
+    const double t = line.n > 1 ? static_cast<double>(i) / (line.n - 1) : 0.0;
+    const Vector2 place = (1.0 - t) * line.from + t * line.to;
+    const std::string section = fmt::format("{} {} at ({:.6g}; {:.6g})", line.n > 1 ? "line" : "point",
+                                            line.name, place.x(), place.y());
+    for (const Component& component : kComponents)
+      (line.n > 1 ? c.details : c.rows)
+          .push_back({section, component.name, component.length ? u.length : u.stress, value(0, i, component),
+                      value(1, i, component), kUnknown});
+  }
+  if (line.n == 1) return;
+  const std::string section = fmt::format("line {}: mean of {} places", line.name, line.n);
+  for (const Component& component : kComponents) {
+    double mean[2] = {0.0, 0.0};
+    for (std::size_t k = 0; k < 2; ++k)
+      for (int i = 0; i < line.n; ++i) mean[k] += value(k, i, component) / line.n;
+    c.rows.push_back(
+        {section, component.name, component.length ? u.length : u.stress, mean[0], mean[1], kUnknown});
+  }
+}
+
+void set_scales(std::vector<Row>& rows) {
+  std::map<std::pair<std::string, std::string>, double> scale;
+  for (const Row& row : rows)
+    for (double value : {row.a, row.b}) {
+      double& largest = scale[{row.section, row.unit}];
+      if (std::abs(value) > largest) largest = std::abs(value);
+    }
+  for (Row& row : rows) row.scale = scale[{row.section, row.unit}];
+}
+
+bool same_mesh(const Side& a, const Side& b) {
+  if (!a.has_state() || !b.has_state()) return false;
+  const Mesh &ma = a.model().mesh, &mb = b.model().mesh;
+  return ma.number == mb.number && ma.x == mb.x;
+}
+
+// Same nodes: the largest displacement of each side, and the largest difference of any node.
+void add_nodal(Comparison& c, const Side& a, const Side& b) {
+  if (!same_mesh(a, b)) return;
+  const Eigen::VectorXd &ua = *a.last().u, &ub = *b.last().u;
+  for (int k : {0, 1}) {
+    const Table table{c, "nodes (same mesh)", units_of(a, b).length};
+    double largest_a = 0.0, largest_b = 0.0, difference = -1.0;
+    int worst = 0;
+    for (int n = 0; n < a.model().mesh.nodes(); ++n) {
+      largest_a = std::max(largest_a, std::abs(ua[2 * n + k]));
+      largest_b = std::max(largest_b, std::abs(ub[2 * n + k]));
+      const double d = std::abs(ub[2 * n + k] - ua[2 * n + k]);
+      if (d > difference) {
+        difference = d;
+        worst = n;
+      }
+    }
+    const std::string direction = axis(a, b, k);
+    table.add("largest |u| along " + direction, largest_a, largest_b);
+    table.add(fmt::format("u along {} of node {} (largest difference)", direction,
+                          a.model().mesh.number[static_cast<std::size_t>(worst)]),
+              ua[2 * worst + k], ub[2 * worst + k]);
+  }
+}
+
+void add_notes(Comparison& c, const Side& a, const Side& b) {
+  if (!a.has_model() || !b.has_model()) return;
+  const Model &ma = a.model(), &mb = b.model();
+  if (ma.geometry != mb.geometry)
+    c.notes.push_back(
+        "Forces are not comparable as they stand: axisymmetry has the full circle (2 pi r), plane strain a "
+        "unit "
+        "thickness. Compare the mean stresses of the sides.");
+  if (a.has_state() && b.has_state()) {
+    const StageState &last_a = a.stages().back(), &last_b = b.stages().back();
+    if (last_a.stage != last_b.stage || last_a.load_factor != last_b.load_factor)
+      c.notes.push_back(
+          fmt::format("The runs end at different loads, so that ends of stages, fields and theory are not for "
+                      "the same state: A at "
+                      "{:.4g} of stage {}, B at {:.4g} of stage {}. The reports also show the last increment "
+                      "that both reached.",
+                      last_a.load_factor, last_a.stage + 1, last_b.load_factor, last_b.stage + 1));
+  }
+  const auto differ = [](const std::string& x, const std::string& y) { return x != "-" && y != "-" && x != y; };
+  if (differ(ma.units.length, mb.units.length) || differ(ma.units.force, mb.units.force) ||
+      differ(ma.units.stress, mb.units.stress))
+    c.notes.push_back(fmt::format(
+        "The decks have different units ({} {} {} and {} {} {}): numbers are not converted.", ma.units.length,
+        ma.units.force, ma.units.stress, mb.units.length, mb.units.force, mb.units.stress));
+  const auto elements = [](const Model& m) {
+    std::set<std::string> names;
+    for (const Group& g : m.groups) names.insert(g.element_name);
+    return names;
+  };
+  const auto laws = [](const Model& m) {
+    std::vector<std::pair<std::string, std::vector<double>>> list;
+    for (const Material& material : m.materials) list.emplace_back(material.law_name, material.parameters);
+    return list;
+  };
+  const bool same_elements = elements(ma) == elements(mb), same_laws = laws(ma) == laws(mb);
+  if (ma.geometry == mb.geometry && same_laws && same_mesh(a, b)) {
+    if (same_elements)
+      c.notes.push_back(
+          "Same mesh, elements, laws and geometry: the equations are the same, and theory expects "
+          "differences of rounding and of the tolerance of equilibrium only.");
+    else
+      c.notes.push_back(
+          "Same mesh, laws and geometry, other elements: both tend to the same answer as meshes get "
+          "finer; the difference shows the size of the mesh's error.");
+  }
+  if (!same_mesh(a, b) && a.has_state() && b.has_state())
+    c.notes.push_back("The meshes differ: fields are compared on lines and at points only.");
+}
+
+}  // namespace
+
+double Row::relative() const {
+  constexpr double kRounding = 1e-10;
+  if (a == b) return 0.0;
+  return std::abs(a) > kRounding * scale ? (b - a) / std::abs(a) : kUnknown;
+}
+
+Line line_from_text(const std::string& text) {
+  const std::vector<std::string> parts = parts_of(text, 3);
+  const std::vector<double> v = numbers(parts[0], 4);
+  Line line{{v[0], v[1]}, {v[2], v[3]}, parts.size() > 1 ? parts[1] : parts[0], 11};
+  if (parts.size() > 2) {
+    const double n = numbers(parts[2], 1)[0];
+    if (n != std::floor(n) || n < 2.0 || n > 10000.0)
+      throw std::invalid_argument("\"" + parts[2] + "\": a line has 2 to 10000 places");
+    line.n = static_cast<int>(n);
+  }
+  return line;
+}
+
+Line point_from_text(const std::string& text) {
+  const std::vector<std::string> parts = parts_of(text, 2);
+  const std::vector<double> v = numbers(parts[0], 2);
+  return {{v[0], v[1]}, {v[0], v[1]}, parts.size() > 1 ? parts[1] : "", 1};
+}
+
+Comparison compare(const Side& a, const Side& b, const std::vector<Line>& lines) {
+  Comparison c;
+  add_course(c, a, b);
+  add_points(c, a, b);
+  add_totals(c, a, b);
+  add_faces(c, a, b);
+  add_reports(c, a, b);
+  for (const Line& line : lines) add_line(c, a, b, line);
+  add_nodal(c, a, b);
+  set_scales(c.rows);
+  set_scales(c.details);
+  c.theory = expectations(a, b);
+  add_notes(c, a, b);
+  return c;
+}
+
+}  // namespace sage::compare

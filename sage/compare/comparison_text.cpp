@@ -1,0 +1,118 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+#include "sage/compare/comparison.hpp"
+#include "sage/output/number.hpp"
+#include "sage/output/values.hpp"
+
+namespace sage::compare {
+
+namespace {
+
+constexpr int kDigits = 10;
+
+// Rounding beside numbers of size `scale` is shown as 0; the CSV has it.
+std::string shown(double value, double scale = 0.0) {
+  if (std::abs(value) < 1e-11 * scale) return "0";
+  return std::isnan(value) ? "-" : fmt::format("{:.6g}", value);
+}
+
+std::string shown_relative(const Row& row) {
+  const double r = row.relative();
+  if (std::isnan(r)) return "-";
+  return std::abs(r) < 1e-4 && r != 0.0 ? fmt::format("{:+.1e}", r) : fmt::format("{:+.3f}%", 100.0 * r);
+}
+
+void table(std::string& text, const std::vector<Row>& rows) {
+  const auto out = std::back_inserter(text);
+  std::string section;
+  for (const Row& row : rows) {
+    if (row.section != section) {
+      section = row.section;
+      fmt::format_to(out, "\n{:<46} {:>8} {:>13} {:>13} {:>13} {:>10} {:>9}\n", section, "unit", "A", "B",
+                     "B - A", "relative", "B/A exp.");
+    }
+    fmt::format_to(out, "  {:<44} {:>8} {:>13} {:>13} {:>13} {:>10} {:>9}\n", row.name, row.unit,
+                   shown(row.a, row.scale), shown(row.b, row.scale), shown(row.difference(), row.scale),
+                   shown_relative(row), shown(row.expected));
+  }
+}
+
+std::string outcome(const Side& side) {
+  if (side.error().empty()) return "completed: every increment in equilibrium";
+  const std::string reason = one_line(side.error());
+  return (side.has_state() ? "NOT COMPLETE, compared up to its last state in equilibrium: " : "NO RESULTS: ") +
+         reason;
+}
+
+std::string signs(const Side& a, const Side& b) {
+  std::string text =
+      "stress and strain compression positive; displacements, loads and reactions along the axes; shear stress "
+      "of "
+      "a side along +x or +y";
+  for (const Side* side : {&a, &b})
+    if (side->has_model())
+      text += fmt::format("; {}: forces {}", side == &a ? "A" : "B",
+                          side->model().geometry == Geometry::axisymmetric ? "for the full circle (2 pi r)"
+                                                                           : "per unit thickness");
+  return text;
+}
+
+void cells(std::string& text, std::initializer_list<double> values) {
+  for (double value : values) {
+    text += ',';
+    if (!std::isnan(value)) append_plain(text, value, kDigits);
+  }
+  text += '\n';
+}
+
+}  // namespace
+
+std::string to_text(const Comparison& c, const Side& a, const Side& b) {
+  std::string text;
+  const auto out = std::back_inserter(text);
+  for (const Side* side : {&a, &b}) fmt::format_to(out, "{}\n   {}\n", side->label(), outcome(*side));
+  table(text, c.rows);
+  if (!c.theory.empty()) {
+    fmt::format_to(out, "\n{:<46} {:>8} {:>13} {:>13} {:>10}\n", "theory", "unit", "expected", "found",
+                   "relative");
+    for (const Expectation& e : c.theory) {
+      const Row row{"", "", "", e.expected, e.found};
+      fmt::format_to(out, "  {:<44} {:>8} {:>13} {:>13} {:>10}  {}\n", e.what, e.unit, shown(e.expected),
+                     shown(e.found), std::isfinite(e.expected) ? shown_relative(row) : "-", e.why);
+    }
+  }
+  text += '\n';
+  for (const std::string& note : c.notes) text += "note: " + note + "\n";
+  text +=
+      "relative: (B - A) / |A|, or (found - expected) / |expected|. B/A exp.: what theory expects of B / A.\n";
+  text += "signs: " + signs(a, b) + "\n";
+  return text;
+}
+
+std::string to_csv(const Comparison& c, const Side& a, const Side& b) {
+  std::string text;
+  for (const Side* side : {&a, &b}) text += "# " + side->label() + ": " + outcome(*side) + "\n";
+  text += "# signs: " + signs(a, b) + "\n";
+  for (const std::string& note : c.notes) text += "# " + note + "\n";
+  text += "section,quantity,unit,A,B,difference,relative[-],expected_ratio[-]\n";
+  const auto quoted = [](std::string words) {
+    std::erase(words, '"');
+    return words.find(',') == std::string::npos ? words : "\"" + words + "\"";
+  };
+  for (const auto* list : {&c.rows, &c.details})
+    for (const Row& row : *list) {
+      text += quoted(row.section) + "," + quoted(row.name) + "," + quoted(row.unit);
+      cells(text, {row.a, row.b, row.difference(), row.relative(), row.expected});
+    }
+  for (const Expectation& e : c.theory) {
+    text += "theory (A = expected; B = found)," + quoted(e.what) + "," + quoted(e.unit);
+    const Row row{"", "", "", e.expected, e.found};
+    cells(text, {e.expected, e.found, e.found - e.expected, row.relative(), std::nan("")});
+  }
+  return text;
+}
+
+}  // namespace sage::compare

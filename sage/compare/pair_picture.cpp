@@ -1,0 +1,88 @@
+#include "sage/compare/pair_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+
+#include "sage/output/picture_field.hpp"
+#include "sage/output/svg.hpp"
+#include "sage/output/values.hpp"
+
+namespace sage::compare {
+
+namespace {
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
+};
+
+// Values at the nodes of solids; interfaces have none.
+void widen(Range& range, const Side& side, Field field) {
+  const Solution now = side.last();
+  const NodalLayout layout = nodal_layout(side.model(), *now.activity);
+  const std::vector<double> values = field_values(side.model(), now, layout, field);
+  for (std::size_t g = 0; g < side.model().groups.size(); ++g) {
+    if (side.model().groups[g].element->traits().law_size != 4) continue;
+    for (int entry : layout.of_group[g]) {
+      range.low = std::min(range.low, values[static_cast<std::size_t>(entry)]);
+      range.high = std::max(range.high, values[static_cast<std::size_t>(entry)]);
+    }
+  }
+}
+
+struct Size {
+  int width = 360, height = 200;
+};
+
+// Of a picture, from its first line.
+Size size_of(const std::string& svg) {
+  Size size;
+  const std::size_t at = svg.find("width=\"");
+  if (at != std::string::npos)
+    std::sscanf(svg.c_str() + at, "width=\"%d\" height=\"%d\"", &size.width, &size.height);
+  return size;
+}
+
+}  // namespace
+
+std::string pair_svg(const Side& a, const Side& b, Field field) {
+  constexpr int kTop = 44, kGap = 16, kBottom = 30;
+  Range range;
+  for (const Side* side : {&a, &b})
+    if (side->has_state()) widen(range, *side, field);
+  PictureOptions options;
+  options.width = 560;
+  options.low = range.low;
+  options.high = range.high;
+  std::string drawings[2];
+  Size sizes[2];
+  const Side* sides[2] = {&a, &b};
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (!sides[k]->has_state()) continue;
+    options.state = sides[k]->error().empty() ? "end of the run" : "NOT COMPLETE, last equilibrium";
+    options.title = k == 0 ? "A" : "B";
+    drawings[k] = field_svg(sides[k]->model(), sides[k]->last(), field, options);
+    sizes[k] = size_of(drawings[k]);
+  }
+  std::size_t longest = std::max(a.label().size(), b.label().size());
+  const int width = std::max(sizes[0].width + kGap + sizes[1].width, 16 + static_cast<int>(8 * longest));
+  const int height = kTop + std::max(sizes[0].height, sizes[1].height) + kBottom;
+  std::string out = svg::open(width, height);
+  svg::text(out, 8.0, 18.0, a.label(), 14, "start");
+  svg::text(out, 8.0, 38.0, b.label(), 14, "start");
+  for (std::size_t k = 0; k < 2; ++k) {
+    const int left = k == 0 ? 0 : sizes[0].width + kGap;
+    if (drawings[k].empty()) {
+      svg::text(out, left + 8.0, kTop + 40.0, std::string(k == 0 ? "A" : "B") + " has no results", 16, "start",
+                "font-weight=\"bold\"");
+      continue;
+    }
+    out += fmt::format("<g transform=\"translate({} {})\">\n{}</g>\n", left, kTop, drawings[k]);
+  }
+  svg::text(out, 8.0, height - 10.0, "one scale of colours for both", 13, "start");
+  return out + std::string(svg::kClose);
+}
+
+}  // namespace sage::compare

@@ -1,0 +1,161 @@
+#include "sage/compare/side.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "sage/output/values.hpp"
+
+namespace sage::compare {
+
+std::vector<Face> faces_of(const Model& model) {
+  std::vector<char> used(static_cast<std::size_t>(model.mesh.nodes()), 0);
+  for (const Group& group : model.groups)
+    for (int node : group.nodes) used[static_cast<std::size_t>(node)] = 1;
+  const double infinite = std::numeric_limits<double>::infinity();
+  Vector2 low(infinite, infinite), high(-infinite, -infinite);
+  for (int n = 0; n < model.mesh.nodes(); ++n)
+    if (used[static_cast<std::size_t>(n)]) {
+      low = low.cwiseMin(model.mesh.x.col(n));
+      high = high.cwiseMax(model.mesh.x.col(n));
+    }
+  const Vector2 size = high - low;
+  const double tolerance = 1e-6 * size.maxCoeff();
+  const bool ring = model.geometry == Geometry::axisymmetric;
+  std::vector<Face> faces;
+  const auto add = [&](const char* name, int normal, double outward) {
+    const double place = outward < 0.0 ? low[normal] : high[normal];
+    if (ring && normal == 0 && std::abs(place) <= tolerance) return;
+    Face face{name, normal, outward, {}, {}, 0.0, size[normal]};
+    for (int n = 0; n < model.mesh.nodes(); ++n)
+      if (used[static_cast<std::size_t>(n)] && std::abs(model.mesh.x(normal, n) - place) <= tolerance) {
+        const double along = model.mesh.x(1 - normal, n);
+        face.nodes.push_back(n);
+        face.at_end.push_back(std::min(along - low[1 - normal], high[1 - normal] - along) <= tolerance ? 1 : 0);
+      }
+    const double width = size[1 - normal];
+    face.area = !ring         ? width
+                : normal == 0 ? 2.0 * kPi * std::abs(place) * width
+                              : kPi * (high.x() * high.x() - low.x() * low.x());
+    faces.push_back(std::move(face));
+  };
+  add("bottom", 1, -1.0);
+  add("top", 1, 1.0);
+  add("left", 0, -1.0);
+  add("right", 0, 1.0);
+  return faces;
+}
+
+double normal_stress(const Face& face, const FaceState& state) {
+  return 0.0 - face.outward * state.force[face.normal] / face.area;
+}
+
+double shear_stress(const Face& face, const FaceState& state) {
+  return state.force[1 - face.normal] / face.area;
+}
+
+PointCounts count_points(const Solution& solution) {
+  PointCounts counts;
+  for (const GroupData& data : solution.assembly->groups()) {
+    if (!data.active) continue;
+    const bool solid = data.state.law_size() == 4;
+    for (PointStatus status : data.state.committed.status) {
+      ++(solid ? counts.solids : counts.interfaces);
+      if (solid) {
+        counts.yielded += status == PointStatus::yielded || status == PointStatus::apex ? 1 : 0;
+        counts.apex += status == PointStatus::apex ? 1 : 0;
+      } else {
+        counts.slipping += status == PointStatus::slipping ? 1 : 0;
+        counts.open += status == PointStatus::open ? 1 : 0;
+      }
+    }
+  }
+  return counts;
+}
+
+Side::Side(std::string label, Model model, const std::filesystem::path& folder, const std::string& stem)
+    : label_(std::move(label)),
+      model_(std::make_unique<Model>(std::move(model))),
+      reports_(std::make_unique<Reports>(folder, stem)),
+      faces_(faces_of(*model_)) {}
+
+void Side::run(const Catalogue& catalogue, const RunSettings& settings) {
+  const auto start = std::chrono::steady_clock::now();
+  Observer* observers[] = {this};
+  try {
+    const RunResult result = sage::run(*model_, catalogue, settings, observers);
+    if (result.status != RunStatus::completed) error_ = result.reason;
+  } catch (const OutputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    error_ = error.what();
+    reports_->stop(error_);
+  }
+  record_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::vector<FaceState> Side::face_states(const Solution& now) const {
+  std::vector<FaceState> states;
+  for (const Face& face : faces_) {
+    FaceState state;
+    for (std::size_t i = 0; i < face.nodes.size(); ++i) {
+      const int node = face.nodes[i];
+      const Vector2 force = now.internal->segment<2>(2 * node);
+      state.force += force;
+      if (!face.at_end[i]) state.inner_force += force;
+      state.displacement += now.u->segment<2>(2 * node) / static_cast<double>(face.nodes.size());
+    }
+    states.push_back(state);
+  }
+  return states;
+}
+
+void Side::on_start(const Model& model, const Scene& scene, std::string_view solver, int equations) {
+  record_.on_start(model, scene, solver, equations);
+  reports_->on_start(model, scene, solver, equations);
+}
+
+void Side::on_stage_start(const Model& model, int stage, const Solution& now) {
+  reports_->on_stage_start(model, stage, now);
+  if (stage == 0) first_ = std::make_unique<KeptState>(model, now);
+  StageState state;
+  state.stage = stage;
+  state.faces_before = face_states(now);
+  stages_.push_back(std::move(state));
+}
+
+void Side::on_increment(const Model& model, const StepReport& report, const Solution& now) {
+  record_.on_increment(model, report, now);
+  reports_->on_increment(model, report, now);
+}
+
+void Side::close_stage(double load_factor, const Solution& now) {
+  StageState& state = stages_.back();
+  state.load_factor = load_factor;
+  state.faces = face_states(now);
+  for (int dof = 0; dof < model_->dofs(); ++dof) {
+    state.applied[dof % 2] += (*now.external)[dof];
+    if (now.activity->held[static_cast<std::size_t>(dof)]) state.reactions[dof % 2] += reaction(now, dof);
+  }
+  last_ = std::make_unique<KeptState>(*model_, now);
+}
+
+void Side::on_stage_end(const Model& model, int stage, const EquilibriumAudit& audit, const Solution& now) {
+  record_.on_stage_end(model, stage, audit, now);
+  reports_->on_stage_end(model, stage, audit, now);
+  close_stage(1.0, now);
+}
+
+void Side::on_failure(const Model& model, const StepReport& report, const std::string& reason,
+                      const Solution& now) {
+  record_.on_failure(model, report, reason, now);
+  reports_->on_failure(model, report, reason, now);
+  close_stage(report.load_factor, now);
+}
+
+void Side::on_finish(const Model& model, const RunResult& result) {
+  record_.on_finish(model, result);
+  reports_->on_finish(model, result);
+}
+
+}  // namespace sage::compare

@@ -1,0 +1,97 @@
+// One of the two runs that a comparison sets side by side, with all that the comparison looks at.
+#pragma once
+
+#include <memory>
+
+#include "sage/analysis/run.hpp"
+#include "sage/output/kept_state.hpp"
+#include "sage/output/report.hpp"
+#include "sage/output/summary.hpp"
+
+namespace sage::compare {
+
+// A straight side of the box around the mesh.
+struct Face {
+  std::string name;  // bottom, top, left, right
+  int normal = 0;    // direction of the outward normal: 0 = x, 1 = y
+  double outward = 1.0;
+  std::vector<int> nodes;
+  std::vector<char> at_end;  // of each node: it belongs to another face too
+  double area = 0.0;         // width of the box times unit thickness, or the full ring
+  double length = 0.0;       // distance to the opposite face
+};
+
+// Bottom, top, left, right of the nodes in use; no left face on the axis r = 0, where there is no area.
+std::vector<Face> faces_of(const Model& model);
+
+// What the outside does to a face, along +x and +y: the sum of its nodes' internal forces (supports, loads and
+// the nodes' share of body forces).
+struct FaceState {
+  Vector2 force = Vector2::Zero();
+  Vector2 inner_force = Vector2::Zero();   // the same without the nodes at the face's ends
+  Vector2 displacement = Vector2::Zero();  // plain mean of the nodes
+};
+
+// Stress of a face, compression positive: mean normal stress, and mean shear along +y or +x.
+double normal_stress(const Face& face, const FaceState& state);
+double shear_stress(const Face& face, const FaceState& state);
+
+struct StageState {
+  int stage = 0;             // from 0
+  double load_factor = 1.0;  // reached; below 1 where the run failed
+  Vector2 applied = Vector2::Zero(), reactions = Vector2::Zero();
+  std::vector<FaceState> faces_before, faces;  // at the start and at the end
+};
+
+// Numbers of integration points.
+struct PointCounts {
+  long solids = 0, yielded = 0, apex = 0;  // yielded: apex included
+  long interfaces = 0, slipping = 0, open = 0;
+};
+PointCounts count_points(const Solution& solution);
+
+class Side final : public Observer {
+ public:
+  // label: "A: deck.dat, plane strain".  Reports go to folder/stem.report1.csv ...
+  Side(std::string label, Model model, const std::filesystem::path& folder, const std::string& stem);
+  // A side that could not even begin.
+  Side(std::string label, std::string error) : label_(std::move(label)), error_(std::move(error)) {}
+
+  // Runs the model; what is thrown ends in error().
+  void run(const Catalogue& catalogue, const RunSettings& settings);
+
+  const std::string& label() const { return label_; }
+  // Empty when the run is complete; otherwise why not.  The last state in equilibrium may still be there.
+  const std::string& error() const { return error_; }
+  bool has_model() const { return model_ != nullptr; }
+  bool has_state() const { return last_ != nullptr; }
+  const Model& model() const { return *model_; }
+  const RunRecord& record() const { return record_; }
+  const Reports& reports() const { return *reports_; }
+  const std::vector<Face>& faces() const { return faces_; }
+  const std::vector<StageState>& stages() const { return stages_; }
+  Solution first() const { return first_->view(); }  // before the first increment
+  Solution last() const { return last_->view(); }
+
+  void on_warning(const Diagnostic& d) override { record_.on_warning(d); }
+  void on_start(const Model&, const Scene&, std::string_view solver, int equations) override;
+  void on_stage_start(const Model&, int stage, const Solution&) override;
+  void on_increment(const Model&, const StepReport&, const Solution&) override;
+  void on_stage_end(const Model&, int stage, const EquilibriumAudit&, const Solution&) override;
+  void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
+  void on_finish(const Model&, const RunResult&) override;
+
+ private:
+  std::vector<FaceState> face_states(const Solution& now) const;
+  void close_stage(double load_factor, const Solution& now);
+
+  std::string label_, error_;
+  std::unique_ptr<Model> model_;
+  std::unique_ptr<Reports> reports_;
+  RunRecord record_;
+  std::vector<Face> faces_;
+  std::vector<StageState> stages_;
+  std::unique_ptr<KeptState> first_, last_;
+};
+
+}  // namespace sage::compare

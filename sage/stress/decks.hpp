@@ -1,0 +1,65 @@
+// Decks that several rows share.
+#pragma once
+
+#include "sage/study/deck_writer.hpp"
+#include "sage/study/whole_run.hpp"
+
+namespace sage::stress {
+
+using study::Block;
+using study::Cell;
+using study::DeckWriter;
+using study::StageCards;
+
+// Hyperbolic interface without hyperbola: k_s constant until slip at c + sigma_n tan phi.  Needs gamma_w = 1.
+std::vector<double> coulomb(double c, double phi, double ks, double kn);
+
+// Interface elements between `lower` (node 1 to 2) and `upper` (on their left); order 1 linear, 2 quadratic.
+void join(DeckWriter& deck, int first, int group, const std::vector<int>& lower, const std::vector<int>& upper,
+          int order);
+// A copy of a row of a block's nodes, numbered from `first`.
+std::vector<int> copy_row(DeckWriter& deck, const Block& block, const std::vector<int>& row, int first);
+
+// A solid of one law in a triaxial cell, radius 1, height 2, between smooth plates: law, parameters, cell
+// pressure, strain (compression +) of each stage, increments a stage.
+struct TriaxialDeck {
+  int law = 1;
+  std::vector<double> parameters;
+  double cell = 0.0;
+  std::vector<double> strains{0.01};
+  int increments = 1, method = 0, max_iterations = 0;
+  bool rough_base = false;
+  int geometry = 2, columns = 2, rows = 2;
+
+  Block block() const;
+  std::string text() const;
+};
+
+// Axial stress (compression +) of a triaxial deck's run after a stage's last increment.
+double axial_stress(const TriaxialDeck& deck, const study::WholeRun& run, std::size_t stage);
+
+// Lame's thick cylinder a = 1, b = 2 under internal pressure 1, E = 1, u_z = 0.
+struct LameDeck {
+  bool sector = false;  // plane-strain sector of 90 degrees, or an axisymmetric strip
+  Cell cell = Cell::quad8;
+  int formulation = 1, n = 4;
+  double nu = 0.3;
+
+  std::string text() const;
+  static double u(double nu, double r);  // closed form
+};
+
+// The strip as two rings that meet at r = 1.5 in an interface of normal stiffness kn; kn = 0: one ring.
+struct TwoRingDeck {
+  double kn = 1.0;
+  bool sector = false;
+  std::string text() const;
+  std::vector<int> inner_face() const;
+};
+// Contact pressure and u(a) of the two rings, nu = .3, closed form (Lame on both).
+struct TwoRingAnswer {
+  double contact = 0.0, u_a = 0.0;
+};
+TwoRingAnswer two_ring_answer(double kn);
+
+}  // namespace sage::stress

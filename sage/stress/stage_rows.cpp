@@ -1,0 +1,200 @@
+// Stages: initial stress that can't be, excavation of everything, a step that failed, sums of forces.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "sage/stress/decks.hpp"
+#include "sage/stress/row.hpp"
+#include "sage/study/specimen_deck.hpp"
+
+namespace sage::stress {
+
+namespace {
+
+using study::rectangle;
+using study::WholeRun;
+
+constexpr double kWeight = 20.0, kE = 1e4, kNu = 0.3;
+
+// Ground 4 x 4 on rollers, unit cells, surface at y = 0.
+struct Ground {
+  Block block;
+  DeckWriter deck{1};
+  Ground() {
+    block.columns = block.rows = 4;
+    block.place = rectangle(0.0, 4.0, -4.0, 0.0);
+    block.write_nodes(deck);
+    for (int n : block.left()) deck.fix(n, 1, 0);
+    for (int n : block.right()) deck.fix(n, 1, 0);
+    for (int n : block.bottom()) deck.fix(n, 1, 1);
+  }
+};
+
+// phi = 30, c = 0: between Ka = 1/3 and Kp = 3.
+void initial_stress(Sweep& s) {
+  for (double K0 : {0.0, 0.1, 0.2, 0.3, 0.33, 0.334, 0.5, 1.0, 2.0, 2.99, 3.01, 5.0}) {
+    Ground ground;
+    ground.deck.material(1, 4, {kE, kNu, 0.0, 30.0, 0.0}, kWeight);
+    ground.deck.group(1, 1, 0, 1);
+    ground.block.write_elements(ground.deck, 1);
+    ground.deck.initial(1, 1, 0.0, kWeight, K0, 0.0);
+    ground.deck.stage(4).gravity_y = -1.0;
+    const Ran ran = s.run(ground.deck.text());
+    const std::string label = fmt::format("K0 = {:g}", K0);
+    if (K0 < 1.0 / 3.0 || K0 > 3.0)
+      s.says(label, kUnknown, ran, "outside the yield surface");
+    else
+      s.right(label + ": nothing moves", kUnknown, ran, ran.completed() ? ran.run->largest_u() / 4.0 : kUnknown,
+              1e-10);
+  }
+}
+
+// The ground on top of a layer that stays is taken away and placed again, several times.
+void everything_dug(Sweep& s) {
+  for (int cycles : {1, 2, 5}) {
+    Ground ground;
+    DeckWriter& deck = ground.deck;
+    const Block& block = ground.block;
+    const int groups = 2 + cycles;
+    deck.material(1, 1, {kE, kNu}, kWeight);
+    for (int g = 1; g <= groups; ++g) deck.group(g, 1, 1, 1);
+    // Rows 0 and 1 are the layer; rows 2 and 3 are there once for each time they are placed.
+    int number = 1;
+    for (int g = 1; g <= groups; ++g)
+      for (int j = g == 1 ? 0 : 2; j < (g == 1 ? 2 : 4); ++j)
+        for (int i = 0; i < 4; ++i) {
+          const int n = block.node(i, j);
+          deck.element(number++, g, {n, n + 1, n + 1 + block.across(), n + block.across()});
+        }
+    StageCards& first = deck.stage();
+    first.gravity_y = -1.0;
+    for (int c = 0; c < cycles; ++c) {
+      deck.stage().deaths = {2 + c};
+      deck.stage().births = {3 + c};
+    }
+    const Ran ran = s.run(deck.text());
+    const std::string label = fmt::format("{} time(s)", cycles);
+    // A confined column: sigma_v = gamma z in the layer; in new ground gamma z too, sigma_h = nu/(1-nu)
+    // sigma_v.
+    double stress = kUnknown, settled = kUnknown, stale = kUnknown;
+    if (ran.completed()) {
+      const auto& top = ran.run->stress[static_cast<std::size_t>(groups - 1)];
+      const auto& layer = ran.run->stress[0];
+      stress = std::abs(layer.row(1).mean() + 3.0 * kWeight) / (3.0 * kWeight);
+      stale = std::abs(top.row(1).mean() + 1.0 * kWeight) / kWeight +
+              (top.row(0) - kNu / (1.0 - kNu) * top.row(1)).cwiseAbs().maxCoeff() / kWeight;
+      // The layer is elastic: after a whole cycle it is where it was.
+      const int node = block.node(0, 2);
+      const double M = kE * (1 - kNu) / ((1 + kNu) * (1 - 2 * kNu));
+      settled = ran.run->u(node).y() / (-kWeight * (2.0 * 2.0 + 0.5 * 4.0) / M) - 1.0;
+    }
+    s.right(label + ": stress of the layer that stayed", kUnknown, ran, stress, 1e-10);
+    s.right(label + ": new ground started without stress", kUnknown, ran, stale, 1e-10);
+    s.right(label + ": settlement of the layer", kUnknown, ran, settled, 1e-10);
+  }
+  // Nothing at all is left.
+  Ground ground;
+  ground.deck.material(1, 1, {kE, kNu}, kWeight);
+  ground.deck.group(1, 1, 0, 1);
+  ground.block.write_elements(ground.deck, 1);
+  ground.deck.stage().gravity_y = -1.0;
+  ground.deck.stage().deaths = {1};
+  s.clean("the whole mesh is taken away", kUnknown, s.run(ground.deck.text()));
+}
+
+bool same_end(const WholeRun& a, const WholeRun& b) {
+  bool same = a.last().u == b.last().u && a.last().internal == b.last().internal;
+  for (std::size_t g = 0; g < a.stress.size(); ++g) same = same && a.stress[g] == b.stress[g];
+  return same;
+}
+
+// A step that fails for want of iterations is halved; the same run with the halves as its increments never
+// fails.  What a failed attempt leaves behind would make them differ.
+void failed_step(Sweep& s) {
+  int found = 0;
+  for (int law : {3, 4})
+    for (double strain : {0.01, 0.02, 0.03, 0.04, 0.06, 0.08, 0.1, 0.15})
+      for (int most : {3, 4, 5, 6, 7, 8}) {
+        TriaxialDeck whole;
+        whole.law = law;
+        whole.parameters = {3000.0, 0.3, 10.0, 30.0, 0.0};
+        whole.cell = 50.0;
+        whole.rough_base = true;
+        whole.columns = 3;
+        whole.rows = 6;
+        whole.strains = {strain};
+        whole.max_iterations = most;
+        TriaxialDeck halves = whole;
+        halves.increments = 2;
+        const Ran a = s.run(whole.text()), b = s.run(halves.text());
+        if (!a.completed() || !b.completed()) continue;
+        const bool cut_once = a.run->last().cuts == 1;
+        if (!cut_once || b.run->increments[0].cuts + b.run->increments[1].cuts > 0) continue;
+        ++found;
+        const bool same = same_end(*a.run, *b.run);
+        s.holds(fmt::format("law {}, strain {:g}, at most {} iterations", law, strain, most), kUnknown, same,
+                "bit for bit the direct half steps", same ? "the same" : "different");
+      }
+  s.holds("steps that failed once", kUnknown, found >= 3, "at least 3 found", fmt::format("{} found", found));
+}
+
+// Sum of all loads and reactions of every kind of deck here.
+void audit(Sweep& s) {
+  const auto check = [&](const std::string& label, const std::string& deck) {
+    const Ran ran = s.run(deck);
+    s.right(label, kUnknown, ran, ran.completed() ? ran.run->out_of_balance : kUnknown, 1e-9);
+  };
+  LameDeck lame;
+  for (double nu : {0.3, 0.49, 0.4999}) {
+    lame.nu = nu;
+    lame.sector = true;
+    check(fmt::format("Lame's sector, nu = {:g}", nu), lame.text());
+  }
+  for (double kn : {1.0, 1e3, 1e6}) {
+    TwoRingDeck rings;
+    rings.kn = kn;
+    rings.sector = true;
+    check(fmt::format("two rings, kn = {:g}", kn), rings.text());
+  }
+  for (int law : {1, 3, 4})
+    for (int geometry : {1, 2}) {
+      TriaxialDeck deck;
+      deck.law = law;
+      deck.geometry = geometry;
+      deck.parameters =
+          law == 1 ? std::vector<double>{3000.0, 0.3} : std::vector<double>{3000.0, 0.3, 10.0, 30.0, 0.0};
+      deck.cell = 50.0;
+      deck.rough_base = true;
+      deck.strains = {0.04};
+      deck.increments = 8;
+      check(fmt::format("rough specimen, law {}, {}", law, geometry == 1 ? "plane strain" : "axisymmetry"),
+            deck.text());
+    }
+  for (bool drucker_prager : {false, true}) {
+    study::SpecimenDeck deck;
+    deck.drucker_prager = drucker_prager;
+    deck.columns = 4;
+    deck.rows = 8;
+    check(fmt::format("specimen on its platen, {}", drucker_prager ? "Drucker-Prager" : "elastic"),
+          deck.text());
+  }
+}
+
+}  // namespace
+
+std::vector<Row> stage_rows() {
+  const std::string family = "Stages";
+  return {
+      {"initial-stress", family, "K0 from 0 to 5 in sand of phi = 30",
+       "Ka = 1/3 <= K0 <= Kp = 3: nothing moves (1e-10 H); outside: announced", "", false, initial_stress},
+      {"excavate-and-refill", family, "ground dug out and placed again",
+       "stress of a confined column, closed form; new elements start without stress. Allowed: 1e-10", "", false,
+       everything_dug},
+      {"failed-step", family, "a step that fails and is halved", "the direct half steps, bit for bit", "",
+       false, failed_step},
+      {"audit", family, "equilibrium of the whole model",
+       "sum of loads and reactions, 1e-9 of the largest force", "", false, audit},
+  };
+}
+
+}  // namespace sage::stress

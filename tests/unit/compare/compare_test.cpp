@@ -1,0 +1,358 @@
+// Two runs side by side: what theory gives in closed form must come out of the comparison.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sage/app/commands.hpp"
+#include "sage/compare/comparison.hpp"
+#include "sage/compare/pair_picture.hpp"
+#include "sage/deck/read_deck.hpp"
+#include "sage/model/build_model.hpp"
+#include "sage/study/deck_writer.hpp"
+#include "solvers/choose_solver.hpp"
+
+namespace sage::compare {
+namespace {
+
+namespace fs = std::filesystem;
+using study::Block;
+using study::Cell;
+using study::DeckWriter;
+
+constexpr double kE = 3000.0, kNu = 0.3, kCell = 50.0;
+
+// A block 1 x 2 between smooth plates, compressed by `strain` under a cell pressure; with a triaxial report.
+struct Specimen {
+  int law = 1;
+  std::vector<double> parameters{kE, kNu};
+  bool confined = false, report = true;
+  double strain = 0.01, stage_load = 0.0;
+  int increments = 2, columns = 2;
+  Cell cell = Cell::quad4;
+
+  std::string text() const {
+    Block block;
+    block.cell = cell;
+    block.columns = columns;
+    block.rows = 3;
+    block.place = study::rectangle(0.0, 1.0, 0.0, 2.0);
+    DeckWriter deck(2);
+    block.write_nodes(deck);
+    deck.material(1, law, parameters);
+    deck.group(1, static_cast<int>(cell), 0, 1);
+    block.write_elements(deck, 1);
+    for (int n : block.bottom()) deck.fix(n, 0, 1);
+    for (int n : block.left()) deck.fix(n, 1, 0);
+    if (confined)
+      for (int n : block.right()) deck.fix(n, 1, 0);
+    deck.initial(1, 0, kCell, kCell, kCell);
+    study::StageCards& stage = deck.stage(increments);
+    for (int n : block.top()) stage.fix(n, 0, 1, 0.0, -2.0 * strain);
+    if (!confined)
+      for (int j = 0; j < block.rows; ++j) stage.pressure(block.element(columns - 1, j), 2, kCell, kCell);
+    for (int n : block.right())
+      if (stage_load != 0.0) stage.load(n, stage_load, 0.0);
+    std::string text = deck.text();
+    if (!report) return text;
+    // One report card: control field 11 and the card before END.
+    std::vector<std::string> lines;
+    for (std::size_t at = 0; at < text.size();) {
+      const std::size_t end = text.find('\n', at);
+      lines.push_back(text.substr(at, end - at));
+      at = end + 1;
+    }
+    lines[2] += "    1";
+    char card[96];
+    std::snprintf(card, sizeof card, "%5d%5d%5d%5d%5d%5d%10.1f%10.1f%10.1f", 1, 1, block.top().front(),
+                  block.top().back(), block.order(), 1, 2.0, 0.0, kCell);
+    lines.insert(lines.end() - 1, card);
+    text.clear();
+    for (const std::string& line : lines) text += line + "\n";
+    return text;
+  }
+};
+
+fs::path folder() {
+  return fs::path(testing::TempDir()) / "sage_compare";
+}
+
+Side run(const char* label, const std::string& deck, int geometry, const BuildOptions& build = {},
+         int solver = -1) {
+  static const Catalogue catalogue = app::full_catalogue();
+  static const Layout layout = load_layout("sage1");
+  BuildOptions options = build;
+  options.geometry = geometry;
+  RunSettings settings;
+  settings.solver = solver;
+  settings.choose_solver = choose_solver;
+  Side side(label, build_model(read_deck_text(deck, "deck", layout), catalogue, options), folder(), label);
+  side.run(catalogue, settings);
+  return side;
+}
+
+const Expectation* find(const std::vector<Expectation>& list, const std::string& start) {
+  for (const Expectation& e : list)
+    if (e.what.rfind(start, 0) == 0) return &e;
+  return nullptr;
+}
+
+const Row* find(const std::vector<Row>& rows, const std::string& section, const std::string& name) {
+  for (const Row& row : rows)
+    if (row.section.rfind(section, 0) == 0 && row.name == name) return &row;
+  return nullptr;
+}
+
+// Smooth plates: E/(1-nu^2) in plane strain, E in axisymmetry; sigma_zz = nu (sigma_xx + sigma_yy).
+TEST(Compare, FreeLateralStrainGivesBothModuli) {
+  const std::string deck = Specimen{}.text();
+  const Side a = run("a", deck, 1), b = run("b", deck, 2);
+  ASSERT_EQ(a.error() + b.error(), "");
+  const Comparison c = compare(a, b, {});
+  const double plane = kE / (1 - kNu * kNu);
+  for (const auto& [what, expected] :
+       {std::pair{"apparent modulus, A", plane}, std::pair{"apparent modulus, B /", kE / plane},
+        std::pair{"apparent modulus, B (", kE}}) {
+    const Expectation* e = find(c.theory, what);
+    ASSERT_NE(e, nullptr) << what;
+    EXPECT_NEAR(e->expected, expected, 1e-12 * expected);
+    EXPECT_NEAR(e->found, expected, 1e-9 * expected);
+    EXPECT_EQ(e->why.find("restrained"), std::string::npos) << e->why;
+  }
+  const Expectation* zz = find(c.theory, "sigma_zz");
+  ASSERT_NE(zz, nullptr);
+  EXPECT_LT(zz->found, 1e-12);
+  const Expectation* report = find(c.theory, "report 1");
+  ASSERT_NE(report, nullptr);
+  EXPECT_NEAR(report->expected, kE / plane, 1e-9);
+  EXPECT_NEAR(report->found, kE / plane, 1e-9);
+  const Row* ratio = find(c.rows, "report 1, stage 1, increment 2", "measured / correct");
+  ASSERT_NE(ratio, nullptr);
+  EXPECT_NEAR(ratio->a, 1.0, 1e-9);
+  EXPECT_NEAR(ratio->b, 1.0, 1e-9);
+}
+
+// No lateral strain: one modulus in both geometries.
+TEST(Compare, ConfinedCompressionIsTheSameInBoth) {
+  Specimen specimen;
+  specimen.confined = true;
+  specimen.report = false;
+  const Side a = run("a", specimen.text(), 1), b = run("b", specimen.text(), 2);
+  const Comparison c = compare(a, b, {});
+  const Expectation* e = find(c.theory, "apparent modulus, B /");
+  ASSERT_NE(e, nullptr);
+  EXPECT_EQ(e->expected, 1.0);
+  EXPECT_NEAR(e->found, 1.0, 1e-10);
+  EXPECT_NEAR(find(c.theory, "apparent modulus, A")->found, kE * (1 - kNu) / ((1 + kNu) * (1 - 2 * kNu)), 1e-6);
+}
+
+// Full circle against unit thickness: the forces differ by pi, the mean stress of the sides does not.
+TEST(Compare, SidesNormaliseForces) {
+  Specimen specimen;
+  specimen.strain = 0.0;
+  const Side a = run("a", specimen.text(), 1), b = run("b", specimen.text(), 2);
+  const Comparison c = compare(a, b, {});
+  const Row* force = find(c.rows, "forces", "reactions along y (z)");
+  ASSERT_NE(force, nullptr);
+  for (const char* side : {"bottom", "top", "right"}) {
+    const Row* stress = find(c.rows, "sides", std::string(side) + ": mean normal stress");
+    ASSERT_NE(stress, nullptr);
+    EXPECT_NEAR(stress->a, kCell, 1e-9) << side;
+    EXPECT_NEAR(stress->b, kCell, 1e-9) << side;
+  }
+  EXPECT_EQ(find(c.rows, "sides", "left: mean normal stress")->a, kCell);
+  EXPECT_TRUE(std::isnan(find(c.rows, "sides", "left: mean normal stress")->b));  // no area on the axis
+  ASSERT_FALSE(c.notes.empty());
+  EXPECT_NE(c.notes[0].find("full circle"), std::string::npos);
+}
+
+// Drucker-Prager matched in triaxial compression, no volume change: phi = 20 is phi* = 26.47 in plane strain,
+// 30 is 43.85 (associated 27.47, 49.11); 36.87 has 60, and no limit when associated.
+TEST(Theory, PlaneStrainStrengthOfTheTriaxialCone) {
+  const auto degrees = [](double phi, bool associated) {
+    const double s = std::sin(phi * kRadiansPerDegree), alpha = 2 * s / (std::sqrt(3.0) * (3 - s));
+    return plane_strain_strength(alpha, 0.0, associated ? alpha : 0.0).phi / kRadiansPerDegree;
+  };
+  EXPECT_NEAR(degrees(20, false), 26.47, 0.005);
+  EXPECT_NEAR(degrees(20, true), 27.47, 0.005);
+  EXPECT_NEAR(degrees(30, false), 43.85, 0.005);
+  EXPECT_NEAR(degrees(30, true), 49.11, 0.005);
+  EXPECT_NEAR(degrees(std::asin(0.6) / kRadiansPerDegree, false), 60.0, 1e-6);
+  EXPECT_TRUE(std::isnan(degrees(std::asin(0.6) / kRadiansPerDegree, true)));
+}
+
+// Both laws far beyond yield: Mohr-Coulomb has one strength in both geometries, the cone does not.
+TEST(Compare, StrengthOfBothGeometries) {
+  for (int law : {3, 4}) {
+    Specimen specimen;
+    specimen.law = law;
+    specimen.parameters = {kE, kNu, 5.0, 30.0, 0.0};
+    specimen.strain = 3.0;  // sigma_zz gets to its value at collapse slowly
+    specimen.increments = 60;
+    const Side a = run("a", specimen.text(), 1), b = run("b", specimen.text(), 2);
+    ASSERT_EQ(a.error() + b.error(), "");
+    const Comparison c = compare(a, b, {});
+    const Expectation* ratio = find(c.theory, "strength, B / A");
+    ASSERT_NE(ratio, nullptr);
+    if (law == 4) {
+      EXPECT_NEAR(ratio->expected, 1.0, 1e-12);
+    } else {
+      EXPECT_LT(ratio->expected, 0.6);
+    }
+    EXPECT_NEAR(ratio->found, ratio->expected, 2e-3 * ratio->expected) << law;
+    EXPECT_EQ(find(c.rows, "points", "solids: yielded")->b, 1.0);
+  }
+}
+
+// sigma and u of a uniform state anywhere in the mesh, in every kind of cell; nothing outside.
+TEST(Sampler, UniformStateOnALine) {
+  for (Cell cell : {Cell::quad4, Cell::quad8, Cell::quad9, Cell::tri3, Cell::tri6}) {
+    Specimen specimen;
+    specimen.cell = cell;
+    specimen.report = false;
+    const bool triangles = cell == Cell::tri3 || cell == Cell::tri6;
+    if (triangles) continue;  // pressure edges of the fixture are those of quadrilaterals
+    const Side side = run("a", specimen.text(), 2);
+    ASSERT_EQ(side.error(), "");
+    const Solution now = side.last();
+    const Sampler sampler(side.model(), now);
+    for (const Vector2& x : {Vector2(0.0, 0.0), Vector2(0.31, 1.1), Vector2(1.0, 2.0), Vector2(0.5, 0.7)}) {
+      const Sample s = sampler.at(x);
+      EXPECT_GT(s.element, 0);
+      EXPECT_NEAR(s.u.y(), -0.01 * x.y(), 1e-12);
+      EXPECT_NEAR(s.u.x(), 0.003 * x.x(), 1e-12);
+      EXPECT_NEAR(s.stress[1], kCell + 0.01 * kE, 1e-8);
+      EXPECT_NEAR(s.deviator, 0.01 * kE, 1e-8);
+    }
+    for (const Vector2& x : {Vector2(-0.1, 0.5), Vector2(0.5, 2.01)}) {
+      EXPECT_EQ(sampler.at(x).element, 0);
+      EXPECT_TRUE(std::isnan(sampler.at(x).stress[0]));
+    }
+  }
+}
+
+// A sector's curved 8-node elements: the quadratic geometry is inverted, and a place in the void is outside.
+TEST(Sampler, CurvedElements) {
+  for (Cell cell : {Cell::quad8, Cell::tri6}) {
+    Block block;
+    block.cell = cell;
+    block.columns = block.rows = 2;
+    block.polar = true;
+    block.place = study::rectangle(1.0, 2.0, 0.0, 90.0);
+    DeckWriter deck(1);
+    block.write_nodes(deck);
+    deck.material(1, 1, {1.0, kNu});
+    deck.group(1, static_cast<int>(cell), 0, 1);
+    block.write_elements(deck, 1);
+    // u = (x, y)/100: uniform strain
+    study::StageCards& stage = deck.stage();
+    for (int j = 0; j < block.up(); ++j)
+      for (int i = 0; i < block.across(); ++i) {
+        if (!block.exists(i, j)) continue;
+        const Vector2 polar = block.at(i, j);
+        const double angle = polar.y() * kRadiansPerDegree;
+        stage.fix(block.node(i, j), 1, 1, 0.01 * polar.x() * std::cos(angle),
+                  0.01 * polar.x() * std::sin(angle));
+      }
+    const Side side = run("a", deck.text(), 1);
+    ASSERT_EQ(side.error(), "");
+    const Solution now = side.last();
+    const Sampler sampler(side.model(), now);
+    for (double angle : {0.1, 0.5, 1.2})
+      for (double r : {1.1, 1.5, 1.9}) {
+        const Vector2 x(r * std::cos(angle), r * std::sin(angle));
+        const Sample s = sampler.at(x);
+        EXPECT_NEAR((s.u - 0.01 * x).norm(), 0.0, 1e-8) << r << " " << angle;  // ten columns of a card
+        EXPECT_NEAR(s.stress[0], -0.01 / ((1 + kNu) * (1 - 2 * kNu)), 1e-6);
+      }
+    EXPECT_EQ(sampler.at({0.5, 0.5}).element, 0);
+  }
+}
+
+// Solvers and formulations differ by rounding and by the mesh: the note says which.
+TEST(Compare, OneGeometryTwoWays) {
+  const std::string deck = Specimen{}.text();
+  const Side a = run("a", deck, 2), b = run("b", deck, 2, {}, 2);
+  const Comparison c = compare(a, b, {point_from_text("0.5,0.5:middle"), line_from_text("0,1,1,1:cut:5")});
+  ASSERT_EQ(c.notes.size(), 1u);
+  EXPECT_NE(c.notes[0].find("equations are the same"), std::string::npos);
+  for (const Row& row : c.rows)
+    if (row.section != "course" && !std::isnan(row.relative())) {
+      EXPECT_NEAR(row.relative(), 0.0, 1e-9) << row.section << " " << row.name;
+    }
+  EXPECT_NE(find(c.rows, "point middle", "sigma_yy"), nullptr);
+  EXPECT_NE(find(c.rows, "line cut: mean of 5 places", "sigma_yy"), nullptr);
+  EXPECT_NE(find(c.details, "line cut at (0.25; 1)", "u_x"), nullptr);
+
+  BuildOptions full, b_bar;
+  full.formulation = 1;
+  b_bar.formulation = 2;
+  const Comparison e = compare(run("c", deck, 2, full), run("d", deck, 2, b_bar), {});
+  ASSERT_EQ(e.notes.size(), 1u);
+  EXPECT_NE(e.notes[0].find("mesh's error"), std::string::npos);
+}
+
+TEST(Compare, OtherMeshesMeetOnLinesOnly) {
+  Specimen fine;
+  fine.columns = 4;
+  const Side a = run("a", Specimen{}.text(), 2), b = run("b", fine.text(), 2);
+  const Comparison c = compare(a, b, {point_from_text("0.5,0.5")});
+  EXPECT_EQ(find(c.rows, "nodes", "largest |u| along r"), nullptr);
+  const Row* row = find(c.rows, "point", "sigma_yy");
+  ASSERT_NE(row, nullptr);
+  EXPECT_NEAR(row->difference(), 0.0, 1e-8);
+}
+
+// A side that fails keeps the other's numbers, and both texts say so.
+TEST(Compare, OneSideFails) {
+  Specimen failing;
+  failing.law = 4;
+  failing.parameters = {kE, kNu, 5.0, 30.0, 0.0};
+  failing.strain = 0.0;
+  failing.stage_load = 1e5;  // pulls the side away: beyond any strength
+  const Side a = run("a", Specimen{}.text(), 2), b = run("b", failing.text(), 2);
+  EXPECT_EQ(a.error(), "");
+  EXPECT_NE(b.error(), "");
+  const Comparison c = compare(a, b, {});
+  EXPECT_NE(to_text(c, a, b).find("NOT COMPLETE"), std::string::npos);
+  EXPECT_NE(to_text(c, a, b).find("The runs end at different loads"), std::string::npos);
+  EXPECT_NEAR(find(c.rows, "sides", "top: mean normal stress")->a, kCell + 0.01 * kE, 1e-8);
+  EXPECT_NE(pair_svg(a, b, Field::stress_yy).find("NOT COMPLETE"), std::string::npos);
+
+  const Side none("B: nothing", "the deck can't be read");
+  const Comparison half = compare(a, none, {point_from_text("0.5,0.5")});
+  EXPECT_NE(to_text(half, a, none).find("NO RESULTS: the deck can't be read"), std::string::npos);
+  EXPECT_NE(to_csv(half, a, none).find("point"), std::string::npos);
+  EXPECT_NE(pair_svg(a, none, Field::stress_yy).find("B has no results"), std::string::npos);
+}
+
+// Both pictures use the range of both fields: sigma_zz is 50 in the one and 50 + nu sigma in the other.
+TEST(PairPicture, OneScaleOfColours) {
+  const std::string deck = Specimen{}.text();
+  const Side a = run("a", deck, 1), b = run("b", deck, 2);
+  const std::string svg = pair_svg(a, b, Field::stress_zz);
+  const auto count = [&](const std::string& word) {
+    std::size_t n = 0;
+    for (std::size_t at = svg.find(word); at != std::string::npos; at = svg.find(word, at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(count("<svg"), 3u);
+  EXPECT_EQ(count("</svg>"), 3u);
+  EXPECT_EQ(count(">50<"), 2u);  // the lowest label stands in both legends
+  EXPECT_EQ(count("from 50 to 50"), 1u);
+}
+
+TEST(LineText, ReadsAndRefuses) {
+  const Line line = line_from_text("0,1,2,3.5:a cut:21");
+  EXPECT_EQ(line.to, Vector2(2.0, 3.5));
+  EXPECT_EQ(line.name, "a cut");
+  EXPECT_EQ(line.n, 21);
+  EXPECT_EQ(line_from_text("0,1,2,3").n, 11);
+  EXPECT_EQ(point_from_text("1,2:P").name, "P");
+  for (const char* bad : {"", "1,2,3", "1,2,3,4,5", "1,2,3,x", "1,2,3,4:n:1", "1,2,3,4:n:2.5", "1,2,3,nan"})
+    EXPECT_THROW(line_from_text(bad), std::invalid_argument) << bad;
+  for (const char* bad : {"", "1", "1,2,3", "a,b"})
+    EXPECT_THROW(point_from_text(bad), std::invalid_argument) << bad;
+}
+
+}  // namespace
+}  // namespace sage::compare
