@@ -17,8 +17,8 @@ std::span<const Quantity> history_of(const LawRef& law) {
   return std::visit([](const auto* l) { return l->history(); }, law);
 }
 
-// K u cannot be better than rounding of its largest terms.  Near nu = 1/2 those belong to a change of volume that all but
-// vanishes, and summing B u first keeps the digits.
+// K u cannot be better than rounding of its largest terms.  Near nu = 1/2 those belong to a change of volume
+// that all but vanishes, and summing B u first keeps the digits.
 bool well_conditioned(const LawRef& law) {
   constexpr double kMostRatio = 1e4;  // of the largest to the smallest stiffness; nu = .4998
   const auto* solid = std::get_if<const SolidLaw*>(&law);
@@ -423,7 +423,8 @@ double Assembly::path_error() const {
   if (scene_->linear) return 0.0;
   WeightedMean mean;
   for (const GroupData& data : groups_)
-    if (data.active && !data.constant) std::visit([&](const auto* law) { add_path_error(data, *law, mean); }, data.law);
+    if (data.active && !data.constant)
+      std::visit([&](const auto* law) { add_path_error(data, *law, mean); }, data.law);
   return mean.weight > 0.0 ? mean.sum / mean.weight : 0.0;
 }
 

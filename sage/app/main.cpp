@@ -39,9 +39,9 @@ int main(int argc, char** argv) {
   root.footer(kFooter);
   root.require_subcommand(1);
   root.set_version_flag("--version", "sagefe " SAGE_VERSION);
-  const Command commands[] = {run_command(root),   check_command(root),  echo_command(root),
-                              list_command(root),  tables_command(root), convert_command(root),
-                              verify_command(root),  compare_command(root), stress_command(root)};
+  const Command commands[] = {run_command(root),    check_command(root),   echo_command(root),
+                              list_command(root),   tables_command(root),  convert_command(root),
+                              verify_command(root), compare_command(root), stress_command(root)};
   if (unknown_command(root, argc, argv)) return kUsage;
   try {
     root.parse(argc, argv);

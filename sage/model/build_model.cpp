@@ -165,7 +165,7 @@ Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOp
   build::refine_as_asked(b);
   if (b.problems.errors() > 0) throw refusal(deck, b.problems);
   build::make_mid_nodes(b);
-  if (b.problems.errors() > 0) throw InputError(b.problems);
+  if (b.problems.errors() > 0) throw refusal(deck, b.problems);
   build::check_model(b);
   if (b.problems.errors() == 0) build::check_plausible(b);
   if (b.problems.errors() > 0) throw refusal(deck, b.problems);
