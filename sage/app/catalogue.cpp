@@ -15,15 +15,19 @@ Catalogue full_catalogue() {
 }
 
 int solver_code(const Catalogue& catalogue, const std::string& name) {
+  if (name.empty()) return -1;
   for (const auto& [code, entry] : catalogue.solvers.entries())
     if (entry.name == name) return code;
-  return -1;
+  throw InputError({}, "solver " + name + " is unknown; " + catalogue.solvers.known());
 }
 
 std::string unknown_solver(const std::string& name) {
-  const Catalogue catalogue = full_catalogue();
-  if (solver_code(catalogue, name) >= 0) return {};
-  return "unknown solver " + name + "; known: " + catalogue.solvers.known();
+  try {
+    solver_code(full_catalogue(), name);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
 }
 
 study::Workbench make_workbench() {

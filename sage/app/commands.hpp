@@ -18,7 +18,7 @@ struct Command {
 // Everything that exists: elements, materials, solvers.
 Catalogue full_catalogue();
 
-// Catalogue code of a solver's name; -1 for an unknown one.
+// Catalogue code of a solver, -1 for an empty name.  Throws InputError for one that is unknown.
 int solver_code(const Catalogue& catalogue, const std::string& name);
 // A message if no solver has this name (a check of CLI11).
 std::string unknown_solver(const std::string& name);

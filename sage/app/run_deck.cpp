@@ -69,20 +69,6 @@ std::string resume_from(const Checkpoint& checkpoint, const RunRequest& request)
 
 }  // namespace
 
-int solver_code(const Catalogue& catalogue, const std::string& name) {
-  if (name.empty()) return -1;
-  for (const auto& [code, entry] : catalogue.solvers.entries())
-    if (entry.name == name) return code;
-  throw InputError({}, "solver " + name + " is unknown; " + catalogue.solvers.known());
-}
-
-std::string unknown_solver(const std::string& name) {
-  const Catalogue catalogue = full_catalogue();
-  for (const auto& [code, entry] : catalogue.solvers.entries())
-    if (entry.name == name) return {};
-  return "unknown solver " + name + "; known: " + catalogue.solvers.known();
-}
-
 RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   const auto start = std::chrono::steady_clock::now();
   RunOutcome outcome;

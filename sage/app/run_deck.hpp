@@ -47,11 +47,6 @@ struct RunOutcome {
   std::vector<std::filesystem::path> files;
 };
 
-// Catalogue code of a solver, -1 for an empty name.  Throws InputError for one that is unknown.
-int solver_code(const Catalogue& catalogue, const std::string& name);
-// A message if no solver has this name: for the command line.
-std::string unknown_solver(const std::string& name);
-
 // Throws InputError, OutputError.
 RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue);
 

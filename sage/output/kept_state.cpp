@@ -7,7 +7,7 @@ KeptState::KeptState(const Model& model, const Solution& now)
       internal_(*now.internal),
       external_(*now.external),
       scene_(analyse_scene(model)),
-      assembly_(model, scene_, work_),
+      assembly_(model, scene_, Skips{}, work_),
       activity_(*now.activity) {
   assembly_.groups() = now.assembly->groups();
 }

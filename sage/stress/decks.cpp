@@ -15,28 +15,6 @@ std::vector<double> coulomb(double c, double phi, double ks, double kn) {
   return values;
 }
 
-void join(DeckWriter& deck, int first, int group, const std::vector<int>& lower, const std::vector<int>& upper,
-          int order) {
-  const auto step = static_cast<std::size_t>(order);
-  for (std::size_t i = 0; i + step < lower.size(); i += step) {
-    std::vector<int> nodes{lower[i], lower[i + step], upper[i + step], upper[i]};
-    if (order == 2) nodes.insert(nodes.end(), {lower[i + 1], upper[i + 1]});
-    deck.element(first++, group, nodes);
-  }
-}
-
-std::vector<int> copy_row(DeckWriter& deck, const Block& block, const std::vector<int>& row, int first) {
-  std::vector<int> copy;
-  for (int j = 0; j < block.up(); ++j)
-    for (int i = 0; i < block.across(); ++i)
-      for (int n : row)
-        if (block.node(i, j) == n) {
-          deck.node(first, block.at(i, j).x(), block.at(i, j).y(), block.polar);
-          copy.push_back(first++);
-        }
-  return copy;
-}
-
 Block TriaxialDeck::block() const {
   Block block;
   block.columns = columns;

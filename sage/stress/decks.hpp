@@ -14,12 +14,6 @@ using study::StageCards;
 // Hyperbolic interface without hyperbola: k_s constant until slip at c + sigma_n tan phi.  Needs gamma_w = 1.
 std::vector<double> coulomb(double c, double phi, double ks, double kn);
 
-// Interface elements between `lower` (node 1 to 2) and `upper` (on their left); order 1 linear, 2 quadratic.
-void join(DeckWriter& deck, int first, int group, const std::vector<int>& lower, const std::vector<int>& upper,
-          int order);
-// A copy of a row of a block's nodes, numbered from `first`.
-std::vector<int> copy_row(DeckWriter& deck, const Block& block, const std::vector<int>& row, int first);
-
 // A solid of one law in a triaxial cell, radius 1, height 2, between smooth plates: law, parameters, cell
 // pressure, strain (compression +) of each stage, increments a stage.
 struct TriaxialDeck {

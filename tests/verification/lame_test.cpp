@@ -209,7 +209,7 @@ TEST(LameHighDegree, DoesNotLock) {
                   compressible, incompressible);
       EXPECT_LT(incompressible, std::max(20.0 * compressible, rounding))
           << name_of(body) << " code " << element;
-      EXPECT_FALSE(warns_of_locking(run));
+      EXPECT_FALSE(warns_of(run, "lock"));
     }
 }
 
