@@ -213,7 +213,7 @@ TEST(LameHighDegree, KeepsItsAccuracyNearIncompressibility) {
       std::printf("    %-7s code %d error at nu .3 %.3e, at .4999 %.3e\n", name_of(body), element, compressible,
                   error);
       EXPECT_LT(error, std::max(most, 3.0 * compressible)) << name_of(body) << " code " << element;
-      EXPECT_FALSE(warns_of_locking(run));
+      EXPECT_FALSE(warns_of(run, "lock"));
     }
 }
 
