@@ -16,6 +16,14 @@ std::size_t at(std::int64_t i) {
   return static_cast<std::size_t>(i);
 }
 
+// (high, low) -= a b: the rounding errors of the product and of the sum, both exact (Dekker 1971), go to `low`.
+void subtract_product(double& high, double& low, double a, double b) {
+  const double product = a * b, error = std::fma(a, b, -product);
+  const double sum = high - product, part = sum - high;
+  low += (high - (sum - part)) - (product + part) - error;
+  high = sum;
+}
+
 }  // namespace
 
 void AssembledMatrix::analyse(const EquationGraph& graph, const ElementEquations& elements, bool symmetric) {
@@ -139,6 +147,20 @@ void AssembledMatrix::multiply_transposed(std::span<const double> x, std::span<d
       sum += value_[at(k)] * x[at(row_[at(k)])];
     y[at(column)] = sum;
   }
+}
+
+void AssembledMatrix::residual(std::span<const double> b, std::span<const double> x, std::span<double> r,
+                               std::span<double> low) const {
+  std::ranges::copy(b, r.begin());
+  std::ranges::fill(low, 0.0);
+  for (int column = 0; column < equations_; ++column)
+    for (int k = column_start_[at(column)]; k < column_start_[at(column) + 1]; ++k) {
+      const int row = row_[at(k)];
+      subtract_product(r[at(row)], low[at(row)], value_[at(k)], x[at(column)]);
+      if (symmetric_ && row != column)
+        subtract_product(r[at(column)], low[at(column)], value_[at(k)], x[at(row)]);
+    }
+  for (std::size_t i = 0; i < r.size(); ++i) r[i] += low[i];
 }
 
 double AssembledMatrix::norm1() const {

@@ -29,6 +29,9 @@ class AssembledMatrix {
   void multiply(std::span<const double> x, std::span<double> y) const;
   // y = K^T x.
   void multiply_transposed(std::span<const double> x, std::span<double> y) const;
+  // r = b - K x with twice the digits in all products and sums; `low` is work space.  All of size equations.
+  void residual(std::span<const double> b, std::span<const double> x, std::span<double> r,
+                std::span<double> low) const;
   // Largest column sum of |K|.
   double norm1() const;
   // Largest |term| of every row.

@@ -95,7 +95,7 @@ class Frontal final : public MatrixSolver {
 
   void set_threads(int threads) override { wanted_threads_ = std::max(1, threads); }
 
-  void factorise() override {
+  void factorise_matrix() override {
     const std::span<const double> maxima = row_maxima();
     for (Lane& lane : lanes_) {
       lane.check = PivotCheck(traits().name, maxima);
@@ -116,7 +116,7 @@ class Frontal final : public MatrixSolver {
     take_report();
   }
 
-  void solve(std::span<const double> b, std::span<double> x) const override {
+  void solve_matrix(std::span<const double> b, std::span<double> x) const override {
     solve_fronts(b, x, traits().symmetric);
   }
   void solve_transposed(std::span<const double> b, std::span<double> x) const override {

@@ -26,10 +26,17 @@ class MatrixSolver : public LinearSolver {
   }
   double norm1() const final { return matrix_.norm1(); }
   FactorReport report() const final { return report_; }
+  void set_refinement(int steps) final { wanted_steps_ = steps; }
+  // Where terms grew in an elimination without pivoting, answers are refined even if nobody asked.
+  void factorise() final;
+  // Throws AnalysisError where refinement cannot mend what growth has spoilt: no answer without digits.
+  void solve(std::span<const double> b, std::span<double> x) const final;
 
  protected:
   // Numbering, symbolic work and storage once matrix() has its pattern.
   virtual void analyse_matrix(const EquationGraph& graph) = 0;
+  virtual void factorise_matrix() = 0;
+  virtual void solve_matrix(std::span<const double> b, std::span<double> x) const = 0;
 
   const AssembledMatrix& matrix() const { return matrix_; }
   // Largest |term| of every row of the matrix as it stands; the same array at every call.
@@ -37,12 +44,17 @@ class MatrixSolver : public LinearSolver {
     matrix_.row_maxima(row_maxima_);
     return row_maxima_;
   }
-  FactorReport report_;
+  mutable FactorReport report_;
 
  private:
+  void refine(std::span<double> x) const;
+
   SolverTraits traits_;
   AssembledMatrix matrix_;
   std::vector<double> row_maxima_;
+  int wanted_steps_ = 0, steps_ = 0;
+  double norm_ = 0.0;
+  mutable std::vector<double> right_side_, residual_, low_;  // of the refinement
 };
 
 // Throws SingularMatrix with a text for people who know neither the solver nor its numbering.

@@ -20,7 +20,7 @@ class SkylineLdlt final : public MatrixSolver {
  public:
   SkylineLdlt() : MatrixSolver({"skyline_ldlt", true}) {}
 
-  void factorise() override {
+  void factorise_matrix() override {
     PivotCheck check(traits().name, row_maxima());
     Lanes maximum{};
     for (int J = 0; J < profile_.tiles; ++J) {
@@ -34,9 +34,8 @@ class SkylineLdlt final : public MatrixSolver {
     report_.negative_pivots = check.negative();
   }
 
-  void solve(std::span<const double> b, std::span<double> x) const override {
-    AlignedArray work(at(profile_.tiles) * kTile);
-    double* w = work.data();
+  void solve_matrix(std::span<const double> b, std::span<double> x) const override {
+    double* const w = work_.data();
     for (int p = 0; p < profile_.equations; ++p) w[p] = b[at(profile_.order[at(p)])];
     for (int p = profile_.equations; p < profile_.tiles * kTile; ++p) w[p] = 0.0;
     const TileTriangle L{tiles_.data(), diagonal_, nullptr};
@@ -45,7 +44,7 @@ class SkylineLdlt final : public MatrixSolver {
     tile_backward(profile_, L, w);
     for (int p = 0; p < profile_.equations; ++p) x[at(profile_.order[at(p)])] = w[p];
   }
-  void solve_transposed(std::span<const double> b, std::span<double> x) const override { solve(b, x); }
+  void solve_transposed(std::span<const double> b, std::span<double> x) const override { solve_matrix(b, x); }
 
  protected:
   void analyse_matrix(const EquationGraph& graph) override {
@@ -57,6 +56,7 @@ class SkylineLdlt final : public MatrixSolver {
     for (int J = 0; J < profile_.tiles; ++J) height = std::max(height, profile_.height(J));
     column_ = AlignedArray(at(height) * kTileTerms);
     reciprocal_.assign(at(profile_.tiles) * kTile, 1.0);
+    work_ = AlignedArray(at(profile_.tiles) * kTile);
     report_.factor_entries = static_cast<std::int64_t>(tiles_.size());
     report_.memory_bytes = matrix().memory_bytes() + (tiles_.size() + column_.size()) * sizeof(double) +
                            2 * scatter_.source.size() * sizeof(int);
@@ -114,6 +114,7 @@ class SkylineLdlt final : public MatrixSolver {
   double* diagonal_ = nullptr;
   AlignedArray column_;  // the column of D L^T in work
   std::vector<double> reciprocal_;
+  mutable AlignedArray work_;  // used by one solution at a time
 };
 
 }  // namespace

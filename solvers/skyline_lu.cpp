@@ -20,7 +20,7 @@ class SkylineLu final : public MatrixSolver {
  public:
   SkylineLu() : MatrixSolver({"skyline_lu", false}) {}
 
-  void factorise() override {
+  void factorise_matrix() override {
     PivotCheck check(traits().name, row_maxima());
     Lanes maximum{};
     for (int J = 0; J < profile_.tiles; ++J) {
@@ -32,7 +32,7 @@ class SkylineLu final : public MatrixSolver {
     report_.growth = profile_.equations > 0 ? largest(maximum) / check.largest_term() : 1.0;
   }
 
-  void solve(std::span<const double> b, std::span<double> x) const override {
+  void solve_matrix(std::span<const double> b, std::span<double> x) const override {
     solve_triangles(b, x, lower(), upper());
   }
   void solve_transposed(std::span<const double> b, std::span<double> x) const override {
@@ -50,6 +50,7 @@ class SkylineLu final : public MatrixSolver {
     lower_ = diagonal_ + diagonal_terms;
     unit_ = AlignedArray(diagonal_terms);
     reciprocal_.assign(at(profile_.tiles) * kTile, 1.0);
+    work_ = AlignedArray(at(profile_.tiles) * kTile);
     report_.factor_entries = static_cast<std::int64_t>(tiles_.size());
     report_.memory_bytes = matrix().memory_bytes() + (tiles_.size() + unit_.size()) * sizeof(double) +
                            2 * scatter_.source.size() * sizeof(int);
@@ -94,8 +95,7 @@ class SkylineLu final : public MatrixSolver {
 
   void solve_triangles(std::span<const double> b, std::span<double> x, const TileTriangle& first,
                        const TileTriangle& second) const {
-    AlignedArray work(at(profile_.tiles) * kTile);
-    double* w = work.data();
+    double* const w = work_.data();
     for (int p = 0; p < profile_.equations; ++p) w[p] = b[at(profile_.order[at(p)])];
     for (int p = profile_.equations; p < profile_.tiles * kTile; ++p) w[p] = 0.0;
     tile_forward(profile_, first, w);
@@ -111,6 +111,7 @@ class SkylineLu final : public MatrixSolver {
   double* lower_ = nullptr;
   AlignedArray unit_;  // diagonal tiles of L, transposed; those of U stay in diagonal_
   std::vector<double> reciprocal_;
+  mutable AlignedArray work_;  // used by one solution at a time
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sage/analysis/condition.hpp"
 #include "sage/analysis/explain.hpp"
 #include "sage/analysis/loads.hpp"
 #include "sage/analysis/newton.hpp"
@@ -61,7 +62,7 @@ class Run {
   int all_equations() const;
   double smallest_pivot() const;
   void warn_about_numbers(int s, const EquilibriumAudit& sums);
-  void warn(const Stage& stage, const std::string& message);
+  void warn(const Stage& stage, const std::string& message, Severity severity = Severity::warning);
   Solution solution() const;
   template <class Call>
   void tell(Call call) {
@@ -114,6 +115,7 @@ void Run::make_solver() {
   const SolverEntry* entry = choose_solver(assembly_.equations(), scene_.symmetric);
   solver_ = entry->make();
   solver_->set_threads(settings_.threads);
+  solver_->set_refinement(settings_.refinement);
   solver_name_ = entry->name;
   stiffness_ = {};
   stiffness_.solver = solver_.get();
@@ -317,24 +319,24 @@ double Run::smallest_pivot() const {
   return own < 0.0 || inner < 0.0 ? std::max(own, inner) : std::min(own, inner);
 }
 
-void Run::warn(const Stage& stage, const std::string& message) {
+void Run::warn(const Stage& stage, const std::string& message, Severity severity) {
   const Diagnostic diagnostic{
-      Severity::warning, stage.where, "stage " + std::to_string(stage.number) + ": " + message, {}};
+      severity, stage.where, "stage " + std::to_string(stage.number) + ": " + message, {}};
   tell([&](Observer& o) { o.on_warning(diagnostic); });
 }
 
 // What a reader of the results should know before trusting them.
 void Run::warn_about_numbers(int s, const EquilibriumAudit& sums) {
-  constexpr double kPoorAudit = 1e-6, kPoorPivot = 1e-9;
+  constexpr double kPoorAudit = 1e-6;
   const Stage& stage = model_.stages[static_cast<std::size_t>(s)];
   if (sums.out_of_balance > kPoorAudit)
     warn(stage, "loads and reactions of the whole model are out of balance by " +
                     short_number(sums.out_of_balance) + " of the largest force");
-  const double pivot = smallest_pivot();
-  if (pivot > 0.0 && pivot < kPoorPivot)
-    warn(stage, "about " + std::to_string(static_cast<int>(-std::log10(pivot))) +
-                    " of 16 digits are lost in the equations (smallest pivot " + short_number(pivot) +
-                    " of its row): very stiff beside very soft parts, or nearly a mechanism");
+  if (stiffness_.factorised)
+    if (const auto digits =
+            report_digits(*solver_, assembly_.equations(), smallest_pivot(), settings_.condition);
+        !digits.words.empty())
+      warn(stage, digits.words, digits.poor ? Severity::warning : Severity::note);
   if (path_error_ > kPathTolerance)
     warn(stage,
          "the stiffness of a hyperbolic law changes so much that an increment in 64 parts is still too long; "

@@ -95,6 +95,13 @@ Command run_command(CLI::App& root) {
           "threads of the linear solver (default: one for each processor, in systems that gain); results "
           "are the same to the last bit")
       ->check(CLI::Range(0, 256));
+  parser
+      ->add_option("--refine-solves", request.refinement,
+                   "steps of iterative refinement in every solution, with residuals in twice the precision")
+      ->check(CLI::Range(0, 20));
+  parser->add_flag(
+      "--condition", request.condition,
+      "say the condition number of the equations, and the digits it costs, at the end of each stage");
   parser->add_option("--tables", options->tables, "tables in the listing: auto, none, stage, all")
       ->check(CLI::IsMember({"auto", "none", "stage", "all"}));
   parser->add_flag("--nodes", request.output.nodes, "write STEM.nodes.csv: displacements and reactions");

@@ -54,6 +54,7 @@ Checkpoint checkpoint_of(const RunRequest& request, const Model& model) {
   std::string run =
       fmt::format("{:016x} {} {} {} {}{}{}{}{}{}", fingerprint(model), request.solver, SAGE_VERSION,
                   static_cast<int>(o.tables), o.listing, o.increments, o.nodes, o.points, o.vtu, o.error);
+  if (request.refinement > 0) run += fmt::format(" refined {}", request.refinement);
   for (const std::string& picture : o.pictures) run += " " + picture;
   return {o.folder / (case_name(request.deck) + ".restart"), request.checkpoint_seconds, run};
 }
@@ -91,6 +92,8 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   RunSettings settings;
   settings.skips = request.skips;
   settings.threads = request.threads > 0 ? request.threads : processors();
+  settings.refinement = request.refinement;
+  settings.condition = request.condition;
   settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
   make_folder(request.output.folder);
   Checkpoint checkpoint = checkpoint_of(request, model);

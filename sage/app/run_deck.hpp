@@ -29,6 +29,8 @@ struct RunRequest {
   OutputOptions output;
   std::string solver;                // a name of the catalogue; empty = the deck's choice
   int threads = 0;                   // of the linear solver; 0 = one for each processor
+  int refinement = 0;                // steps of iterative refinement in every solution
+  bool condition = false;            // say the condition number at the end of each stage
   bool quiet = false;                // no messages about the deck
   Skips skips;                       // all are on
   int max_dofs = 0;                  // larger models are built but not run; 0 = no limit

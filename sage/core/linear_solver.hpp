@@ -32,7 +32,7 @@ struct SolverTraits {
 struct FactorReport {
   double smallest_pivot_ratio = -1.0;  // min over equations of |pivot| / largest term of its original row
   double growth = -1.0;                // largest term of the factors / largest term of K
-  double reciprocal_condition = -1.0;  // estimate in the 1-norm
+  double backward_error = -1.0;        // largest |b - K x| / (||K|| |x| + |b|) of the refined answers so far
   int negative_pivots = -1;            // LDL^T only
   std::int64_t factor_entries = -1;    // stored terms of the factors
   std::size_t memory_bytes = 0;
@@ -46,6 +46,10 @@ class LinearSolver {
   // How many threads factorise() may use from the next analyse() on.  Answers do not depend on it, to the last
   // bit.  Solvers without threads of their own do nothing.
   virtual void set_threads(int /*threads*/) {}
+
+  // At most so many steps of iterative refinement in every solve() from the next factorise() on, with residuals
+  // in twice the working precision: an answer then has all digits that the matrix determines.
+  virtual void set_refinement(int /*steps*/) {}
 
   // Numbering, symbolic work and storage for a pattern.  Called once per pattern.
   virtual void analyse(int equations, const ElementEquations& elements) = 0;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -31,7 +32,7 @@ class CholmodSolver final : public MatrixSolver {
   CholmodSolver(const CholmodSolver&) = delete;
   CholmodSolver& operator=(const CholmodSolver&) = delete;
 
-  void factorise() override {
+  void factorise_matrix() override {
     if (matrix().equations() == 0) return;
     set_blas_threads(matrix().equations());
     cholmod_sparse K = view();
@@ -40,7 +41,7 @@ class CholmodSolver final : public MatrixSolver {
     report_.memory_bytes = matrix().memory_bytes() + columns_.memory_bytes() + common_.memory_inuse;
   }
 
-  void solve(std::span<const double> b, std::span<double> x) const override {
+  void solve_matrix(std::span<const double> b, std::span<double> x) const override {
     const auto n = static_cast<std::size_t>(matrix().equations());
     if (n == 0) return;
     cholmod_dense right_side{};
@@ -54,7 +55,7 @@ class CholmodSolver final : public MatrixSolver {
     throw_unless_ok();
     std::copy_n(static_cast<const double*>(solution_->x), n, x.begin());
   }
-  void solve_transposed(std::span<const double> b, std::span<double> x) const override { solve(b, x); }
+  void solve_transposed(std::span<const double> b, std::span<double> x) const override { solve_matrix(b, x); }
 
  protected:
   void analyse_matrix(const EquationGraph&) override {
@@ -120,9 +121,19 @@ class CholmodSolver final : public MatrixSolver {
     const auto minor = std::min(n, static_cast<SuiteSparse_long>(current_->minor));
     const auto* start = as_long(current_->p);
     const auto* L = static_cast<const double*>(current_->x);
-    for (SuiteSparse_long j = 0; j < minor; ++j) check.take(equation(current_, j), L[start[j]]);
+    const auto* count = as_long(current_->nz);
+    double size = 0.0;  // of the largest term of any reduced matrix: D L^T has them all
+    for (SuiteSparse_long j = 0; j < minor; ++j) {
+      const double pivot = L[start[j]];
+      check.take(equation(current_, j), pivot);
+      double factor = 1.0;
+      for (SuiteSparse_long k = start[j] + 1; k < start[j] + count[j]; ++k)
+        factor = std::max(factor, std::abs(L[k]));
+      size = std::max(size, factor * std::abs(pivot));
+    }
     if (stopped) throw_singular(equation(current_, std::min(minor, n - 1)), 0.0, traits().name);
     take_report(check);
+    report_.growth = size / check.largest_term();
   }
 
   static const SuiteSparse_long* as_long(const void* p) { return static_cast<const SuiteSparse_long*>(p); }
@@ -132,6 +143,7 @@ class CholmodSolver final : public MatrixSolver {
   void take_report(const PivotCheck& check) {
     report_.smallest_pivot_ratio = check.smallest_ratio();
     report_.negative_pivots = check.negative();
+    report_.growth = 1.0;  // of a positive definite matrix: terms never grow
   }
 
   void throw_unless_ok() const {

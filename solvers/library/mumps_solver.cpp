@@ -33,7 +33,7 @@ class MumpsSolver final : public MatrixSolver {
   MumpsSolver(const MumpsSolver&) = delete;
   MumpsSolver& operator=(const MumpsSolver&) = delete;
 
-  void factorise() override {
+  void factorise_matrix() override {
     const int n = matrix().equations();
     if (n == 0) return;
     for (const double term : matrix().value())
@@ -52,7 +52,7 @@ class MumpsSolver final : public MatrixSolver {
                            static_cast<std::size_t>(mumps_.infog[21]) * 1000000;
   }
 
-  void solve(std::span<const double> b, std::span<double> x) const override { solve_system(1, b, x); }
+  void solve_matrix(std::span<const double> b, std::span<double> x) const override { solve_system(1, b, x); }
   void solve_transposed(std::span<const double> b, std::span<double> x) const override {
     solve_system(0, b, x);
   }

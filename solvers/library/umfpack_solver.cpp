@@ -29,7 +29,7 @@ class UmfpackSolver final : public MatrixSolver {
     control_[UMFPACK_IRSTEP] = 0;
   }
 
-  void factorise() override {
+  void factorise_matrix() override {
     const int n = matrix().equations();
     if (n == 0) return;
     set_blas_threads(n);
@@ -46,7 +46,9 @@ class UmfpackSolver final : public MatrixSolver {
                            static_cast<std::size_t>(info[UMFPACK_NUMERIC_SIZE] * info[UMFPACK_SIZE_OF_UNIT]);
   }
 
-  void solve(std::span<const double> b, std::span<double> x) const override { solve_system(UMFPACK_A, b, x); }
+  void solve_matrix(std::span<const double> b, std::span<double> x) const override {
+    solve_system(UMFPACK_A, b, x);
+  }
   void solve_transposed(std::span<const double> b, std::span<double> x) const override {
     solve_system(UMFPACK_At, b, x);
   }
@@ -59,10 +61,14 @@ class UmfpackSolver final : public MatrixSolver {
     const int n = matrix().equations();
     if (n == 0) return;
     void* symbolic = nullptr;
+    double info[UMFPACK_INFO];
     const auto status = umfpack_dl_symbolic(n, n, columns_.start.data(), columns_.row.data(), nullptr,
-                                            &symbolic, control_, nullptr);
+                                            &symbolic, control_, info);
     symbolic_.reset(symbolic);
     throw_unless_ok(status);
+    // Its other strategy has cost seven digits: it must not come back by a default of another version.
+    if (info[UMFPACK_STRATEGY_USED] != UMFPACK_STRATEGY_SYMMETRIC)
+      throw AnalysisError("UMFPACK did not take its symmetric strategy");
   }
 
  private:

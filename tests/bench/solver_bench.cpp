@@ -1,6 +1,6 @@
 // Prints what every solver of the catalogue takes for an n x 2n mesh of Q4 elements: milliseconds, best of some
 // runs.
-//   solver_bench [n ...] [--cpu] [--unsymmetric-only] [--solver name]
+//   solver_bench [n ...] [--cpu] [--unsymmetric-only] [--solver name] [--threads n]
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -19,6 +19,7 @@ namespace {
 using sage::test::System;
 using Clock = std::chrono::steady_clock;
 
+int threads = 1;
 bool processor_time = false;  // of all threads; for machines that are busy otherwise
 
 double now_ms() {
@@ -66,6 +67,7 @@ void bench(const sage::SolverEntry& entry, int n) {
   const System system =
       sage::test::q4_mesh({.columns = n, .rows = 2 * n, .unsymmetric = entry.symmetric ? 0.0 : 0.5});
   const auto solver = entry.make();
+  solver->set_threads(threads);
   Times times;
   std::vector<double> x(static_cast<std::size_t>(system.equations));
   const int analyses = n <= 28 ? 20 : 1;
@@ -101,6 +103,8 @@ int main(int argc, char** argv) {
       processor_time = true;
     else if (std::strcmp(argv[i], "--solver") == 0 && i + 1 < argc)
       only = argv[++i];
+    else if (std::strcmp(argv[i], "--threads") == 0 && i + 1 < argc)
+      threads = std::atoi(argv[++i]);
     else
       sizes.push_back(std::atoi(argv[i]));
   }

@@ -23,6 +23,13 @@ void* counted(std::size_t size, std::align_val_t alignment) {
 
 }  // namespace
 
+// Aligned storage of the solvers.
+extern "C" int posix_memalign(void** block, std::size_t alignment, std::size_t size) noexcept {
+  ++count;
+  *block = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  return *block != nullptr ? 0 : 12;  // ENOMEM
+}
+
 void* operator new(std::size_t size) {
   return counted(size);
 }

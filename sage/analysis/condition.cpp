@@ -1,7 +1,8 @@
-#include "solvers/refinement.hpp"
+#include "sage/analysis/condition.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
 namespace sage {
@@ -14,12 +15,6 @@ double sum_of_sizes(const Vector& x) {
   double sum = 0.0;
   for (const double term : x) sum += std::abs(term);
   return sum;
-}
-
-double largest_size(std::span<const double> x) {
-  double largest = 0.0;
-  for (const double term : x) largest = std::max(largest, std::abs(term));
-  return largest;
 }
 
 std::size_t largest_place(const Vector& x) {
@@ -38,10 +33,10 @@ double alternating_estimate(const LinearSolver& solver, std::size_t n) {
   return 2.0 * sum_of_sizes(x) / (3.0 * static_cast<double>(n));
 }
 
-double residual(const LinearSolver& solver, std::span<const double> b, std::span<const double> x, Vector& r) {
-  solver.multiply(x, r);
-  for (std::size_t i = 0; i < r.size(); ++i) r[i] = b[i] - r[i];
-  return largest_size(r);
+std::string power_of_ten(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1e", value);
+  return text;
 }
 
 }  // namespace
@@ -67,21 +62,32 @@ double reciprocal_condition(const LinearSolver& solver, int equations) {
   return std::isfinite(condition) && condition > 0.0 ? 1.0 / condition : 0.0;
 }
 
-double refine(const LinearSolver& solver, std::span<const double> b, std::span<double> x, int steps) {
-  Vector r(b.size()), better(x.begin(), x.end());
-  double size = residual(solver, b, x, r);
-  for (int step = 0; step < steps && size > 0.0; ++step) {
-    solver.solve(r, r);
-    for (std::size_t i = 0; i < r.size(); ++i) better[i] = x[i] + r[i];
-    const double next = residual(solver, b, better, r);
-    if (!(next < size)) break;
-    std::ranges::copy(better, x.begin());
-    const bool slow = next > 0.5 * size;
-    size = next;
-    if (slow) break;
-  }
-  const double scale = largest_size(b);
-  return scale > 0.0 ? size / scale : size;
+DigitsReport report_digits(const LinearSolver& solver, int equations, double smallest_pivot, bool asked) {
+  constexpr double kPoorPivot = 1e-9, kLargeGrowth = 1e3, kDigits = 16.0;
+  const FactorReport factors = solver.report();
+  const bool small_pivot = smallest_pivot > 0.0 && smallest_pivot < kPoorPivot;
+  const bool grown = factors.growth > kLargeGrowth;
+  if (!asked && !small_pivot && !grown) return {};
+  const double reciprocal = reciprocal_condition(solver, equations);
+  double lost = reciprocal > 0.0 ? std::max(0.0, -std::log10(reciprocal)) : kDigits;
+  if (small_pivot) lost = std::max(lost, -std::log10(smallest_pivot));
+  lost = std::min(lost, kDigits);
+  DigitsReport report;
+  report.poor = lost >= 9.0;
+  report.words = "the condition number of the equations is about " +
+                 (reciprocal > 0.0 ? power_of_ten(1.0 / reciprocal) : std::string("infinite")) + ": about " +
+                 std::to_string(static_cast<int>(std::lround(lost))) + " of 16 digits are lost";
+  if (small_pivot)
+    report.words += " (smallest pivot " + power_of_ten(smallest_pivot) +
+                    " of its row: very stiff beside very soft parts, or nearly a mechanism)";
+  if (grown)
+    report.words +=
+        "; terms grew by " + power_of_ten(factors.growth) +
+        " in an elimination without pivoting, so that answers were refined: the solvers umfpack and "
+        "mumps pivot";
+  if (factors.backward_error >= 0.0)
+    report.words += "; refined answers leave " + power_of_ten(factors.backward_error) + " of the forces";
+  return report;
 }
 
 }  // namespace sage
