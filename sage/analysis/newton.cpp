@@ -60,7 +60,7 @@ class Step {
   Eigen::VectorXd residual_, correction_, start_residual_;
   Acceleration acceleration_;
   bool start_known_ = false;  // start_residual_ is the residual at du = 0
-  double prescribed_ = 0.0;  // largest displacement that supports are given in this step
+  double prescribed_ = 0.0;   // largest displacement that supports are given in this step
   double energy_scale_ = 0.0, start_scale_ = 0.0, slope_ = 0.0, step_length_ = 1.0;
   NewtonStep result_;
 };
