@@ -60,6 +60,7 @@ class Step {
   Eigen::VectorXd residual_, correction_, start_residual_;
   Acceleration acceleration_;
   bool start_known_ = false;  // start_residual_ is the residual at du = 0
+  double prescribed_ = 0.0;   // largest displacement that supports are given in this step
   double energy_scale_ = 0.0, start_scale_ = 0.0, slope_ = 0.0, step_length_ = 1.0;
   NewtonStep result_;
 };
@@ -141,6 +142,7 @@ bool Step::predict(const Eigen::VectorXd& rate, double rate_part) {
   correct();
   energy_scale_ = std::abs(correction_.dot(residual_));
   du_ = rate_part * rate;
+  prescribed_ = du_.size() > 0 ? du_.lpNorm<Eigen::Infinity>() : 0.0;
   move(1.0);
   return true;
 }
@@ -185,14 +187,16 @@ bool Step::converged(const IterationRecord& record) const {
 }
 
 // Forces are K times displacements: what the rounding of those makes can't be balanced (stiff joints, nu near
-// 1/2). A residual of that size ends the step once corrections are tiny, if it is small beside the forces, or
-// if those are nothing but rounding themselves (a loose part that is moved without stress).
+// 1/2). A residual of that size ends the step once corrections are tiny, if it is small beside the forces; or
+// if all forces are no more than the rounding of a motion that is prescribed (a loose part, moved without
+// stress).
 bool Step::at_rounding(const IterationRecord& record) const {
   constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon(), kTiny = 1e-6;
   if (!(record.displacement <= kTiny) || record.step_length < 1.0 || residual_.size() == 0) return false;
-  const double floor = kRounding * stiffness_.solver->norm1() * du_.lpNorm<Eigen::Infinity>();
-  if (!(residual_.lpNorm<Eigen::Infinity>() <= floor)) return false;  // also where the solver has no norm
-  return record.force <= std::sqrt(settings_.tolerance) || scale() <= 1e3 * floor;
+  const double unit = kRounding * stiffness_.solver->norm1();  // negative where the solver has no norm
+  const double largest = residual_.lpNorm<Eigen::Infinity>();
+  if (record.force <= std::sqrt(settings_.tolerance)) return largest <= unit * du_.lpNorm<Eigen::Infinity>();
+  return largest <= unit * prescribed_ && scale() <= 1e3 * unit * prescribed_;
 }
 
 void Step::find_worst() {

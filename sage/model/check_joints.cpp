@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <numeric>
+#include <tuple>
+#include <utility>
 
 #include "sage/model/builder.hpp"
 
@@ -57,34 +57,30 @@ std::vector<char> interface_nodes(const Model& model) {
   return flags;
 }
 
-// Nodes in the order of x, to search a strip of them.
-std::vector<int> by_x(const Model& model, const std::vector<int>& nodes) {
-  std::vector<int> order = nodes;
-  std::sort(order.begin(), order.end(), [&](int i, int j) { return model.mesh.x(0, i) < model.mesh.x(0, j); });
-  return order;
-}
-
-// Coincident nodes that no interface joins: often two parts that were meant to be one.
+// Coincident nodes that no interface joins: often two parts that were meant to be one.  Neighbours are sought
+// along a slanting line, on which the columns and rows of a regular mesh do not fall together.
 void warn_coincident(Builder& b, const std::vector<double>& shortest) {
   const Mesh& mesh = b.model.mesh;
-  std::vector<int> used;
+  const Vector2 slant(0.8, 0.6);
+  std::vector<std::pair<double, int>> order;
   double widest = 0.0;
   for (int n = 0; n < mesh.nodes(); ++n) {
     const double s = shortest[static_cast<std::size_t>(n)];
     if (!std::isfinite(s)) continue;
-    used.push_back(n);
+    order.emplace_back(slant.dot(mesh.x.col(n)), n);
     widest = std::max(widest, kTogether * s);
   }
-  const std::vector<int> order = by_x(b.model, used);
+  std::sort(order.begin(), order.end());
   const std::vector<char> joined = interface_nodes(b.model);
   Examples pairs;
   for (std::size_t i = 0; i < order.size(); ++i)
-    for (std::size_t j = i + 1; j < order.size() && mesh.x(0, order[j]) - mesh.x(0, order[i]) <= widest; ++j) {
-      const auto a = static_cast<std::size_t>(order[i]), c = static_cast<std::size_t>(order[j]);
+    for (std::size_t j = i + 1; j < order.size() && order[j].first - order[i].first <= widest; ++j) {
+      const int first = std::min(order[i].second, order[j].second),
+                second = std::max(order[i].second, order[j].second);
+      const auto a = static_cast<std::size_t>(first), c = static_cast<std::size_t>(second);
       const double tolerance = kTogether * std::min(shortest[a], shortest[c]);
-      if ((mesh.x.col(order[i]) - mesh.x.col(order[j])).norm() > tolerance || (joined[a] && joined[c]))
-        continue;
-      pairs.add(number_of(b.model, order[i]) + " and " + number_of(b.model, order[j]));
+      if ((mesh.x.col(first) - mesh.x.col(second)).norm() > tolerance || (joined[a] && joined[c])) continue;
+      pairs.add(number_of(b.model, first) + " and " + number_of(b.model, second));
     }
   if (pairs.count > 0)
     b.warning({b.deck.file, 0, 0, 0}, std::to_string(pairs.count) +
@@ -92,68 +88,91 @@ void warn_coincident(Builder& b, const std::vector<double>& shortest) {
                                           pairs.text() + "; the parts are not connected there");
 }
 
-struct Edge {
-  std::vector<int> nodes;  // corner, corner, inner
-  int element = 0;         // deck number
-  int uses = 1;
+// An edge of a solid, by its corners (the smaller node first).
+struct EdgeUse {
+  int a = 0, b = 0;
+  int group = 0, element = 0, local = 0;
+  bool operator<(const EdgeUse& other) const { return std::tie(a, b) < std::tie(other.a, other.b); }
 };
 
-// Solid edges by their corners.  Where two elements of an edge have different inner nodes, those of one of them
-// hang.
-std::map<std::pair<int, int>, Edge> solid_edges(const Model& model, Examples& hanging) {
-  std::map<std::pair<int, int>, Edge> edges;
-  for (const Group& group : model.groups) {
+const std::vector<int>& local_nodes(const Model& model, const EdgeUse& use) {
+  const Element& element = *model.groups[static_cast<std::size_t>(use.group)].element;
+  return element.edges()[static_cast<std::size_t>(use.local)];
+}
+
+std::string element_of(const Model& model, const EdgeUse& use) {
+  const Group& group = model.groups[static_cast<std::size_t>(use.group)];
+  return "element " + std::to_string(group.element_numbers[static_cast<std::size_t>(use.element)]);
+}
+
+std::string ends_of(const Model& model, const EdgeUse& use) {
+  return " (nodes " + number_of(model, use.a) + " and " + number_of(model, use.b) + ")";
+}
+
+// Edges that one solid alone has.  Where two have the same corners and not the same number of nodes, one hangs.
+std::vector<EdgeUse> outline_edges(const Model& model, Examples& hanging) {
+  std::vector<EdgeUse> uses;
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const Group& group = model.groups[g];
     if (group.element->traits().law_size != 4) continue;
+    const auto& edges = group.element->edges();
     for (int e = 0; e < group.elements(); ++e)
-      for (const std::vector<int>& local : group.element->edges()) {
-        Edge edge;
-        for (int i : local) edge.nodes.push_back(group.nodes_of(e)[i]);
-        edge.element = group.element_numbers[static_cast<std::size_t>(e)];
-        const auto [it, fresh] = edges.try_emplace(std::minmax(edge.nodes[0], edge.nodes[1]), edge);
-        if (fresh) continue;
-        ++it->second.uses;
-        const Edge& other = it->second;
-        const Edge &longer = edge.nodes.size() > other.nodes.size() ? edge : other,
-                   &shorter = edge.nodes.size() > other.nodes.size() ? other : edge;
-        if (longer.nodes.size() > shorter.nodes.size())
-          hanging.add("node " + number_of(model, longer.nodes[2]) + " of element " +
-                      std::to_string(longer.element) + " on an edge of element " +
-                      std::to_string(shorter.element) + " (nodes " + number_of(model, edge.nodes[0]) + " and " +
-                      number_of(model, edge.nodes[1]) + ")");
+      for (std::size_t i = 0; i < edges.size(); ++i) {
+        const auto [a, c] = std::minmax(group.nodes_of(e)[edges[i][0]], group.nodes_of(e)[edges[i][1]]);
+        uses.push_back({a, c, static_cast<int>(g), e, static_cast<int>(i)});
       }
   }
-  return edges;
+  std::stable_sort(uses.begin(), uses.end());
+  std::vector<EdgeUse> alone;
+  for (std::size_t i = 0; i < uses.size();) {
+    std::size_t end = i + 1;
+    while (end < uses.size() && !(uses[i] < uses[end])) ++end;
+    if (end == i + 1) alone.push_back(uses[i]);
+    for (std::size_t k = i + 1; k < end; ++k) {
+      const bool more = local_nodes(model, uses[k]).size() > local_nodes(model, uses[i]).size();
+      const EdgeUse &longer = more ? uses[k] : uses[i], &shorter = more ? uses[i] : uses[k];
+      const std::vector<int>& nodes = local_nodes(model, longer);
+      if (nodes.size() == local_nodes(model, shorter).size()) continue;
+      const int* of_element = model.groups[static_cast<std::size_t>(longer.group)].nodes_of(longer.element);
+      hanging.add("node " + number_of(model, of_element[nodes[2]]) + " of " + element_of(model, longer) +
+                  " on an edge of " + element_of(model, shorter) + ends_of(model, shorter));
+    }
+    i = end;
+  }
+  return alone;
 }
 
 // Nodes that stand on an edge of an element which does not have them: there displacements of both sides differ.
 void warn_hanging(Builder& b, const std::vector<double>& shortest) {
   const Model& model = b.model;
   Examples hanging;
-  const auto edges = solid_edges(model, hanging);
-  std::vector<int> outline;
-  for (const auto& [ends, edge] : edges)
-    if (edge.uses == 1) outline.insert(outline.end(), edge.nodes.begin(), edge.nodes.end());
-  std::sort(outline.begin(), outline.end());
-  outline.erase(std::unique(outline.begin(), outline.end()), outline.end());
-  const std::vector<int> order = by_x(model, outline);
+  const std::vector<EdgeUse> edges = outline_edges(model, hanging);
+  std::vector<std::pair<double, int>> order;  // the outline's nodes by x
+  for (const EdgeUse& edge : edges)
+    for (int local : local_nodes(model, edge)) {
+      const int node = model.groups[static_cast<std::size_t>(edge.group)].nodes_of(edge.element)[local];
+      order.emplace_back(model.mesh.x(0, node), node);
+    }
+  std::sort(order.begin(), order.end());
+  order.erase(std::unique(order.begin(), order.end()), order.end());
   const auto x = [&](int node) { return Vector2(model.mesh.x.col(node)); };
-  for (const auto& [ends, edge] : edges) {
-    if (edge.uses > 1 || edge.nodes.size() > 2) continue;  // inner nodes may bend an edge
-    const Vector2 from = x(ends.first), along = x(ends.second) - from;
-    const double length = along.norm();
-    const double low = std::min(from.x(), x(ends.second).x()) - kTogether * length;
-    const double high = std::max(from.x(), x(ends.second).x()) + kTogether * length;
-    auto it = std::lower_bound(order.begin(), order.end(), low,
-                               [&](int node, double value) { return model.mesh.x(0, node) < value; });
-    for (; it != order.end() && model.mesh.x(0, *it) <= high; ++it) {
-      if (*it == ends.first || *it == ends.second) continue;
-      const Vector2 d = x(*it) - from;
+  for (const EdgeUse& edge : edges) {
+    if (local_nodes(model, edge).size() > 2) continue;  // inner nodes may bend an edge
+    const Vector2 from = x(edge.a), along = x(edge.b) - from;
+    const double length = along.norm(), reach = kTogether * length;
+    const double low = std::min(from.x(), x(edge.b).x()) - reach,
+                 high = std::max(from.x(), x(edge.b).x()) + reach;
+    for (auto it = std::lower_bound(order.begin(), order.end(), std::pair(low, -1));
+         it != order.end() && it->first <= high; ++it) {
+      const int node = it->second;
+      if (node == edge.a || node == edge.b) continue;
+      const Vector2 d = x(node) - from;
       const double t = d.dot(along) / (length * length);
       const double off = std::abs(d.x() * along.y() - d.y() * along.x()) / length;
-      const double near = kTogether * std::min(length, shortest[static_cast<std::size_t>(*it)]);
+      const double near = kTogether * std::min(length, shortest[static_cast<std::size_t>(node)]);
       if (off > near || t * length <= near || (1.0 - t) * length <= near) continue;
-      hanging.add("node " + number_of(model, *it) + " on an edge of element " + std::to_string(edge.element) +
-                  " (nodes " + number_of(model, ends.first) + " and " + number_of(model, ends.second) + ")");
+      hanging.add("node " + number_of(model, node) + " on an edge of " + element_of(model, edge) +
+                  ends_of(model, edge));
     }
   }
   if (hanging.count > 0)

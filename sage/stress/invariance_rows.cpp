@@ -249,6 +249,35 @@ void determinism(Sweep& s) {
     }
 }
 
+// More threads than there are processors too: the same bits.
+void threads(Sweep& s) {
+  for (int law : {1, 3})
+    for (const auto& [code, entry] : s.catalogue().solvers.entries()) {
+      if (entry.symmetric && law != 1) continue;
+      TriaxialDeck deck;
+      deck.law = law;
+      deck.parameters =
+          law == 1 ? std::vector<double>{3000.0, 0.3} : std::vector<double>{3000.0, 0.3, 10.0, 30.0, 0.0};
+      deck.cell = 50.0;
+      deck.rough_base = true;
+      deck.columns = 24;
+      deck.rows = 48;
+      deck.strains = {0.03};
+      deck.increments = law == 1 ? 1 : 2;
+      RunSettings settings;
+      settings.solver = code;
+      const Ran one = s.run(deck.text(), {}, settings);
+      bool same = one.completed();
+      for (int count : {2, 4}) {
+        settings.threads = count;
+        const Ran other = s.run(deck.text(), {}, settings);
+        same = same && other.completed() && same_bits(*one.run, *other.run);
+      }
+      s.holds(fmt::format("law {}, solver {}, 1, 2 and 4 threads", law, entry.name), kUnknown, same,
+              "bit for bit the same", same ? "the same" : "different");
+    }
+}
+
 // Every solver that the scene allows against the profile solver.
 void solvers(Sweep& s) {
   for (bool law : {false, true}) {
@@ -293,6 +322,7 @@ std::vector<Row> invariance_rows() {
       {"huge-step", family, "one increment far beyond collapse",
        "strength in triaxial compression, closed form", "axial strain", true, huge_step},
       {"determinism", family, "the same run again", "the first run, bit for bit", "", false, determinism},
+      {"threads", family, "1, 2 and 4 threads", "one thread, bit for bit", "", false, threads},
       {"solvers", family, "every solver", "the profile solver. Allowed: 1e-9", "", false, solvers},
   };
 }

@@ -304,7 +304,7 @@ void hanging(Sweep& s) {
     for (int n : {1, 2}) deck.fix(n, 1, 1);
     deck.stage().load(8, 1.0, 0.0);
     s.says(quadratic ? "quad8 above a quad4" : "two quad4 above one", kUnknown, s.run(deck.text()),
-           quadratic ? "1 hanging node(s): node 5 of element 2 on an edge of element 1 (nodes 4 and 3)"
+           quadratic ? "1 hanging node(s): node 5 of element 2 on an edge of element 1 (nodes 3 and 4)"
                      : "1 hanging node(s): node 5 on an edge of element 1 (nodes 3 and 4)");
   }
   for (Cell cell : {Cell::quad4, Cell::quad8, Cell::tri3, Cell::tri6, Cell::quad9}) {
