@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <unordered_map>
 
 #include "sage/model/activity.hpp"
 #include "sage/model/builder.hpp"
@@ -165,6 +167,64 @@ void check_slender(Builder& b) {
                                     " times: is a coordinate wrong?");
 }
 
+// Two solids on the same hand of one edge lie on each other.  Twins of which one goes before the other comes
+// may.
+void check_overlap(Builder& b) {
+  const std::size_t groups = b.model.groups.size();
+  std::vector<std::vector<char>> active(groups);  // by group, then by stage
+  Activity activity(b.model);
+  for (const Stage& stage : b.model.stages) {
+    activity.enter(b.model, stage);
+    for (std::size_t g = 0; g < groups; ++g) active[g].push_back(activity.group[g]);
+  }
+  const auto together = [&](std::size_t g, std::size_t h) {
+    for (std::size_t s = 0; s < active[g].size(); ++s)
+      if (active[g][s] && active[h][s]) return true;
+    return false;
+  };
+  std::unordered_map<std::uint64_t, std::pair<std::size_t, int>> owner;  // directed edge -> group, element
+  std::string first;
+  int found = 0, line = 0;
+  for (std::size_t g = 0; g < groups; ++g) {
+    const Group& group = b.model.groups[g];
+    if (group.element->traits().law_size != 4) continue;
+    for (int e = 0; e < group.elements(); ++e)
+      for (const std::vector<int>& edge : group.element->edges()) {
+        const auto from = static_cast<std::uint64_t>(group.nodes_of(e)[edge[0]]);
+        const auto to = static_cast<std::uint64_t>(group.nodes_of(e)[edge[1]]);
+        const auto [it, added] = owner.try_emplace(from << 32U | to, g, e);
+        if (added || !together(g, it->second.first) || ++found > 1) continue;
+        const Group& other = b.model.groups[it->second.first];
+        line = group.element_lines[static_cast<std::size_t>(e)];
+        first = "elements " +
+                std::to_string(other.element_numbers[static_cast<std::size_t>(it->second.second)]) + " and " +
+                std::to_string(group.element_numbers[static_cast<std::size_t>(e)]);
+      }
+  }
+  if (found > 0)
+    b.warning(line_of(b, line),
+              first + " lie on the same side of a common edge: they overlap" +
+                  (found > 1 ? " (and " + std::to_string(found - 1) + " more such edges)" : ""));
+}
+
+// Where elements come in blocks, a number that is left out may be a hole in the mesh.
+void note_missing_numbers(Builder& b) {
+  bool blocks = false;
+  for (const CardView& card : b.deck.all("element"))
+    blocks = blocks || card.integer("columns") > 1 || card.integer("rows") > 1;
+  if (!blocks) return;
+  std::vector<int> numbers;
+  for (const auto& [number, place] : b.element_place) numbers.push_back(number);
+  std::sort(numbers.begin(), numbers.end());
+  for (std::size_t i = 1; i < numbers.size(); ++i) {
+    if (numbers[i] == numbers[i - 1] + 1) continue;
+    b.note({b.deck.file, 0, 0, 0}, "the element numbers are not consecutive: after " +
+                                       std::to_string(numbers[i - 1]) + " comes " + std::to_string(numbers[i]) +
+                                       "; is a block of elements cut short?");
+    return;
+  }
+}
+
 // Poisson's ratio below zero is possible, but no soil has it.
 void check_poisson(Builder& b) {
   for (const Material& material : b.model.materials) {
@@ -299,6 +359,8 @@ void check_plausible(Builder& b) {
   const Size size = size_of(b);
   check_units(b);
   check_slender(b);
+  check_overlap(b);
+  note_missing_numbers(b);
   check_poisson(b);
   for (const InitialStress& initial : b.model.initials) check_initial(b, initial);
   Activity activity(b.model);

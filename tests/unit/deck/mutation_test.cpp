@@ -58,7 +58,7 @@ class ProblemBytes {
     for (Eigen::Index i = 0; i < model.mesh.x.size(); ++i) add(model.mesh.x.data()[i]);
     for (const Material& m : model.materials) {
       add(m.code);
-      if (gravity) add(m.unit_weight);
+      if (gravity && std::holds_alternative<std::unique_ptr<SolidLaw>>(m.law)) add(m.unit_weight);
       add_list(m.parameters);
     }
     for (const Group& g : model.groups) {
@@ -368,8 +368,11 @@ TEST(Mutation, AllSage1Decks) {
   ASSERT_GT(decks.size(), 20u);
   for (const fs::path& path : decks) {
     const Sound deck = sound(path, "sage1");
-    EXPECT_TRUE(deck.buildable) << path;
-    mutate(deck, 1, kAll, seed++, tally);
+    ASSERT_TRUE(deck.buildable) << path;
+    // Decks that are much alike share the damages: each kind of field gets all of them in several decks.
+    const std::string name = path.string();
+    const bool alike = name.find("chapter7") != std::string::npos || name.find("at_once") != std::string::npos;
+    mutate(deck, 1, alike ? 4 : kAll, seed++, tally);
   }
   tally.print();
   for (const Damage damage :

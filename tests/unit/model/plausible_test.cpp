@@ -1,0 +1,171 @@
+// Valid decks with a number that is unlikely to be meant: each gets its warning or note, and the sound deck
+// none.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "tests/support/run_text.hpp"
+
+namespace sage::test {
+namespace {
+
+DeckWriter sound() {
+  DeckWriter deck(1);
+  Block block;
+  block.columns = block.rows = 2;
+  block.place = rectangle(0.0, 2.0, 0.0, 2.0);
+  block.write_nodes(deck);
+  deck.material(1, 1, {1e4, 0.3}, 20.0);
+  deck.group(1, 1, 0, 1);
+  block.write_elements(deck, 1);
+  for (int n : block.bottom()) deck.fix(n, 1, 1);
+  deck.initial(1, 0, 1.0, 1.0, 1.0, 0.0);
+  StageCards& stage = deck.stage();
+  stage.gravity_y = -1.0;
+  stage.pressure(3, 3, 10.0, 10.0);
+  return deck;
+}
+
+// "warning: ...\nnote: ...\n" of the model; what the law's own checks say at run time is not among them.
+std::string messages(const DeckWriter& deck) {
+  const WholeRun run = run_text(deck.text());
+  std::string text;
+  for (const Diagnostic& d : run.model->diagnostics.list())
+    text += (d.severity == Severity::warning ? "warning: " : "note: ") + d.message + "\n";
+  return text;
+}
+
+struct Unlikely {
+  const char* name;
+  std::function<void(DeckWriter&)> change;
+  const char* says;
+};
+
+void PrintTo(const Unlikely& one, std::ostream* out) {
+  *out << one.name;
+}
+
+class Plausible : public testing::TestWithParam<Unlikely> {};
+
+TEST_P(Plausible, IsTold) {
+  DeckWriter deck = sound();
+  GetParam().change(deck);
+  const std::string said = messages(deck);
+  EXPECT_NE(said.find(GetParam().says), std::string::npos) << "expected \"" << GetParam().says << "\" in\n"
+                                                           << said;
+}
+
+TEST(PlausibleDeck, HasNothingToSay) {
+  EXPECT_EQ(messages(sound()), "");
+}
+
+// One element more on the nodes of the first, in a group of its own.
+void lay_over(DeckWriter& deck, bool twin) {
+  deck.group(2, 1, 0, 1);
+  deck.element(9, 2, {1, 2, 5, 4});
+  if (!twin) return;
+  deck.group(3, 1, 0, 1);
+  deck.elements.front() = deck.elements.front().substr(0, 5) + "    3" + deck.elements.front().substr(10);
+  StageCards& stage = deck.stage();
+  stage.births = {2};
+  stage.deaths = {3};
+}
+
+TEST(PlausibleDeck, TwinsThatFollowEachOtherDoNotOverlap) {
+  DeckWriter deck = sound();
+  lay_over(deck, true);
+  EXPECT_EQ(messages(deck).find("overlap"), std::string::npos) << messages(deck);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Numbers, Plausible,
+    testing::Values(
+        Unlikely{"Atmosphere", [](DeckWriter& d) { d.atmospheric_pressure = 14.7; },
+                 "warning: the atmospheric pressure, stress is 14.7; in these units it is about 101.3 kPa"},
+        Unlikely{"Water", [](DeckWriter& d) { d.water_unit_weight = 62.4; },
+                 "in these units it is about 9.807 kN/m^3"},
+        Unlikely{"NoWeight",
+                 [](DeckWriter& d) {
+                   d.materials.clear();
+                   d.material(1, 1, {1e4, 0.3}, 0.0);
+                 },
+                 "warning: stage 1: gravity acts, but no material has a unit weight"},
+        Unlikely{"NegativeWeight",
+                 [](DeckWriter& d) {
+                   d.materials.clear();
+                   d.material(1, 1, {1e4, 0.3}, -20.0);
+                 },
+                 "warning: material 1: the unit weight is negative"},
+        Unlikely{"Heavy",
+                 [](DeckWriter& d) {
+                   d.materials.clear();
+                   d.material(1, 1, {1e4, 0.3}, 2e4);
+                 },
+                 "the weight of a column as high as the mesh, 4e+04, exceeds its modulus, 1e+04"},
+        Unlikely{"NegativeNu",
+                 [](DeckWriter& d) {
+                   d.materials.clear();
+                   d.material(1, 1, {1e4, -0.3}, 20.0);
+                 },
+                 "warning: material 1: Poisson's ratio is negative"},
+        Unlikely{"GravityUp", [](DeckWriter& d) { d.stages[0].gravity_y = 1.0; },
+                 "note: stage 1: gravity acts upwards"},
+        Unlikely{"GravityHuge", [](DeckWriter& d) { d.stages[0].gravity_y = -2000.0; },
+                 "gravity is 2000 times the unit weights"},
+        Unlikely{"PressureHuge", [](DeckWriter& d) { d.stages[0].pressure(4, 3, 2e4, 0.0); },
+                 "warning: the pressure or shear 2e+04 exceeds the largest modulus"},
+        Unlikely{"Suction", [](DeckWriter& d) { d.stages[0].pressure(4, 3, -5.0, -5.0); },
+                 "note: a negative pressure pulls at the edge"},
+        Unlikely{"ForceHuge", [](DeckWriter& d) { d.stages[0].load(9, 0.0, -1e6); },
+                 "would strain the whole mesh by more than 1"},
+        Unlikely{"DisplacementHuge", [](DeckWriter& d) { d.stages[0].fix(9, 0, 1, 0.0, -50.0); },
+                 "warning: the displacement -50 is larger than the mesh, 2"},
+        Unlikely{"ReleasedTwice", [](DeckWriter& d) { d.stages[0].fix(9, -1, 0); },
+                 "note: code -1 releases node 9 in x, which nothing held"},
+        Unlikely{"FixityOfNothing", [](DeckWriter& d) { d.stages[0].fix(9, 0, 0); },
+                 "note: this fixity card changes nothing"},
+        Unlikely{"NullStage", [](DeckWriter& d) { d.stage(); }, "note: stage 2 adds nothing"},
+        Unlikely{"KZero",
+                 [](DeckWriter& d) {
+                   d.initials.clear();
+                   d.initial(1, 1, 2.0, 20.0, 50.0, 0.0);
+                 },
+                 "the coefficient of earth pressure at rest is 50"},
+        Unlikely{"GroundLevel",
+                 [](DeckWriter& d) {
+                   d.initials.clear();
+                   d.initial(1, 1, 200.0, 20.0, 0.5, 0.0);
+                 },
+                 "the ground level of the initial stress, 200, is far from the mesh, 0 to 2"},
+        Unlikely{"InitialTension",
+                 [](DeckWriter& d) {
+                   d.initials.clear();
+                   d.initial(1, 0, 1.0, -1.0, 1.0, 0.0);
+                 },
+                 "note: group 1: value 2 of the initial stress is tension"},
+        Unlikely{"Slender", [](DeckWriter& d) { d.nodes[2] = "    3    0    0       1.E6        0."; },
+                 "more than 10000 times as long as wide"},
+        Unlikely{"Overlap", [](DeckWriter& d) { lay_over(d, false); },
+                 "warning: elements 1 and 9 lie on the same side of a common edge: they overlap"},
+        Unlikely{"MissingNumbers",
+                 [](DeckWriter& d) {
+                   d.elements = {"    1    1    1    2    5    4                        2    1",
+                                 "    7    1    4    5    8    7                        2    1"};
+                   d.stages[0].pressures.clear();
+                 },
+                 "note: the element numbers are not consecutive: after 2 comes 7"},
+        Unlikely{"StepWithoutLast",
+                 [](DeckWriter& d) { d.fixities.push_back("    1         1    1    1        0.        0."); },
+                 "note: a step is given but no last: only 1 is meant"},
+        Unlikely{"LastWithoutStep",
+                 [](DeckWriter& d) { d.fixities.push_back("    1    3         1    1        0.        0."); },
+                 "note: the step is left blank, which reads as 1: all from 1 to 3"},
+        Unlikely{"InitialBlank",
+                 [](DeckWriter& d) { d.initials = {"    1    0        1.                  1."}; },
+                 "note: left blank on this initial stress card, which reads as 0: value 2"},
+        Unlikely{"NodeBlank", [](DeckWriter& d) { d.nodes[3] = "    4    0    0                  1."; },
+                 "note: left blank, which reads as 0 (node card, x or radius, length)"}),
+    [](const auto& one) { return std::string(one.param.name); });
+
+}  // namespace
+}  // namespace sage::test
