@@ -18,7 +18,7 @@ int solver_code(const Catalogue& catalogue, const std::string& name) {
   if (name.empty()) return -1;
   for (const auto& [code, entry] : catalogue.solvers.entries())
     if (entry.name == name) return code;
-  throw InputError({}, "solver " + name + " is unknown; " + catalogue.solvers.known());
+  throw InputError({}, "unknown solver " + name + "; known: " + catalogue.solvers.known());
 }
 
 std::string unknown_solver(const std::string& name) {

@@ -52,23 +52,8 @@ struct Specimen {
       for (int j = 0; j < block.rows; ++j) stage.pressure(block.element(columns - 1, j), 2, kCell, kCell);
     for (int n : block.right())
       if (stage_load != 0.0) stage.load(n, stage_load, 0.0);
-    std::string text = deck.text();
-    if (!report) return text;
-    // One report card: control field 11 and the card before END.
-    std::vector<std::string> lines;
-    for (std::size_t at = 0; at < text.size();) {
-      const std::size_t end = text.find('\n', at);
-      lines.push_back(text.substr(at, end - at));
-      at = end + 1;
-    }
-    lines[2] += "    1";
-    char card[96];
-    std::snprintf(card, sizeof card, "%5d%5d%5d%5d%5d%5d%10.1f%10.1f%10.1f", 1, 1, block.top().front(),
-                  block.top().back(), block.order(), 1, 2.0, 0.0, kCell);
-    lines.insert(lines.end() - 1, card);
-    text.clear();
-    for (const std::string& line : lines) text += line + "\n";
-    return text;
+    if (report) deck.triaxial_report(1, block.top().front(), block.top().back(), 1, 2.0, kCell);
+    return deck.text();
   }
 };
 
