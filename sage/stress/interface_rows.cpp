@@ -30,8 +30,8 @@ void normal_stiffness(Sweep& s) {
     s.right(label + ", contact pressure", deck.kn, ran, contact, 1e-12 + 100.0 * kUnit * deck.kn).series =
         "contact pressure";
     s.right(label + ", displacement", deck.kn, ran, u, 1e-12 + 10.0 * kUnit * deck.kn).series = "displacement";
-    if (power >= 11) s.says(label, kUnknown, ran, "digits are lost in the equations");
-    if (power <= 6) s.silent(label, kUnknown, ran, "digits are lost in the equations");
+    if (power >= 11) s.says(label, kUnknown, ran, "digits are lost");
+    if (power <= 6) s.silent(label, kUnknown, ran, "digits are lost");
   }
 }
 

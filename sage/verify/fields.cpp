@@ -6,6 +6,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "elements/lobatto.hpp"
 #include "elements/shapes.hpp"
 
 namespace sage::verify {
@@ -28,6 +29,12 @@ void with_shape(int element_code, const Act& act) {
       return act(Quad9{});
     case 6:
       return act(Tri15{});
+    case 7:
+      return act(LobattoQuad<4>{});
+    case 8:
+      return act(LobattoQuad<6>{});
+    case 9:
+      return act(LobattoQuad<8>{});
     default:
       throw std::logic_error("no shape for element code " + std::to_string(element_code));
   }
