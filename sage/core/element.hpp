@@ -19,11 +19,11 @@ struct ElementTraits {
   std::string_view name;
   Geometry geometry = Geometry::plane_strain;
   int nodes = 0;
-  int dofs = 0;          // 2 a node, ordered u1 v1 u2 v2 ...
-  int points = 0;        // integration points
-  int law_size = 4;      // 4 solid, 2 interface
-  bool reduced = false;  // reduced integration: fewer points than full rank needs (hourglass possible)
-  bool locks = false;    // stiffens without bound as nu -> 1/2 (full integration of low order)
+  int dofs = 0;              // 2 a node, ordered u1 v1 u2 v2 ...
+  int points = 0;            // integration points
+  int law_size = 4;          // 4 solid, 2 interface
+  bool reduced = false;      // reduced integration: fewer points than full rank needs (hourglass possible)
+  bool locks = false;        // stiffens without bound as nu -> 1/2 (full integration of low order)
   bool loses_order = false;  // as nu -> 1/2 it still converges, but slower than its shape functions allow
   // Doubles filled by geometry(): for each point its weight w, then B^T (dofs x law_size, column-major).
   int geometry_size() const { return points * (1 + law_size * dofs); }
