@@ -1,6 +1,6 @@
 // All mutants of a file are compiled at once; the environment variable SAGE_MUTANT picks the one that is alive.
-// scripts/mutate puts these markers where the operators and constants stand.  They keep precedence: `a - sub(7) - b`
-// is a - b, or a + b for mutant 7.
+// scripts/mutate puts these markers where the operators and constants stand.  They keep precedence: `a - sub(7)
+// - b` is a - b, or a + b for mutant 7.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,9 @@ struct Stored {
   using type = std::decay_t<T>;
 };
 template <class T>
-  requires requires { typename std::decay_t<T>::PlainObject; }
+requires requires {
+  typename std::decay_t<T>::PlainObject;
+}
 struct Stored<T> {
   using type = typename std::decay_t<T>::PlainObject;
 };

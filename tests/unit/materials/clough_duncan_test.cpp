@@ -205,5 +205,44 @@ TEST(CloughDuncan, InitialStressMustBeAdmissible) {
   EXPECT_FALSE(law->initialise({0.0, 0.1}, h));
 }
 
+// k_nt = 5e5 from the tension or the compression it starts with; beyond sigma_t it opens and forgets its shear.
+TEST(CloughDuncan, TensionUpToItsStrength) {
+  const auto law = test::interface(22, {0.0, 30.0, 10.0, 0.0, 5000.0, 0.5, 1e6, 5e5, 0.0});
+  const std::vector<double> h{0.0, 0.0, 3.0, 1.0, 0.0};
+  EXPECT_NEAR(test::update<2>(*law, {0.0, 2.0}, {0.0, 1e-5}, h).sigma[1], 7.0, 1e-12);
+  EXPECT_NEAR(test::update<2>(*law, {0.0, -2.0}, {0.0, 1e-5}, h).sigma[1], 4.0, 1e-12);
+  const auto open = test::update<2>(*law, {0.0, 2.0}, {0.0, 1e-4}, h);
+  EXPECT_EQ(open.status, PointStatus::open);
+  EXPECT_NEAR(open.h[0], 1.04e-4, 1e-16);
+  EXPECT_EQ(open.h[1], 1.0);
+  EXPECT_EQ(open.h[2], 0.0);
+  EXPECT_EQ(open.h[3], 0.0);
+}
+
+// k = 5000 x 0.036111, tau_f = 3, k_sf = 50, w = 0.1: beyond the strength k w - 3, of which k_sf/k stays as
+// hardening and the rest is slip.
+TEST(CloughDuncan, SlipCountsTheDisplacement) {
+  const auto law = test::interface(22, {3.0, 0.0, 0.0, 0.0, 5000.0, 0.0, 1e6, 1e6, 50.0});
+  const double k = 5000.0 * 0.036111, excess = k * 0.1 - 3.0, hardening = 50.0 / k * excess;
+  for (const double side : {1.0, -1.0}) {
+    const Vector2 start{0.0, -10.0};
+    const auto a = test::update<2>(*law, start, {side * 0.1, 0.0}, test::initial_history<2>(*law, start));
+    EXPECT_NEAR(a.sigma[0], side * (3.0 + hardening), 1e-12);
+    EXPECT_NEAR(a.h[3], hardening, 1e-12);
+    EXPECT_NEAR(a.h[4], (excess - hardening) / k, 1e-15);
+  }
+}
+
+TEST(CloughDuncan, SymmetricWhereShearNeverMeetsNormal) {
+  const auto symmetric = [](double c, double phi, double k_j, double k_sf) {
+    return test::interface(22, {c, phi, 0.0, 0.0, k_j, 0.0, 1e6, 1e6, k_sf})->symmetric();
+  };
+  EXPECT_TRUE(symmetric(3.0, 0.0, 0.0, 0.0));
+  EXPECT_TRUE(symmetric(0.0, 0.0, 5000.0, 0.0));
+  EXPECT_FALSE(symmetric(3.0, 0.0, 5000.0, 0.0));
+  EXPECT_FALSE(symmetric(0.0, 0.0, 5000.0, 5.0));
+  EXPECT_FALSE(symmetric(0.0, 30.0, 0.0, 0.0));
+}
+
 }  // namespace
 }  // namespace sage

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "materials/stress_measures.hpp"
 #include "sage/core/point_driver.hpp"
 #include "tests/support/laws.hpp"
@@ -22,6 +24,29 @@ TEST(DruckerPrager, ChapterConstants) {
   const Cone cone = match_cone(ConeMatch::triaxial_compression, std::asin(0.6), 1.0);
   EXPECT_NEAR(cone.alpha, 1.0 / (2.0 * std::sqrt(3.0)), 1e-15);
   EXPECT_NEAR(cone.k, 6.0 * 0.8 / (std::sqrt(3.0) * 2.4), 1e-15);
+}
+
+// alpha and k of every match in closed form; sin phi = 3/5, cos phi = 4/5, tan phi = 3/4, c = 2.
+TEST(DruckerPrager, ConesOfEveryMatch) {
+  const double phi = std::asin(0.6), c = 2.0, root3 = std::sqrt(3.0), root = std::sqrt(15.75);
+  const Cone extension = match_cone(ConeMatch::triaxial_extension, phi, c);
+  EXPECT_NEAR(extension.alpha, 1.2 / (3.6 * root3), 1e-15);
+  EXPECT_NEAR(extension.k, 9.6 / (3.6 * root3), 1e-15);
+  for (const ConeMatch match : {ConeMatch::plane_strain_associated, ConeMatch::inner}) {
+    const Cone cone = match_cone(match, phi, c);
+    EXPECT_NEAR(cone.alpha, 0.75 / root, 1e-15);
+    EXPECT_NEAR(cone.k, 6.0 / root, 1e-15);
+  }
+  const Cone deviatoric = match_cone(ConeMatch::plane_strain_deviatoric, phi, c);
+  EXPECT_NEAR(deviatoric.alpha, 0.2, 1e-15);
+  EXPECT_NEAR(deviatoric.k, 1.6, 1e-15);
+}
+
+TEST(DruckerPrager, InitialStressStartsTheHistory) {
+  std::array<double, 2> h{7.0, 7.0};
+  EXPECT_TRUE(chapter_soil(0.3, 1.0)->initialise({-50, -50, -50, 0}, h));
+  EXPECT_EQ(h[0], 0.0);
+  EXPECT_EQ(h[1], 0.0);
 }
 
 // Chapter: sigma_3 = 50, E = 3000, phi = 36.87: yields at 5 % with q = 150, then flows without volume change:
