@@ -253,7 +253,7 @@ void determinism(Sweep& s) {
 void threads(Sweep& s) {
   for (int law : {1, 3})
     for (const auto& [code, entry] : s.catalogue().solvers.entries()) {
-      if (entry.symmetric && law != 1) continue;
+      if (law != 1 && entry.name != "frontal") continue;  // the others have no threads of their own
       TriaxialDeck deck;
       deck.law = law;
       deck.parameters =
@@ -262,8 +262,7 @@ void threads(Sweep& s) {
       deck.rough_base = true;
       deck.columns = 24;
       deck.rows = 48;
-      deck.strains = {0.03};
-      deck.increments = law == 1 ? 1 : 2;
+      deck.strains = {0.02};
       RunSettings settings;
       settings.solver = code;
       const Ran one = s.run(deck.text(), {}, settings);
