@@ -44,6 +44,7 @@ class Run {
   bool open_stage(int s);
   void prepare_stage(int s);
   const SolverEntry* choose_solver(int equations, bool symmetric) const;
+  void prepare(LinearSolver& solver) const;
   void make_solver();
   bool run_stage(int s, int done);
   bool run_increment(const Stage& stage, StepReport& report, double& reached);
@@ -111,11 +112,15 @@ const SolverEntry* Run::choose_solver(int equations, bool symmetric) const {
   return entry;
 }
 
+void Run::prepare(LinearSolver& solver) const {
+  solver.set_threads(settings_.threads);
+  solver.set_refinement(settings_.refinement);
+}
+
 void Run::make_solver() {
   const SolverEntry* entry = choose_solver(assembly_.equations(), scene_.symmetric);
   solver_ = entry->make();
-  solver_->set_threads(settings_.threads);
-  solver_->set_refinement(settings_.refinement);
+  prepare(*solver_);
   solver_name_ = entry->name;
   stiffness_ = {};
   stiffness_.solver = solver_.get();
@@ -137,7 +142,9 @@ bool Run::open_stage(int s) {
   const bool condensed_before = assembly_.condensation() != nullptr;
   assembly_.enter_stage(activity_, rate_);
   assembly_.condense(stage.increments, [&](int equations, bool symmetric) {
-    return choose_solver(equations, symmetric)->make();
+    auto solver = choose_solver(equations, symmetric)->make();
+    prepare(*solver);
+    return solver;
   });
   const bool same_pattern = solver_ && !condensed_before && !assembly_.condensation() &&
                             held_before_ == activity_.held && groups_before_ == activity_.group;
