@@ -143,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(
                    d.initial(1, 0, 1.0, -1.0, 1.0, 0.0);
                  },
                  "note: group 1: value 2 of the initial stress is tension"},
-        Unlikely{"Slender", [](DeckWriter& d) { d.nodes[2] = "    3    0    0       1.E6        0."; },
+        Unlikely{"Slender", [](DeckWriter& d) { d.nodes[2] = "    3    0    0      1.E6        0."; },
                  "more than 10000 times as long as wide"},
         Unlikely{"Overlap", [](DeckWriter& d) { lay_over(d, false); },
                  "warning: elements 1 and 9 lie on the same side of a common edge: they overlap"},
