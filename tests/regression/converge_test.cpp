@@ -119,6 +119,40 @@ TEST(Converge, HalvedMeshesHoldTheTrueValue) {
   EXPECT_LE(error, 2.5e-4 * value);
 }
 
+// Flexible load q = 1 on a half-width (radius) of 1, E = 1, nu = .3, box of 5 x 5 with a fixed base and rollers
+// at the sides: settlement of the centre by an independent hp solution.  The stress is not smooth where the
+// load ends.
+TEST(Converge, DisplacementOfANodeUnderAPressure) {
+  for (const auto& [geometry, settlement] : {std::pair{1, 2.3855905}, {2, 1.5561672}}) {
+    study::DeckWriter deck(geometry);
+    const double x[] = {0.0, 1.0, 2.5, 5.0}, y[] = {0.0, 2.5, 4.0, 5.0};
+    for (int j = 0; j < 4; ++j)
+      for (int i = 0; i < 4; ++i) deck.node(4 * j + i + 1, x[i], y[j]);
+    deck.material(1, 1, {1.0, 0.3});
+    deck.group(1, 1, 0, 1);
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 3; ++i) {
+        const int n = 4 * j + i + 1;
+        deck.element(3 * j + i + 1, 1, {n, n + 1, n + 5, n + 4});
+      }
+    for (int j = 0; j < 4; ++j)
+      for (const int i : {1, 4}) deck.fix(4 * j + i, 1, 0);
+    for (int i = 1; i <= 4; ++i) deck.fix(i, 1, 1);
+    deck.stage().pressure(7, 3, 1.0, 1.0);  // from node 14 to 13
+    deck.reports.push_back("    2    0   13   13    1    1");
+    ConvergeOptions options;
+    options.tolerance = 1e-6;
+    EXPECT_EQ(converge(request_for(write("footing", deck.text())), options, full_catalogue()), kOk);
+    std::string last;
+    const std::vector<Row> rows = table_of("footing", last);
+    EXPECT_NE(last.find("report1.uy"), std::string::npos) << last;
+    for (const Row& row : rows) {
+      if (std::isnan(row.error)) continue;
+      EXPECT_LE(std::abs(row.value + settlement), row.error + 1e-7) << "reference to eight digits";
+    }
+  }
+}
+
 TEST(Converge, StopsAtItsLimitsAndSaysSo) {
   const std::string path = write("limited", cylinder(1, 1, 1.0, 0.495));
   ConvergeOptions options;
