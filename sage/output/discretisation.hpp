@@ -21,6 +21,10 @@ class DiscretisationError final : public Observer {
   void on_stage_end(const Model&, int stage, const EquilibriumAudit&, const Solution&) override;
   void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
 
+  // The ends of stages: the last one is measured, the report's counts from the end of the one before it.
+  bool wants_states(const Model&, const StepReport& report) const override {
+    return report.increment == report.increments;
+  }
   void exchange(Archive&) override;
 
   const std::optional<ErrorEstimate>& estimate() const { return estimate_; }
