@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <map>
 #include <random>
 
@@ -57,6 +58,12 @@ fs::path folder_with_deck(const std::string& name) {
   return folder;
 }
 
+double seconds_of_a_run(const fs::path& folder) {
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(sagefe(folder, std::string("run deck.dat -q -o timed ") + kOptions).exit_code, 0);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 // What a killed run leaves under a final name must be a whole file of the undisturbed run: VTU files and
 // pictures of increments that were done.
 void expect_whole_or_absent(const fs::path& folder, const std::map<std::string, std::string>& whole) {
@@ -70,15 +77,17 @@ void expect_whole_or_absent(const fs::path& folder, const std::map<std::string, 
 TEST(Fault, KilledAtRandomMomentsAndRestarted) {
   const fs::path folder = folder_with_deck("killed");
   const auto whole = undisturbed(folder);
-  std::mt19937 random(20240611);  // the moments vary with the machine, their list does not
-  std::uniform_real_distribution<double> moment(0.002, 0.120);
+  std::mt19937 random(20240611);
+  std::uniform_real_distribution<double> moment(0.1,
+                                                0.8);  // of the time of a whole run; later attempts get longer
+  const double whole_time = std::min(seconds_of_a_run(folder), seconds_of_a_run(folder));
   int killed = 0, resumed = 0;
   for (int trial = 0; trial < 8; ++trial) {
     fs::remove_all(folder / "out");
     int exit_code = 137;
     for (int attempt = 0; attempt < 40 && exit_code == 137; ++attempt) {
       const bool had_checkpoint = fs::exists(folder / "out/deck.restart");
-      const std::string limit = std::to_string(moment(random) * (1 + attempt));
+      const std::string limit = std::to_string(whole_time * moment(random) * (1 + attempt));
       exit_code =
           sagefe(folder, std::string("run deck.dat -q --restart ") + kOptions, "timeout -s KILL " + limit)
               .exit_code;
