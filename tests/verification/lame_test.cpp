@@ -139,11 +139,11 @@ TEST_P(Lame, NearlyIncompressible) {
     EXPECT_GT(incompressible, 4.0 * compressible);
 }
 
-// Six-node triangles with three points: not locked, but slower.  Order 3 at nu = .3, about 2 at .4999999.
+// Six-node triangles with three points: not locked, but slower.  Order 3 at nu = .3, 2.06 to 2.18 at .4999.
 TEST(LameLocking, SixNodeTrianglesLoseTheirOrder) {
   for (Body body : {Body::sector, Body::strip, Body::sphere}) {
     double error[3];
-    for (int level = 0; level < 3; ++level) error[level] = error_at(body, Cell::tri6, 1, 4 << level, 0.4999999);
+    for (int level = 0; level < 3; ++level) error[level] = error_at(body, Cell::tri6, 1, 4 << level, 0.4999);
     const double order = std::log2(error[0] / error[2]) / 2.0;
     std::printf("    %-7s errors %.3e %.3e %.3e  order %.2f\n", name_of(body), error[0], error[1], error[2],
                 order);
