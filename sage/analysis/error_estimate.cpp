@@ -1,5 +1,6 @@
 #include "sage/analysis/error_estimate.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
@@ -78,6 +79,24 @@ class Fit {
   Vector2 centre_, scale_;
   Eigen::MatrixXd coefficients_;
 };
+
+// What a field at n x n Gauss points (xi fastest) has above degree n - 3 in xi or eta: the identity less the
+// projection onto products of the lower Legendre polynomials.  Points and weights by Golub & Welsch (1969).
+Eigen::MatrixXd highest_degrees(int n) {
+  Eigen::MatrixXd jacobi = Eigen::MatrixXd::Zero(n, n);
+  for (int k = 1; k < n; ++k) jacobi(k, k - 1) = jacobi(k - 1, k) = k / std::sqrt(4.0 * k * k - 1.0);
+  // Row i of the eigenvectors: +-sqrt(w) times the orthonormal Legendre polynomial of degree i at each point;
+  // the sign is that of row 0.
+  const Eigen::MatrixXd Q = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(jacobi).eigenvectors();
+  const Eigen::VectorXd first = Q.row(0).transpose();
+  const Eigen::MatrixXd lower = Q.topRows(n - 2);
+  const Eigen::MatrixXd line =
+      first.cwiseInverse().asDiagonal() * (lower.transpose() * lower) * first.asDiagonal();
+  Eigen::MatrixXd square = Eigen::MatrixXd::Identity(n * n, n * n);
+  for (int b = 0; b < n; ++b)
+    for (int d = 0; d < n; ++d) square.block(b * n, d * n, n, n) -= line(b, d) * line;
+  return square;
+}
 
 // A rule given by the share of each corner in its points: linear on triangles, bilinear on quadrilaterals.
 struct CornerRule {
@@ -263,6 +282,7 @@ ErrorEstimate estimate_error(const Model& model, const Solution& solution, const
   }
 
   std::map<int, Patches> patches;
+  std::map<int, Eigen::MatrixXd> highest;   // by points a line
   std::map<std::pair<int, int>, Fit> fits;  // by material and vertex
   const auto fit_of = [&](const std::vector<std::size_t>& patch) {
     std::vector<const ElementStress*> members;
@@ -301,6 +321,19 @@ ErrorEstimate estimate_error(const Model& model, const Solution& solution, const
       const double w = stress[k].w(p);
       error += w * difference.dot(C * difference);
       result.size += w * own_stress.dot(C * own_stress);
+    }
+    // Elements of high degree tell their error themselves by their highest degrees; the polynomials of patches
+    // are far too coarse for them where sizes jump from layer to layer.
+    const Eigen::Index points = stress[k].points.rows();
+    const int line = stress[k].degree + 1;
+    if (stress[k].degree >= 4 && points == line * line) {
+      auto& above = highest[line];
+      if (above.size() == 0) above = highest_degrees(line);
+      const Stress4 top = above * stress[k].points;
+      double own_error = 0.0;
+      for (Eigen::Index p = 0; p < points; ++p)
+        own_error += stress[k].w(p) * top.row(p).dot((C * top.row(p).transpose()).transpose());
+      error = std::min(error, own_error);
     }
     result.error += error;
     auto& of_group = result.element[elements[k].group];

@@ -202,5 +202,26 @@ TEST(ErrorOption, RatioOfTheRestrainedCylinder) {
     }
 }
 
+// Graded meshes of high degree: no more than twice too small, and of the right order.
+TEST(ErrorOption, RatioOnGradedMeshesOfHighDegree) {
+  for (const Known& k : {Known{1, .25, 1.036223249}, {1, .495, 1.190558066}, {2, .495, 1.086253987}})
+    for (const auto& [element, layers] : {std::pair{7, 4}, {8, 6}, {9, 6}}) {
+      RunRequest request =
+          request_for(write("zz", cylinder(2, static_cast<int>(2 * k.slenderness), k.slenderness, k.nu)));
+      request.output.error = true;
+      request.input.build.element = element;
+      request.input.build.gradings = {{0, layers, 0.15}};
+      const RunOutcome outcome = run_deck(request, full_catalogue());
+      ASSERT_EQ(outcome.exit_code, kOk);
+      ASSERT_TRUE(outcome.error->ratio_error().has_value());
+      const double truth = outcome.reports->triaxial(0).back().ratio - k.ratio,
+                   estimate = *outcome.error->ratio_error();
+      std::printf("    nu %.3f L/D %g code %d: true %.2e, estimate %.2e\n", k.nu, k.slenderness, element, truth,
+                  estimate);
+      EXPECT_GT(estimate, 0.5 * truth);
+      EXPECT_LT(estimate, 20.0 * truth + 1e-8);
+    }
+}
+
 }  // namespace
 }  // namespace sage::app
