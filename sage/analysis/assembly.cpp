@@ -47,7 +47,7 @@ bool stress_free(const GroupData& data) {
 
 Assembly::Assembly(const Model& model, const Scene& scene, const Skips& skips, WorkCounters& work)
     : model_(&model), scene_(&scene), skips_(skips), work_(&work) {
-  std::size_t dofs = 0, geometry = 0;
+  std::size_t dofs = 0, geometry = 0, stresses = 0;
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     const Group& group = model.groups[g];
     const ElementTraits& traits = group.element->traits();
@@ -58,10 +58,13 @@ Assembly::Assembly(const Model& model, const Scene& scene, const Skips& skips, W
     data.constant = data.linear && skips.elements && well_conditioned(data.law);
     dofs = std::max(dofs, static_cast<std::size_t>(traits.dofs));
     geometry = std::max(geometry, static_cast<std::size_t>(traits.geometry_size()));
+    stresses = std::max(stresses, static_cast<std::size_t>(traits.points * traits.law_size));
     groups_.push_back(std::move(data));
     reset_group(g);
   }
   scratch_geometry_.resize(geometry);
+  scratch_sigma_.resize(stresses);
+  scratch_eps_.resize(stresses);
   scratch_K_.resize(dofs * dofs);
   scratch_f_.resize(dofs);
   scratch_du_.resize(dofs);
@@ -76,6 +79,9 @@ void Assembly::reset_group(std::size_t group) {
   const ElementTraits& traits = data.group->element->traits();
   data.state = StateStore(static_cast<std::size_t>(data.group->elements() * traits.points), traits.law_size,
                           history_of(data.law));
+  if (!data.constant) return;
+  data.state.trial.sigma = {};  // never used: see recover_states()
+  data.state.trial.eps = {};
 }
 
 void Assembly::enter_stage(const Activity& activity, const Eigen::VectorXd& rate) {
@@ -284,8 +290,8 @@ Outcome Assembly::evaluate_element(GroupData& data, int element, const Eigen::Ve
   ElementOut out;
   out.K = K;
   out.f = scratch_f_.data();
-  out.sigma1 = data.state.trial.sigma.data() + at;
-  out.eps1 = data.state.trial.eps.data() + at;
+  out.sigma1 = data.constant ? scratch_sigma_.data() : data.state.trial.sigma.data() + at;
+  out.eps1 = data.constant ? scratch_eps_.data() : data.state.trial.eps.data() + at;
   out.h1 = data.state.trial.h.data() + e * points * history;
   out.status = data.state.trial.status.data() + e * points;
   return data.group->element->evaluate(in, out);
@@ -486,8 +492,15 @@ void Assembly::recover_states() {
   const Timer timer(work_->assembly_seconds);
   for (GroupData& data : groups_) {
     if (!data.active || !data.constant) continue;
-    for (int e = 0; e < data.group->elements(); ++e) evaluate_element(data, e, &behind_, nullptr);
-    data.state.commit();
+    const auto size = static_cast<std::size_t>(data.group->element->traits().points * data.state.law_size());
+    for (int e = 0; e < data.group->elements(); ++e) {
+      evaluate_element(data, e, &behind_, nullptr);
+      const std::size_t at = static_cast<std::size_t>(e) * size;
+      std::copy_n(scratch_sigma_.data(), size, data.state.committed.sigma.data() + at);
+      std::copy_n(scratch_eps_.data(), size, data.state.committed.eps.data() + at);
+    }
+    std::swap(data.state.committed.h, data.state.trial.h);
+    std::swap(data.state.committed.status, data.state.trial.status);
     work_->element_evaluations += data.group->elements();
   }
   behind_.setZero();

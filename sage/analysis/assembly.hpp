@@ -101,7 +101,7 @@ class Assembly {
   double force_scale_ = 0.0, changing_sum_ = 0.0, constant_sum_ = 0.0;
   const LinearSolver* filled_ = nullptr;  // the solver that holds K as it is kept here
   bool matrix_changed_ = true;
-  std::vector<double> scratch_geometry_, scratch_K_, scratch_f_, scratch_du_;
+  std::vector<double> scratch_geometry_, scratch_K_, scratch_f_, scratch_du_, scratch_sigma_, scratch_eps_;
   Eigen::Matrix2Xd scratch_x_;
 };
 
