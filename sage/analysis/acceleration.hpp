@@ -17,8 +17,12 @@ class Acceleration {
 
  private:
   static constexpr int kMost = 8;  // steps that it remembers
-  Eigen::MatrixXd steps_, changes_;
-  Eigen::VectorXd last_correction_, last_step_;
+  using Factors = Eigen::Matrix<double, kMost, 1>;
+
+  Factors least_squares(int known, const Eigen::VectorXd& correction);
+
+  Eigen::MatrixXd steps_, changes_, basis_;
+  Eigen::VectorXd last_correction_, last_step_, rest_;
   int count_ = 0;  // corrections seen since the start
 };
 

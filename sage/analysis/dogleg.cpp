@@ -14,34 +14,33 @@ std::span<double> view(Eigen::VectorXd& v) {
   return {v.data(), static_cast<std::size_t>(v.size())};
 }
 
-// Where the way from `from` (inside) to `to` (outside) leaves the ball of a radius: part of the way.
-double exit_of_ball(const Eigen::VectorXd& from, const Eigen::VectorXd& to, double radius) {
-  const Eigen::VectorXd way = to - from;
-  const double a = way.squaredNorm(), b = from.dot(way), c = from.squaredNorm() - radius * radius;
+}  // namespace
+
+// Where the way from the Cauchy point (inside) to `to` (outside) leaves the region: part of the way.
+double Dogleg::exit_of_region(const Eigen::VectorXd& to) const {
+  const double a = (to - cauchy_).squaredNorm(), b = cauchy_.dot(to - cauchy_);
+  const double c = cauchy_.squaredNorm() - radius_ * radius_;
   return (-b + std::sqrt(std::max(0.0, b * b - a * c))) / a;
 }
-
-}  // namespace
 
 void Dogleg::choose(const LinearSolver& solver, const Eigen::VectorXd& residual, const Eigen::VectorXd& newton,
                     Eigen::VectorXd& step) {
   const double newton_size = newton.norm();
   if (radius_ < 0.0) radius_ = newton_size;
-  Eigen::VectorXd product(residual.size());
+  for (Eigen::VectorXd* v : {&product_, &descent_, &cauchy_}) v->resize(residual.size());
   if (newton_size <= radius_) {
     step = newton;
   } else {
-    Eigen::VectorXd descent(residual.size());
-    solver.multiply_transposed(view(residual), view(descent));  // -d(|R|^2 / 2) / du
-    solver.multiply(view(descent), view(product));
-    const Eigen::VectorXd cauchy = descent * (descent.squaredNorm() / product.squaredNorm());
-    if (cauchy.norm() >= radius_)
-      step = cauchy * (radius_ / cauchy.norm());
+    solver.multiply_transposed(view(residual), view(descent_));  // -d(|R|^2 / 2) / du
+    solver.multiply(view(descent_), view(product_));
+    cauchy_ = descent_ * (descent_.squaredNorm() / product_.squaredNorm());
+    if (cauchy_.norm() >= radius_)
+      step = cauchy_ * (radius_ / cauchy_.norm());
     else
-      step = cauchy + exit_of_ball(cauchy, newton, radius_) * (newton - cauchy);
+      step = cauchy_ + exit_of_region(newton) * (newton - cauchy_);
   }
-  solver.multiply(view(step), view(product));
-  predicted_ = (residual - product).norm();
+  solver.multiply(view(step), view(product_));
+  predicted_ = (residual - product_).norm();
   size_ = step.norm();
   step_length_ = newton_size > 0.0 ? size_ / newton_size : 1.0;
 }

@@ -18,6 +18,9 @@ class Dogleg {
   double step_length() const { return step_length_; }  // |step| / |newton|
 
  private:
+  double exit_of_region(const Eigen::VectorXd& to) const;
+
+  Eigen::VectorXd product_, descent_, cauchy_;
   double radius_ = -1.0;    // of trust; < 0 = not set yet
   double size_ = 0.0;       // |step|
   double predicted_ = 0.0;  // |R - K step|

@@ -246,6 +246,7 @@ bool Step::record_iteration() {
 
 NewtonStep Step::solve(const Eigen::VectorXd& rate, double rate_part) {
   result_.outcome = StepOutcome::law_cut;
+  result_.iterations.reserve(static_cast<std::size_t>(settings_.max_iterations));
   assembly_.begin_step(target_, rate_part);
   if (settings_.repeat && repeats()) return result_;
   if (!predict(rate, rate_part)) return result_;
@@ -291,7 +292,7 @@ NewtonStep& Step::iterate_with_dogleg() {
   Dogleg dogleg;
   if (evaluate(full_newton()) == Outcome::cut_step) return result_;
   form_residual();
-  Eigen::VectorXd newton(residual_.size()), old_residual;
+  Eigen::VectorXd newton(residual_.size()), old_residual(residual_.size());
   for (int i = 1; i <= settings_.max_iterations; ++i) {
     if (!std::isfinite(residual_.squaredNorm()) || record_iteration()) return result_;
     correct();
