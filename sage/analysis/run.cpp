@@ -371,6 +371,7 @@ void Run::exchange(Archive& archive, const Place& place) {
   archive(result_.stages_done);
   archive(result_.increments_done);
   archive(result_.work);
+  archive(stiffness_.factorised);
   if (within) {
     archive(du_);
     archive(linear_size_);
@@ -399,23 +400,35 @@ void Run::offer_checkpoint(Place place) {
   settings_.save_checkpoint(archive.bytes());
 }
 
-// To the state of a checkpoint.  The last step's end is evaluated once more: that gives its tangent too.
+// To the state of a checkpoint.  The last step's end is evaluated once more: that gives its tangent too.  What
+// the run still had in hand is made again (the analysed pattern of the stage before, factors), so that the
+// counters and the pivots on the record go on as if nothing had happened.
 Run::Place Run::resume() {
   Archive archive(settings_.resume_from);
   Place place;
   archive(place);
-  for (int s = 0; s < place.stage; ++s) {
+  const bool within = place.increment > 0;
+  const int opened = within ? place.stage : place.stage - 1;  // the last stage that was opened
+  if (opened < 0 || opened >= static_cast<int>(model_.stages.size()))
+    throw InputError({}, "the checkpoint does not belong to this model");
+  for (int s = 0; s < opened; ++s) {
     activity_.enter(model_, model_.stages[static_cast<std::size_t>(s)]);
     place_groups(model_.stages[static_cast<std::size_t>(s)]);
   }
-  if (place.increment > 0) open_stage(place.stage);
+  open_stage(opened);
   exchange(archive, place);
   const WorkCounters work = result_.work;
-  if (place.increment > 0) {
+  const bool factorised = stiffness_.factorised && (within || stiffness_.constant);
+  stiffness_.factorised = false;
+  if (within || factorised) {
     if (assembly_.evaluate(du_, solver_.get()) == Outcome::cut_step)
       throw InputError({}, "the checkpoint does not belong to this model");
     stiffness_.assembled = true;
-    assembly_.commit_again();
+    if (within) assembly_.commit_again();
+  }
+  if (factorised) {
+    solver_->factorise();
+    stiffness_.factorised = true;
   }
   tell([&](Observer& o) { o.on_start(model_, scene_, solver_name_, all_equations()); });
   for (Observer* observer : observers_) observer->exchange(archive);

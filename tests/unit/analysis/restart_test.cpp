@@ -24,6 +24,10 @@ void expect_same_end(const WholeRun& a, const WholeRun& b) {
   EXPECT_EQ(a.result.status, b.result.status);
   EXPECT_EQ(a.result.increments_done, b.result.increments_done);
   EXPECT_EQ(a.result.stages_done, b.result.stages_done);
+  EXPECT_EQ(a.result.work.analyses, b.result.work.analyses);  // they stand in the listing
+  EXPECT_EQ(a.result.work.factorisations, b.result.work.factorisations);
+  EXPECT_EQ(a.result.work.kept_factors, b.result.work.kept_factors);
+  EXPECT_EQ(a.result.work.solves, b.result.work.solves);
   EXPECT_TRUE(a.last().u == b.last().u);
   EXPECT_TRUE(a.last().internal == b.last().internal);
   EXPECT_TRUE(a.last().external == b.last().external);
