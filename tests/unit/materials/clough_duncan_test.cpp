@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "sage/core/point_driver.hpp"
 #include "tests/support/laws.hpp"
 
@@ -242,6 +244,114 @@ TEST(CloughDuncan, SymmetricWhereShearNeverMeetsNormal) {
   EXPECT_FALSE(symmetric(3.0, 0.0, 5000.0, 0.0));
   EXPECT_FALSE(symmetric(0.0, 0.0, 5000.0, 5.0));
   EXPECT_FALSE(symmetric(0.0, 30.0, 0.0, 0.0));
+}
+
+// k_s,i = k_j gamma_w sigma_n/p_a for n = 1.
+TEST(CloughDuncan, ExponentOne) {
+  std::vector<double> values = joint(0.0, 0);
+  values[5] = 1.0;
+  EXPECT_NEAR(sheared(values, 0.01, 1), 5000.0 * 0.036111 * (50.0 / 14.696) * 0.01, 1e-11);
+}
+
+// A start in small tension is taken back along k_nt = 5e5: 0.5 - 0.25.
+TEST(CloughDuncan, SmallTensionUnloadsWithItsOwnStiffness) {
+  const auto law = test::interface(22, {0.0, 30.0, 10.0, 0.0, 5000.0, 0.5, 1e6, 5e5, 0.0});
+  const auto a = test::update<2>(*law, {0.0, 0.5}, {0.0, -0.5e-6}, std::vector<double>(5, 0.0));
+  EXPECT_NEAR(a.sigma[1], 0.25, 1e-12);
+}
+
+// No strength: the hyperbola is out of use, all of w but k_sf w/k_i is slip, whatever the rule.
+TEST(CloughDuncan, WithoutStrengthEverythingSlips) {
+  const double k_i = 5000.0 * 0.036111;
+  for (const double rule : {0.0, 1.0, 2.0}) {
+    const auto law = test::interface(22, {0.0, 0.0, 0.0, 0.8, 5000.0, 0.0, 1e6, 1e6, 10.0, rule});
+    const auto a = test::update<2>(*law, {0.0, -50.0}, {0.1, 0.0}, std::vector<double>(5, 0.0));
+    EXPECT_NEAR(a.sigma[0], 1.0, 1e-12);
+    EXPECT_NEAR(a.h[4], 0.1 * (1.0 - 10.0 / k_i), 1e-14);
+  }
+}
+
+// Without memory, against a stress of the other sign: k_i back to zero, then the hyperbola from there.
+TEST(CloughDuncan, ReversalWithoutMemory) {
+  std::vector<double> values = joint(0.8, 2);
+  values[11] = 1.0;
+  const auto law = test::interface(22, values);
+  for (const double side : {1.0, -1.0}) {
+    const Vector2 start{-side * 10.0, -50.0};
+    const auto h = test::initial_history<2>(*law, start);
+    const double w_zero = 10.0 / kInitial;
+    const auto back = test::update<2>(*law, start, {side * 0.5 * w_zero, 0.0}, h);
+    EXPECT_EQ(back.status, PointStatus::unloading);
+    EXPECT_NEAR(back.sigma[0], -side * 5.0, 1e-12);
+    const auto beyond = test::update<2>(*law, start, {side * (w_zero + 0.01), 0.0}, h);
+    EXPECT_EQ(beyond.status, PointStatus::elastic);
+    EXPECT_NEAR(beyond.sigma[0], side * hyperbola(0.01, 0.8), 1e-11);
+  }
+}
+
+// Without shear stiffness a shear stress stays, and nothing is unloaded; falling sigma_n takes what the
+// strength can't hold, and then all of the displacement is slip.
+TEST(CloughDuncan, ShearStressWithoutShearStiffness) {
+  const auto law = test::interface(22, {0.0, 30.0, 0.0, 0.8, 0.0, 0.0, 1e6, 1e6, 0.0});
+  const std::vector<double> h{0.0, 0.0, 1.0, 0.0, 0.0};
+  const auto kept = test::update<2>(*law, {-1.0, -50.0}, {0.01, 0.0}, h);
+  EXPECT_EQ(kept.sigma[0], -1.0);
+  EXPECT_EQ(kept.status, PointStatus::elastic);
+  const auto fallen = test::update<2>(*law, {1.0, -50.0}, {0.01, 49e-6}, h);
+  EXPECT_EQ(fallen.status, PointStatus::slipping);
+  EXPECT_NEAR(fallen.sigma[0], std::tan(30.0 * kRadiansPerDegree), 1e-9);
+  EXPECT_EQ(fallen.h[4], 0.01);
+}
+
+// An increment of zero keeps to the loading branch on both sides: D = k_i (1 - R_f tau/tau_f)^2.
+TEST(CloughDuncan, TangentOfTheZeroIncrement) {
+  const auto law = test::interface(22, joint(0.8, 0));
+  const double y = 1.0 - 0.8 * 20.0 / kTauF;
+  for (const double side : {1.0, -1.0}) {
+    const Vector2 start{side * 20.0, -50.0};
+    const auto a = test::update<2>(*law, start, Vector2::Zero(), test::initial_history<2>(*law, start));
+    EXPECT_EQ(a.status, PointStatus::elastic);
+    EXPECT_NEAR(a.D(0, 0), kInitial * y * y, 1e-10 * kInitial);
+  }
+}
+
+// Stiffness below 1: beyond the strength 0.3 of k w = 0.5 a fifth (k_sf/k) stays; k_sf above k adds nothing to
+// k.
+TEST(CloughDuncan, StiffnessAfterSlipOfASoftJoint) {
+  const double k_j = 0.5 / 0.036111;
+  const auto slip = [&](double k_sf) {
+    const auto law = test::interface(22, {0.3, 0.0, 0.0, 0.0, k_j, 0.0, 1e6, 1e6, k_sf});
+    return test::update<2>(*law, {0.0, -10.0}, {1.0, 0.0}, std::vector<double>(5, 0.0));
+  };
+  EXPECT_NEAR(slip(0.1).sigma[0], 0.3 + 0.2 * 0.2, 1e-12);
+  EXPECT_NEAR(slip(0.1).h[4], 0.2 * 0.8 / 0.5, 1e-12);
+  EXPECT_NEAR(slip(2.0).sigma[0], 0.5, 1e-12);
+  EXPECT_NEAR(slip(2.0).h[4], 0.0, 1e-12);
+}
+
+// On the strength to the last digit is admissible; the level is tau/tau_f, 0 without stress, infinite without
+// strength.
+TEST(CloughDuncan, StressLevelAndStrength) {
+  const auto law = test::interface(22, {2.0, 0.0, 0.0, 0.5, 5000.0, 0.0, 1e6, 1e6, 0.0});
+  std::array<double, 5> h{};
+  EXPECT_TRUE(law->initialise({2.0, -50.0}, h));
+  EXPECT_EQ(law->stress_level({1.0, -50.0}, std::array<double, 5>{}), 0.5);
+  EXPECT_EQ(law->stress_level({-1.0, -50.0}, std::array<double, 5>{0, 0, 0, 2.0, 0}), 0.25);
+  const auto none = test::interface(22, {0.0, 0.0, 0.0, 0.5, 5000.0, 0.0, 1e6, 1e6, 0.0});
+  EXPECT_EQ(none->stress_level({0.0, -50.0}, std::array<double, 5>{}), 0.0);
+  EXPECT_EQ(none->stress_level({0.5, -50.0}, std::array<double, 5>{}), std::numeric_limits<double>::infinity());
+}
+
+TEST(CloughDuncan, CautionsAboutMissingShearResistance) {
+  const auto caution = [](double c, double phi, double k_j, double k_sf) {
+    return test::interface(22, {c, phi, 0.0, 0.0, k_j, 0.0, 1e6, 1e6, k_sf})->caution();
+  };
+  EXPECT_NE(caution(1.0, 30.0, 0.0, 1.0).find("stiffness number"), std::string::npos);
+  EXPECT_NE(caution(0.0, 0.0, 5000.0, 0.0).find("adhesion and friction"), std::string::npos);
+  EXPECT_EQ(caution(1.0, 0.0, 5000.0, 0.0), "");
+  EXPECT_EQ(caution(0.0, 45.0, 5000.0, 0.0), "");
+  EXPECT_EQ(caution(0.0, 0.0, 5000.0, 1.0), "");
+  EXPECT_EQ(caution(0.0, 0.0, 1.0 / 0.036111, 1.0), "");
 }
 
 }  // namespace

@@ -149,6 +149,9 @@ TEST(DruckerPrager, FreeMeanStress) {
   EXPECT_NEAR(mean_stress(a.sigma), 2500.0 * 0.29, 1e-10);
   EXPECT_EQ(sqrt_j2(a.sigma), 0.0);
   EXPECT_NEAR(a.h[1], 0.0, 1e-16);
+  // K 1 1^T, and 1e-7 of the elastic tangent
+  const Matrix4 D = 2500.0 * unit_tensor() * unit_tensor().transpose();
+  EXPECT_LT((a.D - D - 1e-7 * elastic_matrix(moduli_from_young(3000.0, 0.3))).norm(), 1e-11);
 }
 
 // Mean tension limit on a von Mises soil: uniaxial tension stretches until p = 2, the deviator is untouched.
@@ -221,16 +224,71 @@ INSTANTIATE_TEST_SUITE_P(Table, ConstantRate,
                                            kFrictional, kFrictionless));
 INSTANTIATE_TEST_SUITE_P(Table, ConstantRateNoDilation, ::testing::Values(kFrictional, kFrictionless));
 
-// From inside the cone: the elastic part is found exactly, so one step equals many.
-TEST(DruckerPrager, ExactIntegrationFromInside) {
-  const auto law = test::solid(3, {3000.0, 0.3, 5.0, 30.0, 0.0, 1.0, 1.0, -1.0, 1.0});
-  const Vector4 start{-30.0, -20.0, -25.0, 3.0}, deps{0.004, -0.03, 0.006, 0.02};
+// The exact integration must not depend on how the increment is divided; a wrong elastic part, or a fall back
+// to radial return, would.  Each start and increment takes another branch.
+void exact_in_any_number_of_steps(const Vector4& start, const Vector4& deps, double phi) {
+  const auto law = test::solid(3, {3000.0, 0.3, 5.0, phi, 0.0, 1.0, 1.0, -1.0, 0.0, 1.0});
   const auto one = test::update<4>(*law, start, deps, {0.0, 0.0});
+  EXPECT_EQ(one.status, PointStatus::yielded);
   test::Answer<4> many;
   many.sigma = start;
   many.h = {0.0, 0.0};
   for (int i = 0; i < 50; ++i) many = test::update<4>(*law, many.sigma, deps / 50, many.h);
   EXPECT_LT((one.sigma - many.sigma).norm(), 1e-10 * one.sigma.norm());
+  const Matrix4 D = test::difference_tangent<4>(*law, start, deps, {0.0, 0.0}, 1e-6);
+  EXPECT_LT((one.D - D).norm(), 1e-5 * D.norm());
+}
+// From inside the cone, and towards it from the first moment (s0:de > 0).
+TEST(DruckerPrager, ExactIntegrationFromInside) {
+  exact_in_any_number_of_steps({-30.0, -20.0, -25.0, 3.0}, {-0.04, 0.018, 0.016, 0.03}, 30.0);
+}
+// From inside, first away from the shear there is.
+TEST(DruckerPrager, ExactIntegrationThroughTheAxis) {
+  exact_in_any_number_of_steps({-30.0, -20.0, -25.0, 3.0}, {0.018, -0.04, 0.016, -0.03}, 30.0);
+}
+// From the cone, through its inside to the other side.
+TEST(DruckerPrager, ExactIntegrationFromTheConeThroughTheInside) {
+  const double k = 10.0 / std::sqrt(3.0);  // phi = 0, c = 5
+  exact_in_any_number_of_steps({-20.0, -20.0, -20.0, k}, {0.01, -0.012, 0.0, -0.03}, 0.0);
+}
+// Compression that makes the radius of the cone more than twice as large.
+TEST(DruckerPrager, ExactIntegrationWithAGrowingCone) {
+  exact_in_any_number_of_steps({-5.0, -5.0, -5.0, 1.0}, {-0.03, 0.005, -0.005, 0.06}, 30.0);
+}
+// From the cone, with a shear rate inwards, but the cone shrinks faster: plastic from the start.
+TEST(DruckerPrager, ExactIntegrationWithAShrinkingCone) {
+  const Cone cone = match_cone(ConeMatch::triaxial_compression, 30.0 * kRadiansPerDegree, 5.0);
+  const double tau = cone.k + 300.0 * cone.alpha;
+  exact_in_any_number_of_steps({-100.0, -100.0, -100.0, tau}, {0.014, 0.008, 0.008, -0.012}, 30.0);
+}
+
+// Tension limit p_max = 5 on a cone with friction: both are reached, so p = 5 and sqrt(J2) = k - 3 alpha 5.
+TEST(DruckerPrager, CornerOfConeAndTensionLimit) {
+  const auto law = test::solid(3, {2e4, 0.3, 30.0, 20.0, 5.0, 1.0, 0.0, 5.0});
+  const Cone cone = match_cone(ConeMatch::triaxial_compression, 20.0 * kRadiansPerDegree, 30.0);
+  const Vector4 deps{0.004, 0.001, 0.002, 0.006};
+  const auto a = test::update<4>(*law, Vector4::Zero(), deps, {0.0, 0.0});
+  EXPECT_EQ(a.status, PointStatus::apex);
+  EXPECT_NEAR(mean_stress(a.sigma), 5.0, 1e-12);
+  EXPECT_NEAR(sqrt_j2(a.sigma), cone.k - 15.0 * cone.alpha, 1e-12);
+  // 1e-7: central differences; the tangent keeps 1e-7 of the elastic one.
+  const Matrix4 D = test::difference_tangent<4>(*law, Vector4::Zero(), deps, {0.0, 0.0}, 1e-7);
+  const Matrix4 kept = 1e-7 * elastic_matrix(moduli_from_young(2e4, 0.3));
+  EXPECT_LT((a.D - D - kept).norm(), 1e-7 * D.norm());
+}
+
+// Exactly at the tension limit: admissible, elastic until strained, and on the cone if only sheared.
+TEST(DruckerPrager, AtTheTensionLimit) {
+  const auto law = test::solid(3, {3000.0, 0.25, 10.0, 0.0, 0.0, 1.0, 0.0, 2.0});
+  const Vector4 start{2.0, 2.0, 2.0, 0.0};
+  std::array<double, 2> h{};
+  EXPECT_TRUE(law->initialise(start, h));
+  const auto still = test::update<4>(*law, start, Vector4::Zero(), {0.0, 0.0});
+  EXPECT_EQ(still.status, PointStatus::elastic);
+  EXPECT_EQ((still.D - elastic_matrix(moduli_from_young(3000.0, 0.25))).norm(), 0.0);
+  const auto sheared = test::update<4>(*law, start, {0.0, 0.0, 0.0, 0.1}, {0.0, 0.0});
+  EXPECT_EQ(sheared.status, PointStatus::yielded);
+  EXPECT_NEAR(sheared.sigma[3], 20.0 / std::sqrt(3.0), 1e-12);
 }
 
 TEST(DruckerPrager, SymmetricOnlyIfAssociated) {
