@@ -156,8 +156,7 @@ class Bench:
 
     def precision(self):
         for scene in scenes.scenes():
-            sizes = scene.sizes[:1] if self.args.quick else scene.sizes
-            for n in sizes:
+            for n in scene.sizes[: self.args.sizes]:
                 self.add(scene, self.measure(self.plain(scene, n) + self.peer_jobs(scene, n)))
             if scene.data["family"] != "footing":
                 for k in range(1 if self.args.quick else 4):
@@ -169,7 +168,7 @@ class Bench:
         scene = scenes.scenes()[3]
         text = subprocess.run([self.sagefe, "list", "solvers"], capture_output=True, text=True, check=True).stdout
         names = re.findall(r"^\s*\d+\s+(\w+) \(", text, re.M)
-        sizes = scene.sizes[:1] if self.args.quick else scene.sizes
+        sizes = scene.sizes[: self.args.sizes]
         rows, before = [], len(self.points)
         for n in sizes:
             jobs = [
@@ -370,12 +369,13 @@ def main():
     parser.add_argument("-o", "--output", default="out/benchmarks", help="folder for CSV files, benchmarks.md and plots")
     parser.add_argument("--parts", default="goals,precision,solvers,scaling,skips")
     parser.add_argument("--runs", type=int, default=5)
+    parser.add_argument("--sizes", type=int, default=5, help="meshes of every scene, from the coarsest")
     parser.add_argument("--largest", type=int, default=448, help="largest n of the scaling")
     parser.add_argument("--no-peers", action="store_true")
     parser.add_argument("--quick", action="store_true")
     args = parser.parse_args()
     if args.quick:
-        args.runs, args.largest, args.no_peers = 1, 28, True
+        args.runs, args.sizes, args.largest, args.no_peers = 1, 1, 28, True
     out = pathlib.Path(args.output)
     (out / "benchmarks").mkdir(parents=True, exist_ok=True)
     parts = args.parts.split(",")
