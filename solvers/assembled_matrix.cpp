@@ -32,6 +32,7 @@ void AssembledMatrix::analyse(const EquationGraph& graph, const ElementEquations
   make_pattern(graph);
   make_slots(elements);
   value_.assign(row_.size() + 1, 0.0);
+  column_sum_.assign(at(equations_), 0.0);
 }
 
 void AssembledMatrix::make_pattern(const EquationGraph& graph) {
@@ -164,7 +165,8 @@ void AssembledMatrix::residual(std::span<const double> b, std::span<const double
 }
 
 double AssembledMatrix::norm1() const {
-  std::vector<double> sum(at(equations_), 0.0);
+  std::vector<double>& sum = column_sum_;
+  sum.assign(at(equations_), 0.0);
   for (int column = 0; column < equations_; ++column)
     for (int k = column_start_[at(column)]; k < column_start_[at(column) + 1]; ++k) {
       const double term = std::abs(value_[at(k)]);

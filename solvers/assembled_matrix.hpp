@@ -32,7 +32,7 @@ class AssembledMatrix {
   // r = b - K x with twice the digits in all products and sums; `low` is work space.  All of size equations.
   void residual(std::span<const double> b, std::span<const double> x, std::span<double> r,
                 std::span<double> low) const;
-  // Largest column sum of |K|.
+  // Largest column sum of |K|.  Uses work space of this object: one caller at a time.
   double norm1() const;
   // Largest |term| of every row.
   void row_maxima(std::vector<double>& maximum) const;
@@ -57,6 +57,7 @@ class AssembledMatrix {
   };
   std::vector<Repeated> repeated_;  // ordered by element
   std::vector<int> dofs_;           // of every element
+  mutable std::vector<double> column_sum_;
 };
 
 }  // namespace sage
