@@ -33,6 +33,10 @@ int element_code(const std::string& text) {
   return -1;
 }
 
+bool is_quadrilateral(const ElementEntry& entry) {
+  return entry.law_size == 4 && entry.corners == 4;
+}
+
 }  // namespace
 
 Grading grading_from(const std::string& text) {
@@ -66,9 +70,13 @@ void add_build_options(CLI::App& parser, BuildOptions& options) {
           "--element", [&options](const std::string& text) { options.element = element_code(text); },
           "replace 4-node quadrilaterals by this element, code or name (its other nodes are made)")
       ->check([](const std::string& text) {
-        return element_code(text) >= 0
+        const Catalogue catalogue = full_catalogue();
+        const int code = element_code(text);
+        if (code < 0) return "unknown element " + text + "; known: " + catalogue.elements.known();
+        const ElementEntry* entry = catalogue.elements.find(code);  // codes are checked with the model
+        return entry == nullptr || is_quadrilateral(*entry)
                    ? std::string()
-                   : "unknown element " + text + "; known: " + full_catalogue().elements.known();
+                   : entry->name + " can't take the place of a quadrilateral";
       });
   parser
       .add_option_function<int>(
@@ -90,7 +98,8 @@ void add_build_options(CLI::App& parser, BuildOptions& options) {
           return std::string(error.what());
         }
       });
-  parser.add_option("--geometry", options.geometry, "replace the geometry: 1 plane strain, 2 axisymmetric");
+  parser.add_option("--geometry", options.geometry, "replace the geometry: 1 plane strain, 2 axisymmetric")
+      ->check(CLI::Range(1, 2));
 }
 
 Deck read_input(const std::string& path, const InputOptions& options) {

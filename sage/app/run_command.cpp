@@ -41,7 +41,16 @@ int run_one(const RunOptions& options, const std::string& deck, const Catalogue&
     for (const SkipName& skip : kSkipNames)
       if (name == skip.name || name == "all") request.skips.*skip.flag = false;
   return guarded(deck, [&] {
-    if (options.converge.tolerance > 0.0) return converge(request, options.converge, catalogue);
+    if (options.converge.tolerance > 0.0) {
+      const OutputOptions& output = request.output;
+      if (output.nodes || output.points || output.vtu || output.error || !output.pictures.empty() ||
+          request.restart)
+        fmt::print(stderr,
+                   "{}: note: --converge writes its table only; the options of its last line give that mesh "
+                   "again, with all outputs\n",
+                   deck);
+      return converge(request, options.converge, catalogue);
+    }
     const RunOutcome outcome = run_deck(request, catalogue);
     if (outcome.record.stages.empty()) return outcome.exit_code;  // --strict stopped it
     if (!options.quiet)
