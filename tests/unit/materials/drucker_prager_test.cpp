@@ -259,7 +259,7 @@ TEST(DruckerPrager, ExactIntegrationWithAGrowingCone) {
 TEST(DruckerPrager, ExactIntegrationWithAShrinkingCone) {
   const Cone cone = match_cone(ConeMatch::triaxial_compression, 30.0 * kRadiansPerDegree, 5.0);
   const double tau = cone.k + 300.0 * cone.alpha;
-  exact_in_any_number_of_steps({-100.0, -100.0, -100.0, tau}, {0.014, 0.008, 0.008, -0.012}, 30.0);
+  exact_in_any_number_of_steps({-100.0, -100.0, -100.0, tau}, {0.014, 0.008, 0.008, -0.025}, 30.0);
 }
 
 // Tension limit p_max = 5 on a cone with friction: both are reached, so p = 5 and sqrt(J2) = k - 3 alpha 5.
@@ -289,6 +289,20 @@ TEST(DruckerPrager, AtTheTensionLimit) {
   const auto sheared = test::update<4>(*law, start, {0.0, 0.0, 0.0, 0.1}, {0.0, 0.0});
   EXPECT_EQ(sheared.status, PointStatus::yielded);
   EXPECT_NEAR(sheared.sigma[3], 20.0 / std::sqrt(3.0), 1e-12);
+}
+
+// sin phi = 3/5 puts triaxial extension on the cone at sigma_3 = 0.
+TEST(DruckerPrager, CautionsAboutTheCone) {
+  const auto caution = [](double c, double phi) {
+    return test::solid(3, {3000.0, 0.3, c, phi, 0.0})->caution();
+  };
+  EXPECT_NE(caution(0.0, 0.0).find("no shear strength"), std::string::npos);
+  EXPECT_NE(caution(1.0, kPhi35).find("tension limit"), std::string::npos);
+  EXPECT_NE(caution(1.0, 40.0).find("tension limit"), std::string::npos);
+  EXPECT_EQ(caution(1.0, 36.0), "");
+  EXPECT_EQ(caution(1.0, 30.0), "");
+  EXPECT_EQ(caution(0.0, 30.0), "");
+  EXPECT_EQ(caution(1.0, 0.0), "");
 }
 
 TEST(DruckerPrager, SymmetricOnlyIfAssociated) {
