@@ -49,8 +49,8 @@ std::string describe(const Scene& scene) {
             " elements linear, " + std::to_string(scene.nonlinear_dofs) + " of " + std::to_string(scene.dofs) +
             " dofs touch the others";
   if (scene.linear_elements > 0 && scene.linear_shapes < scene.linear_elements)
-    text += "; " + std::to_string(scene.linear_elements) + " linear elements of " +
-            std::to_string(scene.linear_shapes) + (scene.linear_shapes == 1 ? " shape" : " shapes");
+    text += "; " + std::to_string(scene.linear_shapes) + (scene.linear_shapes == 1 ? " shape" : " shapes") +
+            " of linear elements";
   return text;
 }
 

@@ -151,7 +151,8 @@ Command compare_command(CLI::App& root) {
   parser->add_option("--solver", o->solver, "solver by name (see sagefe list solvers)")->check(unknown_solver);
   parser->add_option("--formulation-b", o->formulation_b, "formulation code of B, where it differs from A");
   parser->add_option("--element-b", o->element_b, "element code that replaces 4-node quadrilaterals in B");
-  parser->add_option("--geometry-b", o->geometry_b, "geometry of B: 1 plane strain, 2 axisymmetric");
+  parser->add_option("--geometry-b", o->geometry_b, "geometry of B: 1 plane strain, 2 axisymmetric")
+      ->check(CLI::Range(1, 2));
   parser->add_option("--solver-b", o->solver_b, "solver of B by name")->check(unknown_solver);
   parser->add_option("--layout-b", o->layout_b, "card layout of B");
   parser->add_option("--line", o->lines,

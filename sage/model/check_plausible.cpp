@@ -5,10 +5,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <unordered_map>
 
 #include "sage/model/activity.hpp"
 #include "sage/model/builder.hpp"
+#include "sage/model/edges.hpp"
 
 namespace sage::build {
 
@@ -283,6 +285,43 @@ void check_loads(Builder& b, const Stage& stage, const Size& size) {
 }
 
 // Weight without gravity is allowed; gravity without weight is a mistake.
+// A pressure on an edge that two elements share loads the body from inside.
+void check_inner_edges(Builder& b, const Stage& stage, const Activity& activity) {
+  const auto ends = [](const Group& group, int element, const std::vector<int>& edge) {
+    const int* nodes = group.nodes_of(element);
+    return edge_key(nodes[edge[0]], nodes[edge[1]]);
+  };
+  std::map<EdgeKey, int> uses;
+  std::vector<char> loaded(static_cast<std::size_t>(b.model.mesh.nodes()), 0);
+  const auto edge_of = [&](const EdgeLoad& load) {
+    const Group& group = b.model.groups[static_cast<std::size_t>(load.group)];
+    return ends(group, load.element, group.element->edges()[static_cast<std::size_t>(load.edge)]);
+  };
+  for (const EdgeLoad& load : stage.pressures) {
+    const EdgeKey key = edge_of(load);
+    uses[key] = 0;
+    loaded[static_cast<std::size_t>(key.first)] = loaded[static_cast<std::size_t>(key.second)] = 1;
+  }
+  if (uses.empty()) return;
+  for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
+    const Group& group = b.model.groups[g];
+    if (!activity.group[g] || group.element->traits().law_size != 4) continue;
+    for (int e = 0; e < group.elements(); ++e)
+      for (const std::vector<int>& edge : group.element->edges()) {
+        const EdgeKey key = ends(group, e, edge);
+        if (!loaded[static_cast<std::size_t>(key.first)] || !loaded[static_cast<std::size_t>(key.second)])
+          continue;
+        if (const auto it = uses.find(key); it != uses.end()) ++it->second;
+      }
+  }
+  int last_line = -1;
+  for (const EdgeLoad& load : stage.pressures) {
+    if (uses[edge_of(load)] < 2 || load.line == last_line) continue;
+    last_line = load.line;
+    b.warning(line_of(b, load.line), "the pressure acts on an edge inside the body, which two elements share");
+  }
+}
+
 void check_gravity(Builder& b) {
   const Stage* first = nullptr;
   Vector2 total = Vector2::Zero();
@@ -368,6 +407,7 @@ void check_plausible(Builder& b) {
     check_fixities(b, stage, activity, size);
     activity.enter(b.model, stage);
     check_loads(b, stage, size);
+    check_inner_edges(b, stage, activity);
     note_null_stage(b, stage);
     for (const InitialStress& initial : stage.initials) check_initial(b, initial);
   }

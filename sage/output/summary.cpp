@@ -121,10 +121,10 @@ void work_lines(std::string& text, const RunRecord& record) {
                  "solves {:.3g} s\n",
                  w.assemblies, w.residuals, w.assembly_seconds, w.factorisations, w.factor_seconds, w.solves,
                  w.solve_seconds);
-  text += skipped(w);
   fmt::format_to(to(text), "              numbering {:.3g} s, output {:.3g} s", w.analyse_seconds,
                  w.output_seconds);
   text += record.seconds > 0.0 ? fmt::format(", whole run {:.3g} s\n", record.seconds) : "\n";
+  text += skipped(w);
 }
 
 void file_lines(std::string& text, const std::vector<std::filesystem::path>& files) {

@@ -147,6 +147,8 @@ INSTANTIATE_TEST_SUITE_P(
                  "more than 10000 times as long as wide"},
         Unlikely{"Overlap", [](DeckWriter& d) { lay_over(d, false); },
                  "warning: elements 1 and 9 lie on the same side of a common edge: they overlap"},
+        Unlikely{"InnerEdge", [](DeckWriter& d) { d.stages[0].pressure(1, 3, 5.0, 5.0); },
+                 "warning: the pressure acts on an edge inside the body, which two elements share"},
         Unlikely{"MissingNumbers",
                  [](DeckWriter& d) {
                    d.elements = {"    1    1    1    2    5    4                        2    1",
