@@ -10,6 +10,7 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/study/deck_writer.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace sage::app {
 namespace {
@@ -17,9 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path scratch() {
-  const fs::path folder = fs::path(testing::TempDir()) / "sage_converge";
-  fs::create_directories(folder);
-  return folder;
+  return test::scratch_folder("converge");
 }
 
 // Quarter of the restrained cylinder, a = 1, E = 1, strain 1 %: columns x rows quadrilaterals.  Converged

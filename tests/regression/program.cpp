@@ -1,4 +1,5 @@
 #include "tests/regression/program.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -175,7 +176,7 @@ Finished sagefe(const fs::path& folder, const std::string& arguments, const std:
 }
 
 fs::path empty_folder(const std::string& name) {
-  const fs::path folder = fs::path(testing::TempDir()) / "sagefe_tests" / name;
+  const fs::path folder = scratch_folder(name);
   fs::remove_all(folder);
   fs::create_directories(folder);
   return folder;

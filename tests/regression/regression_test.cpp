@@ -10,6 +10,7 @@
 
 #include "sage/app/commands.hpp"
 #include "sage/app/run_deck.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace sage::app {
 namespace {
@@ -60,9 +61,7 @@ BuildOptions options_of(const std::string& text) {
 }
 
 fs::path scratch() {
-  const fs::path folder = fs::path(testing::TempDir()) / "sage_regression";
-  fs::create_directories(folder);
-  return folder;
+  return test::scratch_folder("regression");
 }
 
 // "--layout sg_p61"; empty = found from the deck.

@@ -10,6 +10,7 @@
 #include "sage/app/run_deck.hpp"
 #include "sage/model/msh_model.hpp"
 #include "sage/output/convert.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace sage::app {
 namespace {
@@ -19,9 +20,7 @@ namespace fs = std::filesystem;
 const std::string kInputs = SAGE_SOURCE_DIR "/legacy_inputs/";
 
 fs::path scratch() {
-  const fs::path folder = fs::path(testing::TempDir()) / "sage_convert";
-  fs::create_directories(folder);
-  return folder;
+  return test::scratch_folder("convert");
 }
 
 std::string read(const fs::path& path) {

@@ -10,6 +10,7 @@
 #include "sage/model/build_model.hpp"
 #include "sage/study/deck_writer.hpp"
 #include "solvers/choose_solver.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace sage::compare {
 namespace {
@@ -58,7 +59,7 @@ struct Specimen {
 };
 
 fs::path folder() {
-  return fs::path(testing::TempDir()) / "sage_compare";
+  return test::scratch_folder("compare");
 }
 
 Side run(const char* label, const std::string& deck, int geometry, const BuildOptions& build = {},

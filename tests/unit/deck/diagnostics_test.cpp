@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "sage/deck/read_deck.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace sage {
 namespace {
@@ -332,8 +333,7 @@ std::string open_error(const std::string& path) {
 }
 
 TEST(Files, OneClearErrorEach) {
-  const std::string folder = ::testing::TempDir() + "sage_deck_files";
-  std::filesystem::create_directories(folder);
+  const std::string folder = test::scratch_folder("deck_files").string();
   const auto write = [&](const char* name, const std::string& text) {
     std::ofstream(folder + "/" + name, std::ios::binary) << text;
     return folder + "/" + name;

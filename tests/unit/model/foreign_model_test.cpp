@@ -10,6 +10,7 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/run_deck.hpp"
 #include "sage/deck/read_deck.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace sage::app {
 namespace {
@@ -41,7 +42,7 @@ RunOutcome run_of(const std::string& deck) {
   RunRequest request;
   request.deck = kInputs + deck;
   request.quiet = true;
-  request.output.folder = std::filesystem::path(testing::TempDir()) / "sage_foreign";
+  request.output.folder = test::scratch_folder("foreign");
   return run_deck(request, full_catalogue());
 }
 

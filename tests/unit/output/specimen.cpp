@@ -9,6 +9,7 @@
 
 #include "elements/register_elements.hpp"
 #include "materials/register_materials.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace sage::test {
 
@@ -170,8 +171,7 @@ void Specimen::run_and_fail(Observer& observer, double strain, int increments) {
 }
 
 std::filesystem::path fresh_folder(const std::string& name) {
-  const auto folder =
-      std::filesystem::temp_directory_path() / ("sagefe_output_test_" + std::to_string(::getpid())) / name;
+  const std::filesystem::path folder = scratch_folder(name);
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;
