@@ -44,6 +44,36 @@ TEST(MohrCoulomb, TriaxialExtension) {
   EXPECT_NEAR(100.0, (100.0 - q) * Kp(25.0) + 20.0 * std::sqrt(Kp(25.0)), 1e-9);
 }
 
+// Pulled apart in all directions: the stress is the apex, c cot(phi), also where K_p < 2; next to nothing is
+// left of the stiffness, and that is not negative.
+TEST(MohrCoulomb, ApexOfEveryFriction) {
+  for (const double phi : {2.0, 10.0, 15.0, 19.0, 25.0, 40.0}) {
+    const auto a = test::update<4>(*test::solid(4, {1e4, 0.3, 10.0, phi, 0.0}), {-5, -5, -5, 0},
+                                   {0.1, 0.1, 0.1, 0.0}, {0.0, 0.0});
+    const double apex = 10.0 / std::tan(phi * kRadiansPerDegree);
+    EXPECT_NEAR((a.sigma - Vector4(apex, apex, apex, 0.0)).norm(), 0.0, 1e-9 * apex) << phi;
+    EXPECT_EQ(a.status, PointStatus::apex);
+    for (int k = 0; k < 4; ++k) {
+      EXPECT_GT(a.D(k, k), 0.0) << phi;
+      EXPECT_LT(a.D(k, k), 1e-2 * 1e4) << phi;
+    }
+  }
+}
+
+// Cut off in tension out of the plane, isotropic in the plane: strain flows out of the plane only, so that the
+// stresses in the plane fall by lambda dl, dl = excess / (lambda + 2 G), and shear in the plane meets the whole
+// elastic G.
+TEST(MohrCoulomb, TensionOutOfPlaneLeavesTheShearStiffness) {
+  const double lambda = 1e4 * 0.3 / (1.3 * 0.4), G = 1e4 / 2.6, T = 5.0;
+  const auto a = test::update<4>(*test::solid(4, {1e4, 0.3, 50.0, 20.0, 0.0, T}), {-20, -20, 0, 0},
+                                 {-0.003, -0.003, 0.01, 0.0}, {0.0, 0.0});
+  const double out = 2.0 * G * 0.01 + lambda * 0.004, flow = (out - T) / (lambda + 2.0 * G);
+  const double in = -20.0 - 2.0 * G * 0.003 + lambda * 0.004 - lambda * flow;
+  EXPECT_NEAR((a.sigma - Vector4(in, in, T, 0.0)).norm(), 0.0, 1e-10);
+  EXPECT_EQ(a.status, PointStatus::apex);
+  EXPECT_NEAR(a.D(3, 3), G, 1e-9 * G);
+}
+
 // Tresca, simple shear: tau = c, whatever the mean stress.
 TEST(MohrCoulomb, TrescaInSimpleShear) {
   const auto a =
