@@ -4,8 +4,11 @@
 
 #include "sage/core/large_pages.hpp"
 
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
+  return bytes < 2 * sage::kLargePage ? std::malloc(bytes > 0 ? bytes : 1) : sage::allocate_block(bytes);
+}
 void* operator new(std::size_t bytes) {
-  void* p = bytes < 2 * sage::kLargePage ? std::malloc(bytes > 0 ? bytes : 1) : sage::allocate_block(bytes);
+  void* p = ::operator new(bytes, std::nothrow);
   if (p == nullptr) throw std::bad_alloc();
   return p;
 }
