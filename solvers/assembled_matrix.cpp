@@ -1,6 +1,7 @@
 #include "solvers/assembled_matrix.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -26,13 +27,16 @@ void subtract_product(double& high, double& low, double a, double b) {
 
 }  // namespace
 
-void AssembledMatrix::analyse(const EquationGraph& graph, const ElementEquations& elements, bool symmetric) {
+void AssembledMatrix::analyse(const EquationGraph& graph, ElementEquations elements, bool symmetric) {
   symmetric_ = symmetric;
   equations_ = static_cast<int>(graph.group_of.size());
+  elements_ = std::move(elements);
   make_pattern(graph);
-  make_slots(elements);
+  assembled_ = false;
+  slot_start_.clear();
+  slot_.clear();
   value_.assign(row_.size() + 1, 0.0);
-  column_sum_.assign(at(equations_), 0.0);
+  column_sum_.reserve(at(equations_));
 }
 
 void AssembledMatrix::make_pattern(const EquationGraph& graph) {
@@ -86,35 +90,58 @@ void AssembledMatrix::fill_slots(std::span<const int> equations, int element, in
   }
 }
 
-void AssembledMatrix::make_slots(const ElementEquations& elements) {
+void AssembledMatrix::make_slots() {
+  slot_start_.reserve(elements_.offset.size());
   slot_start_.assign(1, 0);
-  dofs_.clear();
   repeated_.clear();
-  for (int element = 0; element < elements.count(); ++element) {
-    const auto dofs = static_cast<std::int64_t>(elements.of(element).size());
-    dofs_.push_back(static_cast<int>(dofs));
+  for (int element = 0; element < elements_.count(); ++element) {
+    const auto dofs = static_cast<std::int64_t>(elements_.of(element).size());
     slot_start_.push_back(slot_start_.back() + (symmetric_ ? dofs * (dofs + 1) / 2 : dofs * dofs));
   }
   slot_.assign(at(slot_start_.back()), static_cast<int>(row_.size()));
-  const IndexLists elements_of = elements_of_equations(equations_, elements);
+  const IndexLists elements_of = elements_of_equations(equations_, elements_);
   std::vector<int> position(at(equations_), 0);
   for (int column = 0; column < equations_; ++column) {
     for (int k = column_start_[at(column)]; k < column_start_[at(column) + 1]; ++k)
       position[at(row_[at(k)])] = k;
     for (const int element : elements_of.of(column))
-      fill_slots(elements.of(element), element, column, position);
+      fill_slots(elements_.of(element), element, column, position);
   }
-  std::ranges::sort(repeated_, {}, &Repeated::element);
+  std::ranges::sort(repeated_, {}, [](const Repeated& t) { return std::array{t.element, t.c, t.r}; });
 }
 
 void AssembledMatrix::clear() {
+  if (assembled_ && slot_start_.empty()) make_slots();
   std::ranges::fill(value_, 0.0);
 }
 
+double& AssembledMatrix::term(int row, int column) {
+  if (symmetric_ && row > column) std::swap(row, column);
+  const auto begin = row_.begin() + column_start_[at(column)],
+             end = row_.begin() + column_start_[at(column) + 1];
+  return value_[static_cast<std::size_t>(std::lower_bound(begin, end, row) - row_.begin())];
+}
+
+// The same sums in the same order as with slots.
+void AssembledMatrix::add_by_search(int element, const double* K) {
+  const std::span<const int> equations = elements_.of(element);
+  const int dofs = static_cast<int>(equations.size());
+  const auto add_terms = [&](auto&& wanted) {
+    for (int c = 0; c < dofs; ++c)
+      for (int r = 0; r < (symmetric_ ? c + 1 : dofs); ++r)
+        if (equations[at(c)] >= 0 && equations[at(r)] >= 0 && wanted(r, c))
+          term(equations[at(r)], equations[at(c)]) += K[c * dofs + r];
+  };
+  add_terms([](int, int) { return true; });
+  if (symmetric_) add_terms([&](int r, int c) { return r < c && equations[at(r)] == equations[at(c)]; });
+}
+
 void AssembledMatrix::add(int element, const double* K) {
+  assembled_ = true;
+  if (slot_start_.empty()) return add_by_search(element, K);
   const int* slot = slot_.data() + slot_start_[at(element)];
   double* value = value_.data();
-  const int dofs = dofs_[at(element)];
+  const int dofs = static_cast<int>(elements_.of(element).size());
   if (!symmetric_) {
     for (int k = 0; k < dofs * dofs; ++k) value[slot[k]] += K[k];
     return;
@@ -191,8 +218,8 @@ void AssembledMatrix::row_maxima(std::vector<double>& maximum) const {
 }
 
 std::size_t AssembledMatrix::memory_bytes() const {
-  return (column_start_.size() + row_.size() + slot_.size() + dofs_.size()) * sizeof(int) +
-         value_.size() * sizeof(double) + slot_start_.size() * sizeof(std::int64_t);
+  return (column_start_.size() + row_.size() + slot_.size() + elements_.equations.size()) * sizeof(int) +
+         value_.size() * sizeof(double) + (slot_start_.size() + elements_.offset.size()) * sizeof(std::int64_t);
 }
 
 }  // namespace sage

@@ -1,5 +1,6 @@
-// The assembled matrix in compressed columns, with a precomputed slot for every entry of every element matrix:
-// assembly is a plain scatter.
+// The assembled matrix in compressed columns.  The first assembly looks up the place of every term; for a
+// second one the places (slots) are kept, and assembly is a plain scatter.  Many matrices are assembled only
+// once.
 #pragma once
 
 #include <span>
@@ -15,7 +16,7 @@ namespace sage {
 class AssembledMatrix {
  public:
   // Throws std::length_error above 2^31 - 2 stored terms.
-  void analyse(const EquationGraph& graph, const ElementEquations& elements, bool symmetric);
+  void analyse(const EquationGraph& graph, ElementEquations elements, bool symmetric);
   void clear();
   void add(int element, const double* K);
 
@@ -40,12 +41,16 @@ class AssembledMatrix {
 
  private:
   void make_pattern(const EquationGraph& graph);
-  void make_slots(const ElementEquations& elements);
+  void make_slots();
   void fill_slots(std::span<const int> equations, int element, int column, const std::vector<int>& position);
   std::int64_t packed(std::int64_t r, std::int64_t c, std::int64_t dofs) const;
+  void add_by_search(int element, const double* K);
+  double& term(int row, int column);
 
   int equations_ = 0;
   bool symmetric_ = false;
+  bool assembled_ = false;  // something has been added
+  ElementEquations elements_;
   std::vector<int> column_start_{0}, row_;
   std::vector<double> value_;  // one more than stored terms: the last takes what belongs to prescribed dofs
   // Slots of element e: slot_[slot_start_[e]] ..., all terms column by column, or the upper triangle only.
@@ -55,8 +60,7 @@ class AssembledMatrix {
   struct Repeated {
     int element, r, c, slot;
   };
-  std::vector<Repeated> repeated_;  // ordered by element
-  std::vector<int> dofs_;           // of every element
+  std::vector<Repeated> repeated_;  // ordered by element, c, r
   mutable std::vector<double> column_sum_;
 };
 

@@ -82,6 +82,7 @@ void lay_out_fronts(const EquationGraph& graph, const SeparatorTree& tree, bool 
     front.border = static_cast<int>(fronts.border.size()) - front.border_begin;
     front.pivot_tiles = whole_tiles(front.pivots);
     front.border_tiles = whole_tiles(front.border);
+    front.symmetric = symmetric;
     if (2 * front.arm_terms() > std::numeric_limits<int>::max())
       throw std::length_error("a front of the matrix has more than 2^31 terms");
     front.arms = fronts.factor_terms;

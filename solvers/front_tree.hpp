@@ -5,14 +5,16 @@
 // over pivots and border, each padded to whole tiles of 8.  Arms hold the pivot rows (U) and, transposed, the
 // pivot columns (L) in panels of 8 columns: term k * 8 + v of panel J couples pivot k to column v of J.  A
 // panel has a row for each pivot up to its own last one, and none for padding.  The border matrix, which goes
-// to the parent, is stored in panels of 8 columns too: tile (I, J) at (J * border tiles + I) * 64.
+// to the parent, is stored in panels of 8 columns too, tile (I, J) at border_panel(J) + I * 64.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
 #include "solvers/assembled_matrix.hpp"
 #include "solvers/nested_dissection.hpp"
+#include "solvers/tile_kernels.hpp"
 
 namespace sage {
 
@@ -23,6 +25,7 @@ struct Front {
   int border_begin = 0;  // into FrontTree::border
   int border = 0;
   int pivot_tiles = 0, border_tiles = 0;
+  bool symmetric = false;      // of the border matrix only the upper triangle is there
   std::int64_t arms = 0;       // first term of its arms in the factors: U, then L
   std::int64_t border_at = 0;  // first term of its border matrix: in the workspace of its subtree, or
   bool shared = false;         // in the one that all share
@@ -36,7 +39,17 @@ struct Front {
     return std::int64_t{32} * pivot_tiles * (pivot_tiles - 1) + std::int64_t{8} * pivots;
   }
   std::int64_t arm_terms() const { return panel(pivot_tiles + border_tiles); }
-  std::int64_t border_terms() const { return std::int64_t{64} * border_tiles * border_tiles; }
+  // Tiles of panel J of the border matrix.  Panels that are worked on side by side have the same.
+  int border_rows(int J) const {
+    return symmetric ? std::min(border_tiles, (J / kWidth + 1) * kWidth) : border_tiles;
+  }
+  // First term of panel J of the border matrix.
+  std::int64_t border_panel(int J) const {
+    if (!symmetric) return std::int64_t{kTileTerms} * J * border_tiles;
+    const std::int64_t before = J / kWidth;  // blocks of such panels
+    return kTileTerms * (kWidth * kWidth * before * (before + 1) / 2 + (J % kWidth) * border_rows(J));
+  }
+  std::int64_t border_terms() const { return border_panel(border_tiles); }
 };
 
 // Fronts begin .. end - 1: a whole subtree, whose root is end - 1.

@@ -95,7 +95,13 @@ class Frontal final : public MatrixSolver {
 
   void set_threads(int threads) override { wanted_threads_ = std::max(1, threads); }
 
+  void release_workspace() override {
+    shared_ = {};
+    lanes_.clear();
+  }
+
   void factorise_matrix() override {
+    if (lanes_.empty()) make_workspace();
     const std::span<const double> maxima = row_maxima();
     for (Lane& lane : lanes_) {
       lane.check = PivotCheck(traits().name, maxima);
@@ -127,7 +133,6 @@ class Frontal final : public MatrixSolver {
   void analyse_matrix(const EquationGraph& graph) override {
     tree_ = make_front_tree(graph, matrix(), kLeafEquations);
     factors_ = AlignedArray(static_cast<std::size_t>(tree_.factor_terms));
-    shared_ = AlignedArray(static_cast<std::size_t>(tree_.shared_terms));
     first_pivot_.assign(1, 0);
     int widest = 0;  // tiles of the widest front
     for (const Front& front : tree_.fronts) {
@@ -137,10 +142,9 @@ class Frontal final : public MatrixSolver {
     reciprocal_.assign(at(first_pivot_.back()), 1.0);
     position_values_ = AlignedArray(at(matrix().equations()));
     front_values_ = AlignedArray(at(widest) * kTile);
-    make_lanes();
+    make_workspace();
     report_.factor_entries = tree_.factor_terms;
     report_.memory_bytes =
-        matrix().memory_bytes() +
         (factors_.size() + shared_.size() + reciprocal_.size() + position_values_.size()) * sizeof(double) +
         (2 * tree_.entry_source.size() + 2 * tree_.border.size() + 2 * tree_.order.size()) * sizeof(int);
     for (const Lane& lane : lanes_)
@@ -149,7 +153,8 @@ class Frontal final : public MatrixSolver {
 
  private:
   // The first thread works on the fronts above the subtrees too, and all others in the arms of the first.
-  void make_lanes() {
+  void make_workspace() {
+    shared_ = AlignedArray(static_cast<std::size_t>(tree_.shared_terms));
     const int useful = std::max(1, static_cast<int>(tree_.subtrees.size()));
     const int threads = std::min(wanted_threads_, useful);
     if (!pool_ || pool_->threads() != threads) pool_ = std::make_unique<ThreadPool>(threads);
@@ -217,7 +222,7 @@ class Frontal final : public MatrixSolver {
     };
     const int split = rows_below(pivot_rows);
     for (int c = 0; c < child.border; c += kTile) {
-      const double* source = child_border + std::ptrdiff_t{c} * child.border_tiles * kTile;
+      const double* source = child_border + child.border_panel(c / kTile);
       const int end = std::min(c + kTile, child.border);
       for (int s = c; s < end;) {
         const Run run = find_run(to, s, end, s - c);
@@ -227,7 +232,7 @@ class Frontal final : public MatrixSolver {
           add_rows(a.u(0, J), source, to, 0, own, run);
           if (!traits().symmetric) add_transposed(a, source, to, own, rows, s, run.count, s - c);
         } else {
-          const std::ptrdiff_t panel = std::ptrdiff_t{J - front.pivot_tiles} * front.border_tiles * kTileTerms;
+          const std::ptrdiff_t panel = front.border_panel(J - front.pivot_tiles);
           add_rows(a.u(0, J), source, to, 0, split, run);
           add_rows(border + panel - std::ptrdiff_t{pivot_rows} * kTile, source, to, split, rows, run);
         }
@@ -320,12 +325,13 @@ class Frontal final : public MatrixSolver {
   // Border columns J .. J + width - 1 take the product of `count` pivots from tile K on.
   template <int width>
   void update_columns(const Arms& a, double* border_matrix, int K, int count, int J) const {
-    const int P = a.front.pivot_tiles, Q = a.front.border_tiles;
-    const std::ptrdiff_t stride = std::ptrdiff_t{Q} * kTileTerms;
-    const int rows = traits().symmetric ? J + width : Q;
+    const int P = a.front.pivot_tiles;
+    const int rows = traits().symmetric ? J + width : a.front.border_tiles;
+    const std::ptrdiff_t stride = std::ptrdiff_t{a.front.border_rows(J)} * kTileTerms;
+    double* const panel = border_matrix + a.front.border_panel(J);
     for (int I = 0; I < rows; ++I)
-      tile_subtract_products<width>(border_matrix + J * stride + I * kTileTerms, stride, a.l(K, P + I),
-                                    a.u(K, P + J), a.stride(), count);
+      tile_subtract_products<width>(panel + I * kTileTerms, stride, a.l(K, P + I), a.u(K, P + J), a.stride(),
+                                    count);
   }
 
   void solve_fronts(std::span<const double> b, std::span<double> x, bool transposed) const;

@@ -19,11 +19,17 @@ double largest_size(std::span<const double> x) {
 
 }  // namespace
 
-void MatrixSolver::analyse(int equations, const ElementEquations& elements) {
+void MatrixSolver::analyse(int equations, ElementEquations elements) {
   report_ = {};
   const EquationGraph graph = make_equation_graph(equations, elements);
-  matrix_.analyse(graph, elements, traits_.symmetric);
+  matrix_.analyse(graph, std::move(elements), traits_.symmetric);
   analyse_matrix(graph);
+}
+
+FactorReport MatrixSolver::report() const {
+  FactorReport report = report_;
+  report.memory_bytes += matrix_.memory_bytes();
+  return report;
 }
 
 void MatrixSolver::factorise() {

@@ -17,7 +17,7 @@ class MatrixSolver : public LinearSolver {
   explicit MatrixSolver(SolverTraits traits) : traits_(traits) {}
   const SolverTraits& traits() const final { return traits_; }
 
-  void analyse(int equations, const ElementEquations& elements) final;
+  void analyse(int equations, ElementEquations elements) final;
   void clear() final { matrix_.clear(); }
   void add(int element, const double* K) final { matrix_.add(element, K); }
   void multiply(std::span<const double> x, std::span<double> y) const final { matrix_.multiply(x, y); }
@@ -25,7 +25,7 @@ class MatrixSolver : public LinearSolver {
     matrix_.multiply_transposed(x, y);
   }
   double norm1() const final { return matrix_.norm1(); }
-  FactorReport report() const final { return report_; }
+  FactorReport report() const final;
   void set_refinement(int steps) final { wanted_steps_ = steps; }
   // Where terms grew in an elimination without pivoting, answers are refined even if nobody asked.
   void factorise() final;
@@ -44,7 +44,7 @@ class MatrixSolver : public LinearSolver {
     matrix_.row_maxima(row_maxima_);
     return row_maxima_;
   }
-  mutable FactorReport report_;
+  mutable FactorReport report_;  // its memory: all but the matrix
 
  private:
   void refine(std::span<double> x) const;

@@ -58,8 +58,8 @@ class SkylineLdlt final : public MatrixSolver {
     reciprocal_.assign(at(profile_.tiles) * kTile, 1.0);
     work_ = AlignedArray(at(profile_.tiles) * kTile);
     report_.factor_entries = static_cast<std::int64_t>(tiles_.size());
-    report_.memory_bytes = matrix().memory_bytes() + (tiles_.size() + column_.size()) * sizeof(double) +
-                           2 * scatter_.source.size() * sizeof(int);
+    report_.memory_bytes =
+        (tiles_.size() + column_.size()) * sizeof(double) + 2 * scatter_.source.size() * sizeof(int);
   }
 
  private:

@@ -54,8 +54,7 @@ Assembly::Assembly(const Model& model, const Scene& scene, const Skips& skips, W
     GroupData data;
     data.group = &group;
     data.law = model.material_of(group).law_ref();
-    data.linear = scene.group_linear[g] != 0;
-    data.constant = data.linear && skips.elements && well_conditioned(data.law);
+    data.constant = scene.group_linear[g] != 0 && skips.elements && well_conditioned(data.law);
     dofs = std::max(dofs, static_cast<std::size_t>(traits.dofs));
     geometry = std::max(geometry, static_cast<std::size_t>(traits.geometry_size()));
     stresses = std::max(stresses, static_cast<std::size_t>(traits.points * traits.law_size));
@@ -65,27 +64,25 @@ Assembly::Assembly(const Model& model, const Scene& scene, const Skips& skips, W
   scratch_geometry_.resize(geometry);
   scratch_sigma_.resize(stresses);
   scratch_eps_.resize(stresses);
+  no_stress_.assign(stresses, 0.0);
   scratch_K_.resize(dofs * dofs);
   scratch_f_.resize(dofs);
   scratch_du_.resize(dofs);
   internal_.setZero(model.dofs());
   coupling_.setZero(model.dofs());
   behind_.setZero(model.dofs());
-  changing_.setZero(model.dofs());
+  if (!std::ranges::all_of(groups_, &GroupData::constant)) changing_.setZero(model.dofs());
 }
 
 void Assembly::reset_group(std::size_t group) {
   GroupData& data = groups_[group];
   const ElementTraits& traits = data.group->element->traits();
   data.state = StateStore(static_cast<std::size_t>(data.group->elements() * traits.points), traits.law_size,
-                          history_of(data.law));
-  if (!data.constant) return;
-  data.state.trial.sigma = {};  // never used: see recover_states()
-  data.state.trial.eps = {};
+                          history_of(data.law), !data.constant);
 }
 
 void Assembly::enter_stage(const Activity& activity, const Eigen::VectorXd& rate) {
-  recover_states();
+  if (is_behind_) recover_states();
   rate_ = rate;
   filled_ = nullptr;
   const auto dofs = static_cast<std::size_t>(model_->dofs());
@@ -108,25 +105,33 @@ void Assembly::enter_stage(const Activity& activity, const Eigen::VectorXd& rate
   number_elements();
 }
 
-// The elements of the system: all active ones, or with a condensed region those of changing groups and the
-// region's dense matrix last.
+bool Assembly::in_system(const GroupData& data) const {
+  return data.active && !(condensation_ && data.constant);
+}
+
 void Assembly::number_elements() {
-  element_equations_ = {};
+  elements_ = 0;
   for (GroupData& data : groups_) {
-    if (!data.active || (condensation_ && data.constant)) continue;
-    data.first_element = element_equations_.count();
-    const Group& group = *data.group;
-    for (int e = 0; e < group.elements(); ++e) {
-      const int* nodes = group.nodes_of(e);
-      for (std::size_t i = 0; i < group.node_count(); ++i)
-        for (int c = 0; c < 2; ++c)
-          element_equations_.equations.push_back(equation_of_dof_[static_cast<std::size_t>(2 * nodes[i] + c)]);
-      element_equations_.offset.push_back(static_cast<std::int64_t>(element_equations_.equations.size()));
-    }
+    if (!in_system(data)) continue;
+    data.first_element = elements_;
+    elements_ += data.group->elements();
   }
-  if (!condensation_) return;
-  for (int eq = 0; eq < equations_; ++eq) element_equations_.equations.push_back(eq);
-  element_equations_.offset.push_back(static_cast<std::int64_t>(element_equations_.equations.size()));
+  if (condensation_) ++elements_;
+}
+
+ElementEquations Assembly::element_equations() const {
+  ElementEquations list;
+  std::size_t terms = 0;
+  for (const GroupData& data : groups_)
+    if (in_system(data)) terms += data.group->nodes.size() * 2;
+  list.equations.reserve(terms + (condensation_ ? dof_of_equation_.size() : 0));
+  list.offset.reserve(static_cast<std::size_t>(elements_) + 1);
+  for (const GroupData& data : groups_)
+    if (in_system(data)) append_equations(*data.group, equation_of_dof_, list);
+  if (!condensation_) return list;
+  for (int eq = 0; eq < equations_; ++eq) list.equations.push_back(eq);
+  list.offset.push_back(static_cast<std::int64_t>(list.equations.size()));
+  return list;
 }
 
 void Assembly::condense(int increments, const SolverMaker& make) {
@@ -180,9 +185,6 @@ void Assembly::keep_matrices(GroupData& data) {
     }
     make_shifts(data, made);
     work_->element_evaluations += made;
-    const auto forces = elements * static_cast<std::size_t>(data.group->element->traits().dofs);
-    data.force.assign(forces, 0.0);
-    data.trial_force.assign(forces, 0.0);
   } else if (skips_.factors && !scene_->linear && elements * matrix_size(data) * sizeof(double) <= kMostKept) {
     data.matrix.resize(elements);
     for (std::size_t e = 0; e < elements; ++e) data.matrix[e] = static_cast<int>(e);
@@ -203,11 +205,10 @@ void Assembly::make_shifts(GroupData& data, int matrices) const {
 void Assembly::take_states() {
   for (GroupData& data : groups_) {
     if (!data.active || !data.constant) continue;
-    if (stress_free(data)) {
-      std::fill(data.force.begin(), data.force.end(), 0.0);
-      continue;
-    }
-    const auto dofs = static_cast<std::size_t>(data.group->element->traits().dofs);
+    data.force.clear();
+    if (stress_free(data)) continue;
+    const std::size_t dofs = data.dofs();
+    data.force.resize(static_cast<std::size_t>(data.group->elements()) * dofs);
     for (int e = 0; e < data.group->elements(); ++e) {
       evaluate_element(data, e, nullptr, nullptr);
       std::copy_n(scratch_f_.data(), dofs, data.force.data() + static_cast<std::size_t>(e) * dofs);
@@ -284,8 +285,9 @@ Outcome Assembly::evaluate_element(GroupData& data, int element, const Eigen::Ve
   in.geometry = geometry_of(data, element);
   in.du = scratch_du_.data();
   in.law = data.law;
-  in.sigma0 = data.state.committed.sigma.data() + at;
-  in.eps0 = data.state.committed.eps.data() + at;
+  const bool has_room = !data.state.committed.sigma.empty();
+  in.sigma0 = has_room ? data.state.committed.sigma.data() + at : no_stress_.data();
+  in.eps0 = has_room ? data.state.committed.eps.data() + at : no_stress_.data();
   in.h0 = data.state.committed.h.data() + e * points * history;
   ElementOut out;
   out.K = K;
@@ -322,6 +324,10 @@ Outcome Assembly::evaluate_group(GroupData& data, const Eigen::VectorXd& du, Lin
 // only in a ring.
 void Assembly::evaluate_constant(GroupData& data, const Eigen::VectorXd& du) {
   const std::size_t n = data.dofs();
+  const bool from_zero = data.force.empty();
+  data.trial_force.clear();
+  if (from_zero && du.isZero(0.0)) return;
+  data.trial_force.resize(static_cast<std::size_t>(data.group->elements()) * n);
   for (int e = 0; e < data.group->elements(); ++e) {
     gather(data, e, du);
     const double x = scratch_du_[0], y = scratch_du_[1];
@@ -332,9 +338,9 @@ void Assembly::evaluate_constant(GroupData& data, const Eigen::VectorXd& du) {
     const double* K = data.matrix_of(e);
     const double* shift =
         data.shift.data() + static_cast<std::size_t>(data.matrix[static_cast<std::size_t>(e)]) * n;
-    const double* f0 = data.force.data() + static_cast<std::size_t>(e) * n;
     double* f = data.trial_force.data() + static_cast<std::size_t>(e) * n;
-    for (std::size_t i = 0; i < n; ++i) f[i] = f0[i] + shift[i] * x;
+    if (!from_zero) std::copy_n(data.force.data() + static_cast<std::size_t>(e) * n, n, f);
+    for (std::size_t i = 0; i < n; ++i) f[i] += shift[i] * x;
     for (std::size_t j = 2; j < n; ++j)
       for (std::size_t i = 0; i < n; ++i) f[i] += K[j * n + i] * scratch_du_[j];
     constant_sum_ += add_force(data, e, f, internal_);
@@ -345,10 +351,10 @@ void Assembly::evaluate_constant(GroupData& data, const Eigen::VectorXd& du) {
 // All matrices that are kept go to the solver (those of other groups went there as they were made).
 void Assembly::fill(LinearSolver& solver) {
   for (const GroupData& data : groups_) {
-    if (!data.active || !keeps_matrices(data) || (condensation_ && data.constant)) continue;
+    if (!in_system(data) || !keeps_matrices(data)) continue;
     for (int e = 0; e < data.group->elements(); ++e) add_matrix(data, e, data.matrix_of(e), solver);
   }
-  if (condensation_) solver.add(element_equations_.count() - 1, condensation_->S().data());
+  if (condensation_) solver.add(elements_ - 1, condensation_->S().data());
 }
 
 // Forces and matrices of the groups that are not constant, and all kept matrices into the solver.
@@ -383,7 +389,10 @@ Outcome Assembly::evaluate_changing(const Eigen::VectorXd& du, LinearSolver* sol
 }
 
 void Assembly::add_constant(const Eigen::VectorXd& du) {
-  internal_ = changing_;
+  if (changing_.size() > 0)
+    internal_ = changing_;
+  else
+    internal_.setZero();
   constant_sum_ = 0.0;
   for (GroupData& data : groups_)
     if (data.active && data.constant) evaluate_constant(data, du);
@@ -439,14 +448,14 @@ void Assembly::begin_step(const Eigen::VectorXd& target, double rate_part) {
   const Timer timer(work_->solve_seconds);
   constant_force_.setZero(model_->dofs());
   for (const GroupData& data : groups_) {
-    if (!data.active || !data.constant) continue;
+    if (!data.active || !data.constant || data.force.empty()) continue;
     for (int e = 0; e < data.group->elements(); ++e)
       add_force(data, e, data.force.data() + static_cast<std::size_t>(e) * data.dofs(), constant_force_);
   }
   prescribed_ = rate_part * rate_;
   condensation_->begin_step(target, prescribed_, constant_force_);
   internal_ = changing_;
-  condensation_->add_forces(Eigen::VectorXd::Zero(model_->dofs()), internal_);
+  condensation_->add_start_forces(internal_);
 }
 
 // The force scale of the linear region is that of the last whole evaluation.
@@ -488,6 +497,7 @@ void Assembly::commit(const Eigen::VectorXd& du) {
 }
 
 void Assembly::recover_states() {
+  for (GroupData& data : groups_) data.state.make_room();
   if (!is_behind_) return;
   const Timer timer(work_->assembly_seconds);
   for (GroupData& data : groups_) {

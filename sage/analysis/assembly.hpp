@@ -25,7 +25,9 @@ class Assembly {
   void take_states();
 
   int equations() const { return equations_; }
-  const ElementEquations& element_equations() const { return element_equations_; }
+  // Of the elements of the system: all active ones, or with a condensed region those of changing groups and the
+  // region's dense matrix last.
+  ElementEquations element_equations() const;
   int equation_of(int dof) const { return equation_of_dof_[static_cast<std::size_t>(dof)]; }
   int dof_of(int equation) const { return dof_of_equation_[static_cast<std::size_t>(equation)]; }
 
@@ -52,7 +54,8 @@ class Assembly {
   void commit(const Eigen::VectorXd& du);
   // The same for a step that a checkpoint has counted already.
   void commit_again();
-  // Brings the states of constant groups up to date; others always are.
+  // Brings the states of constant groups up to date; others always are.  Until it is called, stress and strain
+  // of constant groups may have no room at all.
   void recover_states();
 
   const Eigen::VectorXd& internal_force() const { return internal_; }  // every dof
@@ -73,6 +76,7 @@ class Assembly {
   Outcome evaluate_element(GroupData& data, int element, const Eigen::VectorXd* du, double* K);
   Outcome evaluate_changing(const Eigen::VectorXd& du, LinearSolver* solver);
   void add_constant(const Eigen::VectorXd& du);
+  bool in_system(const GroupData& data) const;
   void number_elements();
   Outcome evaluate_group(GroupData& data, const Eigen::VectorXd& du, LinearSolver* solver);
   void evaluate_constant(GroupData& data, const Eigen::VectorXd& du);
@@ -91,9 +95,10 @@ class Assembly {
   std::vector<GroupData> groups_;
   int equations_ = 0;
   std::vector<int> equation_of_dof_, dof_of_equation_;
-  ElementEquations element_equations_;
+  int elements_ = 0;  // of the system
   Eigen::VectorXd rate_, internal_, coupling_;
-  Eigen::VectorXd changing_;  // internal forces of groups that are not constant, every dof
+  Eigen::VectorXd
+      changing_;  // internal forces of groups that are not constant, every dof; no size without such
   std::unique_ptr<Condensation> condensation_;
   Eigen::VectorXd prescribed_, constant_force_;
   Eigen::VectorXd behind_;  // displacement that the states of constant groups do not know yet, every dof
@@ -102,6 +107,7 @@ class Assembly {
   const LinearSolver* filled_ = nullptr;  // the solver that holds K as it is kept here
   bool matrix_changed_ = true;
   std::vector<double> scratch_geometry_, scratch_K_, scratch_f_, scratch_du_, scratch_sigma_, scratch_eps_;
+  std::vector<double> no_stress_;  // zeros, of one element
   Eigen::Matrix2Xd scratch_x_;
 };
 

@@ -27,16 +27,10 @@ Condensation::Condensation(const std::vector<GroupData>& groups, const std::vect
   for (const GroupData& data : groups) {
     if (!data.active || !data.constant) continue;
     all_symmetric = all_symmetric && symmetric(data.law);
-    for (int e = 0; e < data.group->elements(); ++e) {
-      const int* nodes = data.group->nodes_of(e);
-      for (std::size_t i = 0; i < data.group->node_count(); ++i)
-        for (int c = 0; c < 2; ++c)
-          elements.equations.push_back(equation[static_cast<std::size_t>(2 * nodes[i] + c)]);
-      elements.offset.push_back(static_cast<std::int64_t>(elements.equations.size()));
-    }
+    append_equations(*data.group, equation, elements);
   }
   solver_ = make(condensed(), all_symmetric);
-  solver_->analyse(condensed(), elements);
+  solver_->analyse(condensed(), std::move(elements));
   solver_->clear();
   int element = 0;
   for (const GroupData& data : groups) {
@@ -44,6 +38,7 @@ Condensation::Condensation(const std::vector<GroupData>& groups, const std::vect
     for (int e = 0; e < data.group->elements(); ++e) solver_->add(element++, data.matrix_of(e));
   }
   solver_->factorise();
+  solver_->release_workspace();
 
   const auto n = static_cast<Eigen::Index>(kept_.size());
   const auto all = static_cast<Eigen::Index>(keep.size());
@@ -107,6 +102,10 @@ void Condensation::begin_step(const Eigen::VectorXd& target, const Eigen::Vector
     const int dof = kept_[static_cast<std::size_t>(i)];
     g_[i] = f0[dof] + work_y_[dof];
   }
+}
+
+void Condensation::add_start_forces(Eigen::VectorXd& f) const {
+  for (Eigen::Index i = 0; i < g_.size(); ++i) f[kept_[static_cast<std::size_t>(i)]] += g_[i];
 }
 
 void Condensation::add_forces(const Eigen::VectorXd& du, Eigen::VectorXd& f) const {

@@ -35,7 +35,8 @@ class Condensation {
   // target: loads at the end of the step; prescribed: its displacement of every prescribed dof (others 0); f0:
   // internal forces of the linear region.  One entry a dof.
   void begin_step(const Eigen::VectorXd& target, const Eigen::VectorXd& prescribed, const Eigen::VectorXd& f0);
-  // f += forces of the linear region on the kept dofs.
+  // f += forces of the linear region on the kept dofs, at du = 0 and at du.
+  void add_start_forces(Eigen::VectorXd& f) const;
   void add_forces(const Eigen::VectorXd& du, Eigen::VectorXd& f) const;
   // Fills in du of the condensed dofs.
   void complete(Eigen::VectorXd& du);

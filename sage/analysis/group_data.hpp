@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "sage/core/linear_solver.hpp"
 #include "sage/core/state_store.hpp"
 #include "sage/model/model.hpp"
 
@@ -12,8 +13,7 @@ struct GroupData {
   const Group* group = nullptr;
   LawRef law;
   bool active = false;
-  bool linear = false;
-  bool constant = false;  // linear, and its matrices and forces are kept: iterations call no law
+  bool constant = false;  // of a linear law, and matrices and forces are kept: iterations call no law
   StateStore state;
   std::vector<double> geometry;  // w and B of all elements; empty = made anew in each pass
   int first_element = 0;         // in the solver's element order, while it is part of the system
@@ -21,13 +21,24 @@ struct GroupData {
   std::vector<double>
       shift;  // constant: forces of a unit displacement of the whole element along x, one a matrix
   std::vector<int> matrix;  // of each element: its place in K, counted in matrices; empty = none are kept
-  std::vector<double> force,
-      trial_force;  // constant: internal force of each element at the committed state, and tried
+  std::vector<double> force, trial_force;  // constant: internal force of each element at the committed state,
+                                           // and tried; empty = zero
 
   std::size_t dofs() const { return static_cast<std::size_t>(group->element->traits().dofs); }
   const double* matrix_of(int element) const {
     return K.data() + static_cast<std::size_t>(matrix[static_cast<std::size_t>(element)]) * dofs() * dofs();
   }
 };
+
+// The equations of all elements of a group, behind those that are listed.  equation_of: by dof; -1 = none.
+inline void append_equations(const Group& group, const std::vector<int>& equation_of, ElementEquations& list) {
+  for (int e = 0; e < group.elements(); ++e) {
+    const int* nodes = group.nodes_of(e);
+    for (std::size_t i = 0; i < group.node_count(); ++i)
+      for (int c = 0; c < 2; ++c)
+        list.equations.push_back(equation_of[static_cast<std::size_t>(2 * nodes[i] + c)]);
+    list.offset.push_back(static_cast<std::int64_t>(list.equations.size()));
+  }
+}
 
 }  // namespace sage

@@ -119,6 +119,7 @@ void apply_initial_stress(const Model& model, const InitialStress& initial, Grou
     throw InputError(initial.where,
                      "group " + std::to_string(static_cast<int>(initial.value[0])) +
                          ", whose traction the interface should take, has no initial stress card");
+  data.state.make_room();
   Eigen::Matrix2Xd x;
   long refused = 0;
   for (int e = 0; e < group.elements(); ++e) {

@@ -90,6 +90,7 @@ void Step::factorise_if_needed() {
   const Timer timer(work_.factor_seconds);
   ++work_.factorisations;
   stiffness_.solver->factorise();
+  if (stiffness_.constant) stiffness_.solver->release_workspace();
   stiffness_.factorised = true;
 }
 

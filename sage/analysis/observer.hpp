@@ -25,8 +25,8 @@ class Observer {
   // The state before the first increment of a stage: initial stress, births and deaths done.
   virtual void on_stage_start(const Model&, int /*stage*/, const Solution&) {}
   virtual void on_increment(const Model&, const StepReport&, const Solution&) {}
-  // Whether the observer looks at stresses and strains after this increment (and, after the last, at the end of
-  // the stage); those of linear elements are computed only then.  After a failure they always are.
+  // Whether the observer looks at stresses and strains after this increment (0: at the start of the stage; the
+  // last: at its end too); those of linear elements are there only then.  After a failure they always are.
   virtual bool wants_states(const Model&, const StepReport&) const { return true; }
   virtual void on_stage_end(const Model&, int /*stage*/, const EquilibriumAudit&, const Solution&) {}
   virtual void on_failure(const Model&, const StepReport&, const std::string& /*reason*/, const Solution&) {}

@@ -55,7 +55,7 @@ struct WorstDof {
 
 struct StepReport {
   int stage = 0;      // 0-based
-  int increment = 0;  // 1-based within the stage
+  int increment = 0;  // 1-based within the stage; 0 = its start
   int increments = 0;
   double load_factor = 0.0;  // part of the stage applied, 0 .. 1
   double failed_at = 2.0;    // load factor of the last attempt that found no equilibrium; 2 = none

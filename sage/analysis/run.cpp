@@ -218,6 +218,7 @@ void Run::accept(double reached) {
 // Back to the committed state, with its own internal forces and tangent.
 void Run::reject(const Stage& stage) {
   du_.setZero();
+  linear_size_ = 0.0;
   const bool keep_K = stiffness_.constant || stage.method == Method::initial_stiffness;
   if (!keep_K) stiffness_.assembled = stiffness_.factorised = false;
   assembly_.evaluate(du_, nullptr);
@@ -238,7 +239,6 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
       const double error = assembly_.path_error();
       if (error > kPathTolerance && to - reached > 1.001 * kSmallestPart * whole) {
         reject(stage);
-        linear_size_ = 0.0;
         size = (to - reached) * std::clamp(0.9 * std::cbrt(kPathTolerance / error), 0.25, 0.75);
         size = std::max(size, kSmallestPart * whole);
         continue;
@@ -258,7 +258,6 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
     report.failed_at = to;  // beyond `reached`, which may have passed an earlier failure
     if (report.cuts >= settings_.max_cuts || stiffness_.constant) return fail(report, step);
     reject(stage);
-    linear_size_ = 0.0;
     ++report.cuts;
     size = 0.5 * (to - reached);
   }
@@ -443,6 +442,10 @@ bool Run::run_stage(int s, int done) {
     prepare_stage(s);
     path_error_ = 0.0;
     if (s == 0) tell([&](Observer& o) { o.on_start(model_, scene_, solver_name_, all_equations()); });
+    StepReport start;
+    start.stage = s;
+    start.increments = stage.increments;
+    recover_for(start);
     tell([&](Observer& o) { o.on_stage_start(model_, s, solution()); });
   }
   const bool whole_stages_only = stage.method == Method::initial_stiffness && !stiffness_.constant;

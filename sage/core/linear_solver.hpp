@@ -52,7 +52,7 @@ class LinearSolver {
   virtual void set_refinement(int /*steps*/) {}
 
   // Numbering, symbolic work and storage for a pattern.  Called once per pattern.
-  virtual void analyse(int equations, const ElementEquations& elements) = 0;
+  virtual void analyse(int equations, ElementEquations elements) = 0;
 
   // Zeroes the matrix, keeps the pattern.
   virtual void clear() = 0;
@@ -63,6 +63,9 @@ class LinearSolver {
 
   // Throws SingularMatrix.
   virtual void factorise() = 0;
+
+  // No other factorise() is expected: room that nothing else needs may be given back until there is one.
+  virtual void release_workspace() {}
 
   // x = K^-1 b.  b and x may be the same vector.  Needs factorise() since the last add().
   virtual void solve(std::span<const double> b, std::span<double> x) const = 0;

@@ -23,7 +23,7 @@ class DiscretisationError final : public Observer {
 
   // The ends of stages: the last one is measured, the report's counts from the end of the one before it.
   bool wants_states(const Model&, const StepReport& report) const override {
-    return report.increment == report.increments;
+    return report.increment == 0 || report.increment == report.increments;
   }
   void exchange(Archive&) override;
 

@@ -19,7 +19,7 @@ class Output : public Observer {
 // The deck's choice (every n-th increment), and always the last of a stage.
 inline bool is_output_increment(const Stage& stage, const StepReport& report) {
   return report.increment == report.increments ||
-         (stage.output_every > 0 && report.increment % stage.output_every == 0);
+         (stage.output_every > 0 && report.increment > 0 && report.increment % stage.output_every == 0);
 }
 
 inline const Stage& stage_of(const Model& model, int stage) {

@@ -38,7 +38,7 @@ class CholmodSolver final : public MatrixSolver {
     cholmod_sparse K = view();
     if (!factor_->is_super || !factorise_definite(K)) factorise_indefinite(K);
     report_.factor_entries = static_cast<std::int64_t>(common_.lnz);
-    report_.memory_bytes = matrix().memory_bytes() + columns_.memory_bytes() + common_.memory_inuse;
+    report_.memory_bytes = columns_.memory_bytes() + common_.memory_inuse;
   }
 
   void solve_matrix(std::span<const double> b, std::span<double> x) const override {

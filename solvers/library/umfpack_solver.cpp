@@ -42,7 +42,7 @@ class UmfpackSolver final : public MatrixSolver {
     if (status != UMFPACK_WARNING_singular_matrix) throw_unless_ok(status);
     check_pivots(status == UMFPACK_WARNING_singular_matrix);
     report_.factor_entries = static_cast<std::int64_t>(info[UMFPACK_LNZ] + info[UMFPACK_UNZ]);
-    report_.memory_bytes = matrix().memory_bytes() + columns_.memory_bytes() +
+    report_.memory_bytes = columns_.memory_bytes() +
                            static_cast<std::size_t>(info[UMFPACK_NUMERIC_SIZE] * info[UMFPACK_SIZE_OF_UNIT]);
   }
 

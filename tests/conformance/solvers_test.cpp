@@ -220,6 +220,20 @@ TEST_P(SolverConformance, RepeatsItselfToTheLastBit) {
   }
 }
 
+TEST_P(SolverConformance, GivesItsWorkspaceBackAndTakesItAgain) {
+  const System system = q4_mesh({.columns = 40, .rows = 60});
+  const VectorXd b = random_vector(system.equations, 3);
+  const auto solver = make();
+  solver->set_threads(2);
+  load(*solver, system);
+  solver->factorise();
+  const VectorXd x = solve(*solver, b);
+  solver->release_workspace();
+  EXPECT_EQ(solve(*solver, b), x);
+  solver->factorise();
+  EXPECT_EQ(solve(*solver, b), x);
+}
+
 // Answers, transposed answers and the report; the last mesh is large enough to be divided among threads.
 TEST_P(SolverConformance, ThreadsChangeNoBit) {
   if (!own()) GTEST_SKIP() << "a library";

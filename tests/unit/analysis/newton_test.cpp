@@ -19,7 +19,7 @@ class DenseSolver final : public LinearSolver {
  public:
   explicit DenseSolver(Matrix2 K) : K_(K) {}
   const SolverTraits& traits() const override { return traits_; }
-  void analyse(int, const ElementEquations&) override {}
+  void analyse(int, ElementEquations) override {}
   void clear() override {}
   void add(int, const double*) override {}
   void factorise() override {}

@@ -1,6 +1,7 @@
 // What a run leaves out must not change what comes out: each skip off, and all off, against all on.
 #include <gtest/gtest.h>
 
+#include "sage/app/commands.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {
@@ -50,6 +51,19 @@ std::string staged(int law, double cohesion) {
   StageCards& load = deck.stage(4);
   load.pressure(ground.element(6, 3), 3, 30.0, 30.0);
   load.pressure(ground.element(7, 3), 3, 30.0, 30.0);
+  return deck.text();
+}
+
+// 8 x 4 cells of one size, two increments.
+std::string elastic_block(int geometry) {
+  DeckWriter deck(geometry);
+  Block block{8, 4, Cell::quad4, 1, 1, rectangle(0.0, 4.0, 0.0, 1.0)};
+  block.write_nodes(deck);
+  block.write_elements(deck, 1);
+  deck.material(1, 1, {1e4, 0.3});
+  deck.group(1, 1, 0, 1);
+  for (int n : block.bottom()) deck.fix(n, 1, 1);
+  deck.stage(2).load(block.top().back(), 0.0, -1.0);
   return deck.text();
 }
 
@@ -121,18 +135,38 @@ TEST(Skips, OffMeansOff) {
   EXPECT_EQ(strong.kept_factors, 0);
 }
 
+// Looks at the stress of linear elements at the start of every stage and after every increment, if it does.
+struct Looker : Observer {
+  explicit Looker(bool look) : looks(look) {}
+  bool wants_states(const Model&, const StepReport&) const override { return looks; }
+  void on_stage_start(const Model&, int, const Solution& now) override { count(now); }
+  void on_increment(const Model&, const StepReport&, const Solution& now) override { count(now); }
+  void count(const Solution& now) {
+    sizes.push_back(now.assembly->groups().front().state.committed.sigma.size());
+  }
+  bool looks;
+  std::vector<std::size_t> sizes;
+};
+
+// Stress of linear elements has room where somebody looks, and none at all where nobody does.
+TEST(Skips, StressOfLinearElementsIsThereForWhoeverLooks) {
+  const Catalogue all = app::full_catalogue();
+  for (const bool look : {true, false}) {
+    Looker looker(look);
+    Observer* observers[] = {&looker};
+    const WholeRun plain = run_text(elastic_block(1));
+    RunSettings settings;
+    settings.solver = 1;
+    ASSERT_EQ(run(*plain.model, all, settings, observers).status, RunStatus::completed);
+    ASSERT_EQ(looker.sizes.size(), 3u);
+    for (std::size_t size : looker.sizes) EXPECT_EQ(size, look ? 4u * 4u * 32u : 0u);
+  }
+}
+
 // Congruent elements: 8 x 4 cells of one size have one matrix; in a ring one for each column.
 TEST(Skips, CongruentElementsShareAMatrix) {
   for (int geometry : {1, 2}) {
-    DeckWriter deck(geometry);
-    Block block{8, 4, Cell::quad4, 1, 1, rectangle(0.0, 4.0, 0.0, 1.0)};
-    block.write_nodes(deck);
-    block.write_elements(deck, 1);
-    deck.material(1, 1, {1e4, 0.3});
-    deck.group(1, 1, 0, 1);
-    for (int n : block.bottom()) deck.fix(n, 1, 1);
-    deck.stage(1).load(block.top().back(), 0.0, -1.0);
-    const WholeRun run = run_text(deck.text());
+    const WholeRun run = run_text(elastic_block(geometry));
     EXPECT_EQ(analyse_scene(*run.model).linear_shapes, geometry == 1 ? 1 : 8);
   }
 }

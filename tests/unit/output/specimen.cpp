@@ -94,6 +94,7 @@ Specimen::Specimen(Geometry geometry, bool interface) : with_interface(interface
   external.setZero(model.dofs());
   if (assembly->evaluate(u, nullptr) != Outcome::ok) throw std::logic_error("specimen");
   assembly->commit(u);
+  assembly->recover_states();
 }
 
 void Specimen::compress(double e) {

@@ -157,6 +157,7 @@ TEST_F(VtuReadBack, KnowsEveryShape) {
     const Activity activity(model);
     const Eigen::VectorXd u = Eigen::VectorXd::LinSpaced(model.dofs(), 0.0, 1.0);
     assembly.enter_stage(activity, Eigen::VectorXd::Zero(model.dofs()));
+    assembly.recover_states();
     write_file(folder / "a.vtu", vtu_text(model, {&u, &u, &u, &assembly, &activity}));
     const auto lines = read_back(folder / "a.vtu");
     ASSERT_GE(lines.size(), 2u) << entry->name;
