@@ -32,28 +32,4 @@ struct TriaxialDeck {
 // Axial stress (compression +) of a triaxial deck's run after a stage's last increment.
 double axial_stress(const TriaxialDeck& deck, const study::WholeRun& run, std::size_t stage);
 
-// Lame's thick cylinder a = 1, b = 2 under internal pressure 1, E = 1, u_z = 0.
-struct LameDeck {
-  bool sector = false;  // plane-strain sector of 90 degrees, or an axisymmetric strip
-  Cell cell = Cell::quad8;
-  int formulation = 1, n = 4;
-  double nu = 0.3;
-
-  std::string text() const;
-  static double u(double nu, double r);  // closed form
-};
-
-// The strip as two rings that meet at r = 1.5 in an interface of normal stiffness kn; kn = 0: one ring.
-struct TwoRingDeck {
-  double kn = 1.0;
-  bool sector = false;
-  std::string text() const;
-  std::vector<int> inner_face() const;
-};
-// Contact pressure and u(a) of the two rings, nu = .3, closed form (Lame on both).
-struct TwoRingAnswer {
-  double contact = 0.0, u_a = 0.0;
-};
-TwoRingAnswer two_ring_answer(double kn);
-
 }  // namespace sage::stress

@@ -5,12 +5,14 @@
 
 #include "sage/stress/decks.hpp"
 #include "sage/stress/row.hpp"
+#include "sage/study/lame.hpp"
 
 namespace sage::stress {
 
 namespace {
 
 using study::rectangle;
+using study::TwoRingDeck;
 
 constexpr double kUnit = 0.5 * std::numeric_limits<double>::epsilon();
 
@@ -19,12 +21,12 @@ void normal_stiffness(Sweep& s) {
   for (int power = 0; power <= 12; ++power) {
     TwoRingDeck deck;
     deck.kn = std::pow(10.0, power);
-    const TwoRingAnswer exact = two_ring_answer(deck.kn);
+    const study::TwoRingAnswer exact = study::two_ring_answer(deck.kn);
     const Ran ran = s.run(deck.text());
     double contact = kUnknown, u = kUnknown;
     if (ran.completed()) {
-      contact = (-ran.run->stress[1].row(1).array() - exact.contact).abs().maxCoeff() / exact.contact;
-      u = ran.run->u(deck.inner_face().front()).x() / exact.u_a - 1.0;
+      contact = study::contact_error(*ran.run, exact);
+      u = ran.run->u(TwoRingDeck::inner_node).x() / exact.u_a - 1.0;
     }
     const std::string label = fmt::format("kn = 1e{} E/a", power);
     s.right(label + ", contact pressure", deck.kn, ran, contact, 1e-12 + 100.0 * kUnit * deck.kn).series =
@@ -84,9 +86,9 @@ void bonded_limit(Sweep& s) {
     TwoRingDeck deck;
     deck.kn = std::pow(10.0, power);
     const Ran ran = s.run(deck.text());
-    const double bonded = LameDeck::u(0.3, 1.0);
+    const double bonded = study::lame(study::LameBody::strip, 0.3, 1.0).u;
     s.right(fmt::format("kn = 1e{} E/a", power), deck.kn, ran,
-            ran.completed() ? ran.run->u(deck.inner_face().front()).x() / bonded - 1.0 : kUnknown,
+            ran.completed() ? ran.run->u(TwoRingDeck::inner_node).x() / bonded - 1.0 : kUnknown,
             2.0 / deck.kn + 10.0 * kUnit * deck.kn);
   }
 }

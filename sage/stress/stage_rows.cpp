@@ -5,6 +5,7 @@
 
 #include "sage/stress/decks.hpp"
 #include "sage/stress/row.hpp"
+#include "sage/study/lame.hpp"
 #include "sage/study/specimen_deck.hpp"
 
 namespace sage::stress {
@@ -144,14 +145,14 @@ void audit(Sweep& s) {
     const Ran ran = s.run(deck);
     s.right(label, kUnknown, ran, ran.completed() ? ran.run->out_of_balance : kUnknown, 1e-9);
   };
-  LameDeck lame;
+  study::LameDeck lame;
+  lame.body = study::LameBody::sector;
   for (double nu : {0.3, 0.49, 0.4999}) {
     lame.nu = nu;
-    lame.sector = true;
     check(fmt::format("Lame's sector, nu = {:g}", nu), lame.text());
   }
   for (double kn : {1.0, 1e3, 1e6}) {
-    TwoRingDeck rings;
+    study::TwoRingDeck rings;
     rings.kn = kn;
     rings.sector = true;
     check(fmt::format("two rings, kn = {:g}", kn), rings.text());

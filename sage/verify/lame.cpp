@@ -1,12 +1,10 @@
-// Thick cylinder and thick sphere under internal pressure (Lame), a = 1, b = 2, p = E = 1, and two rings with
-// an interface between them.  Cylinder: a 90-degree sector in plane strain and a strip of the ring in
-// axisymmetry, u_z = 0; sphere: a quadrant of the (r, z) plane with nodes on the axis.
+// Thick cylinder and thick sphere under internal pressure (Lame), and two rings with an interface between them.
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "sage/study/lame.hpp"
 #include "sage/verify/cases.hpp"
 #include "sage/verify/fields.hpp"
 
@@ -14,55 +12,20 @@ namespace sage::verify {
 
 namespace {
 
-enum class Body { sector, strip, sphere };
-
-constexpr double kA = 1.0, kB = 2.0;
-
-const char* name_of_body(Body body) {
-  return body == Body::sector ? "sector" : body == Body::strip ? "strip" : "sphere";
+const char* name_of_body(LameBody body) {
+  return body == LameBody::sector ? "sector" : body == LameBody::strip ? "strip" : "sphere";
 }
 
-Where where_of_body(Body body) {
-  return body == Body::sector ? Where::plane_strain : Where::axisymmetric;
+Where where_of_body(LameBody body) {
+  return body == LameBody::sector ? Where::plane_strain : Where::axisymmetric;
 }
 
-// u, sigma_r and sigma_theta at radius r, and sigma_z of the cylinder.
-struct Lame {
-  double u, radial, hoop, axial;
-};
-
-Lame lame(Body body, double nu, double r) {
-  if (body == Body::sphere) {
-    const double f = std::pow(kA, 3) / (std::pow(kB, 3) - std::pow(kA, 3)), b3 = std::pow(kB / r, 3);
-    return {f * r * ((1 - 2 * nu) + (1 + nu) * b3 / 2), f * (1 - b3), f * (1 + b3 / 2), 0.0};
-  }
-  const double f = kA * kA / (kB * kB - kA * kA), b2 = std::pow(kB / r, 2);
-  return {(1 + nu) * f * r * ((1 - 2 * nu) + b2), f * (1 - b2), f * (1 + b2), 2 * nu * f};
+VectorField displacement(LameBody body, double nu) {
+  return [=](const Vector2& x) { return lame_displacement(body, nu, x); };
 }
 
-// The direction of r at a point.
-Vector2 radial_direction(Body body, const Vector2& x) {
-  return body == Body::strip ? Vector2(1.0, 0.0) : Vector2(x.normalized());
-}
-
-double radius(Body body, const Vector2& x) {
-  return body == Body::strip ? x.x() : x.norm();
-}
-
-VectorField displacement(Body body, double nu) {
-  return [=](const Vector2& x) -> Vector2 {
-    return lame(body, nu, radius(body, x)).u * radial_direction(body, x);
-  };
-}
-
-TensorField stress(Body body, double nu) {
-  return [=](const Vector2& x) -> Vector4 {
-    const Lame s = lame(body, nu, radius(body, x));
-    if (body == Body::strip) return {s.radial, s.axial, s.hoop, 0.0};
-    const Vector2 n = radial_direction(body, x);
-    const double out = body == Body::sector ? s.axial : s.hoop, d = s.radial - s.hoop;
-    return {s.hoop + d * n.x() * n.x(), s.hoop + d * n.y() * n.y(), out, d * n.x() * n.y()};
-  };
+TensorField stress(LameBody body, double nu) {
+  return [=](const Vector2& x) { return lame_stress(body, nu, x); };
 }
 
 struct Kind {
@@ -72,35 +35,8 @@ struct Kind {
   double order;  // of the displacements; that of the stress is one less
 };
 
-DeckWriter deck_of(Body body, const Kind& kind, int n, double nu) {
-  Block block;
-  block.cell = kind.cell;
-  block.columns = n;
-  block.rows = body == Body::strip ? std::max(1, n / 2) : n;
-  block.polar = body != Body::strip;
-  block.place = body == Body::strip ? rectangle(kA, kB, 0.0, 0.5) : rectangle(kA, kB, 0.0, 90.0);
-  DeckWriter deck(body == Body::sector ? 1 : 2);
-  block.write_nodes(deck);
-  deck.material(1, 1, {1.0, nu});
-  deck.group(1, static_cast<int>(kind.cell), kind.formulation, 1);
-  block.write_elements(deck, 1);
-  for (int node : block.bottom()) deck.fix(node, 0, 1);
-  for (int node : block.top()) deck.fix(node, body == Body::strip ? 0 : 1, body == Body::strip ? 1 : 0);
-  StageCards& stage = deck.stage();
-  const int inner = kind.cell == Cell::tri3 || kind.cell == Cell::tri6 ? 3 : 4;
-  for (int j = 0; j < block.rows; ++j) stage.pressure(block.element(0, j), inner, 1.0, 1.0);
-  return deck;
-}
-
-// Of the displacements at all nodes, root of the sum of squares.
-double nodal_error(const WholeRun& run, const VectorField& exact) {
-  double error = 0.0, size = 0.0;
-  for (int i = 0; i < run.model->mesh.nodes(); ++i) {
-    const Vector2 u = exact(run.model->mesh.x.col(i));
-    error += (run.last().u.segment<2>(2 * i) - u).squaredNorm();
-    size += u.squaredNorm();
-  }
-  return std::sqrt(error / size);
+DeckWriter deck_of(LameBody body, const Kind& kind, int n, double nu) {
+  return LameDeck{body, kind.cell, kind.formulation, n, nu}.deck();
 }
 
 const Kind kKinds[] = {
@@ -114,7 +50,7 @@ const Kind kKinds[] = {
     {"tri6 six points", Cell::tri6, 2, 2, 3.0},
 };
 
-void orders(Record& record, Body body) {
+void orders(Record& record, LameBody body) {
   for (const Kind& kind : kKinds) {
     std::vector<double> size, u, s;
     double at_nodes = 0.0;
@@ -124,13 +60,13 @@ void orders(Record& record, Body body) {
       size.push_back(1.0 / (kind.coarsest << level));
       u.push_back(e.displacement);
       s.push_back(e.stress);
-      at_nodes = nodal_error(run, displacement(body, 0.3));
+      at_nodes = lame_error(run, body, 0.3);
     }
     record.order(where_of_body(body), fmt::format("u, {} {}", name_of_body(body), kind.name), size, u,
                  kind.order);
     record.order(where_of_body(body), fmt::format("stress, {} {}", name_of_body(body), kind.name), size, s,
                  kind.order - 1.0);
-    if (body == Body::strip && kind.cell == Cell::quad8 && kind.formulation == 1)
+    if (body == LameBody::strip && kind.cell == Cell::quad8 && kind.formulation == 1)
       record.small(where_of_body(body), "nodes of the strip, quad8 reduced: exact", at_nodes, 1e-9);
   }
 }
@@ -149,9 +85,9 @@ double pressure_error(const WholeRun& run, const TensorField& exact) {
   return error;
 }
 
-void nu_sweep(Record& record, const std::vector<Body>& bodies) {
+void nu_sweep(Record& record, const std::vector<LameBody>& bodies) {
   const Kind kinds[] = {{"quad4 b-bar", Cell::quad4, 2, 16, 2.0}, {"quad8 reduced", Cell::quad8, 1, 8, 3.0}};
-  for (Body body : bodies)
+  for (LameBody body : bodies)
     for (const Kind& kind : kinds) {
       const Where where = where_of_body(body);
       double error = 0.0, pressure = 0.0;
@@ -159,16 +95,16 @@ void nu_sweep(Record& record, const std::vector<Body>& bodies) {
         const WholeRun run = record.run(deck_of(body, kind, kind.coarsest, nu));
         const int inner = 1;  // on the inner face
         record.near(where, fmt::format("u(a), {} {}, nu = {:.7g}", name_of_body(body), kind.name, nu),
-                    run.u(inner).norm(), lame(body, nu, kA).u, kind.cell == Cell::quad4 ? 5e-3 : 5e-4);
+                    run.u(inner).norm(), lame(body, nu, 1.0).u, kind.cell == Cell::quad4 ? 5e-3 : 5e-4);
         if (nu == 0.3) {
-          error = nodal_error(run, displacement(body, nu));
+          error = lame_error(run, body, nu);
           pressure = pressure_error(run, stress(body, nu));
         }
         if (nu == 0.4999999) {
           // Where the strip is exact only rounding is left: K/G = 5e6 times 1e-16, times the operations.
           record.small(where,
                        fmt::format("error of u over that at nu = .3, {} {}", name_of_body(body), kind.name),
-                       nodal_error(run, displacement(body, nu)) / std::max(error, 1e-8), 2.0);
+                       lame_error(run, body, nu) / std::max(error, 1e-8), 2.0);
           record.small(
               where,
               fmt::format("error of cell pressures over that at .3, {} {}", name_of_body(body), kind.name),
@@ -187,10 +123,10 @@ bool warns_of_locking(const WholeRun& run) {
 // before.
 void locking(Record& record) {
   const Kind full{"quad4 full", Cell::quad4, 1, 4, 2.0};
-  for (Body body : {Body::sector, Body::strip, Body::sphere}) {
+  for (LameBody body : {LameBody::sector, LameBody::strip, LameBody::sphere}) {
     const WholeRun run = record.run(deck_of(body, full, 4, 0.4999999));
     record.small(where_of_body(body), fmt::format("u(a) / exact, {}", name_of_body(body)),
-                 run.u(1).norm() / lame(body, 0.4999999, kA).u, 1e-3);
+                 run.u(1).norm() / lame(body, 0.4999999, 1.0).u, 1e-3);
     record.within(where_of_body(body), fmt::format("warned of locking, {}", name_of_body(body)),
                   warns_of_locking(run) ? 1.0 : 0.0, 1.0, 0.5);
     record.within(where_of_body(body), fmt::format("warned at nu = .3, {}", name_of_body(body)),
@@ -199,10 +135,9 @@ void locking(Record& record) {
   // No warning either for those that do not lock.
   for (const Kind& kind : kKinds) {
     const int n = kind.order == 3.0 ? 4 : 2 * kind.coarsest;
-    const WholeRun run = record.run(deck_of(Body::sector, kind, n, 0.4999999));
-    const double loss =
-        nodal_error(run, displacement(Body::sector, 0.4999999)) /
-        nodal_error(record.run(deck_of(Body::sector, kind, n, 0.3)), displacement(Body::sector, 0.3));
+    const WholeRun run = record.run(deck_of(LameBody::sector, kind, n, 0.4999999));
+    const double loss = lame_error(run, LameBody::sector, 0.4999999) /
+                        lame_error(record.run(deck_of(LameBody::sector, kind, n, 0.3)), LameBody::sector, 0.3);
     // Three volume constraints a triangle are too many for order 3 at nu = 1/2, too few to lock: measured 13.
     const bool three_points = kind.cell == Cell::tri6 && kind.formulation == 1;
     const bool locks = loss > (three_points ? 20.0 : 2.0);
@@ -211,64 +146,16 @@ void locking(Record& record) {
   }
 }
 
-// Two rings with an interface of normal stiffness kn at c = 1.5: u_out(c; pc) - u_in(c; p, pc) = -pc/kn.
-struct TwoRings {
-  double contact = 0.0, u_a = 0.0;
-};
-
-TwoRings two_rings(double E, double nu, double p, double kn) {
-  const double a = 1.0, b = 2.0, c = 1.5, f = (1 + nu) / E;
-  const double outer = f * c * c / (b * b - c * c) * ((1 - 2 * nu) * c + b * b / c);  // u_out(c) by pc
-  const double g = f / (c * c - a * a);
-  const auto u_in = [&](double r, double pc) {
-    return g * ((1 - 2 * nu) * r * (p * a * a - pc * c * c) + a * a * c * c / r * (p - pc));
-  };
-  // u_in(c, pc) = u0 - u1 pc.
-  const double u0 = u_in(c, 0.0), u1 = u0 - u_in(c, 1.0);
-  TwoRings answer;
-  answer.contact = u0 / (outer + u1 + 1.0 / kn);
-  answer.u_a = u_in(a, answer.contact);
-  return answer;
-}
-
 void two_ring_case(Record& record) {
   for (bool sector : {true, false})
     for (double kn : {1.0, 1e3, 1e6, 1e9, 1e12}) {
-      Block inner, outer;
-      const auto place = [&](double from, double to) {
-        return sector ? rectangle(from, to, 0.0, 90.0) : rectangle(from, to, 0.0, 0.5);
-      };
-      inner.cell = outer.cell = Cell::quad8;
-      inner.columns = outer.columns = 4;
-      inner.rows = outer.rows = sector ? 8 : 2;
-      inner.polar = outer.polar = sector;
-      inner.place = place(1.0, 1.5);
-      outer.place = place(1.5, 2.0);
-      outer.first_node = outer.first_element = 1001;
-      DeckWriter deck(sector ? 1 : 2);
-      inner.write_nodes(deck);
-      outer.write_nodes(deck);
-      deck.material(1, 1, {1.0, 0.3});
-      deck.material(2, 21, {kn, kn, 1.0});
-      deck.group(1, 2, 1, 1);
-      deck.group(2, 12, 0, 2);
-      inner.write_elements(deck, 1);
-      outer.write_elements(deck, 1);
-      join(deck, 2001, 2, outer.left(), inner.right(), 2);
-      for (const Block* ring : {&inner, &outer}) {
-        for (int n : ring->bottom()) deck.fix(n, 0, 1);
-        for (int n : ring->top()) deck.fix(n, sector ? 1 : 0, sector ? 0 : 1);
-      }
-      StageCards& stage = deck.stage();
-      for (int j = 0; j < inner.rows; ++j) stage.pressure(inner.element(0, j), 4, 1.0, 1.0);
-      const WholeRun run = record.run(deck);
-      const TwoRings exact = two_rings(1.0, 0.3, 1.0, kn);
-      const double p = (-run.stress[1].row(1).array() - exact.contact).abs().maxCoeff() / exact.contact;
+      const WholeRun run = record.run(TwoRingDeck{kn, sector}.deck());
+      const TwoRingAnswer exact = two_ring_answer(kn);
       const Where where = sector ? Where::plane_strain : Where::axisymmetric;
-      record.near(where, fmt::format("u(a), kn a/E = {:.0e}", kn), run.u(inner.node(0, 0)).x(), exact.u_a,
-                  sector ? 1e-4 : 1e-9 + 1e-15 * kn);
-      record.small(where, fmt::format("contact pressure, largest error, kn a/E = {:.0e}", kn), p,
-                   (sector ? 5e-3 : 1e-9) + 1e-15 * kn);
+      record.near(where, fmt::format("u(a), kn a/E = {:.0e}", kn), run.u(TwoRingDeck::inner_node).x(),
+                  exact.u_a, sector ? 1e-4 : 1e-9 + 1e-15 * kn);
+      record.small(where, fmt::format("contact pressure, largest error, kn a/E = {:.0e}", kn),
+                   contact_error(run, exact), (sector ? 5e-3 : 1e-9) + 1e-15 * kn);
     }
 }
 
@@ -283,20 +170,20 @@ Section lame_cases() {
           {"lame.cylinder_order", "cylinder, displacement and stress, nu = .3, every element", source,
            Grade::exact, theory,
            [](Record& r) {
-             orders(r, Body::sector);
-             orders(r, Body::strip);
+             orders(r, LameBody::sector);
+             orders(r, LameBody::strip);
            }},
           {"lame.cylinder_nu", "cylinder, nu = .3 to .4999999, elements that do not lock", source, Grade::exact,
            "mesh: 0.5 % for 16 quad4, 0.05 % for 8 quad8; no more than 2 times the error of u at nu = .3 and 3 "
            "times that of the cells' pressure",
            [](Record& r) {
-             nu_sweep(r, {Body::sector, Body::strip});
+             nu_sweep(r, {LameBody::sector, LameBody::strip});
            }},
           {"lame.sphere_order", "sphere, displacement and stress, nu = .3, every element",
            "Lame: u, sigma_r, sigma_theta of the thick sphere", Grade::exact, theory,
-           [](Record& r) { orders(r, Body::sphere); }},
+           [](Record& r) { orders(r, LameBody::sphere); }},
           {"lame.sphere_nu", "sphere, nu = .3 to .4999999", "Lame: thick sphere", Grade::exact,
-           "as for the cylinder", [](Record& r) { nu_sweep(r, {Body::sphere}); }},
+           "as for the cylinder", [](Record& r) { nu_sweep(r, {LameBody::sphere}); }},
           {"lame.locking", "fully integrated quad4 at nu = .4999999 locks, and the program says so",
            "Nagtegaal, Parks & Rice 1974: less than 1/1000 of Lame's displacement is left", Grade::published,
            "a flag, and a bound on what is left", locking},

@@ -10,26 +10,17 @@
 #include "sage/app/commands.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "sage/output/discretisation.hpp"
+#include "sage/study/lame.hpp"
 #include "solvers/choose_solver.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {
 namespace {
 
-// a = 1, b = 2, p = E = 1 (REFERENCES 2.1): stress at x in a sector (plane strain) or a strip of the ring.
-Vector4 lame_stress(bool ring, double nu, const Vector2& x) {
-  const double r = ring ? x.x() : x.norm(), c = 1.0 / 3.0;
-  const double radial = c * (1.0 - 4.0 / (r * r)), hoop = c * (1.0 + 4.0 / (r * r)), along = 2.0 * nu * c;
-  if (ring) return {radial, along, hoop, 0.0};
-  const double cos = x.x() / r, sin = x.y() / r;
-  return {radial * cos * cos + hoop * sin * sin, radial * sin * sin + hoop * cos * cos, along,
-          (radial - hoop) * sin * cos};
-}
-
 // Estimates at the end of a run, and measures the true error at the integration points.
 class Judge final : public Observer {
  public:
-  Judge(bool ring, double nu) : ring_(ring), nu_(nu) {}
+  Judge(LameBody body, double nu) : body_(body), nu_(nu) {}
   void on_increment(const Model& model, const StepReport&, const Solution& solution) override {
     estimate = estimate_error(model, solution);
     const Matrix4 C = compliance();
@@ -45,7 +36,7 @@ class Judge final : public Observer {
         for (int p = 0; p < t.points; ++p) {
           const Eigen::Map<const Vector4> own(data.state.committed.sigma.data() +
                                               4 * (static_cast<std::size_t>(e * t.points + p)));
-          const Vector4 difference = own - lame_stress(ring_, nu_, element.position(x, p));
+          const Vector4 difference = own - lame_stress(body_, nu_, element.position(x, p));
           error += geometry[static_cast<std::size_t>(p * (1 + 4 * t.dofs))] * difference.dot(C * difference);
         }
       }
@@ -65,36 +56,17 @@ class Judge final : public Observer {
     C(3, 3) = 2.0 * (1.0 + nu_);
     return C;  // E = 1
   }
-  bool ring_;
+  LameBody body_;
   double nu_;
 };
 
-std::string cylinder(bool ring, Cell cell, int formulation, int n, double nu) {
-  Block block;
-  block.cell = cell;
-  block.columns = n;
-  block.rows = ring ? std::max(1, n / 2) : n;
-  block.polar = !ring;
-  block.place = ring ? rectangle(1.0, 2.0, 0.0, 0.5) : rectangle(1.0, 2.0, 0.0, 90.0);
-  DeckWriter deck(ring ? 2 : 1);
-  block.write_nodes(deck);
-  deck.material(1, 1, {1.0, nu});
-  deck.group(1, static_cast<int>(cell), formulation, 1);
-  block.write_elements(deck, 1);
-  for (int node : block.bottom()) deck.fix(node, 0, 1);
-  for (int node : block.top()) deck.fix(node, ring ? 0 : 1, ring ? 1 : 0);
-  StageCards& stage = deck.stage();
-  const int inner = cell == Cell::tri3 || cell == Cell::tri6 ? 3 : 4;
-  for (int j = 0; j < block.rows; ++j) stage.pressure(block.element(0, j), inner, 1.0, 1.0);
-  return deck.text();
-}
-
-Judge judge(bool ring, double nu, const std::string& deck, const BuildOptions& options = {}) {
+Judge judge(const LameDeck& deck, const BuildOptions& options = {}) {
   static const Catalogue catalogue = app::full_catalogue();
-  const Model model = build_model(read_deck_text(deck, "deck", load_layout("sage1")), catalogue, options);
+  const Model model =
+      build_model(read_deck_text(deck.text(), "deck", load_layout("sage1")), catalogue, options);
   RunSettings settings;
   settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
-  Judge watch(ring, nu);
+  Judge watch(deck.body, deck.nu);
   Observer* observers[] = {&watch};
   EXPECT_EQ(run(model, catalogue, settings, observers).status, RunStatus::completed);
   return watch;
@@ -114,15 +86,15 @@ const Case kCases[] = {
 };
 
 TEST(ErrorEstimate, EffectivityOnTheThickCylinder) {
-  for (const bool ring : {false, true})
+  for (const LameBody body : {LameBody::sector, LameBody::strip})
     for (const Case& c : kCases) {
-      if (!ring && c.element != 0) continue;  // straight sides would be its only error
+      if (body == LameBody::sector && c.element != 0) continue;  // straight sides would be its only error
       for (const int n : {c.n, 2 * c.n}) {
         BuildOptions options;
         options.element = c.element;
-        const Judge now = judge(ring, 0.3, cylinder(ring, c.cell, c.formulation, n, 0.3), options);
+        const Judge now = judge({body, c.cell, c.formulation, n, 0.3}, options);
         std::printf("    %-12s %-6s n %2d  relative error %.2e  effectivity %.3f\n", c.name,
-                    ring ? "ring" : "sector", n, now.estimate.relative(), now.effectivity());
+                    body == LameBody::strip ? "ring" : "sector", n, now.estimate.relative(), now.effectivity());
         EXPECT_TRUE(now.estimate.energy);
         EXPECT_GT(now.effectivity(), 0.8) << c.name << " n " << n;
         EXPECT_LT(now.effectivity(), 1.25) << c.name << " n " << n;
@@ -131,7 +103,7 @@ TEST(ErrorEstimate, EffectivityOnTheThickCylinder) {
 }
 
 TEST(ErrorEstimate, PartsOfTheElementsSumToTheWhole) {
-  const Judge now = judge(true, 0.3, cylinder(true, Cell::quad4, 2, 6, 0.3));
+  const Judge now = judge({LameBody::strip, Cell::quad4, 2, 6, 0.3});
   double sum = 0.0;
   for (const auto& group : now.estimate.element)
     for (double part : group) {

@@ -1,73 +1,24 @@
 // Thick cylinder and thick sphere under internal pressure, whole models against Lame's closed forms.
-// a = 1, b = 2, p = E = 1.  Cylinder: 90-degree sector in plane strain and a strip of the ring in axisymmetry;
-// sphere: a quadrant of the (r, z) plane with nodes on the axis.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
 
+#include "sage/study/lame.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {
 namespace {
 
-enum class Body { sector, strip, sphere };
-
-constexpr double kA = 1.0, kB = 2.0;
-
-// Radial displacement; cylinder: u_z = 0.
-double lame(Body body, double nu, double r) {
-  if (body == Body::sphere)
-    return (std::pow(kA, 3) / (std::pow(kB, 3) - std::pow(kA, 3))) *
-           ((1 - 2 * nu) * r + (1 + nu) * std::pow(kB, 3) / (2 * r * r));
-  return (1 + nu) * kA * kA / (kB * kB - kA * kA) * ((1 - 2 * nu) * r + kB * kB / r);
+std::string deck_of(LameBody body, Cell cell, int formulation, int n, double nu) {
+  return LameDeck{body, cell, formulation, n, nu}.text();
 }
 
-Block block_of(Body body, Cell cell, int n) {
-  Block block;
-  block.cell = cell;
-  block.columns = n;
-  block.rows = body == Body::strip ? std::max(1, n / 2) : n;
-  block.polar = body != Body::strip;
-  block.place = body == Body::strip ? rectangle(kA, kB, 0.0, 0.5) : rectangle(kA, kB, 0.0, 90.0);
-  return block;
-}
-
-// The inner face is the fourth edge of a quadrilateral and the third of a triangle's first half.
-std::string deck_of(Body body, Cell cell, int formulation, int n, double nu) {
-  const Block block = block_of(body, cell, n);
-  DeckWriter deck(body == Body::sector ? 1 : 2);
-  block.write_nodes(deck);
-  deck.material(1, 1, {1.0, nu});
-  deck.group(1, static_cast<int>(cell), formulation, 1);
-  block.write_elements(deck, 1);
-  for (int node : block.bottom()) deck.fix(node, 0, 1);
-  for (int node : block.top()) deck.fix(node, body == Body::strip ? 0 : 1, body == Body::strip ? 1 : 0);
-  StageCards& stage = deck.stage();
-  const int inner = cell == Cell::tri3 || cell == Cell::tri6 ? 3 : 4;
-  for (int j = 0; j < block.rows; ++j) stage.pressure(block.element(0, j), inner, 1.0, 1.0);
-  return deck.text();
-}
-
-// Relative error of the displacements at all nodes (root of the sum of squares).
-double error_of(const WholeRun& run, Body body, double nu) {
-  double error = 0.0, size = 0.0;
-  for (int i = 0; i < run.model->mesh.nodes(); ++i) {
-    const Vector2 x = run.model->mesh.x.col(i);
-    const double r = body == Body::strip ? x.x() : x.norm();
-    const Vector2 direction = body == Body::strip ? Vector2(1.0, 0.0) : Vector2(x / r);
-    const Vector2 exact = lame(body, nu, r) * direction;
-    error += (run.last().u.segment<2>(2 * i) - exact).squaredNorm();
-    size += exact.squaredNorm();
-  }
-  return std::sqrt(error / size);
-}
-
-double error_at(Body body, Cell cell, int formulation, int n, double nu) {
+double error_at(LameBody body, Cell cell, int formulation, int n, double nu) {
   const WholeRun run = run_text(deck_of(body, cell, formulation, n, nu));
   EXPECT_TRUE(run.completed()) << run.failure;
   EXPECT_LT(run.out_of_balance, 1e-8);  // K/G = 5e6 times rounding at the largest nu
-  return error_of(run, body, nu);
+  return lame_error(run, body, nu);
 }
 
 struct LameCase {
@@ -91,11 +42,11 @@ const LameCase kCases[] = {
     {"Tri6SixPoints", Cell::tri6, 2, 2, 3.0, 0.0},
 };
 
-const char* name_of(Body body) {
-  return body == Body::sector ? "Sector" : body == Body::strip ? "Strip" : "Sphere";
+const char* name_of(LameBody body) {
+  return body == LameBody::sector ? "Sector" : body == LameBody::strip ? "Strip" : "Sphere";
 }
 
-class Lame : public testing::TestWithParam<std::tuple<Body, LameCase>> {};
+class Lame : public testing::TestWithParam<std::tuple<LameBody, LameCase>> {};
 
 // Theory: order 2 for linear, 3 for quadratic elements; 0.15 for meshes that are not yet asymptotic.
 TEST_P(Lame, DisplacementsConvergeAtTheoryRate) {
@@ -127,7 +78,7 @@ TEST_P(Lame, NearlyIncompressible) {
   const int n = 2 * c.coarsest;
   const WholeRun run = run_text(deck_of(body, c.cell, c.formulation, n, 0.4999999));
   const double compressible = error_at(body, c.cell, c.formulation, n, 0.3);
-  const double incompressible = error_of(run, body, 0.4999999);
+  const double incompressible = lame_error(run, body, 0.4999999);
   std::printf("    %-7s %-16s error at nu .3 %.3e, at .4999999 %.3e\n", name_of(body), c.name, compressible,
               incompressible);
   EXPECT_EQ(warns_of(run, "lock"), c.loss == 0.0);
@@ -141,7 +92,7 @@ TEST_P(Lame, NearlyIncompressible) {
 
 // Six-node triangles with three points: not locked, but slower.  Order 3 at nu = .3, 2.06 to 2.18 at .4999.
 TEST(LameLocking, SixNodeTrianglesLoseTheirOrder) {
-  for (Body body : {Body::sector, Body::strip, Body::sphere}) {
+  for (LameBody body : {LameBody::sector, LameBody::strip, LameBody::sphere}) {
     double error[3];
     for (int level = 0; level < 3; ++level) error[level] = error_at(body, Cell::tri6, 1, 4 << level, 0.4999);
     const double order = std::log2(error[0] / error[2]) / 2.0;
@@ -154,15 +105,15 @@ TEST(LameLocking, SixNodeTrianglesLoseTheirOrder) {
 
 // The source chapter's element gives less than a thousandth of the displacement.
 TEST(LameLocking, FullyIntegratedQuad4) {
-  for (Body body : {Body::sector, Body::strip, Body::sphere}) {
+  for (LameBody body : {LameBody::sector, LameBody::strip, LameBody::sphere}) {
     const WholeRun run = run_text(deck_of(body, Cell::quad4, 1, 4, 0.4999999));
-    EXPECT_GT(error_of(run, body, 0.4999999), 0.999) << name_of(body);
+    EXPECT_GT(lame_error(run, body, 0.4999999), 0.999) << name_of(body);
     EXPECT_FALSE(warns_of(run_text(deck_of(body, Cell::quad4, 1, 4, 0.3)), "lock")) << name_of(body);
     EXPECT_FALSE(warns_of(run_text(deck_of(body, Cell::tri6, 1, 4, 0.3)), "nu = 1/2")) << name_of(body);
   }
 }
 
-WholeRun high_degree(Body body, Cell cell, int element, int n, double nu) {
+WholeRun high_degree(LameBody body, Cell cell, int element, int n, double nu) {
   BuildOptions options;
   options.element = element;
   return run_text(deck_of(body, cell, 0, n, nu), options);
@@ -171,12 +122,13 @@ WholeRun high_degree(Body body, Cell cell, int element, int n, double nu) {
 // Elements of degree p on straight sides: order p + 1, from two elements on (over one of degree 6 or 8, r
 // doubles: not yet asymptotic).  Degree 8 reaches rounding before its order shows.
 TEST(LameHighDegree, DisplacementsConvergeAtDegreePlusOne) {
-  const double exact_8 = error_of(high_degree(Body::strip, Cell::quad4, 9, 2, 0.3), Body::strip, 0.3);
+  const double exact_8 = lame_error(high_degree(LameBody::strip, Cell::quad4, 9, 2, 0.3), LameBody::strip, 0.3);
   EXPECT_LT(exact_8, 1e-10);
   for (const auto& [element, degree, finest] : {std::tuple{7, 4, 8}, {8, 6, 4}}) {
     double before = 0.0;
     for (int n = 2; n <= finest; n *= 2) {
-      const double error = error_of(high_degree(Body::strip, Cell::quad4, element, n, 0.3), Body::strip, 0.3);
+      const double error =
+          lame_error(high_degree(LameBody::strip, Cell::quad4, element, n, 0.3), LameBody::strip, 0.3);
       std::printf("    degree %d n %d error %.3e order %.2f\n", degree, n, error,
                   before > 0.0 ? std::log2(before / error) : 0.0);
       if (before > 0.0) {
@@ -190,10 +142,10 @@ TEST(LameHighDegree, DisplacementsConvergeAtDegreePlusOne) {
 
 // Sides that are parabolas through the arc: their distance from it, of order h^4, is the error that is left.
 TEST(LameHighDegree, CurvedSidesAreFollowed) {
-  for (const Body body : {Body::sector, Body::sphere}) {
+  for (const LameBody body : {LameBody::sector, LameBody::sphere}) {
     double error[3];
     for (int level = 0; level < 3; ++level)
-      error[level] = error_of(high_degree(body, Cell::quad8, 7, 2 << level, 0.3), body, 0.3);
+      error[level] = lame_error(high_degree(body, Cell::quad8, 7, 2 << level, 0.3), body, 0.3);
     std::printf("    %-7s errors %.3e %.3e %.3e\n", name_of(body), error[0], error[1], error[2]);
     EXPECT_GE(std::log2(error[1] / error[2]), 4.0 - 0.15);
     EXPECT_LT(error[2], 1e-5);
@@ -204,12 +156,12 @@ TEST(LameHighDegree, CurvedSidesAreFollowed) {
 // falls with mesh and degree, and there is no stiffness without bound.
 TEST(LameHighDegree, KeepsItsAccuracyNearIncompressibility) {
   for (const auto& [element, most] : {std::pair{7, 1e-5}, {8, 1e-9}, {9, 1e-11}})
-    for (const Body body : {Body::sector, Body::strip, Body::sphere}) {
-      const Cell cell = body == Body::strip ? Cell::quad4 : Cell::quad8;
+    for (const LameBody body : {LameBody::sector, LameBody::strip, LameBody::sphere}) {
+      const Cell cell = body == LameBody::strip ? Cell::quad4 : Cell::quad8;
       const WholeRun run = high_degree(body, cell, element, 4, 0.4999);
       EXPECT_TRUE(run.completed()) << run.failure;
-      const double compressible = error_of(high_degree(body, cell, element, 4, 0.3), body, 0.3);
-      const double error = error_of(run, body, 0.4999);
+      const double compressible = lame_error(high_degree(body, cell, element, 4, 0.3), body, 0.3);
+      const double error = lame_error(run, body, 0.4999);
       std::printf("    %-7s code %d error at nu .3 %.3e, at .4999 %.3e\n", name_of(body), element, compressible,
                   error);
       EXPECT_LT(error, std::max(most, 3.0 * compressible)) << name_of(body) << " code " << element;
@@ -217,12 +169,12 @@ TEST(LameHighDegree, KeepsItsAccuracyNearIncompressibility) {
     }
 }
 
-std::string label(const testing::TestParamInfo<std::tuple<Body, LameCase>>& info) {
+std::string label(const testing::TestParamInfo<std::tuple<LameBody, LameCase>>& info) {
   return std::string(name_of(std::get<0>(info.param))) + std::get<1>(info.param).name;
 }
 
 INSTANTIATE_TEST_SUITE_P(Bodies, Lame,
-                         testing::Combine(testing::Values(Body::sector, Body::strip, Body::sphere),
+                         testing::Combine(testing::Values(LameBody::sector, LameBody::strip, LameBody::sphere),
                                           testing::ValuesIn(kCases)),
                          label);
 
