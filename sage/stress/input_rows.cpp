@@ -3,12 +3,14 @@
 
 #include <cmath>
 
-#include "sage/stress/decks.hpp"
 #include "sage/stress/row.hpp"
+#include "sage/study/scenes.hpp"
 
 namespace sage::stress {
 
 namespace {
+
+using namespace study;
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;

@@ -3,16 +3,15 @@
 
 #include <cmath>
 
-#include "sage/stress/decks.hpp"
 #include "sage/stress/row.hpp"
 #include "sage/study/lame.hpp"
+#include "sage/study/scenes.hpp"
 
 namespace sage::stress {
 
 namespace {
 
-using study::rectangle;
-using study::TwoRingDeck;
+using namespace study;
 
 constexpr double kUnit = 0.5 * std::numeric_limits<double>::epsilon();
 
@@ -21,11 +20,11 @@ void normal_stiffness(Sweep& s) {
   for (int power = 0; power <= 12; ++power) {
     TwoRingDeck deck;
     deck.kn = std::pow(10.0, power);
-    const study::TwoRingAnswer exact = study::two_ring_answer(deck.kn);
+    const TwoRingAnswer exact = two_ring_answer(deck.kn);
     const Ran ran = s.run(deck.text());
     double contact = kUnknown, u = kUnknown;
     if (ran.completed()) {
-      contact = study::contact_error(*ran.run, exact);
+      contact = contact_error(*ran.run, exact);
       u = ran.run->u(TwoRingDeck::inner_node).x() / exact.u_a - 1.0;
     }
     const std::string label = fmt::format("kn = 1e{} E/a", power);
@@ -86,7 +85,7 @@ void bonded_limit(Sweep& s) {
     TwoRingDeck deck;
     deck.kn = std::pow(10.0, power);
     const Ran ran = s.run(deck.text());
-    const double bonded = study::lame(study::LameBody::strip, 0.3, 1.0).u;
+    const double bonded = lame(LameBody::strip, 0.3, 1.0).u;
     s.right(fmt::format("kn = 1e{} E/a", power), deck.kn, ran,
             ran.completed() ? ran.run->u(TwoRingDeck::inner_node).x() / bonded - 1.0 : kUnknown,
             2.0 / deck.kn + 10.0 * kUnit * deck.kn);
@@ -98,23 +97,17 @@ void axis_rules(Sweep& s) {
   const double eps = 0.01, kn = 1000.0;
   const std::pair<const char*, int> rules[] = {{"row-sum", 1}, {"Gauss", 2}, {"Newton-Cotes", 3}};
   for (const auto& [name, formulation] : rules) {
-    Block block;
-    block.columns = block.rows = 20;
-    block.place = rectangle(0.0, 1.0, 0.0, 1.0);
-    DeckWriter deck(2);
-    block.write_nodes(deck);
+    const RestrainedCylinder cylinder{1.0, 0.25, Cell::quad4, 1, 20, 20, 1.0};
+    const Block block = cylinder.block();
+    DeckWriter deck = cylinder.deck();
     const std::vector<int> platen = copy_row(deck, block, block.top(), 1001);
-    deck.material(1, 1, {1.0, 0.25});
     deck.material(2, 21, {kn, kn, 1.0});
-    deck.group(1, 1, 1, 1);
     deck.group(2, 11, formulation, 2);
-    block.write_elements(deck, 1);
     join(deck, 1001, 2, block.top(), platen, 1);
-    for (int n : block.bottom()) deck.fix(n, 0, 1);
-    for (int n : block.left()) deck.fix(n, 1, 0);
-    for (int n : platen) deck.fix(n, 1, 1);
-    StageCards& stage = deck.stage();
-    for (int n : platen) stage.fix(n, 1, 1, 0.0, -eps);
+    for (int n : platen) {
+      deck.fix(n, 1, 1);
+      deck.stages[0].fix(n, 1, 1, 0.0, -eps);
+    }
     const Ran ran = s.run(deck.text());
     const double traction = ran.completed() ? ran.run->stress[1](1, 0) / eps : kUnknown;
     if (formulation == 3) {
@@ -126,34 +119,15 @@ void axis_rules(Sweep& s) {
   }
 }
 
-// A heavy block on a plane; what holds it sideways is the interface alone.
-DeckWriter block_on_plane(Block& block, const std::vector<double>& joint) {
-  block.columns = 8;
-  block.rows = 2;
-  block.place = rectangle(0.0, 4.0, 0.0, 1.0);
-  DeckWriter deck(1);
-  deck.water_unit_weight = 1.0;
-  block.write_nodes(deck);
-  const std::vector<int> base = copy_row(deck, block, block.bottom(), 101);
-  deck.material(1, 1, {1e5, 0.2}, 20.0);
-  deck.material(2, 22, joint);
-  deck.group(1, 1, 2, 1);
-  deck.group(2, 11, 0, 2);
-  block.write_elements(deck, 1);
-  join(deck, 101, 2, base, block.bottom(), 1);
-  for (int n : base) deck.fix(n, 1, 1);
-  return deck;
-}
-
 void sliding_block(Sweep& s) {
   for (double phi : {0.0, 1e-3, 0.1, 1.0, 10.0, 25.0, 45.0, 75.0}) {
-    Block block;
-    DeckWriter deck = block_on_plane(block, coulomb(0.0, phi, 1e5, 1e6));
+    BlockOnPlane model(coulomb(0.0, phi, 1e5, 1e6));
+    DeckWriter& deck = model.deck;
     deck.stage(2).gravity_y = -1.0;
     StageCards& push = deck.stage(10);
-    push.fix(block.node(0, 0), 1, 0, phi > 60.0 ? 0.2 : 0.05);
+    push.fix(model.block.node(0, 0), 1, 0, phi > 60.0 ? 0.2 : 0.05);
     const Ran ran = s.run(deck.text());
-    const double W = 80.0, exact = W * std::tan(phi * kRadiansPerDegree);
+    const double exact = BlockOnPlane::weight * std::tan(phi * kRadiansPerDegree);
     const std::string label = fmt::format("phi = {:g}", phi);
     if (phi == 0.0) {
       s.says(label, kUnknown, ran, "interface set 2");
@@ -161,12 +135,12 @@ void sliding_block(Sweep& s) {
       s.clean(label, kUnknown, ran);
       continue;
     }
-    const double found = ran.completed() ? ran.run->reaction(block.node(0, 0)).x() : kUnknown;
+    const double found = ran.completed() ? ran.run->reaction(model.block.node(0, 0)).x() : kUnknown;
     s.right(label + ", push against W tan phi", phi, ran, found / exact - 1.0, 1e-6);
   }
   for (double slope : {24.9, 24.99, 25.01, 25.1}) {
-    Block block;
-    DeckWriter deck = block_on_plane(block, coulomb(0.0, 25.0, 1e5, 1e6));
+    BlockOnPlane model(coulomb(0.0, 25.0, 1e5, 1e6));
+    DeckWriter& deck = model.deck;
     StageCards& stage = deck.stage(4);
     stage.gravity_x = std::sin(slope * kRadiansPerDegree);
     stage.gravity_y = -std::cos(slope * kRadiansPerDegree);
@@ -190,16 +164,16 @@ void no_resistance(Sweep& s) {
   rest[8] = 10.0;  // stiffness after slip
   for (const Case& c :
        {Case{"Goodman, k_s = 0", 21, {0.0, 1e6, 1.0}}, Case{"Clough-Duncan, k_j = 0", 22, free_ends}}) {
-    Block block;
-    DeckWriter deck = block_on_plane(block, coulomb(0.0, 30.0, 1e5, 1e6));
+    BlockOnPlane model(coulomb(0.0, 30.0, 1e5, 1e6));
+    DeckWriter& deck = model.deck;
     deck.materials.erase(deck.materials.begin() + 1);
     deck.material(2, c.law, c.parameters);
-    deck.fix(block.node(0, 0), 1, 0);
+    deck.fix(model.block.node(0, 0), 1, 0);
     deck.stage().gravity_y = -1.0;
     s.says(c.label, kUnknown, s.run(deck.text()), "no shear resistance");
   }
-  Block block;
-  DeckWriter deck = block_on_plane(block, rest);
+  BlockOnPlane model(rest);
+  DeckWriter& deck = model.deck;
   deck.stage().gravity_y = -1.0;
   s.silent("phi = c = 0 with stiffness after slip", kUnknown, s.run(deck.text()), "no shear resistance");
 }
@@ -250,7 +224,7 @@ void open_and_close(Sweep& s) {
       // At most three changes of state an increment: no chatter.
       int most = 0;
       if (ran.run)
-        for (const study::Snapshot& at : ran.run->increments) most = std::max(most, at.iterations);
+        for (const Snapshot& at : ran.run->increments) most = std::max(most, at.iterations);
       s.holds(label + ": no chatter", kUnknown, ran.completed() && most <= 8,
               "at most 8 iterations an increment", fmt::format("{} iterations", most));
     }

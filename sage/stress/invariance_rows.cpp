@@ -6,17 +6,15 @@
 #include <numeric>
 #include <random>
 
-#include "sage/stress/decks.hpp"
 #include "sage/stress/row.hpp"
+#include "sage/study/scenes.hpp"
 #include "sage/study/specimen_deck.hpp"
 
 namespace sage::stress {
 
 namespace {
 
-using study::SpecimenDeck;
-using study::SpecimenVariant;
-using study::WholeRun;
+using namespace study;
 
 // Free of units: platen force of every increment, displacements of the specimen at the end, iterations.
 struct Answer {
@@ -28,7 +26,7 @@ Answer answer_of(const SpecimenDeck& deck, const WholeRun& run) {
   const SpecimenVariant& v = deck.variant;
   const double sign = v.mirrored ? -1.0 : 1.0;
   Answer answer;
-  for (const study::Snapshot& at : run.increments)
+  for (const Snapshot& at : run.increments)
     answer.values.push_back(-sign * run.reaction(at, deck.platen(), 1) / (50.0 * v.stress) / v.length /
                             v.length);
   const double force = answer.values.back();

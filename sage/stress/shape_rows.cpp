@@ -4,17 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sage/stress/decks.hpp"
 #include "sage/stress/row.hpp"
 #include "sage/study/lame.hpp"
+#include "sage/study/scenes.hpp"
 
 namespace sage::stress {
 
 namespace {
 
-using study::LameDeck;
-using study::rectangle;
-using study::TwoRingDeck;
+using namespace study;
 
 constexpr double kUnit = 0.5 * std::numeric_limits<double>::epsilon();
 constexpr double kE = 1e6, kNu = 0.25;
@@ -244,15 +242,7 @@ void orphans(Sweep& s) {
   TriaxialDeck column;
   column.parameters = {kE, kNu};
   const auto with = [&](const std::function<void(DeckWriter&)>& change) {
-    Block block = column.block();
-    DeckWriter deck(2);
-    block.write_nodes(deck);
-    deck.material(1, 1, {kE, kNu});
-    deck.group(1, 1, 2, 1);
-    block.write_elements(deck, 1);
-    for (int n : block.bottom()) deck.fix(n, 0, 1);
-    StageCards& stage = deck.stage();
-    for (int n : block.top()) stage.fix(n, 0, 1, 0.0, -0.02);
+    DeckWriter deck = column.deck();
     change(deck);
     return s.run(deck.text());
   };

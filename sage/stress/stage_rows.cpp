@@ -3,38 +3,23 @@
 
 #include <cmath>
 
-#include "sage/stress/decks.hpp"
 #include "sage/stress/row.hpp"
 #include "sage/study/lame.hpp"
+#include "sage/study/scenes.hpp"
 #include "sage/study/specimen_deck.hpp"
 
 namespace sage::stress {
 
 namespace {
 
-using study::rectangle;
-using study::WholeRun;
+using namespace study;
 
 constexpr double kWeight = 20.0, kE = 1e4, kNu = 0.3;
-
-// Ground 4 x 4 on rollers, unit cells, surface at y = 0.
-struct Ground {
-  Block block;
-  DeckWriter deck{1};
-  Ground() {
-    block.columns = block.rows = 4;
-    block.place = rectangle(0.0, 4.0, -4.0, 0.0);
-    block.write_nodes(deck);
-    for (int n : block.left()) deck.fix(n, 1, 0);
-    for (int n : block.right()) deck.fix(n, 1, 0);
-    for (int n : block.bottom()) deck.fix(n, 1, 1);
-  }
-};
 
 // phi = 30, c = 0: between Ka = 1/3 and Kp = 3.
 void initial_stress(Sweep& s) {
   for (double K0 : {0.0, 0.1, 0.2, 0.3, 0.33, 0.334, 0.5, 1.0, 2.0, 2.99, 3.01, 5.0}) {
-    Ground ground;
+    Ground ground(1, Cell::quad4, 4, 4);
     ground.deck.material(1, 4, {kE, kNu, 0.0, 30.0, 0.0}, kWeight);
     ground.deck.group(1, 1, 0, 1);
     ground.block.write_elements(ground.deck, 1);
@@ -53,7 +38,7 @@ void initial_stress(Sweep& s) {
 // The ground on top of a layer that stays is taken away and placed again, several times.
 void everything_dug(Sweep& s) {
   for (int cycles : {1, 2, 5}) {
-    Ground ground;
+    Ground ground(1, Cell::quad4, 4, 4);
     DeckWriter& deck = ground.deck;
     const Block& block = ground.block;
     const int groups = 2 + cycles;
@@ -94,7 +79,7 @@ void everything_dug(Sweep& s) {
     s.right(label + ": settlement of the layer", kUnknown, ran, settled, 1e-10);
   }
   // Nothing at all is left.
-  Ground ground;
+  Ground ground(1, Cell::quad4, 4, 4);
   ground.deck.material(1, 1, {kE, kNu}, kWeight);
   ground.deck.group(1, 1, 0, 1);
   ground.block.write_elements(ground.deck, 1);
@@ -145,14 +130,14 @@ void audit(Sweep& s) {
     const Ran ran = s.run(deck);
     s.right(label, kUnknown, ran, ran.completed() ? ran.run->out_of_balance : kUnknown, 1e-9);
   };
-  study::LameDeck lame;
-  lame.body = study::LameBody::sector;
+  LameDeck lame;
+  lame.body = LameBody::sector;
   for (double nu : {0.3, 0.49, 0.4999}) {
     lame.nu = nu;
     check(fmt::format("Lame's sector, nu = {:g}", nu), lame.text());
   }
   for (double kn : {1.0, 1e3, 1e6}) {
-    study::TwoRingDeck rings;
+    TwoRingDeck rings;
     rings.kn = kn;
     rings.sector = true;
     check(fmt::format("two rings, kn = {:g}", kn), rings.text());
@@ -172,7 +157,7 @@ void audit(Sweep& s) {
             deck.text());
     }
   for (bool drucker_prager : {false, true}) {
-    study::SpecimenDeck deck;
+    SpecimenDeck deck;
     deck.drucker_prager = drucker_prager;
     deck.columns = 4;
     deck.rows = 8;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sage/study/scenes.hpp"
 #include "sage/verify/cases.hpp"
 #include "sage/verify/fields.hpp"
 
@@ -13,23 +14,6 @@ namespace {
 
 constexpr double kWeight = 20.0, kE = 1e4, kNu = 0.3;
 const double kOedometer = kE * (1 - kNu) / ((1 + kNu) * (1 - 2 * kNu));
-
-// Ground of unit cells, sides on rollers, fixed below.
-struct Ground {
-  Block block;
-  DeckWriter deck;
-
-  Ground(int geometry, Cell cell, int columns, int rows) : deck(geometry) {
-    block.cell = cell;
-    block.columns = columns;
-    block.rows = rows;
-    block.place = rectangle(0.0, columns, -rows, 0.0);
-    block.write_nodes(deck);
-    for (int n : block.left()) deck.fix(n, 1, 0);
-    for (int n : block.right()) deck.fix(n, 1, 0);
-    for (int n : block.bottom()) deck.fix(n, 1, 1);
-  }
-};
 
 struct NullCase {
   const char* name;

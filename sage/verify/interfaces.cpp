@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sage/core/point_driver.hpp"
+#include "sage/study/scenes.hpp"
 #include "sage/verify/cases.hpp"
 #include "sage/verify/fields.hpp"
 
@@ -14,11 +15,6 @@ namespace sage::verify {
 namespace {
 
 constexpr double kDegree = kRadiansPerDegree;
-
-// Clough-Duncan without hyperbola: k_s constant until slip at c + sigma_n tan phi.  gamma_w must be 1.
-std::vector<double> coulomb(double c, double phi, double ks, double kn) {
-  return {c, phi, 0.0, 0.0, ks, 0.0, kn, kn, 0.0, 0.0};
-}
 
 // Block H = 2 in pure shear (u_y = 0 everywhere) on an interface: delta = tau (H/G + 1/k_s); beyond
 // c + sigma_n tan phi it slides as a rigid body; on the way back only the elastic part returns.
@@ -98,35 +94,13 @@ void shear_ring(Record& record) {
                 run.reaction(run.increments[2 * s + 1], block.right(), 1), force[s], s == 1 ? 1e-8 : 1e-4);
 }
 
-// A heavy block, 4 x 1, on an interface.
-struct BlockOnPlane {
-  static constexpr double kWeight = 20.0, kLength = 4.0;
-  Block block;
-  DeckWriter deck{1};
-  BlockOnPlane(double c, double phi) {
-    block.columns = 8;
-    block.rows = 2;
-    block.place = rectangle(0.0, kLength, 0.0, 1.0);
-    deck.water_unit_weight = 1.0;
-    block.write_nodes(deck);
-    const std::vector<int> base = copy_row(deck, block, block.bottom(), 101);
-    deck.material(1, 1, {1e5, 0.2}, kWeight);
-    deck.material(2, 22, coulomb(c, phi, 1e5, 1e6));
-    deck.group(1, 1, 2, 1);
-    deck.group(2, 11, 0, 2);
-    block.write_elements(deck, 1);
-    join(deck, 101, 2, base, block.bottom(), 1);
-    for (int n : base) deck.fix(n, 1, 1);
-  }
-};
-
 // Pushed at the foot of its left side: P = W tan phi once all of it slides.
 void sliding_block(Record& record) {
-  BlockOnPlane model(0.0, 25.0);
+  BlockOnPlane model(coulomb(0.0, 25.0, 1e5, 1e6));
   model.deck.stage(2).gravity_y = -1.0;
   model.deck.stage(10).fix(model.block.node(0, 0), 1, 0, 0.05);
   const WholeRun run = record.run(model.deck);
-  const double P = 20.0 * 4.0 * std::tan(25.0 * kDegree);
+  const double P = BlockOnPlane::weight * std::tan(25.0 * kDegree);
   const std::vector<int> foot{model.block.node(0, 0)};
   record.near(Where::plane_strain, "push once all of it slides", run.reaction(run.last(), foot, 0), P, 1e-8);
   record.near(Where::plane_strain, "a plateau: push one increment earlier",
@@ -134,7 +108,7 @@ void sliding_block(Record& record) {
 }
 
 bool stays(const Record& record, double slope, double c, double phi) {
-  BlockOnPlane model(c, phi);
+  BlockOnPlane model(coulomb(c, phi, 1e5, 1e6));
   StageCards& stage = model.deck.stage(4);
   stage.gravity_x = std::sin(slope * kDegree);
   stage.gravity_y = -std::cos(slope * kDegree);

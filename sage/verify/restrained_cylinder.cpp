@@ -5,48 +5,13 @@
 #include <cmath>
 #include <map>
 
+#include "sage/study/scenes.hpp"
 #include "sage/verify/cases.hpp"
 #include "sage/verify/fields.hpp"
 
 namespace sage::verify {
 
 namespace {
-
-struct Cylinder {
-  double slenderness = 1.0, nu = 0.25;  // L/D; nu >= .5: incompressible
-  Cell cell = Cell::quad8;
-  int formulation = 1, columns = 16, rows = 16;
-  double power = 3.0;  // cells get finer towards the rim of the platen
-  Block block;
-  DeckWriter deck{2};
-
-  void build() {
-    block.cell = cell;
-    block.columns = columns;
-    block.rows = rows;
-    block.straight = true;
-    block.place = [h = slenderness, p = power](double s, double t) -> Vector2 {
-      return {1.0 - std::pow(1.0 - s, p), h * (1.0 - std::pow(1.0 - t, p))};
-    };
-    block.write_nodes(deck);
-    if (nu < 0.5)
-      deck.material(1, 1, {1.0, nu});
-    else
-      deck.material(1, 2, {1e6 / 3.0, 1.0 / 3.0});  // K/G = 1e6: nu = 1/2 to 5e-7
-    deck.group(1, static_cast<int>(cell), formulation, 1);
-    block.write_elements(deck, 1);
-    for (int n : block.bottom()) deck.fix(n, 0, 1);
-    for (int n : block.left()) deck.fix(n, 1, 0);
-    deck.stage();
-  }
-  // Rough platen: all of the end moves by the strain 1.
-  WholeRun press(const Record& record) {
-    build();
-    for (int n : block.top()) deck.stages[0].fix(n, 1, 1, 0.0, -slenderness);
-    return record.run(deck);
-  }
-  double ratio(const WholeRun& run) const { return -run.reaction(run.last(), block.top(), 1) / kPi; }
-};
 
 const double kNu[] = {.1, .2, .25, .3, .333, 1.0 / 3, .4, .45, .49, .495, .499, .4999, .5};
 const double kSlenderness[] = {0.5, 1, 2, 3};
@@ -62,12 +27,12 @@ const double kRatio[][4] = {
 
 void table(Record& record, std::size_t column) {
   for (std::size_t i = 0; i < std::size(kNu); ++i) {
-    Cylinder c;
+    RestrainedCylinder c;
     c.slenderness = kSlenderness[column];
     c.nu = kNu[i];
     c.columns = c.slenderness > 1.0 ? 24 : 30;
     c.rows = 30;
-    const WholeRun run = c.press(record);
+    const WholeRun run = record.run(c.between_rough_platens());
     record.near(Where::axisymmetric, fmt::format("ratio, nu = {:.4g}", kNu[i]), c.ratio(run), kRatio[i][column],
                 3e-5);
   }
@@ -82,24 +47,24 @@ void points(Record& record) {
   };
   const Reference references[] = {{1, -1.4286, -1.0069, .60214}, {2, -1.1000, -1.0834, .54034}};
   for (const Reference& r : references) {
-    Cylinder c;
+    RestrainedCylinder c;
     c.slenderness = r.slenderness;
     c.nu = 0.495;
     c.power = 1.0;
     c.columns = 24;
     c.rows = r.slenderness > 1.0 ? 48 : 24;
-    const WholeRun run = c.press(record);
+    const WholeRun run = record.run(c.between_rough_platens());
     const auto add = [&](const std::string& what, double value, double reference) {
       record.within(Where::axisymmetric, fmt::format("L/D = {:g}: {}", r.slenderness, what), value, reference,
                     4e-3);
     };
     const auto at = [&](int node) { return stress_at_node(run, 0, node); };
-    add("sigma_z on the axis at mid-height", at(c.block.bottom().front())[1], r.mid_axis);
-    add("sigma_z on the rim at mid-height", at(c.block.bottom().back())[1], r.mid_rim);
-    add("u_r of the rim at mid-height", run.u(c.block.bottom().back()).x(), r.u_rim);
+    add("sigma_z on the axis at mid-height", at(c.block().bottom().front())[1], r.mid_axis);
+    add("sigma_z on the rim at mid-height", at(c.block().bottom().back())[1], r.mid_rim);
+    add("u_r of the rim at mid-height", run.u(c.block().bottom().back()).x(), r.u_rim);
     if (r.slenderness == 1.0) {
-      add("sigma_r on the axis at mid-height", at(c.block.bottom().front())[0], -0.0160);
-      add("hoop stress on the rim at mid-height", at(c.block.bottom().back())[2], 0.1038);
+      add("sigma_r on the axis at mid-height", at(c.block().bottom().front())[0], -0.0160);
+      add("hoop stress on the rim at mid-height", at(c.block().bottom().back())[2], 0.1038);
     }
   }
 }
@@ -113,23 +78,22 @@ void chapter(Record& record) {
                            {1, 0.495, 1.2403, 1.190558},   {2, 0.25, 1.0181, 1.017629},
                            {2, 1.0 / 3, 1.0344, 1.033143}, {2, 0.495, 1.1189, 1.086254}};
   for (const Entry& e : entries) {
-    Cylinder c;
+    RestrainedCylinder c;
     c.slenderness = e.slenderness;
     c.nu = e.nu;
     c.cell = Cell::quad4;
     c.columns = e.slenderness == 1 ? 20 : 14;
     c.rows = e.slenderness == 1 ? 20 : 28;
     c.power = 1.0;
-    const WholeRun run = c.press(record);
+    const WholeRun run = record.run(c.between_rough_platens());
     record.within(Where::axisymmetric,
                   fmt::format("L/D = {:g}, nu = {:.3f}: full quad4 as in the chapter", e.slenderness, e.nu),
                   c.ratio(run), e.ratio, 6e-5);
     if (e.nu < 0.49) continue;
     // Its excess at nu = .495 is locking: b-bar on the same mesh removes nine tenths of it.
     const double full = c.ratio(run) - e.converged;
-    c.deck = DeckWriter(2);
     c.formulation = 2;
-    const WholeRun better = c.press(record);
+    const WholeRun better = record.run(c.between_rough_platens());
     record.small(Where::axisymmetric,
                  fmt::format("L/D = {:g}, nu = {:.3f}: error of b-bar over that of full", e.slenderness, e.nu),
                  (c.ratio(better) - e.converged) / full, 0.1);
@@ -144,12 +108,12 @@ void corner(Record& record) {
     const double exact = nu == 0.25 ? 1.036223 : 1.107421;
     std::vector<double> size, error;
     for (int n : {6, 12, 24}) {
-      Cylinder c;
+      RestrainedCylinder c;
       c.nu = nu;
       c.formulation = 2;
       c.columns = c.rows = n;
       c.power = 1.0;
-      const WholeRun run = c.press(record);
+      const WholeRun run = record.run(c.between_rough_platens());
       size.push_back(1.0 / n);
       error.push_back(std::abs(c.ratio(run) - exact));
     }
@@ -188,20 +152,20 @@ const ElasticRow kElastic[] = {
 void elastic_ends(Record& record) {
   for (const ElasticRow& row : kElastic)
     for (std::size_t i = 0; i < std::size(kSprings); ++i) {
-      Cylinder c;
+      RestrainedCylinder c;
       c.slenderness = row.slenderness;
       c.nu = row.nu;
       c.rows = row.slenderness > 1.0 ? 24 : 16;
-      c.build();
-      const std::vector<int> platen = copy_row(c.deck, c.block, c.block.top(), 20001);
-      c.deck.material(2, 21, {kSprings[i], 1e7, 1.0});
-      c.deck.group(2, 12, 0, 2);
-      join(c.deck, 5001, 2, c.block.top(), platen, 2);
+      DeckWriter deck = c.deck();
+      const std::vector<int> platen = copy_row(deck, c.block(), c.block().top(), 20001);
+      deck.material(2, 21, {kSprings[i], 1e7, 1.0});
+      deck.group(2, 12, 0, 2);
+      join(deck, 5001, 2, c.block().top(), platen, 2);
       for (int n : platen) {
-        c.deck.fix(n, 1, 1);
-        c.deck.stages[0].fix(n, 1, 1, 0.0, -c.slenderness);
+        deck.fix(n, 1, 1);
+        deck.stages[0].fix(n, 1, 1, 0.0, -c.slenderness);
       }
-      const WholeRun run = record.run(c.deck);
+      const WholeRun run = record.run(deck);
       record.near(Where::axisymmetric,
                   fmt::format("L/D = {:g}, nu = {:g}, ks a/E = {:g}", row.slenderness, row.nu, kSprings[i]),
                   -run.reaction(run.last(), platen, 1) / kPi, row.ratio[i], 5e-5);
@@ -224,22 +188,22 @@ void integration_rules(Record& record) {
                                   {3, "Newton-Cotes, known defect", 50, -57.8, 0.01, {}},
                                   {3, "Newton-Cotes, known defect", 0.5, -1.38, 0.01, {}}};
   for (const Reference& r : references) {
-    Cylinder c;
+    RestrainedCylinder c;
     c.cell = Cell::quad4;
     c.columns = c.rows = 20;
     c.power = 1.0;
-    c.build();
-    const std::vector<int> platen = copy_row(c.deck, c.block, c.block.top(), 20001);
+    DeckWriter deck = c.deck();
+    const std::vector<int> platen = copy_row(deck, c.block(), c.block().top(), 20001);
     const double kn = r.stiffness * 20.0;  // h = 1/20
-    c.deck.material(2, 21, {kn, kn, 1.0});
-    c.deck.group(2, 11, r.formulation, 2);
-    join(c.deck, 5001, 2, c.block.top(), platen, 1);
-    for (int n : c.block.top()) c.deck.fix(n, 1, 0);
+    deck.material(2, 21, {kn, kn, 1.0});
+    deck.group(2, 11, r.formulation, 2);
+    join(deck, 5001, 2, c.block().top(), platen, 1);
+    for (int n : c.block().top()) deck.fix(n, 1, 0);
     for (int n : platen) {
-      c.deck.fix(n, 1, 1);
-      c.deck.stages[0].fix(n, 1, 1, 0.0, -c.slenderness);
+      deck.fix(n, 1, 1);
+      deck.stages[0].fix(n, 1, 1, 0.0, -c.slenderness);
     }
-    const WholeRun run = record.run(c.deck);
+    const WholeRun run = record.run(deck);
     // Points at the pairs carry the gap of their own nodes; Gauss points are extrapolated along the element.
     const PointStresses& t = run.stress[1];
     const double root3 = std::sqrt(3.0);
@@ -252,7 +216,7 @@ void integration_rules(Record& record) {
     double worst = 0.0;
     for (std::size_t i = 0; i < 6; ++i) {
       const std::size_t n = platen.size() - 6 + i;
-      const double gap = run.u(platen[n]).y() - run.u(c.block.top()[n]).y();
+      const double gap = run.u(platen[n]).y() - run.u(c.block().top()[n]).y();
       worst = std::max(worst, std::abs(-kn * gap - r.rim[i]));
     }
     record.small(Where::axisymmetric,

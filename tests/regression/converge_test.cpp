@@ -9,7 +9,7 @@
 
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
-#include "sage/study/deck_writer.hpp"
+#include "sage/study/scenes.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace sage::app {
@@ -24,20 +24,10 @@ fs::path scratch() {
 // Quarter of the restrained cylinder, a = 1, E = 1, strain 1 %: columns x rows quadrilaterals.  Converged
 // ratios: two independent hp solutions (docs/theory/accuracy.md).
 std::string cylinder(int columns, int rows, double slenderness, double nu, int formulation = 2) {
-  study::Block block;
-  block.columns = columns;
-  block.rows = rows;
-  block.place = study::rectangle(0.0, 1.0, 0.0, slenderness);
-  study::DeckWriter deck(2);
-  block.write_nodes(deck);
-  deck.material(1, 1, {1.0, nu});
-  deck.group(1, 1, formulation, 1);
-  block.write_elements(deck, 1);
-  for (int node : block.bottom()) deck.fix(node, 0, 1);
-  for (int node : block.left()) deck.fix(node, 1, 0);
-  study::StageCards& stage = deck.stage();
-  for (int node : block.top()) stage.fix(node, 1, 1, 0.0, -0.01 * slenderness);
-  deck.triaxial_report(1, block.top().front(), block.top().back(), 1, slenderness);
+  const study::RestrainedCylinder scene{slenderness, nu, study::Cell::quad4, formulation, columns, rows, 1.0};
+  const std::vector<int> end = scene.block().top();
+  study::DeckWriter deck = scene.between_rough_platens(0.01);
+  deck.triaxial_report(1, end.front(), end.back(), 1, slenderness);
   return deck.text();
 }
 

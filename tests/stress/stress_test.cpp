@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "sage/app/commands.hpp"
-#include "sage/stress/decks.hpp"
 #include "sage/stress/report.hpp"
+#include "sage/study/scenes.hpp"
 
 namespace sage::stress {
 
@@ -17,6 +17,8 @@ void PrintTo(const Row& row, std::ostream* out) {
 }
 
 namespace {
+
+using namespace study;
 
 const study::Workbench& bench() {
   static const study::Workbench workbench = app::make_workbench();

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "sage/study/lame.hpp"
+#include "sage/study/scenes.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {
@@ -25,26 +26,20 @@ void expect_clean_end(const WholeRun& run) {
   }
 }
 
-// A specimen of one law between smooth plates, cell pressure p, compressed by `strain`.
+// A specimen of one law on a rough base, cell pressure p, compressed by `strain`.
 WholeRun compress(int law, const std::vector<double>& parameters, double p, double strain, int increments,
                   int method = 0) {
-  Block block;
-  block.columns = 3;
-  block.rows = 6;
-  block.place = rectangle(0.0, 1.0, 0.0, 2.0);
-  DeckWriter deck(2);
-  block.write_nodes(deck);
-  deck.material(1, law, parameters);
-  deck.group(1, 1, 2, 1);
-  block.write_elements(deck, 1);
-  for (int n : block.bottom()) deck.fix(n, 1, 1);  // a rough base, so that stress is not uniform
-  for (int n : block.left()) deck.fix(n, 1, 0);
-  deck.initial(1, 0, p, p, p);
-  StageCards& stage = deck.stage(increments);
-  stage.method = method;
-  if (method == 1 || method == 2) stage.max_iterations = 2000;  // they converge linearly
-  for (int n : block.top()) stage.fix(n, 0, 1, 0.0, -2.0 * strain);
-  for (int j = 0; j < block.rows; ++j) stage.pressure(block.element(2, j), 2, p, p);
+  TriaxialDeck deck;
+  deck.law = law;
+  deck.parameters = parameters;
+  deck.cell = p;
+  deck.strains = {strain};
+  deck.increments = increments;
+  deck.method = method;
+  if (method == 1 || method == 2) deck.max_iterations = 2000;  // they converge linearly
+  deck.rough_base = true;                                      // so that stress is not uniform
+  deck.columns = 3;
+  deck.rows = 6;
   return run_text(deck.text());
 }
 

@@ -3,6 +3,7 @@
 // promised.
 #include <gtest/gtest.h>
 
+#include "sage/study/scenes.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {
@@ -23,23 +24,17 @@ int increments_in(const WholeRun& run) {
 
 // Frictionless ends, cell pressure 100 kPa, one element: deviator at an axial strain.
 Answer triaxial(int law, double strain, int increments) {
-  Block block;
-  block.place = rectangle(0.0, 1.0, 0.0, 2.0);
-  DeckWriter deck(2);
-  block.write_nodes(deck);
-  deck.material(1, law, law == 5 ? k1970 : kBulk);
-  deck.group(1, static_cast<int>(Cell::quad4), 0, 1);
-  block.write_elements(deck, 1);
-  for (int n : block.bottom()) deck.fix(n, 0, 1);
-  for (int n : block.left()) deck.fix(n, 1, 0);
-  deck.initial(1, 0, kCell, kCell, kCell, 0.0);
-  StageCards& stage = deck.stage(increments);
-  for (int n : block.top()) stage.fix(n, 0, 1, 0.0, -2.0 * strain);
-  stage.pressure(1, 2, kCell, kCell);
+  TriaxialDeck deck;
+  deck.law = law;
+  deck.parameters = law == 5 ? k1970 : kBulk;
+  deck.cell = kCell;
+  deck.strains = {strain};
+  deck.increments = increments;
+  deck.columns = deck.rows = 1;
   const WholeRun run = run_text(deck.text());
   EXPECT_TRUE(run.completed()) << run.failure;
   EXPECT_EQ(increments_in(run), increments);
-  return {-run.reaction(run.last(), block.top(), 1) / M_PI - kCell, run.iterations()};
+  return {axial_stress(deck, run, 0) - kCell, run.iterations()};
 }
 
 class HyperbolicIncrements : public testing::TestWithParam<int> {};

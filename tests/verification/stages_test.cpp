@@ -5,29 +5,13 @@
 #include <fstream>
 #include <sstream>
 
+#include "sage/study/scenes.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {
 namespace {
 
 constexpr double kWeight = 20.0, kE = 1e4, kNu = 0.3;
-
-// Ground of `columns` x `rows` cells, unit cells, on rollers at the sides and fixed (or on rollers) below.
-struct Ground {
-  Block block;
-  DeckWriter deck;
-
-  Ground(int geometry, Cell cell, int columns, int rows) : deck(geometry) {
-    block.cell = cell;
-    block.columns = columns;
-    block.rows = rows;
-    block.place = rectangle(0.0, columns, -rows, 0.0);
-    block.write_nodes(deck);
-    for (int n : block.left()) deck.fix(n, 1, 0);
-    for (int n : block.right()) deck.fix(n, 1, 0);
-    for (int n : block.bottom()) deck.fix(n, 1, 1);
-  }
-};
 
 // The stress that the strength can't carry is reported, not swallowed.
 TEST(NullStageWarning, InadmissibleK0IsReported) {
