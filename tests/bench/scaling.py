@@ -80,7 +80,7 @@ def run_once(command):
         raise SystemExit(f"{' '.join(command)}: exit status {status}\n{errors}")
     parts = {name: float(m.group(1)) for name, pattern in PARTS.items() if (m := re.search(pattern, text))}
     times = {"wall": wall, "processor": usage.ru_utime + usage.ru_stime, **parts}
-    return times, usage.ru_maxrss / 1024.0, text
+    return times, usage.ru_maxrss / 1024.0, text  # seconds, MB, summary
 
 
 def main():
