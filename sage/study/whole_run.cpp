@@ -44,6 +44,11 @@ class Keeper final : public Observer {
 
 }  // namespace
 
+bool WholeRun::warns(const std::string& words) const {
+  return std::any_of(warnings.begin(), warnings.end(),
+                     [&](const std::string& warning) { return warning.find(words) != std::string::npos; });
+}
+
 int WholeRun::index(int number) const {
   for (int i = 0; i < model->mesh.nodes(); ++i)
     if (model->mesh.number[static_cast<std::size_t>(i)] == number) return i;

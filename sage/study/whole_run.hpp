@@ -32,6 +32,7 @@ struct WholeRun {
   double out_of_balance = 0.0;        // largest of all stages
   std::string failure;                // the page for a person
 
+  bool warns(const std::string& words) const;  // some warning contains them
   bool completed() const { return result.status == RunStatus::completed; }
   const Snapshot& last() const { return increments.back(); }
   int index(int number) const;  // of a deck node

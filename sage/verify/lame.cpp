@@ -114,11 +114,6 @@ void nu_sweep(Record& record, const std::vector<LameBody>& bodies) {
     }
 }
 
-bool warns_of_locking(const WholeRun& run) {
-  return std::any_of(run.warnings.begin(), run.warnings.end(),
-                     [](const std::string& w) { return w.find("lock") != std::string::npos; });
-}
-
 // The source chapter's element gives less than a thousandth of the displacement, and the program says so
 // before.
 void locking(Record& record) {
@@ -128,9 +123,9 @@ void locking(Record& record) {
     record.small(where_of_body(body), fmt::format("u(a) / exact, {}", name_of_body(body)),
                  run.u(1).norm() / lame(body, 0.4999999, 1.0).u, 1e-3);
     record.within(where_of_body(body), fmt::format("warned of locking, {}", name_of_body(body)),
-                  warns_of_locking(run) ? 1.0 : 0.0, 1.0, 0.5);
+                  run.warns("lock") ? 1.0 : 0.0, 1.0, 0.5);
     record.within(where_of_body(body), fmt::format("warned at nu = .3, {}", name_of_body(body)),
-                  warns_of_locking(record.run(deck_of(body, full, 4, 0.3))) ? 1.0 : 0.0, 0.0, 0.5);
+                  record.run(deck_of(body, full, 4, 0.3)).warns("lock") ? 1.0 : 0.0, 0.0, 0.5);
   }
   // No warning either for those that do not lock.
   for (const Kind& kind : kKinds) {
@@ -142,7 +137,7 @@ void locking(Record& record) {
     const bool three_points = kind.cell == Cell::tri6 && kind.formulation == 1;
     const bool locks = loss > (three_points ? 20.0 : 2.0);
     record.within(Where::plane_strain, fmt::format("{}: warns if it loses accuracy", kind.name),
-                  warns_of_locking(run) ? 1.0 : 0.0, locks ? 1.0 : 0.0, 0.5);
+                  run.warns("lock") ? 1.0 : 0.0, locks ? 1.0 : 0.0, 0.5);
   }
 }
 

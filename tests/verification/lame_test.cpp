@@ -65,12 +65,6 @@ TEST_P(Lame, DisplacementsConvergeAtTheoryRate) {
   EXPECT_GE(last, c.order - 0.15);
 }
 
-bool warns_of(const WholeRun& run, const std::string& words) {
-  for (const std::string& warning : run.warnings)
-    if (warning.find(words) != std::string::npos) return true;
-  return false;
-}
-
 // Elements that don't lock keep their error; those that lock lose most of the displacement or a multiple of
 // their accuracy, and the program says so before it runs.
 TEST_P(Lame, NearlyIncompressible) {
@@ -81,8 +75,8 @@ TEST_P(Lame, NearlyIncompressible) {
   const double incompressible = lame_error(run, body, 0.4999999);
   std::printf("    %-7s %-16s error at nu .3 %.3e, at .4999999 %.3e\n", name_of(body), c.name, compressible,
               incompressible);
-  EXPECT_EQ(warns_of(run, "lock"), c.loss == 0.0);
-  EXPECT_EQ(warns_of(run, "its error is several times"), c.loss > 2.0);
+  EXPECT_EQ(run.warns("lock"), c.loss == 0.0);
+  EXPECT_EQ(run.warns("its error is several times"), c.loss > 2.0);
   const double rounding = 1e-8;  // K/G = 5e6 times 1e-16, times the number of operations
   if (c.loss > 0.0)
     EXPECT_LT(incompressible, std::max(c.loss * compressible, rounding));
@@ -108,8 +102,8 @@ TEST(LameLocking, FullyIntegratedQuad4) {
   for (LameBody body : {LameBody::sector, LameBody::strip, LameBody::sphere}) {
     const WholeRun run = run_text(deck_of(body, Cell::quad4, 1, 4, 0.4999999));
     EXPECT_GT(lame_error(run, body, 0.4999999), 0.999) << name_of(body);
-    EXPECT_FALSE(warns_of(run_text(deck_of(body, Cell::quad4, 1, 4, 0.3)), "lock")) << name_of(body);
-    EXPECT_FALSE(warns_of(run_text(deck_of(body, Cell::tri6, 1, 4, 0.3)), "nu = 1/2")) << name_of(body);
+    EXPECT_FALSE(run_text(deck_of(body, Cell::quad4, 1, 4, 0.3)).warns("lock")) << name_of(body);
+    EXPECT_FALSE(run_text(deck_of(body, Cell::tri6, 1, 4, 0.3)).warns("nu = 1/2")) << name_of(body);
   }
 }
 
@@ -165,7 +159,7 @@ TEST(LameHighDegree, KeepsItsAccuracyNearIncompressibility) {
       std::printf("    %-7s code %d error at nu .3 %.3e, at .4999 %.3e\n", name_of(body), element, compressible,
                   error);
       EXPECT_LT(error, std::max(most, 3.0 * compressible)) << name_of(body) << " code " << element;
-      EXPECT_FALSE(warns_of(run, "lock"));
+      EXPECT_FALSE(run.warns("lock"));
     }
 }
 

@@ -8,17 +8,13 @@
 #include <sstream>
 
 #include "sage/deck/read_deck.hpp"
+#include "sage/deck/text.hpp"
+#include "tests/support/text.hpp"
 
 namespace sage {
 namespace {
 
 const std::string kInputs = SAGE_SOURCE_DIR "/legacy_inputs/";
-
-std::string trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(' ');
-  if (first == std::string_view::npos) return {};
-  return std::string(text.substr(first, text.find_last_not_of(' ') - first + 1));
-}
 
 // One row of the table: line, card, texts joined by "|", integers, reals.
 struct GoldenCard {
@@ -27,16 +23,6 @@ struct GoldenCard {
   std::vector<double> numbers;
   bool parsed = true;
 };
-
-std::vector<std::string> split(const std::string& text, char mark) {
-  std::vector<std::string> parts(1);
-  for (char c : text)
-    if (c == mark)
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  return parts;
-}
 
 std::map<int, GoldenCard> golden(const std::string& name) {
   std::ifstream file(SAGE_SOURCE_DIR "/tests/unit/deck/data/parse_golden/" + name);
@@ -51,9 +37,9 @@ std::map<int, GoldenCard> golden(const std::string& name) {
     card.parsed = rest != "not parsed";
     if (card.parsed) {
       const std::size_t quote = rest.find('"', 1);
-      card.texts = split(rest.substr(1, quote - 1), '|');
+      card.texts = test::split(rest.substr(1, quote - 1), '|');
       if (quote + 2 < rest.size())
-        for (const std::string& part : split(rest.substr(quote + 2), ','))
+        for (const std::string& part : test::split(rest.substr(quote + 2), ','))
           card.numbers.push_back(std::stod(part));
     }
     cards[number] = card;
@@ -69,7 +55,7 @@ void compare(const Deck& deck, const Card& card, const GoldenCard& expected) {
   std::vector<double> integers, reals;
   for (std::int32_t i = 0; i < card.value_count; ++i) {
     const FieldValue& value = deck.values[static_cast<std::size_t>(card.first_value + i)];
-    if (value.kind == FieldKind::text) texts.push_back(trimmed(value.text));
+    if (value.kind == FieldKind::text) texts.emplace_back(trimmed(value.text));
     if (value.kind == FieldKind::integer) integers.push_back(value.number);
     if (value.kind == FieldKind::real) reals.push_back(value.number);
   }

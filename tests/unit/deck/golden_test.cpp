@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "fortran_case.hpp"
+#include "tests/support/text.hpp"
 
 namespace sage::test {
 namespace {
@@ -57,16 +58,6 @@ std::string unescape(const std::string& quoted) {
     }
   }
   return text;
-}
-
-std::vector<std::string> split(const std::string& text, char mark) {
-  std::vector<std::string> parts(1);
-  for (char c : text)
-    if (c == mark)
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  return parts;
 }
 
 std::string strip_quotes(const std::string& text) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tests/support/run_text.hpp"
+#include "tests/support/text.hpp"
 
 namespace sage {
 namespace {
@@ -82,10 +83,6 @@ Answer answer(const Joint& joint) {
   return answer;
 }
 
-bool says(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
-}
-
 TEST(InterfaceSides, AreCheckedAtEveryAngleWithOneBodyOrTwo) {
   for (const bool quadratic : {false, true})
     for (const double angle : {0.0, 30.0, 90.0, 135.0, 180.0, 250.0})
@@ -96,16 +93,16 @@ TEST(InterfaceSides, AreCheckedAtEveryAngleWithOneBodyOrTwo) {
           Joint joint{quadratic, angle, bend, bodies, right_order(quadratic)};
           const Answer right = answer(joint);
           EXPECT_EQ(right.error, "");
-          EXPECT_FALSE(says(right.notes, "which side is which")) << right.notes;
+          EXPECT_FALSE(test::has(right.notes, "which side is which")) << right.notes;
           joint.order = swapped(joint.order);
           const std::string wrong = answer(joint).error;
-          EXPECT_TRUE(says(wrong, "element 2 (interface")) << wrong;
-          EXPECT_TRUE(says(wrong, "sides are swapped")) << wrong;
-          EXPECT_TRUE(says(wrong, quadratic ? "4 3 2 1 6 5" : "node order 4 3 2 1 would")) << wrong;
-          EXPECT_EQ(says(wrong, "element 3, which owns its nodes 1 and 2, lies to the left"),
+          EXPECT_TRUE(test::has(wrong, "element 2 (interface")) << wrong;
+          EXPECT_TRUE(test::has(wrong, "sides are swapped")) << wrong;
+          EXPECT_TRUE(test::has(wrong, quadratic ? "4 3 2 1 6 5" : "node order 4 3 2 1 would")) << wrong;
+          EXPECT_EQ(test::has(wrong, "element 3, which owns its nodes 1 and 2, lies to the left"),
                     bodies != Bodies::bottom)
               << wrong;
-          EXPECT_EQ(says(wrong, "element 1, which owns its nodes 3 and 4, lies to the right"),
+          EXPECT_EQ(test::has(wrong, "element 1, which owns its nodes 3 and 4, lies to the right"),
                     bodies != Bodies::top)
               << wrong;
         }
@@ -125,9 +122,9 @@ TEST(InterfaceSides, BodiesOfOtherStagesCountToo) {
   Joint joint{false, 20.0, 0.0, Bodies::both, right_order(false), true, true};
   EXPECT_EQ(answer(joint).error, "");
   joint.order = swapped(joint.order);
-  EXPECT_TRUE(says(answer(joint).error, "sides are swapped"));
+  EXPECT_TRUE(test::has(answer(joint).error, "sides are swapped"));
   joint.bodies = Bodies::top;
-  EXPECT_TRUE(says(answer(joint).error, "sides are swapped"));
+  EXPECT_TRUE(test::has(answer(joint).error, "sides are swapped"));
 }
 
 TEST(InterfaceSides, LinearJointsAlongAQuadraticEdge) {
@@ -156,7 +153,8 @@ TEST(InterfaceSides, LinearJointsAlongAQuadraticEdge) {
 TEST(InterfaceSides, WithoutSolidsThereIsANote) {
   const Answer free = answer({false, 0.0, 0.0, Bodies::none, right_order(false)});
   EXPECT_EQ(free.error, "");
-  EXPECT_TRUE(says(free.notes, "1 interface element(s) touch no solid on either side, the first is element 2"))
+  EXPECT_TRUE(
+      test::has(free.notes, "1 interface element(s) touch no solid on either side, the first is element 2"))
       << free.notes;
 }
 

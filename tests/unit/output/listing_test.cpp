@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "sage/core/error.hpp"
+#include "tests/support/text.hpp"
 #include "tests/unit/output/specimen.hpp"
 
 namespace sage {
@@ -13,6 +14,7 @@ namespace {
 
 using test::contents;
 using test::fresh_folder;
+using test::has;
 using test::lines_of;
 using test::Specimen;
 
@@ -28,10 +30,6 @@ std::vector<std::string> row(const std::string& text, const std::string& after, 
   }
   ADD_FAILURE() << "no row " << first << " after " << after;
   return std::vector<std::string>(12, "0");
-}
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 long count(const std::string& text, const std::string& part) {

@@ -4,6 +4,7 @@
 
 #include "sage/output/colour_map.hpp"
 #include "sage/output/contour.hpp"
+#include "tests/support/text.hpp"
 #include "tests/unit/output/specimen.hpp"
 
 namespace sage {
@@ -11,11 +12,8 @@ namespace {
 
 using test::contents;
 using test::fresh_folder;
+using test::has;
 using test::Specimen;
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 // Closed form of the fixture: sigma_zz = 10 psi compressive, so the picture says +10.
 TEST(FieldSvg, SaysCompressionPositiveWithUnits) {

@@ -10,6 +10,7 @@
 #include "elements/register_elements.hpp"
 #include "materials/register_materials.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/text.hpp"
 
 namespace sage::test {
 
@@ -193,24 +194,13 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-std::vector<std::string> fields(const std::string& line) {
-  std::vector<std::string> result(1);
-  for (char c : line) {
-    if (c == ',')
-      result.emplace_back();
-    else
-      result.back() += c;
-  }
-  return result;
-}
-
 std::vector<std::string> csv_column(const std::string& text, const std::string& name) {
   std::vector<std::string> column;
   std::size_t index = 0;
   bool header = true;
   for (const std::string& line : lines_of(text)) {
     if (line.starts_with('#')) continue;
-    const std::vector<std::string> row = fields(line);
+    const std::vector<std::string> row = split(line, ',');
     if (header) {
       while (index < row.size() && row[index].substr(0, row[index].find('[')) != name) ++index;
       if (index == row.size()) throw std::logic_error("no column " + name);

@@ -51,8 +51,6 @@ class Specimen {
 std::filesystem::path fresh_folder(const std::string& name);
 std::string contents(const std::filesystem::path& path);
 std::vector<std::string> lines_of(const std::string& text);
-// Fields of a comma-separated line.
-std::vector<std::string> fields(const std::string& line);
 // The column of a CSV text by its header (without the unit); comment lines are skipped.
 std::vector<std::string> csv_column(const std::string& text, const std::string& name);
 std::vector<double> csv_numbers(const std::string& text, const std::string& name);

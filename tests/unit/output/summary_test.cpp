@@ -2,18 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/text.hpp"
 #include "tests/unit/output/specimen.hpp"
 
 namespace sage {
 namespace {
 
 using test::fresh_folder;
+using test::has;
 using test::lines_of;
 using test::Specimen;
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 struct Result {
   RunRecord record;
