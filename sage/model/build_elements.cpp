@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sage/deck/text.hpp"
 #include "sage/model/edges.hpp"
 
 namespace sage::build {
@@ -277,11 +278,9 @@ void read_material(Builder& b, const CardView& card, const std::vector<CardView>
                   unit_text(p.dimension, b.model.units) + "), is missing");
     const double value = present ? given[i].number : p.fallback;
     if (!present && i < given.size() && !p.required) {
-      char fallback[32];
-      std::snprintf(fallback, sizeof fallback, "%.6g", p.fallback);
-      b.note(parameter_cards.front().where(given[i]), name + ": parameter " + std::to_string(i + 1) + " of " +
-                                                          entry->name + ", " + p.name +
-                                                          ", is left blank: " + fallback + " is used");
+      b.note(parameter_cards.front().where(given[i]),
+             name + ": parameter " + std::to_string(i + 1) + " of " + entry->name + ", " + p.name +
+                 ", is left blank: " + rounded_text(p.fallback, 6) + " is used");
     }
     if (!(std::abs(value) < 1e100))
       b.error(parameter_cards.front().where(given[i]),

@@ -37,6 +37,7 @@ struct Builder {
   // False once a card of that kind was refused: what refers to it is then not reported as missing as well.
   bool nodes_known = true, materials_known = true, groups_known = true, elements_known = true;
 
+  SourcePosition at_line(int line) const { return {deck.file, line, 0, 0}; }
   // Adds a message that shows the card.
   void error(const SourcePosition& where, const std::string& message) {
     problems.add(card_diagnostic(deck, Severity::error, where, message));

@@ -70,7 +70,7 @@ SourcePosition node_fields(const Builder& b, int line, int nodes) {
     if (last.line == where.line && last.last_column > where.first_column) where.last_column = last.last_column;
     return where;
   }
-  return {b.deck.file, line, 0, 0};
+  return b.at_line(line);
 }
 
 class SideCheck {

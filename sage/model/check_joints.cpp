@@ -83,9 +83,9 @@ void warn_coincident(Builder& b, const std::vector<double>& shortest) {
       pairs.add(number_of(b.model, first) + " and " + number_of(b.model, second));
     }
   if (pairs.count > 0)
-    b.warning({b.deck.file, 0, 0, 0}, std::to_string(pairs.count) +
-                                          " pair(s) of nodes at one place are joined by no interface: " +
-                                          pairs.text() + "; the parts are not connected there");
+    b.warning(b.at_line(0), std::to_string(pairs.count) +
+                                " pair(s) of nodes at one place are joined by no interface: " + pairs.text() +
+                                "; the parts are not connected there");
 }
 
 // An edge of a solid, by its corners (the smaller node first).
@@ -176,7 +176,7 @@ void warn_hanging(Builder& b, const std::vector<double>& shortest) {
     }
   }
   if (hanging.count > 0)
-    b.warning({b.deck.file, 0, 0, 0},
+    b.warning(b.at_line(0),
               std::to_string(hanging.count) + " hanging node(s): " + hanging.text() +
                   "; the element does not have that node, and the mesh can gape or overlap there");
 }

@@ -2,24 +2,14 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "sage/deck/text.hpp"
 #include "sage/model/activity.hpp"
 #include "sage/model/builder.hpp"
 
 namespace sage::build {
 
 namespace {
-
-SourcePosition line_of(const Builder& b, int line) {
-  return {b.deck.file, line, 0, 0};
-}
-
-std::string short_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 // Between the straight sides at the corners of a solid, in degrees.
 double largest_angle(const Eigen::Matrix2Xd& x, const Element& element) {
@@ -61,11 +51,11 @@ void check_shapes(Builder& b) {
           worst = quality;
           worst_angle = largest_angle(x, *group.element);
           worst_name = name;
-          worst_where = line_of(b, group.element_lines[eu]);
+          worst_where = b.at_line(group.element_lines[eu]);
         }
       } catch (const ElementShapeError& error) {
         if (++bad <= kShown)
-          b.error(line_of(b, group.element_lines[eu]), name + " (" + group.element_name + "): " + error.what());
+          b.error(b.at_line(group.element_lines[eu]), name + " (" + group.element_name + "): " + error.what());
       }
     }
     if (cautioned > 1) caution += " (and " + std::to_string(cautioned - 1) + " more)";
@@ -76,8 +66,8 @@ void check_shapes(Builder& b) {
             "and " + std::to_string(bad - kShown) + " more elements with unusable shapes");
   if (poor > 0)
     b.warning(worst_where, std::to_string(poor) + " element(s) badly distorted; worst " + worst_name +
-                               ", smallest over mean Jacobian " + short_text(worst) + ", largest inner angle " +
-                               short_text(worst_angle) + " degrees");
+                               ", smallest over mean Jacobian " + rounded_text(worst, 3) +
+                               ", largest inner angle " + rounded_text(worst_angle, 3) + " degrees");
 }
 
 // In axisymmetry a point on the axis can't move radially.
@@ -100,7 +90,7 @@ void fix_axis(Builder& b) {
     ++added;
   }
   if (added > 0)
-    b.note({b.deck.file, 0, 0, 0},
+    b.note(b.at_line(0),
            std::to_string(added) + " node(s) on the axis r = 0 held radially (u_r = 0 by symmetry)");
 }
 
@@ -112,21 +102,20 @@ void note_unused_nodes(Builder& b) {
   const auto unused = std::count(used.begin(), used.end(), 0);
   if (unused == 0) return;
   const auto first = std::find(used.begin(), used.end(), 0) - used.begin();
-  b.note({b.deck.file, 0, 0, 0}, std::to_string(unused) +
-                                     " node(s) belong to no element and are ignored, the first is node " +
-                                     std::to_string(model.mesh.number[static_cast<std::size_t>(first)]));
+  b.note(b.at_line(0), std::to_string(unused) +
+                           " node(s) belong to no element and are ignored, the first is node " +
+                           std::to_string(model.mesh.number[static_cast<std::size_t>(first)]));
   const auto refuse = [&](const Fixity& f) {
     const bool moved = f.value[0] != 0.0 || f.value[1] != 0.0;
     if (moved && !used[static_cast<std::size_t>(f.node)])
-      b.error(line_of(b, f.line), "node " +
-                                      std::to_string(model.mesh.number[static_cast<std::size_t>(f.node)]) +
-                                      " is displaced but belongs to no element");
+      b.error(b.at_line(f.line), "node " + std::to_string(model.mesh.number[static_cast<std::size_t>(f.node)]) +
+                                     " is displaced but belongs to no element");
   };
   for (const Stage& stage : model.stages) {
     for (const Fixity& f : stage.fixities) refuse(f);
     for (const NodalLoad& load : stage.loads)
       if (!used[static_cast<std::size_t>(load.node)])
-        b.error(line_of(b, load.line),
+        b.error(b.at_line(load.line),
                 "node " + std::to_string(model.mesh.number[static_cast<std::size_t>(load.node)]) +
                     " is loaded but belongs to no element");
   }
@@ -248,7 +237,7 @@ void check_solver(Builder& b) {
     const Material& material = b.model.material_of(group);
     if (std::visit([](const auto* law) { return law->symmetric(); }, material.law_ref())) continue;
     const bool from_deck = b.options.solver < 0;
-    b.error(from_deck ? b.deck.one("control").where("solver") : SourcePosition{b.deck.file, 0, 0, 0},
+    b.error(from_deck ? b.deck.one("control").where("solver") : b.at_line(0),
             std::string(from_deck ? "solver " + std::to_string(b.model.solver) : "the option --solver") + ": " +
                 solver->name + " is for symmetric matrices only, but material " +
                 std::to_string(material.number) + " (" + material.law_name + ") of group " +
@@ -266,8 +255,6 @@ void warn_locking(Builder& b) {
     if (traits.law_size != 4 || !(traits.locks || traits.loses_order)) continue;
     const double nu = poissons_ratio(b, b.model.material_of(group));
     if (nu <= 0.45 || ++found > kShown) continue;
-    char number[32];
-    std::snprintf(number, sizeof number, "%.7g", nu);
     const std::string what =
         traits.locks
             ? ": full integration locks near nu = 1/2 and reports too much stiffness; b-bar (formulation "
@@ -275,11 +262,11 @@ void warn_locking(Builder& b) {
             : ": near nu = 1/2 its error is several times that at nu = 0.3 and falls more slowly with the "
               "mesh; 8-node quadrilaterals (reduced) or quad4 b-bar keep theirs";
     b.warning(group.where, "group " + std::to_string(group.number) + " (" + group.element_name +
-                               ") has nu = " + number + what);
+                               ") has nu = " + rounded_text(nu, 7) + what);
   }
   if (found > kShown)
-    b.warning({b.deck.file, 0, 0, 0}, "and " + std::to_string(found - kShown) +
-                                          " more groups whose elements lock or lose accuracy near nu = 1/2");
+    b.warning(b.at_line(0), "and " + std::to_string(found - kShown) +
+                                " more groups whose elements lock or lose accuracy near nu = 1/2");
 }
 
 }  // namespace

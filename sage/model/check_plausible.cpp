@@ -8,6 +8,7 @@
 #include <map>
 #include <unordered_map>
 
+#include "sage/deck/text.hpp"
 #include "sage/model/activity.hpp"
 #include "sage/model/builder.hpp"
 #include "sage/model/edges.hpp"
@@ -17,16 +18,6 @@ namespace sage::build {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-
-SourcePosition line_of(const Builder& b, int line) {
-  return {b.deck.file, line, 0, 0};
-}
-
-std::string text(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.4g", value);
-  return buffer;
-}
 
 struct NamedUnit {
   const char* name;
@@ -61,8 +52,8 @@ void check_units(Builder& b) {
   const double stress = si(kStresses, units.stress);
   const auto check = [&](const char* field, double given, double unit, double right, const std::string& name) {
     if (given == 0.0 || unit == 0.0 || std::abs(given * unit / right - 1.0) < 0.1) return;
-    b.warning(card.where(field), "the " + card.label(field) + " is " + text(given) +
-                                     "; in these units it is about " + text(right / unit) + " " + name);
+    b.warning(card.where(field), "the " + card.label(field) + " is " + rounded_text(given) +
+                                     "; in these units it is about " + rounded_text(right / unit) + " " + name);
   };
   check("atmospheric_pressure", units.atmospheric_pressure, stress, kAtmosphere, units.stress);
   check("water_unit_weight", units.water_unit_weight, length > 0.0 ? force / (length * length * length) : 0.0,
@@ -70,8 +61,8 @@ void check_units(Builder& b) {
   if (stress > 0.0 && force > 0.0 && length > 0.0) {
     const double ratio = stress / (force / (length * length));
     if (std::abs(ratio - 1.0) > 0.01)
-      b.warning(card.where("stress"), "1 " + units.stress + " is " + text(ratio) + " " + units.force + "/" +
-                                          units.length +
+      b.warning(card.where("stress"), "1 " + units.stress + " is " + rounded_text(ratio) + " " + units.force +
+                                          "/" + units.length +
                                           "^2: forces, lengths and stresses of a deck must belong together");
   }
 }
@@ -113,15 +104,17 @@ void check_initial(Builder& b, const InitialStress& initial) {
   if (initial.kind == InitialKind::geostatic) {
     const double k0 = initial.value[2], weight = initial.value[1];
     if (k0 < 0.0 || k0 > 10.0)
-      b.warning(initial.where, name + "the coefficient of earth pressure at rest is " + text(k0) +
+      b.warning(initial.where, name + "the coefficient of earth pressure at rest is " + rounded_text(k0) +
                                    "; soils have about 0.3 to 3");
     if (weight < 0.0) b.warning(initial.where, name + "the unit weight of the initial stress is negative");
     const auto [low, high] = std::pair(b.model.mesh.x.row(1).minCoeff(), b.model.mesh.x.row(1).maxCoeff());
     if (initial.value[0] > high + 2.0 * (high - low) || initial.value[0] < low)
-      b.warning(initial.where, name + "the ground level of the initial stress, " + text(initial.value[0]) +
-                                   ", is far from the mesh, " + text(low) + " to " + text(high));
+      b.warning(initial.where, name + "the ground level of the initial stress, " +
+                                   rounded_text(initial.value[0]) + ", is far from the mesh, " +
+                                   rounded_text(low) + " to " + rounded_text(high));
     if (modulus > 0.0 && std::abs(weight) * (high - low) + std::abs(initial.value[3]) > modulus)
-      b.warning(initial.where, name + "the initial stress exceeds the material's modulus, " + text(modulus));
+      b.warning(initial.where,
+                name + "the initial stress exceeds the material's modulus, " + rounded_text(modulus));
   }
   if (initial.kind != InitialKind::uniform) return;
   const std::size_t normals = solid ? 3 : 2;
@@ -134,8 +127,8 @@ void check_initial(Builder& b, const InitialStress& initial) {
   double largest = 0.0;
   for (std::size_t i = 0; i < 4; ++i) largest = std::max(largest, std::abs(initial.value[i]));
   if (modulus > 0.0 && largest > modulus)
-    b.warning(initial.where, name + "the initial stress, " + text(largest) +
-                                 ", exceeds the material's modulus, " + text(modulus));
+    b.warning(initial.where, name + "the initial stress, " + rounded_text(largest) +
+                                 ", exceeds the material's modulus, " + rounded_text(modulus));
 }
 
 // Elements that are needles: a coordinate with a digit too many stretches its elements long before they fold.
@@ -162,11 +155,11 @@ void check_slender(Builder& b) {
     }
   }
   if (found > 0)
-    b.warning(line_of(b, line), std::to_string(found) +
-                                    " element(s) are more than 10000 times as long as wide, the worst is "
-                                    "element " +
-                                    std::to_string(number) + ", " + text(worst) +
-                                    " times: is a coordinate wrong?");
+    b.warning(b.at_line(line), std::to_string(found) +
+                                   " element(s) are more than 10000 times as long as wide, the worst is "
+                                   "element " +
+                                   std::to_string(number) + ", " + rounded_text(worst) +
+                                   " times: is a coordinate wrong?");
 }
 
 // Two solids on the same hand of one edge lie on each other.  Twins of which one goes before the other comes
@@ -204,7 +197,7 @@ void check_overlap(Builder& b) {
       }
   }
   if (found > 0)
-    b.warning(line_of(b, line),
+    b.warning(b.at_line(line),
               first + " lie on the same side of a common edge: they overlap" +
                   (found > 1 ? " (and " + std::to_string(found - 1) + " more such edges)" : ""));
 }
@@ -220,9 +213,8 @@ void note_missing_numbers(Builder& b) {
   std::sort(numbers.begin(), numbers.end());
   for (std::size_t i = 1; i < numbers.size(); ++i) {
     if (numbers[i] == numbers[i - 1] + 1) continue;
-    b.note({b.deck.file, 0, 0, 0}, "the element numbers are not consecutive: after " +
-                                       std::to_string(numbers[i - 1]) + " comes " + std::to_string(numbers[i]) +
-                                       "; is a block of elements cut short?");
+    b.note(b.at_line(0), "the element numbers are not consecutive: after " + std::to_string(numbers[i - 1]) +
+                             " comes " + std::to_string(numbers[i]) + "; is a block of elements cut short?");
     return;
   }
 }
@@ -234,7 +226,7 @@ void check_poisson(Builder& b) {
     for (std::size_t i = 0; entry != nullptr && i < material.parameters.size(); ++i)
       if (entry->parameters[i].name == "poissons_ratio" && material.parameters[i] < 0.0)
         b.warning(material.where, "material " + std::to_string(material.number) +
-                                      ": Poisson's ratio is negative, " + text(material.parameters[i]));
+                                      ": Poisson's ratio is negative, " + rounded_text(material.parameters[i]));
   }
 }
 
@@ -245,14 +237,15 @@ void check_fixities(Builder& b, const Stage& stage, const Activity& before, cons
     for (std::size_t c = 0; c < 2; ++c) {
       if (std::abs(f.value[c]) > size.length) {
         last_line = f.line;
-        b.warning(line_of(b, f.line), "the displacement " + text(f.value[c]) + " is larger than the mesh, " +
-                                          text(size.length) + "; strains are taken as small");
+        b.warning(b.at_line(f.line), "the displacement " + rounded_text(f.value[c]) +
+                                         " is larger than the mesh, " + rounded_text(size.length) +
+                                         "; strains are taken as small");
       }
       if (f.code[c] == FixityCode::released && !before.held[2 * static_cast<std::size_t>(f.node) + c]) {
         last_line = f.line;
-        b.note(line_of(b, f.line), "code -1 releases node " +
-                                       std::to_string(b.model.mesh.number[static_cast<std::size_t>(f.node)]) +
-                                       (c == 0 ? " in x" : " in y") + ", which nothing held");
+        b.note(b.at_line(f.line), "code -1 releases node " +
+                                      std::to_string(b.model.mesh.number[static_cast<std::size_t>(f.node)]) +
+                                      (c == 0 ? " in x" : " in y") + ", which nothing held");
       }
     }
   }
@@ -265,18 +258,18 @@ void check_loads(Builder& b, const Stage& stage, const Size& size) {
     if (load.line == last_line || size.stiffness == 0.0) continue;
     if (load.force.cwiseAbs().maxCoeff() <= size.stiffness * size.length * reach) continue;
     last_line = load.line;
-    b.warning(line_of(b, load.line), "the force " + text(load.force.cwiseAbs().maxCoeff()) +
-                                         " would strain the whole mesh by more than 1 (largest modulus " +
-                                         text(size.stiffness) + ")");
+    b.warning(b.at_line(load.line), "the force " + rounded_text(load.force.cwiseAbs().maxCoeff()) +
+                                        " would strain the whole mesh by more than 1 (largest modulus " +
+                                        rounded_text(size.stiffness) + ")");
   }
   for (const EdgeLoad& load : stage.pressures) {
     if (load.line == last_line) continue;
     const double largest = std::max(load.normal.cwiseAbs().maxCoeff(), load.shear.cwiseAbs().maxCoeff());
     if (size.stiffness > 0.0 && largest > size.stiffness) {
-      b.warning(line_of(b, load.line), "the pressure or shear " + text(largest) +
-                                           " exceeds the largest modulus, " + text(size.stiffness));
+      b.warning(b.at_line(load.line), "the pressure or shear " + rounded_text(largest) +
+                                          " exceeds the largest modulus, " + rounded_text(size.stiffness));
     } else if (load.normal.minCoeff() < 0.0) {
-      b.note(line_of(b, load.line), "a negative pressure pulls at the edge");
+      b.note(b.at_line(load.line), "a negative pressure pulls at the edge");
     } else {
       continue;
     }
@@ -318,7 +311,7 @@ void check_inner_edges(Builder& b, const Stage& stage, const Activity& activity)
   for (const EdgeLoad& load : stage.pressures) {
     if (uses[edge_of(load)] < 2 || load.line == last_line) continue;
     last_line = load.line;
-    b.warning(line_of(b, load.line), "the pressure acts on an edge inside the body, which two elements share");
+    b.warning(b.at_line(load.line), "the pressure acts on an edge inside the body, which two elements share");
   }
 }
 
@@ -330,7 +323,8 @@ void check_gravity(Builder& b) {
     total += stage.gravity;
     const std::string name = "stage " + std::to_string(stage.number) + ": ";
     if (stage.gravity.norm() > 1000.0)
-      b.warning(stage.where, name + "gravity is " + text(stage.gravity.norm()) + " times the unit weights");
+      b.warning(stage.where,
+                name + "gravity is " + rounded_text(stage.gravity.norm()) + " times the unit weights");
     if (total.y() > 1e-9) b.note(stage.where, name + "gravity acts upwards (gravity_y > 0 in sum)");
     if (stage.increments > 10000)
       b.note(stage.where,
@@ -357,9 +351,10 @@ void check_gravity(Builder& b) {
     const Material& material = b.model.material_of(group);
     const double modulus = stiffness(b, material);
     if (modulus == 0.0 || std::abs(material.unit_weight) * height <= modulus) continue;
-    b.warning(material.where,
-              "material " + std::to_string(material.number) + ": the weight of a column as high as the mesh, " +
-                  text(material.unit_weight * height) + ", exceeds its modulus, " + text(modulus));
+    b.warning(material.where, "material " + std::to_string(material.number) +
+                                  ": the weight of a column as high as the mesh, " +
+                                  rounded_text(material.unit_weight * height) + ", exceeds its modulus, " +
+                                  rounded_text(modulus));
     break;
   }
 }
@@ -380,15 +375,15 @@ void check_reports(Builder& b, const Size& size) {
   for (const Report& report : b.model.reports) {
     if (report.kind != ReportKind::triaxial) continue;
     if (report.height > 10.0 * size.length || report.height < 0.01 * size.length)
-      b.warning(report.where, "the report's height, " + text(report.height) + ", does not fit the mesh, " +
-                                  text(size.length));
+      b.warning(report.where, "the report's height, " + rounded_text(report.height) +
+                                  ", does not fit the mesh, " + rounded_text(size.length));
     if (report.area > 100.0 * size.length * std::max(size.length, 1.0))
-      b.warning(report.where, "the report's area, " + text(report.area) + ", does not fit the mesh, " +
-                                  text(size.length) + " long");
+      b.warning(report.where, "the report's area, " + rounded_text(report.area) + ", does not fit the mesh, " +
+                                  rounded_text(size.length) + " long");
     if (report.cell_pressure < 0.0) b.note(report.where, "the report's cell pressure is negative");
     if (size.stiffness > 0.0 && report.cell_pressure > size.stiffness)
       b.warning(report.where,
-                "the report's cell pressure exceeds the largest modulus, " + text(size.stiffness));
+                "the report's cell pressure exceeds the largest modulus, " + rounded_text(size.stiffness));
   }
 }
 

@@ -6,95 +6,45 @@ namespace sage {
 
 namespace {
 
-template <class T>
-void add(Archive& archive, T value) {
-  archive(value);
-}
-
-void add_vector(Archive& archive, const Vector2& v) {
-  add(archive, v.x());
-  add(archive, v.y());
-}
-
-void add_material(Archive& archive, const Material& material) {
-  add(archive, material.code);
-  add(archive, material.parameters);
-  add(archive, material.unit_weight);
-}
-
-void add_group(Archive& archive, const Group& group) {
-  add(archive, group.element_code);
-  add(archive, group.element_name);
-  add(archive, group.material);
-  add(archive, group.nodes);
+template <class... T>
+void add(Archive& archive, T... values) {
+  (archive(values), ...);
 }
 
 void add_fixities(Archive& archive, const std::vector<Fixity>& fixities) {
-  for (const Fixity& f : fixities) {
-    add(archive, f.node);
-    add(archive, f.code);
-    add(archive, f.value);
-  }
+  for (const Fixity& f : fixities) add(archive, f.node, f.code, f.value);
 }
 
 void add_initials(Archive& archive, const std::vector<InitialStress>& initials) {
-  for (const InitialStress& initial : initials) {
-    add(archive, initial.group);
-    add(archive, initial.kind);
-    add(archive, initial.value);
-  }
+  for (const InitialStress& initial : initials) add(archive, initial.group, initial.kind, initial.value);
 }
 
-void add_stage(Archive& archive, const Stage& stage) {
-  add(archive, stage.increments);
-  add(archive, stage.method);
-  add(archive, stage.max_iterations);
-  add(archive, stage.output_every);
-  add(archive, stage.tolerance);
-  add_vector(archive, stage.gravity);
-  add_fixities(archive, stage.fixities);
-  for (const NodalLoad& load : stage.loads) {
-    add(archive, load.node);
-    add_vector(archive, load.force);
-  }
-  for (const EdgeLoad& load : stage.pressures) {
-    add(archive, load.group);
-    add(archive, load.element);
-    add(archive, load.edge);
-    add_vector(archive, load.normal);
-    add_vector(archive, load.shear);
-  }
-  add(archive, stage.births);
-  add(archive, stage.deaths);
-  add_initials(archive, stage.initials);
-}
-
-void add_report(Archive& archive, const Report& report) {
-  add(archive, report.kind);
-  add(archive, report.group);
-  add(archive, report.nodes);
-  add(archive, report.height);
-  add(archive, report.area);
-  add(archive, report.cell_pressure);
-  add(archive, report.stage);
+void add_stage(Archive& archive, const Stage& s) {
+  add(archive, s.increments, s.method, s.max_iterations, s.output_every, s.tolerance, s.gravity.x(),
+      s.gravity.y());
+  add_fixities(archive, s.fixities);
+  for (const NodalLoad& load : s.loads) add(archive, load.node, load.force.x(), load.force.y());
+  for (const EdgeLoad& load : s.pressures)
+    add(archive, load.group, load.element, load.edge, load.normal.x(), load.normal.y(), load.shear.x(),
+        load.shear.y());
+  add(archive, s.births, s.deaths);
+  add_initials(archive, s.initials);
 }
 
 }  // namespace
 
 std::uint64_t fingerprint(const Model& model) {
   Archive archive;
-  add(archive, model.geometry);
-  add(archive, model.units.atmospheric_pressure);
-  add(archive, model.units.water_unit_weight);
-  add(archive, model.solver);
-  for (Eigen::Index i = 0; i < model.mesh.x.cols(); ++i) add_vector(archive, model.mesh.x.col(i));
+  add(archive, model.geometry, model.units.atmospheric_pressure, model.units.water_unit_weight, model.solver);
+  for (Eigen::Index i = 0; i < model.mesh.x.cols(); ++i) add(archive, model.mesh.x(0, i), model.mesh.x(1, i));
   add(archive, model.mesh.number);
-  for (const Material& material : model.materials) add_material(archive, material);
-  for (const Group& group : model.groups) add_group(archive, group);
+  for (const Material& m : model.materials) add(archive, m.code, m.parameters, m.unit_weight);
+  for (const Group& g : model.groups) add(archive, g.element_code, g.element_name, g.material, g.nodes);
   add_fixities(archive, model.fixities);
   add_initials(archive, model.initials);
   for (const Stage& stage : model.stages) add_stage(archive, stage);
-  for (const Report& report : model.reports) add_report(archive, report);
+  for (const Report& r : model.reports)
+    add(archive, r.kind, r.group, r.nodes, r.height, r.area, r.cell_pressure, r.stage);
   return checksum(archive.bytes());
 }
 

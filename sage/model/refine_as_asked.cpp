@@ -46,7 +46,7 @@ void warn_point_loads(Builder& b) {
 std::vector<int> nodes_of(Builder& b, const Grading& grading) {
   if (grading.node == 0) {
     const std::vector<int> found = singular_corners(b.model);
-    if (found.empty()) b.note({b.deck.file, 0, 0, 0}, "no singular corner found: the mesh is not graded");
+    if (found.empty()) b.note(b.at_line(0), "no singular corner found: the mesh is not graded");
     return found;
   }
   const auto it = b.node_index.find(grading.node);
@@ -69,7 +69,7 @@ void refine_as_asked(Builder& b) {
     for (const int node : nodes_of(b, grading)) {
       grade(b, node, grading.layers, grading.ratio);
       b.warning(
-          {b.deck.file, 0, 0, 0},
+          b.at_line(0),
           "mesh graded towards node " + std::to_string(b.model.mesh.number[static_cast<std::size_t>(node)]) +
               ": where the corner is singular the stress at it does not converge, it grows with every layer");
     }
