@@ -22,6 +22,7 @@ struct SideOptions {
   std::string deck;
   InputOptions input;
   std::string solver;
+  int threads = 0;
 };
 
 struct CompareOptions {
@@ -29,6 +30,7 @@ struct CompareOptions {
   bool both = false;
   InputOptions input;  // of both sides, where B has none of its own
   std::string solver;
+  int threads = 0;
   std::optional<int> formulation_b, element_b, geometry_b;
   std::optional<std::string> solver_b, layout_b;
   std::vector<std::string> lines, points, pictures;
@@ -38,13 +40,13 @@ struct CompareOptions {
 };
 
 SideOptions side_a(const CompareOptions& o) {
-  SideOptions side{o.decks.front(), o.input, o.solver};
+  SideOptions side{o.decks.front(), o.input, o.solver, o.threads};
   if (o.both) side.input.build.geometry = 1;
   return side;
 }
 
 SideOptions side_b(const CompareOptions& o) {
-  SideOptions side{o.decks.back(), o.input, o.solver_b.value_or(o.solver)};
+  SideOptions side{o.decks.back(), o.input, o.solver_b.value_or(o.solver), o.threads};
   BuildOptions& build = side.input.build;
   build.formulation = o.formulation_b.value_or(build.formulation);
   build.element = o.element_b.value_or(build.element);
@@ -75,7 +77,9 @@ compare::Side run_side(const char* letter, const SideOptions& options, const std
                        const std::string& stem, const Catalogue& catalogue) {
   std::optional<Model> model;
   try {
-    model = build_model(read_input(options.deck, options.input), catalogue, options.input.build);
+    BuildOptions build = options.input.build;
+    build.solver = solver_code(catalogue, options.solver);
+    model = build_model(read_input(options.deck, options.input), catalogue, build);
   } catch (const InputError& error) {
     print_diagnostics(error.diagnostics());
     return {label_of(letter, options, nullptr), error.what()};
@@ -86,7 +90,7 @@ compare::Side run_side(const char* letter, const SideOptions& options, const std
   if (options.input.strict && model->diagnostics.warnings() > 0)
     return {label, "warnings count as errors (--strict)"};
   RunSettings settings;
-  settings.solver = solver_code(catalogue, options.solver);
+  settings.threads = threads_for(options.threads);
   settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
   compare::Side side(label, std::move(*model), folder, stem);
   side.run(catalogue, settings);
@@ -132,7 +136,7 @@ int compare_decks(const CompareOptions& o) {
       for (const std::filesystem::path& file : side->reports().files()) files.push_back(file);
   for (std::size_t i = 0; i < files.size(); ++i)
     fmt::print("{:<7}{}\n", i == 0 ? "files:" : "", files[i].string());
-  if (!a.has_model() && !b.has_model()) return kInput;
+  if (!a.has_model() || !b.has_model()) return kInput;
   return a.error().empty() && b.error().empty() ? kOk : kNotConverged;
 }
 
@@ -149,6 +153,7 @@ Command compare_command(CLI::App& root) {
   add_input_options(*parser, o->input);
   add_build_options(*parser, o->input.build);
   parser->add_option("--solver", o->solver, "solver by name (see sagefe list solvers)")->check(unknown_solver);
+  add_threads_option(*parser, o->threads);
   parser->add_option("--formulation-b", o->formulation_b, "formulation code of B, where it differs from A");
   parser->add_option("--element-b", o->element_b, "element code that replaces 4-node quadrilaterals in B");
   parser->add_option("--geometry-b", o->geometry_b, "geometry of B: 1 plane strain, 2 axisymmetric")

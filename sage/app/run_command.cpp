@@ -98,12 +98,7 @@ Command run_command(CLI::App& root) {
   parser->add_option("-o,--output", request.output.folder, "folder for results (default: out)");
   parser->add_option("--solver", request.solver, "solver by name (see sagefe list solvers)")
       ->check(unknown_solver);
-  parser
-      ->add_option(
-          "--threads", request.threads,
-          "threads of the linear solver (default: one for each processor, in systems that gain); results "
-          "are the same to the last bit")
-      ->check(CLI::Range(0, 256));
+  add_threads_option(*parser, request.threads);
   parser
       ->add_option("--refine-solves", request.refinement,
                    "steps of iterative refinement in every solution, with residuals in twice the precision")

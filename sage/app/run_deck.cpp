@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
 #include <algorithm>
 #include <chrono>
 #include <thread>
@@ -19,10 +21,6 @@
 namespace sage::app {
 
 namespace {
-
-int processors() {
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
 
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
@@ -70,6 +68,19 @@ std::string resume_from(const Checkpoint& checkpoint, const RunRequest& request)
 
 }  // namespace
 
+void add_threads_option(CLI::App& parser, int& threads) {
+  parser
+      .add_option(
+          "--threads", threads,
+          "threads of the linear solver (default: one for each processor, in systems that gain); results "
+          "are the same to the last bit")
+      ->check(CLI::Range(0, 256));
+}
+
+int threads_for(int asked) {
+  return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
 RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   const auto start = std::chrono::steady_clock::now();
   RunOutcome outcome;
@@ -91,7 +102,7 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   }
   RunSettings settings;
   settings.skips = request.skips;
-  settings.threads = request.threads > 0 ? request.threads : processors();
+  settings.threads = threads_for(request.threads);
   settings.refinement = request.refinement;
   settings.condition = request.condition;
   settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };

@@ -49,6 +49,10 @@ struct RunOutcome {
   std::vector<std::filesystem::path> files;
 };
 
+void add_threads_option(CLI::App& parser, int& threads);
+// Those of the linear solver: what was asked for, or one for each processor where that is 0.
+int threads_for(int asked);
+
 // Throws InputError, OutputError.
 RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue);
 

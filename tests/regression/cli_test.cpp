@@ -46,7 +46,7 @@ TEST(CommandLine, HelpOfEverySubcommandNamesItsOptions) {
       {"compare",
        {"DECK", "--both", "--formulation", "--element", "--geometry", "--solver", "--formulation-b",
         "--element-b", "--geometry-b", "--solver-b", "--layout-b", "--line", "--point", "--picture", "--output",
-        "--strict"}},
+        "--strict", "--threads"}},
   };
   for (const auto& [command, words] : commands) {
     const Finished help = sagefe(folder, command + " --help");
@@ -67,10 +67,22 @@ TEST(CommandLine, CompareReportsTheSideThatRuns) {
                           "forces for the full circle", "compression positive", "point"});
   EXPECT_TRUE(fs::exists(folder / "out" / "deck.compare.csv"));
   EXPECT_TRUE(fs::exists(folder / "out" / "deck.compare_stress_yy.svg"));
-  const Finished half = sagefe(folder, "compare deck.dat bad.dat");
-  EXPECT_EQ(half.exit_code, 3);
-  expect_words(half.out, {"completed", "NO RESULTS", "mean normal stress"});
+  for (const char* decks : {"deck.dat bad.dat", "bad.dat deck.dat"}) {
+    const Finished half = sagefe(folder, std::string("compare ") + decks);
+    EXPECT_EQ(half.exit_code, 2);
+    expect_words(half.out, {"completed", "NO RESULTS", "mean normal stress"});
+  }
   EXPECT_EQ(sagefe(folder, "compare bad.dat --both").exit_code, 2);
+}
+
+// Input of both kinds is judged as `run` judges it: a solver that can't take the law's matrix is no failed run.
+TEST(CommandLine, CompareTakesSolverAndThreadsAsRunDoes) {
+  const fs::path folder = empty_folder("compare_solver");
+  const std::string deck = SAGE_SOURCE_DIR "/legacy_inputs/chapter7/dp_285/deck.dat";
+  const Finished half = sagefe(folder, "compare " + deck + " --threads 2 --solver-b cholmod");
+  EXPECT_EQ(half.exit_code, 2);
+  expect_words(half.err, {"cholmod is for symmetric matrices only"});
+  EXPECT_EQ(sagefe(folder, "run " + deck + " --solver cholmod").exit_code, 2);
 }
 
 TEST(CommandLine, StressWritesItsPageAndPlots) {
