@@ -136,25 +136,10 @@ void cook(Sweep& s) {
     for (double nu : {1.0 / 3.0, 0.4999}) {
       const bool locks = kind.formulation == 1 && kind.cell == Cell::quad4;
       if (locks && nu < 0.4) continue;  // right, with a larger error of the mesh
-      Block block;
-      block.cell = kind.cell;
-      block.columns = block.rows = 16;
-      block.place = [](double a, double b) {
-        const double low = 44.0 * a, high = 44.0 + 16.0 * a;
-        return Vector2(48.0 * a, low + b * (high - low));
-      };
-      DeckWriter deck(1);
-      block.write_nodes(deck);
-      deck.material(1, 1, {1.0, nu});
-      deck.group(1, static_cast<int>(kind.cell), kind.formulation, 1);
-      block.write_elements(deck, 1);
-      for (int n : block.left()) deck.fix(n, 1, 1);
-      StageCards& stage = deck.stage();
-      for (int j = 0; j < block.rows; ++j)
-        stage.pressure(block.element(block.columns - 1, j), 2, 0.0, 0.0, 1.0 / 16.0, 1.0 / 16.0);
-      const Ran ran = s.run(deck.text());
+      const CookDeck cook{1.0, nu, 1.0, kind.cell, kind.formulation};
+      const Ran ran = s.run(cook.deck().text());
       const double exact = nu > 0.4 ? 19.4279 : 22.61049;
-      const double error = ran.completed() ? ran.run->u(block.top().back()).y() / exact - 1.0 : kUnknown;
+      const double error = ran.completed() ? ran.run->u(cook.block().top().back()).y() / exact - 1.0 : kUnknown;
       const std::string label = fmt::format("{}, nu = {:.4g}", kind.name, nu);
       if (locks)
         s.says(label, kUnknown, ran, "full integration locks").error = std::abs(error);

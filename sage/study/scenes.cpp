@@ -113,4 +113,30 @@ double RestrainedCylinder::ratio(const WholeRun& run, double strain) const {
   return -run.reaction(run.last(), block().top(), 1) / (kPi * strain);
 }
 
+Block CookDeck::block() const {
+  Block block;
+  block.cell = cell;
+  block.columns = block.rows = n;
+  block.straight = true;
+  block.place = [p = power](double s, double t) -> Vector2 {
+    const double a = s <= 0.5 ? 0.5 * std::pow(2.0 * s, p) : 1.0 - 0.5 * std::pow(2.0 - 2.0 * s, p);
+    const double b = t <= 0.5 ? t : 1.0 - 0.5 * std::pow(2.0 - 2.0 * t, p);
+    return {48.0 * a, 44.0 * a + b * (44.0 - 28.0 * a)};
+  };
+  return block;
+}
+
+DeckWriter CookDeck::deck() const {
+  const Block mesh = block();
+  DeckWriter deck(1);
+  mesh.write_nodes(deck);
+  deck.material(1, 1, {E, nu});
+  deck.group(1, static_cast<int>(cell), formulation, 1);
+  mesh.write_elements(deck, 1);
+  for (int node : mesh.left()) deck.fix(node, 1, 1);
+  StageCards& stage = deck.stage();
+  for (int j = 0; j < n; ++j) stage.pressure(mesh.element(n - 1, j), 2, 0.0, 0.0, F / 16.0, F / 16.0);
+  return deck;
+}
+
 }  // namespace sage::study

@@ -59,4 +59,17 @@ struct RestrainedCylinder {
   double ratio(const WholeRun& run, double strain = 1.0) const;
 };
 
+// Cook's membrane (0, 0) (48, 44) (48, 60) (0, 44) in plane strain, clamped on the left, shear force F on the
+// right.
+struct CookDeck {
+  double E = 1.0, nu = 1.0 / 3.0, F = 1.0;
+  Cell cell = Cell::quad4;
+  int formulation = 0, n = 16;
+  double power = 1.0;  // above 1 cells get finer towards the left, right and upper sides: (0, 44) is singular,
+                       // at (48, 60) the shear on one side and none on the other leave no single stress
+
+  Block block() const;
+  DeckWriter deck() const;
+};
+
 }  // namespace sage::study
