@@ -103,9 +103,10 @@ SideKind kind_of(const Model& model, const Outline& outline, std::size_t edge) {
   return {square ? Side::mirror : Side::held, x};
 }
 
-// Angles from which on the stress has no bound, with 2 degrees for meshers.
+constexpr double kSlack = 2.0;  // degrees, for meshers
+
+// Angles from which on the stress has no bound.
 bool is_singular(const SideKind& a, const SideKind& b, double angle) {
-  constexpr double kSlack = 2.0;
   const bool straight = std::abs(angle - 180.0) < kSlack;
   if (a.side == b.side) {
     if (a.side != Side::mirror) return angle > 180.0 + kSlack;
@@ -128,26 +129,65 @@ void find_by_supports(const Model& model, const Outline& outline, std::set<int>&
   }
 }
 
-// A pressure that ends on a straight side: the stress is bounded, its slope is not.
-void find_by_loads(const Outline& outline, const Stage& stage, std::set<int>& found) {
-  std::map<std::tuple<int, int, int>, std::array<Vector2, 2>> load;  // at both ends of an edge
-  double largest = 0.0;
-  for (const EdgeLoad& p : stage.pressures) {
-    auto [it, is_new] = load.try_emplace({p.group, p.element, p.edge},
-                                         std::array<Vector2, 2>{Vector2::Zero(), Vector2::Zero()});
-    it->second[0] += Vector2(p.normal.x(), p.shear.x());
-    it->second[1] += Vector2(p.normal.y(), p.shear.y());
-    largest = std::max({largest, p.normal.cwiseAbs().maxCoeff(), p.shear.cwiseAbs().maxCoeff()});
+// Loads on edges that make the stress jump from direction to direction at a point: it is bounded, its slope is
+// not.
+class EdgeLoads {
+ public:
+  EdgeLoads(const Model& model, const Stage& stage) : model_(&model) {
+    for (const EdgeLoad& p : stage.pressures) {
+      auto [it, is_new] = load_.try_emplace({p.group, p.element, p.edge},
+                                            std::array<Vector2, 2>{Vector2::Zero(), Vector2::Zero()});
+      it->second[0] += Vector2(p.normal.x(), p.shear.x());
+      it->second[1] += Vector2(p.normal.y(), p.shear.y());
+      largest_ = std::max({largest_, p.normal.cwiseAbs().maxCoeff(), p.shear.cwiseAbs().maxCoeff()});
+    }
   }
-  const auto value = [&](const BoundaryEdge& e, std::size_t end) -> Vector2 {
-    const auto it = load.find({e.group, e.element, e.edge});
-    return it == load.end() ? Vector2::Zero() : it->second[end];
-  };
+  // Pressure and shear that end or jump on a straight side.
+  bool jump(const BoundaryEdge& in, const BoundaryEdge& out) const {
+    return (value(out, 0) - value(in, 1)).norm() > 1e-6 * largest_;
+  }
+  // Tractions on the sides of a corner that no one stress has: it is symmetric, n_in . t_out = n_out . t_in.
+  bool clash(const BoundaryEdge& in, const BoundaryEdge& out) const {
+    const Vector2 t_in = traction(in, 1), t_out = traction(out, 0);
+    const double difference = std::abs(normal(in).dot(t_out) - normal(out).dot(t_in));
+    return difference > std::sin(kSlack * kRadiansPerDegree) * (t_in.norm() + t_out.norm()) + 1e-6 * largest_;
+  }
+
+ private:
+  Vector2 value(const BoundaryEdge& e, std::size_t end) const {
+    const auto it = load_.find({e.group, e.element, e.edge});
+    return it == load_.end() ? Vector2::Zero() : it->second[end];
+  }
+  Vector2 normal(const BoundaryEdge& e) const {  // outward
+    const Vector2 along = (model_->mesh.x.col(e.z) - model_->mesh.x.col(e.a)).normalized();
+    return {along.y(), -along.x()};
+  }
+  Vector2 traction(const BoundaryEdge& e, std::size_t end) const {
+    const Vector2 n = normal(e), load = value(e, end);
+    return -load.x() * n + load.y() * Vector2(-n.y(), n.x());
+  }
+
+  const Model* model_;
+  std::map<std::tuple<int, int, int>, std::array<Vector2, 2>> load_;  // pressure, shear at both ends of an edge
+  double largest_ = 0.0;
+};
+
+void find_by_loads(const Model& model, const Outline& outline, const Stage& stage, std::set<int>& found) {
+  const EdgeLoads loads(model, stage);
   for (const auto& [node, leaving] : outline.leaving) {
-    if (leaving.size() != 1 || std::abs(outline.angle.at(node) - 180.0) > 10.0) continue;
-    const Vector2 jump =
-        value(outline.edges[leaving.front()], 0) - value(outline.edges[outline.arriving.at(node).front()], 1);
-    if (jump.norm() > 1e-6 * largest) found.insert(node);
+    if (leaving.size() != 1) continue;
+    const std::size_t edge_in = outline.arriving.at(node).front(), edge_out = leaving.front();
+    const BoundaryEdge &in = outline.edges[edge_in], &out = outline.edges[edge_out];
+    const double angle = outline.angle.at(node);
+    if (std::abs(angle - 180.0) <= 10.0) {
+      if (loads.jump(in, out)) found.insert(node);
+      continue;
+    }
+    const Side a = kind_of(model, outline, edge_in).side, b = kind_of(model, outline, edge_out).side;
+    // Beside a line of symmetry the pressure adjusts itself, so that only shear can clash, at a right angle.
+    const bool both_free = a == Side::free && b == Side::free;
+    const bool beside_mirror = a != b && a != Side::held && b != Side::held && std::abs(angle - 90.0) < kSlack;
+    if ((both_free || beside_mirror) && loads.clash(in, out)) found.insert(node);
   }
 }
 
@@ -160,7 +200,7 @@ std::vector<int> singular_corners(const Model& model) {
   for (const Stage& stage : model.stages) {
     outline.apply(stage.fixities);
     find_by_supports(model, outline, found);
-    find_by_loads(outline, stage, found);
+    find_by_loads(model, outline, stage, found);
   }
   return {found.begin(), found.end()};
 }

@@ -135,10 +135,9 @@ class Bench:
         layers = 2 + 2 * k
         jobs = []
         for name in ("quad25", "quad49"):
-            corners = graded(scene.block(n, False)) if callable(graded) else [graded]
             options = ["--element", name]
             if graded:
-                options += ["--grade", *(f"{corner}:{layers}:0.15" for corner in corners)]
+                options += ["--grade", f"{graded}:{layers}:0.15"]
             mesh = f"{n}, {layers} layers" if graded else str(n)
             jobs.append(self.sage_job(scene, name + (" graded" if graded else ""), mesh, scenes.deck(scene, n), options))
         return jobs
