@@ -86,7 +86,7 @@ HyperbolicModuli hyperbolic_moduli(const HyperbolicParameters& p, double sigma_1
   const Real s1 = Real::variable(sigma_1, 0), s3 = Real::variable(sigma_3, 1);
   const Young young_now = young(p, s1, s3, Real::variable(memory, 2));
   const Real& E = young_now.E;
-  HyperbolicModuli moduli{0.0, 0.0, std::min(young_now.SL.v, 1.0), young_now.unloading, sigma_3 < 0.0};
+  HyperbolicModuli moduli{{}, {}, young_now.unloading};
   if (p.volume == VolumeRule::bulk_1980) {
     const Real B = p.K_b * p.p_a * pow(floored(p, s3), p.m);
     moduli.K = max(E / 3.0, min(B, E / (3.0 * (1.0 - 2.0 * p.nu_max))));  // 0 <= nu <= nu_max

@@ -28,9 +28,7 @@ using HyperbolicReal = Dual<3>;
 
 struct HyperbolicModuli {
   HyperbolicReal K, G;  // bulk and shear modulus                         [stress]
-  double level;         // SL, at most 1
   bool unloading;       // below the largest stress state so far
-  bool tension;         // sigma_3 < 0
 };
 
 // phi = phi0 - dphi log10(sigma_3/p_a), between the floor and 1000 p_a         [rad]

@@ -231,7 +231,7 @@ HyperbolicAnswer integrate(const HyperbolicSteps& steps, const Vector4& sigma0, 
       step = advance(share, steps.bounded);
     }
     if (!(step.error.v <= kWorstError)) break;
-    next = share * min(0.8 / sqrt(max(step.error, Share(0.04))), Share(4.0));
+    next = share * (0.8 / sqrt(max(step.error, Share(0.04))));  // at most 4 times as long
     if (step.end.status != PointStatus::elastic && inside(steps, at)) {
       const auto beyond = [&](double part) { return excess(steps, advance(part, false).end); };
       const double end = beyond(share.v).v;

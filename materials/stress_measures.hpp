@@ -47,7 +47,7 @@ struct Principal {
 inline Principal principal(const Vector4& sigma) {
   const double mean = 0.5 * (sigma[0] + sigma[1]), half = 0.5 * (sigma[0] - sigma[1]);
   const double radius = std::hypot(half, sigma[3]);
-  const double angle = radius > 0.0 ? 0.5 * std::atan2(sigma[3], half) : 0.0;
+  const double angle = 0.5 * std::atan2(sigma[3], half);  // any, where all directions are alike
   return {mean + radius, mean - radius, sigma[2], std::cos(angle), std::sin(angle)};
 }
 

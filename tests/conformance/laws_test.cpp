@@ -265,6 +265,10 @@ void check_scaling(const Law<N>& law, const Law<N>& scaled, double factor, doubl
     EXPECT_EQ(a.status, b.status);
     EXPECT_LE((b.sigma / factor - a.sigma).norm(), 1e-9 * (a.sigma.norm() + 60.0)) << trial;
     EXPECT_LE((b.D / factor - a.D).norm(), 1e-7 * a.D.norm()) << trial;
+    const double error = law.path_error({s.sigma, Vector<N>::Zero(), deps, s.h}, a.sigma, a.h);
+    EXPECT_NEAR(scaled.path_error({factor * s.sigma, Vector<N>::Zero(), deps, h}, b.sigma, b.h), error,
+                1e-6 * error)
+        << trial;
   }
 }
 TEST_P(Laws, NoHiddenUnits) {

@@ -10,11 +10,11 @@
 
 namespace mutants {
 
+inline const int picked = [] {
+  const char* text = std::getenv("SAGE_MUTANT");
+  return text ? std::atoi(text) : -1;
+}();
 inline bool alive(int id) {
-  static const int picked = [] {
-    const char* text = std::getenv("SAGE_MUTANT");
-    return text ? std::atoi(text) : -1;
-  }();
   return picked == id;
 }
 

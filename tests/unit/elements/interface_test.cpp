@@ -41,6 +41,25 @@ TEST(InterfaceElement, ShapeQualityFallsAsTheMiddlePairMoves) {
   }
 }
 
+// Moved off the line instead, square to the chord: J along the chord is the same everywhere, however the
+// element lies, and however short it is.
+TEST(InterfaceElement, ShapeQualityIsMeasuredAlongTheChord) {
+  for (const ElementCase& c : interface_cases())
+    for (const double length : {1e-3, 2.0}) {
+      SCOPED_TRACE(c.name);
+      Eigen::Matrix2Xd ends(2, 2);
+      ends << 1.0, 1.0 + 0.6 * length, 2.0, 2.0 + 0.8 * length;
+      Eigen::Matrix2Xd x = straight_element(*c.entry, ends);
+      for (int n = 4; n < x.cols(); ++n) x.col(n) += 0.1 * length * Vector2(-0.8, 0.6);
+      EXPECT_NEAR(c.make()->shape_quality(x), 1.0, 1e-12);
+    }
+}
+
+TEST(InterfaceElement, ShapeQualityOfZeroLengthIsZero) {
+  for (const ElementCase& c : interface_cases())
+    EXPECT_EQ(c.make()->shape_quality(straight_element(*c.entry, Eigen::Matrix2Xd::Ones(2, 2))), 0.0) << c.name;
+}
+
 // Values that vary along the element as its pairs can follow (linearly, or quadratically) are met at every
 // node, from either rule's points.
 TEST(InterfaceElement, ExtrapolationFollowsTheElementsOwnVariation) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "materials/stress_measures.hpp"
 #include "sage/core/point_driver.hpp"
 #include "tests/support/laws.hpp"
 
@@ -125,6 +126,22 @@ TEST(DuncanChang, PathErrorIsThatOfOneStep) {
   }
 }
 
+// 3 a^2 |d sigma|/|sigma| with a = |K1-K0|/(4(K0+K1)) or the same of G, whichever is larger (H6).  Isotropic
+// compression: E = E_i, and of E and B one is proportional to the stress, the other constant.
+TEST(DuncanChang, PathErrorOfIsotropicCompression) {
+  const double p0 = 50.0, p1 = 100.0, p_a = 101.325;
+  const auto told = [&](double n, double m) {
+    const auto law = test::solid(6, {400, n, 0.8, 600, 500, m, 5, 33});
+    return law->path_error({-p0 * unit_tensor(), Vector4::Zero(), Vector4::Zero(), std::vector<double>{0.0}},
+                           -p1 * unit_tensor(), std::vector<double>{0.0});
+  };
+  const auto G = [](double E, double B) { return 3 * B * E / (9 * B - E); };
+  const double lag_B = (p1 - p0) / (p1 + p0) / 4;
+  EXPECT_NEAR(told(0.0, 1.0), 3 * lag_B * lag_B * (p1 - p0) / p1, 1e-12);
+  const double G0 = G(400 * p0, 500 * p_a), G1 = G(400 * p1, 500 * p_a), lag_G = (G1 - G0) / (G1 + G0) / 4;
+  EXPECT_NEAR(told(1.0, 0.0), 3 * lag_G * lag_G * (p1 - p0) / p1, 1e-12);
+}
+
 // The isotropic tangent is symmetric and is the secant of the step.
 TEST(DuncanChang, IsotropicTangent) {
   std::vector<double> values = kEb;
@@ -153,6 +170,19 @@ TEST(DuncanChang, InitialStressMustBeAdmissible) {
   EXPECT_GT(h[0], 0.99);
   EXPECT_FALSE(law->initialise({-100, -358, -100, 0}, h));
   EXPECT_TRUE(law->initialise({0, 0, 0, 0}, h));
+}
+
+// Status apex says that sigma_3 is a tension; first loading in compression is elastic.
+TEST(DuncanChang, TensionIsTold) {
+  const auto law = test::solid(6, kEb);
+  const Vector4 start{-20, -20, -20, 0}, stretch{0.01, 0.0, 0.0, 0.0};
+  const auto h = test::initial_history<4>(*law, start);
+  const auto torn = test::update<4>(*law, start, stretch, h),
+             pressed = test::update<4>(*law, start, -0.1 * stretch, h);
+  EXPECT_GT(torn.sigma[0], 0.0);
+  EXPECT_EQ(torn.status, PointStatus::apex);
+  EXPECT_LT(pressed.sigma.head<3>().maxCoeff(), 0.0);
+  EXPECT_EQ(pressed.status, PointStatus::elastic);
 }
 
 // 2000 % of strain in one increment or in a thousand; and an increment that needs more substeps than there are

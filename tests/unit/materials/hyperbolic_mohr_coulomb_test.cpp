@@ -103,11 +103,32 @@ TEST(HyperbolicMohrCoulomb, UnloadFromFailure) {
   EXPECT_NEAR(point.sigma()[0] - point.sigma()[1], 257.62971, 257.0 * 1e-7);
 }
 
+// On the envelope the law flows: G = 0, so that from inside onto it a = 1/4 in (H6), and along it nothing is
+// left but the change of K, here none (m = 0).
+TEST(HyperbolicMohrCoulomb, PathErrorAtTheEnvelope) {
+  const auto law = test::solid(7, {400, 0.5, 0.8, 600, 250, 0.0, 5, 33});
+  const double s = std::sin(33 * kRadiansPerDegree), c = std::cos(33 * kRadiansPerDegree);
+  const auto failing = [&](double sigma_3) {
+    return Vector4(-sigma_3, -sigma_3 - (10 * c + 2 * sigma_3 * s) / (1 - s), -sigma_3, 0.0);
+  };
+  const auto told = [&](const Vector4& from, const Vector4& to) {
+    const std::vector<double> h{0.0};
+    return law->path_error({from, Vector4::Zero(), Vector4::Zero(), h}, to, h);
+  };
+  const Vector4 inside{-200, -200, -200, 0};
+  EXPECT_NEAR(told(inside, failing(200)), 3.0 / 16.0 * (failing(200) - inside).norm() / failing(200).norm(),
+              1e-12);
+  EXPECT_NEAR(told(failing(200), failing(300)), 0.0, 1e-12);
+}
+
 TEST(HyperbolicMohrCoulomb, InitialStressMustBeAdmissible) {
   const auto law = test::solid(7, kSoil);
   std::array<double, 1> h{};
   EXPECT_TRUE(law->initialise({-100, -357, -150, 0}, h));
   EXPECT_FALSE(law->initialise({-100, -358, -150, 0}, h));
+  const double s = std::sin(33 * kRadiansPerDegree),
+               q_f = (10 * std::cos(33 * kRadiansPerDegree) + 200 * s) / (1 - s);
+  EXPECT_TRUE(law->initialise({-100, -100 - q_f, -150, 0}, h));  // at failure to the last digit
   EXPECT_FALSE(law->symmetric());
 }
 

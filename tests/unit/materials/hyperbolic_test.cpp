@@ -92,14 +92,28 @@ TEST(Hyperbolic, UnloadingBlend) {
   EXPECT_TRUE(hyperbolic_moduli(p, 299, 100, memory).unloading);
 }
 
-// Tension: stiffness falls to 1/1000 over one floor's width.
+// R_f = 1 at failure: (1 - R_f SL)^2 = 0, and E_t = 1e-4 E_i is left.
+TEST(Hyperbolic, SomethingIsLeftAtFailure) {
+  HyperbolicParameters p = soil();
+  p.R_f = 1.0;
+  EXPECT_NEAR(young(hyperbolic_moduli(p, 360, 100, 0)), 1e-4 * 40264.128, 1e-7);
+}
+
+// SS = SL (sigma_3/p_a)^(1/4), SL at most 1.
+TEST(Hyperbolic, StressStateNumber) {
+  const double root = std::pow(100 / 101.325, 0.25);
+  EXPECT_NEAR(stress_state(soil(), 200, 100).v, 100 / 257.62971 * root, 1e-8);
+  EXPECT_NEAR(stress_state(soil(), 700, 100).v, root, 1e-14);
+}
+
+// Tension: stiffness falls to 1/1000 over one floor's width, linearly.
 TEST(Hyperbolic, Tension) {
   const HyperbolicParameters p = soil();
   const double at_zero = young(hyperbolic_moduli(p, 0, 0, 0));
   EXPECT_NEAR(at_zero, 400 * 101.325 * 0.1, 1e-8);  // sqrt(0.01)
-  const HyperbolicModuli far = hyperbolic_moduli(p, -10, -10, 0);
-  EXPECT_NEAR(young(far), 1e-3 * at_zero, 1e-9);
-  EXPECT_TRUE(far.tension);
+  const double half = -0.5 * p.floor * p.p_a;
+  EXPECT_NEAR(young(hyperbolic_moduli(p, half, half, 0)), 0.5 * at_zero, 1e-9);
+  EXPECT_NEAR(young(hyperbolic_moduli(p, -10, -10, 0)), 1e-3 * at_zero, 1e-9);
 }
 
 // Derivatives with respect to sigma_1, sigma_3 and the memory; step 1e-4 of 100 kPa, tolerance 1e-6 of the

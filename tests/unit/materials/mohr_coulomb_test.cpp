@@ -74,6 +74,41 @@ TEST(MohrCoulomb, TensionOutOfPlaneLeavesTheShearStiffness) {
   EXPECT_NEAR(a.D(3, 3), G, 1e-9 * G);
 }
 
+// Failure on an edge that leaves both stresses in the plane equal, out-of-plane compression and extension: they
+// stay equal whatever the increment in the plane, so there is no shear stiffness, and no more of one direction
+// than of the other.
+TEST(MohrCoulomb, EdgesOfEqualStressesInThePlane) {
+  const auto law = test::solid(4, {1e4, 0.3, 5.0, 30.0, 10.0});
+  const double Y = 10.0 * std::sqrt(Kp(30.0));
+  for (const Vector4& deps : {Vector4(0.01, 0.01, -0.03, 0.0), Vector4(-0.015, -0.015, 0.02, 0.0)}) {
+    const auto a = test::update<4>(*law, {-100, -100, -100, 0}, deps, {0.0, 0.0});
+    const double largest = std::max(-a.sigma[0], -a.sigma[2]), smallest = std::min(-a.sigma[0], -a.sigma[2]);
+    EXPECT_NEAR(a.sigma[0], a.sigma[1], 1e-10);
+    EXPECT_NEAR(largest, Kp(30.0) * smallest + Y, 1e-9);
+    EXPECT_NEAR(a.D(3, 3), 0.0, 1e-9 * 1e4);
+    EXPECT_NEAR((a.D.row(0) - a.D.row(1)).norm(), 0.0, 1e-9 * 1e4);
+  }
+}
+
+// Stretched alike in all directions to the apex: what is left of the volume strain after p/K is plastic.
+TEST(MohrCoulomb, PlasticVolumeStrainAtTheApex) {
+  const auto law = test::solid(4, {1e4, 0.3, 10.0, 30.0, 0.0});
+  std::vector<double> h(2, -1.0);
+  EXPECT_TRUE(law->initialise(Vector4::Zero(), h));
+  EXPECT_EQ(h, std::vector<double>(2, 0.0));
+  const auto a = test::update<4>(*law, Vector4::Zero(), 0.01 * unit_tensor(), h);
+  const double K = 1e4 / (3 * 0.4), apex = 10.0 / std::tan(30.0 * kRadiansPerDegree);
+  EXPECT_NEAR(a.h[1], 0.03 - apex / K, 1e-14);
+  EXPECT_NEAR(a.h[0], 0.0, 1e-14);
+}
+
+TEST(MohrCoulomb, CautionsWithoutStrength) {
+  const auto caution = [](double c, double phi) { return test::solid(4, {1e4, 0.3, c, phi})->caution(); };
+  EXPECT_NE(caution(0.0, 0.0).find("no shear strength"), std::string::npos);
+  EXPECT_EQ(caution(0.1, 0.0), "");
+  EXPECT_EQ(caution(0.0, 10.0), "");
+}
+
 // Tresca, simple shear: tau = c, whatever the mean stress.
 TEST(MohrCoulomb, TrescaInSimpleShear) {
   const auto a =
@@ -221,6 +256,22 @@ TEST(MohrCoulomb, StressLevelAndInitialStress) {
   EXPECT_TRUE(law->initialise({-50, -199.9, -60, 0}, h));
   EXPECT_FALSE(law->initialise({-50, -201, -60, 0}, h));
   EXPECT_FALSE(law->initialise({1, 1, 1, 0}, h));
+}
+
+// With a cut-off the level is sigma_1/T where that is more than the share of the shear strength; without
+// tensile strength it is 1 as soon as a tension or nothing presses.
+TEST(MohrCoulomb, StressLevelOfTheCutOff) {
+  const auto level = [](double T, const Vector4& sigma) {
+    return test::solid(4, {1e4, 0.3, 20.0, 30.0, 0.0, T})->stress_level(sigma, {});
+  };
+  const auto shear = [](double s1, double s3) {
+    return (s1 - s3) / (40.0 * std::cos(30.0 * kRadiansPerDegree) - 0.5 * (s1 + s3));
+  };
+  EXPECT_NEAR(level(0.5, {0.25, 0.0, 0.0, 0.0}), 0.5, 1e-14);
+  EXPECT_NEAR(level(0.5, {0.25, -60.0, 0.0, 0.0}), shear(0.25, -60.0), 1e-14);
+  EXPECT_NEAR(level(0.5, {-1.0, -1.0, -1.0, 0.0}), 0.0, 1e-14);
+  EXPECT_EQ(level(0.0, {0.0, -10.0, -10.0, 0.0}), 1.0);
+  EXPECT_NEAR(level(0.0, {-5.0, -20.0, -10.0, 0.0}), shear(-5.0, -20.0), 1e-14);
 }
 
 }  // namespace
