@@ -73,7 +73,7 @@ Cone match_cone(ConeMatch match, double phi, double c) {
     case ConeMatch::plane_strain_deviatoric:
       return {s / 3.0, c * std::cos(phi)};
   }
-  return {0.0, 0.0};
+  return {};
 }
 
 DruckerPrager::DruckerPrager(const DruckerPragerParameters& parameters)
@@ -141,7 +141,7 @@ Outcome DruckerPrager::update(const PointIn<4>& in, PointOut<4>& out) const {
   } else if (!on_cone) {
     return_to_cap(s, q_trial, out);
   } else if (!p_.exact || !integrate_exactly(in, out)) {
-    return_to_cone(s, q_trial, p_trial, p_cone, out);
+    return_to_cone(s, q_trial, p_cone, out);
   }
   out.h1[kShear] += sqrt_j2(trial - out.sigma) / G;
   out.h1[kVolume] += mean_stress(trial - out.sigma) / K;
@@ -149,12 +149,10 @@ Outcome DruckerPrager::update(const PointIn<4>& in, PointOut<4>& out) const {
 }
 
 // s = theta s_tr,  p = p_tr - 3 K beta dlambda; tangent: de Souza Neto, Peric & Owen (2008), ch. 8.
-void DruckerPrager::return_to_cone(const Vector4& s_trial, double q_trial, double p_trial, double p,
-                                   PointOut<4>& out) const {
+void DruckerPrager::return_to_cone(const Vector4& s_trial, double q_trial, double p, PointOut<4>& out) const {
   const auto [K, G] = p_.elastic;
   const auto [alpha, k] = p_.cone;
   const double beta = p_.beta, A = 1.0 / (G + 9.0 * K * alpha * beta);
-  if (beta == 0.0) p = p_trial;
   const double q = std::max(k - 3.0 * alpha * p, 0.0);  // on the surface to the last digit
   const double theta = q / q_trial;
   const Vector4 one = unit_tensor();

@@ -57,7 +57,7 @@ class DruckerPrager final : public SolidLaw {
       {{"plastic_shear_strain", Dimension::none, 0.0}, {"plastic_volume_strain", Dimension::none, 0.0}}};
 
   double scale(double p, double q) const;  // the stress that tolerances are relative to
-  void return_to_cone(const Vector4& s_trial, double q_trial, double p_trial, double p, PointOut<4>& out) const;
+  void return_to_cone(const Vector4& s_trial, double q_trial, double p, PointOut<4>& out) const;
   void drop_deviator(double p_trial, PointOut<4>& out) const;
   void return_to_cap(const Vector4& s_trial, double q_trial, PointOut<4>& out) const;
   bool integrate_exactly(const PointIn<4>& in, PointOut<4>& out) const;

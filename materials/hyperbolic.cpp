@@ -149,7 +149,7 @@ HyperbolicParameters hyperbolic_parameters(const Parameters& p, VolumeRule volum
   // The strength must not fall with sigma_3: d/d sigma_3 of sigma_3 sin phi/(1 - sin phi) >= 0 at the last
   // decade.
   const double flattest = h.phi0 - h.dphi * kLastDecade, sine = std::sin(flattest);
-  if (h.dphi > 0.0 && sine * (1.0 - sine) < std::cos(flattest) * h.dphi / std::log(10.0))
+  if (sine * (1.0 - sine) < std::cos(flattest) * h.dphi / std::log(10.0))
     p.refuse(next, "must leave a strength that grows with sigma_3 up to 1000 p_a");
   return h;
 }

@@ -114,6 +114,7 @@ TEST(InterfaceShape, PairThatDoesNotMatch) {
   EXPECT_EQ(complaint(12, kPlane, quad({0, 0, 1, 0, 1, 0, 0, 0, .5, 0, .5, .1})),
             "interface: the nodes of pair (5, 6) are 0.100000 apart; they must be at the same place");
   EXPECT_EQ(complaint(11, kPlane, quad({0, 0, 1, 0, 1, 5e-7, 0, 0})), "") << "within 1e-6 of the length";
+  EXPECT_NE(complaint(11, kPlane, quad({0, 0, 1, 0, 1, 1.5e-6, 0, 0})), "") << "not within 1e-6";
 }
 
 TEST(InterfaceShape, WrongPairingIsNamed) {

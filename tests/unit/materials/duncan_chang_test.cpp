@@ -222,5 +222,22 @@ TEST(DuncanChang, StressIsContinuousInTheIncrement) {
   }
 }
 
+// The same with coarse substeps, whose errors are far above 1e-5: a substep that is shortened a little later or
+// earlier than at its tolerance would show.
+TEST(DuncanChang, CoarseSubstepsAreContinuousToo) {
+  std::vector<double> coarse = kEb;
+  coarse.insert(coarse.end(), {0.0, 0.49, 0.01, 0.0, 0.0, 0.05});
+  const auto law = test::solid(6, coarse);
+  const Vector4 start{-100, -100, -100, 0}, deps{0.004, -0.006, 0.003, 0.004};
+  const auto h = test::initial_history<4>(*law, start);
+  test::Answer<4> last = test::update<4>(*law, start, 0.05 * deps, h);
+  for (int i = 501; i <= 10000; ++i) {
+    const auto next = test::update<4>(*law, start, 1e-4 * i * deps, h);
+    const Vector4 predicted = last.sigma + 0.5e-4 * (last.D + next.D) * deps;
+    EXPECT_LE((next.sigma - predicted).norm(), 1e-5 * next.sigma.norm()) << i;
+    last = next;
+  }
+}
+
 }  // namespace
 }  // namespace sage
