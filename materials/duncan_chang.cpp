@@ -20,7 +20,7 @@ LawPtr make(VolumeRule volume, std::span<const double> values, const UnitSystem&
   const std::vector<Parameter> table = rows(volume);
   const Parameters p(table, values, units);
   const int first = static_cast<int>(table.size()) - 5;
-  HyperbolicSteps steps{};
+  HyperbolicSteps steps;
   steps.moduli = hyperbolic_parameters(p, volume, first);
   const auto tangent = static_cast<HyperbolicTangent>(p.code(first + 2, {0, 1}));
   steps.in_plane = p.code(first + 3, {0, 1}) == 1;

@@ -26,7 +26,7 @@ const std::vector<Parameter>& rows() {
 LawPtr make(std::span<const double> values, const UnitSystem& units) {
   const Parameters p(rows(), values, units);
   const int first = static_cast<int>(rows().size()) - 5;
-  HyperbolicSteps steps{};
+  HyperbolicSteps steps;
   steps.moduli = hyperbolic_parameters(p, VolumeRule::bulk_1980, first + 2);
   const double psi = p.angle(first);
   if (psi > steps.moduli.phi0) p.refuse(first, "must not exceed the friction angle");

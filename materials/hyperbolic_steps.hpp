@@ -10,11 +10,11 @@ namespace sage {
 
 struct HyperbolicSteps {
   HyperbolicParameters moduli;
-  bool in_plane;     // sigma_1, sigma_3 of the plane only (the original programs), else of all three
-  bool bounded;      // return to Mohr-Coulomb with the same strength parameters
-  double M;          // flow of that return, (1 + sin psi)/(1 - sin psi)
-  double T;          // its tension cut-off                          [stress]
-  double tolerance;  // Euler error a substep, relative to the stress; Heun is far better
+  bool in_plane{};     // sigma_1, sigma_3 of the plane only (the original programs), else of all three
+  bool bounded{};      // return to Mohr-Coulomb with the same strength parameters
+  double M{};          // flow of that return, (1 + sin psi)/(1 - sin psi)
+  double T{};          // its tension cut-off                          [stress]
+  double tolerance{};  // Euler error a substep, relative to the stress; Heun is far better
 };
 
 struct HyperbolicAnswer {
