@@ -97,8 +97,8 @@ class Assembly {
   std::vector<int> equation_of_dof_, dof_of_equation_;
   int elements_ = 0;  // of the system
   Eigen::VectorXd rate_, internal_, coupling_;
-  Eigen::VectorXd
-      changing_;  // internal forces of groups that are not constant, every dof; no size without such
+  // Internal forces of groups that are not constant, every dof; no size where there are none.
+  Eigen::VectorXd changing_;
   std::unique_ptr<Condensation> condensation_;
   Eigen::VectorXd prescribed_, constant_force_;
   Eigen::VectorXd behind_;  // displacement that the states of constant groups do not know yet, every dof

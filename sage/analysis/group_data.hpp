@@ -21,8 +21,8 @@ struct GroupData {
   std::vector<double>
       shift;  // constant: forces of a unit displacement of the whole element along x, one a matrix
   std::vector<int> matrix;  // of each element: its place in K, counted in matrices; empty = none are kept
-  std::vector<double> force, trial_force;  // constant: internal force of each element at the committed state,
-                                           // and tried; empty = zero
+  // Constant: internal force of each element at the committed state, and tried; empty = zero.
+  std::vector<double> force, trial_force;
 
   std::size_t dofs() const { return static_cast<std::size_t>(group->element->traits().dofs); }
   const double* matrix_of(int element) const {
