@@ -31,6 +31,9 @@ class Assembly {
   int equation_of(int dof) const { return equation_of_dof_[static_cast<std::size_t>(dof)]; }
   int dof_of(int equation) const { return dof_of_equation_[static_cast<std::size_t>(equation)]; }
 
+  // False: no active element has the node of this dof.
+  bool in_use(int dof) const { return node_used_[static_cast<std::size_t>(dof / 2)] != 0; }
+
   // Takes the linear region out of the iterations where that pays in so many increments.
   void condense(int increments, const SolverMaker& make);
   const Condensation* condensation() const { return condensation_.get(); }
@@ -95,6 +98,7 @@ class Assembly {
   std::vector<GroupData> groups_;
   int equations_ = 0;
   std::vector<int> equation_of_dof_, dof_of_equation_;
+  std::vector<char> node_used_;
   int elements_ = 0;  // of the system
   Eigen::VectorXd rate_, internal_, coupling_;
   // Internal forces of groups that are not constant, every dof; no size where there are none.

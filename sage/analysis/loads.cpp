@@ -85,6 +85,13 @@ bool start_point(const Law<N>& law, const Vector<N>& sigma, std::size_t point, S
 
 }  // namespace
 
+Eigen::VectorXd weight_of(const Model& model, const std::vector<char>& groups, const Vector2& gravity) {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(model.dofs());
+  for (std::size_t g = 0; g < model.groups.size(); ++g)
+    if (groups[g]) add_body_forces(model, model.groups[g], gravity, force);
+  return force;
+}
+
 Eigen::VectorXd external_force(const Model& model, const Activity& activity, int last) {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(model.dofs());
   Vector2 gravity = Vector2::Zero();
@@ -94,9 +101,7 @@ Eigen::VectorXd external_force(const Model& model, const Activity& activity, int
     for (const NodalLoad& load : stage.loads) force.segment<2>(2 * load.node) += load.force;
     add_edge_loads(model, activity, stage, force);
   }
-  for (std::size_t g = 0; g < model.groups.size(); ++g)
-    if (activity.group[g]) add_body_forces(model, model.groups[g], gravity, force);
-  return force;
+  return force + weight_of(model, activity.group, gravity);
 }
 
 Eigen::VectorXd prescribed_rate(const Model& model, const Stage& stage) {

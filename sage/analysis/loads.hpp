@@ -11,6 +11,9 @@ namespace sage {
 // body forces of the stages up to it.  One entry a dof, tension-positive axes (x, y).
 Eigen::VectorXd external_force(const Model& model, const Activity& activity, int last);
 
+// Weight of groups (a flag each) under gravity, in multiples of the materials' unit weight.  One entry a dof.
+Eigen::VectorXd weight_of(const Model& model, const std::vector<char>& groups, const Vector2& gravity);
+
 // Displacement that each prescribed dof gets over a stage.
 Eigen::VectorXd prescribed_rate(const Model& model, const Stage& stage);
 

@@ -288,6 +288,7 @@ EquilibriumAudit Run::audit() const {
   const Eigen::VectorXd& f = assembly_.internal_force();
   double moment_scale = 0.0, scale[2] = {0, 0};
   for (int dof = 0; dof < model_.dofs(); ++dof) {
+    if (!assembly_.in_use(dof)) continue;
     const int c = dof % 2;
     const double reaction = assembly_.equation_of(dof) < 0 ? f[dof] - external_[dof] : 0.0;
     const double force = external_[dof] + reaction;

@@ -17,7 +17,8 @@ class Checkpoint {
   bool due() const;
   // The old one stays until the new one is complete.  Throws OutputError.
   void save(const std::string& state);
-  // Nothing if there is no file.  Throws InputError where it is damaged or of another run.
+  // Nothing if there is no file.  Throws InputError where it is damaged or of another run, or results that were
+  // there when it was saved are not: before any of them is touched.
   std::optional<std::string> load() const;
   void remove() const;
 

@@ -122,7 +122,8 @@ void print_diagnostics(const Diagnostics& diagnostics) {
 }
 
 std::string case_name(const std::string& path) {
-  const std::filesystem::path p(path);
+  std::filesystem::path p = std::filesystem::path(path).lexically_normal();
+  if (p.parent_path().filename() == "..") p = std::filesystem::absolute(p).lexically_normal();
   if (p.stem() == "deck" && !p.parent_path().filename().empty()) return p.parent_path().filename().string();
   return p.stem().string();
 }

@@ -52,6 +52,8 @@ Checkpoint checkpoint_of(const RunRequest& request, const Model& model) {
   std::string run =
       fmt::format("{:016x} {} {} {} {}{}{}{}{}{}", fingerprint(model), request.solver, SAGE_VERSION,
                   static_cast<int>(o.tables), o.listing, o.increments, o.nodes, o.points, o.vtu, o.error);
+  for (const SkipName& skip : kSkipNames)
+    if (!(request.skips.*skip.flag)) run += fmt::format(" without {}", skip.name);
   if (request.refinement > 0) run += fmt::format(" refined {}", request.refinement);
   for (const std::string& picture : o.pictures) run += " " + picture;
   return {o.folder / (case_name(request.deck) + ".restart"), request.checkpoint_seconds, run};
@@ -133,7 +135,6 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   outcome.files = outcome.reports->files();
   for (const auto& output : outputs)
     for (const std::filesystem::path& file : output->files()) outcome.files.push_back(file);
-  outcome.record.warnings += model.diagnostics.warnings();
   outcome.record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return outcome;
 }

@@ -79,7 +79,7 @@ class Archive {
 // FNV-1a: tells whether bytes are those of before (no protection against intent).
 inline std::uint64_t checksum(std::string_view bytes) {
   std::uint64_t sum = 14695981039346656037ULL;
-  for (unsigned char byte : bytes) sum = (sum ^ byte) * 1099511628211ULL;
+  for (const char byte : bytes) sum = (sum ^ static_cast<unsigned char>(byte)) * 1099511628211ULL;
   return sum;
 }
 

@@ -76,6 +76,8 @@ void make_mid_nodes(Builder& b);
 void check_plausible(Builder& b);
 // Interfaces whose sides belong to the wrong bodies.
 void check_interfaces(Builder& b);
+// Loads and displacements for what is not placed.
+void check_inactive(Builder& b);
 // Shapes, supports, unused nodes, radii, solver.
 void check_model(Builder& b);
 // Nodes at one place, hanging nodes.

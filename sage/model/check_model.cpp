@@ -275,6 +275,7 @@ void check_model(Builder& b) {
   check_shapes(b);
   if (b.problems.errors() == 0) check_interfaces(b);
   fix_axis(b);
+  check_inactive(b);
   note_unused_nodes(b);
   note_unused_materials(b);
   check_joints(b);

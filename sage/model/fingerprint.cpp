@@ -20,7 +20,7 @@ void add_initials(Archive& archive, const std::vector<InitialStress>& initials) 
 }
 
 void add_stage(Archive& archive, const Stage& s) {
-  add(archive, s.increments, s.method, s.max_iterations, s.output_every, s.tolerance, s.gravity.x(),
+  add(archive, s.title, s.increments, s.method, s.max_iterations, s.output_every, s.tolerance, s.gravity.x(),
       s.gravity.y());
   add_fixities(archive, s.fixities);
   for (const NodalLoad& load : s.loads) add(archive, load.node, load.force.x(), load.force.y());
@@ -35,7 +35,9 @@ void add_stage(Archive& archive, const Stage& s) {
 
 std::uint64_t fingerprint(const Model& model) {
   Archive archive;
-  add(archive, model.geometry, model.units.atmospheric_pressure, model.units.water_unit_weight, model.solver);
+  const UnitSystem& u = model.units;
+  add(archive, model.title, u.length, u.force, u.stress, u.atmospheric_pressure, u.water_unit_weight);
+  add(archive, model.geometry, model.solver);
   for (Eigen::Index i = 0; i < model.mesh.x.cols(); ++i) add(archive, model.mesh.x(0, i), model.mesh.x(1, i));
   add(archive, model.mesh.number);
   for (const Material& m : model.materials) add(archive, m.code, m.parameters, m.unit_weight);

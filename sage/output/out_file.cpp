@@ -21,8 +21,14 @@ bool has(const std::filesystem::path& file, std::uint64_t bytes) {
 
 }  // namespace
 
-OutFile::OutFile(std::filesystem::path path) : path_(std::move(path)), partial_(path_) {
-  partial_ += ".partial";
+OutFile::OutFile(std::filesystem::path path) : path_(std::move(path)) {
+  std::error_code ignored;
+  if (std::filesystem::is_symlink(path_, ignored)) path_ = std::filesystem::weakly_canonical(path_);
+  const std::filesystem::file_status status = std::filesystem::status(path_, ignored);
+  const bool ordinary = !std::filesystem::exists(status) || std::filesystem::is_regular_file(status) ||
+                        std::filesystem::is_directory(status);
+  partial_ = path_;
+  if (ordinary) partial_ += ".partial";
   file_.reset(std::fopen(partial_.c_str(), "ab"));
   if (!file_ && errno == ENOENT) {
     std::error_code error;
@@ -98,7 +104,7 @@ void OutFile::finish() {
   errno = 0;
   if (std::fclose(file_.release()) != 0) fail(partial_, errno);
   std::error_code error;
-  std::filesystem::rename(partial_, path_, error);
+  if (partial_ != path_) std::filesystem::rename(partial_, path_, error);
   if (error) fail(path_, error.value());
 }
 

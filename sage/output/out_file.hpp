@@ -14,6 +14,7 @@ namespace sage {
 
 // Written to NAME.partial in the same folder, renamed by finish().  What a stopped run left there stays until
 // the first write, so that a run that is continued can keep it.  Text is collected and written in large pieces.
+// A link is followed; a pipe or device is written to as it is.
 // Every failure is an OutputError that names the file and the reason; after one, nothing more is tried.
 class OutFile {
  public:

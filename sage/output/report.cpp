@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sage/analysis/loads.hpp"
 #include "sage/output/number.hpp"
 #include "sage/output/values.hpp"
 
@@ -20,11 +21,34 @@ constexpr int kDigits = 10;
 struct NodeSums {
   double displacement[2] = {0,
                             0};  // mean over the deck's own nodes, so that it keeps its meaning in finer meshes
-  double force[2] = {0, 0};      // sum of internal forces
+  double force[2] = {0, 0};      // sum of internal forces, less the weight
 };
 
-NodeSums sum_nodes(const Model& model, const Report& report, const Solution& solution) {
+// What the weight of the soil puts on the report's nodes: what acts at the start of a stage stays, what is
+// placed or added in it grows.
+struct Weights {
+  Eigen::VectorXd start, end;
+
+  Weights(const Model& model, int stage) {
+    Activity activity(model);
+    Vector2 gravity = Vector2::Zero();
+    for (int s = 0; s < stage; ++s) {
+      activity.enter(model, model.stages[static_cast<std::size_t>(s)]);
+      gravity += model.stages[static_cast<std::size_t>(s)].gravity;
+    }
+    std::vector<char> both = activity.group;
+    activity.enter(model, model.stages[static_cast<std::size_t>(stage)]);
+    for (std::size_t g = 0; g < both.size(); ++g) both[g] = both[g] && activity.group[g];
+    start = weight_of(model, both, gravity);
+    end = weight_of(model, activity.group, gravity + model.stages[static_cast<std::size_t>(stage)].gravity);
+  }
+};
+
+// weight: at the start and the end of the stage, of which load_factor has passed.
+NodeSums sum_nodes(const Model& model, const Report& report, const Solution& solution,
+                   const double (&weight)[2][2], double load_factor) {
   NodeSums sums;
+  for (int c = 0; c < 2; ++c) sums.force[c] = -(1.0 - load_factor) * weight[0][c] - load_factor * weight[1][c];
   int own = 0;
   for (int node : report.nodes) {
     const bool of_deck = node < model.mesh.deck_nodes;
@@ -57,12 +81,12 @@ std::string header(const Model& model, const Report& report) {
                "stage,increment,axial_strain[-],force[{2}],measured_deviator[{3}],correct_deviator[{3}],"
                "measured_axial[{3}],correct_axial[{3}],ratio[-]\n",
                report.stage + 1, u.length, u.force, u.stress);
-  return text +
-         fmt::format(
-             "# node report: mean displacement since the start of stage {0}, sum of the forces on the nodes; "
-             "positive along +x, +y\n"
-             "stage,increment,ux[{1}],uy[{1}],fx[{2}],fy[{2}]\n",
-             report.stage + 1, u.length, u.force);
+  return text + fmt::format(
+                    "# node report: mean displacement since the start of stage {0}, sum of the forces that "
+                    "loads and supports "
+                    "put on the nodes, without the weight of the soil; positive along +x, +y\n"
+                    "stage,increment,ux[{1}],uy[{1}],fx[{2}],fy[{2}]\n",
+                    report.stage + 1, u.length, u.force);
 }
 
 void append_row(std::string& text, int stage, int increment, std::initializer_list<double> values) {
@@ -126,13 +150,22 @@ void Reports::on_start(const Model& model, const Scene&, std::string_view, int) 
 }
 
 void Reports::on_stage_start(const Model& model, int stage, const Solution& solution) {
+  if (series_.empty()) return;
+  const Weights weights(model, stage);
   for (std::size_t i = 0; i < series_.size(); ++i) {
     Series& series = series_[i];
     const Report& report = model.reports[i];
     series.last_load_factor = 0.0;
+    for (int c = 0; c < 2; ++c) {
+      series.weight[0][c] = series.weight[1][c] = 0.0;
+      for (int node : report.nodes) {
+        series.weight[0][c] += weights.start[2 * node + c];
+        series.weight[1][c] += weights.end[2 * node + c];
+      }
+    }
     if (series.begun || stage < report.stage) continue;
     series.begun = true;
-    const NodeSums sums = sum_nodes(model, report, solution);
+    const NodeSums sums = sum_nodes(model, report, solution, series.weight, 0.0);
     std::copy(sums.displacement, sums.displacement + 2, series.start_displacement);
     series.start_force = -sums.force[1];
     begin(series, model, report);
@@ -152,7 +185,7 @@ void Reports::add_rows(const Model& model, const StepReport& step, const Solutio
     const Report& report = model.reports[i];
     if (!series.begun) continue;
     series.last_load_factor = step.load_factor;
-    const NodeSums sums = sum_nodes(model, report, solution);
+    const NodeSums sums = sum_nodes(model, report, solution, series.weight, step.load_factor);
     if (report.kind == ReportKind::nodes) {
       series.nodes.push_back({step.stage + 1,
                               step.increment,
@@ -217,6 +250,7 @@ void Reports::exchange(Archive& archive) {
     archive(series.begun);
     archive(series.start_displacement);
     archive(series.start_force);
+    archive(series.weight);
     archive(series.last_load_factor);
     archive(series.triaxial);
     archive(series.nodes);

@@ -76,6 +76,7 @@ class Reports final : public Output {
     OutFile file;
     bool begun = false;
     double start_displacement[2] = {0, 0}, start_force = 0.0, area = 0.0;
+    double weight[2][2] = {};  // of the nodes, at the start and the end of the stage; x, y
     double last_load_factor = 0.0;
     std::unique_ptr<CorrectTest> correct;
     std::vector<TriaxialRow> triaxial;

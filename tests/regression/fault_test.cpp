@@ -160,6 +160,8 @@ TEST(Fault, ACheckpointOfAnotherRunIsRefused) {
   EXPECT_NE(other_output.err.find("belongs to another run"), std::string::npos) << other_output.err;
   EXPECT_EQ(read(folder / "out/deck.restart"), before);
 
+  for (const std::string without : {" --without elements", " --without all"})
+    EXPECT_EQ(sagefe(folder, std::string("run deck.dat -q --restart ") + kOptions + without).exit_code, 2);
   write(folder / "deck.dat", deck_text(31));
   EXPECT_EQ(sagefe(folder, std::string("run deck.dat -q --restart ") + kOptions).exit_code, 2);
 
@@ -170,6 +172,32 @@ TEST(Fault, ACheckpointOfAnotherRunIsRefused) {
     EXPECT_EQ(run.exit_code, 2);
     EXPECT_NE(run.err.find("deck.restart"), std::string::npos) << run.err;
   }
+}
+
+// Nothing is touched by a restart that is refused: the right one still ends as if nothing had happened.
+TEST(Fault, ARefusedRestartLeavesTheResultsAlone) {
+  const fs::path folder = folder_with_deck("refused");
+  const std::map<std::string, std::string> whole = undisturbed(folder);
+  const std::string killed = "bash -c 'trap \"\" XFSZ; ulimit -f 256; exec \"$@\"' -";
+  sagefe(folder, std::string("run deck.dat -q ") + kOptions, killed);
+  ASSERT_TRUE(fs::exists(folder / "out/deck.restart"));
+  fs::copy(folder / "out", folder / "before");
+  EXPECT_EQ(sagefe(folder, std::string("run deck.dat -q --restart --without all ") + kOptions).exit_code, 2);
+
+  const fs::path csv = fs::exists(folder / "out/deck.increments.csv")
+                           ? folder / "out/deck.increments.csv"
+                           : folder / "out/deck.increments.csv.partial";
+  const std::string text = read(csv);
+  write(csv, text.substr(0, 10));
+  const Finished run = sagefe(folder, std::string("run deck.dat -q --restart ") + kOptions);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find("shorter than it was"), std::string::npos) << run.err;
+  write(csv, text);
+  for (const fs::directory_entry& file : fs::directory_iterator(folder / "before"))
+    EXPECT_TRUE(read(file.path()) == read(folder / "out" / file.path().filename())) << file.path();
+
+  EXPECT_EQ(sagefe(folder, std::string("run deck.dat -q --restart ") + kOptions).exit_code, 0);
+  expect_equal(results(folder / "out"), whole);
 }
 
 TEST(Fault, WithoutACheckpointARestartIsARun) {

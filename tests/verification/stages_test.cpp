@@ -5,8 +5,11 @@
 #include <fstream>
 #include <sstream>
 
+#include "sage/app/commands.hpp"
+#include "sage/output/report.hpp"
 #include "sage/study/scenes.hpp"
 #include "tests/support/run_text.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace sage::test {
 namespace {
@@ -22,6 +25,38 @@ TEST(NullStageWarning, InadmissibleK0IsReported) {
   ground.deck.initial(1, 1, 0.0, kWeight, 0.2, 0.0);
   ground.deck.stage(4).gravity_y = -1.0;
   EXPECT_TRUE(run_text(ground.deck.text()).warns("outside the yield surface"));
+}
+
+// A smooth plate on heavy soil at rest is pushed down by d: the force on it is M d/h times its width, whatever
+// the soil weighs and however much of it a node carries (M = E (1 - nu)/((1 + nu)(1 - 2 nu))).
+TEST(NodeReport, LeavesOutTheWeightOfTheSoil) {
+  const Catalogue catalogue = app::full_catalogue();
+  for (int cells : {1, 2, 4}) {
+    Ground ground(1, Cell::quad4, cells, cells);
+    ground.deck.material(1, 1, {kE, kNu}, kWeight);
+    ground.deck.group(1, 1, 0, 1);
+    ground.block.write_elements(ground.deck, 1);
+    ground.deck.initial(1, 1, 0.0, kWeight, 0.5, 0.0);
+    ground.deck.stage().gravity_y = -1.0;
+    StageCards& push = ground.deck.stage();
+    for (int node : ground.block.top()) push.fix(node, 0, 1, 0.0, -0.001);
+    WholeRun run = run_text(ground.deck.text());
+    Report report;
+    report.kind = ReportKind::nodes;
+    for (int node : ground.block.top()) report.nodes.push_back(run.index(node));
+    run.model->reports = {report};
+    Reports reports(scratch_folder("weight"), "plate");
+    Observer* observers[] = {&reports};
+    RunSettings settings;
+    settings.solver = 1;
+    ASSERT_EQ(sage::run(*run.model, catalogue, settings, observers).status, RunStatus::completed);
+    const auto y = run.model->mesh.x.row(1), x = run.model->mesh.x.row(0);
+    const double width = x.maxCoeff() - x.minCoeff(), height = y.maxCoeff() - y.minCoeff();
+    const double M = kE * (1.0 - kNu) / ((1.0 + kNu) * (1.0 - 2.0 * kNu));
+    ASSERT_EQ(reports.nodes(0).size(), 2u);
+    EXPECT_NEAR(reports.nodes(0)[0].force[1], 0.0, 1e-9);  // of 80
+    EXPECT_NEAR(reports.nodes(0)[1].force[1], -M * 0.001 / height * width, 1e-9);
+  }
 }
 
 std::string shipped(const std::string& name) {

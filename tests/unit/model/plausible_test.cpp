@@ -26,6 +26,15 @@ DeckWriter sound() {
   return deck;
 }
 
+// Element 5 on top of elements 3 and 4's left half, placed in a second stage.
+void place_later(DeckWriter& deck) {
+  deck.node(10, 0.0, 3.0);
+  deck.node(11, 1.0, 3.0);
+  deck.group(2, 1, 0, 1);
+  deck.element(5, 2, {7, 8, 11, 10});
+  deck.stage().births = {2};
+}
+
 // "warning: ...\nnote: ...\n" of the model; what the law's own checks say at run time is not among them.
 std::string messages(const DeckWriter& deck) {
   const WholeRun run = run_text(deck.text());
@@ -122,6 +131,25 @@ INSTANTIATE_TEST_SUITE_P(
                  "warning: the displacement -50 is larger than the mesh, 2"},
         Unlikely{"ReleasedTwice", [](DeckWriter& d) { d.stages[0].fix(9, -1, 0); },
                  "note: code -1 releases node 9 in x, which nothing held"},
+        Unlikely{"LoadOnNothing",
+                 [](DeckWriter& d) {
+                   place_later(d);
+                   d.stages[0].load(10, 0.0, -1.0);
+                 },
+                 "warning: the load of node 10 does nothing in stage 1: no element that is placed then has the "
+                 "node"},
+        Unlikely{"DisplacementOfNothing",
+                 [](DeckWriter& d) {
+                   place_later(d);
+                   d.stages[0].fix(11, 0, 1, 0.0, -0.01);
+                 },
+                 "warning: the displacement of node 11 does nothing in stage 1"},
+        Unlikely{"PressureOnNothing",
+                 [](DeckWriter& d) {
+                   place_later(d);
+                   d.stages[0].pressure(5, 3, 1.0, 1.0);
+                 },
+                 "warning: the pressure on element 5 does nothing in stage 1: its group is not placed then"},
         Unlikely{"FixityOfNothing", [](DeckWriter& d) { d.stages[0].fix(9, 0, 0); },
                  "note: this fixity card changes nothing"},
         Unlikely{"NullStage", [](DeckWriter& d) { d.stage(); }, "note: stage 2 adds nothing"},

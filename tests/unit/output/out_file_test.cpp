@@ -1,6 +1,9 @@
 #include "sage/output/out_file.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -50,6 +53,28 @@ TEST(OutFile, WritesMuchAtACheckpoint) {
   file.checkpoint();
   EXPECT_TRUE(file.text().empty());
   EXPECT_EQ(std::filesystem::file_size(folder / "a.txt.partial"), 300000u);
+}
+
+TEST(OutFile, FollowsALink) {
+  const auto folder = fresh_folder("link");
+  write_file(folder / "target.txt", "old\n");
+  std::filesystem::create_symlink("target.txt", folder / "a.txt");
+  write_file(folder / "a.txt", "new\n");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "a.txt"));
+  EXPECT_EQ(contents(folder / "target.txt"), "new\n");
+}
+
+TEST(OutFile, WritesIntoAPipe) {
+  const auto pipe = fresh_folder("pipe") / "a.txt";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(reader, 0);
+  write_file(pipe, "text\n");
+  char text[16] = {};
+  EXPECT_EQ(read(reader, text, sizeof text), 5);
+  EXPECT_STREQ(text, "text\n");
+  close(reader);
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 
 TEST(OutFile, MakesMissingFolders) {

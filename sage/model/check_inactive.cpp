@@ -1,0 +1,71 @@
+// Loads and displacements for nodes that no active element has in their stage: they do nothing there.
+#include <algorithm>
+
+#include "sage/model/activity.hpp"
+#include "sage/model/builder.hpp"
+
+namespace sage::build {
+
+namespace {
+
+std::vector<char> nodes_in_use(const Model& model, const Activity& activity) {
+  std::vector<char> used(static_cast<std::size_t>(model.mesh.nodes()), 0);
+  for (std::size_t g = 0; g < model.groups.size(); ++g)
+    if (activity.group[g])
+      for (int node : model.groups[g].nodes) used[static_cast<std::size_t>(node)] = 1;
+  return used;
+}
+
+// Nodes or elements of one card.
+struct Idle {
+  int line = 0, first = 0, count = 0;
+};
+
+void add(std::vector<Idle>& idle, int line, int number) {
+  const auto card = std::ranges::find(idle, line, &Idle::line);
+  if (card == idle.end())
+    idle.push_back({line, number, 1});
+  else
+    ++card->count;
+}
+
+// One message a card: the first, and how many more.
+void tell(Builder& b, const std::vector<Idle>& idle, const Stage& stage, const std::string& what,
+          const std::string& why) {
+  for (const Idle& card : idle) {
+    std::string text = what + " " + std::to_string(card.first);
+    if (card.count > 1) text += " (and " + std::to_string(card.count - 1) + " more)";
+    b.warning(b.at_line(card.line),
+              text + " does nothing in stage " + std::to_string(stage.number) + ": " + why);
+  }
+}
+
+}  // namespace
+
+void check_inactive(Builder& b) {
+  const Model& model = b.model;
+  Activity activity(model);
+  for (const Stage& stage : model.stages) {
+    activity.enter(model, stage);
+    const std::vector<char> used = nodes_in_use(model, activity);
+    const auto number_of = [&](int node) { return model.mesh.number[static_cast<std::size_t>(node)]; };
+    const auto idle_node = [&](int node) { return used[static_cast<std::size_t>(node)] == 0; };
+    std::vector<Idle> loads, displacements, pressures;
+    for (const NodalLoad& load : stage.loads)
+      if (idle_node(load.node) && !load.force.isZero(0.0)) add(loads, load.line, number_of(load.node));
+    for (const Fixity& f : stage.fixities) {
+      const auto moves = [&](std::size_t c) { return f.code[c] == FixityCode::fixed && f.value[c] != 0.0; };
+      if (idle_node(f.node) && (moves(0) || moves(1))) add(displacements, f.line, number_of(f.node));
+    }
+    for (const EdgeLoad& load : stage.pressures) {
+      const auto group = static_cast<std::size_t>(load.group);
+      if (!activity.group[group])
+        add(pressures, load.line, model.groups[group].element_numbers[static_cast<std::size_t>(load.element)]);
+    }
+    tell(b, loads, stage, "the load of node", "no element that is placed then has the node");
+    tell(b, displacements, stage, "the displacement of node", "no element that is placed then has the node");
+    tell(b, pressures, stage, "the pressure on element", "its group is not placed then");
+  }
+}
+
+}  // namespace sage::build
