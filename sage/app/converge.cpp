@@ -212,6 +212,7 @@ int converge(const RunRequest& request, const ConvergeOptions& options, const Ca
     }
     RunRequest one = request;
     one.input.build = rung.build;
+    one.input.build.say = {};  // the table says it
     one.quiet = true;
     one.restart = false;
     one.checkpoint_seconds = -1.0;

@@ -2,6 +2,10 @@
 // flipped.
 #pragma once
 
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "sage/deck/deck.hpp"
 #include "sage/model/model.hpp"
 
@@ -19,10 +23,11 @@ struct BuildOptions {
       -1;  // replaces the deck's formulation code of solid groups where it exists; -1 = as the deck says
   int element =
       0;  // replaces 4-node quadrilaterals by this element code (mid-side nodes are made); 0 = as the deck
-  int solver = -1;                // catalogue code, 0 automatic; -1 = as the deck says
-  int geometry = 0;               // 1 plane strain, 2 axisymmetric; 0 = as the deck says
-  int refine = 0;                 // every element into four, so many times
-  std::vector<Grading> gradings;  // after refining
+  int solver = -1;                              // catalogue code, 0 automatic; -1 = as the deck says
+  int geometry = 0;                             // 1 plane strain, 2 axisymmetric; 0 = as the deck says
+  int refine = 0;                               // every element into four, so many times
+  std::vector<Grading> gradings;                // after refining
+  std::function<void(const std::string&)> say;  // told at once, before a large mesh is made; empty = nobody
 };
 
 // Throws InputError with every mistake found.  Warnings and notes end up in Model::diagnostics.

@@ -3,12 +3,16 @@
 #include <cmath>
 #include <limits>
 
+#include "sage/deck/text.hpp"
+
 namespace sage::build {
 
 namespace {
 
-constexpr double kTiny = 1e-12;  // of parent coordinates
-constexpr std::int64_t kMaxElements = 50'000'000;
+constexpr double kTiny = 1e-12;           // of parent coordinates
+constexpr double kMaxElements = 1e7;      // 40 GB and more
+constexpr double kManyNodes = 2e5;        // seconds, and a GB
+constexpr double kBytesPerNode = 4000.0;  // 4-node elements, linear and symmetric: measured 3.8 to 4.0
 
 bool is_interface(const Group& group) {
   return group.element->traits().law_size == 2;
@@ -49,6 +53,49 @@ void check_nodes(Builder& b, const Group& group, int corners) {
                     ") can't be refined: its card gives more nodes than corners and mid-side nodes");
         throw InputError(b.problems);
       }
+}
+
+// Sizes after every element was split into four and every interface into two, so many times.
+struct Refined {
+  double elements = 0.0, nodes = 0.0;
+};
+
+Refined refined(const Model& model, int times) {
+  Refined size;
+  for (const Group& group : model.groups) {
+    const double elements = group.elements() * std::pow(is_interface(group) ? 2.0 : 4.0, times);
+    size.elements += elements;
+    if (is_interface(group)) continue;
+    // Each edge belongs to two elements; the angles of the elements around a node sum to a full circle.
+    const auto edges = static_cast<double>(group.element->edges().size());
+    const double inside_edge = static_cast<double>(group.element->edges().front().size()) - 2.0;
+    const double inside = group.element->traits().nodes - edges * (1.0 + inside_edge);
+    size.nodes += elements * ((edges - 2.0) / 2.0 + edges / 2.0 * inside_edge + inside);
+  }
+  return size;
+}
+
+std::string whole(double count) {
+  return std::to_string(std::llround(count));
+}
+
+// Before anything is made: refuses what is no use to anybody, announces what takes its time.
+void check_size(Builder& b, int times) {
+  const Refined size = refined(b.model, times);
+  const std::string option = "--refine " + std::to_string(times);
+  if (size.elements > kMaxElements) {
+    int most = times;
+    while (most > 0 && refined(b.model, most).elements > kMaxElements) --most;
+    b.error(b.at_line(0),
+            option + " would make " + whole(size.elements) + " elements, more than " + whole(kMaxElements) +
+                "; --refine " + std::to_string(most) + " makes " + whole(refined(b.model, most).elements) +
+                ". Layers at corners (--grade) and elements of high degree (--element) need far fewer");
+    throw InputError(b.problems);
+  }
+  if (b.options.say && size.nodes > kManyNodes)
+    b.options.say(option + " makes " + whole(size.elements) + " elements with about " + whole(size.nodes) +
+                  " nodes: expect " + rounded_text(size.nodes * kBytesPerNode / 1e9, 2) +
+                  " GB of memory, and a multiple of it where the equations are unsymmetric or degrees high");
 }
 
 }  // namespace
@@ -214,15 +261,8 @@ void refine(Builder& b, int times) {
       }
     }
   };
+  check_size(b, times);
   for (int i = 0; i < times; ++i) {
-    std::int64_t elements = 0;
-    for (const Group& group : b.model.groups) elements += 4 * std::int64_t{group.elements()};
-    if (elements > kMaxElements) {
-      b.error(b.deck.one("control").where(), "refined " + std::to_string(times) +
-                                                 " times the mesh would have more than " +
-                                                 std::to_string(kMaxElements) + " elements");
-      throw InputError(b.problems);
-    }
     Subdivision subdivision(b);
     for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
       const Group& group = b.model.groups[g];

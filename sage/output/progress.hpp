@@ -15,6 +15,14 @@ class Progress final : public Observer {
   Progress() : on_(isatty(STDERR_FILENO) != 0), next_(Clock::now() + std::chrono::milliseconds(500)) {}
   ~Progress() override { clear(); }
 
+  // The first increment of a large model, with its first factors, is a long silence.
+  void on_stage_start(const Model& model, int stage, const Solution&) override {
+    if (!on_ || model.dofs() < 200'000) return;
+    std::fprintf(stderr, "\r\033[Kstage %d of %zu, %d degrees of freedom, first increment", stage + 1,
+                 model.stages.size(), model.dofs());
+    std::fflush(stderr);
+    shown_ = true;
+  }
   void on_increment(const Model& model, const StepReport& report, const Solution&) override {
     if (!on_ || Clock::now() < next_) return;
     next_ = Clock::now() + std::chrono::milliseconds(100);

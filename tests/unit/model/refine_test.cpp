@@ -434,6 +434,52 @@ TEST(GradeOption, SaysWhatItWants) {
   EXPECT_THROW(build(block_deck().text(), with(0, 0, {{77, 2, 0.2}})), InputError);
 }
 
+// Before anything is made: 4 elements 12 times are 67 million, 10 times 4 million.
+TEST(RefineOption, LargeMeshesAreAnnouncedOrRefused) {
+  struct Stop {};
+  const DeckWriter deck = block_deck();
+  BuildOptions options = with(0, 12);
+  std::string said;
+  options.say = [&](const std::string& text) {
+    said = text;
+    throw Stop();
+  };
+  try {
+    build(deck.text(), options);
+    FAIL() << "not refused";
+  } catch (const InputError& error) {
+    const std::string words = error.what();
+    EXPECT_NE(words.find("--refine 12 would make 67108864 elements"), std::string::npos) << words;
+    EXPECT_NE(words.find("--refine 10 makes 4194304"), std::string::npos) << words;
+  }
+  EXPECT_EQ(said, "");
+  options.refine = 10;
+  EXPECT_THROW(build(deck.text(), options), Stop);
+  EXPECT_NE(said.find("4194304 elements with about 4194304 nodes: expect 17 GB"), std::string::npos) << said;
+  said.clear();
+  options.refine = 3;
+  EXPECT_EQ(build(deck.text(), options).mesh.nodes(), 17 * 17);
+  EXPECT_EQ(said, "");
+}
+
+// What is announced against what is made.
+TEST(RefineOption, AnnouncedNodesAreThoseThatAreMade) {
+  struct Stop {};
+  for (const Cell cell : {Cell::quad4, Cell::quad8, Cell::tri3, Cell::tri6}) {
+    SCOPED_TRACE(static_cast<int>(cell));
+    BuildOptions options = with(0, 9);
+    double announced = 0.0;
+    options.say = [&](const std::string& text) {
+      announced = std::stod(text.substr(text.find("about ") + 6));
+      throw Stop();
+    };
+    EXPECT_THROW(build(block_deck(cell).text(), options), Stop);
+    options.refine = 4;
+    const double made = build(block_deck(cell).text(), options).mesh.nodes() * 1024.0;  // 4^(9-4)
+    EXPECT_NEAR(announced, made, 0.07 * made);  // 32 x 32 cells have 33 x 33 nodes
+  }
+}
+
 TEST(GradeOption, NodeThatIsNoCornerIsRefused) {
   EXPECT_THROW(build(block_deck(Cell::quad8).text(), with(0, 0, {{2, 2, 0.2}})), InputError)
       << "a mid-side node";
