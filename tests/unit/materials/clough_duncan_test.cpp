@@ -37,6 +37,13 @@ TEST(CloughDuncan, LinearForZeroFailureRatio) {
   EXPECT_NEAR(sheared(joint(0.0, 0), -0.01, 3), -kInitial * 0.01, 1e-11);
 }
 
+// A stiffness number below 1 is one like any other.
+TEST(CloughDuncan, SmallStiffnessNumber) {
+  std::vector<double> soft = joint(0.0, 0);
+  soft[4] = 0.5;
+  EXPECT_NEAR(sheared(soft, 0.01, 1), kInitial * 1e-4 * 0.01, 1e-14);
+}
+
 // The exact rule follows the hyperbola with any number of steps; 1e-11: rounding.
 TEST(CloughDuncan, ExactRuleIsTheHyperbola) {
   for (const int steps : {1, 7}) EXPECT_NEAR(sheared(joint(0.8, 2), 0.04, steps), hyperbola(0.04, 0.8), 1e-10);

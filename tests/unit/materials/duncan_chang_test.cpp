@@ -203,6 +203,35 @@ TEST(DuncanChang, FollowsOrRefuses) {
   EXPECT_EQ(refused.outcome, Outcome::cut_step);
 }
 
+// Isotropic compression, B = K_b sqrt(p p_a): the volume strain for which the error of the first substep (half
+// of Heun's against Euler's), shortened by 1/(sqrt(e)(3/4 + min(e, 2)/4)) in six trials, is still 4 tolerances,
+// is the largest one that is answered.
+TEST(DuncanChang, RefusesAnErrorOfFourTolerances) {
+  const double p0 = 100.0, tolerance = 0.01;
+  const auto B = [](double p) { return 250 * std::sqrt(p * 101.325); };
+  const auto error_left = [&](double volume) {
+    double share = 1.0, error = 0.0;
+    for (int trial = 1; trial <= 6; ++trial) {
+      const double mean = 0.5 * (B(p0) + B(p0 + share * B(p0) * volume));
+      error = share * (mean - B(p0)) * volume / (tolerance * (p0 + share * mean * volume));
+      if (error <= 1.0) break;
+      if (trial < 6) share /= std::sqrt(error) * (0.75 + 0.25 * std::min(error, 2.0));
+    }
+    return error;
+  };
+  double least = 1.0, most = 1000.0;
+  for (int i = 0; i < 60; ++i) (error_left(0.5 * (least + most)) < 4.0 ? least : most) = 0.5 * (least + most);
+  ASSERT_NEAR(error_left(least), 4.0, 1e-6);
+
+  const auto law = test::solid(6, {400, 0.5, 0.8, 600, 250, 0.5, 5, 33, 0, 0.49, 0.01, 0, 0, tolerance});
+  const Vector4 start = -p0 * unit_tensor();
+  const auto outcome = [&](double volume) {
+    return test::update<4>(*law, start, -volume / 3.0 * unit_tensor(), {0.0}).outcome;
+  };
+  EXPECT_EQ(outcome(0.99 * least), Outcome::ok) << least;
+  EXPECT_EQ(outcome(1.01 * least), Outcome::cut_step) << least;
+}
+
 // The substeps do not make the stress jump: along a line of increments its difference from one to the next
 // stays that of the tangent, also where another substep comes in.  1e-5 of the stress: kinks at the surface
 // leave 5e-6 at this distance (1e-4 of the increment), the number of equal substeps used to make it jump by
