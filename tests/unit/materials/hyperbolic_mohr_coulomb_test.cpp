@@ -103,6 +103,23 @@ TEST(HyperbolicMohrCoulomb, UnloadFromFailure) {
   EXPECT_NEAR(point.sigma()[0] - point.sigma()[1], 257.62971, 257.0 * 1e-7);
 }
 
+// Coarse substeps (0.3) reach the envelope along a strongly bent path: where they cross it is found to
+// rounding, and so the tangent stays the derivative.  1e-5 of the largest term: the differences.
+TEST(HyperbolicMohrCoulomb, CoarseSubstepsFindTheEnvelope) {
+  std::vector<double> coarse = kSoil;
+  coarse.insert(coarse.end(), {0.0, 0.0, -1.0, 0.49, 0.01, 0.3});
+  const auto law = test::solid(7, coarse);
+  const Vector4 start{-100, -100, -100, 0};
+  const auto h = test::initial_history<4>(*law, start);
+  for (double size = 0.01; size < 2.0; size *= 1.1) {
+    const Vector4 deps = size * Vector4(0.45, -1.0, 0.45, 0.3);
+    const auto a = test::update<4>(*law, start, deps, h);
+    const Matrix4 D = test::difference_tangent<4>(*law, start, deps, h, 1e-7 * size);
+    EXPECT_EQ(a.outcome, Outcome::ok);
+    EXPECT_LE((a.D - D).cwiseAbs().maxCoeff(), 1e-5 * D.cwiseAbs().maxCoeff()) << size;
+  }
+}
+
 // On the envelope the law flows: G = 0, so that from inside onto it a = 1/4 in (H6), and along it nothing is
 // left but the change of K, here none (m = 0).
 TEST(HyperbolicMohrCoulomb, PathErrorAtTheEnvelope) {
