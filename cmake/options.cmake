@@ -27,8 +27,12 @@ if(SAGE_SANITIZE)
   target_link_options(sage_options INTERFACE -fsanitize=${SAGE_SANITIZE})
 endif()
 if(SAGE_COVERAGE)
-  target_compile_options(sage_options INTERFACE --coverage)
-  target_link_options(sage_options INTERFACE --coverage)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    message(FATAL_ERROR "SAGE_COVERAGE needs clang: scripts/coverage says why")
+  endif()
+  # This build measures; warnings are the business of the others.
+  target_compile_options(sage_options INTERFACE -w -fprofile-instr-generate -fcoverage-mapping)
+  target_link_options(sage_options INTERFACE -fprofile-instr-generate)
 endif()
 
 # sage_target(NAME SOURCES ... LINKS ...): one library a folder.

@@ -42,7 +42,7 @@ template <int p>
 auto LobattoLine<p>::N(double xi) -> Vector<nodes> {
   const Lagrange<p> l(xi);
   Vector<nodes> N;
-  for (int i = 0; i < nodes; ++i) N(i) = l.value(rising(i));
+  for (int i = 0; i < nodes; ++i) N(i) = l.value(lobatto_rising<p>(i));
   return N;
 }
 
@@ -50,7 +50,7 @@ template <int p>
 auto LobattoLine<p>::dN(double xi) -> Vector<nodes> {
   const Lagrange<p> l(xi);
   Vector<nodes> dN;
-  for (int i = 0; i < nodes; ++i) dN(i) = l.slope(rising(i));
+  for (int i = 0; i < nodes; ++i) dN(i) = l.slope(lobatto_rising<p>(i));
   return dN;
 }
 

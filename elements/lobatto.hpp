@@ -31,19 +31,47 @@ constexpr std::array<double, 9> gauss_lobatto<8>() {
           1.0};
 }
 
-// End, end, inner nodes in order.
+// Place in rising order (0, p, 1, 2 ... p - 1) of a node of the line: end, end, inner nodes in order.
+template <int p>
+constexpr int lobatto_rising(int node) {
+  return node == 0 ? 0 : node == 1 ? p : node - 1;
+}
+
+// Nodes of the line; columns and rows (0 ... p) of the square's nodes; and their places.
+template <int p>
+constexpr auto lobatto_line_nodes() {
+  std::array<double, static_cast<std::size_t>(p) + 1> xi{};
+  for (int i = 0; i <= p; ++i)
+    xi[static_cast<std::size_t>(i)] = gauss_lobatto<p>()[static_cast<std::size_t>(lobatto_rising<p>(i))];
+  return xi;
+}
+template <int p>
+constexpr auto lobatto_grid() {
+  std::array<std::array<int, 2>, static_cast<std::size_t>((p + 1) * (p + 1))> at{
+      {{0, 0}, {p, 0}, {p, p}, {0, p}}};
+  std::size_t n = 4;
+  for (int i = 1; i < p; ++i) at[n++] = {i, 0};
+  for (int i = 1; i < p; ++i) at[n++] = {p, i};
+  for (int i = 1; i < p; ++i) at[n++] = {p - i, p};
+  for (int i = 1; i < p; ++i) at[n++] = {0, p - i};
+  for (int j = 1; j < p; ++j)
+    for (int i = 1; i < p; ++i) at[n++] = {i, j};
+  return at;
+}
+template <int p>
+constexpr auto lobatto_nodes() {
+  constexpr auto grid = lobatto_grid<p>();
+  std::array<ParentPoint, grid.size()> at{};
+  for (std::size_t i = 0; i < at.size(); ++i)
+    at[i] = {gauss_lobatto<p>()[static_cast<std::size_t>(grid[i][0])],
+             gauss_lobatto<p>()[static_cast<std::size_t>(grid[i][1])]};
+  return at;
+}
+
 template <int p>
 struct LobattoLine {
   static constexpr int nodes = p + 1;
-  // Place of a node in rising order: 0, p, 1, 2 ... p - 1.
-  static constexpr int rising(int node) { return node == 0 ? 0 : node == 1 ? p : node - 1; }
-  static constexpr std::array<double, static_cast<std::size_t>(nodes)> make() {
-    std::array<double, static_cast<std::size_t>(nodes)> xi{};
-    for (int i = 0; i < nodes; ++i)
-      xi[static_cast<std::size_t>(i)] = gauss_lobatto<p>()[static_cast<std::size_t>(rising(i))];
-    return xi;
-  }
-  static constexpr std::array<double, static_cast<std::size_t>(nodes)> node_xi = make();
+  static constexpr auto node_xi = lobatto_line_nodes<p>();
   static Vector<nodes> N(double xi);
   static Vector<nodes> dN(double xi);
 };
@@ -51,27 +79,8 @@ struct LobattoLine {
 template <int p>
 struct LobattoQuad {
   static constexpr int nodes = (p + 1) * (p + 1), corners = 4, degree = p;
-  // Columns and rows (0 ... p) of the nodes in the grid.
-  static constexpr std::array<std::array<int, 2>, static_cast<std::size_t>(nodes)> make_grid() {
-    std::array<std::array<int, 2>, static_cast<std::size_t>(nodes)> at{{{0, 0}, {p, 0}, {p, p}, {0, p}}};
-    std::size_t n = 4;
-    for (int i = 1; i < p; ++i) at[n++] = {i, 0};
-    for (int i = 1; i < p; ++i) at[n++] = {p, i};
-    for (int i = 1; i < p; ++i) at[n++] = {p - i, p};
-    for (int i = 1; i < p; ++i) at[n++] = {0, p - i};
-    for (int j = 1; j < p; ++j)
-      for (int i = 1; i < p; ++i) at[n++] = {i, j};
-    return at;
-  }
-  static constexpr auto grid = make_grid();
-  static constexpr std::array<ParentPoint, static_cast<std::size_t>(nodes)> make_nodes() {
-    std::array<ParentPoint, static_cast<std::size_t>(nodes)> at{};
-    for (std::size_t i = 0; i < at.size(); ++i)
-      at[i] = {gauss_lobatto<p>()[static_cast<std::size_t>(grid[i][0])],
-               gauss_lobatto<p>()[static_cast<std::size_t>(grid[i][1])]};
-    return at;
-  }
-  static constexpr auto node_at = make_nodes();
+  static constexpr auto grid = lobatto_grid<p>();
+  static constexpr auto node_at = lobatto_nodes<p>();
   static constexpr Basis stress_basis = Basis::tensor_lower;
   using Edge = LobattoLine<p>;
   using LoadRule = GaussSquare<p + 1>;

@@ -65,12 +65,11 @@ double extent(const NodeCoordinates& x) {
 }
 
 void check_radii(const NodeCoordinates& x) {
-  const double least = x.row(0).minCoeff();
-  if (least >= 0.0 || least >= -kRadiusTolerance * extent(x)) return;
-  for (int i = 0; i < x.cols(); ++i)
-    if (x(0, i) == least)
-      throw ElementShapeError("node on negative radius: local node " + number(i) +
-                              " has r = " + std::to_string(least) + "; the axis of symmetry is r = 0");
+  int i = 0;
+  const double least = x.row(0).minCoeff(&i);
+  if (!(least < -kRadiusTolerance * extent(x))) return;  // nor what is not a number: reject_shape says that
+  throw ElementShapeError("node on negative radius: local node " + number(i) +
+                          " has r = " + std::to_string(least) + "; the axis of symmetry is r = 0");
 }
 
 void reject_shape(const NodeCoordinates& x, int corners, const EdgeNodes& edges) {
@@ -84,7 +83,7 @@ void reject_shape(const NodeCoordinates& x, int corners, const EdgeNodes& edges)
   const bool flat = std::all_of(right.begin(), right.end(),
                                 [&](int c) { return std::abs(turn(x, c, corners)) <= 1e-9 * size * size; });
   if (left.empty() && flat) throw ElementShapeError("zero area: all corners lie on one line");
-  if (corners == 4 && left.size() == 2 && right.size() == 2 && !flat)
+  if (corners == 4 && left.size() == 2 && !flat)
     throw ElementShapeError(
         "crossed (bow-tie) nodes: two edges cut each other; corners must follow one another "
         "counter-clockwise");

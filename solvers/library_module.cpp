@@ -12,12 +12,7 @@
 
 namespace sage {
 
-namespace {
-
-using MakeSolver = LinearSolver* (*)(const char*);
-using ModuleVersion = const char* (*)();
-
-std::vector<std::string> module_places() {
+std::vector<std::string> solver_module_places() {
   std::vector<std::string> places;
   if (const char* chosen = std::getenv("SAGE_SOLVER_MODULE")) places.emplace_back(chosen);
   std::error_code error;
@@ -29,9 +24,10 @@ std::vector<std::string> module_places() {
 }
 
 // The handle is never closed: solvers made by the module may live as long as the program.
-MakeSolver load_module() {
+MakeLibrarySolver load_solver_module(const std::vector<std::string>& places) {
+  using ModuleVersion = const char* (*)();
   std::string tried;
-  for (const std::string& place : module_places()) {
+  for (const std::string& place : places) {
     tried += "\n  " + place;
     if (!std::filesystem::exists(place)) continue;
     void* handle = dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL);
@@ -40,7 +36,7 @@ MakeSolver load_module() {
       continue;
     }
     const auto version = reinterpret_cast<ModuleVersion>(dlsym(handle, "sage_solver_module_version"));
-    const auto make = reinterpret_cast<MakeSolver>(dlsym(handle, "sage_make_library_solver"));
+    const auto make = reinterpret_cast<MakeLibrarySolver>(dlsym(handle, "sage_make_library_solver"));
     if (version && make && std::string_view(version()) == kSolverModuleVersion) return make;
     tried += ": belongs to another version";
     dlclose(handle);
@@ -48,10 +44,8 @@ MakeSolver load_module() {
   throw AnalysisError("the module of library solvers can't be loaded; tried:" + tried);
 }
 
-}  // namespace
-
 std::unique_ptr<LinearSolver> make_library_solver(std::string_view name) {
-  static const MakeSolver make = load_module();
+  static const MakeLibrarySolver make = load_solver_module(solver_module_places());
   std::unique_ptr<LinearSolver> solver(make(std::string(name).c_str()));
   if (!solver) throw AnalysisError("the module of library solvers has no " + std::string(name));
   return solver;

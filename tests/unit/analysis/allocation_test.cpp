@@ -1,5 +1,7 @@
 // Newton's iterations after the first take no memory.  Two runs of the same deck to different tolerances differ
 // only in iterations.
+#include <ostream>
+
 #include <gtest/gtest.h>
 
 #include "sage/analysis/run.hpp"
@@ -73,6 +75,11 @@ struct Case {
   const char* name;
   int element, formulation, method, law, solver;
 };
+
+// By its name: its bytes, which GoogleTest would print, are not all set.
+void PrintTo(const Case& one, std::ostream* out) {
+  *out << one.name;
+}
 
 class NewtonAllocations : public testing::TestWithParam<Case> {};
 

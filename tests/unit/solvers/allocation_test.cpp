@@ -1,4 +1,6 @@
 // After the first factorisation and solution with a pattern, own solvers take no memory.
+#include <ostream>
+
 #include <gtest/gtest.h>
 
 #include "solvers/register_solvers.hpp"
@@ -12,6 +14,11 @@ struct Case {
   const char* solver;
   int threads, refinement;
 };
+
+// By its name: its bytes, which GoogleTest would print, are not all set.
+void PrintTo(const Case& one, std::ostream* out) {
+  *out << one.solver;
+}
 
 class SolverAllocations : public testing::TestWithParam<Case> {};
 

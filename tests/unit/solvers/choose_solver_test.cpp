@@ -1,10 +1,6 @@
-#include <cstdlib>
-
 #include <gtest/gtest.h>
 
-#include "sage/core/error.hpp"
 #include "solvers/choose_solver.hpp"
-#include "solvers/library_module.hpp"
 #include "solvers/register_solvers.hpp"
 #include "solvers/solver_codes.hpp"
 
@@ -26,10 +22,6 @@ TEST(ChooseSolver, NeverGivesAnUnsymmetricSystemToASymmetricSolver) {
     EXPECT_FALSE(catalogue.solvers.find(choose_solver(n, false))->symmetric);
     EXPECT_TRUE(catalogue.solvers.find(choose_solver(n, true))->symmetric);
   }
-}
-
-TEST(LibraryModule, RefusesANameItDoesNotKnow) {
-  EXPECT_THROW(make_library_solver("pardiso"), AnalysisError);
 }
 
 }  // namespace
