@@ -62,6 +62,7 @@ class Solid final : public PointElement<4, 2 * Shape::nodes, Rule::points> {
         extrapolation_matrix(at, Shape::node_at, Rule::points == 1 ? Basis::constant : Shape::stress_basis);
     if constexpr (Shape::corners == 4 && Rule::points > Shape::degree * Shape::degree) {
       std::vector<ParentPoint> samples;
+      samples.reserve(GaussSquare<Shape::degree>::table.size());
       for (const RulePoint& q : GaussSquare<Shape::degree>::table) samples.push_back({q.xi, q.eta});
       to_samples_ = extrapolation_matrix(at, samples, Basis::tensor);
     }

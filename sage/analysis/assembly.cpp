@@ -136,7 +136,7 @@ ElementEquations Assembly::element_equations() const {
 
 void Assembly::condense(int increments, const SolverMaker& make) {
   // Measured: the matrix of the border costs a solution for each of its dofs, an iteration saves about eight.
-  constexpr int kMostKept = 400, kFewestCondensed = 100, kBorderPerIncrement = 15;
+  constexpr int kWidestBorder = 400, kFewestCondensed = 100, kBorderPerIncrement = 15;
   if (!skips_.condensation || scene_->linear) return;
   std::vector<char> keep(static_cast<std::size_t>(model_->dofs()), 0);
   for (const GroupData& data : groups_) {
@@ -148,7 +148,7 @@ void Assembly::condense(int increments, const SolverMaker& make) {
       static_cast<int>(std::count_if(dof_of_equation_.begin(), dof_of_equation_.end(),
                                      [&](int dof) { return keep[static_cast<std::size_t>(dof)] != 0; }));
   const int condensed = equations_ - kept;
-  if (kept == 0 || kept > kMostKept || condensed < kFewestCondensed || condensed < 4 * kept ||
+  if (kept == 0 || kept > kWidestBorder || condensed < kFewestCondensed || condensed < 4 * kept ||
       kept > kBorderPerIncrement * increments)
     return;
   try {

@@ -286,6 +286,7 @@ ErrorEstimate estimate_error(const Model& model, const Solution& solution, const
   std::map<std::pair<int, int>, Fit> fits;  // by material and vertex
   const auto fit_of = [&](const std::vector<std::size_t>& patch) {
     std::vector<const ElementStress*> members;
+    members.reserve(patch.size());
     for (std::size_t k : patch) members.push_back(&stress[k]);
     return Fit(members);
   };

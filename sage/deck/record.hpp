@@ -6,6 +6,7 @@
 #include <deque>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sage/deck/deck.hpp"
@@ -28,7 +29,7 @@ struct RecordRules {
 // The lines of a text, one after the other.
 class RecordSource {
  public:
-  RecordSource(const SourceText& source, RecordRules rules) : source_(&source), rules_(rules) {}
+  RecordSource(const SourceText& source, RecordRules rules) : source_(&source), rules_(std::move(rules)) {}
 
   bool next();          // moves to the next record; false at the end of the file
   bool at_end() const;  // no record is left (comments don't count)
