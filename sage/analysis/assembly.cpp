@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "sage/analysis/shown_status.hpp"
+
 namespace sage {
 
 namespace {
@@ -536,7 +538,8 @@ std::array<long, kStatuses> Assembly::count_points() const {
   std::array<long, kStatuses> counts{};
   for (const GroupData& data : groups_) {
     if (!data.active) continue;
-    for (PointStatus status : data.state.committed.status) ++counts[static_cast<std::size_t>(status)];
+    for (std::size_t p = 0; p < data.state.committed.status.size(); ++p)
+      ++counts[static_cast<std::size_t>(shown_status(model_->mesh, data, p))];
   }
   return counts;
 }

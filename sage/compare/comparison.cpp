@@ -118,7 +118,7 @@ void add_points(Comparison& c, const Side& a, const Side& b) {
   const auto fractions = [](const Side& side) {
     Values v;
     if (!side.has_state()) return v;
-    const PointCounts n = count_points(side.last());
+    const PointCounts n = count_points(side.model().mesh, side.last());
     v.emplace_back("solids: yielded", part(n.yielded, n.solids));
     v.emplace_back("solids: at the apex or cut off", part(n.apex, n.solids));
     if (n.interfaces > 0) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "sage/analysis/shown_status.hpp"
 #include "sage/output/values.hpp"
 
 namespace sage::compare {
@@ -54,12 +55,13 @@ double shear_stress(const Face& face, const FaceState& state) {
   return state.force[1 - face.normal] / face.area;
 }
 
-PointCounts count_points(const Solution& solution) {
+PointCounts count_points(const Mesh& mesh, const Solution& solution) {
   PointCounts counts;
   for (const GroupData& data : solution.assembly->groups()) {
     if (!data.active) continue;
     const bool solid = data.state.law_size() == 4;
-    for (PointStatus status : data.state.committed.status) {
+    for (std::size_t p = 0; p < data.state.committed.status.size(); ++p) {
+      const PointStatus status = shown_status(mesh, data, p);
       ++(solid ? counts.solids : counts.interfaces);
       if (solid) {
         counts.yielded += status == PointStatus::yielded || status == PointStatus::apex ? 1 : 0;

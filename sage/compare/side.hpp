@@ -48,7 +48,7 @@ struct PointCounts {
   long solids = 0, yielded = 0, apex = 0;  // yielded: apex included
   long interfaces = 0, slipping = 0, open = 0;
 };
-PointCounts count_points(const Solution& solution);
+PointCounts count_points(const Mesh& mesh, const Solution& solution);
 
 class Side final : public Observer {
  public:

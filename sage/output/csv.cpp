@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "sage/analysis/shown_status.hpp"
 #include "sage/output/number.hpp"
 #include "sage/output/values.hpp"
 
@@ -160,7 +161,7 @@ void point_rows(std::string& text, const Model& model, const StepReport& report,
       for (std::size_t i = 0; i < n; ++i) cell(text, outward(state.eps[point * n + i]));
       cell(text, stress_level(data, point));
       text += ',';
-      text += status_name(state.status[point]);
+      text += status_name(shown_status(model.mesh, data, point));
       history_cells(text, data, point, history);
       text += '\n';
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "sage/analysis/shown_status.hpp"
 #include "sage/output/listing_parts.hpp"
 #include "sage/output/number.hpp"
 
@@ -85,7 +86,7 @@ void interface_columns(std::string& text, const Model& model, const GroupData& d
 }
 
 // Components, stress level, status and history of one point.
-void point_values(std::string& text, const GroupData& data, std::size_t point) {
+void point_values(std::string& text, const Mesh& mesh, const GroupData& data, std::size_t point) {
   const PointStates& state = data.state.committed;
   const auto n = static_cast<std::size_t>(data.state.law_size());
   for (std::size_t i = 0; i < n; ++i) put(text, outward(state.sigma[point * n + i]));
@@ -94,9 +95,9 @@ void point_values(std::string& text, const GroupData& data, std::size_t point) {
   append_level(text, stress_level(data, point));
   text += "  ";
   if (history_of(data).empty()) {
-    text += status_name(state.status[point]);
+    text += status_name(shown_status(mesh, data, point));
   } else {
-    left(text, status_name(state.status[point]), 10);
+    left(text, status_name(shown_status(mesh, data, point)), 10);
     history(text, data, point);
   }
   text += '\n';
@@ -145,7 +146,7 @@ void points(std::string& text, const Model& model, const Solution& solution) {
         append_integer(text, p + 1, 4);
         put(text, at.x());
         put(text, at.y());
-        point_values(text, data, static_cast<std::size_t>(e * count + p));
+        point_values(text, model.mesh, data, static_cast<std::size_t>(e * count + p));
       }
     }
   }

@@ -11,6 +11,7 @@
 #include <limits>
 #include <numeric>
 
+#include "sage/analysis/shown_status.hpp"
 #include "sage/output/nodal_values.hpp"
 #include "sage/output/values.hpp"
 
@@ -167,11 +168,11 @@ constexpr int kCellValues = 6;
 constexpr std::array<std::string_view, kCellValues> kCellNames{
     "mean_stress", "q", "stress_level", "yielded", "interface_shear", "interface_normal"};
 
-void cell_values(const GroupData& data, std::size_t point, double* values) {
+void cell_values(const Mesh& mesh, const GroupData& data, std::size_t point, double* values) {
   const PointStates& state = data.state.committed;
   const bool solid = data.state.law_size() == 4;
   const double* sigma = state.sigma.data() + point * static_cast<std::size_t>(data.state.law_size());
-  const PointStatus status = state.status[point];
+  const PointStatus status = shown_status(mesh, data, point);
   values[0] = solid ? mean_stress(sigma) : kNone;
   values[1] = solid ? deviator_stress(sigma) : kNone;
   values[2] = stress_level(data, point);
@@ -188,7 +189,9 @@ void add_cell_data(VtuText& vtu, const Model& model, const Solution& s) {
     if (!data.active) continue;
     const Group& group = *data.group;
     interfaces = interfaces || data.state.law_size() == 2;
-    const std::vector<double> values = element_average(data, kCellValues, cell_values);
+    const std::vector<double> values = element_average(
+        data, kCellValues,
+        [&](const GroupData& d, std::size_t point, double* v) { cell_values(model.mesh, d, point, v); });
     for (std::size_t k = 0; k < values.size(); ++k) columns[k % kCellValues].push_back(values[k]);
     const auto elements = static_cast<std::size_t>(group.elements());
     group_number.insert(group_number.end(), elements, group.number);

@@ -131,6 +131,47 @@ TEST(Specimen, HugeAndTinySteps) {
     }
 }
 
+// Two bodies with a slanting joint between them, moved as one: the joint carries nothing, and
+// the sign of its opening is rounding.  Moved apart by 1e-9 a step it is open.
+TEST(ZeroContact, RoundingIsNoOpening) {
+  for (const int law : {21, 22})
+    for (const double apart : {0.0, 1e-9}) {
+      SCOPED_TRACE(std::to_string(law) + (apart > 0.0 ? " apart" : " together"));
+      std::vector<double> joint{1e6, 1e6};
+      if (law == 22) {
+        joint = coulomb(0.0, 30.0, 1e6, 1e6);
+        joint[7] = 0.0;  // no tension
+      }
+      DeckWriter deck(1);
+      deck.water_unit_weight = 1.0;
+      const double y[] = {0.0, 0.7, 0.7, 1.3};
+      for (int j = 0; j < 4; ++j)
+        for (int i = 0; i < 3; ++i)
+          deck.node(3 * j + i + 1, 0.8 * 0.37 * i - 0.6 * y[j], 0.6 * 0.37 * i + 0.8 * y[j]);
+      deck.material(1, 1, {1000.0, 0.3});
+      deck.material(2, law, joint);
+      deck.group(1, 1, 1, 1);
+      deck.group(2, 11, 0, 2);
+      for (int i = 1; i <= 2; ++i) {
+        deck.element(i, 1, {i, i + 1, i + 4, i + 3});
+        deck.element(i + 2, 1, {i + 6, i + 7, i + 10, i + 9});
+      }
+      join(deck, 11, 2, {4, 5, 6}, {7, 8, 9}, 1);
+      const int held[] = {1, 2, 3, 10, 11, 12};  // the far ends; what is at the joint follows
+      for (int n : held) deck.fix(n, 1, 1);
+      StageCards& stage = deck.stage(7);
+      for (int n : held) {
+        const double more = n > 6 ? 7.0 * apart : 0.0;
+        stage.fix(n, 1, 1, 0.1 - 0.6 * more, 0.3 + 0.8 * more);
+      }
+      const WholeRun run = run_text(deck.text());
+      ASSERT_TRUE(run.completed()) << run.failure;
+      const long points = apart > 0.0 ? 4 : 0;
+      for (const Snapshot& at : run.increments)
+        EXPECT_EQ(at.points[static_cast<std::size_t>(PointStatus::open)], points);
+    }
+}
+
 // Near nu = 1/2 internal forces carry K/G times the rounding of the displacements.  An elastic run that can't
 // reach its tolerance for that ends with the answer and says to what its forces balance.
 TEST(NearlyIncompressible, AnElasticRunEndsAtRoundingAndSaysSo) {

@@ -1,0 +1,20 @@
+#include "sage/analysis/shown_status.hpp"
+
+namespace sage {
+
+PointStatus shown_status(const Mesh& mesh, const GroupData& data, std::size_t point) {
+  constexpr double kRounding = 1e-12;
+  const PointStates& state = data.state.committed;
+  const PointStatus status = state.status[point];
+  if (status != PointStatus::open) return status;
+  const auto history = std::visit([](const auto* law) { return law->history(); }, data.law);
+  const int element = static_cast<int>(point) / data.group->element->traits().points;
+  const int* nodes = data.group->nodes_of(element);
+  const double length = (mesh.x.col(nodes[1]) - mesh.x.col(nodes[0])).norm();
+  for (std::size_t i = 0; i < history.size(); ++i)
+    if (history[i].name == "gap" && state.h[point * history.size() + i] < kRounding * length)
+      return PointStatus::elastic;
+  return status;
+}
+
+}  // namespace sage
