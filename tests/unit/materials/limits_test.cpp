@@ -40,6 +40,7 @@ void expect_refusal(int code, const std::vector<double>& values, int parameter, 
 TEST(Parameters, ThatContradictOneAnotherAreRefused) {
   const double none = -1.0;
   expect_refusal(3, {1, 0.3, 0, 30, 5, 1, 0, none, 1}, 8, "only for flow without volume change");
+  expect_refusal(3, {1, 0.3, 0, 30, 0, 1, 1, 5, 1}, 8, "without a tension limit");
   expect_refusal(3, {1, 0.3, 0, 30, 5, 1, 0, none, 0, 1}, 9, "only for flow without volume change");
   expect_refusal(4, {1, 0.3, 0, 30, 31}, 4, "must not exceed the friction angle");
   expect_refusal(7, {400, 0.5, 0.8, 600, 250, 0.3, 5, 33, 0, 34}, 9, "must not exceed the friction angle");
