@@ -17,15 +17,13 @@ std::string ruler(std::size_t columns) {
   return text;
 }
 
-// Control characters would move the carets.
-std::string printable(std::string_view text) {
-  std::string shown(text);
-  for (char& c : shown)
-    if (c == '\t')
-      c = ' ';
-    else if (static_cast<unsigned char>(c) < 32 || c == 127)
-      c = '?';
-  return shown;
+// The characters of the line behind a text that its field or the card's end cut off.
+std::string_view behind(const Deck& deck, const FieldValue& value) {
+  const std::string_view line = deck.line_text(value.line);
+  return value.last_column == 0 || trimmed(value.text).end() != value.text.end() ||
+                 value.last_column > line.size()
+             ? std::string_view()
+             : line.substr(value.last_column);
 }
 
 }  // namespace
@@ -92,7 +90,13 @@ int CardView::integer(std::string_view field, int fallback) const {
 
 std::string CardView::text(std::string_view field, std::string_view fallback) const {
   const FieldValue* value = find(field);
-  return std::string(value && !value->blank ? trimmed(value->text) : fallback);
+  return !value || value->blank ? std::string(fallback) : text_with_flaws(field).text;
+}
+
+WellFormed CardView::text_with_flaws(std::string_view field) const {
+  const FieldValue* value = find(field);
+  if (!value || value->blank) return {};
+  return well_formed(trimmed(value->text), behind(*deck_, *value));
 }
 
 bool CardView::blank(std::string_view field) const {
@@ -132,7 +136,9 @@ Diagnostic card_diagnostic(const Deck& deck, Severity severity, const SourcePosi
   Diagnostic diagnostic{severity, where, std::move(message), {}};
   if (where.line < 1 || where.line > static_cast<int>(deck.line_starts.size())) return diagnostic;
   constexpr std::size_t widest = 200;
-  const std::string card = printable(deck.line_text(where.line).substr(0, widest));
+  const std::string_view line = deck.line_text(where.line);
+  const std::size_t shown = std::min(widest, line.size());
+  const std::string card = well_formed(line.substr(0, shown), line.substr(shown)).text;
   const auto first = static_cast<std::size_t>(std::max(where.first_column, 0));
   const auto last = static_cast<std::size_t>(std::max(where.last_column, where.first_column));
   std::string number = std::to_string(where.line);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sage/core/error.hpp"
+#include "sage/deck/text.hpp"
 
 namespace sage {
 
@@ -99,8 +100,10 @@ class CardView {
   // The field's value; `fallback` where the layout has no such field or the card leaves it blank.
   double real(std::string_view field, double fallback = 0.0) const;
   int integer(std::string_view field, int fallback = 0) const;
-  // Trimmed of blanks at both ends.
+  // Trimmed of blanks at both ends, well-formed.
   std::string text(std::string_view field, std::string_view fallback = "") const;
+  // The same with what was changed to make it so; empty where blank.
+  WellFormed text_with_flaws(std::string_view field) const;
   bool blank(std::string_view field) const;  // absent or blank
   // The values of the last, repeating field.
   std::span<const FieldValue> list(std::string_view field) const;

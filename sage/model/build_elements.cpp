@@ -201,7 +201,7 @@ void read_element_card(Builder& b, const CardView& card) {
     return;
   }
   if (std::find(element.nodes.begin() + entry.corners, element.nodes.end(), 0) != element.nodes.end() ||
-      (given > entry.corners && given < entry.nodes))
+      (given > entry.corners && given < std::min(entry.nodes, 2 * entry.corners)))
     b.note(card.where(), "element " + std::to_string(element.number) +
                              ": some of its mid-side nodes are left blank "
                              "and will be made, though others are given");
@@ -238,7 +238,7 @@ void read_element_card(Builder& b, const CardView& card) {
 void read_material(Builder& b, const CardView& card, const std::vector<CardView>& parameter_cards) {
   Material material;
   material.number = card.integer("number");
-  material.name = card.text("name");
+  material.name = b.text(card, "name");
   material.code = card.integer("law");
   material.unit_weight = card.real("unit_weight");
   material.where = card.where();
@@ -314,7 +314,7 @@ void build_groups(Builder& b) {
   for (const CardView& card : b.deck.all("group")) {
     Group group;
     group.number = card.integer("number");
-    group.name = card.text("name");
+    group.name = b.text(card, "name");
     group.where = card.where();
     const std::string name = "group " + std::to_string(group.number);
     if (group.number < 1) b.error(card.where("number"), "a group number must be 1 or more");

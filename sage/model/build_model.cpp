@@ -15,6 +15,15 @@ bool Builder::usable(const CardView& card, std::string_view field, double value)
   return false;
 }
 
+std::string Builder::text(const CardView& card, std::string_view field) {
+  WellFormed words = card.text_with_flaws(field);
+  const std::string label = "the " + card.label(field);
+  if (words.latin1)
+    warning(card.where(field), label + " is not UTF-8 text: it is read as Latin-1, '?' for what that has not");
+  if (words.controls) warning(card.where(field), label + " holds control characters: '?' stands for them");
+  return std::move(words.text);
+}
+
 int Builder::node(const CardView& card, std::string_view field, std::int64_t number) {
   const auto it = node_index.find(static_cast<int>(number));
   if (it != node_index.end()) return it->second;
@@ -53,7 +62,7 @@ void Builder::group_missing(const SourcePosition& where, int number) {
 void build_control(Builder& b) {
   Model& model = b.model;
   model.file = b.deck.file;
-  if (b.deck.has("title")) model.title = b.deck.one("title").text("title");
+  if (b.deck.has("title")) model.title = b.text(b.deck.one("title"), "title");
   if (b.deck.has("units")) {
     const CardView card = b.deck.one("units");
     model.units = {card.text("length", "-"), card.text("force", "-"), card.text("stress", "-"),
@@ -167,6 +176,7 @@ Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOp
   build::make_mid_nodes(b);
   if (b.problems.errors() > 0) throw refusal(deck, b.problems);
   build::check_model(b);
+  build::check_stages(b);
   if (b.problems.errors() == 0) build::check_plausible(b);
   if (b.problems.errors() > 0) throw refusal(deck, b.problems);
   return std::move(b.model);

@@ -38,7 +38,7 @@ void read_fixity(Builder& b, const CardView& card, bool in_stage, std::vector<Fi
   for (std::size_t c = 0; c < 2; ++c) {
     b.usable(card, values[c], fixity.value[c]);
     if (in_stage && fixity.code[c] == FixityCode::fixed && card.blank(values[c]))
-      b.note(card.where(codes[c]),
+      b.note(card.where(values[c]),
              "the " + card.label(values[c]) + " is left blank: held where it is, displacement 0");
     if (fixity.value[c] == 0.0) continue;
     if (!in_stage)
@@ -160,9 +160,17 @@ void check_traction(Builder& b, const CardView& card) {
                                   "or is no solid");
 }
 
-void read_groups(Builder& b, const CardView& card, std::vector<int>& out) {
+void read_groups(Builder& b, const CardView& card, bool death, std::vector<int>& out) {
   for (const FieldValue& value : card.list("groups")) {
     bool found = false;
+    const auto same = [&](int g) {
+      return static_cast<double>(b.model.groups[static_cast<std::size_t>(g)].number) == value.number;
+    };
+    if (death && std::any_of(out.begin(), out.end(), same)) {
+      b.note(card.where(value), "group " + std::to_string(static_cast<int>(value.number)) +
+                                    " is listed twice among the deaths of this stage");
+      continue;
+    }
     for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
       if (static_cast<double>(b.model.groups[g].number) != value.number) continue;
       found = true;
@@ -200,8 +208,8 @@ Stage read_stage(Builder& b, const CardView& card, int number) {
   for (const CardView& c : b.deck.all("fixity", card)) read_fixity(b, c, true, stage.fixities);
   for (const CardView& c : b.deck.all("load", card)) read_load(b, c, stage.loads);
   for (const CardView& c : b.deck.all("pressure", card)) read_pressure(b, c, stage.pressures);
-  for (const CardView& c : b.deck.all("birth", card)) read_groups(b, c, stage.births);
-  for (const CardView& c : b.deck.all("death", card)) read_groups(b, c, stage.deaths);
+  for (const CardView& c : b.deck.all("birth", card)) read_groups(b, c, false, stage.births);
+  for (const CardView& c : b.deck.all("death", card)) read_groups(b, c, true, stage.deaths);
   for (const CardView& c : b.deck.all("initial", card)) read_initial(b, c, stage.initials);
   return stage;
 }
@@ -213,13 +221,37 @@ bool outside_stages(const Deck& deck, const CardView& card) {
   return owner < 0 || CardView(deck, owner).spec().name != "stage";
 }
 
+// A group is placed at most once, and removed at most once after that.
 void check_births(Builder& b) {
-  std::vector<int> born_twice(b.model.groups.size(), 0);
-  for (const Stage& stage : b.model.stages)
-    for (int g : stage.births)
-      if (++born_twice[static_cast<std::size_t>(g)] > 1)
-        b.error(stage.where, "group " + std::to_string(b.model.groups[static_cast<std::size_t>(g)].number) +
-                                 " is born twice; a group that was removed needs a twin to be placed again");
+  struct Life {
+    int born = 0, dead = 0;  // stage numbers, 0 = not
+  };
+  std::vector<Life> lives(b.model.groups.size());
+  const auto name = [&](int g) {
+    return "group " + std::to_string(b.model.groups[static_cast<std::size_t>(g)].number);
+  };
+  for (const Stage& stage : b.model.stages) {
+    for (int g : stage.births) {
+      Life& life = lives[static_cast<std::size_t>(g)];
+      if (life.born > 0)
+        b.error(stage.where,
+                name(g) + " is born twice; a group that was removed needs a twin to be placed again");
+      else if (life.dead > 0)
+        b.error(stage.where,
+                name(g) + " is born in stage " + std::to_string(stage.number) + " but removed in stage " +
+                    std::to_string(life.dead) +
+                    ", before it exists; a group that was removed needs a twin to be placed again");
+      life.born = stage.number;
+    }
+    for (int g : stage.deaths) {
+      Life& life = lives[static_cast<std::size_t>(g)];
+      if (life.born == stage.number)
+        b.error(stage.where, name(g) + " is born and removed in the same stage");
+      else if (life.dead > 0)
+        b.note(stage.where, name(g) + " is removed again: it is gone since stage " + std::to_string(life.dead));
+      if (life.dead == 0) life.dead = stage.number;
+    }
+  }
 }
 
 }  // namespace
@@ -235,7 +267,7 @@ void build_stages(Builder& b) {
   for (const CardView& card : b.deck.all("stage")) {
     b.model.stages.push_back(read_stage(b, card, number + 1));
     if (static_cast<std::size_t>(number) < titles.size())
-      b.model.stages.back().title = titles[static_cast<std::size_t>(number)].text("title");
+      b.model.stages.back().title = b.text(titles[static_cast<std::size_t>(number)], "title");
     ++number;
   }
   if (b.model.stages.empty())

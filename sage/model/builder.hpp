@@ -50,6 +50,8 @@ struct Builder {
   }
   // A number that an analysis can use: finite and below 1e100 (its square must not overflow).
   bool usable(const CardView& card, std::string_view field, double value);
+  // A name or title; a warning where it had to be changed to be a text.
+  std::string text(const CardView& card, std::string_view field);
   // Index of a deck node; -1 and an error where it doesn't exist.
   int node(const CardView& card, std::string_view field, std::int64_t number);
   // The fields `first_field`, last and step of a card.  A blank or zero last means the first only, step 0 is 1.
@@ -80,6 +82,8 @@ void check_interfaces(Builder& b);
 void check_inactive(Builder& b);
 // Shapes, supports, unused nodes, radii, solver.
 void check_model(Builder& b);
+// Cards of stages that contradict each other or can't act.
+void check_stages(Builder& b);
 // Nodes at one place, hanging nodes.
 void check_joints(Builder& b);
 
