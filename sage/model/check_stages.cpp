@@ -112,7 +112,7 @@ void check_stages(Builder& b) {
     warn_contradictions(b, stage);
     if (b.model.geometry == Geometry::axisymmetric) check_axis(b, stage);
   }
-  check_left(b);
+  if (b.problems.errors() == 0) check_left(b);
 }
 
 }  // namespace sage::build
