@@ -29,6 +29,8 @@ struct Rung {
 struct Quantity {
   std::string name;
   std::vector<double> values;  // one a mesh
+  // On each mesh so far: its size beside the largest of its kind (displacement, force) in the report's history.
+  double largest_share = 1.0;
 };
 
 struct Row {
@@ -129,10 +131,11 @@ std::vector<Quantity> quantities_of(const RunOutcome& outcome) {
       const bool held = is_held(model, model.reports[i], c);
       // The reaction of one node is that of its share of the edge, which shrinks with the mesh.
       if (held && deck_nodes(model, model.reports[i]) < 2) continue;
-      const double* values = held ? rows.back().force : rows.back().displacement;
-      // What symmetry makes zero has no relative error.
-      if (std::abs(values[c]) > 1e-9 * std::abs(values[1 - c]))
-        all.push_back({name + kNames[held ? 1 : 0][c], {values[c]}});
+      double largest = 0.0;
+      for (const NodesRow& row : rows)
+        for (double v : held ? row.force : row.displacement) largest = std::max(largest, std::abs(v));
+      const double value = (held ? rows.back().force : rows.back().displacement)[c];
+      all.push_back({name + kNames[held ? 1 : 0][c], {value}, largest > 0.0 ? std::abs(value) / largest : 0.0});
     }
   }
   return all;
@@ -142,14 +145,41 @@ double relative(const Limit& limit) {
   return limit.error / std::max(std::abs(limit.value), std::numeric_limits<double>::min());
 }
 
-// The quantity that is least certain.
-std::pair<std::size_t, Limit> worst_of(const std::vector<Quantity>& quantities, Ladder ladder) {
-  std::pair<std::size_t, Limit> worst{0, study::limit_of(quantities[0].values, ladder)};
-  for (std::size_t i = 1; i < quantities.size(); ++i) {
-    const Limit limit = study::limit_of(quantities[i].values, ladder);
-    if (relative(limit) > relative(worst.second)) worst = {i, limit};
-  }
+// What symmetry makes zero has no relative error: rounding, or the error of the mesh, beside the report's other
+// values.
+bool is_zero(const Quantity& quantity, Ladder ladder) {
+  constexpr double kRounding = 1e-9, kSmall = 1e-4, kCertain = 0.1;
+  if (quantity.largest_share <= kRounding) return true;
+  if (quantity.largest_share > kSmall) return false;
+  return !(relative(study::limit_of(quantity.values, ladder)) < kCertain);
+}
+
+// Relative error of the quantity that is least certain.  The one shown counts always.
+double worst_of(const std::vector<Quantity>& quantities, std::size_t shown, Ladder ladder) {
+  double worst = 0.0;
+  for (std::size_t i = 0; i < quantities.size(); ++i)
+    if (i == shown || !is_zero(quantities[i], ladder))
+      worst = std::max(worst, relative(study::limit_of(quantities[i].values, ladder)));
   return worst;
+}
+
+// Appends a mesh's values.  False where a quantity has none on it.
+bool append(std::vector<Quantity>& quantities, const std::vector<Quantity>& now) {
+  for (Quantity& q : quantities) {
+    const auto same = std::find_if(now.begin(), now.end(), [&](const Quantity& n) { return n.name == q.name; });
+    if (same == now.end()) return false;
+    q.values.push_back(same->values.front());
+    q.largest_share = std::max(q.largest_share, same->largest_share);
+  }
+  return true;
+}
+
+// The one that the table shows: on the first mesh the first that is more than zero.
+std::size_t shown_of(const std::vector<Quantity>& quantities) {
+  for (double least : {1e-4, 1e-9})
+    for (std::size_t i = 0; i < quantities.size(); ++i)
+      if (quantities[i].largest_share > least) return i;
+  return quantities.size();
 }
 
 // Screen and CSV side by side.
@@ -199,7 +229,7 @@ int converge(const RunRequest& request, const ConvergeOptions& options, const Ca
   std::vector<Quantity> quantities;
   std::optional<Table> table;
   std::string stopped;
-  std::pair<std::size_t, Limit> worst;
+  std::size_t shown_index = 0;
   double last_seconds = 0.0;
   for (int level = 0; stopped.empty(); ++level) {
     const Rung rung = ladder == Ladder::spectral ? spectral_rung(request.input.build, catalogue, level)
@@ -233,25 +263,27 @@ int converge(const RunRequest& request, const ConvergeOptions& options, const Ca
     }
     last_seconds = outcome.record.seconds;
     const std::vector<Quantity> now = quantities_of(outcome);
-    if (now.empty())
-      throw InputError({request.deck, 0, 0, 0}, "the deck's reports have no value that can converge");
-    if (quantities.empty())
+    if (quantities.empty()) {
       quantities = now;
-    else
-      for (std::size_t i = 0; i < quantities.size() && i < now.size(); ++i)
-        quantities[i].values.push_back(now[i].values.front());
-    worst = worst_of(quantities, ladder);
-    const Quantity& shown = quantities.front();
+      shown_index = shown_of(quantities);
+      if (shown_index == quantities.size())
+        throw InputError({request.deck, 0, 0, 0}, "the deck's reports have no value that can converge");
+    } else if (!append(quantities, now)) {
+      stopped = "the reports of the next mesh lack a value that the others have";
+      break;
+    }
+    const Quantity& shown = quantities[shown_index];
     if (!table)
       table.emplace(*outcome.model, shown.name,
                     request.output.folder / (case_name(request.deck) + ".convergence.csv"));
     table->row(shown.values.size(), {outcome.record.scene.elements, outcome.model->dofs(), last_seconds},
                study::limit_of(shown.values, ladder), shown.values.back(), rung.options);
-    if (relative(worst.second) <= options.tolerance) break;
+    if (worst_of(quantities, shown_index, ladder) <= options.tolerance) break;
   }
   if (!table) throw InputError({request.deck, 0, 0, 0}, "--converge: " + stopped);
   std::string last;
   for (const Quantity& q : quantities) {
+    if (&q != &quantities[shown_index] && is_zero(q, ladder)) continue;
     const Limit limit = study::limit_of(q.values, ladder);
     last += (last.empty() ? "result    " : "; ") + q.name + " ";
     last += std::isfinite(limit.error) ? with_error(limit.value, limit.error)

@@ -42,10 +42,28 @@ Model read_model(const ConvertOptions& options, const Catalogue& catalogue) {
   return model_from_msh(text, options.from, catalogue, mesh);
 }
 
+// `ccx STEM` writes its results to STEM.dat, whatever is there.
+void warn_of_results(const std::filesystem::path& to, Diagnostics& diagnostics) {
+  const std::filesystem::path results = std::filesystem::path(to).replace_extension(".dat");
+  std::error_code ignored;
+  if (!std::filesystem::exists(results, ignored)) return;
+  diagnostics.add({Severity::warning,
+                   {to.string(), 0, 0, 0},
+                   "CalculiX would write its results over " + results.string() + ": convert to another name, " +
+                       (to.parent_path() / (to.stem().string() + "_ccx.inp")).string(),
+                   {}});
+}
+
 int convert(const ConvertOptions& options) {
   const std::string to = ending(options.to);
   if (to != ".dat" && to != ".msh" && to != ".inp") {
     fmt::print(stderr, "sagefe: {}: the ending tells the format: .dat deck, .msh Gmsh, .inp CalculiX\n",
+               options.to);
+    return kUsage;
+  }
+  std::error_code absent;
+  if (std::filesystem::equivalent(options.from, options.to, absent)) {
+    fmt::print(stderr, "sagefe: {}: is the file to be read; the converted one needs another name\n",
                options.to);
     return kUsage;
   }
@@ -56,9 +74,10 @@ int convert(const ConvertOptions& options) {
                 : to == ".msh" ? msh_text(model, catalogue, model.diagnostics)
                                : inp_text(model, catalogue, model.diagnostics);
   file.finish();
+  if (to == ".inp") warn_of_results(options.to, model.diagnostics);
   print_diagnostics(model.diagnostics);
-  fmt::print("{}: {} nodes, {} groups, {} stages\n", options.to, model.mesh.nodes(), model.groups.size(),
-             model.stages.size());
+  fmt::print("{}: {} nodes, {} groups{}\n", options.to, model.mesh.nodes(), model.groups.size(),
+             to == ".msh" ? "" : fmt::format(", {} stages", model.stages.size()));
   return options.input.strict && model.diagnostics.warnings() > 0 ? kInput : kOk;
 }
 

@@ -1,7 +1,9 @@
 // A model as Abaqus-style input for CalculiX.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
+#include <set>
 
 #include "sage/output/convert.hpp"
 
@@ -32,7 +34,7 @@ class Writer {
     heading();
     elements();
     materials();
-    boundary("", model_.fixities);
+    supports();
     for (const Stage& stage : model_.stages) step(stage);
     return std::move(text_);
   }
@@ -99,21 +101,74 @@ class Writer {
     }
   }
 
-  void boundary(const std::string& options, const std::vector<Fixity>& fixities) {
-    bool begun = false;
-    for (const Fixity& fixity : fixities)
-      for (std::size_t c = 0; c < 2; ++c) {
-        if (fixity.code[c] == FixityCode::released) {
-          warning("the release of node " + std::to_string(number(fixity.node)) + " is left out");
-          continue;
-        }
-        if (fixity.code[c] != FixityCode::fixed) continue;
-        if (!begun) text_ += "*BOUNDARY" + options + "\n";
-        begun = true;
-        double& total = displacement_[{fixity.node, static_cast<int>(c)}];
-        total += fixity.value[c];
-        text_ += fmt::format("{}, {}, {}, {}\n", number(fixity.node), c + 1, c + 1, total);
+  // What the cards of one stage say of a dof: of several the last stands.
+  struct Held {
+    FixityCode code = FixityCode::unchanged;
+    double value = 0.0;
+    int line = 0;
+  };
+  static std::map<std::pair<int, std::size_t>, Held> last_of(const std::vector<Fixity>& fixities) {
+    std::map<std::pair<int, std::size_t>, Held> last;
+    for (const Fixity& f : fixities)
+      for (std::size_t c = 0; c < 2; ++c)
+        if (f.code[c] != FixityCode::unchanged) last[{f.node, c}] = {f.code[c], f.value[c], f.line};
+    return last;
+  }
+
+  // One message a card, with the first of its nodes.
+  void warn_nodes(const std::map<int, std::vector<int>>& nodes_of_line, const std::string& before,
+                  const std::string& after) {
+    constexpr std::size_t kShown = 8;
+    for (const auto& [line, nodes] : nodes_of_line) {
+      std::vector<int> shown(nodes.begin(), nodes.begin() + std::min(kShown, nodes.size()));
+      const char* const more = nodes.size() > kShown ? ", ..." : "";
+      diagnostics_.add({Severity::warning,
+                        {model_.file, line, 0, 0},
+                        fmt::format("{}node(s) {}{}{}", before, fmt::join(shown, ", "), more, after),
+                        {}});
+    }
+  }
+
+  // Supports before the first step: the values are zero.
+  void supports() {
+    if (!model_.fixities.empty()) text_ += "*BOUNDARY\n";
+    for (const auto& [dof, held] : last_of(model_.fixities)) {
+      displacement_[dof] = 0.0;
+      text_ += fmt::format("{}, {}, {}, 0\n", number(dof.first), dof.second + 1, dof.second + 1);
+    }
+  }
+
+  // Decks count displacements from where a stage begins, CalculiX from the start.  The two agree for a dof that
+  // is held from the start on; one that could move first can only be held where it is (FIXED).
+  void boundary(const Stage& stage, bool first) {
+    std::string totals, frozen;
+    std::map<int, std::vector<int>> unknown, released;
+    for (const auto& [dof, held] : last_of(stage.fixities)) {
+      const auto [node, c] = dof;
+      if (held.code == FixityCode::released) {
+        released[held.line].push_back(number(node));
+        displacement_.erase(dof);
+        frozen_.erase(dof);
+        continue;
       }
+      if (first) displacement_.try_emplace(dof, 0.0);
+      const auto total = displacement_.find(dof);
+      if (total == displacement_.end() && held.value == 0.0) {
+        if (frozen_.insert(dof).second) frozen += fmt::format("{}, {}, {}\n", number(node), c + 1, c + 1);
+        continue;
+      }
+      if (total == displacement_.end()) unknown[held.line].push_back(number(node));
+      double& sum = displacement_[dof];
+      sum += held.value;
+      totals += fmt::format("{}, {}, {}, {}\n", number(node), c + 1, c + 1, sum);
+    }
+    if (!totals.empty()) text_ += "*BOUNDARY\n" + totals;
+    if (!frozen.empty()) text_ += "*BOUNDARY, FIXED\n" + frozen;
+    const std::string name = "stage " + std::to_string(stage.number) + ": ";
+    warn_nodes(unknown, name,
+               " could move before this stage displaces them: CalculiX counts the displacement from their "
+               "original place, not from where the stage begins; add what they had moved");
+    warn_nodes(released, name + "the release of ", " is left out: CalculiX holds them on");
   }
 
   // Loads here are added stage by stage, there the last value stands: totals are written.
@@ -123,7 +178,7 @@ class Writer {
       warning("stage " + std::to_string(stage.number) + ": births and deaths of groups are left out");
     if (!stage.initials.empty())
       warning("stage " + std::to_string(stage.number) + ": initial stresses are left out");
-    boundary("", stage.fixities);
+    boundary(stage, &stage == &model_.stages.front());
     if (!stage.loads.empty()) text_ += "*CLOAD\n";
     for (const NodalLoad& load : stage.loads)
       for (int c = 0; c < 2; ++c) {
@@ -168,7 +223,9 @@ class Writer {
   Diagnostics& diagnostics_;
   std::string text_;
   std::vector<char> written_;
-  std::map<std::pair<int, int>, double> displacement_, force_, pressure_;
+  std::map<std::pair<int, std::size_t>, double> displacement_;  // totals, of dofs whose place is known
+  std::set<std::pair<int, std::size_t>> frozen_;                // held where they were
+  std::map<std::pair<int, int>, double> force_, pressure_;
   Vector2 gravity_ = Vector2::Zero();
 };
 

@@ -97,6 +97,33 @@ std::string entities(const Model& model, const std::vector<Block>& blocks) {
   return fmt::format("$Entities\n0 {} {} 0\n{}{}$EndEntities\n", counts[0], counts[1], curves, faces);
 }
 
+// A mesh file is a mesh: what else the deck says must be given anew.
+void warn_of_the_rest(const Model& model, Diagnostics& diagnostics) {
+  std::size_t loads = 0, lives = 0, displacements = 0, initials = model.initials.size();
+  for (const Stage& stage : model.stages) {
+    loads += stage.loads.size() + stage.pressures.size() + (stage.gravity.norm() > 0.0 ? 1u : 0u);
+    lives += stage.births.size() + stage.deaths.size();
+    displacements += stage.fixities.size();
+    initials += stage.initials.size();
+  }
+  std::string rest;
+  const auto add = [&](std::size_t count, const char* what) {
+    if (count > 0) rest += fmt::format("{}{} {}", rest.empty() ? "" : ", ", count, what);
+  };
+  add(model.materials.size(), "material(s)");
+  add(model.stages.size(), "stage(s)");
+  add(loads, "load(s)");
+  add(displacements, "fixities of stages");
+  add(lives, "birth(s) and death(s)");
+  add(initials, "initial stress(es)");
+  add(model.reports.size(), "report(s)");
+  if (!rest.empty())
+    diagnostics.add({Severity::warning,
+                     {model.file, 0, 0, 0},
+                     "a mesh file holds nodes, elements, groups and supports alone; left out: " + rest,
+                     {}});
+}
+
 }  // namespace
 
 std::string msh_text(const Model& model, const Catalogue& catalogue, Diagnostics& diagnostics) {
@@ -108,6 +135,7 @@ std::string msh_text(const Model& model, const Catalogue& catalogue, Diagnostics
                      {model.file, 0, 0, 0},
                      std::to_string(left_out) + " interface element(s) left out: MSH has no type for them",
                      {}});
+  warn_of_the_rest(model, diagnostics);
   std::map<std::pair<int, int>, std::string> names;
   std::size_t elements = 0;
   int lowest = largest;

@@ -51,7 +51,11 @@ class Writer {
     text_.append(10 - field.text.size(), ' ') += field.text;
   }
   void name(std::string value, std::size_t width) {
+    // Not in the middle of a character of UTF-8.
+    const std::size_t columns = width;
+    while (value.size() > width && (static_cast<unsigned char>(value[width]) & 0xc0u) == 0x80u) --width;
     value.resize(width, ' ');
+    value.resize(columns, ' ');
     text_ += value;
   }
   void line() {
@@ -70,7 +74,7 @@ class Writer {
   void materials();
   void groups();
   void elements();
-  void fixity(const Fixity& fixity);
+  void fixity(const Fixity& fixity, bool in_stage);
   void initial(const InitialStress& initial);
   void list(const std::vector<int>& groups);
   void stage(const Stage& stage);
@@ -176,12 +180,13 @@ void Writer::elements() {
   }
 }
 
-void Writer::fixity(const Fixity& fixity) {
+void Writer::fixity(const Fixity& fixity, bool in_stage) {
   integer(node_number(fixity.node));
   text_ += "    0    0";
   for (FixityCode code : fixity.code)
     integer(code == FixityCode::fixed ? 1 : code == FixityCode::released ? -1 : 0);
-  if (fixity.value[0] != 0.0 || fixity.value[1] != 0.0)
+  // The displacement of a held dof is written though it is zero: left blank it would get a note.
+  if (in_stage && (fixity.code[0] == FixityCode::fixed || fixity.code[1] == FixityCode::fixed))
     for (double value : fixity.value) real(value);
   line();
 }
@@ -212,7 +217,7 @@ void Writer::stage(const Stage& stage) {
   for (std::size_t count : counts) integer(static_cast<long>(count));
   for (double value : {stage.gravity.x(), stage.gravity.y(), stage.tolerance}) real(value);
   line();
-  for (const Fixity& f : stage.fixities) fixity(f);
+  for (const Fixity& f : stage.fixities) fixity(f, true);
   for (const NodalLoad& load : stage.loads) {
     integer(node_number(load.node));
     text_ += "    0    0";
@@ -274,7 +279,7 @@ std::string Writer::deck() {
   groups();
   elements();
   if (!model_.fixities.empty()) text_ += "* first last step xcod ycod\n";
-  for (const Fixity& f : model_.fixities) fixity(f);
+  for (const Fixity& f : model_.fixities) fixity(f, false);
   if (!model_.initials.empty()) text_ += "* group kind      v1        v2        v3        v4\n";
   for (const InitialStress& i : model_.initials) initial(i);
   for (const Stage& s : model_.stages) stage(s);

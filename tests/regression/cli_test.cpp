@@ -56,6 +56,24 @@ TEST(CommandLine, HelpOfEverySubcommandNamesItsOptions) {
   }
 }
 
+// `ccx deck` would write its results to deck.dat.
+TEST(CommandLine, ConvertWarnsWhereCalculixWouldOverwriteTheDeck) {
+  const fs::path folder = empty_folder("convert_beside");
+  write(folder / "deck.dat", block_deck().text());
+  const Finished beside = sagefe(folder, "convert deck.dat deck.inp");
+  EXPECT_EQ(beside.exit_code, 0) << beside.err;
+  expect_words(beside.err, {"CalculiX would write its results over deck.dat", "deck_ccx.inp"});
+  EXPECT_EQ(sagefe(folder, "convert deck.dat deck_ccx.inp").err.find("over deck"), std::string::npos);
+}
+
+TEST(CommandLine, ConvertNeverReplacesTheDeckThatItReads) {
+  const fs::path folder = empty_folder("convert_itself");
+  const std::string deck = block_deck().text();
+  write(folder / "deck.dat", deck);
+  EXPECT_EQ(sagefe(folder, "convert deck.dat ./deck.dat").exit_code, 1);
+  EXPECT_EQ(read(folder / "deck.dat"), deck);
+}
+
 // One side that can't be read: the other is reported, and the shell hears of it.
 TEST(CommandLine, CompareReportsTheSideThatRuns) {
   const fs::path folder = empty_folder("compare");

@@ -156,6 +156,28 @@ TEST(Converge, StopsAtItsLimitsAndSaysSo) {
   EXPECT_THROW(converge(request_for(path), options, full_catalogue()), InputError) << "not even the first mesh";
 }
 
+// A bar pressed at its top, symmetric about its middle: u_x of both ends of the top together is zero.
+TEST(Converge, WhatSymmetryMakesZeroIsLeftOut) {
+  study::DeckWriter deck(1);
+  for (int i = 0; i < 6; ++i) deck.node(i + 1, i % 2, i / 2);
+  deck.material(1, 1, {1000.0, 0.3});
+  deck.group(1, 1, 2, 1);
+  deck.element(1, 1, {1, 2, 4, 3});
+  deck.element(2, 1, {3, 4, 6, 5});
+  for (int node : {1, 2}) deck.fix(node, 1, 1);
+  deck.stage().pressure(2, 3, 10.0, 10.0);
+  deck.reports.push_back("    2    0    5    6    1    1");
+  ConvergeOptions options;
+  options.tolerance = 1e-5;
+  EXPECT_EQ(converge(request_for(write("symmetric", deck.text())), options, full_catalogue()), kOk);
+  std::string last;
+  const std::vector<Row> rows = table_of("symmetric", last);
+  EXPECT_EQ(last.find("report1.ux"), std::string::npos) << last;
+  EXPECT_NE(last.find("report1.uy"), std::string::npos) << last;
+  for (const Row& row : rows)
+    EXPECT_NEAR(row.value, -0.0185, 0.002) << "2 x 10 / (1000 / 0.91) and a little less";
+}
+
 TEST(Converge, NeedsAReport) {
   study::DeckWriter deck(1);
   for (int i = 0; i < 4; ++i) deck.node(i + 1, i % 2, i / 2);

@@ -10,12 +10,15 @@
 #include "sage/app/run_deck.hpp"
 #include "sage/model/msh_model.hpp"
 #include "sage/output/convert.hpp"
+#include "sage/study/deck_writer.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace sage::app {
 namespace {
 
 namespace fs = std::filesystem;
+using study::DeckWriter;
+using study::StageCards;
 
 const std::string kInputs = SAGE_SOURCE_DIR "/legacy_inputs/";
 
@@ -318,6 +321,124 @@ TEST(Convert, CalculixFindsTheSameDisplacements) {
     ++found;
   }
   EXPECT_EQ(found, 3);
+}
+
+// A column of two squares, nu = 0 and E = 1000: the force of 10 at its top shortens each square by 0.01.
+DeckWriter column() {
+  DeckWriter deck(1);
+  deck.node(1, 0.0, 0.0);
+  deck.node(2, 1.0, 0.0);
+  deck.node(3, 0.0, 1.0);
+  deck.node(4, 1.0, 1.0);
+  deck.node(5, 0.0, 2.0);
+  deck.node(6, 1.0, 2.0);
+  deck.material(1, 1, {1000.0, 0.0});
+  deck.group(1, 1, 2, 1);
+  deck.element(1, 1, {1, 2, 4, 3});
+  deck.element(2, 1, {3, 4, 6, 5});
+  deck.fix(1, 1, 1);
+  deck.fix(2, 1, 1);
+  return deck;
+}
+
+void move_top(StageCards& stage, int code, double by) {
+  for (int node : {5, 6}) stage.fix(node, 0, code, 0.0, by);
+}
+
+Model model_of(const std::string& name, const DeckWriter& deck) {
+  return model_of(write(name, deck.text()));
+}
+
+// u_y of node 5 at the end of each step, as ccx prints it.
+std::vector<double> calculix_top(const std::string& job, const std::string& inp) {
+  write(job + ".inp", inp);
+  EXPECT_EQ(std::system(("cd " + scratch().string() + " && ccx " + job + " > ccx.log 2>&1").c_str()), 0);
+  std::ifstream in(scratch() / (job + ".dat"));
+  std::vector<double> top;
+  for (std::string line; std::getline(in, line);) {
+    int node = 0;
+    double u[2];
+    if (std::sscanf(line.c_str(), "%d %lf %lf", &node, &u[0], &u[1]) == 3 && node == 5) top.push_back(u[1]);
+  }
+  return top;
+}
+
+TEST(Convert, CalculixGetsTotalDisplacements) {
+  DeckWriter deck = column();
+  move_top(deck.stage(), 1, -0.02);
+  move_top(deck.stage(), 1, -0.01);
+  move_top(deck.stage(), 1, 0.0);
+  Model model = model_of("totals.dat", deck);
+  const std::string inp = inp_text(model, full_catalogue(), model.diagnostics);
+  EXPECT_EQ(model.diagnostics.warnings(), 0);
+  EXPECT_NE(inp.find("5, 2, 2, -0.02\n"), std::string::npos) << inp;
+  EXPECT_NE(inp.find("5, 2, 2, -0.03\n"), std::string::npos) << inp;
+  EXPECT_EQ(inp.find("FIXED"), std::string::npos);
+  if (std::system("command -v ccx > /dev/null 2>&1") != 0) return;
+  const std::vector<double> top = calculix_top("totals_ccx", inp);
+  ASSERT_EQ(top.size(), 3u);
+  EXPECT_NEAR(top[0], -0.02, 1e-8);
+  EXPECT_NEAR(top[1], -0.03, 1e-8);
+  EXPECT_NEAR(top[2], -0.03, 1e-8);
+}
+
+TEST(Convert, CalculixHoldsWhatIsHeldLaterWhereItIs) {
+  DeckWriter deck = column();
+  StageCards& loaded = deck.stage();
+  loaded.load(5, 0.0, -5.0);
+  loaded.load(6, 0.0, -5.0);
+  move_top(deck.stage(), 1, 0.0);
+  StageCards& pushed = deck.stage();
+  pushed.load(3, 0.0, -2.0);
+  pushed.load(4, 0.0, -2.0);
+  Model model = model_of("held.dat", deck);
+  const std::string inp = inp_text(model, full_catalogue(), model.diagnostics);
+  EXPECT_EQ(model.diagnostics.warnings(), 0);
+  EXPECT_NE(inp.find("*BOUNDARY, FIXED\n5, 2, 2\n6, 2, 2\n"), std::string::npos) << inp;
+  if (std::system("command -v ccx > /dev/null 2>&1") != 0) return;
+  const std::vector<double> top = calculix_top("held_ccx", inp);
+  ASSERT_EQ(top.size(), 3u);
+  for (double u : top) EXPECT_NEAR(u, -0.02, 1e-8);
+}
+
+// A held dof whose displacement is zero is written so, not left blank.
+TEST(Convert, HeldDofsGetNoNoteOnReadingBack) {
+  DeckWriter deck = column();
+  move_top(deck.stage(), 1, 0.0);
+  Model model = model_of("zero.dat", deck);
+  const Model back = model_of(write("zero.dat", sage1_text(model, full_catalogue(), model.diagnostics)));
+  for (const Diagnostic& d : back.diagnostics.list())
+    EXPECT_EQ(d.message.find("is left blank"), std::string::npos) << to_string(d);
+}
+
+TEST(Convert, AMeshFileTellsWhatItDoesNotHold) {
+  Model model = model_of(write("strip.dat", kDeck));
+  msh_text(model, full_catalogue(), model.diagnostics);
+  const std::string said = model.diagnostics.list().back().message;
+  // Loads: gravity, one node, two edges by each of two cards.
+  EXPECT_NE(said.find("2 material(s), 2 stage(s), 6 load(s), 1 fixities of stages, 1 initial stress(es), "
+                      "1 report(s)"),
+            std::string::npos)
+      << said;
+}
+
+TEST(Convert, WarnsWhereCalculixCountsFromAnotherPlace) {
+  DeckWriter deck = column();
+  StageCards& loaded = deck.stage();
+  loaded.load(5, 0.0, -5.0);
+  loaded.load(6, 0.0, -5.0);
+  move_top(deck.stage(), 1, -0.01);
+  move_top(deck.stage(), -1, 0.0);
+  Model model = model_of("unknown.dat", deck);
+  inp_text(model, full_catalogue(), model.diagnostics);
+  std::string said;
+  for (const Diagnostic& d : model.diagnostics.list())
+    if (d.severity == Severity::warning) {
+      EXPECT_GT(d.where.line, 0) << d.message;
+      said += d.message + "\n";
+    }
+  EXPECT_NE(said.find("stage 2: node(s) 5 could move before"), std::string::npos) << said;
+  EXPECT_NE(said.find("stage 3: the release of node(s) 5 is left out"), std::string::npos) << said;
 }
 
 }  // namespace

@@ -86,6 +86,133 @@ TEST(PlausibleDeck, TwinsThatFollowEachOtherDoNotOverlap) {
   EXPECT_EQ(messages(deck).find("overlap"), std::string::npos) << messages(deck);
 }
 
+// Elements 3 and 4, the upper half, as group 2; a stage that removes groups.
+void dig(DeckWriter& deck, const std::vector<int>& deaths) {
+  if (deck.groups.size() == 1) {
+    deck.group(2, 1, 0, 1);
+    for (std::size_t e : {2, 3}) deck.elements[e].replace(5, 5, "    2");
+    deck.initial(2, 0, 1.0, 1.0, 1.0, 0.0);
+  }
+  deck.stage().deaths = deaths;
+}
+
+TEST(PlausibleDeck, AReleaseOfWhatTheSameStageHeldIsNoReleaseOfNothing) {
+  DeckWriter deck = sound();
+  deck.stages[0].fix(9, 0, 1, 0.0, -0.02);
+  deck.stages[0].fix(9, 0, -1);
+  EXPECT_EQ(messages(deck).find("which nothing held"), std::string::npos) << messages(deck);
+}
+
+TEST(PlausibleDeck, EqualCardsDoNotContradictEachOther) {
+  DeckWriter deck = sound();
+  deck.stages[0].fix(9, 0, 1, 0.0, -0.02);
+  deck.stages[0].fix(9, 0, 1, 0.0, -0.02);
+  EXPECT_EQ(messages(deck), "");
+}
+
+// The message of the first error.
+std::string refusal(const DeckWriter& deck) {
+  try {
+    run_text(deck.text());
+  } catch (const InputError& error) {
+    for (const Diagnostic& d : error.diagnostics().list())
+      if (d.severity == Severity::error) return to_string(d);
+  }
+  return "";
+}
+
+TEST(Stages, WithoutSenseAreRefused) {
+  DeckWriter deck = sound();
+  dig(deck, {2});
+  deck.stages[1].births = {2};
+  EXPECT_NE(refusal(deck).find("group 2 is born and removed in the same stage"), std::string::npos)
+      << refusal(deck);
+  deck.stages[1].births = {};
+  deck.stage().births = {2};
+  EXPECT_NE(refusal(deck).find("group 2 is born in stage 3 but removed in stage 2"), std::string::npos)
+      << refusal(deck);
+  deck.stages.pop_back();
+  dig(deck, {1});
+  EXPECT_NE(refusal(deck).find("stage 3: no element takes part"), std::string::npos) << refusal(deck);
+}
+
+// The left side of the block on the axis of an axisymmetric deck.
+DeckWriter on_axis() {
+  DeckWriter deck = sound();
+  deck.geometry = 2;
+  for (int n : {1, 4, 7}) deck.fix(n, 1, n == 1 ? 1 : 0);
+  return deck;
+}
+
+TEST(OnTheAxis, RadialDisplacementsAreRefusedAtTheirCard) {
+  EXPECT_EQ(messages(on_axis()), "");
+  DeckWriter moved = on_axis();
+  moved.stages[0].fix(7, 1, 0, 0.01, 0.0);
+  EXPECT_NE(refusal(moved).find(":29: error: node 7 lies on the axis r = 0"), std::string::npos)
+      << refusal(moved);
+  DeckWriter released = on_axis();
+  released.stages[0].fix(7, -1, 0);
+  EXPECT_NE(refusal(released).find("can't be released radially"), std::string::npos) << refusal(released);
+  DeckWriter settled = on_axis();
+  settled.stages[0].fix(7, 1, 1, 0.0, -0.01);
+  EXPECT_EQ(messages(settled), "");
+}
+
+TEST(OnTheAxis, RadialLoadsAreToldToHaveNoEffect) {
+  DeckWriter deck = on_axis();
+  deck.stages[0].load(7, 10.0, 0.0);
+  EXPECT_NE(messages(deck).find("warning: the radial force on node 7 has no effect"), std::string::npos)
+      << messages(deck);
+  deck = on_axis();
+  deck.stages[0].pressure(3, 4, 10.0, 10.0);
+  EXPECT_NE(messages(deck).find("warning: the pressure has no effect: its edge lies on the axis r = 0"),
+            std::string::npos)
+      << messages(deck);
+}
+
+std::string titled(const std::string& title) {
+  const std::string text = sound().text();
+  return title + text.substr(text.find('\n'));
+}
+
+TEST(Titles, AreTextWhateverTheCardHolds) {
+  struct Case {
+    std::string card, title, says;
+  };
+  std::string long_card = "x", long_title = "x";
+  for (int i = 0; i < 60; ++i) long_card += "\u00e9";
+  for (int i = 0; i < 39; ++i) long_title += "\u00e9";
+  const Case cases[] = {{"B\u00f6schung", "B\u00f6schung", ""},
+                        {"B\xf6schung", "B\u00f6schung", "not UTF-8 text: it is read as Latin-1"},
+                        {"caf\xe9", "caf\u00e9", "not UTF-8 text: it is read as Latin-1"},
+                        {"bad \x81", "bad ?", "not UTF-8 text: it is read as Latin-1"},
+                        {"page\ffeed", "page?feed", "holds control characters"},
+                        {long_card, long_title, ""}};
+  for (const Case& c : cases) {
+    const WholeRun run = run_text(titled(c.card));
+    EXPECT_EQ(run.model->title, c.title);
+    std::string said;
+    for (const Diagnostic& d : run.model->diagnostics.list())
+      if (d.severity == Severity::warning) said += d.message;
+    EXPECT_NE(said.find(c.says), std::string::npos) << said;
+    EXPECT_EQ(said.empty(), c.says.empty()) << said;
+  }
+}
+
+TEST(Elements, EightNodesOnTheCardOfANineNodeElementAreAllThatItHolds) {
+  DeckWriter deck(1);
+  Block block;
+  block.cell = Cell::quad8;
+  block.place = rectangle(0.0, 2.0, 0.0, 2.0);
+  block.write_nodes(deck);
+  deck.material(1, 1, {1e4, 0.3});
+  deck.group(1, 5, 0, 1);
+  block.write_elements(deck, 1);
+  for (int n : block.bottom()) deck.fix(n, 1, 1);
+  deck.stage().pressure(1, 3, 10.0, 10.0);
+  EXPECT_EQ(messages(deck).find("left blank"), std::string::npos) << messages(deck);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Numbers, Plausible,
     testing::Values(
@@ -150,6 +277,31 @@ INSTANTIATE_TEST_SUITE_P(
                    d.stages[0].pressure(5, 3, 1.0, 1.0);
                  },
                  "warning: the pressure on element 5 does nothing in stage 1: its group is not placed then"},
+        Unlikely{"TwoDisplacements",
+                 [](DeckWriter& d) {
+                   d.stages[0].fix(9, 0, 1, 0.0, -0.02);
+                   d.stages[0].fix(9, 0, 1, 0.0, -0.01);
+                 },
+                 "warning: stage 1: node 9 is given two displacements in y: -0.02 by line 26, -0.01 here; the "
+                 "last card stands"},
+        Unlikely{"HeldAndReleased",
+                 [](DeckWriter& d) {
+                   d.stages[0].fix(9, 0, 1, 0.0, -0.02);
+                   d.stages[0].fix(9, 0, -1);
+                 },
+                 "warning: stage 1: node 9 is released in y here but held by line 26 of the same stage; the "
+                 "last card"},
+        Unlikely{"DeathTwiceInAStage",
+                 [](DeckWriter& d) {
+                   dig(d, {2, 2});
+                 },
+                 "note: group 2 is listed twice among the deaths of this stage"},
+        Unlikely{"DeathTwice",
+                 [](DeckWriter& d) {
+                   dig(d, {2});
+                   dig(d, {2});
+                 },
+                 "note: group 2 is removed again: it is gone since stage 2"},
         Unlikely{"FixityOfNothing", [](DeckWriter& d) { d.stages[0].fix(9, 0, 0); },
                  "note: this fixity card changes nothing"},
         Unlikely{"NullStage", [](DeckWriter& d) { d.stage(); }, "note: stage 2 adds nothing"},
