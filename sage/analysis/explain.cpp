@@ -108,6 +108,9 @@ std::string short_number(double value) {
 std::string bracket_line(const Model& model, const StepReport& report) {
   const Stage& stage = model.stages[static_cast<std::size_t>(report.stage)];
   const bool loads = !stage.loads.empty() || !stage.pressures.empty() || !stage.gravity.isZero(0.0);
+  const bool moved = std::ranges::any_of(
+      stage.fixities, [](const Fixity& f) { return f.value[0] != 0.0 || f.value[1] != 0.0; });
+  const char* const what = loads ? "stage's load" : moved ? "stage's displacement" : "stage";
   std::string from = short_number(report.load_factor), to = short_number(report.failed_at);
   if (from == to) {  // a bracket narrower than four digits
     char text[2][32];
@@ -117,8 +120,7 @@ std::string bracket_line(const Model& model, const StepReport& report) {
     to = text[1];
   }
   return std::string(loads ? "  limit load: " : "  equilibrium ends: ") + "between " + from + " and " + to +
-         " of the stage's " + (loads ? "load" : "displacement") +
-         " (equilibrium was found at the first, not at the second)\n";
+         " of the " + what + " (equilibrium was found at the first, not at the second)\n";
 }
 
 std::string dof_name(const Model& model, int dof) {
