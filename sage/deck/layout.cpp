@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sage/deck/embedded.hpp"
+#include "sage/deck/layout_bytes.hpp"
 #include "sage/deck/source.hpp"
 
 namespace sage {
@@ -21,16 +22,21 @@ std::string named_layout(std::string_view first_line) {
   return std::string(rest.substr(begin, rest.find(' ', begin) - begin));
 }
 
+Layout unpacked(const EmbeddedLayout& embedded) {
+  Layout layout;
+  Archive archive{std::string(embedded.bytes)};
+  exchange(archive, layout);
+  return layout;
+}
+
 bool has_marks(const Layout& layout, const SourceText& deck) {
-  return !layout.marks.empty() &&
-         std::all_of(layout.marks.begin(), layout.marks.end(), [&](const LayoutMark& mark) {
-           const std::string_view line = deck.line(mark.line);
-           const auto column = static_cast<std::size_t>(mark.column) - 1;
-           return column < line.size() &&
-                  std::any_of(mark.texts.begin(), mark.texts.end(), [&](const std::string& text) {
-                    return line.substr(column, text.size()) == text;
-                  });
-         });
+  return std::all_of(layout.marks.begin(), layout.marks.end(), [&](const LayoutMark& mark) {
+    const std::string_view line = deck.line(mark.line);
+    const auto column = static_cast<std::size_t>(mark.column) - 1;
+    return column < line.size() &&
+           std::any_of(mark.texts.begin(), mark.texts.end(),
+                       [&](const std::string& text) { return line.substr(column, text.size()) == text; });
+  });
 }
 
 }  // namespace
@@ -41,15 +47,9 @@ std::vector<std::string> built_in_layouts() {
   return names;
 }
 
-std::string_view built_in_layout_text(std::string_view name) {
-  for (const EmbeddedLayout& layout : embedded_layouts())
-    if (layout.name == name) return layout.text;
-  return {};
-}
-
 Layout load_layout(const std::string& path_or_name) {
-  const std::string_view built_in = built_in_layout_text(path_or_name);
-  if (!built_in.empty()) return load_layout_text(built_in, path_or_name + ".toml");
+  for (const EmbeddedLayout& embedded : embedded_layouts())
+    if (embedded.name == path_or_name) return unpacked(embedded);
   const bool path = path_or_name.find('/') != std::string::npos || path_or_name.find('.') != std::string::npos;
   if (path) return load_layout_text(read_file(path_or_name), path_or_name);
   std::string known;
@@ -62,8 +62,7 @@ std::string detect_layout(std::string_view deck_text) {
   const SourceText deck(std::string(deck_text.substr(0, 4000)), "");
   if (const std::string named = named_layout(deck.line(1)); !named.empty()) return named;
   for (const EmbeddedLayout& embedded : embedded_layouts())
-    if (has_marks(load_layout_heading(embedded.text, std::string(embedded.name)), deck))
-      return std::string(embedded.name);
+    if (embedded.has_marks && has_marks(unpacked(embedded), deck)) return std::string(embedded.name);
   return std::string(standard_layout);
 }
 

@@ -74,11 +74,7 @@ struct Layout {
 // A built-in layout by name, or a layout file by its path.  Throws InputError at the layout file's own line.
 Layout load_layout(const std::string& path_or_name);
 Layout load_layout_text(std::string_view toml, const std::string& file);
-// The same without the cards: name, rules of records, marks.
-Layout load_layout_heading(std::string_view toml, const std::string& file);
 std::vector<std::string> built_in_layouts();
-// The text of a built-in layout; empty if there is none of that name.
-std::string_view built_in_layout_text(std::string_view name);
 
 // Name of the layout that this deck asks for or looks like; "sage1" if nothing tells.
 std::string detect_layout(std::string_view deck_text);

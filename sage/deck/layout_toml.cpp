@@ -10,8 +10,7 @@ class LayoutReader : private TomlFile {
  public:
   LayoutReader(const toml::table& root, std::string file) : TomlFile(std::move(file)), root_(root) {}
 
-  // Everything but the cards.
-  Layout read_heading() {
+  Layout read() {
     layout_.file = file_;
     known_keys(root_,
                {"name", "title", "blanks", "comment", "record_length", "sequence_columns", "card_separator",
@@ -23,11 +22,6 @@ class LayoutReader : private TomlFile {
     layout_.example = text(root_, "example");
     read_record_rules();
     read_marks();
-    return std::move(layout_);
-  }
-
-  Layout read() {
-    layout_ = read_heading();
     const toml::array* cards = root_["card"].as_array();
     if (!cards) fail(root_, "a layout needs [[card]] entries");
     read_entries(*cards, layout_.entries, 1);
@@ -376,11 +370,6 @@ toml::table parse(std::string_view text, const std::string& file) {
 Layout load_layout_text(std::string_view toml_text, const std::string& file) {
   const toml::table root = parse(toml_text, file);
   return LayoutReader(root, file).read();
-}
-
-Layout load_layout_heading(std::string_view toml_text, const std::string& file) {
-  const toml::table root = parse(toml_text.substr(0, toml_text.find("\n[[card]]")), file);
-  return LayoutReader(root, file).read_heading();
 }
 
 }  // namespace sage

@@ -20,20 +20,6 @@ bool has_separator(std::string_view line, const RecordRules& rules) {
 
 }  // namespace
 
-bool edit_fits(Edit edit, FieldKind kind) {
-  switch (kind) {
-    case FieldKind::integer:
-      return edit == Edit::integer || edit == Edit::general;
-    case FieldKind::real:
-      return edit == Edit::real || edit == Edit::general;
-    case FieldKind::logical:
-      return edit == Edit::logical || edit == Edit::general;
-    case FieldKind::text:
-      return edit == Edit::text || edit == Edit::general;
-  }
-  return false;
-}
-
 int RecordSource::skip_comments(int line) const {
   if (rules_.comment == '\0') return line;
   for (; line <= source_->line_count(); ++line) {

@@ -55,7 +55,19 @@ class RecordSource {
   int skipped_ = 0;
 };
 
-bool edit_fits(Edit edit, FieldKind kind);
+inline bool edit_fits(Edit edit, FieldKind kind) {
+  switch (kind) {
+    case FieldKind::integer:
+      return edit == Edit::integer || edit == Edit::general;
+    case FieldKind::real:
+      return edit == Edit::real || edit == Edit::general;
+    case FieldKind::logical:
+      return edit == Edit::logical || edit == Edit::general;
+    case FieldKind::text:
+      return edit == Edit::text || edit == Edit::general;
+  }
+  return false;
+}
 
 // What was wrong or odd about one value.
 struct FieldFlaw {

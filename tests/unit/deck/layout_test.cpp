@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "sage/deck/layout_bytes.hpp"
 #include "sage/deck/read_deck.hpp"
 
 namespace sage {
@@ -41,9 +42,17 @@ TEST(Layout, EveryBuiltInLayoutLoads) {
 }
 
 TEST(Layout, TheBuiltInCopyIsTheFile) {
-  for (const std::string& name : built_in_layouts())
-    EXPECT_EQ(built_in_layout_text(name),
-              file_text(SAGE_SOURCE_DIR "/legacy_inputs/layouts/" + name + ".toml"));
+  const auto bytes = [](Layout layout) {
+    Archive archive;
+    exchange(archive, layout);
+    return archive.bytes();
+  };
+  for (const std::string& name : built_in_layouts()) {
+    const std::string file = name + ".toml";
+    const Layout read = load_layout_text(file_text(SAGE_SOURCE_DIR "/legacy_inputs/layouts/" + file), file);
+    EXPECT_EQ(bytes(load_layout(name)), bytes(read)) << name;
+    EXPECT_EQ(layout_manual(load_layout(name)), layout_manual(read)) << name;
+  }
 }
 
 TEST(Layout, LoadsFromAPath) {
