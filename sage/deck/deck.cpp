@@ -64,23 +64,29 @@ std::string_view Deck::line_text(int line) const {
   return line_at(*source, line_starts[static_cast<std::size_t>(line) - 1]);
 }
 
-const FieldValue* CardView::find(std::string_view field) const {
-  const auto& fields = spec().fields;
-  for (std::size_t i = 0; i < fields.size(); ++i)
-    if (fields[i].name == field) {
-      if (static_cast<std::int32_t>(i) >= card().value_count) return nullptr;
-      return &deck_->values[static_cast<std::size_t>(card().first_value) + i];
-    }
-  return nullptr;
+// A deck of n cards asks for some 20 n fields: names that end alike are compared whole, the others are not.
+int CardView::place(std::string_view field) const {
+  if (field.empty()) return -1;
+  const std::vector<FieldSpec>& fields = spec().fields;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const std::string& name = fields[i].name;
+    if (name.size() == field.size() && name.back() == field.back() && name == field) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+const FieldValue* CardView::value_at(int place) const {
+  if (place < 0 || place >= card().value_count) return nullptr;
+  return &deck_->values[static_cast<std::size_t>(card().first_value + place)];
 }
 
 double CardView::real(std::string_view field, double fallback) const {
-  const FieldValue* value = find(field);
+  const int at = place(field);
+  const FieldValue* value = value_at(at);
   if (!value) return fallback;
   if (!value->blank) return value->number;
-  for (const FieldSpec& s : spec().fields)
-    if (s.name == field && s.has_fallback) return s.fallback;
-  return fallback;
+  const FieldSpec& field_spec = spec().fields[static_cast<std::size_t>(at)];
+  return field_spec.has_fallback ? field_spec.fallback : fallback;
 }
 
 int CardView::integer(std::string_view field, int fallback) const {
@@ -126,9 +132,10 @@ SourcePosition CardView::where(const FieldValue& value) const {
 }
 
 std::string CardView::label(std::string_view field) const {
-  for (const FieldSpec& s : spec().fields)
-    if (s.name == field) return s.unit.empty() ? s.label : s.label + ", " + s.unit;
-  return std::string(field);
+  const int at = place(field);
+  if (at < 0) return std::string(field);
+  const FieldSpec& field_spec = spec().fields[static_cast<std::size_t>(at)];
+  return field_spec.unit.empty() ? field_spec.label : field_spec.label + ", " + field_spec.unit;
 }
 
 Diagnostic card_diagnostic(const Deck& deck, Severity severity, const SourcePosition& where,

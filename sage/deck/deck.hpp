@@ -115,7 +115,10 @@ class CardView {
   std::string label(std::string_view field) const;
 
  private:
-  const FieldValue* find(std::string_view field) const;
+  // Index of the field in the spec; -1 = the layout has none of this name.
+  int place(std::string_view field) const;
+  const FieldValue* value_at(int place) const;
+  const FieldValue* find(std::string_view field) const { return value_at(place(field)); }
   const Deck* deck_;
   int card_;
 };

@@ -26,7 +26,7 @@ DeckReader::DeckReader(const SourceText& source, const Layout& layout, const Rea
   deck_.source = source.text();
   deck_.line_starts = source.starts();
   deck_.cards.reserve(source.starts().size());
-  deck_.values.reserve(source.text()->size() / 8);  // a guess; pages that stay unused cost nothing
+  deck_.values.reserve(source.text()->size() / 2);  // for short cards; pages not used cost nothing
   for (const CardRule& rule : layout.cards) {
     deck_.specs.push_back(rule.spec);
     const bool plain = std::all_of(rule.rules.begin(), rule.rules.end(),

@@ -54,6 +54,7 @@ std::vector<int> card_nodes(const CardView& card) {
   static constexpr const char* kFields[] = {"n1", "n2",  "n3",  "n4",  "n5",  "n6",  "n7", "n8",
                                             "n9", "n10", "n11", "n12", "n13", "n14", "n15"};
   std::vector<int> nodes;
+  nodes.reserve(std::size(kFields));
   for (const char* field : kFields) nodes.push_back(card.integer(field));
   while (!nodes.empty() && nodes.back() == 0) nodes.pop_back();
   return nodes;
@@ -78,9 +79,9 @@ struct ElementCard {
 void add_element(Builder& b, const CardView& card, const ElementCard& element) {
   Group& group = b.model.groups[static_cast<std::size_t>(element.group)];
   const ElementEntry& entry = *b.catalogue.elements.find(group.element_code);
-  const std::string name = "element " + std::to_string(element.number);
+  const auto name = [&] { return "element " + std::to_string(element.number); };
   if (!b.element_place.try_emplace(element.number, ElementPlace{element.group, group.elements()}).second) {
-    b.error(card.where("number"), name + " is defined twice");
+    b.error(card.where("number"), name() + " is defined twice");
     return;
   }
   std::vector<int> index(static_cast<std::size_t>(entry.nodes), -1);
@@ -91,12 +92,12 @@ void add_element(Builder& b, const CardView& card, const ElementCard& element) {
     if (it == b.node_index.end()) {
       if (b.nodes_known)
         b.error(card.where("n" + std::to_string(i + 1)),
-                name + ": node " + std::to_string(number) + " is not defined by any node or fill card");
+                name() + ": node " + std::to_string(number) + " is not defined by any node or fill card");
       return;
     }
     if (std::find(index.begin(), index.end(), it->second) != index.end()) {
       b.error(card.where("n" + std::to_string(i + 1)),
-              name + ": node " + std::to_string(number) + " stands twice");
+              name() + ": node " + std::to_string(number) + " stands twice");
       return;
     }
     index[local_node(group, entry, i)] = it->second;

@@ -159,7 +159,8 @@ InputError refusal(const Deck& deck, const Diagnostics& problems) {
 }  // namespace
 
 Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOptions& options) {
-  const Deck deck = canonical_deck(as_read, catalogue);
+  const std::optional<Deck> rewritten = canonical_deck(as_read, catalogue);
+  const Deck& deck = rewritten ? *rewritten : as_read;
   build::Builder b{deck, catalogue, options, {}, {}, {}, {}, {}, {}, {}};
   b.model.diagnostics = deck.diagnostics;
   build::build_control(b);

@@ -123,12 +123,12 @@ int law_code(const Catalogue& catalogue, std::string_view name) {
 }  // namespace canonical
 
 // The cards decide, not the layout's name: a layout file of the user's own gets the same meaning.
-Deck canonical_deck(const Deck& deck, const Catalogue& catalogue) {
+std::optional<Deck> canonical_deck(const Deck& deck, const Catalogue& catalogue) {
   if (deck.has("foundation")) return canonical::embankment_deck(deck, catalogue);
   if (deck.has("rectangle")) return canonical::rectangle_deck(deck, catalogue);
   if (canonical::has_field(deck, "element", "shear_modulus")) return canonical::quad4m_deck(deck, catalogue);
   if (canonical::has_field(deck, "element", "class")) return canonical::cande_deck(deck, catalogue);
-  return deck;
+  return std::nullopt;
 }
 
 }  // namespace sage

@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,8 @@
 
 namespace sage {
 
-// The deck itself if its cards are canonical already.  Throws InputError for decks that can't become a model.
-Deck canonical_deck(const Deck& deck, const Catalogue& catalogue);
+// Nothing if the deck's cards are canonical already.  Throws InputError for decks that can't become a model.
+std::optional<Deck> canonical_deck(const Deck& deck, const Catalogue& catalogue);
 
 namespace canonical {
 
