@@ -38,21 +38,19 @@ int check(const std::string& path, const InputOptions& options) {
 
 }  // namespace
 
-Command check_command(CLI::App& root) {
+Command check_command(CLI::App& parser) {
   auto options = std::make_shared<CheckOptions>();
-  CLI::App* parser = root.add_subcommand("check", "read and validate decks; compute nothing");
-  parser->add_option("DECK", options->decks, "deck files")->required();
-  add_input_options(*parser, options->input);
-  add_build_options(*parser, options->input.build);
-  parser->add_option("--solver", options->solver, "solver by name, as `run` would be told")
+  parser.add_option("DECK", options->decks, "deck files")->required();
+  add_input_options(parser, options->input);
+  add_build_options(parser, options->input.build);
+  parser.add_option("--solver", options->solver, "solver by name, as `run` would be told")
       ->check(unknown_solver);
-  return {parser, [options] {
-            int worst = kOk;
-            if (!options->solver.empty())
-              options->input.build.solver = solver_code(full_catalogue(), options->solver);
-            for (const std::string& path : options->decks) worst = std::max(worst, check(path, options->input));
-            return worst;
-          }};
+  return [options] {
+    int worst = kOk;
+    if (!options->solver.empty()) options->input.build.solver = solver_code(full_catalogue(), options->solver);
+    for (const std::string& path : options->decks) worst = std::max(worst, check(path, options->input));
+    return worst;
+  };
 }
 
 }  // namespace sage::app

@@ -1,4 +1,4 @@
-// The subcommands.  Each adds its options to the command line and returns what main() calls when it was chosen.
+// The subcommands.  Each adds its options to its parser and returns what main() calls when it was chosen.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -10,10 +10,7 @@
 
 namespace sage::app {
 
-struct Command {
-  CLI::App* parser = nullptr;
-  std::function<int()> execute;  // an exit code
-};
+using Command = std::function<int()>;  // gives an exit code
 
 // Everything that exists: elements, materials, solvers.
 Catalogue full_catalogue();
@@ -30,14 +27,14 @@ study::Workbench make_workbench();
 // messages that name no place in a file.
 int guarded(const std::string& name, const std::function<int()>& work);
 
-Command run_command(CLI::App& root);
-Command check_command(CLI::App& root);
-Command echo_command(CLI::App& root);
-Command list_command(CLI::App& root);
-Command tables_command(CLI::App& root);
-Command convert_command(CLI::App& root);
-Command verify_command(CLI::App& root);
-Command compare_command(CLI::App& root);
-Command stress_command(CLI::App& root);
+Command run_command(CLI::App& parser);
+Command check_command(CLI::App& parser);
+Command echo_command(CLI::App& parser);
+Command list_command(CLI::App& parser);
+Command tables_command(CLI::App& parser);
+Command convert_command(CLI::App& parser);
+Command verify_command(CLI::App& parser);
+Command compare_command(CLI::App& parser);
+Command stress_command(CLI::App& parser);
 
 }  // namespace sage::app

@@ -142,35 +142,33 @@ int compare_decks(const CompareOptions& o) {
 
 }  // namespace
 
-Command compare_command(CLI::App& root) {
+Command compare_command(CLI::App& parser) {
   auto o = std::make_shared<CompareOptions>();
-  CLI::App* parser = root.add_subcommand(
-      "compare", "two decks, or one deck in two ways, side by side: forces, stresses, lines, theory, pictures");
-  parser->add_option("DECK", o->decks, "deck A, and deck B unless one deck is run in two ways")
+  parser.add_option("DECK", o->decks, "deck A, and deck B unless one deck is run in two ways")
       ->required()
       ->expected(1, 2);
-  parser->add_flag("--both", o->both, "A in plane strain, B in axisymmetry");
-  add_input_options(*parser, o->input);
-  add_build_options(*parser, o->input.build);
-  parser->add_option("--solver", o->solver, "solver by name (see sagefe list solvers)")->check(unknown_solver);
-  add_threads_option(*parser, o->threads);
-  parser->add_option("--formulation-b", o->formulation_b, "formulation code of B, where it differs from A");
-  parser->add_option("--element-b", o->element_b, "element code that replaces 4-node quadrilaterals in B");
-  parser->add_option("--geometry-b", o->geometry_b, "geometry of B: 1 plane strain, 2 axisymmetric")
+  parser.add_flag("--both", o->both, "A in plane strain, B in axisymmetry");
+  add_input_options(parser, o->input);
+  add_build_options(parser, o->input.build);
+  parser.add_option("--solver", o->solver, "solver by name (see sagefe list solvers)")->check(unknown_solver);
+  add_threads_option(parser, o->threads);
+  parser.add_option("--formulation-b", o->formulation_b, "formulation code of B, where it differs from A");
+  parser.add_option("--element-b", o->element_b, "element code that replaces 4-node quadrilaterals in B");
+  parser.add_option("--geometry-b", o->geometry_b, "geometry of B: 1 plane strain, 2 axisymmetric")
       ->check(CLI::Range(1, 2));
-  parser->add_option("--solver-b", o->solver_b, "solver of B by name")->check(unknown_solver);
-  parser->add_option("--layout-b", o->layout_b, "card layout of B");
-  parser->add_option("--line", o->lines,
-                     "x1,y1,x2,y2[:name[:n]]: displacement and stress at n places (default 11)");
-  parser->add_option("--point", o->points, "x,y[:name]: displacement and stress there");
+  parser.add_option("--solver-b", o->solver_b, "solver of B by name")->check(unknown_solver);
+  parser.add_option("--layout-b", o->layout_b, "card layout of B");
+  parser.add_option("--line", o->lines,
+                    "x1,y1,x2,y2[:name[:n]]: displacement and stress at n places (default 11)");
+  parser.add_option("--point", o->points, "x,y[:name]: displacement and stress there");
   parser
-      ->add_option("--picture", o->pictures,
-                   "SVG of both fields on one scale of colours (names as in sagefe run)")
+      .add_option("--picture", o->pictures,
+                  "SVG of both fields on one scale of colours (names as in sagefe run)")
       ->check([](const std::string& name) {
         return field_from_name(name) ? std::string() : "unknown field " + name;
       });
-  parser->add_option("-o,--output", o->folder, "folder for results (default: out)");
-  return {parser, [o] { return compare_decks(*o); }};
+  parser.add_option("-o,--output", o->folder, "folder for results (default: out)");
+  return [o] { return compare_decks(*o); };
 }
 
 }  // namespace sage::app

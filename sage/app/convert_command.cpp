@@ -83,19 +83,17 @@ int convert(const ConvertOptions& options) {
 
 }  // namespace
 
-Command convert_command(CLI::App& root) {
+Command convert_command(CLI::App& parser) {
   auto options = std::make_shared<ConvertOptions>();
-  CLI::App* parser = root.add_subcommand(
-      "convert", "write a deck or Gmsh mesh as sage1 deck (.dat), Gmsh mesh (.msh) or CalculiX input (.inp)");
-  parser->add_option("IN", options->from, "deck of any layout, or .msh (MSH 4.1 ASCII)")->required();
-  parser->add_option("OUT", options->to, "file to write: .dat, .msh or .inp")->required();
-  parser->add_option("--young", options->mesh.youngs_modulus, "from .msh: Young's modulus of all groups")
+  parser.add_option("IN", options->from, "deck of any layout, or .msh (MSH 4.1 ASCII)")->required();
+  parser.add_option("OUT", options->to, "file to write: .dat, .msh or .inp")->required();
+  parser.add_option("--young", options->mesh.youngs_modulus, "from .msh: Young's modulus of all groups")
       ->check(CLI::PositiveNumber);
-  parser->add_option("--poisson", options->mesh.poissons_ratio, "from .msh: Poisson's ratio of all groups");
-  parser->add_option("--weight", options->mesh.unit_weight, "from .msh: unit weight of all groups");
-  add_input_options(*parser, options->input);
-  add_build_options(*parser, options->input.build);
-  return {parser, [options] { return convert(*options); }};
+  parser.add_option("--poisson", options->mesh.poissons_ratio, "from .msh: Poisson's ratio of all groups");
+  parser.add_option("--weight", options->mesh.unit_weight, "from .msh: unit weight of all groups");
+  add_input_options(parser, options->input);
+  add_build_options(parser, options->input.build);
+  return [options] { return convert(*options); };
 }
 
 }  // namespace sage::app

@@ -20,18 +20,16 @@ struct EchoOptions {
 
 }  // namespace
 
-Command echo_command(CLI::App& root) {
+Command echo_command(CLI::App& parser) {
   auto options = std::make_shared<EchoOptions>();
-  CLI::App* parser =
-      root.add_subcommand("echo", "show each card of a deck as it was read, under a column ruler");
-  parser->add_option("DECK", options->deck, "deck file")->required();
-  add_input_options(*parser, options->input);
-  return {parser, [options] {
-            const Deck deck = read_input(options->deck, options->input);
-            fmt::print("{}", echo(deck));
-            print_diagnostics(deck.diagnostics);
-            return kOk;
-          }};
+  parser.add_option("DECK", options->deck, "deck file")->required();
+  add_input_options(parser, options->input);
+  return [options] {
+    const Deck deck = read_input(options->deck, options->input);
+    fmt::print("{}", echo(deck));
+    print_diagnostics(deck.diagnostics);
+    return kOk;
+  };
 }
 
 }  // namespace sage::app

@@ -45,20 +45,18 @@ void list_solvers(const Catalogue& catalogue) {
 
 }  // namespace
 
-Command list_command(CLI::App& root) {
+Command list_command(CLI::App& parser) {
   auto what = std::make_shared<std::string>();
-  CLI::App* parser =
-      root.add_subcommand("list", "show the elements, materials or solvers that a deck can ask for");
-  parser->add_option("WHAT", *what, "elements, materials or solvers")
+  parser.add_option("WHAT", *what, "elements, materials or solvers")
       ->required()
       ->check(CLI::IsMember({"elements", "materials", "solvers"}));
-  return {parser, [what] {
-            const Catalogue catalogue = full_catalogue();
-            if (*what == "elements") list_elements(catalogue);
-            if (*what == "materials") list_materials(catalogue);
-            if (*what == "solvers") list_solvers(catalogue);
-            return kOk;
-          }};
+  return [what] {
+    const Catalogue catalogue = full_catalogue();
+    if (*what == "elements") list_elements(catalogue);
+    if (*what == "materials") list_materials(catalogue);
+    if (*what == "solvers") list_solvers(catalogue);
+    return kOk;
+  };
 }
 
 }  // namespace sage::app

@@ -20,16 +20,38 @@ constexpr const char* kFooter =
     "Signs: outside, compression is positive for stress and strain; inside and in displacements, axes are.\n"
     "Exit codes: 0 done, 1 command line, 2 input, 3 no equilibrium or singular, 4 output could not be written.";
 
-// True, and said, where the first word is no command: the parser itself would only ask for one.
-bool unknown_command(const CLI::App& root, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return false;
+struct Entry {
+  const char* name;
+  const char* about;
+  Command (*add_options)(CLI::App& parser);
+};
+
+constexpr Entry kCommands[] = {
+    {"run", "compute decks; listing, CSV and reports go to the output folder", run_command},
+    {"check", "read and validate decks; compute nothing", check_command},
+    {"echo", "show each card of a deck as it was read, under a column ruler", echo_command},
+    {"list", "show the elements, materials or solvers that a deck can ask for", list_command},
+    {"tables", "rerun the source chapter's Tables 7.3 and 7.4 beside its numbers", tables_command},
+    {"convert", "write a deck or Gmsh mesh as sage1 deck (.dat), Gmsh mesh (.msh) or CalculiX input (.inp)",
+     convert_command},
+    {"verify", "the verification book: cases against closed forms, converged references and published values",
+     verify_command},
+    {"compare", "two decks, or one deck in two ways, side by side: forces, stresses, lines, theory, pictures",
+     compare_command},
+    {"stress", "stability stress test: everything swept to the edge must be right or say what is wrong",
+     stress_command},
+};
+
+// The command that the first word names, whose options alone are made; nullptr, and said, where it is none.
+const Entry* find_command(const std::string& word) {
   std::string known;
-  for (const CLI::App* command : root.get_subcommands(nullptr)) {
-    if (command->get_name() == argv[1]) return false;
-    known += " " + command->get_name();
+  for (const Entry& entry : kCommands) {
+    if (word == entry.name) return &entry;
+    known += std::string(" ") + entry.name;
   }
-  fmt::print(stderr, "sagefe: unknown command {}; known:{}\n", argv[1], known);
-  return true;
+  // The parser itself would only ask for one.
+  fmt::print(stderr, "sagefe: unknown command {}; known:{}\n", word, known);
+  return nullptr;
 }
 
 }  // namespace
@@ -39,16 +61,18 @@ int main(int argc, char** argv) {
   root.footer(kFooter);
   root.require_subcommand(1);
   root.set_version_flag("--version", "sagefe " SAGE_VERSION);
-  const Command commands[] = {run_command(root),    check_command(root),   echo_command(root),
-                              list_command(root),   tables_command(root),  convert_command(root),
-                              verify_command(root), compare_command(root), stress_command(root)};
-  if (unknown_command(root, argc, argv)) return kUsage;
+  const bool named = argc > 1 && argv[1][0] != '-';
+  const Entry* chosen = named ? find_command(argv[1]) : nullptr;
+  if (named && chosen == nullptr) return kUsage;
+  Command execute;
+  for (const Entry& entry : kCommands) {
+    CLI::App* parser = root.add_subcommand(entry.name, entry.about);
+    if (&entry == chosen) execute = entry.add_options(*parser);
+  }
   try {
     root.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return root.exit(error) == 0 ? kOk : kUsage;
   }
-  for (const Command& command : commands)
-    if (command.parser->parsed()) return guarded("sagefe", command.execute);
-  return kUsage;
+  return execute ? guarded("sagefe", execute) : kUsage;
 }

@@ -89,62 +89,60 @@ int run_all(const RunOptions& options) {
 
 }  // namespace
 
-Command run_command(CLI::App& root) {
+Command run_command(CLI::App& parser) {
   auto options = std::make_shared<RunOptions>();
   RunRequest& request = options->request;
-  CLI::App* parser =
-      root.add_subcommand("run", "compute decks; listing, CSV and reports go to the output folder");
-  parser->add_option("DECK", options->decks, "deck files")->required();
-  parser->add_option("-o,--output", request.output.folder, "folder for results (default: out)");
-  parser->add_option("--solver", request.solver, "solver by name (see sagefe list solvers)")
+  parser.add_option("DECK", options->decks, "deck files")->required();
+  parser.add_option("-o,--output", request.output.folder, "folder for results (default: out)");
+  parser.add_option("--solver", request.solver, "solver by name (see sagefe list solvers)")
       ->check(unknown_solver);
-  add_threads_option(*parser, request.threads);
+  add_threads_option(parser, request.threads);
   parser
-      ->add_option("--refine-solves", request.refinement,
-                   "steps of iterative refinement in every solution, with residuals in twice the precision")
+      .add_option("--refine-solves", request.refinement,
+                  "steps of iterative refinement in every solution, with residuals in twice the precision")
       ->check(CLI::Range(0, 20));
-  parser->add_flag(
+  parser.add_flag(
       "--condition", request.condition,
       "say the condition number of the equations, and the digits it costs, at the end of each stage");
-  parser->add_option("--tables", options->tables, "tables in the listing: auto, none, stage, all")
+  parser.add_option("--tables", options->tables, "tables in the listing: auto, none, stage, all")
       ->check(CLI::IsMember({"auto", "none", "stage", "all"}));
-  parser->add_flag("--nodes", request.output.nodes, "write STEM.nodes.csv: displacements and reactions");
-  parser->add_flag("--points", request.output.points, "write STEM.points.csv: stress and state of all points");
-  parser->add_flag("--vtu", request.output.vtu, "write VTU files and a PVD for ParaView");
+  parser.add_flag("--nodes", request.output.nodes, "write STEM.nodes.csv: displacements and reactions");
+  parser.add_flag("--points", request.output.points, "write STEM.points.csv: stress and state of all points");
+  parser.add_flag("--vtu", request.output.vtu, "write VTU files and a PVD for ParaView");
   parser
-      ->add_option(
+      .add_option(
           "--picture", request.output.pictures,
           "SVG pictures at the end of each stage: stress_xx, stress_yy, stress_zz, stress_xy, mean_stress, "
           "deviator, stress_level, displacement_x, displacement_y, displacement")
       ->check([](const std::string& name) {
         return field_from_name(name) ? std::string() : "unknown field " + name;
       });
-  parser->add_flag("--error", request.output.error, "estimate the error of the mesh (Zienkiewicz-Zhu)");
+  parser.add_flag("--error", request.output.error, "estimate the error of the mesh (Zienkiewicz-Zhu)");
   parser
-      ->add_option("--converge", options->converge.tolerance,
-                   "finer and finer meshes until the reports are certain to this relative error, e.g. 1e-5")
+      .add_option("--converge", options->converge.tolerance,
+                  "finer and finer meshes until the reports are certain to this relative error, e.g. 1e-5")
       ->check(CLI::Range(1e-12, 0.5));
   parser
-      ->add_option("--max-dofs", options->converge.max_dofs, "with --converge: largest model (default 400000)")
+      .add_option("--max-dofs", options->converge.max_dofs, "with --converge: largest model (default 400000)")
       ->check(CLI::PositiveNumber);
   parser
-      ->add_option("--max-seconds", options->converge.max_seconds, "with --converge: time limit (default 120)")
+      .add_option("--max-seconds", options->converge.max_seconds, "with --converge: time limit (default 120)")
       ->check(CLI::PositiveNumber);
-  parser->add_flag("!--no-listing", request.output.listing, "write no listing");
+  parser.add_flag("!--no-listing", request.output.listing, "write no listing");
   parser
-      ->add_option(
+      .add_option(
           "--without", options->without,
           "switch off what the program leaves out where a scene does not need it: " + skip_names() + ", all")
       ->delimiter(',')
       ->check(CLI::IsMember(skip_list()));
-  parser->add_flag("--restart", request.restart,
-                   "go on from the checkpoint (STEM.restart) that a stopped run left in the output folder");
-  parser->add_option("--checkpoint", request.checkpoint_seconds,
-                     "seconds between checkpoints (default: 30; 0 = after every increment, negative = none)");
-  parser->add_flag("-q,--quiet", options->quiet, "print no summary");
-  add_input_options(*parser, request.input);
-  add_build_options(*parser, request.input.build);
-  return {parser, [options] { return run_all(*options); }};
+  parser.add_flag("--restart", request.restart,
+                  "go on from the checkpoint (STEM.restart) that a stopped run left in the output folder");
+  parser.add_option("--checkpoint", request.checkpoint_seconds,
+                    "seconds between checkpoints (default: 30; 0 = after every increment, negative = none)");
+  parser.add_flag("-q,--quiet", options->quiet, "print no summary");
+  add_input_options(parser, request.input);
+  add_build_options(parser, request.input.build);
+  return [options] { return run_all(*options); };
 }
 
 }  // namespace sage::app

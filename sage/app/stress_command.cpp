@@ -65,16 +65,14 @@ int run_rows(const StressOptions& options) {
 
 }  // namespace
 
-Command stress_command(CLI::App& root) {
+Command stress_command(CLI::App& parser) {
   auto options = std::make_shared<StressOptions>();
-  CLI::App* parser = root.add_subcommand(
-      "stress", "stability stress test: everything swept to the edge must be right or say what is wrong");
-  parser->add_flag("--list", options->list, "the rows and their references; computes nothing");
-  parser->add_option("--only", options->only, "these rows only");
-  parser->add_flag("--details", options->details, "every trial, not only those that failed");
-  parser->add_option("--csv", options->csv, "write every trial to this file");
-  parser->add_option("--write", options->page, "write a Markdown page, and plots into a folder beside it");
-  return {parser, [options] { return run_rows(*options); }};
+  parser.add_flag("--list", options->list, "the rows and their references; computes nothing");
+  parser.add_option("--only", options->only, "these rows only");
+  parser.add_flag("--details", options->details, "every trial, not only those that failed");
+  parser.add_option("--csv", options->csv, "write every trial to this file");
+  parser.add_option("--write", options->page, "write a Markdown page, and plots into a folder beside it");
+  return [options] { return run_rows(*options); };
 }
 
 }  // namespace sage::app

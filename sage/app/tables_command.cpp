@@ -106,14 +106,12 @@ int print_tables(const TableOptions& options) {
 
 }  // namespace
 
-Command tables_command(CLI::App& root) {
+Command tables_command(CLI::App& parser) {
   auto options = std::make_shared<TableOptions>();
-  CLI::App* parser =
-      root.add_subcommand("tables", "rerun the source chapter's Tables 7.3 and 7.4 beside its numbers");
-  parser->add_option("--cases", options->cases, "folder with tables.csv and the decks");
-  parser->add_option("-o,--output", options->folder, "folder for results (default: out)");
-  parser->add_flag("--pinned", options->pinned, "only the columns with pinned ends");
-  return {parser, [options] { return print_tables(*options); }};
+  parser.add_option("--cases", options->cases, "folder with tables.csv and the decks");
+  parser.add_option("-o,--output", options->folder, "folder for results (default: out)");
+  parser.add_flag("--pinned", options->pinned, "only the columns with pinned ends");
+  return [options] { return print_tables(*options); };
 }
 
 }  // namespace sage::app

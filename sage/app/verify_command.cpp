@@ -103,20 +103,18 @@ int run_book(const VerifyOptions& options) {
 
 }  // namespace
 
-Command verify_command(CLI::App& root) {
+Command verify_command(CLI::App& parser) {
   auto options = std::make_shared<VerifyOptions>();
-  CLI::App* parser = root.add_subcommand(
-      "verify", "the verification book: cases against closed forms, converged references and published values");
-  parser->add_flag("--list", options->list, "the cases, computing nothing");
-  parser->add_option("--only", options->only, "cases (or sections) whose name contains this");
-  parser->add_flag("--rows", options->rows, "every row, not only the one closest to its gate");
-  parser->add_option("--csv", options->csv, "all rows as CSV");
+  parser.add_flag("--list", options->list, "the cases, computing nothing");
+  parser.add_option("--only", options->only, "cases (or sections) whose name contains this");
+  parser.add_flag("--rows", options->rows, "every row, not only the one closest to its gate");
+  parser.add_option("--csv", options->csv, "all rows as CSV");
   parser
-      ->add_option("--write", options->write,
-                   "the book as Markdown with plots beside it (default docs/verification.md)")
+      .add_option("--write", options->write,
+                  "the book as Markdown with plots beside it (default docs/verification.md)")
       ->expected(0, 1)
       ->default_str("docs/verification.md");
-  return {parser, [options] { return run_book(*options); }};
+  return [options] { return run_book(*options); };
 }
 
 }  // namespace sage::app
