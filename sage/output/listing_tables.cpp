@@ -137,6 +137,8 @@ void points(std::string& text, const Model& model, const Solution& solution) {
     if (!data.active) continue;
     const Group& group = *data.group;
     const int count = group.element->traits().points;
+    constexpr std::size_t kRow = 112;  // characters, without a history
+    text.reserve(text.size() + static_cast<std::size_t>(group.elements() * count) * kRow);
     data.state.law_size() == 4 ? solid_columns(text, model, data) : interface_columns(text, model, data);
     for (int e = 0; e < group.elements(); ++e) {
       element_coordinates(model.mesh, group, e, x);

@@ -1,7 +1,9 @@
 #include "sage/output/number.hpp"
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -54,6 +56,20 @@ Decimal decimal_of(double value, int digits) {
   return decimal;
 }
 
+// Characters of one number, with blanks before them to justify it: one append is cheaper than two.
+struct Buffer {
+  static constexpr int kBlanks = 24;
+  char room[kBlanks + 48];
+  Buffer() { std::memset(room, ' ', kBlanks); }
+  char* begin() { return room + kBlanks; }
+  void append_right(std::string& text, const char* end, int width) {
+    const int missing = std::max(0, width - static_cast<int>(end - begin()));
+    const int blanks = std::min(missing, kBlanks);
+    if (missing > blanks) text.append(static_cast<std::size_t>(missing - blanks), ' ');
+    text.append(begin() - blanks, static_cast<std::size_t>(end - begin() + blanks));
+  }
+};
+
 char* put_exponent(char* at, int exponent) {
   *at++ = exponent < 0 ? '-' : '+';
   const int size = std::abs(exponent);
@@ -65,12 +81,6 @@ char* put_exponent(char* at, int exponent) {
 
 bool in_range(double size) {
   return size > kSmallest && size < kLargest;
-}
-
-void append_right(std::string& text, const char* begin, const char* end, int width) {
-  const auto length = static_cast<int>(end - begin);
-  if (length < width) text.append(static_cast<std::size_t>(width - length), ' ');
-  text.append(begin, end);
 }
 
 // ddd.ddd for exponents near zero, d.ddde-07 beyond; trailing zeros of the digits dropped.
@@ -102,13 +112,11 @@ char* put_plain(char* at, const Decimal& decimal, int digits) {
 
 void append_scientific(std::string& text, double value, int width, int digits) {
   const double size = std::abs(value);
-  char buffer[40];
-  char* at = buffer;
+  Buffer buffer;
+  char* at = buffer.begin();
   if (value == 0.0) value = 0.0;  // no minus sign
-  if (!in_range(size)) {
-    const auto end = fmt::format_to(buffer, "{:.{}E}", value, digits - 1);
-    return append_right(text, buffer, end, width);
-  }
+  if (!in_range(size))
+    return buffer.append_right(text, fmt::format_to(at, "{:.{}E}", value, digits - 1), width);
   const Decimal decimal = decimal_of(size, digits);
   if (value < 0.0) *at++ = '-';
   *at++ = decimal.digits[0];
@@ -116,7 +124,7 @@ void append_scientific(std::string& text, double value, int width, int digits) {
   std::memcpy(at, decimal.digits + 1, static_cast<std::size_t>(digits - 1));
   at += digits - 1;
   *at++ = 'E';
-  append_right(text, buffer, put_exponent(at, decimal.exponent), width);
+  buffer.append_right(text, put_exponent(at, decimal.exponent), width);
 }
 
 void append_plain(std::string& text, double value, int digits) {
@@ -136,8 +144,8 @@ void append_plain(std::string& text, double value, int digits) {
 }
 
 void append_integer(std::string& text, long value, int width) {
-  const fmt::format_int number(value);
-  append_right(text, number.data(), number.data() + number.size(), width);
+  Buffer buffer;
+  buffer.append_right(text, fmt::format_to(buffer.begin(), FMT_COMPILE("{}"), value), width);
 }
 
 }  // namespace sage

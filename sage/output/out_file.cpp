@@ -11,7 +11,7 @@ namespace sage {
 
 namespace {
 
-constexpr std::size_t kMuch = 1 << 18;
+constexpr std::size_t kMuch = 1 << 16;
 
 bool has(const std::filesystem::path& file, std::uint64_t bytes) {
   std::error_code error;
