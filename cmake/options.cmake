@@ -43,7 +43,8 @@ function(sage_target name)
                                             $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/sagefe>)
   target_link_libraries(${name} PUBLIC ${ARG_LINKS} PRIVATE $<BUILD_INTERFACE:sage_options> ${ARG_PRIVATE_LINKS})
   # The layout of fixed-size Eigen types must not depend on the processor flags of who includes the headers.
-  target_compile_definitions(${name} PUBLIC EIGEN_MAX_ALIGN_BYTES=32)
+  # Nor must the blocks of its products depend on the caches of the machine; asking for them takes longer than a small product.
+  target_compile_definitions(${name} PUBLIC EIGEN_MAX_ALIGN_BYTES=32 EIGEN_NO_CPUID)
   target_compile_features(${name} PUBLIC cxx_std_20)
   string(REPLACE "sage_" "" export_name ${name})
   if(name STREQUAL "sage_core")
