@@ -25,9 +25,17 @@ def real(x):
     return text if any(c in text for c in ".e") else text + "."
 
 
-def line(*fields):
-    """Integers take ten columns, real numbers twenty."""
-    return "".join(f"{f:10d}" if isinstance(f, int) else f"{real(f):>20}" for f in fields)
+class Columns:
+    """Widths of integers and real numbers; a number that does not fit is an OverflowError."""
+
+    def __init__(self, integer, real):
+        self.integer, self.real = integer, real
+
+    def line(self, *fields):
+        texts = [(str(f), self.integer) if isinstance(f, int) else (real(f), self.real) for f in fields]
+        if any(len(text) > width for text, width in texts):
+            raise OverflowError(f"{fields} in columns of {self.integer} and {self.real}")
+        return "".join(f"{text:>{width}}" for text, width in texts)
 
 
 @dataclasses.dataclass
@@ -112,7 +120,18 @@ class Scene:
 
 
 def deck(scene, n, kind="quad"):
-    """kind: quad (replaced by --element), or tri6."""
+    """Text of the deck and the layout it is in: the built-in one where its columns hold all digits, else the wide one.
+
+    kind: quad (replaced by --element), or tri6.
+    """
+    try:
+        return write_deck(scene, n, kind, Columns(5, 10)), "sage1"
+    except OverflowError:
+        return write_deck(scene, n, kind, Columns(10, 20)), "wide.toml"
+
+
+def write_deck(scene, n, kind, columns):
+    line = columns.line
     tri = kind == "tri6"
     b = scene.block(n, tri)
     elements = list(b.elements())
