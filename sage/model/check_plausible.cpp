@@ -282,7 +282,6 @@ void check_loads(Builder& b, const Stage& stage, const Size& size) {
   }
 }
 
-// Weight without gravity is allowed; gravity without weight is a mistake.
 // A pressure on an edge that two elements share loads the body from inside.
 void check_inner_edges(Builder& b, const Stage& stage, const Activity& activity) {
   const auto ends = [](const Group& group, int element, const std::vector<int>& edge) {
@@ -320,6 +319,7 @@ void check_inner_edges(Builder& b, const Stage& stage, const Activity& activity)
   }
 }
 
+// Weight without gravity is allowed; gravity without weight is a mistake.
 void check_gravity(Builder& b) {
   const Stage* first = nullptr;
   Vector2 total = Vector2::Zero();
