@@ -2,7 +2,7 @@
 
 #include <fstream>
 #include <iterator>
-#include <map>
+#include <vector>
 
 #include "sage/core/archive.hpp"
 #include "sage/output/out_file.hpp"
@@ -13,44 +13,39 @@ namespace {
 
 constexpr std::string_view kFirstLine = "sagefe restart 2\n";
 
-using Sizes = std::map<std::string, std::uintmax_t>;  // of result files, by name
+// A result file that is not complete yet.
+struct PartialResult {
+  std::string name;  // that it is going to have
+  std::uint64_t bytes = 0;
+};
 
-// Results of the run that are not complete yet.
-Sizes partial_results(const std::filesystem::path& checkpoint) {
-  Sizes sizes;
+std::vector<PartialResult> partial_results(const std::filesystem::path& checkpoint) {
+  std::vector<PartialResult> results;
   const std::string begin = checkpoint.stem().string() + ".";
   for (const auto& entry : std::filesystem::directory_iterator(checkpoint.parent_path())) {
     const std::string name = entry.path().filename().string();
     if (name.starts_with(begin) && name.ends_with(".partial") && entry.is_regular_file())
-      sizes[name.substr(0, name.size() - std::string_view(".partial").size())] = entry.file_size();
+      results.push_back({name.substr(0, name.size() - std::string_view(".partial").size()), entry.file_size()});
   }
-  return sizes;
+  return results;
 }
 
-void exchange(Archive& archive, Sizes& sizes) {
-  std::size_t count = sizes.size();
+void exchange(Archive& archive, std::vector<PartialResult>& results) {
+  std::size_t count = results.size();
   archive(count);
-  auto next = sizes.begin();
   for (std::size_t i = 0; i < count; ++i) {
-    std::string name = archive.reading() ? std::string() : next->first;
-    std::uintmax_t size = archive.reading() ? 0 : (next++)->second;
-    archive(name);
-    archive(size);
-    if (archive.reading()) sizes[name] = size;
+    if (archive.reading()) results.emplace_back();
+    archive(results[i].name);
+    archive(results[i].bytes);
   }
 }
 
 // What the checkpoint goes on from must be there before anything is opened for writing.  A run that an error
 // stopped has ended its files: they bear their final names.
-void expect_results(const std::filesystem::path& checkpoint, const Sizes& sizes) {
-  for (const auto& [name, size] : sizes) {
-    const std::filesystem::path file = checkpoint.parent_path() / name;
-    const auto has = [size = size](const std::filesystem::path& path) {
-      std::error_code error;
-      const std::uintmax_t found = std::filesystem::file_size(path, error);
-      return !error && found >= size;
-    };
-    if (!has(file.string() + ".partial") && !has(file))
+void expect_results(const std::filesystem::path& checkpoint, const std::vector<PartialResult>& results) {
+  for (const PartialResult& result : results) {
+    const std::filesystem::path file = checkpoint.parent_path() / result.name;
+    if (!holds(file.string() + ".partial", result.bytes) && !holds(file, result.bytes))
       throw InputError({checkpoint.string(), 0, 0, 0},
                        "goes on from " + file.string() +
                            ".partial, which is missing or shorter than it was; run again without --restart");
@@ -70,9 +65,9 @@ bool Checkpoint::due() const {
 void Checkpoint::save(const std::string& state) {
   Archive archive;
   std::string belongs_to = belongs_to_, body = state;
-  Sizes sizes = partial_results(file_);
+  std::vector<PartialResult> results = partial_results(file_);
   archive(belongs_to);
-  exchange(archive, sizes);
+  exchange(archive, results);
   archive(body);
   std::uint64_t sum = checksum(archive.bytes());
   archive(sum);
@@ -88,11 +83,11 @@ std::optional<std::string> Checkpoint::load() const {
   if (!text.starts_with(kFirstLine)) throw InputError(where, "is not a checkpoint of this program");
   Archive archive(text.substr(kFirstLine.size()));
   std::string belongs_to, state;
-  Sizes sizes;
+  std::vector<PartialResult> results;
   std::uint64_t sum = 0;
   try {
     archive(belongs_to);
-    exchange(archive, sizes);
+    exchange(archive, results);
     archive(state);
     archive(sum);
   } catch (const InputError&) {
@@ -105,7 +100,7 @@ std::optional<std::string> Checkpoint::load() const {
         where,
         "belongs to another run: the deck, the options or the program have changed since; run again "
         "without --restart");
-  expect_results(file_, sizes);
+  expect_results(file_, results);
   return state;
 }
 

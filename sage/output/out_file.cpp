@@ -13,12 +13,6 @@ namespace {
 
 constexpr std::size_t kMuch = 1 << 16;
 
-bool has(const std::filesystem::path& file, std::uint64_t bytes) {
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
-  return !error && size >= bytes;
-}
-
 }  // namespace
 
 OutFile::OutFile(std::filesystem::path path) : path_(std::move(path)) {
@@ -85,9 +79,9 @@ void OutFile::exchange(Archive& archive) {
   std::uint64_t size = 0;
   archive(size);
   std::error_code error;
-  if (!has(partial_, size) && has(path_, size))  // a run stopped by an error has ended its files
+  if (!holds(partial_, size) && holds(path_, size))  // a run stopped by an error has ended its files
     std::filesystem::copy_file(path_, partial_, std::filesystem::copy_options::overwrite_existing, error);
-  if (!has(partial_, size))
+  if (!holds(partial_, size))
     throw InputError({}, partial_.string() + " is shorter than at the time of the checkpoint");
   text_.clear();
   cut_to(size);
@@ -106,6 +100,12 @@ void OutFile::finish() {
   std::error_code error;
   if (partial_ != path_) std::filesystem::rename(partial_, path_, error);
   if (error) fail(path_, error.value());
+}
+
+bool holds(const std::filesystem::path& file, std::uint64_t bytes) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  return !error && size >= bytes;
 }
 
 void write_file(const std::filesystem::path& path, std::string text) {

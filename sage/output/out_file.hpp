@@ -56,6 +56,9 @@ class OutFile {
   std::chrono::steady_clock::time_point last_write_{};
 };
 
+// Whether a file is there and has so many bytes or more.
+bool holds(const std::filesystem::path& file, std::uint64_t bytes);
+
 // A whole file at once, by the same way.
 void write_file(const std::filesystem::path& path, std::string text);
 
