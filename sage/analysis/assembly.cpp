@@ -88,12 +88,11 @@ void Assembly::enter_stage(const Activity& activity, const Eigen::VectorXd& rate
   rate_ = rate;
   filled_ = nullptr;
   const auto dofs = static_cast<std::size_t>(model_->dofs());
-  node_used_.assign(dofs / 2, 0);
+  node_used_ = active_nodes(*model_, activity);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     groups_[g].active = activity.group[g] != 0;
     if (!groups_[g].active) continue;
     if (!keeps_matrices(groups_[g]) && groups_[g].group->elements() > 0) keep_matrices(groups_[g]);
-    for (int node : groups_[g].group->nodes) node_used_[static_cast<std::size_t>(node)] = 1;
   }
   equation_of_dof_.assign(dofs, -1);
   dof_of_equation_.clear();

@@ -39,6 +39,14 @@ void Activity::enter(const Model&, const Stage& stage) {
   apply(stage.fixities, held);
 }
 
+std::vector<char> active_nodes(const Model& model, const Activity& activity) {
+  std::vector<char> active(static_cast<std::size_t>(model.mesh.nodes()), 0);
+  for (std::size_t g = 0; g < model.groups.size(); ++g)
+    if (activity.group[g])
+      for (int node : model.groups[g].nodes) active[static_cast<std::size_t>(node)] = 1;
+  return active;
+}
+
 std::vector<int> connected_parts(const Model& model, const Activity& activity) {
   std::vector<int> parent(static_cast<std::size_t>(model.mesh.nodes()));
   std::iota(parent.begin(), parent.end(), 0);

@@ -16,6 +16,9 @@ struct Activity {
   std::vector<char> held;   // a dof: prescribed (2 node + component)
 };
 
+// A flag for every node: some element of an active group has it.
+std::vector<char> active_nodes(const Model& model, const Activity& activity);
+
 // For every node the number of its connected part (by elements of active groups), -1 = in no active element.
 std::vector<int> connected_parts(const Model& model, const Activity& activity);
 

@@ -8,14 +8,6 @@ namespace sage::build {
 
 namespace {
 
-std::vector<char> nodes_in_use(const Model& model, const Activity& activity) {
-  std::vector<char> used(static_cast<std::size_t>(model.mesh.nodes()), 0);
-  for (std::size_t g = 0; g < model.groups.size(); ++g)
-    if (activity.group[g])
-      for (int node : model.groups[g].nodes) used[static_cast<std::size_t>(node)] = 1;
-  return used;
-}
-
 // Nodes or elements of one card.
 struct Idle {
   int line = 0, first = 0, count = 0;
@@ -47,9 +39,9 @@ void check_inactive(Builder& b) {
   Activity activity(model);
   for (const Stage& stage : model.stages) {
     activity.enter(model, stage);
-    const std::vector<char> used = nodes_in_use(model, activity);
+    const std::vector<char> active = active_nodes(model, activity);
     const auto number_of = [&](int node) { return model.mesh.number[static_cast<std::size_t>(node)]; };
-    const auto idle_node = [&](int node) { return used[static_cast<std::size_t>(node)] == 0; };
+    const auto idle_node = [&](int node) { return active[static_cast<std::size_t>(node)] == 0; };
     std::vector<Idle> loads, displacements, pressures;
     for (const NodalLoad& load : stage.loads)
       if (idle_node(load.node) && !load.force.isZero(0.0)) add(loads, load.line, number_of(load.node));

@@ -73,14 +73,6 @@ double deviator_stress(const double* sigma) {
   return std::sqrt(0.5 * (a * a + b * b + c * c) + 3.0 * sigma[3] * sigma[3]);
 }
 
-std::vector<char> active_nodes(const Model& model, const Activity& activity) {
-  std::vector<char> active(static_cast<std::size_t>(model.mesh.nodes()), 0);
-  for (std::size_t g = 0; g < model.groups.size(); ++g)
-    if (activity.group[g])
-      for (int node : model.groups[g].nodes) active[static_cast<std::size_t>(node)] = 1;
-  return active;
-}
-
 std::string one_line(const std::string& text) {
   return text.substr(0, text.find('\n'));
 }

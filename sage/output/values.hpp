@@ -41,9 +41,6 @@ inline double reaction(const Solution& solution, int dof) {
 double mean_stress(const double* sigma);
 double deviator_stress(const double* sigma);
 
-// Nodes that belong to an element of an active group.
-std::vector<char> active_nodes(const Model& model, const Activity& activity);
-
 // The first line of a text, for comments in files.
 std::string one_line(const std::string& text);
 
