@@ -1,5 +1,5 @@
 // Loads and displacements for nodes that no active element has in their stage: they do nothing there.
-#include <algorithm>
+#include <map>
 
 #include "sage/model/activity.hpp"
 #include "sage/model/builder.hpp"
@@ -10,25 +10,21 @@ namespace {
 
 // Nodes or elements of one card.
 struct Idle {
-  int line = 0, first = 0, count = 0;
+  int first = 0, count = 0;
 };
+using IdleCards = std::map<int, Idle>;  // by line
 
-void add(std::vector<Idle>& idle, int line, int number) {
-  const auto card = std::ranges::find(idle, line, &Idle::line);
-  if (card == idle.end())
-    idle.push_back({line, number, 1});
-  else
-    ++card->count;
+void add(IdleCards& idle, int line, int number) {
+  ++idle.try_emplace(line, Idle{number, 0}).first->second.count;
 }
 
 // One message a card: the first, and how many more.
-void tell(Builder& b, const std::vector<Idle>& idle, const Stage& stage, const std::string& what,
+void tell(Builder& b, const IdleCards& idle, const Stage& stage, const std::string& what,
           const std::string& why) {
-  for (const Idle& card : idle) {
+  for (const auto& [line, card] : idle) {
     std::string text = what + " " + std::to_string(card.first);
     if (card.count > 1) text += " (and " + std::to_string(card.count - 1) + " more)";
-    b.warning(b.at_line(card.line),
-              text + " does nothing in stage " + std::to_string(stage.number) + ": " + why);
+    b.warning(b.at_line(line), text + " does nothing in stage " + std::to_string(stage.number) + ": " + why);
   }
 }
 
@@ -42,7 +38,7 @@ void check_inactive(Builder& b) {
     const std::vector<char> active = active_nodes(model, activity);
     const auto number_of = [&](int node) { return model.mesh.number[static_cast<std::size_t>(node)]; };
     const auto idle_node = [&](int node) { return active[static_cast<std::size_t>(node)] == 0; };
-    std::vector<Idle> loads, displacements, pressures;
+    IdleCards loads, displacements, pressures;
     for (const NodalLoad& load : stage.loads)
       if (idle_node(load.node) && !load.force.isZero(0.0)) add(loads, load.line, number_of(load.node));
     for (const Fixity& f : stage.fixities) {

@@ -116,16 +116,18 @@ class Writer {
   }
 
   // One message a card, with the first of its nodes.
-  void warn_nodes(const std::map<int, std::vector<int>>& nodes_of_line, const std::string& before,
+  void warn_nodes(const std::map<int, std::set<int>>& nodes_of_line, const std::string& before,
                   const std::string& after) {
     constexpr std::size_t kShown = 8;
     for (const auto& [line, nodes] : nodes_of_line) {
-      std::vector<int> shown(nodes.begin(), nodes.begin() + std::min(kShown, nodes.size()));
-      const char* const more = nodes.size() > kShown ? ", ..." : "";
-      diagnostics_.add({Severity::warning,
-                        {model_.file, line, 0, 0},
-                        fmt::format("{}node(s) {}{}{}", before, fmt::join(shown, ", "), more, after),
-                        {}});
+      const std::size_t shown = std::min(kShown, nodes.size());
+      const auto end = std::next(nodes.begin(), static_cast<std::ptrdiff_t>(shown));
+      const char* const more = end != nodes.end() ? ", ..." : "";
+      diagnostics_.add(
+          {Severity::warning,
+           {model_.file, line, 0, 0},
+           fmt::format("{}node(s) {}{}{}", before, fmt::join(nodes.begin(), end, ", "), more, after),
+           {}});
     }
   }
 
@@ -142,11 +144,11 @@ class Writer {
   // is held from the start on; one that could move first can only be held where it is (FIXED).
   void boundary(const Stage& stage, bool first) {
     std::string totals, frozen;
-    std::map<int, std::vector<int>> unknown, released;
+    std::map<int, std::set<int>> unknown, released;
     for (const auto& [dof, held] : last_of(stage.fixities)) {
       const auto [node, c] = dof;
       if (held.code == FixityCode::released) {
-        released[held.line].push_back(number(node));
+        released[held.line].insert(number(node));
         displacement_.erase(dof);
         frozen_.erase(dof);
         continue;
@@ -157,7 +159,7 @@ class Writer {
         if (frozen_.insert(dof).second) frozen += fmt::format("{}, {}, {}\n", number(node), c + 1, c + 1);
         continue;
       }
-      if (total == displacement_.end()) unknown[held.line].push_back(number(node));
+      if (total == displacement_.end()) unknown[held.line].insert(number(node));
       double& sum = displacement_[dof];
       sum += held.value;
       totals += fmt::format("{}, {}, {}, {}\n", number(node), c + 1, c + 1, sum);

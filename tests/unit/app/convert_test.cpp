@@ -441,5 +441,19 @@ TEST(Convert, WarnsWhereCalculixCountsFromAnotherPlace) {
   EXPECT_NE(said.find("stage 3: the release of node(s) 5 is left out"), std::string::npos) << said;
 }
 
+// Of a card that moves both of its dofs.
+TEST(Convert, ANodeIsNamedOnceInAWarning) {
+  DeckWriter deck = column();
+  deck.stage().load(5, 1.0, -5.0);
+  deck.stage().fix(5, 1, 1, 0.01, -0.01);
+  deck.stage().fix(5, -1, -1);
+  Model model = model_of("both.dat", deck);
+  inp_text(model, full_catalogue(), model.diagnostics);
+  std::string said;
+  for (const Diagnostic& d : model.diagnostics.list()) said += d.message + "\n";
+  EXPECT_NE(said.find("stage 2: node(s) 5 could move before"), std::string::npos) << said;
+  EXPECT_NE(said.find("stage 3: the release of node(s) 5 is left out"), std::string::npos) << said;
+}
+
 }  // namespace
 }  // namespace sage::app
