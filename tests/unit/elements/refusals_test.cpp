@@ -93,11 +93,6 @@ TEST(InterfaceShape, APairApartIsNotTakenForAnotherOrder) {
             "interface: the nodes of pair (1, 4) are 2.000000 apart; they must be at the same place");
 }
 
-TEST(InterfaceShape, WithoutLengthItHasNoQuality) {
-  const Eigen::Matrix2Xd x = Eigen::Matrix2Xd::Constant(2, 4, 1.0);
-  EXPECT_EQ(element_case(11, 1, Geometry::plane_strain).make()->shape_quality(x), 0.0);
-}
-
 TEST(InterfaceShape, NewtonCotesAwayFromTheAxisNeedsNoCaution) {
   const Eigen::Matrix2Xd x = (Eigen::Matrix2Xd(2, 4) << 1, 2, 2, 1, 0, 0, 0, 0).finished();
   EXPECT_EQ(element_case(11, 3, Geometry::axisymmetric).make()->caution(x), "");

@@ -102,13 +102,6 @@ TEST(MohrCoulomb, PlasticVolumeStrainAtTheApex) {
   EXPECT_NEAR(a.h[0], 0.0, 1e-14);
 }
 
-TEST(MohrCoulomb, CautionsWithoutStrength) {
-  const auto caution = [](double c, double phi) { return test::solid(4, {1e4, 0.3, c, phi})->caution(); };
-  EXPECT_NE(caution(0.0, 0.0).find("no shear strength"), std::string::npos);
-  EXPECT_EQ(caution(0.1, 0.0), "");
-  EXPECT_EQ(caution(0.0, 10.0), "");
-}
-
 // Tresca, simple shear: tau = c, whatever the mean stress.
 TEST(MohrCoulomb, TrescaInSimpleShear) {
   const auto a =
