@@ -1,13 +1,13 @@
 #include "tests/regression/program.hpp"
-#include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
-
 #include <sys/wait.h>
 
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
+
+#include "tests/support/scratch_folder.hpp"
 
 namespace sage::test {
 

@@ -1,8 +1,8 @@
 // Newton's iterations after the first take no memory.  Two runs of the same deck to different tolerances differ
 // only in iterations.
-#include <ostream>
-
 #include <gtest/gtest.h>
+
+#include <ostream>
 
 #include "sage/analysis/run.hpp"
 #include "sage/app/commands.hpp"

@@ -1,7 +1,7 @@
 // After the first factorisation and solution with a pattern, own solvers take no memory.
-#include <ostream>
-
 #include <gtest/gtest.h>
+
+#include <ostream>
 
 #include "solvers/register_solvers.hpp"
 #include "tests/conformance/solver_systems.hpp"
