@@ -40,8 +40,9 @@ std::uint64_t fingerprint(const Model& model) {
   add(archive, model.geometry, model.solver);
   for (Eigen::Index i = 0; i < model.mesh.x.cols(); ++i) add(archive, model.mesh.x(0, i), model.mesh.x(1, i));
   add(archive, model.mesh.number);
-  for (const Material& m : model.materials) add(archive, m.code, m.parameters, m.unit_weight);
-  for (const Group& g : model.groups) add(archive, g.element_code, g.element_name, g.material, g.nodes);
+  for (const Material& m : model.materials) add(archive, m.number, m.name, m.code, m.parameters, m.unit_weight);
+  for (const Group& g : model.groups)
+    add(archive, g.number, g.name, g.element_code, g.element_name, g.material, g.element_numbers, g.nodes);
   add_fixities(archive, model.fixities);
   add_initials(archive, model.initials);
   for (const Stage& stage : model.stages) add_stage(archive, stage);

@@ -7,7 +7,8 @@
 
 namespace sage {
 
-// Depends on everything that an analysis of the model depends on; not on file names, titles and lines.
+// Depends on everything that an analysis of the model depends on, and on the titles, names and numbers that its
+// results show; not on file names and lines.
 std::uint64_t fingerprint(const Model& model);
 
 }  // namespace sage

@@ -1,6 +1,9 @@
 // A run that is resumed from any of its checkpoints ends bit for bit where the uninterrupted run ends.
 #include <gtest/gtest.h>
 
+#include <functional>
+
+#include "sage/model/fingerprint.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {
@@ -106,6 +109,25 @@ TEST(Restart, StagesOfALinearScene) {
 }
 TEST(Restart, StagesWithPlasticity) {
   expect_same_from_every_checkpoint(cut_and_fill(4), 1 + 1 + 2);
+}
+
+// What results show besides numbers: a run must not go on in files that show something else.
+TEST(Restart, AFingerprintKnowsNumbersAndNames) {
+  const std::vector<std::pair<const char*, std::function<void(Model&)>>> changes{
+      {"title", [](Model& m) { m.title += "x"; }},
+      {"number of a group", [](Model& m) { m.groups[1].number = 77; }},
+      {"name of a group", [](Model& m) { m.groups[1].name += "x"; }},
+      {"number of an element", [](Model& m) { m.groups[1].element_numbers[0] = 77; }},
+      {"number of a material", [](Model& m) { m.materials[0].number = 77; }},
+      {"name of a material", [](Model& m) { m.materials[0].name += "x"; }},
+  };
+  const WholeRun run = run_text(cut_and_fill(1));
+  EXPECT_EQ(fingerprint(*run.model), fingerprint(*run_text(cut_and_fill(1)).model));
+  for (const auto& [what, change] : changes) {
+    const WholeRun other = run_text(cut_and_fill(1));
+    change(*other.model);
+    EXPECT_NE(fingerprint(*other.model), fingerprint(*run.model)) << what;
+  }
 }
 
 TEST(Restart, DamagedStatesAreRefused) {
