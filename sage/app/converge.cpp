@@ -29,7 +29,8 @@ struct Rung {
 struct Quantity {
   std::string name;
   std::vector<double> values;  // one a mesh
-  // On each mesh so far: its size beside the largest of its kind (displacement, force) in the report's history.
+  // Its size beside the largest of its kind (displacement, force) in the report's history; of all meshes so far
+  // the largest.
   double largest_share = 1.0;
 };
 

@@ -19,10 +19,10 @@ struct Grading {
 };
 
 struct BuildOptions {
-  int formulation =
-      -1;  // replaces the deck's formulation code of solid groups where it exists; -1 = as the deck says
-  int element =
-      0;  // replaces 4-node quadrilaterals by this element code (mid-side nodes are made); 0 = as the deck
+  // Replaces the deck's formulation code of solid groups where it exists; -1 = as the deck says.
+  int formulation = -1;
+  // Replaces 4-node quadrilaterals by this element code (mid-side nodes are made); 0 = as the deck says.
+  int element = 0;
   int solver = -1;                              // catalogue code, 0 automatic; -1 = as the deck says
   int geometry = 0;                             // 1 plane strain, 2 axisymmetric; 0 = as the deck says
   int refine = 0;                               // every element into four, so many times

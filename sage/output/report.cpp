@@ -19,9 +19,9 @@ constexpr int kSubsteps = 10;  // of the law, an increment
 constexpr int kDigits = 10;
 
 struct NodeSums {
-  double displacement[2] = {0,
-                            0};  // mean over the deck's own nodes, so that it keeps its meaning in finer meshes
-  double force[2] = {0, 0};      // sum of internal forces, less the weight
+  // Mean over the deck's own nodes, so that it keeps its meaning in finer meshes.
+  double displacement[2] = {0, 0};
+  double force[2] = {0, 0};  // sum of internal forces, less the weight
 };
 
 // What the weight of the soil puts on the report's nodes: what acts at the start of a stage stays, what is
@@ -81,12 +81,12 @@ std::string header(const Model& model, const Report& report) {
                "stage,increment,axial_strain[-],force[{2}],measured_deviator[{3}],correct_deviator[{3}],"
                "measured_axial[{3}],correct_axial[{3}],ratio[-]\n",
                report.stage + 1, u.length, u.force, u.stress);
-  return text + fmt::format(
-                    "# node report: mean displacement since the start of stage {0}, sum of the forces that "
-                    "loads and supports "
-                    "put on the nodes, without the weight of the soil; positive along +x, +y\n"
-                    "stage,increment,ux[{1}],uy[{1}],fx[{2}],fy[{2}]\n",
-                    report.stage + 1, u.length, u.force);
+  return text +
+         fmt::format(
+             "# node report: mean displacement since the start of stage {0}, sum of the forces that "
+             "loads and supports put on the nodes, without the weight of the soil; positive along +x, +y\n"
+             "stage,increment,ux[{1}],uy[{1}],fx[{2}],fy[{2}]\n",
+             report.stage + 1, u.length, u.force);
 }
 
 void append_row(std::string& text, int stage, int increment, std::initializer_list<double> values) {
