@@ -1,10 +1,12 @@
 #include "sage/model/msh_model.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <set>
 
+#include "sage/deck/text.hpp"
 #include "sage/model/msh_file.hpp"
 
 namespace sage {
@@ -196,10 +198,23 @@ class Skeleton {
   int turned_ = 0;
 };
 
+// Written so that NaN is refused too.  Zero stands for what is not known yet.
+void check_constants(const MshOptions& options, const std::string& file) {
+  constexpr double kTooLarge = 1e100;  // as in decks
+  const auto refuse = [&](const std::string& message) { throw InputError({file, 0, 0, 0}, message); };
+  if (!(options.youngs_modulus >= 0.0 && options.youngs_modulus < kTooLarge))
+    refuse("Young's modulus must be positive and below 1e100; it is " + number_text(options.youngs_modulus));
+  if (!(options.poissons_ratio > -1.0 && options.poissons_ratio < 0.5))
+    refuse("Poisson's ratio must lie between -1 and 0.5; it is " + number_text(options.poissons_ratio));
+  if (!(std::abs(options.unit_weight) < kTooLarge))
+    refuse("the unit weight must be below 1e100; it is " + number_text(options.unit_weight));
+}
+
 }  // namespace
 
 Model model_from_msh(std::string_view text, const std::string& file, const Catalogue& catalogue,
                      const MshOptions& options) {
+  check_constants(options, file);
   const MshFile mesh = msh::read_msh(text, file);
   return Skeleton(mesh, file, catalogue, options).build();
 }

@@ -19,7 +19,7 @@ struct MshOptions {
 // MSH 4.1 ASCII.  Curves named fix_x, fix_y, fix_xy hold their nodes; pressure=100 (or pressure:100) loads the
 // edges in the only stage, together with gravity.  Other curves are left out with a warning.  Elements listed
 // clockwise are turned round.  The laws are not made: the model is for writing, not for running.
-// Throws InputError with the line.
+// Throws InputError with the line, or for constants that no material has.
 Model model_from_msh(std::string_view text, const std::string& file, const Catalogue& catalogue,
                      const MshOptions& options);
 

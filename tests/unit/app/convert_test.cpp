@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <limits>
 
 #include "sage/app/commands.hpp"
 #include "sage/app/run_deck.hpp"
@@ -290,6 +291,23 @@ TEST(Convert, BrokenMeshesAreRefusedWithTheirLine) {
   std::string other = good;
   other.replace(other.find("4.1"), 3, "2.2");
   EXPECT_THROW(model_from_msh(other, "old.msh", full_catalogue(), {}), InputError);
+}
+
+// A deck for `sagefe check` to refuse would be written otherwise.
+TEST(Convert, ConstantsThatNoMaterialHasAreRefused) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const Geometry plane = Geometry::plane_strain;
+  const std::pair<MshOptions, const char*> cases[] = {
+      {{plane, kNan, 0.3, 18.0}, "Young's modulus"},   {{plane, -1.0, 0.3, 18.0}, "Young's modulus"},
+      {{plane, 1e200, 0.3, 18.0}, "Young's modulus"},  {{plane, 1000.0, kNan, 18.0}, "Poisson's ratio"},
+      {{plane, 1000.0, 0.5, 18.0}, "Poisson's ratio"}, {{plane, 1000.0, -1.0, 18.0}, "Poisson's ratio"},
+      {{plane, 1000.0, 0.3, kNan}, "unit weight"},     {{plane, 1000.0, 0.3, -1e200}, "unit weight"}};
+  for (const auto& [options, name] : cases) try {
+      model_from_msh(kMesh, "square.msh", full_catalogue(), options);
+      ADD_FAILURE() << options.youngs_modulus << " " << options.poissons_ratio << " " << options.unit_weight;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+    }
 }
 
 TEST(Convert, MeshioReadsTheMesh) {
