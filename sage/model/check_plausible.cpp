@@ -37,10 +37,10 @@ constexpr double kAtmosphere = 101325.0, kWater = 9806.65;
 
 // 0 = a unit that isn't known here.
 template <std::size_t n>
-double si(const NamedUnit (&units)[n], std::string name) {
-  for (char& c : name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+double si(const NamedUnit (&units)[n], const std::string& name) {
+  const std::string lower = lower_case(name);
   for (const NamedUnit& unit : units)
-    if (name == unit.name) return unit.si;
+    if (lower == unit.name) return unit.si;
   return 0.0;
 }
 
