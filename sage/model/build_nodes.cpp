@@ -124,10 +124,12 @@ std::vector<Vector2> side_points(const PlacedNodes& nodes, int first, int step, 
 void fill_block(Builder& b, PlacedNodes& nodes, const CardView& card, int errors_before) {
   const int first = card.integer("first"), columns = card.integer("columns"), rows = card.integer("rows");
   const int column_step = card.integer("column_step", 1), row_step = card.integer("row_step");
-  if (columns < 1 || rows < 1 || column_step < 1 || row_step < 1) {
-    b.error(card.where(), "a fill card needs columns, rows and both steps of 1 or more");
-    return;
-  }
+  const std::pair<const char*, int> counts[] = {
+      {"columns", columns}, {"rows", rows}, {"column_step", column_step}, {"row_step", row_step}};
+  for (const auto& [field, count] : counts)
+    if (count < 1)
+      return b.error(card.where(field),
+                     "the " + card.label(field) + " must be 1 or more, not " + std::to_string(count));
   if (static_cast<std::int64_t>(columns) * rows > kMaxNodes) {
     b.error(card.where("columns"), "the block would have more than " + std::to_string(kMaxNodes) + " nodes");
     return;

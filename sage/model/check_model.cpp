@@ -25,9 +25,16 @@ double largest_angle(const Eigen::Matrix2Xd& x, const Element& element) {
 }
 
 void check_shapes(Builder& b) {
-  constexpr int kShown = 20;
+  constexpr std::size_t kShown = 20;
   constexpr double kPoorShape = 0.1;
-  int bad = 0, poor = 0;
+  // A card may make a block of elements that all have one flaw: the first of them is named.
+  struct Refused {
+    int line = 0;
+    std::string message;
+    int more = 0;
+  };
+  std::vector<Refused> refused;
+  int poor = 0;
   double worst = 1.0, worst_angle = 0.0;
   std::string worst_name;
   SourcePosition worst_where;
@@ -54,16 +61,24 @@ void check_shapes(Builder& b) {
           worst_where = b.at_line(group.element_lines[eu]);
         }
       } catch (const ElementShapeError& error) {
-        if (++bad <= kShown)
-          b.error(b.at_line(group.element_lines[eu]), name + " (" + group.element_name + "): " + error.what());
+        const int line = group.element_lines[eu];
+        if (!refused.empty() && refused.back().line == line)
+          ++refused.back().more;
+        else
+          refused.push_back({line, name + " (" + group.element_name + "): " + error.what(), 0});
       }
     }
     if (cautioned > 1) caution += " (and " + std::to_string(cautioned - 1) + " more)";
     if (cautioned > 0) b.warning(group.where, caution);
   }
-  if (bad > kShown)
+  for (std::size_t i = 0; i < std::min(kShown, refused.size()); ++i) {
+    const Refused& card = refused[i];
+    b.error(b.at_line(card.line),
+            card.message + (card.more > 0 ? " (and " + std::to_string(card.more) + " more of this card)" : ""));
+  }
+  if (refused.size() > kShown)
     b.error(b.deck.one("control").where(),
-            "and " + std::to_string(bad - kShown) + " more elements with unusable shapes");
+            "and " + std::to_string(refused.size() - kShown) + " more cards of elements with unusable shapes");
   if (poor > 0)
     b.warning(worst_where, std::to_string(poor) + " element(s) badly distorted; worst " + worst_name +
                                ", smallest over mean Jacobian " + rounded_text(worst, 3) +

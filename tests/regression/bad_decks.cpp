@@ -150,7 +150,10 @@ void bad_nodes(Cases& c) {
                b.with("fill", card({"1", "2", "1", "", "3"})),
                "fill:16-20",
                {"a value is missing", "rows"}});
-  c.push_back({"fill_rows_zero", b.with("fill", card({"1", "2", "1", "0", "3"})), "fill", {"of 1 or more"}});
+  c.push_back({"fill_rows_zero",
+               b.with("fill", card({"1", "2", "1", "0", "3"})),
+               "fill:16-20",
+               {"must be 1 or more, not 0"}});
   c.push_back({"fill_rows_overlap",
                b.with("fill", card({"1", "2", "1", "6", "1"})),
                "fill:21-25",
@@ -301,8 +304,7 @@ void bad_elements(Cases& c) {
                    .with("node1", card({"1", "", ""}, {"-.5", "0."}))
                    .with("node7", card({"7", "", ""}, {"-.5", "1."})),
                "element",
-               {"node on negative radius", "the axis of symmetry is r = 0"},
-               2});
+               {"node on negative radius", "the axis of symmetry is r = 0", "(and 1 more of this card)"}});
   c.push_back({"interface_pair_apart",
                j.with("node6", card({"6", "", ""}, {"1.01", "1."})),
                "element_joint",
