@@ -158,13 +158,13 @@ TEST(Converge, StopsAtItsLimitsAndSaysSo) {
 
 // A bar pressed at its top, symmetric about its middle: u_x of both ends of the top together is zero.
 TEST(Converge, WhatSymmetryMakesZeroIsLeftOut) {
+  const study::Block block{1, 2, study::Cell::quad4, 1, 1, study::rectangle(0.0, 1.0, 0.0, 2.0)};
   study::DeckWriter deck(1);
-  for (int i = 0; i < 6; ++i) deck.node(i + 1, i % 2, i / 2);
+  block.write_nodes(deck);
   deck.material(1, 1, {1000.0, 0.3});
   deck.group(1, 1, 2, 1);
-  deck.element(1, 1, {1, 2, 4, 3});
-  deck.element(2, 1, {3, 4, 6, 5});
-  for (int node : {1, 2}) deck.fix(node, 1, 1);
+  block.write_elements(deck, 1);
+  for (int node : block.bottom()) deck.fix(node, 1, 1);
   deck.stage().pressure(2, 3, 10.0, 10.0);
   deck.reports.push_back("    2    0    5    6    1    1");
   ConvergeOptions options;

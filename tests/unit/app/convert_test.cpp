@@ -343,19 +343,13 @@ TEST(Convert, CalculixFindsTheSameDisplacements) {
 
 // A column of two squares, nu = 0 and E = 1000: the force of 10 at its top shortens each square by 0.01.
 DeckWriter column() {
+  const study::Block block{1, 2, study::Cell::quad4, 1, 1, study::rectangle(0.0, 1.0, 0.0, 2.0)};
   DeckWriter deck(1);
-  deck.node(1, 0.0, 0.0);
-  deck.node(2, 1.0, 0.0);
-  deck.node(3, 0.0, 1.0);
-  deck.node(4, 1.0, 1.0);
-  deck.node(5, 0.0, 2.0);
-  deck.node(6, 1.0, 2.0);
+  block.write_nodes(deck);
   deck.material(1, 1, {1000.0, 0.0});
   deck.group(1, 1, 2, 1);
-  deck.element(1, 1, {1, 2, 4, 3});
-  deck.element(2, 1, {3, 4, 6, 5});
-  deck.fix(1, 1, 1);
-  deck.fix(2, 1, 1);
+  block.write_elements(deck, 1);
+  for (int node : block.bottom()) deck.fix(node, 1, 1);
   return deck;
 }
 
