@@ -136,7 +136,7 @@ void Run::place_groups(const Stage& stage) {
 // What takes part, equations and numbering.  True if the pattern is that of the stage before.
 bool Run::open_stage(int s) {
   const Stage& stage = model_.stages[static_cast<std::size_t>(s)];
-  activity_.enter(model_, stage);
+  activity_.enter(stage);
   rate_ = prescribed_rate(model_, stage);
   place_groups(stage);
   const bool condensed_before = assembly_.condensation() != nullptr;
@@ -412,7 +412,7 @@ Run::Place Run::resume() {
   if (opened < 0 || opened >= static_cast<int>(model_.stages.size()))
     throw InputError({}, "the checkpoint does not belong to this model");
   for (int s = 0; s < opened; ++s) {
-    activity_.enter(model_, model_.stages[static_cast<std::size_t>(s)]);
+    activity_.enter(model_.stages[static_cast<std::size_t>(s)]);
     place_groups(model_.stages[static_cast<std::size_t>(s)]);
   }
   open_stage(opened);

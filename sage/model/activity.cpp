@@ -33,7 +33,7 @@ Activity::Activity(const Model& model)
   apply(model.fixities, held);
 }
 
-void Activity::enter(const Model&, const Stage& stage) {
+void Activity::enter(const Stage& stage) {
   for (int g : stage.births) group[static_cast<std::size_t>(g)] = 1;
   for (int g : stage.deaths) group[static_cast<std::size_t>(g)] = 0;
   apply(stage.fixities, held);

@@ -10,7 +10,7 @@ namespace sage {
 struct Activity {
   explicit Activity(const Model& model);
   // Births, deaths and fixities of a stage, on top of those before it.
-  void enter(const Model& model, const Stage& stage);
+  void enter(const Stage& stage);
 
   std::vector<char> group;  // active now
   std::vector<char> held;   // a dof: prescribed (2 node + component)

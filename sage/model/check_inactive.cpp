@@ -34,7 +34,7 @@ void check_inactive(Builder& b) {
   const Model& model = b.model;
   Activity activity(model);
   for (const Stage& stage : model.stages) {
-    activity.enter(model, stage);
+    activity.enter(stage);
     const std::vector<char> active = active_nodes(model, activity);
     const auto number_of = [&](int node) { return model.mesh.number[static_cast<std::size_t>(node)]; };
     const auto idle_node = [&](int node) { return active[static_cast<std::size_t>(node)] == 0; };

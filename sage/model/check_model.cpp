@@ -229,7 +229,7 @@ void check_supports_of(Builder& b, const Stage& stage, const Activity& activity)
 void check_supports(Builder& b) {
   Activity activity(b.model);
   for (const Stage& stage : b.model.stages) {
-    activity.enter(b.model, stage);
+    activity.enter(stage);
     const int before = b.problems.errors();
     check_supports_of(b, stage, activity);
     if (b.problems.errors() > before) return;

@@ -170,7 +170,7 @@ void check_overlap(Builder& b) {
   std::vector<std::vector<char>> active(groups);  // by group, then by stage
   Activity activity(b.model);
   for (const Stage& stage : b.model.stages) {
-    activity.enter(b.model, stage);
+    activity.enter(stage);
     for (std::size_t g = 0; g < groups; ++g) active[g].push_back(activity.group[g]);
   }
   const auto together = [&](std::size_t g, std::size_t h) {
@@ -405,7 +405,7 @@ void check_plausible(Builder& b) {
   Activity activity(b.model);
   for (const Stage& stage : b.model.stages) {
     check_fixities(b, stage, activity, size);
-    activity.enter(b.model, stage);
+    activity.enter(stage);
     check_loads(b, stage, size);
     check_inner_edges(b, stage, activity);
     note_null_stage(b, stage);

@@ -97,7 +97,7 @@ bool any_element(const Model& model, const Activity& activity) {
 void check_left(Builder& b) {
   Activity activity(b.model);
   for (const Stage& stage : b.model.stages) {
-    activity.enter(b.model, stage);
+    activity.enter(stage);
     if (any_element(b.model, activity)) continue;
     b.error(stage.where, "stage " + std::to_string(stage.number) +
                              ": no element takes part: every group is removed or not yet placed");

@@ -33,11 +33,11 @@ struct Weights {
     Activity activity(model);
     Vector2 gravity = Vector2::Zero();
     for (int s = 0; s < stage; ++s) {
-      activity.enter(model, model.stages[static_cast<std::size_t>(s)]);
+      activity.enter(model.stages[static_cast<std::size_t>(s)]);
       gravity += model.stages[static_cast<std::size_t>(s)].gravity;
     }
     std::vector<char> both = activity.group;
-    activity.enter(model, model.stages[static_cast<std::size_t>(stage)]);
+    activity.enter(model.stages[static_cast<std::size_t>(stage)]);
     for (std::size_t g = 0; g < both.size(); ++g) both[g] = both[g] && activity.group[g];
     start = weight_of(model, both, gravity);
     end = weight_of(model, activity.group, gravity + model.stages[static_cast<std::size_t>(stage)].gravity);

@@ -89,7 +89,7 @@ Specimen::Specimen(Geometry geometry, bool interface) : with_interface(interface
   scene = analyse_scene(model);
   assembly = std::make_unique<Assembly>(model, scene, Skips{}, work);
   activity = std::make_unique<Activity>(model);
-  activity->enter(model, model.stages[0]);
+  activity->enter(model.stages[0]);
   assembly->enter_stage(*activity, Eigen::VectorXd::Zero(model.dofs()));
   u.setZero(model.dofs());
   external.setZero(model.dofs());
