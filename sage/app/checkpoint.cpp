@@ -15,17 +15,19 @@ constexpr std::string_view kFirstLine = "sagefe restart 2\n";
 
 // A result file that is not complete yet.
 struct PartialResult {
-  std::string name;  // that it is going to have
+  std::string name;  // that it is going to have; with its folder where that is not the checkpoint's
   std::uint64_t bytes = 0;
 };
 
-std::vector<PartialResult> partial_results(const std::filesystem::path& checkpoint) {
+std::vector<PartialResult> partial_results(const std::filesystem::path& checkpoint,
+                                           const std::vector<std::filesystem::path>& unfinished) {
   std::vector<PartialResult> results;
-  const std::string begin = checkpoint.stem().string() + ".";
-  for (const auto& entry : std::filesystem::directory_iterator(checkpoint.parent_path())) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with(begin) && name.ends_with(".partial") && entry.is_regular_file())
-      results.push_back({name.substr(0, name.size() - std::string_view(".partial").size()), entry.file_size()});
+  for (const std::filesystem::path& file : unfinished) {
+    std::error_code error;
+    const std::uintmax_t bytes = std::filesystem::file_size(file.string() + ".partial", error);
+    if (error) continue;  // a pipe
+    const bool beside = file.parent_path() == checkpoint.parent_path();
+    results.push_back({(beside ? file.filename() : std::filesystem::absolute(file)).string(), bytes});
   }
   return results;
 }
@@ -62,10 +64,10 @@ bool Checkpoint::due() const {
   return std::chrono::steady_clock::now() - last_ >= std::chrono::duration<double>(seconds_);
 }
 
-void Checkpoint::save(const std::string& state) {
+void Checkpoint::save(const std::string& state, const std::vector<std::filesystem::path>& unfinished) {
   Archive archive;
   std::string belongs_to = belongs_to_, body = state;
-  std::vector<PartialResult> results = partial_results(file_);
+  std::vector<PartialResult> results = partial_results(file_, unfinished);
   archive(belongs_to);
   exchange(archive, results);
   archive(body);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace sage::app {
 
@@ -15,8 +16,9 @@ class Checkpoint {
   Checkpoint(std::filesystem::path file, double seconds, std::string belongs_to);
 
   bool due() const;
-  // The old one stays until the new one is complete.  Throws OutputError.
-  void save(const std::string& state);
+  // `unfinished`: the results that the run would go on writing, by the names that they are going to have.
+  // The old checkpoint stays until the new one is complete.  Throws OutputError.
+  void save(const std::string& state, const std::vector<std::filesystem::path>& unfinished);
   // Nothing if there is no file.  Throws InputError where it is damaged or of another run, or results that were
   // there when it was saved are not: before any of them is touched.
   std::optional<std::string> load() const;

@@ -88,7 +88,7 @@ Command convert_command(CLI::App& parser) {
   parser.add_option("IN", options->from, "deck of any layout, or .msh (MSH 4.1 ASCII)")->required();
   parser.add_option("OUT", options->to, "file to write: .dat, .msh or .inp")->required();
   parser.add_option("--young", options->mesh.youngs_modulus, "from .msh: Young's modulus of all groups")
-      ->check(CLI::PositiveNumber);
+      ->check(number_in(1e-99, 1e99, "a positive number below 1e99"));
   parser.add_option("--poisson", options->mesh.poissons_ratio, "from .msh: Poisson's ratio of all groups");
   parser.add_option("--weight", options->mesh.unit_weight, "from .msh: unit weight of all groups");
   add_input_options(parser, options->input);

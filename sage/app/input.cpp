@@ -103,6 +103,16 @@ void add_build_options(CLI::App& parser, BuildOptions& options) {
       ->check(CLI::Range(1, 2));
 }
 
+std::function<std::string(const std::string&)> number_in(double low, double high, const std::string& wanted) {
+  return [=](const std::string& text) {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool number = error == std::errc() && end == text.data() + text.size();
+    return number && value >= low && value <= high ? std::string()
+                                                   : wanted + " is wanted, not \"" + text + "\"";
+  };
+}
+
 Deck read_input(const std::string& path, const InputOptions& options) {
   ReadOptions read;
   read.strict = options.strict;

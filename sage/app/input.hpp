@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <functional>
 #include <string>
 
 #include "sage/core/catalogue.hpp"
@@ -23,6 +24,10 @@ Grading grading_from(const std::string& text);
 
 // Those that change how the deck's elements are computed.
 void add_build_options(CLI::App& parser, BuildOptions& options);
+
+// Check of an option: a message if the text is no finite number from `low` to `high`, named so in the message.
+// (CLI11's own ranges let NaN pass.)
+std::function<std::string(const std::string&)> number_in(double low, double high, const std::string& wanted);
 
 Deck read_input(const std::string& path, const InputOptions& options);
 

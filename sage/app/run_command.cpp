@@ -121,13 +121,13 @@ Command run_command(CLI::App& parser) {
   parser
       .add_option("--converge", options->converge.tolerance,
                   "finer and finer meshes until the reports are certain to this relative error, e.g. 1e-5")
-      ->check(CLI::Range(1e-12, 0.5));
+      ->check(number_in(1e-12, 0.5, "a relative error from 1e-12 to 0.5"));
   parser
       .add_option("--max-dofs", options->converge.max_dofs, "with --converge: largest model (default 400000)")
       ->check(CLI::PositiveNumber);
   parser
       .add_option("--max-seconds", options->converge.max_seconds, "with --converge: time limit (default 120)")
-      ->check(CLI::PositiveNumber);
+      ->check(number_in(1e-3, 1e9, "a number of seconds from 1e-3 to 1e9"));
   parser.add_flag("!--no-listing", request.output.listing, "write no listing");
   parser
       .add_option(
@@ -137,8 +137,10 @@ Command run_command(CLI::App& parser) {
       ->check(CLI::IsMember(skip_list()));
   parser.add_flag("--restart", request.restart,
                   "go on from the checkpoint (STEM.restart) that a stopped run left in the output folder");
-  parser.add_option("--checkpoint", request.checkpoint_seconds,
-                    "seconds between checkpoints (default: 30; 0 = after every increment, negative = none)");
+  parser
+      .add_option("--checkpoint", request.checkpoint_seconds,
+                  "seconds between checkpoints (default: 30; 0 = after every increment, negative = none)")
+      ->check(number_in(-1e9, 1e9, "a number of seconds"));
   parser.add_flag("-q,--quiet", options->quiet, "print no summary");
   add_input_options(parser, request.input);
   add_build_options(parser, request.input.build);

@@ -111,10 +111,15 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   make_folder(request.output.folder);
   Checkpoint checkpoint = checkpoint_of(request, model);
   settings.checkpoint_due = [&] { return checkpoint.due(); };
-  settings.save_checkpoint = [&](const std::string& state) { checkpoint.save(state); };
   if (request.restart) settings.resume_from = resume_from(checkpoint, request);
   outcome.reports = std::make_unique<Reports>(request.output.folder, case_name(request.deck));
   std::vector<std::unique_ptr<Output>> outputs = make_outputs(request, catalogue, *outcome.reports);
+  settings.save_checkpoint = [&](const std::string& state) {
+    std::vector<std::filesystem::path> unfinished = outcome.reports->unfinished();
+    for (const auto& output : outputs)
+      for (std::filesystem::path& file : output->unfinished()) unfinished.push_back(std::move(file));
+    checkpoint.save(state, unfinished);
+  };
   Progress progress;
   std::vector<Observer*> observers{&outcome.record, outcome.reports.get()};
   if (request.output.error) {

@@ -108,6 +108,13 @@ bool holds(const std::filesystem::path& file, std::uint64_t bytes) {
   return !error && size >= bytes;
 }
 
+std::vector<std::filesystem::path> paths_of_open(std::initializer_list<const OutFile*> files) {
+  std::vector<std::filesystem::path> paths;
+  for (const OutFile* file : files)
+    if (file->open()) paths.push_back(file->path());
+  return paths;
+}
+
 void write_file(const std::filesystem::path& path, std::string text) {
   OutFile file(path);
   file.text() = std::move(text);

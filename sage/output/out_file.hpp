@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "sage/core/archive.hpp"
 
@@ -58,6 +60,9 @@ class OutFile {
 
 // Whether a file is there and has so many bytes or more.
 bool holds(const std::filesystem::path& file, std::uint64_t bytes);
+
+// Paths of those that are open.
+std::vector<std::filesystem::path> paths_of_open(std::initializer_list<const OutFile*> files);
 
 // A whole file at once, by the same way.
 void write_file(const std::filesystem::path& path, std::string text);

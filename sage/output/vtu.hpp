@@ -33,6 +33,7 @@ class Vtu final : public Output {
   void exchange(Archive& archive) override;
   void stop(const std::string& reason) override;
   std::vector<std::filesystem::path> files() const override { return files_; }
+  std::vector<std::filesystem::path> unfinished() const override { return paths_of_open({&pvd_}); }
 
  private:
   void add(const Model&, const StepReport&, const Solution&, std::string_view comment);

@@ -200,6 +200,21 @@ TEST(Fault, ARefusedRestartLeavesTheResultsAlone) {
   expect_equal(results(folder / "out"), whole);
 }
 
+// A deck named deck.2 in the same folder is none of its business.
+TEST(Fault, FilesOfAnotherRunAreNotMissed) {
+  const fs::path folder = folder_with_deck("neighbour");
+  const std::map<std::string, std::string> whole = undisturbed(folder);
+  fs::create_directory(folder / "out");
+  write(folder / "out/deck.2.lst.partial", "a neighbour's listing");
+  const std::string killed = "bash -c 'trap \"\" XFSZ; ulimit -f 256; exec \"$@\"' -";
+  sagefe(folder, std::string("run deck.dat -q ") + kOptions, killed);
+  ASSERT_TRUE(fs::exists(folder / "out/deck.restart"));
+  fs::remove(folder / "out/deck.2.lst.partial");
+  const Finished run = sagefe(folder, std::string("run deck.dat -q --restart ") + kOptions);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  expect_equal(results(folder / "out"), whole);
+}
+
 TEST(Fault, WithoutACheckpointARestartIsARun) {
   const fs::path folder = folder_with_deck("nothing_to_restart");
   const Finished run = sagefe(folder, "run deck.dat --restart");
