@@ -71,8 +71,9 @@ bool DeckReader::count_of(const Expression& expression, const std::string& what,
   for (const ExpressionNode& node : expression.nodes)
     if (node.kind == ExpressionNode::Kind::field)
       if (const FieldValue* value = field_value(node.card, node.field)) where = log_.where(*value);
-  fail_and_stop(where,
-                "the number of " + what + " can't be " + number_text(number) + " (" + expression.source + ")");
+  const std::string computed = expression.nodes.size() > 1 ? expression.source + " with " : "";
+  fail_and_stop(where, "the number of " + what + " can't be " + number_text(number) + " (" + computed +
+                           count_source(expression) + ")");
   return false;
 }
 

@@ -228,7 +228,8 @@ TEST(Diagnostics, TruncatedDecks) {
 
 TEST(Diagnostics, CountsThatCannotBe) {
   EXPECT_EQ(messages(with_line(5, "    2    0   -4    1    1    1    1    2    1    1    1   25   16")),
-            (Lines{"deck.dat:5:11-15: error: the number of node cards can't be -4 (control.nodes)"}));
+            (Lines{"deck.dat:5:11-15: error: the number of node cards can't be -4 (number of node cards of the "
+                   "control card, line 5)"}));
   EXPECT_EQ(messages(with_line(5, "    2    0    x    1    1    1    1    2    1    1    1   25   16")),
             (Lines{"deck.dat:5:11-15: error: \"x\" is not an integer (control card, number of node cards)",
                    "deck.dat:5: note: the number of node cards is not known: reading stops here"}));
