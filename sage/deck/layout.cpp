@@ -60,7 +60,7 @@ Layout load_layout(const std::string& path_or_name) {
 
 std::string detect_layout(std::string_view deck_text) {
   const SourceText deck(std::string(deck_text.substr(0, 4000)), "");
-  if (const std::string named = named_layout(deck.line(1)); !named.empty()) return named;
+  if (std::string named = named_layout(deck.line(1)); !named.empty()) return named;
   for (const EmbeddedLayout& embedded : embedded_layouts())
     if (embedded.has_marks && has_marks(unpacked(embedded), deck)) return std::string(embedded.name);
   return std::string(standard_layout);
