@@ -40,6 +40,7 @@ class Run {
   };
 
   void place_groups(const Stage& stage);
+  void start_new_nodes(const std::vector<char>& borne);
   void start_states(const std::vector<InitialStress>& initials);
   bool open_stage(int s);
   void prepare_stage(int s);
@@ -133,6 +134,12 @@ void Run::place_groups(const Stage& stage) {
   for (std::size_t g = 0; g < lived_.size(); ++g) lived_[g] = lived_[g] || activity_.group[g];
 }
 
+// What is placed has not moved yet, also where something was that has been removed since.
+void Run::start_new_nodes(const std::vector<char>& borne) {
+  for (int node = 0; node < model_.mesh.nodes(); ++node)
+    if (!borne[static_cast<std::size_t>(node)]) u_.segment<2>(2 * node).setZero();
+}
+
 // What takes part, equations and numbering.  True if the pattern is that of the stage before.
 bool Run::open_stage(int s) {
   const Stage& stage = model_.stages[static_cast<std::size_t>(s)];
@@ -163,7 +170,9 @@ bool Run::open_stage(int s) {
 // The states and the loads at both ends of a stage.  What the forces of removed parts, initial stress and
 // released supports leave out of balance is held at the start and let go in proportion over the stage.
 void Run::prepare_stage(int s) {
+  const std::vector<char> borne = active_nodes(model_, activity_);
   const bool same_pattern = open_stage(s);
+  start_new_nodes(borne);
   start_states(model_.stages[static_cast<std::size_t>(s)].initials);
   assembly_.take_states();
   const bool keep_factors = same_pattern && stiffness_.constant && stiffness_.factorised && rate_.isZero(0.0);
@@ -175,7 +184,7 @@ void Run::prepare_stage(int s) {
   stiffness_.assembled = true;
   assembly_.commit(du_);
   force_start_ = assembly_.internal_force();
-  force_end_ = external_force(model_, activity_, s);
+  force_end_ = external_force(model_, s);
   external_start_ = external_;
 }
 

@@ -24,7 +24,7 @@ void tell(Builder& b, const IdleCards& idle, const Stage& stage, const std::stri
   for (const auto& [line, card] : idle) {
     std::string text = what + " " + std::to_string(card.first);
     if (card.count > 1) text += " (and " + std::to_string(card.count - 1) + " more)";
-    b.warning(b.at_line(line), text + " does nothing in stage " + std::to_string(stage.number) + ": " + why);
+    b.warning(b.at_line(line), text + " of stage " + std::to_string(stage.number) + " does nothing: " + why);
   }
 }
 

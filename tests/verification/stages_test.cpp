@@ -131,5 +131,65 @@ TEST(ReleasedFixity, ReactionFadesOverTheStage) {
   EXPECT_TRUE(run.warnings.empty()) << run.warnings.front();
 }
 
+// A column of two cells (nu = 0, so one-dimensional) with P on each upper corner.  Its upper half goes and
+// takes the loads with it; what is placed there later has not moved, and bears only what comes after it.
+TEST(Refill, BeginsWithoutDisplacementAndWithoutTheOldLoads) {
+  Block block;
+  block.rows = 2;
+  block.place = rectangle(0.0, 1.0, 0.0, 2.0);
+  DeckWriter deck(1);
+  block.write_nodes(deck);
+  deck.material(1, 1, {kE, 0.0});
+  for (int group : {1, 2, 3}) deck.group(group, 1, 1, 1);
+  deck.element(1, 1, {1, 2, 4, 3});
+  deck.element(2, 2, {3, 4, 6, 5});
+  deck.element(3, 3, {3, 4, 6, 5});
+  for (int n : block.bottom()) deck.fix(n, 1, 1);
+  for (int n : block.left()) deck.fix(n, 1, 0);
+  const double P = 10.0, Q = 3.0;
+  StageCards& load = deck.stage();
+  for (int n : block.top()) load.load(n, 0.0, -P);
+  deck.stage().deaths = {2};
+  deck.stage().births = {3};
+  StageCards& again = deck.stage();
+  for (int n : block.top()) again.load(n, 0.0, -Q);
+  const WholeRun run = run_text(deck.text());
+  ASSERT_TRUE(run.completed()) << run.failure;
+  const auto settlement = [&](std::size_t stage, int node) {
+    return -run.increments[stage].u[2 * run.index(node) + 1];
+  };
+  const double cell = 2.0 / kE;  // shortening of one cell by a unit force on each upper corner
+  const double rounding = 1e-12 * P * cell;
+  EXPECT_NEAR(settlement(0, 5), 2 * P * cell, rounding);
+  EXPECT_NEAR(settlement(1, 3), 0.0, rounding);
+  for (int node : {3, 5}) EXPECT_NEAR(settlement(2, node), 0.0, rounding) << node;
+  EXPECT_NEAR(settlement(3, 3), Q * cell, rounding);
+  EXPECT_NEAR(settlement(3, 5), 2 * Q * cell, rounding);
+  EXPECT_NEAR(run.reaction(run.last(), block.bottom(), 1), 2 * Q, 1e-12 * P);
+}
+
+// A load on what is placed only later never acts: the warning says so.
+TEST(Refill, LoadsBeforeThePlacingNeverAct) {
+  Block block;
+  block.rows = 2;
+  block.place = rectangle(0.0, 1.0, 0.0, 2.0);
+  DeckWriter deck(1);
+  block.write_nodes(deck);
+  deck.material(1, 1, {kE, 0.0});
+  for (int group : {1, 2}) deck.group(group, 1, 1, 1);
+  deck.element(1, 1, {1, 2, 4, 3});
+  deck.element(2, 2, {3, 4, 6, 5});
+  for (int n : block.bottom()) deck.fix(n, 1, 1);
+  StageCards& early = deck.stage();
+  early.load(6, 0.0, -10.0);
+  early.pressure(2, 3, 10.0, 10.0);
+  deck.stage().births = {2};
+  const WholeRun run = run_text(deck.text());
+  ASSERT_TRUE(run.completed()) << run.failure;
+  EXPECT_TRUE(run.warns("the load of node 6 of stage 1 does nothing"));
+  EXPECT_TRUE(run.warns("the pressure on element 2 of stage 1 does nothing"));
+  EXPECT_EQ(run.largest_u(), 0.0);
+}
+
 }  // namespace
 }  // namespace sage::test

@@ -263,20 +263,20 @@ INSTANTIATE_TEST_SUITE_P(
                    place_later(d);
                    d.stages[0].load(10, 0.0, -1.0);
                  },
-                 "warning: the load of node 10 does nothing in stage 1: no element that is placed then has the "
+                 "warning: the load of node 10 of stage 1 does nothing: no element that is placed then has the "
                  "node"},
         Unlikely{"DisplacementOfNothing",
                  [](DeckWriter& d) {
                    place_later(d);
                    d.stages[0].fix(11, 0, 1, 0.0, -0.01);
                  },
-                 "warning: the displacement of node 11 does nothing in stage 1"},
+                 "warning: the displacement of node 11 of stage 1 does nothing"},
         Unlikely{"PressureOnNothing",
                  [](DeckWriter& d) {
                    place_later(d);
                    d.stages[0].pressure(5, 3, 1.0, 1.0);
                  },
-                 "warning: the pressure on element 5 does nothing in stage 1: its group is not placed then"},
+                 "warning: the pressure on element 5 of stage 1 does nothing: its group is not placed then"},
         Unlikely{"TwoDisplacements",
                  [](DeckWriter& d) {
                    d.stages[0].fix(9, 0, 1, 0.0, -0.02);
