@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "sage/analysis/shown_status.hpp"
 #include "sage/output/values.hpp"
@@ -100,13 +101,18 @@ std::vector<FaceState> Side::face_states(const Solution& now) const {
   std::vector<FaceState> states;
   for (const Face& face : faces_) {
     FaceState state;
+    Vector2 least = Vector2::Constant(std::numeric_limits<double>::infinity()), most = -least;
     for (std::size_t i = 0; i < face.nodes.size(); ++i) {
       const int node = face.nodes[i];
       const Vector2 force = now.internal->segment<2>(2 * node);
       state.force += force;
       if (!face.at_end[i]) state.inner_force += force;
-      state.displacement += now.u->segment<2>(2 * node) / static_cast<double>(face.nodes.size());
+      const Vector2 u = now.u->segment<2>(2 * node);
+      state.displacement += u / static_cast<double>(face.nodes.size());
+      least = least.cwiseMin(u);
+      most = most.cwiseMax(u);
     }
+    state.spread = most - least;
     states.push_back(state);
   }
   return states;

@@ -30,6 +30,7 @@ struct FaceState {
   Vector2 force = Vector2::Zero();
   Vector2 inner_force = Vector2::Zero();   // the same without the nodes at the face's ends
   Vector2 displacement = Vector2::Zero();  // plain mean of the nodes
+  Vector2 spread = Vector2::Zero();        // largest minus smallest displacement of the nodes
 };
 
 // Stress of a face, compression positive: mean normal stress, and mean shear along +y or +x.

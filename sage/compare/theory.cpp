@@ -111,11 +111,24 @@ bool lateral_pressure_constant(const Side& side, std::size_t stage) {
   return lateral <= 1e-6 * axial;
 }
 
-// The last stage that compresses or stretches the model along y, under constant lateral pressure or none of
-// lateral strain.
+// Both ends stay plane over a stage, as between platens or under an even pressure: not under forces on single
+// nodes.
+bool ends_stay_plane(const Side& side, std::size_t stage) {
+  const StageState& state = side.stages()[stage];
+  double spread = 0.0, moved = 0.0;
+  for (std::size_t i = 0; i < state.faces.size(); ++i) {
+    if (side.faces()[i].normal != 1) continue;
+    spread = std::max({spread, state.faces[i].spread.y(), state.faces_before[i].spread.y()});
+    moved = std::max(moved, std::abs(state.faces[i].displacement.y() - state.faces_before[i].displacement.y()));
+  }
+  return spread <= 1e-6 * moved;
+}
+
+// The last stage that compresses or stretches the model evenly along y, under constant lateral pressure or none
+// of lateral strain.
 std::optional<std::size_t> straining_stage(const Side& side, Lateral lateral) {
   for (std::size_t s = side.stages().size(); s-- > 0;)
-    if (!std::isnan(apparent_modulus(side, s)) &&
+    if (!std::isnan(apparent_modulus(side, s)) && ends_stay_plane(side, s) &&
         (lateral == Lateral::confined || lateral_pressure_constant(side, s)))
       return s;
   return std::nullopt;
