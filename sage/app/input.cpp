@@ -116,7 +116,7 @@ std::function<std::string(const std::string&)> number_in(double low, double high
 Deck read_input(const std::string& path, const InputOptions& options) {
   ReadOptions read;
   read.strict = options.strict;
-  return read_deck(path, options.layout.empty() ? layout_for(path) : load_layout(options.layout), read);
+  return options.layout.empty() ? read_deck(path, read) : read_deck(path, load_layout(options.layout), read);
 }
 
 void print_diagnostics(const Diagnostics& diagnostics) {

@@ -317,10 +317,11 @@ Deck read_deck_text(std::string text, const std::string& name, const Layout& lay
   return DeckReader(source, layout, options).read();
 }
 
-Layout layout_for(const std::string& path) {
-  const std::string text = read_file(path);
+Deck read_deck(const std::string& path, const ReadOptions& options) {
+  std::string text = read_file(path);
   check_is_text(text, path);
-  return load_layout(detect_layout(text));
+  const Layout layout = load_layout(detect_layout(text));
+  return read_deck_text(std::move(text), path, layout, options);
 }
 
 Deck read_deck(const std::string& path, const Layout& layout, const ReadOptions& options) {

@@ -14,13 +14,12 @@ struct ReadOptions {
   int shown = 50;       // errors (and as many warnings, and notes) that are listed; the rest are counted
 };
 
-// Reads a whole deck.  Throws InputError with every mistake found in one pass.
+// Reads a whole deck, once: the file may be a pipe.  Throws InputError with every mistake found in one pass.
+// Without a layout it is the one that the deck names or looks like.
+Deck read_deck(const std::string& path, const ReadOptions& options = {});
 Deck read_deck(const std::string& path, const Layout& layout, const ReadOptions& options = {});
 Deck read_deck_text(std::string text, const std::string& name, const Layout& layout,
                     const ReadOptions& options = {});
-
-// The layout that the deck in this file names or looks like.  Throws InputError if the file can't be read.
-Layout layout_for(const std::string& path);
 
 // Every card as it was read: column ruler, the card, and its fields as name = value.
 void echo(const Deck& deck, std::ostream& out);

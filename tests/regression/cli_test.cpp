@@ -212,6 +212,14 @@ TEST(CommandLine, ABadDeckDoesNotKeepTheNextFromRunning) {
   EXPECT_EQ(sagefe(folder, "check bad.dat good.dat").exit_code, 2);
 }
 
+TEST(CommandLine, ADeckMayComeThroughAPipe) {
+  const auto folder = empty_folder("piped_deck");
+  write(folder / "deck.dat", block_deck().text());
+  const Finished run = sagefe(folder, "run /dev/stdin -o out", "cat deck.dat | timeout 60");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE(std::filesystem::exists(folder / "out" / "stdin.lst"));
+}
+
 TEST(CommandLine, DecksThatWouldOverwriteEachOtherAreRefused) {
   const fs::path folder = empty_folder("same_names");
   for (const char* part : {"a", "b"}) {

@@ -351,7 +351,7 @@ TEST(Files, OneClearErrorEach) {
                                                  6))),
             folder + "/wide: error: the file is UTF-16 text: save it as plain ASCII or UTF-8");
   EXPECT_EQ(open_error(write("blank", "  \n\n")), folder + "/blank: error: the file holds nothing but blanks");
-  EXPECT_THROW(layout_for(folder + "/none"), InputError);
+  EXPECT_THROW(read_deck(folder + "/none"), InputError);
   std::filesystem::remove_all(folder);
 }
 

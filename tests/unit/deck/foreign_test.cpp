@@ -68,7 +68,7 @@ void compare(const Deck& deck, const Card& card, const GoldenCard& expected) {
 
 // Every row of the table has its card, and every value is the same to the last bit.
 void compare_deck(const std::string& path, const std::string& table, int cards) {
-  const Deck deck = read_deck(kInputs + path, layout_for(kInputs + path));
+  const Deck deck = read_deck(kInputs + path);
   const std::map<int, GoldenCard> rows = golden(table);
   int compared = 0;
   for (const Card& card : deck.cards) {
