@@ -1,8 +1,11 @@
 // sagefe: the command line.  The only folder that knows all others.
+#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <string>
+#include <system_error>
 
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
@@ -42,7 +45,8 @@ constexpr Entry kCommands[] = {
      stress_command},
 };
 
-// The command that the first word names, whose options alone are made; nullptr, and said, where it is none.
+// The command that the first word which is no option names, whose options alone are made; nullptr, and said,
+// where it is none.
 const Entry* find_command(const std::string& word) {
   std::string known;
   for (const Entry& entry : kCommands) {
@@ -54,15 +58,15 @@ const Entry* find_command(const std::string& word) {
   return nullptr;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_program(int argc, char** argv) {
   CLI::App root(kDescription, "sagefe");
   root.footer(kFooter);
   root.require_subcommand(1);
   root.set_version_flag("--version", "sagefe " SAGE_VERSION);
-  const bool named = argc > 1 && argv[1][0] != '-';
-  const Entry* chosen = named ? find_command(argv[1]) : nullptr;
+  int word = 1;
+  while (word < argc && argv[word][0] == '-') ++word;  // sagefe --help run
+  const bool named = word < argc;
+  const Entry* chosen = named ? find_command(argv[word]) : nullptr;
   if (named && chosen == nullptr) return kUsage;
   Command execute;
   for (const Entry& entry : kCommands) {
@@ -75,4 +79,26 @@ int main(int argc, char** argv) {
     return root.exit(error) == 0 ? kOk : kUsage;
   }
   return execute ? guarded("sagefe", execute) : kUsage;
+}
+
+// Where the caller closed a standard stream, a file of results would take its number, and messages would go
+// there.
+void fill_standard_streams() {
+  for (int stream : {0, 1, 2})
+    if (fcntl(stream, F_GETFD) == -1 && open("/dev/null", O_RDWR) == -1) return;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  fill_standard_streams();
+  int code = kOutput;
+  try {
+    code = run_program(argc, argv);
+  } catch (const std::system_error&) {
+    return kOutput;  // not even a message could be written
+  }
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  fmt::print(stderr, "sagefe: standard output could not be written\n");
+  return kOutput;
 }

@@ -53,7 +53,36 @@ TEST(CommandLine, HelpOfEverySubcommandNamesItsOptions) {
     EXPECT_EQ(help.exit_code, 0) << command;
     EXPECT_EQ(help.err, "");
     for (const char* word : words) expect_words(help.out, {word});
+    EXPECT_EQ(sagefe(folder, "--help " + command).out, help.out);
   }
+}
+
+// /dev/full accepts an open and refuses every write, as a full disk does.
+TEST(CommandLine, StandardOutputThatCantBeWrittenIsExitCode4) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this system";
+  const fs::path folder = empty_folder("full_output");
+  write(folder / "deck.dat", block_deck().text());
+  for (const char* arguments :
+       {"run --help", "list elements", "check deck.dat", "echo deck.dat", "run deck.dat"}) {
+    const Finished run = sagefe(folder, arguments, R"(timeout 60 sh -c '"$0" "$@" > /dev/full')");
+    EXPECT_EQ(run.exit_code, 4) << arguments;
+    expect_words(run.err, {"standard output could not be written"});
+  }
+  const Finished mute = sagefe(folder, "run none.dat", R"(timeout 60 sh -c '"$0" "$@" 2> /dev/full')");
+  EXPECT_EQ(mute.exit_code, 4);
+}
+
+// The listing would be the next file to get the number of a closed stream, and the deck's messages would go
+// into it.
+TEST(CommandLine, ClosedStandardStreamsChangeNoFile) {
+  const fs::path folder = empty_folder("closed_streams");
+  write(folder / "deck.dat", block_deck().text());
+  EXPECT_EQ(sagefe(folder, "run deck.dat -o open --grade 1").exit_code, 0);
+  const Finished closed =
+      sagefe(folder, "run deck.dat -o closed --grade 1", R"(timeout 60 sh -c '"$0" "$@" <&- >&- 2>&-')");
+  EXPECT_EQ(closed.exit_code, 0);
+  for (const char* name : {"closed_streams.lst", "closed_streams.increments.csv"})
+    EXPECT_EQ(read(folder / "closed" / name), read(folder / "open" / name)) << name;
 }
 
 // `ccx deck` would write its results to deck.dat.
