@@ -43,40 +43,29 @@ Neighbours around(const Assembly& assembly, int node) {
   return result;
 }
 
+// Every point of an interface is open: it carries nothing.
+bool all_open(const GroupData& data, const std::vector<PointStatus>& status, int element) {
+  const int points = data.group->element->traits().points;
+  const auto first = status.begin() + static_cast<std::ptrdiff_t>(element) * points;
+  return std::all_of(first, first + points, [](PointStatus s) { return s == PointStatus::open; });
+}
+
 // True where a node's part of the mesh hangs on interfaces that are open at all their points: without those it
 // has no supports.
 bool behind_open_joint(const Model& model, const Assembly& assembly, int node) {
-  std::vector<std::vector<int>> bodies;  // nodes of each element that carries something
-  std::vector<char> reached(static_cast<std::size_t>(model.mesh.nodes()), 0);
   bool any_open = false;
-  for (const GroupData& data : assembly.groups()) {
-    if (!data.active) continue;
-    const Group& group = *data.group;
-    const auto points = static_cast<std::size_t>(group.element->traits().points);
-    for (int e = 0; e < group.elements(); ++e) {
-      const auto first =
-          data.state.trial.status.begin() + static_cast<std::ptrdiff_t>(e * static_cast<int>(points));
-      const bool open = std::all_of(first, first + static_cast<std::ptrdiff_t>(points),
-                                    [](PointStatus s) { return s == PointStatus::open; });
-      any_open = any_open || open;
-      if (!open) bodies.emplace_back(group.nodes_of(e), group.nodes_of(e) + group.node_count());
-    }
-  }
+  const std::vector<int> part = connected_parts(model, [&](std::size_t g, int e) {
+    const GroupData& data = assembly.groups()[g];
+    const bool open = data.active && all_open(data, data.state.trial.status, e);
+    any_open = any_open || open;
+    return data.active && !open;
+  });
+  const int own = part[static_cast<std::size_t>(node)];
   if (!any_open) return false;
-  reached[static_cast<std::size_t>(node)] = 1;
-  for (bool grown = true; grown;) {
-    grown = false;
-    for (const std::vector<int>& nodes : bodies) {
-      const auto in = [&](int n) { return reached[static_cast<std::size_t>(n)] != 0; };
-      if (!std::any_of(nodes.begin(), nodes.end(), in) || std::all_of(nodes.begin(), nodes.end(), in)) continue;
-      for (int n : nodes) reached[static_cast<std::size_t>(n)] = 1;
-      grown = true;
-    }
-  }
-  for (std::size_t n = 0; n < reached.size(); ++n)
-    if (reached[n])
-      for (int c : {0, 1})
-        if (assembly.equation_of(2 * static_cast<int>(n) + c) < 0) return false;
+  for (std::size_t n = 0; n < part.size(); ++n)
+    if (static_cast<int>(n) == node || (own >= 0 && part[n] == own))
+      for (std::size_t c : {0u, 1u})
+        if (assembly.equation_of(static_cast<int>(2 * n + c)) < 0) return false;
   return true;
 }
 
@@ -157,6 +146,17 @@ std::string explain_singular(const Model& model, const Assembly& assembly, int e
         "  an interface without stiffness in that direction.\n"
         "  try: add a fixity, or full integration (see `sagefe list elements`).";
   return text;
+}
+
+std::string explain_loose_part(const Model& model, const Activity& activity, const Assembly& assembly) {
+  const std::vector<int> part = connected_parts(model, [&](std::size_t g, int e) {
+    const GroupData& data = assembly.groups()[g];
+    return data.active && !all_open(data, data.state.committed.status, e);
+  });
+  const std::vector<LoosePart> loose = loose_parts(model, activity, part);
+  if (loose.empty()) return {};
+  return "all interfaces around the " + part_name(model, part, loose[0].part) +
+         " are open: nothing holds it against " + loose[0].motion + ", where it stands is arbitrary";
 }
 
 std::string explain_failure(const Model& model, const Assembly& assembly, const StepReport& report,

@@ -15,6 +15,10 @@ std::string explain_singular(const Model& model, const Assembly& assembly, int e
 // "limit load: between 0.71 and 0.72 of the stage's load".
 std::string bracket_line(const Model& model, const StepReport& report);
 
+// A part that hangs on interfaces which are open at all their points in the committed state, and that nothing
+// else holds; empty = there is none.
+std::string explain_loose_part(const Model& model, const Activity& activity, const Assembly& assembly);
+
 // A step that did not converge even after all cuts.
 std::string explain_failure(const Model& model, const Assembly& assembly, const StepReport& report,
                             const NewtonStep& step);

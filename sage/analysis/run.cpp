@@ -64,6 +64,7 @@ class Run {
   int all_equations() const;
   double smallest_pivot() const;
   void warn_about_numbers(int s, const EquilibriumAudit& sums);
+  void find_loose_part(const StepReport& report);
   void warn(const Stage& stage, const std::string& message, Severity severity = Severity::warning);
   Solution solution() const;
   template <class Call>
@@ -87,6 +88,7 @@ class Run {
   double linear_size_ = 0.0;  // of the last step, where it was linear; 0 = it was not
   std::vector<char> held_before_, groups_before_, lived_;
   double path_error_ = 0.0;  // largest of the stage
+  std::string loose_part_;   // the first of the stage
 };
 
 Solution Run::solution() const {
@@ -357,6 +359,7 @@ void Run::warn_about_numbers(int s, const EquilibriumAudit& sums) {
     warn(stage,
          "the stiffness of a hyperbolic law changes so much that an increment in 64 parts is still too long; "
          "with more increments the results would change by more than 1 %");
+  if (!loose_part_.empty()) warn(stage, loose_part_);
   const auto points = assembly_.count_points();
   const long apex = points[static_cast<std::size_t>(PointStatus::apex)];
   if (apex > 0)
@@ -368,6 +371,13 @@ void Run::warn_about_numbers(int s, const EquilibriumAudit& sums) {
     warn(stage, "loss of uniqueness: the determinant of the acoustic tensor is negative at " +
                     std::to_string(unique.lost) + " of " + std::to_string(unique.plastic) +
                     " yielding points (flow is not associated): the answer can depend on mesh and steps");
+}
+
+// Newton's matrix is singular then; a matrix that is kept from before finds an equilibrium all the same.
+void Run::find_loose_part(const StepReport& report) {
+  if (!loose_part_.empty() || report.points[static_cast<std::size_t>(PointStatus::open)] == 0) return;
+  loose_part_ = explain_loose_part(model_, activity_, assembly_);
+  if (!loose_part_.empty()) loose_part_ = "increment " + std::to_string(report.increment) + ": " + loose_part_;
 }
 
 // Writing: as the state stands after an increment (place.increment > 0), or between two stages.  Within a stage
@@ -385,6 +395,7 @@ void Run::exchange(Archive& archive, const Place& place) {
     archive(du_);
     archive(linear_size_);
     archive(path_error_);
+    archive(loose_part_);
     archive(external_start_);
     archive(force_start_);
     archive(force_end_);
@@ -451,6 +462,7 @@ bool Run::run_stage(int s, int done) {
   if (done == 0) {
     prepare_stage(s);
     path_error_ = 0.0;
+    loose_part_.clear();
     if (s == 0) tell([&](Observer& o) { o.on_start(model_, scene_, solver_name_, all_equations()); });
     StepReport start;
     start.stage = s;
@@ -470,6 +482,7 @@ bool Run::run_stage(int s, int done) {
     if (!run_increment(stage, report, reached)) return false;
     if (!report.iterations.empty()) last_force = report.iterations.back().force;
     report.points = assembly_.count_points();
+    find_loose_part(report);
     report.smallest_pivot_ratio = smallest_pivot();
     ++result_.increments_done;
     recover_for(report);

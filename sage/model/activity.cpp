@@ -1,6 +1,9 @@
 #include "sage/model/activity.hpp"
 
+#include <algorithm>
 #include <numeric>
+
+#include <Eigen/Eigenvalues>
 
 namespace sage {
 
@@ -22,6 +25,14 @@ int root(std::vector<int>& parent, int i) {
     i = p;
   }
   return i;
+}
+
+std::string mode_name(const Eigen::Vector3d& mode) {
+  Eigen::Index largest = 0;
+  mode.cwiseAbs().maxCoeff(&largest);
+  if (largest == 0) return "a rigid translation in x";
+  if (largest == 1) return "a rigid translation in y";
+  return "a rigid rotation";
 }
 
 }  // namespace
@@ -48,13 +59,17 @@ std::vector<char> active_nodes(const Model& model, const Activity& activity) {
 }
 
 std::vector<int> connected_parts(const Model& model, const Activity& activity) {
+  return connected_parts(model, [&](std::size_t g, int) { return activity.group[g] != 0; });
+}
+
+std::vector<int> connected_parts(const Model& model, const Carries& carries) {
   std::vector<int> parent(static_cast<std::size_t>(model.mesh.nodes()));
   std::iota(parent.begin(), parent.end(), 0);
   std::vector<char> used(parent.size(), 0);
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
-    if (!activity.group[g]) continue;
     const Group& group = model.groups[g];
     for (int e = 0; e < group.elements(); ++e) {
+      if (!carries(g, e)) continue;
       const int* nodes = group.nodes_of(e);
       for (std::size_t i = 0; i < group.node_count(); ++i) {
         used[static_cast<std::size_t>(nodes[i])] = 1;
@@ -71,6 +86,57 @@ std::vector<int> connected_parts(const Model& model, const Activity& activity) {
     part[i] = n;
   }
   return part;
+}
+
+std::vector<LoosePart> loose_parts(const Model& model, const Activity& activity, const std::vector<int>& part) {
+  const int parts = part.empty() ? 0 : *std::max_element(part.begin(), part.end()) + 1;
+  std::vector<Eigen::Matrix3d> gram(static_cast<std::size_t>(parts), Eigen::Matrix3d::Zero());
+  const double reach =
+      std::max(1e-300, (model.mesh.x.rowwise().maxCoeff() - model.mesh.x.rowwise().minCoeff()).maxCoeff());
+  std::vector<Vector2> centre(static_cast<std::size_t>(parts), Vector2::Zero());
+  std::vector<int> count(static_cast<std::size_t>(parts), 0);
+  for (int node = 0; node < model.mesh.nodes(); ++node) {
+    const int p = part[static_cast<std::size_t>(node)];
+    if (p < 0) continue;
+    centre[static_cast<std::size_t>(p)] += model.mesh.x.col(node);
+    ++count[static_cast<std::size_t>(p)];
+  }
+  for (std::size_t p = 0; p < centre.size(); ++p) centre[p] /= std::max(1, count[p]);
+  for (int node = 0; node < model.mesh.nodes(); ++node) {
+    const int p = part[static_cast<std::size_t>(node)];
+    if (p < 0) continue;
+    const auto pu = static_cast<std::size_t>(p);
+    const Vector2 d = (Vector2(model.mesh.x.col(node)) - centre[pu]) / reach;
+    const Eigen::Vector3d row_x(1.0, 0.0, -d.y()), row_y(0.0, 1.0, d.x());
+    if (activity.held[static_cast<std::size_t>(2 * node)]) gram[pu] += row_x * row_x.transpose();
+    if (activity.held[static_cast<std::size_t>(2 * node + 1)]) gram[pu] += row_y * row_y.transpose();
+  }
+  std::vector<LoosePart> loose;
+  for (std::size_t p = 0; p < gram.size(); ++p) {
+    std::string motion;
+    if (model.geometry == Geometry::axisymmetric) {
+      if (gram[p](1, 1) == 0.0) motion = "a rigid translation along the axis";
+    } else {
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(gram[p]);
+      if (eigen.eigenvalues()[0] < 1e-10) motion = mode_name(eigen.eigenvectors().col(0));
+    }
+    if (!motion.empty()) loose.push_back({static_cast<int>(p), motion});
+  }
+  return loose;
+}
+
+std::string part_name(const Model& model, const std::vector<int>& part, int p) {
+  constexpr int kShown = 8;
+  std::string first, list;
+  int count = 0;
+  for (std::size_t node = 0; node < part.size(); ++node) {
+    if (part[node] != p) continue;
+    const std::string number = std::to_string(model.mesh.number[node]);
+    if (++count == 1) first = number;
+    if (count <= kShown) list += (count > 1 ? ", " : "") + number;
+  }
+  return "part that contains node " + first + " (" + std::to_string(count) + " nodes: " + list +
+         (count > kShown ? ", ..." : "") + ")";
 }
 
 }  // namespace sage

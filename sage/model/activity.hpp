@@ -1,6 +1,8 @@
 // What takes part in a stage: groups that are placed and not yet removed, dofs that are held.
 #pragma once
 
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "sage/model/model.hpp"
@@ -21,5 +23,18 @@ std::vector<char> active_nodes(const Model& model, const Activity& activity);
 
 // For every node the number of its connected part (by elements of active groups), -1 = in no active element.
 std::vector<int> connected_parts(const Model& model, const Activity& activity);
+// By those elements alone that carry something: of group number `group`, counted from 0.
+using Carries = std::function<bool(std::size_t group, int element)>;
+std::vector<int> connected_parts(const Model& model, const Carries& carries);
+
+// A connected part that its supports leave free to move as a rigid body.
+struct LoosePart {
+  int part = 0;
+  std::string motion;  // "a rigid translation in y"
+};
+// From the rank of the held dofs' rows in the rigid modes.  `part`: from connected_parts.
+std::vector<LoosePart> loose_parts(const Model& model, const Activity& activity, const std::vector<int>& part);
+// "part that contains node 5 (4 nodes: 5, 6, 7, 8)"
+std::string part_name(const Model& model, const std::vector<int>& part, int p);
 
 }  // namespace sage

@@ -1,5 +1,5 @@
 // What can be known to be wrong before anything is solved.
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
@@ -159,71 +159,16 @@ void warn_materials(Builder& b) {
   }
 }
 
-std::string mode_name(const Eigen::Vector3d& mode) {
-  Eigen::Index largest = 0;
-  mode.cwiseAbs().maxCoeff(&largest);
-  if (largest == 0) return "a rigid translation in x";
-  if (largest == 1) return "a rigid translation in y";
-  return "a rigid rotation";
-}
-
-// "part that contains node 5 (4 nodes: 5, 6, 7, 8)"
-std::string part_name(const Model& model, const std::vector<int>& part, int p) {
-  constexpr int kShown = 8;
-  std::string first, list;
-  int count = 0;
-  for (std::size_t node = 0; node < part.size(); ++node) {
-    if (part[node] != p) continue;
-    const std::string number = std::to_string(model.mesh.number[node]);
-    if (++count == 1) first = number;
-    if (count <= kShown) list += (count > 1 ? ", " : "") + number;
-  }
-  return "part that contains node " + first + " (" + std::to_string(count) + " nodes: " + list +
-         (count > kShown ? ", ..." : "") + ")";
-}
-
-// Rigid motions left free, by connected part: rank of the supports' rows in the rigid modes.
+// Rigid motions left free, by connected part.
 void check_supports_of(Builder& b, const Stage& stage, const Activity& activity) {
-  const Model& model = b.model;
-  const std::vector<int> part = connected_parts(model, activity);
-  const int parts = part.empty() ? 0 : *std::max_element(part.begin(), part.end()) + 1;
-  std::vector<Eigen::Matrix3d> gram(static_cast<std::size_t>(parts), Eigen::Matrix3d::Zero());
-  const double reach =
-      std::max(1e-300, (model.mesh.x.rowwise().maxCoeff() - model.mesh.x.rowwise().minCoeff()).maxCoeff());
-  std::vector<Vector2> centre(static_cast<std::size_t>(parts), Vector2::Zero());
-  std::vector<int> count(static_cast<std::size_t>(parts), 0);
-  for (int node = 0; node < model.mesh.nodes(); ++node) {
-    const int p = part[static_cast<std::size_t>(node)];
-    if (p < 0) continue;
-    centre[static_cast<std::size_t>(p)] += model.mesh.x.col(node);
-    ++count[static_cast<std::size_t>(p)];
-  }
-  for (std::size_t p = 0; p < centre.size(); ++p) centre[p] /= std::max(1, count[p]);
-  for (int node = 0; node < model.mesh.nodes(); ++node) {
-    const int p = part[static_cast<std::size_t>(node)];
-    if (p < 0) continue;
-    const auto pu = static_cast<std::size_t>(p);
-    const Vector2 d = (Vector2(model.mesh.x.col(node)) - centre[pu]) / reach;
-    const Eigen::Vector3d row_x(1.0, 0.0, -d.y()), row_y(0.0, 1.0, d.x());
-    if (activity.held[static_cast<std::size_t>(2 * node)]) gram[pu] += row_x * row_x.transpose();
-    if (activity.held[static_cast<std::size_t>(2 * node + 1)]) gram[pu] += row_y * row_y.transpose();
-  }
-  constexpr int kShown = 5;
-  int loose = 0;
-  for (std::size_t p = 0; p < gram.size(); ++p) {
-    std::string mode;
-    if (model.geometry == Geometry::axisymmetric) {
-      if (gram[p](1, 1) == 0.0) mode = "a rigid translation along the axis";
-    } else {
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(gram[p]);
-      if (eigen.eigenvalues()[0] < 1e-10) mode = mode_name(eigen.eigenvectors().col(0));
-    }
-    if (mode.empty()) continue;
-    if (++loose > kShown) continue;
+  constexpr std::size_t kShown = 5;
+  const std::vector<int> part = connected_parts(b.model, activity);
+  const bool several = !part.empty() && *std::max_element(part.begin(), part.end()) > 0;
+  const std::vector<LoosePart> loose = loose_parts(b.model, activity, part);
+  for (std::size_t i = 0; i < std::min(kShown, loose.size()); ++i)
     b.error(stage.where, "stage " + std::to_string(stage.number) + ": nothing holds the " +
-                             (gram.size() > 1 ? part_name(model, part, static_cast<int>(p)) : "mesh") +
-                             " against " + mode + "; add fixities");
-  }
+                             (several ? part_name(b.model, part, loose[i].part) : "mesh") + " against " +
+                             loose[i].motion + "; add fixities");
 }
 
 void check_supports(Builder& b) {
