@@ -158,6 +158,8 @@ class LayoutReader : private TomlFile {
     if (find_card(card.key) >= 0) fail(table, "card \"" + card.key + "\" is defined twice");
     if (!is_item) read_format(table, card);
     if (card.same_read && !card.list_directed) fail(table, "same_read belongs to list-directed cards");
+    if (!card.list_directed)
+      if (const toml::node* items = table.get("items")) fail(*items, "items belong to list-directed cards");
     const auto index = layout_.cards.size();
     layout_.cards.push_back(card);  // its own fields may be named by its counts
     bare_card_ = static_cast<int>(index);
@@ -301,8 +303,6 @@ class LayoutReader : private TomlFile {
     const toml::table* items = node->as_table();
     if (!items) fail(*node, "items must be a table");
     known_keys(*items, {"name", "as", "label", "about", "fields", "count"});
-    if (!layout_.cards[static_cast<std::size_t>(index)].list_directed)
-      fail(*node, "items belong to list-directed cards");
     if (!items->contains("count")) fail(*node, "items need a count");
     const int item = read_card(*items, true);
     bare_card_ = index;

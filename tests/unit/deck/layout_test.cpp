@@ -87,6 +87,9 @@ TEST(Layout, MistakesNameTheirLine) {
             "5: only the last field of a card can repeat (count)");
   EXPECT_EQ(complaint(good + "[[card]]\nname = 'a'\nformat = '(I5)'\nfields = [{ name = 'n' }]\n").substr(0, 2),
             "6:");
+  EXPECT_EQ(complaint(head + "format = '(I5)'\nitems = { name = 'b', count = 2, fields = [{ name = 'n', kind = "
+                             "'integer' }] }\n"),
+            "5: items belong to list-directed cards");
   EXPECT_EQ(complaint("name = 'x'\nblanks = 'maybe'\n[[card]]\n"), "2: blanks must be \"null\" or \"zero\"");
 }
 
