@@ -43,6 +43,8 @@ Neighbours around(const Assembly& assembly, int node) {
   return result;
 }
 
+enum class StateKind { trial, committed };
+
 // Every point of an interface is open: it carries nothing.
 bool all_open(const GroupData& data, const std::vector<PointStatus>& status, int element) {
   const int points = data.group->element->traits().points;
@@ -50,23 +52,23 @@ bool all_open(const GroupData& data, const std::vector<PointStatus>& status, int
   return std::all_of(first, first + points, [](PointStatus s) { return s == PointStatus::open; });
 }
 
-// True where a node's part of the mesh hangs on interfaces that are open at all their points: without those it
-// has no supports.
-bool behind_open_joint(const Model& model, const Assembly& assembly, int node) {
-  bool any_open = false;
-  const std::vector<int> part = connected_parts(model, [&](std::size_t g, int e) {
+// Parts as they are joined without the interfaces that are open at all their points.
+std::vector<int> parts_between_open_joints(const Model& model, const Assembly& assembly, StateKind state) {
+  return connected_parts(model, [&](std::size_t g, int e) {
     const GroupData& data = assembly.groups()[g];
-    const bool open = data.active && all_open(data, data.state.trial.status, e);
-    any_open = any_open || open;
-    return data.active && !open;
+    return data.active &&
+           !all_open(data, state == StateKind::trial ? data.state.trial.status : data.state.committed.status,
+                     e);
   });
+}
+
+// True where a node's part of the mesh hangs on open interfaces: its supports alone leave it free to move.
+bool behind_open_joint(const Model& model, const Activity& activity, const Assembly& assembly, int node) {
+  const std::vector<int> part = parts_between_open_joints(model, assembly, StateKind::trial);
   const int own = part[static_cast<std::size_t>(node)];
-  if (!any_open) return false;
-  for (std::size_t n = 0; n < part.size(); ++n)
-    if (static_cast<int>(n) == node || (own >= 0 && part[n] == own))
-      for (std::size_t c : {0u, 1u})
-        if (assembly.equation_of(static_cast<int>(2 * n + c)) < 0) return false;
-  return true;
+  if (own < 0) return true;
+  const std::vector<LoosePart> loose = loose_parts(model, activity, part);
+  return std::any_of(loose.begin(), loose.end(), [own](const LoosePart& p) { return p.part == own; });
 }
 
 std::string counts_line(const std::array<long, kStatuses>& points) {
@@ -119,14 +121,14 @@ std::string dof_name(const Model& model, int dof) {
          direction;
 }
 
-std::string explain_singular(const Model& model, const Assembly& assembly, int equation,
-                             const std::string& solver_said) {
+std::string explain_singular(const Model& model, const Activity& activity, const Assembly& assembly,
+                             int equation, const std::string& solver_said) {
   const int dof = assembly.dof_of(equation);
   const Neighbours near = around(assembly, dof / 2);
   std::string text =
       "the stiffness matrix is singular at " + dof_name(model, dof) + " (" + solver_said + ").\n";
   text += "  elements there: " + near.elements + "\n  likely: ";
-  if (near.open_point || behind_open_joint(model, assembly, dof / 2))
+  if (near.open_point || behind_open_joint(model, activity, assembly, dof / 2))
     text +=
         "an interface there is open and carries nothing: the part behind it is loose.\n"
         "  try: support that part, give the interface a small residual stiffness, or close it first.";
@@ -149,10 +151,7 @@ std::string explain_singular(const Model& model, const Assembly& assembly, int e
 }
 
 std::string explain_loose_part(const Model& model, const Activity& activity, const Assembly& assembly) {
-  const std::vector<int> part = connected_parts(model, [&](std::size_t g, int e) {
-    const GroupData& data = assembly.groups()[g];
-    return data.active && !all_open(data, data.state.committed.status, e);
-  });
+  const std::vector<int> part = parts_between_open_joints(model, assembly, StateKind::committed);
   const std::vector<LoosePart> loose = loose_parts(model, activity, part);
   if (loose.empty()) return {};
   return "all interfaces around the " + part_name(model, part, loose[0].part) +

@@ -281,8 +281,8 @@ bool Run::fail(StepReport& report, const NewtonStep& step) {
     result_.status = RunStatus::singular;
     result_.reason = "stage " + std::to_string(report.stage + 1) + ", increment " +
                      std::to_string(report.increment) + ": " +
-                     explain_singular(model_, assembly_, step.singular_equation, step.message) + "\n" +
-                     bracket_line(model_, report);
+                     explain_singular(model_, activity_, assembly_, step.singular_equation, step.message) +
+                     "\n" + bracket_line(model_, report);
   } else {
     result_.status = RunStatus::not_converged;
     result_.reason = explain_failure(model_, assembly_, report, step);

@@ -188,5 +188,18 @@ TEST(OpenJoint, ALoosePartIsTold) {
   }
 }
 
+// Lifted off by its top, which is then let go: the rollers do not hold it up.
+TEST(OpenJoint, IsNamedWhereThePartBehindItIsHeldOneWay) {
+  Blocks blocks;
+  test::StageCards& lift = blocks.deck.stage();
+  for (int n : blocks.upper.top()) lift.fix(n, 0, 1, 0.0, 0.1);
+  test::StageCards& release = blocks.deck.stage();
+  for (int n : blocks.upper.top()) release.fix(n, 0, -1);
+  release.load(13, 0.0, 1.0);
+  const test::WholeRun run = test::run_text(blocks.deck.text());
+  EXPECT_EQ(run.result.status, RunStatus::singular);
+  EXPECT_NE(run.failure.find("the part behind it is loose"), std::string::npos) << run.failure;
+}
+
 }  // namespace
 }  // namespace sage
