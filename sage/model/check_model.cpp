@@ -207,6 +207,22 @@ void check_solver(Builder& b) {
   }
 }
 
+// What does not lock in the place of a fully integrated element.
+std::string remedy_of_locking(const Group& group) {
+  switch (group.node_count()) {
+    case 3:
+      return "6-node triangles (three points) do not";
+    case 4:
+      return "b-bar (formulation 2) does not";
+    case 6:
+      return "three points (formulation 1) do not";
+    case 8:
+      return "reduced integration (formulation 1) does not";
+    default:
+      return "8-node quadrilaterals (reduced) or quad4 b-bar do not";
+  }
+}
+
 void warn_locking(Builder& b) {
   constexpr int kShown = 5;
   int found = 0;
@@ -217,8 +233,8 @@ void warn_locking(Builder& b) {
     if (nu <= 0.45 || ++found > kShown) continue;
     const std::string what =
         traits.locks
-            ? ": full integration locks near nu = 1/2 and reports too much stiffness; b-bar (formulation "
-              "2) does not"
+            ? ": full integration locks near nu = 1/2 and reports too much stiffness; " +
+                  remedy_of_locking(group)
             : ": near nu = 1/2 its error is several times that at nu = 0.3 and falls more slowly with the "
               "mesh; 8-node quadrilaterals (reduced) or quad4 b-bar keep theirs";
     b.warning(group.where, "group " + std::to_string(group.number) + " (" + group.element_name +

@@ -80,6 +80,34 @@ void lay_over(DeckWriter& deck, bool twin) {
   stage.deaths = {3};
 }
 
+// The formulation that is named is one of the element's own.
+TEST(Locking, TheRemedyFitsTheElement) {
+  const struct {
+    Cell cell;
+    int formulation;
+    const char* remedy;
+  } cases[] = {{Cell::quad4, 1, "b-bar (formulation 2) does not"},
+               {Cell::quad8, 2, "reduced integration (formulation 1) does not"},
+               {Cell::quad9, 1, "8-node quadrilaterals (reduced) or quad4 b-bar do not"},
+               {Cell::tri3, 1, "6-node triangles (three points) do not"},
+               {Cell::tri6, 2, "three points (formulation 1) do not"}};
+  for (const auto& [cell, formulation, remedy] : cases) {
+    Block block;
+    block.cell = cell;
+    block.columns = block.rows = 2;
+    block.place = rectangle(0.0, 2.0, 0.0, 2.0);
+    DeckWriter deck(1);
+    block.write_nodes(deck);
+    deck.material(1, 1, {1e4, 0.49});
+    deck.group(1, static_cast<int>(cell), formulation, 1);
+    block.write_elements(deck, 1);
+    for (int n : block.bottom()) deck.fix(n, 1, 1);
+    deck.stage().load(block.top().front(), 0.0, -1.0);
+    EXPECT_NE(messages(deck).find(std::string("too much stiffness; ") + remedy + "\n"), std::string::npos)
+        << messages(deck);
+  }
+}
+
 TEST(PlausibleDeck, TwinsThatFollowEachOtherDoNotOverlap) {
   DeckWriter deck = sound();
   lay_over(deck, true);
