@@ -25,6 +25,7 @@ std::vector<double> rising(const Deck& deck, std::string_view card_name, std::st
   const CardView card = deck.one(card_name);
   std::vector<double> at;
   for (const FieldValue& value : card.list(field)) at.push_back(value.number);
+  if (at.size() < 2) refuse(deck, card, field, "two or more coordinates " + std::string(field) + " are needed");
   for (std::size_t i = 1; i < at.size(); ++i)
     if (!(at[i] > at[i - 1]))
       refuse(deck, card, field, "the coordinates " + std::string(field) + " must rise all along");

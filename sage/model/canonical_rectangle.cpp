@@ -29,10 +29,17 @@ struct Source {
   throw InputError(problems);
 }
 
-std::vector<double> coordinates(const Source& s, std::string_view name, std::string_view field) {
+// `intervals`: of the card with this name.
+std::vector<double> coordinates(const Source& s, std::string_view name, std::string_view field,
+                                std::string_view intervals) {
   const CardView card = s.deck.one(name);
   std::vector<double> at;
   for (const FieldValue& value : card.list(field)) at.push_back(value.number);
+  const auto wanted = static_cast<std::size_t>(s.card.integer(intervals)) + 1;
+  if (at.size() != wanted)
+    refuse(s, card, field,
+           std::to_string(wanted) + " coordinates " + std::string(field) + " are needed, one more than " +
+               std::string(intervals) + ", and the card has " + std::to_string(at.size()));
   for (std::size_t i = 1; i < at.size(); ++i)
     if (!((at[i] > at[i - 1]) == (at[1] > at[0]) && at[i] != at[i - 1]))
       refuse(s, card, field, "the coordinates " + std::string(field) + " must rise or fall all along");
@@ -53,8 +60,8 @@ void read_mesh(Source& s) {
     refuse(s, card, "nodes_per_element",
            "no element with " + std::to_string(s.mesh.nodes_per_element) +
                " nodes: triangles have 3, 6 or 15, quadrilaterals 4, 8 or 9");
-  s.mesh.x = coordinates(s, "rectangle_x", "x");
-  s.mesh.y = coordinates(s, "rectangle_y", "y");
+  s.mesh.x = coordinates(s, "rectangle_x", "x", "columns");
+  s.mesh.y = coordinates(s, "rectangle_y", "y", "rows");
 }
 
 struct Kind {

@@ -200,5 +200,18 @@ TEST(ForeignModel, WhatCanNotBecomeAModelIsRefused) {
             std::string::npos);
 }
 
+// A layout of one's own whose card has the coordinates under another name.
+TEST(ForeignModel, AMeshWithoutItsCoordinatesIsRefused) {
+  std::ifstream file(kInputs + "layouts/sg_p61.toml");
+  std::string layout{std::istreambuf_iterator<char>(file), {}};
+  const std::string field = "{ name = \"y\", label";
+  ASSERT_NE(layout.find(field), std::string::npos);
+  layout.replace(layout.find(field), field.size(), "{ name = \"z\", label");
+  const std::string path = test::scratch_folder("own_layout").string() + "/own.toml";
+  std::ofstream(path) << layout;
+  EXPECT_EQ(refusal("smith_griffiths/p61.dat", path),
+            "5 coordinates y are needed, one more than rows, and the card has 0");
+}
+
 }  // namespace
 }  // namespace sage::app
