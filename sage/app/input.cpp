@@ -65,7 +65,8 @@ Grading grading_from(const std::string& text) {
 
 void add_build_options(CLI::App& parser, BuildOptions& options) {
   options.say = [](const std::string& text) { fmt::print(stderr, "sagefe: {}\n", text); };
-  parser.add_option("--formulation", options.formulation, "replace the formulation code of all solid elements");
+  parser.add_option("--formulation", options.formulation, "replace the formulation code of all solid elements")
+      ->check(CLI::Range(0, 99));
   parser
       .add_option_function<std::string>(
           "--element", [&options](const std::string& text) { options.element = element_code(text); },

@@ -179,6 +179,7 @@ TEST(CommandLine, MistakesGiveExitCode1AndNameTheWord) {
       {"run deck.dat --geometry two", "two"},
       {"run deck.dat --element quad26", "quad26"},
       {"run deck.dat --refine 13", "13"},
+      {"run deck.dat --formulation -1", "--formulation"},
       {"run deck.dat --grade corner", "corner"},
       {"run deck.dat --converge 0", "--converge"},
       {"run deck.dat --converge nan", "a relative error from 1e-12 to 0.5 is wanted, not \"nan\""},
