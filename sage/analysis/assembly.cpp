@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "sage/analysis/shown_status.hpp"
 
@@ -337,8 +338,7 @@ void Assembly::evaluate_constant(GroupData& data, const Eigen::VectorXd& du) {
       scratch_du_[i + 1] -= y;
     }
     const double* K = data.matrix_of(e);
-    const double* shift =
-        data.shift.data() + static_cast<std::size_t>(data.matrix[static_cast<std::size_t>(e)]) * n;
+    const double* shift = data.shift_of(e);
     double* f = data.trial_force.data() + static_cast<std::size_t>(e) * n;
     if (!from_zero) std::copy_n(data.force.data() + static_cast<std::size_t>(e) * n, n, f);
     for (std::size_t i = 0; i < n; ++i) f[i] += shift[i] * x;
@@ -459,7 +459,7 @@ void Assembly::begin_step(const Eigen::VectorXd& target, double rate_part) {
   condensation_->add_start_forces(internal_);
 }
 
-// The force scale of the linear region is that of the last whole evaluation.
+// The force scale of the linear region is that of the last whole evaluation: complete() brings it up to date.
 Outcome Assembly::iterate(const Eigen::VectorXd& du, LinearSolver* solver) {
   if (!condensation_) return evaluate(du, solver);
   const Timer timer(work_->assembly_seconds);
@@ -471,10 +471,25 @@ Outcome Assembly::iterate(const Eigen::VectorXd& du, LinearSolver* solver) {
 }
 
 void Assembly::complete(Eigen::VectorXd& du) {
+  // What one solution leaves of the forces is rounding, times the stiffness ratio within the region.
+  constexpr double kRounding = 1e-14;
+  constexpr int kSteps = 3;
   if (!condensation_) return;
   const Timer timer(work_->assembly_seconds);
   condensation_->complete(du);
   add_constant(du);
+  double residual = condensation_->largest_residual(internal_);
+  for (int i = 0; i < kSteps && residual > kRounding * force_scale_; ++i) {
+    condensation_->refine(internal_, du);
+    add_constant(du);
+    const double last = std::exchange(residual, condensation_->largest_residual(internal_));
+    if (residual > 0.5 * last) break;
+  }
+  condensation_->set_base(internal_, changing_, du);
+}
+
+double Assembly::whole_norm(const Eigen::VectorXd& correction) {
+  return condensation_ ? condensation_->whole_norm(correction) : correction.norm();
 }
 
 void Assembly::commit_again() {

@@ -43,8 +43,11 @@ class Assembly {
   void begin_step(const Eigen::VectorXd& target, double rate_part);
   // As evaluate(), within the iterations of a step: a condensed region acts by its border.
   Outcome iterate(const Eigen::VectorXd& du, LinearSolver* solver);
-  // The last iterate() was the end of the step: fills in du of condensed dofs, and their elements' forces.
+  // Fills in du of condensed dofs as the last iterate() implies; forces and their scale are then those of all
+  // elements, and the next iterate() counts from them.  Nothing where no region is condensed.
   void complete(Eigen::VectorXd& du);
+  // |correction| of all free dofs; correction: an equation each.
+  double whole_norm(const Eigen::VectorXd& correction);
 
   // Internal forces at committed state + du.  With a solver, K too: given to it, and its product with the
   // prescribed displacements' rate kept (coupling()).

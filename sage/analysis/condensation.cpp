@@ -1,5 +1,8 @@
 #include "sage/analysis/condensation.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace sage {
 
 namespace {
@@ -43,8 +46,11 @@ Condensation::Condensation(const std::vector<GroupData>& groups, const std::vect
   const auto n = static_cast<Eigen::Index>(kept_.size());
   const auto all = static_cast<Eigen::Index>(keep.size());
   rhs_.resize(condensed());
+  solution_.resize(condensed());
+  target_.setZero(condensed());
   load_.setZero(condensed());
   g_.setZero(n);
+  base_.setZero(n);
   kept_du_.resize(n);
   kept_f_.resize(n);
   work_x_.setZero(all);
@@ -59,6 +65,7 @@ Condensation::Condensation(const std::vector<GroupData>& groups, const std::vect
   }
 }
 
+// Displacements count from the element's first node, as in Assembly::evaluate_constant.
 void Condensation::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
   y.setZero();
   for (const GroupData& data : *groups_) {
@@ -67,8 +74,16 @@ void Condensation::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const 
     for (int e = 0; e < data.group->elements(); ++e) {
       const int* node = data.group->nodes_of(e);
       const double* K = data.matrix_of(e);
-      for (std::size_t j = 0; j < dofs; ++j) {
-        const double xj = x[2 * node[j / 2] + static_cast<int>(j % 2)];
+      const double first[] = {x[2 * node[0]], x[2 * node[0] + 1]};
+      if (first[0] != 0.0) {
+        const double* shift = data.shift_of(e);
+        for (std::size_t i = 0; i < nodes; ++i) {
+          y[2 * node[i]] += shift[2 * i] * first[0];
+          y[2 * node[i] + 1] += shift[2 * i + 1] * first[0];
+        }
+      }
+      for (std::size_t j = 2; j < dofs; ++j) {
+        const double xj = x[2 * node[j / 2] + static_cast<int>(j % 2)] - first[j % 2];
         if (xj == 0.0) continue;
         for (std::size_t i = 0; i < nodes; ++i) {
           y[2 * node[i]] += K[j * dofs + 2 * i] * xj;
@@ -79,29 +94,36 @@ void Condensation::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const 
   }
 }
 
+void Condensation::solve() {
+  const auto n = static_cast<std::size_t>(condensed());
+  solver_->solve({rhs_.data(), n}, {solution_.data(), n});
+}
+
 // x: kept and prescribed dofs given, condensed ones 0 on entry and filled in.
 void Condensation::solve_condensed(Eigen::VectorXd& x) {
   multiply(x, work_y_);
   for (Eigen::Index i = 0; i < rhs_.size(); ++i)
     rhs_[i] = load_[i] - work_y_[condensed_[static_cast<std::size_t>(i)]];
-  const auto n = static_cast<std::size_t>(condensed());
-  solver_->solve({rhs_.data(), n}, {rhs_.data(), n});
-  for (Eigen::Index i = 0; i < rhs_.size(); ++i) x[condensed_[static_cast<std::size_t>(i)]] = rhs_[i];
+  solve();
+  for (Eigen::Index i = 0; i < rhs_.size(); ++i) x[condensed_[static_cast<std::size_t>(i)]] = solution_[i];
 }
 
 void Condensation::begin_step(const Eigen::VectorXd& target, const Eigen::VectorXd& prescribed,
                               const Eigen::VectorXd& f0) {
   for (Eigen::Index i = 0; i < load_.size(); ++i) {
     const int dof = condensed_[static_cast<std::size_t>(i)];
+    target_[i] = target[dof];
     load_[i] = target[dof] - f0[dof];
   }
   work_x_ = prescribed;
   solve_condensed(work_x_);
+  held_work_ = rhs_.dot(solution_);
   multiply(work_x_, work_y_);
   for (Eigen::Index i = 0; i < g_.size(); ++i) {
     const int dof = kept_[static_cast<std::size_t>(i)];
     g_[i] = f0[dof] + work_y_[dof];
   }
+  base_.setZero();
 }
 
 void Condensation::add_start_forces(Eigen::VectorXd& f) const {
@@ -109,7 +131,7 @@ void Condensation::add_start_forces(Eigen::VectorXd& f) const {
 }
 
 void Condensation::add_forces(const Eigen::VectorXd& du, Eigen::VectorXd& f) const {
-  for (Eigen::Index i = 0; i < g_.size(); ++i) kept_du_[i] = du[kept_[static_cast<std::size_t>(i)]];
+  for (Eigen::Index i = 0; i < g_.size(); ++i) kept_du_[i] = du[kept_[static_cast<std::size_t>(i)]] - base_[i];
   kept_f_.noalias() = S_ * kept_du_;
   for (Eigen::Index i = 0; i < g_.size(); ++i) f[kept_[static_cast<std::size_t>(i)]] += g_[i] + kept_f_[i];
 }
@@ -117,6 +139,39 @@ void Condensation::add_forces(const Eigen::VectorXd& du, Eigen::VectorXd& f) con
 void Condensation::complete(Eigen::VectorXd& du) {
   for (int dof : condensed_) du[dof] = 0.0;
   solve_condensed(du);
+}
+
+double Condensation::largest_residual(const Eigen::VectorXd& f) const {
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < target_.size(); ++i)
+    largest = std::max(largest, std::abs(target_[i] - f[condensed_[static_cast<std::size_t>(i)]]));
+  return largest;
+}
+
+void Condensation::refine(const Eigen::VectorXd& f, Eigen::VectorXd& du) {
+  for (Eigen::Index i = 0; i < rhs_.size(); ++i)
+    rhs_[i] = target_[i] - f[condensed_[static_cast<std::size_t>(i)]];
+  solve();
+  for (Eigen::Index i = 0; i < rhs_.size(); ++i) du[condensed_[static_cast<std::size_t>(i)]] += solution_[i];
+}
+
+void Condensation::set_base(const Eigen::VectorXd& all, const Eigen::VectorXd& others,
+                            const Eigen::VectorXd& du) {
+  for (Eigen::Index i = 0; i < g_.size(); ++i) {
+    const int dof = kept_[static_cast<std::size_t>(i)];
+    g_[i] = all[dof] - others[dof];
+    base_[i] = du[dof];
+  }
+}
+
+double Condensation::whole_norm(const Eigen::VectorXd& correction) {
+  work_x_.setZero();
+  for (Eigen::Index i = 0; i < correction.size(); ++i)
+    work_x_[kept_[static_cast<std::size_t>(i)]] = correction[i];
+  multiply(work_x_, work_y_);
+  for (Eigen::Index i = 0; i < rhs_.size(); ++i) rhs_[i] = work_y_[condensed_[static_cast<std::size_t>(i)]];
+  solve();
+  return std::sqrt(correction.squaredNorm() + solution_.squaredNorm());
 }
 
 }  // namespace sage

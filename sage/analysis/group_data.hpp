@@ -28,6 +28,9 @@ struct GroupData {
   const double* matrix_of(int element) const {
     return K.data() + static_cast<std::size_t>(matrix[static_cast<std::size_t>(element)]) * dofs() * dofs();
   }
+  const double* shift_of(int element) const {
+    return shift.data() + static_cast<std::size_t>(matrix[static_cast<std::size_t>(element)]) * dofs();
+  }
 };
 
 // The equations of all elements of a group, behind those that are listed.  equation_of: by dof; -1 = none.

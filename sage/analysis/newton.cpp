@@ -37,6 +37,7 @@ class Step {
   NewtonStep& iterate_with_line_search();
   NewtonStep& iterate_with_dogleg();
   bool record_iteration();
+  IterationRecord measure_whole();
   Outcome evaluate(bool with_K);
   void form_residual();
   void factorise_if_needed();
@@ -48,6 +49,7 @@ class Step {
   bool linear_rounding(const IterationRecord& record) const;
   bool at_rounding(const IterationRecord& record) const;
   double scale() const;
+  double load_size() const;
   void find_worst();
   void move(double factor);
 
@@ -61,6 +63,7 @@ class Step {
   Acceleration acceleration_;
   bool start_known_ = false;  // start_residual_ is the residual at du = 0
   double prescribed_ = 0.0;   // largest displacement that supports are given in this step
+  double load_scale_ = 0.0;   // |loads| of all free dofs
   double energy_scale_ = 0.0, start_scale_ = 0.0, slope_ = 0.0, step_length_ = 1.0;
   NewtonStep result_;
 };
@@ -117,8 +120,11 @@ bool Step::repeats() {
   if (evaluate(false) == Outcome::cut_step) return false;
   form_residual();
   correction_.setZero();
-  const IterationRecord record = measure();
-  if (!(record.force <= 1e-3 * settings_.tolerance)) return false;
+  // Rounding: what is left beyond it would be another answer than that of a correction.
+  const double limit = std::min(1e-14, 1e-3 * settings_.tolerance);
+  if (!(measure().force <= limit)) return false;
+  const IterationRecord record = measure_whole();
+  if (!(record.force <= limit)) return false;
   result_.iterations.push_back(record);
   find_worst();
   result_.outcome = StepOutcome::converged;
@@ -142,16 +148,36 @@ bool Step::predict(const Eigen::VectorXd& rate, double rate_part) {
     residual_[eq] -= rate_part * coupling[assembly_.dof_of(eq)];
   correct();
   energy_scale_ = std::abs(correction_.dot(residual_));
+  if (const Condensation* region = assembly_.condensation()) energy_scale_ += std::abs(region->held_work());
   du_ = rate_part * rate;
   prescribed_ = du_.size() > 0 ? du_.lpNorm<Eigen::Infinity>() : 0.0;
   move(1.0);
   return true;
 }
 
+double Step::load_size() const {
+  double sum = 0.0;
+  for (int eq = 0; eq < assembly_.equations(); ++eq) sum += std::pow(target_[assembly_.dof_of(eq)], 2);
+  if (const Condensation* region = assembly_.condensation())
+    for (int dof : region->condensed_dofs()) sum += std::pow(target_[dof], 2);
+  return std::sqrt(sum);
+}
+
 double Step::scale() const {
-  double loads = 0.0;
-  for (int eq = 0; eq < assembly_.equations(); ++eq) loads += std::pow(target_[assembly_.dof_of(eq)], 2);
-  return std::max({assembly_.force_scale(), std::sqrt(loads), start_scale_});
+  return std::max({assembly_.force_scale(), load_scale_, start_scale_});
+}
+
+// With a condensed region: of the whole model, as without one.
+IterationRecord Step::measure_whole() {
+  if (assembly_.condensation() == nullptr) return measure();
+  assembly_.complete(du_);
+  form_residual();
+  IterationRecord record = measure();
+  const double size = du_.norm();
+  // The displacement counts where the energy does not decide.
+  if (record.energy > settings_.tolerance * settings_.tolerance && size > 0.0)
+    record.displacement = assembly_.whole_norm(correction_) / size;
+  return record;
 }
 
 IterationRecord Step::measure() const {
@@ -237,7 +263,9 @@ bool Step::search_line() {
 
 // True once converged.
 bool Step::record_iteration() {
-  const IterationRecord record = measure();
+  constexpr double kNear = 30.0;  // iterations of a condensed region know the scale of its forces roughly
+  IterationRecord record = measure();
+  if (record.force <= kNear * settings_.tolerance || converged(record)) record = measure_whole();
   result_.iterations.push_back(record);
   find_worst();
   if (!converged(record)) return false;
@@ -246,6 +274,7 @@ bool Step::record_iteration() {
 }
 
 NewtonStep Step::solve(const Eigen::VectorXd& rate, double rate_part) {
+  load_scale_ = load_size();
   result_.outcome = StepOutcome::law_cut;
   result_.iterations.reserve(static_cast<std::size_t>(settings_.max_iterations));
   assembly_.begin_step(target_, rate_part);
@@ -324,9 +353,7 @@ NewtonStep newton_step(Assembly& assembly, Stiffness& stiffness, const Eigen::Ve
                        WorkCounters& work, Eigen::VectorXd& du) {
   Step step(assembly, stiffness, target, settings, work, du);
   try {
-    NewtonStep result = step.solve(rate, rate_part);
-    if (result.outcome == StepOutcome::converged) assembly.complete(du);
-    return result;
+    return step.solve(rate, rate_part);
   } catch (const SingularMatrix& error) {
     NewtonStep result;
     result.outcome = StepOutcome::singular;
