@@ -63,7 +63,7 @@ class Condensation {
   std::vector<int> kept_, condensed_;
   std::unique_ptr<LinearSolver> solver_;
   Eigen::MatrixXd S_;
-  Eigen::VectorXd g_, base_;      // forces at the place base_ of the kept dofs
+  Eigen::VectorXd g_, base_;       // forces at the place base_ of the kept dofs
   Eigen::VectorXd target_, load_;  // F_l, F_l - f0_l; a condensed dof each
   Eigen::VectorXd rhs_, solution_, work_x_, work_y_;
   double held_work_ = 0.0;

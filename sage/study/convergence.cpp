@@ -18,6 +18,13 @@ std::optional<double> shrinking(std::span<const double> v, std::size_t last) {
   return r > 0.0 && r < 1.0 ? std::optional<double>(r) : std::nullopt;
 }
 
+// The last difference as the rate before it foretold it.  One that is smaller can be chance.
+double expected_difference(std::span<const double> v) {
+  const std::size_t n = v.size();
+  const double d0 = std::abs(v[n - 3] - v[n - 4]), d1 = std::abs(v[n - 2] - v[n - 3]);
+  return d1 < d0 ? d1 * d1 / d0 : d1;
+}
+
 // What the last difference alone says, given how it compares with the one before.  Rates of halved meshes are
 // not yet clean where this is used: half as much again.
 double plain_error(std::span<const double> v, Ladder ladder) {
@@ -27,9 +34,11 @@ double plain_error(std::span<const double> v, Ladder ladder) {
   if (n < 3 || d2 == 0.0) return d2;
   const double r = d2 / std::max(std::abs(v[n - 2] - v[n - 3]), std::numeric_limits<double>::min());
   // Differences that grow mean nothing yet, unless all of them are rounding.
-  if (r >= 1.0) return d2 < 1e-12 * std::abs(v[n - 1]) ? d2 : kUnknown;
+  const bool rounding = d2 < 1e-12 * std::abs(v[n - 1]);
+  if (rounding || r >= 1.0) return rounding ? d2 : kUnknown;
   const double caution = ladder == Ladder::halving ? 1.5 : r > 0.1 ? 3.0 : 1.0;  // a tenth: hardly spectral
-  return d2 * std::max(1.0, r / (1.0 - r)) * caution;
+  const double error = d2 * std::max(1.0, r / (1.0 - r)) * caution;
+  return ladder == Ladder::spectral && n >= 4 ? std::max(error, expected_difference(v)) : error;
 }
 
 }  // namespace

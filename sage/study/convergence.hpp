@@ -21,7 +21,8 @@ struct Limit {
 // r) (Richardson 1911).  Extrapolated only where the rates of two successive triples differ by less than 0.2;
 // then `error` is the change that the last mesh made to the extrapolated value, and no less than a tenth of the
 // extrapolation itself.  In all other cases the last value stands, with the last difference or, where it falls
-// slowly (r > 1/2), the sum of the geometric series.
+// slowly (r > 1/2), the sum of the geometric series.  spectral: no less, from four values on, than what the
+// last difference should have been at the rate of the two before.
 Limit limit_of(std::span<const double> values, Ladder ladder);
 
 }  // namespace sage::study

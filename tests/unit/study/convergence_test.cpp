@@ -43,10 +43,17 @@ TEST(Limit, ExtrapolationIsBetterThanTheLastValue) {
 }
 
 TEST(Limit, SpectralErrorIsTheLastDifference) {
-  const Limit limit = limit_of(std::vector<double>{2.1, 2.01, 2.0001, 2.000001}, Ladder::spectral);
-  EXPECT_EQ(limit.value, 2.000001);
-  EXPECT_NEAR(limit.error, 9.9e-5, 1e-9);
+  const Limit limit = limit_of(std::vector<double>{2.1, 2.001, 2.00001, 2.0000001}, Ladder::spectral);
+  EXPECT_EQ(limit.value, 2.0000001);
+  EXPECT_NEAR(limit.error, 9.9e-6, 1e-9);
   EXPECT_FALSE(limit.rate.has_value());
+}
+
+// Differences of 5.6e-2, 3.1e-3 and then 3.6e-6, after which the values moved by 3e-5 again: Cook's membrane.
+TEST(Limit, SpectralErrorDoesNotTrustASuddenAgreement) {
+  const std::vector<double> values{16.76228525, 16.81828229, 16.82134414, 16.82134773};
+  EXPECT_GT(limit_of(values, Ladder::spectral).error, std::abs(16.82138677 - values.back()));
+  EXPECT_NEAR(limit_of(values, Ladder::spectral).error, 1.67e-4, 1e-6) << "3.06e-3 squared by 5.60e-2";
 }
 
 TEST(Limit, GrowingDifferencesAreNoLimit) {
