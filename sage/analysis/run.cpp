@@ -40,7 +40,7 @@ class Run {
   };
 
   void place_groups(const Stage& stage);
-  void start_new_nodes(const std::vector<char>& borne);
+  void start_new_nodes();
   void start_states(const std::vector<InitialStress>& initials);
   bool open_stage(int s);
   void prepare_stage(int s);
@@ -137,7 +137,10 @@ void Run::place_groups(const Stage& stage) {
 }
 
 // What is placed has not moved yet, also where something was that has been removed since.
-void Run::start_new_nodes(const std::vector<char>& borne) {
+// Called before the stage is entered.
+void Run::start_new_nodes() {
+  if (std::ranges::all_of(activity_.group, [](char active) { return active != 0; })) return;
+  const std::vector<char> borne = active_nodes(model_, activity_);
   for (int node = 0; node < model_.mesh.nodes(); ++node)
     if (!borne[static_cast<std::size_t>(node)]) u_.segment<2>(2 * node).setZero();
 }
@@ -172,9 +175,8 @@ bool Run::open_stage(int s) {
 // The states and the loads at both ends of a stage.  What the forces of removed parts, initial stress and
 // released supports leave out of balance is held at the start and let go in proportion over the stage.
 void Run::prepare_stage(int s) {
-  const std::vector<char> borne = active_nodes(model_, activity_);
+  start_new_nodes();
   const bool same_pattern = open_stage(s);
-  start_new_nodes(borne);
   start_states(model_.stages[static_cast<std::size_t>(s)].initials);
   assembly_.take_states();
   const bool keep_factors = same_pattern && stiffness_.constant && stiffness_.factorised && rate_.isZero(0.0);

@@ -131,28 +131,37 @@ TEST(ReleasedFixity, ReactionFadesOverTheStage) {
   EXPECT_TRUE(run.warnings.empty()) << run.warnings.front();
 }
 
-// A column of two cells (nu = 0, so one-dimensional) with P on each upper corner.  Its upper half goes and
-// takes the loads with it; what is placed there later has not moved, and bears only what comes after it.
-TEST(Refill, BeginsWithoutDisplacementAndWithoutTheOldLoads) {
+// A column of a lower cell (nodes 1 2 4 3, group 1) and an upper one (3 4 6 5) that every further group has;
+// nu = 0, so one-dimensional.
+DeckWriter column_with_upper_groups(std::initializer_list<int> upper) {
   Block block;
   block.rows = 2;
   block.place = rectangle(0.0, 1.0, 0.0, 2.0);
   DeckWriter deck(1);
   block.write_nodes(deck);
   deck.material(1, 1, {kE, 0.0});
-  for (int group : {1, 2, 3}) deck.group(group, 1, 1, 1);
+  deck.group(1, 1, 1, 1);
   deck.element(1, 1, {1, 2, 4, 3});
-  deck.element(2, 2, {3, 4, 6, 5});
-  deck.element(3, 3, {3, 4, 6, 5});
+  for (int group : upper) {
+    deck.group(group, 1, 1, 1);
+    deck.element(group, group, {3, 4, 6, 5});
+  }
   for (int n : block.bottom()) deck.fix(n, 1, 1);
-  for (int n : block.left()) deck.fix(n, 1, 0);
+  for (int n : {3, 5}) deck.fix(n, 1, 0);
+  return deck;
+}
+
+// P on each upper corner.  The upper half goes and takes the loads with it; what is placed there later has not
+// moved, and bears only what comes after it.
+TEST(Refill, BeginsWithoutDisplacementAndWithoutTheOldLoads) {
+  DeckWriter deck = column_with_upper_groups({2, 3});
   const double P = 10.0, Q = 3.0;
   StageCards& load = deck.stage();
-  for (int n : block.top()) load.load(n, 0.0, -P);
+  for (int n : {5, 6}) load.load(n, 0.0, -P);
   deck.stage().deaths = {2};
   deck.stage().births = {3};
   StageCards& again = deck.stage();
-  for (int n : block.top()) again.load(n, 0.0, -Q);
+  for (int n : {5, 6}) again.load(n, 0.0, -Q);
   const WholeRun run = run_text(deck.text());
   ASSERT_TRUE(run.completed()) << run.failure;
   const auto settlement = [&](std::size_t stage, int node) {
@@ -165,21 +174,12 @@ TEST(Refill, BeginsWithoutDisplacementAndWithoutTheOldLoads) {
   for (int node : {3, 5}) EXPECT_NEAR(settlement(2, node), 0.0, rounding) << node;
   EXPECT_NEAR(settlement(3, 3), Q * cell, rounding);
   EXPECT_NEAR(settlement(3, 5), 2 * Q * cell, rounding);
-  EXPECT_NEAR(run.reaction(run.last(), block.bottom(), 1), 2 * Q, 1e-12 * P);
+  EXPECT_NEAR(run.reaction(run.last(), {1, 2}, 1), 2 * Q, 1e-12 * P);
 }
 
 // A load on what is placed only later never acts: the warning says so.
 TEST(Refill, LoadsBeforeThePlacingNeverAct) {
-  Block block;
-  block.rows = 2;
-  block.place = rectangle(0.0, 1.0, 0.0, 2.0);
-  DeckWriter deck(1);
-  block.write_nodes(deck);
-  deck.material(1, 1, {kE, 0.0});
-  for (int group : {1, 2}) deck.group(group, 1, 1, 1);
-  deck.element(1, 1, {1, 2, 4, 3});
-  deck.element(2, 2, {3, 4, 6, 5});
-  for (int n : block.bottom()) deck.fix(n, 1, 1);
+  DeckWriter deck = column_with_upper_groups({2});
   StageCards& early = deck.stage();
   early.load(6, 0.0, -10.0);
   early.pressure(2, 3, 10.0, 10.0);
