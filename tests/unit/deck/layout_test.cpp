@@ -68,6 +68,8 @@ TEST(Layout, MistakesNameTheirLine) {
   EXPECT_EQ(complaint(good), "");
   EXPECT_EQ(complaint("name = \n").substr(0, 2), "1:");
   EXPECT_EQ(complaint("[[card]]\n").substr(0, 2), "1:");
+  EXPECT_EQ(complaint(head + "\u0457 = 1\n").substr(0, 2), "4:");
+  EXPECT_EQ(complaint(head + "format = \u0457\n").substr(0, 2), "4:");
   EXPECT_EQ(complaint(head + "format = '(F10)'\nfields = [{ name = 'n' }]\n"),
             "4: FORMAT (F10), character 5: a real field needs its decimals: F10.0, not F10");
   EXPECT_EQ(complaint(head + "format = '(I5)'\nfields = [{ name = 'n', kind = 'real' }]\n"),
