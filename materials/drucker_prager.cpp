@@ -197,7 +197,7 @@ void DruckerPrager::return_to_cap(const Vector4& s_trial, double q_trial, PointO
 // apply.
 bool DruckerPrager::integrate_exactly(const PointIn<4>& in, PointOut<4>& out) const {
   using Real = Dual<4>;
-  using Tensor = std::array<Real, 4>;
+  using Tensor = Real[4];
   const auto [K, G] = p_.elastic;
   const auto [alpha, k] = p_.cone;
   const auto dot = [](const Tensor& a, const Tensor& b) {
