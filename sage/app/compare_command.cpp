@@ -107,6 +107,7 @@ int compare_decks(const CompareOptions& o) {
     fmt::print(stderr, "sagefe compare: --both sets the geometries itself, --geometry-b does not go with it\n");
     return kUsage;
   }
+  if (o.decks.size() == 1) require_file(o.decks.front(), "compare of one deck in two ways");
   std::vector<compare::Line> lines;
   try {
     for (const std::string& text : o.lines) lines.push_back(compare::line_from_text(text));

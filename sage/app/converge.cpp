@@ -219,6 +219,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 int converge(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue) {
   const auto start = std::chrono::steady_clock::now();
+  require_file(request.deck, "--converge");
   const Deck deck = read_input(request.deck, request.input);
   const Model first = build_model(deck, catalogue, request.input.build);
   print_diagnostics(first.diagnostics);

@@ -114,6 +114,12 @@ std::function<std::string(const std::string&)> number_in(double low, double high
   };
 }
 
+void require_file(const std::string& path, const std::string& who) {
+  std::error_code ignored;
+  if (std::filesystem::is_fifo(path, ignored))
+    throw InputError({path, 0, 0, 0}, who + " reads its deck more than once: a file is wanted, not a pipe");
+}
+
 Deck read_input(const std::string& path, const InputOptions& options) {
   ReadOptions read;
   read.strict = options.strict;

@@ -29,6 +29,8 @@ void add_build_options(CLI::App& parser, BuildOptions& options);
 // (CLI11's own ranges let NaN pass.)
 std::function<std::string(const std::string&)> number_in(double low, double high, const std::string& wanted);
 
+// Throws InputError if `path` is a pipe; `who` reads its deck more than once.
+void require_file(const std::string& path, const std::string& who);
 Deck read_input(const std::string& path, const InputOptions& options);
 
 // To standard error; errors first are not reordered, at most 50 are shown.

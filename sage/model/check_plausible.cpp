@@ -269,12 +269,15 @@ void check_loads(Builder& b, const Stage& stage, const Size& size) {
   }
   for (const EdgeLoad& load : stage.pressures) {
     if (load.line == last_line) continue;
+    const Element& element = *b.model.groups[static_cast<std::size_t>(load.group)].element;
     const double largest = std::max(load.normal.cwiseAbs().maxCoeff(), load.shear.cwiseAbs().maxCoeff());
     if (size.stiffness > 0.0 && largest > size.stiffness) {
       b.warning(b.at_line(load.line), "the pressure or shear " + rounded_text(largest) +
                                           " exceeds the largest modulus, " + rounded_text(size.stiffness));
     } else if (load.normal.minCoeff() < 0.0) {
       b.note(b.at_line(load.line), "a negative pressure pulls at the edge");
+    } else if (element.traits().law_size == 2) {
+      b.note(b.at_line(load.line), "the pressure acts on one side of an interface alone, towards the joint");
     } else {
       continue;
     }

@@ -248,6 +248,12 @@ TEST(CommandLine, ADeckMayComeThroughAPipe) {
   const Finished run = sagefe(folder, "run /dev/stdin -o out", "cat deck.dat | timeout 60");
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_TRUE(std::filesystem::exists(folder / "out" / "stdin.lst"));
+  // These read their deck again.
+  for (const char* command : {"run /dev/stdin --converge 1e-2", "compare /dev/stdin --both"}) {
+    const Finished again = sagefe(folder, command, "cat deck.dat | timeout 60");
+    EXPECT_EQ(again.exit_code, 2);
+    expect_words(again.err, {"/dev/stdin: error", "not a pipe"});
+  }
 }
 
 TEST(CommandLine, DecksThatWouldOverwriteEachOtherAreRefused) {

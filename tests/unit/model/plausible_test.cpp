@@ -280,6 +280,16 @@ INSTANTIATE_TEST_SUITE_P(
                  "warning: the pressure or shear 2e+04 exceeds the largest modulus"},
         Unlikely{"Suction", [](DeckWriter& d) { d.stages[0].pressure(4, 3, -5.0, -5.0); },
                  "note: a negative pressure pulls at the edge"},
+        Unlikely{"PressureOnOneSideOfAJoint",
+                 [](DeckWriter& d) {
+                   d.node(10, 0.0, 2.0);
+                   d.node(11, 1.0, 2.0);
+                   d.material(2, 21, {1e4, 1e4});
+                   d.group(2, 11, 0, 2);
+                   d.element(5, 2, {7, 8, 11, 10});
+                   d.stages[0].pressure(5, 1, 5.0, 5.0);
+                 },
+                 "note: the pressure acts on one side of an interface alone, towards the joint"},
         Unlikely{"ForceHuge", [](DeckWriter& d) { d.stages[0].load(9, 0.0, -1e6); },
                  "would strain the whole mesh by more than 1"},
         Unlikely{"DisplacementHuge", [](DeckWriter& d) { d.stages[0].fix(9, 0, 1, 0.0, -50.0); },
