@@ -272,7 +272,6 @@ const char* fault_text(FieldFault fault) {
     case FieldFault::none:
       return "is right";
     case FieldFault::bad_character:
-      return "is not a number";
     case FieldFault::second_point:
       return "is not a number";
     case FieldFault::lone_sign:

@@ -141,7 +141,6 @@ class FormatParser {
       case 'I':
         return integer(count);
       case 'F':
-        return real(count, true);
       case 'D':
         return real(count, true);
       case 'E':
@@ -160,7 +159,6 @@ class FormatParser {
       case ':':
         return add(Edit::stop);
       case 'T':
-        break;
       case 'B':
         break;
       case 'S':

@@ -12,7 +12,7 @@ namespace sage {
 namespace {
 
 // "0.050" -> ".05", "1.5e-07" -> "1.5E-7", "12" -> "12."; all read the same.
-std::string shortened(std::string text) {
+std::string shortened(const std::string& text) {
   const std::size_t e = text.find('e');
   std::string mantissa = text.substr(0, e), exponent;
   if (e != std::string::npos) {
