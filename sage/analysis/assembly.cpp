@@ -438,9 +438,9 @@ void add_path_error(const GroupData& data, const Law<N>& law, WeightedMean& mean
 double Assembly::path_error() const {
   if (scene_->linear) return 0.0;
   WeightedMean mean;
-  for (const GroupData& data : groups_)
-    if (data.active && !data.constant)
-      std::visit([&](const auto* law) { add_path_error(data, *law, mean); }, data.law);
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    if (groups_[g].active && !scene_->group_linear[g])  // whether its laws are evaluated (skips) or not
+      std::visit([&](const auto* law) { add_path_error(groups_[g], *law, mean); }, groups_[g].law);
   return mean.weight > 0.0 ? mean.sum / mean.weight : 0.0;
 }
 
