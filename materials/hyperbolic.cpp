@@ -12,7 +12,10 @@ using Real = HyperbolicReal;
 constexpr double kSmallestTangent = 1e-4;   // of E_i; reached only for R_f near 1
 constexpr double kTensionStiffness = 1e-3;  // share of the modulus left in tension
 constexpr double kLastDecade = 3.0;         // phi falls up to sigma_3 = 1000 p_a, far beyond any test
-constexpr double kRounding = 1e-10;         // virgin loading stays on the memory to rounding
+// Stress levels.  Isotropic loading leaves some of 1e-16 (rounding) to 1e-9 (what equilibrium leaves), and such
+// a memory must not choose between E_t and E_ur.
+constexpr double kRounding = 1e-11;   // so far below the memory is on it
+constexpr double kLeastBlend = 1e-4;  // least width of the blend
 
 Real floored(const HyperbolicParameters& p, const Real& sigma_3) {
   return max(sigma_3 / p.p_a, Real(p.floor));
@@ -29,7 +32,8 @@ struct Young {
   bool unloading;
 };
 
-// E_t = E_i (1 - R_f SL)^2 on first loading, E_ur below 3/4 of the critical level, linear between.
+// E_t = E_i (1 - R_f SL)^2 on first loading, E_ur below 3/4 of the critical level (of a memory below 4e-4: 1e-4
+// below it), linear between.
 Young young(const HyperbolicParameters& p, const Real& sigma_1, const Real& sigma_3, const Real& memory) {
   const Real s = floored(p, sigma_3);
   const Real E_i = p.K * p.p_a * pow(s, p.n);
@@ -39,8 +43,8 @@ Young young(const HyperbolicParameters& p, const Real& sigma_1, const Real& sigm
   const Real E_t = max(E_i * y * y, kSmallestTangent * E_i);
 
   const Real critical = memory / pow(s, 0.25);
-  const Real share = critical.v > 0.0 ? (SL - 0.75 * critical) / (0.25 * critical) : Real(1.0);
-  Young young{E_t, E_i, SL, share.v < 1.0 - kRounding};
+  const Real share = 1.0 - (critical - SL - kRounding) / max(0.25 * critical, Real(kLeastBlend));
+  Young young{E_t, E_i, SL, share.v < 1.0};
   if (share.v <= 0.0) young.E = E_ur;
   if (share.v > 0.0 && young.unloading) young.E = E_ur + share * (E_t - E_ur);
 

@@ -92,6 +92,32 @@ TEST(Hyperbolic, UnloadingBlend) {
   EXPECT_TRUE(hyperbolic_moduli(p, 299, 100, memory).unloading);
 }
 
+// A memory of rounding size, which isotropic compression leaves, chooses nothing: first loading.  From 4e-4 on
+// the blend is a quarter of the memory; below, 1e-4 wide.
+TEST(Hyperbolic, RoundingIsNoMemory) {
+  const HyperbolicParameters p = soil();
+  const double q_f = 257.62971, root = std::pow(100 / 101.325, 0.25), E_i = 40264.128, E_ur = 1.5 * E_i;
+  for (const double memory : {1e-17, 1e-15, 1e-12, 9e-12}) {
+    EXPECT_NEAR(young(hyperbolic_moduli(p, 100, 100, memory)), E_i, 5e-4) << memory;
+    EXPECT_FALSE(hyperbolic_moduli(p, 100, 100, memory).unloading) << memory;
+  }
+  EXPECT_NEAR(young(hyperbolic_moduli(p, 100, 100, 1e-9)), E_i + 0.99e-5 * (E_ur - E_i), 5e-3);
+  EXPECT_NEAR(young(hyperbolic_moduli(p, 100, 100, 0.5e-4 * root)), 0.5 * (E_i + E_ur), 5e-3);
+  EXPECT_NEAR(young(hyperbolic_moduli(p, 100 + 7e-4 * q_f, 100, 8e-4 * root)),
+              0.5 * (E_i * std::pow(1 - 0.8 * 7e-4, 2) + E_ur), 5e-2);
+}
+
+// The moduli do not jump where the memory is left: 4e-7 of 4e4 from one side of the tolerance to the other.
+TEST(Hyperbolic, LeavesTheMemoryWithoutAJump) {
+  const HyperbolicParameters p = soil();
+  const double q_f = 257.62971;
+  const double memory = stress_state(p, 200, 100).v;
+  const auto below = [&](double level) { return young(hyperbolic_moduli(p, 200 - level * q_f, 100, memory)); };
+  EXPECT_NEAR(below(1.1e-11), below(0.9e-11), 1e-6);
+  EXPECT_FALSE(hyperbolic_moduli(p, 200 - 0.9e-11 * q_f, 100, memory).unloading);
+  EXPECT_TRUE(hyperbolic_moduli(p, 200 - 1.1e-11 * q_f, 100, memory).unloading);
+}
+
 // R_f = 1 at failure: (1 - R_f SL)^2 = 0, and E_t = 1e-4 E_i is left.
 TEST(Hyperbolic, SomethingIsLeftAtFailure) {
   HyperbolicParameters p = soil();
