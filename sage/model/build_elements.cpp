@@ -74,13 +74,16 @@ std::size_t local_node(const Group& group, const ElementEntry& entry, std::size_
 struct ElementCard {
   int number = 0, group = 0;
   std::vector<int> nodes;  // deck numbers
+  int folded = -1;         // as in ElementPlace
 };
 
 void add_element(Builder& b, const CardView& card, const ElementCard& element) {
   Group& group = b.model.groups[static_cast<std::size_t>(element.group)];
   const ElementEntry& entry = *b.catalogue.elements.find(group.element_code);
   const auto name = [&] { return "element " + std::to_string(element.number); };
-  if (!b.element_place.try_emplace(element.number, ElementPlace{element.group, group.elements()}).second) {
+  if (!b.element_place
+           .try_emplace(element.number, ElementPlace{element.group, group.elements(), element.folded})
+           .second) {
     b.error(card.where("number"), name() + " is defined twice");
     return;
   }
@@ -107,7 +110,7 @@ void add_element(Builder& b, const CardView& card, const ElementCard& element) {
   group.nodes.insert(group.nodes.end(), index.begin(), index.end());
 }
 
-// A quadrilateral whose last corner repeats a neighbour is a triangle: its twin group is made on demand.
+// A quadrilateral one of whose corners repeats the next is a triangle: its twin group is made on demand.
 int triangle_group(Builder& b, int quad_group) {
   const Group& quads = b.model.groups[static_cast<std::size_t>(quad_group)];
   const int number = -quads.number;
@@ -137,6 +140,7 @@ void fold_triangle(Builder& b, ElementCard& element) {
   for (std::size_t i = 0; i < 4; ++i) {
     if (element.nodes[i] != element.nodes[(i + 1) % 4]) continue;
     element.nodes.erase(element.nodes.begin() + static_cast<std::ptrdiff_t>(i));
+    element.folded = static_cast<int>(i);
     element.group = triangle_group(b, element.group);
     return;
   }

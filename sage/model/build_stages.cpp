@@ -72,7 +72,7 @@ void read_pressure(Builder& b, const CardView& card, std::vector<EdgeLoad>& out)
   load.normal = {card.real("normal1"), card.real("normal2")};
   load.shear = {card.real("shear1"), card.real("shear2")};
   for (const char* field : {"normal1", "normal2", "shear1", "shear2"}) b.usable(card, field, card.real(field));
-  load.edge = card.integer("edge") - 1;
+  const int edge = card.integer("edge") - 1;
   load.line = card.card().line;
   const NumberRange range = b.range(card, "element");
   for (std::int64_t number = range.first; number <= range.last; number += range.step) {
@@ -84,13 +84,19 @@ void read_pressure(Builder& b, const CardView& card, std::vector<EdgeLoad>& out)
       return;
     }
     const Group& group = b.model.groups[static_cast<std::size_t>(place->second.group)];
-    const int edges = static_cast<int>(group.element->edges().size());
-    if (load.edge < 0 || load.edge >= edges) {
-      b.error(card.where("edge"), "edge " + std::to_string(load.edge + 1) + ": element " +
-                                      std::to_string(number) + " (" + group.element_name + ") has edges 1 to " +
-                                      std::to_string(edges));
+    const int folded = place->second.folded;
+    // Edges count as the element's card lists its nodes.
+    const int edges = static_cast<int>(group.element->edges().size()) + (folded >= 0 ? 1 : 0);
+    if (edge < 0 || edge >= edges || edge == folded) {
+      const std::string numbers =
+          edge == folded && edge >= 0
+              ? " has no such edge: both of its nodes are the same, the quadrilateral is a triangle"
+              : " has edges 1 to " + std::to_string(edges);
+      b.error(card.where("edge"), "edge " + std::to_string(edge + 1) + ": element " + std::to_string(number) +
+                                      " (" + group.element_name + ")" + numbers);
       return;
     }
+    load.edge = folded >= 0 && edge > folded ? edge - 1 : edge;
     load.group = place->second.group;
     load.element = place->second.element;
     out.push_back(load);

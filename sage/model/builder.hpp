@@ -14,6 +14,7 @@ namespace sage::build {
 // Where an element of the deck ended up.
 struct ElementPlace {
   int group = 0, element = 0;
+  int folded = -1;  // edge of the card, from 0, that vanished when its quadrilateral became a triangle
 };
 
 // Numbers first, first + step ... last.  Wider than the deck's integers, so that counting past the last is

@@ -110,6 +110,38 @@ TEST(Triangles, AFoldedQuadrilateralBecomesOne) {
   EXPECT_EQ(triangles, 2);
 }
 
+// Edges count as the card lists the nodes, wherever the repeated corner stands: the loaded side is 3-1, 1-2 or
+// 2-3.
+TEST(Triangles, EdgesKeepTheNumbersOfTheCard) {
+  const auto loaded = [](const std::string& element, int edge) {
+    std::string text = deck(kSquare, {}, {element, "    2    1    1    3    4    4"});
+    const std::string stage = "stage\n    1\n";
+    text.replace(text.find(stage), stage.size(),
+                 "stage\n    1    0    0    0    0    0    1\n    1    " + std::to_string(edge) +
+                     "                 10.       10.\n");
+    const Model model = build(text);
+    const EdgeLoad& load = model.stages.at(0).pressures.at(0);
+    const Group& group = model.groups[static_cast<std::size_t>(load.group)];
+    std::string nodes;
+    for (int i : group.element->edges()[static_cast<std::size_t>(load.edge)])
+      nodes += std::to_string(model.mesh.number[static_cast<std::size_t>(group.nodes_of(load.element)[i])]);
+    return nodes;
+  };
+  EXPECT_EQ(loaded("    1    1    1    2    3    3", 1), "12");
+  EXPECT_EQ(loaded("    1    1    1    2    3    3", 4), "31");
+  EXPECT_EQ(loaded("    1    1    1    1    2    3", 2), "12");
+  EXPECT_EQ(loaded("    1    1    1    1    2    3", 4), "31");
+  EXPECT_EQ(loaded("    1    1    1    2    2    3", 3), "23");
+  EXPECT_EQ(loaded("    1    1    1    2    3    1", 3), "31");
+  try {
+    loaded("    1    1    1    2    3    3", 3);
+    FAIL() << "the edge between the same nodes";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("both of its nodes are the same"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Axis, NodesOnItAreHeldRadially) {
   const Model model = build(deck(kSquare, {}, {"    1    1    1    2    3    4"}, 2));
   int held = 0;
