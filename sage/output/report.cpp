@@ -71,22 +71,23 @@ const SolidLaw* specimen_law(const Model& model, const Report& report) {
 
 std::string header(const Model& model, const Report& report) {
   const UnitSystem& u = model.units;
+  const std::string per = forces_per(model.geometry);
   std::string text = "# " + model.title + "\n";
   if (report.kind == ReportKind::triaxial)
     return text +
            fmt::format(
                "# triaxial report; compression positive; strain and deviator count from the start of stage "
-               "{0}; units {1}, {2}, {3}\n"
+               "{0}; units {1}, {2}, {3}; forces {4}\n"
                "# correct: one point of the law, frictionless ends; ratio = measured / correct deviator\n"
                "stage,increment,axial_strain[-],force[{2}],measured_deviator[{3}],correct_deviator[{3}],"
                "measured_axial[{3}],correct_axial[{3}],ratio[-]\n",
-               report.stage + 1, u.length, u.force, u.stress);
-  return text +
-         fmt::format(
-             "# node report: mean displacement since the start of stage {0}, sum of the forces that "
-             "loads and supports put on the nodes, without the weight of the soil; positive along +x, +y\n"
-             "stage,increment,ux[{1}],uy[{1}],fx[{2}],fy[{2}]\n",
-             report.stage + 1, u.length, u.force);
+               report.stage + 1, u.length, u.force, u.stress, per);
+  return text + fmt::format(
+                    "# node report: mean displacement since the start of stage {0}, sum of the forces that "
+                    "loads and supports put on the nodes, without the weight of the soil; positive along +x, "
+                    "+y; forces {3}\n"
+                    "stage,increment,ux[{1}],uy[{1}],fx[{2}],fy[{2}]\n",
+                    report.stage + 1, u.length, u.force, per);
 }
 
 void append_row(std::string& text, int stage, int increment, std::initializer_list<double> values) {

@@ -100,6 +100,10 @@ std::string xml_text(std::string_view text) {
   return result;
 }
 
+std::string forces_per(Geometry geometry) {
+  return geometry == Geometry::axisymmetric ? "for the full circle (2 pi r)" : "per unit thickness";
+}
+
 std::string sign_convention(const Model& model, std::string_view mark) {
   const bool ring = model.geometry == Geometry::axisymmetric;
   const UnitSystem& u = model.units;
@@ -112,8 +116,7 @@ std::string sign_convention(const Model& model, std::string_view mark) {
       "{0}displacements, loads and reactions: positive along +{4} and +{5}; reactions are what the supports do "
       "to the mesh\n"
       "{0}forces: {6}\n",
-      mark, u.length, u.force, u.stress, ring ? "r" : "x", ring ? "z" : "y",
-      ring ? "for the full circle (2 pi r)" : "per unit thickness");
+      mark, u.length, u.force, u.stress, ring ? "r" : "x", ring ? "z" : "y", forces_per(model.geometry));
 }
 
 }  // namespace sage

@@ -47,6 +47,9 @@ std::string one_line(const std::string& text);
 // With & < > " replaced, for XML and SVG.
 std::string xml_text(std::string_view text);
 
+// "per unit thickness" or "for the full circle (2 pi r)".
+std::string forces_per(Geometry geometry);
+
 // The sign convention in a few lines; `mark` stands before each.
 std::string sign_convention(const Model& model, std::string_view mark);
 

@@ -211,6 +211,16 @@ std::string not_converged(const StepReport& report) {
                      report.stage + 1, report.load_factor);
 }
 
+// Title, units and signs as a comment: readers pass over it, people see it at the top.  XML allows no "--" in
+// it.
+std::string head(const Model& model, std::string_view comment) {
+  std::string text = fmt::format("  {}\n{}", model.title, sign_convention(model, "  "));
+  if (!comment.empty()) text += fmt::format("  {}\n", comment);
+  for (std::size_t at = text.find("--"); at != std::string::npos; at = text.find("--", at))
+    text.insert(at + 1, " ");
+  return "<!--\n" + text + "-->\n";
+}
+
 }  // namespace
 
 std::string vtu_text(const Model& model, const Solution& solution, std::string_view comment) {
@@ -219,9 +229,8 @@ std::string vtu_text(const Model& model, const Solution& solution, std::string_v
   for (std::size_t g = 0; g < model.groups.size(); ++g)
     cells += solution.activity->group[g] ? static_cast<std::size_t>(model.groups[g].elements()) : 0;
   VtuText vtu;
-  vtu.tag("<?xml version=\"1.0\"?>");
-  if (!comment.empty()) vtu.tag(fmt::format("<!-- {} -->", comment));
   vtu.tag(
+      "<?xml version=\"1.0\"?>\n" + head(model, comment) +
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">");
   vtu.tag("  <UnstructuredGrid>");
   vtu.tag(fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">", layout.entries(), cells));

@@ -114,6 +114,23 @@ TEST_F(VtuReadBack, AxisymmetricSpecimenWithInterface) {
   EXPECT_NEAR(platen, -10.0 * kPi, 1e-8);
 }
 
+// "--" would end the comment for an XML reader.
+TEST(VtuText, SaysSignsAndUnitsAtItsTop) {
+  Specimen specimen;
+  specimen.model.title = "two lifts ---- dam";
+  specimen.compress(0.01);
+  const auto folder = fresh_folder("vtu_signs");
+  const std::string text = vtu_text(specimen.model, specimen.solution(), "NOT CONVERGED");
+  write_file(folder / "a.vtu", text);
+  const std::string top = text.substr(0, text.find("<VTKFile"));
+  for (const char* words :
+       {"dam", "compression positive", "stress psi", "forces: for the full circle", "NOT CONVERGED"})
+    EXPECT_NE(top.find(words), std::string::npos) << words << "\n" << top;
+  EXPECT_EQ(top.find("--", top.find("<!--") + 4), top.rfind("-->")) << top;
+  if (!meshio_is_here()) return;
+  EXPECT_EQ(read_back(folder / "a.vtu").front().substr(0, 6), "points");
+}
+
 TEST_F(VtuReadBack, LeavesOutGroupsThatAreNotActive) {
   Specimen specimen;
   specimen.compress(0.01);
@@ -189,7 +206,7 @@ TEST(Vtu, FailedRunKeepsTheLastConvergedStateAndSaysSo) {
   specimen.run_and_fail(vtu, 0.01, 2);
   EXPECT_NE(contents(folder / "t.pvd").find("NOT CONVERGED"), std::string::npos);
   EXPECT_NE(contents(folder / "t_0002.vtu")
-                .find("<!-- NOT CONVERGED: last state in equilibrium, stage 1, load factor 0.75"),
+                .find("\n  NOT CONVERGED: last state in equilibrium, stage 1, load factor 0.75"),
             std::string::npos);
 }
 
