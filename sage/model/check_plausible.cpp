@@ -231,6 +231,21 @@ void check_poisson(Builder& b) {
   }
 }
 
+// Friction of a degree and less is no soil's; the same number in radians is.
+void check_angles(Builder& b) {
+  constexpr double kLeast = 0.05, kDegrees = 180.0 / kPi;
+  for (const Material& material : b.model.materials) {
+    const MaterialEntry* entry = b.catalogue.materials.find(material.code);
+    for (std::size_t i = 0; entry != nullptr && i < material.parameters.size(); ++i) {
+      const double angle = material.parameters[i];
+      if (entry->parameters[i].name != "friction_angle" || angle < kLeast || angle > kPi / 2.0) continue;
+      b.warning(material.where, "material " + std::to_string(material.number) + ": the friction angle is " +
+                                    rounded_text(angle) + " degrees; was it meant in radians, " +
+                                    rounded_text(angle * kDegrees) + " degrees?");
+    }
+  }
+}
+
 void check_fixities(Builder& b, const Stage& stage, const Activity& before, const Size& size) {
   int last_line = 0;
   std::set<std::size_t> held_here;  // by an earlier card: check_stages speaks of the contradiction
@@ -328,11 +343,19 @@ void check_gravity(Builder& b) {
   Vector2 total = Vector2::Zero();
   for (const Stage& stage : b.model.stages) {
     if (stage.gravity.norm() > 0.0 && first == nullptr) first = &stage;
+    const Vector2 before = total;
     total += stage.gravity;
     const std::string name = "stage " + std::to_string(stage.number) + ": ";
     if (stage.gravity.norm() > 1000.0)
       b.warning(stage.where,
                 name + "gravity is " + rounded_text(stage.gravity.norm()) + " times the unit weights");
+    if (stage.gravity.x() != 0.0 && b.model.geometry == Geometry::axisymmetric)
+      b.warning(stage.where, name + "gravity_x is " + rounded_text(stage.gravity.x()) +
+                                 ": in axisymmetry it acts along the radius, all around; the axis is y");
+    if (stage.gravity.norm() > 0.0 && before.norm() > 0.0 && total.norm() > 1.0 + 1e-9 &&
+        std::max(stage.gravity.norm(), before.norm()) < 1.0 + 1e-9)
+      b.note(stage.where, name + "gravity is added to that of earlier stages: it is now " +
+                              rounded_text(total.norm()) + " times the unit weights");
     if (total.y() > 1e-9) b.note(stage.where, name + "gravity acts upwards (gravity_y > 0 in sum)");
     if (stage.increments > 10000)
       b.note(stage.where,
@@ -404,6 +427,7 @@ void check_plausible(Builder& b) {
   check_overlap(b);
   note_missing_numbers(b);
   check_poisson(b);
+  check_angles(b);
   for (const InitialStress& initial : b.model.initials) check_initial(b, initial);
   Activity activity(b.model);
   for (const Stage& stage : b.model.stages) {

@@ -274,6 +274,22 @@ INSTANTIATE_TEST_SUITE_P(
                  "warning: material 1: Poisson's ratio is negative"},
         Unlikely{"GravityUp", [](DeckWriter& d) { d.stages[0].gravity_y = 1.0; },
                  "note: stage 1: gravity acts upwards"},
+        Unlikely{
+            "GravityTwice", [](DeckWriter& d) { d.stage().gravity_y = -1.0; },
+            "note: stage 2: gravity is added to that of earlier stages: it is now 2 times the unit weights"},
+        Unlikely{"GravityAlongTheRadius",
+                 [](DeckWriter& d) {
+                   d.geometry = 2;
+                   d.stages[0].gravity_x = 0.1;
+                 },
+                 "warning: stage 1: gravity_x is 0.1: in axisymmetry it acts along the radius"},
+        Unlikely{
+            "RadiansPerhaps",
+            [](DeckWriter& d) {
+              d.materials.clear();
+              d.material(1, 4, {1e4, 0.3, 50.0, 0.5236}, 20.0);
+            },
+            "warning: material 1: the friction angle is 0.5236 degrees; was it meant in radians, 30 degrees?"},
         Unlikely{"GravityHuge", [](DeckWriter& d) { d.stages[0].gravity_y = -2000.0; },
                  "gravity is 2000 times the unit weights"},
         Unlikely{"PressureHuge", [](DeckWriter& d) { d.stages[0].pressure(4, 3, 2e4, 0.0); },
