@@ -80,6 +80,12 @@ std::string counts_line(const std::array<long, kStatuses>& points) {
   return text.empty() ? "none" : text;
 }
 
+// True where the stage prescribes displacements.
+bool moves(const Stage& stage) {
+  return std::ranges::any_of(stage.fixities,
+                             [](const Fixity& f) { return f.value[0] != 0.0 || f.value[1] != 0.0; });
+}
+
 std::array<long, kStatuses> trial_points(const Assembly& assembly) {
   std::array<long, kStatuses> counts{};
   for (const GroupData& data : assembly.groups())
@@ -99,9 +105,11 @@ std::string short_number(double value) {
 std::string bracket_line(const Model& model, const StepReport& report) {
   const Stage& stage = model.stages[static_cast<std::size_t>(report.stage)];
   const bool loads = !stage.loads.empty() || !stage.pressures.empty() || !stage.gravity.isZero(0.0);
-  const bool moved = std::ranges::any_of(
-      stage.fixities, [](const Fixity& f) { return f.value[0] != 0.0 || f.value[1] != 0.0; });
-  const char* const what = loads ? "stage's load" : moved ? "stage's displacement" : "stage";
+  const bool moved = moves(stage);
+  const char* const what = loads && moved ? "stage's loads and displacements"
+                           : loads        ? "stage's load"
+                           : moved        ? "stage's displacement"
+                                          : "stage";
   std::string from = short_number(report.load_factor), to = short_number(report.failed_at);
   if (from == to) {  // a bracket narrower than four digits
     char text[2][32];
@@ -110,8 +118,8 @@ std::string bracket_line(const Model& model, const StepReport& report) {
     from = text[0];
     to = text[1];
   }
-  return std::string(loads ? "  limit load: " : "  equilibrium ends: ") + "between " + from + " and " + to +
-         " of the " + what + " (equilibrium was found at the first, not at the second)\n";
+  return std::string(loads && !moved ? "  limit load: " : "  equilibrium ends: ") + "between " + from +
+         " and " + to + " of the " + what + " (equilibrium was found at the first, not at the second)\n";
 }
 
 std::string dof_name(const Model& model, int dof) {
@@ -122,7 +130,7 @@ std::string dof_name(const Model& model, int dof) {
 }
 
 std::string explain_singular(const Model& model, const Activity& activity, const Assembly& assembly,
-                             int equation, const std::string& solver_said) {
+                             const Stage& stage, int equation, const std::string& solver_said) {
   const int dof = assembly.dof_of(equation);
   const Neighbours near = around(assembly, dof / 2);
   std::string text =
@@ -134,8 +142,11 @@ std::string explain_singular(const Model& model, const Activity& activity, const
         "  try: support that part, give the interface a small residual stiffness, or close it first.";
   else if (near.yielded_point)
     text +=
-        "a collapse mechanism: the material around it has no stiffness left.\n"
-        "  try: displacement control instead of load control, or read the load reached so far as the limit.";
+        std::string("a collapse mechanism: the material around it has no stiffness left.\n  try: ") +
+        (moves(stage) ? "method 2 (initial stiffness), full instead of reduced integration, a dilation angle "
+                        "nearer to friction, or read the load reached so far as the limit."
+                      : "displacement control instead of load control, or read the load reached so far as "
+                        "the limit.");
   else if (near.only_interfaces)
     text +=
         "a node held by interfaces alone, one of whose stiffnesses is zero (k_j = 0, zero friction, a "

@@ -8,9 +8,9 @@
 
 namespace sage {
 
-// A singular matrix: which node and dof, and what kind of motion is free.
+// A singular matrix: which node and dof, what kind of motion is free, and what to try in this stage.
 std::string explain_singular(const Model& model, const Activity& activity, const Assembly& assembly,
-                             int equation, const std::string& solver_said);
+                             const Stage& stage, int equation, const std::string& solver_said);
 
 // "limit load: between 0.71 and 0.72 of the stage's load".
 std::string bracket_line(const Model& model, const StepReport& report);

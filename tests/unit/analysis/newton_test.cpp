@@ -137,6 +137,38 @@ TEST(LimitLoad, IsBracketedAndTheLastEquilibriumKept) {
   }
 }
 
+// A biaxial specimen of reduced quad8 that flows without dilation is singular at its peak.  Its platen is
+// moved: advice to move it would be none.
+TEST(SingularMatrix, TheAdviceFitsWhatDrivesTheStage) {
+  for (bool cell_pressure : {false, true}) {
+    test::DeckWriter deck(1);
+    test::Block block;
+    block.cell = test::Cell::quad8;
+    block.columns = block.rows = 2;
+    block.place = test::rectangle(0.0, 1.0, 0.0, 1.0);
+    block.write_nodes(deck);
+    deck.material(1, 4, {20000.0, 0.3, 10.0, 30.0, 0.0});
+    deck.group(1, 2, 1, 1);
+    block.write_elements(deck, 1);
+    for (int n : block.bottom()) deck.fix(n, 0, 1);
+    for (int n : block.left()) deck.fix(n, 1, 0);
+    if (cell_pressure) deck.initial(1, 0, 100.0, 100.0, 100.0, 0.0);
+    test::StageCards& stage = deck.stage(20);
+    for (int n : block.top()) stage.fix(n, 0, 1, 0.0, -0.05);
+    if (cell_pressure)
+      for (int j = 0; j < 2; ++j) stage.pressure(block.element(1, j), 2, 100.0, 100.0);
+    const test::WholeRun run = test::run_text(deck.text());
+    ASSERT_EQ(run.result.status, RunStatus::singular) << run.failure;
+    EXPECT_EQ(run.failure.find("displacement control"), std::string::npos) << run.failure;
+    EXPECT_NE(run.failure.find("method 2"), std::string::npos) << run.failure;
+    EXPECT_NE(run.failure.find(cell_pressure ? "of the stage's loads and displacements ("
+                                             : "of the stage's displacement ("),
+              std::string::npos)
+        << run.failure;
+    EXPECT_EQ(run.failure.find("limit load"), std::string::npos) << run.failure;
+  }
+}
+
 TEST(LinearScene, FactorisesOncePerStage) {
   const Outcome outcome = press(15.0, 0, 1);
   EXPECT_EQ(outcome.result.work.factorisations, 1);
