@@ -8,6 +8,11 @@ namespace sage {
 namespace {
 
 constexpr double kRounding = 1e-13;  // relative to the strength: below this a stress is on the surface
+// A gap that this share of the largest shear stress would close is rounding of a joint without stress.
+constexpr double kNoGap = 1e-5;
+// Rule 0 has one stiffness for a whole increment: a joint this close to its memory loads.  After slip the
+// stress is the strength, which falls by rounding too (1e-11 with a stiff k_nc).
+constexpr double kOnMemory = 1e-6;
 
 const std::vector<Parameter>& rows() {
   static const std::vector<Parameter> table = {
@@ -78,9 +83,17 @@ CloughDuncan::Normal CloughDuncan::normal_response(const PointIn<2>& in) const {
     return normal;
   }
   const Real tension = sigma0 > 0.0 ? sigma0 + p_.k_nt * dw : p_.k_nt * w;
-  const bool holds = in.h0[kGap] == 0.0 && in.h0[kBroken] == 0.0 && p_.sigma_t > 0.0 && tension.v <= p_.sigma_t;
-  if (holds) {
+  const bool bonded = in.h0[kGap] == 0.0 && in.h0[kBroken] == 0.0 && p_.sigma_t > 0.0;
+  if (bonded && tension.v <= p_.sigma_t) {
     normal.sigma = tension;
+    return normal;
+  }
+  // Unloaded to nothing: rounding must not decide whether the joint is open, loose and without memory.  With
+  // adhesion opening is an event: the shear stress drops.
+  const bool fades = !bonded && p_.c == 0.0 && in.h0[kHardening] == 0.0;
+  if (fades && p_.k_nc * w.v <= kNoGap * in.h0[kMemory]) {
+    normal.gap = w.v;
+    normal.sigma = Real(0.0, p_.k_nc * dw.d);
     return normal;
   }
   normal.open = true;
@@ -124,8 +137,9 @@ CloughDuncan::Shear CloughDuncan::shear_trial(const PointIn<2>& in, const Real& 
   const Real tau_f = strength(seen);
   const double tau0 = direction * in.sigma0[0];
   const double limit = p_.memory ? in.h0[kMemory] : std::max(tau0, 0.0);
+  const double near = p_.rule == ShearRule::tangent ? kOnMemory : kRounding;
 
-  if (tau0 >= limit * (1.0 - kRounding) || k_i.v == 0.0) return primary(tau0, w, k_i, tau_f);
+  if (tau0 >= limit * (1.0 - near) || k_i.v == 0.0) return primary(tau0, w, k_i, tau_f);
   const Real w_linear = (limit - tau0) / k_i;
   if (w < w_linear || p_.rule == ShearRule::tangent) return {tau0 + k_i * w, k_i, p_.R_f > 0.0};
   return primary(limit, w - w_linear, k_i, tau_f);

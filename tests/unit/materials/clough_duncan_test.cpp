@@ -167,6 +167,50 @@ TEST(CloughDuncan, OpensAndCloses) {
   EXPECT_NEAR(point.sigma()[0], 100.0 * 0.036111 * 0.01, 1e-12);
 }
 
+// Unloaded to nothing without adhesion: a gap that 1e-5 of the largest shear stress would close is none; memory
+// stays and the tangent is that of contact.  A larger one opens, and adhesion makes opening an event.
+TEST(CloughDuncan, RoundingDoesNotOpen) {
+  const auto unloaded = [](double cohesion, double gap) {
+    std::vector<double> values = joint(0.8, 2);
+    values[0] = cohesion;
+    const auto law = test::interface(22, values);
+    const auto loaded = test::update<2>(*law, {0.0, -50.0}, {0.02, 0.0}, std::vector<double>(5, 0.0));
+    EXPECT_GT(loaded.sigma[0], 8.0);
+    return std::pair{loaded.sigma[0], test::update<2>(*law, loaded.sigma, {0.0, 50.0 / 1e9 + gap}, loaded.h)};
+  };
+  const auto [tau, rounding] = unloaded(0.0, 1e-15);
+  EXPECT_NE(rounding.status, PointStatus::open);
+  EXPECT_EQ(rounding.sigma.norm(), 0.0);
+  EXPECT_EQ(rounding.D(1, 1), 1e9);
+  EXPECT_EQ(rounding.h[2], tau);             // memory
+  EXPECT_NEAR(rounding.h[0], 1e-15, 1e-22);  // the gap is kept, so that many small ones add up
+  const auto opened = unloaded(0.0, 2e-5 * tau / 1e9).second;
+  EXPECT_EQ(opened.status, PointStatus::open);
+  EXPECT_EQ(opened.h[2], 0.0);
+  EXPECT_EQ(unloaded(2.0, 1e-15).second.status, PointStatus::open);
+
+  // Gap by gap, each too small alone.
+  std::vector<double> values = joint(0.8, 2);
+  values[0] = 0.0;
+  const auto law = test::interface(22, values);
+  test::Answer<2> step = rounding;
+  for (int i = 0; i < 3; ++i) step = test::update<2>(*law, step.sigma, {0.0, 0.4e-5 * tau / 1e9}, step.h);
+  EXPECT_EQ(step.status, PointStatus::open);
+}
+
+// Rule 0 takes one stiffness for an increment: 1e-9 below the memory it is that of the hyperbola, as on it.
+TEST(CloughDuncan, TangentRuleOnTheMemory) {
+  const auto law = test::interface(22, joint(0.8, 0));
+  const auto next = [&](double below) {
+    const double memory = 10.0;
+    return test::update<2>(*law, {memory * (1.0 - below), -50.0}, {1e-3, 0.0}, {0.0, 0.0, memory, 0.0, 0.0});
+  };
+  const double y = 1.0 - 0.8 * 10.0 / kTauF;
+  EXPECT_NEAR(next(0.0).sigma[0], 10.0 + kInitial * y * y * 1e-3, 1e-9);
+  EXPECT_NEAR(next(1e-9).sigma[0], next(0.0).sigma[0], 2e-8);
+  EXPECT_NEAR(next(1e-5).sigma[0], 10.0 + kInitial * 1e-3, 2e-4);
+}
+
 // Tensile strength and stiffness are separate: k_nt up to sigma_t, then open for good.
 TEST(CloughDuncan, TensileStrengthIsLostOnce) {
   std::vector<double> values = joint(0.0, 0);
