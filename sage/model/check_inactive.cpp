@@ -1,5 +1,8 @@
-// Loads and displacements for nodes that no active element has in their stage: they do nothing there.
+// Loads and displacements for nodes that no active element has in their stage: they do nothing there.  Reports
+// of such nodes say nothing.
+#include <algorithm>
 #include <map>
+#include <set>
 
 #include "sage/model/activity.hpp"
 #include "sage/model/builder.hpp"
@@ -33,6 +36,7 @@ void tell(Builder& b, const IdleCards& idle, const Stage& stage, const std::stri
 void check_inactive(Builder& b) {
   const Model& model = b.model;
   Activity activity(model);
+  std::set<std::size_t> told;  // reports
   for (const Stage& stage : model.stages) {
     activity.enter(stage);
     const std::vector<char> active = active_nodes(model, activity);
@@ -49,6 +53,15 @@ void check_inactive(Builder& b) {
       const auto group = static_cast<std::size_t>(load.group);
       if (!activity.group[group])
         add(pressures, load.line, model.groups[group].element_numbers[static_cast<std::size_t>(load.element)]);
+    }
+    for (std::size_t i = 0; i < model.reports.size(); ++i) {
+      const Report& report = model.reports[i];
+      if (stage.number <= report.stage || !std::all_of(report.nodes.begin(), report.nodes.end(), idle_node) ||
+          !told.insert(i).second)
+        continue;
+      b.warning(report.where, "stage " + std::to_string(stage.number) +
+                                  ": no element that is placed then has a node "
+                                  "of this report: it shows the displacements of before and no force");
     }
     tell(b, loads, stage, "the load of node", "no element that is placed then has the node");
     tell(b, displacements, stage, "the displacement of node", "no element that is placed then has the node");

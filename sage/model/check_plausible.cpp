@@ -390,6 +390,29 @@ void check_gravity(Builder& b) {
   }
 }
 
+// What is out of balance by more than this can carry a run past its limit load.
+void check_tolerance(Builder& b, const Stage& stage) {
+  constexpr double kLoose = 1e-3;
+  if (stage.tolerance <= kLoose) return;
+  b.warning(stage.where, "stage " + std::to_string(stage.number) + ": its tolerance lets " +
+                             rounded_text(100.0 * stage.tolerance) +
+                             " % of the forces be out of balance: what it calls equilibrium may be none");
+}
+
+// Of two cards for one group the later one stands.
+void check_twice_initial(Builder& b, const std::vector<InitialStress>& initials) {
+  std::map<int, int> lines;  // by group
+  for (const InitialStress& initial : initials) {
+    const auto [first, added] = lines.try_emplace(initial.group, initial.where.line);
+    if (added || first->second == initial.where.line) continue;
+    b.warning(initial.where,
+              "group " + std::to_string(b.model.groups[static_cast<std::size_t>(initial.group)].number) +
+                  " got an initial stress in line " + std::to_string(first->second) +
+                  " already: this card replaces it");
+    first->second = initial.where.line;
+  }
+}
+
 void note_null_stage(Builder& b, const Stage& stage) {
   bool any = !stage.loads.empty() || !stage.pressures.empty() || !stage.births.empty() ||
              !stage.deaths.empty() || !stage.initials.empty() || stage.gravity.norm() > 0.0;
@@ -429,6 +452,7 @@ void check_plausible(Builder& b) {
   check_poisson(b);
   check_angles(b);
   for (const InitialStress& initial : b.model.initials) check_initial(b, initial);
+  check_twice_initial(b, b.model.initials);
   Activity activity(b.model);
   for (const Stage& stage : b.model.stages) {
     check_fixities(b, stage, activity, size);
@@ -436,6 +460,8 @@ void check_plausible(Builder& b) {
     check_loads(b, stage, size);
     check_inner_edges(b, stage, activity);
     note_null_stage(b, stage);
+    check_tolerance(b, stage);
+    check_twice_initial(b, stage.initials);
     for (const InitialStress& initial : stage.initials) check_initial(b, initial);
   }
   check_gravity(b);

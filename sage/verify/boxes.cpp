@@ -152,22 +152,102 @@ void cook_locking(Record& record) {
   }
 }
 
+// Force P = 1 down on a half-space; tension +, z = -y is the depth.  In axisymmetry a point force on the axis
+// (Boussinesq), in plane strain a line of force (Flamant).
+struct HalfSpace {
+  bool ring = false;
+  double E = 1000.0, nu = 0.3;
+
+  Vector4 stress(const Vector2& at) const {
+    const double x = at.x(), z = -at.y(), R = at.norm(), R5 = std::pow(R, 5);
+    if (!ring) {
+      const double f = 2 / kPi / std::pow(R, 4), sx = -f * x * x * z, sy = -f * z * z * z;
+      return {sx, sy, nu * (sx + sy), f * x * z * z};
+    }
+    const double side = (1 - 2 * nu) / (R * (R + z)), f = 1 / (2 * kPi);
+    return {f * (side - 3 * x * x * z / R5), -3 * f * z * z * z / R5,
+            f * ((1 - 2 * nu) * z / (R * R * R) - side), 3 * f * x * z * z / R5};
+  }
+  Vector2 displacement(const Vector2& at) const {
+    const double x = at.x(), z = -at.y(), R = at.norm();
+    if (ring) {
+      const double f = (1 + nu) / (2 * kPi * E);
+      return {f * (x * z / (R * R * R) - (1 - 2 * nu) * x / (R * (R + z))),
+              -f * (z * z / (R * R * R) + 2 * (1 - nu) / R)};
+    }
+    const double plane = E / (1 - nu * nu), ratio = nu / (1 - nu), f = 1 / (kPi * plane),
+                 angle = std::atan2(x, z);
+    const double s = std::sin(angle), c = std::cos(angle);
+    const double along = f * (-2 * c * std::log(R) - (1 - ratio) * angle * s);
+    const double across = f * (2 * ratio * s + 2 * std::log(R) * s + (1 - ratio) * (s - angle * c));
+    return {along * s + across * c, -along * c + across * s};
+  }
+};
+
+// The force of a node, the far sides moved as the half-space moves.  A force is that of the full circle.
+void point_force(Record& record) {
+  for (int geometry : {1, 2}) {
+    HalfSpace exact;
+    exact.ring = geometry == 2;
+    std::vector<double> size, error;
+    for (int n : {16, 32}) {
+      Block block;
+      block.cell = Cell::quad8;
+      block.columns = block.rows = n;
+      block.straight = true;
+      block.place = [](double s, double t) -> Vector2 { return {4 * s * s, -4 * (1 - t) * (1 - t)}; };
+      DeckWriter deck(geometry);
+      block.write_nodes(deck);
+      deck.material(1, 1, {exact.E, exact.nu});
+      deck.group(1, 2, 2, 1);  // full: a single force sets off the hourglass of the reduced one
+      block.write_elements(deck, 1);
+      for (int node : block.left()) deck.fix(node, 1, 0);
+      for (int node : block.bottom()) deck.fix(node, 1, 1);
+      for (int node : block.right()) deck.fix(node, 1, 1);
+      deck.stage().load(block.left().back(), 0.0, exact.ring ? -1.0 : -0.5);  // half of the line's force
+      Model model = record.bench().build(deck.text());
+      std::vector<char> far(static_cast<std::size_t>(model.mesh.nodes()), 0);
+      for (int node = 0; node < model.mesh.nodes(); ++node)
+        far[static_cast<std::size_t>(node)] = model.mesh.x(0, node) == 4.0 || model.mesh.x(1, node) == -4.0;
+      hold(model, far, [&](const Vector2& x) { return exact.displacement(x); });
+      const WholeRun run = record.run(std::move(model));
+      double wrong = 0.0, all = 0.0;
+      for (Eigen::Index p = 0; p < run.stress[0].cols(); ++p) {
+        const Vector2 at = point_position(*run.model, 0, p);
+        if (at.norm() < 1.5 || at.norm() > 3.0) continue;
+        const Vector4 right = exact.stress(at);
+        wrong += (run.stress[0].col(p) - right).squaredNorm();
+        all += right.squaredNorm();
+      }
+      const double mean = std::sqrt(wrong / all);
+      record.small(where_of(geometry), fmt::format("mean error of the stress, 1.5 < R < 3, {0} x {0} quad8", n),
+                   mean, n == 16 ? 0.015 : 0.003);
+      size.push_back(1.0 / n);
+      error.push_back(mean);
+    }
+    record.order(where_of(geometry), "mean error of the stress, 1.5 < R < 3", size, error, 2.0);
+  }
+}
+
 }  // namespace
 
 Section box_cases() {
   const std::string hp = "independent hp finite-element computation, 6 to 8 digits";
-  return {"Elastic boxes and Cook's membrane",
-          {
-              {"box.flexible", "uniform load on a box: settlements, work and stress", hp, Grade::computed,
-               "graded mesh of 36 x 28 quad8; stress at a node is extrapolated: 2e-3 q", flexible},
-              {"box.rigid", "rigid smooth and rough plates on a box", hp, Grade::computed,
-               "the contact pressure is singular at the plate's edge: 0.2 % with a graded mesh", rigid},
-              {"cook.converged", "Cook's membrane in plane strain, nu = 1/3 and .4999", hp, Grade::computed,
-               "singular corner: 0.1 % on a graded mesh of 32 x 32 quad8; b-bar within 3 % at n = 16", cook},
-              {"cook.locking", "what fully integrated elements give for nu = .4999",
-               "the same meshes in an independent program", Grade::computed, "five digits are printed",
-               cook_locking},
-          }};
+  return {
+      "Elastic boxes and Cook's membrane",
+      {
+          {"box.flexible", "uniform load on a box: settlements, work and stress", hp, Grade::computed,
+           "graded mesh of 36 x 28 quad8; stress at a node is extrapolated: 2e-3 q", flexible},
+          {"box.rigid", "rigid smooth and rough plates on a box", hp, Grade::computed,
+           "the contact pressure is singular at the plate's edge: 0.2 % with a graded mesh", rigid},
+          {"box.point_force", "force of one node: stress in the half-space", "Boussinesq 1885; Flamant 1892",
+           Grade::exact, "32 x 32 quad8 finer towards the force: 0.3 % of the stress, at order 2", point_force},
+          {"cook.converged", "Cook's membrane in plane strain, nu = 1/3 and .4999", hp, Grade::computed,
+           "singular corner: 0.1 % on a graded mesh of 32 x 32 quad8; b-bar within 3 % at n = 16", cook},
+          {"cook.locking", "what fully integrated elements give for nu = .4999",
+           "the same meshes in an independent program", Grade::computed, "five digits are printed",
+           cook_locking},
+      }};
 }
 
 }  // namespace sage::verify

@@ -293,43 +293,100 @@ void tresca_cavity(Record& record, Cavity::Body body) {
   }
 }
 
+// Ring 1 to b = 4 under p0 all round, then more from inside; c = 10, phi = 30.  Compression +, N = (1 + sin
+// phi)/(1 - sin phi), h = c cot phi.  Plastic to C, sigma_r + h = N (sigma_t + h) there, so (sigma_r + h)
+// r^((N-1)/N) is constant; outside sigma_r = p0 + A (1/r^2 - 1/b^2), whose hoop stress yields at C.  u_b =
+// (1 - nu) A/(G b), whatever the dilation.  Collapse at C = b.
+void cohesive_ring(Record& record, Cavity::Body body) {
+  const double E = 20000.0, nu = 0.3, G = E / (2 * (1 + nu)), c = 10.0, phi = 30.0, p0 = 30.0, b = 4.0;
+  const double s = std::sin(phi * kRadiansPerDegree), N = (1 + s) / (1 - s);
+  const double h = c / std::tan(phi * kRadiansPerDegree), power = (N - 1) / N;
+  const auto amount = [&](double C) {  // A
+    return (N - 1) * (p0 + h) / (1 / (C * C) - 1 / (b * b) + N * (1 / (C * C) + 1 / (b * b)));
+  };
+  const auto pressure = [&](double C) {
+    return (p0 + amount(C) * (1 / (C * C) - 1 / (b * b)) + h) * std::pow(C, power) - h;
+  };
+  for (double psi : {0.0, 30.0}) {
+    std::vector<double> parameters = strength(4, E, nu, c, phi);
+    parameters[4] = psi;
+    Cavity ring;
+    ring.body = body;
+    ring.b = b;
+    ring.columns = 40;
+    DeckWriter deck = ring.start(4, parameters, p0);
+    double before = p0;
+    const double fronts[] = {1.5, 2.5};
+    for (double C : fronts) {
+      ring.add_pressure(deck, pressure(C) - before, 6);
+      before = pressure(C);
+    }
+    const WholeRun run = record.run(deck);
+    const int rim = run.index(ring.block.node(ring.block.across() - 1, 0));
+    std::size_t stage = 0;
+    for (double C : fronts) {
+      const Snapshot& at = run.increments[6 * ++stage];
+      record.near(ring.where(), fmt::format("psi = {:g}: u_b with the front at {:g} a", psi, C),
+                  at.u[2 * rim] - run.increments[0].u[2 * rim], (1 - nu) * amount(C) / (G * b), 5e-4);
+    }
+    DeckWriter over = ring.start(4, parameters, p0);
+    const double collapse = (p0 + h) * std::pow(b, power) - h, beyond = 120.0;
+    ring.add_pressure(over, beyond - p0, 10);
+    const WholeRun stopped = record.try_run(over);
+    double from = kNone;
+    const std::size_t at = stopped.failure.find("limit load: between");
+    if (at != std::string::npos) std::sscanf(stopped.failure.c_str() + at, "limit load: between %lf", &from);
+    record.near(ring.where(),
+                fmt::format("psi = {:g}: lower end of the printed bracket of the collapse pressure", psi),
+                p0 + from * (beyond - p0), collapse, 1e-3);
+  }
+}
+
 }  // namespace
 
 Section cavity_cases() {
   using Body = Cavity::Body;
   const std::string houlsby = "small-strain form of Yu & Houlsby 1991; Carter, Booker & Yeung 1986";
-  return {"Plastic cylinders and cavities",
-          {
-              {"plastic.specimen", "triaxial specimen, drained compression to 10 %",
-               "q_f = sigma3 (K_p - 1), u_r without plastic volume change", Grade::exact,
-               "exact with any step: Newton's tolerance", specimen},
-              {"plastic.thick_cylinder", "Tresca ring b/a = 2: pressure, front and collapse",
-               "p = k (2 ln c/a + 1 - c^2/b^2), u_a = k c^2/(2 G a), 2 k ln b/a", Grade::exact,
-               "ten quad8 across, the front within a cell: 0.5 %", thick_cylinder},
-              {"plastic.locking", "the same with full and b-bar quad4: the full one has no collapse load",
-               "Nagtegaal, Parks & Rice 1974; 2 k ln b/a", Grade::exact,
-               "1 % for ten b-bar; a flag for the full element, and a tenth of its growth", full_quad4},
-              {"cavity.cylinder", "cylindrical cavity, c = 0, sin phi = 3/5", houlsby, Grade::exact,
-               "mesh of 60 rings to 1000 a: 0.5 % of the plastic radius",
-               [](Record& r) {
-                 frictional_cavity(r, Body::sector, {4});
-                 frictional_cavity(r, Body::strip, {4});
-               }},
-              {"cavity.sphere", "spherical cavity, c = 0, sin phi = 3/5, both laws", houlsby, Grade::exact,
-               "mesh of 60 x 6 to 200 a: 0.5 % of the plastic radius",
-               [](Record& r) {
-                 frictional_cavity(r, Body::sphere, {4, 3});
-               }},
-              {"cavity.tresca_cylinder", "cylindrical cavity, Tresca, nu = .4999",
-               "p - p0 = c_u (1 + ln 2 G u_a/(c_u a))", Grade::exact, "an error of 2 % in u is 0.02 c_u in p",
-               [](Record& r) {
-                 tresca_cavity(r, Body::sector);
-                 tresca_cavity(r, Body::strip);
-               }},
-              {"cavity.tresca_sphere", "spherical cavity, Tresca, nu = .4999",
-               "p - p0 = 4/3 c_u (1 + ln 3 G u_a/(c_u a))", Grade::exact,
-               "an error of 2 % in u is 0.027 c_u in p", [](Record& r) { tresca_cavity(r, Body::sphere); }},
-          }};
+  return {
+      "Plastic cylinders and cavities",
+      {
+          {"plastic.specimen", "triaxial specimen, drained compression to 10 %",
+           "q_f = sigma3 (K_p - 1), u_r without plastic volume change", Grade::exact,
+           "exact with any step: Newton's tolerance", specimen},
+          {"plastic.thick_cylinder", "Tresca ring b/a = 2: pressure, front and collapse",
+           "p = k (2 ln c/a + 1 - c^2/b^2), u_a = k c^2/(2 G a), 2 k ln b/a", Grade::exact,
+           "ten quad8 across, the front within a cell: 0.5 %", thick_cylinder},
+          {"plastic.cohesive_ring", "Mohr-Coulomb ring b/a = 4, c = 10, phi = 30: displacement and collapse",
+           "Yu & Houlsby 1991, small strain, finite ring", Grade::exact,
+           "40 quad8 across, the front within a cell: 0.05 % of u_b; the bracket's width: 0.1 %",
+           [](Record& r) {
+             cohesive_ring(r, Body::sector);
+             cohesive_ring(r, Body::strip);
+           }},
+          {"plastic.locking", "the same with full and b-bar quad4: the full one has no collapse load",
+           "Nagtegaal, Parks & Rice 1974; 2 k ln b/a", Grade::exact,
+           "1 % for ten b-bar; a flag for the full element, and a tenth of its growth", full_quad4},
+          {"cavity.cylinder", "cylindrical cavity, c = 0, sin phi = 3/5", houlsby, Grade::exact,
+           "mesh of 60 rings to 1000 a: 0.5 % of the plastic radius",
+           [](Record& r) {
+             frictional_cavity(r, Body::sector, {4});
+             frictional_cavity(r, Body::strip, {4});
+           }},
+          {"cavity.sphere", "spherical cavity, c = 0, sin phi = 3/5, both laws", houlsby, Grade::exact,
+           "mesh of 60 x 6 to 200 a: 0.5 % of the plastic radius",
+           [](Record& r) {
+             frictional_cavity(r, Body::sphere, {4, 3});
+           }},
+          {"cavity.tresca_cylinder", "cylindrical cavity, Tresca, nu = .4999",
+           "p - p0 = c_u (1 + ln 2 G u_a/(c_u a))", Grade::exact, "an error of 2 % in u is 0.02 c_u in p",
+           [](Record& r) {
+             tresca_cavity(r, Body::sector);
+             tresca_cavity(r, Body::strip);
+           }},
+          {"cavity.tresca_sphere", "spherical cavity, Tresca, nu = .4999",
+           "p - p0 = 4/3 c_u (1 + ln 3 G u_a/(c_u a))", Grade::exact, "an error of 2 % in u is 0.027 c_u in p",
+           [](Record& r) { tresca_cavity(r, Body::sphere); }},
+      }};
 }
 
 }  // namespace sage::verify

@@ -1,7 +1,9 @@
 // Laws on one point against closed forms.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 
 #include "sage/core/point_driver.hpp"
@@ -171,6 +173,94 @@ void duncan_chang(Record& record) {
               triaxial_test(*solid(record, 7, parameters), 100.0, 0.10, 20).back().deviator, 257.62971, 1e-7);
 }
 
+// The hyperbolic law of Duncan et al. (1980) once more, in plain rates: K = 400, n = .5, R_f = .8, K_ur = 600,
+// K_b = 250, m = .3, c = 5, phi = 33.
+struct PlainHyperbola {
+  double pa = 101.325, c = 5.0, phi = 33.0 * kDegree;
+  double initial(double s3) const { return 400 * pa * std::sqrt(s3 / pa); }
+  double reload(double s3) const { return 600 * pa * std::sqrt(s3 / pa); }
+  double bulk(double s3, double E) const {
+    return std::clamp(250 * pa * std::pow(s3 / pa, 0.3), E / 3, E / (3 * (1 - 2 * 0.49)));
+  }
+  double failure(double s3) const {
+    return (2 * c * std::cos(phi) + 2 * s3 * std::sin(phi)) / (1 - std::sin(phi));
+  }
+  double tangent(double s1, double s3) const {
+    return initial(s3) * std::pow(1 - 0.8 * (s1 - s3) / failure(s3), 2);
+  }
+  double shear(double s1, double s3) const {
+    const double E = tangent(s1, s3), B = bulk(s3, E);
+    return 3 * B * E / (9 * B - E);
+  }
+};
+
+// Integral of f from a to b: Gauss with three points in 2000 parts.
+double integral(double a, double b, const std::function<double(double)>& f) {
+  constexpr int kParts = 2000;
+  const double part = (b - a) / kParts, at = std::sqrt(0.6) / 2;
+  double sum = 0.0;
+  for (int i = 0; i < kParts; ++i) {
+    const double middle = a + (i + 0.5) * part;
+    sum += part / 18 * (5 * f(middle - at * part) + 8 * f(middle) + 5 * f(middle + at * part));
+  }
+  return sum;
+}
+
+// Paths other than drained compression, whose references are the rates above integrated by other means.
+void hyperbola_paths(Record& record) {
+  constexpr auto e = Control::strain, s = Control::stress;
+  const PlainHyperbola plain;
+  const std::vector<double> parameters{400, 0.5, 0.8, 600, 250, 0.3, 5.0, 33.0};
+  for (int code : {6, 7}) {
+    const char* name = code == 6 ? "Duncan et al. 1980" : "inside Mohr-Coulomb";
+    const auto law = solid(record, code, parameters);
+    const Vector4 start(-100.0, -100.0, -100.0, 0.0);
+    {  // simple shear without volume change: s1,3 = 100 +- tau, gamma = integral of d tau/G
+      const double tau = 45.0;
+      const double gamma = integral(0.0, tau, [&](double t) { return 1 / plain.shear(100 + t, 100 - t); });
+      PointDriver<4> driver(*law, start);
+      for (int i = 0; i < 40; ++i) driver.advance({e, e, e, e}, {0.0, 0.0, 0.0, gamma / 40});
+      record.near(Where::point, fmt::format("{}: simple shear, tau at gamma = {:.5f}", name, gamma),
+                  driver.sigma()[3], tau, 2e-3);
+    }
+    {  // drained compression to q = 200, then back to 60: E_ur below 3/4 of 200, linear above
+      const double q1 = 200.0, q2 = 60.0, E_i = plain.initial(100), E_ur = plain.reload(100);
+      const double strain = q1 / (E_i * (1 - 0.8 * q1 / plain.failure(100)));
+      const double back = integral(0.75 * q1, q1,
+                                   [&](double q) {
+                                     const double E = plain.tangent(100 + q, 100);
+                                     return 1 / (E_ur + (E - E_ur) * (q / q1 - 0.75) / 0.25);
+                                   }) +
+                          (0.75 * q1 - q2) / E_ur;
+      PointDriver<4> driver(*law, start);
+      for (int i = 0; i < 80; ++i) driver.advance({s, e, s, e}, {-100.0, -strain / 80, -100.0, 0.0});
+      for (int i = 0; i < 80; ++i) driver.advance({s, e, s, e}, {-100.0, back / 80, -100.0, 0.0});
+      record.near(Where::point, fmt::format("{}: deviator after unloading by {:.3e}", name, back),
+                  -driver.sigma()[1] - 100, q2, 3e-3);
+    }
+    {  // oedometer from 50 to 3 %: d s1 = (B + 4G/3) de, d s3 = (B - 2G/3) de, by the midpoint rule
+      constexpr int kSteps = 20000;
+      const double de = 0.03 / kSteps;
+      double s1 = 50.0, s3 = 50.0;
+      const auto rates = [&](double a, double b) {
+        const double G = plain.shear(a, b), B = plain.bulk(b, plain.tangent(a, b));
+        return Vector2(B + 4 * G / 3, B - 2 * G / 3);
+      };
+      for (int i = 0; i < kSteps; ++i) {
+        const Vector2 half = 0.5 * de * rates(s1, s3), full = de * rates(s1 + half[0], s3 + half[1]);
+        s1 += full[0];
+        s3 += full[1];
+      }
+      PointDriver<4> driver(*law, 0.5 * start);
+      for (int i = 0; i < 20; ++i) driver.advance({e, e, e, e}, {0.0, -0.03 / 20, 0.0, 0.0});
+      record.near(Where::point, fmt::format("{}: oedometer, axial stress at 3 %", name), -driver.sigma()[1], s1,
+                  2e-3);
+      record.near(Where::point, fmt::format("{}: oedometer, lateral stress at 3 %", name), -driver.sigma()[0],
+                  s3, 2e-3);
+    }
+  }
+}
+
 }  // namespace
 
 Section law_cases() {
@@ -190,6 +280,10 @@ Section law_cases() {
                "rounding 1e-9; radial return is of order 1: 1e-4 with 4000 steps", constant_rate},
               {"law.hyperbola", "hyperbolic laws, drained compression", "q = eps/(1/E_i + eps R_f/q_f)",
                Grade::exact, "substepping tolerance 1e-3 a substep: 2e-3; strength 1e-7", duncan_chang},
+              {"law.hyperbola_paths", "hyperbolic laws in simple shear, unloading and the oedometer",
+               "the law's rates (H1) to (H5), integrated by quadrature", Grade::exact,
+               "substepping tolerance 1e-3 a substep: 2e-3, 3e-3 for what is left after unloading",
+               hyperbola_paths},
           }};
 }
 

@@ -290,6 +290,16 @@ INSTANTIATE_TEST_SUITE_P(
               d.material(1, 4, {1e4, 0.3, 50.0, 0.5236}, 20.0);
             },
             "warning: material 1: the friction angle is 0.5236 degrees; was it meant in radians, 30 degrees?"},
+        Unlikely{"Tolerance", [](DeckWriter& d) { d.stages[0].tolerance = 0.01; },
+                 "warning: stage 1: its tolerance lets 1 % of the forces be out of balance"},
+        Unlikely{"InitialTwice", [](DeckWriter& d) { d.initial(1, 0, 2.0, 2.0, 2.0, 0.0); },
+                 "warning: group 1 got an initial stress in line 23 already: this card replaces it"},
+        Unlikely{"ReportOfNothing",
+                 [](DeckWriter& d) {
+                   dig(d, {2});
+                   d.reports.push_back("    2    0    7    9    1    1        0.        0.        0.");
+                 },
+                 "warning: stage 2: no element that is placed then has a node of this report"},
         Unlikely{"GravityHuge", [](DeckWriter& d) { d.stages[0].gravity_y = -2000.0; },
                  "gravity is 2000 times the unit weights"},
         Unlikely{"PressureHuge", [](DeckWriter& d) { d.stages[0].pressure(4, 3, 2e4, 0.0); },
