@@ -8,8 +8,9 @@ namespace sage {
 namespace {
 
 constexpr double kRounding = 1e-13;  // relative to the strength: below this a stress is on the surface
-// A gap that this share of the largest shear stress would close is rounding of a joint without stress.
-constexpr double kNoGap = 1e-5;
+// A gap is rounding of a joint without stress if this share of the largest shear stress, or of the stress
+// floor, would close it.
+constexpr double kNoGap = 1e-5, kNoGapOfFloor = 1e-2;
 // Rule 0 has one stiffness for a whole increment: a joint this close to its memory loads.  After slip the
 // stress is the strength, which falls by rounding too (1e-11 with a stiff k_nc).
 constexpr double kOnMemory = 1e-6;
@@ -50,6 +51,7 @@ LawPtr make(std::span<const double> values, const UnitSystem& units) {
   const double k_j = p.not_negative(4);
   law.k_unit = k_j > 0.0 ? k_j * p.water_unit_weight() : 0.0;
   law.p_a = k_j > 0.0 && law.n > 0.0 ? p.atmospheric_pressure() : 1.0;
+  law.nothing = k_j > 0.0 && law.n > 0.0 ? kNoGapOfFloor * law.floor * law.p_a : 0.0;  // p_a is known
   if (law.sigma_t > 0.0 && law.k_nt == 0.0)
     p.refuse(7, "must be greater than 0 where there is a tensile strength");
   return std::make_unique<CloughDuncan>(law);
@@ -91,7 +93,7 @@ CloughDuncan::Normal CloughDuncan::normal_response(const PointIn<2>& in) const {
   // Unloaded to nothing: rounding must not decide whether the joint is open, loose and without memory.  With
   // adhesion opening is an event: the shear stress drops.
   const bool fades = !bonded && p_.c == 0.0 && in.h0[kHardening] == 0.0;
-  if (fades && p_.k_nc * w.v <= kNoGap * in.h0[kMemory]) {
+  if (fades && p_.k_nc * w.v <= kNoGap * in.h0[kMemory] + p_.nothing) {
     normal.gap = w.v;
     normal.sigma = Real(0.0, p_.k_nc * dw.d);
     return normal;

@@ -26,6 +26,7 @@ struct CloughDuncanParameters {
   double k_nc, k_nt, k_sf;  // compression, tension, after slip          [stress/length]
   double p_a;               // atmospheric pressure, 1 if not needed     [stress]
   double floor;             // k_s sees at least sigma_n = floor * p_a   [-]
+  double nothing;           // an opening that so little would close is none [stress]
   ShearRule rule;
   bool memory;  // reloading is linear up to the largest |tau| so far
 };

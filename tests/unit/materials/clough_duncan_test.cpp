@@ -198,6 +198,20 @@ TEST(CloughDuncan, RoundingDoesNotOpen) {
   EXPECT_EQ(step.status, PointStatus::open);
 }
 
+// Never loaded: a gap that 1e-8 p_a would close is none where p_a is known (n > 0).
+TEST(CloughDuncan, RoundingDoesNotOpenAnUnstressedJoint) {
+  std::vector<double> values = joint(0.8, 2);
+  values[0] = 0.0;
+  const auto status = [&](double stress) {
+    const auto law = test::interface(22, values);
+    return test::update<2>(*law, {0.0, 0.0}, {0.0, stress / 1e9}, std::vector<double>(5, 0.0)).status;
+  };
+  EXPECT_NE(status(0.9e-8 * 14.696), PointStatus::open);
+  EXPECT_EQ(status(1.1e-8 * 14.696), PointStatus::open);
+  values[5] = 0.0;
+  EXPECT_EQ(status(0.9e-8 * 14.696), PointStatus::open);
+}
+
 // Rule 0 takes one stiffness for an increment: 1e-9 below the memory it is that of the hyperbola, as on it.
 TEST(CloughDuncan, TangentRuleOnTheMemory) {
   const auto law = test::interface(22, joint(0.8, 0));
