@@ -76,24 +76,25 @@ CloughDuncan::Normal CloughDuncan::normal_response(const PointIn<2>& in) const {
   const double w0 = sigma0 > 0.0 ? sigma0 / p_.k_nt : sigma0 < 0.0 ? sigma0 / p_.k_nc : in.h0[kGap];
   const Real dw = Real::variable(in.deps[1], 1);
   const Real w = w0 + dw;
+  const bool bonded = in.h0[kGap] == 0.0 && in.h0[kBroken] == 0.0 && p_.sigma_t > 0.0;
+  // Without stress rounding must not decide whether the joint is open, loose and without memory.  With adhesion
+  // opening is an event: the shear stress drops.
+  const bool fades = !bonded && p_.c == 0.0 && in.h0[kHardening] == 0.0;
+  const double no_gap = fades ? (kNoGap * in.h0[kMemory] + p_.nothing) / p_.k_nc : 0.0;
   Normal normal;
   normal.sliding = 1.0;
   if (w.v <= 0.0) {
-    const bool was_open = in.h0[kGap] > 0.0;
+    const bool was_open = in.h0[kGap] > no_gap;
     if (was_open) normal.sliding = w / dw;
     normal.sigma = sigma0 < 0.0 ? sigma0 + p_.k_nc * dw : p_.k_nc * w;
     return normal;
   }
   const Real tension = sigma0 > 0.0 ? sigma0 + p_.k_nt * dw : p_.k_nt * w;
-  const bool bonded = in.h0[kGap] == 0.0 && in.h0[kBroken] == 0.0 && p_.sigma_t > 0.0;
   if (bonded && tension.v <= p_.sigma_t) {
     normal.sigma = tension;
     return normal;
   }
-  // Unloaded to nothing: rounding must not decide whether the joint is open, loose and without memory.  With
-  // adhesion opening is an event: the shear stress drops.
-  const bool fades = !bonded && p_.c == 0.0 && in.h0[kHardening] == 0.0;
-  if (fades && p_.k_nc * w.v <= kNoGap * in.h0[kMemory] + p_.nothing) {
+  if (w.v <= no_gap) {
     normal.gap = w.v;
     normal.sigma = Real(0.0, p_.k_nc * dw.d);
     return normal;

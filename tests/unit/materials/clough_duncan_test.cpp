@@ -212,6 +212,21 @@ TEST(CloughDuncan, RoundingDoesNotOpenAnUnstressedJoint) {
   EXPECT_EQ(status(0.9e-8 * 14.696), PointStatus::open);
 }
 
+// Such a gap was contact: all sliding of the increment that closes it counts, with the tangent of contact, and
+// not the share after closing, the ratio of two roundings.
+TEST(CloughDuncan, RoundingWasContact) {
+  std::vector<double> values = joint(0.0, 2);
+  values[0] = 0.0;
+  const auto law = test::interface(22, values);
+  for (const double gap : {0.0, 1e-17}) {
+    const std::vector<double> h{gap, 0.0, 0.0, 0.0, 0.0};
+    const auto pressed = test::update<2>(*law, {0.0, 0.0}, {1e-4, -1.01e-17}, h);
+    const auto contact = test::update<2>(*law, {0.0, 0.0}, {1e-4, -1.01e-17}, std::vector<double>(5, 0.0));
+    EXPECT_NEAR(pressed.sigma[0], contact.sigma[0], 1e-7) << gap;
+    EXPECT_LE((pressed.D - contact.D).norm(), 1e-6 * contact.D.norm()) << gap;
+  }
+}
+
 // Rule 0 takes one stiffness for an increment: 1e-9 below the memory it is that of the hyperbola, as on it.
 TEST(CloughDuncan, TangentRuleOnTheMemory) {
   const auto law = test::interface(22, joint(0.8, 0));
