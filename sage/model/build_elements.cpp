@@ -99,8 +99,12 @@ void add_element(Builder& b, const CardView& card, const ElementCard& element) {
       return;
     }
     if (std::find(index.begin(), index.end(), it->second) != index.end()) {
-      b.error(card.where("n" + std::to_string(i + 1)),
-              name() + ": node " + std::to_string(number) + " stands twice");
+      b.error(
+          card.where("n" + std::to_string(i + 1)),
+          name() + ": node " + std::to_string(number) + " stands twice" +
+              (entry.law_size == 2 ? "; a pair of an interface is two nodes at one place, one of each body, "
+                                     "also where the interface ends"
+                                   : ""));
       return;
     }
     index[local_node(group, entry, i)] = it->second;

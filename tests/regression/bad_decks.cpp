@@ -275,6 +275,10 @@ void bad_elements(Cases& c) {
                top({"3", "3", "5", "6", "5", "7"}),
                "element_top:21-25",
                {"element 3: node 5 stands twice"}});
+  c.push_back({"joint_that_ends_at_one_node",
+               j.with("element_joint", card({"2", "2", "3", "4", "4", "5"})),
+               "element_joint:21-25",
+               {"element 2: node 4 stands twice; a pair of an interface is two nodes at one place"}});
   c.push_back({"element_with_two_nodes", top({"3", "3", "5", "6"}), "element_top:11-15", {"4 nodes", "not 2"}});
   c.push_back({"element_corner_blank",
                top({"3", "3", "5", "6", "", "7"}),
