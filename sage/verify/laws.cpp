@@ -154,6 +154,30 @@ void constant_rate(Record& record) {
   }
 }
 
+// Mohr-Coulomb, c = 0, phi = 30, nu = .2, squeezed without lateral strain from sigma = 1 all round: elastic
+// with K0 = nu/(1 - nu) to sigma1 = N sigma3, then along that edge (both lateral stresses smallest).  There the
+// lateral plastic strain is M/2 of the axial one outwards, and that of elasticity takes it back, so that with t
+// the growth of sigma3 and de the strain after yield  E de = t (N - 2 nu + 2 (1 - nu - nu N)/M).
+void oedometer(Record& record) {
+  const double E = 20000.0, nu = 0.2, phi = 30.0, strain = 0.02, N = 3.0, K0 = nu / (1 - nu);
+  constexpr auto e = Control::strain;
+  for (double psi : {0.0, 10.0, 30.0}) {
+    const double sine = std::sin(psi * kDegree), M = (1 + sine) / (1 - sine);
+    const double grown = (N - 1) / (1 - N * K0);  // of sigma1, where it yields
+    const double left = strain - grown * (1 + nu) * (1 - 2 * nu) / (E * (1 - nu));
+    const double lateral = 1 + K0 * grown + E * left / (N - 2 * nu + 2 * (1 - nu - nu * N) / M);
+    for (int steps : {1, 20}) {
+      const auto law = solid(record, 4, {E, nu, 0.0, phi, psi});
+      PointDriver<4> driver(*law, Vector4(-1.0, -1.0, -1.0, 0.0));
+      for (int i = 0; i < steps; ++i) driver.advance({e, e, e, e}, {0.0, -strain / steps, 0.0, 0.0});
+      const std::string name = fmt::format("psi = {:g}, {} steps: ", psi, steps);
+      record.near(Where::point, name + "axial stress", -driver.sigma()[1], N * lateral, 1e-9);
+      record.near(Where::point, name + "lateral stress", -driver.sigma()[0], lateral, 1e-9);
+      record.near(Where::point, name + "stress out of plane", -driver.sigma()[2], lateral, 1e-9);
+    }
+  }
+}
+
 // q = eps/(1/E_i + eps R_f/q_f).  K = 400, n = .5, R_f = .8, c = 5, phi = 33, sigma3 = 100.
 void duncan_chang(Record& record) {
   const double strain[] = {0.001, 0.005, 0.01, 0.02}, q[] = {35.789399, 123.878397, 178.928255, 230.042010};
@@ -278,6 +302,9 @@ Section law_cases() {
               {"law.constant_rate", "Drucker-Prager under a constant strain rate",
                "tan(psi/2) = tan(psi0/2)(R/R0)^(-2Ge/B); Krieg & Krieg 1977 for alpha = 0", Grade::exact,
                "rounding 1e-9; radial return is of order 1: 1e-4 with 4000 steps", constant_rate},
+              {"law.oedometer", "Mohr-Coulomb without lateral strain, along the edge of equal lateral stresses",
+               "sigma3 grows by E de/(N - 2 nu + 2 (1 - nu - nu N)/M) after yield", Grade::exact,
+               "the same with any step: 1e-9", oedometer},
               {"law.hyperbola", "hyperbolic laws, drained compression", "q = eps/(1/E_i + eps R_f/q_f)",
                Grade::exact, "substepping tolerance 1e-3 a substep: 2e-3; strength 1e-7", duncan_chang},
               {"law.hyperbola_paths", "hyperbolic laws in simple shear, unloading and the oedometer",
