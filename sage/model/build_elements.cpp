@@ -104,7 +104,9 @@ void add_element(Builder& b, const CardView& card, const ElementCard& element) {
           name() + ": node " + std::to_string(number) + " stands twice" +
               (entry.law_size == 2 ? "; a pair of an interface is two nodes at one place, one of each body, "
                                      "also where the interface ends"
-                                   : ""));
+               : entry.corners == 4 && entry.nodes > 4
+                   ? "; only a 4-node quadrilateral becomes a triangle by that"
+                   : ""));
       return;
     }
     index[local_node(group, entry, i)] = it->second;
