@@ -86,6 +86,15 @@ bool moves(const Stage& stage) {
                              [](const Fixity& f) { return f.value[0] != 0.0 || f.value[1] != 0.0; });
 }
 
+// What else may find an equilibrium.
+std::string advice(const Stage& stage) {
+  const bool kept = stage.method == Method::modified_newton || stage.method == Method::initial_stiffness;
+  return std::string(moves(stage) ? "" : "displacement control if a limit load is near; ") +
+         "more increments; more iterations; " +
+         (kept ? "method 0 (Newton): a matrix kept from before can stall where joints open, close or slip"
+               : "method 2 (initial stiffness)");
+}
+
 std::array<long, kStatuses> trial_points(const Assembly& assembly) {
   std::array<long, kStatuses> counts{};
   for (const GroupData& data : assembly.groups())
@@ -193,10 +202,7 @@ std::string explain_failure(const Model& model, const Assembly& assembly, const 
             std::to_string(unique.lost) + " of " + std::to_string(unique.plastic) +
             " yielding points (flow is not associated): a dilation angle nearer to friction helps\n";
   if (step.outcome == StepOutcome::law_cut) text += "  a law found no answer for the strain it was given.\n";
-  text +=
-      "  try: displacement control if a limit load is near; more increments; more iterations; method 2 "
-      "(initial stiffness)";
-  return text;
+  return text + "  try: " + advice(model.stages[static_cast<std::size_t>(report.stage)]);
 }
 
 }  // namespace sage

@@ -137,6 +137,16 @@ TEST(LimitLoad, IsBracketedAndTheLastEquilibriumKept) {
   }
 }
 
+// Who runs with a matrix kept from before is not told to do so.
+TEST(Advice, NamesAnotherMethodThanTheStages) {
+  for (int method : {1, 2}) {
+    const std::string reason = press(25.0, method).result.reason;
+    EXPECT_NE(reason.find("no equilibrium found"), std::string::npos) << reason;
+    EXPECT_EQ(reason.find("method 2 (initial stiffness)"), std::string::npos) << reason;
+    EXPECT_NE(reason.find("method 0 (Newton)"), std::string::npos) << reason;
+  }
+}
+
 // A biaxial specimen of reduced quad8 that flows without dilation is singular at its peak.  Its platen is
 // moved: advice to move it would be none.
 TEST(SingularMatrix, TheAdviceFitsWhatDrivesTheStage) {
