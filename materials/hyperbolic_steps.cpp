@@ -109,11 +109,16 @@ struct Heun {
   Share error;  // of its Euler half, before the return, in tolerances
 };
 
-// |a| and its derivative.
+// |a| of a stress as a tensor, the same in all axes: shear counts twice.
+double length(const Vector4& a) {
+  return std::sqrt(a.squaredNorm() + a[3] * a[3]);
+}
+
+// With its derivative.
 Share length(const Vector4& a, const Matrix4& da) {
-  const double norm = a.norm();
+  const double norm = length(a);
   if (!(norm > 0.0)) return norm;
-  return {norm, da.transpose() * a / norm};
+  return {norm, da.transpose() * Vector4(a[0], a[1], a[2], 2.0 * a[3]) / norm};
 }
 
 // The error is taken before the return: two stresses far apart may return to the same point, the apex say.
@@ -205,8 +210,8 @@ double path_error(const HyperbolicSteps& steps, const PointIn<4>& in, const Vect
   const double lag_K = 0.25 * (end.K - start.K) / (end.K + start.K);
   const double lag_G = start.G + end.G > 0.0 ? 0.25 * (end.G - start.G) / (end.G + start.G) : 0.0;
   const double lag = std::max(std::abs(lag_K), std::abs(lag_G));
-  const double size = std::max(sigma.norm(), steps.moduli.floor * steps.moduli.p_a);
-  return 3.0 * lag * lag * (sigma - in.sigma0).norm() / size;
+  const double size = std::max(length(sigma), steps.moduli.floor * steps.moduli.p_a);
+  return 3.0 * lag * lag * length(sigma - in.sigma0) / size;
 }
 
 // The lengths of the substeps are continuous functions of deps, and so is the stress: the last substep is what

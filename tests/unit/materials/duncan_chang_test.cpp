@@ -47,6 +47,26 @@ TEST(DuncanChang, IncrementSizeDoesNotMatter) {
   }
 }
 
+// Turned axes turn the answer, and no more: the substeps measure stress as a tensor.  Rounding; 2e-4 where
+// shear counts once.
+TEST(DuncanChang, AxesDoNotMatter) {
+  const double angle = 37.0 * kRadiansPerDegree, c = std::cos(angle), s = std::sin(angle);
+  const auto turned = [&](const Vector4& a, double shear) {  // shear: 1 for stress, 2 for strain
+    const double xx = a[0], yy = a[1], xy = a[3] / shear;
+    return Vector4(c * c * xx + s * s * yy - 2 * c * s * xy, s * s * xx + c * c * yy + 2 * c * s * xy, a[2],
+                   shear * (c * s * (xx - yy) + (c * c - s * s) * xy));
+  };
+  const Vector4 start{-110, -140, -100, 10}, deps{0.002, -0.006, 0.001, 0.004};
+  for (const auto& [code, values] : {std::pair{5, k1970}, std::pair{6, kEb}, std::pair{7, kEb}}) {
+    const auto law = test::solid(code, values);
+    const auto update = [&](const Vector4& from, const Vector4& by) {
+      return test::update<4>(*law, from, by, test::initial_history<4>(*law, from)).sigma;
+    };
+    const Vector4 plain = update(start, deps), other = update(turned(start, 1.0), turned(deps, 2.0));
+    EXPECT_LT((other - turned(plain, 1.0)).norm(), 1e-12 * plain.norm()) << "law " << code;
+  }
+}
+
 // In a triaxial test few increments mean a polygon of strain instead of the curved path of constant sigma_3,
 // which no law can repair: second order in the number of increments.  10 are good to 0.2 %.
 TEST(DuncanChang, FewIncrementsOfATriaxialTest) {
