@@ -34,12 +34,12 @@ const std::array<double, 309>& powers_of_ten() {
   return table;
 }
 
-// value x 10^power to the nearest integer; one rounding before.
+// value x 10^power, which is 1 or more, to the nearest integer; one rounding before.
 std::uint64_t scaled(double value, int power) {
   const auto& ten = powers_of_ten();
-  const double product =
-      power >= 0 ? value * ten[static_cast<std::size_t>(power)] : value / ten[static_cast<std::size_t>(-power)];
-  return static_cast<std::uint64_t>(product + 0.5);
+  const double half = 0.5 + (power >= 0 ? value * ten[static_cast<std::size_t>(power)]
+                                        : value / ten[static_cast<std::size_t>(-power)]);
+  return static_cast<std::uint64_t>(half);
 }
 
 // value in (kSmallest, kLargest).
