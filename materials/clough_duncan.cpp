@@ -50,8 +50,9 @@ LawPtr make(std::span<const double> values, const UnitSystem& units) {
   law.memory = p.code(11, {0, 1}) == 0;
   const double k_j = p.not_negative(4);
   law.k_unit = k_j > 0.0 ? k_j * p.water_unit_weight() : 0.0;
-  law.p_a = k_j > 0.0 && law.n > 0.0 ? p.atmospheric_pressure() : 1.0;
-  law.nothing = k_j > 0.0 && law.n > 0.0 ? kNoGapOfFloor * law.floor * law.p_a : 0.0;  // p_a is known
+  const bool scaled = k_j > 0.0 && law.n > 0.0;  // by p_a, which is known then
+  law.p_a = scaled ? p.atmospheric_pressure() : 1.0;
+  law.nothing = scaled ? kNoGapOfFloor * law.floor * law.p_a : 0.0;
   if (law.sigma_t > 0.0 && law.k_nt == 0.0)
     p.refuse(7, "must be greater than 0 where there is a tensile strength");
   return std::make_unique<CloughDuncan>(law);

@@ -111,7 +111,7 @@ struct Heun {
 
 // |a| of a stress as a tensor, the same in all axes: shear counts twice.
 double length(const Vector4& a) {
-  return std::sqrt(a.squaredNorm() + a[3] * a[3]);
+  return std::sqrt(contract(a, a));
 }
 
 // With its derivative.

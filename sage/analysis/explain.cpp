@@ -103,14 +103,7 @@ std::array<long, kStatuses> trial_points(const Assembly& assembly) {
   return counts;
 }
 
-}  // namespace
-
-std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
-
+// "limit load: between 0.71 and 0.72 of the stage's load".
 std::string bracket_line(const Model& model, const StepReport& report) {
   const Stage& stage = model.stages[static_cast<std::size_t>(report.stage)];
   const bool loads = !stage.loads.empty() || !stage.pressures.empty() || !stage.gravity.isZero(0.0);
@@ -131,6 +124,14 @@ std::string bracket_line(const Model& model, const StepReport& report) {
          " and " + to + " of the " + what + " (equilibrium was found at the first, not at the second)\n";
 }
 
+}  // namespace
+
+std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
 std::string dof_name(const Model& model, int dof) {
   const bool axisymmetric = model.geometry == Geometry::axisymmetric;
   const char* direction = dof % 2 == 0 ? (axisymmetric ? "r" : "x") : (axisymmetric ? "z" : "y");
@@ -139,11 +140,13 @@ std::string dof_name(const Model& model, int dof) {
 }
 
 std::string explain_singular(const Model& model, const Activity& activity, const Assembly& assembly,
-                             const Stage& stage, int equation, const std::string& solver_said) {
-  const int dof = assembly.dof_of(equation);
+                             const StepReport& report, const NewtonStep& step) {
+  const Stage& stage = model.stages[static_cast<std::size_t>(report.stage)];
+  const int dof = assembly.dof_of(step.singular_equation);
   const Neighbours near = around(assembly, dof / 2);
-  std::string text =
-      "the stiffness matrix is singular at " + dof_name(model, dof) + " (" + solver_said + ").\n";
+  std::string text = "stage " + std::to_string(report.stage + 1) + ", increment " +
+                     std::to_string(report.increment) + ": the stiffness matrix is singular at " +
+                     dof_name(model, dof) + " (" + step.message + ").\n";
   text += "  elements there: " + near.elements + "\n  likely: ";
   if (near.open_point || behind_open_joint(model, activity, assembly, dof / 2))
     text +=
@@ -167,7 +170,7 @@ std::string explain_singular(const Model& model, const Activity& activity, const
         "part joined only by\n"
         "  an interface without stiffness in that direction.\n"
         "  try: add a fixity, or full integration (see `sagefe list elements`).";
-  return text;
+  return text + "\n" + bracket_line(model, report);
 }
 
 std::string explain_loose_part(const Model& model, const Activity& activity, const Assembly& assembly) {

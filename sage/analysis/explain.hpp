@@ -8,12 +8,9 @@
 
 namespace sage {
 
-// A singular matrix: which node and dof, what kind of motion is free, and what to try in this stage.
+// A step whose matrix is singular: which node and dof, what kind of motion is free, and what to try.
 std::string explain_singular(const Model& model, const Activity& activity, const Assembly& assembly,
-                             const Stage& stage, int equation, const std::string& solver_said);
-
-// "limit load: between 0.71 and 0.72 of the stage's load".
-std::string bracket_line(const Model& model, const StepReport& report);
+                             const StepReport& report, const NewtonStep& step);
 
 // A part that hangs on interfaces which are open at all their points in the committed state, and that nothing
 // else holds; empty = there is none.

@@ -281,11 +281,7 @@ bool Run::fail(StepReport& report, const NewtonStep& step) {
   report.converged = false;
   if (step.outcome == StepOutcome::singular && step.singular_equation >= 0) {
     result_.status = RunStatus::singular;
-    result_.reason =
-        "stage " + std::to_string(report.stage + 1) + ", increment " + std::to_string(report.increment) + ": " +
-        explain_singular(model_, activity_, assembly_, model_.stages[static_cast<std::size_t>(report.stage)],
-                         step.singular_equation, step.message) +
-        "\n" + bracket_line(model_, report);
+    result_.reason = explain_singular(model_, activity_, assembly_, report, step);
   } else {
     result_.status = RunStatus::not_converged;
     result_.reason = explain_failure(model_, assembly_, report, step);

@@ -233,7 +233,7 @@ void check_poisson(Builder& b) {
 
 // Friction of a degree and less is no soil's; the same number in radians is.
 void check_angles(Builder& b) {
-  constexpr double kLeast = 0.05, kDegrees = 180.0 / kPi;
+  constexpr double kLeast = 0.05;
   for (const Material& material : b.model.materials) {
     const MaterialEntry* entry = b.catalogue.materials.find(material.code);
     for (std::size_t i = 0; entry != nullptr && i < material.parameters.size(); ++i) {
@@ -241,7 +241,7 @@ void check_angles(Builder& b) {
       if (entry->parameters[i].name != "friction_angle" || angle < kLeast || angle > kPi / 2.0) continue;
       b.warning(material.where, "material " + std::to_string(material.number) + ": the friction angle is " +
                                     rounded_text(angle) + " degrees; was it meant in radians, " +
-                                    rounded_text(angle * kDegrees) + " degrees?");
+                                    rounded_text(angle / kRadiansPerDegree) + " degrees?");
     }
   }
 }

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdio>
 
 #include "sage/verify/cases.hpp"
 #include "sage/verify/fields.hpp"
@@ -90,10 +89,7 @@ void load_control(Record& record) {
     stage.pressure(footing.block.element(i, footing.down - 1), 3, 6.0, 6.0);
   const WholeRun run = record.try_run(footing.deck);
   record.within(Where::plane_strain, "run completed", run.completed() ? 1.0 : 0.0, 0.0, 0.5);
-  double from = kNone, to = kNone;
-  const std::size_t at = run.failure.find("limit load: between");
-  if (at != std::string::npos)
-    std::sscanf(run.failure.c_str() + at, "limit load: between %lf and %lf", &from, &to);
+  const auto [from, to] = printed_bracket(run);
   record.near(Where::plane_strain, "lower end of the printed bracket", 6 * from, 2 + kPi, 0.03);
   record.small(Where::plane_strain, "width of the bracket over the load", (to - from) / from, 0.01);
 }

@@ -332,10 +332,7 @@ void cohesive_ring(Record& record, Cavity::Body body) {
     DeckWriter over = ring.start(4, parameters, p0);
     const double collapse = (p0 + h) * std::pow(b, power) - h, beyond = 120.0;
     ring.add_pressure(over, beyond - p0, 10);
-    const WholeRun stopped = record.try_run(over);
-    double from = kNone;
-    const std::size_t at = stopped.failure.find("limit load: between");
-    if (at != std::string::npos) std::sscanf(stopped.failure.c_str() + at, "limit load: between %lf", &from);
+    const double from = printed_bracket(record.try_run(over)).from;
     record.near(ring.where(),
                 fmt::format("psi = {:g}: lower end of the printed bracket of the collapse pressure", psi),
                 p0 + from * (beyond - p0), collapse, 1e-3);

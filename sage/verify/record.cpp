@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include "sage/core/error.hpp"
@@ -121,6 +122,14 @@ void Record::stopped(const std::string& reason) {
 
 bool CaseResult::pass() const {
   return !rows.empty() && std::all_of(rows.begin(), rows.end(), [](const Row& row) { return row.pass; });
+}
+
+Bracket printed_bracket(const WholeRun& run) {
+  Bracket bracket;
+  const std::size_t at = run.failure.find("limit load: between");
+  if (at != std::string::npos)
+    std::sscanf(run.failure.c_str() + at, "limit load: between %lf and %lf", &bracket.from, &bracket.to);
+  return bracket;
 }
 
 double bisect(double low, double high, double width, const std::function<bool(double)>& stands) {

@@ -115,6 +115,12 @@ struct CaseResult {
   bool pass() const;
 };
 
+// The limit load that a stopped run prints, as a share of its stage's load; kNone if it prints none.
+struct Bracket {
+  double from = kNone, to = kNone;
+};
+Bracket printed_bracket(const WholeRun& run);
+
 // The value between `low`, where stands() is true, and `high`, where it is not, to `width`; no number where the
 // ends are otherwise.
 double bisect(double low, double high, double width, const std::function<bool(double)>& stands);
