@@ -4,33 +4,12 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <limits>
 
-#include "sage/output/picture_field.hpp"
 #include "sage/output/svg.hpp"
-#include "sage/output/values.hpp"
 
 namespace sage::compare {
 
 namespace {
-
-struct Range {
-  double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
-};
-
-// Values at the nodes of solids; interfaces have none.
-void widen(Range& range, const Side& side, Field field) {
-  const Solution now = side.last();
-  const NodalLayout layout = nodal_layout(side.model(), *now.activity);
-  const std::vector<double> values = field_values(side.model(), now, layout, field);
-  for (std::size_t g = 0; g < side.model().groups.size(); ++g) {
-    if (side.model().groups[g].element->traits().law_size != 4) continue;
-    for (int entry : layout.of_group[g]) {
-      range.low = std::min(range.low, values[static_cast<std::size_t>(entry)]);
-      range.high = std::max(range.high, values[static_cast<std::size_t>(entry)]);
-    }
-  }
-}
 
 struct Size {
   int width = 360, height = 200;
@@ -49,13 +28,19 @@ Size size_of(const std::string& svg) {
 
 std::string pair_svg(const Side& a, const Side& b, Field field) {
   constexpr int kTop = 44, kGap = 16, kBottom = 30;
-  Range range;
-  for (const Side* side : {&a, &b})
-    if (side->has_state()) widen(range, *side, field);
   PictureOptions options;
   options.width = 560;
-  options.low = range.low;
-  options.high = range.high;
+  FieldRange range;
+  for (const Side* side : {&a, &b}) {
+    if (!side->has_state()) continue;
+    const FieldRange one = field_range(side->model(), side->last(), field, options);
+    range.low = std::min(range.low, one.low);
+    range.high = std::max(range.high, one.high);
+  }
+  if (range.low <= range.high) {
+    options.low = range.low;
+    options.high = range.high;
+  }
   std::string drawings[2];
   Size sizes[2];
   const Side* sides[2] = {&a, &b};

@@ -45,22 +45,41 @@ void append_path(std::string& path, const std::vector<Corner>& polygon) {
   path += 'Z';
 }
 
+std::vector<Corner> polygon_of(const Patch& patch, const std::vector<int>& indices) {
+  std::vector<Corner> polygon;
+  for (int i : indices) polygon.push_back(patch.places[static_cast<std::size_t>(i)]);
+  return polygon;
+}
+
+namespace {
+
+// The part of a cell where value >= limit: whole where it can be, else triangle by triangle.
+void append_above(std::string& path, const Patch& patch, const GridCell& cell, double limit) {
+  const std::vector<Corner> polygon = polygon_of(patch, cell.corners);
+  if (cell.centre < 0) return append_path(path, above(polygon, limit));
+  const Corner& centre = patch.places[static_cast<std::size_t>(cell.centre)];
+  const auto is_above = [&](const Corner& c) { return c.value >= limit; };
+  const auto count = std::count_if(polygon.begin(), polygon.end(), is_above) + (is_above(centre) ? 1 : 0);
+  if (count == 0) return;
+  if (count == static_cast<std::ptrdiff_t>(polygon.size()) + 1) return append_path(path, polygon);
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    append_path(path, above({polygon[i], polygon[(i + 1) % polygon.size()], centre}, limit));
+}
+
+}  // namespace
+
 std::vector<std::string> band_paths(const std::vector<Patch>& patches, const std::vector<double>& limits) {
   std::vector<std::string> paths(std::max<std::size_t>(limits.size(), 2) - 1);
   for (const Patch& patch : patches) {
-    double low = patch.centre.value, high = low;
-    for (const Corner& corner : patch.outline) {
-      low = std::min(low, corner.value);
-      high = std::max(high, corner.value);
-    }
+    if (patch.places.empty()) continue;
+    const auto [low, high] =
+        std::minmax_element(patch.places.begin(), patch.places.end(),
+                            [](const Corner& a, const Corner& b) { return a.value < b.value; });
     std::size_t first = 0;  // the band of the lowest value: the whole element
-    while (first + 1 < paths.size() && low >= limits[first + 1]) ++first;
-    append_path(paths[first], patch.outline);
-    for (std::size_t band = first + 1; band < paths.size() && high > limits[band]; ++band)
-      for (std::size_t i = 0; i < patch.outline.size(); ++i)
-        append_path(paths[band],
-                    above({patch.outline[i], patch.outline[(i + 1) % patch.outline.size()], patch.centre},
-                          limits[band]));
+    while (first + 1 < paths.size() && low->value >= limits[first + 1]) ++first;
+    append_path(paths[first], polygon_of(patch, patch.grid->outline));
+    for (std::size_t band = first + 1; band < paths.size() && high->value > limits[band]; ++band)
+      for (const GridCell& cell : patch.grid->cells) append_above(paths[band], patch, cell, limits[band]);
   }
   return paths;
 }

@@ -13,14 +13,29 @@ struct Corner {
   double value = 0.0;
 };
 
-// An element's outline (corners and mid-side nodes in order) and its centre.
+// A triangle, or a quadrilateral about its centre; indices of places.
+struct GridCell {
+  std::vector<int> corners;
+  int centre = -1;  // -1: a triangle
+};
+
+// How a patch is cut, the same for many patches.
+struct CellGrid {
+  std::vector<int> outline;  // places around the patch
+  std::vector<GridCell> cells;
+};
+
+// An element on the paper: values vary linearly within each triangle of its grid.
 struct Patch {
-  std::vector<Corner> outline;
-  Corner centre;
+  const CellGrid* grid = nullptr;
+  std::vector<Corner> places;
 };
 
 // Round limits of the bands: the first at or below `low`, the last at or above `high`; at least two.
 std::vector<double> band_limits(double low, double high, int bands);
+
+// The places of a patch that `indices` name.
+std::vector<Corner> polygon_of(const Patch& patch, const std::vector<int>& indices);
 
 // The part of a polygon where value >= limit; values vary linearly along its edges.
 std::vector<Corner> above(const std::vector<Corner>& polygon, double limit);

@@ -3,15 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <tuple>
 
 #include "sage/output/colour_map.hpp"
 #include "sage/output/contour.hpp"
 #include "sage/output/nodal_values.hpp"
 #include "sage/output/picture_field.hpp"
 #include "sage/output/plot.hpp"
+#include "sage/output/sub_grid.hpp"
 #include "sage/output/svg.hpp"
 #include "sage/output/values.hpp"
 
@@ -72,87 +75,97 @@ struct Scenery {
   const Solution& solution;
   NodalLayout layout;
   View view;
-  std::vector<double> values;
+  Field field;
+  FieldParts parts;
+  std::map<std::tuple<const Element*, int, int>, SubGrid> grids = {};  // patches point into them
 
-  Vector2 moved(int node) const {
-    return view.at(model.mesh.x.col(node) + view.deformation * solution.u->segment<2>(2 * node));
+  bool draws(std::size_t g, int law_size) const {
+    return !layout.of_group[g].empty() && model.groups[g].element->traits().law_size == law_size;
+  }
+  Vector2 moved(int node, double deformation) const {
+    return view.at(model.mesh.x.col(node) + deformation * solution.u->segment<2>(2 * node));
+  }
+  // On the paper: one column a node of the element.
+  Eigen::Matrix2Xd nodes_of(const Group& group, int e, double deformation) const {
+    Eigen::Matrix2Xd at(2, static_cast<Eigen::Index>(group.node_count()));
+    for (Eigen::Index i = 0; i < at.cols(); ++i) at.col(i) = moved(group.nodes_of(e)[i], deformation);
+    return at;
   }
 };
 
-// Local nodes around an element: each corner, then the nodes inside the edge that follows it.
-std::vector<std::size_t> outline_nodes(const Element& element) {
-  std::vector<std::size_t> order;
+Scenery make_scenery(const Model& model, const Solution& solution, Field field, const PictureOptions& options) {
+  Scenery scenery{model, solution, nodal_layout(model, *solution.activity), {}, field, {}};
+  scenery.view = make_view(model, solution, scenery.layout, options);
+  scenery.parts = field_parts(model, solution, scenery.layout, field);
+  return scenery;
+}
+
+// The grid that an element of this size on the paper is drawn on.
+const SubGrid& grid_for(Scenery& scenery, const Element& element, const Eigen::Matrix2Xd& nodes) {
+  std::array<double, 2> longest{};  // of the sides along xi and along eta
+  const bool triangle = element.edges().size() == 3;
+  const auto parents = element.parent_nodes();
   for (const std::vector<int>& edge : element.edges()) {
-    order.push_back(static_cast<std::size_t>(edge[0]));
-    for (std::size_t i = 2; i < edge.size(); ++i) order.push_back(static_cast<std::size_t>(edge[i]));
+    const auto &a = parents[static_cast<std::size_t>(edge[0])], &b = parents[static_cast<std::size_t>(edge[1])];
+    double& side = longest[triangle || a[1] == b[1] ? 0 : 1];
+    side = std::max(side, (nodes.col(edge[0]) - nodes.col(edge[1])).norm());
   }
-  return order;
+  const int degree = element.degree();
+  const int xi = sub_grid_cells(longest[0], degree), eta = triangle ? xi : sub_grid_cells(longest[1], degree);
+  const auto [at, added] = scenery.grids.try_emplace({&element, xi, eta});
+  if (added) at->second = sub_grid(element, xi, eta);
+  return at->second;
 }
 
-// Shape functions at the centre of an element: exact for 4, 6, 8, 9, 25, 49 and 81 nodes.
-std::vector<double> centre_weights(std::size_t nodes, std::size_t corners) {
-  std::vector<double> w(nodes, 0.0);
-  const bool serendipity = nodes == 8 || nodes == 6;
-  const auto side = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(nodes))));
-  if (corners == 4 && side > 2 && side * side == nodes) {
-    // Squares of odd sides have a node there: 9, 25, 49, 81; their inner nodes come last, row by row.
-    const std::size_t inner = (side - 2) * (side - 2);
-    w[nodes - inner + inner / 2] = 1.0;
-  } else if (serendipity) {
-    for (std::size_t i = 0; i < nodes; ++i)
-      w[i] = nodes == 8 ? (i < corners ? -0.25 : 0.5) : (i < corners ? -1.0 / 9.0 : 4.0 / 9.0);
-  } else {
-    std::fill(w.begin(), w.begin() + static_cast<std::ptrdiff_t>(corners), 1.0 / static_cast<double>(corners));
-  }
-  return w;
-}
-
-std::vector<Patch> patches(const Scenery& scenery) {
+std::vector<Patch> patches(Scenery& scenery) {
   std::vector<Patch> result;
+  Eigen::MatrixXd at_nodes;
   for (std::size_t g = 0; g < scenery.model.groups.size(); ++g) {
+    if (!scenery.draws(g, 4)) continue;
     const Group& group = scenery.model.groups[g];
-    const std::vector<int>& entries = scenery.layout.of_group[g];
-    if (entries.empty() || group.element->traits().law_size != 4) continue;
-    const std::vector<std::size_t> order = outline_nodes(*group.element);
-    const std::vector<double> weights = centre_weights(group.node_count(), group.element->edges().size());
-    for (std::size_t at = 0; at < entries.size(); at += group.node_count()) {
-      const auto corner = [&](std::size_t i) {
-        const int entry = entries[at + i];
-        return Corner{scenery.moved(scenery.layout.node[static_cast<std::size_t>(entry)]),
-                      scenery.values[static_cast<std::size_t>(entry)]};
-      };
-      Patch patch{{}, {Vector2::Zero(), 0.0}};
-      for (std::size_t i : order) patch.outline.push_back(corner(i));
-      for (std::size_t i = 0; i < weights.size(); ++i) {
-        const Corner c = corner(i);
-        patch.centre.at += weights[i] * c.at;
-        patch.centre.value += weights[i] * c.value;
-      }
-      result.push_back(std::move(patch));
+    const int* entry = scenery.layout.of_group[g].data();
+    at_nodes.resize(scenery.parts.components, static_cast<Eigen::Index>(group.node_count()));
+    for (int e = 0; e < group.elements(); ++e, entry += group.node_count()) {
+      for (Eigen::Index i = 0; i < at_nodes.cols(); ++i) at_nodes.col(i) = scenery.parts.at.col(entry[i]);
+      const Eigen::Matrix2Xd nodes = scenery.nodes_of(group, e, scenery.view.deformation);
+      const SubGrid& grid = grid_for(scenery, *group.element, nodes);
+      const Eigen::Matrix2Xd places = nodes * grid.N.transpose();
+      const Eigen::MatrixXd parts = at_nodes * grid.N.transpose();
+      Patch& patch = result.emplace_back(Patch{&grid.cells, {}});
+      for (Eigen::Index p = 0; p < places.cols(); ++p)
+        patch.places.push_back({places.col(p), field_value(scenery.field, scenery.parts, parts.col(p).data())});
     }
   }
   return result;
 }
 
-// One colour an element: the mean over its outline.
+// One colour an element: the mean over its grid.
 void flatten(std::vector<Patch>& all) {
   for (Patch& patch : all) {
     double mean = 0.0;
-    for (const Corner& c : patch.outline) mean += c.value / static_cast<double>(patch.outline.size());
-    for (Corner& c : patch.outline) c.value = mean;
-    patch.centre.value = mean;
+    for (const Corner& c : patch.places) mean += c.value / static_cast<double>(patch.places.size());
+    for (Corner& c : patch.places) c.value = mean;
   }
 }
 
-std::pair<double, double> range_of(const std::vector<Patch>& all) {
-  if (all.empty()) return {0.0, 0.0};
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+// A field that stays at a limit of a band (stress level 1) differs from it by rounding only, up and down; drawn
+// so it would be patches of two colours.
+void snap(std::vector<Patch>& all, const std::vector<double>& limits) {
+  const double near = 1e-4 * (limits[1] - limits[0]);
+  for (Patch& patch : all)
+    for (Corner& c : patch.places)
+      for (double limit : limits)
+        if (std::abs(c.value - limit) < near) c.value = limit;
+}
+
+FieldRange range_of(const std::vector<Patch>& all) {
+  FieldRange range;
   for (const Patch& patch : all)
-    for (const Corner& c : patch.outline) {
-      low = std::min(low, c.value);
-      high = std::max(high, c.value);
+    for (const Corner& c : patch.places) {
+      range.low = std::min(range.low, c.value);
+      range.high = std::max(range.high, c.value);
     }
-  return {low, high};
+  return range;
 }
 
 // The three lines above a picture.
@@ -178,46 +191,74 @@ void draw_bands(std::string& out, const std::vector<Patch>& all, const std::vect
 
 void draw_mesh(std::string& out, const std::vector<Patch>& all) {
   std::string path;
-  for (const Patch& patch : all) append_path(path, patch.outline);
+  for (const Patch& patch : all) append_path(path, polygon_of(patch, patch.grid->outline));
   fmt::format_to(
       std::back_inserter(out),
       "<path fill=\"none\" stroke=\"#000000\" stroke-opacity=\"0.28\" stroke-width=\"0.6\" d=\"{}\"/>\n", path);
 }
 
+void append_line(std::string& path, const Eigen::Matrix2Xd& places) {
+  for (Eigen::Index i = 0; i < places.cols(); ++i)
+    fmt::format_to(std::back_inserter(path), "{}{:.2f} {:.2f}", i == 0 ? 'M' : 'L', places(0, i), places(1, i));
+}
+
 // Edges of solids that only one element has, undeformed.
-void draw_outline(std::string& out, const Scenery& scenery) {
-  std::map<std::pair<int, int>, int> uses;
+void draw_outline(std::string& out, Scenery& scenery) {
+  struct Edge {
+    std::size_t group;
+    int element;
+    std::size_t edge;
+    int uses;
+  };
+  std::map<std::pair<int, int>, Edge> edges;
   for (std::size_t g = 0; g < scenery.model.groups.size(); ++g) {
+    if (!scenery.draws(g, 4)) continue;
     const Group& group = scenery.model.groups[g];
-    if (scenery.layout.of_group[g].empty() || group.element->traits().law_size != 4) continue;
     for (int e = 0; e < group.elements(); ++e)
-      for (const std::vector<int>& edge : group.element->edges()) {
-        const int a = group.nodes_of(e)[edge[0]], b = group.nodes_of(e)[edge[1]];
-        ++uses[{std::min(a, b), std::max(a, b)}];
+      for (std::size_t k = 0; k < group.element->edges().size(); ++k) {
+        const std::vector<int>& edge = group.element->edges()[k];
+        ++edges
+              .try_emplace(std::minmax(group.nodes_of(e)[edge[0]], group.nodes_of(e)[edge[1]]),
+                           Edge{g, e, k, 0})
+              .first->second.uses;
       }
   }
-  out += "<g stroke=\"#666666\" stroke-width=\"1\" stroke-dasharray=\"5 4\">\n";
-  for (const auto& [ends, count] : uses) {
-    if (count != 1) continue;
-    const Vector2 a = scenery.view.at(scenery.model.mesh.x.col(ends.first));
-    const Vector2 b = scenery.view.at(scenery.model.mesh.x.col(ends.second));
-    fmt::format_to(std::back_inserter(out), "<path d=\"M{:.2f} {:.2f}L{:.2f} {:.2f}\"/>\n", a.x(), a.y(), b.x(),
-                   b.y());
+  out += "<g fill=\"none\" stroke=\"#666666\" stroke-width=\"1\" stroke-dasharray=\"5 4\">\n";
+  for (const auto& [ends, edge] : edges) {
+    if (edge.uses != 1) continue;
+    const Group& group = scenery.model.groups[edge.group];
+    const Eigen::Matrix2Xd nodes = scenery.nodes_of(group, edge.element, 0.0);
+    const SubGrid& grid = grid_for(scenery, *group.element, nodes);
+    std::string path;
+    append_line(path, nodes * grid.N(grid.edges[edge.edge], Eigen::all).transpose());
+    fmt::format_to(std::back_inserter(out), "<path d=\"{}\"/>\n", path);
   }
   out += "</g>\n";
 }
 
+// Both faces of every interface.  Three nodes lie on a parabola, as those of the solids beside it.
 void draw_interfaces(std::string& out, const Scenery& scenery) {
+  std::string path;
   for (std::size_t g = 0; g < scenery.model.groups.size(); ++g) {
+    if (!scenery.draws(g, 2)) continue;
     const Group& group = scenery.model.groups[g];
-    if (scenery.layout.of_group[g].empty() || group.element->traits().law_size != 2) continue;
     for (int e = 0; e < group.elements(); ++e)
       for (const std::vector<int>& side : group.element->edges()) {
-        const Vector2 a = scenery.moved(group.nodes_of(e)[side[0]]),
-                      b = scenery.moved(group.nodes_of(e)[side[1]]);
-        svg::line(out, a.x(), a.y(), b.x(), b.y(), "#b2182b", 1.8);
+        std::vector<Vector2> at;
+        for (int node : side) at.push_back(scenery.moved(group.nodes_of(e)[node], scenery.view.deformation));
+        fmt::format_to(std::back_inserter(path), "M{:.2f} {:.2f}", at[0].x(), at[0].y());
+        if (at.size() == 3) {
+          const Vector2 control = 2.0 * at[2] - 0.5 * (at[0] + at[1]);
+          fmt::format_to(std::back_inserter(path), "Q{:.2f} {:.2f} ", control.x(), control.y());
+        } else {
+          path += 'L';
+        }
+        fmt::format_to(std::back_inserter(path), "{:.2f} {:.2f}", at[1].x(), at[1].y());
       }
   }
+  if (!path.empty())
+    fmt::format_to(std::back_inserter(out),
+                   "<path fill=\"none\" stroke=\"#b2182b\" stroke-width=\"1.8\" d=\"{}\"/>\n", path);
 }
 
 void draw_axes(std::string& out, const Scenery& scenery) {
@@ -272,16 +313,23 @@ void draw_legend(std::string& out, const std::vector<double>& limits, double lef
 
 }  // namespace
 
+FieldRange field_range(const Model& model, const Solution& solution, Field field,
+                       const PictureOptions& options) {
+  Scenery scenery = make_scenery(model, solution, field, options);
+  return range_of(patches(scenery));
+}
+
 std::string field_svg(const Model& model, const Solution& solution, Field field,
                       const PictureOptions& options) {
-  Scenery scenery{model, solution, nodal_layout(model, *solution.activity), {}, {}};
-  scenery.view = make_view(model, solution, scenery.layout, options);
-  scenery.values = field_values(model, solution, scenery.layout, field);
+  Scenery scenery = make_scenery(model, solution, field, options);
   std::vector<Patch> all = patches(scenery);
-  const auto [lowest, highest] = range_of(all);
+  FieldRange range = range_of(all);
+  if (all.empty()) range = {0.0, 0.0};
+  const auto [lowest, highest] = range;
   const std::vector<double> limits = band_limits(std::isnan(options.low) ? lowest : options.low,
                                                  std::isnan(options.high) ? highest : options.high, kBands);
   if (!options.smooth) flatten(all);
+  snap(all, limits);
 
   const View& view = scenery.view;
   const Heading words{

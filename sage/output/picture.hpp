@@ -40,8 +40,17 @@ struct PictureOptions {
   double high = std::numeric_limits<double>::quiet_NaN();
 };
 
+struct FieldRange {
+  double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
+};
+
+// Of all places at which a picture with these options computes the field; low > high where no solid is active.
+FieldRange field_range(const Model& model, const Solution& solution, Field field,
+                       const PictureOptions& options = {});
+
 // A whole SVG document of the active groups.  Stress at nodes is averaged over the elements of the same
-// material; interfaces are dark lines.
+// material; between the nodes both stress and displacement are what the element's shape functions make of them.
+// Interfaces are dark red lines.
 std::string field_svg(const Model& model, const Solution& solution, Field field,
                       const PictureOptions& options = {});
 

@@ -35,6 +35,12 @@ void stress_values(const GroupData& data, std::size_t point, double* values) {
 
 double scalar(Field field, const double* values) {
   switch (field) {
+    case Field::displacement_x:
+      return values[0];
+    case Field::displacement_y:
+      return values[1];
+    case Field::displacement:
+      return std::hypot(values[0], values[1]);
     case Field::mean_stress:
       return mean_stress(values);
     case Field::deviator:
@@ -44,12 +50,6 @@ double scalar(Field field, const double* values) {
     default:
       return outward(values[static_cast<std::size_t>(field)]);
   }
-}
-
-double displacement_value(const Solution& s, Field field, int node) {
-  const Vector2 u = s.u->segment<2>(2 * node);
-  if (field == Field::displacement) return u.norm();
-  return field == Field::displacement_x ? u.x() : u.y();
 }
 
 }  // namespace
@@ -92,27 +92,27 @@ std::string describe_field(const Model& model, Field field) {
   return "";
 }
 
-std::vector<double> field_values(const Model& model, const Solution& s, const NodalLayout& layout,
-                                 Field field) {
-  std::vector<double> result;
-  double largest = 0.0;
+FieldParts field_parts(const Model& model, const Solution& s, const NodalLayout& layout, Field field) {
+  FieldParts parts;
+  const auto entries = static_cast<Eigen::Index>(layout.node.size());
   if (is_displacement(field)) {
-    for (int node : layout.node) {
-      result.push_back(displacement_value(s, field, node));
-      largest = std::max(largest, displacement_value(s, Field::displacement, node));
-    }
+    parts.components = 2;
+    parts.at.resize(2, entries);
+    for (Eigen::Index e = 0; e < entries; ++e)
+      parts.at.col(e) = s.u->segment<2>(2 * layout.node[static_cast<std::size_t>(e)]);
+    if (entries > 0) parts.largest = parts.at.colwise().norm().maxCoeff();
   } else {
     const std::vector<double> stress = nodal_average(model, s, layout, 5, stress_values);
-    for (std::size_t e = 0; e < layout.node.size(); ++e) {
-      const double* values = stress.data() + 5 * e;
-      result.push_back(scalar(field, values));
-      for (int i = 0; i < 4 && field != Field::stress_level; ++i)
-        largest = std::max(largest, std::abs(values[i]));
-    }
+    parts.components = 5;
+    parts.at = Eigen::Map<const Eigen::MatrixXd>(stress.data(), 5, entries);
+    if (entries > 0 && field != Field::stress_level) parts.largest = parts.at.topRows(4).cwiseAbs().maxCoeff();
   }
-  for (double& value : result)
-    if (std::abs(value) < kRoundOff * largest) value = 0.0;
-  return result;
+  return parts;
+}
+
+double field_value(Field field, const FieldParts& parts, const double* at) {
+  const double value = scalar(field, at);
+  return std::abs(value) < kRoundOff * parts.largest ? 0.0 : value;
 }
 
 }  // namespace sage

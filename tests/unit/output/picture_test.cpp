@@ -81,7 +81,8 @@ TEST(Contour, LimitsAreRoundAndHoldTheRange) {
 }
 
 TEST(Contour, PaintsLowBandsFirst) {
-  const Patch patch{{{{0, 0}, 0}, {{8, 0}, 2}, {{8, 8}, 2}, {{0, 8}, 0}}, {{4, 4}, 1}};
+  const CellGrid grid{{0, 1, 2, 3}, {{{0, 1, 2, 3}, 4}}};
+  const Patch patch{&grid, {{{0, 0}, 0}, {{8, 0}, 2}, {{8, 8}, 2}, {{0, 8}, 0}, {{4, 4}, 1}}};
   const std::vector<std::string> paths = band_paths({patch}, {0.0, 1.0, 2.0});
   ASSERT_EQ(paths.size(), 2u);
   EXPECT_EQ(paths[0], "M0 0L8 0L8 8L0 8Z");  // the whole element, then what is above 1 on top
