@@ -64,10 +64,12 @@ int card_limit(const ElementEntry& entry) {
   return entry.nodes > kMostCardNodes ? 2 * entry.corners : entry.nodes;
 }
 
-// Local node that the i-th node of a card is.
-std::size_t local_node(const Group& group, const ElementEntry& entry, std::size_t i) {
+// Local node that the i-th node of a card is, which gives so many: corners and the middle nodes of the sides,
+// or more.
+std::size_t local_node(const Group& group, const ElementEntry& entry, std::size_t i, std::size_t given) {
   const auto corners = static_cast<std::size_t>(entry.corners);
-  if (entry.nodes <= kMostCardNodes || i < corners) return i;
+  if (i < corners || (entry.nodes <= kMostCardNodes && given > 2 * corners)) return i;
+  if (entry.law_size == 2) return i;
   return static_cast<std::size_t>(middle_of(group.element->edges()[i - corners]));
 }
 
@@ -109,7 +111,7 @@ void add_element(Builder& b, const CardView& card, const ElementCard& element) {
                    : ""));
       return;
     }
-    index[local_node(group, entry, i)] = it->second;
+    index[local_node(group, entry, i, element.nodes.size())] = it->second;
   }
   group.element_numbers.push_back(element.number);
   group.element_lines.push_back(card.card().line);

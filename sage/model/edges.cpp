@@ -1,77 +1,165 @@
 #include "sage/model/edges.hpp"
 
 #include <algorithm>
+#include <array>
 #include <unordered_map>
 
 namespace sage::build {
 
 namespace {
 
-// What a node is held to, by the cards of one list; later cards win.
-class HeldNodes {
- public:
-  explicit HeldNodes(const std::vector<Fixity>& fixities) {
-    for (const Fixity& f : fixities) {
-      Fixity& all = of_node_[f.node];
-      all.node = f.node;
-      all.line = f.line;
-      for (std::size_t c = 0; c < 2; ++c)
-        if (f.code[c] != FixityCode::unchanged) {
-          all.code[c] = f.code[c];
-          all.value[c] = f.value[c];
-        }
-    }
+// A node on an edge, at its place 0 ... 1 from the smaller end node.
+struct OnEdge {
+  double at = 0.0;
+  int node = 0;
+};
+
+// An edge with nodes that were made, and the nodes there were before: its ends, and those that its cards give.
+struct CutEdge {
+  std::vector<OnEdge> known, made;
+
+  // The first known node behind a made one; there is one before it too.
+  std::size_t behind(const OnEdge& node) const {
+    std::size_t i = 1;
+    while (i + 1 < known.size() && known[i].at < node.at) ++i;
+    return i;
   }
-  const Fixity* find(int node) const {
-    const auto it = of_node_.find(node);
-    return it == of_node_.end() ? nullptr : &it->second;
+};
+
+// Edges whose made nodes take something over: outer ones, and inner ones whose own middle node says what is
+// meant.
+std::vector<CutEdge> cut_edges(const MadeEdges& edges, int first_made) {
+  std::vector<CutEdge> cut;
+  for (const auto& [ends, edge] : edges) {
+    CutEdge one{{{0.0, ends.first}, {1.0, ends.second}}, {}};
+    for (std::size_t i = 0; i < edge.nodes.size(); ++i)
+      (edge.nodes[i] < first_made ? one.known : one.made).push_back({edge.at[i], edge.nodes[i]});
+    if (one.made.empty() || (edge.solids > 1 && one.known.size() == 2)) continue;
+    std::sort(one.known.begin(), one.known.end(), [](const OnEdge& a, const OnEdge& b) { return a.at < b.at; });
+    cut.push_back(std::move(one));
+  }
+  return cut;
+}
+
+// What holds every component of every node, one list of cards after the other: those before the stages, then
+// those of each stage.
+class Supports {
+ public:
+  explicit Supports(int nodes) : held_(2 * static_cast<std::size_t>(nodes), 0) {}
+
+  // The cards of a list, later ones win; then those for the nodes that were made are added to it.
+  void follow(std::vector<Fixity>& list, const std::vector<CutEdge>& edges) {
+    cards_.clear();
+    for (const Fixity& f : list) {
+      Fixity& all = cards_.try_emplace(f.node, Fixity{f.node, {}, {}, f.line}).first->second;
+      all.line = f.line;
+      for (std::size_t c = 0; c < 2; ++c) {
+        if (f.code[c] == FixityCode::unchanged) continue;
+        all.code[c] = f.code[c];
+        all.value[c] = f.value[c];
+        held(f.node, c) = f.code[c] == FixityCode::fixed;
+      }
+    }
+    if (cards_.empty()) return;
+    for (const CutEdge& edge : edges) add_cards(edge, list);
   }
 
  private:
-  std::unordered_map<int, Fixity> of_node_;
-};
+  char& held(int node, std::size_t c) { return held_[2 * static_cast<std::size_t>(node) + c]; }
 
-void inherit_fixities(std::vector<Fixity>& fixities, const MadeEdges& edges) {
-  const HeldNodes held(fixities);
-  for (const auto& [ends, edge] : edges) {
-    const Fixity *a = held.find(ends.first), *z = held.find(ends.second);
-    if (edge.solids > 1 || a == nullptr || z == nullptr) continue;
-    for (std::size_t i = 0; i < edge.nodes.size(); ++i) {
-      const double t = edge.at[i];
-      Fixity mid;
-      mid.node = edge.nodes[i];
-      mid.line = a->line;
-      bool any = false;
+  const Fixity* card(int node) const {
+    const auto it = cards_.find(node);
+    return it == cards_.end() ? nullptr : &it->second;
+  }
+
+  // Displacement that this list adds to a held node.
+  double value(int node, std::size_t c) const {
+    const Fixity* f = card(node);
+    return f != nullptr && f->code[c] == FixityCode::fixed ? f->value[c] : 0.0;
+  }
+
+  // Through all known nodes of the edge where all of them are held, else through the two around the made one.
+  double interpolated(const CutEdge& edge, const OnEdge& made, std::size_t behind, std::size_t c) {
+    const bool all = std::all_of(edge.known.begin(), edge.known.end(),
+                                 [&](const OnEdge& known) { return held(known.node, c) != 0; });
+    const std::size_t first = all ? 0 : behind - 1, end = all ? edge.known.size() : behind + 1;
+    double sum = 0.0;
+    for (std::size_t i = first; i < end; ++i) {
+      double part = value(edge.known[i].node, c);
+      for (std::size_t j = first; j < end; ++j)
+        if (j != i) part *= (made.at - edge.known[j].at) / (edge.known[i].at - edge.known[j].at);
+      sum += part;
+    }
+    return sum;
+  }
+
+  // Both nodes around a made one are held.  Where a card gives a middle node that is enough.  Else one list
+  // must hold both: the ends of a long edge may belong to two other sides.
+  bool holds(const CutEdge& edge, const OnEdge& made, std::size_t behind, std::size_t c) {
+    const int before = edge.known[behind - 1].node, after = edge.known[behind].node;
+    if (held(before, c) == 0 || held(after, c) == 0) return false;
+    const auto here = [&](int node) {
+      return card(node) != nullptr && card(node)->code[c] == FixityCode::fixed;
+    };
+    return edge.known.size() > 2 || held(made.node, c) != 0 || (here(before) && here(after));
+  }
+
+  void add_cards(const CutEdge& edge, std::vector<Fixity>& list) {
+    const Fixity* first = nullptr;
+    std::array<bool, 2> touched{};
+    for (const OnEdge& known : edge.known) {
+      const Fixity* f = card(known.node);
+      if (f == nullptr) continue;
+      if (first == nullptr) first = f;
+      for (std::size_t c = 0; c < 2; ++c) touched[c] = touched[c] || f->code[c] != FixityCode::unchanged;
+    }
+    if (first == nullptr) return;
+    for (const OnEdge& made : edge.made) {
+      const std::size_t behind = edge.behind(made);
+      Fixity f{made.node, {}, {}, first->line};
       for (std::size_t c = 0; c < 2; ++c) {
-        mid.code[c] = a->code[c] == z->code[c] ? a->code[c] : FixityCode::unchanged;
-        mid.value[c] = mid.code[c] == FixityCode::fixed ? (1 - t) * a->value[c] + t * z->value[c] : 0.0;
-        any = any || mid.code[c] != FixityCode::unchanged;
+        if (!touched[c]) continue;
+        const bool hold = holds(edge, made, behind, c);
+        if (!hold && held(made.node, c) == 0) continue;
+        f.code[c] = hold ? FixityCode::fixed : FixityCode::released;
+        if (hold) f.value[c] = interpolated(edge, made, behind, c);
+        held(made.node, c) = hold;
       }
-      if (any) fixities.push_back(mid);
+      if (f.code[0] != FixityCode::unchanged || f.code[1] != FixityCode::unchanged) list.push_back(f);
     }
   }
-}
 
-void inherit_report(Report& report, const MadeEdges& edges) {
+  std::vector<char> held_;
+  std::unordered_map<int, Fixity> cards_;  // of the list in hand, by node
+};
+
+void inherit_report(Report& report, const std::vector<CutEdge>& edges) {
   std::vector<int> listed = report.nodes;
   std::sort(listed.begin(), listed.end());
-  const auto has = [&](int node) { return std::binary_search(listed.begin(), listed.end(), node); };
-  for (const auto& [ends, edge] : edges)
-    if (edge.solids <= 1 && has(ends.first) && has(ends.second))
-      for (int node : edge.nodes)
-        if (!has(node)) report.nodes.push_back(node);
+  const auto has = [&](const OnEdge& known) {
+    return std::binary_search(listed.begin(), listed.end(), known.node);
+  };
+  for (const CutEdge& edge : edges)
+    for (const OnEdge& made : edge.made) {
+      const std::size_t behind = edge.behind(made);
+      if (has(edge.known[behind - 1]) && has(edge.known[behind])) report.nodes.push_back(made.node);
+    }
 }
 
 }  // namespace
 
-void inherit_along_edges(Model& model, const MadeEdges& edges) {
-  inherit_fixities(model.fixities, edges);
-  for (Stage& stage : model.stages) inherit_fixities(stage.fixities, edges);
-  for (Report& report : model.reports) inherit_report(report, edges);
+void inherit_along_edges(Model& model, const MadeEdges& edges, int first_made) {
+  const std::vector<CutEdge> cut = cut_edges(edges, first_made);
+  if (cut.empty()) return;
+  Supports supports(model.mesh.nodes());
+  supports.follow(model.fixities, cut);
+  for (Stage& stage : model.stages) supports.follow(stage.fixities, cut);
+  for (Report& report : model.reports) inherit_report(report, cut);
 }
 
-void NewNodes::append() {
-  if (made_.empty()) return;
+int NewNodes::append() {
+  const int first_made = first_;
+  if (made_.empty()) return first_made;
   const Eigen::Index old = mesh_->x.cols();
   mesh_->x.conservativeResize(2, old + static_cast<Eigen::Index>(made_.size()));
   int number = *std::max_element(mesh_->number.begin(), mesh_->number.end());
@@ -81,6 +169,7 @@ void NewNodes::append() {
   }
   first_ = mesh_->nodes();
   made_.clear();
+  return first_made;
 }
 
 }  // namespace sage::build

@@ -18,10 +18,10 @@ inline EdgeKey edge_key(int a, int z) {
   return {std::min(a, z), std::max(a, z)};
 }
 
-// Nodes inside an edge, from its smaller to its larger end node.
+// Nodes inside an edge: those that cards give, and those that are made.
 struct MadeEdge {
   std::vector<int> nodes;
-  std::vector<double> at;  // place of each, 0 ... 1
+  std::vector<double> at;  // place of each, 0 ... 1 from the smaller to the larger end node
   // Solids that have the edge; 1 = boundary (an interface beyond it is another body), 0 = an interface on a
   // rigid body.
   int solids = 0;
@@ -29,9 +29,12 @@ struct MadeEdge {
 
 using MadeEdges = std::map<EdgeKey, MadeEdge>;
 
-// Nodes of a boundary edge are held as both of its ends are, prescribed displacements linear between them, and
-// belong to the reports that list both ends.
-void inherit_along_edges(Model& model, const MadeEdges& edges);
+// What nodes that were made (indices from first_made on) take over from those that their edge had before, which
+// keep what the deck says of them.  A made node is held while both known nodes around it are: on an outer edge
+// if one list of cards (those before the stages, or those of one stage) holds both, on an edge whose middle
+// node a card gives in any case.  Prescribed displacements are interpolated through all known nodes of the
+// edge.  It belongs to the reports that list both nodes around it.
+void inherit_along_edges(Model& model, const MadeEdges& edges, int first_made);
 
 // New nodes of a mesh, appended when all are known.
 class NewNodes {
@@ -44,7 +47,7 @@ class NewNodes {
   Vector2 at(int node) const {
     return node < first_ ? Vector2(mesh_->x.col(node)) : made_[static_cast<std::size_t>(node - first_)];
   }
-  void append();
+  int append();  // index of the first of them
 
  private:
   Mesh* mesh_;

@@ -120,8 +120,8 @@ void make_mid_nodes(Builder& b) {
   Making made{NewNodes(b.model.mesh), {}, {}, {}};
   for (const Group& group : b.model.groups) find_given(group, made.given);
   for (Group& group : b.model.groups) make_group(b, group, made);
-  made.nodes.append();
-  inherit_along_edges(b.model, made.edges);
+  const int first_made = made.nodes.append();
+  inherit_along_edges(b.model, made.edges, first_made);
 }
 
 }  // namespace sage::build

@@ -1,4 +1,7 @@
 // Refinement and grading that BuildOptions ask for, and what they mean for the rest of the model.
+#include <algorithm>
+
+#include "sage/model/activity.hpp"
 #include "sage/model/subdivide.hpp"
 
 namespace sage::build {
@@ -11,6 +14,47 @@ std::vector<char> used_nodes(const Model& model) {
     for (int node : group.nodes)
       if (node >= 0) used[static_cast<std::size_t>(node)] = 1;
   return used;
+}
+
+// Middle nodes that cards give, with the ends of their edges.
+std::map<int, EdgeKey> given_middles(const Model& model) {
+  std::map<int, EdgeKey> middles;
+  for (const Group& group : model.groups)
+    for (int e = 0; e < group.elements(); ++e)
+      for (const std::vector<int>& edge : group.element->edges()) {
+        const int* nodes = group.nodes_of(e);
+        const int middle = middle_of(edge) < 0 ? -1 : nodes[middle_of(edge)];
+        if (middle >= 0) middles.emplace(middle, edge_key(nodes[edge[0]], nodes[edge[1]]));
+      }
+  return middles;
+}
+
+// Supports of middle nodes that grading cut off: new nodes beside them have them only where the ends of the
+// edge are held too.
+void refuse_lost_supports(Builder& b, const std::map<int, EdgeKey>& middles, const std::vector<char>& used) {
+  const auto check = [&](const std::vector<char>& held, const std::vector<Fixity>& cards) {
+    for (const Fixity& f : cards) {
+      const auto it = middles.find(f.node);
+      if (it == middles.end() || used[static_cast<std::size_t>(f.node)]) continue;
+      for (std::size_t c = 0; c < 2; ++c) {
+        const auto is_held = [&](int node) { return held[2 * static_cast<std::size_t>(node) + c] != 0; };
+        if (f.code[c] != FixityCode::fixed || (is_held(it->second.first) && is_held(it->second.second)))
+          continue;
+        b.error({b.deck.file, f.line, 0, 0},
+                "node " + std::to_string(b.model.mesh.number[static_cast<std::size_t>(f.node)]) +
+                    " is held along " + (c == 0 ? "x" : "y") +
+                    " but is no node of the graded mesh, and the ends of its edge are not both held; --refine "
+                    "keeps "
+                    "it");
+      }
+    }
+  };
+  Activity activity(b.model);
+  check(activity.held, b.model.fixities);
+  for (const Stage& stage : b.model.stages) {
+    activity.enter(stage);
+    check(activity.held, stage.fixities);
+  }
 }
 
 // Mid-side nodes that grading left without an element.
@@ -30,7 +74,16 @@ void drop_lost_nodes(Builder& b, std::vector<char> lost) {
                 "node " + std::to_string(model.mesh.number[static_cast<std::size_t>(load.node)]) +
                     " is loaded but is no node of the graded mesh; load its edge by a pressure card");
   }
-  for (Report& report : model.reports) std::erase_if(report.nodes, is_lost);
+  for (Report& report : model.reports) {
+    const auto of_deck = std::count_if(report.nodes.begin(), report.nodes.end(),
+                                       [&](int node) { return node < model.mesh.deck_nodes && is_lost(node); });
+    if (of_deck > 0)
+      b.note(report.where,
+             std::to_string(of_deck) +
+                 " node(s) of this report are no nodes of the graded mesh: they don't count in its mean "
+                 "displacement");
+    std::erase_if(report.nodes, is_lost);
+  }
 }
 
 void warn_point_loads(Builder& b) {
@@ -63,6 +116,7 @@ void refine_as_asked(Builder& b) {
   const BuildOptions& options = b.options;
   if (options.refine <= 0 && options.gradings.empty()) return;
   const std::vector<char> before = used_nodes(b.model);
+  const std::map<int, EdgeKey> middles = given_middles(b.model);
   warn_point_loads(b);
   refine(b, options.refine);
   for (const Grading& grading : options.gradings)
@@ -73,6 +127,7 @@ void refine_as_asked(Builder& b) {
           "mesh graded towards node " + std::to_string(b.model.mesh.number[static_cast<std::size_t>(node)]) +
               ": where the corner is singular the stress at it does not converge, it grows with every layer");
     }
+  refuse_lost_supports(b, middles, used_nodes(b.model));
   drop_lost_nodes(b, before);
 }
 

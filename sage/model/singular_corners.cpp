@@ -16,6 +16,7 @@ enum class Side { free, held, mirror };  // mirror: held along or across only
 struct BoundaryEdge {
   int a = 0, z = 0;  // counter-clockwise: the body is to the left
   int group = 0, element = 0, edge = 0;
+  int middle = -1;  // where a card gives it
 };
 
 double degrees(double radians) {
@@ -23,8 +24,8 @@ double degrees(double radians) {
 }
 
 // Boundary edges by their ends, angles of the body at each node.  An edge is held where one list of fixities
-// holds both of its ends: the ends of a long edge may belong to two other sides.  The same rule makes nodes on
-// it inherit.
+// holds both of its ends, and the middle node that a card gives: the ends of a long edge may belong to two
+// other sides.
 struct Outline {
   std::vector<BoundaryEdge> edges;
   std::map<int, std::vector<std::size_t>> leaving, arriving;
@@ -39,12 +40,22 @@ struct Outline {
         if (f.code[c] != FixityCode::unchanged) codes[f.node][c] = f.code[c];
     held.resize(edges.size(), {false, false});
     for (std::size_t i = 0; i < edges.size(); ++i) {
-      const auto a = codes.find(edges[i].a), z = codes.find(edges[i].z);
+      const BoundaryEdge& edge = edges[i];
       for (std::size_t c = 0; c < 2; ++c) {
-        const FixityCode at_a = a == codes.end() ? FixityCode::unchanged : a->second[c];
-        const FixityCode at_z = z == codes.end() ? FixityCode::unchanged : z->second[c];
-        if (at_a == FixityCode::fixed && at_z == FixityCode::fixed) held[i][c] = true;
-        if (at_a == FixityCode::released || at_z == FixityCode::released) held[i][c] = false;
+        const auto code = [&](int node) {
+          const auto it = codes.find(node);
+          return it == codes.end() ? FixityCode::unchanged : it->second[c];
+        };
+        const auto all = [&](FixityCode wanted) {
+          return code(edge.a) == wanted && code(edge.z) == wanted &&
+                 (edge.middle < 0 || code(edge.middle) == wanted);
+        };
+        const auto any = [&](FixityCode wanted) {
+          return code(edge.a) == wanted || code(edge.z) == wanted ||
+                 (edge.middle >= 0 && code(edge.middle) == wanted);
+        };
+        if (all(FixityCode::fixed)) held[i][c] = true;
+        if (any(FixityCode::released)) held[i][c] = false;
       }
     }
   }
@@ -67,7 +78,8 @@ Outline outline_of(const Model& model) {
         const int a = n[edges[i][0]], z = n[edges[i][1]];
         const int before = n[edges[(i + edges.size() - 1) % edges.size()][0]];
         ++uses[edge_key(a, z)];
-        all.push_back({a, z, static_cast<int>(g), e, static_cast<int>(i)});
+        const int middle = middle_of(edges[i]) < 0 ? -1 : n[middle_of(edges[i])];
+        all.push_back({a, z, static_cast<int>(g), e, static_cast<int>(i), middle});
         const Vector2 out = model.mesh.x.col(z) - model.mesh.x.col(a),
                       in = model.mesh.x.col(before) - model.mesh.x.col(a);
         outline.angle[a] += degrees(std::atan2(out.x() * in.y() - out.y() * in.x(), out.dot(in)));

@@ -117,10 +117,30 @@ Subdivision::Subdivision(Builder& b) : b_(&b), nodes_(b.model.mesh) {
     check_nodes(b, group, b.catalogue.elements.find(group.element_code)->corners);
     for (const int number : group.element_numbers) last_number_ = std::max(last_number_, number);
     for (int e = 0; e < group.elements(); ++e)
-      for (const auto& edge : group.element->edges())
-        edges_[edge_key(group.nodes_of(e)[edge[0]], group.nodes_of(e)[edge[1]])].solids +=
-            is_interface(group) ? 0 : 1;
+      for (const auto& edge : group.element->edges()) {
+        const int* nodes = group.nodes_of(e);
+        MadeEdge& known = edges_[edge_key(nodes[edge[0]], nodes[edge[1]])];
+        known.solids += is_interface(group) ? 0 : 1;
+        const int middle = middle_of(edge) < 0 ? -1 : nodes[middle_of(edge)];
+        if (middle < 0 || !known.nodes.empty()) continue;
+        known.nodes.push_back(middle);
+        known.at.push_back(0.5);
+      }
   }
+  share_middles();
+}
+
+// A middle node that only one of the elements of an edge gives is that of the others too.
+void Subdivision::share_middles() {
+  for (Group& group : b_->model.groups)
+    for (int e = 0; e < group.elements(); ++e) {
+      int* nodes = group.nodes.data() + static_cast<std::size_t>(e) * group.node_count();
+      for (const auto& edge : group.element->edges()) {
+        if (middle_of(edge) < 0 || nodes[middle_of(edge)] >= 0) continue;
+        const MadeEdge& known = edges_[edge_key(nodes[edge[0]], nodes[edge[1]])];
+        if (!known.nodes.empty()) nodes[middle_of(edge)] = known.nodes.front();
+      }
+    }
 }
 
 // The node at t on an edge, seen alike from both of its elements: places are counted from the nearer end.
@@ -240,8 +260,8 @@ void Subdivision::carry_loads(Stage& stage) const {
 }
 
 void Subdivision::finish() {
-  nodes_.append();
-  inherit_along_edges(b_->model, edges_);
+  const int first_made = nodes_.append();
+  inherit_along_edges(b_->model, edges_, first_made);
   for (Stage& stage : b_->model.stages) carry_loads(stage);
 }
 

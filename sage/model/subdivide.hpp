@@ -34,6 +34,7 @@ class Subdivision {
   };
   struct SplitElement;
 
+  void share_middles();
   int node_at(SplitElement& parent, const Place& q, bool middle);
   int cut(int a, int z, int middle, double t);
   void carry_loads(Stage& stage) const;
