@@ -1,0 +1,107 @@
+#include "sage/app/program.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <string>
+#include <system_error>
+
+#include "sage/app/commands.hpp"
+#include "sage/app/exit_codes.hpp"
+
+namespace sage::app {
+
+namespace {
+
+constexpr const char* kDescription =
+    "sagefe: 2-D geotechnical finite elements (plane strain and axisymmetry) from fixed-format decks.\n"
+    "Try:  sagefe run DECK         compute a deck\n"
+    "      sagefe check DECK       read and validate it, compute nothing\n"
+    "      sagefe list elements    what a deck can ask for";
+constexpr const char* kFooter =
+    "Signs: outside, compression is positive for stress and strain; inside and in displacements, axes are.\n"
+    "Exit codes: 0 done, 1 command line, 2 input, 3 no equilibrium or singular, 4 output could not be written.";
+
+struct Entry {
+  const char* name;
+  const char* about;
+  Command (*add_options)(CLI::App& parser);
+};
+
+constexpr Entry kCommands[] = {
+    {"run", "compute decks; listing, CSV and reports go to the output folder", run_command},
+    {"check", "read and validate decks; compute nothing", check_command},
+    {"echo", "show each card of a deck as it was read, under a column ruler", echo_command},
+    {"list", "show the elements, materials or solvers that a deck can ask for", list_command},
+    {"tables", "rerun the source chapter's Tables 7.3 and 7.4 beside its numbers", tables_command},
+    {"convert", "write a deck or Gmsh mesh as sage1 deck (.dat), Gmsh mesh (.msh) or CalculiX input (.inp)",
+     convert_command},
+    {"verify", "the verification book: cases against closed forms, converged references and published values",
+     verify_command},
+    {"compare", "two decks, or one deck in two ways, side by side: forces, stresses, lines, theory, pictures",
+     compare_command},
+    {"stress", "stability stress test: everything swept to the edge must be right or say what is wrong",
+     stress_command},
+};
+
+// The command that the first word which is no option names, whose options alone are made; nullptr, and said,
+// where it is none.
+const Entry* find_command(const std::string& word) {
+  std::string known;
+  for (const Entry& entry : kCommands) {
+    if (word == entry.name) return &entry;
+    known += std::string(" ") + entry.name;
+  }
+  // The parser itself would only ask for one.
+  fmt::print(stderr, "sagefe: unknown command {}; known:{}\n", word, known);
+  return nullptr;
+}
+
+int run_command_line(int argc, char** argv) {
+  CLI::App root(kDescription, "sagefe");
+  root.footer(kFooter);
+  root.require_subcommand(1);
+  root.set_version_flag("--version", "sagefe " SAGE_VERSION);
+  int word = 1;
+  while (word < argc && argv[word][0] == '-') ++word;  // sagefe --help run
+  const bool named = word < argc;
+  const Entry* chosen = named ? find_command(argv[word]) : nullptr;
+  if (named && chosen == nullptr) return kUsage;
+  Command execute;
+  for (const Entry& entry : kCommands) {
+    CLI::App* parser = root.add_subcommand(entry.name, entry.about);
+    if (&entry == chosen) execute = entry.add_options(*parser);
+  }
+  try {
+    root.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return root.exit(error) == 0 ? kOk : kUsage;
+  }
+  return execute ? guarded("sagefe", execute) : kUsage;
+}
+
+// Where the caller closed a standard stream, a file of results would take its number, and messages would go
+// there.
+void fill_standard_streams() {
+  for (int stream : {0, 1, 2})
+    if (fcntl(stream, F_GETFD) == -1 && open("/dev/null", O_RDWR) == -1) return;
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv) {
+  fill_standard_streams();
+  int code = kOutput;
+  try {
+    code = run_command_line(argc, argv);
+  } catch (const std::system_error&) {
+    return kOutput;  // not even a message could be written
+  }
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  fmt::print(stderr, "sagefe: standard output could not be written\n");
+  return kOutput;
+}
+
+}  // namespace sage::app
