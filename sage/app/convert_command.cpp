@@ -69,11 +69,9 @@ int convert(const ConvertOptions& options) {
   }
   const Catalogue catalogue = full_catalogue();
   Model model = read_model(options, catalogue);
-  OutFile file(options.to);
-  file.text() = to == ".dat"   ? sage1_text(model, catalogue, model.diagnostics)
-                : to == ".msh" ? msh_text(model, catalogue, model.diagnostics)
-                               : inp_text(model, catalogue, model.diagnostics);
-  file.finish();
+  write_file(options.to, to == ".dat"   ? sage1_text(model, catalogue, model.diagnostics)
+                         : to == ".msh" ? msh_text(model, catalogue, model.diagnostics)
+                                        : inp_text(model, catalogue, model.diagnostics));
   if (to == ".inp") warn_of_results(options.to, model.diagnostics);
   print_diagnostics(model.diagnostics);
   fmt::print("{}: {} nodes, {} groups{}\n", options.to, model.mesh.nodes(), model.groups.size(),

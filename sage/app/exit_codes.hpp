@@ -9,4 +9,7 @@ inline constexpr int kInput = 2;         // a deck, layout or mesh file
 inline constexpr int kNotConverged = 3;  // the analysis: no equilibrium, singular matrix
 inline constexpr int kOutput = 4;        // results could not be written
 
+// All of them, for tests.
+inline constexpr int kExitCodes[] = {kOk, kUsage, kInput, kNotConverged, kOutput};
+
 }  // namespace sage::app

@@ -103,6 +103,17 @@ TEST(CommandLine, ConvertNeverReplacesTheDeckThatItReads) {
   EXPECT_EQ(read(folder / "deck.dat"), deck);
 }
 
+// sage1 cards hold 8 nodes: 25 are refused, and no file stays behind, under any name.
+TEST(CommandLine, ConvertThatIsRefusedLeavesNoFile) {
+  const fs::path folder = empty_folder("convert_refused");
+  const std::string deck = "\"" SAGE_SOURCE_DIR "/legacy_inputs/chapter7/pinned_ld2_nu0495_graded/deck.dat\"";
+  const Finished refused = sagefe(folder, "convert " + deck + " other.dat");
+  EXPECT_EQ(refused.exit_code, 2);
+  expect_words(refused.err, {"holds 8 nodes"});
+  for (const auto& entry : fs::directory_iterator(folder))
+    EXPECT_EQ(entry.path().filename().string().find("other"), std::string::npos) << entry.path();
+}
+
 // One side that can't be read: the other is reported, and the shell hears of it.
 TEST(CommandLine, CompareReportsTheSideThatRuns) {
   const fs::path folder = empty_folder("compare");
