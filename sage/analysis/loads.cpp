@@ -124,6 +124,16 @@ Eigen::VectorXd external_force(const Model& model, int last) {
   return force + weight_of(model, activity.group, gravity);
 }
 
+Eigen::VectorXd stage_loads(const Model& model, int stage, const Activity& activity) {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(model.dofs());
+  const Stage& now = model.stages[static_cast<std::size_t>(stage)];
+  const std::vector<char> active = active_nodes(model, activity);
+  for (const NodalLoad& load : now.loads)
+    if (active[static_cast<std::size_t>(load.node)]) force.segment<2>(2 * load.node) += load.force;
+  add_edge_loads(model, activity.group, now, force);
+  return force;
+}
+
 Eigen::VectorXd prescribed_rate(const Model& model, const Stage& stage) {
   Eigen::VectorXd rate = Eigen::VectorXd::Zero(model.dofs());
   for (const Fixity& f : stage.fixities)

@@ -15,6 +15,9 @@ Eigen::VectorXd external_force(const Model& model, int last);
 // Weight of groups (a flag each) under gravity, in multiples of the materials' unit weight.  One entry a dof.
 Eigen::VectorXd weight_of(const Model& model, const std::vector<char>& groups, const Vector2& gravity);
 
+// Nodal and edge loads that a stage (0-based) itself adds to what is active in it.  One entry a dof.
+Eigen::VectorXd stage_loads(const Model& model, int stage, const Activity& activity);
+
 // Displacement that each prescribed dof gets over a stage.
 Eigen::VectorXd prescribed_rate(const Model& model, const Stage& stage);
 

@@ -5,6 +5,7 @@
 
 #include "sage/analysis/condition.hpp"
 #include "sage/analysis/explain.hpp"
+#include "sage/analysis/initial_balance.hpp"
 #include "sage/analysis/loads.hpp"
 #include "sage/analysis/newton.hpp"
 #include "sage/analysis/uniqueness.hpp"
@@ -190,6 +191,9 @@ void Run::prepare_stage(int s) {
   force_start_ = assembly_.internal_force();
   force_end_ = external_force(model_, s);
   external_start_ = external_;
+  const InitialImbalance imbalance = initial_imbalance(model_, activity_, s, force_start_, force_end_);
+  if (imbalance.counts())
+    warn(model_.stages[static_cast<std::size_t>(s)], explain_imbalance(model_, s, imbalance), Severity::note);
 }
 
 bool Run::contracts(const Stage& stage) const {

@@ -4,6 +4,7 @@
 #include <CLI/Option.hpp>
 #include <memory>
 
+#include "sage/analysis/initial_balance.hpp"
 #include "sage/analysis/scene.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
@@ -19,12 +20,22 @@ struct CheckOptions {
   std::string solver;
 };
 
+// What the run's first stage will let go.
+Diagnostics balance_note(const Model& model) {
+  Diagnostics notes;
+  const InitialImbalance imbalance = initial_imbalance(model);
+  if (imbalance.counts())
+    notes.note(model.stages.front().where, "stage 1: " + explain_imbalance(model, 0, imbalance));
+  return notes;
+}
+
 int check(const std::string& path, const InputOptions& options) {
   try {
     const Catalogue catalogue = full_catalogue();
     const Deck deck = read_input(path, options);
     const Model model = build_model(deck, catalogue, options.build);
     print_diagnostics(model.diagnostics);
+    print_diagnostics(balance_note(model));
     const Scene scene = analyse_scene(model);
     fmt::print("{}: {} nodes, {} elements in {} groups, {} stages; {}, {}: ready to run\n", path,
                model.mesh.nodes(), scene.elements, model.groups.size(), model.stages.size(),

@@ -127,6 +127,14 @@ void work_lines(std::string& text, const RunRecord& record) {
   text += skipped(w);
 }
 
+void note_lines(std::string& text, const std::string& notes) {
+  constexpr std::size_t kShown = 3;
+  std::size_t count = 0;
+  for (std::size_t at = 0, end = 0; (end = notes.find('\n', at)) != std::string::npos; at = end + 1)
+    if (++count <= kShown) fmt::format_to(to(text), "  note        {}\n", notes.substr(at, end - at));
+  if (count > kShown) fmt::format_to(to(text), "  {:<12}and {} more (see the listing)\n", "", count - kShown);
+}
+
 void file_lines(std::string& text, const std::vector<std::filesystem::path>& files) {
   constexpr std::size_t kShown = 5;
   for (std::size_t i = 0; i < std::min(files.size(), kShown); ++i)
@@ -136,10 +144,18 @@ void file_lines(std::string& text, const std::vector<std::filesystem::path>& fil
 
 }  // namespace
 
+void RunRecord::on_warning(const Diagnostic& d) {
+  if (d.severity == Severity::warning)
+    ++warnings;
+  else
+    notes += d.message + "\n";
+}
+
 void RunRecord::exchange(Archive& archive) {
   archive(solver);
   archive(equations);
   archive(warnings);
+  archive(notes);
   archive(stages);
   archive(points);
   archive(out_of_balance);
@@ -196,6 +212,7 @@ std::string summary(const Model& model, const RunRecord& record, const Reports* 
                    record.out_of_balance);
   work_lines(text, record);
   if (record.warnings > 0) fmt::format_to(to(text), "  warnings    {} (see the listing)\n", record.warnings);
+  note_lines(text, record.notes);
   file_lines(text, files);
   fmt::format_to(to(text), "  signs       compression positive; units {}, {}, {}; forces {}\n", u.length,
                  u.force, u.stress, ring ? "for the full circle" : "per unit thickness");

@@ -16,7 +16,7 @@ class RunRecord final : public Observer {
     int increments = 0, iterations = 0, cuts = 0;
   };
 
-  void on_warning(const Diagnostic& d) override { warnings += d.severity == Severity::warning ? 1 : 0; }
+  void on_warning(const Diagnostic& d) override;
   void on_start(const Model&, const Scene&, std::string_view solver, int equations) override;
   void on_increment(const Model&, const StepReport&, const Solution&) override;
   void on_stage_end(const Model&, int stage, const EquilibriumAudit&, const Solution&) override;
@@ -29,6 +29,7 @@ class RunRecord final : public Observer {
   std::string solver;
   int equations = 0;
   int warnings = 0;                      // of the run and of reading
+  std::string notes;                     // of the run, a line each
   std::vector<StageCount> stages;        // those begun
   std::array<long, kStatuses> points{};  // at the last increment
   double out_of_balance = 0.0;           // the largest of all stages

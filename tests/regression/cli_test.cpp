@@ -238,6 +238,22 @@ TEST(CommandLine, EchoShowsEachCardUnderARuler) {
                           "first = 1  columns = 2  column_step = 1  rows = 2  row_step = 3", "\"psi\""});
 }
 
+// A block starts at 100 under a pressure of 10: before the run by check, with the run in the listing and on the
+// screen.
+TEST(CommandLine, InitialStressOutOfBalanceIsNamedByCheckAndRun) {
+  const fs::path folder = empty_folder("unbalanced");
+  write(folder / "good.dat", block_deck().text());
+  write(folder / "deck.dat", block_deck().with("initial", card({"1", "0"}, {"100.", "100.", "100."})).text());
+  constexpr const char* kNote = "stage 1: the initial stress is out of balance by up to ";
+  const Finished check = sagefe(folder, "check deck.dat");
+  EXPECT_EQ(check.exit_code, 0);
+  expect_words(check.err, {kNote, "note: "});
+  EXPECT_EQ(sagefe(folder, "check good.dat").err.find(kNote), std::string::npos);
+  const Finished run = sagefe(folder, "run deck.dat -o out");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  expect_words(run.out, {kNote, "% of the largest force that it puts on a node) at node "});
+}
+
 TEST(CommandLine, ABadDeckDoesNotKeepTheNextFromRunning) {
   const fs::path folder = empty_folder("two_decks");
   write(folder / "bad.dat", block_deck().with("parameters", card({}, {"-1.", ".3"})).text());

@@ -1,0 +1,96 @@
+#include "sage/analysis/initial_balance.hpp"
+
+#include <algorithm>
+
+#include "sage/analysis/explain.hpp"
+#include "sage/analysis/loads.hpp"
+
+namespace sage {
+
+namespace {
+
+// Groups that begin with stress in this stage.
+std::vector<char> stressed_groups(const Model& model, const Activity& activity, int stage) {
+  const Stage& now = model.stages[static_cast<std::size_t>(stage)];
+  std::vector<char> flags(model.groups.size(), 0);
+  const auto mark = [&](const InitialStress& initial) {
+    const auto g = static_cast<std::size_t>(initial.group);
+    flags[g] = initial.kind != InitialKind::zero && activity.group[g];
+  };
+  const auto begins = [&](const InitialStress& initial) {
+    return stage == 0 || std::find(now.births.begin(), now.births.end(), initial.group) != now.births.end();
+  };
+  for (const InitialStress& initial : model.initials)
+    if (begins(initial)) mark(initial);
+  for (const InitialStress& initial : now.initials) mark(initial);
+  return flags;
+}
+
+void mark_nodes(const Group& group, char flag, std::vector<char>& nodes) {
+  for (const int node : group.nodes) nodes[static_cast<std::size_t>(node)] = flag;
+}
+
+}  // namespace
+
+InitialImbalance initial_imbalance(const Model& model, const Activity& activity, int stage,
+                                   const Eigen::VectorXd& internal, const Eigen::VectorXd& external) {
+  InitialImbalance worst;
+  const Stage& now = model.stages[static_cast<std::size_t>(stage)];
+  const std::vector<char> stressed = stressed_groups(model, activity, stage);
+  if (std::none_of(stressed.begin(), stressed.end(), [](char flag) { return flag != 0; })) return worst;
+  std::vector<char> looked_at(static_cast<std::size_t>(model.mesh.nodes()), 0);
+  for (std::size_t g = 0; g < stressed.size(); ++g)
+    if (stressed[g]) mark_nodes(model.groups[g], 1, looked_at);
+  for (std::size_t g = 0; stage > 0 && g < stressed.size(); ++g)  // what was there before takes a new load
+    if (activity.group[g] && !stressed[g]) mark_nodes(model.groups[g], 0, looked_at);
+  for (const int g : now.deaths) mark_nodes(model.groups[static_cast<std::size_t>(g)], 0, looked_at);
+  for (const Fixity& f : now.fixities)
+    if (stage > 0 && (f.code[0] == FixityCode::released || f.code[1] == FixityCode::released))
+      looked_at[static_cast<std::size_t>(f.node)] = 0;
+  const Eigen::VectorXd added = stage_loads(model, stage, activity);
+  for (int dof = 0; dof < model.dofs(); ++dof) {
+    if (!looked_at[static_cast<std::size_t>(dof / 2)]) continue;
+    worst.largest = std::max(worst.largest, std::abs(internal[dof]));
+    if (activity.held[static_cast<std::size_t>(dof)]) continue;
+    const auto [low, high] = std::minmax({external[dof] - added[dof], external[dof]});
+    const double off = internal[dof] - std::clamp(internal[dof], low, high);
+    if (worst.dof >= 0 && std::abs(off) <= std::abs(worst.force)) continue;
+    worst.dof = dof;
+    worst.force = -off;  // what pushes the node once the stress is let go
+  }
+  return worst;
+}
+
+InitialImbalance initial_imbalance(const Model& model) {
+  if (model.stages.empty()) return {};
+  const Stage& first = model.stages.front();
+  const auto stressed = [](const InitialStress& initial) { return initial.kind != InitialKind::zero; };
+  if (!std::ranges::any_of(model.initials, stressed) && !std::ranges::any_of(first.initials, stressed))
+    return {};
+  const Scene scene = analyse_scene(model);
+  WorkCounters work;
+  Assembly assembly(model, scene, {}, work);
+  Activity activity(model);
+  activity.enter(first);
+  assembly.enter_stage(activity, prescribed_rate(model, first));
+  Diagnostics refused;  // the run tells of it
+  for (const std::vector<InitialStress>* list : {&model.initials, &first.initials})
+    for (const InitialStress& initial : *list)
+      apply_initial_stress(model, initial, assembly.groups()[static_cast<std::size_t>(initial.group)], refused);
+  assembly.take_states();
+  if (assembly.evaluate(Eigen::VectorXd::Zero(model.dofs()), nullptr) == Outcome::cut_step) return {};
+  return initial_imbalance(model, activity, 0, assembly.internal_force(), external_force(model, 0));
+}
+
+std::string explain_imbalance(const Model& model, int stage, const InitialImbalance& imbalance) {
+  if (!imbalance.counts()) return {};
+  const Stage& now = model.stages[static_cast<std::size_t>(stage)];
+  return "the initial stress is out of balance by up to " + short_number(std::abs(imbalance.force)) + " " +
+         model.units.force + " (" + short_number(100.0 * std::abs(imbalance.force) / imbalance.largest) +
+         " % of the largest force that it puts on a node) at " + dof_name(model, imbalance.dof) +
+         "; what is not balanced is let go in proportion over the " +
+         (now.increments == 1 ? "one increment" : std::to_string(now.increments) + " increments") +
+         " of the stage";
+}
+
+}  // namespace sage
