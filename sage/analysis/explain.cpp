@@ -173,10 +173,26 @@ std::string explain_singular(const Model& model, const Activity& activity, const
   return text + "\n" + bracket_line(model, report);
 }
 
+namespace {
+
+// A node that active interfaces alone have, all of them open.
+std::string loose_node(const Model& model, const Activity& activity, const std::vector<int>& part) {
+  const std::vector<char> active = active_nodes(model, activity);
+  for (int dof = 0; dof < model.dofs(); ++dof) {
+    const auto node = static_cast<std::size_t>(dof / 2);
+    if (!active[node] || part[node] >= 0 || activity.held[static_cast<std::size_t>(dof)]) continue;
+    return "all interfaces at " + dof_name(model, dof) +
+           ", are open and no solid is active there: nothing holds it, " + "where it stands is arbitrary";
+  }
+  return {};
+}
+
+}  // namespace
+
 std::string explain_loose_part(const Model& model, const Activity& activity, const Assembly& assembly) {
   const std::vector<int> part = parts_between_open_joints(model, assembly, StateKind::committed);
   const std::vector<LoosePart> loose = loose_parts(model, activity, part);
-  if (loose.empty()) return {};
+  if (loose.empty()) return loose_node(model, activity, part);
   return "all interfaces around the " + part_name(model, part, loose[0].part) +
          " are open: nothing holds it against " + loose[0].motion + ", where it stands is arbitrary";
 }

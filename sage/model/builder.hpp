@@ -85,7 +85,9 @@ void check_inactive(Builder& b);
 void check_model(Builder& b);
 // Cards of stages that contradict each other or can't act.
 void check_stages(Builder& b);
-// Nodes at one place, hanging nodes.
+// Straight sides that are held over a part of their length.
+void check_sides(Builder& b);
+// Nodes at one place, hanging nodes, joints without a solid on one side.
 void check_joints(Builder& b);
 
 }  // namespace sage::build

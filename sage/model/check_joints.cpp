@@ -1,11 +1,12 @@
 // Parts of a mesh that look joined and are not: nodes at one place, nodes on an edge they don't belong to,
-// components without a common node.
+// components without a common node; joints without a solid on one side.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <tuple>
 #include <utility>
 
+#include "sage/model/activity.hpp"
 #include "sage/model/builder.hpp"
 
 namespace sage::build {
@@ -181,9 +182,62 @@ void warn_hanging(Builder& b, const std::vector<double>& shortest) {
                   "; the element does not have that node, and the mesh can gape or overlap there");
 }
 
+// Flags of nodes that solids have: those of the groups that `counts` lets through.
+template <class Counts>
+std::vector<char> solid_nodes(const Model& model, Counts counts) {
+  std::vector<char> flags(static_cast<std::size_t>(model.mesh.nodes()), 0);
+  for (std::size_t g = 0; g < model.groups.size(); ++g)
+    if (model.groups[g].element->traits().law_size == 4 && counts(g))
+      for (int node : model.groups[g].nodes) flags[static_cast<std::size_t>(node)] = 1;
+  return flags;
+}
+
+// Nodes of active joints that no active solid has and that are free to move: where they stand once the joint
+// opens is arbitrary.  A side that is held is a rigid body.
+void warn_bare_joints(Builder& b) {
+  const Model& model = b.model;
+  const std::vector<char> ever = solid_nodes(model, [](std::size_t) { return true; });
+  std::vector<char> told(model.groups.size(), 0);
+  Activity activity(model);
+  for (const Stage& stage : model.stages) {
+    activity.enter(stage);
+    const std::vector<char> now = solid_nodes(model, [&](std::size_t g) { return activity.group[g] != 0; });
+    for (std::size_t g = 0; g < model.groups.size(); ++g) {
+      const Group& group = model.groups[g];
+      if (group.element->traits().law_size != 2 || !activity.group[g] || told[g]) continue;
+      Examples elements, nodes;
+      std::vector<int> bare;
+      for (int e = 0; e < group.elements(); ++e) {
+        const std::size_t before = bare.size();
+        for (std::size_t i = 0; i < group.node_count(); ++i) {
+          const int node = group.nodes_of(e)[i];
+          const auto n = static_cast<std::size_t>(node);
+          const bool held = activity.held[2 * n] && activity.held[2 * n + 1];
+          // Nodes that no solid ever has are a body of the deck's own, which its loads may hold.
+          if (ever[n] && !now[n] && !held) bare.push_back(node);
+        }
+        if (bare.size() > before)
+          elements.add(std::to_string(group.element_numbers[static_cast<std::size_t>(e)]));
+      }
+      if (bare.empty()) continue;
+      told[g] = 1;
+      std::sort(bare.begin(), bare.end());
+      bare.erase(std::unique(bare.begin(), bare.end()), bare.end());
+      for (const int node : bare) nodes.add(number_of(model, node));
+      b.warning(stage.where,
+                "stage " + std::to_string(stage.number) + ": no solid is active on one side of joint group " +
+                    std::to_string(group.number) + ", element(s) " + elements.text() + ": node(s) " +
+                    nodes.text() +
+                    " hang on the joint alone, and where they stand once it opens is arbitrary; remove the "
+                    "joint with its solid, place it with its solid, or hold the nodes");
+    }
+  }
+}
+
 }  // namespace
 
 void check_joints(Builder& b) {
+  warn_bare_joints(b);
   const std::vector<double> shortest = shortest_edges(b.model);
   warn_coincident(b, shortest);
   warn_hanging(b, shortest);

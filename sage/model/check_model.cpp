@@ -255,6 +255,7 @@ void check_model(Builder& b) {
   note_unused_nodes(b);
   note_unused_materials(b);
   check_joints(b);
+  check_sides(b);
   warn_materials(b);
   if (b.problems.errors() == 0) check_supports(b);
   check_solver(b);

@@ -93,15 +93,16 @@ class Supports {
     return sum;
   }
 
+  bool here(int node, std::size_t c) const {
+    return card(node) != nullptr && card(node)->code[c] == FixityCode::fixed;
+  }
+
   // Both nodes around a made one are held.  Where a card gives a middle node that is enough.  Else one list
   // must hold both: the ends of a long edge may belong to two other sides.
   bool holds(const CutEdge& edge, const OnEdge& made, std::size_t behind, std::size_t c) {
     const int before = edge.known[behind - 1].node, after = edge.known[behind].node;
     if (held(before, c) == 0 || held(after, c) == 0) return false;
-    const auto here = [&](int node) {
-      return card(node) != nullptr && card(node)->code[c] == FixityCode::fixed;
-    };
-    return edge.known.size() > 2 || held(made.node, c) != 0 || (here(before) && here(after));
+    return edge.known.size() > 2 || held(made.node, c) != 0 || (here(before, c) && here(after, c));
   }
 
   void add_cards(const CutEdge& edge, std::vector<Fixity>& list) {
@@ -120,9 +121,13 @@ class Supports {
       for (std::size_t c = 0; c < 2; ++c) {
         if (!touched[c]) continue;
         const bool hold = holds(edge, made, behind, c);
-        if (!hold && held(made.node, c) == 0) continue;
+        const bool was_held = held(made.node, c) != 0;
+        if (!hold && !was_held) continue;
+        const double value = hold ? interpolated(edge, made, behind, c) : 0.0;
+        const bool stays = hold && was_held && value == 0.0;
+        if (stays && !(here(edge.known[behind - 1].node, c) && here(edge.known[behind].node, c))) continue;
         f.code[c] = hold ? FixityCode::fixed : FixityCode::released;
-        if (hold) f.value[c] = interpolated(edge, made, behind, c);
+        f.value[c] = value;
         held(made.node, c) = hold;
       }
       if (f.code[0] != FixityCode::unchanged || f.code[1] != FixityCode::unchanged) list.push_back(f);
