@@ -268,12 +268,14 @@ class Frontal final : public MatrixSolver {
 
   void eliminate_pivots(const Arms& a, Lane& lane) const {
     for (int J = 0; J < a.front.pivot_tiles; ++J) {
+      stop_here_if_asked();
       reduce_columns<1>(a, J, J, lane.maximum);
       reduce_diagonal(a, J, lane);
     }
   }
 
   void reduce_border_columns(const Arms& a, int begin, int end, Lane& lane) const {
+    stop_here_if_asked();
     const int P = a.front.pivot_tiles;
     int J = begin;
     for (; J + kWidth <= end; J += kWidth) reduce_columns<kWidth>(a, P, P + J, lane.maximum);
@@ -315,6 +317,7 @@ class Frontal final : public MatrixSolver {
   void update_border(const Arms& a, double* border_matrix, int begin, int end) const {
     constexpr int kBlock = 16;
     for (int K = 0; K < a.front.pivot_tiles; K += kBlock) {
+      stop_here_if_asked();
       const int count = std::min(kBlock * kTile, a.front.pivots - K * kTile);
       int J = begin;
       for (; J + kWidth <= end; J += kWidth) update_columns<kWidth>(a, border_matrix, K, count, J);

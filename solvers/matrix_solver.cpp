@@ -21,8 +21,10 @@ double largest_size(std::span<const double> x) {
 
 void MatrixSolver::analyse(int equations, ElementEquations elements) {
   report_ = {};
+  stop_here_if_asked();
   const EquationGraph graph = make_equation_graph(equations, elements);
   matrix_.analyse(graph, std::move(elements), traits_.symmetric);
+  stop_here_if_asked();
   analyse_matrix(graph);
 }
 
@@ -36,6 +38,7 @@ void MatrixSolver::factorise() {
   // A growth of 1e3 costs three digits: less than most matrices cost by themselves.
   constexpr double kLargeGrowth = 1e3;
   constexpr int kMendingSteps = 10;
+  stop_here_if_asked();
   report_.backward_error = -1.0;
   steps_ = 0;
   factorise_matrix();
@@ -47,6 +50,7 @@ void MatrixSolver::factorise() {
 }
 
 void MatrixSolver::solve(std::span<const double> b, std::span<double> x) const {
+  stop_here_if_asked();
   if (steps_ == 0 || b.empty()) return solve_matrix(b, x);
   std::ranges::copy(b, right_side_.begin());
   solve_matrix(b, x);

@@ -1,6 +1,8 @@
 // What all solvers of this folder share: the assembled matrix, and the checks on its pivots.
 #pragma once
 
+#include <utility>
+
 #include "sage/core/error.hpp"
 #include "sage/core/linear_solver.hpp"
 #include "solvers/assembled_matrix.hpp"
@@ -27,6 +29,7 @@ class MatrixSolver : public LinearSolver {
   double norm1() const final { return matrix_.norm1(); }
   FactorReport report() const final;
   void set_refinement(int steps) final { wanted_steps_ = steps; }
+  void set_stop(StopAsked asked) final { stop_asked_ = std::move(asked); }
   // Where terms grew in an elimination without pivoting, answers are refined even if nobody asked.
   void factorise() final;
   // Throws AnalysisError where refinement cannot mend what growth has spoilt: no answer without digits.
@@ -39,6 +42,8 @@ class MatrixSolver : public LinearSolver {
   virtual void solve_matrix(std::span<const double> b, std::span<double> x) const = 0;
 
   const AssembledMatrix& matrix() const { return matrix_; }
+  // Throws Stopped.  To be called every thousand operations or so, from any thread.
+  void stop_here_if_asked() const { stop_if_asked(stop_asked_); }
   // Largest |term| of every row of the matrix as it stands; the same array at every call.
   std::span<const double> row_maxima() {
     matrix_.row_maxima(row_maxima_);
@@ -50,6 +55,7 @@ class MatrixSolver : public LinearSolver {
   void refine(std::span<double> x) const;
 
   SolverTraits traits_;
+  StopAsked stop_asked_;
   AssembledMatrix matrix_;
   std::vector<double> row_maxima_;
   int wanted_steps_ = 0, steps_ = 0;

@@ -24,6 +24,7 @@ class SkylineLdlt final : public MatrixSolver {
     PivotCheck check(traits().name, row_maxima());
     Lanes maximum{};
     for (int J = 0; J < profile_.tiles; ++J) {
+      stop_here_if_asked();
       fill_column(J);
       for (int K = profile_.top[at(J)]; K < J; ++K) reduce_tile(K, J, maximum);
       for (int K = profile_.top[at(J)]; K < J; ++K) scale_tile(K, J);

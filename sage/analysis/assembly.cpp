@@ -181,6 +181,7 @@ void Assembly::keep_matrices(GroupData& data) {
     data.K.resize(static_cast<std::size_t>(shapes) * matrix_size(data));
     int made = 0;
     for (int e = 0; e < data.group->elements(); ++e) {
+      stop_if_asked_at(e);
       if (data.matrix[static_cast<std::size_t>(e)] != made) continue;
       evaluate_element(data, e, nullptr, data.K.data() + static_cast<std::size_t>(made) * matrix_size(data));
       ++made;
@@ -225,6 +226,12 @@ void Assembly::gather(const GroupData& data, int element, const Eigen::VectorXd&
     scratch_du_[2 * i] = u[2 * nodes[i]];
     scratch_du_[2 * i + 1] = u[2 * nodes[i] + 1];
   }
+}
+
+// Every so many elements, the first included.
+void Assembly::stop_if_asked_at(int element) const {
+  constexpr int kEvery = 256;
+  if (element % kEvery == 0) stop_if_asked(stop_asked_);
 }
 
 // Returns |f|^2.
@@ -305,6 +312,7 @@ Outcome Assembly::evaluate_group(GroupData& data, const Eigen::VectorXd& du, Lin
   const std::size_t size = matrix_size(data);
   const bool compare = solver != nullptr && keeps_matrices(data);
   for (int e = 0; e < data.group->elements(); ++e) {
+    stop_if_asked_at(e);
     if (evaluate_element(data, e, &du, solver != nullptr ? scratch_K_.data() : nullptr) == Outcome::cut_step)
       return Outcome::cut_step;
     changing_sum_ += add_force(data, e, scratch_f_.data(), changing_);
@@ -331,6 +339,7 @@ void Assembly::evaluate_constant(GroupData& data, const Eigen::VectorXd& du) {
   if (from_zero && du.isZero(0.0)) return;
   data.trial_force.resize(static_cast<std::size_t>(data.group->elements()) * n);
   for (int e = 0; e < data.group->elements(); ++e) {
+    stop_if_asked_at(e);
     gather(data, e, du);
     const double x = scratch_du_[0], y = scratch_du_[1];
     for (std::size_t i = 0; i < n; i += 2) {
@@ -353,7 +362,10 @@ void Assembly::evaluate_constant(GroupData& data, const Eigen::VectorXd& du) {
 void Assembly::fill(LinearSolver& solver) {
   for (const GroupData& data : groups_) {
     if (!in_system(data) || !keeps_matrices(data)) continue;
-    for (int e = 0; e < data.group->elements(); ++e) add_matrix(data, e, data.matrix_of(e), solver);
+    for (int e = 0; e < data.group->elements(); ++e) {
+      stop_if_asked_at(e);
+      add_matrix(data, e, data.matrix_of(e), solver);
+    }
   }
   if (condensation_) solver.add(elements_ - 1, condensation_->S().data());
 }

@@ -1,6 +1,7 @@
 // Passes over the elements: internal forces, element matrices into the solver, states of all points.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "sage/analysis/condensation.hpp"
@@ -9,6 +10,7 @@
 #include "sage/analysis/scene.hpp"
 #include "sage/analysis/skips.hpp"
 #include "sage/core/archive.hpp"
+#include "sage/core/stop.hpp"
 #include "sage/model/activity.hpp"
 
 namespace sage {
@@ -16,6 +18,9 @@ namespace sage {
 class Assembly {
  public:
   Assembly(const Model& model, const Scene& scene, const Skips& skips, WorkCounters& work);
+
+  // Passes over the elements ask it now and then and throw Stopped.
+  void set_stop(StopAsked asked) { stop_asked_ = std::move(asked); }
 
   // Equations and element order of a stage.  rate: displacement of every prescribed dof over the stage.
   void enter_stage(const Activity& activity, const Eigen::VectorXd& rate);
@@ -92,11 +97,13 @@ class Assembly {
   double add_force(const GroupData& data, int element, const double* f, Eigen::VectorXd& to) const;
   void add_matrix(const GroupData& data, int element, const double* K, LinearSolver& solver);
   void fill(LinearSolver& solver);
+  void stop_if_asked_at(int element) const;
   bool keeps_matrices(const GroupData& data) const { return !data.matrix.empty(); }
 
   const Model* model_;
   const Scene* scene_;
   Skips skips_;
+  StopAsked stop_asked_;
   WorkCounters* work_;
   std::vector<GroupData> groups_;
   int equations_ = 0;

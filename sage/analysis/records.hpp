@@ -78,7 +78,8 @@ struct EquilibriumAudit {
   double scale = 0.0;           // the largest force or moment that took part
 };
 
-enum class RunStatus { completed, not_converged, singular, failed };
+// stopped: somebody asked for it (RunSettings::stop_asked); the last increment that observers saw stands.
+enum class RunStatus { completed, not_converged, singular, failed, stopped };
 
 struct RunResult {
   RunStatus status = RunStatus::completed;

@@ -30,6 +30,7 @@ class Run {
     u_.setZero(model.dofs());
     du_.setZero(model.dofs());
     external_.setZero(model.dofs());
+    assembly_.set_stop(settings.stop_asked);
   }
 
   RunResult execute();
@@ -61,6 +62,8 @@ class Run {
   void offer_checkpoint(Place place);
   void recover_for(const StepReport& report);
   Place resume();
+  void run_stages();
+  void stop();
   EquilibriumAudit audit() const;
   int all_equations() const;
   double smallest_pivot() const;
@@ -119,6 +122,7 @@ const SolverEntry* Run::choose_solver(int equations, bool symmetric) const {
 void Run::prepare(LinearSolver& solver) const {
   solver.set_threads(settings_.threads);
   solver.set_refinement(settings_.refinement);
+  solver.set_stop(settings_.stop_asked);
 }
 
 void Run::make_solver() {
@@ -490,7 +494,9 @@ bool Run::run_stage(int s, int done) {
     ++result_.increments_done;
     recover_for(report);
     tell([&](Observer& o) { o.on_increment(model_, report, solution()); });
-    if (i < stage.increments && !whole_stages_only) offer_checkpoint({s, i});
+    if (i == stage.increments) break;
+    if (!whole_stages_only) offer_checkpoint({s, i});
+    stop_if_asked(settings_.stop_asked);
   }
   ++result_.stages_done;
   const EquilibriumAudit sums = audit();
@@ -502,11 +508,13 @@ bool Run::run_stage(int s, int done) {
              ": no correction improves it further, what is left is rounding (very stiff beside very soft "
              "parts, or nu close to 1/2)");
   tell([&](Observer& o) { o.on_stage_end(model_, s, sums, solution()); });
-  if (s + 1 < static_cast<int>(model_.stages.size())) offer_checkpoint({s + 1, 0});
+  if (s + 1 == static_cast<int>(model_.stages.size())) return true;
+  offer_checkpoint({s + 1, 0});
+  stop_if_asked(settings_.stop_asked);
   return true;
 }
 
-RunResult Run::execute() {
+void Run::run_stages() {
   Place place;
   if (settings_.resume_from.empty())
     start_states(model_.initials);
@@ -514,6 +522,22 @@ RunResult Run::execute() {
     place = resume();
   for (int s = place.stage; s < static_cast<int>(model_.stages.size()); ++s)
     if (!run_stage(s, s == place.stage ? place.increment : 0)) break;
+}
+
+void Run::stop() {
+  result_.status = RunStatus::stopped;
+  result_.reason = "stopped as asked, with " + std::to_string(result_.stages_done) + " of " +
+                   std::to_string(model_.stages.size()) + " stages and " +
+                   std::to_string(result_.increments_done) + " increments complete";
+}
+
+RunResult Run::execute() {
+  try {
+    run_stages();
+  } catch (const Stopped&) {
+    stop();
+    return result_;
+  }
   tell([&](Observer& o) { o.on_finish(model_, result_); });
   return result_;
 }

@@ -6,6 +6,7 @@
 
 #include "sage/analysis/observer.hpp"
 #include "sage/core/catalogue.hpp"
+#include "sage/core/stop.hpp"
 
 namespace sage {
 
@@ -26,6 +27,12 @@ struct RunSettings {
   std::function<bool()> checkpoint_due;
   std::function<void(const std::string&)> save_checkpoint;
   std::string resume_from;
+
+  // Ends the run early, with RunStatus::stopped: asked after every increment (once a checkpoint that is due has
+  // been saved), and within increments: in every pass over the elements, in factorisations and before every
+  // solution. Observers have then seen the last complete increment and hear no on_finish; what becomes of their
+  // files is the caller's choice (Output::stop, or a restart).
+  StopAsked stop_asked;
 };
 
 // Throws InputError for what only shows at run time (e.g. a refused initial stress); everything that happens to

@@ -108,6 +108,7 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   settings.refinement = request.refinement;
   settings.condition = request.condition;
   settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
+  settings.stop_asked = request.stop_asked;
   make_folder(request.output.folder);
   Checkpoint checkpoint = checkpoint_of(request, model);
   settings.checkpoint_due = [&] { return checkpoint.due(); };
@@ -130,8 +131,14 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   observers.push_back(&progress);
   try {
     const RunResult result = run(model, catalogue, settings, observers);
-    checkpoint.remove();
     outcome.exit_code = result.status == RunStatus::completed ? kOk : kNotConverged;
+    if (result.status == RunStatus::stopped) {
+      outcome.record.result = result;
+      for (const auto& output : outputs) output->stop(result.reason);
+      outcome.reports->stop(result.reason);
+    } else {
+      checkpoint.remove();
+    }
   } catch (const std::exception& error) {
     for (const auto& output : outputs) output->stop(error.what());
     outcome.reports->stop(error.what());

@@ -36,6 +36,7 @@ struct RunRequest {
   int max_dofs = 0;                  // larger models are built but not run; 0 = no limit
   bool restart = false;              // go on from STEM.restart, if there is one
   double checkpoint_seconds = 30.0;  // between checkpoints; 0 = after every increment, negative = none
+  StopAsked stop_asked;              // ends the run early, see RunSettings
 };
 
 // Reports and record stay readable after the run.

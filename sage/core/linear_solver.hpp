@@ -10,6 +10,8 @@
 
 #include <Eigen/Core>
 
+#include "sage/core/stop.hpp"
+
 namespace sage {
 
 // The equations of every element: for element e, equations[offset[e] .. offset[e+1]); -1 = prescribed dof.
@@ -50,6 +52,10 @@ class LinearSolver {
   // At most so many steps of iterative refinement in every solve() from the next factorise() on, with residuals
   // in twice the working precision: an answer then has all digits that the matrix determines.
   virtual void set_refinement(int /*steps*/) {}
+
+  // From now on long work asks it now and then and throws Stopped where it says so; the same call may be made
+  // again then.  Libraries that nothing can interrupt ask before they begin.
+  virtual void set_stop(StopAsked /*asked*/) {}
 
   // Numbering, symbolic work and storage for a pattern.  Called once per pattern.
   virtual void analyse(int equations, ElementEquations elements) = 0;

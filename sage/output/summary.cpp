@@ -27,6 +27,8 @@ std::string status_words(const RunResult& result) {
       return "NOT CONVERGED";
     case RunStatus::singular:
       return "NOT CONVERGED: singular stiffness matrix";
+    case RunStatus::stopped:
+      return "STOPPED as asked";
     case RunStatus::failed:
       return "FAILED";
   }

@@ -1,5 +1,6 @@
 // Every solver of the catalogue gives the answer of a dense L U with pivoting, names what is singular and
 // repeats itself to the last bit.
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -528,6 +529,40 @@ TEST_P(SolverConformance, AMatrixThatIsNotANumberIsRefused) {
   const auto solver = make();
   load(*solver, system);
   EXPECT_THROW(solver->factorise(), std::runtime_error);
+}
+
+// A wish to stop is heard before every long call, and within the factorisations that are this program's own;
+// the answer afterwards is the same to the last bit.
+TEST_P(SolverConformance, StopsAsAskedAndWorksAgain) {
+  const System system = q4_mesh({.columns = 12, .rows = 20});
+  for (const int threads : {1, 3}) {
+    const auto solver = make();
+    std::atomic<long> asked{0}, yes{1L << 60};
+    solver->set_threads(threads);
+    solver->set_stop([&] { return ++asked > yes; });
+    load(*solver, system);
+    EXPECT_GE(asked, 1) << "numbering";
+    asked = 0;
+    solver->factorise();
+    const long within = asked;
+    if (own()) {
+      EXPECT_GE(within, system.equations / 64) << "once in a few columns";
+    }
+    const VectorXd b = random_vector(system.equations, 4), x = solve(*solver, b);
+    EXPECT_GT(asked, within) << "solution";
+    for (yes = 0; yes < within; yes += std::max(1L, within / 7)) {
+      asked = 0;
+      EXPECT_THROW(solver->factorise(), Stopped) << "at question " << yes;
+    }
+    yes = 0;
+    EXPECT_THROW(solve(*solver, b), Stopped);
+    yes = 1L << 60;
+    solver->factorise();
+    if (own()) {
+      EXPECT_TRUE(solve(*solver, b) == x);
+    }
+    expect_solved(dense(system), solve(*solver, b), b);
+  }
 }
 
 TEST_P(SolverConformance, WorksAgainAfterASingularMatrix) {
