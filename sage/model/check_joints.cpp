@@ -196,6 +196,8 @@ std::vector<char> solid_nodes(const Model& model, Counts counts) {
 // opens is arbitrary.  A side that is held is a rigid body.
 void warn_bare_joints(Builder& b) {
   const Model& model = b.model;
+  if (!std::ranges::any_of(model.groups, [](const Group& g) { return g.element->traits().law_size == 2; }))
+    return;
   const std::vector<char> ever = solid_nodes(model, [](std::size_t) { return true; });
   std::vector<char> told(model.groups.size(), 0);
   Activity activity(model);

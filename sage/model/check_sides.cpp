@@ -1,6 +1,7 @@
 // Straight sides of the mesh that are held over a part of their length: half a line of symmetry that was
 // forgotten.
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
@@ -13,17 +14,22 @@ namespace sage::build {
 
 namespace {
 
-// Every edge that has a solid on one hand only, whenever that is placed.
-std::vector<std::vector<int>> outer_edges(const Model& model) {
+// The outer edges of solids, whenever they are placed, whose nodes all lie at a place of one coordinate.
+std::vector<std::vector<int>> edges_at(const Model& model, Eigen::Index row, double place, double reach) {
+  std::vector<char> there(static_cast<std::size_t>(model.mesh.nodes()), 0);
+  for (int n = 0; n < model.mesh.nodes(); ++n)
+    there[static_cast<std::size_t>(n)] = std::abs(model.mesh.x(row, n) - place) <= reach;
   std::map<std::pair<int, int>, std::vector<int>> directed;
   for (const Group& group : model.groups) {
     if (group.element->traits().law_size != 4) continue;
     for (int e = 0; e < group.elements(); ++e)
       for (const std::vector<int>& edge : group.element->edges()) {
-        std::vector<int> nodes;
-        for (const int local : edge) nodes.push_back(group.nodes_of(e)[local]);
-        const std::pair<int, int> ends(nodes[0], nodes[1]);
-        directed.try_emplace(ends, std::move(nodes));
+        const int* nodes = group.nodes_of(e);
+        if (!std::ranges::all_of(edge, [&](int i) { return there[static_cast<std::size_t>(nodes[i])] != 0; }))
+          continue;
+        std::vector<int> list;
+        for (const int local : edge) list.push_back(nodes[local]);
+        directed.try_emplace({list[0], list[1]}, std::move(list));
       }
   }
   std::vector<std::vector<int>> outer;
@@ -120,18 +126,13 @@ void note_partly_held(Builder& b, const std::vector<std::vector<int>>& part, std
 void check_sides(Builder& b) {
   const Model& model = b.model;
   if (model.mesh.nodes() == 0) return;
-  const std::vector<std::vector<int>> outer = outer_edges(model);
   const Vector2 low = model.mesh.x.rowwise().minCoeff(), high = model.mesh.x.rowwise().maxCoeff();
   const double reach = 1e-9 * (high - low).maxCoeff();
   for (std::size_t c = 0; c < 2; ++c) {
     const auto row = static_cast<Eigen::Index>(c);
     const Deeds deeds(model, c);
     for (const double place : {low[row], high[row]}) {
-      std::vector<std::vector<int>> side;
-      for (const std::vector<int>& edge : outer)
-        if (std::all_of(edge.begin(), edge.end(),
-                        [&](int node) { return std::abs(model.mesh.x(row, node) - place) <= reach; }))
-          side.push_back(edge);
+      const std::vector<std::vector<int>> side = edges_at(model, row, place, reach);
       for (const auto& part : connected(side)) note_partly_held(b, part, c, place, deeds);
     }
   }

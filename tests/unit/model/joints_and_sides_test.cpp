@@ -55,6 +55,21 @@ TEST(BareJoints, AreNamedAfterARemoval) {
   }
 }
 
+// Pulled open, the joint leaves its upper nodes free along it: where that is stands on the record of the run
+// too.
+TEST(BareJoints, RunNamesANodeBehindAnOpenJoint) {
+  DeckWriter deck = joint_between_squares();
+  deck.stages.clear();
+  deck.stage();  // an unstressed joint: adhesion would let go of its shear in one jump
+  StageCards& removal = deck.stage(2);
+  removal.method = 2;
+  removal.deaths = {2};
+  for (const int node : {5, 6}) removal.fix(node, 0, 1, 0.0, 0.01);
+  const WholeRun run = run_text(deck.text());
+  ASSERT_TRUE(run.completed()) << run.failure;
+  EXPECT_TRUE(run.warns("all interfaces at node 5, direction x, are open and no solid is active there"));
+}
+
 TEST(BareJoints, OfAWaitingSolidAreNamedToo) {
   DeckWriter deck = joint_between_squares();
   deck.stages.clear();
