@@ -232,7 +232,8 @@ bool DeckReader::read_list(Read& read, const CardRule& rule, std::size_t field) 
 
 bool DeckReader::read_formatted(const CardRule& rule, Card& card) {
   for (;;) {
-    FormattedRead read(records_, rule.format);
+    seams_.clear();
+    FormattedRead read(records_, rule.format, &seams_);
     if (read.begin() != ReadEnd::complete) return false;
     card.line = records_.line();
     const bool complete = read_fields(read, rule);
@@ -244,7 +245,9 @@ bool DeckReader::read_formatted(const CardRule& rule, Card& card) {
     if (complete && !stopped_ && !list && is_doubtful(rule, card)) misplaced = check_place(rule, card);
     if (misplaced == Misplaced::no) {
       close_card(rule, card, complete);
-      if (complete && !stopped_ && !cut) check_rest(rule, card, last_field_end);
+      if (!complete || stopped_ || cut) return complete;
+      const bool slip = !seams_.empty() && check_seams(rule, deck_.cards.back());
+      check_rest(rule, card, last_field_end, slip);
       return complete;
     }
     // Another kind of card: it is reported and left out, so that the cards behind it can be read.

@@ -10,6 +10,7 @@
 
 #include "sage/deck/layout.hpp"
 #include "sage/deck/read_log.hpp"
+#include "sage/deck/seams.hpp"
 
 namespace sage {
 
@@ -55,7 +56,10 @@ class DeckReader {
   void note_list_rest();
   void apply_map(const CardRule& rule, std::size_t field, FieldValue& value);
   void report_flaws(const CardRule& rule, const Card& card);
-  void check_rest(const CardRule& rule, const Card& card, std::size_t last_field_end);
+  // Numbers that the end of a field cuts, or that a shift moved into the next field.
+  bool check_seams(const CardRule& rule, const Card& card);
+  void check_rest(const CardRule& rule, const Card& card, std::size_t last_field_end, bool slip_found);
+  bool begins_with_number(std::string_view text) const;
   void check_sequence_number(const CardRule& rule, const Card& card, std::size_t last_field_end);
   // Is this line a card of another kind?  Then the counts are wrong; reading goes on where it can.
   enum class Misplaced { no, left_over, belongs_later };
@@ -91,6 +95,7 @@ class DeckReader {
   ReadLog log_;
   std::shared_ptr<std::deque<std::string>> texts_;
   std::vector<FieldFlaw> flaws_;
+  std::vector<Seam> seams_;                   // of the card being read
   std::vector<int> latest_;                   // last card of each rule, -1 = none
   std::vector<int> faulty_;                   // values with errors, ascending
   std::vector<const LayoutEntry*> entry_of_;  // the entry that counts a rule's cards

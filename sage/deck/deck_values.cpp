@@ -132,7 +132,53 @@ void DeckReader::note_blanks() {
 
 // -----------------------------------------------------
 
-void DeckReader::check_rest(const CardRule& rule, const Card& card, std::size_t last_field_end) {
+// Warns of the first slip of the card; false if it has none.
+bool DeckReader::check_seams(const CardRule& rule, const Card& card) {
+  const SequenceColumns sequence{layout_.first_sequence_column, layout_.last_sequence_column};
+  const std::optional<SlipFound> slip = find_slip(deck_, card, seams_, sequence);
+  if (!slip) return false;
+  const std::size_t field =
+      std::min(static_cast<std::size_t>(slip->value - card.first_value), rule.spec.fields.size() - 1);
+  const std::string place = " " + field_text(rule, rule.spec.fields[field]);
+  const std::string column = std::to_string(slip->end_column);
+  const auto first = static_cast<std::size_t>(slip->first_column) - 1;
+  const std::string word =
+      quoted(deck_.line_text(slip->line).substr(first, static_cast<std::size_t>(slip->last_column) - first));
+  std::string message;
+  switch (slip->slip) {
+    case Slip::cut:
+      message =
+          word + " is cut in two: the field ends at column " + column + ", and the rest reads as the next";
+      break;
+    case Slip::cut_word:
+      message = word + " is cut in two: the text ends at column " + column + ", and the rest begins the next";
+      break;
+    case Slip::lost_end:
+      message =
+          word + " is cut: the field ends at column " + column + ", and what stands behind it is not read";
+      break;
+    case Slip::lost_head:
+      message =
+          word + " is cut: the field begins behind column " + column + ", and what stands there is not read";
+      break;
+    case Slip::moved:
+      message =
+          word + " stands alone in the field's first column, " + column + ", and the field before it is blank";
+      break;
+  }
+  log_.add(Severity::warning, {deck_.file, slip->line, slip->first_column, slip->last_column}, message + place,
+           "is the card shifted by a column? Fields may stand side by side where each is full");
+  return true;
+}
+
+bool DeckReader::begins_with_number(std::string_view text) const {
+  const std::string_view word = text.substr(0, text.find_first_of(" \t,"));
+  const FieldResult number = read_free_number(word, false);
+  return number.fault == FieldFault::none && !(number.hints & hint_not_finite);
+}
+
+void DeckReader::check_rest(const CardRule& rule, const Card& card, std::size_t last_field_end,
+                            bool slip_found) {
   const std::string_view beyond = records_.beyond();
   if (!overlong_noted_ && !beyond.empty() && !all_blank(beyond)) {
     overlong_noted_ = true;
@@ -148,10 +194,17 @@ void DeckReader::check_rest(const CardRule& rule, const Card& card, std::size_t 
   if (sequence > 0 && record.size() >= sequence) record = record.substr(0, sequence - 1);
   if (last_field_end >= record.size() || all_blank(record.substr(last_field_end))) return;
   const std::size_t first = last_field_end + record.substr(last_field_end).find_first_not_of(" \t\x1a");
+  if (slip_found) return;
   const int offset = records_.skipped() + 1;
-  log_.add(Severity::note,
-           {deck_.file, records_.line(), offset + static_cast<int>(first),
-            offset + static_cast<int>(record.find_last_not_of(" \t\x1a"))},
+  const SourcePosition where{deck_.file, records_.line(), offset + static_cast<int>(first),
+                             offset + static_cast<int>(record.find_last_not_of(" \t\x1a"))};
+  const FieldValue& last = deck_.values.back();
+  if (last.blank && last.kind != FieldKind::text && begins_with_number(record.substr(first)))
+    return log_.add(Severity::warning, where,
+                    "a number stands behind the last field of the " + rule.spec.label +
+                        " card, which is blank: it is not read " + field_text(rule, rule.spec.fields.back()),
+                    "is the card shifted?");
+  log_.add(Severity::note, where,
            "characters behind the last field of the " + rule.spec.label + " card are ignored");
 }
 

@@ -142,12 +142,12 @@ class FormatParser {
         return integer(count);
       case 'F':
       case 'D':
-        return real(count, true);
+        return real(count, Decimals::needed, Exponent::none);
       case 'E':
         if (peek() == 'S' || peek() == 'N') ++at_;
-        return real(count, true);
+        return real(count, Decimals::needed, Exponent::allowed);
       case 'G':
-        return general(count);
+        return real(count, Decimals::optional, Exponent::allowed);
       case 'L':
         return add(Edit::logical, count, needed_number("width of L"));
       case 'A':
@@ -198,24 +198,27 @@ class FormatParser {
     add(Edit::integer, count, width);
   }
 
-  void real(int count, bool point_needed) {
+  enum class Decimals { needed, optional };
+  enum class Exponent { none, allowed };
+
+  void real(int count, Decimals wanted, Exponent exponent) {
     const int width = needed_number("width of a real field");
     int decimals = 0;
     if (peek() == '.') {
       ++at_;
       if (!is_number()) fail("a number is missing: decimals of a real field");
       decimals = number();
-    } else if (point_needed) {
+    } else if (wanted == Decimals::needed) {
       fail("a real field needs its decimals: F10.0, not F10");
     }
-    if (peek() == 'E' && peek(1) >= '0' && peek(1) <= '9') {  // Ew.dEe: e doesn't matter when reading
+    // Ew.dEe and Gw.dEe: e doesn't matter when reading.  Fw.d and Dw.d have none: an E behind them is the next
+    // item.
+    if (exponent == Exponent::allowed && peek() == 'E' && peek(1) >= '0' && peek(1) <= '9') {
       ++at_;
       needed_number("exponent digits");
     }
-    add(point_needed ? Edit::real : Edit::general, count, width, decimals);
+    add(wanted == Decimals::needed ? Edit::real : Edit::general, count, width, decimals);
   }
-
-  void general(int count) { real(count, false); }
 
   std::string_view original_;
   std::string text_;

@@ -67,6 +67,7 @@ ReadEnd FormattedRead::new_record() {
     return ReadEnd::end_of_file;
   }
   record_ = source_.record();
+  has_comma_ = record_.find(',') != std::string_view::npos;
   return ReadEnd::complete;
 }
 
@@ -105,12 +106,37 @@ ReadEnd FormattedRead::control(const FormatStep& step) {
 std::string_view FormattedRead::cut_field(std::size_t width, bool numeric, bool& comma) {
   const std::size_t start = std::min(position_, record_.size());
   std::string_view field = record_.substr(start, width);
-  const std::size_t at = numeric ? field.find(',') : std::string_view::npos;
+  const std::size_t at = numeric && has_comma_ ? field.find(',') : std::string_view::npos;
   comma = at != std::string_view::npos;
   if (comma) field = field.substr(0, at);
   position_ += comma ? at + 1 : width;
   last_field_end_ = std::max(last_field_end_, position_);
   return field;
+}
+
+// The character behind the last column of records that are longer than the layout's.
+char FormattedRead::first_beyond(std::size_t end) const {
+  return end == record_.size() && !source_.beyond().empty() ? source_.beyond().front() : ' ';
+}
+
+// Most fields begin with a blank and have a blank behind them.
+inline bool FormattedRead::stands_apart(std::string_view field, std::size_t width) const {
+  const char* behind = field.data() + width;
+  if (field.front() != ' ') return false;
+  return behind < record_.data() + record_.size() ? *behind == ' ' : source_.beyond().empty();
+}
+
+void FormattedRead::look_at_ends(const FieldValue& value, std::size_t start, std::size_t width, int index) {
+  const std::string_view field = value.text;
+  const std::size_t end = start + width;
+  const char next = field.size() < width ? ' ' : end < record_.size() ? record_[end] : first_beyond(end);
+  const bool begins = field.front() != ' ';
+  const char before = begins && start > 0 ? record_[start - 1] : ' ';
+  const char behind = value.blank || field.back() != ' ' ? next : ' ';
+  const bool lone = begins && width > 1 && (field.size() == 1 || field[1] == ' ');
+  if (before == ' ' && behind == ' ' && !lone) return;
+  seams_->push_back(
+      {index, static_cast<std::uint32_t>(start), static_cast<std::uint32_t>(width), before, behind, lone});
 }
 
 void FormattedRead::take_field(const FormatStep& step, FieldKind kind, int text_length, FieldValue& value,
@@ -168,7 +194,14 @@ ReadEnd FormattedRead::read(FieldKind kind, std::vector<FieldValue>& values, std
           record_.substr(record_.size() - left).find(',') == std::string::npos)
         return ReadEnd::end_of_record;
       FieldResult result;
-      take_field(step, kind, text_length, values.emplace_back(), result);
+      const std::size_t start = position_;
+      FieldValue& value = values.emplace_back();
+      take_field(step, kind, text_length, value, result);
+      if (seams_ && !value.text.empty()) {
+        const std::size_t columns = width > 0 ? width : value.text.size();
+        if (!stands_apart(value.text, columns) && !(result.hints & hint_comma))
+          look_at_ends(value, start, columns, static_cast<int>(values.size()) - 1);
+      }
       if (result.fault != FieldFault::none || result.hints != hint_none)
         flaws.push_back({static_cast<int>(values.size()) - 1, result.fault, result.hints, result.at});
       return ReadEnd::complete;

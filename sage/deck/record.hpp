@@ -77,6 +77,18 @@ struct FieldFlaw {
   std::uint16_t at = 0;
 };
 
+// A field whose characters touch those beside it, or that begins with a lone character: a number that the end
+// of its field cuts looks like this, and so do full fields side by side.
+struct Seam {
+  int value = 0;            // index into the values read
+  std::uint32_t start = 0;  // first column of the field in its record, 0-based
+  std::uint32_t width = 0;  // columns that the FORMAT gives it
+  char before = ' ';        // the character before the field, where the field's first is no blank
+  char behind = ' ';        // the character behind the field, where the field's last is no blank or all are
+  bool lone = false;        // one character in the first of several columns, and a blank or nothing behind it
+  bool whole = false;       // set by find_slip: what begins in this field ends where a field ends
+};
+
 enum class ReadEnd : std::uint8_t {
   complete,
   end_of_file,
@@ -89,8 +101,9 @@ enum class ReadEnd : std::uint8_t {
 // One READ statement: begin, as many values as wanted, finish.
 class FormattedRead {
  public:
-  FormattedRead(RecordSource& source, const Format& format)
-      : source_(source), walker_(format), format_(format), blanks_(source.rules().blanks) {}
+  // `seams`: collects the fields that touch others; nullptr = nobody asks.
+  FormattedRead(RecordSource& source, const Format& format, std::vector<Seam>* seams = nullptr)
+      : source_(source), walker_(format), format_(format), seams_(seams), blanks_(source.rules().blanks) {}
 
   ReadEnd begin() { return new_record(); }
   // Appends one value.  text_length: characters that the variable holds, for A without a width (0 = rest of
@@ -109,15 +122,20 @@ class FormattedRead {
   void take_field(const FormatStep& step, FieldKind kind, int text_length, FieldValue& value,
                   FieldResult& result);
   std::string_view cut_field(std::size_t width, bool numeric, bool& comma);
+  char first_beyond(std::size_t end) const;
+  bool stands_apart(std::string_view field, std::size_t width) const;
+  void look_at_ends(const FieldValue& value, std::size_t start, std::size_t width, int index);
 
   RecordSource& source_;
   FormatWalker walker_;
   const Format& format_;
+  std::vector<Seam>* seams_;
   std::string_view record_;
   std::size_t position_ = 0;
   std::size_t last_field_end_ = 0;
   int scale_ = 0;
   BlankMode blanks_;
+  bool has_comma_ = false;  // the record holds one
 };
 
 // READ(unit, *): values between separators, over as many records as it takes.

@@ -32,6 +32,18 @@ TEST(Format, UnrollsRepeatsAndGroups) {
   EXPECT_EQ(widths("(I1,*(I2,I3))", 6), "1 2 3 2 3 2");
 }
 
+// What gfortran 12 makes of a missing comma: F and D have no exponent part, E and G have.
+TEST(Format, AnExponentBelongsToEAndG) {
+  EXPECT_EQ(widths("(3F24.7E12.6)", 4), "24 24 24 12");
+  EXPECT_EQ(widths("(F5.1E5.2)", 2), "5 5");
+  EXPECT_EQ(widths("(D8.2E5.2)", 2), "8 5");
+  EXPECT_EQ(widths("(F5.1D5.2)", 2), "5 5");
+  EXPECT_EQ(widths("(E8.2E2,F5.1)", 2), "8 5");
+  EXPECT_EQ(widths("(G8.2E2,ES9.3E3,F5.1)", 3), "8 9 5");
+  for (const char* refused : {"(E8.2E5.2)", "(G8.2E5.2)", "(F5.1E2)", "(D8.2E2,F5.1)", "(F5E5.2)"})
+    EXPECT_THROW(compile_format(refused), FormatError) << refused;
+}
+
 TEST(Format, RevertsToTheLastTopLevelGroup) {
   EXPECT_EQ(widths("(I1,2I2)", 5), "1 2 2 / 1 2");
   EXPECT_EQ(widths("(I1,(I2,I3))", 5), "1 2 3 / 2 3");

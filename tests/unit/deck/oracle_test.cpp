@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -131,6 +132,7 @@ std::string format_items(Random& random, std::vector<Item>& items, int depth, bo
   std::string text;
   const int count = 1 + random.below(3);
   for (int i = 0; i < count; ++i) {
+    const std::size_t comma = text.size();
     if (i > 0) text += ",";
     if (!plain && random.chance(25)) text += control_edit(random) + ",";
     if (depth < 3 && random.chance(15)) {
@@ -144,6 +146,9 @@ std::string format_items(Random& random, std::vector<Item>& items, int depth, bo
     } else {
       text += data_edit(random, items);
     }
+    // gfortran does without the comma before a letter.
+    const bool letter = i > 0 && std::isalpha(static_cast<unsigned char>(text[comma + 1])) != 0;
+    if (letter && random.chance(15)) text.erase(comma, 1);
   }
   return text;
 }
