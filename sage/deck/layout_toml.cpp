@@ -1,10 +1,14 @@
 // Layout files: TOML -> Layout, with the layout file's own line in every complaint.
+#include <map>
+
 #include "sage/deck/layout.hpp"
 #include "sage/deck/toml_file.hpp"
 
 namespace sage {
 
 namespace {
+
+constexpr std::size_t most_cards = 10000, most_fields = 1000;
 
 class LayoutReader : private TomlFile {
  public:
@@ -155,7 +159,10 @@ class LayoutReader : private TomlFile {
     card.about = text(table, "about");
     card.is_item = is_item;
     card.same_read = flag(table, "same_read");
-    if (find_card(card.key) >= 0) fail(table, "card \"" + card.key + "\" is defined twice");
+    const auto [place, added] = index_of_.try_emplace(card.key, static_cast<int>(layout_.cards.size()));
+    if (!added) fail(table, "card \"" + card.key + "\" is defined twice");
+    if (layout_.cards.size() == most_cards)
+      fail(table, "a layout has at most " + std::to_string(most_cards) + " kinds of cards");
     if (!is_item) read_format(table, card);
     if (card.same_read && !card.list_directed) fail(table, "same_read belongs to list-directed cards");
     if (!card.list_directed)
@@ -186,6 +193,8 @@ class LayoutReader : private TomlFile {
     const toml::node* node = table.get("fields");
     const toml::array* fields = node ? node->as_array() : nullptr;
     if (!node && table.contains("items")) return;  // the whole READ is a list of items
+    if (fields && fields->size() > most_fields)
+      fail(*node, "card \"" + card.key + "\" has more than " + std::to_string(most_fields) + " fields");
     if (!fields || fields->empty())
       fail(node ? *node : table, "card \"" + card.key + "\" needs fields = [ ... ]");
     for (const toml::node& entry : *fields) {
@@ -312,9 +321,8 @@ class LayoutReader : private TomlFile {
   }
 
   int find_card(std::string_view key) const {
-    for (std::size_t i = 0; i < layout_.cards.size(); ++i)
-      if (layout_.cards[i].key == key) return static_cast<int>(i);
-    return -1;
+    const auto it = index_of_.find(key);
+    return it == index_of_.end() ? -1 : it->second;
   }
 
   // `own` is the card that a bare field name means; -1 = the card being read.
@@ -352,10 +360,45 @@ class LayoutReader : private TomlFile {
 
   const toml::table& root_;
   Layout layout_;
+  std::map<std::string, int, std::less<>> index_of_;  // cards by their keys
   int bare_card_ = -1;
 };
 
+constexpr std::size_t most_characters = 16u << 20;
+constexpr int most_key_parts = 16;  // toml++ walks tables within tables by recursion
+
+// "a.b.c" has three parts.  Texts and comments are passed over; a number has one point.
+void check_key_parts(std::string_view text, const std::string& file) {
+  int line = 1, parts = 1;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '#') i = std::min(text.find('\n', i), text.size() - 1);
+    if (c == '"' || c == '\'') {
+      const std::string_view mark =
+          text.substr(i, 3) == std::string(3, c) ? text.substr(i, 3) : text.substr(i, 1);
+      std::size_t end = i + mark.size();
+      while (end < text.size() && text.substr(end, mark.size()) != mark &&
+             (mark.size() == 3 || text[end] != '\n'))
+        end += c == '"' && text[end] == '\\' ? 2 : 1;
+      end = std::min(end, text.size());
+      line += static_cast<int>(std::count(text.begin() + static_cast<std::ptrdiff_t>(i),
+                                          text.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+      i = end < text.size() && text[end] == '\n' ? end - 1 : end + mark.size() - 1;
+      continue;
+    }
+    if (i < text.size() && text[i] == '\n') ++line;
+    if (c == '.' && ++parts > most_key_parts)
+      throw InputError({file, line, 0, 0}, "a key of more than " + std::to_string(most_key_parts) +
+                                               " parts with points between them");
+    const bool ends =
+        c == '=' || c == ',' || c == '[' || c == ']' || c == '{' || c == '}' || c == '\n' || c == '#';
+    if (ends) parts = 1;
+  }
+}
+
 toml::table parse(std::string_view text, const std::string& file) {
+  if (text.size() > most_characters) throw InputError({file, 0, 0, 0}, "the layout file is larger than 16 MiB");
+  check_key_parts(text, file);
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& error) {

@@ -1,5 +1,6 @@
 #include "sage/deck/source.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -54,6 +55,26 @@ std::string_view SourceText::line(int number) const {
   return line_at(*text_, starts_[static_cast<std::size_t>(number) - 1]);
 }
 
+namespace {
+
+// What has no stated size (a pipe, a device) may have no end either.
+constexpr std::size_t most_of_a_stream = std::size_t{256} << 20;
+constexpr auto most_of_a_file = static_cast<std::size_t>(std::numeric_limits<int>::max());
+
+// Bytes that may come; throws for a file that is too large as a whole.
+std::size_t readable_bytes(const std::string& path, std::size_t& stated) {
+  std::error_code error;
+  stated = 0;
+  if (!std::filesystem::is_regular_file(path, error)) return most_of_a_stream;
+  const auto size = std::filesystem::file_size(path, error);
+  if (error) return most_of_a_stream;
+  if (size > most_of_a_file) throw InputError({path, 0, 0, 0}, "the file is larger than 2 GiB");
+  stated = static_cast<std::size_t>(size);
+  return std::max(stated, most_of_a_stream);
+}
+
+}  // namespace
+
 std::string read_file(const std::string& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
@@ -61,14 +82,18 @@ std::string read_file(const std::string& path) {
   const std::unique_ptr<std::FILE, FileCloser> file(std::fopen(path.c_str(), "rb"));
   if (!file) throw InputError({path, 0, 0, 0}, std::string("can't be opened: ") + std::strerror(errno));
   std::string text;
-  const auto size = std::filesystem::file_size(path, ignored);
-  std::size_t room = ignored || size > (1u << 30) ? 65536 : static_cast<std::size_t>(size) + 1;
+  std::size_t stated = 0;
+  const std::size_t most = readable_bytes(path, stated);
+  std::size_t room = stated > 0 ? stated + 1 : 65536;
   for (;;) {
     const std::size_t have = text.size();
     text.resize(have + room);
     const std::size_t got = std::fread(text.data() + have, 1, room, file.get());
     text.resize(have + got);
     if (got < room) break;
+    if (text.size() > most)
+      throw InputError({path, 0, 0, 0}, "gives more than " + std::to_string(most >> 20) +
+                                            " MiB without an end: a deck or a layout is a file");
     room = text.size();
   }
   if (std::ferror(file.get()))

@@ -7,6 +7,7 @@
 
 #include "sage/deck/layout_bytes.hpp"
 #include "sage/deck/read_deck.hpp"
+#include "sage/deck/source.hpp"
 
 namespace sage {
 namespace {
@@ -93,6 +94,38 @@ TEST(Layout, MistakesNameTheirLine) {
                              "'integer' }] }\n"),
             "5: items belong to list-directed cards");
   EXPECT_EQ(complaint("name = 'x'\nblanks = 'maybe'\n[[card]]\n"), "2: blanks must be \"null\" or \"zero\"");
+}
+
+// Each of these crashed, took minutes or filled the memory.
+TEST(Layout, HostileFilesMeetLimits) {
+  const std::string card = "[[card]]\nname = 'a'\nformat = '(I5)'\nfields = [{ name = 'n' }]\n";
+  std::string dotted = "a";
+  for (int i = 0; i < 160'000; ++i) dotted += ".a";
+  for (const std::string& key : {dotted + " = 1\n", "[" + dotted + "]\n", "x = { " + dotted + " = 1 }\n"})
+    EXPECT_EQ(complaint("name = 'x'\n" + key), "2: a key of more than 16 parts with points between them");
+  // Points in texts and comments are none of a key's.
+  const std::string points(100, '.');
+  EXPECT_EQ(complaint("name = '" + points + "' # " + points + "\ntitle = \"\\\"" + points +
+                      "\"\nclosing = '''\n" + points + "\n" + points + "'''\n" + card),
+            "");
+  std::string cards = "name = 'x'\n";
+  for (int i = 0; i <= 10'000; ++i)
+    cards += "[[card]]\nname = 'c" + std::to_string(i) + "'\nformat = '(I5)'\nfields = [{ name = 'n' }]\n";
+  EXPECT_EQ(complaint(cards), "40002: a layout has at most 10000 kinds of cards");
+  std::string fields;
+  for (int i = 0; i <= 1000; ++i) fields += "{ name = 'n" + std::to_string(i) + "' },";
+  EXPECT_EQ(complaint("name = 'x'\n[[card]]\nname = 'a'\nformat = '(1001I5)'\nfields = [" + fields + "]\n"),
+            "5: card \"a\" has more than 1000 fields");
+  EXPECT_EQ(complaint(std::string(17u << 20, '#')), "0: the layout file is larger than 16 MiB");
+}
+
+TEST(Layout, ADeviceWithoutAnEndIsNoFile) {
+  try {
+    read_file("/dev/zero");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("gives more than 256 MiB without an end"), std::string::npos);
+  }
 }
 
 TEST(Layout, AListMustSuitTheWholeFormat) {
