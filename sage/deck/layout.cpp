@@ -4,6 +4,7 @@
 
 #include "sage/deck/embedded.hpp"
 #include "sage/deck/layout_bytes.hpp"
+#include "sage/deck/layout_names.hpp"
 #include "sage/deck/source.hpp"
 
 namespace sage {
@@ -51,7 +52,7 @@ Layout load_layout(const std::string& path_or_name) {
   for (const EmbeddedLayout& embedded : embedded_layouts())
     if (embedded.name == path_or_name) return unpacked(embedded);
   const bool path = path_or_name.find('/') != std::string::npos || path_or_name.find('.') != std::string::npos;
-  if (path) return load_layout_text(read_file(path_or_name), path_or_name);
+  if (path) return load_checked_layout(read_file(path_or_name), path_or_name);
   std::string known;
   for (const std::string& name : built_in_layouts()) known += (known.empty() ? "" : ", ") + name;
   throw InputError({path_or_name, 0, 0, 0},

@@ -2,6 +2,7 @@
 #include <map>
 
 #include "sage/deck/layout.hpp"
+#include "sage/deck/layout_names.hpp"
 #include "sage/deck/toml_file.hpp"
 
 namespace sage {
@@ -31,6 +32,7 @@ class LayoutReader : private TomlFile {
     read_entries(*cards, layout_.entries, 1);
     return std::move(layout_);
   }
+  const NameMarks& marks() const { return marks_; }
 
  private:
   void read_record_rules() {
@@ -88,7 +90,7 @@ class LayoutReader : private TomlFile {
 
   LayoutEntry read_entry(const toml::table& table, int depth) {
     known_keys(table, {"name", "as", "label", "about", "format", "fields", "items", "block", "card", "opens",
-                       "repeat", "until", "until_dropped", "when", "headings", "same_read"});
+                       "repeat", "until", "until_dropped", "when", "headings", "same_read", "ignored"});
     LayoutEntry entry;
     entry.line = static_cast<int>(table.source().begin.line);
     const bool block = table.contains("block");
@@ -170,6 +172,7 @@ class LayoutReader : private TomlFile {
     const auto index = layout_.cards.size();
     layout_.cards.push_back(card);  // its own fields may be named by its counts
     bare_card_ = static_cast<int>(index);
+    if (flag(table, "ignored")) marks_.ignored_cards.insert(bare_card_);
     read_fields(table, layout_.cards[index]);
     if (!layout_.cards[index].list_directed && !is_item) check_format(table, layout_.cards[index]);
     read_items(table, static_cast<int>(index));
@@ -208,7 +211,7 @@ class LayoutReader : private TomlFile {
 
   void read_field(const toml::table& table, CardRule& card) {
     known_keys(table, {"name", "label", "unit", "kind", "required", "default", "codes", "map", "equals",
-                       "count", "blank"});
+                       "count", "blank", "ignored"});
     FieldSpec spec;
     FieldRule rule;
     spec.name = text(table, "name", true);
@@ -232,6 +235,9 @@ class LayoutReader : private TomlFile {
     rule.codes = text(table, "codes");
     rule.must_equal = text(table, "equals");
     read_map(table, rule);
+    const std::pair<int, int> place{bare_card_, static_cast<int>(card.spec.fields.size())};
+    marks_.lines[place] = static_cast<int>(table.source().begin.line);
+    if (flag(table, "ignored")) marks_.ignored_fields.insert(place);
     card.spec.fields.push_back(spec);
     card.rules.push_back(rule);
     if (table.contains("count")) card.rules.back().count = expression(table, "count", -1);
@@ -311,7 +317,7 @@ class LayoutReader : private TomlFile {
     if (!node) return;
     const toml::table* items = node->as_table();
     if (!items) fail(*node, "items must be a table");
-    known_keys(*items, {"name", "as", "label", "about", "fields", "count"});
+    known_keys(*items, {"name", "as", "label", "about", "fields", "count", "ignored"});
     if (!items->contains("count")) fail(*node, "items need a count");
     const int item = read_card(*items, true);
     bare_card_ = index;
@@ -352,6 +358,7 @@ class LayoutReader : private TomlFile {
       if (fields[i].name == field) {
         found.card = index;
         found.field = static_cast<int>(i);
+        marks_.in_expressions.insert({index, found.field});
         return;
       }
     throw ExpressionError("card \"" + layout_.cards[static_cast<std::size_t>(index)].key +
@@ -362,6 +369,7 @@ class LayoutReader : private TomlFile {
   Layout layout_;
   std::map<std::string, int, std::less<>> index_of_;  // cards by their keys
   int bare_card_ = -1;
+  mutable NameMarks marks_;  // expressions are compiled by const members
 };
 
 constexpr std::size_t most_characters = 16u << 20;
@@ -413,6 +421,14 @@ toml::table parse(std::string_view text, const std::string& file) {
 Layout load_layout_text(std::string_view toml_text, const std::string& file) {
   const toml::table root = parse(toml_text, file);
   return LayoutReader(root, file).read();
+}
+
+Layout load_checked_layout(std::string_view toml_text, const std::string& file) {
+  const toml::table root = parse(toml_text, file);
+  LayoutReader reader(root, file);
+  Layout layout = reader.read();
+  check_names(layout, reader.marks());
+  return layout;
 }
 
 }  // namespace sage

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "sage/deck/layout_bytes.hpp"
+#include "sage/deck/layout_names.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "sage/deck/source.hpp"
 
@@ -126,6 +127,56 @@ TEST(Layout, ADeviceWithoutAnEndIsNoFile) {
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("gives more than 256 MiB without an end"), std::string::npos);
   }
+}
+
+// A copy of the built-in layout with one mistake; the layout file's own complaint.
+std::string names_complaint(const std::string& from, const std::string& to,
+                            const std::string& layout = "sage1") {
+  std::string toml = file_text(SAGE_SOURCE_DIR "/legacy_inputs/layouts/" + layout + ".toml");
+  const std::size_t at = toml.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  toml.replace(at, from.size(), to);
+  try {
+    load_checked_layout(toml, "my.toml");
+  } catch (const InputError& error) {
+    const Diagnostic& d = error.diagnostics().list().front();
+    EXPECT_EQ(d.where.file, "my.toml");
+    EXPECT_GT(d.where.line, 0);
+    return d.message;
+  }
+  return {};
+}
+
+TEST(LayoutNames, EveryBuiltInLayoutIsMeant) {
+  for (const std::string& name : built_in_layouts()) {
+    const std::string file = SAGE_SOURCE_DIR "/legacy_inputs/layouts/" + name + ".toml";
+    try {
+      load_layout(file);
+    } catch (const InputError& error) {
+      for (const Diagnostic& d : error.diagnostics().list()) ADD_FAILURE() << to_string(d);
+    }
+  }
+}
+
+// Each of these ran with exit 0 and without its loads.
+TEST(LayoutNames, ALoadIsNotLostInSilence) {
+  EXPECT_EQ(names_complaint("\"y_force\"", "\"fy\""),
+            "field \"fy\" of card \"load\" is used by nothing; the nearest name is \"y_force\" (or mark it: "
+            "ignored = true)");
+  EXPECT_EQ(names_complaint("\"y_force\"", "\"y_forse\""),
+            "field \"y_forse\" of card \"load\" is used by nothing; the nearest name is \"y_force\" (or mark "
+            "it: ignored = true)");
+  EXPECT_EQ(names_complaint("\"y_force\",", "\"other\", ignored = true,"), "");
+  EXPECT_EQ(names_complaint("name = \"normal2\",", "name = \"other\", ignored = true,"),
+            "card \"pressure\" has no field \"normal2\", which it needs");
+  EXPECT_EQ(names_complaint("name = \"load\"", "name = \"loads\""),
+            "card \"loads\" is used by nothing; the nearest name is \"load\" (as = \"...\" renames it, ignored "
+            "= true "
+            "passes over it)");
+  EXPECT_EQ(names_complaint("  opens = true\n", ""),
+            "card \"fixity\" must belong to a card \"stage\" and belongs to card \"stage_title\": put opens = "
+            "true on "
+            "the \"stage\" card of its block");
 }
 
 TEST(Layout, AListMustSuitTheWholeFormat) {

@@ -1,0 +1,265 @@
+#include "sage/deck/layout_names.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace sage {
+
+namespace {
+
+// One card that the model builder knows (sage/model/build_*.cpp and canonical_*.cpp).  Names stand between
+// blanks; "a|b": one of them is enough.
+struct KnownCard {
+  std::string_view family, name;
+  bool card_needed;
+  std::string_view needed, others;
+  std::string_view owner;  // the card that it is looked for under; "?" before it: or on its own
+};
+
+constexpr std::string_view kElement = "n3 n4 n5 n6 n7 n8 group columns rows column_step row_step";
+
+// n9 and more: as many as the element has.
+bool is_node_name(std::string_view name) {
+  return name.size() > 1 && name[0] == 'n' && name.find_first_not_of("0123456789", 1) == std::string_view::npos;
+}
+
+constexpr KnownCard kKnown[] = {
+    {"sage1", "title", false, "", "title", ""},
+    {"sage1", "units", false, "", "length force stress atmospheric_pressure water_unit_weight", ""},
+    {"sage1", "control", true, "", "geometry solver total_nodes total_elements", ""},
+    {"sage1", "node", true, "number x y", "step system ratio", ""},
+    {"sage1", "fill", false, "first columns rows row_step", "column_step column_ratio row_ratio", ""},
+    {"sage1", "material", true, "number law", "unit_weight name", ""},
+    {"sage1", "parameters", false, "values", "", "material"},
+    {"sage1", "group", true, "number element material", "formulation name", ""},
+    {"sage1", "element", true, "number n1 n2", kElement, ""},
+    {"sage1", "fixity", false, "first x_code|y_code", "last step x_code y_code x_value y_value", "?stage"},
+    {"sage1", "initial", false, "group v1", "kind v2 v3 v4 v5 v6", "?stage"},
+    {"sage1", "stage_title", false, "title", "", ""},
+    {"sage1", "stage", true, "", "increments method max_iterations output_every gravity_x gravity_y tolerance",
+     ""},
+    {"sage1", "load", false, "first x_force|y_force", "last step x_force y_force", "stage"},
+    {"sage1", "pressure", false, "element edge normal1 normal2", "last step shear1 shear2", "stage"},
+    {"sage1", "birth", false, "groups", "", "stage"},
+    {"sage1", "death", false, "groups", "", "stage"},
+    {"sage1", "report", false, "first|nodes",
+     "kind first last step nodes group stage height area cell_pressure", ""},
+
+    {"quad4m", "title", false, "", "title", ""},
+    {"quad4m", "units", true, "system", "", ""},
+    {"quad4m", "control", true, "", "nodes elements", ""},
+    {"quad4m", "node", true, "number x y boundary", "", ""},
+    {"quad4m", "element", true, "number n1 n2 n3 n4 unit_weight poissons_ratio shear_modulus", "material", ""},
+
+    {"cande", "title", false, "", "title", ""},
+    {"cande", "control", true, "", "load_steps total_nodes", ""},
+    {"cande", "node", true, "number x y", "reference_code generation_x generation_y increment", ""},
+    {"cande", "element", true, "number n1 n2 n3 n4 material class",
+     "birth death node_increment rows row_increment", ""},
+    {"cande", "fixity", true, "first x_code y_code",
+     "x_value y_value angle load_step last step pressure1 pressure2", ""},
+    {"cande", "material", true, "number law", "unit_weight name", ""},
+    {"cande", "isotropic", false, "youngs_modulus poissons_ratio", "", "material"},
+    {"cande", "mohr_coulomb", false, "youngs_modulus poissons_ratio cohesion friction_angle", "", "material"},
+    {"cande", "duncan", false, "model", "", "material"},
+    {"cande", "duncan_strength", false,
+     "cohesion friction_angle friction_drop modulus_number modulus_exponent failure_ratio", "", "material"},
+    {"cande", "duncan_bulk", false, "bulk_number bulk_exponent", "", "material"},
+    {"cande", "load_factor", false, "factor", "first last", ""},
+
+    {"rectangle", "rectangle", true, "columns rows",
+     "geometry shape nodes_per_element direction integration_points footing harmonic", ""},
+    {"rectangle", "rectangle_x", true, "x", "", ""},
+    {"rectangle", "rectangle_y", true, "y", "", ""},
+    {"rectangle", "material_values", true, "youngs_modulus poissons_ratio",
+     "undrained_strength friction_angle cohesion dilation_angle bulk_modulus unit_weight consolidation", ""},
+    {"rectangle", "element_materials", false, "materials", "", ""},
+    {"rectangle", "restraints", false, "", "count", ""},
+    {"rectangle", "fixity", false, "first x_code|y_code", "last step x_code y_code x_value y_value", ""},
+    {"rectangle", "load", false, "first x_force|y_force", "x_force y_force", ""},
+    {"rectangle", "displacement", false, "first direction", "value", ""},
+    {"rectangle", "surcharge", false, "pressure", "", ""},
+    {"rectangle", "increments", false, "factors|displacement", "increments factors displacement", ""},
+    {"rectangle", "iteration", false, "", "increments displacement", ""},
+
+    {"embankment", "foundation", true, "columns rows", "increments", ""},
+    {"embankment", "embankment", true, "lifts columns rows", "slope pressure_at_rest", ""},
+    {"embankment", "material_values", true,
+     "youngs_modulus poissons_ratio cohesion friction_angle dilation_angle unit_weight", "", ""},
+    {"embankment", "foundation_x", true, "x", "", ""},
+    {"embankment", "foundation_y", true, "y", "", ""},
+    {"embankment", "embankment_x", true, "x", "", ""},
+    {"embankment", "embankment_y", true, "y", "", ""},
+    {"embankment", "restraints", false, "", "count", ""},
+    {"embankment", "fixity", false, "first x_code|y_code", "last step x_code y_code x_value y_value", ""},
+};
+
+std::vector<std::string_view> words(std::string_view text, char separator = ' ') {
+  std::vector<std::string_view> all;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(separator), text.size());
+    if (end > 0) all.push_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return all;
+}
+
+std::vector<std::string_view> known_fields(const KnownCard& card) {
+  std::vector<std::string_view> all = words(card.others);
+  for (const std::string_view group : words(card.needed))
+    for (const std::string_view name : words(group, '|')) all.push_back(name);
+  return all;
+}
+
+// Letters to change, insert or leave out.
+std::size_t distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t corner = row[0]++;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t changed = corner + (a[i] == b[j] ? 0 : 1);
+      corner = row[j + 1];
+      row[j + 1] = std::min({changed, row[j] + 1, corner + 1});
+    }
+  }
+  return row.back();
+}
+
+std::string nearest(std::string_view name, const std::vector<std::string_view>& known) {
+  if (known.empty()) return {};
+  const auto best = std::min_element(known.begin(), known.end(), [&](std::string_view a, std::string_view b) {
+    return distance(name, a) < distance(name, b);
+  });
+  return "; the nearest name is \"" + std::string(*best) + "\"";
+}
+
+class NameCheck {
+ public:
+  NameCheck(const Layout& layout, const NameMarks& marks) : layout_(layout), marks_(marks), family_(family()) {}
+
+  void run() {
+    owners_.assign(layout_.cards.size(), -1);
+    find_owners(layout_.entries, -1);
+    for (std::size_t i = 0; i < layout_.cards.size(); ++i)
+      if (marks_.ignored_cards.count(static_cast<int>(i)) == 0) check_card(static_cast<int>(i));
+    for (const KnownCard& known : kKnown)
+      if (known.family == family_ && known.card_needed && !has_card(known.name))
+        error(0, "the layout has no card \"" + std::string(known.name) + "\", which every model needs");
+    if (problems_.errors() > 0) throw InputError(problems_);
+  }
+
+ private:
+  const CardRule& rule(int card) const { return layout_.cards[static_cast<std::size_t>(card)]; }
+  bool has_card(std::string_view name) const {
+    return std::any_of(layout_.cards.begin(), layout_.cards.end(),
+                       [&](const CardRule& c) { return c.spec.name == name; });
+  }
+  bool has_field(const CardRule& card, std::string_view name) const {
+    return std::any_of(card.spec.fields.begin(), card.spec.fields.end(),
+                       [&](const FieldSpec& f) { return f.name == name; });
+  }
+  bool element_has(std::string_view field) const {
+    return std::any_of(layout_.cards.begin(), layout_.cards.end(),
+                       [&](const CardRule& c) { return c.spec.name == "element" && has_field(c, field); });
+  }
+  // As the model builder tells them apart.
+  std::string_view family() const {
+    if (has_card("foundation")) return "embankment";
+    if (has_card("rectangle")) return "rectangle";
+    if (element_has("shear_modulus")) return "quad4m";
+    return element_has("class") ? "cande" : "sage1";
+  }
+  const KnownCard* known(std::string_view name) const {
+    for (const KnownCard& card : kKnown)
+      if (card.family == family_ && card.name == name) return &card;
+    return nullptr;
+  }
+
+  void find_owners(const std::vector<LayoutEntry>& entries, int owner) {
+    for (const LayoutEntry& entry : entries) {
+      if (entry.card >= 0) owners_[static_cast<std::size_t>(entry.card)] = owner;
+      find_owners(entry.entries, owner);
+      if (entry.opens && entry.card >= 0) owner = entry.card;
+    }
+  }
+
+  void error(int line, const std::string& message) {
+    problems_.add({Severity::error, {layout_.file, line, 0, 0}, message, {}});
+  }
+
+  bool is_used(int card, int field) const {
+    const std::pair<int, int> place{card, field};
+    return marks_.ignored_fields.count(place) > 0 || marks_.in_expressions.count(place) > 0 ||
+           !rule(card).rules[static_cast<std::size_t>(field)].must_equal.empty();
+  }
+
+  // What the card could still mean.
+  std::vector<std::string_view> not_given(const CardRule& card, std::vector<std::string_view> names) const {
+    std::erase_if(names, [&](std::string_view name) { return has_field(card, name); });
+    return names;
+  }
+
+  void check_card(int index) {
+    const CardRule& card = rule(index);
+    const KnownCard* meaning = known(card.spec.name);
+    const std::vector<std::string_view> names =
+        meaning ? known_fields(*meaning) : std::vector<std::string_view>();
+    for (std::size_t f = 0; f < card.spec.fields.size(); ++f) {
+      const int field = static_cast<int>(f);
+      const std::string& name = card.spec.fields[f].name;
+      if (is_used(index, field) || std::find(names.begin(), names.end(), name) != names.end()) continue;
+      if (!meaning) return unknown_card(card);
+      if (meaning->name == "element" && family_ == "sage1" && is_node_name(name)) continue;
+      error(marks_.lines.at({index, field}),
+            "field \"" + name + "\" of card \"" + card.spec.name + "\" is used by nothing" +
+                nearest(name, not_given(card, names)) + " (or mark it: ignored = true)");
+    }
+    if (!meaning) return;
+    for (const std::string_view group : words(meaning->needed)) {
+      const std::vector<std::string_view> choice = words(group, '|');
+      const bool given = std::any_of(choice.begin(), choice.end(), [&](auto n) { return has_field(card, n); });
+      if (given) continue;
+      std::string wanted;
+      for (const std::string_view name : choice)
+        wanted += (wanted.empty() ? "\"" : " or \"") + std::string(name) + "\"";
+      error(card.line, "card \"" + card.spec.name + "\" has no field " + wanted + ", which it needs");
+    }
+    check_owner(index, *meaning);
+  }
+
+  void unknown_card(const CardRule& card) {
+    std::vector<std::string_view> names;
+    for (const KnownCard& one : kKnown)
+      if (one.family == family_) names.push_back(one.name);
+    error(card.line, "card \"" + card.spec.name + "\" is used by nothing" + nearest(card.spec.name, names) +
+                         " (as = \"...\" renames it, ignored = true passes over it)");
+  }
+
+  void check_owner(int index, const KnownCard& meaning) {
+    if (meaning.owner.empty()) return;
+    const int owner = owners_[static_cast<std::size_t>(index)];
+    const bool alone_too = meaning.owner[0] == '?';
+    const std::string wanted(meaning.owner.substr(alone_too ? 1 : 0));
+    if ((alone_too && owner < 0) || (owner >= 0 && rule(owner).spec.name == wanted)) return;
+    const std::string found = owner < 0 ? "to none" : "to card \"" + rule(owner).spec.name + "\"";
+    error(rule(index).line, "card \"" + rule(index).spec.name + "\" must belong to a card \"" + wanted +
+                                "\" and belongs " + found + ": put opens = true on the \"" + wanted +
+                                "\" card of its block");
+  }
+
+  const Layout& layout_;
+  const NameMarks& marks_;
+  std::string_view family_;
+  std::vector<int> owners_;
+  Diagnostics problems_;
+};
+
+}  // namespace
+
+void check_names(const Layout& layout, const NameMarks& marks) {
+  NameCheck(layout, marks).run();
+}
+
+}  // namespace sage
