@@ -9,6 +9,7 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
+#include "sage/output/values.hpp"
 
 namespace sage::app {
 
@@ -37,9 +38,10 @@ int check(const std::string& path, const InputOptions& options) {
     print_diagnostics(model.diagnostics);
     print_diagnostics(balance_note(model));
     const Scene scene = analyse_scene(model);
-    fmt::print("{}: {} nodes, {} elements in {} groups, {} stages; {}, {}: ready to run\n", path,
+    fmt::print("{}: {} nodes, {} elements in {} groups, {} stages; {}, {}: ready to run{}\n", path,
                model.mesh.nodes(), scene.elements, model.groups.size(), model.stages.size(),
-               model.geometry == Geometry::axisymmetric ? "axisymmetric" : "plane strain", describe(scene));
+               model.geometry == Geometry::axisymmetric ? "axisymmetric" : "plane strain", describe(scene),
+               model.left_out.empty() ? "" : ", but PARTIAL: " + left_out_words(model));
     return options.strict && model.diagnostics.warnings() > 0 ? kInput : kOk;
   } catch (const InputError& error) {
     print_diagnostics(error.diagnostics());

@@ -11,6 +11,7 @@
 #include "sage/app/exit_codes.hpp"
 #include "sage/output/discretisation.hpp"
 #include "sage/output/out_file.hpp"
+#include "sage/output/values.hpp"
 #include "sage/study/convergence.hpp"
 
 namespace sage::app {
@@ -293,6 +294,7 @@ int converge(const RunRequest& request, const ConvergeOptions& options, const Ca
     if (limit.rate) last += fmt::format(" (extrapolated, rate {:.2f})", *limit.rate);
   }
   last += fmt::format("; {:.3g} s", seconds_since(start));
+  if (!first.left_out.empty()) last += "; PARTIAL: " + left_out_words(first);
   if (!stopped.empty())
     last += fmt::format("; NOT REACHED: relative error {:.1g} asked for; {}", options.tolerance, stopped);
   table->finish(last);

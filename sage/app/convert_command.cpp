@@ -12,6 +12,7 @@
 #include "sage/model/msh_model.hpp"
 #include "sage/output/convert.hpp"
 #include "sage/output/out_file.hpp"
+#include "sage/output/values.hpp"
 
 namespace sage::app {
 
@@ -74,8 +75,9 @@ int convert(const ConvertOptions& options) {
                                         : inp_text(model, catalogue, model.diagnostics));
   if (to == ".inp") warn_of_results(options.to, model.diagnostics);
   print_diagnostics(model.diagnostics);
-  fmt::print("{}: {} nodes, {} groups{}\n", options.to, model.mesh.nodes(), model.groups.size(),
-             to == ".msh" ? "" : fmt::format(", {} stages", model.stages.size()));
+  fmt::print("{}: {} nodes, {} groups{}{}\n", options.to, model.mesh.nodes(), model.groups.size(),
+             to == ".msh" ? "" : fmt::format(", {} stages", model.stages.size()),
+             model.left_out.empty() ? "" : "; PARTIAL: " + left_out_words(model));
   return options.input.strict && model.diagnostics.warnings() > 0 ? kInput : kOk;
 }
 

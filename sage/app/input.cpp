@@ -100,6 +100,10 @@ void add_build_options(CLI::App& parser, BuildOptions& options) {
           return std::string(error.what());
         }
       });
+  parser.add_flag(
+      "--partial", options.partial,
+      "compute what is left of a foreign deck that asks for more than this program has (beams, soils "
+      "whose numbers it lacks); without it such a deck is refused");
   parser.add_option("--geometry", options.geometry, "replace the geometry: 1 plane strain, 2 axisymmetric")
       ->check(CLI::Range(1, 2));
 }

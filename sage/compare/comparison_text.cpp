@@ -41,7 +41,7 @@ void table(std::string& text, const std::vector<Row>& rows) {
 }
 
 std::string outcome(const Side& side) {
-  if (side.error().empty()) return "completed: every increment in equilibrium";
+  if (side.error().empty()) return completed_words(side.model());
   const std::string reason = one_line(side.error());
   return (side.has_state() ? "NOT COMPLETE, compared up to its last state in equilibrium: " : "NO RESULTS: ") +
          reason;

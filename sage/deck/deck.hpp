@@ -44,6 +44,7 @@ struct FieldSpec {
   bool has_fallback = false;  // blank gives `fallback` instead of 0
   double fallback = 0.0;
   BlankNote blank_note = BlankNote::never;
+  std::string use;  // what the value is used for, where its name may promise more; for echo and manual
 };
 
 // A card's definition, from the layout.
@@ -62,6 +63,12 @@ struct Card {
   int owner = -1;  // index of the card that opened the enclosing repeated block, -1 = none
 };
 
+// What a deck asks for and the model lacks.
+struct LeftOut {
+  std::string what;    // for the line that says how a run ended: "36 beam elements (the pipe)"
+  Diagnostic message;  // an error: the deck is refused unless BuildOptions::partial; else it is only told
+};
+
 // Reads one card's values by canonical field name.
 class CardView;
 
@@ -75,7 +82,8 @@ class Deck {
   std::vector<CardSpec> specs;
   std::vector<Card> cards;  // in file order
   std::vector<FieldValue> values;
-  Diagnostics diagnostics;  // warnings and notes of reading (errors throw InputError)
+  Diagnostics diagnostics;        // warnings and notes of reading (errors throw InputError)
+  std::vector<LeftOut> left_out;  // of a foreign deck, when it was given the meaning of this program's cards
 
   // All cards of a canonical name, in file order (several specs may share a name).
   std::vector<CardView> all(std::string_view name) const;

@@ -1,9 +1,11 @@
 #include "sage/deck/deck_reader.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "sage/deck/text.hpp"
+#include "sage/deck/unknown_deck.hpp"
 
 namespace sage {
 
@@ -312,19 +314,35 @@ bool DeckReader::read_items(const CardRule& rule, ListRead& read) {
 
 // ---- Entry points
 
+namespace {
+
+// A text without what an editor puts before column 1.  Throws where it can't be a deck.
+SourceText source_of(std::string text, const std::string& name) {
+  check_is_text(text, name);
+  if (text.compare(0, 3, "\xef\xbb\xbf") == 0) text.erase(0, 3);
+  return {std::move(text), name};
+}
+
+}  // namespace
+
 Deck read_deck_text(std::string text, const std::string& name, const Layout& layout,
                     const ReadOptions& options) {
-  check_is_text(text, name);
-  if (text.compare(0, 3, "\xef\xbb\xbf") == 0) text.erase(0, 3);  // an editor's mark, no part of column 1
-  const SourceText source(std::move(text), name);
+  const SourceText source = source_of(std::move(text), name);
   return DeckReader(source, layout, options).read();
 }
 
 Deck read_deck(const std::string& path, const ReadOptions& options) {
-  std::string text = read_file(path);
-  check_is_text(text, path);
-  const Layout layout = load_layout(detect_layout(text));
-  return read_deck_text(std::move(text), path, layout, options);
+  const SourceText source = source_of(read_file(path), path);
+  const std::string recognised = recognised_layout(*source.text());
+  const Layout layout = load_layout(detect_layout(*source.text()));
+  try {
+    return DeckReader(source, layout, options).read();
+  } catch (const InputError& error) {
+    if (!recognised.empty()) throw;
+    std::optional<Diagnostics> unknown = no_layout_fits(source, layout, error.diagnostics());
+    if (!unknown) throw;
+    throw InputError(*std::move(unknown));
+  }
 }
 
 Deck read_deck(const std::string& path, const Layout& layout, const ReadOptions& options) {

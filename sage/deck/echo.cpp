@@ -36,6 +36,12 @@ void echo_values(const Deck& deck, const Card& card, std::ostream& out) {
   out << line << '\n';
 }
 
+// What the fields of a card are for, where a name may promise more.
+void echo_uses(const CardSpec& spec, std::ostream& out) {
+  for (const FieldSpec& field : spec.fields)
+    if (!field.use.empty()) out << "        (" << field.name << ": " << field.use << ")\n";
+}
+
 std::string line_number(int line) {
   std::string text = std::to_string(line);
   if (text.size() < 5) text.insert(0, 5 - text.size(), ' ');
@@ -59,7 +65,8 @@ void echo(const Deck& deck, std::ostream& out) {
   int shown_line = 0, shown_spec = -1;
   for (const Card& card : deck.cards) {
     const CardSpec& spec = deck.specs[static_cast<std::size_t>(card.spec)];
-    if (card.spec != shown_spec) {
+    const bool first = card.spec != shown_spec;
+    if (first) {
       out << '\n' << spec.name;
       if (spec.label != spec.name) out << " [" << spec.label << "]";
       out << "  " << (spec.format.empty() ? "list-directed" : spec.format) << '\n'
@@ -71,6 +78,7 @@ void echo(const Deck& deck, std::ostream& out) {
       shown_line = line;
     }
     echo_values(deck, card, out);
+    if (first) echo_uses(spec, out);
   }
 }
 

@@ -59,12 +59,17 @@ Layout load_layout(const std::string& path_or_name) {
                    "no layout of this name is built in (known: " + known + "); give the path of a layout file");
 }
 
-std::string detect_layout(std::string_view deck_text) {
+std::string recognised_layout(std::string_view deck_text) {
   const SourceText deck(std::string(deck_text.substr(0, 4000)), "");
   if (std::string named = named_layout(deck.line(1)); !named.empty()) return named;
   for (const EmbeddedLayout& embedded : embedded_layouts())
     if (embedded.has_marks && has_marks(unpacked(embedded), deck)) return std::string(embedded.name);
-  return std::string(standard_layout);
+  return {};
+}
+
+std::string detect_layout(std::string_view deck_text) {
+  std::string name = recognised_layout(deck_text);
+  return name.empty() ? std::string(standard_layout) : name;
 }
 
 }  // namespace sage

@@ -76,7 +76,9 @@ Layout load_layout(const std::string& path_or_name);
 Layout load_layout_text(std::string_view toml, const std::string& file);
 std::vector<std::string> built_in_layouts();
 
-// Name of the layout that this deck asks for or looks like; "sage1" if nothing tells.
+// Name of the layout that this deck asks for or bears the marks of; empty if nothing tells.
+std::string recognised_layout(std::string_view deck_text);
+// The same; "sage1" if nothing tells.
 std::string detect_layout(std::string_view deck_text);
 
 // The manual of a layout, as Markdown.

@@ -42,8 +42,8 @@ void exchange(Archive& archive, Format& format) {
 }
 
 void exchange(Archive& archive, FieldSpec& field) {
-  auto& [name, label, unit, kind, required, has_fallback, fallback, blank_note] = field;
-  exchange_all(archive, name, label, unit, kind, required, has_fallback, fallback, blank_note);
+  auto& [name, label, unit, kind, required, has_fallback, fallback, blank_note, use] = field;
+  exchange_all(archive, name, label, unit, kind, required, has_fallback, fallback, blank_note, use);
 }
 
 void exchange(Archive& archive, FieldRule& rule) {

@@ -62,6 +62,7 @@ void add_field(const FieldSpec& spec, const FieldRule& rule, const std::string& 
   if (spec.has_fallback) note("blank gives " + number_text(spec.fallback));
   if (!rule.must_equal.empty()) note("must read " + rule.must_equal);
   if (!rule.count.empty()) note("repeats: " + rule.count.source);
+  if (!spec.use.empty()) note(spec.use);
   out += "| " + place + " | `" + spec.name + "` | " + kind_text(spec.kind) + " | " + cell(spec.label) + " | " +
          cell(spec.unit) + " | " + cell(notes) + " |\n";
 }

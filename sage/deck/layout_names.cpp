@@ -52,7 +52,7 @@ constexpr KnownCard kKnown[] = {
     {"quad4m", "node", true, "number x y boundary", "", ""},
     {"quad4m", "element", true, "number n1 n2 n3 n4 unit_weight poissons_ratio shear_modulus", "material", ""},
 
-    {"cande", "title", false, "", "title", ""},
+    {"cande", "title", false, "", "title method", ""},
     {"cande", "control", true, "", "load_steps total_nodes", ""},
     {"cande", "node", true, "number x y", "reference_code generation_x generation_y increment", ""},
     {"cande", "element", true, "number n1 n2 n3 n4 material class",

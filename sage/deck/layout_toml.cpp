@@ -211,7 +211,7 @@ class LayoutReader : private TomlFile {
 
   void read_field(const toml::table& table, CardRule& card) {
     known_keys(table, {"name", "label", "unit", "kind", "required", "default", "codes", "map", "equals",
-                       "count", "blank", "ignored"});
+                       "count", "blank", "ignored", "use"});
     FieldSpec spec;
     FieldRule rule;
     spec.name = text(table, "name", true);
@@ -232,6 +232,7 @@ class LayoutReader : private TomlFile {
       spec.blank_note = blank == "noted" ? BlankNote::always : BlankNote::compared;
     else if (!blank.empty())
       fail(*table.get("blank"), "blank must be noted or compared");
+    spec.use = text(table, "use");
     rule.codes = text(table, "codes");
     rule.must_equal = text(table, "equals");
     read_map(table, rule);

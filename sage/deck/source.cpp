@@ -7,8 +7,10 @@
 #include <filesystem>
 #include <limits>
 #include <system_error>
+#include <utility>
 
 #include "sage/core/error.hpp"
+#include "sage/deck/text.hpp"
 
 namespace sage {
 
@@ -31,6 +33,43 @@ std::vector<std::size_t> find_lines(std::string_view text) {
     at = end + (text[end] == '\r' && end + 1 < text.size() && text[end + 1] == '\n' ? 2 : 1);
   }
   return starts;
+}
+
+// A file of another kind, by its first bytes; nullptr = none that is known.
+const char* known_kind(std::string_view text) {
+  constexpr std::pair<std::string_view, const char*> kStarts[] = {
+      {"%PDF-", "a PDF document"},
+      {"%!PS", "a PostScript document"},
+      {"{\\rtf", "an RTF document"},
+      {"PK\x03\x04", "a ZIP archive (or a document of an office program)"},
+      {"\xd0\xcf\x11\xe0", "a document of an office program"},
+      {"\x1f\x8b", "compressed by gzip"},
+      {"\xfd"
+       "7zXZ",
+       "compressed by xz"},
+      {"\x28\xb5\x2f\xfd", "compressed by zstd"},
+      {"\x89PNG", "a PNG picture"},
+      {"\xff\xd8\xff", "a JPEG picture"},
+  };
+  for (const auto& [start, kind] : kStarts)
+    if (text.substr(0, start.size()) == start) return kind;
+  if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  const std::string begin = lower_case(text.substr(0, 16));
+  for (const char* tag : {"<!doctype html", "<html", "<head", "<body"})
+    if (begin.rfind(tag, 0) == 0) return "an HTML page";
+  if (begin.rfind("<?xml", 0) == 0 || begin.rfind("<svg", 0) == 0) return "an XML file";
+  return nullptr;
+}
+
+// A stray control character happens to decks; compressed data has one in ten.
+bool mostly_text(std::string_view text) {
+  const auto odd = std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) < 32 &&
+            std::string_view("\t\n\r\f\x1a").find(c) == std::string_view::npos) ||
+           c == '\x7f';
+  });
+  return odd < 3 || static_cast<double>(odd) < 0.02 * static_cast<double>(text.size());
 }
 
 }  // namespace
@@ -107,8 +146,15 @@ void check_is_text(std::string_view text, const std::string& name) {
     throw InputError({name, 0, 0, 0}, "the file is larger than 2 GiB");
   if (text.find_first_not_of(" \t\r\n\x1a") == std::string_view::npos)
     throw InputError({name, 0, 0, 0}, "the file holds nothing but blanks");
+  if (const char* kind = known_kind(text))
+    throw InputError({name, 0, 0, 0},
+                     "the file is " + std::string(kind) + ", not a deck of cards: a deck is plain text");
   const std::size_t nul = text.find('\0');
-  if (nul == std::string_view::npos) return;
+  if (nul == std::string_view::npos) {
+    if (!mostly_text(text.substr(0, 65536)))
+      throw InputError({name, 0, 0, 0}, "the file is binary (full of control characters), not a deck of cards");
+    return;
+  }
   const bool wide = text.size() > 1 && (text.substr(0, 2) == "\xff\xfe" || text.substr(0, 2) == "\xfe\xff");
   throw InputError({name, 0, 0, 0}, wide ? "the file is UTF-16 text: save it as plain ASCII or UTF-8"
                                          : "the file is binary (a NUL character at byte " +

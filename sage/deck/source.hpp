@@ -32,7 +32,7 @@ std::string_view line_at(std::string_view text, std::size_t start);
 // The whole file.  Throws InputError: missing, a directory, unreadable.
 std::string read_file(const std::string& path);
 
-// Throws InputError for a text that can't be a deck: empty, or holding NUL characters.
+// Throws InputError for a text that can't be a deck: empty, binary, a document of another kind.
 void check_is_text(std::string_view text, const std::string& name);
 
 }  // namespace sage

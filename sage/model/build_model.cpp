@@ -143,6 +143,24 @@ void check_totals(Builder& b) {
   compare("total_elements", "elements", elements);
 }
 
+// A deck that asks for more than there is: refused, or computed in part and said so with every result.
+void take_left_out(Builder& b) {
+  bool refused = false;
+  for (const LeftOut& one : b.deck.left_out) {
+    Diagnostic message = one.message;
+    b.model.left_out.push_back(one.what);
+    if (message.severity == Severity::error) {
+      refused = true;
+      message.severity = b.options.partial ? Severity::warning : Severity::error;
+      if (!b.options.partial)
+        message.message += " (--partial computes the rest, and says with the results what is missing)";
+    }
+    (b.options.partial || message.severity != Severity::error ? b.model.diagnostics : b.problems).add(message);
+  }
+  // Every file that a run writes bears the title.
+  if (refused) b.model.title = "PARTIAL: " + b.model.title;
+}
+
 }  // namespace build
 
 namespace {
@@ -164,6 +182,7 @@ Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOp
   build::Builder b{deck, catalogue, options, {}, {}, {}, {}, {}, {}, {}};
   b.model.diagnostics = deck.diagnostics;
   build::build_control(b);
+  build::take_left_out(b);
   build::build_nodes(b);
   build::build_materials(b);
   build::build_groups(b);

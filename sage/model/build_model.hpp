@@ -23,10 +23,11 @@ struct BuildOptions {
   int formulation = -1;
   // Replaces 4-node quadrilaterals by this element code (mid-side nodes are made); 0 = as the deck says.
   int element = 0;
-  int solver = -1;                              // catalogue code, 0 automatic; -1 = as the deck says
-  int geometry = 0;                             // 1 plane strain, 2 axisymmetric; 0 = as the deck says
-  int refine = 0;                               // every element into four, so many times
-  std::vector<Grading> gradings;                // after refining
+  int solver = -1;                // catalogue code, 0 automatic; -1 = as the deck says
+  int geometry = 0;               // 1 plane strain, 2 axisymmetric; 0 = as the deck says
+  int refine = 0;                 // every element into four, so many times
+  std::vector<Grading> gradings;  // after refining
+  bool partial = false;  // what the program lacks may be left out (Deck::left_out); otherwise it is an error
   std::function<void(const std::string&)> say;  // told at once, before a large mesh is made; empty = nobody
 };
 

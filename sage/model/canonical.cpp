@@ -13,6 +13,7 @@ CardWriter::CardWriter(const Deck& from) : from_(&from), texts_(std::make_shared
   deck_.source = from.source;
   deck_.line_starts = from.line_starts;
   deck_.diagnostics = from.diagnostics;
+  deck_.left_out = from.left_out;
 }
 
 std::string_view CardWriter::keep(const std::string& text) {
@@ -69,6 +70,12 @@ void CardWriter::warning(const SourcePosition& where, const std::string& message
 
 void CardWriter::note(const SourcePosition& where, const std::string& message) {
   deck_.diagnostics.add(card_diagnostic(*from_, Severity::note, where, message));
+}
+
+void CardWriter::left_out(const SourcePosition& where, const std::string& what, const std::string& message,
+                          bool needs_partial) {
+  const Severity severity = needs_partial ? Severity::error : Severity::note;
+  deck_.left_out.push_back({what, card_diagnostic(*from_, severity, where, message)});
 }
 
 void CardWriter::copy(std::string_view name) {

@@ -37,6 +37,10 @@ class CardWriter {
   // A message that shows the foreign card.
   void warning(const SourcePosition& where, const std::string& message);
   void note(const SourcePosition& where, const std::string& message);
+  // Something that the deck asks for and the model won't have.  `needs_partial`: the answer is another one
+  // without it, so that it takes BuildOptions::partial; otherwise the message is a note.
+  void left_out(const SourcePosition& where, const std::string& what, const std::string& message,
+                bool needs_partial = true);
   // The same card again, for those that mean the same in both decks.
   void copy(std::string_view name);
   Deck take();

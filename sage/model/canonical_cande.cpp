@@ -1,6 +1,9 @@
-// CANDE Level 3 decks: soil elements by load step.  Beams, interfaces and links have no element here.
+// CANDE Level 3 decks: soil elements by load step, under the load factors of the steps.  Beams, interfaces and
+// links have no element here.
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <set>
 
 #include "sage/core/types.hpp"
 #include "sage/model/canonical.hpp"
@@ -9,6 +12,7 @@ namespace sage::canonical {
 
 namespace {
 
+constexpr int kMostSteps = 99999;        // what the card has columns for
 constexpr double kCubicInches = 1728.0;  // lengths in inches, densities in lbf/ft^3
 
 void fail(const Deck& deck, const SourcePosition& where, const std::string& message) {
@@ -25,6 +29,14 @@ void add_nodes(const Deck& deck, CardWriter& out) {
              "node generation (" + node.label(field) + ") is not built; give the coordinates of every node");
     out.add("node", node.where(), {take(node, "number"), take(node, "x"), take(node, "y")});
   }
+}
+
+bool is_soil(const CardView& element) {
+  return element.integer("n3") != 0 && element.integer("class") == 0;
+}
+
+int birth_of(const CardView& element) {
+  return std::max(1, element.integer("birth"));
 }
 
 // The law of Duncan et al. (1980) from the cards D-2 to D-4, where these hold its numbers.  Decks may name a
@@ -76,38 +88,121 @@ std::vector<NewField> parameters(const Deck& deck, const CardView& material, std
   return values;
 }
 
-// Materials whose law or numbers the deck does not hold are computed as its first elastic material.
-void add_materials(const Deck& deck, const Catalogue& catalogue, CardWriter& out) {
-  std::vector<NewField> stand_in;
-  std::string ignored, stand_in_name;
-  for (const CardView& material : deck.all("material")) {
-    if (deck.all("isotropic", material).empty()) continue;
-    stand_in = parameters(deck, material, ignored, out);
-    stand_in_name = material.text("number") + " (" + material.text("name") + ")";
-    break;
-  }
-  for (const CardView& material : deck.all("material")) {
-    std::string law;
-    std::vector<NewField> values = parameters(deck, material, law, out);
-    if (values.empty()) {
-      const std::string name = "material " + material.text("number") + " (" + material.text("name") + ")";
-      if (material.integer("law") == 6 || material.integer("law") == 7) continue;
-      if (stand_in.empty())
-        fail(deck, material.where("law"),
-             name + ": its law is not known here, and the deck has no isotropic material to stand for it");
-      out.warning(material.where("law"), name +
-                                             ": its law's numbers are not in the deck or its law is not known "
-                                             "here; computed as the elastic material " +
-                                             stand_in_name);
-      law = "linear_elastic";
-      values = stand_in;
+// Net load factors of the load steps (cards E-1); 1 where there is none.
+class LoadFactors {
+ public:
+  LoadFactors(const Deck& deck, int steps) : of_step_(static_cast<std::size_t>(steps) + 1, 0.0) {
+    for (const CardView& card : deck.all("load_factor")) {
+      const int first = card.integer("first"), given = card.integer("last"), last = given == 0 ? first : given;
+      const double factor = card.real("factor", 1.0);
+      if (first < 1 || last < first)
+        fail(deck, card.where(first < 1 ? "first" : "last"),
+             "load factors count from load step 1, first to last; here from " + std::to_string(first) + " to " +
+                 std::to_string(last));
+      if (!(factor > 0.0) || !std::isfinite(factor))
+        fail(deck, card.where("factor"), "a load factor above zero is wanted (blank: 1)");
+      for (int step = first; step <= std::min(last, steps); ++step) {
+        double& place = of_step_[static_cast<std::size_t>(step)];
+        if (place != 0.0)
+          fail(deck, card.where("first"), "load step " + std::to_string(step) + " has a load factor already");
+        place = factor;
+      }
     }
-    const int card = out.add("material", material.where(),
-                             {take(material, "number"),
-                              {"law", static_cast<double>(law_code(catalogue, law)), material.where("law")},
-                              take(material, "unit_weight", {}, 1.0 / kCubicInches),
-                              {"name", 0.0, material.where("name"), material.text("name", "-")}});
-    out.add("parameters", material.where(), values, card);
+  }
+  double at(int step) const {
+    const double factor = of_step_[static_cast<std::size_t>(step)];
+    return factor == 0.0 ? 1.0 : factor;
+  }
+  // The first step whose loads are multiplied; 0 = none.
+  int first_in_use() const {
+    for (std::size_t step = 1; step < of_step_.size(); ++step)
+      if (of_step_[step] != 0.0 && of_step_[step] != 1.0) return static_cast<int>(step);
+    return 0;
+  }
+
+ private:
+  std::vector<double> of_step_;  // 0: no card
+};
+
+// A soil of the deck under one load factor: the weight that an element brings is that of its load step, so one
+// material of the deck becomes several that differ in unit weight alone.
+struct Soils {
+  std::map<std::pair<int, double>, int> number;  // of material and factor
+
+  Soils(const Deck& deck, const LoadFactors& factors) {
+    int highest = 0;
+    std::set<int> defined;
+    for (const CardView& material : deck.all("material")) {
+      defined.insert(material.integer("number"));
+      highest = std::max(highest, material.integer("number"));
+    }
+    for (const CardView& element : deck.all("element")) {
+      if (!is_soil(element)) continue;
+      const int material = element.integer("material");
+      const double factor = factors.at(birth_of(element));
+      number.try_emplace({material, factor}, factor == 1.0 || defined.count(material) == 0 ? material : -1);
+    }
+    for (auto& [key, own] : number)
+      if (own < 0) own = ++highest;
+  }
+};
+
+// A soil of which the deck has no law that exists here: the elastic material that stands for it.
+struct StandIn {
+  std::vector<NewField> values;
+  std::string name;
+};
+
+StandIn stand_in(const Deck& deck, CardWriter& out) {
+  std::string ignored;
+  for (const CardView& material : deck.all("material"))
+    if (!deck.all("isotropic", material).empty())
+      return {parameters(deck, material, ignored, out),
+              material.text("number") + " (" + material.text("name") + ")"};
+  return {};
+}
+
+// The material's law and numbers; those of the stand-in, reported as left out, where the deck does not hold
+// them.
+std::vector<NewField> law_of(const Deck& deck, const CardView& material, const StandIn& stand_in, bool used,
+                             std::string& law, CardWriter& out) {
+  std::vector<NewField> values = parameters(deck, material, law, out);
+  if (!values.empty()) return values;
+  const std::string name = "material " + material.text("number") + " (" + material.text("name") + ")";
+  if (stand_in.values.empty())
+    fail(deck, material.where("law"),
+         name + ": its law is not known here, and the deck has no isotropic material to stand for it");
+  if (used)
+    out.left_out(material.where("law"), name + ", computed as the elastic material " + stand_in.name,
+                 name +
+                     ": its law's numbers are not in the deck or its law is not known here; computed as the "
+                     "elastic material " +
+                     stand_in.name);
+  law = "linear_elastic";
+  return stand_in.values;
+}
+
+void add_materials(const Deck& deck, const Catalogue& catalogue, const Soils& soils, CardWriter& out) {
+  const StandIn other = stand_in(deck, out);
+  for (const CardView& material : deck.all("material")) {
+    if (material.integer("law") == 6 || material.integer("law") == 7) continue;  // interfaces and links
+    const int number = material.integer("number");
+    std::map<double, int> numbers;  // by load factor
+    for (const auto& [key, own] : soils.number)
+      if (key.first == number) numbers.emplace(key.second, own);
+    std::string law;
+    const std::vector<NewField> values = law_of(deck, material, other, !numbers.empty(), law, out);
+    if (numbers.empty()) numbers.emplace(1.0, number);
+    for (const auto& [factor, own] : numbers) {
+      std::string name = material.text("name", "-");
+      if (factor != 1.0) name += " x " + number_text(factor);
+      const int card = out.add("material", material.where(),
+                               {{"number", static_cast<double>(own), material.where("number")},
+                                {"law", static_cast<double>(law_code(catalogue, law)), material.where("law")},
+                                take(material, "unit_weight", {}, factor / kCubicInches),
+                                {"name", 0.0, material.where("name"), name}});
+      out.add("parameters", material.where(), values, card);
+    }
   }
 }
 
@@ -120,8 +215,7 @@ using Groups = std::map<GroupKey, double>;  // ordered by load step
 
 GroupKey key_of(const CardView& element) {
   const int n3 = element.integer("n3"), n4 = element.integer("n4");
-  return {std::max(1, element.integer("birth")), element.integer("death"), element.integer("material"),
-          n4 == 0 || n4 == n3};
+  return {birth_of(element), element.integer("death"), element.integer("material"), n4 == 0 || n4 == n3};
 }
 
 // Those decks turn elements either way; this program wants them counter-clockwise.
@@ -156,10 +250,6 @@ class Turner {
   int turned_ = 0;
 };
 
-bool is_soil(const CardView& element) {
-  return element.integer("n3") != 0 && element.integer("class") == 0;
-}
-
 // Without its beams the pipe would be a hole with loose soil above; its nodes are held: a rigid pipe that
 // stays.
 void leave_out(const Deck& deck, CardWriter& out) {
@@ -174,14 +264,26 @@ void leave_out(const Deck& deck, CardWriter& out) {
     for (const char* node : {"n1", "n2"})
       out.add("fixity", element.where(node), {take(element, node, "first"), {"x_code", 1.0}, {"y_code", 1.0}});
   }
-  if (beams + interfaces + links == 0) return;
-  out.warning(where, "left out: " + std::to_string(beams) + " beam element(s) (the pipe), " +
-                         std::to_string(interfaces) + " interface(s), " + std::to_string(links) +
-                         " link(s); this program has no such elements. The beams' nodes are held in x and y: "
-                         "the soil rests on a pipe that does not move");
+  std::string list, message;
+  const auto add = [&](int count, const std::string& what) {
+    if (count == 0) return;
+    const std::string comma = list.empty() ? "" : ", ";
+    list += comma + std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+    message += comma + std::to_string(count) + " " + what + "(s)";
+  };
+  add(beams, "beam element");
+  add(interfaces, "interface");
+  add(links, "link");
+  if (list.empty()) return;
+  if (beams > 0) list += " (the pipe; its nodes are held)";
+  message = "left out: " + message + "; this program has no such elements";
+  if (beams > 0)
+    message += ". The beams' nodes are held in x and y: the soil rests on a pipe that does not move";
+  out.left_out(where, list, message);
 }
 
-Groups add_groups(const Deck& deck, const Catalogue& catalogue, CardWriter& out) {
+Groups add_groups(const Deck& deck, const Catalogue& catalogue, const LoadFactors& factors, const Soils& soils,
+                  CardWriter& out) {
   Groups groups;
   int before = 0;
   for (const CardView& element : deck.all("element")) {
@@ -205,7 +307,7 @@ Groups add_groups(const Deck& deck, const Catalogue& catalogue, CardWriter& out)
     out.add("group", deck.one("control").where(),
             {{"number", group},
              {"element", static_cast<double>(element_code(catalogue, key.triangle ? "tri3" : "quad4"))},
-             {"material", static_cast<double>(key.material)},
+             {"material", static_cast<double>(soils.number.at({key.material, factors.at(key.birth)}))},
              {"name", 0.0, {}, "step " + std::to_string(key.birth)}});
   }
   Turner turner(deck);
@@ -223,7 +325,7 @@ Groups add_groups(const Deck& deck, const Catalogue& catalogue, CardWriter& out)
 }
 
 // Supports that hold from the start; displacements and forces belong to their load step.
-void add_boundary(const Deck& deck, CardWriter& out, int step, int stage) {
+void add_boundary(const Deck& deck, const LoadFactors& factors, CardWriter& out, int step, int stage) {
   for (const CardView& card : deck.all("fixity")) {
     const bool x = card.integer("x_code") == 1, y = card.integer("y_code") == 1;
     const double vx = card.real("x_value"), vy = card.real("y_value");
@@ -244,16 +346,35 @@ void add_boundary(const Deck& deck, CardWriter& out, int step, int stage) {
                {"x_value", x ? vx : 0.0},
                {"y_value", y ? vy : 0.0}},
               stage);
+    const double factor = stage < 0 ? 1.0 : factors.at(step);
+    if (factor != 1.0 && ((x && vx != 0.0) || (y && vy != 0.0)))
+      out.warning(card.where(x && vx != 0.0 ? "x_value" : "y_value"),
+                  "a prescribed displacement is no load: it is not multiplied by the load factor of its step");
     if ((!x && vx != 0.0) || (!y && vy != 0.0))
       out.add("load", card.where(),
-              {take(card, "first"), last, by, {"x_force", x ? 0.0 : vx}, {"y_force", y ? 0.0 : vy}}, stage);
+              {take(card, "first"),
+               last,
+               by,
+               {"x_force", x ? 0.0 : factor * vx},
+               {"y_force", y ? 0.0 : factor * vy}},
+              stage);
   }
 }
 
-void add_stages(const Deck& deck, CardWriter& out, const Groups& groups) {
+// The control card's number, or more where an element is born or removed later.
+int load_steps(const Deck& deck) {
+  int steps = std::max(1, deck.one("control").integer("load_steps"));
+  for (const CardView& element : deck.all("element"))
+    if (is_soil(element)) steps = std::max({steps, birth_of(element), element.integer("death")});
+  if (steps > kMostSteps)
+    fail(deck, deck.one("control").where("load_steps"),
+         std::to_string(steps) + " load steps; at most " + std::to_string(kMostSteps) + " are taken");
+  return steps;
+}
+
+void add_stages(const Deck& deck, const LoadFactors& factors, CardWriter& out, const Groups& groups) {
   const CardView control = deck.one("control");
-  int steps = std::max(1, control.integer("load_steps"));
-  for (const auto& [key, number] : groups) steps = std::max({steps, key.birth, key.death});
+  const int steps = load_steps(deck);
   for (int step = 1; step <= steps; ++step) {
     out.add("stage_title", control.where(), {{"title", 0.0, {}, "load step " + std::to_string(step)}});
     const int stage =
@@ -263,10 +384,25 @@ void add_stages(const Deck& deck, CardWriter& out, const Groups& groups) {
       if (step > 1 && key.birth == step) births.push_back({"groups", number});
       if (key.death == step) deaths.push_back({"groups", number});
     }
-    add_boundary(deck, out, step, stage);
+    add_boundary(deck, factors, out, step, stage);
     if (!births.empty()) out.add("birth", control.where(), births, stage);
     if (!deaths.empty()) out.add("death", control.where(), deaths, stage);
   }
+}
+
+// What the load factors do, and where the deck contradicts itself.
+void explain_factors(const Deck& deck, const LoadFactors& factors, CardWriter& out) {
+  const int step = factors.first_in_use();
+  if (step == 0) return;
+  const CardView first = deck.all("load_factor").front();
+  out.note(first.where("factor"),
+           "the load factors multiply what is added in their load steps: the weight of the elements born there "
+           "and the forces on nodes");
+  for (const CardView& title : deck.all("title"))
+    if (title.integer("method") == 0)
+      out.warning(title.where("method"), "this card asks for working stress (method 0), yet load step " +
+                                             std::to_string(step) +
+                                             " has a load factor other than 1; the factors are applied");
 }
 
 }  // namespace
@@ -282,15 +418,15 @@ Deck cande_deck(const Deck& deck, const Catalogue& catalogue) {
            {"atmospheric_pressure", 14.696},
            {"water_unit_weight", 0.036111}});
   out.add("control", control.where(), {{"geometry", 1.0}, take(control, "total_nodes")});
+  const LoadFactors factors(deck, load_steps(deck));
+  const Soils soils(deck, factors);
   add_nodes(deck, out);
-  add_materials(deck, catalogue, out);
+  add_materials(deck, catalogue, soils, out);
   leave_out(deck, out);
-  const Groups groups = add_groups(deck, catalogue, out);
-  add_boundary(deck, out, 0, -1);
-  for (const CardView& factor : deck.all("load_factor"))
-    if (factor.real("factor", 1.0) != 1.0)
-      out.warning(factor.where("factor"), "load factors are not used: every load step has factor 1");
-  add_stages(deck, out, groups);
+  const Groups groups = add_groups(deck, catalogue, factors, soils, out);
+  add_boundary(deck, factors, out, 0, -1);
+  explain_factors(deck, factors, out);
+  add_stages(deck, factors, out, groups);
   return out.take();
 }
 

@@ -92,10 +92,11 @@ Deck quad4m_deck(const Deck& deck, const Catalogue& catalogue) {
       {{"geometry", 1.0}, take(control, "nodes", "total_nodes"), take(control, "elements", "total_elements")});
   add_nodes(deck, out);
   add_elements(deck, catalogue, out);
-  out.note(
-      {deck.file, 0, 0, 0},
+  out.left_out(
+      {deck.file, 0, 0, 0}, "earthquake motion and damping",
       "earthquake motion and damping of the deck are not used: its mesh, supports, unit weights and initial "
-      "shear moduli are loaded by gravity in one stage");
+      "shear moduli are loaded by gravity in one stage",
+      false);
   out.add("stage_title", control.where(), {{"title", 0.0, {}, "own weight"}});
   out.add("stage", control.where(), {{"increments", 1.0}, {"gravity_y", -1.0}});
   return out.take();

@@ -133,7 +133,8 @@ struct Model {
   std::vector<InitialStress> initials;
   std::vector<Stage> stages;
   std::vector<Report> reports;
-  Diagnostics diagnostics;  // warnings and notes of reading and building
+  Diagnostics diagnostics;            // warnings and notes of reading and building
+  std::vector<std::string> left_out;  // what the deck asks for and this is without, to be named with results
 
   int dofs() const { return 2 * mesh.nodes(); }
   const Material& material_of(const Group& group) const {

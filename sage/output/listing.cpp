@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "sage/output/listing_parts.hpp"
+#include "sage/output/values.hpp"
 
 namespace sage {
 
@@ -125,7 +126,8 @@ void Listing::on_finish(const Model& model, const RunResult& result) {
   if (options_.reports != nullptr) listing::report_rows(text, model, *options_.reports);
   listing::work(text, result);
   if (result.status == RunStatus::completed)
-    text += "\n   RUN COMPLETED\n";
+    text += model.left_out.empty() ? "\n   RUN COMPLETED\n"
+                                   : "\n   RUN COMPLETED, BUT PARTIAL: " + left_out_words(model) + "\n";
   else
     fmt::format_to(
         std::back_inserter(text),

@@ -19,10 +19,10 @@ auto to(std::string& text) {
   return std::back_inserter(text);
 }
 
-std::string status_words(const RunResult& result) {
+std::string status_words(const Model& model, const RunResult& result) {
   switch (result.status) {
     case RunStatus::completed:
-      return "completed: every increment in equilibrium";
+      return completed_words(model);
     case RunStatus::not_converged:
       return "NOT CONVERGED";
     case RunStatus::singular:
@@ -76,8 +76,9 @@ void triaxial_table(std::string& text, const Model& model, std::size_t index,
 
 void status_lines(std::string& text, const Model& model, const RunRecord& record) {
   const RunResult& result = record.result;
-  fmt::format_to(to(text), "  status      {}\n", status_words(result));
+  fmt::format_to(to(text), "  status      {}\n", status_words(model, result));
   if (result.status == RunStatus::completed) return;
+  if (!model.left_out.empty()) fmt::format_to(to(text), "              PARTIAL: {}\n", left_out_words(model));
   fmt::format_to(
       to(text),
       "              stopped in stage {} of {}, increment {} of {}; last equilibrium at load factor {:.4g} of "

@@ -73,6 +73,17 @@ double deviator_stress(const double* sigma) {
   return std::sqrt(0.5 * (a * a + b * b + c * c) + 3.0 * sigma[3] * sigma[3]);
 }
 
+std::string left_out_words(const Model& model) {
+  std::string text;
+  for (const std::string& what : model.left_out) text += (text.empty() ? "left out " : "; ") + what;
+  return text;
+}
+
+std::string completed_words(const Model& model) {
+  if (model.left_out.empty()) return "completed: every increment in equilibrium";
+  return "completed, but PARTIAL: " + left_out_words(model);
+}
+
 std::string one_line(const std::string& text) {
   return text.substr(0, text.find('\n'));
 }

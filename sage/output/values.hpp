@@ -41,6 +41,12 @@ inline double reaction(const Solution& solution, int dof) {
 double mean_stress(const double* sigma);
 double deviator_stress(const double* sigma);
 
+// How a run ended that reached its end, with what the model lacks of its deck: "completed: every increment in
+// equilibrium", or "completed, but PARTIAL: left out ...".
+std::string completed_words(const Model& model);
+// "left out 36 beam elements; ...": empty where the model has all that its deck asks for.
+std::string left_out_words(const Model& model);
+
 // The first line of a text, for comments in files.
 std::string one_line(const std::string& text);
 

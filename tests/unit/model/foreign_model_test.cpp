@@ -1,7 +1,9 @@
 // Decks of other programs as models.  Expected values: the decks' own counts and QUAD4M's own echo of its
 // areas.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -10,6 +12,9 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/run_deck.hpp"
 #include "sage/deck/read_deck.hpp"
+#include "sage/output/values.hpp"
+#include "sage/study/whole_run.hpp"
+#include "solvers/choose_solver.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace sage::app {
@@ -17,10 +22,16 @@ namespace {
 
 const std::string kInputs = SAGE_SOURCE_DIR "/legacy_inputs/";
 
-Model model_of(const std::string& deck, const std::string& layout = "") {
+BuildOptions partial_if(bool partial) {
+  BuildOptions options;
+  options.partial = partial;
+  return options;
+}
+
+Model model_of(const std::string& deck, const std::string& layout = "", bool partial = false) {
   InputOptions input;
   input.layout = layout;
-  return build_model(read_input(kInputs + deck, input), full_catalogue());
+  return build_model(read_input(kInputs + deck, input), full_catalogue(), partial_if(partial));
 }
 
 std::string refusal(const std::string& deck, const std::string& layout) {
@@ -38,8 +49,9 @@ bool mentions(const Diagnostics& diagnostics, Severity severity, const std::stri
   return false;
 }
 
-RunOutcome run_of(const std::string& deck) {
+RunOutcome run_of(const std::string& deck, bool partial = false) {
   RunRequest request;
+  request.input.build.partial = partial;
   request.deck = kInputs + deck;
   request.quiet = true;
   request.output.folder = test::scratch_folder("foreign");
@@ -87,7 +99,7 @@ TEST(ForeignModel, Quad4mCarriesItsWeight) {
 }
 
 TEST(ForeignModel, CandeLeavesOutItsPipeAndSaysSo) {
-  const RunOutcome outcome = run_of("cande_level3/candejar_input_test1.cid");
+  const RunOutcome outcome = run_of("cande_level3/candejar_input_test1.cid", true);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.record.result.reason;
   EXPECT_LT(outcome.record.out_of_balance, 1e-9);
   const Model& model = *outcome.model;
@@ -109,7 +121,115 @@ std::string cande_text() {
 }
 
 Model cande_model(const std::string& text) {
-  return build_model(read_deck_text(text, "deck.cid", load_layout("cande_level3")), full_catalogue());
+  return build_model(read_deck_text(text, "deck.cid", load_layout("cande_level3")), full_catalogue(),
+                     partial_if(true));
+}
+
+// Every part that is missing is an error of its own, at its card; with `partial` each stands in the status line
+// and the title, which all files bear.
+TEST(ForeignModel, CandeWithoutItsPipeIsRefusedUnlessAPartWillDo) {
+  const std::string deck = "cande_level3/candejar_input_test1.cid";
+  try {
+    model_of(deck);
+    FAIL() << "36 beams and a soil are missing, and nothing is said";
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.diagnostics().errors(), 2);
+    for (const Diagnostic& d : error.diagnostics().list()) {
+      if (d.severity != Severity::error) continue;
+      EXPECT_GT(d.where.line, 0);
+      EXPECT_NE(d.message.find("--partial"), std::string::npos) << d.message;
+    }
+    for (const char* part : {"36 beam element(s)", "material 2 (CL90)"})
+      EXPECT_TRUE(mentions(error.diagnostics(), Severity::error, part)) << part;
+  }
+  const Model model = model_of(deck, "", true);
+  EXPECT_EQ(completed_words(model),
+            "completed, but PARTIAL: left out material 2 (CL90), computed as the elastic material 1 (In Situ); "
+            "36 beam elements (the pipe; its nodes are held)")
+      << "no element is of material 3 (SW95)";
+  EXPECT_TRUE(model.title.starts_with("PARTIAL: 19962-3 Weholite")) << model.title;
+}
+
+TEST(ForeignModel, Quad4mStatusSaysThatThereIsNoEarthquake) {
+  EXPECT_EQ(completed_words(model_of("quad4m/MDL.Q4I")),
+            "completed, but PARTIAL: left out earthquake motion and damping");
+}
+
+std::string cande_line(const std::string& name, const std::string& record) {
+  return std::string(25 - name.size(), ' ') + name + "!!" + record + "\n";
+}
+
+// Two squares of 10 x 10 in, the upper one born in step 2, and 2 x 5 lbf on its top in step 3; held below.
+// All that the deck asks for exists here.
+std::string small_cande(const std::string& factors, const std::string& method = " 1") {
+  std::string text = cande_line("A-1", "ANALYS   3" + method + "  0two lifts") + cande_line("C-1.L3", "PREP") +
+                     cande_line("C-2.L3", "    3    3    1    3    1    6    2    4    1");
+  for (int n = 1; n <= 6; ++n)
+    text += cande_line("C-3.L3", fmt::format("{}{:>4}  00{:>11.2f}{:>10.2f}", n == 6 ? "L" : " ", n,
+                                             10.0 * ((n - 1) % 2), 10.0 * ((n - 1) / 2)));
+  text += cande_line("C-4.L3", "    1    1    2    4    3    1    1") +
+          cande_line("C-4.L3", "L   2    3    4    6    5    1    2") +
+          cande_line("C-5.L3", "    1    1       0.0    1       0.0       0.0    0") +
+          cande_line("C-5.L3", "    2    1       0.0    1       0.0       0.0    0") +
+          cande_line("C-5.L3", "    5    0       0.0    0      -5.0       0.0    3") +
+          cande_line("C-5.L3", "L   6    0       0.0    0      -5.0       0.0    3");
+  return text + cande_line("D-1", "L   1    1     120.0soil") +
+         cande_line("D-2.Isotropic", "      2000       0.3") + factors + "STOP\n";
+}
+
+// A column that is one field too wide would be seen here.
+std::string e1(int first, int last, const std::string& factor) {
+  return cande_line("E-1", fmt::format("{:>5}{:>5}{:>10}dead load", first, last, factor));
+}
+
+study::WholeRun run_cande(const std::string& text) {
+  const study::Workbench bench(
+      full_catalogue(), [](int equations, bool symmetric) { return choose_solver(equations, symmetric); });
+  return bench.run(
+      build_model(read_deck_text(text, "small.cid", load_layout("cande_level3")), full_catalogue()));
+}
+
+// Equilibrium: what the base carries is the weight of each square times the factor of the step that places it,
+// and the forces times that of theirs.
+TEST(ForeignModel, CandeLoadFactorsMultiplyTheLoadsOfTheirSteps) {
+  const double weight = 100.0 * 120.0 / 1728.0;  // of one square, lbf per inch
+  struct Case {
+    std::string cards;
+    std::array<double, 3> factor;
+  };
+  for (const Case& c : {Case{"", {1, 1, 1}}, Case{e1(1, 3, "1.30"), {1.3, 1.3, 1.3}},
+                        Case{e1(3, 0, "1.75") + e1(1, 1, "1.25") + e1(2, 2, ""), {1.25, 1.0, 1.75}},
+                        Case{e1(2, 40, "0.9"), {1.0, 0.9, 0.9}}}) {
+    SCOPED_TRACE(c.cards);
+    const study::WholeRun run = run_cande(small_cande(c.cards));
+    ASSERT_TRUE(run.completed());
+    double expected = 0.0;
+    const std::array<double, 3> load{weight, weight, 10.0};
+    for (std::size_t step = 0; step < 3; ++step) {
+      expected += c.factor[step] * load[step];
+      EXPECT_NEAR(run.reaction(run.increments[step], {1, 2}, 1), expected, 1e-9 * expected) << step + 1;
+    }
+  }
+}
+
+TEST(ForeignModel, CandeLoadFactorsThatMakeNoSenseAreErrors) {
+  const auto message = [](const std::string& cards) {
+    try {
+      run_cande(small_cande(cards));
+    } catch (const InputError& error) {
+      return error.diagnostics().list().back().message;
+    }
+    return std::string();
+  };
+  EXPECT_NE(message(e1(0, 2, "1.3")).find("load factors count from load step 1"), std::string::npos);
+  EXPECT_NE(message(e1(3, 2, "1.3")).find("from 3 to 2"), std::string::npos);
+  EXPECT_NE(message(e1(1, 2, "0.0")).find("above zero"), std::string::npos);
+  EXPECT_NE(message(e1(1, 2, "1.3") + e1(2, 3, "1.5")).find("load step 2 has a load factor already"),
+            std::string::npos);
+  const Model working =
+      build_model(read_deck_text(small_cande(e1(1, 1, "1.3"), " 0"), "small.cid", load_layout("cande_level3")),
+                  full_catalogue());
+  EXPECT_TRUE(mentions(working.diagnostics, Severity::warning, "working stress (method 0)"));
 }
 
 // No deck at hand gives a soil of Duncan's with its numbers: the real one with those cards put in.

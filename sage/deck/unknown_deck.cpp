@@ -1,0 +1,86 @@
+#include "sage/deck/unknown_deck.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "sage/deck/deck_reader.hpp"
+#include "sage/deck/record.hpp"
+
+namespace sage {
+
+namespace {
+
+constexpr std::size_t kShown = 3;              // of the problems as the standard layout
+constexpr std::size_t kTrialSize = 4'000'000;  // larger decks are not read once more for every layout
+
+// Lines of the deck's second and third records; 0 = there is none.  The first is a title, which any line can
+// be.
+std::array<int, 2> first_lines(const SourceText& source, const Layout& layout) {
+  RecordSource records(source, layout.records);
+  std::array<int, 2> lines{};
+  if (!records.next()) return lines;
+  for (int& line : lines) line = records.next() ? records.line() : 0;
+  return lines;
+}
+
+// Units and control are wrong from end to end.  One slip on each, or two on one, can happen to anybody; a deck
+// that ends behind its title says nothing.
+bool looks_foreign(const std::array<int, 2>& lines, const Diagnostics& problems) {
+  std::array<int, 2> errors{};
+  for (const Diagnostic& problem : problems.list())
+    for (std::size_t i = 0; i < 2; ++i)
+      if (problem.severity == Severity::error && lines[i] > 0 && problem.where.line == lines[i]) ++errors[i];
+  return errors[0] + errors[1] >= 3;
+}
+
+// Names of the other layouts that read the whole deck without an error or a warning.
+std::vector<std::string> layouts_that_read(const SourceText& source, const Layout& standard) {
+  std::vector<std::string> names;
+  if (source.text()->size() > kTrialSize) return names;
+  for (const std::string& name : built_in_layouts()) {
+    if (name == standard.name) continue;
+    try {
+      const Layout layout = load_layout(name);
+      if (DeckReader(source, layout, {}).read().diagnostics.warnings() == 0) names.push_back(name);
+    } catch (const InputError&) {
+    }
+  }
+  return names;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+}  // namespace
+
+std::optional<Diagnostics> no_layout_fits(const SourceText& source, const Layout& standard,
+                                          const Diagnostics& problems) {
+  if (!looks_foreign(first_lines(source, standard), problems)) return std::nullopt;
+  Diagnostic first{Severity::error,
+                   {source.name(), 0, 0, 0},
+                   "no layout fits this deck: it has the marks of none, and its first cards are not those of " +
+                       standard.name + "; name its layout with --layout, one of those built in (" +
+                       joined(built_in_layouts()) + ") or the path of a layout file",
+                   {}};
+  if (const std::vector<std::string> fitting = layouts_that_read(source, standard); !fitting.empty())
+    first.detail.push_back("note: without a mistake it reads as " + joined(fitting) + ": --layout " +
+                           fitting.front());
+  Diagnostics all;
+  all.add(std::move(first));
+  std::size_t shown = 0;
+  for (const Diagnostic& problem : problems.list()) {
+    if (problem.severity != Severity::error || problem.where.line == 0) continue;
+    if (++shown > kShown) break;
+    Diagnostic one = problem;
+    one.message = "as " + standard.name + ": " + one.message;
+    all.add(std::move(one));
+  }
+  if (shown > kShown)
+    all.add({Severity::note, {source.name(), 0, 0, 0}, "and more mistakes as " + standard.name, {}});
+  return all;
+}
+
+}  // namespace sage

@@ -1,0 +1,18 @@
+// What to say of a deck that bears the marks of no layout and that the standard layout does not fit.
+#pragma once
+
+#include <optional>
+
+#include "sage/core/error.hpp"
+#include "sage/deck/layout.hpp"
+#include "sage/deck/source.hpp"
+
+namespace sage {
+
+// `problems`: from reading the deck as `standard`.  Nothing where it looks like a deck of that layout with
+// mistakes in it: then the mistakes are what its author wants to see.  Otherwise an error that comes first and
+// names the layouts (and those that read the deck without a mistake), then the first of the problems.
+std::optional<Diagnostics> no_layout_fits(const SourceText& source, const Layout& standard,
+                                          const Diagnostics& problems);
+
+}  // namespace sage

@@ -1,0 +1,92 @@
+// The manual says what there is and what there is not: it has to be changed when that changes.
+#include <gtest/gtest.h>
+
+#include "sage/app/commands.hpp"
+#include "tests/conformance/law_samples.hpp"
+#include "tests/regression/program.hpp"
+
+namespace sage::test {
+namespace {
+
+const std::string kSource = SAGE_SOURCE_DIR;
+
+bool has(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
+
+// What a new element or law adds to the program has to be added to docs/manual/deck.md, and what the page says
+// is missing to be struck out there.
+TEST(Manual, WhatADeckCanAskForIsWhatTheCatalogueHas) {
+  const std::string page = read(kSource + "/docs/manual/deck.md");
+  const std::string list = page.substr(0, page.find("## What the program does not do"));
+  const Catalogue catalogue = app::full_catalogue();
+  for (const auto& [code, entry] : catalogue.elements.entries()) {
+    EXPECT_TRUE(has(list, "`" + entry.name + "`")) << entry.name;
+    for (const Formulation& formulation : entry.formulations)
+      for (const Geometry geometry : {Geometry::plane_strain, Geometry::axisymmetric}) {
+        const ElementTraits traits = entry.make(geometry, formulation.code)->traits();
+        EXPECT_EQ(traits.dofs, 2 * traits.nodes) << entry.name << ": more than two displacements a node";
+        EXPECT_TRUE(traits.law_size == 4 || traits.law_size == 2)
+            << entry.name << ": neither solid nor interface";
+      }
+  }
+  for (const auto& [code, entry] : catalogue.materials.entries())
+    EXPECT_TRUE(has(list, "`" + entry.name + "`")) << entry.name;
+  for (const char* missing : {"**Water.**", "**Structures.**", "**Large strain.**", "**Dynamics.**"})
+    EXPECT_TRUE(has(page, missing)) << missing;
+}
+
+// A law that uses gamma_w can't be made without it: that is the shear stiffness of clough_duncan alone.
+TEST(Manual, WaterIsUsedForOneLawAlone) {
+  const Catalogue catalogue = app::full_catalogue();
+  const UnitSystem dry{"m", "kN", "kPa", 101.325, 0.0};
+  int refusals = 0;
+  for (const Sample& sample : samples()) {
+    const MaterialEntry& entry = *catalogue.materials.find(sample.code);
+    bool refused = false;
+    try {
+      entry.make(sample.values, dry);
+    } catch (const ParameterError& error) {
+      refused = has(error.what(), "unit weight of water gamma_w");
+      EXPECT_TRUE(refused) << error.what();
+    }
+    EXPECT_EQ(refused, entry.name == "clough_duncan" && sample.values[4] > 0.0) << sample.what;
+    refusals += refused ? 1 : 0;
+  }
+  EXPECT_GT(refusals, 3);
+}
+
+TEST(Manual, EchoAndListingSayWhatTheUnitWeightOfWaterIsFor) {
+  const std::filesystem::path folder = empty_folder("gamma_w");
+  write(folder / "deck.dat", block_deck().text());
+  const std::string echo = sagefe(folder, "echo deck.dat").out;
+  EXPECT_TRUE(
+      has(echo, "(water_unit_weight: scales the shear stiffness of clough_duncan interfaces, nothing else"))
+      << echo;
+  EXPECT_TRUE(has(echo, "there is no pore water")) << echo;
+  EXPECT_EQ(count(echo, "(water_unit_weight:"), 1);
+  EXPECT_EQ(sagefe(folder, "run deck.dat -q -o out").exit_code, 0);
+  EXPECT_TRUE(has(read(folder / "out" / "deck.lst"), "no pore pressure is computed"));
+}
+
+// What is shown as the program's output is what it prints, but for times and the path of the files.
+TEST(Manual, ReadmeShowsWhatARunPrints) {
+  const std::string readme = read(kSource + "/README.md");
+  const std::string deck = "legacy_inputs/chapter7/pinned_ld2_nu0495/deck.dat";
+  const std::filesystem::path folder = empty_folder("readme");
+  const Finished run = sagefe(folder, "run " + kSource + "/" + deck);
+  ASSERT_EQ(run.exit_code, 0);
+  const std::size_t begin = readme.find("    Pinned ends, L/D = 2");
+  ASSERT_NE(begin, std::string::npos);
+  std::size_t compared = 0;
+  for (std::size_t at = begin; readme.compare(at, 4, "    ") == 0; at = readme.find('\n', at) + 1) {
+    const std::string line = readme.substr(at + 4, readme.find('\n', at) - at - 4);
+    if (has(line, " s,")) continue;  // seconds
+    EXPECT_TRUE(has(run.out, line + "\n")) << line << "\nis not in\n" << run.out;
+    ++compared;
+  }
+  EXPECT_GE(compared, 12u);
+}
+
+}  // namespace
+}  // namespace sage::test
