@@ -4,3 +4,8 @@ find_package(CLI11 REQUIRED)
 find_package(tomlplusplus REQUIRED)
 include(cmake/FindSuiteSparseLibs.cmake)
 include(cmake/FindMumps.cmake)
+
+# libfmt from its headers, compiled once (cmake/fmt.cpp says why).
+add_library(sage_fmt STATIC cmake/fmt.cpp)
+target_include_directories(sage_fmt SYSTEM PUBLIC $<BUILD_INTERFACE:$<TARGET_PROPERTY:fmt::fmt,INTERFACE_INCLUDE_DIRECTORIES>>)
+set_target_properties(sage_fmt PROPERTIES EXPORT_NAME fmt POSITION_INDEPENDENT_CODE ON)

@@ -2,7 +2,7 @@
 include(CMakePackageConfigHelpers)
 
 set(SAGE_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/sage)
-set(SAGE_PACKAGE_TARGETS sage_core sage_layout sage_deck sage_model sage_analysis sage_output sage_elements sage_materials
+set(SAGE_PACKAGE_TARGETS sage_fmt sage_core sage_layout sage_deck sage_model sage_analysis sage_output sage_elements sage_materials
                          sage_solvers)
 
 install(TARGETS sagefe RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
