@@ -11,10 +11,13 @@
 namespace sage {
 
 // Changes with LinearSolver and with what the module shares with the program; other modules are not accepted.
-inline constexpr char kSolverModuleVersion[] = "sage-solvers-2";
+// The module holds it in a section of its own, where it can be read before anything of the module runs.
+#define SAGE_SOLVER_MODULE_VERSION "sage-solvers-3"
+#define SAGE_SOLVER_MODULE_SECTION ".sage_module"
 
-// Looks for the module where SAGE_SOLVER_MODULE says, beside the executable (../<lib>/sagefe), where it was
-// built and where it was installed.  Throws AnalysisError that lists these places.
+// Looks for the module where SAGE_SOLVER_MODULE says, beside the executable (../<lib>/sagefe), and on the
+// search path that the linker wrote into the executable, which programs of the build tree have and installed
+// ones have not.  Throws AnalysisError that lists these places.
 std::unique_ptr<LinearSolver> make_library_solver(std::string_view name);
 
 // The two halves of it: the places in that order, and the module's function from the first of them that holds a
@@ -22,5 +25,8 @@ std::unique_ptr<LinearSolver> make_library_solver(std::string_view name);
 using MakeLibrarySolver = LinearSolver* (*)(const char* name);
 std::vector<std::string> solver_module_places();
 MakeLibrarySolver load_solver_module(const std::vector<std::string>& places);
+
+// Bytes of a section of an ELF file of 64 bits, at most 64 KiB of them; empty where there is none.
+std::string elf_section(const std::string& file, std::string_view name);
 
 }  // namespace sage

@@ -1,12 +1,18 @@
 #include "solvers/thread_pool.hpp"
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
 
 namespace sage {
 
 ThreadPool::ThreadPool(int threads) {
-  for (int t = 1; t < threads; ++t) workers_.emplace_back([this, t] { serve(t); });
+  workers_.reserve(static_cast<std::size_t>(std::max(0, threads - 1)));
+  try {
+    for (int t = 1; t < threads; ++t) workers_.emplace_back([this, t] { serve(t); });
+  } catch (const std::system_error&) {
+    // The system gives no more threads (memory, a limit): the work is done by those that there are.
+  }
 }
 
 ThreadPool::~ThreadPool() {

@@ -2,7 +2,8 @@
 
 #include <fstream>
 #include <iterator>
-#include <vector>
+#include <map>
+#include <system_error>
 
 #include "sage/core/archive.hpp"
 #include "sage/output/out_file.hpp"
@@ -11,104 +12,129 @@ namespace sage::app {
 
 namespace {
 
-constexpr std::string_view kFirstLine = "sagefe restart 2\n";
+constexpr std::string_view kFirstLine = "sagefe restart 3\n";
 
-// A result file that is not complete yet.
-struct PartialResult {
-  std::string name;  // that it is going to have; with its folder where that is not the checkpoint's
-  std::uint64_t bytes = 0;
-};
-
-std::vector<PartialResult> partial_results(const std::filesystem::path& checkpoint,
-                                           const std::vector<std::filesystem::path>& unfinished) {
-  std::vector<PartialResult> results;
-  for (const std::filesystem::path& file : unfinished) {
-    std::error_code error;
-    const std::uintmax_t bytes = std::filesystem::file_size(file.string() + ".partial", error);
-    if (error) continue;  // a pipe
-    const bool beside = file.parent_path() == checkpoint.parent_path();
-    results.push_back({(beside ? file.filename() : std::filesystem::absolute(file)).string(), bytes});
-  }
-  return results;
+// What a checkpoint means depends on every line of the program: its build is told by its own file.
+std::uint64_t build_identity() {
+  static const std::optional<Checksum> program = checksum_of("/proc/self/exe");
+  if (!program) throw OutputError("a checkpoint can't name this build: /proc/self/exe can't be read");
+  return program->value();
 }
 
-void exchange(Archive& archive, std::vector<PartialResult>& results) {
-  std::size_t count = results.size();
+void exchange(Archive& archive, std::map<std::string, ResultFile>& files) {
+  std::size_t count = files.size();
   archive(count);
+  auto at = files.begin();
   for (std::size_t i = 0; i < count; ++i) {
-    if (archive.reading()) results.emplace_back();
-    archive(results[i].name);
-    archive(results[i].bytes);
+    std::string name = archive.reading() ? "" : at->first;
+    ResultFile file = archive.reading() ? ResultFile{} : (at++)->second;
+    archive(name);
+    archive(file.sum);
+    archive(file.complete);
+    if (archive.reading()) files[name] = file;
   }
 }
 
 // What the checkpoint goes on from must be there before anything is opened for writing.  A run that an error
 // stopped has ended its files: they bear their final names.
-void expect_results(const std::filesystem::path& checkpoint, const std::vector<PartialResult>& results) {
-  for (const PartialResult& result : results) {
-    const std::filesystem::path file = checkpoint.parent_path() / result.name;
-    if (!holds(file.string() + ".partial", result.bytes) && !holds(file, result.bytes))
+void expect_results(const std::filesystem::path& checkpoint, const ResultFiles& results,
+                    const std::map<std::string, ResultFile>& files) {
+  for (const auto& [name, file] : files) {
+    const std::filesystem::path path = results.path_of(name), partial = path.string() + ".partial";
+    std::error_code error;
+    if (file.complete) {
+      if (std::filesystem::file_size(path, error) == file.sum.bytes() && begins_with(path, file.sum)) continue;
       throw InputError({checkpoint.string(), 0, 0, 0},
-                       "goes on from " + file.string() +
-                           ".partial, which is missing or shorter than it was; run again without --restart");
+                       "builds on " + path.string() +
+                           ", which is missing or has been changed since; run again without --restart");
+    }
+    if (!begins_with(partial, file.sum) && !begins_with(path, file.sum))
+      throw InputError({checkpoint.string(), 0, 0, 0},
+                       "goes on from " + partial.string() +
+                           ", which is missing, shorter than it was, or has been changed since; run again "
+                           "without --restart");
   }
 }
 
 }  // namespace
 
-Checkpoint::Checkpoint(std::filesystem::path file, double seconds, std::string belongs_to)
-    : file_(std::move(file)), seconds_(seconds), belongs_to_(std::move(belongs_to)) {}
+Checkpoint::Checkpoint(std::filesystem::path file, double seconds, std::string belongs_to, ResultFiles& results)
+    : file_(std::move(file)), seconds_(seconds), belongs_to_(std::move(belongs_to)), results_(&results) {
+  expect_no_input(file_);
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file_, ignored))
+    throw OutputError("cannot write " + file_.string() +
+                      ", the checkpoint: " + std::generic_category().message(EISDIR));
+}
 
 bool Checkpoint::due() const {
   if (seconds_ < 0.0) return false;
   return std::chrono::steady_clock::now() - last_ >= std::chrono::duration<double>(seconds_);
 }
 
-void Checkpoint::save(const std::string& state, const std::vector<std::filesystem::path>& unfinished) {
+void Checkpoint::save(const std::string& state) {
+  results_->sync();
   Archive archive;
+  std::uint64_t build = build_identity();
   std::string belongs_to = belongs_to_, body = state;
-  std::vector<PartialResult> results = partial_results(file_, unfinished);
+  std::map<std::string, ResultFile> files = results_->files();
+  archive(build);
   archive(belongs_to);
-  exchange(archive, results);
+  exchange(archive, files);
   archive(body);
   std::uint64_t sum = checksum(archive.bytes());
   archive(sum);
-  write_file(file_, std::string(kFirstLine) + archive.bytes());
+  OutFile file(file_);
+  file.sync_when_finished();
+  file.text() = std::string(kFirstLine) + archive.bytes();
+  file.finish();
+  used_ = true;
   last_ = std::chrono::steady_clock::now();
 }
 
-std::optional<std::string> Checkpoint::load() const {
+std::optional<std::string> Checkpoint::load() {
   std::ifstream in(file_, std::ios::binary);
   if (!in) return std::nullopt;
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   const SourcePosition where{file_.string(), 0, 0, 0};
-  if (!text.starts_with(kFirstLine)) throw InputError(where, "is not a checkpoint of this program");
+  if (!text.starts_with("sagefe restart ")) throw InputError(where, "is not a checkpoint of this program");
+  const char* const other_build =
+      "was written by another build of the program; go on with that one, or run again without --restart";
+  if (!text.starts_with(kFirstLine)) throw InputError(where, other_build);
   Archive archive(text.substr(kFirstLine.size()));
+  std::uint64_t build = 0, sum = 0;
   std::string belongs_to, state;
-  std::vector<PartialResult> results;
-  std::uint64_t sum = 0;
+  std::map<std::string, ResultFile> files;
   try {
+    archive(build);
     archive(belongs_to);
-    exchange(archive, results);
+    exchange(archive, files);
     archive(state);
     archive(sum);
   } catch (const InputError&) {
     throw InputError(where, "is damaged (cut short); run again without --restart");
   }
-  if (sum != checksum(std::string_view(archive.bytes()).substr(0, archive.bytes().size() - sizeof sum)))
+  if (!archive.at_end() ||
+      sum != checksum(std::string_view(archive.bytes()).substr(0, archive.bytes().size() - sizeof sum)))
     throw InputError(where, "is damaged; run again without --restart");
+  if (build != build_identity()) throw InputError(where, other_build);
   if (belongs_to != belongs_to_)
-    throw InputError(
-        where,
-        "belongs to another run: the deck, the options or the program have changed since; run again "
-        "without --restart");
-  expect_results(file_, results);
+    throw InputError(where,
+                     "belongs to another run: the deck or the options have changed since; run again without "
+                     "--restart");
+  expect_results(file_, *results_, files);
+  results_->restore(std::move(files));
+  used_ = true;
   return state;
 }
 
-void Checkpoint::remove() const {
+void Checkpoint::remove() {
+  if (used_) results_->sync();
   std::error_code ignored;
   std::filesystem::remove(file_, ignored);
+  const std::filesystem::path half = file_.string() + ".partial";
+  if (std::filesystem::is_regular_file(std::filesystem::symlink_status(half, ignored)))
+    std::filesystem::remove(half, ignored);
 }
 
 }  // namespace sage::app

@@ -5,29 +5,34 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
+
+#include "sage/app/result_files.hpp"
 
 namespace sage::app {
 
 class Checkpoint {
  public:
   // A checkpoint is due after `seconds` since the last; 0 = after every increment, negative = never.
-  // `belongs_to` names the run: model, solver, outputs and program.
-  Checkpoint(std::filesystem::path file, double seconds, std::string belongs_to);
+  // `belongs_to` names the run: model, solver and outputs; the build of the program is added.  `results`, of
+  // the same run, outlive the checkpoint.  Throws OutputError where its name is taken by a folder or an input.
+  Checkpoint(std::filesystem::path file, double seconds, std::string belongs_to, ResultFiles& results);
 
   bool due() const;
-  // `unfinished`: the results that the run would go on writing, by the names that they are going to have.
-  // The old checkpoint stays until the new one is complete.  Throws OutputError.
-  void save(const std::string& state, const std::vector<std::filesystem::path>& unfinished);
-  // Nothing if there is no file.  Throws InputError where it is damaged or of another run, or results that were
-  // there when it was saved are not: before any of them is touched.
-  std::optional<std::string> load() const;
-  void remove() const;
+  // After the results so far, which are brought to the disk first.  The old checkpoint stays until the new one
+  // is complete.  Throws OutputError.
+  void save(const std::string& state);
+  // Nothing if there is no file.  Throws InputError where it is damaged or of another run or build, or a result
+  // that was there when it was saved is not what it was: before any of them is touched.
+  std::optional<std::string> load();
+  // The run has ended: if it ever had a checkpoint, its results are brought to the disk before that is removed.
+  void remove();
 
  private:
   std::filesystem::path file_;
   double seconds_;
   std::string belongs_to_;
+  ResultFiles* results_;
+  bool used_ = false;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 

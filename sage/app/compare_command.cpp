@@ -120,6 +120,8 @@ int compare_decks(const CompareOptions& o) {
   const SideOptions options[2] = {side_a(o), side_b(o)};
   const std::string name_a = case_name(options[0].deck), name_b = case_name(options[1].deck);
   const std::string stem = name_a == name_b ? name_a : name_a + "_" + name_b;
+  for (const SideOptions& side : options) keep_input(side.deck);
+  ResultFiles results(o.folder, stem + ".compare", {options[0].deck, 0, "comparison"});
   const compare::Side a = run_side("A", options[0], o.folder, stem + ".a", catalogue);
   const compare::Side b = run_side("B", options[1], o.folder, stem + ".b", catalogue);
 
@@ -131,6 +133,7 @@ int compare_decks(const CompareOptions& o) {
     files.push_back(o.folder / fmt::format("{}.compare_{}.svg", stem, name));
     write_file(files.back(), compare::pair_svg(a, b, field_from_name(name).value()));
   }
+  results.close();
   fmt::print("{}", compare::to_text(comparison, a, b));
   for (const compare::Side* side : {&a, &b})
     if (side->has_model())

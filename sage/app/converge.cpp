@@ -228,6 +228,8 @@ int converge(const RunRequest& request, const ConvergeOptions& options, const Ca
     throw InputError({request.deck, 0, 0, 0},
                      "--converge needs a report card: it says which number must be certain");
   const Ladder ladder = ladder_for(first, catalogue);
+  ResultFiles results(request.output.folder, case_name(request.deck),
+                      {request.deck, checksum(*deck.source), "convergence"});
 
   std::vector<Quantity> quantities;
   std::optional<Table> table;
@@ -247,6 +249,7 @@ int converge(const RunRequest& request, const ConvergeOptions& options, const Ca
     one.input.build = rung.build;
     one.input.build.say = {};  // the table says it
     one.quiet = true;
+    one.results = &results;
     one.restart = false;
     one.checkpoint_seconds = -1.0;
     one.output = {};
@@ -298,6 +301,7 @@ int converge(const RunRequest& request, const ConvergeOptions& options, const Ca
   if (!stopped.empty())
     last += fmt::format("; NOT REACHED: relative error {:.1g} asked for; {}", options.tolerance, stopped);
   table->finish(last);
+  results.close();
   return stopped.empty() ? kOk : kNotConverged;
 }
 

@@ -6,6 +6,7 @@
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
 #include "sage/core/error.hpp"
+#include "sage/output/out_file.hpp"
 
 namespace sage::app {
 
@@ -15,6 +16,9 @@ int guarded(const std::string& name, const std::function<int()>& work) {
   } catch (const InputError& error) {
     print_diagnostics(error.diagnostics());
     return kInput;
+  } catch (const OverInput& error) {
+    fmt::print(stderr, "{}: {}\n", name, error.what());
+    return kUsage;
   } catch (const OutputError& error) {
     fmt::print(stderr, "{}: {}\n", name, error.what());
     return kOutput;

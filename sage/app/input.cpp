@@ -11,6 +11,7 @@
 
 #include "sage/app/commands.hpp"
 #include "sage/deck/read_deck.hpp"
+#include "sage/output/out_file.hpp"
 
 namespace sage::app {
 
@@ -127,6 +128,8 @@ void require_file(const std::string& path, const std::string& who) {
 Deck read_input(const std::string& path, const InputOptions& options) {
   ReadOptions read;
   read.strict = options.strict;
+  keep_input(path);
+  if (!options.layout.empty()) keep_input(options.layout);
   return options.layout.empty() ? read_deck(path, read) : read_deck(path, load_layout(options.layout), read);
 }
 

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
+#include <new>
 #include <string>
 #include <system_error>
 
@@ -22,7 +24,9 @@ constexpr const char* kDescription =
     "      sagefe list elements    what a deck can ask for";
 constexpr const char* kFooter =
     "Signs: outside, compression is positive for stress and strain; inside and in displacements, axes are.\n"
-    "Exit codes: 0 done, 1 command line, 2 input, 3 no equilibrium or singular, 4 output could not be written.";
+    "Exit codes: 0 done, 1 command line, 2 input, 3 no equilibrium, singular or out of "
+    "memory, 4 output\n"
+    "could not be written.";
 
 struct Entry {
   const char* name;
@@ -89,15 +93,25 @@ void fill_standard_streams() {
     if (fcntl(stream, F_GETFD) == -1 && open("/dev/null", O_RDWR) == -1) return;
 }
 
+// A write past the limit on the size of files then fails like one on a full disk, with a message, instead of
+// ending the program.
+void take_no_signal_for_large_files() {
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
 }  // namespace
 
 int run_program(int argc, char** argv) {
   fill_standard_streams();
+  take_no_signal_for_large_files();
   int code = kOutput;
   try {
     code = run_command_line(argc, argv);
   } catch (const std::system_error&) {
     return kOutput;  // not even a message could be written
+  } catch (const std::bad_alloc&) {
+    std::fputs("sagefe: not enough memory\n", stderr);
+    return kNotConverged;
   }
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
   fmt::print(stderr, "sagefe: standard output could not be written\n");

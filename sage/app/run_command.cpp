@@ -10,6 +10,7 @@
 #include "sage/app/converge.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/run_deck.hpp"
+#include "sage/output/out_file.hpp"
 #include "sage/output/picture.hpp"
 
 namespace sage::app {
@@ -82,6 +83,7 @@ int run_all(const RunOptions& options) {
                  case_name(deck));
       return kUsage;
     }
+  for (const std::string& deck : options.decks) keep_input(deck);  // of those too that come later
   int worst = kOk;
   for (const std::string& deck : options.decks) worst = std::max(worst, run_one(options, deck, catalogue));
   return worst;

@@ -22,12 +22,6 @@ namespace sage::app {
 
 namespace {
 
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw OutputError("the folder " + folder.string() + " can't be made: " + error.message());
-}
-
 // The outputs that were asked for; the first is always the reports.
 std::vector<std::unique_ptr<Output>> make_outputs(const RunRequest& request, const Catalogue& catalogue,
                                                   const Reports& reports) {
@@ -47,25 +41,33 @@ std::vector<std::unique_ptr<Output>> make_outputs(const RunRequest& request, con
   return outputs;
 }
 
-Checkpoint checkpoint_of(const RunRequest& request, const Model& model) {
+Checkpoint checkpoint_of(const RunRequest& request, const Model& model, ResultFiles& results) {
   const OutputOptions& o = request.output;
   std::string run =
-      fmt::format("{:016x} {} {} {} {}{}{}{}{}{}", fingerprint(model), request.solver, SAGE_VERSION,
-                  static_cast<int>(o.tables), o.listing, o.increments, o.nodes, o.points, o.vtu, o.error);
+      fmt::format("{:016x} {} {} {}{}{}{}{}{}", fingerprint(model), request.solver, static_cast<int>(o.tables),
+                  o.listing, o.increments, o.nodes, o.points, o.vtu, o.error);
   for (const SkipName& skip : kSkipNames)
     if (!(request.skips.*skip.flag)) run += fmt::format(" without {}", skip.name);
   if (request.refinement > 0) run += fmt::format(" refined {}", request.refinement);
   for (const std::string& picture : o.pictures) run += " " + picture;
-  return {o.folder / (case_name(request.deck) + ".restart"), request.checkpoint_seconds, run};
+  return {o.folder / (case_name(request.deck) + ".restart"), request.checkpoint_seconds, run, results};
 }
 
 // The bytes to go on from; empty, and said, where there are none.
-std::string resume_from(const Checkpoint& checkpoint, const RunRequest& request) {
+std::string resume_from(Checkpoint& checkpoint, const RunRequest& request) {
   std::optional<std::string> state = checkpoint.load();
   if (!state && !request.quiet)
     fmt::print(stderr, "{}: no checkpoint in {}: from the start\n", request.deck,
                request.output.folder.string());
   return state.value_or("");
+}
+
+// What an earlier run left is removed; what can't be, because it has been changed, is said.
+void close(ResultFiles& results, const RunRequest& request) {
+  for (const std::filesystem::path& file : results.close())
+    if (!request.quiet)
+      fmt::print(stderr, "{}: note: {} is of an earlier run, but has been changed since: it stays\n",
+                 request.deck, file.string());
 }
 
 }  // namespace
@@ -86,11 +88,13 @@ int threads_for(int asked) {
 RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   const auto start = std::chrono::steady_clock::now();
   RunOutcome outcome;
+  ResultOwner owner{request.deck, 0, "run"};
   {
     const Deck deck = read_input(request.deck, request.input);
     BuildOptions build = request.input.build;
     if (!request.solver.empty()) build.solver = solver_code(catalogue, request.solver);
     outcome.model = std::make_unique<Model>(build_model(deck, catalogue, build));
+    owner.deck_sum = checksum(*deck.source);
   }
   const Model& model = *outcome.model;
   if (!request.quiet) print_diagnostics(model.diagnostics);
@@ -109,18 +113,19 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   settings.condition = request.condition;
   settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
   settings.stop_asked = request.stop_asked;
-  make_folder(request.output.folder);
-  Checkpoint checkpoint = checkpoint_of(request, model);
+  std::optional<ResultFiles> own;
+  if (request.results == nullptr) own.emplace(request.output.folder, case_name(request.deck), owner);
+  ResultFiles& results = own ? *own : *request.results;
+  if (!results.locked() && !request.quiet)
+    fmt::print(stderr,
+               "{}: note: {} lies on a file system without locks: nothing keeps a second run out of it\n",
+               request.deck, request.output.folder.string());
+  Checkpoint checkpoint = checkpoint_of(request, model, results);
   settings.checkpoint_due = [&] { return checkpoint.due(); };
   if (request.restart) settings.resume_from = resume_from(checkpoint, request);
   outcome.reports = std::make_unique<Reports>(request.output.folder, case_name(request.deck));
   std::vector<std::unique_ptr<Output>> outputs = make_outputs(request, catalogue, *outcome.reports);
-  settings.save_checkpoint = [&](const std::string& state) {
-    std::vector<std::filesystem::path> unfinished = outcome.reports->unfinished();
-    for (const auto& output : outputs)
-      for (std::filesystem::path& file : output->unfinished()) unfinished.push_back(std::move(file));
-    checkpoint.save(state, unfinished);
-  };
+  settings.save_checkpoint = [&](const std::string& state) { checkpoint.save(state); };
   Progress progress;
   std::vector<Observer*> observers{&outcome.record, outcome.reports.get()};
   if (request.output.error) {
@@ -142,8 +147,10 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   } catch (const std::exception& error) {
     for (const auto& output : outputs) output->stop(error.what());
     outcome.reports->stop(error.what());
+    if (own) close(*own, request);
     throw;
   }
+  if (own) close(*own, request);
   outcome.files = outcome.reports->files();
   for (const auto& output : outputs)
     for (const std::filesystem::path& file : output->files()) outcome.files.push_back(file);

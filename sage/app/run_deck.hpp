@@ -6,6 +6,7 @@
 
 #include "sage/analysis/run.hpp"
 #include "sage/app/input.hpp"
+#include "sage/app/result_files.hpp"
 #include "sage/output/listing.hpp"
 #include "sage/output/report.hpp"
 #include "sage/output/summary.hpp"
@@ -37,6 +38,7 @@ struct RunRequest {
   bool restart = false;              // go on from STEM.restart, if there is one
   double checkpoint_seconds = 30.0;  // between checkpoints; 0 = after every increment, negative = none
   StopAsked stop_asked;              // ends the run early, see RunSettings
+  ResultFiles* results = nullptr;    // of the run that this one is a part of; null = it has its own
 };
 
 // Reports and record stay readable after the run.

@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include "sage/core/checksum.hpp"
 #include "sage/core/error.hpp"
 
 namespace sage {
@@ -75,12 +76,5 @@ class Archive {
   std::size_t at_ = 0;
   bool reading_ = false;
 };
-
-// FNV-1a: tells whether bytes are those of before (no protection against intent).
-inline std::uint64_t checksum(std::string_view bytes) {
-  std::uint64_t sum = 14695981039346656037ULL;
-  for (const char byte : bytes) sum = (sum ^ static_cast<unsigned char>(byte)) * 1099511628211ULL;
-  return sum;
-}
 
 }  // namespace sage

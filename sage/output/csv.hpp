@@ -28,9 +28,6 @@ class Csv final : public Output {
   void exchange(Archive& archive) override;
   void stop(const std::string& reason) override;
   std::vector<std::filesystem::path> files() const override { return files_; }
-  std::vector<std::filesystem::path> unfinished() const override {
-    return paths_of_open({&increments_, &nodes_, &points_.file, &interfaces_.file});
-  }
 
  private:
   struct Table {

@@ -42,7 +42,6 @@ class Listing final : public Output {
   void exchange(Archive& archive) override;
   void stop(const std::string& reason) override;
   std::vector<std::filesystem::path> files() const override;
-  std::vector<std::filesystem::path> unfinished() const override { return paths_of_open({&file_}); }
 
  private:
   void warn(const Diagnostic&);

@@ -12,8 +12,6 @@ class Output : public Observer {
  public:
   // The complete files, in the order of writing.
   virtual std::vector<std::filesystem::path> files() const = 0;
-  // Those that are being written and have no complete form yet, by the names that they are going to have.
-  virtual std::vector<std::filesystem::path> unfinished() const { return {}; }
   // For a run that an exception ended, so that on_finish never comes: the file says so and gets its name.
   virtual void stop(const std::string& reason) = 0;
 };

@@ -360,7 +360,9 @@ Pictures::Pictures(std::filesystem::path folder, std::string stem, std::vector<F
     : folder_(std::move(folder)),
       stem_(std::move(stem)),
       fields_(std::move(fields)),
-      options_(std::move(options)) {}
+      options_(std::move(options)) {
+  expect_no_folders(folder_, stem_ + "_stage", ".svg");
+}
 
 void Pictures::draw(const Model& model, const Solution& solution, const std::string& state,
                     const std::string& caption) {

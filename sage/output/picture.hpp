@@ -57,6 +57,7 @@ std::string field_svg(const Model& model, const Solution& solution, Field field,
 // STEM_stage1_stress_yy.svg, ... at the end of every stage and at a failure (STEM_stage1_failed_...).
 class Pictures final : public Output {
  public:
+  // Throws OutputError where a folder bears a name that a picture could get.
   Pictures(std::filesystem::path folder, std::string stem, std::vector<Field> fields,
            PictureOptions options = {});
 

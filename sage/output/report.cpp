@@ -239,13 +239,6 @@ void Reports::finish() {
   }
 }
 
-std::vector<std::filesystem::path> Reports::unfinished() const {
-  std::vector<std::filesystem::path> paths;
-  for (const Series& series : series_)
-    if (series.file.open()) paths.push_back(series.file.path());
-  return paths;
-}
-
 void Reports::on_finish(const Model&, const RunResult&) {
   finish();
 }

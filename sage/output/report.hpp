@@ -70,7 +70,6 @@ class Reports final : public Output {
   void exchange(Archive& archive) override;
   void stop(const std::string& reason) override;
   std::vector<std::filesystem::path> files() const override { return files_; }
-  std::vector<std::filesystem::path> unfinished() const override;
 
  private:
   struct Series {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 
 namespace sage {
@@ -109,6 +111,53 @@ std::string xml_text(std::string_view text) {
     }
   }
   return result;
+}
+
+// Bytes of the character at the beginning; 0 where they are no UTF-8 (too long forms, halves of pairs and what
+// lies beyond U+10FFFF included) or a character that XML does not allow.
+static std::size_t utf8_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+  const unsigned first = byte(0);
+  if (first < 0x80) return first >= 0x20 && first != 0x7f ? 1 : 0;
+  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  unsigned code = first & (0x7fu >> length);
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+    code = code << 6 | (byte(i) & 0x3f);
+  }
+  constexpr unsigned kLeast[] = {0, 0, 0xa0, 0x800, 0x10000};
+  const bool pair = code >= 0xd800 && code < 0xe000, none = code == 0xfffe || code == 0xffff;
+  return first < 0xc2 || first > 0xf4 || code < kLeast[length] || code > 0x10ffff || pair || none ? 0 : length;
+}
+
+std::string plain_name(std::string_view name, std::string_view also) {
+  std::string text;
+  for (std::size_t at = 0; at < name.size();) {
+    const std::size_t length = utf8_length(name.substr(at));
+    if (length == 0 || also.find(name[at]) != std::string_view::npos)
+      text += fmt::format("%{:02X}", static_cast<unsigned char>(name[at]));
+    else
+      text += name.substr(at, length);
+    at += std::max<std::size_t>(length, 1);
+  }
+  return text;
+}
+
+std::optional<std::string> name_from_plain(std::string_view text) {
+  std::string name;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (text[at] != '%') {
+      name += text[at];
+      continue;
+    }
+    unsigned code = 0;
+    const char* digits = text.data() + at + 1;
+    if (at + 3 > text.size() || std::from_chars(digits, digits + 2, code, 16).ptr != digits + 2)
+      return std::nullopt;
+    name += static_cast<char>(code);
+    at += 2;
+  }
+  return name;
 }
 
 std::string forces_per(Geometry geometry) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,6 +53,11 @@ std::string one_line(const std::string& text);
 
 // With & < > " replaced, for XML and SVG.
 std::string xml_text(std::string_view text);
+
+// A file's name as text that every reader takes: bytes that are no UTF-8, control characters and those of
+// `also` become %XX.  And the way back from it (with `also` = "%"); nothing where a %XX is spoilt.
+std::string plain_name(std::string_view name, std::string_view also = "%");
+std::optional<std::string> name_from_plain(std::string_view text);
 
 // "per unit thickness" or "for the full circle (2 pi r)".
 std::string forces_per(Geometry geometry);

@@ -243,8 +243,9 @@ std::string vtu_text(const Model& model, const Solution& solution, std::string_v
   return std::move(vtu).text();
 }
 
-Vtu::Vtu(std::filesystem::path folder, std::string stem)
-    : folder_(std::move(folder)), stem_(std::move(stem)), pvd_(folder_ / (stem_ + ".pvd")) {
+Vtu::Vtu(std::filesystem::path folder, const std::string& stem)
+    : folder_(std::move(folder)), stem_(plain_name(stem, "")), pvd_(folder_ / (stem + ".pvd")) {
+  expect_no_folders(folder_, stem_ + "_", ".vtu");
   pvd_.text() =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n  "
       "<Collection>\n";

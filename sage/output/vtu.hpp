@@ -18,11 +18,12 @@
 
 namespace sage {
 
-// STEM_0001.vtu, STEM_0002.vtu, ..., STEM.pvd.  Time in the PVD: stage - 1 + load factor of the stage.
+// STEM_0001.vtu, STEM_0002.vtu, ..., STEM.pvd.  In the names of the VTU files stands %XX for bytes that are no
+// UTF-8.  Time in the PVD: stage - 1 + load factor of the stage.
 class Vtu final : public Output {
  public:
   // Throws OutputError.
-  Vtu(std::filesystem::path folder, std::string stem);
+  Vtu(std::filesystem::path folder, const std::string& stem);
 
   void on_increment(const Model&, const StepReport&, const Solution&) override;
   void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
@@ -33,7 +34,6 @@ class Vtu final : public Output {
   void exchange(Archive& archive) override;
   void stop(const std::string& reason) override;
   std::vector<std::filesystem::path> files() const override { return files_; }
-  std::vector<std::filesystem::path> unfinished() const override { return paths_of_open({&pvd_}); }
 
  private:
   void add(const Model&, const StepReport&, const Solution&, std::string_view comment);
@@ -41,7 +41,7 @@ class Vtu final : public Output {
   std::filesystem::path file(int number) const;  // from 1
 
   std::filesystem::path folder_;
-  std::string stem_;
+  std::string stem_;  // of the VTU files: XML, which names them, is UTF-8
   OutFile pvd_;
   int count_ = 0;
   std::vector<std::filesystem::path> files_;

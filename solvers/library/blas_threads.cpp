@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <thread>
 
+#include "solvers/address_space.hpp"
+
 // Weak: absent where another BLAS is installed.
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 
@@ -11,7 +13,13 @@ namespace sage {
 void set_blas_threads(int equations) {
   constexpr int kThreadedEquations = 50000;
   const int all = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  if (openblas_set_num_threads) openblas_set_num_threads(equations < kThreadedEquations ? 1 : all);
+  if (!openblas_set_num_threads) return;
+  const int wanted = equations < kThreadedEquations ? 1 : all;
+  static int with_buffers = 0;  // once it has them they are kept
+  if (wanted > with_buffers)
+    expect_address_space(kBlasBuffer * static_cast<std::size_t>(wanted - with_buffers));
+  with_buffers = std::max(with_buffers, wanted);
+  openblas_set_num_threads(wanted);
 }
 
 }  // namespace sage

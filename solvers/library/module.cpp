@@ -1,4 +1,5 @@
-// The two functions that the program looks up after loading this module.
+// What the program looks for in this module: its version, which it reads in the file before it loads it, and
+// one function.
 #include <string_view>
 
 #include "solvers/library/library_solvers.hpp"
@@ -6,9 +7,9 @@
 
 extern "C" {
 
-const char* sage_solver_module_version() {
-  return sage::kSolverModuleVersion;
-}
+extern const char sage_solver_module_version[];
+[[gnu::section(SAGE_SOLVER_MODULE_SECTION), gnu::used]] const char sage_solver_module_version[] =
+    SAGE_SOLVER_MODULE_VERSION;
 
 // The caller owns the solver.  nullptr: the module was built without it.
 sage::LinearSolver* sage_make_library_solver(const char* name) {

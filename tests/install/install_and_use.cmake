@@ -57,3 +57,21 @@ endif()
 step("a library solver" ${CMAKE_COMMAND} -E env --unset=SAGE_SOLVER_MODULE LD_DEBUG=files ${prefix}/bin/sagefe run --quiet
      ${prefix}/share/sagefe/legacy_inputs/chapter7/pinned_ld2_nu025/deck.dat --solver umfpack -o ${SCRATCH}/out)
 expect("${errors}" "calling init: ${prefix}/lib[^ \n]*/sagefe/libsage_library_solvers")
+
+# Without it there is no other: the build tree, which still holds one, is not searched, and its path is not in the program.
+file(GLOB module ${prefix}/lib*/sagefe/libsage_library_solvers.so ${prefix}/lib/*/sagefe/libsage_library_solvers.so)
+file(RENAME ${module} ${SCRATCH}/module.so)
+set(deck ${prefix}/share/sagefe/legacy_inputs/chapter7/pinned_ld2_nu025/deck.dat)
+execute_process(COMMAND ${CMAKE_COMMAND} -E env --unset=SAGE_SOLVER_MODULE ${prefix}/bin/sagefe run --quiet ${deck} --solver umfpack
+                        -o ${SCRATCH}/out RESULT_VARIABLE code ERROR_VARIABLE errors OUTPUT_QUIET)
+if(code EQUAL 0 OR NOT errors MATCHES "tried:\n  ${module}")
+  message(FATAL_ERROR "a module was found that is not beside the program: ${code}\n${errors}")
+endif()
+file(STRINGS ${prefix}/bin/sagefe paths REGEX "libsage_library_solvers|${BUILD}/solvers")
+foreach(path IN LISTS paths)
+  if(path MATCHES "^/" OR path MATCHES "${BUILD}")
+    message(FATAL_ERROR "the installed program holds the path ${path}")
+  endif()
+endforeach()
+step("a module that the user names" ${CMAKE_COMMAND} -E env SAGE_SOLVER_MODULE=${SCRATCH}/module.so ${prefix}/bin/sagefe run
+     --quiet ${deck} --solver umfpack -o ${SCRATCH}/out)

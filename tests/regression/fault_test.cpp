@@ -6,6 +6,9 @@
 #include <chrono>
 #include <map>
 #include <random>
+#include <regex>
+#include <set>
+#include <sstream>
 
 #include "sage/study/specimen_deck.hpp"
 #include "tests/regression/program.hpp"
@@ -198,6 +201,106 @@ TEST(Fault, ARefusedRestartLeavesTheResultsAlone) {
 
   EXPECT_EQ(sagefe(folder, std::string("run deck.dat -q --restart ") + kOptions).exit_code, 0);
   expect_equal(results(folder / "out"), whole);
+}
+
+// A restart takes nothing on trust: of every kind of file that it builds on, one with a changed byte, with 4
+// KiB of zeros, or gone, is refused by name.
+TEST(Fault, WhatARestartBuildsOnIsCompared) {
+  const fs::path folder = folder_with_deck("compared");
+  const std::map<std::string, std::string> whole = undisturbed(folder);
+  const std::string killed = "bash -c 'trap \"\" XFSZ; ulimit -f 256; exec \"$@\"' -";
+  sagefe(folder, std::string("run deck.dat -q ") + kOptions, killed);
+  ASSERT_TRUE(fs::exists(folder / "out/deck.restart"));
+  ASSERT_TRUE(fs::exists(folder / "out/deck_0002.vtu"));
+  std::vector<fs::path> files{"deck_0001.vtu", "deck_0002.vtu"};
+  for (const char* name : {"deck.lst", "deck.increments.csv", "deck.points.csv", "deck.interfaces.csv",
+                           "deck.nodes.csv", "deck.pvd"})
+    files.emplace_back(fs::exists(folder / "out" / name) ? std::string(name) : std::string(name) + ".partial");
+  for (const fs::path& name : files) {
+    const fs::path file = folder / "out" / name;
+    const std::string text = read(file);
+    ASSERT_GT(text.size(), 20u) << name;
+    std::string changed = text, zeros = text;
+    changed[20] ^= 1;
+    zeros.replace(0, std::min<std::size_t>(4096, zeros.size()), std::min<std::size_t>(4096, zeros.size()),
+                  '\0');
+    for (const std::string& damaged : {changed, zeros, std::string()}) {
+      write(file, damaged);
+      if (damaged.empty()) fs::remove(file);
+      const Finished run = sagefe(folder, std::string("run deck.dat -q --restart ") + kOptions);
+      EXPECT_EQ(run.exit_code, 2) << name;
+      EXPECT_NE(run.err.find(name.stem().string()), std::string::npos) << run.err;
+      EXPECT_NE(run.err.find("run again without --restart"), std::string::npos) << run.err;
+      write(file, text);
+    }
+  }
+  EXPECT_EQ(sagefe(folder, std::string("run deck.dat -q --restart ") + kOptions).exit_code, 0);
+  expect_equal(results(folder / "out"), whole);
+}
+
+// The program's own file is its build: one byte more behind its end makes another build.
+TEST(Fault, ACheckpointOfAnotherBuildIsRefused) {
+  const fs::path folder = folder_with_deck("build");
+  const std::string killed = "bash -c 'trap \"\" XFSZ; ulimit -f 256; exec \"$@\"' -";
+  sagefe(folder, std::string("run deck.dat -q ") + kOptions, killed);
+  ASSERT_TRUE(fs::exists(folder / "out/deck.restart"));
+  const Finished run = sagefe(folder, std::string("run deck.dat -q --restart ") + kOptions,
+                              "bash -c 'cp \"$0\" other && printf x >> other && exec ./other \"$@\"'");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find("was written by another build"), std::string::npos) << run.err;
+  EXPECT_EQ(sagefe(folder, std::string("run deck.dat -q --restart ") + kOptions).exit_code, 0);
+}
+
+// The system calls of a run with a checkpoint an increment: no checkpoint gets its name before the results it
+// builds on, and itself, are on the disk; no result gets its name before its bytes are.
+TEST(Fault, ResultsReachTheDiskBeforeTheCheckpointThatBuildsOnThem) {
+  if (std::system("strace -o /dev/null true > /dev/null 2>&1") != 0) GTEST_SKIP() << "no strace here";
+  const fs::path folder = folder_with_deck("order");
+  const Finished run = sagefe(folder, std::string("run deck.dat -q ") + kOptions,
+                              "strace -o trace.txt -y -e trace=write,fsync,rename,ftruncate");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::istringstream trace(read(folder / "trace.txt"));
+  std::set<std::string> unsynced;  // files with bytes that are not on the disk
+  bool names_unsynced = false;
+  int checkpoints = 0, results = 0;
+  const std::regex written("^write\\(\\d+<([^>]*/out/[^>]*)>"), synced("^fsync\\(\\d+<([^>]*)>"),
+      renamed("^rename\\(\"([^\"]*)\", \"([^\"]*)\"");
+  for (std::string line; std::getline(trace, line);) {
+    std::smatch part;
+    if (line.find("deck.files") != std::string::npos) continue;  // the list itself: the checkpoint has its own
+    if (std::regex_search(line, part, written)) unsynced.insert(part[1]);
+    if (std::regex_search(line, part, synced)) {
+      unsynced.erase(part[1]);
+      if (part[1].str().ends_with("/out")) names_unsynced = false;
+    }
+    if (!std::regex_search(line, part, renamed)) continue;
+    const std::string from = (folder / part[1].str()).string(), to = (folder / part[2].str()).string();
+    if (to.ends_with("deck.restart")) {
+      ++checkpoints;
+      EXPECT_TRUE(unsynced.empty()) << *unsynced.begin() << " is written, but not on the disk";
+      EXPECT_FALSE(names_unsynced) << "a result has its name, but that is not on the disk";
+      continue;
+    }
+    ++results;
+    names_unsynced = true;
+    if (unsynced.erase(from) > 0) unsynced.insert(to);
+    const bool gone_on_with = to.ends_with(".lst") || to.ends_with(".csv") || to.ends_with(".pvd");
+    EXPECT_FALSE(gone_on_with && unsynced.contains(to))
+        << to << " has its name before its bytes are on the disk";
+  }
+  EXPECT_GE(checkpoints, 10);
+  EXPECT_GE(results, 30);
+  EXPECT_TRUE(unsynced.empty()) << *unsynced.begin() << " has its name for good, but is not on the disk";
+}
+
+// A run shorter than the time between checkpoints waits for no disk.
+TEST(Fault, ShortRunsDoNotWaitForTheDisk) {
+  if (std::system("strace -o /dev/null true > /dev/null 2>&1") != 0) GTEST_SKIP() << "no strace here";
+  const fs::path folder = folder_with_deck("short");
+  ASSERT_EQ(
+      sagefe(folder, "run deck.dat -q --vtu", "strace -o trace.txt -e trace=fsync,fdatasync,sync").exit_code,
+      0);
+  EXPECT_EQ(read(folder / "trace.txt").find("sync("), std::string::npos);
 }
 
 // A deck named deck.2 in the same folder is none of its business.

@@ -3,10 +3,15 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
 
 #include <gtest/gtest.h>
 
 #include "sage/core/error.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace sage {
 namespace {
@@ -41,6 +46,13 @@ TEST(LibraryModule, PassesOverWhatIsNotTheModule) {
   EXPECT_EQ(solver->traits().name, "umfpack");
 }
 
+// The version is read in the file: nothing of a module that does not belong here runs.
+TEST(LibraryModule, RunsNothingOfAForeignModule) {
+  unsetenv("SAGE_FOREIGN_MODULE_RAN");
+  EXPECT_THROW(load_solver_module({OTHER_VERSION, NO_VERSION}), AnalysisError);
+  EXPECT_EQ(std::getenv("SAGE_FOREIGN_MODULE_RAN"), nullptr);
+}
+
 TEST(LibraryModule, ListsWhatItTriedAndWhyItWasRefused) {
   try {
     load_solver_module({kNowhere, kNoLibrary, OTHER_VERSION, NO_VERSION, NO_MAKER});
@@ -48,10 +60,30 @@ TEST(LibraryModule, ListsWhatItTriedAndWhyItWasRefused) {
   } catch (const AnalysisError& error) {
     const std::string text = error.what();
     EXPECT_NE(text.find(std::string("\n  ") + kNowhere + "\n"), std::string::npos) << text;
-    EXPECT_NE(text.find("\n  " + kNoLibrary + ": "), std::string::npos) << text;
-    for (const char* other : {OTHER_VERSION, NO_VERSION, NO_MAKER})
-      EXPECT_NE(text.find(std::string("\n  ") + other + ": belongs to another version"), std::string::npos)
-          << text;
+    for (const std::string& other : {kNoLibrary, std::string(OTHER_VERSION), std::string(NO_VERSION)})
+      EXPECT_NE(text.find("\n  " + other + ": belongs to another version"), std::string::npos) << text;
+    EXPECT_NE(text.find(std::string("\n  ") + NO_MAKER + ": has no sage_make_library_solver"),
+              std::string::npos)
+        << text;
+  }
+}
+
+// A file that is cut short, or whose tables point beyond its end, has no sections.
+TEST(LibraryModule, ReadsDamagedFilesAsFilesWithoutSections) {
+  std::ifstream in(OTHER_VERSION, std::ios::binary);
+  const std::string whole{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_EQ(elf_section(OTHER_VERSION, SAGE_SOLVER_MODULE_SECTION), std::string("sage-solvers-0\0", 15));
+  EXPECT_EQ(elf_section(OTHER_VERSION, ".no_such_section"), "");
+  const std::filesystem::path file = test::scratch_folder("elf") / "damaged.so";
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 300; ++trial) {
+    std::string damaged = whole;
+    if (trial % 2 == 0) damaged.resize(random() % whole.size());
+    for (std::size_t at = trial % 2 == 0 ? 64 : 16; at < 64; ++at)
+      if (random() % 8 == 0 && at < damaged.size()) damaged[at] = static_cast<char>(random());
+    std::ofstream(file, std::ios::binary) << damaged;
+    const std::string section = elf_section(file, SAGE_SOLVER_MODULE_SECTION);
+    EXPECT_TRUE(section.empty() || section.size() == 15 || trial % 2 == 1) << trial;
   }
 }
 
