@@ -43,6 +43,8 @@ Neighbours around(const Assembly& assembly, int node) {
   return result;
 }
 
+constexpr double kFlat = 0.1;  // share of the stage's largest stiffness at which a curve counts as flat
+
 enum class StateKind { trial, committed };
 
 // Every point of an interface is open: it carries nothing.
@@ -88,11 +90,32 @@ bool moves(const Stage& stage) {
 
 // What else may find an equilibrium.
 std::string advice(const Stage& stage) {
-  const bool kept = stage.method == Method::modified_newton || stage.method == Method::initial_stiffness;
-  return std::string(moves(stage) ? "" : "displacement control if a limit load is near; ") +
-         "more increments; more iterations; " +
-         (kept ? "method 0 (Newton): a matrix kept from before can stall where joints open, close or slip"
-               : "method 2 (initial stiffness)");
+  const std::string control = moves(stage) ? "" : "displacement control if a limit load is near; ";
+  const std::string more = control + "more increments; more iterations";
+  switch (stage.method) {
+    case Method::newton:
+      return control + "more increments; method 3 (Newton with dogleg) with more iterations";
+    case Method::dogleg:
+      return more;
+    case Method::modified_newton:
+    case Method::initial_stiffness:
+      break;
+  }
+  return more + "; method 0 (Newton): a matrix kept from before can stall where joints open, close or slip";
+}
+
+const char* method_name(Method method) {
+  switch (method) {
+    case Method::newton:
+      return "0 (Newton)";
+    case Method::modified_newton:
+      return "1 (modified Newton)";
+    case Method::initial_stiffness:
+      return "2 (initial stiffness)";
+    case Method::dogleg:
+      return "3 (Newton with dogleg)";
+  }
+  return "";
 }
 
 std::array<long, kStatuses> trial_points(const Assembly& assembly) {
@@ -103,15 +126,19 @@ std::array<long, kStatuses> trial_points(const Assembly& assembly) {
   return counts;
 }
 
-// "limit load: between 0.71 and 0.72 of the stage's load".
-std::string bracket_line(const Model& model, const StepReport& report) {
-  const Stage& stage = model.stages[static_cast<std::size_t>(report.stage)];
-  const bool loads = !stage.loads.empty() || !stage.pressures.empty() || !stage.gravity.isZero(0.0);
-  const bool moved = moves(stage);
-  const char* const what = loads && moved ? "stage's loads and displacements"
-                           : loads        ? "stage's load"
-                           : moved        ? "stage's displacement"
-                                          : "stage";
+bool loads(const Stage& stage) {
+  return !stage.loads.empty() || !stage.pressures.empty() || !stage.gravity.isZero(0.0);
+}
+
+const char* driver_name(const Stage& stage) {
+  return loads(stage) && moves(stage) ? "stage's loads and displacements"
+         : loads(stage)               ? "stage's load"
+         : moves(stage)               ? "stage's displacement"
+                                      : "stage";
+}
+
+// The last equilibrium and the next attempt, with as many digits as tell them apart.
+std::array<std::string, 2> bracket(const StepReport& report) {
   std::string from = short_number(report.load_factor), to = short_number(report.failed_at);
   if (from == to) {  // a bracket narrower than four digits
     char text[2][32];
@@ -120,8 +147,36 @@ std::string bracket_line(const Model& model, const StepReport& report) {
     from = text[0];
     to = text[1];
   }
-  return std::string(loads && !moved ? "  limit load: " : "  equilibrium ends: ") + "between " + from +
-         " and " + to + " of the " + what + " (equilibrium was found at the first, not at the second)\n";
+  return {from, to};
+}
+
+// "limit load: between 0.71 and 0.72 of the stage's load", for a structure that has no stiffness left.
+std::string bracket_line(const Model& model, const StepReport& report) {
+  const Stage& stage = model.stages[static_cast<std::size_t>(report.stage)];
+  const auto [from, to] = bracket(report);
+  return std::string(loads(stage) && !moves(stage) ? "  limit load: " : "  equilibrium ends: ") + "between " +
+         from + " and " + to + " of the " + driver_name(stage) +
+         " (equilibrium was found at the first, not at the second)\n";
+}
+
+// For one that has stiffness left, or of which nothing is known: that the program found no equilibrium does not
+// say that there is none.
+std::string unknown_end_line(const Model& model, const StepReport& report) {
+  const Stage& stage = model.stages[static_cast<std::size_t>(report.stage)];
+  const auto [from, to] = bracket(report);
+  std::string text = "  equilibrium was found up to " + from + " of the " + driver_name(stage) + ", not at " +
+                     to + "; this needs not be a limit: ";
+  return text + (report.stiffness_share < 0.0
+                     ? "the stage has no step whose stiffness would show one\n"
+                     : "the stiffness along the motion is still " +
+                           short_number(100.0 * report.stiffness_share) + " % of the largest in the stage\n");
+}
+
+// "tried: method 0 (Newton), 50 iterations, steps down to 6.1e-06 of the stage".
+std::string tried_line(const Stage& stage, const StepReport& report) {
+  return std::string("  tried: method ") + method_name(stage.method) + ", up to " +
+         std::to_string(stage.max_iterations) + " iterations a step, steps down to " +
+         short_number(report.failed_at - report.load_factor) + " of the stage\n";
 }
 
 }  // namespace
@@ -202,11 +257,15 @@ std::string explain_failure(const Model& model, const Assembly& assembly, const 
   std::string text = "stage " + std::to_string(report.stage + 1) + ", increment " +
                      std::to_string(report.increment) + " of " + std::to_string(report.increments) +
                      ": no equilibrium found after " + std::to_string(report.cuts) + " cuts of the step.\n";
-  text += bracket_line(model, report);
+  const Stage& stage = model.stages[static_cast<std::size_t>(report.stage)];
+  // A linear scene has no limit; its stiffness is not followed.
+  const bool limit = report.stiffness_share >= 0.0 && report.stiffness_share <= kFlat;
+  text += limit ? bracket_line(model, report) : unknown_end_line(model, report);
+  text += tried_line(stage, report);
   if (step.worst.node >= 0)
-    text += "  largest out-of-balance force: " + short_number(step.worst.residual) + " " + model.units.force +
-            " at " + dof_name(model, 2 * step.worst.node + step.worst.component) + ", between elements " +
-            around(assembly, step.worst.node).elements + "\n";
+    text += "  largest out-of-balance force of the best iteration: " + short_number(step.worst.residual) + " " +
+            model.units.force + " at " + dof_name(model, 2 * step.worst.node + step.worst.component) +
+            ", between elements " + around(assembly, step.worst.node).elements + "\n";
   text += "  points at the last attempt: " + counts_line(trial_points(assembly)) + "\n";
   if (!step.iterations.empty()) {
     text += "  relative out-of-balance force by iteration:";
@@ -221,7 +280,7 @@ std::string explain_failure(const Model& model, const Assembly& assembly, const 
             std::to_string(unique.lost) + " of " + std::to_string(unique.plastic) +
             " yielding points (flow is not associated): a dilation angle nearer to friction helps\n";
   if (step.outcome == StepOutcome::law_cut) text += "  a law found no answer for the strain it was given.\n";
-  return text + "  try: " + advice(model.stages[static_cast<std::size_t>(report.stage)]);
+  return text + "  try: " + advice(stage);
 }
 
 }  // namespace sage

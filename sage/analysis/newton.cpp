@@ -49,6 +49,7 @@ class Step {
   bool linear_rounding(const IterationRecord& record) const;
   bool at_rounding(const IterationRecord& record) const;
   double scale() const;
+  bool hopeless() const;
   double load_size() const;
   void find_worst();
   void move(double factor);
@@ -64,7 +65,9 @@ class Step {
   bool start_known_ = false;  // start_residual_ is the residual at du = 0
   double prescribed_ = 0.0;   // largest displacement that supports are given in this step
   double load_scale_ = 0.0;   // |loads| of all free dofs
+  double first_force_ = 0.0;  // largest of the step's start, its loads, and what its first correction balances
   double energy_scale_ = 0.0, start_scale_ = 0.0, slope_ = 0.0, step_length_ = 1.0;
+  double best_ = std::numeric_limits<double>::infinity();  // smallest |residual| so far
   NewtonStep result_;
 };
 
@@ -149,6 +152,8 @@ bool Step::predict(const Eigen::VectorXd& rate, double rate_part) {
   correct();
   energy_scale_ = std::abs(correction_.dot(residual_));
   if (const Condensation* region = assembly_.condensation()) energy_scale_ += std::abs(region->held_work());
+  result_.predicted_work = energy_scale_;
+  first_force_ = std::max({residual_.norm(), start_scale_, load_scale_});
   du_ = rate_part * rate;
   prescribed_ = du_.size() > 0 ? du_.lpNorm<Eigen::Infinity>() : 0.0;
   move(1.0);
@@ -226,6 +231,14 @@ bool Step::at_rounding(const IterationRecord& record) const {
   return largest <= unit * prescribed_ && scale() <= 1e3 * unit * prescribed_;
 }
 
+// Beyond 1/eps of the step's own forces no digit of those is left in a residual: the iteration has run away,
+// and what comes behind is noise, however small it may be beside the stress that it has made itself.
+bool Step::hopeless() const {
+  const double size = residual_.norm();
+  return !std::isfinite(size) ||
+         (first_force_ > 0.0 && size * std::numeric_limits<double>::epsilon() > first_force_);
+}
+
 void Step::find_worst() {
   if (residual_.size() == 0) return;
   Eigen::Index worst = 0;
@@ -239,23 +252,21 @@ void Step::find_worst() {
 bool Step::search_line() {
   constexpr double kAccept = 0.8;
   constexpr int kTrials = 4;
-  double a = 0.0, slope_a = slope_, length = 1.0;
-  double b = 1.0, slope_b = correction_.dot(residual_);
+  double a = 0.0, slope_a = slope_, length = 1.0, slope = correction_.dot(residual_);
+  double b = 1.0, slope_b = slope;
   for (int trial = 0; trial < kTrials; ++trial) {
-    if (std::abs(slope_b) <= kAccept * std::abs(slope_)) break;
-    double next = slope_a * slope_b < 0.0 ? a - slope_a * (b - a) / (slope_b - slope_a) : 0.5 * length;
-    next = std::clamp(next, 0.1 * length, 0.9 * std::max(length, b));
+    if (std::abs(slope) <= kAccept * std::abs(slope_)) break;
+    const bool between = slope_a * slope_b < 0.0;
+    const double zero = between ? a - slope_a * (b - a) / (slope_b - slope_a) : 0.5 * (a + b);
+    const double next = std::clamp(zero, a + 0.1 * (b - a), b - 0.1 * (b - a));
     move(next - length);
     length = next;
     if (evaluate(new_K_each_iteration()) == Outcome::cut_step) return false;
     form_residual();
-    const double slope = correction_.dot(residual_);
-    if (slope_a * slope > 0.0 && next < b) {
-      a = next;
-      slope_a = slope;
-    }
-    b = length;
-    slope_b = slope;
+    slope = correction_.dot(residual_);
+    const bool beyond = between && slope_a * slope > 0.0;  // the zero lies between here and b
+    (beyond ? a : b) = next;
+    (beyond ? slope_a : slope_b) = slope;
   }
   step_length_ = length;
   return true;
@@ -267,8 +278,11 @@ bool Step::record_iteration() {
   IterationRecord record = measure();
   if (record.force <= kNear * settings_.tolerance || converged(record)) record = measure_whole();
   result_.iterations.push_back(record);
-  find_worst();
-  if (!converged(record)) return false;
+  const double size = residual_.norm();
+  const bool done = converged(record);
+  if (done || size <= best_) find_worst();
+  best_ = std::min(best_, size);
+  if (!done) return false;
   result_.outcome = StepOutcome::converged;
   return true;
 }
@@ -301,7 +315,7 @@ NewtonStep& Step::iterate_with_line_search() {
     if (settings_.line_search && !accelerated() && i > 1 &&
         std::abs(correction_.dot(residual_)) > 0.8 * std::abs(slope_) && !search_line())
       return result_;
-    if (!std::isfinite(residual_.squaredNorm()) || record_iteration()) return result_;
+    if (hopeless() || record_iteration()) return result_;
     if (i == settings_.max_iterations) break;
     const double norm = residual_.norm();
     if (settings_.contract && norm > kGoodContraction * old_norm && evaluate(true) == Outcome::cut_step)
@@ -324,7 +338,7 @@ NewtonStep& Step::iterate_with_dogleg() {
   form_residual();
   Eigen::VectorXd newton(residual_.size()), old_residual(residual_.size());
   for (int i = 1; i <= settings_.max_iterations; ++i) {
-    if (!std::isfinite(residual_.squaredNorm()) || record_iteration()) return result_;
+    if (hopeless() || record_iteration()) return result_;
     correct();
     newton = correction_;
     energy_scale_ = std::max(energy_scale_, std::abs(newton.dot(residual_)));

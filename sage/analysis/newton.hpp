@@ -29,7 +29,8 @@ struct NewtonStep {
   StepOutcome outcome = StepOutcome::not_converged;
   bool repeated = false;  // the step before once more
   std::vector<IterationRecord> iterations;
-  WorstDof worst;
+  WorstDof worst;               // of the last iteration, or where none converged, of the best
+  double predicted_work = 0.0;  // forces out of balance at the start times the first correction
   int singular_equation = -1;
   std::string message;
 };

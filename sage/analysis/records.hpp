@@ -59,13 +59,15 @@ struct StepReport {
   int increments = 0;
   double load_factor = 0.0;  // part of the stage applied, 0 .. 1
   double failed_at = 2.0;    // load factor of the last attempt that found no equilibrium; 2 = none
+  // After a failure: stiffness along the motion, as a share of the largest in the stage; negative = not known.
+  double stiffness_share = -1.0;
   bool converged = true;
   int cuts = 0;  // halvings needed within this increment
   int substeps = 1;
   std::vector<IterationRecord> iterations;  // of the last substep
   int total_iterations = 0;                 // of all substeps, cut ones included
   std::array<long, kStatuses> points{};     // by PointStatus
-  WorstDof worst;
+  WorstDof worst;  // after a failure: of the iteration that came nearest to equilibrium
   double smallest_pivot_ratio = -1.0;
 };
 

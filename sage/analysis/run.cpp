@@ -56,7 +56,11 @@ class Run {
   bool contracts(const Stage& stage) const;
   bool can_repeat(const Stage& stage, double size) const;
   void accept(double reached);
-  void reject(const Stage& stage);
+  void reject(const Stage& stage, double next);
+  void keep_way(double size);
+  void start_on_last_way(double size);
+  void measure_stiffness(double from, double to);
+  double stiffness_share(double from, double to, const NewtonStep& step) const;
   bool fail(StepReport& report, const NewtonStep& step);
   void exchange(Archive& archive, const Place& place);
   void offer_checkpoint(Place place);
@@ -90,6 +94,10 @@ class Run {
   Stiffness stiffness_;
   Eigen::VectorXd u_, du_, external_, target_, external_start_, force_start_, force_end_, rate_;
   double linear_size_ = 0.0;  // of the last step, where it was linear; 0 = it was not
+  Eigen::VectorXd last_du_;   // the last step of the stage, its share of the stage; 0 = there is none
+  double last_size_ = 0.0;
+  Eigen::VectorXd committed_force_;               // internal, at the committed state
+  double stiffest_ = 0.0, last_stiffness_ = 0.0;  // along the motion: largest of the stage, of the last step
   std::vector<char> held_before_, groups_before_, lived_;
   double path_error_ = 0.0;  // largest of the stage
   std::string loose_part_;   // the first of the stage
@@ -192,7 +200,8 @@ void Run::prepare_stage(int s) {
     throw AnalysisError("stage " + std::to_string(s + 1) + ": a law cannot start from the state it is given");
   stiffness_.assembled = true;
   assembly_.commit(du_);
-  force_start_ = assembly_.internal_force();
+  force_start_ = committed_force_ = assembly_.internal_force();
+  last_size_ = stiffest_ = last_stiffness_ = 0.0;
   force_end_ = external_force(model_, s);
   external_start_ = external_;
   const InitialImbalance imbalance = initial_imbalance(model_, activity_, s, force_start_, force_end_);
@@ -236,13 +245,65 @@ void Run::accept(double reached) {
   external_ = (1.0 - reached) * external_start_ + reached * force_end_;
 }
 
-// Back to the committed state, with its own internal forces and tangent.
-void Run::reject(const Stage& stage) {
-  du_.setZero();
+// Back to the committed state, with its own internal forces.  The next attempt starts with the tangent of the
+// way that the last step took.  At du = 0 points on their yield surfaces answer elastically: from there a cut
+// step would have to find all of the plastic zone anew, however short it is.  next: its share of the stage; 0 =
+// from there all the same.
+void Run::reject(const Stage& stage, double next) {
   linear_size_ = 0.0;
   const bool keep_K = stiffness_.constant || stage.method == Method::initial_stiffness;
-  if (!keep_K) stiffness_.assembled = stiffness_.factorised = false;
+  if (!keep_K) {
+    stiffness_.assembled = stiffness_.factorised = false;
+    if (next > 0.0) start_on_last_way(next);
+  }
+  du_.setZero();
   assembly_.evaluate(du_, nullptr);
+}
+
+// Linear scenes cut no step.
+void Run::keep_way(double size) {
+  if (stiffness_.constant) return;
+  last_du_ = du_;
+  last_size_ = size;
+  committed_force_ = assembly_.internal_force();
+}
+
+// K half way along the last step once more, in its direction, for a step of this share of the stage.
+void Run::start_on_last_way(double size) {
+  if (!(last_size_ > 0.0)) return;
+  du_ = (0.5 * size / last_size_) * last_du_;
+  stiffness_.assembled = assembly_.evaluate(du_, solver_.get()) != Outcome::cut_step;
+}
+
+// Of the step in hand: where supports move, the growth of their forces along their own motion; else the growth
+// of the loads over the motion along them.  Both fall to nothing at a limit load (Bergan's current stiffness).
+void Run::measure_stiffness(double from, double to) {
+  if (stiffness_.constant) return;
+  const double size = to - from;
+  double work = 0.0;
+  if (!rate_.isZero(0.0)) {
+    const Eigen::VectorXd& f = assembly_.internal_force();
+    for (int dof = 0; dof < model_.dofs(); ++dof)
+      if (rate_[dof] != 0.0) work += (f[dof] - committed_force_[dof]) * rate_[dof];
+    last_stiffness_ = work / size;
+  } else {
+    work = (force_end_ - force_start_).dot(du_);
+    last_stiffness_ = work > 0.0 ? size / work : 0.0;
+  }
+  stiffest_ = std::max(stiffest_, last_stiffness_);
+}
+
+// After a failed attempt: that of the last step, and under loads that of the attempt where it ran away.
+// Before any step the attempt's first correction, which is elastic, stands for the stage.
+double Run::stiffness_share(double from, double to, const NewtonStep& step) const {
+  const double size = to - from;
+  if (!rate_.isZero(0.0)) return stiffest_ > 0.0 && last_size_ > 0.0 ? last_stiffness_ / stiffest_ : -1.0;
+  const double work = (force_end_ - force_start_).dot(du_);
+  const double attempt = work > 0.0 && std::isfinite(work) ? size / work : 0.0;
+  const double elastic = step.predicted_work > 0.0 ? size * size / step.predicted_work : 0.0;
+  const double largest = std::max(stiffest_, elastic);
+  if (!(largest > 0.0)) return -1.0;
+  return std::min(attempt, last_size_ > 0.0 ? last_stiffness_ : attempt) / largest;
 }
 
 bool Run::run_increment(const Stage& stage, StepReport& report, double& reached) {
@@ -259,16 +320,18 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
     if (step.outcome == StepOutcome::converged) {
       const double error = assembly_.path_error();
       if (error > kPathTolerance && to - reached > 1.001 * kSmallestPart * whole) {
-        reject(stage);
         size = (to - reached) * std::clamp(0.9 * std::cbrt(kPathTolerance / error), 0.25, 0.75);
         size = std::max(size, kSmallestPart * whole);
+        reject(stage, 0.0);
         continue;
       }
       path_error_ = std::max(path_error_, error);
       if (stage.method == Method::modified_newton || contracts(stage)) renew_tangent();
       const bool linear = step.repeated || (step.iterations.size() == 1 && !assembly_.matrix_changed());
       linear_size_ = linear ? to - reached : 0.0;
+      measure_stiffness(reached, to);
       accept(to);
+      keep_way(to - reached);
       reached = to;
       report.load_factor = reached;
       ++report.substeps;
@@ -277,10 +340,14 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
     }
     report.points = assembly_.count_points();
     report.failed_at = to;  // beyond `reached`, which may have passed an earlier failure
-    if (report.cuts >= settings_.max_cuts || stiffness_.constant) return fail(report, step);
-    reject(stage);
+    const bool shortest = to - reached < 1.001 * std::ldexp(whole, -settings_.max_cuts);
+    if (shortest || stiffness_.constant) {
+      report.stiffness_share = stiffness_share(reached, to, step);
+      return fail(report, step);
+    }
     ++report.cuts;
     size = 0.5 * (to - reached);
+    reject(stage, size);
   }
   return true;
 }
@@ -401,6 +468,9 @@ void Run::exchange(Archive& archive, const Place& place) {
   if (within) {
     archive(du_);
     archive(linear_size_);
+    archive(last_size_);
+    archive(stiffest_);
+    archive(last_stiffness_);
     archive(path_error_);
     archive(loose_part_);
     archive(external_start_);
@@ -452,6 +522,8 @@ Run::Place Run::resume() {
       throw InputError({}, "the checkpoint does not belong to this model");
     stiffness_.assembled = true;
     if (within) assembly_.commit_again();
+    last_du_ = du_;
+    committed_force_ = assembly_.internal_force();
   }
   if (factorised) {
     solver_->factorise();

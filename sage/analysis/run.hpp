@@ -17,7 +17,7 @@ struct RunSettings {
   int threads = 1;         // of the linear solver; results do not depend on it
   int refinement = 0;      // steps of iterative refinement in every solution
   bool condition = false;  // say the condition number of the equations at the end of each stage
-  int max_cuts = 12;       // halvings of an increment before giving up
+  int max_cuts = 12;       // a step is given up when 2^-max_cuts of its increment finds no equilibrium
   bool line_search = true;
   Skips skips;
 

@@ -18,6 +18,8 @@ class Checkpoint {
   Checkpoint(std::filesystem::path file, double seconds, std::string belongs_to, ResultFiles& results);
 
   bool due() const;
+  const std::filesystem::path& file() const { return file_; }
+  bool ever_due() const { return seconds_ >= 0.0; }
   // After the results so far, which are brought to the disk first.  The old checkpoint stays until the new one
   // is complete.  Throws OutputError.
   void save(const std::string& state);

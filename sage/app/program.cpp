@@ -24,9 +24,9 @@ constexpr const char* kDescription =
     "      sagefe list elements    what a deck can ask for";
 constexpr const char* kFooter =
     "Signs: outside, compression is positive for stress and strain; inside and in displacements, axes are.\n"
-    "Exit codes: 0 done, 1 command line, 2 input, 3 no equilibrium, singular or out of "
-    "memory, 4 output\n"
-    "could not be written.";
+    "Exit codes: 0 done, 1 command line, 2 input, 3 no equilibrium, singular or out of memory, 4 output could "
+    "not be\n"
+    "            written, 5 interrupted (Ctrl-C, SIGTERM): sagefe run --restart goes on.";
 
 struct Entry {
   const char* name;

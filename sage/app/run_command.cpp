@@ -9,6 +9,7 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/converge.hpp"
 #include "sage/app/exit_codes.hpp"
+#include "sage/app/interrupt.hpp"
 #include "sage/app/run_deck.hpp"
 #include "sage/output/out_file.hpp"
 #include "sage/output/picture.hpp"
@@ -33,6 +34,11 @@ Tables tables_of(const std::string& name) {
   return Tables::automatic;
 }
 
+std::string way_on(const RunOutcome& outcome) {
+  if (outcome.checkpoint.empty()) return "there is no checkpoint, so that a run with --restart begins anew";
+  return fmt::format("the same command with --restart goes on from {}", outcome.checkpoint.string());
+}
+
 // One deck's failure does not keep the next from running.
 int run_one(const RunOptions& options, const std::string& deck, const Catalogue& catalogue) {
   RunRequest request = options.request;
@@ -53,6 +59,10 @@ int run_one(const RunOptions& options, const std::string& deck, const Catalogue&
       return converge(request, options.converge, catalogue);
     }
     const RunOutcome outcome = run_deck(request, catalogue);
+    if (outcome.exit_code == kInterrupted) {
+      fmt::print(stderr, "{}: interrupted: {}; {}\n", deck, outcome.record.result.reason, way_on(outcome));
+      return outcome.exit_code;
+    }
     if (outcome.record.stages.empty()) return outcome.exit_code;  // --strict stopped it
     if (!options.quiet)
       fmt::print("{}\n", summary(*outcome.model, outcome.record, outcome.reports.get(), outcome.files,
@@ -84,8 +94,19 @@ int run_all(const RunOptions& options) {
       return kUsage;
     }
   for (const std::string& deck : options.decks) keep_input(deck);  // of those too that come later
+  const InterruptWatch watch;
   int worst = kOk;
-  for (const std::string& deck : options.decks) worst = std::max(worst, run_one(options, deck, catalogue));
+  for (const std::string& deck : options.decks) {
+    if (interrupted()) {
+      fmt::print(stderr, "{}: not run, interrupted before\n", deck);
+      worst = std::max(worst, kInterrupted);
+      continue;
+    }
+    const int code = run_one(options, deck, catalogue);
+    // What --converge has is complete: a mesh that was cut short is no failure of the deck.
+    const bool cut_short = options.converge.tolerance > 0.0 && code != kOk && interrupted();
+    worst = std::max(worst, cut_short ? kInterrupted : code);
+  }
   return worst;
 }
 

@@ -5,12 +5,14 @@
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <thread>
 
 #include "sage/app/checkpoint.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
+#include "sage/app/interrupt.hpp"
 #include "sage/model/fingerprint.hpp"
 #include "sage/output/csv.hpp"
 #include "sage/output/picture.hpp"
@@ -70,6 +72,27 @@ void close(ResultFiles& results, const RunRequest& request) {
                  request.deck, file.string());
 }
 
+// When an interrupted run ends: behind the checkpoint of the increment in hand, if there can be one.
+class EndOfInterrupted final : public Observer {
+ public:
+  explicit EndOfInterrupted(bool checkpoints) : checkpoints_(checkpoints), before_start_(interrupted()) {}
+
+  bool checkpoint_wanted() const { return checkpoints_ && interrupted(); }
+  void saved() { ready_ = ready_ || interrupted(); }
+  bool stop_now() const { return interrupted() && (before_start_ || !checkpoints_ || ready_); }
+
+  // With initial stiffness checkpoints stand between stages only: there is nothing to wait for.
+  void on_increment(const Model& model, const StepReport& report, const Solution&) override {
+    const Stage& stage = model.stages[static_cast<std::size_t>(report.stage)];
+    if (stage.method == Method::initial_stiffness && report.increment < report.increments) saved();
+  }
+  bool wants_states(const Model&, const StepReport&) const override { return false; }
+
+ private:
+  bool checkpoints_, before_start_;
+  std::atomic<bool> ready_{false};
+};
+
 }  // namespace
 
 void add_threads_option(CLI::App& parser, int& threads) {
@@ -112,7 +135,6 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   settings.refinement = request.refinement;
   settings.condition = request.condition;
   settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
-  settings.stop_asked = request.stop_asked;
   std::optional<ResultFiles> own;
   if (request.results == nullptr) own.emplace(request.output.folder, case_name(request.deck), owner);
   ResultFiles& results = own ? *own : *request.results;
@@ -121,11 +143,18 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
                "{}: note: {} lies on a file system without locks: nothing keeps a second run out of it\n",
                request.deck, request.output.folder.string());
   Checkpoint checkpoint = checkpoint_of(request, model, results);
-  settings.checkpoint_due = [&] { return checkpoint.due(); };
+  bool has_checkpoint = request.restart && std::filesystem::exists(checkpoint.file());
+  EndOfInterrupted end(checkpoint.ever_due());
+  settings.stop_asked = [&] { return end.stop_now() || (request.stop_asked && request.stop_asked()); };
+  settings.checkpoint_due = [&] { return end.checkpoint_wanted() || checkpoint.due(); };
   if (request.restart) settings.resume_from = resume_from(checkpoint, request);
   outcome.reports = std::make_unique<Reports>(request.output.folder, case_name(request.deck));
   std::vector<std::unique_ptr<Output>> outputs = make_outputs(request, catalogue, *outcome.reports);
-  settings.save_checkpoint = [&](const std::string& state) { checkpoint.save(state); };
+  settings.save_checkpoint = [&](const std::string& state) {
+    checkpoint.save(state);
+    end.saved();
+    has_checkpoint = true;
+  };
   Progress progress;
   std::vector<Observer*> observers{&outcome.record, outcome.reports.get()};
   if (request.output.error) {
@@ -134,11 +163,14 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   }
   for (const auto& output : outputs) observers.push_back(output.get());
   observers.push_back(&progress);
+  observers.push_back(&end);
   try {
     const RunResult result = run(model, catalogue, settings, observers);
     outcome.exit_code = result.status == RunStatus::completed ? kOk : kNotConverged;
     if (result.status == RunStatus::stopped) {
       outcome.record.result = result;
+      if (interrupted()) outcome.exit_code = kInterrupted;
+      if (interrupted() && has_checkpoint) outcome.checkpoint = checkpoint.file();
       for (const auto& output : outputs) output->stop(result.reason);
       outcome.reports->stop(result.reason);
     } else {

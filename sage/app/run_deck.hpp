@@ -45,6 +45,8 @@ struct RunRequest {
 struct RunOutcome {
   int exit_code = 0;
   bool too_large = false;  // more than max_dofs: not run
+  // Interrupted (kInterrupted): from which checkpoint a restart goes on; empty where there is none.
+  std::filesystem::path checkpoint;
   std::unique_ptr<Model> model;
   std::unique_ptr<Reports> reports;
   std::unique_ptr<DiscretisationError> error;  // where asked for

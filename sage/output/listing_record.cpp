@@ -1,6 +1,7 @@
 // What was done: increments, equilibrium, reports, work.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -22,6 +23,13 @@ void put(std::string& text, double value, int width, int digits) {
     append_scientific(text, value, width, digits);
 }
 
+constexpr const char* kHeldNote =
+    "   * the force holds part of what is let go over the stage, borne by no load and no support\n";
+
+bool holds(const NodesRow& row) {
+  return row.held[0] != 0.0 || row.held[1] != 0.0;
+}
+
 void triaxial_rows(std::string& text, const Model& model, const std::vector<TriaxialRow>& rows) {
   const std::string& stress = model.units.stress;
   fmt::format_to(
@@ -36,8 +44,10 @@ void triaxial_rows(std::string& text, const Model& model, const std::vector<Tria
     for (double v : {r.force, r.measured_deviator, r.correct_deviator, r.measured_axial, r.correct_axial})
       put(text, v, 15, 6);
     fmt::format_to(to(text), "{:>10}\n",
-                   std::isnan(r.ratio) ? std::string("-") : fmt::format("{:.5f}", r.ratio));
+                   (std::isnan(r.ratio) ? std::string("-") : fmt::format("{:.5f}", r.ratio)) +
+                       (r.held != 0.0 ? " *" : ""));
   }
+  if (std::ranges::any_of(rows, [](const TriaxialRow& r) { return r.held != 0.0; })) text += kHeldNote;
 }
 
 void node_rows(std::string& text, const Model& model, const std::vector<NodesRow>& rows) {
@@ -49,8 +59,9 @@ void node_rows(std::string& text, const Model& model, const std::vector<NodesRow
   for (const NodesRow& r : rows) {
     fmt::format_to(to(text), "   {:>5}{:>6}", r.stage, r.increment);
     for (double v : {r.displacement[0], r.displacement[1], r.force[0], r.force[1]}) put(text, v, 14, 6);
-    text += '\n';
+    text += holds(r) ? " *\n" : "\n";
   }
+  if (std::ranges::any_of(rows, holds)) text += kHeldNote;
 }
 
 }  // namespace

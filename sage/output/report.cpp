@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -60,6 +61,24 @@ NodeSums sum_nodes(const Model& model, const Report& report, const Solution& sol
   }
   for (double& d : sums.displacement) d /= std::max(own, 1);
   return sums;
+}
+
+// Forces on the report's nodes that nothing bears when a stage starts: they are held, and let go over the
+// stage. What equilibrium leaves at free nodes is not meant.
+std::array<double, 2> released_forces(const Model& model, const Report& report, const Solution& start) {
+  constexpr double kNoticed = 1e-4;  // of the model's largest force
+  const std::vector<char> active = active_nodes(model, *start.activity);
+  std::array<double, 2> sum{0.0, 0.0};
+  for (int node : report.nodes)
+    for (int c = 0; c < 2; ++c) {
+      const int dof = 2 * node + c;
+      if (active[static_cast<std::size_t>(node)] && !start.activity->held[static_cast<std::size_t>(dof)])
+        sum[static_cast<std::size_t>(c)] += (*start.internal)[dof] - (*start.external)[dof];
+    }
+  const double largest = start.internal->size() > 0 ? start.internal->lpNorm<Eigen::Infinity>() : 0.0;
+  for (double& s : sum)
+    if (std::abs(s) <= kNoticed * largest) s = 0.0;
+  return sum;
 }
 
 const SolidLaw* specimen_law(const Model& model, const Report& report) {
@@ -157,6 +176,8 @@ void Reports::on_stage_start(const Model& model, int stage, const Solution& solu
     Series& series = series_[i];
     const Report& report = model.reports[i];
     series.last_load_factor = 0.0;
+    std::ranges::copy(released_forces(model, report, solution), series.released);
+    series.release_noted = false;
     for (int c = 0; c < 2; ++c) {
       series.weight[0][c] = series.weight[1][c] = 0.0;
       for (int node : report.nodes) {
@@ -180,19 +201,34 @@ void Reports::begin(Series& series, const Model& model, const Report& report) {
     series.correct = std::make_unique<CorrectTest>(*law, model.geometry, report.cell_pressure);
 }
 
+// Once a stage, in front of the first row that is concerned.
+void Reports::note_release(Series& series, const Model& model, const StepReport& step) {
+  const bool any = series.released[0] != 0.0 || series.released[1] != 0.0;
+  if (!any || series.release_noted || step.load_factor >= 1.0) return;
+  series.release_noted = true;
+  series.file.text() += fmt::format(
+      "# stage {}: forces on these nodes that nothing bears (fx {:.6g}, fy {:.6g} {} at its start) are let go "
+      "over "
+      "the stage; rows before its end hold (1 - load factor) of them\n",
+      step.stage + 1, series.released[0], series.released[1], model.units.force);
+}
+
 void Reports::add_rows(const Model& model, const StepReport& step, const Solution& solution) {
   for (std::size_t i = 0; i < series_.size(); ++i) {
     Series& series = series_[i];
     const Report& report = model.reports[i];
     if (!series.begun) continue;
     series.last_load_factor = step.load_factor;
+    note_release(series, model, step);
+    const double held = 1.0 - step.load_factor;
     const NodeSums sums = sum_nodes(model, report, solution, series.weight, step.load_factor);
     if (report.kind == ReportKind::nodes) {
       series.nodes.push_back({step.stage + 1,
                               step.increment,
                               {sums.displacement[0] - series.start_displacement[0],
                                sums.displacement[1] - series.start_displacement[1]},
-                              {sums.force[0], sums.force[1]}});
+                              {sums.force[0], sums.force[1]},
+                              {held * series.released[0], held * series.released[1]}});
       const NodesRow& r = series.nodes.back();
       append_row(series.file.text(), r.stage, r.increment,
                  {r.displacement[0], r.displacement[1], r.force[0], r.force[1]});
@@ -207,6 +243,7 @@ void Reports::add_rows(const Model& model, const StepReport& step, const Solutio
       r.measured_axial = report.cell_pressure + r.measured_deviator;
       r.correct_axial = report.cell_pressure + r.correct_deviator;
       r.ratio = r.correct_deviator != 0.0 ? r.measured_deviator / r.correct_deviator : kUnknown;
+      r.held = -held * series.released[1];
       series.triaxial.push_back(r);
       append_row(series.file.text(), r.stage, r.increment,
                  {r.axial_strain, r.force, r.measured_deviator, r.correct_deviator, r.measured_axial,
@@ -253,6 +290,8 @@ void Reports::exchange(Archive& archive) {
     archive(series.start_force);
     archive(series.weight);
     archive(series.last_load_factor);
+    archive(series.released);
+    archive(series.release_noted);
     archive(series.triaxial);
     archive(series.nodes);
     if (!archive.reading() || !series.begun) continue;

@@ -17,20 +17,25 @@ namespace sage {
 //                      stresses stay at the cell pressure (plane strain: sigma_xx stays and eps_zz = 0)
 //   *_axial            cell pressure + deviator
 //   ratio              measured_deviator / correct_deviator
+//   held               part of the force that neither loads nor supports put there: forces that are let go over
+//                      the stage (a release, an excavation, an initial stress out of balance) and stand in part
 struct TriaxialRow {
   int stage = 0, increment = 0;  // both from 1
   double axial_strain = 0.0, force = 0.0;
   double measured_deviator = 0.0, correct_deviator = 0.0;
   double measured_axial = 0.0, correct_axial = 0.0;
   double ratio = 0.0;
+  double held = 0.0;
 };
 
 // One increment of a node report.  Mean displacement of the nodes since the start of the report's stage, and
-// the sum of the forces that loads and supports put on them; both along +x and +y.
+// the sum of the forces that loads and supports put on them, with what is still held of forces that are let go
+// over the stage (held: that part alone, 0 where it is not worth a word); all along +x and +y.
 struct NodesRow {
   int stage = 0, increment = 0;
   double displacement[2] = {0, 0};
   double force[2] = {0, 0};
+  double held[2] = {0, 0};
 };
 
 // The frictionless test: axial strain is given, the lateral stress stays at the cell pressure.
@@ -77,12 +82,16 @@ class Reports final : public Output {
     bool begun = false;
     double start_displacement[2] = {0, 0}, start_force = 0.0, area = 0.0;
     double weight[2][2] = {};  // of the nodes, at the start and the end of the stage; x, y
+    double released[2] = {0,
+                          0};  // forces at the start of the stage that are let go over it; 0 = none to speak of
+    bool release_noted = false;  // in the file
     double last_load_factor = 0.0;
     std::unique_ptr<CorrectTest> correct;
     std::vector<TriaxialRow> triaxial;
     std::vector<NodesRow> nodes;
   };
   static void begin(Series& series, const Model& model, const Report& report);
+  static void note_release(Series& series, const Model& model, const StepReport& step);
   void add_rows(const Model&, const StepReport&, const Solution&);
   void finish();
 

@@ -12,7 +12,7 @@ namespace sage {
 
 namespace {
 
-constexpr std::size_t kRows = 6;     // of a triaxial table
+constexpr std::size_t kRows = 6;     // of a report's table
 constexpr std::size_t kReports = 2;  // shown; the others are in their files
 
 auto to(std::string& text) {
@@ -45,7 +45,8 @@ std::string point_words(const std::array<long, kStatuses>& points) {
 }
 
 // Rows spread evenly over the path; the last of each stage is kept.
-std::vector<TriaxialRow> chosen(const std::vector<TriaxialRow>& rows) {
+template <class Row>
+std::vector<Row> chosen(const std::vector<Row>& rows) {
   if (rows.size() <= kRows) return rows;
   std::vector<std::size_t> ends;
   for (std::size_t i = 0; i < rows.size(); ++i)
@@ -56,10 +57,13 @@ std::vector<TriaxialRow> chosen(const std::vector<TriaxialRow>& rows) {
   for (std::size_t k = 1; k <= between; ++k) take.push_back(k * rows.size() / (between + 1) - 1);
   std::sort(take.begin(), take.end());
   take.erase(std::unique(take.begin(), take.end()), take.end());
-  std::vector<TriaxialRow> result;
+  std::vector<Row> result;
   for (std::size_t i : take) result.push_back(rows[i]);
   return result;
 }
+
+constexpr const char* kHeldNote =
+    "    * holds part of forces that are let go over the stage, borne by no load and no support\n";
 
 void triaxial_table(std::string& text, const Model& model, std::size_t index,
                     const std::vector<TriaxialRow>& rows) {
@@ -70,8 +74,43 @@ void triaxial_table(std::string& text, const Model& model, std::size_t index,
   };
   for (const TriaxialRow& r : chosen(rows))
     fmt::format_to(to(text), "    stage {:<7}{:>7}{:>11}{:>18}{:>18}{:>10}\n", r.stage, r.increment,
-                   number(r.axial_strain, "{:.4g}"), number(r.measured_deviator, "{:.5g}"),
+                   number(r.axial_strain, "{:.4g}"),
+                   number(r.measured_deviator, "{:.5g}") + (r.held != 0.0 ? "*" : ""),
                    number(r.correct_deviator, "{:.5g}"), number(r.ratio, "{:.4f}"));
+  if (std::ranges::any_of(rows, [](const TriaxialRow& r) { return r.held != 0.0; })) text += kHeldNote;
+}
+
+void node_table(std::string& text, const Model& model, std::size_t index, const std::vector<NodesRow>& rows) {
+  const bool ring = model.geometry == Geometry::axisymmetric;
+  const UnitSystem& u = model.units;
+  const char* const axes[2] = {ring ? "r" : "x", ring ? "z" : "y"};
+  fmt::format_to(to(text), "  nodes {:<11}{:>7}", index + 1, "incr");
+  for (const char* axis : axes) fmt::format_to(to(text), "{:>14}", fmt::format("u-{} [{}]", axis, u.length));
+  for (const char* axis : axes) fmt::format_to(to(text), "{:>16}", fmt::format("force-{} [{}]", axis, u.force));
+  text += '\n';
+  bool any_held = false;
+  for (const NodesRow& r : chosen(rows)) {
+    const bool held = r.held[0] != 0.0 || r.held[1] != 0.0;
+    any_held = any_held || held;
+    fmt::format_to(to(text), "    stage {:<7}{:>7}", r.stage, r.increment);
+    for (double d : r.displacement) fmt::format_to(to(text), "{:>14.5g}", d + 0.0);
+    for (double f : r.force) fmt::format_to(to(text), "{:>16.6g}", f + 0.0);
+    text += held ? " *\n" : "\n";
+  }
+  if (any_held) text += kHeldNote;
+}
+
+void report_tables(std::string& text, const Model& model, const Reports& reports) {
+  std::size_t shown = 0;
+  for (std::size_t i = 0; i < reports.count() && shown < kReports; ++i) {
+    if (!reports.triaxial(i).empty())
+      triaxial_table(text, model, i, reports.triaxial(i));
+    else if (!reports.nodes(i).empty())
+      node_table(text, model, i, reports.nodes(i));
+    else
+      continue;
+    ++shown;
+  }
 }
 
 void status_lines(std::string& text, const Model& model, const RunRecord& record) {
@@ -205,10 +244,7 @@ std::string summary(const Model& model, const RunRecord& record, const Reports* 
   std::string text = model.title + "\n";
   status_lines(text, model, record);
   counts(text, model, record);
-  std::size_t shown = 0;
-  for (std::size_t i = 0; reports != nullptr && i < reports->count(); ++i)
-    if (!reports->triaxial(i).empty() && shown++ < kReports)
-      triaxial_table(text, model, i, reports->triaxial(i));
+  if (reports != nullptr) report_tables(text, model, *reports);
   if (error != nullptr) text += error->text(model);
   if (record.audited > 0)
     fmt::format_to(to(text), "  equilibrium whole model out of balance by {:.1e} of its largest force\n",

@@ -306,6 +306,40 @@ TEST(CommandLine, AFolderThatCantBeMadeIsExitCode4) {
   EXPECT_EQ(read(folder / "file"), "not a folder");
 }
 
+// The top is pushed, then let go in four increments: the force of the first stage stands in proportion until
+// the end, though neither a load nor a support puts it there.  Linear, so exactly in proportion.
+TEST(Reports, RowsThatHoldReleaseForcesSaySo) {
+  const fs::path folder = empty_folder("release");
+  const DeckText deck =
+      block_deck()
+          .with("control", card({"1", "0", "4", "1", "1", "1", "1", "2", "0", "2", "1", "9", "4"}))
+          .without("initial")
+          .with("stage", card({"1", "0", "0", "0", "1", "0", "0", "0", "0", "0"}))
+          .without("load")
+          .without("pressure")
+          .behind("stage_fixity", "release_title", "The top is let go")
+          .behind("release_title", "release", card({"4", "0", "0", "0", "1", "0", "0", "0", "0", "0"}))
+          .behind("release", "release_fixity", card({"7", "9", "1", "0", "-1"}))
+          .with("report", card({"2", "1", "7", "9", "1", "1"}));
+  write(folder / "deck.dat", deck.text());
+  const Finished run = sagefe(folder, "run deck.dat");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::string table = read(folder / "out" / "deck.report1.csv");
+  const double pushed = std::stod(row(table, "1,1,").at(5));
+  EXPECT_LT(pushed, -1.0);
+  for (int i = 1; i <= 4; ++i)
+    EXPECT_NEAR(std::stod(row(table, "2," + std::to_string(i) + ",").at(5)), pushed * (1.0 - 0.25 * i),
+                1e-9 * std::abs(pushed));
+  EXPECT_EQ(count(table, "are let go over the stage"), 1) << table;
+  EXPECT_LT(table.find("# stage 2: forces on these nodes that nothing bears"), table.find("\n2,1,"));
+  const std::string listing = read(folder / "out" / "deck.lst");
+  for (const std::string& text : {run.out, listing}) {
+    EXPECT_EQ(count(text, " *\n"), 3) << "the last row is free of it\n" << text;
+    EXPECT_EQ(count(text, "borne by no load and no support"), 1) << text;
+  }
+  expect_words(run.out, {"nodes 1", "u-y [in]", "force-y [lbf]", "stage 2"});
+}
+
 // c = 10, phi = 0: the limit of the pressure is 2 c = 20, two thirds of the 30 that the deck asks for.
 TEST(FailedRuns, CollapseKeepsTheLastStateInEquilibrium) {
   const fs::path folder = empty_folder("collapse");

@@ -1,5 +1,6 @@
 // Runs that are killed, that find the disk full or the folder closed: outputs are whole or absent, and a
 // restart ends with the same bytes as a run that nothing disturbed.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -316,6 +317,50 @@ TEST(Fault, FilesOfAnotherRunAreNotMissed) {
   const Finished run = sagefe(folder, std::string("run deck.dat -q --restart ") + kOptions);
   EXPECT_EQ(run.exit_code, 0) << run.err;
   expect_equal(results(folder / "out"), whole);
+}
+
+// Ctrl-C as a shell sends it, and what a queue sends: the increment in hand is finished, a checkpoint is left,
+// and the decks behind are not begun.
+TEST(Fault, InterruptedAndRestarted) {
+  const fs::path folder = empty_folder("interrupted");
+  write(folder / "deck.dat", deck_text(300));
+  write(folder / "next.dat", deck_text());
+  const std::string options = "--nodes --points --picture stress_yy --tables all";
+  ASSERT_EQ(sagefe(folder, "run deck.dat -q -o whole " + options).exit_code, 0);
+  const auto whole = results(folder / "whole");
+  const auto start = std::chrono::steady_clock::now();
+  ASSERT_EQ(sagefe(folder, "run deck.dat -q -o timed " + options).exit_code, 0);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  for (const char* name : {"INT", "TERM"}) {
+    SCOPED_TRACE(name);
+    Finished run;
+    for (double part = 0.6; run.exit_code != 5 && part > 0.05; part *= 0.8) {
+      fs::remove_all(folder / "out");
+      run = sagefe(folder, "run deck.dat next.dat " + options,
+                   fmt::format("timeout --preserve-status -s {} {}", name, part * seconds));
+    }
+    ASSERT_EQ(run.exit_code, 5) << run.err;
+    EXPECT_NE(run.err.find("deck.dat: interrupted: stopped as asked, with 0 of 1 stages and "),
+              std::string::npos)
+        << run.err;
+    EXPECT_NE(run.err.find("the same command with --restart goes on from out/deck.restart"), std::string::npos)
+        << run.err;
+    EXPECT_NE(run.err.find("next.dat: not run"), std::string::npos) << run.err;
+    EXPECT_TRUE(fs::exists(folder / "out/deck.restart"));
+    EXPECT_FALSE(fs::exists(folder / "out/next.lst"));
+    ASSERT_EQ(sagefe(folder, "run deck.dat -q --restart " + options).exit_code, 0);
+    expect_equal(results(folder / "out"), whole);
+  }
+}
+
+// Nothing that could go on is left, and that is said.
+TEST(Fault, InterruptedWithoutCheckpoints) {
+  const fs::path folder = empty_folder("interrupted_without");
+  write(folder / "deck.dat", deck_text(3000));
+  const Finished run = sagefe(folder, "run deck.dat --checkpoint -1", "timeout --preserve-status -s INT 0.3");
+  EXPECT_EQ(run.exit_code, 5) << run.err;
+  EXPECT_NE(run.err.find("there is no checkpoint"), std::string::npos) << run.err;
+  EXPECT_NE(read(folder / "out/deck.lst").find("RUN STOPPED, NOT COMPLETE"), std::string::npos);
 }
 
 TEST(Fault, WithoutACheckpointARestartIsARun) {

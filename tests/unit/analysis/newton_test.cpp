@@ -179,6 +179,85 @@ TEST(SingularMatrix, TheAdviceFitsWhatDrivesTheStage) {
   }
 }
 
+// Half of a rough rigid strip 2 m wide, pushed 0.1 m into weightless ground with c = 10, phi = psi = 20.
+std::string footing(int method) {
+  const std::string stage = "   40" + std::string(4, ' ') + std::to_string(method);
+  return "Strip footing on c-phi soil, half model, rough rigid, weightless\n"
+         "m       kN      kPa        101.325      9.81\n"
+         "* geom solv node fill matl grup elem fixi init stag rept nnod nele\n"
+         "    1    0    6    2    1    1    1    3    0    1    1  375  336\n"
+         "    1    0    0       0.0      -6.0\n"
+         "    9    1    0       1.0      -6.0\n"
+         "   25    1    0      10.0      -6.0      10.0\n"
+         "  351    0    0       0.0       0.0\n"
+         "  359    1    0       1.0       0.0\n"
+         "  375    1    0      10.0       0.0      10.0\n"
+         "    1    8    1   14   25       0.0       0.1\n"
+         "    9   16    1   14   25      10.0       0.1\n"
+         "    1    4    6       0.0 soil\n"
+         "    30000.      0.30       10.       20.       20.        -1.\n"
+         "    1    1    2    1 soil\n"
+         "    1    1    1    2   27   26                       24   14    1   25\n"
+         "    1   25    1    1    1\n"
+         "    1  351   25    1    0\n"
+         "   25  375   25    1    0\n"
+         "Push the footing 0.1 m\n" +
+         stage +
+         "   50    5    1    0    0    0    0    0       0.0       0.0    1.0E-6\n"
+         "  351  359    1    1    1       0.0     -0.10\n"
+         "    2    1  351  359    1    1\n"
+         "END\n";
+}
+
+BuildOptions graded() {
+  BuildOptions options;
+  options.gradings.push_back({});
+  options.element = 2;  // quad8
+  return options;
+}
+
+// The small elements at the edge flow from the first increment on.  Started from the elastic
+// tangent after every cut, and stopped after twelve cuts in all, the run ended at 5.6 % of the push.  200
+// increments of the same mesh, which need no help, end at 150.476; Prandtl: c N_c b = 148.3, and the mesh's
+// error.
+TEST(Cuts, TheRunGoesOnByItselfWhereShorterStepsDo) {
+  const test::WholeRun run = test::run_text(footing(0), graded());
+  ASSERT_TRUE(run.completed()) << run.failure;
+  double force = 0.0;
+  for (int node = 0; node < run.model->mesh.nodes(); ++node)
+    if (run.model->mesh.x(1, node) == 0.0 && run.model->mesh.x(0, node) <= 1.0)
+      force += run.last().internal[2 * node + 1];
+  EXPECT_NEAR(force, -150.476, 1e-4 * 150.476) << "40 increments instead of 200 differ by 1e-5";
+}
+
+// Three iterations and no cut: a failure that says nothing of the ground.
+TEST(Cuts, AFailureFarBelowCollapseIsNotCalledALimit) {
+  RunSettings settings;
+  settings.max_cuts = 0;
+  std::string deck = footing(0);
+  deck.replace(deck.find("   40    0   50"), 15, "    8    0    3");
+  const test::WholeRun run = test::run_text(deck, graded(), settings);
+  ASSERT_EQ(run.result.status, RunStatus::not_converged);
+  for (const char* words :
+       {"no equilibrium found", "needs not be a limit", "tried: method 0 (Newton), up to 3 iterations",
+        "more increments; method 3 (Newton with dogleg) with more iterations"})
+    EXPECT_NE(run.failure.find(words), std::string::npos) << words << "\n" << run.failure;
+  for (const char* words : {"limit load", "equilibrium ends", "method 2"})
+    EXPECT_EQ(run.failure.find(words), std::string::npos) << words << "\n" << run.failure;
+}
+
+// Modified Newton ran away to forces of 1e77 and more, which the failure then printed.
+TEST(Cuts, AnIterationThatRunsAwayLeavesNoNumbers) {
+  RunSettings settings;
+  settings.max_cuts = 4;
+  const test::WholeRun run = test::run_text(footing(1), graded(), settings);
+  ASSERT_EQ(run.result.status, RunStatus::not_converged);
+  const std::size_t at = run.failure.find("largest out-of-balance force of the best iteration: ");
+  ASSERT_NE(at, std::string::npos) << run.failure;
+  const double force = std::stod(run.failure.substr(run.failure.find(": ", at) + 2));
+  EXPECT_LT(std::abs(force), 150.0) << "no node bears more than the footing at collapse";
+}
+
 TEST(LinearScene, FactorisesOncePerStage) {
   const Outcome outcome = press(15.0, 0, 1);
   EXPECT_EQ(outcome.result.work.factorisations, 1);
