@@ -1,16 +1,20 @@
 #include "sage/app/converge.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <optional>
 
 #include "sage/app/exit_codes.hpp"
 #include "sage/output/discretisation.hpp"
 #include "sage/output/out_file.hpp"
+#include "sage/output/report_components.hpp"
 #include "sage/output/values.hpp"
 #include "sage/study/convergence.hpp"
 
@@ -27,17 +31,11 @@ struct Rung {
   std::string options;
 };
 
-struct Quantity {
-  std::string name;
-  std::vector<double> values;  // one a mesh
-  // Its size beside the largest of its kind (displacement, force) in the report's history; of all meshes so far
-  // the largest.
-  double largest_share = 1.0;
-};
-
+// What a mesh cost, and the report files that it wrote.
 struct Row {
   int elements = 0, dofs = 0;
   double seconds = 0.0;
+  std::vector<std::pair<std::filesystem::path, std::string>> files;
 };
 
 int code_of(const Catalogue& catalogue, const std::string& name) {
@@ -64,8 +62,24 @@ std::string grade_text(const Grading& g) {
                      g.layers, g.ratio);
 }
 
-// Degree 4, 6, 8 with 4, 6, 8 layers at the corners; then halved elements of degree 8 and layers of twice as
-// gentle a ratio, for the error that degree 8 leaves within a layer does not depend on their number.
+// Layers of a rung: 4, 6, 8 ... of the ratio asked for.  From the fourth rung on the same depth by more and
+// gentler ones, for the error that degree 8 leaves within a layer does not depend on their number; deeper ones
+// than 1e-12 of the mesh would be rounding.
+void set_layers(Grading& grading, int level) {
+  constexpr double kDeepest = 1e-10;
+  constexpr int kMostLayers = 30;  // the ratio stays below one half
+  const int layers = 4 + 2 * level;
+  if (level <= 2) {
+    grading.layers = layers;
+    return;
+  }
+  const double depth =
+      std::max(std::ldexp(kDeepest, level), std::pow(grading.ratio, layers));  // of halved elements
+  grading.layers = level == 3 ? 2 * layers : kMostLayers;
+  grading.ratio = std::pow(depth, 1.0 / grading.layers);
+}
+
+// Degree 4, 6, 8 with layers at the corners, then halved elements of degree 8.
 Rung spectral_rung(const BuildOptions& asked, const Catalogue& catalogue, int level) {
   static const char* const kNames[] = {"quad25", "quad49", "quad81"};
   Rung rung{asked, {}};
@@ -74,14 +88,10 @@ Rung spectral_rung(const BuildOptions& asked, const Catalogue& catalogue, int le
   rung.build.formulation = -1;
   rung.build.refine = asked.refine + std::max(0, level - 2);
   if (rung.build.gradings.empty()) rung.build.gradings.push_back({});
-  rung.options = "--element " + name;
+  rung.options = (asked.coarsen ? "--coarsen --element " : "--element ") + name;
   if (rung.build.refine > 0) rung.options += fmt::format(" --refine {}", rung.build.refine);
   for (Grading& g : rung.build.gradings) {
-    g.layers = 4 + 2 * level;
-    for (int i = 2; i < level; ++i) {
-      g.ratio = std::sqrt(g.ratio);
-      g.layers = std::min(2 * g.layers, 30);
-    }
+    set_layers(g, level);
     rung.options += grade_text(g);
   }
   return rung;
@@ -95,93 +105,156 @@ Rung halving_rung(const BuildOptions& asked, int level) {
   return rung;
 }
 
-bool is_held(const Model& model, const Report& report, std::size_t c) {
-  const auto holds = [&](const Fixity& f) {
-    return f.code[c] == FixityCode::fixed &&
-           std::find(report.nodes.begin(), report.nodes.end(), f.node) != report.nodes.end();
-  };
-  for (const Stage& stage : model.stages)
-    if (std::any_of(stage.fixities.begin(), stage.fixities.end(), holds)) return true;
-  return std::any_of(model.fixities.begin(), model.fixities.end(), holds);
-}
-
-// Nodes of a report that the deck lists.
-int deck_nodes(const Model& model, const Report& report) {
-  return static_cast<int>(std::count_if(report.nodes.begin(), report.nodes.end(),
-                                        [&](int node) { return node < model.mesh.deck_nodes; }));
-}
-
-// The last value of each report: a triaxial ratio; of a node report the force where the nodes (two or more) are
-// held and the displacement where they are free, in each direction.
-std::vector<Quantity> quantities_of(const RunOutcome& outcome) {
-  std::vector<Quantity> all;
-  const Model& model = *outcome.model;
-  for (std::size_t i = 0; i < model.reports.size(); ++i) {
-    const std::string name = "report" + std::to_string(i + 1);
-    if (model.reports[i].kind == ReportKind::triaxial) {
-      const auto& rows = outcome.reports->triaxial(i);
-      if (rows.empty()) continue;
-      const bool known = std::isfinite(rows.back().ratio);
-      all.push_back({name + (known ? ".ratio" : ".measured_deviator"),
-                     {known ? rows.back().ratio : rows.back().measured_deviator}});
-      continue;
-    }
-    const auto& rows = outcome.reports->nodes(i);
-    if (rows.empty()) continue;
-    static const char* const kNames[2][2] = {{".ux", ".uy"}, {".fx", ".fy"}};
-    for (std::size_t c = 0; c < 2; ++c) {
-      const bool held = is_held(model, model.reports[i], c);
-      // The reaction of one node is that of its share of the edge, which shrinks with the mesh.
-      if (held && deck_nodes(model, model.reports[i]) < 2) continue;
-      double largest = 0.0;
-      for (const NodesRow& row : rows)
-        for (double v : held ? row.force : row.displacement) largest = std::max(largest, std::abs(v));
-      const double value = (held ? rows.back().force : rows.back().displacement)[c];
-      all.push_back({name + kNames[held ? 1 : 0][c], {value}, largest > 0.0 ? std::abs(value) / largest : 0.0});
-    }
-  }
-  return all;
-}
-
 double relative(const Limit& limit) {
   return limit.error / std::max(std::abs(limit.value), std::numeric_limits<double>::min());
 }
 
-// What symmetry makes zero has no relative error: rounding, or the error of the mesh, beside the report's other
-// values.
-bool is_zero(const Quantity& quantity, Ladder ladder) {
-  constexpr double kRounding = 1e-9, kSmall = 1e-4, kCertain = 0.1;
-  if (quantity.largest_share <= kRounding) return true;
-  if (quantity.largest_share > kSmall) return false;
-  return !(relative(study::limit_of(quantity.values, ladder)) < kCertain);
+// A component of a report over all meshes so far.
+struct Quantity {
+  std::string name;
+  std::vector<double> values, largest;  // one a mesh; largest: of its sisters too, see ReportComponent
+  double share() const { return largest.back() > 0.0 ? std::abs(values.back()) / largest.back() : 0.0; }
+};
+
+// The quantities that must become certain, and how certain they are.
+class Follower {
+ public:
+  // names: those asked for; empty = the main ones.
+  Follower(std::vector<std::string> names, Ladder ladder, double tolerance)
+      : names_(std::move(names)), ladder_(ladder), tolerance_(tolerance) {}
+
+  // A mesh's values.  False where one that is followed has none on it.
+  bool append(const std::vector<ReportComponent>& components);
+  std::size_t meshes() const { return quantities_.empty() ? 0 : quantities_.front().values.size(); }
+  // The one that the table shows.
+  const Quantity& shown() const { return quantities_[shown_]; }
+  Limit shown_limit() const { return study::limit_of(shown().values, ladder_); }
+  // Whether a mesh (from 1) is as certain as asked, later ones considered.
+  bool certain(std::size_t mesh) const { return worst(mesh) <= tolerance_ * (1.0 + 1e-12); }
+  // The mesh (from 1) whose least certain quantity is the most certain.
+  std::size_t best() const;
+  // No mesh of the last two is better than one before, and all agree: only rounding is left.
+  bool exhausted() const;
+  std::string result() const;
+  // Why a quantity does not count, a line each.
+  std::vector<std::string> left_out() const;
+
+ private:
+  bool follow(const ReportComponent& component) const;
+  std::string why_left_out(std::size_t i) const;
+  double worst(std::size_t mesh) const;
+  void choose_shown();
+
+  std::vector<std::string> names_;
+  Ladder ladder_;
+  double tolerance_;
+  std::vector<Quantity> quantities_;
+  std::size_t shown_ = 0;
+};
+
+bool Follower::follow(const ReportComponent& component) const {
+  return names_.empty() ? component.main
+                        : std::find(names_.begin(), names_.end(), component.name) != names_.end();
 }
 
-// Relative error of the quantity that is least certain.  The one shown counts always.
-double worst_of(const std::vector<Quantity>& quantities, std::size_t shown, Ladder ladder) {
-  double worst = 0.0;
-  for (std::size_t i = 0; i < quantities.size(); ++i)
-    if (i == shown || !is_zero(quantities[i], ladder))
-      worst = std::max(worst, relative(study::limit_of(quantities[i].values, ladder)));
-  return worst;
+// The first asked for, or the first that is not small beside its sisters, or the largest.
+void Follower::choose_shown() {
+  constexpr double kNotSmall = 0.1;
+  const auto by_name = [&](const Quantity& q) { return !names_.empty() && q.name == names_.front(); };
+  const auto large = [&](const Quantity& q) { return q.share() >= kNotSmall; };
+  auto found = std::find_if(quantities_.begin(), quantities_.end(), by_name);
+  if (found == quantities_.end()) found = std::find_if(quantities_.begin(), quantities_.end(), large);
+  if (found == quantities_.end())
+    found = std::max_element(quantities_.begin(), quantities_.end(),
+                             [](const Quantity& a, const Quantity& b) { return a.share() < b.share(); });
+  shown_ = static_cast<std::size_t>(found - quantities_.begin());
 }
 
-// Appends a mesh's values.  False where a quantity has none on it.
-bool append(std::vector<Quantity>& quantities, const std::vector<Quantity>& now) {
-  for (Quantity& q : quantities) {
-    const auto same = std::find_if(now.begin(), now.end(), [&](const Quantity& n) { return n.name == q.name; });
-    if (same == now.end()) return false;
-    q.values.push_back(same->values.front());
-    q.largest_share = std::max(q.largest_share, same->largest_share);
+bool Follower::append(const std::vector<ReportComponent>& components) {
+  if (quantities_.empty()) {
+    for (const ReportComponent& c : components)
+      if (follow(c) && std::isfinite(c.value)) quantities_.push_back({c.name, {c.value}, {c.largest}});
+    for (const std::string& name : names_)
+      if (std::none_of(quantities_.begin(), quantities_.end(),
+                       [&](const Quantity& q) { return q.name == name; }))
+        return false;
+    choose_shown();
+    return !quantities_.empty();
+  }
+  std::vector<const ReportComponent*> now;
+  for (const Quantity& q : quantities_) {
+    const auto same = std::find_if(components.begin(), components.end(),
+                                   [&](const ReportComponent& c) { return c.name == q.name; });
+    if (same == components.end() || !std::isfinite(same->value)) return false;
+    now.push_back(&*same);
+  }
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    quantities_[i].values.push_back(now[i]->value);
+    quantities_[i].largest.push_back(now[i]->largest);
   }
   return true;
 }
 
-// The one that the table shows: on the first mesh the first that is more than zero.
-std::size_t shown_of(const std::vector<Quantity>& quantities) {
-  for (double least : {1e-4, 1e-9})
-    for (std::size_t i = 0; i < quantities.size(); ++i)
-      if (quantities[i].largest_share > least) return i;
-  return quantities.size();
+// Nothing of what was asked for by name, nor the one that is shown.  A component that is zero or tends to it
+// has no relative error: what the tolerance leaves of its sisters is more.
+std::string Follower::why_left_out(std::size_t i) const {
+  constexpr double kRounding = 1e-9, kSmall = 1e-4, kCertain = 0.1, kTending = 0.05;
+  if (!names_.empty() || i == shown_) return {};
+  const Quantity& q = quantities_[i];
+  const double share = q.share(), least = std::max(tolerance_, kRounding);
+  const std::string beside =
+      fmt::format("{:.3g} beside {:.3g} in its report", q.values.back(), q.largest.back());
+  if (share <= least) return fmt::format("{}, less than {:.1g} of it", beside, least);
+  const double error = relative(study::limit_of(q.values, ladder_));
+  if (share <= kSmall && !(error < kCertain)) return beside + ", as small as the error of the mesh";
+  const std::size_t n = q.values.size();
+  const bool falls = n >= 3 && std::abs(q.values[n - 1]) < std::abs(q.values[n - 2]) &&
+                     std::abs(q.values[n - 2]) < std::abs(q.values[n - 3]);
+  return share <= kTending && falls && !(error < 1.0) ? beside + ", and it tends to zero" : std::string();
+}
+
+// Relative error of the quantity that is least certain.
+double Follower::worst(std::size_t mesh) const {
+  double worst = 0.0;
+  for (std::size_t i = 0; i < quantities_.size(); ++i)
+    if (why_left_out(i).empty())
+      worst = std::max(worst, relative(study::limit_after(quantities_[i].values, mesh, ladder_)));
+  return worst;
+}
+
+std::size_t Follower::best() const {
+  std::size_t best = meshes();
+  for (std::size_t mesh = meshes(); mesh-- > 1;)
+    if (worst(mesh) < worst(best)) best = mesh;
+  return best;
+}
+
+bool Follower::exhausted() const {
+  constexpr double kNearlyCertain = 1e-6;
+  return ladder_ == Ladder::spectral && best() + 2 <= meshes() && worst(best()) <= kNearlyCertain;
+}
+
+std::string Follower::result() const {
+  const std::size_t mesh = best();
+  std::string text;
+  for (std::size_t i = 0; i < quantities_.size(); ++i) {
+    if (!why_left_out(i).empty()) continue;
+    const Limit limit = study::limit_after(quantities_[i].values, mesh, ladder_);
+    text += (text.empty() ? "result    " : "; ") + quantities_[i].name + " ";
+    text += std::isfinite(limit.error) ? with_error(limit.value, limit.error)
+                                       : fmt::format("{:.6g}, error unknown", limit.value);
+    if (limit.rate) text += fmt::format(" (extrapolated, rate {:.2f})", *limit.rate);
+  }
+  if (mesh < meshes()) text += fmt::format("; mesh {} is the best", mesh);
+  return text;
+}
+
+std::vector<std::string> Follower::left_out() const {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < quantities_.size(); ++i)
+    if (const std::string why = why_left_out(i); !why.empty())
+      lines.push_back(fmt::format("left out  {}: {}", quantities_[i].name, why));
+  return lines;
 }
 
 // Screen and CSV side by side.
@@ -202,107 +275,205 @@ class Table {
         fmt::format("{},{},{},{:.12g},{},{:.4f},{}\n", mesh, row.elements, row.dofs, value,
                     std::isfinite(limit.error) ? fmt::format("{:.3g}", limit.error) : "", row.seconds, options);
   }
+  void note(const std::string& text) {
+    file_.text() += "# " + text + "\n";
+    fmt::print("  {}\n", text);
+  }
   void finish(const std::string& last) {
-    file_.text() += "# " + last + "\n";
+    note(last);
     file_.finish();
-    fmt::print("  {}\n  files     {}\n", last, file_.path().string());
+    fmt::print("  files     {}\n", file_.path().string());
   }
 
  private:
   OutFile file_;
 };
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// Meshes of the ladder, one after the other.
+class Climb {
+ public:
+  Climb(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue);
+  int run();
+
+ private:
+  Ladder choose_ladder();
+  std::optional<RunOutcome> run_mesh(const Rung& rung);
+  std::string why_unusable(const RunOutcome& outcome, const Rung& rung);
+  bool add_mesh(int level);
+  bool out_of_time();
+  RunRequest request_for(const Rung& rung);
+  void keep_best_files() const;
+
+  RunRequest request_;
+  const ConvergeOptions& options_;
+  const Catalogue& catalogue_;
+  const Clock::time_point start_ = Clock::now();
+  std::string partial_;  // what the deck has and the model lacks
+  std::uint64_t deck_sum_ = 0;
+  Ladder ladder_;
+  ResultFiles results_;
+  Follower follower_;
+  std::optional<Table> table_;
+  std::vector<Row> rows_;
+  std::string stopped_;  // why the next mesh isn't there
+};
+
+Climb::Climb(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue)
+    : request_(request),
+      options_(options),
+      catalogue_(catalogue),
+      ladder_(choose_ladder()),
+      results_(request.output.folder, case_name(request.deck), {request.deck, deck_sum_, "convergence"}),
+      follower_(options.follow, ladder_, options.tolerance) {}
+
+// Degrees and layers start from the coarsest mesh that means the same as the deck's.
+Ladder Climb::choose_ladder() {
+  const Deck deck = read_input(request_.deck, request_.input);
+  deck_sum_ = checksum(*deck.source);
+  BuildOptions& build = request_.input.build;
+  const Model first = build_model(deck, catalogue_, build);
+  print_diagnostics(first.diagnostics);
+  if (first.reports.empty())
+    throw InputError({request_.deck, 0, 0, 0},
+                     "--converge needs a report card: it says which number must be certain");
+  if (!first.left_out.empty()) partial_ = left_out_words(first);
+  const std::vector<std::string> known = component_names(first);
+  for (const std::string& name : options_.follow)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError({request_.deck, 0, 0, 0},
+                       fmt::format("--follow {}: the deck's reports have no such number, "
+                                   "only {}",
+                                   name, fmt::join(known, ", ")));
+  const Ladder ladder = ladder_for(first, catalogue_);
+  if (ladder == Ladder::spectral && !build.coarsen) {
+    BuildOptions coarse = build;
+    coarse.coarsen = true;
+    coarse.say = {};
+    build.coarsen = build_model(deck, catalogue_, coarse).mesh.deck_nodes < first.mesh.deck_nodes;
+  }
+  return ladder;
+}
+
+RunRequest Climb::request_for(const Rung& rung) {
+  RunRequest one = request_;
+  one.input.build = rung.build;
+  one.input.build.say = {};  // the table says it
+  one.quiet = true;
+  one.results = &results_;
+  one.restart = false;
+  one.checkpoint_seconds = -1.0;
+  one.output = {};
+  one.output.folder = request_.output.folder;
+  one.output.listing = one.output.increments = false;
+  one.max_dofs = options_.max_dofs;
+  one.stop_asked = [asked = request_.stop_asked, start = start_, limit = options_.max_seconds] {
+    return seconds_since(start) > limit || (asked && asked());
+  };
+  return one;
+}
+
+// Four times the elements cost four times and more; the next degree twice.
+bool Climb::out_of_time() {
+  const double last = rows_.empty() ? 0.0 : rows_.back().seconds;
+  if (seconds_since(start_) + (ladder_ == Ladder::halving ? 4.0 : 2.0) * last <= options_.max_seconds)
+    return false;
+  stopped_ = fmt::format("the next mesh would pass the limit of {:g} s (--max-seconds)", options_.max_seconds);
+  return true;
+}
+
+// The first mesh must be possible; what only a finer one can't do is no fault of the deck.
+std::optional<RunOutcome> Climb::run_mesh(const Rung& rung) {
+  try {
+    return run_deck(request_for(rung), catalogue_);
+  } catch (const InputError& error) {
+    if (rows_.empty()) throw;
+    const std::string what = error.what();
+    stopped_ = "the next mesh can't be made: " + what.substr(0, what.find('\n'));
+  } catch (const AnalysisError& error) {
+    if (rows_.empty()) throw;
+    stopped_ = std::string("the next mesh can't be computed: ") + error.what();
+  }
+  return {};
+}
+
+std::string Climb::why_unusable(const RunOutcome& outcome, const Rung& rung) {
+  const RunResult& result = outcome.record.result;
+  if (outcome.too_large)
+    return fmt::format("the next mesh has {} dofs, more than the limit of {} (--max-dofs)",
+                       outcome.model->dofs(), options_.max_dofs);
+  if (result.status == RunStatus::stopped)
+    return seconds_since(start_) > options_.max_seconds
+               ? fmt::format("the limit of {:g} s (--max-seconds) came within the next mesh",
+                             options_.max_seconds)
+               : result.reason;
+  if (outcome.exit_code != kOk)
+    return "no equilibrium with " + rung.options + ": " + result.reason.substr(0, result.reason.find('\n'));
+  if (follower_.append(last_components(*outcome.model, *outcome.reports))) return {};
+  return rows_.empty() ? "the deck's reports have no value that can converge"
+                       : "the reports of the next mesh lack a value that the others have";
+}
+
+// False: it can't be used, and stopped_ says why.
+bool Climb::add_mesh(int level) {
+  const Rung rung = ladder_ == Ladder::spectral ? spectral_rung(request_.input.build, catalogue_, level)
+                                                : halving_rung(request_.input.build, level);
+  const std::optional<RunOutcome> outcome = run_mesh(rung);
+  if (outcome) stopped_ = why_unusable(*outcome, rung);
+  if (!stopped_.empty()) return false;
+  Row row{outcome->record.scene.elements, outcome->model->dofs(), outcome->record.seconds, {}};
+  for (const std::filesystem::path& file : outcome->files) row.files.emplace_back(file, bytes_of(file));
+  if (!table_)
+    table_.emplace(*outcome->model, follower_.shown().name,
+                   request_.output.folder / (case_name(request_.deck) + ".convergence.csv"));
+  table_->row(follower_.meshes(), row, follower_.shown_limit(), follower_.shown().values.back(), rung.options);
+  rows_.push_back(std::move(row));
+  return true;
+}
+
+// Later meshes have written over them.
+void Climb::keep_best_files() const {
+  for (const auto& [path, bytes] : rows_[follower_.best() - 1].files)
+    if (bytes_of(path) != bytes) write_file(path, bytes);
+}
+
+int Climb::run() {
+  bool reached = false;
+  for (int level = 0; !reached; ++level) {
+    if (out_of_time() || !add_mesh(level)) break;
+    reached = follower_.certain(follower_.best());
+    if (!reached && follower_.exhausted()) {
+      stopped_ = "finer meshes no longer improve it: only rounding is left";
+      break;
+    }
+  }
+  if (!table_) throw InputError({request_.deck, 0, 0, 0}, "--converge: " + stopped_);
+  keep_best_files();
+  for (const std::string& line : follower_.left_out()) table_->note(line);
+  std::string last = follower_.result() + fmt::format("; {:.3g} s", seconds_since(start_));
+  if (!partial_.empty()) last += "; PARTIAL: " + partial_;
+  if (!reached)
+    last += fmt::format("; NOT REACHED: relative error {:.1g} asked for; {}", options_.tolerance, stopped_);
+  table_->finish(last);
+  results_.close();
+  return reached ? kOk : kNotConverged;
 }
 
 }  // namespace
 
 int converge(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue) {
-  const auto start = std::chrono::steady_clock::now();
   require_file(request.deck, "--converge");
-  const Deck deck = read_input(request.deck, request.input);
-  const Model first = build_model(deck, catalogue, request.input.build);
-  print_diagnostics(first.diagnostics);
-  if (first.reports.empty())
-    throw InputError({request.deck, 0, 0, 0},
-                     "--converge needs a report card: it says which number must be certain");
-  const Ladder ladder = ladder_for(first, catalogue);
-  ResultFiles results(request.output.folder, case_name(request.deck),
-                      {request.deck, checksum(*deck.source), "convergence"});
-
-  std::vector<Quantity> quantities;
-  std::optional<Table> table;
-  std::string stopped;
-  std::size_t shown_index = 0;
-  double last_seconds = 0.0;
-  for (int level = 0; stopped.empty(); ++level) {
-    const Rung rung = ladder == Ladder::spectral ? spectral_rung(request.input.build, catalogue, level)
-                                                 : halving_rung(request.input.build, level);
-    // Four times the elements cost four times and more.
-    if (seconds_since(start) + 4.0 * last_seconds > options.max_seconds) {
-      stopped =
-          fmt::format("the next mesh would pass the limit of {:g} s (--max-seconds)", options.max_seconds);
-      break;
-    }
-    RunRequest one = request;
-    one.input.build = rung.build;
-    one.input.build.say = {};  // the table says it
-    one.quiet = true;
-    one.results = &results;
-    one.restart = false;
-    one.checkpoint_seconds = -1.0;
-    one.output = {};
-    one.output.folder = request.output.folder;
-    one.output.listing = one.output.increments = false;
-    one.max_dofs = options.max_dofs;
-    const RunOutcome outcome = run_deck(one, catalogue);
-    if (outcome.too_large) {
-      stopped = fmt::format("the next mesh has {} dofs, more than the limit of {} (--max-dofs)",
-                            outcome.model->dofs(), options.max_dofs);
-      break;
-    }
-    if (outcome.exit_code != kOk) {
-      const std::string& reason = outcome.record.result.reason;
-      stopped = "no equilibrium with " + rung.options + ": " + reason.substr(0, reason.find('\n'));
-      break;
-    }
-    last_seconds = outcome.record.seconds;
-    const std::vector<Quantity> now = quantities_of(outcome);
-    if (quantities.empty()) {
-      quantities = now;
-      shown_index = shown_of(quantities);
-      if (shown_index == quantities.size())
-        throw InputError({request.deck, 0, 0, 0}, "the deck's reports have no value that can converge");
-    } else if (!append(quantities, now)) {
-      stopped = "the reports of the next mesh lack a value that the others have";
-      break;
-    }
-    const Quantity& shown = quantities[shown_index];
-    if (!table)
-      table.emplace(*outcome.model, shown.name,
-                    request.output.folder / (case_name(request.deck) + ".convergence.csv"));
-    table->row(shown.values.size(), {outcome.record.scene.elements, outcome.model->dofs(), last_seconds},
-               study::limit_of(shown.values, ladder), shown.values.back(), rung.options);
-    if (worst_of(quantities, shown_index, ladder) <= options.tolerance) break;
-  }
-  if (!table) throw InputError({request.deck, 0, 0, 0}, "--converge: " + stopped);
-  std::string last;
-  for (const Quantity& q : quantities) {
-    if (&q != &quantities[shown_index] && is_zero(q, ladder)) continue;
-    const Limit limit = study::limit_of(q.values, ladder);
-    last += (last.empty() ? "result    " : "; ") + q.name + " ";
-    last += std::isfinite(limit.error) ? with_error(limit.value, limit.error)
-                                       : fmt::format("{:.6g}, error unknown", limit.value);
-    if (limit.rate) last += fmt::format(" (extrapolated, rate {:.2f})", *limit.rate);
-  }
-  last += fmt::format("; {:.3g} s", seconds_since(start));
-  if (!first.left_out.empty()) last += "; PARTIAL: " + left_out_words(first);
-  if (!stopped.empty())
-    last += fmt::format("; NOT REACHED: relative error {:.1g} asked for; {}", options.tolerance, stopped);
-  table->finish(last);
-  results.close();
-  return stopped.empty() ? kOk : kNotConverged;
+  return Climb(request, options, catalogue).run();
 }
 
 }  // namespace sage::app

@@ -81,6 +81,10 @@ void add_build_options(CLI::App& parser, BuildOptions& options) {
                    ? std::string()
                    : entry->name + " can't take the place of a quadrilateral";
       });
+  parser.add_flag(
+      "--coarsen", options.coarsen,
+      "first the coarsest mesh of quadrilaterals that has the deck's outline, groups, supports, loads and "
+      "reported nodes");
   parser
       .add_option_function<int>(
           "--refine", [&options](int times) { options.refine = times; },

@@ -13,6 +13,7 @@
 #include "sage/app/run_deck.hpp"
 #include "sage/output/out_file.hpp"
 #include "sage/output/picture.hpp"
+#include "sage/study/convergence.hpp"
 
 namespace sage::app {
 
@@ -144,12 +145,17 @@ Command run_command(CLI::App& parser) {
   parser
       .add_option("--converge", options->converge.tolerance,
                   "finer and finer meshes until the reports are certain to this relative error, e.g. 1e-5")
-      ->check(number_in(1e-12, 0.5, "a relative error from 1e-12 to 0.5"));
+      ->check(number_in(study::kLeastError, 0.5, "a relative error from 1e-10 to 0.5"));
+  parser.add_option(
+      "--follow", options->converge.follow,
+      "with --converge: the number that must be certain, as report1.fy (may be given more than once; "
+      "default: the main ones of all reports, without those that are small beside the others)");
   parser
       .add_option("--max-dofs", options->converge.max_dofs, "with --converge: largest model (default 400000)")
       ->check(CLI::PositiveNumber);
   parser
-      .add_option("--max-seconds", options->converge.max_seconds, "with --converge: time limit (default 120)")
+      .add_option("--max-seconds", options->converge.max_seconds,
+                  "with --converge: time limit, a mesh in work is left then (default 120)")
       ->check(number_in(1e-3, 1e9, "a number of seconds from 1e-3 to 1e9"));
   parser.add_flag("!--no-listing", request.output.listing, "write no listing");
   parser

@@ -25,6 +25,7 @@ struct BuildOptions {
   int element = 0;
   int solver = -1;                // catalogue code, 0 automatic; -1 = as the deck says
   int geometry = 0;               // 1 plane strain, 2 axisymmetric; 0 = as the deck says
+  bool coarsen = false;           // first: no more elements than the geometry needs
   int refine = 0;                 // every element into four, so many times
   std::vector<Grading> gradings;  // after refining
   bool partial = false;  // what the program lacks may be left out (Deck::left_out); otherwise it is an error

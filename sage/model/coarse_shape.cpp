@@ -10,7 +10,13 @@ Vector2 along_edge(const Vector2& a, const Vector2& z, const std::optional<Vecto
 }
 
 bool CoarseShape::curved() const {
-  return std::any_of(middle.begin(), middle.end(), [](const auto& m) { return m.has_value(); });
+  constexpr double kStraight = 1e-12;  // of the side: rounding
+  for (std::size_t k = 0; k < static_cast<std::size_t>(corners); ++k) {
+    if (!middle[k]) continue;
+    const Vector2 &a = corner[k], &z = corner[(k + 1) % static_cast<std::size_t>(corners)];
+    if ((*middle[k] - 0.5 * (a + z)).norm() > kStraight * (z - a).norm()) return true;
+  }
+  return false;
 }
 
 // Corner part plus, for each curved side, its middle node's distance from the chord times the middle node's

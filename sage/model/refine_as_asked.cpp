@@ -114,6 +114,8 @@ std::vector<int> nodes_of(Builder& b, const Grading& grading) {
 
 void refine_as_asked(Builder& b) {
   const BuildOptions& options = b.options;
+  if (options.coarsen && !coarsen(b))
+    b.note(b.at_line(0), "the mesh stays as it is: no coarser one of quadrilaterals means the same");
   if (options.refine <= 0 && options.gradings.empty()) return;
   const std::vector<char> before = used_nodes(b.model);
   const std::map<int, EdgeKey> middles = given_middles(b.model);

@@ -1,5 +1,7 @@
-// Where the elastic solution of a mesh is singular, from its boundary: the angle inside and what holds both
-// sides. Williams (1952): stress ~ r^(lambda - 1).  A side that is held in one direction mirrors the corner.
+// Where the elastic solution of a mesh is singular: from its boundary, the angle inside and what holds both
+// sides; and where materials meet otherwise than along a smooth line.  Williams (1952): stress ~ r^(lambda -
+// 1). A side that is held in one direction mirrors the corner.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -28,6 +30,8 @@ double degrees(double radians) {
 // other sides.
 struct Outline {
   std::vector<BoundaryEdge> edges;
+  std::map<int, std::map<int, double>> sectors;  // degrees that each kind of material has at a node
+  std::map<int, int> borders;                    // sides of elements at a node between two kinds of material
   std::map<int, std::vector<std::size_t>> leaving, arriving;
   std::map<int, double> angle;            // degrees
   std::set<EdgeKey> joined;               // an interface lies on them
@@ -61,9 +65,24 @@ struct Outline {
   }
 };
 
+// The first group whose law is the same: the same code and parameters.
+std::vector<int> kinds_of_material(const Model& model) {
+  std::vector<int> kinds;
+  for (const Group& group : model.groups) {
+    const auto same = [&](const Group& other) {
+      const Material &a = model.material_of(group), &b = model.material_of(other);
+      return a.code == b.code && a.parameters == b.parameters;
+    };
+    kinds.push_back(
+        static_cast<int>(std::find_if(model.groups.begin(), model.groups.end(), same) - model.groups.begin()));
+  }
+  return kinds;
+}
+
 Outline outline_of(const Model& model) {
   Outline outline;
-  std::map<EdgeKey, int> uses;
+  const std::vector<int> kinds = kinds_of_material(model);
+  std::map<EdgeKey, int> uses, kind_on;
   std::vector<BoundaryEdge> all;
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     const Group& group = model.groups[g];
@@ -80,9 +99,16 @@ Outline outline_of(const Model& model) {
         ++uses[edge_key(a, z)];
         const int middle = middle_of(edges[i]) < 0 ? -1 : n[middle_of(edges[i])];
         all.push_back({a, z, static_cast<int>(g), e, static_cast<int>(i), middle});
+        if (const auto [it, is_first] = kind_on.try_emplace(edge_key(a, z), kinds[g]);
+            !is_first && it->second != kinds[g]) {
+          ++outline.borders[a];
+          ++outline.borders[z];
+        }
         const Vector2 out = model.mesh.x.col(z) - model.mesh.x.col(a),
                       in = model.mesh.x.col(before) - model.mesh.x.col(a);
-        outline.angle[a] += degrees(std::atan2(out.x() * in.y() - out.y() * in.x(), out.dot(in)));
+        const double angle = degrees(std::atan2(out.x() * in.y() - out.y() * in.x(), out.dot(in)));
+        outline.angle[a] += angle;
+        outline.sectors[a][kinds[g]] += angle;
       }
     }
   }
@@ -139,6 +165,27 @@ void find_by_supports(const Model& model, const Outline& outline, std::set<int>&
     const SideKind out = kind_of(model, outline, leaving.front());
     if (is_singular(in, out, outline.angle.at(node))) found.insert(node);
   }
+}
+
+// A line between two materials is smooth where it goes straight on, also by way of its mirror image.
+bool goes_on(const Model& model, const Outline& outline, int node) {
+  const auto all = [&](double angle) {
+    const auto& sectors = outline.sectors.at(node);
+    return std::all_of(sectors.begin(), sectors.end(),
+                       [&](const auto& sector) { return std::abs(sector.second - angle) < kSlack; });
+  };
+  const int borders = outline.borders.at(node);
+  const auto leaving = outline.leaving.find(node);
+  if (leaving == outline.leaving.end()) return borders == 2 && all(180.0);
+  if (borders != 1 || leaving->second.size() != 1 || !all(90.0)) return false;
+  const SideKind in = kind_of(model, outline, outline.arriving.at(node).front());
+  const SideKind out = kind_of(model, outline, leaving->second.front());
+  return in.side == Side::mirror && out.side == Side::mirror && in.x == out.x;
+}
+
+void find_by_materials(const Model& model, const Outline& outline, std::set<int>& found) {
+  for (const auto& [node, count] : outline.borders)
+    if (!goes_on(model, outline, node)) found.insert(node);
 }
 
 // Loads on edges that make the stress jump from direction to direction at a point: it is bounded, its slope is
@@ -213,6 +260,7 @@ std::vector<int> singular_corners(const Model& model) {
     outline.apply(stage.fixities);
     find_by_supports(model, outline, found);
     find_by_loads(model, outline, stage, found);
+    find_by_materials(model, outline, found);
   }
   return {found.begin(), found.end()};
 }

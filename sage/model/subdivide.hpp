@@ -54,6 +54,11 @@ void refine(Builder& b, int times);
 // so that the part at the node is `ratio` times as large, again and again.
 void grade(Builder& b, int node, int layers, double ratio);
 
+// The coarsest mesh of quadrilaterals that means the same: outline, groups, supports, loads and reported
+// numbers stay. False where there is none coarser, or elements are no quadrilaterals of corners and mid-side
+// nodes.
+bool coarsen(Builder& b);
+
 // Corners of the mesh where the solution is singular: see docs/theory/accuracy.md.  Sorted indices.
 std::vector<int> singular_corners(const Model& model);
 

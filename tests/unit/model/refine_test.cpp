@@ -310,6 +310,45 @@ std::string graded_nodes(const Model& model) {
   return text;
 }
 
+// Two materials on the upper and lower half (or left and right) of a 2 x 2 block between rollers and a free
+// right side.
+TEST(Grade, CornersWhereMaterialsMeet) {
+  const std::vector<Grading> automatic{{0, 1, 0.15}};
+  const auto nodes = [&](std::array<int, 4> material, double bend, double second, bool right_roller) {
+    const Block block{
+        2, 2, Cell::quad4,
+        1, 1, [=](double s, double t) {
+                        return Vector2(2.0 * s, 2.0 * t + bend * s * (1 - s) * t * (1 - t)); }};
+    DeckWriter deck(1);
+    block.write_nodes(deck);
+    deck.material(1, 1, {1000.0, 0.3});
+    deck.material(2, 1, {second, 0.3});
+    deck.group(1, 1, 2, 1);
+    deck.group(2, 1, 2, 2);
+    DeckWriter plain(1);
+    block.write_elements(plain, 1);
+    for (std::size_t e = 0; e < 4; ++e) {
+      std::string card = plain.elements[e];
+      card[9] = static_cast<char>('0' + material[e]);
+      deck.elements.push_back(card);
+    }
+    for (int node : block.bottom()) deck.fix(node, 0, 1);
+    for (int node : block.left()) deck.fix(node, 1, 0);
+    if (right_roller)
+      for (int node : block.right()) deck.fix(node, 1, 0);
+    deck.stage().gravity_y = 0.0;
+    deck.stages[0].pressure(3, 3, 1.0, 1.0);
+    deck.stages[0].pressure(4, 3, 1.0, 1.0);
+    return graded_nodes(build(deck.text(), with(0, 0, automatic)));
+  };
+  EXPECT_EQ(nodes({1, 1, 2, 2}, 0.0, 9000.0, true), "") << "a layer between lines of symmetry goes on";
+  EXPECT_EQ(nodes({1, 1, 2, 2}, 0.0, 9000.0, false), "6 ") << "its end at a free side";
+  EXPECT_EQ(nodes({1, 1, 2, 2}, 0.0, 1000.0, false), "") << "two groups of one law are one material";
+  EXPECT_EQ(nodes({1, 1, 1, 2}, 0.0, 9000.0, true), "5 8 ") << "the corner of an inclusion and its end above";
+  EXPECT_EQ(nodes({1, 2, 2, 1}, 0.0, 9000.0, true), "5 8 ") << "a chequer board";
+  EXPECT_EQ(nodes({1, 1, 2, 2}, 0.8, 9000.0, true), "4 5 6 ") << "a bent border meets the sides at an angle";
+}
+
 TEST(GradeAuto, FindsWhereSupportsAndLoadsMakeTheSolutionSingular) {
   const std::vector<Grading> automatic{{0, 1, 0.15}};
   // Rollers on two sides at right angles, loads to the corners: nothing singular.

@@ -1,0 +1,90 @@
+#include "sage/output/report_components.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sage {
+
+namespace {
+
+std::vector<std::string> columns_of(const Report& report) {
+  if (report.kind == ReportKind::triaxial)
+    return {"ratio",          "measured_deviator", "axial_strain", "force", "correct_deviator",
+            "measured_axial", "correct_axial"};
+  return {"ux", "uy", "fx", "fy"};
+}
+
+std::string name_of(std::size_t report, const std::string& column) {
+  return "report" + std::to_string(report + 1) + "." + column;
+}
+
+// Nodes of the deck in a report that are held in a direction at some time.
+int held_nodes(const Model& model, const Report& report, std::size_t c) {
+  const auto holds = [&](const std::vector<Fixity>& fixities, int node) {
+    return std::any_of(fixities.begin(), fixities.end(),
+                       [&](const Fixity& f) { return f.node == node && f.code[c] == FixityCode::fixed; });
+  };
+  return static_cast<int>(std::count_if(report.nodes.begin(), report.nodes.end(), [&](int node) {
+    return node < model.mesh.deck_nodes &&
+           (holds(model.fixities, node) ||
+            std::any_of(model.stages.begin(), model.stages.end(),
+                        [&](const Stage& stage) { return holds(stage.fixities, node); }));
+  }));
+}
+
+int deck_nodes(const Model& model, const Report& report) {
+  return static_cast<int>(std::count_if(report.nodes.begin(), report.nodes.end(),
+                                        [&](int node) { return node < model.mesh.deck_nodes; }));
+}
+
+void add_triaxial(const Report& report, std::size_t i, const std::vector<TriaxialRow>& rows,
+                  std::vector<ReportComponent>& all) {
+  const TriaxialRow& r = rows.back();
+  const double values[] = {r.ratio,          r.measured_deviator, r.axial_strain, r.force, r.correct_deviator,
+                           r.measured_axial, r.correct_axial};
+  const std::vector<std::string> columns = columns_of(report);
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    all.push_back({name_of(i, columns[k]), values[k], std::abs(values[k]), false});
+  all[all.size() - columns.size() + (std::isfinite(r.ratio) ? 0 : 1)].main = true;
+}
+
+void add_nodes(const Model& model, const Report& report, std::size_t i, const std::vector<NodesRow>& rows,
+               std::vector<ReportComponent>& all) {
+  double largest[2] = {0.0, 0.0};  // displacement, force
+  for (const NodesRow& row : rows)
+    for (int c = 0; c < 2; ++c) {
+      largest[0] = std::max(largest[0], std::abs(row.displacement[c]));
+      largest[1] = std::max(largest[1], std::abs(row.force[c]));
+    }
+  const std::vector<std::string> columns = columns_of(report);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::size_t c = k % 2;
+    const int held = held_nodes(model, report, c), nodes = deck_nodes(model, report);
+    const bool force = k >= 2, main = force ? held >= 2 : held < 2 && held < nodes;
+    const double value = (force ? rows.back().force : rows.back().displacement)[c];
+    all.push_back({name_of(i, columns[k]), value, largest[force ? 1 : 0], main});
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> component_names(const Model& model) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < model.reports.size(); ++i)
+    for (const std::string& column : columns_of(model.reports[i])) names.push_back(name_of(i, column));
+  return names;
+}
+
+std::vector<ReportComponent> last_components(const Model& model, const Reports& reports) {
+  std::vector<ReportComponent> all;
+  for (std::size_t i = 0; i < model.reports.size() && i < reports.count(); ++i) {
+    const Report& report = model.reports[i];
+    if (report.kind == ReportKind::triaxial && !reports.triaxial(i).empty())
+      add_triaxial(report, i, reports.triaxial(i), all);
+    if (report.kind == ReportKind::nodes && !reports.nodes(i).empty())
+      add_nodes(model, report, i, reports.nodes(i), all);
+  }
+  return all;
+}
+
+}  // namespace sage
