@@ -28,6 +28,10 @@ void make_folder(const std::filesystem::path& folder) {
   if (error) throw OutputError("the folder " + folder.string() + " can't be made: " + error.message());
 }
 
+int csv_digits(const OutputOptions& options) {
+  return options.digits > 0 ? options.digits : kCsvDigits;
+}
+
 // The outputs that were asked for; the first is always the reports.
 std::vector<std::unique_ptr<Output>> make_outputs(const RunRequest& request, const Catalogue& catalogue,
                                                   const Reports& reports) {
@@ -38,8 +42,9 @@ std::vector<std::unique_ptr<Output>> make_outputs(const RunRequest& request, con
     outputs.push_back(std::make_unique<Listing>(options.folder, stem, catalogue,
                                                 ListingOptions{options.tables, "", &reports}));
   if (options.increments || options.nodes || options.points)
-    outputs.push_back(std::make_unique<Csv>(options.folder, stem,
-                                            CsvOptions{options.increments, options.nodes, options.points}));
+    outputs.push_back(std::make_unique<Csv>(
+        options.folder, stem,
+        CsvOptions{options.increments, options.nodes, options.points, csv_digits(options)}));
   if (options.vtu) outputs.push_back(std::make_unique<Vtu>(options.folder, stem));
   std::vector<Field> fields;
   for (const std::string& name : options.pictures) fields.push_back(field_from_name(name).value());
@@ -55,6 +60,7 @@ Checkpoint checkpoint_of(const RunRequest& request, const Model& model) {
   for (const SkipName& skip : kSkipNames)
     if (!(request.skips.*skip.flag)) run += fmt::format(" without {}", skip.name);
   if (request.refinement > 0) run += fmt::format(" refined {}", request.refinement);
+  if (o.digits > 0) run += fmt::format(" digits {}", o.digits);
   for (const std::string& picture : o.pictures) run += " " + picture;
   return {o.folder / (case_name(request.deck) + ".restart"), request.checkpoint_seconds, run};
 }
@@ -113,7 +119,8 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   Checkpoint checkpoint = checkpoint_of(request, model);
   settings.checkpoint_due = [&] { return checkpoint.due(); };
   if (request.restart) settings.resume_from = resume_from(checkpoint, request);
-  outcome.reports = std::make_unique<Reports>(request.output.folder, case_name(request.deck));
+  outcome.reports =
+      std::make_unique<Reports>(request.output.folder, case_name(request.deck), csv_digits(request.output));
   std::vector<std::unique_ptr<Output>> outputs = make_outputs(request, catalogue, *outcome.reports);
   settings.save_checkpoint = [&](const std::string& state) {
     std::vector<std::filesystem::path> unfinished = outcome.reports->unfinished();

@@ -13,7 +13,8 @@ namespace sage {
 namespace {
 
 constexpr std::size_t kRows = 6;     // of a triaxial table
-constexpr std::size_t kReports = 2;  // shown; the others are in their files
+constexpr std::size_t kReports = 2;  // triaxial ones shown; the others are in their files
+constexpr std::size_t kPoints = 4;   // the same of points
 
 auto to(std::string& text) {
   return std::back_inserter(text);
@@ -44,8 +45,13 @@ std::string point_words(const std::array<long, kStatuses>& points) {
   return text.empty() ? "none yielded, slipping or open" : text;
 }
 
+int wide(int width, int digits) {
+  return digits > 0 ? std::max(width, digits + 8) : width;
+}
+
 // Rows spread evenly over the path; the last of each stage is kept.
-std::vector<TriaxialRow> chosen(const std::vector<TriaxialRow>& rows) {
+template <class Row>
+std::vector<Row> chosen(const std::vector<Row>& rows) {
   if (rows.size() <= kRows) return rows;
   std::vector<std::size_t> ends;
   for (std::size_t i = 0; i < rows.size(); ++i)
@@ -56,22 +62,50 @@ std::vector<TriaxialRow> chosen(const std::vector<TriaxialRow>& rows) {
   for (std::size_t k = 1; k <= between; ++k) take.push_back(k * rows.size() / (between + 1) - 1);
   std::sort(take.begin(), take.end());
   take.erase(std::unique(take.begin(), take.end()), take.end());
-  std::vector<TriaxialRow> result;
+  std::vector<Row> result;
   for (std::size_t i : take) result.push_back(rows[i]);
   return result;
 }
 
+// A number in a column of `width`, or wider where more digits are asked for; "-" where it is not known.
+std::string cell(double value, const char* usual, int width, int digits) {
+  if (std::isnan(value)) return fmt::format("{:>{}}", "-", wide(width, digits));
+  return fmt::format(
+      "{:>{}}", digits > 0 ? fmt::format("{:.{}g}", value, digits) : fmt::format(fmt::runtime(usual), value),
+      wide(width, digits));
+}
+
 void triaxial_table(std::string& text, const Model& model, std::size_t index,
-                    const std::vector<TriaxialRow>& rows) {
-  fmt::format_to(to(text), "  triaxial {:<8}{:>7}{:>11}{:>18}{:>18}{:>10}\n", index + 1, "incr", "strain",
-                 "measured [" + model.units.stress + "]", "correct [" + model.units.stress + "]", "ratio");
-  const auto number = [](double v, const char* format) {
-    return std::isnan(v) ? std::string("-") : fmt::format(fmt::runtime(format), v);
-  };
+                    const std::vector<TriaxialRow>& rows, int digits) {
+  fmt::format_to(to(text), "  triaxial {:<8}{:>7}{:>{}}{:>{}}{:>{}}{:>{}}\n", index + 1, "incr", "strain",
+                 wide(11, digits), "measured [" + model.units.stress + "]", wide(18, digits),
+                 "correct [" + model.units.stress + "]", wide(18, digits), "ratio", wide(10, digits));
   for (const TriaxialRow& r : chosen(rows))
-    fmt::format_to(to(text), "    stage {:<7}{:>7}{:>11}{:>18}{:>18}{:>10}\n", r.stage, r.increment,
-                   number(r.axial_strain, "{:.4g}"), number(r.measured_deviator, "{:.5g}"),
-                   number(r.correct_deviator, "{:.5g}"), number(r.ratio, "{:.4f}"));
+    fmt::format_to(to(text), "    stage {:<7}{:>7}{}{}{}{}\n", r.stage, r.increment,
+                   cell(r.axial_strain, "{:.4g}", 11, digits), cell(r.measured_deviator, "{:.5g}", 18, digits),
+                   cell(r.correct_deviator, "{:.5g}", 18, digits), cell(r.ratio, "{:.4f}", 10, digits));
+}
+
+void point_table(std::string& text, const Model& model, std::size_t index, const std::vector<PointRow>& rows,
+                 int digits) {
+  constexpr int kWidth = 14;
+  const AxisNames& names = axis_names(model.geometry);
+  const Report& report = model.reports[index];
+  fmt::format_to(to(text), "  point {:<11}{} ({:.10g}; {:.10g})\n    {:<13}{:>7}", index + 1, report.name,
+                 report.place.x(), report.place.y(), "", "incr");
+  for (const std::string_view axis : {names.x, names.y})
+    fmt::format_to(to(text), "{:>{}}", fmt::format("u-{} [{}]", axis, model.units.length),
+                   wide(kWidth, digits));
+  for (const std::string_view stress : names.stress)
+    fmt::format_to(to(text), "{:>{}}", fmt::format("{} [{}]", stress, model.units.stress),
+                   wide(kWidth, digits));
+  text += '\n';
+  for (const PointRow& r : chosen(rows)) {
+    fmt::format_to(to(text), "    stage {:<7}{:>7}", r.stage, r.increment);
+    for (double u : r.displacement) text += cell(u, "{:.5g}", kWidth, digits);
+    for (double stress : r.stress) text += cell(stress, "{:.5g}", kWidth, digits);
+    text += '\n';
+  }
 }
 
 void status_lines(std::string& text, const Model& model, const RunRecord& record) {
@@ -199,7 +233,8 @@ void RunRecord::on_finish(const Model&, const RunResult& run_result) {
 }
 
 std::string summary(const Model& model, const RunRecord& record, const Reports* reports,
-                    const std::vector<std::filesystem::path>& files, const DiscretisationError* error) {
+                    const std::vector<std::filesystem::path>& files, const DiscretisationError* error,
+                    int digits) {
   const bool ring = model.geometry == Geometry::axisymmetric;
   const UnitSystem& u = model.units;
   std::string text = model.title + "\n";
@@ -208,7 +243,11 @@ std::string summary(const Model& model, const RunRecord& record, const Reports* 
   std::size_t shown = 0;
   for (std::size_t i = 0; reports != nullptr && i < reports->count(); ++i)
     if (!reports->triaxial(i).empty() && shown++ < kReports)
-      triaxial_table(text, model, i, reports->triaxial(i));
+      triaxial_table(text, model, i, reports->triaxial(i), digits);
+  shown = 0;
+  for (std::size_t i = 0; reports != nullptr && i < reports->count(); ++i)
+    if (!reports->points(i).empty() && shown++ < kPoints)
+      point_table(text, model, i, reports->points(i), digits);
   if (error != nullptr) text += error->text(model);
   if (record.audited > 0)
     fmt::format_to(to(text), "  equilibrium whole model out of balance by {:.1e} of its largest force\n",
