@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 
+#include "sage/analysis/patch_fit.hpp"
 #include "sage/model/coarse_shape.hpp"
 
 namespace sage {
@@ -15,11 +16,6 @@ namespace sage {
 namespace {
 
 using Stress4 = Eigen::Matrix<double, Eigen::Dynamic, 4>;
-
-struct ElementRef {
-  std::size_t group = 0;
-  int element = 0;
-};
 
 // What is known of one element: places and stress of its samples, and of the points where the error is
 // measured, with their weights.
@@ -30,53 +26,34 @@ struct ElementStress {
   int degree = 1, corners = 4;
 };
 
-int terms_of(int degree) {
-  return (degree + 1) * (degree + 2) / 2;
-}
-
-// A polynomial of full degree in x and y for each stress component, over a patch of elements.
+// The stress of a patch of elements as a polynomial for each component.
 class Fit {
  public:
-  explicit Fit(const std::vector<const ElementStress*>& patch) {
-    Eigen::Index samples = 0;
-    degree_ = patch.front()->degree;
-    Vector2 low = patch.front()->sample_at.col(0), high = low;
-    for (const ElementStress* e : patch) {
-      samples += e->sample_at.cols();
-      degree_ = std::min(degree_, e->degree);
-      low = low.cwiseMin(e->sample_at.rowwise().minCoeff());
-      high = high.cwiseMax(e->sample_at.rowwise().maxCoeff());
-    }
-    // The stress wants degree p; one more takes less from the fit, where there are samples enough for it.
-    if (3 * terms_of(degree_ + 1) <= 2 * samples) ++degree_;
-    while (degree_ > 0 && terms_of(degree_) > samples) --degree_;
-    centre_ = 0.5 * (low + high);
-    scale_ = 0.5 * (high - low).cwiseMax(1e-300);
-    Eigen::MatrixXd V(samples, terms_of(degree_));
-    Stress4 values(samples, 4);
+  explicit Fit(const std::vector<const ElementStress*>& patch) : polynomial_(places(patch), degree(patch)) {
+    const Eigen::MatrixXd& V = polynomial_.matrix();
+    Stress4 values(V.rows(), 4);
     Eigen::Index row = 0;
     for (const ElementStress* e : patch)
-      for (Eigen::Index i = 0; i < e->sample_at.cols(); ++i, ++row) {
-        V.row(row) = terms(e->sample_at.col(i));
-        values.row(row) = e->samples.row(i);
-      }
+      for (Eigen::Index i = 0; i < e->samples.rows(); ++i) values.row(row++) = e->samples.row(i);
     coefficients_ = V.colPivHouseholderQr().solve(values);
   }
 
-  Eigen::RowVector4d at(const Vector2& x) const { return terms(x) * coefficients_; }
+  Eigen::RowVector4d at(const Vector2& x) const { return polynomial_.terms(x) * coefficients_; }
 
  private:
-  Eigen::RowVectorXd terms(const Vector2& x) const {
-    const double a = (x.x() - centre_.x()) / scale_.x(), b = (x.y() - centre_.y()) / scale_.y();
-    Eigen::RowVectorXd row(terms_of(degree_));
-    Eigen::Index k = 0;
-    for (int d = 0; d <= degree_; ++d)
-      for (int j = 0; j <= d; ++j) row(k++) = std::pow(a, d - j) * std::pow(b, j);
-    return row;
+  static std::vector<const Eigen::Matrix2Xd*> places(const std::vector<const ElementStress*>& patch) {
+    std::vector<const Eigen::Matrix2Xd*> all;
+    all.reserve(patch.size());
+    for (const ElementStress* e : patch) all.push_back(&e->sample_at);
+    return all;
+  }
+  static int degree(const std::vector<const ElementStress*>& patch) {
+    int lowest = patch.front()->degree;
+    for (const ElementStress* e : patch) lowest = std::min(lowest, e->degree);
+    return lowest;
   }
 
-  int degree_ = 0;
-  Vector2 centre_, scale_;
+  PatchPolynomial polynomial_;
   Eigen::MatrixXd coefficients_;
 };
 
@@ -194,50 +171,14 @@ ElementStress element_stress(const Model& model, const GroupData& data, int e,
     s.point_at.col(p) = element.position(x, static_cast<int>(p));
     s.w(p) = geometry[static_cast<std::size_t>(p) * stride];
   }
-  const std::span<const double> map = element.point_to_sample();
-  if (map.empty()) {
-    s.samples = s.points;
-    s.sample_at = s.point_at;
-    if (s.degree == 1) {  // a triangle's stress is best in its middle
-      s.samples = s.points.colwise().mean();
-      s.sample_at = s.point_at.rowwise().mean();
-    }
-    const bool reduced = s.degree <= 2 && (s.corners == 4 || points < 3 * s.degree);
-    if (reduced) measure_between_points(element, x, s);
-  } else {
-    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> to_samples(
-        map.data(), static_cast<Eigen::Index>(map.size()) / points, points);
-    s.samples = to_samples * s.points;
-    s.sample_at = s.point_at * to_samples.transpose();
-  }
+  const Eigen::MatrixXd to_samples = sample_map(element);
+  s.samples = to_samples.size() > 0 ? Stress4(to_samples * s.points) : s.points;
+  s.sample_at = to_samples.size() > 0 ? Eigen::Matrix2Xd(s.point_at * to_samples.transpose()) : s.point_at;
+  const bool own_places = element.point_to_sample().empty();
+  if (own_places && s.degree <= 2 && (s.corners == 4 || points < 3 * s.degree))
+    measure_between_points(element, x, s);
   return s;
 }
-
-// Elements of one material around each vertex.
-class Patches {
- public:
-  Patches(const Model& model, int material, const std::vector<ElementRef>& elements) {
-    std::map<std::pair<int, int>, int> uses;
-    for (std::size_t k = 0; k < elements.size(); ++k) {
-      const Group& group = model.groups[elements[k].group];
-      if (group.material != material) continue;
-      const int* nodes = group.nodes_of(elements[k].element);
-      for (const auto& edge : group.element->edges()) {
-        around_[nodes[edge[0]]].push_back(k);
-        ++uses[std::minmax(nodes[edge[0]], nodes[edge[1]])];
-      }
-    }
-    for (const auto& [ends, count] : uses)
-      if (count == 1) on_boundary_[ends.first] = on_boundary_[ends.second] = true;
-  }
-
-  const std::vector<std::size_t>& around(int vertex) const { return around_.at(vertex); }
-  bool inside(int vertex) const { return on_boundary_.count(vertex) == 0; }
-
- private:
-  std::map<int, std::vector<std::size_t>> around_;
-  std::map<int, bool> on_boundary_;
-};
 
 // D^-1 of a linear law; the unit matrix for the others.
 Matrix4 compliance(const SolidLaw& law) {
@@ -293,14 +234,17 @@ ErrorEstimate estimate_error(const Model& model, const Solution& solution, const
   for (std::size_t k = 0; k < elements.size(); ++k) {
     const GroupData& data = groups[elements[k].group];
     const Group& group = *data.group;
-    const Patches& of_material =
-        patches.try_emplace(group.material, model, group.material, elements).first->second;
+    auto known = patches.find(group.material);
+    if (known == patches.end()) {
+      std::vector<char> same;
+      for (const Group& other : model.groups) same.push_back(other.material == group.material);
+      known = patches.try_emplace(group.material, model, same, elements).first;
+    }
+    const Patches& of_material = known->second;
     const int* nodes = group.nodes_of(elements[k].element);
     std::vector<const Fit*> use;
-    std::vector<std::size_t> neighbours;
     for (int c = 0; c < stress[k].corners; ++c) {
       const std::vector<std::size_t>& patch = of_material.around(nodes[c]);
-      neighbours.insert(neighbours.end(), patch.begin(), patch.end());
       if (!of_material.inside(nodes[c])) continue;
       auto it = fits.find({group.material, nodes[c]});
       if (it == fits.end()) it = fits.emplace(std::pair{group.material, nodes[c]}, fit_of(patch)).first;
@@ -308,9 +252,7 @@ ErrorEstimate estimate_error(const Model& model, const Solution& solution, const
     }
     std::optional<Fit> own;  // an element without a vertex inside: all of its neighbours
     if (use.empty()) {
-      std::sort(neighbours.begin(), neighbours.end());
-      neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
-      own.emplace(fit_of(neighbours));
+      own.emplace(fit_of(of_material.neighbours(*group.element, nodes)));
       use.push_back(&*own);
     }
     const Matrix4 C = result.energy ? compliance(*solid_law(data)) : Matrix4::Identity();

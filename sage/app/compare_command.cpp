@@ -10,6 +10,7 @@
 #include "sage/app/run_deck.hpp"
 #include "sage/compare/comparison.hpp"
 #include "sage/compare/pair_picture.hpp"
+#include "sage/model/locate.hpp"
 #include "sage/output/out_file.hpp"
 #include "solvers/choose_solver.hpp"
 
@@ -33,7 +34,8 @@ struct CompareOptions {
   int threads = 0;
   std::optional<int> formulation_b, element_b, geometry_b;
   std::optional<std::string> solver_b, layout_b;
-  std::vector<std::string> lines, points, pictures;
+  std::vector<std::string> lines, pictures;
+  int digits = 0;
   std::filesystem::path folder = "out";
 
   bool changes_b() const { return formulation_b || element_b || geometry_b || solver_b || layout_b; }
@@ -98,6 +100,18 @@ compare::Side run_side(const char* letter, const SideOptions& options, const std
   return side;
 }
 
+// A point that neither mesh holds is a mistake.
+void require_points(const CompareOptions& o, const compare::Side& a, const compare::Side& b) {
+  const auto holds = [](const compare::Side& side, const PointRequest& point) {
+    return side.has_model() && !Locator(side.model()).at(point.place).empty();
+  };
+  for (const PointRequest& point : o.input.build.points)
+    if ((a.has_model() || b.has_model()) && !holds(a, point) && !holds(b, point))
+      throw InputError({o.decks.front(), 0, 0, 0},
+                       fmt::format("the point ({:.10g}; {:.10g}) lies outside the mesh of both runs",
+                                   point.place.x(), point.place.y()));
+}
+
 int compare_decks(const CompareOptions& o) {
   if (o.decks.size() == 1 && !o.both && !o.changes_b()) {
     fmt::print(stderr, "sagefe compare: one deck needs --both or an option that ends in -b\n");
@@ -111,7 +125,6 @@ int compare_decks(const CompareOptions& o) {
   std::vector<compare::Line> lines;
   try {
     for (const std::string& text : o.lines) lines.push_back(compare::line_from_text(text));
-    for (const std::string& text : o.points) lines.push_back(compare::point_from_text(text));
   } catch (const std::invalid_argument& error) {
     fmt::print(stderr, "sagefe compare: {}\n", error.what());
     return kUsage;
@@ -125,9 +138,10 @@ int compare_decks(const CompareOptions& o) {
   const compare::Side a = run_side("A", options[0], o.folder, stem + ".a", catalogue);
   const compare::Side b = run_side("B", options[1], o.folder, stem + ".b", catalogue);
 
+  require_points(o, a, b);
   const compare::Comparison comparison = compare::compare(a, b, lines);
   std::vector<std::filesystem::path> files{o.folder / (stem + ".compare.csv")};
-  write_file(files.front(), compare::to_csv(comparison, a, b));
+  write_file(files.front(), compare::to_csv(comparison, a, b, o.digits > 0 ? o.digits : kCsvDigits));
   for (const std::string& name : o.pictures) {
     if (!a.has_state() && !b.has_state()) break;
     files.push_back(o.folder / fmt::format("{}.compare_{}.svg", stem, name));
@@ -154,6 +168,7 @@ Command compare_command(CLI::App& parser) {
   parser.add_flag("--both", o->both, "A in plane strain, B in axisymmetry");
   add_input_options(parser, o->input);
   add_build_options(parser, o->input.build);
+  o->input.build.points_outside = true;  // of one of the two
   parser.add_option("--solver", o->solver, "solver by name (see sagefe list solvers)")->check(unknown_solver);
   add_threads_option(parser, o->threads);
   parser.add_option("--formulation-b", o->formulation_b, "formulation code of B, where it differs from A");
@@ -164,7 +179,7 @@ Command compare_command(CLI::App& parser) {
   parser.add_option("--layout-b", o->layout_b, "card layout of B");
   parser.add_option("--line", o->lines,
                     "x1,y1,x2,y2[:name[:n]]: displacement and stress at n places (default 11)");
-  parser.add_option("--point", o->points, "x,y[:name]: displacement and stress there");
+  add_digits_option(parser, o->digits);
   parser
       .add_option("--picture", o->pictures,
                   "SVG of both fields on one scale of colours (names as in sagefe run)")

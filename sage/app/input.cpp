@@ -5,6 +5,7 @@
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 #include <stdexcept>
@@ -64,6 +65,39 @@ Grading grading_from(const std::string& text) {
   return grading;
 }
 
+PointRequest point_from(const std::string& text) {
+  const std::string wanted = "--point " + text + ": wanted x,y[:name[:group]]";
+  const auto number = [&](std::string_view digits, auto& value) {
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    const bool read = error == std::errc() && end == digits.data() + digits.size() && !digits.empty();
+    if (!read || !std::isfinite(static_cast<double>(value)))
+      throw std::invalid_argument(wanted + "; \"" + std::string(digits) + "\" is no number");
+  };
+  std::vector<std::string> parts{""};
+  for (char c : text) {
+    if (c == ':' && parts.size() < 3)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  const std::size_t comma = parts[0].find(',');
+  if (comma == std::string::npos) throw std::invalid_argument(wanted);
+  PointRequest point;
+  number(std::string_view(parts[0]).substr(0, comma), point.place.x());
+  number(std::string_view(parts[0]).substr(comma + 1), point.place.y());
+  if (parts.size() > 1) point.name = parts[1];
+  if (parts.size() > 2) number(parts[2], point.group);
+  return point;
+}
+
+void add_digits_option(CLI::App& parser, int& digits) {
+  parser
+      .add_option("--digits", digits,
+                  "significant digits of numbers in CSV files and in the reports on the screen (default: 10 in "
+                  "CSV; 16 is the most that means something, 17 gives back every bit)")
+      ->check(CLI::Range(2, 17));
+}
+
 void add_build_options(CLI::App& parser, BuildOptions& options) {
   options.say = [](const std::string& text) { fmt::print(stderr, "sagefe: {}\n", text); };
   parser.add_option("--formulation", options.formulation, "replace the formulation code of all solid elements")
@@ -109,6 +143,22 @@ void add_build_options(CLI::App& parser, BuildOptions& options) {
       "--partial", options.partial,
       "compute what is left of a foreign deck that asks for more than this program has (beams, soils "
       "whose numbers it lacks); without it such a deck is refused");
+  parser
+      .add_option_function<std::vector<std::string>>(
+          "--point",
+          [&options](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) options.points.push_back(point_from(text));
+          },
+          "x,y[:name[:group]]: a report of displacement, strain and stress there")
+      ->allow_extra_args(false)
+      ->check([](const std::string& text) {
+        try {
+          point_from(text);
+          return std::string();
+        } catch (const std::invalid_argument& error) {
+          return std::string(error.what());
+        }
+      });
   parser.add_option("--geometry", options.geometry, "replace the geometry: 1 plane strain, 2 axisymmetric")
       ->check(CLI::Range(1, 2));
 }

@@ -22,6 +22,11 @@ void add_input_options(CLI::App& parser, InputOptions& options);
 // NODE[:layers[:ratio]] or auto[:layers[:ratio]].  Throws std::invalid_argument that says what is wanted.
 Grading grading_from(const std::string& text);
 
+// x,y[:name[:group]].  Throws std::invalid_argument that says what is wrong.
+PointRequest point_from(const std::string& text);
+// --digits of tables.
+void add_digits_option(CLI::App& parser, int& digits);
+
 // Those that change how the deck's elements are computed.
 void add_build_options(CLI::App& parser, BuildOptions& options);
 

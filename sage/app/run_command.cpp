@@ -67,7 +67,7 @@ int run_one(const RunOptions& options, const std::string& deck, const Catalogue&
     if (outcome.record.stages.empty()) return outcome.exit_code;  // --strict stopped it
     if (!options.quiet)
       fmt::print("{}\n", summary(*outcome.model, outcome.record, outcome.reports.get(), outcome.files,
-                                 outcome.error.get()));
+                                 outcome.error.get(), request.output.digits));
     if (outcome.exit_code != kOk) fmt::print(stderr, "{}: {}\n", deck, outcome.record.result.reason);
     return outcome.exit_code;
   });
@@ -132,6 +132,7 @@ Command run_command(CLI::App& parser) {
       ->check(CLI::IsMember({"auto", "none", "stage", "all"}));
   parser.add_flag("--nodes", request.output.nodes, "write STEM.nodes.csv: displacements and reactions");
   parser.add_flag("--points", request.output.points, "write STEM.points.csv: stress and state of all points");
+  add_digits_option(parser, request.output.digits);
   parser.add_flag("--vtu", request.output.vtu, "write VTU files and a PVD for ParaView");
   parser
       .add_option(

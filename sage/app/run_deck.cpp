@@ -24,6 +24,10 @@ namespace sage::app {
 
 namespace {
 
+int csv_digits(const OutputOptions& options) {
+  return options.digits > 0 ? options.digits : kCsvDigits;
+}
+
 // The outputs that were asked for; the first is always the reports.
 std::vector<std::unique_ptr<Output>> make_outputs(const RunRequest& request, const Catalogue& catalogue,
                                                   const Reports& reports) {
@@ -34,8 +38,9 @@ std::vector<std::unique_ptr<Output>> make_outputs(const RunRequest& request, con
     outputs.push_back(std::make_unique<Listing>(options.folder, stem, catalogue,
                                                 ListingOptions{options.tables, "", &reports}));
   if (options.increments || options.nodes || options.points)
-    outputs.push_back(std::make_unique<Csv>(options.folder, stem,
-                                            CsvOptions{options.increments, options.nodes, options.points}));
+    outputs.push_back(std::make_unique<Csv>(
+        options.folder, stem,
+        CsvOptions{options.increments, options.nodes, options.points, csv_digits(options)}));
   if (options.vtu) outputs.push_back(std::make_unique<Vtu>(options.folder, stem));
   std::vector<Field> fields;
   for (const std::string& name : options.pictures) fields.push_back(field_from_name(name).value());
@@ -51,6 +56,7 @@ Checkpoint checkpoint_of(const RunRequest& request, const Model& model, ResultFi
   for (const SkipName& skip : kSkipNames)
     if (!(request.skips.*skip.flag)) run += fmt::format(" without {}", skip.name);
   if (request.refinement > 0) run += fmt::format(" refined {}", request.refinement);
+  if (o.digits > 0) run += fmt::format(" digits {}", o.digits);
   for (const std::string& picture : o.pictures) run += " " + picture;
   return {o.folder / (case_name(request.deck) + ".restart"), request.checkpoint_seconds, run, results};
 }
@@ -148,7 +154,8 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   settings.stop_asked = [&] { return end.stop_now() || (request.stop_asked && request.stop_asked()); };
   settings.checkpoint_due = [&] { return end.checkpoint_wanted() || checkpoint.due(); };
   if (request.restart) settings.resume_from = resume_from(checkpoint, request);
-  outcome.reports = std::make_unique<Reports>(request.output.folder, case_name(request.deck));
+  outcome.reports =
+      std::make_unique<Reports>(request.output.folder, case_name(request.deck), csv_digits(request.output));
   std::vector<std::unique_ptr<Output>> outputs = make_outputs(request, catalogue, *outcome.reports);
   settings.save_checkpoint = [&](const std::string& state) {
     checkpoint.save(state);

@@ -19,6 +19,7 @@ struct OutputOptions {
   Tables tables = Tables::automatic;
   bool increments = true;  // STEM.increments.csv
   bool nodes = false, points = false;
+  int digits = 0;                     // of numbers in CSV files and in the summary's reports; 0 = the usual
   bool error = false;                 // estimate of the discretisation error
   bool vtu = false;                   // STEM_0001.vtu ... and STEM.pvd
   std::vector<std::string> pictures;  // fields, as SVG at the end of each stage

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -56,9 +57,13 @@ using Values = std::vector<std::pair<std::string, double>>;
 struct Table {
   Comparison& comparison;
   std::string section, unit;
+  double floor_a = 0.0, floor_b = 0.0;
 
   void add(const std::string& name, double a, double b, double expected = kUnknown) const {
-    comparison.rows.push_back({section, name, unit, a, b, expected});
+    Row row{section, name, unit, a, b, expected};
+    row.floor_a = floor_a;
+    row.floor_b = floor_b;
+    comparison.rows.push_back(row);
   }
   // Quantities by name; what only one side has stands with it alone.
   void add(const Values& a, const Values& b) const {
@@ -139,7 +144,8 @@ std::string axis(const Side& a, const Side& b, int component) {
 void add_totals(Comparison& c, const Side& a, const Side& b) {
   const std::size_t stages = std::max(a.stages().size(), b.stages().size());
   for (std::size_t s = 0; s < stages; ++s) {
-    const Table table{c, fmt::format("forces, end of stage {}", s + 1), units_of(a, b).force};
+    const Table table{c, fmt::format("forces, end of stage {}", s + 1), units_of(a, b).force, a.floors().force,
+                      b.floors().force};
     const auto value = [&](const Side& side, Vector2 StageState::*what, int component) {
       return s < side.stages().size() ? (side.stages()[s].*what)[component] : kUnknown;
     };
@@ -150,28 +156,43 @@ void add_totals(Comparison& c, const Side& a, const Side& b) {
   }
 }
 
+const Face* face_of(const Side& side, const std::string& name) {
+  for (const Face& face : side.faces())
+    if (face.name == name) return &face;
+  return nullptr;
+}
+
+// Of a stage; NaN where a side has no such face.
+double face_stress(const Side& side, std::size_t stage, const std::string& name,
+                   double (*stress)(const Face&, const FaceState&)) {
+  if (stage >= side.stages().size() || side.stages()[stage].faces.empty()) return kUnknown;
+  for (std::size_t i = 0; i < side.faces().size(); ++i)
+    if (side.faces()[i].name == name) return stress(side.faces()[i], side.stages()[stage].faces[i]);
+  return kUnknown;
+}
+
 void add_faces(Comparison& c, const Side& a, const Side& b) {
   const std::size_t stages = std::max(a.stages().size(), b.stages().size());
+  const auto floor = [](const Side& side, const std::string& name) {
+    const Face* face = face_of(side, name);
+    return face != nullptr && face->area > 0.0 ? side.floors().force / face->area : 0.0;
+  };
+  const auto modulus = [](const Side& side, std::size_t s) {
+    return s < side.stages().size() && uniform_ends(side, s) ? apparent_modulus(side, s) : kUnknown;
+  };
   for (std::size_t s = 0; s < stages; ++s) {
-    const auto stresses = [&](const Side& side) {
-      Values v;
-      if (s >= side.stages().size() || side.stages()[s].faces.empty()) return v;
-      for (std::size_t i = 0; i < side.faces().size(); ++i) {
-        const Face& face = side.faces()[i];
-        v.emplace_back(face.name + ": mean normal stress", normal_stress(face, side.stages()[s].faces[i]));
-        v.emplace_back(face.name + ": mean shear stress", shear_stress(face, side.stages()[s].faces[i]));
+    const std::string section = fmt::format("sides, end of stage {}", s + 1);
+    for (const char* name : {"bottom", "top", "left", "right"}) {
+      const Table table{c, section, units_of(a, b).stress, floor(a, name), floor(b, name)};
+      for (const auto& [what, of] : {std::pair{": mean normal stress", &normal_stress},
+                                     std::pair{": mean shear stress", &shear_stress}}) {
+        const double va = face_stress(a, s, name, of), vb = face_stress(b, s, name, of);
+        if (!std::isnan(va) || !std::isnan(vb)) table.add(std::string(name) + what, va, vb);
       }
-      return v;
-    };
-    Table{c, fmt::format("sides, end of stage {}", s + 1), units_of(a, b).stress}.add(stresses(a), stresses(b));
-    const auto moduli = [&](const Side& side) {
-      Values v;
-      if (s >= side.stages().size() || side.stages()[s].faces.empty()) return v;
-      const double modulus = apparent_modulus(side, s);
-      if (!std::isnan(modulus)) v.emplace_back("stress of the top / strain of the height", modulus);
-      return v;
-    };
-    Table{c, fmt::format("sides, end of stage {}", s + 1), units_of(a, b).stress}.add(moduli(a), moduli(b));
+    }
+    const double ma = modulus(a, s), mb = modulus(b, s);
+    if (!std::isnan(ma) || !std::isnan(mb))
+      Table{c, section, units_of(a, b).stress}.add("stress of the top / strain of the height", ma, mb);
   }
 }
 
@@ -271,14 +292,46 @@ void add_node_report(Comparison& c, const Side& a, const Side& b, std::size_t i)
   }
 }
 
+void add_point_report(Comparison& c, const Side& a, const Side& b, std::size_t i, const Model& model) {
+  using Rows = std::map<std::pair<int, int>, std::vector<double>>;
+  const auto rows = [&](const Side& side) {
+    Rows map;
+    for (std::size_t r = 0; side.has_model() && i < side.reports().count() && r < side.reports().rows(i); ++r)
+      map[side.reports().step(i, r)] = side.reports().values(i, r);
+    return map;
+  };
+  const Rows ra = rows(a), rb = rows(b);
+  std::set<std::pair<int, int>> steps;
+  for (const auto* map : {&ra, &rb})
+    for (const auto& [step, row] : *map) steps.insert(step);
+  const auto ends = shown_steps(ra, rb);
+  const std::vector<ReportColumn> columns = report_columns(model, model.reports[i]);
+  for (const auto& step : steps) {
+    std::vector<Row>& list = ends.count(step) ? c.rows : c.details;
+    const std::string section =
+        fmt::format("{}, stage {}, increment {}", report_title(model, i), step.first, step.second);
+    const auto value = [&](const Rows& map, std::size_t k) {
+      const auto it = map.find(step);
+      return it == map.end() ? kUnknown : it->second[k];
+    };
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      list.push_back({section, columns[k].name, columns[k].unit, value(ra, k), value(rb, k), kUnknown});
+  }
+}
+
 void add_reports(Comparison& c, const Side& a, const Side& b) {
   const auto count = [](const Side& side) { return side.has_model() ? side.reports().count() : 0; };
   for (std::size_t i = 0; i < std::max(count(a), count(b)); ++i) {
     const Side& any = i < count(a) ? a : b;
-    if (any.model().reports[i].kind == ReportKind::triaxial)
+    const ReportKind kind = any.model().reports[i].kind;
+    if (i < count(a) && i < count(b) && b.model().reports[i].kind != kind)
+      continue;  // the decks ask for others
+    if (kind == ReportKind::triaxial)
       add_triaxial(c, a, b, i);
-    else
+    else if (kind == ReportKind::nodes)
       add_node_report(c, a, b, i);
+    else
+      add_point_report(c, a, b, i, any.model());
   }
 }
 
@@ -299,7 +352,7 @@ constexpr Component kComponents[] = {
     {"deviator q", false, [](const Sample& s) { return s.deviator; }},
 };
 
-// A point is shown whole; a line by the means of its places, which are in the CSV one by one.
+// By the means of its places, which are in the CSV one by one.
 void add_line(Comparison& c, const Side& a, const Side& b, const Line& line) {
   const UnitSystem& u = units_of(a, b);
   std::vector<Sample> samples[2];
@@ -309,7 +362,7 @@ void add_line(Comparison& c, const Side& a, const Side& b, const Line& line) {
     const Solution last = sides[k]->last();
     const Sampler sampler(sides[k]->model(), last);
     for (int i = 0; i < line.n; ++i) {
-      const double t = line.n > 1 ? static_cast<double>(i) / (line.n - 1) : 0.0;
+      const double t = static_cast<double>(i) / (line.n - 1);
       samples[k].push_back(sampler.at((1.0 - t) * line.from + t * line.to));
     }
   }
@@ -317,16 +370,13 @@ void add_line(Comparison& c, const Side& a, const Side& b, const Line& line) {
     return samples[k].empty() ? kUnknown : component.of(samples[k][static_cast<std::size_t>(i)]);
   };
   for (int i = 0; i < line.n; ++i) {
-    const double t = line.n > 1 ? static_cast<double>(i) / (line.n - 1) : 0.0;
+    const double t = static_cast<double>(i) / (line.n - 1);
     const Vector2 place = (1.0 - t) * line.from + t * line.to;
-    const std::string section = fmt::format("{} {} at ({:.6g}; {:.6g})", line.n > 1 ? "line" : "point",
-                                            line.name, place.x(), place.y());
+    const std::string section = fmt::format("line {} at ({:.6g}; {:.6g})", line.name, place.x(), place.y());
     for (const Component& component : kComponents)
-      (line.n > 1 ? c.details : c.rows)
-          .push_back({section, component.name, component.length ? u.length : u.stress, value(0, i, component),
-                      value(1, i, component), kUnknown});
+      c.details.push_back({section, component.name, component.length ? u.length : u.stress,
+                           value(0, i, component), value(1, i, component), kUnknown});
   }
-  if (line.n == 1) return;
   const std::string section = fmt::format("line {}: mean of {} places", line.name, line.n);
   for (const Component& component : kComponents) {
     double mean[2] = {0.0, 0.0};
@@ -334,6 +384,21 @@ void add_line(Comparison& c, const Side& a, const Side& b, const Line& line) {
       for (int i = 0; i < line.n; ++i) mean[k] += value(k, i, component) / line.n;
     c.rows.push_back(
         {section, component.name, component.length ? u.length : u.stress, mean[0], mean[1], kUnknown});
+  }
+}
+
+// Rows of results without floors of their own: by what they measure.
+void set_floors(std::vector<Row>& rows, const Side& a, const Side& b) {
+  const UnitSystem& u = units_of(a, b);
+  const auto floor = [&](const Side& side, const std::string& unit) {
+    if (unit == u.force) return side.floors().force;
+    if (unit == u.stress) return side.floors().stress;
+    return unit == u.length ? side.floors().displacement : 0.0;
+  };
+  for (Row& row : rows) {
+    if (row.floor_a > 0.0 || row.floor_b > 0.0 || row.unit == "-") continue;
+    row.floor_a = floor(a, row.unit);
+    row.floor_b = floor(b, row.unit);
   }
 }
 
@@ -427,12 +492,73 @@ void add_notes(Comparison& c, const Side& a, const Side& b) {
     c.notes.push_back("The meshes differ: fields are compared on lines and at points only.");
 }
 
+// Columns of a report that people read first.
+bool is_answer(ReportKind kind, const std::string& column) {
+  if (kind == ReportKind::triaxial) return column == "measured_deviator" || column == "ratio";
+  return !column.starts_with("strain_");
+}
+
+// The last row that both sides have.
+std::optional<std::pair<std::size_t, std::size_t>> last_common(const Side& a, const Side& b, std::size_t i) {
+  for (std::size_t ra = a.reports().rows(i); ra-- > 0;)
+    for (std::size_t rb = b.reports().rows(i); rb-- > 0;)
+      if (a.reports().step(i, ra) == b.reports().step(i, rb)) return std::pair{ra, rb};
+  return std::nullopt;
+}
+
+void use_certain(const std::vector<CertainValue>& certain, const std::string& name, double& value,
+                 double& error) {
+  for (const CertainValue& c : certain)
+    if (c.name == name) {
+      value = c.value;
+      error = c.error;
+    }
+}
+
+// Nothing that is zero in both.
+void add_answers(Comparison& c, const Side& a, const Side& b, const std::vector<CertainValue>& certain_a,
+                 const std::vector<CertainValue>& certain_b) {
+  if (!a.has_state() || !b.has_state()) return;
+  const UnitSystem& u = units_of(a, b);
+  const auto floor = [&](const Side& side, const std::string& unit) {
+    if (unit == "-") return 0.0;
+    return unit == u.force    ? side.floors().force
+           : unit == u.length ? side.floors().displacement
+                              : side.floors().stress;
+  };
+  for (std::size_t i = 0; i < std::min(a.reports().count(), b.reports().count()); ++i) {
+    const ReportKind kind = a.model().reports[i].kind;
+    const auto rows = last_common(a, b, i);
+    if (kind != b.model().reports[i].kind || !rows) continue;
+    const std::vector<ReportColumn> columns = report_columns(a.model(), a.model().reports[i]);
+    const std::vector<double> va = a.reports().values(i, rows->first), vb = b.reports().values(i, rows->second);
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      if (!is_answer(kind, columns[k].name)) continue;
+      Answer answer;
+      answer.name = fmt::format("report{}.{}", i + 1, columns[k].name);
+      answer.unit = columns[k].unit;
+      answer.a = va[k];
+      answer.b = vb[k];
+      const double zero_a = floor(a, answer.unit), zero_b = floor(b, answer.unit);
+      if (std::abs(va[k]) <= zero_a && std::abs(vb[k]) <= zero_b) continue;
+      use_certain(certain_a, answer.name, answer.a, answer.error_a);
+      use_certain(certain_b, answer.name, answer.b, answer.error_b);
+      const ExpectedRatio expected = expected_ratio(a, b, i, columns[k].name);
+      answer.expected = expected.value;
+      answer.why = expected.why;
+      if (std::abs(answer.a) <= zero_a) answer.a = 0.0;
+      if (std::abs(answer.b) <= zero_b) answer.b = 0.0;
+      c.answers.push_back(answer);
+    }
+  }
+}
+
 }  // namespace
 
 double Row::relative() const {
   constexpr double kRounding = 1e-10;
-  if (a == b) return 0.0;
-  return std::abs(a) > kRounding * scale ? (b - a) / std::abs(a) : kUnknown;
+  if (difference() == 0.0) return 0.0;
+  return !zero_a() && std::abs(a) > kRounding * scale ? difference() / std::abs(a) : kUnknown;
 }
 
 Line line_from_text(const std::string& text) {
@@ -448,14 +574,14 @@ Line line_from_text(const std::string& text) {
   return line;
 }
 
-Line point_from_text(const std::string& text) {
-  const std::vector<std::string> parts = parts_of(text, 2);
-  const std::vector<double> v = numbers(parts[0], 2);
-  return {{v[0], v[1]}, {v[0], v[1]}, parts.size() > 1 ? parts[1] : "", 1};
+double Answer::ratio_error() const {
+  return std::abs(ratio()) * (error_a / std::abs(a) + error_b / std::abs(b));
 }
 
-Comparison compare(const Side& a, const Side& b, const std::vector<Line>& lines) {
+Comparison compare(const Side& a, const Side& b, const std::vector<Line>& lines,
+                   const std::vector<CertainValue>& certain_a, const std::vector<CertainValue>& certain_b) {
   Comparison c;
+  add_answers(c, a, b, certain_a, certain_b);
   add_course(c, a, b);
   add_points(c, a, b);
   add_totals(c, a, b);
@@ -463,8 +589,10 @@ Comparison compare(const Side& a, const Side& b, const std::vector<Line>& lines)
   add_reports(c, a, b);
   for (const Line& line : lines) add_line(c, a, b, line);
   add_nodal(c, a, b);
-  set_scales(c.rows);
-  set_scales(c.details);
+  for (std::vector<Row>* rows : {&c.rows, &c.details}) {
+    set_floors(*rows, a, b);
+    set_scales(*rows);
+  }
   c.theory = expectations(a, b);
   add_notes(c, a, b);
   return c;

@@ -1,7 +1,10 @@
 // Two runs side by side as rows of numbers, for people and for programs.
 #pragma once
 
+#include <cmath>
+
 #include "sage/compare/theory.hpp"
+#include "sage/output/number.hpp"
 #include "sage/output/sampler.hpp"
 
 namespace sage::compare {
@@ -13,10 +16,8 @@ struct Line {
   int n = 11;
 };
 
-// "x1,y1,x2,y2[:name[:n]]" and "x,y[:name]" (a line of n = 1).  Throws std::invalid_argument with what is
-// wrong.
+// "x1,y1,x2,y2[:name[:n]]".  Throws std::invalid_argument with what is wrong.
 Line line_from_text(const std::string& text);
-Line point_from_text(const std::string& text);
 
 // One quantity of both runs; NaN = this side does not have it.
 struct Row {
@@ -26,12 +27,37 @@ struct Row {
   // The largest of the section's numbers in the same unit: what is far below it is rounding, of which no
   // relative difference is made.
   double scale = 0.0;
+  // What the runs' own tolerance leaves open in `a` and `b`: a number below it is zero, and so is a difference
+  // below both together.
+  double floor_a = 0.0, floor_b = 0.0;
 
-  double difference() const { return b - a; }
-  double relative() const;  // (b - a) / |a|
+  bool zero_a() const { return std::abs(a) <= floor_a; }
+  bool zero_b() const { return std::abs(b) <= floor_b; }
+  double difference() const { return std::abs(b - a) <= floor_a + floor_b ? 0.0 : b - a; }
+  double relative() const;  // difference / |a|; NaN where `a` is zero and `b` is not
+};
+
+// What a report ends with in both runs, and what theory expects of the ratio.
+struct Answer {
+  std::string name, unit;  // "report1.fy"
+  double a = 0.0, b = 0.0;
+  double error_a = std::numeric_limits<double>::quiet_NaN();  // of the mesh; NaN = not estimated
+  double error_b = std::numeric_limits<double>::quiet_NaN();
+  double expected = std::numeric_limits<double>::quiet_NaN();  // of b / a
+  std::string why;
+
+  double ratio() const { return b / a; }
+  double ratio_error() const;  // NaN where one of the two is not estimated
+};
+
+// A value of a report as finer and finer meshes have it.
+struct CertainValue {
+  std::string name;  // "report1.fy"
+  double value = 0.0, error = 0.0;
 };
 
 struct Comparison {
+  std::vector<Answer> answers;
   std::vector<Row> rows;     // shown and in the CSV
   std::vector<Row> details;  // in the CSV only: every increment of the reports, every place of the lines
   std::vector<Expectation> theory;
@@ -39,11 +65,14 @@ struct Comparison {
 };
 
 // Either side may have failed, or not even have a model.
-Comparison compare(const Side& a, const Side& b, const std::vector<Line>& lines);
+// certain_a, certain_b: values that take the place of what the reports end with.
+Comparison compare(const Side& a, const Side& b, const std::vector<Line>& lines,
+                   const std::vector<CertainValue>& certain_a = {},
+                   const std::vector<CertainValue>& certain_b = {});
 
 // A page for the terminal; signs and units at its end.
 std::string to_text(const Comparison& comparison, const Side& a, const Side& b);
-// All rows: section,quantity,unit,A,B,difference,relative,expected_ratio.
-std::string to_csv(const Comparison& comparison, const Side& a, const Side& b);
+// All rows: section,quantity,unit,A,B,difference,relative,expected_ratio,error_A,error_B.
+std::string to_csv(const Comparison& comparison, const Side& a, const Side& b, int digits = kCsvDigits);
 
 }  // namespace sage::compare

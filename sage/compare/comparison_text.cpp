@@ -4,14 +4,13 @@
 #include <iterator>
 
 #include "sage/compare/comparison.hpp"
+#include "sage/output/discretisation.hpp"
 #include "sage/output/number.hpp"
 #include "sage/output/values.hpp"
 
 namespace sage::compare {
 
 namespace {
-
-constexpr int kDigits = 10;
 
 // Rounding beside numbers of size `scale` is shown as 0; the CSV has it.
 std::string shown(double value, double scale = 0.0) {
@@ -35,8 +34,8 @@ void table(std::string& text, const std::vector<Row>& rows) {
                      "B - A", "relative", "B/A exp.");
     }
     fmt::format_to(out, "  {:<44} {:>8} {:>13} {:>13} {:>13} {:>10} {:>9}\n", row.name, row.unit,
-                   shown(row.a, row.scale), shown(row.b, row.scale), shown(row.difference(), row.scale),
-                   shown_relative(row), shown(row.expected));
+                   row.zero_a() ? "0" : shown(row.a, row.scale), row.zero_b() ? "0" : shown(row.b, row.scale),
+                   shown(row.difference(), row.scale), shown_relative(row), shown(row.expected));
   }
 }
 
@@ -58,12 +57,50 @@ std::string signs(const Side& a, const Side& b) {
   return text;
 }
 
-void cells(std::string& text, std::initializer_list<double> values) {
-  for (double value : values) {
-    text += ',';
-    if (!std::isnan(value)) append_plain(text, value, kDigits);
-  }
+void cells(std::string& text, std::initializer_list<double> values, int digits) {
+  for (double value : values) append_optional_cell(text, value, digits);
   text += '\n';
+}
+
+// With the error of the mesh where it is known.
+std::string with_mesh_error(double value, double error) {
+  if (value == 0.0) return "0";
+  return std::isfinite(error) && std::isfinite(value) ? with_error(value, error) : shown(value);
+}
+
+// The question that is asked first: what the reports say in both, and what was to be expected of it.
+void answers(std::string& text, const Comparison& c, const Side& a, const Side& b) {
+  const auto out = std::back_inserter(text);
+  if (!a.has_state() || !b.has_state()) return;
+  if (c.answers.empty()) {
+    text +=
+        "\nThe decks report nothing that both have: a report card or --point x,y says what is to be "
+        "compared.\n";
+    return;
+  }
+  const auto title = [](const Side& side, const char* letter) {
+    return fmt::format("{} ({})", letter,
+                       side.model().geometry == Geometry::axisymmetric ? "axisymmetry" : "plane strain");
+  };
+  fmt::format_to(out, "\n{:<28} {:>8} {:>26} {:>26} {:>22} {:>10}\n", "reported at the end", "unit",
+                 title(a, "A"), title(b, "B"), "B / A", "theory");
+  for (const Answer& answer : c.answers)
+    fmt::format_to(out, "  {:<26} {:>8} {:>26} {:>26} {:>22} {:>10}  {}\n", answer.name, answer.unit,
+                   with_mesh_error(answer.a, answer.error_a), with_mesh_error(answer.b, answer.error_b),
+                   answer.a == 0.0 ? "-" : with_mesh_error(answer.ratio(), answer.ratio_error()),
+                   shown(answer.expected), answer.why);
+}
+
+void theory(std::string& text, const Comparison& c) {
+  if (c.theory.empty()) return;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "\n{:<46} {:>8} {:>13} {:>13} {:>10}\n", "theory", "unit", "expected", "found",
+                 "relative");
+  for (const Expectation& e : c.theory) {
+    const Row row{"", "", "", e.expected, e.found};
+    fmt::format_to(out, "  {:<44} {:>8} {:>13} {:>13} {:>10}  {}\n", e.what, e.unit, shown(e.expected),
+                   shown(e.found), std::isfinite(e.expected) ? shown_relative(row) : "-", e.why);
+  }
 }
 
 }  // namespace
@@ -72,16 +109,9 @@ std::string to_text(const Comparison& c, const Side& a, const Side& b) {
   std::string text;
   const auto out = std::back_inserter(text);
   for (const Side* side : {&a, &b}) fmt::format_to(out, "{}\n   {}\n", side->label(), outcome(*side));
+  answers(text, c, a, b);
+  theory(text, c);
   table(text, c.rows);
-  if (!c.theory.empty()) {
-    fmt::format_to(out, "\n{:<46} {:>8} {:>13} {:>13} {:>10}\n", "theory", "unit", "expected", "found",
-                   "relative");
-    for (const Expectation& e : c.theory) {
-      const Row row{"", "", "", e.expected, e.found};
-      fmt::format_to(out, "  {:<44} {:>8} {:>13} {:>13} {:>10}  {}\n", e.what, e.unit, shown(e.expected),
-                     shown(e.found), std::isfinite(e.expected) ? shown_relative(row) : "-", e.why);
-    }
-  }
   text += '\n';
   for (const std::string& note : c.notes) text += "note: " + note + "\n";
   text +=
@@ -90,25 +120,36 @@ std::string to_text(const Comparison& c, const Side& a, const Side& b) {
   return text;
 }
 
-std::string to_csv(const Comparison& c, const Side& a, const Side& b) {
+std::string to_csv(const Comparison& c, const Side& a, const Side& b, int digits) {
   std::string text;
   for (const Side* side : {&a, &b}) text += "# " + side->label() + ": " + outcome(*side) + "\n";
   text += "# signs: " + signs(a, b) + "\n";
   for (const std::string& note : c.notes) text += "# " + note + "\n";
-  text += "section,quantity,unit,A,B,difference,relative[-],expected_ratio[-]\n";
+  text += "section,quantity,unit,A,B,difference,relative[-],expected_ratio[-],error_A,error_B\n";
   const auto quoted = [](std::string words) {
     std::erase(words, '"');
     return words.find(',') == std::string::npos ? words : "\"" + words + "\"";
   };
+  for (const Answer& answer : c.answers) {
+    text += "reported at the end," + quoted(answer.name) + "," + quoted(answer.unit);
+    const Row row{"", "", "", answer.a, answer.b};
+    cells(
+        text,
+        {answer.a, answer.b, row.difference(), row.relative(), answer.expected, answer.error_a, answer.error_b},
+        digits);
+  }
   for (const auto* list : {&c.rows, &c.details})
     for (const Row& row : *list) {
       text += quoted(row.section) + "," + quoted(row.name) + "," + quoted(row.unit);
-      cells(text, {row.a, row.b, row.difference(), row.relative(), row.expected});
+      cells(text, {row.a, row.b, row.difference(), row.relative(), row.expected, std::nan(""), std::nan("")},
+            digits);
     }
   for (const Expectation& e : c.theory) {
     text += "theory (A = expected; B = found)," + quoted(e.what) + "," + quoted(e.unit);
     const Row row{"", "", "", e.expected, e.found};
-    cells(text, {e.expected, e.found, e.found - e.expected, row.relative(), std::nan("")});
+    cells(text,
+          {e.expected, e.found, e.found - e.expected, row.relative(), std::nan(""), std::nan(""), std::nan("")},
+          digits);
   }
   return text;
 }

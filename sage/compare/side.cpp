@@ -35,10 +35,15 @@ std::vector<Face> faces_of(const Model& model) {
         face.nodes.push_back(n);
         face.at_end.push_back(std::min(along - low[1 - normal], high[1 - normal] - along) <= tolerance ? 1 : 0);
       }
-    const double width = size[1 - normal];
-    face.area = !ring         ? width
-                : normal == 0 ? 2.0 * kPi * std::abs(place) * width
-                              : kPi * (high.x() * high.x() - low.x() * low.x());
+    double from = infinite, to = -infinite;
+    for (int n : face.nodes) {
+      from = std::min(from, model.mesh.x(1 - normal, n));
+      to = std::max(to, model.mesh.x(1 - normal, n));
+    }
+    face.area = !ring         ? to - from
+                : normal == 0 ? 2.0 * kPi * std::abs(place) * (to - from)
+                              : kPi * (to * to - from * from);
+    face.whole = to - from >= size[1 - normal] - tolerance;
     faces.push_back(std::move(face));
   };
   add("bottom", 1, -1.0);
@@ -49,10 +54,12 @@ std::vector<Face> faces_of(const Model& model) {
 }
 
 double normal_stress(const Face& face, const FaceState& state) {
+  if (!(face.area > 0.0)) return std::numeric_limits<double>::quiet_NaN();
   return 0.0 - face.outward * state.force[face.normal] / face.area;
 }
 
 double shear_stress(const Face& face, const FaceState& state) {
+  if (!(face.area > 0.0)) return std::numeric_limits<double>::quiet_NaN();
   return state.force[1 - face.normal] / face.area;
 }
 
@@ -145,7 +152,20 @@ void Side::close_stage(double load_factor, const Solution& now) {
     state.applied[dof % 2] += (*now.external)[dof];
     if (now.activity->held[static_cast<std::size_t>(dof)]) state.reactions[dof % 2] += reaction(now, dof);
   }
+  raise_floors(stage_of(*model_, state.stage), now);
   last_ = std::make_unique<KeptState>(*model_, now);
+}
+
+void Side::raise_floors(const Stage& stage, const Solution& now) {
+  const double tolerance = stage.tolerance;
+  double stress = 0.0;
+  for (const GroupData& data : now.assembly->groups())
+    if (data.active)
+      for (double s : data.state.committed.sigma) stress = std::max(stress, std::abs(s));
+  floors_.force = std::max(floors_.force,
+                           tolerance * now.internal->norm() * std::sqrt(static_cast<double>(model_->dofs())));
+  floors_.displacement = std::max(floors_.displacement, tolerance * now.u->lpNorm<Eigen::Infinity>());
+  floors_.stress = std::max(floors_.stress, tolerance * stress);
 }
 
 void Side::on_stage_end(const Model& model, int stage, const EquilibriumAudit& audit, const Solution& now) {

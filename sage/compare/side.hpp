@@ -17,8 +17,9 @@ struct Face {
   double outward = 1.0;
   std::vector<int> nodes;
   std::vector<char> at_end;  // of each node: it belongs to another face too
-  double area = 0.0;         // width of the box times unit thickness, or the full ring
+  double area = 0.0;         // of the part between its outermost nodes, times unit thickness or the full ring
   double length = 0.0;       // distance to the opposite face
+  bool whole = false;        // it reaches from corner to corner of the box
 };
 
 // Bottom, top, left, right of the nodes in use; no left face on the axis r = 0, where there is no area.
@@ -34,8 +35,16 @@ struct FaceState {
 };
 
 // Stress of a face, compression positive: mean normal stress, and mean shear along +y or +x.
+// NaN on a face without area.
 double normal_stress(const Face& face, const FaceState& state);
 double shear_stress(const Face& face, const FaceState& state);
+
+// What a run's tolerance of equilibrium leaves open: numbers below it are zero.
+//   force         tolerance x |internal forces| x sqrt(dofs): the most that out-of-balance forces add up to
+//   displacement, stress  tolerance x the largest of the run
+struct Floors {
+  double force = 0.0, displacement = 0.0, stress = 0.0;
+};
 
 struct StageState {
   int stage = 0;             // from 0
@@ -71,6 +80,7 @@ class Side final : public Observer {
   const Reports& reports() const { return *reports_; }
   const std::vector<Face>& faces() const { return faces_; }
   const std::vector<StageState>& stages() const { return stages_; }
+  const Floors& floors() const { return floors_; }
   Solution first() const { return first_->view(); }  // before the first increment
   Solution last() const { return last_->view(); }
 
@@ -85,6 +95,7 @@ class Side final : public Observer {
  private:
   std::vector<FaceState> face_states(const Solution& now) const;
   void close_stage(double load_factor, const Solution& now);
+  void raise_floors(const Stage& stage, const Solution& now);
 
   std::string label_, error_;
   std::unique_ptr<Model> model_;
@@ -92,6 +103,7 @@ class Side final : public Observer {
   RunRecord record_;
   std::vector<Face> faces_;
   std::vector<StageState> stages_;
+  Floors floors_;
   std::unique_ptr<KeptState> first_, last_;
 };
 

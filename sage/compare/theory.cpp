@@ -140,8 +140,14 @@ struct Modulus {
   bool restrained = false;
 };
 
+bool fills_box(const Side& side) {
+  return std::all_of(side.faces().begin(), side.faces().end(),
+                     [](const Face& face) { return face.whole && face.area > 0.0; });
+}
+
 std::optional<Modulus> modulus_of(const Side& side) {
   const Material* material = only_material(side.model());
+  if (!fills_box(side)) return std::nullopt;
   if (material == nullptr || !is_elastic(*material)) return std::nullopt;
   Modulus m;
   m.lateral = lateral_of(side);
@@ -275,6 +281,10 @@ double apparent_modulus(const Side& side, std::size_t stage) {
   return stress == 0.0 ? kUnknown : stress / strain;
 }
 
+bool uniform_ends(const Side& side, std::size_t stage) {
+  return !side.stages()[stage].faces.empty() && fills_box(side) && ends_stay_plane(side, stage);
+}
+
 double plane_strain_defect(const Side& side) {
   const auto &now = side.last().assembly->groups(), &start = side.first().assembly->groups();
   double worst = kUnknown, size = 0.0;
@@ -291,6 +301,79 @@ double plane_strain_defect(const Side& side) {
     }
   }
   return size > 0.0 ? worst / size : kUnknown;
+}
+
+namespace {
+
+// The same file, geometry and laws: only the numerics differ.
+bool same_problem(const Side& a, const Side& b) {
+  const Model &ma = a.model(), &mb = b.model();
+  if (ma.file != mb.file || ma.geometry != mb.geometry || ma.materials.size() != mb.materials.size())
+    return false;
+  for (std::size_t i = 0; i < ma.materials.size(); ++i)
+    if (ma.materials[i].law_name != mb.materials[i].law_name ||
+        ma.materials[i].parameters != mb.materials[i].parameters)
+      return false;
+  return true;
+}
+
+// All nodes of a report, and no others, on the top or the bottom.
+bool reports_an_end(const Side& side, const Report& report) {
+  for (const char* name : {"top", "bottom"}) {
+    const Face* face = find_face(side, name);
+    if (face == nullptr || face->nodes.size() != report.nodes.size()) continue;
+    std::vector<int> nodes = report.nodes;
+    std::sort(nodes.begin(), nodes.end());
+    if (std::equal(nodes.begin(), nodes.end(), face->nodes.begin())) return true;
+  }
+  return false;
+}
+
+// Evenly strained elastic bodies: the stress of an end by the ratio of the moduli where its displacement is
+// given, the displacement by its inverse where its load is.
+ExpectedRatio elastic_ratio(const Side& a, const Side& b, std::size_t i, bool force) {
+  const auto ma = modulus_of(a), mb = modulus_of(b);
+  const Side* sides[2] = {&a, &b};
+  double area[2] = {0.0, 0.0};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Side& side = *sides[k];
+    const Report& report = side.model().reports[i];
+    const Model& model = side.model();
+    const bool from_nothing = model.stages.size() == 1 && model.initials.empty() &&
+                              model.stages[0].initials.empty() && model.stages[0].gravity.isZero(0.0);
+    if (!from_nothing || !reports_an_end(side, report)) return {kUnknown, ""};
+    const Face* face = find_face(side, "top");
+    const bool held = held_part(side, *face, 1) == 1.0;
+    if (held != force) return {kUnknown, ""};  // what is given is no answer
+    area[k] = face->area;
+  }
+  if (!ma || !mb || ma->restrained || mb->restrained) return {kUnknown, ""};
+  const double moduli = mb->expected / ma->expected;
+  if (!force) return {1.0 / moduli, "uniform elastic bodies under the same pressure: ratio of the moduli"};
+  return {moduli * area[1] / area[0], "uniform elastic bodies under the same strain: ratio of moduli x areas"};
+}
+
+}  // namespace
+
+ExpectedRatio expected_ratio(const Side& a, const Side& b, std::size_t report, const std::string& column) {
+  const ExpectedRatio nothing{kUnknown, "nothing is known"};
+  if (!a.has_state() || !b.has_state()) return nothing;
+  if (same_problem(a, b)) return {1.0, "the same problem: equal up to the error of the meshes"};
+  const ReportKind kind = a.model().reports[report].kind;
+  if (kind == ReportKind::triaxial && column == "measured_deviator") {
+    const auto &ra = a.reports().triaxial(report), &rb = b.reports().triaxial(report);
+    const double ratio =
+        ra.empty() || rb.empty() ? kUnknown : rb.back().correct_deviator / ra.back().correct_deviator;
+    const bool restrained = restrained_ends(a) || restrained_ends(b);
+    if (!std::isfinite(ratio) || ra.back().axial_strain != rb.back().axial_strain) return nothing;
+    return {ratio, restrained ? "one point of each law: for frictionless ends, these are restrained"
+                              : "one point of each law, frictionless ends"};
+  }
+  if (kind == ReportKind::nodes && (column == "fy" || column == "uy")) {
+    const ExpectedRatio elastic = elastic_ratio(a, b, report, column == "fy");
+    if (std::isfinite(elastic.value)) return elastic;
+  }
+  return nothing;
 }
 
 std::vector<Expectation> expectations(const Side& a, const Side& b) {

@@ -28,9 +28,21 @@ PlaneStrainStrength plane_strain_strength(double alpha, double k, double beta);
 // Apparent modulus of a stage, d(mean stress of the top) / d(strain of the height); NaN without a strain.
 double apparent_modulus(const Side& side, std::size_t stage);
 
+// Whether the former means something for a stage: the mesh fills its box, and bottom and top stay plane over
+// the stage, as between platens or under an even pressure.
+bool uniform_ends(const Side& side, std::size_t stage);
+
 // The largest |sigma_zz - sigma_zz0 - nu (d sigma_xx + d sigma_yy)| over the points of linear elastic groups,
 // divided by the largest stress change there; NaN where there is no such group.
 double plane_strain_defect(const Side& side);
+
+// What theory expects of B / A for the last value of a report's column ("fy"); NaN, and why = "nothing is
+// known", where it expects nothing.
+struct ExpectedRatio {
+  double value = 0.0;
+  std::string why;
+};
+ExpectedRatio expected_ratio(const Side& a, const Side& b, std::size_t report, const std::string& column);
 
 std::vector<Expectation> expectations(const Side& a, const Side& b);
 

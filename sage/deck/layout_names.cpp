@@ -45,6 +45,7 @@ constexpr KnownCard kKnown[] = {
     {"sage1", "death", false, "groups", "", "stage"},
     {"sage1", "report", false, "first|nodes",
      "kind first last step nodes group stage height area cell_pressure", ""},
+    {"sage1", "point", false, "x y", "name", "report"},
 
     {"quad4m", "title", false, "", "title", ""},
     {"quad4m", "units", true, "system", "", ""},

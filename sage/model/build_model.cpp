@@ -84,16 +84,76 @@ void build_control(Builder& b) {
                                       b.catalogue.solvers.known());
 }
 
+namespace {
+
+void read_stage(Builder& b, const CardView& card, Report& report) {
+  const int stage = card.integer("stage") == 0 ? 1 : card.integer("stage");
+  report.stage = stage - 1;
+  if (stage < 1 || stage > static_cast<int>(b.model.stages.size()))
+    b.error(card.where("stage"), "the report starts at stage " + std::to_string(stage) + "; the deck has " +
+                                     std::to_string(b.model.stages.size()));
+}
+
+// From the point card behind the report card.
+void read_point(Builder& b, const CardView& card, Report& report) {
+  read_stage(b, card, report);
+  const int group = card.integer("group");
+  if (group != 0) {
+    const auto found = b.group_index.find(group);
+    if (found == b.group_index.end())
+      b.group_missing(card.where("group"), group);
+    else
+      report.group = found->second;
+  }
+  const std::vector<CardView> places = b.deck.all("point", card);
+  if (places.empty()) {
+    b.error(card.where(), "a point report needs a point card with its place, x and y, behind it");
+    return;
+  }
+  const CardView& place = places.front();
+  report.where = place.where();
+  report.name = b.text(place, "name");
+  for (const char* field : {"x", "y"}) b.usable(place, field, place.real(field));
+  report.place = {place.real("x"), place.real("y")};
+}
+
+// Reports that the options ask for.
+void add_requested_points(Builder& b) {
+  for (const PointRequest& request : b.options.points) {
+    Report report;
+    report.kind = ReportKind::point;
+    report.place = request.place;
+    report.name = request.name;
+    report.where = b.at_line(0);
+    if (request.group != 0) {
+      const auto found = b.group_index.find(request.group);
+      if (found == b.group_index.end())
+        b.group_missing(report.where, request.group);
+      else
+        report.group = found->second;
+    }
+    b.model.reports.push_back(std::move(report));
+  }
+}
+
+}  // namespace
+
 void build_reports(Builder& b) {
   for (const CardView& card : b.deck.all("report")) {
     Report report;
     report.where = card.where();
     const int kind = card.integer("kind", 1);
-    if (kind != 1 && kind != 2) {
-      b.error(card.where("kind"), "report kind " + std::to_string(kind) + " is unknown; 1 triaxial, 2 nodes");
+    if (kind < 1 || kind > 3) {
+      b.error(card.where("kind"),
+              "report kind " + std::to_string(kind) + " is unknown; 1 triaxial, 2 nodes, 3 a point");
       continue;
     }
     report.kind = static_cast<ReportKind>(kind);
+    if (report.kind == ReportKind::point) {
+      read_point(b, card, report);
+      b.model.reports.push_back(std::move(report));
+      continue;
+    }
     const NumberRange range = card.blank("nodes") ? b.range(card, "first") : NumberRange{};
     for (std::int64_t number = range.first; number <= range.last; number += range.step) {
       const int node = b.node(card, number == range.first ? "first" : "last", number);
@@ -107,11 +167,7 @@ void build_reports(Builder& b) {
     report.height = card.real("height");
     report.area = card.real("area");
     report.cell_pressure = card.real("cell_pressure");
-    const int stage = card.integer("stage") == 0 ? 1 : card.integer("stage");
-    report.stage = stage - 1;
-    if (stage < 1 || stage > static_cast<int>(b.model.stages.size()))
-      b.error(card.where("stage"), "the report starts at stage " + std::to_string(stage) + "; the deck has " +
-                                       std::to_string(b.model.stages.size()));
+    read_stage(b, card, report);
     if (report.kind == ReportKind::triaxial) {
       const auto group = b.group_index.find(card.integer("group"));
       if (group == b.group_index.end())
@@ -124,9 +180,15 @@ void build_reports(Builder& b) {
       if (card.blank("cell_pressure"))
         b.note(card.where(), "the cell pressure of this triaxial report is left blank, which reads as 0");
       for (const char* field : {"height", "area", "cell_pressure"}) b.usable(card, field, card.real(field));
+      if (!report.nodes.empty() && report.area == 0.0 && !(report_area(b.model, report) > 0.0))
+        b.error(card.where("area"),
+                std::string("give the area: it is left blank and can't be found from the report's nodes, ") +
+                    (b.model.geometry == Geometry::axisymmetric ? "all of which lie on the axis"
+                                                                : "which have no width along x"));
     }
     b.model.reports.push_back(std::move(report));
   }
+  add_requested_points(b);
 }
 
 void check_totals(Builder& b) {
@@ -197,6 +259,7 @@ Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOp
   if (b.problems.errors() > 0) throw refusal(deck, b.problems);
   build::check_model(b);
   build::check_stages(b);
+  build::check_points(b);
   if (b.problems.errors() == 0) build::check_plausible(b);
   if (b.problems.errors() > 0) throw refusal(deck, b.problems);
   return std::move(b.model);

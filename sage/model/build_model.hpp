@@ -18,6 +18,13 @@ struct Grading {
   double ratio = 0.15;  // of one layer's size to the next larger one's
 };
 
+// A point report beside those of the deck's cards: displacement and strain count from the first stage.
+struct PointRequest {
+  Vector2 place = Vector2::Zero();
+  std::string name;
+  int group = 0;  // the deck's number; 0 = the first that holds the place
+};
+
 struct BuildOptions {
   // Replaces the deck's formulation code of solid groups where it exists; -1 = as the deck says.
   int formulation = -1;
@@ -29,6 +36,8 @@ struct BuildOptions {
   int refine = 0;                 // every element into four, so many times
   std::vector<Grading> gradings;  // after refining
   bool partial = false;  // what the program lacks may be left out (Deck::left_out); otherwise it is an error
+  std::vector<PointRequest> points;             // behind the deck's reports
+  bool points_outside = false;                  // a requested point may lie outside: its report is blank then
   std::function<void(const std::string&)> say;  // told at once, before a large mesh is made; empty = nobody
 };
 

@@ -69,6 +69,8 @@ void build_groups(Builder& b);
 void build_elements(Builder& b);
 void build_stages(Builder& b);
 void build_reports(Builder& b);
+// Places of point reports: outside the mesh, or where several bodies meet.
+void check_points(Builder& b);
 // Nodes and elements made against the totals that the control card states.
 void check_totals(Builder& b);
 // Refinement and grading that the options ask for.

@@ -56,8 +56,8 @@ void check_inactive(Builder& b) {
     }
     for (std::size_t i = 0; i < model.reports.size(); ++i) {
       const Report& report = model.reports[i];
-      if (stage.number <= report.stage || !std::all_of(report.nodes.begin(), report.nodes.end(), idle_node) ||
-          !told.insert(i).second)
+      if (report.kind == ReportKind::point || stage.number <= report.stage ||
+          !std::all_of(report.nodes.begin(), report.nodes.end(), idle_node) || !told.insert(i).second)
         continue;
       b.warning(report.where, "stage " + std::to_string(stage.number) +
                                   ": no element that is placed then has a node "

@@ -47,7 +47,8 @@ std::uint64_t fingerprint(const Model& model) {
   add_initials(archive, model.initials);
   for (const Stage& stage : model.stages) add_stage(archive, stage);
   for (const Report& r : model.reports)
-    add(archive, r.kind, r.group, r.nodes, r.height, r.area, r.cell_pressure, r.stage);
+    add(archive, r.kind, r.group, r.nodes, r.height, r.area, r.cell_pressure, r.place.x(), r.place.y(), r.name,
+        r.stage);
   return checksum(archive.bytes());
 }
 

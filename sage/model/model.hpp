@@ -108,16 +108,19 @@ struct Stage {
   SourcePosition where;
 };
 
-enum class ReportKind { triaxial = 1, nodes = 2 };
+enum class ReportKind { triaxial = 1, nodes = 2, point = 3 };
 
 // triaxial: axial force of the listed nodes against the law's own answer for frictionless ends.
 // nodes: displacement and force summed over the listed nodes, a row an increment.
+// point: displacement, strain and stress at a place, a row an increment.
 struct Report {
   ReportKind kind = ReportKind::triaxial;
-  int group = -1;  // specimen group
+  int group = -1;  // triaxial: of the specimen; point: the one that answers where several meet, -1 = the first
   std::vector<int> nodes;
   double height = 0.0, area = 0.0, cell_pressure = 0.0;
-  int stage = 0;  // strain and deviator count from the start of this stage (0-based)
+  Vector2 place = Vector2::Zero();  // point
+  std::string name;                 // point; may be empty
+  int stage = 0;                    // strain and deviator count from the start of this stage (0-based)
   SourcePosition where;
 };
 
@@ -141,6 +144,10 @@ struct Model {
     return materials[static_cast<std::size_t>(group.material)];
   }
 };
+
+// Area under a triaxial report's nodes: the deck's, or pi r_max^2, or the width in plane strain.  NaN without
+// nodes.
+double report_area(const Model& model, const Report& report);
 
 // Coordinates of an element's nodes, in x (2 x nodes).
 void element_coordinates(const Mesh& mesh, const Group& group, int element, Eigen::Matrix2Xd& x);

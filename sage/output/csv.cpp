@@ -12,22 +12,29 @@ namespace sage {
 
 namespace {
 
-constexpr int kDigits = 10;
+// A table's cells, one behind the other.
+struct Cells {
+  std::string& text;
+  int digits = kCsvDigits;
 
-void cell(std::string& text, double value) {
-  text += ',';
-  append_plain(text, value, kDigits);
-}
-
-void cell(std::string& text, long value) {
-  text += ',';
-  append_integer(text, value, 0);
-}
-
-void place(std::string& text, const StepReport& report) {
-  append_integer(text, report.stage + 1, 0);
-  cell(text, static_cast<long>(report.increment));
-}
+  void result(double value) const { append_result_cell(text, value, digits); }
+  void optional(double value) const { append_optional_cell(text, value, digits); }
+  void integer(long value) const {
+    text += ',';
+    append_integer(text, value, 0);
+  }
+  void word(std::string_view value) const {
+    text += ',';
+    text += value;
+  }
+  void blank() const { text += ','; }
+  // The first two columns.
+  void begin(const StepReport& report) const {
+    append_integer(text, report.stage + 1, 0);
+    integer(report.increment);
+  }
+  void end() const { text += '\n'; }
+};
 
 std::string head(const Model& model) {
   return "# " + model.title + "\n" + sign_convention(model, "# ");
@@ -80,52 +87,55 @@ std::string points_header(const Model& model, bool solid, const std::vector<Quan
   return text + "\n";
 }
 
-void increment_row(std::string& text, const StepReport& r) {
+void increment_row(const Cells& cells, const StepReport& r) {
   const IterationRecord last = r.iterations.empty() ? IterationRecord{} : r.iterations.back();
-  place(text, r);
-  cell(text, r.load_factor);
-  cell(text, r.converged ? 1L : 0L);
-  cell(text, static_cast<long>(r.total_iterations));
-  for (double v : {last.force, last.displacement, last.energy}) cell(text, v);
-  cell(text, static_cast<long>(r.cuts));
-  cell(text, static_cast<long>(r.substeps));
-  for (long count : r.points) cell(text, count);
+  cells.begin(r);
+  cells.result(r.load_factor);
+  cells.integer(r.converged ? 1 : 0);
+  cells.integer(r.total_iterations);
+  // Of a step that failed they may be anything.
+  for (double v : {last.force, last.displacement, last.energy}) cells.optional(v);
+  cells.integer(r.cuts);
+  cells.integer(r.substeps);
+  for (long count : r.points) cells.integer(count);
 }
 
-void worst_columns(std::string& text, const Model& model, const StepReport& r) {
+void worst_columns(const Cells& cells, const Model& model, const StepReport& r) {
   if (r.worst.node >= 0) {
-    cell(text, static_cast<long>(model.mesh.number[static_cast<std::size_t>(r.worst.node)]));
-    text += r.worst.component == 0 ? ",x" : ",y";
-    cell(text, r.worst.residual);
+    cells.integer(model.mesh.number[static_cast<std::size_t>(r.worst.node)]);
+    cells.word(r.worst.component == 0 ? "x" : "y");
+    cells.optional(r.worst.residual);
   } else {
-    text += ",,,";
+    for (int i = 0; i < 3; ++i) cells.blank();
   }
-  text += ',';
-  if (r.smallest_pivot_ratio >= 0.0) append_plain(text, r.smallest_pivot_ratio, kDigits);
-  text += '\n';
+  if (r.smallest_pivot_ratio >= 0.0)
+    cells.optional(r.smallest_pivot_ratio);
+  else
+    cells.blank();
+  cells.end();
 }
 
-void node_rows(std::string& text, const Model& model, const StepReport& report, const Solution& s) {
+void node_rows(const Cells& cells, const Model& model, const StepReport& report, const Solution& s) {
   const std::vector<char> active = active_nodes(model, *s.activity);
   for (int node = 0; node < model.mesh.nodes(); ++node) {
     const auto n = static_cast<std::size_t>(node);
     if (!active[n]) continue;
-    place(text, report);
-    cell(text, static_cast<long>(model.mesh.number[n]));
-    for (int c = 0; c < 2; ++c) cell(text, model.mesh.x(c, node));
-    for (int c = 0; c < 2; ++c) cell(text, (*s.u)[2 * node + c]);
-    for (int c = 0; c < 2; ++c) cell(text, (*s.external)[2 * node + c]);
+    cells.begin(report);
+    cells.integer(model.mesh.number[n]);
+    for (int c = 0; c < 2; ++c) cells.result(model.mesh.x(c, node));
+    for (int c = 0; c < 2; ++c) cells.result((*s.u)[2 * node + c]);
+    for (int c = 0; c < 2; ++c) cells.result((*s.external)[2 * node + c]);
     for (std::size_t c = 0; c < 2; ++c) {
       if (s.activity->held[2 * n + c])
-        cell(text, reaction(s, 2 * node + static_cast<int>(c)));
+        cells.result(reaction(s, 2 * node + static_cast<int>(c)));
       else
-        text += ',';
+        cells.blank();
     }
-    text += '\n';
+    cells.end();
   }
 }
 
-void history_cells(std::string& text, const GroupData& data, std::size_t point,
+void history_cells(const Cells& cells, const GroupData& data, std::size_t point,
                    const std::vector<std::string_view>& columns) {
   const std::span<const Quantity> quantities = history_of(data);
   const double* h = data.state.committed.h.data() + point * quantities.size();
@@ -133,13 +143,13 @@ void history_cells(std::string& text, const GroupData& data, std::size_t point,
     const auto it =
         std::find_if(quantities.begin(), quantities.end(), [&](const Quantity& q) { return q.name == column; });
     if (it == quantities.end())
-      text += ',';
+      cells.blank();
     else
-      cell(text, outward(*it, h[it - quantities.begin()]));
+      cells.result(outward(*it, h[it - quantities.begin()]));
   }
 }
 
-void point_rows(std::string& text, const Model& model, const StepReport& report, const GroupData& data,
+void point_rows(const Cells& cells, const Model& model, const StepReport& report, const GroupData& data,
                 const std::vector<std::string_view>& history) {
   const Group& group = *data.group;
   const PointStates& state = data.state.committed;
@@ -151,27 +161,39 @@ void point_rows(std::string& text, const Model& model, const StepReport& report,
     for (int p = 0; p < count; ++p) {
       const auto point = static_cast<std::size_t>(e * count + p);
       const Vector2 at = group.element->position(x, p);
-      place(text, report);
-      cell(text, static_cast<long>(group.number));
-      cell(text, static_cast<long>(group.element_numbers[static_cast<std::size_t>(e)]));
-      cell(text, static_cast<long>(p + 1));
-      cell(text, at.x());
-      cell(text, at.y());
-      for (std::size_t i = 0; i < n; ++i) cell(text, outward(state.sigma[point * n + i]));
-      for (std::size_t i = 0; i < n; ++i) cell(text, outward(state.eps[point * n + i]));
-      cell(text, stress_level(data, point));
-      text += ',';
-      text += status_name(shown_status(model.mesh, data, point));
-      history_cells(text, data, point, history);
-      text += '\n';
+      cells.begin(report);
+      cells.integer(group.number);
+      cells.integer(group.element_numbers[static_cast<std::size_t>(e)]);
+      cells.integer(p + 1);
+      cells.result(at.x());
+      cells.result(at.y());
+      for (std::size_t i = 0; i < n; ++i) cells.result(outward(state.sigma[point * n + i]));
+      for (std::size_t i = 0; i < n; ++i) cells.result(outward(state.eps[point * n + i]));
+      cells.optional(stress_level(data, point));  // infinite where no strength is left
+      cells.word(status_name(shown_status(model.mesh, data, point)));
+      history_cells(cells, data, point, history);
+      cells.end();
     }
+  }
+}
+
+// A result that is no number throws: the rows of its state are then taken back.
+template <class AddRows>
+void add_whole(OutFile& file, const AddRows& add_rows) {
+  if (!file.open()) return;
+  const std::size_t before = file.text().size();
+  try {
+    add_rows(file.text());
+  } catch (...) {
+    file.text().resize(before);
+    throw;
   }
 }
 
 }  // namespace
 
 Csv::Csv(const std::filesystem::path& folder, const std::string& stem, CsvOptions options)
-    : folder_(folder), stem_(stem) {
+    : folder_(folder), stem_(stem), digits_(options.digits) {
   if (options.increments) increments_ = OutFile(folder / (stem + ".increments.csv"));
   if (options.nodes) nodes_ = OutFile(folder / (stem + ".nodes.csv"));
   if (options.points) points_.file = OutFile(folder / (stem + ".points.csv"));
@@ -194,23 +216,28 @@ void Csv::on_start(const Model& model, const Scene&, std::string_view, int) {
   open(interfaces_, 2);
 }
 
+void Csv::add_increment(const Model& model, const StepReport& report) {
+  add_whole(increments_, [&](std::string& text) {
+    const Cells cells{text, digits_};
+    increment_row(cells, report);
+    worst_columns(cells, model, report);
+  });
+}
+
 void Csv::add_states(const Model& model, const StepReport& report, const Solution& solution) {
-  if (nodes_.open()) node_rows(nodes_.text(), model, report, solution);
-  if (points_.file.open())
-    for (const GroupData& data : solution.assembly->groups()) {
-      if (!data.active) continue;
-      Table& table = data.state.law_size() == 4 ? points_ : interfaces_;
-      point_rows(table.file.text(), model, report, data, table.history);
-    }
+  add_whole(nodes_, [&](std::string& text) { node_rows({text, digits_}, model, report, solution); });
+  for (Table* table : {&points_, &interfaces_})
+    add_whole(table->file, [&](std::string& text) {
+      for (const GroupData& data : solution.assembly->groups())
+        if (data.active && (data.state.law_size() == 4) == (table == &points_))
+          point_rows({text, digits_}, model, report, data, table->history);
+    });
   for (OutFile* file : all()) file->checkpoint();
 }
 
 void Csv::on_increment(const Model& model, const StepReport& report, const Solution& solution) {
-  if (increments_.open()) {
-    increment_row(increments_.text(), report);
-    worst_columns(increments_.text(), model, report);
-    increments_.checkpoint();
-  }
+  add_increment(model, report);
+  increments_.checkpoint();
   if (is_output_increment(stage_of(model, report.stage), report)) add_states(model, report, solution);
 }
 
@@ -225,10 +252,7 @@ void Csv::comment(const std::string& line) {
 
 void Csv::on_failure(const Model& model, const StepReport& report, const std::string&,
                      const Solution& solution) {
-  if (increments_.open()) {
-    increment_row(increments_.text(), report);
-    worst_columns(increments_.text(), model, report);
-  }
+  add_increment(model, report);
   add_states(model, report, solution);
   comment(fmt::format(
       "NOT CONVERGED in stage {}, increment {}; the last state in equilibrium is at load factor {:.6g}",

@@ -2,6 +2,7 @@
 // ended); then one header line with the unit of each column in brackets.  Blank = not known or does not apply.
 #pragma once
 
+#include "sage/output/number.hpp"
 #include "sage/output/out_file.hpp"
 #include "sage/output/output.hpp"
 
@@ -11,6 +12,7 @@ struct CsvOptions {
   bool increments = true;  // STEM.increments.csv: a row an increment
   bool nodes = false;      // STEM.nodes.csv: a row a node of an output increment
   bool points = false;     // STEM.points.csv and, where there are interfaces, STEM.interfaces.csv
+  int digits = kCsvDigits;
 };
 
 class Csv final : public Output {
@@ -35,12 +37,14 @@ class Csv final : public Output {
     std::vector<std::string_view> history;  // columns, in this order (points and interfaces)
   };
   std::array<OutFile*, 4> all() { return {&increments_, &nodes_, &points_.file, &interfaces_.file}; }
+  void add_increment(const Model&, const StepReport&);
   void add_states(const Model&, const StepReport&, const Solution&);
   void comment(const std::string& line);
   void finish();
 
   std::filesystem::path folder_;
   std::string stem_;
+  int digits_;
   OutFile increments_, nodes_;
   Table points_, interfaces_;
   std::vector<std::filesystem::path> files_;

@@ -64,6 +64,23 @@ void node_rows(std::string& text, const Model& model, const std::vector<NodesRow
   if (std::ranges::any_of(rows, holds)) text += kHeldNote;
 }
 
+void point_rows(std::string& text, const Model& model, const std::vector<PointRow>& rows) {
+  const AxisNames& names = axis_names(model.geometry);
+  text += "   stage  incr";
+  for (const std::string_view axis : {names.x, names.y})
+    fmt::format_to(to(text), "{:>14}", fmt::format("u-{}", axis));
+  for (const std::string_view name : names.strain) fmt::format_to(to(text), "{:>14}", name);
+  for (const std::string_view name : names.stress) fmt::format_to(to(text), "{:>14}", name);
+  fmt::format_to(to(text), "    (displacement {}, stress {})\n", model.units.length, model.units.stress);
+  for (const PointRow& r : rows) {
+    fmt::format_to(to(text), "   {:>5}{:>6}", r.stage, r.increment);
+    for (double v : r.displacement) put(text, v, 14, 6);
+    for (double v : r.strain) put(text, v, 14, 6);
+    for (double v : r.stress) put(text, v, 14, 6);
+    text += '\n';
+  }
+}
+
 }  // namespace
 
 void increment_columns(std::string& text) {
@@ -105,10 +122,23 @@ void audit(std::string& text, const Model& model, const EquilibriumAudit& audit)
 
 void report_rows(std::string& text, const Model& model, const Reports& reports) {
   for (std::size_t i = 0; i < reports.count(); ++i) {
-    const bool triaxial = model.reports[i].kind == ReportKind::triaxial;
-    heading(text,
-            fmt::format("REPORT {}: {}", i + 1, triaxial ? "TRIAXIAL TEST (COMPRESSION POSITIVE)" : "NODES"));
-    triaxial ? triaxial_rows(text, model, reports.triaxial(i)) : node_rows(text, model, reports.nodes(i));
+    const Report& report = model.reports[i];
+    switch (report.kind) {
+      case ReportKind::triaxial:
+        heading(text, fmt::format("REPORT {}: TRIAXIAL TEST (COMPRESSION POSITIVE)", i + 1));
+        triaxial_rows(text, model, reports.triaxial(i));
+        break;
+      case ReportKind::nodes:
+        heading(text, fmt::format("REPORT {}: NODES", i + 1));
+        node_rows(text, model, reports.nodes(i));
+        break;
+      case ReportKind::point:
+        heading(text,
+                fmt::format("REPORT {}: POINT {}({:.10g}; {:.10g})", i + 1,
+                            report.name.empty() ? "" : report.name + " ", report.place.x(), report.place.y()));
+        point_rows(text, model, reports.points(i));
+        break;
+    }
   }
 }
 

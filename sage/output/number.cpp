@@ -13,6 +13,8 @@
 #include <limits>
 #include <string_view>
 
+#include "sage/core/error.hpp"
+
 namespace sage {
 
 namespace {
@@ -23,6 +25,7 @@ struct Decimal {
   int exponent = 0;
 };
 
+constexpr int kFastDigits = 15;                         // more don't survive the scaling by a power of ten
 constexpr double kSmallest = 1e-280, kLargest = 1e280;  // beyond them the library's formatter is used
 
 const std::array<double, 309>& powers_of_ten() {
@@ -159,7 +162,7 @@ void append_plain(std::string& text, double value, int digits) {
     return;
   }
   const double size = std::abs(value);
-  if (!in_range(size)) {
+  if (!in_range(size) || digits > kFastDigits) {
     fmt::format_to(std::back_inserter(text), "{:.{}g}", value, digits);
     return;
   }
@@ -167,6 +170,21 @@ void append_plain(std::string& text, double value, int digits) {
   char* at = buffer;
   if (value < 0.0) *at++ = '-';
   text.append(buffer, put_plain(at, decimal_of(size, digits), digits));
+}
+
+void append_result_cell(std::string& text, double value, int digits) {
+  if (!std::isfinite(value))
+    throw AnalysisError(
+        fmt::format("a result is {}, no finite number: the model's numbers are too large or too "
+                    "small to compute with",
+                    std::isnan(value) ? "undefined" : "infinite"));
+  text += ',';
+  append_plain(text, value, digits);
+}
+
+void append_optional_cell(std::string& text, double value, int digits) {
+  text += ',';
+  if (std::isfinite(value)) append_plain(text, value, digits);
 }
 
 void append_integer(std::string& text, long value, int width) {

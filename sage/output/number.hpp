@@ -11,7 +11,16 @@ namespace sage {
 void append_scientific(std::string& text, double value, int width, int digits);
 
 // Up to `digits` significant digits without trailing zeros, for files that programs read: 0.25, 1.5e-07, nan.
+// 17 digits give back every number as it is.
 void append_plain(std::string& text, double value, int digits);
+
+inline constexpr int kCsvDigits = 10;  // where nobody asks for more
+
+// ",value" of a table for programs, which holds no inf and no nan.  A result is a finite number: anything else
+// throws AnalysisError and leaves `text` as it was.  An optional one is blank where it is not known, does not
+// apply or is beyond all numbers (the stress level of a point without strength).
+void append_result_cell(std::string& text, double value, int digits = kCsvDigits);
+void append_optional_cell(std::string& text, double value, int digits = kCsvDigits);
 
 void append_integer(std::string& text, long value, int width);
 

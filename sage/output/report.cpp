@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "sage/analysis/loads.hpp"
 #include "sage/output/number.hpp"
@@ -17,13 +18,6 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr int kSubsteps = 10;  // of the law, an increment
-constexpr int kDigits = 10;
-
-struct NodeSums {
-  // Mean over the deck's own nodes, so that it keeps its meaning in finer meshes.
-  double displacement[2] = {0, 0};
-  double force[2] = {0, 0};  // sum of internal forces, less the weight
-};
 
 // What the weight of the soil puts on the report's nodes: what acts at the start of a stage stays, what is
 // placed or added in it grows.
@@ -44,24 +38,6 @@ struct Weights {
     end = weight_of(model, activity.group, gravity + model.stages[static_cast<std::size_t>(stage)].gravity);
   }
 };
-
-// weight: at the start and the end of the stage, of which load_factor has passed.
-NodeSums sum_nodes(const Model& model, const Report& report, const Solution& solution,
-                   const double (&weight)[2][2], double load_factor) {
-  NodeSums sums;
-  for (int c = 0; c < 2; ++c) sums.force[c] = -(1.0 - load_factor) * weight[0][c] - load_factor * weight[1][c];
-  int own = 0;
-  for (int node : report.nodes) {
-    const bool of_deck = node < model.mesh.deck_nodes;
-    own += of_deck ? 1 : 0;
-    for (int c = 0; c < 2; ++c) {
-      if (of_deck) sums.displacement[c] += (*solution.u)[2 * node + c];
-      sums.force[c] += (*solution.internal)[2 * node + c];
-    }
-  }
-  for (double& d : sums.displacement) d /= std::max(own, 1);
-  return sums;
-}
 
 // Forces on the report's nodes that nothing bears when a stage starts: they are held, and let go over the
 // stage. What equilibrium leaves at free nodes is not meant.
@@ -88,39 +64,76 @@ const SolidLaw* specimen_law(const Model& model, const Report& report) {
   return solid != nullptr ? *solid : nullptr;
 }
 
-std::string header(const Model& model, const Report& report) {
+// What stands in the comment lines above the columns.
+std::string remarks(const Model& model, std::size_t index) {
+  const Report& report = model.reports[index];
   const UnitSystem& u = model.units;
   const std::string per = forces_per(model.geometry);
-  std::string text = "# " + model.title + "\n";
   if (report.kind == ReportKind::triaxial)
-    return text +
-           fmt::format(
-               "# triaxial report; compression positive; strain and deviator count from the start of stage "
-               "{0}; units {1}, {2}, {3}; forces {4}\n"
-               "# correct: one point of the law, frictionless ends; ratio = measured / correct deviator\n"
-               "stage,increment,axial_strain[-],force[{2}],measured_deviator[{3}],correct_deviator[{3}],"
-               "measured_axial[{3}],correct_axial[{3}],ratio[-]\n",
-               report.stage + 1, u.length, u.force, u.stress, per);
-  return text + fmt::format(
-                    "# node report: mean displacement since the start of stage {0}, sum of the forces that "
-                    "loads and supports put on the nodes, without the weight of the soil; positive along +x, "
-                    "+y; forces {3}\n"
-                    "stage,increment,ux[{1}],uy[{1}],fx[{2}],fy[{2}]\n",
-                    report.stage + 1, u.length, u.force, per);
+    return fmt::format(
+        "# triaxial report; compression positive; strain and deviator count from the start of stage {0}; units "
+        "{1}, {2}, {3}; forces {4}\n"
+        "# correct: one point of the law, frictionless ends; ratio = measured / correct deviator\n",
+        report.stage + 1, u.length, u.force, u.stress, per);
+  if (report.kind == ReportKind::nodes)
+    return fmt::format(
+        "# node report: mean displacement since the start of stage {}, sum of the forces that loads and "
+        "supports "
+        "put on the nodes, without the weight of the soil; positive along +x, +y; forces {}\n",
+        report.stage + 1, per);
+  return fmt::format(
+      "# {}; displacement along +x, +y and strain since the start of stage {}; stress and strain compression "
+      "positive, shear likewise reversed and engineering; units {}, {}\n"
+      "# mean_stress = (xx + yy + zz) / 3, deviator = sqrt(3 J2); blank while nothing is placed there\n{}",
+      report_title(model, index), report.stage + 1, u.length, u.stress,
+      model.geometry == Geometry::axisymmetric ? "# x = r, y = z, zz = hoop\n" : "");
 }
 
-void append_row(std::string& text, int stage, int increment, std::initializer_list<double> values) {
-  append_integer(text, stage, 0);
-  text += ',';
-  append_integer(text, increment, 0);
-  for (double value : values) {
-    text += ',';
-    if (!std::isnan(value)) append_plain(text, value, kDigits);
-  }
-  text += '\n';
+std::string header(const Model& model, std::size_t index) {
+  std::string text = "# " + model.title + "\n" + remarks(model, index) + "stage,increment";
+  for (const ReportColumn& column : report_columns(model, model.reports[index]))
+    text += fmt::format(",{}[{}]", column.name, column.unit);
+  return text + "\n";
 }
 
 }  // namespace
+
+struct Reports::NodeSums {
+  // Mean over the deck's own nodes, so that it keeps its meaning in finer meshes.
+  double displacement[2] = {0, 0};
+  double force[2] = {0, 0};  // sum of internal forces, less the weight
+};
+
+std::vector<ReportColumn> report_columns(const Model& model, const Report& report) {
+  const UnitSystem& u = model.units;
+  if (report.kind == ReportKind::triaxial)
+    return {{"axial_strain", "-"},
+            {"force", u.force},
+            {"measured_deviator", u.stress},
+            {"correct_deviator", u.stress, true},
+            {"measured_axial", u.stress},
+            {"correct_axial", u.stress, true},
+            {"ratio", "-", true}};
+  if (report.kind == ReportKind::nodes)
+    return {{"ux", u.length}, {"uy", u.length}, {"fx", u.force}, {"fy", u.force}};
+  std::vector<ReportColumn> columns{{"ux", u.length, true}, {"uy", u.length, true}};
+  for (const char* component : {"xx", "yy", "zz", "xy"})
+    columns.push_back({fmt::format("strain_{}", component), "-", true});
+  for (const char* component : {"xx", "yy", "zz", "xy"})
+    columns.push_back({fmt::format("stress_{}", component), u.stress, true});
+  columns.push_back({"mean_stress", u.stress, true});
+  columns.push_back({"deviator", u.stress, true});
+  return columns;
+}
+
+std::string report_title(const Model& model, std::size_t index) {
+  const Report& report = model.reports[index];
+  std::string text = fmt::format("report {}", index + 1);
+  if (report.kind == ReportKind::point)
+    text += fmt::format(", {} at ({:.10g}; {:.10g})", report.name.empty() ? "point" : report.name,
+                        report.place.x(), report.place.y());
+  return text;
+}
 
 CorrectTest::CorrectTest(const SolidLaw& law, Geometry geometry, double cell_pressure)
     : geometry_(geometry), cell_pressure_(cell_pressure) {
@@ -148,15 +161,22 @@ double CorrectTest::deviator_at(double axial_strain) {
   return outward(driver_->sigma()[1]) - cell_pressure_;
 }
 
-double report_area(const Model& model, const Report& report) {
-  if (report.area > 0.0) return report.area;
-  if (report.nodes.empty()) return kUnknown;
-  double low = model.mesh.x(0, report.nodes.front()), high = low;
+// weight: at the start and the end of the stage, of which load_factor has passed.
+Reports::NodeSums Reports::sum_nodes(const Model& model, const Report& report, const Solution& solution,
+                                     const double (&weight)[2][2], double load_factor) {
+  NodeSums sums;
+  for (int c = 0; c < 2; ++c) sums.force[c] = -(1.0 - load_factor) * weight[0][c] - load_factor * weight[1][c];
+  int own = 0;
   for (int node : report.nodes) {
-    low = std::min(low, model.mesh.x(0, node));
-    high = std::max(high, model.mesh.x(0, node));
+    const bool of_deck = node < model.mesh.deck_nodes;
+    own += of_deck ? 1 : 0;
+    for (int c = 0; c < 2; ++c) {
+      if (of_deck) sums.displacement[c] += (*solution.u)[2 * node + c];
+      sums.force[c] += (*solution.internal)[2 * node + c];
+    }
   }
-  return model.geometry == Geometry::axisymmetric ? kPi * high * high : high - low;
+  for (double& d : sums.displacement) d /= std::max(own, 1);
+  return sums;
 }
 
 void Reports::on_start(const Model& model, const Scene&, std::string_view, int) {
@@ -164,13 +184,20 @@ void Reports::on_start(const Model& model, const Scene&, std::string_view, int) 
   for (std::size_t i = 0; i < model.reports.size(); ++i) {
     Series series;
     series.file = OutFile(folder_ / (stem_ + ".report" + std::to_string(i + 1) + ".csv"));
-    series.file.text() = header(model, model.reports[i]);
+    series.file.text() = header(model, i);
     series_.push_back(std::move(series));
+    columns_.push_back(report_columns(model, model.reports[i]));
   }
+}
+
+bool Reports::wants_states(const Model& model, const StepReport&) const {
+  return std::any_of(model.reports.begin(), model.reports.end(),
+                     [](const Report& r) { return r.kind == ReportKind::point; });
 }
 
 void Reports::on_stage_start(const Model& model, int stage, const Solution& solution) {
   if (series_.empty()) return;
+  enter_points(model, solution);
   const Weights weights(model, stage);
   for (std::size_t i = 0; i < series_.size(); ++i) {
     Series& series = series_[i];
@@ -185,6 +212,7 @@ void Reports::on_stage_start(const Model& model, int stage, const Solution& solu
         series.weight[1][c] += weights.end[2 * node + c];
       }
     }
+    if (stage >= report.stage) count_from_here(series, model, solution);
     if (series.begun || stage < report.stage) continue;
     series.begun = true;
     const NodeSums sums = sum_nodes(model, report, solution, series.weight, 0.0);
@@ -213,42 +241,138 @@ void Reports::note_release(Series& series, const Model& model, const StepReport&
       step.stage + 1, series.released[0], series.released[1], model.units.force);
 }
 
+// What the places of points need, for the groups that are placed now.
+void Reports::enter_points(const Model& model, const Solution& solution) {
+  if (probed_ == solution.activity->group) return;
+  probed_ = solution.activity->group;
+  std::optional<ProbeMaker> maker;
+  for (std::size_t i = 0; i < series_.size(); ++i) {
+    const Report& report = model.reports[i];
+    if (report.kind != ReportKind::point) continue;
+    if (!maker) maker.emplace(model, probed_);
+    series_[i].probe = maker->at(report.place, report.group);
+  }
+}
+
+// A point's displacement counts from the first time that something is there, its strain from the time of the
+// group that is.
+void Reports::count_from_here(Series& series, const Model& model, const Solution& solution) {
+  if (!series.probe.placed() || (series.filled && series.group == series.probe.group)) return;
+  const Sample now = sample_of(model, series.probe, solution);
+  if (!series.filled) series.start_u = now.u;
+  series.start_strain = now.strain;
+  series.group = series.probe.group;
+  series.filled = true;
+}
+
+void Reports::add_triaxial(Series& series, const Report& report, const StepReport& step, const NodeSums& sums) {
+  TriaxialRow r;
+  r.stage = step.stage + 1;
+  r.increment = step.increment;
+  r.axial_strain = -(sums.displacement[1] - series.start_displacement[1]) / report.height;
+  r.force = -sums.force[1];
+  r.measured_deviator = (r.force - series.start_force) / series.area;
+  r.correct_deviator = series.correct ? series.correct->deviator_at(r.axial_strain) : kUnknown;
+  r.measured_axial = report.cell_pressure + r.measured_deviator;
+  r.correct_axial = report.cell_pressure + r.correct_deviator;
+  r.ratio = r.correct_deviator != 0.0 ? r.measured_deviator / r.correct_deviator : kUnknown;
+  if (!std::isfinite(r.ratio)) r.ratio = kUnknown;  // of a correct deviator that is next to nothing
+  r.held = -(1.0 - step.load_factor) * series.released[1];
+  series.triaxial.push_back(r);
+}
+
+void Reports::add_nodes(Series& series, const StepReport& step, const NodeSums& sums) {
+  NodesRow r{step.stage + 1, step.increment, {}, {}, {}};
+  for (int c = 0; c < 2; ++c) {
+    r.displacement[c] = sums.displacement[c] - series.start_displacement[c];
+    r.force[c] = sums.force[c];
+    r.held[c] = (1.0 - step.load_factor) * series.released[static_cast<std::size_t>(c)];
+  }
+  series.nodes.push_back(r);
+}
+
+void Reports::add_point(Series& series, const Model& model, const StepReport& step, const Solution& solution) {
+  const Sample now = sample_of(model, series.probe, solution);
+  PointRow r;
+  r.stage = step.stage + 1;
+  r.increment = step.increment;
+  for (int c = 0; c < 2; ++c) r.displacement[c] = now.u[c] - series.start_u[c];
+  for (int c = 0; c < 4; ++c) {
+    r.strain[c] = now.strain[c] - series.start_strain[c];
+    r.stress[c] = now.stress[c];
+  }
+  r.mean = now.mean;
+  r.deviator = now.deviator;
+  series.points.push_back(r);
+}
+
+std::size_t Reports::rows(std::size_t index) const {
+  const Series& series = series_[index];
+  return series.triaxial.size() + series.nodes.size() + series.points.size();  // of one kind only
+}
+
+std::pair<int, int> Reports::step(std::size_t index, std::size_t row) const {
+  const Series& series = series_[index];
+  if (row < series.triaxial.size()) return {series.triaxial[row].stage, series.triaxial[row].increment};
+  if (row < series.nodes.size()) return {series.nodes[row].stage, series.nodes[row].increment};
+  return {series.points.at(row).stage, series.points.at(row).increment};
+}
+
+std::vector<double> Reports::values(std::size_t index, std::size_t row) const {
+  const Series& series = series_[index];
+  if (row < series.triaxial.size()) {
+    const TriaxialRow& r = series.triaxial[row];
+    return {r.axial_strain,  r.force, r.measured_deviator, r.correct_deviator, r.measured_axial,
+            r.correct_axial, r.ratio};
+  }
+  if (row < series.nodes.size()) {
+    const NodesRow& r = series.nodes[row];
+    return {r.displacement[0], r.displacement[1], r.force[0], r.force[1]};
+  }
+  const PointRow& r = series.points.at(row);
+  std::vector<double> values(r.displacement, r.displacement + 2);
+  values.insert(values.end(), r.strain, r.strain + 4);
+  values.insert(values.end(), r.stress, r.stress + 4);
+  values.insert(values.end(), {r.mean, r.deviator});
+  return values;
+}
+
+// Throws AnalysisError for a result that is no finite number: the file then ends before its row.
+void Reports::append_row(std::size_t index) {
+  const std::size_t last = rows(index) - 1;
+  const auto [stage, increment] = step(index, last);
+  const std::vector<double> numbers = values(index, last);
+  std::string text;
+  append_integer(text, stage, 0);
+  text += ',';
+  append_integer(text, increment, 0);
+  for (std::size_t c = 0; c < numbers.size(); ++c) {
+    if (columns_[index][c].optional)
+      append_optional_cell(text, numbers[c], digits_);
+    else
+      append_result_cell(text, numbers[c], digits_);
+  }
+  series_[index].file.text() += text + "\n";
+}
+
 void Reports::add_rows(const Model& model, const StepReport& step, const Solution& solution) {
+  enter_points(model, solution);
   for (std::size_t i = 0; i < series_.size(); ++i) {
     Series& series = series_[i];
     const Report& report = model.reports[i];
     if (!series.begun) continue;
     series.last_load_factor = step.load_factor;
     note_release(series, model, step);
-    const double held = 1.0 - step.load_factor;
-    const NodeSums sums = sum_nodes(model, report, solution, series.weight, step.load_factor);
-    if (report.kind == ReportKind::nodes) {
-      series.nodes.push_back({step.stage + 1,
-                              step.increment,
-                              {sums.displacement[0] - series.start_displacement[0],
-                               sums.displacement[1] - series.start_displacement[1]},
-                              {sums.force[0], sums.force[1]},
-                              {held * series.released[0], held * series.released[1]}});
-      const NodesRow& r = series.nodes.back();
-      append_row(series.file.text(), r.stage, r.increment,
-                 {r.displacement[0], r.displacement[1], r.force[0], r.force[1]});
+    if (report.kind == ReportKind::point) {
+      add_point(series, model, step, solution);
     } else {
-      TriaxialRow r;
-      r.stage = step.stage + 1;
-      r.increment = step.increment;
-      r.axial_strain = -(sums.displacement[1] - series.start_displacement[1]) / report.height;
-      r.force = -sums.force[1];
-      r.measured_deviator = (r.force - series.start_force) / series.area;
-      r.correct_deviator = series.correct ? series.correct->deviator_at(r.axial_strain) : kUnknown;
-      r.measured_axial = report.cell_pressure + r.measured_deviator;
-      r.correct_axial = report.cell_pressure + r.correct_deviator;
-      r.ratio = r.correct_deviator != 0.0 ? r.measured_deviator / r.correct_deviator : kUnknown;
-      r.held = -held * series.released[1];
-      series.triaxial.push_back(r);
-      append_row(series.file.text(), r.stage, r.increment,
-                 {r.axial_strain, r.force, r.measured_deviator, r.correct_deviator, r.measured_axial,
-                  r.correct_axial, r.ratio});
+      const NodeSums sums = sum_nodes(model, report, solution, series.weight, step.load_factor);
+      if (report.kind == ReportKind::triaxial)
+        add_triaxial(series, report, step, sums);
+      else
+        add_nodes(series, step, sums);
     }
+    append_row(i);
     series.file.checkpoint();
   }
 }
@@ -294,6 +418,11 @@ void Reports::exchange(Archive& archive) {
     archive(series.release_noted);
     archive(series.triaxial);
     archive(series.nodes);
+    archive(series.points);
+    archive(series.filled);
+    archive(series.group);
+    for (int c = 0; c < 2; ++c) archive(series.start_u[c]);
+    for (int c = 0; c < 4; ++c) archive(series.start_strain[c]);
     if (!archive.reading() || !series.begun) continue;
     begin(series, *model_, model_->reports[i]);
     if (series.correct)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace sage {
 
@@ -11,7 +12,9 @@ std::vector<std::string> columns_of(const Report& report) {
   if (report.kind == ReportKind::triaxial)
     return {"ratio",          "measured_deviator", "axial_strain", "force", "correct_deviator",
             "measured_axial", "correct_axial"};
-  return {"ux", "uy", "fx", "fy"};
+  if (report.kind == ReportKind::nodes) return {"ux", "uy", "fx", "fy"};
+  return {"ux",        "uy",        "strain_xx", "strain_yy", "strain_zz",   "strain_xy",
+          "stress_xx", "stress_yy", "stress_zz", "stress_xy", "mean_stress", "deviator"};
 }
 
 std::string name_of(std::size_t report, const std::string& column) {
@@ -66,6 +69,26 @@ void add_nodes(const Model& model, const Report& report, std::size_t i, const st
   }
 }
 
+// Sisters of a point's component are those of its unit: displacements, strains, stresses.
+void add_point(const Model& model, std::size_t i, const Reports& reports, std::vector<ReportComponent>& all) {
+  const std::vector<ReportColumn> columns = report_columns(model, model.reports[i]);
+  std::map<std::string, double> largest;
+  const auto family = [&](std::size_t k) {
+    return k < 2 ? "displacement" : columns[k].name.starts_with("strain_") ? "strain" : "stress";
+  };
+  for (std::size_t row = 0; row < reports.rows(i); ++row) {
+    const std::vector<double> values = reports.values(i, row);
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      double& most = largest[family(k)];
+      if (std::abs(values[k]) > most) most = std::abs(values[k]);
+    }
+  }
+  const std::vector<double> last = reports.values(i, reports.rows(i) - 1);
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    all.push_back({name_of(i, columns[k].name), last[k], largest[family(k)],
+                   k < 2 || columns[k].name.starts_with("stress_")});
+}
+
 }  // namespace
 
 std::vector<std::string> component_names(const Model& model) {
@@ -83,6 +106,7 @@ std::vector<ReportComponent> last_components(const Model& model, const Reports& 
       add_triaxial(report, i, reports.triaxial(i), all);
     if (report.kind == ReportKind::nodes && !reports.nodes(i).empty())
       add_nodes(model, report, i, reports.nodes(i), all);
+    if (report.kind == ReportKind::point && reports.rows(i) > 0) add_point(model, i, reports, all);
   }
   return all;
 }

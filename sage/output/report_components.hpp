@@ -12,7 +12,8 @@ struct ReportComponent {
   double largest = 0.0;  // |value| of this component and its sisters (x and y of a force ...) in all rows
   // What a reader of the report looks at first: the ratio of a triaxial test (its measured deviator where no
   // ratio is known); of nodes the force in the directions in which two or more of the deck's nodes are held,
-  // and else the displacement.  The reaction of one node alone vanishes with its share of the edge.
+  // and else the displacement (the reaction of one node alone vanishes with its share of the edge); of a point
+  // its displacement and stress.
   bool main = false;
 };
 

@@ -79,6 +79,7 @@ class Writer {
   void list(const std::vector<int>& groups);
   void stage(const Stage& stage);
   bool report(const Report& report, bool write);
+  void point(const Report& report);
 
   const Model& model_;
   const Catalogue& catalogue_;
@@ -238,8 +239,23 @@ void Writer::stage(const Stage& stage) {
   for (const InitialStress& i : stage.initials) initial(i);
 }
 
+void Writer::point(const Report& report) {
+  integer(static_cast<int>(report.kind));
+  integer(report.group < 0 ? 0 : group_number(report.group));
+  for (int i = 0; i < 3; ++i) integer(0);
+  integer(report.stage + 1);
+  line();
+  for (double value : {report.place.x(), report.place.y()}) real(value);
+  name(report.name, 20);
+  line();
+}
+
 // Only nodes in equal steps fit a card.
 bool Writer::report(const Report& report, bool write) {
+  if (report.kind == ReportKind::point) {
+    if (write) point(report);
+    return true;
+  }
   std::vector<int> numbers;
   for (int node : report.nodes) numbers.push_back(node_number(node));
   std::sort(numbers.begin(), numbers.end());

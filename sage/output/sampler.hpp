@@ -1,8 +1,7 @@
-// Displacement and stress at any place: the solid element that holds it is found, and what its nodes have is
-// interpolated by its shape functions.
+// Displacement and stress at any place of a solution, as people read them.
 #pragma once
 
-#include "sage/output/nodal_values.hpp"
+#include "sage/analysis/probe.hpp"
 
 namespace sage {
 
@@ -10,32 +9,26 @@ struct Sample {
   Vector2 at = Vector2::Zero();
   int element = 0;                    // deck number; 0 = in no active solid, and then all below is NaN
   Vector2 u = Vector2::Zero();        // along +x (+r) and +y (+z)
+  Vector4 strain = Vector4::Zero();   // compression positive [xx yy zz xy], engineering shear
   Vector4 stress = Vector4::Zero();   // compression positive [xx yy zz xy]
   double mean = 0.0, deviator = 0.0;  // p (compression positive) and q = sqrt(3 J2) of that stress
 };
 
+// What a probe finds.
+Sample sample_of(const Model& model, const Probe& probe, const Solution& solution);
+
 class Sampler {
  public:
-  // Stress at nodes: extrapolated from the points, averaged over the elements of the same material.  Model and
-  // solution must outlive the sampler.
-  Sampler(const Model& model, const Solution& solution);
+  // Model and solution must outlive the sampler.
+  Sampler(const Model& model, const Solution& solution)
+      : model_(&model), solution_(solution), probes_(model, solution.activity->group) {}
 
-  // On an edge that two materials share the element that comes first in the deck answers.
-  Sample at(const Vector2& place) const;
+  Sample at(const Vector2& place, int group = -1) const;
 
  private:
-  struct Box {
-    std::size_t group = 0;
-    int element = 0;
-    Vector2 low, high;
-  };
-  bool inside(const Box& box, const Vector2& place, std::vector<double>& N) const;
-
   const Model* model_;
   Solution solution_;
-  NodalLayout layout_;
-  std::vector<double> stress_;  // entries x 4, tension positive
-  std::vector<Box> boxes_;      // of all active solid elements
+  ProbeMaker probes_;
 };
 
 }  // namespace sage

@@ -13,7 +13,8 @@ namespace sage {
 namespace {
 
 constexpr std::size_t kRows = 6;     // of a report's table
-constexpr std::size_t kReports = 2;  // shown; the others are in their files
+constexpr std::size_t kReports = 2;  // triaxial and node reports shown; the others are in their files
+constexpr std::size_t kPoints = 4;   // the same of points
 
 auto to(std::string& text) {
   return std::back_inserter(text);
@@ -44,6 +45,10 @@ std::string point_words(const std::array<long, kStatuses>& points) {
   return text.empty() ? "none yielded, slipping or open" : text;
 }
 
+int wide(int width, int digits) {
+  return digits > 0 ? std::max(width, digits + 8) : width;
+}
+
 // Rows spread evenly over the path; the last of each stage is kept.
 template <class Row>
 std::vector<Row> chosen(const std::vector<Row>& rows) {
@@ -65,51 +70,80 @@ std::vector<Row> chosen(const std::vector<Row>& rows) {
 constexpr const char* kHeldNote =
     "    * holds part of forces that are let go over the stage, borne by no load and no support\n";
 
+// A number in a column of `width`, or wider where more digits are asked for; "-" where it is not known.
+std::string cell(double value, const char* usual, int width, int digits) {
+  if (std::isnan(value)) return fmt::format("{:>{}}", "-", wide(width, digits));
+  return fmt::format(
+      "{:>{}}", digits > 0 ? fmt::format("{:.{}g}", value, digits) : fmt::format(fmt::runtime(usual), value),
+      wide(width, digits));
+}
+
 void triaxial_table(std::string& text, const Model& model, std::size_t index,
-                    const std::vector<TriaxialRow>& rows) {
-  fmt::format_to(to(text), "  triaxial {:<8}{:>7}{:>11}{:>18}{:>18}{:>10}\n", index + 1, "incr", "strain",
-                 "measured [" + model.units.stress + "]", "correct [" + model.units.stress + "]", "ratio");
-  const auto number = [](double v, const char* format) {
-    return std::isnan(v) ? std::string("-") : fmt::format(fmt::runtime(format), v);
-  };
+                    const std::vector<TriaxialRow>& rows, int digits) {
+  fmt::format_to(to(text), "  triaxial {:<8}{:>7}{:>{}}{:>{}}{:>{}}{:>{}}\n", index + 1, "incr", "strain",
+                 wide(11, digits), "measured [" + model.units.stress + "]", wide(18, digits),
+                 "correct [" + model.units.stress + "]", wide(18, digits), "ratio", wide(10, digits));
   for (const TriaxialRow& r : chosen(rows))
-    fmt::format_to(to(text), "    stage {:<7}{:>7}{:>11}{:>18}{:>18}{:>10}\n", r.stage, r.increment,
-                   number(r.axial_strain, "{:.4g}"),
-                   number(r.measured_deviator, "{:.5g}") + (r.held != 0.0 ? "*" : ""),
-                   number(r.correct_deviator, "{:.5g}"), number(r.ratio, "{:.4f}"));
+    fmt::format_to(to(text), "    stage {:<7}{:>7}{}{:>{}}{}{}\n", r.stage, r.increment,
+                   cell(r.axial_strain, "{:.4g}", 11, digits),
+                   cell(r.measured_deviator, "{:.5g}", 0, digits) + (r.held != 0.0 ? "*" : ""),
+                   wide(18, digits), cell(r.correct_deviator, "{:.5g}", 18, digits),
+                   cell(r.ratio, "{:.4f}", 10, digits));
   if (std::ranges::any_of(rows, [](const TriaxialRow& r) { return r.held != 0.0; })) text += kHeldNote;
 }
 
-void node_table(std::string& text, const Model& model, std::size_t index, const std::vector<NodesRow>& rows) {
-  const bool ring = model.geometry == Geometry::axisymmetric;
+void node_table(std::string& text, const Model& model, std::size_t index, const std::vector<NodesRow>& rows,
+                int digits) {
+  const AxisNames& names = axis_names(model.geometry);
   const UnitSystem& u = model.units;
-  const char* const axes[2] = {ring ? "r" : "x", ring ? "z" : "y"};
   fmt::format_to(to(text), "  nodes {:<11}{:>7}", index + 1, "incr");
-  for (const char* axis : axes) fmt::format_to(to(text), "{:>14}", fmt::format("u-{} [{}]", axis, u.length));
-  for (const char* axis : axes) fmt::format_to(to(text), "{:>16}", fmt::format("force-{} [{}]", axis, u.force));
+  for (const std::string_view axis : {names.x, names.y})
+    fmt::format_to(to(text), "{:>{}}", fmt::format("u-{} [{}]", axis, u.length), wide(14, digits));
+  for (const std::string_view axis : {names.x, names.y})
+    fmt::format_to(to(text), "{:>{}}", fmt::format("force-{} [{}]", axis, u.force), wide(16, digits));
   text += '\n';
   bool any_held = false;
   for (const NodesRow& r : chosen(rows)) {
     const bool held = r.held[0] != 0.0 || r.held[1] != 0.0;
     any_held = any_held || held;
     fmt::format_to(to(text), "    stage {:<7}{:>7}", r.stage, r.increment);
-    for (double d : r.displacement) fmt::format_to(to(text), "{:>14.5g}", d + 0.0);
-    for (double f : r.force) fmt::format_to(to(text), "{:>16.6g}", f + 0.0);
+    for (double d : r.displacement) text += cell(d + 0.0, "{:.5g}", 14, digits);
+    for (double f : r.force) text += cell(f + 0.0, "{:.6g}", 16, digits);
     text += held ? " *\n" : "\n";
   }
   if (any_held) text += kHeldNote;
 }
 
-void report_tables(std::string& text, const Model& model, const Reports& reports) {
-  std::size_t shown = 0;
-  for (std::size_t i = 0; i < reports.count() && shown < kReports; ++i) {
-    if (!reports.triaxial(i).empty())
-      triaxial_table(text, model, i, reports.triaxial(i));
-    else if (!reports.nodes(i).empty())
-      node_table(text, model, i, reports.nodes(i));
-    else
-      continue;
-    ++shown;
+void point_table(std::string& text, const Model& model, std::size_t index, const std::vector<PointRow>& rows,
+                 int digits) {
+  constexpr int kWidth = 14;
+  const AxisNames& names = axis_names(model.geometry);
+  const Report& report = model.reports[index];
+  fmt::format_to(to(text), "  point {:<11}{} ({:.10g}; {:.10g})\n    {:<13}{:>7}", index + 1, report.name,
+                 report.place.x(), report.place.y(), "", "incr");
+  for (const std::string_view axis : {names.x, names.y})
+    fmt::format_to(to(text), "{:>{}}", fmt::format("u-{} [{}]", axis, model.units.length),
+                   wide(kWidth, digits));
+  for (const std::string_view stress : names.stress)
+    fmt::format_to(to(text), "{:>{}}", fmt::format("{} [{}]", stress, model.units.stress),
+                   wide(kWidth, digits));
+  text += '\n';
+  for (const PointRow& r : chosen(rows)) {
+    fmt::format_to(to(text), "    stage {:<7}{:>7}", r.stage, r.increment);
+    for (double u : r.displacement) text += cell(u, "{:.5g}", kWidth, digits);
+    for (double stress : r.stress) text += cell(stress, "{:.5g}", kWidth, digits);
+    text += '\n';
+  }
+}
+
+void report_tables(std::string& text, const Model& model, const Reports& reports, int digits) {
+  std::size_t shown = 0, points = 0;
+  for (std::size_t i = 0; i < reports.count(); ++i) {
+    if (!reports.triaxial(i).empty() && shown++ < kReports)
+      triaxial_table(text, model, i, reports.triaxial(i), digits);
+    if (!reports.nodes(i).empty() && shown++ < kReports) node_table(text, model, i, reports.nodes(i), digits);
+    if (!reports.points(i).empty() && points++ < kPoints)
+      point_table(text, model, i, reports.points(i), digits);
   }
 }
 
@@ -238,13 +272,14 @@ void RunRecord::on_finish(const Model&, const RunResult& run_result) {
 }
 
 std::string summary(const Model& model, const RunRecord& record, const Reports* reports,
-                    const std::vector<std::filesystem::path>& files, const DiscretisationError* error) {
+                    const std::vector<std::filesystem::path>& files, const DiscretisationError* error,
+                    int digits) {
   const bool ring = model.geometry == Geometry::axisymmetric;
   const UnitSystem& u = model.units;
   std::string text = model.title + "\n";
   status_lines(text, model, record);
   counts(text, model, record);
-  if (reports != nullptr) report_tables(text, model, *reports);
+  if (reports != nullptr) report_tables(text, model, *reports, digits);
   if (error != nullptr) text += error->text(model);
   if (record.audited > 0)
     fmt::format_to(to(text), "  equilibrium whole model out of balance by {:.1e} of its largest force\n",

@@ -39,9 +39,10 @@ class RunRecord final : public Observer {
   double seconds = 0.0;  // whole run, for the caller to fill in; 0 = not shown
 };
 
-// About 30 lines.  A run that did not converge says so in its second line and in its last.
+// About 30 lines.  A run that did not converge says so in its second line and in its last.  digits: of the
+// reports' numbers; 0 = as many as fit the eye.
 std::string summary(const Model& model, const RunRecord& record, const Reports* reports,
-                    const std::vector<std::filesystem::path>& files,
-                    const DiscretisationError* error = nullptr);
+                    const std::vector<std::filesystem::path>& files, const DiscretisationError* error = nullptr,
+                    int digits = 0);
 
 }  // namespace sage

@@ -63,10 +63,7 @@ std::string to_csv(const std::vector<Row>& rows, const std::vector<RowResult>& r
     std::replace(words.begin(), words.end(), '\n', ' ');
     return "\"" + words + "\"";
   };
-  const auto number = [&](double value) {
-    text += ',';
-    if (!std::isnan(value)) append_plain(text, value, 10);
-  };
+  const auto number = [&](double value) { append_optional_cell(text, value); };
   for (std::size_t i = 0; i < rows.size(); ++i) {
     for (const Trial& t : results[i].trials) {
       text += rows[i].name + "," + quoted(t.label);

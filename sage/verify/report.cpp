@@ -185,7 +185,7 @@ std::string csv_text(const std::vector<Chapter>& chapters) {
     for (std::size_t at = 0; (at = s.find('"', at)) != std::string::npos; at += 2) s.insert(at, "\"");
     return "\"" + s + "\"";
   };
-  const auto number = [](double x) { return std::isnan(x) ? std::string() : fmt::format("{:.10g}", x); };
+  const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{:.10g}", x) : std::string(); };
   for (const Chapter& chapter : chapters)
     for (const CaseResult& outcome : chapter.outcomes)
       for (const Row& row : outcome.rows)

@@ -1,6 +1,7 @@
 // Two runs side by side: what theory gives in closed form must come out of the comparison.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sage/app/commands.hpp"
@@ -30,6 +31,7 @@ struct Specimen {
   double strain = 0.01, stage_load = 0.0, top_load = 0.0;  // top_load: on each node, instead of the plate
   int increments = 2, columns = 2, rows = 3;
   Cell cell = Cell::quad4;
+  double cell_pressure = kCell;
 
   std::string text() const {
     Block block;
@@ -46,7 +48,7 @@ struct Specimen {
     for (int n : block.left()) deck.fix(n, 1, 0);
     if (confined)
       for (int n : block.right()) deck.fix(n, 1, 0);
-    deck.initial(1, 0, kCell, kCell, kCell);
+    if (cell_pressure != 0.0) deck.initial(1, 0, cell_pressure, cell_pressure, cell_pressure);
     study::StageCards& stage = deck.stage(increments);
     for (int n : block.top()) {
       if (top_load != 0.0)
@@ -55,9 +57,10 @@ struct Specimen {
         stage.fix(n, 0, 1, 0.0, -2.0 * strain);
     }
     const bool triangles = cell == Cell::tri3 || cell == Cell::tri6;  // the second of a cell has its right side
-    if (!confined)
+    if (!confined && cell_pressure != 0.0)
       for (int j = 0; j < block.rows; ++j)
-        stage.pressure(block.element(columns - 1, j) + (triangles ? 1 : 0), triangles ? 3 : 2, kCell, kCell);
+        stage.pressure(block.element(columns - 1, j) + (triangles ? 1 : 0), triangles ? 3 : 2, cell_pressure,
+                       cell_pressure);
     for (int n : block.right())
       if (stage_load != 0.0) stage.load(n, stage_load, 0.0);
     if (report) deck.triaxial_report(1, block.top().front(), block.top().back(), 1, 2.0, kCell);
@@ -272,15 +275,19 @@ TEST(Sampler, CurvedElements) {
 // Solvers and formulations differ by rounding and by the mesh: the note says which.
 TEST(Compare, OneGeometryTwoWays) {
   const std::string deck = Specimen{}.text();
-  const Side a = run("a", deck, 2), b = run("b", deck, 2, {}, 2);
-  const Comparison c = compare(a, b, {point_from_text("0.5,0.5:middle"), line_from_text("0,1,1,1:cut:5")});
+  BuildOptions middle;
+  middle.points.push_back({{0.5, 0.5}, "middle", 0});
+  const Side a = run("a", deck, 2, middle), b = run("b", deck, 2, middle, 2);
+  const Comparison c = compare(a, b, {line_from_text("0,1,1,1:cut:5")});
   ASSERT_EQ(c.notes.size(), 1u);
   EXPECT_NE(c.notes[0].find("equations are the same"), std::string::npos);
   for (const Row& row : c.rows)
     if (row.section != "course" && !std::isnan(row.relative())) {
       EXPECT_NEAR(row.relative(), 0.0, 1e-9) << row.section << " " << row.name;
     }
-  EXPECT_NE(find(c.rows, "point middle", "sigma_yy"), nullptr);
+  const Row* stress = find(c.rows, "report 2, middle at (0.5; 0.5), stage 1, increment 2", "stress_yy");
+  ASSERT_NE(stress, nullptr);
+  EXPECT_NEAR(stress->a, kCell + 0.01 * kE, 1e-8);
   EXPECT_NE(find(c.rows, "line cut: mean of 5 places", "sigma_yy"), nullptr);
   EXPECT_NE(find(c.details, "line cut at (0.25; 1)", "u_x"), nullptr);
 
@@ -296,11 +303,120 @@ TEST(Compare, OtherMeshesMeetOnLinesOnly) {
   Specimen fine;
   fine.columns = 4;
   const Side a = run("a", Specimen{}.text(), 2), b = run("b", fine.text(), 2);
-  const Comparison c = compare(a, b, {point_from_text("0.5,0.5")});
+  const Comparison c = compare(a, b, {line_from_text("0,0.5,1,0.5")});
   EXPECT_EQ(find(c.rows, "nodes", "largest |u| along r"), nullptr);
-  const Row* row = find(c.rows, "point", "sigma_yy");
+  const Row* row = find(c.rows, "line", "sigma_yy");
   ASSERT_NE(row, nullptr);
   EXPECT_NEAR(row->difference(), 0.0, 1e-8);
+}
+
+// The first lines are the answer: what the reports end with, the ratio, and what theory expects of it; the rows
+// come behind.
+TEST(Compare, TheAnswerComesFirst) {
+  Specimen specimen;
+  BuildOptions point;
+  point.points.push_back({{0.5, 0.5}, "middle", 0});
+  const Side a = run("a", specimen.text(), 1, point), b = run("b", specimen.text(), 2, point);
+  const Comparison c =
+      compare(a, b, {}, {{"report2.stress_yy", 83.0, 0.25}}, {{"report2.stress_yy", 80.0, 0.5}});
+  ASSERT_GE(c.answers.size(), 3u);
+  const auto answer = [&](const std::string& name) {
+    for (const Answer& one : c.answers)
+      if (one.name == name) return one;
+    ADD_FAILURE() << name;
+    return Answer{};
+  };
+  const double plane = kE / (1 - kNu * kNu);
+  const Answer deviator = answer("report1.measured_deviator");
+  EXPECT_NEAR(deviator.a, 0.01 * plane, 1e-8);
+  EXPECT_NEAR(deviator.ratio(), kE / plane, 1e-9);
+  EXPECT_NEAR(deviator.expected, kE / plane, 1e-9);
+  EXPECT_TRUE(std::isnan(deviator.error_a) && std::isnan(deviator.ratio_error()));
+  // What finer meshes said takes the place of the run's, with its error: of the ratio the sum of both.
+  const Answer stress = answer("report2.stress_yy");
+  EXPECT_EQ(stress.a, 83.0);
+  EXPECT_EQ(stress.error_b, 0.5);
+  EXPECT_NEAR(stress.ratio_error(), 80.0 / 83.0 * (0.25 / 83.0 + 0.5 / 80.0), 1e-12);
+  EXPECT_EQ(stress.why, "nothing is known");
+  const std::string text = to_text(c, a, b);
+  const std::size_t first = text.find("reported at the end");
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_LT(first, text.find("theory  "));
+  EXPECT_LT(text.find("theory  "), text.find("course"));
+  EXPECT_NE(text.find("80.0 +- 0.5"), std::string::npos) << text;
+  // One deck in two ways: theory expects the same.
+  const Comparison same = compare(a, run("c", specimen.text(), 1, point, 2), {});
+  EXPECT_EQ(same.answers.front().expected, 1.0);
+}
+
+// A uniform elastic body: the force on its end by moduli and areas, its displacement by the moduli.
+TEST(Compare, TheoryKnowsTheEndsOfUniformBodies) {
+  Specimen specimen;
+  specimen.report = false;
+  specimen.cell_pressure = 0.0;
+  std::string deck = specimen.text();
+  // Nodes 10 to 12 are the top.
+  const std::size_t end = deck.rfind("END");
+  deck.insert(end, "    2    0   10   12    1    1\n");
+  std::size_t line = deck.find('\n', deck.find('\n') + 1) + 1;
+  deck.replace(line + 50, 5, "    1");
+  const Side a = run("a", deck, 1), b = run("b", deck, 2);
+  ASSERT_EQ(a.error() + b.error(), "");
+  const Comparison c = compare(a, b, {});
+  const auto fy = std::find_if(c.answers.begin(), c.answers.end(),
+                               [](const Answer& answer) { return answer.name == "report1.fy"; });
+  ASSERT_NE(fy, c.answers.end());
+  EXPECT_NEAR(fy->expected, (1 - kNu * kNu) * kPi, 1e-9);
+  EXPECT_NEAR(fy->ratio(), fy->expected, 1e-8);
+  EXPECT_NE(fy->why.find("moduli x areas"), std::string::npos);
+}
+
+// What the tolerance of equilibrium leaves open is zero, however large it is beside nothing.
+TEST(Compare, DifferencesBelowTheToleranceAreZero) {
+  Row row{"forces", "reactions along x", "kN", 4e-5, -2494.0};
+  row.scale = 2494.0;
+  EXPECT_GT(std::abs(row.relative()), 1e7);  // what was shown
+  row.floor_a = row.floor_b = 1e-4;
+  EXPECT_TRUE(std::isnan(row.relative()));
+  EXPECT_TRUE(row.zero_a() && !row.zero_b());
+  row.b = -4e-5;
+  EXPECT_EQ(row.difference(), 0.0);
+  EXPECT_EQ(row.relative(), 0.0);
+
+  // The floors are those of the runs: tolerance x forces x sqrt(dofs), far above rounding and far below the
+  // forces.
+  const Side a = run("a", Specimen{}.text(), 2);
+  EXPECT_GT(a.floors().force, 1e-8 * 100.0);
+  EXPECT_LT(a.floors().force, 1e-6 * 1000.0);
+  EXPECT_NEAR(a.floors().stress, 1e-8 * (kCell + 0.01 * kE), 1e-12);
+  EXPECT_NEAR(a.floors().displacement, 1e-8 * 0.02, 1e-12);
+}
+
+// A step has no top that stays plane, nor one as wide as its box.
+TEST(Compare, NoModulusWithoutAUniformSide) {
+  DeckWriter deck(1);
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < (j < 2 ? 3 : 2); ++i) deck.node(1 + i + 3 * j, i, j);
+  deck.material(1, 1, {kE, kNu});
+  deck.group(1, 1, 0, 1);
+  deck.element(1, 1, {1, 2, 5, 4});
+  deck.element(2, 1, {2, 3, 6, 5});
+  deck.element(3, 1, {4, 5, 8, 7});
+  for (int n : {1, 2, 3}) deck.fix(n, 1, 1);
+  study::StageCards& stage = deck.stage();
+  for (int n : {7, 8}) stage.fix(n, 0, 1, 0.0, -0.01);
+  const Side a = run("a", deck.text(), 1), b = run("b", deck.text(), 1, {}, 2);
+  ASSERT_EQ(a.error() + b.error(), "");
+  EXPECT_FALSE(uniform_ends(a, 0));
+  const Comparison c = compare(a, b, {});
+  EXPECT_EQ(find(c.rows, "sides", "stress of the top / strain of the height"), nullptr);
+  // The top's stress is that of the part which is there: 1 of 2 wide.
+  double top = 0.0;
+  for (const Face& face : a.faces())
+    if (face.name == "top") top = face.area;
+  EXPECT_EQ(top, 1.0);
+  const Side uniform = run("u", Specimen{}.text(), 1);
+  EXPECT_TRUE(uniform_ends(uniform, 0));
 }
 
 // A side that fails keeps the other's numbers, and both texts say so.
@@ -320,9 +436,9 @@ TEST(Compare, OneSideFails) {
   EXPECT_NE(pair_svg(a, b, Field::stress_yy).find("NOT COMPLETE"), std::string::npos);
 
   const Side none("B: nothing", "the deck can't be read");
-  const Comparison half = compare(a, none, {point_from_text("0.5,0.5")});
+  const Comparison half = compare(a, none, {line_from_text("0,0.5,1,0.5:cut")});
   EXPECT_NE(to_text(half, a, none).find("NO RESULTS: the deck can't be read"), std::string::npos);
-  EXPECT_NE(to_csv(half, a, none).find("point"), std::string::npos);
+  EXPECT_NE(to_csv(half, a, none).find("line cut"), std::string::npos);
   EXPECT_NE(pair_svg(a, none, Field::stress_yy).find("B has no results"), std::string::npos);
 }
 
@@ -348,11 +464,8 @@ TEST(LineText, ReadsAndRefuses) {
   EXPECT_EQ(line.name, "a cut");
   EXPECT_EQ(line.n, 21);
   EXPECT_EQ(line_from_text("0,1,2,3").n, 11);
-  EXPECT_EQ(point_from_text("1,2:P").name, "P");
   for (const char* bad : {"", "1,2,3", "1,2,3,4,5", "1,2,3,x", "1,2,3,4:n:1", "1,2,3,4:n:2.5", "1,2,3,nan"})
     EXPECT_THROW(line_from_text(bad), std::invalid_argument) << bad;
-  for (const char* bad : {"", "1", "1,2,3", "a,b"})
-    EXPECT_THROW(point_from_text(bad), std::invalid_argument) << bad;
 }
 
 }  // namespace

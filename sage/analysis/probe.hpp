@@ -1,0 +1,65 @@
+// Displacement, strain and stress at any place.  What the place needs of the solution is found once for a set
+// of active groups: a value is then a short sum over nodes or integration points.
+//
+// Displacement: the element's shape functions.  Stress and strain: within one zone (zones_of), a polynomial
+// fitted to the places where they are most accurate (Element::point_to_sample) in the elements around each
+// corner of the element that holds the place, the corners' polynomials blended by the place's distance from
+// them (Zienkiewicz & Zhu 1992); quadrilaterals of degree 4 and more by the polynomial through their own such
+// places. docs/theory/accuracy.md.
+#pragma once
+
+#include "sage/analysis/observer.hpp"
+#include "sage/analysis/patch_fit.hpp"
+#include "sage/model/locate.hpp"
+
+namespace sage {
+
+struct Probe {
+  struct Node {
+    int node = 0;
+    double weight = 0.0;
+  };
+  struct Point {
+    std::size_t group = 0, point = 0;  // in Assembly::groups and its state store
+    double weight = 0.0;
+  };
+  int group = -1, element = -1;  // that hold the place; -1 = no active solid does
+  std::vector<Node> nodes;
+  std::vector<Point> points;
+
+  bool placed() const { return group >= 0; }
+};
+
+// Tension positive.
+struct ProbeValue {
+  Vector2 u = Vector2::Zero();
+  Vector4 strain = Vector4::Zero(), stress = Vector4::Zero();
+};
+
+// All zero for a probe that is not placed.
+ProbeValue read_probe(const Probe& probe, const Solution& solution);
+
+class ProbeMaker {
+ public:
+  // The model must outlive it.  `active`: by group.
+  ProbeMaker(const Model& model, const std::vector<char>& active);
+
+  // Where several elements of one body meet, the mean of their answers; where bodies meet (zones, sides of an
+  // interface), the first group of the deck answers, or `group` where it is not negative.
+  Probe at(const Vector2& place, int group = -1) const;
+
+ private:
+  void add_stress(Probe& probe, const Location& location, double part) const;
+  void add_own(Probe& probe, const Location& location, double part) const;
+  void add_patch(Probe& probe, const std::vector<std::size_t>& patch, const Vector2& place, double part) const;
+  const Patches& patches(int zone) const;
+
+  const Model* model_;
+  std::vector<char> active_;
+  std::vector<int> zone_;  // of each group
+  Locator locator_;
+  std::vector<ElementRef> elements_;        // active solids
+  mutable std::map<int, Patches> patches_;  // by zone, made when asked for
+};
+
+}  // namespace sage

@@ -1,0 +1,47 @@
+// Which solid elements hold a place, and where it lies in their parent shape.
+#pragma once
+
+#include <vector>
+
+#include "sage/model/model.hpp"
+
+namespace sage {
+
+struct Location {
+  std::size_t group = 0;
+  int element = 0;                   // index within the group
+  Vector2 parent = Vector2::Zero();  // place in the parent shape
+  std::vector<double> N;             // shape functions there, one a node
+};
+
+class Locator {
+ public:
+  // The model must outlive the locator.
+  explicit Locator(const Model& model);
+
+  // Every solid element that holds the place, in the order of groups and elements; its edges belong to it (to
+  // 1e-6 of its size).
+  std::vector<Location> at(const Vector2& place) const;
+
+ private:
+  struct Box {
+    std::size_t group = 0;
+    int element = 0;
+    Vector2 low, high;
+  };
+  bool inside(const Box& box, const Vector2& place, Location& found) const;
+
+  const Model* model_;
+  std::vector<Box> boxes_;
+};
+
+// Groups whose stress is one field: of one material, and placed at the same time.  A number for every group.
+std::vector<int> zones_of(const Model& model);
+
+// Of `found`, those that one body answers with: the elements that share a node with the first of an active
+// group (`group`, or any where that is negative) and belong to its zone.  Empty where no active element is
+// left. `active` by group; empty = all are.
+std::vector<Location> one_body(const Model& model, std::vector<Location> found, const std::vector<char>& active,
+                               int group);
+
+}  // namespace sage

@@ -1,0 +1,199 @@
+// Point reports from cards and options, in files, with as many digits as asked.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "sage/app/commands.hpp"
+#include "sage/app/converge.hpp"
+#include "sage/app/exit_codes.hpp"
+#include "sage/app/run_deck.hpp"
+#include "sage/deck/read_deck.hpp"
+#include "sage/output/convert.hpp"
+#include "sage/study/lame.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+namespace sage::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kPointCards =
+    "    3    0    0    0    0    1\n"
+    "      1.37      0.11inner third\n"
+    "    3    1    0    0    0    1\n"
+    "        2.        0.\n";
+
+// Lame's cylinder with cards behind its stage.
+std::string cylinder(const std::string& cards, int reports) {
+  std::string text = study::LameDeck{}.text();
+  std::istringstream lines(text);
+  std::string result, line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    if (number == 3) line = line.substr(0, 50) + "    " + std::to_string(reports);
+    result += (line == "END" ? cards : "") + line + "\n";
+  }
+  return result;
+}
+
+RunRequest request_for(const std::string& name, const std::string& text) {
+  const fs::path folder = test::scratch_folder("points_app");
+  std::ofstream(folder / (name + ".dat")) << text;
+  RunRequest request;
+  request.deck = (folder / (name + ".dat")).string();
+  request.quiet = true;
+  request.output.folder = folder;
+  return request;
+}
+
+std::string contents(const fs::path& path) {
+  std::ifstream in(path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::vector<std::string> last_cells(const std::string& csv) {
+  std::istringstream lines(csv);
+  std::string line, last;
+  while (std::getline(lines, line))
+    if (!line.empty() && line[0] != '#') last = line;
+  std::vector<std::string> cells;
+  std::istringstream parts(last);
+  for (std::string cell; std::getline(parts, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+TEST(PointCards, AreReadWithNameAndPlace) {
+  const RunRequest request = request_for("cards", cylinder(kPointCards, 2));
+  const RunOutcome outcome = run_deck(request, full_catalogue());
+  ASSERT_EQ(outcome.exit_code, kOk);
+  ASSERT_EQ(outcome.model->reports.size(), 2u);
+  EXPECT_EQ(outcome.model->reports[0].name, "inner third");
+  EXPECT_EQ(outcome.model->reports[0].place, Vector2(1.37, 0.11));
+  EXPECT_EQ(outcome.model->reports[1].group, 0);
+  EXPECT_NEAR(outcome.reports->points(0).back().stress[0],
+              -study::lame(study::LameBody::strip, 0.3, 1.37).radial, 2e-3);
+  const std::string csv = contents(request.output.folder / "cards.report1.csv");
+  EXPECT_NE(csv.find("report 1, inner third at (1.37; 0.11)"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("stage,increment,ux[m],uy[m],strain_xx[-]"), std::string::npos);
+  EXPECT_NE(csv.find("deviator[kPa]\n"), std::string::npos);
+  const std::string screen =
+      summary(*outcome.model, outcome.record, outcome.reports.get(), outcome.files, nullptr, 0);
+  EXPECT_NE(screen.find("inner third (1.37; 0.11)"), std::string::npos) << screen;
+  EXPECT_NE(contents(request.output.folder / "cards.lst").find("REPORT 1: POINT inner third (1.37; 0.11)"),
+            std::string::npos);
+}
+
+// What convert writes says the same.
+TEST(PointCards, SurviveConversion) {
+  const RunRequest request = request_for("convert", cylinder(kPointCards, 2));
+  const Catalogue catalogue = full_catalogue();
+  const Model model = build_model(read_input(request.deck, {}), catalogue, {});
+  Diagnostics said;
+  const Model again = build_model(
+      read_deck_text(sage1_text(model, catalogue, said), "again", load_layout("sage1")), catalogue, {});
+  ASSERT_EQ(again.reports.size(), 2u);
+  EXPECT_EQ(again.reports[0].place, model.reports[0].place);
+  EXPECT_EQ(again.reports[0].name, "inner third");
+  EXPECT_EQ(again.reports[1].group, 0);
+}
+
+// --converge goes on until displacement and stress of the point are certain; Lame knows them.
+TEST(PointCards, ConvergeFollowsThem) {
+  const std::string card = "    3    0    0    0    0    1\n      1.37      0.11\n";
+  const RunRequest request = request_for("converged", cylinder(card, 1));
+  ConvergeOptions options;
+  options.tolerance = 1e-6;
+  ASSERT_EQ(converge(request, options, full_catalogue()), kOk);
+  const std::string table = contents(request.output.folder / "converged.convergence.csv");
+  for (const auto& [name, exact] :
+       {std::pair{"report1.ux ", study::lame(study::LameBody::strip, 0.3, 1.37).u},
+        {"report1.stress_xx ", -study::lame(study::LameBody::strip, 0.3, 1.37).radial},
+        {"report1.stress_zz ", -study::lame(study::LameBody::strip, 0.3, 1.37).hoop}}) {
+    const std::size_t at = table.rfind(name);
+    ASSERT_NE(at, std::string::npos) << table;
+    const double value = std::strtod(table.c_str() + at + std::string(name).size(), nullptr);
+    EXPECT_NEAR(value, exact, 2e-6 * std::abs(exact)) << name;
+  }
+}
+
+std::string refusal_of(const std::string& text, const BuildOptions& build) {
+  RunRequest request = request_for("refused", text);
+  request.input.build = build;
+  try {
+    run_deck(request, full_catalogue());
+  } catch (const InputError& error) {
+    return to_string(error.diagnostics().list().back());
+  }
+  return "";
+}
+
+TEST(PointCards, OutsideTheMeshIsAnError) {
+  const std::string deck = cylinder("", 0);
+  BuildOptions build;
+  build.points.push_back({{0.99, 0.1}, "", 0});
+  EXPECT_NE(refusal_of(deck, build).find("the point (0.99; 0.1) lies outside the mesh"), std::string::npos);
+  build.points[0] = {{1.5, 0.1}, "", 7};
+  EXPECT_NE(refusal_of(deck, build).find("group 7"), std::string::npos);
+  build.points[0] = {{1.0, 0.1}, "", 0};  // on the face
+  EXPECT_EQ(refusal_of(deck, build), "");
+  const std::string card = "    3    0    0    0    0    1\n       2.1      0.11\n";
+  const std::string message = refusal_of(cylinder(card, 1), {});
+  EXPECT_NE(message.find("the point (2.1; 0.11) lies outside the mesh: no solid element holds it"),
+            std::string::npos)
+      << message;
+}
+
+TEST(PointOption, TakesPlaceNameAndGroup) {
+  const PointRequest point = point_from("-1.5e-1,2:toe:3");
+  EXPECT_EQ(point.place, Vector2(-0.15, 2.0));
+  EXPECT_EQ(point.name, "toe");
+  EXPECT_EQ(point.group, 3);
+  EXPECT_EQ(point_from("1,2").name, "");
+  for (const char* bad : {"", "1", "1,2,3", "a,b", "1,nan", "1,inf", "1,2:n:x", "1, "})
+    EXPECT_THROW(point_from(bad), std::invalid_argument) << bad;
+}
+
+// 17 digits give back every bit, 16 all but the last; ten as ever without the option.
+TEST(Digits, AsManyAsAsked) {
+  for (int digits : {0, 3, 16, 17}) {
+    RunRequest request = request_for("digits", cylinder("", 0));
+    request.output.digits = digits;
+    request.output.nodes = request.output.points = true;
+    request.input.build.points.push_back({{1.37, 0.11}, "", 0});
+    const RunOutcome outcome = run_deck(request, full_catalogue());
+    const PointRow& row = outcome.reports->points(0).back();
+    const std::vector<std::string> cells = last_cells(contents(request.output.folder / "digits.report1.csv"));
+    ASSERT_EQ(cells.size(), 14u);
+    const double read = std::strtod(cells[8].c_str(), nullptr);
+    if (digits == 17)
+      EXPECT_EQ(read, row.stress[0]);
+    else
+      EXPECT_NEAR(read, row.stress[0],
+                  0.51 * std::pow(10.0, -(digits > 0 ? digits : 10)) * 10 * std::abs(row.stress[0]));
+    std::size_t most = 0;  // of the points' and nodes' files too
+    for (const char* file : {"digits.report1.csv", "digits.points.csv", "digits.nodes.csv"})
+      for (const std::string& cell : last_cells(contents(request.output.folder / file))) {
+        std::size_t count = 0;
+        bool begun = false;
+        for (char c : cell.substr(0, cell.find('e'))) {
+          begun = begun || (c >= '1' && c <= '9');
+          count += begun && std::isdigit(static_cast<unsigned char>(c)) ? 1 : 0;
+        }
+        most = std::max(most, count);
+      }
+    EXPECT_LE(most, static_cast<std::size_t>(digits > 0 ? digits : 10));
+    EXPECT_GE(most, static_cast<std::size_t>(digits > 0 ? digits : 10) - 1);
+    const std::string screen =
+        summary(*outcome.model, outcome.record, outcome.reports.get(), outcome.files, nullptr, digits);
+    char sixteen[40];
+    std::snprintf(sixteen, sizeof sixteen, "%.16g", row.stress[0]);
+    const bool found = screen.find(sixteen) != std::string::npos;
+    EXPECT_TRUE(digits == 17 || found == (digits == 16)) << screen;
+  }
+}
+
+}  // namespace
+}  // namespace sage::app
