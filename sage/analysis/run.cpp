@@ -96,6 +96,7 @@ class Run {
   double linear_size_ = 0.0;  // of the last step, where it was linear; 0 = it was not
   Eigen::VectorXd last_du_;   // the last step of the stage, its share of the stage; 0 = there is none
   double last_size_ = 0.0;
+  bool on_last_way_ = false;                      // the next attempt starts with the tangent of that step
   Eigen::VectorXd committed_force_;               // internal, at the committed state
   double stiffest_ = 0.0, last_stiffness_ = 0.0;  // along the motion: largest of the stage, of the last step
   std::vector<char> held_before_, groups_before_, lived_;
@@ -251,6 +252,7 @@ void Run::accept(double reached) {
 // from there all the same.
 void Run::reject(const Stage& stage, double next) {
   linear_size_ = 0.0;
+  on_last_way_ = false;
   const bool keep_K = stiffness_.constant || stage.method == Method::initial_stiffness;
   if (!keep_K) {
     stiffness_.assembled = stiffness_.factorised = false;
@@ -272,7 +274,7 @@ void Run::keep_way(double size) {
 void Run::start_on_last_way(double size) {
   if (!(last_size_ > 0.0)) return;
   du_ = (0.5 * size / last_size_) * last_du_;
-  stiffness_.assembled = assembly_.evaluate(du_, solver_.get()) != Outcome::cut_step;
+  stiffness_.assembled = on_last_way_ = assembly_.evaluate(du_, solver_.get()) != Outcome::cut_step;
 }
 
 // Of the step in hand: where supports move, the growth of their forces along their own motion; else the growth
@@ -329,6 +331,7 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
       if (stage.method == Method::modified_newton || contracts(stage)) renew_tangent();
       const bool linear = step.repeated || (step.iterations.size() == 1 && !assembly_.matrix_changed());
       linear_size_ = linear ? to - reached : 0.0;
+      on_last_way_ = false;
       measure_stiffness(reached, to);
       accept(to);
       keep_way(to - reached);
@@ -336,6 +339,11 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
       report.load_factor = reached;
       ++report.substeps;
       if (step.iterations.size() <= 6 && 8.0 * error <= kPathTolerance) size *= 2.0;
+      continue;
+    }
+    // Half way along a collapse mechanism the matrix may be singular where the committed state's is not.
+    if (step.outcome == StepOutcome::singular && on_last_way_) {
+      reject(stage, 0.0);
       continue;
     }
     report.points = assembly_.count_points();

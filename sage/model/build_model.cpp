@@ -180,7 +180,7 @@ void build_reports(Builder& b) {
       if (card.blank("cell_pressure"))
         b.note(card.where(), "the cell pressure of this triaxial report is left blank, which reads as 0");
       for (const char* field : {"height", "area", "cell_pressure"}) b.usable(card, field, card.real(field));
-      if (!report.nodes.empty() && report.area == 0.0 && !(report_area(b.model, report) > 0.0))
+      if (b.nodes_known && !report.nodes.empty() && report.area == 0.0 && !(report_area(b.model, report) > 0.0))
         b.error(card.where("area"),
                 std::string("give the area: it is left blank and can't be found from the report's nodes, ") +
                     (b.model.geometry == Geometry::axisymmetric ? "all of which lie on the axis"

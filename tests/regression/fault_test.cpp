@@ -356,8 +356,12 @@ TEST(Fault, InterruptedAndRestarted) {
 // Nothing that could go on is left, and that is said.
 TEST(Fault, InterruptedWithoutCheckpoints) {
   const fs::path folder = empty_folder("interrupted_without");
-  write(folder / "deck.dat", deck_text(3000));
-  const Finished run = sagefe(folder, "run deck.dat --checkpoint -1", "timeout --preserve-status -s INT 0.3");
+  write(folder / "deck.dat", deck_text(99999));
+  // As soon as the run has begun to write: on a slow machine too it then knows what to do with the signal.
+  const Finished run = sagefe(folder, "run deck.dat --checkpoint -1",
+                              R"(timeout 120 sh -c '"$0" "$@" & child=$!
+                                 while [ ! -e out/deck.lst.partial ]; do sleep 0.02; done
+                                 kill -TERM $child; wait $child')");
   EXPECT_EQ(run.exit_code, 5) << run.err;
   EXPECT_NE(run.err.find("there is no checkpoint"), std::string::npos) << run.err;
   EXPECT_NE(read(folder / "out/deck.lst").find("RUN STOPPED, NOT COMPLETE"), std::string::npos);

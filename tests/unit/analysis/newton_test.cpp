@@ -142,8 +142,9 @@ TEST(Advice, NamesAnotherMethodThanTheStages) {
   for (int method : {1, 2}) {
     const std::string reason = press(25.0, method).result.reason;
     EXPECT_NE(reason.find("no equilibrium found"), std::string::npos) << reason;
-    EXPECT_EQ(reason.find("method 2 (initial stiffness)"), std::string::npos) << reason;
-    EXPECT_NE(reason.find("method 0 (Newton)"), std::string::npos) << reason;
+    const std::string advice = reason.substr(std::min(reason.find("  try: "), reason.size()));
+    EXPECT_EQ(advice.find("method 2"), std::string::npos) << reason;
+    EXPECT_NE(advice.find("method 0 (Newton)"), std::string::npos) << reason;
   }
 }
 

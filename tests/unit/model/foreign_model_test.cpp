@@ -330,7 +330,9 @@ TEST(ForeignModel, AMeshWithoutItsCoordinatesIsRefused) {
   const std::string path = test::scratch_folder("own_layout").string() + "/own.toml";
   std::ofstream(path) << layout;
   EXPECT_EQ(refusal("smith_griffiths/p61.dat", path),
-            "5 coordinates y are needed, one more than rows, and the card has 0");
+            "field \"z\" of card \"rectangle_y\" is used by nothing; the nearest name is \"y\" (or mark it: "
+            "ignored = "
+            "true)");
 }
 
 }  // namespace
