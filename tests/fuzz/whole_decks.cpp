@@ -378,8 +378,11 @@ bool memory_ran_out(const std::string& err) {
 }
 
 // What is wrong; empty if nothing is.
-std::string fault_in(const Ended& ended, const fs::path& folder) {
+std::string fault_in(const Input& input, const Ended& ended, const fs::path& folder) {
   if (ended.killed) return "does not end after SIGTERM";
+  // Only `run` has something to keep: the signal ends the other commands at once.
+  const bool ends_at_once = ended.asked_to_stop && input.command.front() != "run";
+  if (ends_at_once && WIFSIGNALED(ended.status) && WTERMSIG(ended.status) == SIGTERM) return {};
   if (WIFSIGNALED(ended.status)) return "ended by signal " + std::to_string(WTERMSIG(ended.status));
   const int code = WEXITSTATUS(ended.status);
   const std::string err = file_text(folder / "stderr");
@@ -416,7 +419,7 @@ std::string fault_of(const Input& input, const Settings& settings, Ended& ended)
   empty_folder(settings.scratch);
   std::ofstream(settings.scratch / "deck.dat", std::ios::binary) << input.deck;
   ended = run_child(input, settings.scratch, settings.seconds);
-  return fault_in(ended, settings.scratch);
+  return fault_in(input, ended, settings.scratch);
 }
 
 int replay(const std::vector<BaseDeck>& decks, const Settings& settings) {
@@ -440,7 +443,9 @@ int run_all(const std::vector<BaseDeck>& decks, const Settings& settings) {
     longest = std::max(longest, ended.seconds);
     const bool report = WIFEXITED(ended.status) && WEXITSTATUS(ended.status) == kReport;
     if (fault.empty()) {
-      ++outcomes[report ? "out of memory" : "exit code " + std::to_string(WEXITSTATUS(ended.status))];
+      ++outcomes[WIFSIGNALED(ended.status) ? "SIGTERM"
+                 : report                  ? "out of memory"
+                                           : "exit code " + std::to_string(WEXITSTATUS(ended.status))];
       if (ended.asked_to_stop) ++outcomes["ended by SIGTERM after its time"];
       continue;
     }
