@@ -252,13 +252,16 @@ TEST(Fault, ACheckpointOfAnotherBuildIsRefused) {
   EXPECT_EQ(sagefe(folder, std::string("run deck.dat -q --restart ") + kOptions).exit_code, 0);
 }
 
+// The leak sanitizer can't look at a program that is being traced.
+const std::string kStrace = "env ASAN_OPTIONS=detect_leaks=0 strace -o trace.txt ";
+
 // The system calls of a run with a checkpoint an increment: no checkpoint gets its name before the results it
 // builds on, and itself, are on the disk; no result gets its name before its bytes are.
 TEST(Fault, ResultsReachTheDiskBeforeTheCheckpointThatBuildsOnThem) {
   if (std::system("strace -o /dev/null true > /dev/null 2>&1") != 0) GTEST_SKIP() << "no strace here";
   const fs::path folder = folder_with_deck("order");
   const Finished run = sagefe(folder, std::string("run deck.dat -q ") + kOptions,
-                              "strace -o trace.txt -y -e trace=write,fsync,rename,ftruncate");
+                              kStrace + "-y -e trace=write,fsync,rename,ftruncate");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   std::istringstream trace(read(folder / "trace.txt"));
   std::set<std::string> unsynced;  // files with bytes that are not on the disk
@@ -298,9 +301,7 @@ TEST(Fault, ResultsReachTheDiskBeforeTheCheckpointThatBuildsOnThem) {
 TEST(Fault, ShortRunsDoNotWaitForTheDisk) {
   if (std::system("strace -o /dev/null true > /dev/null 2>&1") != 0) GTEST_SKIP() << "no strace here";
   const fs::path folder = folder_with_deck("short");
-  ASSERT_EQ(
-      sagefe(folder, "run deck.dat -q --vtu", "strace -o trace.txt -e trace=fsync,fdatasync,sync").exit_code,
-      0);
+  ASSERT_EQ(sagefe(folder, "run deck.dat -q --vtu", kStrace + "-e trace=fsync,fdatasync,sync").exit_code, 0);
   EXPECT_EQ(read(folder / "trace.txt").find("sync("), std::string::npos);
 }
 
