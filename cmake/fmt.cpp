@@ -1,5 +1,5 @@
-// The functions of libfmt, compiled once from its own headers: every source that takes them as headers would need some
-// seconds more, and the shared library is one more to load at every start (docs/decisions/0007).
+// The functions of libfmt, compiled once from its own headers: every source that takes them as headers would
+// need some seconds more, and the shared library is one more to load at every start (docs/decisions/0007).
 #include <fmt/format-inl.h>
 
 FMT_BEGIN_NAMESPACE

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/QR>
+
 namespace sage {
 
 namespace {
@@ -38,10 +40,27 @@ PatchPolynomial::PatchPolynomial(const std::vector<const Eigen::Matrix2Xd*>& sam
   while (degree_ > 0 && terms_of(degree_) > count) --degree_;
   centre_ = 0.5 * (low + high);
   scale_ = 0.5 * (high - low).cwiseMax(1e-300);
+  fill(samples, count);
+  // Two rows of places can't tell y^2 from 1, nor can six on a conic tell all of degree 2.
+  while (degree_ > 0 && !independent()) {
+    --degree_;
+    fill(samples, count);
+  }
+}
+
+void PatchPolynomial::fill(const std::vector<const Eigen::Matrix2Xd*>& samples, Eigen::Index count) {
   V_.resize(count, terms_of(degree_));
   Eigen::Index row = 0;
   for (const Eigen::Matrix2Xd* at : samples)
     for (Eigen::Index i = 0; i < at->cols(); ++i, ++row) V_.row(row) = terms(at->col(i));
+}
+
+// What is less certain by 1000 than the rest is none of the field: bent rows of places are nearly straight.
+bool PatchPolynomial::independent() const {
+  constexpr double kLeast = 1e-3;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(V_);
+  qr.setThreshold(kLeast);
+  return qr.rank() == V_.cols();
 }
 
 Eigen::RowVectorXd PatchPolynomial::terms(const Vector2& x) const {

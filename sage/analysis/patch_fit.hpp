@@ -17,7 +17,8 @@ Eigen::MatrixXd sample_map(const Element& element);
 class PatchPolynomial {
  public:
   // degree: the lowest of the patch's elements.  The stress wants that; one more takes less from the fit, and
-  // is taken where there are samples enough for it.  Fewer samples than terms lower it.
+  // is taken where there are samples enough for it.  Fewer samples than terms lower it, and so do places that
+  // can't tell all terms apart (a body of one row of elements).
   PatchPolynomial(const std::vector<const Eigen::Matrix2Xd*>& samples, int degree);
 
   Eigen::RowVectorXd terms(const Vector2& x) const;
@@ -25,6 +26,9 @@ class PatchPolynomial {
   const Eigen::MatrixXd& matrix() const { return V_; }
 
  private:
+  void fill(const std::vector<const Eigen::Matrix2Xd*>& samples, Eigen::Index count);
+  bool independent() const;
+
   int degree_;
   Vector2 centre_, scale_;
   Eigen::MatrixXd V_;

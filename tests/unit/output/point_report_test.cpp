@@ -124,6 +124,33 @@ TEST(PointReport, PatchTest) {
   }
 }
 
+// Bodies of one row of elements, and of two triangles: their places of accurate stress lie on two lines or on a
+// conic, which a full polynomial of degree 2 can't tell from nothing.
+TEST(PointReport, PatchTestOfOneRow) {
+  const Field field = [](const Vector2& x) {
+    return Vector2(0.01 * x.x() + 0.002 * x.y(), -0.003 * x.x() + 0.02 * x.y());
+  };
+  const double lambda = kE * kNu / ((1 + kNu) * (1 - 2 * kNu)), G = kE / (2 * (1 + kNu)), e = 0.03;
+  const double stress[4] = {-lambda * e - 2 * G * 0.01, -lambda * e - 2 * G * 0.02, -lambda * e, -G * -0.001};
+  for (const double bend : {0.0, 1e-4, 0.1})
+    for (const auto& [columns, rows] : {std::pair{1, 1}, {1, 2}, {1, 6}, {6, 1}})
+      for (const Cell cell : {Cell::quad8, Cell::quad9, Cell::tri3, Cell::tri6}) {
+        Block block = block_of(cell, 1, [&](double s, double t) {
+          return Vector2(2 * s + bend * std::sin(3 * t), t + bend * std::sin(2 * s));
+        });
+        block.columns = columns;
+        block.rows = rows;
+        const std::vector<Vector2> places{block.place(0.37, 0.61), block.place(0.5, 0.5),
+                                          block.place(0.9, 0.9)};
+        const PointRun r = moved(block, 1, field, at(places));
+        ASSERT_EQ(r.result.status, RunStatus::completed);
+        for (std::size_t i = 0; i < places.size(); ++i)
+          for (int c = 0; c < 4; ++c)
+            EXPECT_NEAR(r.last(i).stress[c], stress[c], 1e-8)
+                << "cell " << static_cast<int>(cell) << ", " << columns << " x " << rows << ", bend " << bend;
+      }
+}
+
 double lame_defect(const PointRun& r, study::LameBody body, const std::vector<Vector2>& places) {
   double worst = 0.0;
   for (std::size_t i = 0; i < places.size(); ++i) {
