@@ -93,8 +93,8 @@ TEST(Fault, KilledAtRandomMomentsAndRestarted) {
     for (int attempt = 0; run.exit_code == 137; ++attempt) {
       ASSERT_LT(attempt, 60) << "never comes to its end";
       const bool had_checkpoint = fs::exists(folder / "out/deck.restart");
-      const std::string limit = std::to_string(whole_time * moment(random) * (1 + attempt));
-      run = sagefe(folder, std::string("run deck.dat -q --restart ") + kOptions, "timeout -s KILL " + limit);
+      const double limit = whole_time * moment(random) * (1 + attempt);
+      run = sagefe(folder, std::string("run deck.dat -q --restart ") + kOptions, killed_after(limit));
       if (run.exit_code == 137) {
         ++killed;
         expect_whole_or_absent(folder / "out", whole);

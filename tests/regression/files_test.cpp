@@ -256,7 +256,7 @@ TEST(Files, ResultsOfFailedAndKilledRunsDoNotStay) {
             (std::set<std::string>{"x.files", "x.lst", "x.increments.csv", "x.report1.csv"}));
 
   write(folder / "failed.dat", long_deck());
-  sagefe(folder, "run failed.dat -o k -q --vtu --points --checkpoint -1", "timeout -s KILL 1");
+  sagefe(folder, "run failed.dat -o k -q --vtu --points --checkpoint -1", killed_after(1.0));
   ASSERT_TRUE(fs::exists(folder / "k/failed_0001.vtu"));
   write(folder / "failed.dat", block());
   ASSERT_EQ(sagefe(folder, "run failed.dat -o k -q").exit_code, 0);

@@ -175,6 +175,11 @@ Finished sagefe(const fs::path& folder, const std::string& arguments, const std:
   return finished;
 }
 
+std::string killed_after(double seconds) {
+  return R"(sh -c '"$0" "$@" & child=$!; (sleep )" + std::to_string(seconds) +
+         R"(; kill -KILL $child) 2>/dev/null & timer=$!; wait $child; code=$?; kill $timer 2>/dev/null; exit $code')";
+}
+
 fs::path empty_folder(const std::string& name) {
   const fs::path folder = scratch_folder(name);
   fs::remove_all(folder);

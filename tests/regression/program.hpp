@@ -50,6 +50,10 @@ struct Finished {
 Finished sagefe(const std::filesystem::path& folder, const std::string& arguments,
                 const std::string& under = "timeout 60");
 
+// For `under`: SIGKILL after so many seconds, exit code 137 then.  Ends when the program is gone, and its locks
+// with it; `timeout -s KILL` doesn't wait for that.
+std::string killed_after(double seconds);
+
 // An empty folder of the test's own.
 std::filesystem::path empty_folder(const std::string& name);
 void write(const std::filesystem::path& file, const std::string& text);
