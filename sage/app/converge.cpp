@@ -260,10 +260,11 @@ std::vector<std::string> Follower::left_out() const {
 // Screen and CSV side by side.
 class Table {
  public:
-  Table(const Model& model, const std::string& quantity, const std::filesystem::path& path) : file_(path) {
-    fmt::print("{}\n  {:>4} {:>9} {:>9} {:>18} {:>12} {:>9}  {}\n", model.title, "mesh", "elements", "dofs",
-               quantity, "error", "seconds", "options");
-    file_.text() = "# " + model.title +
+  Table(const std::string& title, const std::string& quantity, const std::filesystem::path& path)
+      : file_(path) {
+    fmt::print("{}\n  {:>4} {:>9} {:>9} {:>18} {:>12} {:>9}  {}\n", title, "mesh", "elements", "dofs", quantity,
+               "error", "seconds", "options");
+    file_.text() = "# " + title +
                    "\n# finer meshes until the reports are certain; error: estimate, see the manual\n" +
                    "mesh,elements,dofs,value,error,seconds,options\n";
   }
@@ -311,14 +312,17 @@ class Climb {
   std::optional<RunOutcome> run_mesh(const Rung& rung);
   std::string why_unusable(const RunOutcome& outcome, const Rung& rung);
   bool add_mesh(int level);
+  bool climb();
   bool out_of_time();
   RunRequest request_for(const Rung& rung);
+  void start_table(const std::string& quantity);
   void keep_best_files() const;
 
   RunRequest request_;
   const ConvergeOptions& options_;
   const Catalogue& catalogue_;
   const Clock::time_point start_ = Clock::now();
+  std::string title_;    // of the deck
   std::string partial_;  // what the deck has and the model lacks
   std::uint64_t deck_sum_ = 0;
   Ladder ladder_;
@@ -344,6 +348,7 @@ Ladder Climb::choose_ladder() {
   BuildOptions& build = request_.input.build;
   const Model first = build_model(deck, catalogue_, build);
   print_diagnostics(first.diagnostics);
+  title_ = first.title;
   if (first.reports.empty())
     throw InputError({request_.deck, 0, 0, 0},
                      "--converge needs a report card: it says which number must be certain");
@@ -417,11 +422,14 @@ std::string Climb::why_unusable(const RunOutcome& outcome, const Rung& rung) {
                ? fmt::format("the limit of {:g} s (--max-seconds) came within the next mesh",
                              options_.max_seconds)
                : result.reason;
-  if (outcome.exit_code != kOk)
+  if (outcome.exit_code != kOk) {
+    // Of a finer mesh it is no news of the deck; of the first one it is the answer.
+    if (rows_.empty()) fmt::print(stderr, "{}: {}\n", request_.deck, result.reason);
     return "no equilibrium with " + rung.options + ": " + result.reason.substr(0, result.reason.find('\n'));
+  }
   if (follower_.append(last_components(*outcome.model, *outcome.reports))) return {};
-  return rows_.empty() ? "the deck's reports have no value that can converge"
-                       : "the reports of the next mesh lack a value that the others have";
+  if (!rows_.empty()) return "the reports of the next mesh lack a value that the others have";
+  throw InputError({request_.deck, 0, 0, 0}, "--converge: the deck's reports have no value that can converge");
 }
 
 // False: it can't be used, and stopped_ says why.
@@ -433,12 +441,14 @@ bool Climb::add_mesh(int level) {
   if (!stopped_.empty()) return false;
   Row row{outcome->record.scene.elements, outcome->model->dofs(), outcome->record.seconds, {}};
   for (const std::filesystem::path& file : outcome->files) row.files.emplace_back(file, bytes_of(file));
-  if (!table_)
-    table_.emplace(*outcome->model, follower_.shown().name,
-                   request_.output.folder / (case_name(request_.deck) + ".convergence.csv"));
+  if (!table_) start_table(follower_.shown().name);
   table_->row(follower_.meshes(), row, follower_.shown_limit(), follower_.shown().values.back(), rung.options);
   rows_.push_back(std::move(row));
   return true;
+}
+
+void Climb::start_table(const std::string& quantity) {
+  table_.emplace(title_, quantity, request_.output.folder / (case_name(request_.deck) + ".convergence.csv"));
 }
 
 // Later meshes have written over them.
@@ -447,20 +457,35 @@ void Climb::keep_best_files() const {
     if (bytes_of(path) != bytes) write_file(path, bytes);
 }
 
-int Climb::run() {
-  bool reached = false;
-  for (int level = 0; !reached; ++level) {
-    if (out_of_time() || !add_mesh(level)) break;
-    reached = follower_.certain(follower_.best());
-    if (!reached && follower_.exhausted()) {
+// True if the tolerance was reached.
+bool Climb::climb() {
+  for (int level = 0; !out_of_time() && add_mesh(level); ++level) {
+    if (follower_.certain(follower_.best())) return true;
+    if (follower_.exhausted()) {
       stopped_ = "finer meshes no longer improve it: only rounding is left";
       break;
     }
   }
-  if (!table_) throw InputError({request_.deck, 0, 0, 0}, "--converge: " + stopped_);
-  keep_best_files();
-  for (const std::string& line : follower_.left_out()) table_->note(line);
-  std::string last = follower_.result() + fmt::format("; {:.3g} s", seconds_since(start_));
+  return false;
+}
+
+int Climb::run() {
+  bool reached = false;
+  try {
+    reached = climb();
+  } catch (...) {
+    results_.close();
+    throw;
+  }
+  std::string last = "result    none";
+  if (table_) {
+    keep_best_files();
+    for (const std::string& line : follower_.left_out()) table_->note(line);
+    last = follower_.result();
+  } else {
+    start_table("value");  // not even the first mesh has one
+  }
+  last += fmt::format("; {:.3g} s", seconds_since(start_));
   if (!partial_.empty()) last += "; PARTIAL: " + partial_;
   if (!reached)
     last += fmt::format("; NOT REACHED: relative error {:.1g} asked for; {}", options_.tolerance, stopped_);
