@@ -377,15 +377,29 @@ bool memory_ran_out(const std::string& err) {
   return false;
 }
 
+// A file that the program keeps only while it works; empty if none is left.
+std::string left_behind(const fs::path& folder) {
+  std::error_code ignored;
+  for (const auto& entry : fs::recursive_directory_iterator(folder, ignored))
+    if (const std::string name = entry.path().filename().string(); name.ends_with(".partial"))
+      return "left " + name;
+  return {};
+}
+
+// Only `run` has something to keep when SIGTERM comes: the signal ends the other commands at once, and `run`
+// too before it has begun and behind its last file.
+bool ended_at_once(const Input& input, const Ended& ended, const std::string& err) {
+  if (!ended.asked_to_stop || !WIFSIGNALED(ended.status) || WTERMSIG(ended.status) != SIGTERM) return false;
+  return input.command.front() != "run" || err.find("stops after the increment in hand") == std::string::npos;
+}
+
 // What is wrong; empty if nothing is.
 std::string fault_in(const Input& input, const Ended& ended, const fs::path& folder) {
   if (ended.killed) return "does not end after SIGTERM";
-  // Only `run` has something to keep: the signal ends the other commands at once.
-  const bool ends_at_once = ended.asked_to_stop && input.command.front() != "run";
-  if (ends_at_once && WIFSIGNALED(ended.status) && WTERMSIG(ended.status) == SIGTERM) return {};
+  const std::string err = file_text(folder / "stderr");
+  if (ended_at_once(input, ended, err)) return input.command.front() == "run" ? left_behind(folder) : "";
   if (WIFSIGNALED(ended.status)) return "ended by signal " + std::to_string(WTERMSIG(ended.status));
   const int code = WEXITSTATUS(ended.status);
-  const std::string err = file_text(folder / "stderr");
   if (code == kReport && memory_ran_out(err)) return {};
   for (const char* words : {"AddressSanitizer", "LeakSanitizer", "runtime error:"})
     if (err.find(words) != std::string::npos) return std::string("a report: ") + words;
@@ -393,13 +407,13 @@ std::string fault_in(const Input& input, const Ended& ended, const fs::path& fol
   if (std::find(std::begin(known), std::end(known), code) == std::end(known))
     return "exit code " + std::to_string(code) + " is not documented";
   if (code != 0 && err.empty()) return "exit code " + std::to_string(code) + " without a message";
+  if (const std::string left = left_behind(folder); !left.empty()) return left;
+  if (code != 0) return {};
   std::error_code ignored;
-  for (const auto& entry : fs::recursive_directory_iterator(folder, ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (name.ends_with(".partial")) return "left " + name;
-    if (code == 0 && name.ends_with(".csv"))
-      if (const std::string line = not_finite(entry.path()); !line.empty()) return name + " holds " + line;
-  }
+  for (const auto& entry : fs::recursive_directory_iterator(folder, ignored))
+    if (entry.path().extension() == ".csv")
+      if (const std::string line = not_finite(entry.path()); !line.empty())
+        return entry.path().filename().string() + " holds " + line;
   return {};
 }
 
