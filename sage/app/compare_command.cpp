@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "sage/app/commands.hpp"
+#include "sage/app/converge.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/run_deck.hpp"
 #include "sage/compare/comparison.hpp"
@@ -32,6 +33,7 @@ struct CompareOptions {
   InputOptions input;  // of both sides, where B has none of its own
   std::string solver;
   int threads = 0;
+  ConvergeOptions converge;
   std::optional<int> formulation_b, element_b, geometry_b;
   std::optional<std::string> solver_b, layout_b;
   std::vector<std::string> lines, pictures;
@@ -58,7 +60,9 @@ SideOptions side_b(const CompareOptions& o) {
 }
 
 // "A: deck.dat, axisymmetric, quad4 full, clay linear_elastic, solver automatic"
-std::string label_of(const char* letter, const SideOptions& side, const Model* model) {
+// mesh: options that give it, where it is not the deck's.
+std::string label_of(const char* letter, const SideOptions& side, const Model* model,
+                     const std::string& mesh = "") {
   std::string text = fmt::format("{}: {}", letter, side.deck);
   if (model == nullptr) return text;
   text += model->geometry == Geometry::axisymmetric ? ", axisymmetric" : ", plane strain";
@@ -72,44 +76,141 @@ std::string label_of(const char* letter, const SideOptions& side, const Model* m
   for (std::size_t i = 0; i < std::min(names.size(), kShown); ++i) text += ", " + names[i];
   if (names.size() > kShown) text += ", ...";
   if (!side.solver.empty()) text += ", solver " + side.solver;
+  if (!mesh.empty()) text += ", " + mesh;
   return text;
 }
 
-compare::Side run_side(const char* letter, const SideOptions& options, const std::filesystem::path& folder,
-                       const std::string& stem, const Catalogue& catalogue) {
+// Where both sides and their files go.
+struct Place {
+  std::filesystem::path folder;
+  ResultFiles& results;
+  const Catalogue& catalogue;
+};
+
+// A side, and what finer and finer meshes said of it, where that was asked for.
+struct FinishedSide {
+  compare::Side side;
+  std::optional<Convergence> convergence = {};
+
+  std::vector<compare::CertainValue> certain() const {
+    std::vector<compare::CertainValue> values;
+    if (convergence)
+      for (const ConvergedValue& v : convergence->values)
+        values.push_back({v.name, v.value, v.error, v.reached});
+    return values;
+  }
+};
+
+RunRequest climb_request(const SideOptions& options, const Place& place, const std::string& stem) {
+  RunRequest request;
+  request.deck = options.deck;
+  request.stem = stem;
+  request.input = options.input;
+  request.solver = options.solver;
+  request.threads = options.threads;
+  request.output.folder = place.folder;
+  request.results = &place.results;
+  return request;
+}
+
+Model build_side(const SideOptions& options, const Catalogue& catalogue) {
+  BuildOptions build = options.input.build;
+  build.solver = solver_code(catalogue, options.solver);
+  return build_model(read_input(options.deck, options.input), catalogue, build);
+}
+
+compare::Side run_model(Model model, const std::string& label, const SideOptions& options, const Place& place,
+                        const std::string& stem) {
+  RunSettings settings;
+  settings.threads = threads_for(options.threads);
+  settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
+  compare::Side side(label, std::move(model), place.folder, stem);
+  side.run(place.catalogue, settings);
+  if (!side.error().empty()) fmt::print(stderr, "{}: {}\n", options.deck, side.error());
+  return side;
+}
+
+FinishedSide run_side(const char* letter, const SideOptions& options, const Place& place,
+                      const std::string& stem) {
   std::optional<Model> model;
   try {
-    BuildOptions build = options.input.build;
-    build.solver = solver_code(catalogue, options.solver);
-    model = build_model(read_input(options.deck, options.input), catalogue, build);
+    model = build_side(options, place.catalogue);
   } catch (const InputError& error) {
     print_diagnostics(error.diagnostics());
-    return {label_of(letter, options, nullptr), error.what()};
+    return {{label_of(letter, options, nullptr), error.what()}};
   }
   fmt::print(stderr, "{}: {}\n", letter, options.deck);
   print_diagnostics(model->diagnostics);
   const std::string label = label_of(letter, options, &*model);
   if (options.input.strict && model->diagnostics.warnings() > 0)
-    return {label, "warnings count as errors (--strict)"};
-  RunSettings settings;
-  settings.threads = threads_for(options.threads);
-  settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
-  compare::Side side(label, std::move(*model), folder, stem);
-  side.run(catalogue, settings);
-  if (!side.error().empty()) fmt::print(stderr, "{}: {}\n", options.deck, side.error());
-  return side;
+    return {{label, "warnings count as errors (--strict)"}};
+  return {run_model(std::move(*model), label, options, place, stem)};
+}
+
+// Finer and finer meshes; the best of them is the side.
+FinishedSide climb_side(const char* letter, const SideOptions& options, const ConvergeOptions& converge,
+                        const Place& place, const std::string& stem) {
+  fmt::print(stderr, "{}: {}\n", letter, options.deck);
+  Convergence found;
+  const std::string label = label_of(letter, options, nullptr);
+  try {
+    found = climb(climb_request(options, place, stem), converge, place.catalogue);
+  } catch (const InputError& error) {
+    print_diagnostics(error.diagnostics());
+    return {{label, error.what()}};
+  } catch (const AnalysisError& error) {
+    fmt::print(stderr, "{}: {}\n", options.deck, error.what());
+    found.not_reached = error.what();
+    return {{label, error.what()}, found};
+  }
+  if (!found.best) return {{label, found.not_reached}, found};
+  SideOptions best = options;
+  best.input.strict = false;  // as the deck's own mesh, which has passed
+  best.input.build = *found.best;
+  best.input.build.say = {};
+  Model model = build_side(best, place.catalogue);
+  const std::string best_label = label_of(letter, best, &model, found.options);
+  compare::Side side = run_model(std::move(model), best_label, best, place, stem);
+  side.set_not_reached(found.not_reached);
+  return {std::move(side), found};
 }
 
 // A point that neither mesh holds is a mistake.
-void require_points(const CompareOptions& o, const compare::Side& a, const compare::Side& b) {
-  const auto holds = [](const compare::Side& side, const PointRequest& point) {
-    return side.has_model() && !Locator(side.model()).at(point.place).empty();
+void require_points(const CompareOptions& o, const Model* a, const Model* b) {
+  const auto holds = [](const Model* model, const PointRequest& point) {
+    return model != nullptr && !Locator(*model).at(point.place).empty();
   };
+  if (a == nullptr && b == nullptr) return;
   for (const PointRequest& point : o.input.build.points)
-    if ((a.has_model() || b.has_model()) && !holds(a, point) && !holds(b, point))
+    if (!holds(a, point) && !holds(b, point))
       throw InputError({o.decks.front(), 0, 0, 0},
                        fmt::format("the point ({:.10g}; {:.10g}) lies outside the mesh of both runs",
                                    point.place.x(), point.place.y()));
+}
+
+// Before a climb, which may take long.
+void require_points_of_decks(const CompareOptions& o, const SideOptions (&sides)[2],
+                             const Catalogue& catalogue) {
+  if (o.input.build.points.empty()) return;
+  std::optional<Model> models[2];
+  for (std::size_t k = 0; k < 2; ++k) {
+    try {
+      models[k] = build_side(sides[k], catalogue);
+    } catch (const InputError&) {
+      // The climb says what is wrong.
+    }
+  }
+  require_points(o, models[0] ? &*models[0] : nullptr, models[1] ? &*models[1] : nullptr);
+}
+
+int exit_code_of(const FinishedSide& a, const FinishedSide& b) {
+  int code = kOk;
+  for (const FinishedSide* one : {&a, &b}) {
+    if (!one->side.has_model() && !one->convergence) return kInput;
+    if (!one->side.error().empty() || (one->convergence && !one->convergence->not_reached.empty()))
+      code = kNotConverged;
+  }
+  return code;
 }
 
 int compare_decks(const CompareOptions& o) {
@@ -135,11 +236,18 @@ int compare_decks(const CompareOptions& o) {
   const std::string stem = name_a == name_b ? name_a : name_a + "_" + name_b;
   for (const SideOptions& side : options) keep_input(side.deck);
   ResultFiles results(o.folder, stem + ".compare", {options[0].deck, 0, "comparison"});
-  const compare::Side a = run_side("A", options[0], o.folder, stem + ".a", catalogue);
-  const compare::Side b = run_side("B", options[1], o.folder, stem + ".b", catalogue);
-
-  require_points(o, a, b);
-  const compare::Comparison comparison = compare::compare(a, b, lines);
+  const Place place{o.folder, results, catalogue};
+  ConvergeOptions converge = o.converge;
+  converge.screen = stderr;  // the answer comes first on the other one
+  if (converge.asked()) require_points_of_decks(o, options, catalogue);
+  const auto finish = [&](const char* letter, const SideOptions& side, const char* ending) {
+    return converge.asked() ? climb_side(letter, side, converge, place, stem + ending)
+                            : run_side(letter, side, place, stem + ending);
+  };
+  const FinishedSide side_a = finish("A", options[0], ".a"), side_b = finish("B", options[1], ".b");
+  const compare::Side &a = side_a.side, &b = side_b.side;
+  require_points(o, a.has_model() ? &a.model() : nullptr, b.has_model() ? &b.model() : nullptr);
+  const compare::Comparison comparison = compare::compare(a, b, lines, side_a.certain(), side_b.certain());
   std::vector<std::filesystem::path> files{o.folder / (stem + ".compare.csv")};
   write_file(files.front(), compare::to_csv(comparison, a, b, o.digits > 0 ? o.digits : kCsvDigits));
   for (const std::string& name : o.pictures) {
@@ -149,13 +257,14 @@ int compare_decks(const CompareOptions& o) {
   }
   results.close();
   fmt::print("{}", compare::to_text(comparison, a, b));
-  for (const compare::Side* side : {&a, &b})
-    if (side->has_model())
-      for (const std::filesystem::path& file : side->reports().files()) files.push_back(file);
+  for (const FinishedSide* one : {&side_a, &side_b}) {
+    if (one->convergence && !one->convergence->table.empty()) files.push_back(one->convergence->table);
+    if (one->side.has_model())
+      for (const std::filesystem::path& file : one->side.reports().files()) files.push_back(file);
+  }
   for (std::size_t i = 0; i < files.size(); ++i)
     fmt::print("{:<7}{}\n", i == 0 ? "files:" : "", files[i].string());
-  if (!a.has_model() || !b.has_model()) return kInput;
-  return a.error().empty() && b.error().empty() ? kOk : kNotConverged;
+  return exit_code_of(side_a, side_b);
 }
 
 }  // namespace
@@ -179,6 +288,7 @@ Command compare_command(CLI::App& parser) {
   parser.add_option("--layout-b", o->layout_b, "card layout of B");
   parser.add_option("--line", o->lines,
                     "x1,y1,x2,y2[:name[:n]]: displacement and stress at n places (default 11)");
+  add_converge_options(parser, o->converge, "of each side, ");
   add_digits_option(parser, o->digits);
   parser
       .add_option("--picture", o->pictures,

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -36,6 +38,7 @@ struct Row {
   int elements = 0, dofs = 0;
   double seconds = 0.0;
   std::vector<std::pair<std::filesystem::path, std::string>> files;
+  Rung rung;
 };
 
 int code_of(const Catalogue& catalogue, const std::string& name) {
@@ -130,25 +133,30 @@ class Follower {
   const Quantity& shown() const { return quantities_[shown_]; }
   Limit shown_limit() const { return study::limit_of(shown().values, ladder_); }
   // Whether a mesh (from 1) is as certain as asked, later ones considered.
-  bool certain(std::size_t mesh) const { return worst(mesh) <= tolerance_ * (1.0 + 1e-12); }
+  bool certain(std::size_t mesh) const { return enough(worst(mesh)); }
   // The mesh (from 1) whose least certain quantity is the most certain.
   std::size_t best() const;
   // No mesh of the last two is better than one before, and all agree: only rounding is left.
   bool exhausted() const;
   std::string result() const;
+  // On the best mesh; see Convergence.
+  std::vector<ConvergedValue> values() const;
   // Why a quantity does not count, a line each.
   std::vector<std::string> left_out() const;
 
  private:
+  bool enough(double error) const { return error <= tolerance_ * (1.0 + 1e-12); }
   bool follow(const ReportComponent& component) const;
   std::string why_left_out(std::size_t i) const;
   double worst(std::size_t mesh) const;
   void choose_shown();
+  void append_others(const std::vector<ReportComponent>& components);
 
   std::vector<std::string> names_;
   Ladder ladder_;
   double tolerance_;
-  std::vector<Quantity> quantities_;
+  std::vector<Quantity> quantities_;  // followed
+  std::vector<Quantity> others_;      // not followed: their limits are told, and decide nothing
   std::size_t shown_ = 0;
 };
 
@@ -170,10 +178,28 @@ void Follower::choose_shown() {
   shown_ = static_cast<std::size_t>(found - quantities_.begin());
 }
 
+const ReportComponent* find_component(const std::vector<ReportComponent>& components, const std::string& name) {
+  const auto same = std::find_if(components.begin(), components.end(),
+                                 [&](const ReportComponent& c) { return c.name == name; });
+  return same == components.end() || !std::isfinite(same->value) ? nullptr : &*same;
+}
+
+// One without a value on some mesh goes.
+void Follower::append_others(const std::vector<ReportComponent>& components) {
+  std::erase_if(others_, [&](Quantity& q) {
+    const ReportComponent* now = find_component(components, q.name);
+    if (now == nullptr) return true;
+    q.values.push_back(now->value);
+    q.largest.push_back(now->largest);
+    return false;
+  });
+}
+
 bool Follower::append(const std::vector<ReportComponent>& components) {
   if (quantities_.empty()) {
     for (const ReportComponent& c : components)
-      if (follow(c) && std::isfinite(c.value)) quantities_.push_back({c.name, {c.value}, {c.largest}});
+      if (std::isfinite(c.value))
+        (follow(c) ? quantities_ : others_).push_back({c.name, {c.value}, {c.largest}});
     for (const std::string& name : names_)
       if (std::none_of(quantities_.begin(), quantities_.end(),
                        [&](const Quantity& q) { return q.name == name; }))
@@ -183,11 +209,10 @@ bool Follower::append(const std::vector<ReportComponent>& components) {
   }
   std::vector<const ReportComponent*> now;
   for (const Quantity& q : quantities_) {
-    const auto same = std::find_if(components.begin(), components.end(),
-                                   [&](const ReportComponent& c) { return c.name == q.name; });
-    if (same == components.end() || !std::isfinite(same->value)) return false;
-    now.push_back(&*same);
+    now.push_back(find_component(components, q.name));
+    if (now.back() == nullptr) return false;
   }
+  append_others(components);
   for (std::size_t i = 0; i < now.size(); ++i) {
     quantities_[i].values.push_back(now[i]->value);
     quantities_[i].largest.push_back(now[i]->largest);
@@ -249,6 +274,19 @@ std::string Follower::result() const {
   return text;
 }
 
+std::vector<ConvergedValue> Follower::values() const {
+  std::vector<ConvergedValue> all;
+  const std::size_t mesh = best();
+  const auto add = [&](const Quantity& q, bool decides) {
+    const Limit limit = study::limit_after(q.values, mesh, ladder_);
+    if (decides || std::isfinite(limit.error))
+      all.push_back({q.name, limit.value, limit.error, !decides || enough(relative(limit))});
+  };
+  for (std::size_t i = 0; i < quantities_.size(); ++i) add(quantities_[i], why_left_out(i).empty());
+  for (const Quantity& q : others_) add(q, false);
+  return all;
+}
+
 std::vector<std::string> Follower::left_out() const {
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < quantities_.size(); ++i)
@@ -260,33 +298,38 @@ std::vector<std::string> Follower::left_out() const {
 // Screen and CSV side by side.
 class Table {
  public:
-  Table(const std::string& title, const std::string& quantity, const std::filesystem::path& path)
-      : file_(path) {
-    fmt::print("{}\n  {:>4} {:>9} {:>9} {:>18} {:>12} {:>9}  {}\n", title, "mesh", "elements", "dofs", quantity,
-               "error", "seconds", "options");
+  Table(std::FILE* screen, const std::string& title, const std::string& quantity,
+        const std::filesystem::path& path)
+      : screen_(screen), file_(path) {
+    fmt::print(screen_, "{}\n  {:>4} {:>9} {:>9} {:>18} {:>12} {:>9}  {}\n", title, "mesh", "elements", "dofs",
+               quantity, "error", "seconds", "options");
     file_.text() = "# " + title +
                    "\n# finer meshes until the reports are certain; error: estimate, see the manual\n" +
                    "mesh,elements,dofs,value,error,seconds,options\n";
   }
   void row(std::size_t mesh, const Row& row, const Limit& limit, double value, const std::string& options) {
-    fmt::print("  {:>4} {:>9} {:>9} {:>18.10g} {:>12} {:>9.3f}  {}\n", mesh, row.elements, row.dofs, value,
-               std::isfinite(limit.error) ? fmt::format("{:.1e}", limit.error) : "-", row.seconds, options);
-    std::fflush(stdout);
+    fmt::print(screen_, "  {:>4} {:>9} {:>9} {:>18.10g} {:>12} {:>9.3f}  {}\n", mesh, row.elements, row.dofs,
+               value, std::isfinite(limit.error) ? fmt::format("{:.1e}", limit.error) : "-", row.seconds,
+               options);
+    std::fflush(screen_);
     file_.text() +=
         fmt::format("{},{},{},{:.12g},{},{:.4f},{}\n", mesh, row.elements, row.dofs, value,
                     std::isfinite(limit.error) ? fmt::format("{:.3g}", limit.error) : "", row.seconds, options);
   }
   void note(const std::string& text) {
     file_.text() += "# " + text + "\n";
-    fmt::print("  {}\n", text);
+    fmt::print(screen_, "  {}\n", text);
   }
   void finish(const std::string& last) {
     note(last);
     file_.finish();
-    fmt::print("  files     {}\n", file_.path().string());
+    fmt::print(screen_, "  files     {}\n", file_.path().string());
   }
 
+  const std::filesystem::path& path() const { return file_.path(); }
+
  private:
+  std::FILE* screen_;
   OutFile file_;
 };
 
@@ -305,7 +348,7 @@ std::string bytes_of(const std::filesystem::path& path) {
 class Climb {
  public:
   Climb(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue);
-  int run();
+  Convergence run();
 
  private:
   Ladder choose_ladder();
@@ -313,6 +356,8 @@ class Climb {
   std::string why_unusable(const RunOutcome& outcome, const Rung& rung);
   bool add_mesh(int level);
   bool climb();
+  bool climb_and_close();
+  Convergence outcome(bool reached) const;
   bool out_of_time();
   RunRequest request_for(const Rung& rung);
   void start_table(const std::string& quantity);
@@ -326,11 +371,13 @@ class Climb {
   std::string partial_;  // what the deck has and the model lacks
   std::uint64_t deck_sum_ = 0;
   Ladder ladder_;
-  ResultFiles results_;
+  std::optional<ResultFiles> own_;
+  ResultFiles& results_;
   Follower follower_;
   std::optional<Table> table_;
   std::vector<Row> rows_;
-  std::string stopped_;  // why the next mesh isn't there
+  std::optional<Rung> without_equilibrium_;  // the first mesh, where that found none
+  std::string stopped_;                      // why the next mesh isn't there
 };
 
 Climb::Climb(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue)
@@ -338,7 +385,9 @@ Climb::Climb(const RunRequest& request, const ConvergeOptions& options, const Ca
       options_(options),
       catalogue_(catalogue),
       ladder_(choose_ladder()),
-      results_(request.output.folder, case_name(request.deck), {request.deck, deck_sum_, "convergence"}),
+      results_(request.results != nullptr ? *request.results
+                                          : own_.emplace(request.output.folder, stem_of(request),
+                                                         ResultOwner{request.deck, deck_sum_, "convergence"})),
       follower_(options.follow, ladder_, options.tolerance) {}
 
 // Degrees and layers start from the coarsest mesh that means the same as the deck's.
@@ -348,6 +397,10 @@ Ladder Climb::choose_ladder() {
   BuildOptions& build = request_.input.build;
   const Model first = build_model(deck, catalogue_, build);
   print_diagnostics(first.diagnostics);
+  // Once, of the deck's mesh: what finer ones warn of is their own.
+  if (request_.input.strict && first.diagnostics.warnings() > 0)
+    throw InputError({request_.deck, 0, 0, 0}, "warnings count as errors (--strict)");
+  request_.input.strict = false;
   title_ = first.title;
   if (first.reports.empty())
     throw InputError({request_.deck, 0, 0, 0},
@@ -424,7 +477,10 @@ std::string Climb::why_unusable(const RunOutcome& outcome, const Rung& rung) {
                : result.reason;
   if (outcome.exit_code != kOk) {
     // Of a finer mesh it is no news of the deck; of the first one it is the answer.
-    if (rows_.empty()) fmt::print(stderr, "{}: {}\n", request_.deck, result.reason);
+    if (rows_.empty()) {
+      fmt::print(stderr, "{}: {}\n", request_.deck, result.reason);
+      without_equilibrium_ = rung;
+    }
     return "no equilibrium with " + rung.options + ": " + result.reason.substr(0, result.reason.find('\n'));
   }
   if (follower_.append(last_components(*outcome.model, *outcome.reports))) return {};
@@ -439,7 +495,7 @@ bool Climb::add_mesh(int level) {
   const std::optional<RunOutcome> outcome = run_mesh(rung);
   if (outcome) stopped_ = why_unusable(*outcome, rung);
   if (!stopped_.empty()) return false;
-  Row row{outcome->record.scene.elements, outcome->model->dofs(), outcome->record.seconds, {}};
+  Row row{outcome->record.scene.elements, outcome->model->dofs(), outcome->record.seconds, {}, rung};
   for (const std::filesystem::path& file : outcome->files) row.files.emplace_back(file, bytes_of(file));
   if (!table_) start_table(follower_.shown().name);
   table_->row(follower_.meshes(), row, follower_.shown_limit(), follower_.shown().values.back(), rung.options);
@@ -448,7 +504,8 @@ bool Climb::add_mesh(int level) {
 }
 
 void Climb::start_table(const std::string& quantity) {
-  table_.emplace(title_, quantity, request_.output.folder / (case_name(request_.deck) + ".convergence.csv"));
+  table_.emplace(options_.screen, title_, quantity,
+                 request_.output.folder / (stem_of(request_) + ".convergence.csv"));
 }
 
 // Later meshes have written over them.
@@ -469,36 +526,79 @@ bool Climb::climb() {
   return false;
 }
 
-int Climb::run() {
-  bool reached = false;
+bool Climb::climb_and_close() {
   try {
-    reached = climb();
+    return climb();
   } catch (...) {
-    results_.close();
+    if (own_) own_->close();
     throw;
   }
+}
+
+Convergence Climb::outcome(bool reached) const {
+  Convergence result;
+  result.exit_code = reached ? kOk : kNotConverged;
+  result.table = table_->path();
+  if (!reached)
+    result.not_reached = fmt::format("relative error {:.1g} asked for; {}", options_.tolerance, stopped_);
+  if (!rows_.empty()) result.values = follower_.values();
+  const Rung* best = !rows_.empty()         ? &rows_[follower_.best() - 1].rung
+                     : without_equilibrium_ ? &*without_equilibrium_
+                                            : nullptr;
+  if (best != nullptr) {
+    result.best = best->build;
+    result.options = best->options;
+  }
+  return result;
+}
+
+Convergence Climb::run() {
+  const bool reached = climb_and_close();
   std::string last = "result    none";
-  if (table_) {
+  if (!table_) {
+    start_table("value");  // not even the first mesh has one
+  } else {
     keep_best_files();
     for (const std::string& line : follower_.left_out()) table_->note(line);
     last = follower_.result();
-  } else {
-    start_table("value");  // not even the first mesh has one
   }
+  const Convergence result = outcome(reached);
   last += fmt::format("; {:.3g} s", seconds_since(start_));
   if (!partial_.empty()) last += "; PARTIAL: " + partial_;
-  if (!reached)
-    last += fmt::format("; NOT REACHED: relative error {:.1g} asked for; {}", options_.tolerance, stopped_);
+  if (!reached) last += "; NOT REACHED: " + result.not_reached;
   table_->finish(last);
-  results_.close();
-  return reached ? kOk : kNotConverged;
+  if (own_) own_->close();
+  return result;
 }
 
 }  // namespace
 
-int converge(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue) {
+void add_converge_options(CLI::App& parser, ConvergeOptions& options, const std::string& whose) {
+  parser
+      .add_option("--converge", options.tolerance,
+                  "finer and finer meshes until the reports are certain to this relative error, e.g. 1e-5")
+      ->check(number_in(study::kLeastError, 0.5, "a relative error from 1e-10 to 0.5"));
+  parser.add_option(
+      "--follow", options.follow,
+      "with --converge: the number that must be certain, as report1.fy (may be given more than once; "
+      "default: the main ones of all reports, without those that are small beside the others)");
+  parser
+      .add_option("--max-dofs", options.max_dofs,
+                  "with --converge: " + whose + "largest model (default 400000)")
+      ->check(CLI::PositiveNumber);
+  parser
+      .add_option("--max-seconds", options.max_seconds,
+                  "with --converge: " + whose + "time limit, a mesh in work is left then (default 120)")
+      ->check(number_in(1e-3, 1e9, "a number of seconds from 1e-3 to 1e9"));
+}
+
+Convergence climb(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue) {
   require_file(request.deck, "--converge");
   return Climb(request, options, catalogue).run();
+}
+
+int converge(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue) {
+  return climb(request, options, catalogue).exit_code;
 }
 
 }  // namespace sage::app

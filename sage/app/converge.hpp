@@ -1,6 +1,11 @@
-// sagefe run --converge: finer and finer meshes until what the deck's reports say is as certain as asked.
+// --converge of run and compare: finer and finer meshes until what the deck's reports say is as certain as
+// asked.
 #pragma once
 
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,11 +18,38 @@ struct ConvergeOptions {
   int max_dofs = 400'000;
   double max_seconds = 120.0;       // a mesh that is in work then is left
   std::vector<std::string> follow;  // components of reports by name (component_names); empty = the main ones
+  std::FILE* screen = stdout;       // where the table goes, beside its file
+
+  bool asked() const { return tolerance > 0.0; }
 };
 
-// Prints a row a mesh and the result; writes STEM.convergence.csv and the reports of the best mesh.  Returns
-// an exit code: kOk when reached, kNotConverged when a limit came first or a mesh found no equilibrium. Throws
-// InputError (also for a deck without reports or with none of a name that is to be followed), OutputError.
+// --converge, --follow, --max-dofs and --max-seconds.  whose: of what the limits hold, "of each side, ".
+void add_converge_options(CLI::App& parser, ConvergeOptions& options, const std::string& whose = "");
+
+// What the meshes say of one component of a report.
+struct ConvergedValue {
+  std::string name;  // "report1.fy"
+  double value = 0.0;
+  double error = std::numeric_limits<double>::infinity();  // infinite = nothing can be said
+  bool reached = false;                                    // as certain as asked for, or not followed
+};
+
+struct Convergence {
+  int exit_code = 0;        // kOk: reached; kNotConverged: a limit came first, or no equilibrium
+  std::string not_reached;  // "relative error 1e-05 asked for; ...: why"; empty when reached
+  // On the best mesh: all that is followed, and of the other columns of the reports those whose error is known.
+  std::vector<ConvergedValue> values;
+  // The best mesh, or the first one where that found no equilibrium; nothing where not even that was run.
+  std::optional<BuildOptions> best;
+  std::string options;  // the same as a user would ask for it
+  std::filesystem::path table;
+};
+
+// Prints a row a mesh and the result; writes STEM.convergence.csv and the reports of the best mesh (those of
+// request.results where that is given).  Throws InputError (also for a deck without reports or with none of a
+// name that is to be followed), AnalysisError (of the first mesh), OutputError.
+Convergence climb(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue);
+// The exit code alone.
 int converge(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue);
 
 }  // namespace sage::app

@@ -13,7 +13,6 @@
 #include "sage/app/run_deck.hpp"
 #include "sage/output/out_file.hpp"
 #include "sage/output/picture.hpp"
-#include "sage/study/convergence.hpp"
 
 namespace sage::app {
 
@@ -49,7 +48,7 @@ int run_one(const RunOptions& options, const std::string& deck, const Catalogue&
     for (const SkipName& skip : kSkipNames)
       if (name == skip.name || name == "all") request.skips.*skip.flag = false;
   return guarded(deck, [&] {
-    if (options.converge.tolerance > 0.0) {
+    if (options.converge.asked()) {
       const OutputOptions& output = request.output;
       if (output.nodes || output.points || output.vtu || output.error || !output.pictures.empty() ||
           request.restart)
@@ -105,7 +104,7 @@ int run_all(const RunOptions& options) {
     }
     const int code = run_one(options, deck, catalogue);
     // What --converge has is complete: a mesh that was cut short is no failure of the deck.
-    const bool cut_short = options.converge.tolerance > 0.0 && code != kOk && interrupted();
+    const bool cut_short = options.converge.asked() && code != kOk && interrupted();
     worst = std::max(worst, cut_short ? kInterrupted : code);
   }
   return worst;
@@ -143,21 +142,7 @@ Command run_command(CLI::App& parser) {
         return field_from_name(name) ? std::string() : "unknown field " + name;
       });
   parser.add_flag("--error", request.output.error, "estimate the error of the mesh (Zienkiewicz-Zhu)");
-  parser
-      .add_option("--converge", options->converge.tolerance,
-                  "finer and finer meshes until the reports are certain to this relative error, e.g. 1e-5")
-      ->check(number_in(study::kLeastError, 0.5, "a relative error from 1e-10 to 0.5"));
-  parser.add_option(
-      "--follow", options->converge.follow,
-      "with --converge: the number that must be certain, as report1.fy (may be given more than once; "
-      "default: the main ones of all reports, without those that are small beside the others)");
-  parser
-      .add_option("--max-dofs", options->converge.max_dofs, "with --converge: largest model (default 400000)")
-      ->check(CLI::PositiveNumber);
-  parser
-      .add_option("--max-seconds", options->converge.max_seconds,
-                  "with --converge: time limit, a mesh in work is left then (default 120)")
-      ->check(number_in(1e-3, 1e9, "a number of seconds from 1e-3 to 1e9"));
+  add_converge_options(parser, options->converge);
   parser.add_flag("!--no-listing", request.output.listing, "write no listing");
   parser
       .add_option(

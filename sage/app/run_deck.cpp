@@ -32,7 +32,7 @@ int csv_digits(const OutputOptions& options) {
 std::vector<std::unique_ptr<Output>> make_outputs(const RunRequest& request, const Catalogue& catalogue,
                                                   const Reports& reports) {
   const OutputOptions& options = request.output;
-  const std::string stem = case_name(request.deck);
+  const std::string stem = stem_of(request);
   std::vector<std::unique_ptr<Output>> outputs;
   if (options.listing)
     outputs.push_back(std::make_unique<Listing>(options.folder, stem, catalogue,
@@ -58,7 +58,7 @@ Checkpoint checkpoint_of(const RunRequest& request, const Model& model, ResultFi
   if (request.refinement > 0) run += fmt::format(" refined {}", request.refinement);
   if (o.digits > 0) run += fmt::format(" digits {}", o.digits);
   for (const std::string& picture : o.pictures) run += " " + picture;
-  return {o.folder / (case_name(request.deck) + ".restart"), request.checkpoint_seconds, run, results};
+  return {o.folder / (stem_of(request) + ".restart"), request.checkpoint_seconds, run, results};
 }
 
 // The bytes to go on from; empty, and said, where there are none.
@@ -101,6 +101,10 @@ class EndOfInterrupted final : public Observer {
 
 }  // namespace
 
+std::string stem_of(const RunRequest& request) {
+  return request.stem.empty() ? case_name(request.deck) : request.stem;
+}
+
 void add_threads_option(CLI::App& parser, int& threads) {
   parser
       .add_option(
@@ -142,7 +146,7 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   settings.condition = request.condition;
   settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
   std::optional<ResultFiles> own;
-  if (request.results == nullptr) own.emplace(request.output.folder, case_name(request.deck), owner);
+  if (request.results == nullptr) own.emplace(request.output.folder, stem_of(request), owner);
   ResultFiles& results = own ? *own : *request.results;
   if (!results.locked() && !request.quiet)
     fmt::print(stderr,
@@ -155,7 +159,7 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   settings.checkpoint_due = [&] { return end.checkpoint_wanted() || checkpoint.due(); };
   if (request.restart) settings.resume_from = resume_from(checkpoint, request);
   outcome.reports =
-      std::make_unique<Reports>(request.output.folder, case_name(request.deck), csv_digits(request.output));
+      std::make_unique<Reports>(request.output.folder, stem_of(request), csv_digits(request.output));
   std::vector<std::unique_ptr<Output>> outputs = make_outputs(request, catalogue, *outcome.reports);
   settings.save_checkpoint = [&](const std::string& state) {
     checkpoint.save(state);

@@ -29,6 +29,7 @@ struct RunRequest {
   std::string deck;
   InputOptions input;
   OutputOptions output;
+  std::string stem;                  // of the names of result files; empty = the deck's name
   std::string solver;                // a name of the catalogue; empty = the deck's choice
   int threads = 0;                   // of the linear solver; 0 = one for each processor
   int refinement = 0;                // steps of iterative refinement in every solution
@@ -54,6 +55,9 @@ struct RunOutcome {
   RunRecord record;
   std::vector<std::filesystem::path> files;
 };
+
+// STEM of STEM.lst, STEM.report1.csv ...
+std::string stem_of(const RunRequest& request);
 
 void add_threads_option(CLI::App& parser, int& threads);
 // Those of the linear solver: what was asked for, or one for each processor where that is 0.

@@ -507,11 +507,12 @@ std::optional<std::pair<std::size_t, std::size_t>> last_common(const Side& a, co
 }
 
 void use_certain(const std::vector<CertainValue>& certain, const std::string& name, double& value,
-                 double& error) {
+                 double& error, bool& reached) {
   for (const CertainValue& c : certain)
     if (c.name == name) {
       value = c.value;
       error = c.error;
+      reached = c.reached;
     }
 }
 
@@ -530,6 +531,7 @@ void add_answers(Comparison& c, const Side& a, const Side& b, const std::vector<
     const ReportKind kind = a.model().reports[i].kind;
     const auto rows = last_common(a, b, i);
     if (kind != b.model().reports[i].kind || !rows) continue;
+    const bool at_end = rows->first + 1 == a.reports().rows(i) && rows->second + 1 == b.reports().rows(i);
     const std::vector<ReportColumn> columns = report_columns(a.model(), a.model().reports[i]);
     const std::vector<double> va = a.reports().values(i, rows->first), vb = b.reports().values(i, rows->second);
     for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -541,8 +543,10 @@ void add_answers(Comparison& c, const Side& a, const Side& b, const std::vector<
       answer.b = vb[k];
       const double zero_a = floor(a, answer.unit), zero_b = floor(b, answer.unit);
       if (std::abs(va[k]) <= zero_a && std::abs(vb[k]) <= zero_b) continue;
-      use_certain(certain_a, answer.name, answer.a, answer.error_a);
-      use_certain(certain_b, answer.name, answer.b, answer.error_b);
+      if (at_end) {
+        use_certain(certain_a, answer.name, answer.a, answer.error_a, answer.reached_a);
+        use_certain(certain_b, answer.name, answer.b, answer.error_b, answer.reached_b);
+      }
       const ExpectedRatio expected = expected_ratio(a, b, i, columns[k].name);
       answer.expected = expected.value;
       answer.why = expected.why;

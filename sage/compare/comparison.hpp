@@ -45,15 +45,19 @@ struct Answer {
   double error_b = std::numeric_limits<double>::quiet_NaN();
   double expected = std::numeric_limits<double>::quiet_NaN();  // of b / a
   std::string why;
+  bool reached_a = true, reached_b = true;  // as certain as was asked for
 
+  // False where `a` is zero, as far as its error lets see.
+  bool ratio_known() const { return a != 0.0 && !(std::isfinite(error_a) && error_a >= std::abs(a)); }
   double ratio() const { return b / a; }
   double ratio_error() const;  // NaN where one of the two is not estimated
 };
 
 // A value of a report as finer and finer meshes have it.
 struct CertainValue {
-  std::string name;  // "report1.fy"
-  double value = 0.0, error = 0.0;
+  std::string name;                 // "report1.fy"
+  double value = 0.0, error = 0.0;  // infinite = nothing can be said of it
+  bool reached = true;              // as certain as was asked for
 };
 
 struct Comparison {
@@ -65,7 +69,7 @@ struct Comparison {
 };
 
 // Either side may have failed, or not even have a model.
-// certain_a, certain_b: values that take the place of what the reports end with.
+// certain_a, certain_b: values that take the place of what the reports end with, where both end at one step.
 Comparison compare(const Side& a, const Side& b, const std::vector<Line>& lines,
                    const std::vector<CertainValue>& certain_a = {},
                    const std::vector<CertainValue>& certain_b = {});

@@ -40,7 +40,8 @@ void table(std::string& text, const std::vector<Row>& rows) {
 }
 
 std::string outcome(const Side& side) {
-  if (side.error().empty()) return completed_words(side.model());
+  const std::string open = side.not_reached().empty() ? "" : "; NOT REACHED: " + one_line(side.not_reached());
+  if (side.error().empty()) return completed_words(side.model()) + open;
   const std::string reason = one_line(side.error());
   return (side.has_state() ? "NOT COMPLETE, compared up to its last state in equilibrium: " : "NO RESULTS: ") +
          reason;
@@ -68,6 +69,15 @@ std::string with_mesh_error(double value, double error) {
   return std::isfinite(error) && std::isfinite(value) ? with_error(value, error) : shown(value);
 }
 
+std::string why_of(const Answer& answer) {
+  std::string text = answer.why;
+  const bool a = !answer.reached_a, b = !answer.reached_b;
+  if (a || b) text += std::string("; NOT REACHED in ") + (a && b ? "A and B" : a ? "A" : "B");
+  for (const auto& [letter, error] : {std::pair{"A", answer.error_a}, std::pair{"B", answer.error_b}})
+    if (std::isinf(error)) text += std::string("; error unknown in ") + letter;
+  return text;
+}
+
 // The question that is asked first: what the reports say in both, and what was to be expected of it.
 void answers(std::string& text, const Comparison& c, const Side& a, const Side& b) {
   const auto out = std::back_inserter(text);
@@ -82,13 +92,13 @@ void answers(std::string& text, const Comparison& c, const Side& a, const Side& 
     return fmt::format("{} ({})", letter,
                        side.model().geometry == Geometry::axisymmetric ? "axisymmetry" : "plane strain");
   };
-  fmt::format_to(out, "\n{:<28} {:>8} {:>26} {:>26} {:>22} {:>10}\n", "reported at the end", "unit",
+  fmt::format_to(out, "\n{:<28} {:>8} {:>34} {:>34} {:>30} {:>10}\n", "reported at the end", "unit",
                  title(a, "A"), title(b, "B"), "B / A", "theory");
   for (const Answer& answer : c.answers)
-    fmt::format_to(out, "  {:<26} {:>8} {:>26} {:>26} {:>22} {:>10}  {}\n", answer.name, answer.unit,
+    fmt::format_to(out, "  {:<26} {:>8} {:>34} {:>34} {:>30} {:>10}  {}\n", answer.name, answer.unit,
                    with_mesh_error(answer.a, answer.error_a), with_mesh_error(answer.b, answer.error_b),
-                   answer.a == 0.0 ? "-" : with_mesh_error(answer.ratio(), answer.ratio_error()),
-                   shown(answer.expected), answer.why);
+                   answer.ratio_known() ? with_mesh_error(answer.ratio(), answer.ratio_error()) : "-",
+                   shown(answer.expected), why_of(answer));
 }
 
 void theory(std::string& text, const Comparison& c) {

@@ -73,6 +73,9 @@ class Side final : public Observer {
   const std::string& label() const { return label_; }
   // Empty when the run is complete; otherwise why not.  The last state in equilibrium may still be there.
   const std::string& error() const { return error_; }
+  // Where finer and finer meshes were asked for and left the side less certain than wanted: why; else empty.
+  const std::string& not_reached() const { return not_reached_; }
+  void set_not_reached(std::string why) { not_reached_ = std::move(why); }
   bool has_model() const { return model_ != nullptr; }
   bool has_state() const { return last_ != nullptr; }
   const Model& model() const { return *model_; }
@@ -97,7 +100,7 @@ class Side final : public Observer {
   void close_stage(double load_factor, const Solution& now);
   void raise_floors(const Stage& stage, const Solution& now);
 
-  std::string label_, error_;
+  std::string label_, error_, not_reached_;
   std::unique_ptr<Model> model_;
   std::unique_ptr<Reports> reports_;
   RunRecord record_;

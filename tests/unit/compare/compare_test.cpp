@@ -351,6 +351,36 @@ TEST(Compare, TheAnswerComesFirst) {
   EXPECT_EQ(same.answers.front().expected, 1.0);
 }
 
+// Decks that end at different steps meet at the last common one: a value of the end has no place there.
+TEST(Compare, ValuesOfTheEndAreNotThoseOfAnEarlierStep) {
+  Specimen shorter, longer;
+  longer.increments = 3;
+  const Side a = run("a", shorter.text(), 1), b = run("b", longer.text(), 1);
+  ASSERT_EQ(a.error() + b.error(), "");
+  const Comparison c = compare(a, b, {}, {{"report1.measured_deviator", 30.0, 0.1}},
+                               {{"report1.measured_deviator", 31.0, 0.1, false}});
+  ASSERT_FALSE(c.answers.empty());
+  EXPECT_EQ(c.answers[0].name, "report1.measured_deviator");
+  EXPECT_NEAR(c.answers[0].b, 2.0 / 3.0 * 0.01 * kE / (1 - kNu * kNu), 1e-8);
+  EXPECT_TRUE(std::isnan(c.answers[0].error_a) && c.answers[0].reached_b);
+}
+
+// What is no larger than its error gives no ratio; a side that is less certain than wanted is named.
+TEST(Compare, AnswersSayWhatIsNotCertain) {
+  const std::string deck = Specimen{}.text();
+  const Side a = run("a", deck, 1), b = run("b", deck, 2);
+  const double infinite = std::numeric_limits<double>::infinity();
+  const Comparison c =
+      compare(a, b, {}, {{"report1.ratio", 0.001, 0.002}},
+              {{"report1.measured_deviator", 30.0, 0.1, false}, {"report1.ratio", 1.0, infinite, false}});
+  const std::string text = to_text(c, a, b);
+  EXPECT_EQ(c.answers[1].name, "report1.ratio");
+  EXPECT_FALSE(c.answers[1].ratio_known());
+  EXPECT_TRUE(c.answers[0].ratio_known());
+  EXPECT_NE(text.find("; NOT REACHED in B\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("nothing is known; NOT REACHED in B; error unknown in B\n"), std::string::npos) << text;
+}
+
 // The chapter's own deck, whose strains differ by rounding between the runs: E against E / (1 - nu^2), nu =
 // 1/3.
 TEST(Compare, TheoryKnowsTheChaptersSpecimen) {
