@@ -354,6 +354,7 @@ class Climb {
   Ladder choose_ladder();
   std::optional<RunOutcome> run_mesh(const Rung& rung);
   std::string why_unusable(const RunOutcome& outcome, const Rung& rung);
+  void find_blanks(const Model& model, const std::vector<ReportComponent>& components);
   bool add_mesh(int level);
   bool climb();
   bool climb_and_close();
@@ -376,6 +377,7 @@ class Climb {
   Follower follower_;
   std::optional<Table> table_;
   std::vector<Row> rows_;
+  std::vector<std::string> blanks_;          // reports without a value at the end, and why
   std::optional<Rung> without_equilibrium_;  // the first mesh, where that found none
   std::string stopped_;                      // why the next mesh isn't there
 };
@@ -483,9 +485,28 @@ std::string Climb::why_unusable(const RunOutcome& outcome, const Rung& rung) {
     }
     return "no equilibrium with " + rung.options + ": " + result.reason.substr(0, result.reason.find('\n'));
   }
-  if (follower_.append(last_components(*outcome.model, *outcome.reports))) return {};
+  const std::vector<ReportComponent> components = last_components(*outcome.model, *outcome.reports);
+  if (rows_.empty()) find_blanks(*outcome.model, components);
+  if (follower_.append(components)) return {};
   if (!rows_.empty()) return "the reports of the next mesh lack a value that the others have";
-  throw InputError({request_.deck, 0, 0, 0}, "--converge: the deck's reports have no value that can converge");
+  throw InputError({request_.deck, 0, 0, 0},
+                   "--converge: no report has a value at the end of the run" +
+                       (blanks_.empty() ? std::string() : fmt::format(": {}", fmt::join(blanks_, "; "))));
+}
+
+// Reports without a value at the end: said with the result, or a mistake where one is to be followed.
+void Climb::find_blanks(const Model& model, const std::vector<ReportComponent>& components) {
+  for (const std::string& name : options_.follow)
+    if (find_component(components, name) == nullptr) {
+      const std::size_t report = std::stoul(name.substr(std::string("report").size())) - 1;
+      const std::string why = why_no_value(model, report);
+      throw InputError(model.reports[report].where,
+                       fmt::format("--follow {}: it has no value at the end of the run{}", name,
+                                   why.empty() ? "" : ": " + why));
+    }
+  for (std::size_t i = 0; i < model.reports.size(); ++i)
+    if (const std::string why = why_no_value(model, i); !why.empty())
+      blanks_.push_back(fmt::format("report{}: no value at the end of the run: {}", i + 1, why));
 }
 
 // False: it can't be used, and stopped_ says why.
@@ -559,6 +580,8 @@ Convergence Climb::run() {
     start_table("value");  // not even the first mesh has one
   } else {
     keep_best_files();
+    if (options_.follow.empty())
+      for (const std::string& line : blanks_) table_->note("left out  " + line);
     for (const std::string& line : follower_.left_out()) table_->note(line);
     last = follower_.result();
   }

@@ -1,8 +1,13 @@
 #include "sage/output/report_components.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
+
+#include "sage/model/activity.hpp"
+#include "sage/model/locate.hpp"
 
 namespace sage {
 
@@ -96,6 +101,28 @@ std::vector<std::string> component_names(const Model& model) {
   for (std::size_t i = 0; i < model.reports.size(); ++i)
     for (const std::string& column : columns_of(model.reports[i])) names.push_back(name_of(i, column));
   return names;
+}
+
+std::string why_no_value(const Model& model, std::size_t index) {
+  const Report& report = model.reports[index];
+  if (report.kind != ReportKind::point) return {};
+  const std::string point = fmt::format("the point ({:.10g}; {:.10g})", report.place.x(), report.place.y());
+  const std::vector<Location> found = Locator(model).at(report.place);
+  if (one_body(model, found, {}, report.group).empty()) return point + " lies outside the mesh";
+  Activity activity(model);
+  int last_holder = -1, removed_in = 0;
+  for (std::size_t s = 0; s < model.stages.size(); ++s) {
+    activity.enter(model.stages[s]);
+    const std::vector<Location> now = one_body(model, found, activity.group, report.group);
+    if (now.empty() && removed_in == 0) removed_in = static_cast<int>(s) + 1;
+    if (now.empty()) continue;
+    last_holder = model.groups[now.front().group].number;
+    removed_in = 0;
+  }
+  if (last_holder < 0) return "no element that holds " + point + " is ever placed";
+  if (removed_in == 0) return {};
+  return "group " + std::to_string(last_holder) + ", which holds " + point + ", is removed in stage " +
+         std::to_string(removed_in);
 }
 
 std::vector<ReportComponent> last_components(const Model& model, const Reports& reports) {

@@ -119,6 +119,55 @@ TEST(PointCards, ConvergeFollowsThem) {
   }
 }
 
+// A block on another is taken away in stage 2, with what pressed it: the point in it has no value at the end.
+std::string excavation() {
+  study::DeckWriter deck(1);
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 2; ++i) deck.node(1 + i + 2 * j, i, j);
+  deck.material(1, 1, {1000.0, 0.0});
+  deck.group(1, 1, 2, 1);
+  deck.group(2, 1, 2, 1);
+  deck.element(1, 1, {1, 2, 4, 3});
+  deck.element(2, 2, {3, 4, 6, 5});
+  for (int n = 1; n <= 6; ++n) deck.fix(n, 1, n <= 2 ? 1 : 0);
+  deck.stage().pressure(2, 3, 20.0, 20.0);
+  study::StageCards& second = deck.stage(2);
+  second.deaths = {2};
+  second.pressure(1, 3, 50.0, 50.0);
+  return deck.text();
+}
+
+TEST(PointCards, ConvergeNamesThoseWithoutAValueAtTheEnd) {
+  RunRequest request = request_for("excavated", excavation());
+  request.input.build.points = {{{0.5, 0.5}, "", 0}, {{0.5, 1.5}, "", 0}};
+  ConvergeOptions options;
+  options.tolerance = 1e-6;
+  const std::string why = "group 2, which holds the point (0.5; 1.5), is removed in stage 2";
+  EXPECT_EQ(converge(request, options, full_catalogue()), kOk);
+  const std::string table = contents(request.output.folder / "excavated.convergence.csv");
+  EXPECT_NE(table.find("# left out  report2: no value at the end of the run: " + why), std::string::npos)
+      << table;
+  EXPECT_EQ(table.find("left out  report1: no value"), std::string::npos) << table;
+  const auto refusal = [&] {
+    try {
+      converge(request, options, full_catalogue());
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  options.follow = {"report2.stress_yy"};
+  EXPECT_NE(refusal().find("--follow report2.stress_yy: it has no value at the end of the run: " + why),
+            std::string::npos)
+      << refusal();
+  options.follow = {"report1.stress_yy"};
+  EXPECT_EQ(refusal(), "");
+  EXPECT_EQ(contents(request.output.folder / "excavated.convergence.csv").find("left out"), std::string::npos);
+  options.follow.clear();
+  request.input.build.points.erase(request.input.build.points.begin());
+  EXPECT_NE(refusal().find("report1: no value at the end of the run: " + why), std::string::npos) << refusal();
+}
+
 std::string refusal_of(const std::string& text, const BuildOptions& build) {
   RunRequest request = request_for("refused", text);
   request.input.build = build;
