@@ -4,6 +4,7 @@
 
 #include "sage/model/builder.hpp"
 #include "sage/model/canonical.hpp"
+#include "sage/model/locate.hpp"
 
 namespace sage {
 
@@ -253,6 +254,7 @@ Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOp
   build::build_reports(b);
   if (b.problems.errors() == 0) build::check_totals(b);
   if (b.problems.errors() > 0) throw refusal(deck, b.problems);
+  b.model.mesh.reach = reach_of(b.model);
   build::refine_as_asked(b);
   if (b.problems.errors() > 0) throw refusal(deck, b.problems);
   build::make_mid_nodes(b);

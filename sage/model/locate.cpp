@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace sage {
@@ -14,6 +15,12 @@ bool in_parent(const Vector2& q, bool triangle) {
   constexpr double tolerance = 2.0 * kEdge;
   if (triangle) return q.minCoeff() >= -tolerance && q.sum() <= 1.0 + tolerance;
   return q.cwiseAbs().maxCoeff() <= 1.0 + tolerance;
+}
+
+// Corners of the parent shapes, in the order of their sides.
+std::vector<Vector2> parent_corners(bool triangle) {
+  if (triangle) return {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}};
+  return {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}};
 }
 
 bool share_a_node(const Model& model, const Location& a, const Location& b) {
@@ -32,7 +39,8 @@ Locator::Locator(const Model& model) : model_(&model) {
     for (int e = 0; e < group.elements(); ++e) {
       element_coordinates(model.mesh, group, e, x);
       const Vector2 low = x.rowwise().minCoeff(), high = x.rowwise().maxCoeff();
-      const Vector2 margin = Vector2::Constant(0.05 * (high - low).maxCoeff());  // curved edges bulge
+      // Curved edges bulge.
+      const Vector2 margin = Vector2::Constant(0.05 * (high - low).maxCoeff() + model.mesh.reach);
       boxes_.push_back({g, e, low - margin, high + margin});
     }
   }
@@ -68,14 +76,86 @@ bool Locator::inside(const Box& box, const Vector2& place, Location& found) cons
   return in_parent(q, triangle) && group.element->shape_functions(q, N, dN);
 }
 
+// Distance of the nearest place on the element's edges (infinite where there is none): Newton along each side,
+// kept between its ends.
+double Locator::nearest(const Box& box, const Vector2& place, Location& found) const {
+  constexpr int kSteps = 20;
+  const Group& group = model_->groups[box.group];
+  Eigen::Matrix2Xd x;
+  element_coordinates(model_->mesh, group, box.element, x);
+  const auto nodes = static_cast<std::size_t>(x.cols());
+  std::vector<double> N(nodes), dN(2 * nodes);
+  double least = std::numeric_limits<double>::infinity();
+  const std::vector<Vector2> corners = parent_corners(group.element->edges().size() == 3);
+  for (std::size_t side = 0; side < corners.size(); ++side) {
+    const Vector2 from = corners[side], along = corners[(side + 1) % corners.size()] - from;
+    double t = 0.5;
+    for (int step = 0; step < kSteps; ++step) {
+      if (!group.element->shape_functions(from + t * along, N, dN)) return least;
+      const Vector2 missing = place - x * Eigen::Map<const Eigen::VectorXd>(N.data(), x.cols());
+      const Vector2 tangent = x * Eigen::Map<const Eigen::MatrixX2d>(dN.data(), x.cols(), 2) * along;
+      const double next = std::clamp(t + missing.dot(tangent) / tangent.squaredNorm(), 0.0, 1.0);
+      if (missing.norm() < least) {
+        least = missing.norm();
+        found = {box.group, box.element, from + t * along, N};
+      }
+      if (!(std::abs(next - t) > 1e-12)) break;
+      t = next;
+    }
+  }
+  return least;
+}
+
 std::vector<Location> Locator::at(const Vector2& place) const {
+  constexpr double kAlike = 1e-3;  // of the reach: elements that share the nearest place
+  struct Near {
+    Location location;
+    double distance = 0.0;
+  };
   std::vector<Location> found;
+  std::vector<Near> near;
+  constexpr double kHeld = -1.0;
+  std::map<std::size_t, double> least;  // distance by group; kHeld where an element holds the place
   for (const Box& box : boxes_) {
     if ((place.array() < box.low.array()).any() || (place.array() > box.high.array()).any()) continue;
     Location location;
-    if (inside(box, place, location)) found.push_back(std::move(location));
+    if (inside(box, place, location)) {
+      found.push_back(std::move(location));
+      least[box.group] = kHeld;
+      continue;
+    }
+    const double distance = nearest(box, place, location);
+    if (!(distance <= model_->mesh.reach)) continue;
+    near.push_back({std::move(location), distance});
+    const auto known = least.try_emplace(box.group, distance).first;
+    known->second = std::min(known->second, distance);
   }
+  for (Near& one : near)
+    if (const double best = least[one.location.group];
+        best != kHeld && one.distance <= best + kAlike * model_->mesh.reach)
+      found.push_back(std::move(one.location));
+  const auto before = [](const Location& a, const Location& b) {
+    return std::pair(a.group, a.element) < std::pair(b.group, b.element);
+  };
+  std::sort(found.begin(), found.end(), before);
   return found;
+}
+
+double reach_of(const Model& model) {
+  double largest = 0.0;
+  for (const Group& group : model.groups)
+    for (int e = 0; group.element->traits().law_size == 4 && e < group.elements(); ++e) {
+      Vector2 low = Vector2::Constant(std::numeric_limits<double>::infinity()), high = -low;
+      for (std::size_t i = 0; i < group.node_count(); ++i) {
+        const int node = group.nodes_of(e)[i];
+        if (node < 0) continue;  // to be made
+        low = low.cwiseMin(model.mesh.x.col(node));
+        high = high.cwiseMax(model.mesh.x.col(node));
+      }
+      largest = std::max(largest, (high - low).norm());
+    }
+  constexpr double kUneven = 2.0;  // a side whose middle node lies off its middle is that much longer there
+  return kUneven * kEdge * largest;
 }
 
 std::vector<int> zones_of(const Model& model) {

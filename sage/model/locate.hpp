@@ -20,7 +20,8 @@ class Locator {
   explicit Locator(const Model& model);
 
   // Every solid element that holds the place, in the order of groups and elements; its edges belong to it (to
-  // 1e-6 of its size).
+  // 1e-6 of its size).  Of a group without one: those whose edge is nearest, at the nearest place there, if
+  // that is within the mesh's reach.  So what the deck's mesh holds is held by every mesh that is made of it.
   std::vector<Location> at(const Vector2& place) const;
 
  private:
@@ -30,10 +31,14 @@ class Locator {
     Vector2 low, high;
   };
   bool inside(const Box& box, const Vector2& place, Location& found) const;
+  double nearest(const Box& box, const Vector2& place, Location& found) const;
 
   const Model* model_;
   std::vector<Box> boxes_;
 };
+
+// Of a mesh as the deck has it: the most by which a place that Locator::at gives to an element lies outside.
+double reach_of(const Model& model);
 
 // Groups whose stress is one field: of one material, and placed at the same time.  A number for every group.
 std::vector<int> zones_of(const Model& model);

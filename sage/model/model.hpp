@@ -15,6 +15,9 @@ struct Mesh {
   Eigen::Matrix2Xd x;       // one column a node
   std::vector<int> number;  // the deck's node numbers; mid-side nodes made here get numbers above the deck's
   int deck_nodes = 0;       // nodes from here on were made by the program
+  // Length: a place so close outside a solid counts as on its edge, however small the elements there are
+  // (Locator).
+  double reach = 0.0;
 
   int nodes() const { return static_cast<int>(number.size()); }
 };

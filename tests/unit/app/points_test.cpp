@@ -195,6 +195,64 @@ TEST(PointCards, OutsideTheMeshIsAnError) {
       << message;
 }
 
+// A ring sector of two 8-node squares with curved sides, pressed from inside.
+std::string curved_ring() {
+  study::DeckWriter deck(1);
+  study::Block block{1, 2, study::Cell::quad8, 1, 1, study::rectangle(1.0, 2.0, 0.0, 90.0)};
+  block.polar = true;
+  block.write_nodes(deck);
+  deck.material(1, 1, {1.0, 0.3});
+  deck.group(1, static_cast<int>(block.cell), 0, 1);
+  block.write_elements(deck, 1);
+  for (int n : block.bottom()) deck.fix(n, 0, 1);
+  for (int n : block.top()) deck.fix(n, 1, 0);
+  study::StageCards& stage = deck.stage();
+  for (int j = 0; j < 2; ++j) stage.pressure(block.element(0, j), 4, 1.0, 1.0);
+  return deck.text();
+}
+
+// Places within 1e-6 of an element outside its sides, straight and curved: every mesh that is made of the
+// deck's holds them, and their displacement is that of the place on the side.
+TEST(PointCards, APlaceOnAnEdgeStaysOnItInFinerMeshes) {
+  const double s = std::sqrt(0.5), m = std::cos(22.5 * kRadiansPerDegree),
+               h = std::sin(22.5 * kRadiansPerDegree);
+  const auto on_curve = [&](double t) {  // the parabola through three nodes of the inner side, t from 0 to 1
+    const double a = (1 - t) * (1 - 2 * t), b = 4 * t * (1 - t), c = t * (2 * t - 1);
+    return Vector2(a + b * m + c * s, b * h + c * s);
+  };
+  RunRequest request = request_for("curved", curved_ring());
+  for (const double t : {0.0, 0.3, 0.83, 1.0}) {
+    const Vector2 edge = on_curve(t), outside = edge - 4e-7 * edge.normalized();
+    std::vector<Vector2> moved;
+    for (const int refine : {0, 1, 3, 5})
+      for (const int layers : {0, 2, 12}) {
+        BuildOptions build;
+        build.refine = refine;
+        if (layers > 0) build.gradings.push_back({1, layers, 0.15});  // node 1 is (1; 0)
+        if (refine == 3) build.element = 9;                           // 81 nodes
+        if (refine == 5 && layers > 0) continue;
+        for (const Vector2& place : {outside, edge}) build.points.push_back({place, "", 0});
+        request.input.build = build;
+        SCOPED_TRACE(std::to_string(t) + ", refined " + std::to_string(refine) + ", layers " +
+                     std::to_string(layers));
+        const RunOutcome outcome = run_deck(request, full_catalogue());
+        ASSERT_EQ(outcome.exit_code, kOk);
+        const PointRow &out = outcome.reports->points(0).back(), &on = outcome.reports->points(1).back();
+        for (int c : {0, 1}) EXPECT_NEAR(out.displacement[c], on.displacement[c], 4e-6);
+      }
+  }
+}
+
+// No further than that: a place beyond it is outside, on every mesh.
+TEST(PointCards, APlaceBeyondTheReachIsOutside) {
+  for (const int refine : {0, 4}) {
+    BuildOptions build;
+    build.refine = refine;
+    build.points.push_back({{0.99999, 0.0}, "", 0});
+    EXPECT_NE(refusal_of(curved_ring(), build).find("lies outside the mesh"), std::string::npos) << refine;
+  }
+}
+
 TEST(PointOption, TakesPlaceNameAndGroup) {
   const PointRequest point = point_from("-1.5e-1,2:toe:3");
   EXPECT_EQ(point.place, Vector2(-0.15, 2.0));
