@@ -114,6 +114,8 @@ std::vector<FaceState> Side::face_states(const Solution& now) const {
       const Vector2 force = now.internal->segment<2>(2 * node);
       state.force += force;
       if (!face.at_end[i]) state.inner_force += force;
+      state.normal_force.push_back(force[face.normal]);
+      state.held.push_back(now.activity->held[static_cast<std::size_t>(2 * node + face.normal)]);
       const Vector2 u = now.u->segment<2>(2 * node);
       state.displacement += u / static_cast<double>(face.nodes.size());
       least = least.cwiseMin(u);

@@ -32,6 +32,8 @@ struct FaceState {
   Vector2 inner_force = Vector2::Zero();   // the same without the nodes at the face's ends
   Vector2 displacement = Vector2::Zero();  // plain mean of the nodes
   Vector2 spread = Vector2::Zero();        // largest minus smallest displacement of the nodes
+  std::vector<double> normal_force;        // of each node, along the face's normal axis
+  std::vector<char> held;                  // each node's displacement along that axis is prescribed
 };
 
 // Stress of a face, compression positive: mean normal stress, and mean shear along +y or +x.

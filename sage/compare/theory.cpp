@@ -94,15 +94,26 @@ double elastic_modulus(Geometry geometry, Lateral lateral, double E, double nu) 
   return geometry == Geometry::plane_strain ? E / (1.0 - nu * nu) : E;
 }
 
-// The pressure on the upright faces stays as it was over a stage: judged without their ends, where rough
-// platens hold them.
+// Change over a stage of what acts on a face's free nodes along its normal, by the face's area.  Node by node:
+// pressures that cancel each other count, and so do those on a side without nodes between its ends.
+double free_pressure_change(const Side& side, std::size_t stage, std::size_t face) {
+  const FaceState &now = side.stages()[stage].faces[face], &before = side.stages()[stage].faces_before[face];
+  double sum = 0.0;
+  for (std::size_t i = 0; i < now.normal_force.size(); ++i)
+    if (!now.held[i]) sum += std::abs(now.normal_force[i] - before.normal_force[i]);
+  return sum <= side.floors().force ? 0.0 : sum / side.faces()[face].area;
+}
+
+// The pressure on the upright faces stays as it was over a stage: that on nodes which are held judged without
+// the faces' ends, where rough platens hold them.
 bool lateral_pressure_constant(const Side& side, std::size_t stage) {
   const StageState& state = side.stages()[stage];
   double lateral = 0.0, axial = 0.0;
   for (std::size_t i = 0; i < state.faces.size(); ++i) {
     const Face& face = side.faces()[i];
     const Vector2 change = state.faces[i].inner_force - state.faces_before[i].inner_force;
-    const double stress = std::abs(change[face.normal]) / face.area;
+    double stress = std::abs(change[face.normal]) / face.area;
+    if (face.normal == 0) stress = std::max(stress, free_pressure_change(side, stage, i));
     (face.normal == 0 ? lateral : axial) = std::max(face.normal == 0 ? lateral : axial, stress);
     if (face.normal == 1)
       axial = std::max(

@@ -129,6 +129,38 @@ TEST(Compare, FreeLateralStrainGivesBothModuli) {
   EXPECT_NEAR(ratio->b, 1.0, 1e-9);
 }
 
+// A pressure on the side that grows while the plate goes down, on one element whose side has no node between
+// its ends, and on several where it pushes below as it pulls above: E is not what the top shows.
+TEST(Compare, AGrowingLateralPressureIsNoTestOfTheModulus) {
+  for (const bool cancels : {false, true}) {
+    std::string texts[2];
+    for (const double pressure : {0.0, 20.0}) {
+      Block block{1, cancels ? 4 : 1, Cell::quad4, 1, 1, study::rectangle(0.0, 1.0, 0.0, 2.0)};
+      DeckWriter deck(2);
+      block.write_nodes(deck);
+      deck.material(1, 1, {kE, kNu});
+      deck.group(1, 1, 0, 1);
+      block.write_elements(deck, 1);
+      for (int n : block.bottom()) deck.fix(n, 0, 1);
+      for (int n : block.left()) deck.fix(n, 1, 0);
+      study::StageCards& stage = deck.stage();
+      for (int n : block.top()) stage.fix(n, 0, 1, 0.0, -0.02);
+      for (int j = 0; pressure != 0.0 && j < block.rows; ++j) {
+        const double sign = cancels && 2 * j >= block.rows ? -1.0 : 1.0;
+        stage.pressure(block.element(0, j), 2, sign * pressure, sign * pressure);
+      }
+      texts[pressure == 0.0 ? 0 : 1] = deck.text();
+    }
+    for (const int k : {0, 1}) {
+      const Side a = run("a", texts[k], 1), b = run("b", texts[k], 2);
+      ASSERT_EQ(a.error() + b.error(), "");
+      const Comparison c = compare(a, b, {});
+      EXPECT_EQ(find(c.theory, "apparent modulus, A") == nullptr, k == 1) << cancels;
+      EXPECT_EQ(find(c.theory, "apparent modulus, B (") == nullptr, k == 1) << cancels;
+    }
+  }
+}
+
 // The same forces on all nodes of the top are no even pressure, on rings even less: no closed form holds.
 TEST(Compare, ForcesOnNodesAreNoTestOfTheModulus) {
   Specimen specimen;
