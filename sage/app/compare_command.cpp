@@ -280,8 +280,11 @@ Command compare_command(CLI::App& parser) {
   o->input.build.points_outside = true;  // of one of the two
   parser.add_option("--solver", o->solver, "solver by name (see sagefe list solvers)")->check(unknown_solver);
   add_threads_option(parser, o->threads);
-  parser.add_option("--formulation-b", o->formulation_b, "formulation code of B, where it differs from A");
-  parser.add_option("--element-b", o->element_b, "element code that replaces 4-node quadrilaterals in B");
+  CompareOptions& options = *o;
+  add_formulation_option(parser, "--formulation-b", "formulation code of B, where it differs from A",
+                         [&options](int code) { options.formulation_b = code; });
+  add_element_option(parser, "--element-b", "element that replaces 4-node quadrilaterals in B, code or name",
+                     [&options](int code) { options.element_b = code; });
   parser.add_option("--geometry-b", o->geometry_b, "geometry of B: 1 plane strain, 2 axisymmetric")
       ->check(CLI::Range(1, 2));
   parser.add_option("--solver-b", o->solver_b, "solver of B by name")->check(unknown_solver);

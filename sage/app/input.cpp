@@ -98,14 +98,11 @@ void add_digits_option(CLI::App& parser, int& digits) {
       ->check(CLI::Range(2, 17));
 }
 
-void add_build_options(CLI::App& parser, BuildOptions& options) {
-  options.say = [](const std::string& text) { fmt::print(stderr, "sagefe: {}\n", text); };
-  parser.add_option("--formulation", options.formulation, "replace the formulation code of all solid elements")
-      ->check(CLI::Range(0, 99));
+void add_element_option(CLI::App& parser, const std::string& flag, const std::string& words,
+                        const std::function<void(int)>& set) {
   parser
       .add_option_function<std::string>(
-          "--element", [&options](const std::string& text) { options.element = element_code(text); },
-          "replace 4-node quadrilaterals by this element, code or name (its other nodes are made)")
+          flag, [set](const std::string& text) { set(element_code(text)); }, words)
       ->check([](const std::string& text) {
         const Catalogue catalogue = full_catalogue();
         const int code = element_code(text);
@@ -115,6 +112,20 @@ void add_build_options(CLI::App& parser, BuildOptions& options) {
                    ? std::string()
                    : entry->name + " can't take the place of a quadrilateral";
       });
+}
+
+void add_formulation_option(CLI::App& parser, const std::string& flag, const std::string& words,
+                            const std::function<void(int)>& set) {
+  parser.add_option_function<int>(flag, set, words)->check(CLI::Range(0, 99));
+}
+
+void add_build_options(CLI::App& parser, BuildOptions& options) {
+  options.say = [](const std::string& text) { fmt::print(stderr, "sagefe: {}\n", text); };
+  add_formulation_option(parser, "--formulation", "replace the formulation code of all solid elements",
+                         [&options](int code) { options.formulation = code; });
+  add_element_option(parser, "--element",
+                     "replace 4-node quadrilaterals by this element, code or name (its other nodes are made)",
+                     [&options](int code) { options.element = code; });
   parser.add_flag(
       "--coarsen", options.coarsen,
       "first the coarsest mesh of quadrilaterals that has the deck's outline, groups, supports, loads and "

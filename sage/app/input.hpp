@@ -27,6 +27,13 @@ PointRequest point_from(const std::string& text);
 // --digits of tables.
 void add_digits_option(CLI::App& parser, int& digits);
 
+// An element by code or name that takes the place of quadrilaterals, and a formulation code: of both sides of a
+// comparison, or of one.
+void add_element_option(CLI::App& parser, const std::string& flag, const std::string& words,
+                        const std::function<void(int)>& set);
+void add_formulation_option(CLI::App& parser, const std::string& flag, const std::string& words,
+                            const std::function<void(int)>& set);
+
 // Those that change how the deck's elements are computed.
 void add_build_options(CLI::App& parser, BuildOptions& options);
 

@@ -133,6 +133,28 @@ TEST(CommandLine, CompareReportsTheSideThatRuns) {
   EXPECT_EQ(sagefe(folder, "compare bad.dat --both").exit_code, 2);
 }
 
+// What B has instead of A is read as A's own options are.
+TEST(CommandLine, CompareReadsElementsOfBAsThoseOfA) {
+  const fs::path folder = empty_folder("compare_element_b");
+  write(folder / "deck.dat", block_deck().text());
+  for (const char* element : {"quad8", "2"}) {
+    const Finished done = sagefe(folder, std::string("compare deck.dat --element-b ") + element);
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_NE(done.out.find("B: deck.dat, plane strain, quad8"), std::string::npos) << done.out;
+    EXPECT_NE(done.out.find("A: deck.dat, plane strain, quad4"), std::string::npos) << done.out;
+  }
+  for (const char* option : {"--element", "--element-b"}) {
+    const Finished unknown = sagefe(folder, std::string("compare deck.dat --both ") + option + " quad7");
+    EXPECT_EQ(unknown.exit_code, 1);
+    expect_words(unknown.err, {option, "unknown element quad7; known: "});
+    expect_words(sagefe(folder, std::string("compare deck.dat --both ") + option + " tri6").err,
+                 {option, "can't take the place of a quadrilateral"});
+  }
+  for (const char* option : {"--formulation", "--formulation-b"})
+    expect_words(sagefe(folder, std::string("compare deck.dat --both ") + option + " -1").err,
+                 {option, "range"});
+}
+
 // Input of both kinds is judged as `run` judges it: a solver that can't take the law's matrix is no failed run.
 TEST(CommandLine, CompareTakesSolverAndThreadsAsRunDoes) {
   const fs::path folder = empty_folder("compare_solver");
