@@ -92,6 +92,17 @@ TEST(Converge, SpectralMeshesHoldTheTrueValue) {
     }
 }
 
+// --strict judges the deck: that graded meshes warn of the stress at their corners is no fault of it.
+TEST(Converge, StrictJudgesTheDeckAndNotItsFinerMeshes) {
+  RunRequest request = request_for(write("strict", cylinder(2, 2, 1.0, 0.25)));
+  request.input.strict = true;
+  ConvergeOptions options;
+  options.tolerance = 1e-4;
+  EXPECT_EQ(converge(request, options, full_catalogue()), kOk);
+  request.deck = write("strict_locks", cylinder(2, 2, 1.0, 0.495, 1));  // full integration near nu = 1/2
+  EXPECT_THROW(converge(request, options, full_catalogue()), InputError);
+}
+
 // The deck's own elements, halved: nine-node elements have no other way.
 TEST(Converge, HalvedMeshesHoldTheTrueValue) {
   const std::string path = write("halved", cylinder(2, 2, 1.0, 0.25));
