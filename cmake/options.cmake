@@ -21,9 +21,20 @@ endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(sage_options INTERFACE -fno-tree-slp-vectorize)
 endif()
+# Checked string calls, stack protector, relocations read-only before main(): docs/decisions/0009. Libraries whose loops decide
+# the run time have no stack protector; they define its macro all the same, or GCC would refuse the precompiled header.
+include(CheckLinkerFlag)
+check_linker_flag(CXX -Wl,-z,relro,-z,now SAGE_HAVE_RELRO)
+if(NOT SAGE_SANITIZE AND CMAKE_BUILD_TYPE STREQUAL "Release")
+  target_compile_options(sage_options INTERFACE -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2
+    "$<IF:$<BOOL:$<TARGET_PROPERTY:SAGE_HOT>>,-fno-stack-protector;-D__SSP_STRONG__=3,-fstack-protector-strong>")
+  if(SAGE_HAVE_RELRO)
+    target_link_options(sage_options INTERFACE -Wl,-z,relro,-z,now)
+  endif()
+endif()
 if(SAGE_SANITIZE)
   target_compile_options(sage_options INTERFACE -fsanitize=${SAGE_SANITIZE} -fno-omit-frame-pointer
-                                                -fno-sanitize-recover=all)
+                                                -fno-sanitize-recover=all $<$<BOOL:$<TARGET_PROPERTY:SAGE_HOT>>:-O2>)
   target_link_options(sage_options INTERFACE -fsanitize=${SAGE_SANITIZE})
 endif()
 if(SAGE_COVERAGE)
@@ -35,9 +46,9 @@ if(SAGE_COVERAGE)
   target_link_options(sage_options INTERFACE -fprofile-instr-generate)
 endif()
 
-# sage_target(NAME SOURCES ... LINKS ...): one library a folder.
+# sage_target(NAME [HOT] SOURCES ... LINKS ...): one library a folder.  HOT: its loops decide the run time.
 function(sage_target name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "HOT" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
   target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                                             $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/sagefe>)
@@ -54,7 +65,7 @@ function(sage_target name)
   else()
     target_precompile_headers(${name} REUSE_FROM sage_core)
   endif()
-  set_target_properties(${name} PROPERTIES EXPORT_NAME ${export_name})
+  set_target_properties(${name} PROPERTIES EXPORT_NAME ${export_name} SAGE_HOT ${ARG_HOT})
   add_library(sage::${export_name} ALIAS ${name})
   set_property(GLOBAL APPEND PROPERTY SAGE_TARGETS ${name})
 endfunction()
