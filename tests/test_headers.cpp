@@ -1,0 +1,1 @@
+// Nothing: CMake needs a source file to make a precompiled header.
