@@ -20,7 +20,7 @@ void on_signal(int number) {
     return;
   }
   constexpr std::string_view kText =
-      "\nsagefe: stops after the increment in hand; once more ends at once, without a checkpoint\n";
+      "\nsagefe: stops after the increment in hand, or in 10 s; once more ends at once, without a checkpoint\n";
   if (write(STDERR_FILENO, kText.data(), kText.size()) < 0) return;  // nobody reads it
 }
 

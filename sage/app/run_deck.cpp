@@ -78,14 +78,16 @@ void close(ResultFiles& results, const RunRequest& request) {
                  request.deck, file.string());
 }
 
-// When an interrupted run ends: behind the checkpoint of the increment in hand, if there can be one.
+// When an interrupted run ends: behind the checkpoint of the increment in hand, if there can be one and the
+// increment ends soon.  Asked by the thread that runs the analysis only.
 class EndOfInterrupted final : public Observer {
  public:
-  explicit EndOfInterrupted(bool checkpoints) : checkpoints_(checkpoints), before_start_(interrupted()) {}
+  EndOfInterrupted(bool checkpoints, double patience)
+      : checkpoints_(checkpoints), patience_(patience), before_start_(interrupted()) {}
 
   bool checkpoint_wanted() const { return checkpoints_ && interrupted(); }
   void saved() { ready_ = ready_ || interrupted(); }
-  bool stop_now() const { return interrupted() && (before_start_ || !checkpoints_ || ready_); }
+  bool stop_now() { return interrupted() && (before_start_ || !checkpoints_ || ready_ || waited_enough()); }
 
   // With initial stiffness checkpoints stand between stages only: there is nothing to wait for.
   void on_increment(const Model& model, const StepReport& report, const Solution&) override {
@@ -95,7 +97,16 @@ class EndOfInterrupted final : public Observer {
   bool wants_states(const Model&, const StepReport&) const override { return false; }
 
  private:
-  bool checkpoints_, before_start_;
+  using Clock = std::chrono::steady_clock;
+  bool waited_enough() {
+    if (!asked_at_) asked_at_ = Clock::now();
+    return std::chrono::duration<double>(Clock::now() - *asked_at_).count() >= patience_;
+  }
+
+  bool checkpoints_;
+  double patience_;  // s
+  bool before_start_;
+  std::optional<Clock::time_point> asked_at_;
   std::atomic<bool> ready_{false};
 };
 
@@ -154,7 +165,7 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
                request.deck, request.output.folder.string());
   Checkpoint checkpoint = checkpoint_of(request, model, results);
   bool has_checkpoint = request.restart && std::filesystem::exists(checkpoint.file());
-  EndOfInterrupted end(checkpoint.ever_due());
+  EndOfInterrupted end(checkpoint.ever_due(), request.interrupt_patience);
   settings.stop_asked = [&] { return end.stop_now() || (request.stop_asked && request.stop_asked()); };
   settings.checkpoint_due = [&] { return end.checkpoint_wanted() || checkpoint.due(); };
   if (request.restart) settings.resume_from = resume_from(checkpoint, request);

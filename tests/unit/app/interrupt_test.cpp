@@ -5,6 +5,11 @@
 
 #include <cstdlib>
 
+#include "sage/app/commands.hpp"
+#include "sage/app/exit_codes.hpp"
+#include "sage/app/run_deck.hpp"
+#include "tests/support/scratch_folder.hpp"
+
 namespace sage::app {
 namespace {
 
@@ -41,6 +46,30 @@ TEST(Interrupt, WhatIsIgnoredStaysIgnored) {
     EXPECT_FALSE(interrupted());
   }
   signal(SIGINT, before);
+}
+
+// The signal comes within the first increment: without patience the run is left there, with it the increment is
+// finished and has its checkpoint.
+TEST(Interrupt, AnIncrementThatTakesLongIsLeft) {
+  RunRequest request;
+  request.deck = SAGE_SOURCE_DIR "/legacy_inputs/chapter7/dp_08_kj5/deck.dat";
+  request.output.folder = test::scratch_folder("long_increment");
+  request.quiet = true;
+  const auto polls_after_the_signal = [&](double patience) {
+    const InterruptWatch watch;
+    long polls = 0;
+    request.interrupt_patience = patience;
+    request.stop_asked = [&polls] {
+      if (++polls == 3) raise(SIGTERM);
+      return false;
+    };
+    const RunOutcome outcome = run_deck(request, full_catalogue());
+    EXPECT_EQ(outcome.exit_code, kInterrupted);
+    EXPECT_EQ(outcome.checkpoint.empty(), patience == 0.0) << outcome.checkpoint;
+    return polls - 3;
+  };
+  EXPECT_LE(polls_after_the_signal(0.0), 1);
+  EXPECT_GT(polls_after_the_signal(1e9), 3) << "the increment takes several iterations";
 }
 
 }  // namespace
