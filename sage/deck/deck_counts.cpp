@@ -11,13 +11,25 @@ namespace {
 
 constexpr double largest_count = 1e9;
 
-// "a node card", "an element card".
-std::string a_card(const std::string& name) {
+}  // namespace
+
+std::string DeckReader::a_card(const std::string& name) {
   const bool vowel = !name.empty() && std::string_view("aeioAEIO").find(name[0]) != std::string_view::npos;
   return (vowel ? "an " : "a ") + name + " card";
 }
 
-}  // namespace
+bool DeckReader::is_faulty(int value) const {
+  return std::find(faulty_.begin(), faulty_.end(), value) != faulty_.end();
+}
+
+// True where a value that it needs has an error, which is said.
+bool DeckReader::is_faulty(const Expression& expression) const {
+  return std::ranges::any_of(expression.nodes, [this](const ExpressionNode& node) {
+    if (node.kind != ExpressionNode::Kind::field) return false;
+    const FieldValue* value = field_value(node.card, node.field);
+    return value && is_faulty(static_cast<int>(value - deck_.values.data()));
+  });
+}
 
 const FieldValue* DeckReader::field_value(int card, int field) const {
   int index = latest_[static_cast<std::size_t>(card)];
@@ -56,8 +68,7 @@ bool DeckReader::count_of(const Expression& expression, const std::string& what,
            records_.next_line());
       return false;
     }
-    if (value && std::find(faulty_.begin(), faulty_.end(), static_cast<int>(value - deck_.values.data())) !=
-                     faulty_.end()) {
+    if (value && is_faulty(static_cast<int>(value - deck_.values.data()))) {
       stop("the number of " + what + " is not known: reading stops here", records_.line());
       return false;
     }
@@ -195,9 +206,26 @@ bool DeckReader::cut_list(const CardRule& rule, const Card& card) {
   return false;
 }
 
+// "one is read only where report.kind == 3, and the kind ... of line 9 is 2 (codes)".
+std::string DeckReader::unmet(const LayoutEntry& entry) const {
+  std::string text = "one is read only where " + entry.when.source;
+  for (const ExpressionNode& node : entry.when.nodes) {
+    if (node.kind != ExpressionNode::Kind::field) continue;
+    const FieldValue* value = field_value(node.card, node.field);
+    if (!value) continue;
+    const std::string& codes = rule_of(node.card).rules[static_cast<std::size_t>(node.field)].codes;
+    text += ", and the " + count_source(entry.when) + ", is " +
+            (value->kind == FieldKind::text ? quoted(trimmed(value->text)) : number_text(value->number)) +
+            (codes.empty() ? "" : " (" + codes + ")");
+    break;
+  }
+  return text;
+}
+
 // "the 4 that were announced (...) are read", for a card that came too late.
 std::string DeckReader::announced(int rule) const {
   const LayoutEntry* entry = entry_of_[static_cast<std::size_t>(rule)];
+  if (entry && !entry->when.empty() && !truth(entry->when)) return unmet(*entry);
   if (!entry || entry->run != LayoutEntry::Run::counted) return "its place is earlier";
   const double count = evaluate(entry->count, [this](int card, int field) { return value_of(card, field); });
   const std::string source = " (" + count_source(entry->count) + ")";

@@ -31,8 +31,9 @@ DeckReader::DeckReader(const SourceText& source, const Layout& layout, const Rea
   deck_.values.reserve(source.text()->size() / 2);  // for short cards; pages not used cost nothing
   for (const CardRule& rule : layout.cards) {
     deck_.specs.push_back(rule.spec);
-    const bool plain = std::all_of(rule.rules.begin(), rule.rules.end(),
-                                   [](const FieldRule& r) { return r.map.empty() && r.must_equal.empty(); });
+    const bool plain = std::all_of(rule.rules.begin(), rule.rules.end(), [](const FieldRule& r) {
+      return r.map.empty() && r.allowed.empty() && r.must_equal.empty();
+    });
     plain_.push_back(plain);
   }
   find_entries(layout.entries);
@@ -73,7 +74,12 @@ void DeckReader::read_entries(const std::vector<LayoutEntry>& entries, int owner
 }
 
 void DeckReader::read_entry(const LayoutEntry& entry, int owner) {
-  if (!entry.when.empty() && !truth(entry.when)) return;
+  if (!entry.when.empty()) {
+    if (is_faulty(entry.when))
+      return stop("whether " + a_card(card_name(entry)) + " follows is not known: reading stops here",
+                  records_.line());
+    if (!truth(entry.when)) return;
+  }
   const RunState outer = run_;
   // The first card of a block counts as the block.
   const bool opens_block = entry.run == LayoutEntry::Run::once && run_.entry && run_.entry->card < 0 &&

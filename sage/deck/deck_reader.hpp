@@ -55,6 +55,7 @@ class DeckReader {
   void note_blanks();
   void note_list_rest();
   void apply_map(const CardRule& rule, std::size_t field, FieldValue& value);
+  void check_allowed(const CardRule& rule, std::size_t field, int index);
   void report_flaws(const CardRule& rule, const Card& card);
   // Numbers that the end of a field cuts, or that a shift moved into the next field.
   bool check_seams(const CardRule& rule, const Card& card);
@@ -77,7 +78,11 @@ class DeckReader {
   ExpressionValue value_of(int card, int field) const;
   bool truth(const Expression& expression) const;
   bool count_of(const Expression& expression, const std::string& what, int& count);
+  static std::string a_card(const std::string& name);  // "a node card", "an element card"
   std::string count_source(const Expression& expression) const;
+  std::string unmet(const LayoutEntry& entry) const;
+  bool is_faulty(int value) const;
+  bool is_faulty(const Expression& expression) const;
   const FieldValue* field_value(int card, int field) const;
 
   void truncated(const LayoutEntry& entry);
@@ -99,7 +104,7 @@ class DeckReader {
   std::vector<int> latest_;                   // last card of each rule, -1 = none
   std::vector<int> faulty_;                   // values with errors, ascending
   std::vector<const LayoutEntry*> entry_of_;  // the entry that counts a rule's cards
-  std::vector<char> plain_;                   // rules whose fields need no map and no comparison
+  std::vector<char> plain_;                   // rules whose fields need no map, list and comparison
   std::optional<ListRead> list_read_;         // the last list-directed READ, for cards that go on in it
   RunState run_;
   int previous_rule_ = -1;             // last rule before the present run

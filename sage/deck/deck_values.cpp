@@ -48,6 +48,7 @@ void DeckReader::check_values(const CardRule& rule, const Card& card) {
     }
     if (plain_[static_cast<std::size_t>(card.spec)]) continue;
     if (!rule.rules[i].map.empty()) apply_map(rule, i, value);
+    if (!rule.rules[i].allowed.empty()) check_allowed(rule, i, static_cast<int>(first + i));
     const std::string& wanted = rule.rules[i].must_equal;
     if (!wanted.empty() && lower_case(trimmed(value.text)) != lower_case(wanted)) {
       log_.add(Severity::error, value.first_column ? log_.where(value) : log_.line(card.line),
@@ -74,6 +75,20 @@ void DeckReader::apply_map(const CardRule& rule, std::size_t field, FieldValue& 
   log_.add(
       Severity::error, log_.where(value),
       quoted(text) + " is not a known code " + field_text(rule, rule.spec.fields[field]) + "; known: " + known);
+}
+
+// A blank that is wrong has its message already.
+void DeckReader::check_allowed(const CardRule& rule, std::size_t field, int index) {
+  const FieldValue& value = deck_.values[static_cast<std::size_t>(index)];
+  const std::vector<double>& allowed = rule.rules[field].allowed;
+  if (value.blank || is_faulty(index) || std::ranges::find(allowed, value.number) != allowed.end()) return;
+  const std::string& known = rule.rules[field].codes;
+  std::string numbers;
+  for (const double one : allowed) numbers += (numbers.empty() ? "" : ", ") + number_text(one);
+  log_.add(Severity::error, log_.where(value),
+           "the " + rule.spec.fields[field].label + " can't be " + number_text(value.number) + ": " +
+               (known.empty() ? "allowed are " + numbers : known));
+  faulty_.push_back(index);
 }
 
 // A list-directed READ passes over what is left of its last record: a count that is too small loses values so.

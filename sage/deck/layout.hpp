@@ -18,9 +18,10 @@ namespace sage {
 struct FieldRule {
   std::string codes;  // allowed codes, for the manual: "1 plane strain, 2 axisymmetric"
   std::vector<std::pair<std::string, double>>
-      map;                 // foreign code -> ours; keys are the field's trimmed characters
-  std::string must_equal;  // the card is wrong unless the field reads this
-  Expression count;        // how many values the last field repeats; empty = one
+      map;                      // foreign code -> ours; keys are the field's trimmed characters
+  std::vector<double> allowed;  // the field reads one of these; empty = anything
+  std::string must_equal;       // the card is wrong unless the field reads this
+  Expression count;             // how many values the last field repeats; empty = one
 };
 
 struct CardRule {

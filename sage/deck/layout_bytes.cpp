@@ -47,9 +47,10 @@ void exchange(Archive& archive, FieldSpec& field) {
 }
 
 void exchange(Archive& archive, FieldRule& rule) {
-  auto& [codes, map, must_equal, count] = rule;
+  auto& [codes, map, allowed, must_equal, count] = rule;
   exchange_all(archive, codes, must_equal);
   exchange_list(archive, map, [](Archive& a, auto& code) { exchange_all(a, code.first, code.second); });
+  exchange_list(archive, allowed, [](Archive& a, double& code) { a(code); });
   exchange(archive, count);
 }
 

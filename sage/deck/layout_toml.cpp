@@ -210,8 +210,8 @@ class LayoutReader : private TomlFile {
   }
 
   void read_field(const toml::table& table, CardRule& card) {
-    known_keys(table, {"name", "label", "unit", "kind", "required", "default", "codes", "map", "equals",
-                       "count", "blank", "ignored", "use"});
+    known_keys(table, {"name", "label", "unit", "kind", "required", "default", "codes", "map", "allowed",
+                       "equals", "count", "blank", "ignored", "use"});
     FieldSpec spec;
     FieldRule rule;
     spec.name = text(table, "name", true);
@@ -236,6 +236,7 @@ class LayoutReader : private TomlFile {
     rule.codes = text(table, "codes");
     rule.must_equal = text(table, "equals");
     read_map(table, rule);
+    read_allowed(table, rule);
     const std::pair<int, int> place{bare_card_, static_cast<int>(card.spec.fields.size())};
     marks_.lines[place] = static_cast<int>(table.source().begin.line);
     if (flag(table, "ignored")) marks_.ignored_fields.insert(place);
@@ -284,6 +285,18 @@ class LayoutReader : private TomlFile {
       const auto number = value.value<double>();
       if (!number) fail(value, "a map gives numbers");
       rule.map.emplace_back(std::string(key.str()), *number);
+    }
+  }
+
+  void read_allowed(const toml::table& table, FieldRule& rule) const {
+    const toml::node* node = table.get("allowed");
+    if (!node) return;
+    const toml::array* allowed = node->as_array();
+    if (!allowed || allowed->empty()) fail(*node, "allowed must be [ number, ... ]");
+    for (const toml::node& entry : *allowed) {
+      const auto number = entry.value<double>();
+      if (!number) fail(entry, "allowed must be [ number, ... ]");
+      rule.allowed.push_back(*number);
     }
   }
 
