@@ -172,6 +172,12 @@ std::string unknown_end_line(const Model& model, const StepReport& report) {
                            short_number(100.0 * report.stiffness_share) + " % of the largest in the stage\n");
 }
 
+std::string refused_line(const StepReport& report) {
+  if (!(report.refused > 0.0)) return {};
+  return "  refused: a step of this increment balances its forces only after a motion of " +
+         short_number(report.refused) + " times the model's size, with next to no resistance\n";
+}
+
 // "tried: method 0 (Newton), 50 iterations, steps down to 6.1e-06 of the stage".
 std::string tried_line(const Stage& stage, const StepReport& report) {
   return std::string("  tried: method ") + method_name(stage.method) + ", up to " +
@@ -225,7 +231,7 @@ std::string explain_singular(const Model& model, const Activity& activity, const
         "part joined only by\n"
         "  an interface without stiffness in that direction.\n"
         "  try: add a fixity, or full integration (see `sagefe list elements`).";
-  return text + "\n" + bracket_line(model, report);
+  return text + "\n" + bracket_line(model, report) + refused_line(report);
 }
 
 namespace {
@@ -262,6 +268,7 @@ std::string explain_failure(const Model& model, const Assembly& assembly, const 
   const bool limit = report.stiffness_share >= 0.0 && report.stiffness_share <= kFlat;
   text += limit ? bracket_line(model, report) : unknown_end_line(model, report);
   text += tried_line(stage, report);
+  text += refused_line(report);
   if (step.worst.node >= 0)
     text += "  largest out-of-balance force of the best iteration: " + short_number(step.worst.residual) + " " +
             model.units.force + " at " + dof_name(model, 2 * step.worst.node + step.worst.component) +

@@ -50,6 +50,7 @@ class Step {
   bool at_rounding(const IterationRecord& record) const;
   double scale() const;
   bool hopeless() const;
+  bool outgrown(const IterationRecord& record) const;
   double load_size() const;
   void find_worst();
   void move(double factor);
@@ -211,6 +212,7 @@ bool Step::linear_rounding(const IterationRecord& record) const {
 bool Step::converged(const IterationRecord& record) const {
   constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
   const double tol = settings_.tolerance;
+  if (outgrown(record)) return false;
   if (record.displacement <= kRounding && record.step_length >= 1.0 && record.force <= std::sqrt(tol))
     return true;
   if (!(record.force <= tol)) return at_rounding(record) || linear_rounding(record);
@@ -237,6 +239,15 @@ bool Step::hopeless() const {
   const double size = residual_.norm();
   return !std::isfinite(size) ||
          (first_force_ > 0.0 && size * std::numeric_limits<double>::epsilon() > first_force_);
+}
+
+// Stress that balances itself is made by the motion and grows with it (mean stress near nu = 1/2): beside that
+// of an iteration that runs away any load is small.  What is left out of balance must be small beside what the
+// step has to balance, too.
+bool Step::outgrown(const IterationRecord& record) const {
+  constexpr double kShare = 0.01;
+  const double largest = std::max(kShare, 10.0 * settings_.tolerance) * first_force_;
+  return first_force_ > 0.0 && record.force * scale() > largest;
 }
 
 void Step::find_worst() {

@@ -69,6 +69,8 @@ struct StepReport {
   std::array<long, kStatuses> points{};     // by PointStatus
   WorstDof worst;  // after a failure: of the iteration that came nearest to equilibrium
   double smallest_pivot_ratio = -1.0;
+  double motion = 0.0;   // largest displacement of a node so far, as a share of the model's size
+  double refused = 0.0;  // the same of the last step that was refused as flow without end; 0 = none was
 };
 
 // Sum of forces over the whole model at the end of a stage.
@@ -80,6 +82,10 @@ struct EquilibriumAudit {
   double scale = 0.0;           // the largest force or moment that took part
 };
 
+// Up to here small strains describe displacements well (shares of the model's size, the longer side of the box
+// around its nodes): what the change of shape does to the strains is then of the order of a tenth of them.
+inline constexpr double kLargeMotion = 0.2;
+
 // stopped: somebody asked for it (RunSettings::stop_asked); the last increment that observers saw stands.
 enum class RunStatus { completed, not_converged, singular, failed, stopped };
 
@@ -88,6 +94,7 @@ struct RunResult {
   std::string reason;  // one page for a person, empty when completed
   int stages_done = 0;
   int increments_done = 0;
+  double motion = 0.0;  // largest displacement of a node, as a share of the model's size
   WorkCounters work;
 };
 

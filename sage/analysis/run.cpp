@@ -30,6 +30,8 @@ class Run {
     u_.setZero(model.dofs());
     du_.setZero(model.dofs());
     external_.setZero(model.dofs());
+    if (model.mesh.nodes() > 0)
+      size_ = (model.mesh.x.rowwise().maxCoeff() - model.mesh.x.rowwise().minCoeff()).maxCoeff();
     assembly_.set_stop(settings.stop_asked);
   }
 
@@ -61,6 +63,8 @@ class Run {
   void start_on_last_way(double size);
   void measure_stiffness(double from, double to);
   double stiffness_share(double from, double to, const NewtonStep& step) const;
+  double refused_motion(double from, double to, const NewtonStep& step) const;
+  void warn_about_motion(const Stage& stage);
   bool fail(StepReport& report, const NewtonStep& step);
   void exchange(Archive& archive, const Place& place);
   void offer_checkpoint(Place place);
@@ -101,6 +105,7 @@ class Run {
   double stiffest_ = 0.0, last_stiffness_ = 0.0;  // along the motion: largest of the stage, of the last step
   std::vector<char> held_before_, groups_before_, lived_;
   double path_error_ = 0.0;  // largest of the stage
+  double size_ = 0.0;        // of the model: the longer side of the box around its nodes
   std::string loose_part_;   // the first of the stage
 };
 
@@ -244,6 +249,7 @@ void Run::accept(double reached) {
   assembly_.commit(du_);
   u_ += du_;
   external_ = (1.0 - reached) * external_start_ + reached * force_end_;
+  if (size_ > 0.0) result_.motion = std::max(result_.motion, u_.lpNorm<Eigen::Infinity>() / size_);
 }
 
 // Back to the committed state, with its own internal forces.  The next attempt starts with the tangent of the
@@ -308,6 +314,20 @@ double Run::stiffness_share(double from, double to, const NewtonStep& step) cons
   return std::min(attempt, last_size_ > 0.0 ? last_stiffness_ : attempt) / largest;
 }
 
+// A step that moves a node by a thousand times the model's size while hardly anything resists is flow at a
+// limit load: an equilibrium far away that rounding and the mesh's own faults give (reduced integration, nu
+// near 1/2). Returns its motion as a share of that size; 0 = the step may stand.
+double Run::refused_motion(double from, double to, const NewtonStep& step) const {
+  constexpr double kFar = 1e3;    // model's sizes
+  constexpr double kSoft = 0.01;  // of the stage's largest stiffness, or prescribed motion over the largest
+  if (step.outcome != StepOutcome::converged || stiffness_.constant) return 0.0;
+  const double motion = du_.size() > 0 ? du_.lpNorm<Eigen::Infinity>() : 0.0;
+  if (!(motion > kFar * size_) || !(size_ > 0.0)) return 0.0;
+  const double prescribed = (to - from) * rate_.lpNorm<Eigen::Infinity>();
+  const double share = prescribed > 0.0 ? prescribed / motion : stiffness_share(from, to, step);
+  return share >= 0.0 && share < kSoft ? motion / size_ : 0.0;
+}
+
 bool Run::run_increment(const Stage& stage, StepReport& report, double& reached) {
   const double end = static_cast<double>(report.increment) / report.increments;
   const double whole = 1.0 / report.increments;
@@ -319,7 +339,9 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
     report.iterations = step.iterations;
     report.total_iterations += static_cast<int>(step.iterations.size());
     report.worst = step.worst;
-    if (step.outcome == StepOutcome::converged) {
+    const double refused = refused_motion(reached, to, step);
+    if (refused > 0.0) report.refused = refused;
+    if (step.outcome == StepOutcome::converged && refused == 0.0) {
       const double error = assembly_.path_error();
       if (error > kPathTolerance && to - reached > 1.001 * kSmallestPart * whole) {
         size = (to - reached) * std::clamp(0.9 * std::cbrt(kPathTolerance / error), 0.25, 0.75);
@@ -360,8 +382,18 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
   return true;
 }
 
+// Beyond it the results are those of small strains, which describe something else.
+void Run::warn_about_motion(const Stage& stage) {
+  if (!(result_.motion > kLargeMotion)) return;
+  warn(stage, "displacements reach " + short_number(result_.motion) +
+                  " times the model's size: results that suppose small strains (to about " +
+                  short_number(kLargeMotion) + " times) do not describe this");
+}
+
 bool Run::fail(StepReport& report, const NewtonStep& step) {
   report.converged = false;
+  report.motion = result_.motion;
+  warn_about_motion(model_.stages[static_cast<std::size_t>(report.stage)]);
   if (step.outcome == StepOutcome::singular && step.singular_equation >= 0) {
     result_.status = RunStatus::singular;
     result_.reason = explain_singular(model_, activity_, assembly_, report, step);
@@ -429,6 +461,7 @@ void Run::warn(const Stage& stage, const std::string& message, Severity severity
 void Run::warn_about_numbers(int s, const EquilibriumAudit& sums) {
   constexpr double kPoorAudit = 1e-6;
   const Stage& stage = model_.stages[static_cast<std::size_t>(s)];
+  warn_about_motion(stage);
   if (sums.out_of_balance > kPoorAudit)
     warn(stage, "loads and reactions of the whole model are out of balance by " +
                     short_number(sums.out_of_balance) + " of the largest force");
@@ -471,6 +504,7 @@ void Run::exchange(Archive& archive, const Place& place) {
   archive(external_);
   archive(result_.stages_done);
   archive(result_.increments_done);
+  archive(result_.motion);
   archive(result_.work);
   archive(stiffness_.factorised);
   if (within) {
@@ -570,6 +604,7 @@ bool Run::run_stage(int s, int done) {
     if (!report.iterations.empty()) last_force = report.iterations.back().force;
     report.points = assembly_.count_points();
     find_loose_part(report);
+    report.motion = result_.motion;
     report.smallest_pivot_ratio = smallest_pivot();
     ++result_.increments_done;
     recover_for(report);

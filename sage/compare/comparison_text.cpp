@@ -41,7 +41,7 @@ void table(std::string& text, const std::vector<Row>& rows) {
 
 std::string outcome(const Side& side) {
   const std::string open = side.not_reached().empty() ? "" : "; NOT REACHED: " + one_line(side.not_reached());
-  if (side.error().empty()) return completed_words(side.model()) + open;
+  if (side.error().empty()) return completed_words(side.model(), side.record().result.motion) + open;
   const std::string reason = one_line(side.error());
   return (side.has_state() ? "NOT COMPLETE, compared up to its last state in equilibrium: " : "NO RESULTS: ") +
          reason;

@@ -46,7 +46,7 @@ std::string increments_header(const Model& model) {
              "stage,increment,load_factor[-],converged,iterations,relative_force[-],relative_displacement[-],"
              "relative_energy[-],cuts,substeps,elastic,unloading,yielded,slipping,open,apex,worst_node,worst_"
              "component,"
-             "worst_residual[{}],smallest_pivot_ratio[-]\n",
+             "worst_residual[{}],smallest_pivot_ratio[-],largest_displacement_over_size[-]\n",
              model.units.force);
 }
 
@@ -112,6 +112,7 @@ void worst_columns(const Cells& cells, const Model& model, const StepReport& r) 
     cells.optional(r.smallest_pivot_ratio);
   else
     cells.blank();
+  cells.optional(r.motion);
   cells.end();
 }
 

@@ -23,7 +23,7 @@ auto to(std::string& text) {
 std::string status_words(const Model& model, const RunResult& result) {
   switch (result.status) {
     case RunStatus::completed:
-      return completed_words(model);
+      return completed_words(model, result.motion);
     case RunStatus::not_converged:
       return "NOT CONVERGED";
     case RunStatus::singular:
@@ -158,6 +158,8 @@ void status_lines(std::string& text, const Model& model, const RunRecord& record
       "the stage\n",
       record.failed.stage + 1, model.stages.size(), record.failed.increment, record.failed.increments,
       record.failed.load_factor);
+  if (const std::string beyond = motion_words(result.motion); !beyond.empty())
+    fmt::format_to(to(text), "              {}\n", beyond);
 }
 
 void counts(std::string& text, const Model& model, const RunRecord& record) {

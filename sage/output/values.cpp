@@ -81,9 +81,17 @@ std::string left_out_words(const Model& model) {
   return text;
 }
 
-std::string completed_words(const Model& model) {
-  if (model.left_out.empty()) return "completed: every increment in equilibrium";
-  return "completed, but PARTIAL: " + left_out_words(model);
+std::string motion_words(double motion) {
+  return motion > kLargeMotion
+             ? fmt::format("displacements reach {:.3g} times the model's size, beyond small strains", motion)
+             : std::string();
+}
+
+std::string completed_words(const Model& model, double motion) {
+  const std::string beyond = motion_words(motion);
+  if (!model.left_out.empty())
+    return "completed, but PARTIAL: " + left_out_words(model) + (beyond.empty() ? "" : "; " + beyond);
+  return beyond.empty() ? "completed: every increment in equilibrium" : "completed, BUT " + beyond;
 }
 
 std::string one_line(const std::string& text) {

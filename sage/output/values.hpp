@@ -44,7 +44,9 @@ double deviator_stress(const double* sigma);
 
 // How a run ended that reached its end, with what the model lacks of its deck: "completed: every increment in
 // equilibrium", or "completed, but PARTIAL: left out ...".
-std::string completed_words(const Model& model);
+std::string completed_words(const Model& model, double motion);
+// Of displacements that are no small ones (RunResult::motion); empty where they are.
+std::string motion_words(double motion);
 // "left out 36 beam elements; ...": empty where the model has all that its deck asks for.
 std::string left_out_words(const Model& model);
 
