@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 
 #include "sage/analysis/uniqueness.hpp"
 
@@ -258,6 +259,35 @@ std::string explain_loose_part(const Model& model, const Activity& activity, con
          " are open: nothing holds it against " + loose[0].motion + ", where it stands is arbitrary";
 }
 
+namespace {
+
+// Length of the smallest active solid element beside that of the largest.
+double smallest_of_largest(const Model& model, const Assembly& assembly) {
+  double smallest = std::numeric_limits<double>::infinity(), largest = 0.0;
+  Eigen::Matrix2Xd x;
+  for (const GroupData& data : assembly.groups()) {
+    if (!data.active || data.group->element->traits().law_size != 4) continue;
+    for (int e = 0; e < data.group->elements(); ++e) {
+      element_coordinates(model.mesh, *data.group, e, x);
+      const double length = (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();
+      smallest = std::min(smallest, length);
+      largest = std::max(largest, length);
+    }
+  }
+  return largest > 0.0 ? smallest / largest : 1.0;
+}
+
+// What a mesh adds to a loss of uniqueness: legacy_inputs/hyperbolic/strip_footing has the numbers.
+std::string finer_than_helps(const Model& model, const Assembly& assembly) {
+  constexpr double kGraded = 1e-3;  // three layers of --grade or more; meshes made by hand stay above
+  const double ratio = smallest_of_largest(model, assembly);
+  if (!(ratio < kGraded)) return {};
+  return "fewer layers of grading (--grade auto:2): the smallest element measures " + short_number(ratio) +
+         " of the largest, and at that size such soil fails on its own beside an edge of the load; ";
+}
+
+}  // namespace
+
 std::string explain_failure(const Model& model, const Assembly& assembly, const StepReport& report,
                             const NewtonStep& step) {
   std::string text = "stage " + std::to_string(report.stage + 1) + ", increment " +
@@ -287,7 +317,7 @@ std::string explain_failure(const Model& model, const Assembly& assembly, const 
             std::to_string(unique.lost) + " of " + std::to_string(unique.plastic) +
             " yielding points (flow is not associated): a dilation angle nearer to friction helps\n";
   if (step.outcome == StepOutcome::law_cut) text += "  a law found no answer for the strain it was given.\n";
-  return text + "  try: " + advice(stage);
+  return text + "  try: " + (unique.lost > 0 ? finer_than_helps(model, assembly) : "") + advice(stage);
 }
 
 }  // namespace sage

@@ -186,5 +186,16 @@ TEST(Collapse, DisplacementsBeyondSmallStrainsAreNamed) {
   EXPECT_NE(end.listing.find("times the model's size, beyond small strains"), std::string::npos);
 }
 
+// legacy_inputs/hyperbolic/strip_footing/README.md: with five layers quad8 stop at 40 of 200 kPa, and more
+// increments or iterations do not help.
+TEST(Collapse, FewerLayersAreTheAdviceWhereUniquenessIsLostOnAGradedMesh) {
+  const fs::path folder = empty_folder("layers");
+  fs::copy(SAGE_SOURCE_DIR "/legacy_inputs/hyperbolic/strip_footing/deck.dat", folder / "deck.dat");
+  const Finished graded = sagefe(folder, "run deck.dat -o out --grade auto --element quad8");
+  EXPECT_EQ(graded.exit_code, 3);
+  EXPECT_NE(graded.err.find("loss of uniqueness"), std::string::npos) << graded.err;
+  EXPECT_NE(graded.err.find("try: fewer layers of grading (--grade auto:2)"), std::string::npos) << graded.err;
+}
+
 }  // namespace
 }  // namespace sage::test
