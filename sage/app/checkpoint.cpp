@@ -48,7 +48,12 @@ void expect_results(const std::filesystem::path& checkpoint, const ResultFiles& 
                        "builds on " + path.string() +
                            ", which is missing or has been changed since; run again without --restart");
     }
-    if (!begins_with(partial, file.sum) && !begins_with(path, file.sum))
+    const bool half = begins_with(partial, file.sum);
+    if (!half && results.changed_since(name))
+      throw InputError({checkpoint.string(), 0, 0, 0},
+                       "goes on from " + path.string() +
+                           ", which has been changed since its run ended; run again without --restart");
+    if (!half && !begins_with(path, file.sum))
       throw InputError({checkpoint.string(), 0, 0, 0},
                        "goes on from " + partial.string() +
                            ", which is missing, shorter than it was, or has been changed since; run again "
@@ -123,6 +128,13 @@ std::optional<std::string> Checkpoint::load() {
                      "belongs to another run: the deck or the options have changed since; run again without "
                      "--restart");
   expect_results(file_, *results_, files);
+  for (const auto& [name, file] : files) {
+    const std::filesystem::path partial = results_->path_of(name).string() + ".partial";
+    std::error_code ignored;
+    if (file.complete || !begins_with(partial, file.sum)) continue;
+    if (const std::uintmax_t size = std::filesystem::file_size(partial, ignored); size > file.sum.bytes())
+      cut_.push_back({partial, size - file.sum.bytes()});
+  }
   results_->restore(std::move(files));
   used_ = true;
   return state;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sage/app/result_files.hpp"
 
@@ -26,6 +27,12 @@ class Checkpoint {
   // Nothing if there is no file.  Throws InputError where it is damaged or of another run or build, or a result
   // that was there when it was saved is not what it was: before any of them is touched.
   std::optional<std::string> load();
+  // Of half-written files: what stands behind the checkpoint's end, which is cut off and written anew.
+  struct Cut {
+    std::filesystem::path file;
+    std::uintmax_t bytes = 0;
+  };
+  const std::vector<Cut>& cut() const { return cut_; }
   // The run has ended: if it ever had a checkpoint, its results are brought to the disk before that is removed.
   void remove();
 
@@ -34,6 +41,7 @@ class Checkpoint {
   double seconds_;
   std::string belongs_to_;
   ResultFiles* results_;
+  std::vector<Cut> cut_;
   bool used_ = false;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };

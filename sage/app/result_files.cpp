@@ -241,6 +241,13 @@ bool ResultFiles::keep(const std::string& name, const Earlier& earlier) const {
   return earlier.kind != owner_.kind && earlier.deck == deck_sum_ && earlier.sum && is_ordinary(path_of(name));
 }
 
+bool ResultFiles::changed_since(const std::string& name) const {
+  const auto listed = earlier_.find(name);
+  if (listed == earlier_.end() || !listed->second.sum) return false;
+  const std::optional<Checksum> now = checksum_of(path_of(name));
+  return !now || now->bytes() != *listed->second.bytes || now->value() != *listed->second.sum;
+}
+
 // False where the file is no longer what the list says.
 bool ResultFiles::remove(const std::string& name, const Earlier& earlier) const {
   const std::filesystem::path file = path_of(name), partial = file.string() + ".partial";

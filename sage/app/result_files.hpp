@@ -44,6 +44,8 @@ class ResultFiles final : public ResultLog {
   // What a checkpoint builds on: the files so far, and their way back.
   const std::map<std::string, ResultFile>& files() const { return files_; }
   std::filesystem::path path_of(const std::string& name) const { return folder_ / name; }
+  // Whether the list has a checksum of this complete file and the file is no longer that.
+  bool changed_since(const std::string& name) const;
   void restore(std::map<std::string, ResultFile> files);
   // All complete files, and then their names, are on the disk.
   void sync();

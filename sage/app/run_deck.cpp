@@ -67,6 +67,12 @@ std::string resume_from(Checkpoint& checkpoint, const RunRequest& request) {
   if (!state && !request.quiet)
     fmt::print(stderr, "{}: no checkpoint in {}: from the start\n", request.deck,
                request.output.folder.string());
+  for (const Checkpoint::Cut& cut : checkpoint.cut())
+    if (!request.quiet)
+      fmt::print(
+          stderr,
+          "{}: note: {} goes on from its checkpoint: the {} bytes behind that are cut off and written anew\n",
+          request.deck, cut.file.string(), cut.bytes);
   return state.value_or("");
 }
 

@@ -377,11 +377,27 @@ void add_line(Comparison& c, const Side& a, const Side& b, const Line& line) {
       c.details.push_back({section, component.name, component.length ? u.length : u.stress,
                            value(0, i, component), value(1, i, component), kUnknown});
   }
-  const std::string section = fmt::format("line {}: mean of {} places", line.name, line.n);
+  // A side without results has no places, and takes none from the other.
+  std::vector<int> common;
+  for (int i = 0; i < line.n; ++i)
+    if (std::ranges::all_of(samples, [i](const std::vector<Sample>& side) {
+          return side.empty() || side[static_cast<std::size_t>(i)].element > 0;
+        }))
+      common.push_back(i);
+  const int n = static_cast<int>(common.size());
+  const std::string section = n == line.n
+                                  ? fmt::format("line {}: mean of {} places", line.name, line.n)
+                                  : fmt::format("line {}: mean of {} of {} places", line.name, n, line.n);
+  if (n < line.n)
+    c.notes.push_back(fmt::format("line {}: {} of {} places lie outside of one mesh or both; the means are {}",
+                                  line.name, line.n - n, line.n,
+                                  n > 0 ? "over the other " + std::to_string(n) : std::string("not known")));
   for (const Component& component : kComponents) {
     double mean[2] = {0.0, 0.0};
-    for (std::size_t k = 0; k < 2; ++k)
-      for (int i = 0; i < line.n; ++i) mean[k] += value(k, i, component) / line.n;
+    for (std::size_t k = 0; k < 2; ++k) {
+      for (const int i : common) mean[k] += value(k, i, component) / n;
+      if (n == 0) mean[k] = kUnknown;
+    }
     c.rows.push_back(
         {section, component.name, component.length ? u.length : u.stress, mean[0], mean[1], kUnknown});
   }

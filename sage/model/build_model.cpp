@@ -106,6 +106,14 @@ void read_point(Builder& b, const CardView& card, Report& report) {
     else
       report.group = found->second;
   }
+  std::string ignored;
+  for (const char* field : {"first", "last", "step", "height", "area", "cell_pressure"})
+    if (!card.blank(field) && card.real(field) != 0.0)
+      ignored += (ignored.empty() ? "" : ", ") + card.label(field);
+  if (!ignored.empty())
+    b.note(card.where(),
+           "a point report takes its place from the point card behind it; of this card it does not use: " +
+               ignored + " (kind 2 reports nodes)");
   const std::vector<CardView> places = b.deck.all("point", card);
   if (places.empty()) {
     b.error(card.where(), "a point report needs a point card with its place, x and y, behind it");

@@ -86,6 +86,21 @@ TEST(PointCards, AreReadWithNameAndPlace) {
             std::string::npos);
 }
 
+// A first node on the card of a point report looks as if it said where: the point card does.
+TEST(PointCards, FieldsThatAPointDoesNotUseAreNoted) {
+  const auto notes = [](const std::string& first_node) {
+    const std::string cards = "    3    0" + first_node + "    0    0    1\n      1.37      0.11inner third\n";
+    const Model model =
+        build_model(read_input(request_for("unused", cylinder(cards, 1)).deck, {}), full_catalogue());
+    int found = 0;
+    for (const Diagnostic& d : model.diagnostics.list())
+      found += d.message.find("of this card it does not use: first node") != std::string::npos ? 1 : 0;
+    return found;
+  };
+  EXPECT_EQ(notes("    1"), 1);
+  EXPECT_EQ(notes("    0"), 0);
+}
+
 // What convert writes says the same.
 TEST(PointCards, SurviveConversion) {
   const RunRequest request = request_for("convert", cylinder(kPointCards, 2));

@@ -344,6 +344,28 @@ TEST(Compare, OtherMeshesMeetOnLinesOnly) {
   EXPECT_NEAR(row->difference(), 0.0, 1e-8);
 }
 
+// The line is twice as long as the specimen is wide: the means are those of the places
+// that both meshes have, with their number; one place outside used to make them blank.
+TEST(Compare, LinesCountThePlacesThatBothMeshesHave) {
+  const Side a = run("a", Specimen{}.text(), 2), b = run("b", Specimen{}.text(), 2);
+  const Comparison c =
+      compare(a, b, {line_from_text("0,0.5,2,0.5:long:11"), line_from_text("3,0,3,1:beside:5")});
+  const Row* row = find(c.rows, "line long: mean of 6 of 11 places", "sigma_yy");
+  ASSERT_NE(row, nullptr);
+  EXPECT_NEAR(row->a, kCell + 0.01 * kE, 1e-8);
+  EXPECT_NEAR(row->difference(), 0.0, 1e-8);
+  const Row* none = find(c.rows, "line beside: mean of 0 of 5 places", "sigma_yy");
+  ASSERT_NE(none, nullptr);
+  EXPECT_TRUE(std::isnan(none->a));
+  const auto noted = [&](const std::string& words) {
+    return std::ranges::any_of(c.notes,
+                               [&](const std::string& n) { return n.find(words) != std::string::npos; });
+  };
+  EXPECT_TRUE(
+      noted("line long: 5 of 11 places lie outside of one mesh or both; the means are over the other 6"));
+  EXPECT_TRUE(noted("line beside: 5 of 5 places lie outside of one mesh or both; the means are not known"));
+}
+
 // The first lines are the answer: what the reports end with, the ratio, and what theory expects of it; the rows
 // come behind.
 TEST(Compare, TheAnswerComesFirst) {
