@@ -3,7 +3,6 @@
 
 #include <functional>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "sage/core/catalogue.hpp"
@@ -16,10 +15,9 @@ struct Choice {
   std::function<std::unique_ptr<Element>(Geometry)> make;
 };
 
-// An entry whose make() takes code 0 as the first choice and throws ParameterError for a code that isn't
-// listed.
-ElementEntry element_entry(std::string name, std::string summary, int nodes, int corners, int law_size,
-                           std::vector<Choice> choices);
+// Completes an entry by its formulations and a make() that takes code 0 as the first choice and throws
+// ParameterError for a code that isn't listed.
+ElementEntry element_entry(ElementEntry entry, std::vector<Choice> choices);
 
 ElementEntry quad4_entry();
 ElementEntry quad8_entry();

@@ -1,6 +1,10 @@
 #include "elements/lobatto.hpp"
 
-#include "elements/entries.hpp"
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
 #include "elements/solid_entry.hpp"
 
 namespace sage {
@@ -30,10 +34,23 @@ struct Lagrange {
   }
 };
 
+// VTK's Lagrange quadrilateral has the nodes of its third and fourth side in the direction of the first two.
 template <int p>
-ElementEntry lobatto_entry(const char* name, const char* summary, const char* rule, const char* full_name) {
-  return element_entry(name, summary, LobattoQuad<p>::nodes, 4, 4,
-                       {{{1, "full", rule}, solid<LobattoQuad<p>, GaussSquare<p + 1>>(full_name)}});
+std::vector<int> vtk_order() {
+  std::vector<int> order(LobattoQuad<p>::nodes);
+  std::iota(order.begin(), order.end(), 0);
+  for (const std::ptrdiff_t side : {2, 3}) {
+    const auto first = order.begin() + 4 + side * (p - 1);
+    std::reverse(first, first + (p - 1));
+  }
+  return order;
+}
+
+template <int p>
+ElementEntry lobatto_entry(const char* name, const char* summary, const char* rule) {
+  return element_entry(with_shape<LobattoQuad<p>>(
+                           {.name = name, .summary = summary, .card_nodes = 8, .vtk = {70, vtk_order<p>()}}),
+                       {solid<LobattoQuad<p>, GaussSquare<p + 1>>({1, "full", rule}, name)});
 }
 
 }  // namespace
@@ -93,18 +110,15 @@ template struct LobattoQuad<6>;
 template struct LobattoQuad<8>;
 
 ElementEntry quad25_entry() {
-  return lobatto_entry<4>("quad25", "25-node quadrilateral of degree 4; cards give 4 or 8 nodes", "5x5 Gauss",
-                          "quad25");
+  return lobatto_entry<4>("quad25", "25-node quadrilateral of degree 4; cards give 4 or 8 nodes", "5x5 Gauss");
 }
 
 ElementEntry quad49_entry() {
-  return lobatto_entry<6>("quad49", "49-node quadrilateral of degree 6; cards give 4 or 8 nodes", "7x7 Gauss",
-                          "quad49");
+  return lobatto_entry<6>("quad49", "49-node quadrilateral of degree 6; cards give 4 or 8 nodes", "7x7 Gauss");
 }
 
 ElementEntry quad81_entry() {
-  return lobatto_entry<8>("quad81", "81-node quadrilateral of degree 8; cards give 4 or 8 nodes", "9x9 Gauss",
-                          "quad81");
+  return lobatto_entry<8>("quad81", "81-node quadrilateral of degree 8; cards give 4 or 8 nodes", "9x9 Gauss");
 }
 
 }  // namespace sage

@@ -1,14 +1,13 @@
 #include "elements/register_elements.hpp"
 
+#include <string>
 #include <utility>
 
 #include "elements/entries.hpp"
 
 namespace sage {
 
-ElementEntry element_entry(std::string name, std::string summary, int nodes, int corners, int law_size,
-                           std::vector<Choice> choices) {
-  ElementEntry entry{std::move(name), std::move(summary), nodes, corners, law_size, {}, {}};
+ElementEntry element_entry(ElementEntry entry, std::vector<Choice> choices) {
   for (const Choice& choice : choices) entry.formulations.push_back(choice.formulation);
   entry.make = [name = entry.name, choices = std::move(choices)](Geometry geometry, int code) {
     if (code == 0) return choices.front().make(geometry);

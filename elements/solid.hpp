@@ -118,7 +118,6 @@ class Solid final : public PointElement<4, 2 * Shape::nodes, Rule::points> {
 
   std::span<const double> point_to_node() const override { return to_nodes_; }
 
-  std::span<const std::array<double, 2>> parent_nodes() const override { return Shape::node_at; }
   std::span<const double> point_to_sample() const override { return to_samples_; }
   int degree() const override { return Shape::degree; }
 

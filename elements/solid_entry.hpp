@@ -1,9 +1,11 @@
-// Makes one Solid in the geometry asked for.
+// Catalogue entries of solids: what the shape knows of itself, and a Solid in the geometry asked for.
 #pragma once
 
 #include <memory>
 #include <string_view>
+#include <utility>
 
+#include "elements/entries.hpp"
 #include "elements/solid.hpp"
 
 namespace sage {
@@ -17,8 +19,21 @@ struct SolidFlags {
   bool loses_order = false;
 };
 
+// Adds to an entry that says the rest what its shape tells.
+template <class Shape>
+ElementEntry with_shape(ElementEntry entry) {
+  entry.kind = ElementKind::solid;
+  entry.shape = Shape::corners == 3 ? ParentShape::triangle : ParentShape::square;
+  entry.nodes = Shape::nodes;
+  entry.corners = Shape::corners;
+  entry.law_size = 4;
+  if (entry.card_nodes == 0) entry.card_nodes = Shape::nodes;
+  entry.parent_nodes.assign(Shape::node_at.begin(), Shape::node_at.end());
+  return entry;
+}
+
 template <class Shape, class Rule, Volumetric volumetric = Volumetric::pointwise>
-auto solid(std::string_view name, SolidFlags flags = {}) {
+auto solid_maker(std::string_view name, SolidFlags flags = {}) {
   return [name, flags](Geometry geometry) -> std::unique_ptr<Element> {
     if (geometry == Geometry::plane_strain)
       return std::make_unique<Solid<Shape, PlaneStrain, Rule, volumetric>>(name, flags.reduced_plane,
@@ -26,6 +41,14 @@ auto solid(std::string_view name, SolidFlags flags = {}) {
     return std::make_unique<Solid<Shape, Axisymmetric, Rule, volumetric>>(name, flags.reduced_axisymmetric,
                                                                           flags.locks, flags.loses_order);
   };
+}
+
+// One formulation of a solid.  full_name: what its traits say.
+template <class Shape, class Rule, Volumetric volumetric = Volumetric::pointwise>
+Choice solid(Formulation formulation, std::string_view full_name, SolidFlags flags = {}) {
+  formulation.points = static_cast<int>(Rule::points);
+  formulation.plain = volumetric == Volumetric::pointwise;
+  return {std::move(formulation), solid_maker<Shape, Rule, volumetric>(full_name, flags)};
 }
 
 }  // namespace sage

@@ -17,9 +17,9 @@ constexpr double kOnMemory = 1e-6;
 
 const std::vector<Parameter>& rows() {
   static const std::vector<Parameter> table = {
-      required("cohesion", Dimension::stress, "adhesion c"),
-      required("friction_angle", Dimension::angle, "friction angle phi"),
-      required("tensile_strength", Dimension::stress, "tensile strength sigma_t"),
+      required("cohesion", Dimension::stress, "adhesion c", ParameterRole::strength),
+      required("friction_angle", Dimension::angle, "friction angle phi", ParameterRole::friction_angle),
+      required("tensile_strength", Dimension::stress, "tensile strength sigma_t", ParameterRole::strength),
       required("failure_ratio", Dimension::none, "reduction factor R_f; 0 is linear until slip"),
       required("stiffness_number", Dimension::none, "shear stiffness coefficient k_j"),
       required("stiffness_exponent", Dimension::none, "exponent n"),
@@ -37,24 +37,24 @@ const std::vector<Parameter>& rows() {
 LawPtr make(std::span<const double> values, const UnitSystem& units) {
   const Parameters p(rows(), values, units);
   CloughDuncanParameters law{};
-  law.c = p.not_negative(0);
-  law.tan_phi = std::tan(p.angle(1));
-  law.sigma_t = p.not_negative(2);
-  law.R_f = p.between(3, 0.0, 1.0);
-  law.n = p.not_negative(5);
-  law.k_nc = p.positive(6);
-  law.k_nt = p.not_negative(7);
-  law.k_sf = p.not_negative(8);
-  law.rule = static_cast<ShearRule>(p.code(9, {0, 1, 2}));
-  law.floor = p.positive(10);
-  law.memory = p.code(11, {0, 1}) == 0;
-  const double k_j = p.not_negative(4);
+  law.c = p.not_negative("cohesion");
+  law.tan_phi = std::tan(p.angle("friction_angle"));
+  law.sigma_t = p.not_negative("tensile_strength");
+  law.R_f = p.between("failure_ratio", 0.0, 1.0);
+  law.n = p.not_negative("stiffness_exponent");
+  law.k_nc = p.positive("compressive_stiffness");
+  law.k_nt = p.not_negative("tensile_stiffness");
+  law.k_sf = p.not_negative("failure_stiffness");
+  law.rule = static_cast<ShearRule>(p.code("shear_rule", {0, 1, 2}));
+  law.floor = p.positive("stress_floor");
+  law.memory = p.code("unloading", {0, 1}) == 0;
+  const double k_j = p.not_negative("stiffness_number");
   law.k_unit = k_j > 0.0 ? k_j * p.water_unit_weight() : 0.0;
   const bool scaled = k_j > 0.0 && law.n > 0.0;  // by p_a, which is known then
   law.p_a = scaled ? p.atmospheric_pressure() : 1.0;
   law.nothing = scaled ? kNoGapOfFloor * law.floor * law.p_a : 0.0;
   if (law.sigma_t > 0.0 && law.k_nt == 0.0)
-    p.refuse(7, "must be greater than 0 where there is a tensile strength");
+    p.refuse("tensile_stiffness", "must be greater than 0 where there is a tensile strength");
   return std::make_unique<CloughDuncan>(law);
 }
 

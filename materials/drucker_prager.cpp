@@ -18,8 +18,9 @@ constexpr double kApexStiffness =
 const std::vector<Parameter>& rows() {
   static const std::vector<Parameter> table = [] {
     std::vector<Parameter> r = elastic_rows();
-    r.push_back(required("cohesion", Dimension::stress, "cohesion c"));
-    r.push_back(required("friction_angle", Dimension::angle, "friction angle phi"));
+    r.push_back(required("cohesion", Dimension::stress, "cohesion c", ParameterRole::strength));
+    r.push_back(
+        required("friction_angle", Dimension::angle, "friction angle phi", ParameterRole::friction_angle));
     r.push_back(optional("dilation_angle", Dimension::angle, "dilation angle psi, at most phi", 0.0));
     r.push_back(optional("cone", Dimension::none,
                          "1 triaxial compression, 2 extension, 3 plane strain associated, "
@@ -40,19 +41,19 @@ const std::vector<Parameter>& rows() {
 LawPtr make(std::span<const double> values, const UnitSystem& units) {
   const Parameters p(rows(), values, units);
   DruckerPragerParameters law{};
-  law.elastic = elastic_parameters(p, 0);
-  const double phi = p.angle(3), psi = p.angle(4);
-  if (psi > phi) p.refuse(4, "must not exceed the friction angle");
-  const auto match = static_cast<ConeMatch>(p.code(5, {1, 2, 3, 4, 5}));
-  law.cone = match_cone(match, phi, p.not_negative(2));
-  law.beta = p.code(6, {0, 1}) == 1 ? 0.0 : match_cone(match, psi, 0.0).alpha;
-  const bool limited = p.number(7) != -1.0;
-  law.mean_tension = limited ? p.not_negative(7) : std::numeric_limits<double>::infinity();
-  law.free_mean = p.code(8, {0, 1}) == 1;
+  law.elastic = elastic_parameters(p);
+  const double phi = p.angle("friction_angle"), psi = p.angle("dilation_angle");
+  if (psi > phi) p.refuse("dilation_angle", "must not exceed the friction angle");
+  const auto match = static_cast<ConeMatch>(p.code("cone", {1, 2, 3, 4, 5}));
+  law.cone = match_cone(match, phi, p.not_negative("cohesion"));
+  law.beta = p.code("flow", {0, 1}) == 1 ? 0.0 : match_cone(match, psi, 0.0).alpha;
+  const bool limited = p.number("mean_tension_limit") != -1.0;
+  law.mean_tension = limited ? p.not_negative("mean_tension_limit") : std::numeric_limits<double>::infinity();
+  law.free_mean = p.code("apex", {0, 1}) == 1;
   if (law.free_mean && (law.beta != 0.0 || limited))
-    p.refuse(8, "can be 1 only for flow without volume change and without a tension limit");
-  law.exact = p.code(9, {0, 1}) == 1;
-  if (law.exact && law.beta != 0.0) p.refuse(9, "can be 1 only for flow without volume change");
+    p.refuse("apex", "can be 1 only for flow without volume change and without a tension limit");
+  law.exact = p.code("integration", {0, 1}) == 1;
+  if (law.exact && law.beta != 0.0) p.refuse("integration", "can be 1 only for flow without volume change");
   return std::make_unique<DruckerPrager>(law);
 }
 

@@ -19,12 +19,11 @@ std::vector<Parameter> rows(VolumeRule volume) {
 LawPtr make(VolumeRule volume, std::span<const double> values, const UnitSystem& units) {
   const std::vector<Parameter> table = rows(volume);
   const Parameters p(table, values, units);
-  const int first = static_cast<int>(table.size()) - 5;
   HyperbolicSteps steps;
-  steps.moduli = hyperbolic_parameters(p, volume, first);
-  const auto tangent = static_cast<HyperbolicTangent>(p.code(first + 2, {0, 1}));
-  steps.in_plane = p.code(first + 3, {0, 1}) == 1;
-  steps.tolerance = p.between(first + 4, 1e-10, 1.0);
+  steps.moduli = hyperbolic_parameters(p, volume);
+  const auto tangent = static_cast<HyperbolicTangent>(p.code("tangent", {0, 1}));
+  steps.in_plane = p.code("principals", {0, 1}) == 1;
+  steps.tolerance = p.between("step_tolerance", 1e-10, 1.0);
   return std::make_unique<DuncanChang>(steps, tangent);
 }
 

@@ -40,12 +40,13 @@ Outcome Goodman::update(const PointIn<2>& in, PointOut<2>& out) const {
 }
 
 MaterialEntry goodman_entry() {
-  return {"goodman", "interface with constant shear and normal stiffness, no stress while open", 2, rows(),
-          [](std::span<const double> values, const UnitSystem& units) -> LawPtr {
-            const Parameters p(rows(), values, units);
-            return std::make_unique<Goodman>(
-                GoodmanParameters{p.not_negative(0), p.positive(1), p.code(2, {0, 1}) == 0});
-          }};
+  return {
+      "goodman", "interface with constant shear and normal stiffness, no stress while open", 2, rows(),
+      [](std::span<const double> values, const UnitSystem& units) -> LawPtr {
+        const Parameters p(rows(), values, units);
+        return std::make_unique<Goodman>(GoodmanParameters{
+            p.not_negative("shear_stiffness"), p.positive("normal_stiffness"), p.code("tension", {0, 1}) == 0});
+      }};
 }
 
 }  // namespace sage

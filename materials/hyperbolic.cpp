@@ -105,56 +105,59 @@ HyperbolicModuli hyperbolic_moduli(const HyperbolicParameters& p, double sigma_1
 
 std::vector<Parameter> hyperbolic_rows(VolumeRule volume) {
   std::vector<Parameter> rows = {
-      required("modulus_number", Dimension::none, "modulus number K, E_i = K p_a (sigma_3/p_a)^n"),
+      required("modulus_number", Dimension::none, "modulus number K, E_i = K p_a (sigma_3/p_a)^n",
+               ParameterRole::modulus_number),
       required("modulus_exponent", Dimension::none, "modulus exponent n"),
       required("failure_ratio", Dimension::none, "failure ratio R_f"),
-      required("unload_number", Dimension::none, "unload-reload modulus number K_ur"),
+      required("unload_number", Dimension::none, "unload-reload modulus number K_ur",
+               ParameterRole::modulus_number),
   };
   if (volume == VolumeRule::bulk_1980) {
-    rows.push_back(
-        required("bulk_number", Dimension::none, "bulk modulus number K_b, B = K_b p_a (sigma_3/p_a)^m"));
+    rows.push_back(required("bulk_number", Dimension::none,
+                            "bulk modulus number K_b, B = K_b p_a (sigma_3/p_a)^m",
+                            ParameterRole::modulus_number));
     rows.push_back(required("bulk_exponent", Dimension::none, "bulk modulus exponent m"));
   } else {
     rows.push_back(required("poisson_G", Dimension::none, "G: initial Poisson's ratio at sigma_3 = p_a"));
     rows.push_back(required("poisson_F", Dimension::none, "F: its decrease for a tenfold sigma_3"));
     rows.push_back(required("poisson_d", Dimension::none, "d: its growth with axial strain"));
   }
-  rows.push_back(required("cohesion", Dimension::stress, "cohesion c"));
-  rows.push_back(required("friction_angle", Dimension::angle, "friction angle phi_0 at sigma_3 = p_a"));
+  rows.push_back(required("cohesion", Dimension::stress, "cohesion c", ParameterRole::strength));
+  rows.push_back(required("friction_angle", Dimension::angle, "friction angle phi_0 at sigma_3 = p_a",
+                          ParameterRole::friction_angle));
   rows.push_back(optional("friction_loss", Dimension::angle, "decrease of phi for a tenfold sigma_3", 0.0));
   return rows;
 }
 
-HyperbolicParameters hyperbolic_parameters(const Parameters& p, VolumeRule volume, int nu_max_at) {
+HyperbolicParameters hyperbolic_parameters(const Parameters& p, VolumeRule volume) {
   HyperbolicParameters h{};
-  h.K = p.positive(0);
-  h.n = p.not_negative(1);
-  h.R_f = p.between(2, 0.0, 1.0);
-  h.K_ur = p.positive(3);
+  h.K = p.positive("modulus_number");
+  h.n = p.not_negative("modulus_exponent");
+  h.R_f = p.between("failure_ratio", 0.0, 1.0);
+  h.K_ur = p.positive("unload_number");
   h.volume = volume;
-  int next = 4;
   if (volume == VolumeRule::bulk_1980) {
-    h.K_b = p.positive(next++);
-    h.m = p.between(next++, -2.0, 2.0);
+    h.K_b = p.positive("bulk_number");
+    h.m = p.between("bulk_exponent", -2.0, 2.0);
   } else {
-    h.G = p.between(next++, 0.0, 1.0);
-    h.F = p.between(next++, -1.0, 1.0);
-    h.d = p.not_negative(next++);
+    h.G = p.between("poisson_G", 0.0, 1.0);
+    h.F = p.between("poisson_F", -1.0, 1.0);
+    h.d = p.not_negative("poisson_d");
   }
-  h.c = p.not_negative(next++);
-  h.phi0 = p.angle(next++);
-  h.dphi = p.angle(next);
+  h.c = p.not_negative("cohesion");
+  h.phi0 = p.angle("friction_angle");
+  h.dphi = p.angle("friction_loss");
   h.p_a = p.atmospheric_pressure();
-  h.nu_max = p.between(nu_max_at, 0.0, 0.4999);
-  h.floor = p.positive(nu_max_at + 1);
+  h.nu_max = p.between("largest_poissons_ratio", 0.0, 0.4999);
+  h.floor = p.positive("stress_floor");
   const double steepest = h.phi0 - h.dphi * std::log10(h.floor);
   if (steepest >= 89.5 * kRadiansPerDegree)
-    p.refuse(next, "must leave the friction angle below 89.5 degrees at the stress floor");
+    p.refuse("friction_loss", "must leave the friction angle below 89.5 degrees at the stress floor");
   // The strength must not fall with sigma_3: d/d sigma_3 of sigma_3 sin phi/(1 - sin phi) >= 0 at the last
   // decade.
   const double flattest = h.phi0 - h.dphi * kLastDecade, sine = std::sin(flattest);
   if (sine * (1.0 - sine) < std::cos(flattest) * h.dphi / std::log(10.0))
-    p.refuse(next, "must leave a strength that grows with sigma_3 up to 1000 p_a");
+    p.refuse("friction_loss", "must leave a strength that grows with sigma_3 up to 1000 p_a");
   return h;
 }
 

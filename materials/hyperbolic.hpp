@@ -46,7 +46,7 @@ HyperbolicModuli hyperbolic_moduli(const HyperbolicParameters& p, double sigma_1
 
 // Rows and reading that the hyperbolic laws share.
 std::vector<Parameter> hyperbolic_rows(VolumeRule volume);  // everything up to the friction angles
-// The first required parameters, then nu_max at `nu_max_at` and the floor behind it.
-HyperbolicParameters hyperbolic_parameters(const Parameters& p, VolumeRule volume, int nu_max_at);
+// From a table that has them, largest_poissons_ratio and stress_floor.
+HyperbolicParameters hyperbolic_parameters(const Parameters& p, VolumeRule volume);
 
 }  // namespace sage

@@ -25,15 +25,15 @@ const std::vector<Parameter>& rows() {
 
 LawPtr make(std::span<const double> values, const UnitSystem& units) {
   const Parameters p(rows(), values, units);
-  const int first = static_cast<int>(rows().size()) - 5;
   HyperbolicSteps steps;
-  steps.moduli = hyperbolic_parameters(p, VolumeRule::bulk_1980, first + 2);
-  const double psi = p.angle(first);
-  if (psi > steps.moduli.phi0) p.refuse(first, "must not exceed the friction angle");
+  steps.moduli = hyperbolic_parameters(p, VolumeRule::bulk_1980);
+  const double psi = p.angle("dilation_angle");
+  if (psi > steps.moduli.phi0) p.refuse("dilation_angle", "must not exceed the friction angle");
   steps.bounded = true;
   steps.M = (1.0 + std::sin(psi)) / (1.0 - std::sin(psi));
-  steps.T = p.number(first + 1) == -1.0 ? std::numeric_limits<double>::infinity() : p.not_negative(first + 1);
-  steps.tolerance = p.between(first + 4, 1e-10, 1.0);
+  steps.T = p.number("tension_cut_off") == -1.0 ? std::numeric_limits<double>::infinity()
+                                                : p.not_negative("tension_cut_off");
+  steps.tolerance = p.between("step_tolerance", 1e-10, 1.0);
   return std::make_unique<HyperbolicMohrCoulomb>(steps);
 }
 

@@ -6,8 +6,8 @@ namespace {
 
 const std::vector<Parameter>& bulk_and_shear_rows() {
   static const std::vector<Parameter> rows = {
-      required("bulk_modulus", Dimension::stress, "bulk modulus K"),
-      required("shear_modulus", Dimension::stress, "shear modulus G"),
+      required("bulk_modulus", Dimension::stress, "bulk modulus K", ParameterRole::modulus),
+      required("shear_modulus", Dimension::stress, "shear modulus G", ParameterRole::modulus),
   };
   return rows;
 }
@@ -32,19 +32,20 @@ Matrix4 elastic_matrix(const ElasticModuli& moduli) {
 }
 
 std::vector<Parameter> elastic_rows() {
-  return {required("youngs_modulus", Dimension::stress, "Young's modulus E"),
-          required("poissons_ratio", Dimension::none, "Poisson's ratio nu, below 0.5")};
+  return {required("youngs_modulus", Dimension::stress, "Young's modulus E", ParameterRole::youngs_modulus),
+          required("poissons_ratio", Dimension::none, "Poisson's ratio nu, below 0.5",
+                   ParameterRole::poissons_ratio)};
 }
 
-ElasticModuli elastic_parameters(const Parameters& p, int at) {
-  return moduli_from_young(p.positive(at), p.poissons_ratio(at + 1));
+ElasticModuli elastic_parameters(const Parameters& p) {
+  return moduli_from_young(p.positive("youngs_modulus"), p.poissons_ratio("poissons_ratio"));
 }
 
 MaterialEntry linear_elastic_entry() {
   return {"linear_elastic", "isotropic linear elasticity from Young's modulus and Poisson's ratio", 4,
           elastic_rows(), [](std::span<const double> values, const UnitSystem& units) -> LawPtr {
             const std::vector<Parameter> rows = elastic_rows();
-            return std::make_unique<LinearElastic>(elastic_parameters(Parameters(rows, values, units), 0));
+            return std::make_unique<LinearElastic>(elastic_parameters(Parameters(rows, values, units)));
           }};
 }
 
@@ -52,7 +53,8 @@ MaterialEntry linear_elastic_kg_entry() {
   return {"linear_elastic_kg", "isotropic linear elasticity from bulk and shear modulus", 4,
           bulk_and_shear_rows(), [](std::span<const double> values, const UnitSystem& units) -> LawPtr {
             const Parameters p(bulk_and_shear_rows(), values, units);
-            return std::make_unique<LinearElastic>(ElasticModuli{p.positive(0), p.positive(1)});
+            return std::make_unique<LinearElastic>(
+                ElasticModuli{p.positive("bulk_modulus"), p.positive("shear_modulus")});
           }};
 }
 

@@ -36,8 +36,8 @@ class LinearElastic final : public SolidLaw {
   Matrix4 D_;
 };
 
-// Young's modulus and Poisson's ratio as decks give them (parameters `at` and `at + 1`).
-ElasticModuli elastic_parameters(const Parameters& p, int at);
+// Young's modulus and Poisson's ratio as decks give them, of a law whose table has the rows.
+ElasticModuli elastic_parameters(const Parameters& p);
 std::vector<Parameter> elastic_rows();
 
 MaterialEntry linear_elastic_entry();     // E, nu

@@ -13,8 +13,9 @@ namespace {
 const std::vector<Parameter>& rows() {
   static const std::vector<Parameter> table = [] {
     std::vector<Parameter> r = elastic_rows();
-    r.push_back(required("cohesion", Dimension::stress, "cohesion c"));
-    r.push_back(required("friction_angle", Dimension::angle, "friction angle phi; 0 is Tresca"));
+    r.push_back(required("cohesion", Dimension::stress, "cohesion c", ParameterRole::strength));
+    r.push_back(required("friction_angle", Dimension::angle, "friction angle phi; 0 is Tresca",
+                         ParameterRole::friction_angle));
     r.push_back(optional("dilation_angle", Dimension::angle, "dilation angle psi, at most phi", 0.0));
     r.push_back(optional("tension_cut_off", Dimension::stress, "largest tension; -1 = the apex only", -1.0));
     return r;
@@ -24,11 +25,12 @@ const std::vector<Parameter>& rows() {
 
 LawPtr make(std::span<const double> values, const UnitSystem& units) {
   const Parameters p(rows(), values, units);
-  const ElasticModuli elastic = elastic_parameters(p, 0);
-  const double phi = p.angle(3), psi = p.angle(4);
-  if (psi > phi) p.refuse(4, "must not exceed the friction angle");
-  const double T = p.number(5) == -1.0 ? std::numeric_limits<double>::infinity() : p.not_negative(5);
-  return std::make_unique<MohrCoulomb>(elastic, mohr_coulomb_planes(p.not_negative(2), phi, psi, T));
+  const ElasticModuli elastic = elastic_parameters(p);
+  const double phi = p.angle("friction_angle"), psi = p.angle("dilation_angle");
+  if (psi > phi) p.refuse("dilation_angle", "must not exceed the friction angle");
+  const double T = p.number("tension_cut_off") == -1.0 ? std::numeric_limits<double>::infinity()
+                                                       : p.not_negative("tension_cut_off");
+  return std::make_unique<MohrCoulomb>(elastic, mohr_coulomb_planes(p.not_negative("cohesion"), phi, psi, T));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
 #include <utility>
 
 namespace sage {
@@ -29,50 +30,56 @@ Parameters::Parameters(const std::vector<Parameter>& table, std::span<const doub
     if (!given && table[i].required)
       throw ParameterError(static_cast<int>(i), table[i].name + " is missing: " + table[i].meaning);
     values_.push_back(given ? values[i] : table[i].fallback);
-    if (!std::isfinite(values_.back())) refuse(static_cast<int>(i), "must be a finite number");
+    if (!std::isfinite(values_.back())) refuse(table[i].name, "must be a finite number");
   }
 }
 
-void Parameters::refuse(int i, const std::string& expected) const {
-  throw ParameterError(
-      i, table_[static_cast<std::size_t>(i)].name + " " + expected + "; it is " + text_of(number(i)));
+std::size_t Parameters::index(std::string_view name) const {
+  for (std::size_t i = 0; i < table_.size(); ++i)
+    if (table_[i].name == name) return i;
+  throw std::logic_error("the law has no parameter " + std::string(name));
 }
 
-double Parameters::positive(int i) const {
-  if (!(number(i) > 0.0)) refuse(i, "must be greater than 0");
-  return number(i);
+void Parameters::refuse(std::string_view name, const std::string& expected) const {
+  throw ParameterError(static_cast<int>(index(name)),
+                       std::string(name) + " " + expected + "; it is " + text_of(number(name)));
 }
 
-double Parameters::not_negative(int i) const {
-  if (number(i) < 0.0) refuse(i, "must not be negative");
-  return number(i);
+double Parameters::positive(std::string_view name) const {
+  if (!(number(name) > 0.0)) refuse(name, "must be greater than 0");
+  return number(name);
 }
 
-double Parameters::between(int i, double lowest, double highest) const {
-  if (number(i) < lowest || number(i) > highest)
-    refuse(i, "must lie between " + text_of(lowest) + " and " + text_of(highest));
-  return number(i);
+double Parameters::not_negative(std::string_view name) const {
+  if (number(name) < 0.0) refuse(name, "must not be negative");
+  return number(name);
 }
 
-double Parameters::poissons_ratio(int i) const {
-  if (number(i) >= 0.5)
-    refuse(i, "must be below 0.5 (there is no mixed element here; 0.4999999 is safe with B-bar)");
-  if (!(number(i) > -1.0)) refuse(i, "must be greater than -1");
-  return number(i);
+double Parameters::between(std::string_view name, double lowest, double highest) const {
+  if (number(name) < lowest || number(name) > highest)
+    refuse(name, "must lie between " + text_of(lowest) + " and " + text_of(highest));
+  return number(name);
 }
 
-double Parameters::angle(int i) const {
-  if (number(i) < 0.0 || number(i) >= 90.0) refuse(i, "must be at least 0 and below 90 degrees");
-  return number(i) * kRadiansPerDegree;
+double Parameters::poissons_ratio(std::string_view name) const {
+  if (number(name) >= 0.5)
+    refuse(name, "must be below 0.5 (there is no mixed element here; 0.4999999 is safe with B-bar)");
+  if (!(number(name) > -1.0)) refuse(name, "must be greater than -1");
+  return number(name);
 }
 
-int Parameters::code(int i, std::initializer_list<int> known) const {
+double Parameters::angle(std::string_view name) const {
+  if (number(name) < 0.0 || number(name) >= 90.0) refuse(name, "must be at least 0 and below 90 degrees");
+  return number(name) * kRadiansPerDegree;
+}
+
+int Parameters::code(std::string_view name, std::initializer_list<int> known) const {
   std::string list;
   for (const int k : known) {
-    if (number(i) == static_cast<double>(k)) return k;
+    if (number(name) == static_cast<double>(k)) return k;
     list += (list.empty() ? "" : ", ") + std::to_string(k);
   }
-  refuse(i, "must be one of the codes " + list + " (" + table_[static_cast<std::size_t>(i)].meaning + ")");
+  refuse(name, "must be one of the codes " + list + " (" + table_[index(name)].meaning + ")");
 }
 
 double Parameters::atmospheric_pressure() const {
@@ -89,12 +96,13 @@ double Parameters::water_unit_weight() const {
   return units_.water_unit_weight;
 }
 
-Parameter required(std::string name, Dimension dimension, std::string meaning) {
-  return {std::move(name), dimension, std::move(meaning), 0.0, true};
+Parameter required(std::string name, Dimension dimension, std::string meaning, ParameterRole role) {
+  return {std::move(name), dimension, std::move(meaning), 0.0, true, role};
 }
 
-Parameter optional(std::string name, Dimension dimension, std::string meaning, double fallback) {
-  return {std::move(name), dimension, std::move(meaning), fallback, false};
+Parameter optional(std::string name, Dimension dimension, std::string meaning, double fallback,
+                   ParameterRole role) {
+  return {std::move(name), dimension, std::move(meaning), fallback, false, role};
 }
 
 }  // namespace sage

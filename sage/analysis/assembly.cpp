@@ -198,7 +198,7 @@ void Assembly::keep_matrices(GroupData& data) {
 void Assembly::make_shifts(GroupData& data, int matrices) const {
   const std::size_t n = data.dofs();
   data.shift.assign(static_cast<std::size_t>(matrices) * n, 0.0);
-  const bool ring = model_->geometry == Geometry::axisymmetric && data.group->element->traits().law_size == 4;
+  const bool ring = model_->geometry == Geometry::axisymmetric && data.group->solid();
   if (!ring) return;
   for (std::size_t m = 0; m < static_cast<std::size_t>(matrices); ++m)
     for (std::size_t j = 0; j < n; j += 2)

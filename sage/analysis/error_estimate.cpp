@@ -83,9 +83,9 @@ struct CornerRule {
 };
 
 // 3 x 3 Gauss, or Dunavant's rule of degree 4.
-CornerRule corner_rule(int corners) {
+CornerRule corner_rule(const ElementEntry& entry) {
   CornerRule rule;
-  if (corners == 4) {
+  if (entry.square()) {
     const double at[3] = {-std::sqrt(0.6), 0.0, std::sqrt(0.6)}, w[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
     rule.shares.resize(9, 4);
     rule.w.resize(9);
@@ -113,11 +113,12 @@ CornerRule corner_rule(int corners) {
 
 // At the points of a reduced rule the error of a smooth solution vanishes: it is measured at others, where the
 // stress is the linear or bilinear one through those points.
-void measure_between_points(const Element& element, const Eigen::Matrix2Xd& x, ElementStress& s) {
+void measure_between_points(const Group& group, const Eigen::Matrix2Xd& x, ElementStress& s) {
+  const Element& element = *group.element;
   const Eigen::Index points = s.points.rows(), corners = s.corners;
   const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> to_nodes(
       element.point_to_node().data(), element.traits().nodes, points);
-  const CornerRule rule = corner_rule(s.corners);
+  const CornerRule rule = corner_rule(*group.entry);
   const Eigen::MatrixXd map = rule.shares * to_nodes.topRows(corners);
   const double volume = s.w.sum();
   const Eigen::VectorXd density = map * s.w;
@@ -175,8 +176,8 @@ ElementStress element_stress(const Model& model, const GroupData& data, int e,
   s.samples = to_samples.size() > 0 ? Stress4(to_samples * s.points) : s.points;
   s.sample_at = to_samples.size() > 0 ? Eigen::Matrix2Xd(s.point_at * to_samples.transpose()) : s.point_at;
   const bool own_places = element.point_to_sample().empty();
-  if (own_places && s.degree <= 2 && (s.corners == 4 || points < 3 * s.degree))
-    measure_between_points(element, x, s);
+  if (own_places && s.degree <= 2 && (group.entry->square() || points < 3 * s.degree))
+    measure_between_points(group, x, s);
   return s;
 }
 

@@ -28,7 +28,7 @@ Neighbours around(const Assembly& assembly, int node) {
     for (int e = 0; e < group.elements(); ++e) {
       const int* nodes = group.nodes_of(e);
       if (std::find(nodes, nodes + group.node_count(), node) == nodes + group.node_count()) continue;
-      if (group.element->traits().law_size == 4) result.only_interfaces = false;
+      if (group.solid()) result.only_interfaces = false;
       for (std::size_t p = 0; p < points; ++p) {
         const PointStatus status = data.state.trial.status[static_cast<std::size_t>(e) * points + p];
         result.open_point = result.open_point || status == PointStatus::open;

@@ -162,7 +162,7 @@ void apply_initial_stress(const Model& model, const InitialStress& initial, Grou
     for (int p = 0; p < traits.points; ++p) {
       const auto point = static_cast<std::size_t>(e * traits.points + p);
       bool admissible = true;
-      if (traits.law_size == 4) {
+      if (group.solid()) {
         const Vector4 sigma = solid_stress(initial, group.element->position(x, p));
         admissible = start_point<4>(*std::get<const SolidLaw*>(data.law), sigma, point, data.state);
       } else {

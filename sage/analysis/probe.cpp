@@ -10,9 +10,9 @@ namespace {
 constexpr int kOwnDegree = 4;  // from here on patches are coarser than an element's own polynomial
 
 // Share of each corner in a place of the parent shape.
-std::vector<double> corner_shares(const Vector2& q, std::size_t corners) {
+std::vector<double> corner_shares(const Vector2& q, const ElementEntry& entry) {
   const double x = q.x(), y = q.y();
-  if (corners == 3) return {1 - x - y, x, y};
+  if (entry.triangle()) return {1 - x - y, x, y};
   return {(1 - x) * (1 - y) / 4, (1 + x) * (1 - y) / 4, (1 + x) * (1 + y) / 4, (1 - x) * (1 + y) / 4};
 }
 
@@ -32,7 +32,7 @@ ProbeValue read_probe(const Probe& probe, const Solution& solution) {
 ProbeMaker::ProbeMaker(const Model& model, const std::vector<char>& active)
     : model_(&model), active_(active), zone_(zones_of(model)), locator_(model) {
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
-    if (!active[g] || model.groups[g].element->traits().law_size != 4) continue;
+    if (!active[g] || !model.groups[g].solid()) continue;
     for (int e = 0; e < model.groups[g].elements(); ++e) elements_.push_back({g, e});
   }
 }
@@ -62,13 +62,13 @@ void ProbeMaker::add_stress(Probe& probe, const Location& location, double part)
   const Group& group = model_->groups[location.group];
   const Element& element = *group.element;
   const std::size_t corners = element.edges().size();
-  if (element.degree() >= kOwnDegree && corners == 4) return add_own(probe, location, part);
+  if (element.degree() >= kOwnDegree && group.entry->square()) return add_own(probe, location, part);
   const int* nodes = group.nodes_of(location.element);
   const Patches& of_zone = patches(zone_[location.group]);
   Eigen::Matrix2Xd x;
   element_coordinates(model_->mesh, group, location.element, x);
   const Vector2 place = x * Eigen::Map<const Eigen::VectorXd>(location.N.data(), x.cols());
-  std::vector<double> shares = corner_shares(location.parent, corners);
+  std::vector<double> shares = corner_shares(location.parent, *group.entry);
   double sum = 0.0;
   std::size_t inside = 0;
   for (std::size_t c = 0; c < corners; ++c) {

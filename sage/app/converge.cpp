@@ -41,18 +41,21 @@ struct Row {
   Rung rung;
 };
 
-int code_of(const Catalogue& catalogue, const std::string& name) {
+// Quadrilaterals of rising degree that take the cards of 4- and 8-node ones.
+std::vector<int> rising_degrees(const Catalogue& catalogue) {
+  std::vector<int> codes;
   for (const auto& [code, entry] : catalogue.elements.entries())
-    if (entry.name == name) return code;
-  throw std::logic_error("no element " + name);
+    if (entry.solid() && entry.square() && entry.makes_nodes()) codes.push_back(code);
+  std::ranges::sort(codes, {}, [&](int code) { return catalogue.elements.find(code)->nodes; });
+  return codes;
 }
 
 // High degrees pay where the law is linear, and fit where all solids are quadrilaterals without interfaces.
 Ladder ladder_for(const Model& model, const Catalogue& catalogue) {
+  const std::vector<int> degrees = rising_degrees(catalogue);
+  if (degrees.empty()) return Ladder::halving;
   for (const Group& group : model.groups) {
-    const ElementEntry& entry = *catalogue.elements.find(group.element_code);
-    const bool quad =
-        entry.law_size == 4 && entry.corners == 4 && entry.nodes != 9;  // quad9 cards hold a centre
+    const bool quad = can_replace(catalogue.elements.find(degrees.front()), *group.entry);
     const LawRef law = model.material_of(group).law_ref();
     const auto* solid = std::get_if<const SolidLaw*>(&law);
     if (group.elements() > 0 && (!quad || solid == nullptr || !(*solid)->linear())) return Ladder::halving;
@@ -65,36 +68,37 @@ std::string grade_text(const Grading& g) {
                      g.layers, g.ratio);
 }
 
-// Layers of a rung: 4, 6, 8 ... of the ratio asked for.  From the fourth rung on the same depth by more and
-// gentler ones, for the error that degree 8 leaves within a layer does not depend on their number; deeper ones
-// than 1e-12 of the mesh would be rounding.
-void set_layers(Grading& grading, int level) {
+// Layers of a rung: 4, 6, 8 ... of the ratio asked for.  Behind the rung of the highest degree the same depth
+// by more and gentler ones, for the error that degree 8 leaves within a layer does not depend on their number;
+// deeper ones than 1e-12 of the mesh would be rounding.
+void set_layers(Grading& grading, int level, int highest) {
   constexpr double kDeepest = 1e-10;
   constexpr int kMostLayers = 30;  // the ratio stays below one half
   const int layers = 4 + 2 * level;
-  if (level <= 2) {
+  if (level <= highest) {
     grading.layers = layers;
     return;
   }
   const double depth =
       std::max(std::ldexp(kDeepest, level), std::pow(grading.ratio, layers));  // of halved elements
-  grading.layers = level == 3 ? 2 * layers : kMostLayers;
+  grading.layers = level == highest + 1 ? 2 * layers : kMostLayers;
   grading.ratio = std::pow(depth, 1.0 / grading.layers);
 }
 
-// Degree 4, 6, 8 with layers at the corners, then halved elements of degree 8.
+// Rising degrees (4, 6, 8) with layers at the corners, then halved elements of the highest.
 Rung spectral_rung(const BuildOptions& asked, const Catalogue& catalogue, int level) {
-  static const char* const kNames[] = {"quad25", "quad49", "quad81"};
+  const std::vector<int> degrees = rising_degrees(catalogue);
+  const int highest = static_cast<int>(degrees.size()) - 1;
   Rung rung{asked, {}};
-  const std::string name = kNames[std::min(level, 2)];
-  rung.build.element = code_of(catalogue, name);
+  rung.build.element = degrees[static_cast<std::size_t>(std::min(level, highest))];
+  const std::string& name = catalogue.elements.find(rung.build.element)->name;
   rung.build.formulation = -1;
-  rung.build.refine = asked.refine + std::max(0, level - 2);
+  rung.build.refine = asked.refine + std::max(0, level - highest);
   if (rung.build.gradings.empty()) rung.build.gradings.push_back({});
   rung.options = (asked.coarsen ? "--coarsen --element " : "--element ") + name;
   if (rung.build.refine > 0) rung.options += fmt::format(" --refine {}", rung.build.refine);
   for (Grading& g : rung.build.gradings) {
-    set_layers(g, level);
+    set_layers(g, level, highest);
     rung.options += grade_text(g);
   }
   return rung;

@@ -70,9 +70,9 @@ int convert(const ConvertOptions& options) {
   }
   const Catalogue catalogue = full_catalogue();
   Model model = read_model(options, catalogue);
-  write_file(options.to, to == ".dat"   ? sage1_text(model, catalogue, model.diagnostics)
-                         : to == ".msh" ? msh_text(model, catalogue, model.diagnostics)
-                                        : inp_text(model, catalogue, model.diagnostics));
+  write_file(options.to, to == ".dat"   ? sage1_text(model, model.diagnostics)
+                         : to == ".msh" ? msh_text(model, model.diagnostics)
+                                        : inp_text(model, model.diagnostics));
   if (to == ".inp") warn_of_results(options.to, model.diagnostics);
   print_diagnostics(model.diagnostics);
   fmt::print("{}: {} nodes, {} groups{}{}\n", options.to, model.mesh.nodes(), model.groups.size(),

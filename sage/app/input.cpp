@@ -29,14 +29,8 @@ int element_code(const std::string& text) {
   int code = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), code);
   if (error == std::errc() && end == text.data() + text.size()) return code;
-  const Catalogue catalogue = full_catalogue();
-  for (const auto& [number, entry] : catalogue.elements.entries())
-    if (entry.name == text) return number;
-  return -1;
-}
-
-bool is_quadrilateral(const ElementEntry& entry) {
-  return entry.law_size == 4 && entry.corners == 4;
+  const int found = full_catalogue().elements.code_of(text);
+  return found == 0 ? -1 : found;
 }
 
 }  // namespace
@@ -108,7 +102,7 @@ void add_element_option(CLI::App& parser, const std::string& flag, const std::st
         const int code = element_code(text);
         if (code < 0) return "unknown element " + text + "; known: " + catalogue.elements.known();
         const ElementEntry* entry = catalogue.elements.find(code);  // codes are checked with the model
-        return entry == nullptr || is_quadrilateral(*entry)
+        return entry == nullptr || (entry->solid() && entry->square())
                    ? std::string()
                    : entry->name + " can't take the place of a quadrilateral";
       });

@@ -25,7 +25,7 @@ void list_materials(const Catalogue& catalogue) {
   const UnitSystem generic{"length", "force", "stress", 0.0, 0.0};
   fmt::print("code  law, parameters in the order of the card\n");
   for (const auto& [code, entry] : catalogue.materials.entries()) {
-    fmt::print("{:4}  {} ({}): {}\n", code, entry.name, entry.law_size == 4 ? "solid" : "interface",
+    fmt::print("{:4}  {} ({}): {}\n", code, entry.name, entry.for_solids() ? "solid" : "interface",
                entry.summary);
     int number = 0;
     for (const Parameter& p : entry.parameters) {

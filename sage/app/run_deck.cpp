@@ -146,6 +146,7 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
     outcome.model = std::make_unique<Model>(build_model(deck, catalogue, build));
     owner.deck_sum = checksum(*deck.source);
   }
+  if (request.output.vtu) warn_of_vtu(*outcome.model, outcome.model->diagnostics);
   const Model& model = *outcome.model;
   if (!request.quiet) print_diagnostics(model.diagnostics);
   if (request.input.strict && model.diagnostics.warnings() > 0) {

@@ -67,7 +67,7 @@ PointCounts count_points(const Mesh& mesh, const Solution& solution) {
   PointCounts counts;
   for (const GroupData& data : solution.assembly->groups()) {
     if (!data.active) continue;
-    const bool solid = data.state.law_size() == 4;
+    const bool solid = data.group->solid();
     for (std::size_t p = 0; p < data.state.committed.status.size(); ++p) {
       const PointStatus status = shown_status(mesh, data, p);
       ++(solid ? counts.solids : counts.interfaces);

@@ -15,16 +15,18 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-double parameter(const Material& material, std::size_t i, double fallback) {
-  return i < material.parameters.size() ? material.parameters[i] : fallback;
+double parameter(const Material& material, std::string_view name, double fallback) {
+  const int i = material.entry->find(name);
+  return i < 0 ? fallback : material.parameters[static_cast<std::size_t>(i)];
 }
 
 bool is_solid(const Group& group) {
-  return group.element->traits().law_size == 4;
+  return group.solid();
 }
 
 bool is_elastic(const Material& material) {
-  return material.law_name == "linear_elastic";
+  return std::visit([](const auto* law) { return law->linear(); }, material.law_ref()) &&
+         material.parameter(ParameterRole::youngs_modulus) && material.parameter(ParameterRole::poissons_ratio);
 }
 
 bool is_plastic(const Material& material) {
@@ -165,8 +167,9 @@ std::optional<Modulus> modulus_of(const Side& side) {
   const auto stage = straining_stage(side, m.lateral);
   if (m.lateral == Lateral::other || !stage) return std::nullopt;
   m.restrained = restrained_ends(side);
-  m.expected =
-      elastic_modulus(side.model().geometry, m.lateral, material->parameters[0], material->parameters[1]);
+  m.expected = elastic_modulus(side.model().geometry, m.lateral,
+                               material->parameter(ParameterRole::youngs_modulus).value(),
+                               material->parameter(ParameterRole::poissons_ratio).value());
   m.found = apparent_modulus(side, *stage);
   return m;
 }
@@ -253,12 +256,13 @@ PlaneStrainStrength plane_strain_strength(double alpha, double k, double beta) {
 
 double strength_deviator(const Material& material, Geometry geometry, double sigma3) {
   if (!is_plastic(material)) return kUnknown;
-  double c = parameter(material, 2, 0.0), phi = parameter(material, 3, 0.0) * kRadiansPerDegree;
+  double c = parameter(material, "cohesion", 0.0),
+         phi = parameter(material, "friction_angle", 0.0) * kRadiansPerDegree;
   if (material.law_name == "drucker_prager") {
-    const auto match = static_cast<ConeMatch>(static_cast<int>(parameter(material, 5, 1.0)));
+    const auto match = static_cast<ConeMatch>(static_cast<int>(parameter(material, "cone", 1.0)));
     const Cone cone = match_cone(match, phi, c);
-    const double psi = parameter(material, 4, 0.0) * kRadiansPerDegree;
-    const double beta = parameter(material, 6, 0.0) == 1.0 ? 0.0 : match_cone(match, psi, 0.0).alpha;
+    const double psi = parameter(material, "dilation_angle", 0.0) * kRadiansPerDegree;
+    const double beta = parameter(material, "flow", 0.0) == 1.0 ? 0.0 : match_cone(match, psi, 0.0).alpha;
     if (geometry == Geometry::axisymmetric) {
       // q/sqrt 3 = k + alpha (3 sigma3 + q)
       const double below = 1.0 / std::sqrt(3.0) - cone.alpha;
@@ -302,7 +306,7 @@ double plane_strain_defect(const Side& side) {
   for (std::size_t g = 0; g < now.size(); ++g) {
     const Material& material = side.model().material_of(*now[g].group);
     if (!now[g].active || !start[g].active || !is_solid(*now[g].group) || !is_elastic(material)) continue;
-    const double nu = material.parameters[1];
+    const double nu = material.parameter(ParameterRole::poissons_ratio).value();
     const std::vector<double>&s1 = now[g].state.committed.sigma, &s0 = start[g].state.committed.sigma;
     for (std::size_t i = 0; i + 3 < s1.size(); i += 4) {
       const double dx = s1[i] - s0[i], dy = s1[i + 1] - s0[i + 1], dz = s1[i + 2] - s0[i + 2];

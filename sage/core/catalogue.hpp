@@ -2,6 +2,7 @@
 // number, name and parameters with units, so that parser, manual and error text come from one place.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <limits>
 #include <map>
@@ -18,12 +19,25 @@
 
 namespace sage {
 
+// What a parameter is to those that judge or translate a deck without knowing its laws.
+enum class ParameterRole {
+  none,
+  youngs_modulus,  // stress
+  poissons_ratio,
+  modulus,         // any other stiffness of a solid, stress
+  modulus_number,  // the same as a multiple of the atmospheric pressure
+  strength,        // shear or tensile strength without confinement, stress
+  friction_angle,  // degrees
+  unit_weight,     // of a law that has one besides the material card's
+};
+
 struct Parameter {
   std::string name;  // "friction_angle"
   Dimension dimension = Dimension::none;
   std::string meaning;    // one line for the manual
   double fallback = 0.0;  // used where the deck gives fewer parameters
   bool required = true;
+  ParameterRole role = ParameterRole::none;
 };
 
 // Parameters arrive as the deck writes them: degrees, compression-positive stress.
@@ -34,24 +48,88 @@ struct MaterialEntry {
   std::vector<Parameter> parameters;
   // Throws ParameterError.
   std::function<LawPtr(std::span<const double> values, const UnitSystem& units)> make;
+
+  bool for_solids() const { return law_size == 4; }
+  // Place of a parameter on the card, from 0; -1 = there is none.  Of several of a role the first.
+  int find(std::string_view parameter) const {
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      if (parameters[i].name == parameter) return static_cast<int>(i);
+    return -1;
+  }
+  int find(ParameterRole role) const {
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      if (parameters[i].role == role) return static_cast<int>(i);
+    return -1;
+  }
 };
 
 struct Formulation {
   int code = 0;
   std::string name;  // "b-bar"
   std::string summary;
+  int points = 0;     // integration points
+  bool plain = true;  // every point has its own strain; other programs mean such a one by a number of points
+};
+
+// What an element is to those that lay out, load, draw and report it.  Bars, beams and coupled elements will
+// get kinds of their own.
+enum class ElementKind {
+  solid,      // fills an area; its law relates four stresses to strains
+  interface,  // joins two bodies: bottom and top side at one place; its law relates two tractions to slips
+};
+
+// What an element is the map of.  Its corners come first among its nodes, in this order.
+enum class ParentShape {
+  triangle,  // (0, 0) (1, 0) (0, 1)
+  square,    // (-1, -1) (1, -1) (1, 1) (-1, 1); of an interface the lower side is the bottom, the upper the top
+};
+
+// The element in another program's files.
+template <class Type>
+struct ForeignElement {
+  Type type{};               // empty: it has none; the corners are written, with a warning
+  std::vector<int> nodes{};  // local numbers in that program's order; empty: all of them, in our own order
 };
 
 struct ElementEntry {
   std::string name;
   std::string summary;
+  ElementKind kind = ElementKind::solid;
+  ParentShape shape = ParentShape::square;
   int nodes = 0;
-  int corners = 0;  // nodes beyond these are mid-side nodes on straight or curved edges
+  int corners = 0;  // nodes beyond these are mid-side nodes on straight or curved edges, or inside
   int law_size = 4;
-  std::vector<Formulation> formulations;  // the first is the default (deck code 0)
+  // Most nodes that an element card gives.  Fewer than there are: corners and the middle nodes of the sides,
+  // and the others are made.
+  int card_nodes = 0;
+  std::vector<std::array<double, 2>> parent_nodes{};  // place of each node in the parent shape
+  std::string side_interface{};   // name of the interface whose sides fit its own; empty: there is none
+  std::string folded{};           // name of what it becomes where a corner repeats the next; empty: an error
+  std::string against_locking{};  // what to use in place of a formulation that locks, a clause of a warning
+  ForeignElement<int> vtk{}, gmsh{};
+  ForeignElement<std::string> calculix{};   // what follows CPE or CAX
+  std::string calculix_reduced{};           // the same under reduced integration; empty: no other
+  std::vector<Formulation> formulations{};  // the first is the default (deck code 0)
   // Throws ParameterError for an unknown formulation code.
-  std::function<std::unique_ptr<Element>(Geometry geometry, int formulation)> make;
+  std::function<std::unique_ptr<Element>(Geometry geometry, int formulation)> make{};
+
+  bool solid() const { return kind == ElementKind::solid; }
+  bool interface() const { return kind == ElementKind::interface; }
+  bool triangle() const { return shape == ParentShape::triangle; }
+  bool square() const { return shape == ParentShape::square; }
+  bool only_corners() const { return nodes == corners; }
+  // Nodes beyond those of the card are made where parent_nodes wants them.
+  bool makes_nodes() const { return card_nodes < nodes; }
 };
+
+// Whether one element can stand in another's place and take its cards as they are, the nodes that they lack
+// made: of one of corners alone, or, for one of high degree, of any whose cards give no more than its own.
+// wanted: nullptr = an unknown one.
+inline bool can_replace(const ElementEntry* wanted, const ElementEntry& other) {
+  if (!other.solid() || !other.square()) return false;
+  return other.only_corners() || (wanted != nullptr && wanted->makes_nodes() && wanted->square() &&
+                                  other.card_nodes <= wanted->card_nodes);
+}
 
 struct SolverEntry {
   std::string name;
@@ -60,26 +138,39 @@ struct SolverEntry {
   std::function<std::unique_ptr<LinearSolver>()> make;
 };
 
+// A value: copies share their entries until one of them adds.
 template <class Entry>
 class Registry {
  public:
   // Throws std::logic_error on a code or name that is taken: a mistake of the programmer, not of the user.
   void add(int code, Entry entry) {
-    for (const auto& [other_code, other] : entries_)
+    for (const auto& [other_code, other] : *entries_)
       if (other_code == code || other.name == entry.name)
         throw std::logic_error("catalogue: code " + std::to_string(code) + " or name " + entry.name +
                                " is taken");
-    entries_.emplace(code, std::move(entry));
+    if (entries_.use_count() > 1) entries_ = std::make_shared<std::map<int, Entry>>(*entries_);
+    entries_->emplace(code, std::move(entry));
   }
   const Entry* find(int code) const {
-    const auto it = entries_.find(code);
-    return it == entries_.end() ? nullptr : &it->second;
+    const auto it = entries_->find(code);
+    return it == entries_->end() ? nullptr : &it->second;
   }
-  const std::map<int, Entry>& entries() const { return entries_; }
+  // Code of the entry of that name, 0 = there is none.
+  int code_of(std::string_view name) const {
+    for (const auto& [code, entry] : *entries_)
+      if (entry.name == name) return code;
+    return 0;
+  }
+  // An entry that outlives the catalogue; nullptr = there is none.
+  std::shared_ptr<const Entry> share(int code) const {
+    const Entry* entry = find(code);
+    return entry == nullptr ? nullptr : std::shared_ptr<const Entry>(entries_, entry);
+  }
+  const std::map<int, Entry>& entries() const { return *entries_; }
   // "1 linear_elastic, 2 duncan_chang": what an error message lists.
   std::string known() const {
     std::string text;
-    for (const auto& [code, entry] : entries_) {
+    for (const auto& [code, entry] : *entries_) {
       if (!text.empty()) text += ", ";
       text += std::to_string(code) + " " + entry.name;
     }
@@ -87,7 +178,7 @@ class Registry {
   }
 
  private:
-  std::map<int, Entry> entries_;
+  std::shared_ptr<std::map<int, Entry>> entries_ = std::make_shared<std::map<int, Entry>>();
 };
 
 struct Catalogue {

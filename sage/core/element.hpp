@@ -76,10 +76,6 @@ class Element {
   virtual void edge_load(const NodeCoordinates& x, int edge, const Vector2& normal, const Vector2& shear,
                          std::span<double> f) const = 0;
 
-  // Places of the nodes in the parent shape: squares (-1, 1)^2, triangles (0, 0) (1, 0) (0, 1).  Empty:
-  // interfaces.
-  virtual std::span<const std::array<double, 2>> parent_nodes() const { return {}; }
-
   // Stress at the places where it is most accurate (p x p Gauss points of a quadrilateral of degree p), from
   // the stress at the points: samples x points, row-major.  Empty: the points are those places.
   virtual std::span<const double> point_to_sample() const { return {}; }
@@ -97,7 +93,7 @@ class Element {
   }
 
   // N (nodes) and dN/d(xi, eta) (nodes x 2, column-major) at a place of the parent shape: the square (-1, 1)^2,
-  // or the triangle (0, 0) (1, 0) (0, 1) where there are three edges.  False: the element has no inside
+  // or the triangle (0, 0) (1, 0) (0, 1).  False: the element has no inside
   // (interfaces).
   virtual bool shape_functions(const Vector2& /*parent*/, std::span<double> /*N*/,
                                std::span<double> /*dN*/) const {

@@ -17,31 +17,20 @@ std::string formulations_of(const ElementEntry& entry) {
   return text;
 }
 
-// Elements of higher degree take their corners and mid-side nodes from the card and have the rest made.
-constexpr int kMostCardNodes = 15;
-
 // The deck's element, or the one that BuildOptions puts in its place.
 int chosen_element(const Builder& b, int deck_code) {
   const ElementEntry* deck_entry = b.catalogue.elements.find(deck_code);
   if (b.options.element == 0 || deck_entry == nullptr) return deck_code;
-  if (deck_entry->law_size == 4 && deck_entry->nodes == 4) return b.options.element;
-  // Elements of high degree take the mid-side nodes of a card for the curve of its sides.
-  const auto quad_of_high_degree = [](const ElementEntry* e) {
-    return e != nullptr && e->corners == 4 && e->nodes > kMostCardNodes;
-  };
-  if (quad_of_high_degree(b.catalogue.elements.find(b.options.element)) && deck_entry->law_size == 4 &&
-      (deck_entry->nodes == 8 || quad_of_high_degree(deck_entry)))
-    return b.options.element;
   const ElementEntry* wanted = b.catalogue.elements.find(b.options.element);
+  if (can_replace(wanted, *deck_entry)) return b.options.element;
+  if (wanted == nullptr) return deck_code;
   // Quadratic solids need quadratic interfaces beside them.
-  if (deck_entry->law_size == 2 && deck_entry->nodes == 4 && wanted != nullptr && wanted->nodes > 4)
-    for (const auto& [code, entry] : b.catalogue.elements.entries())
-      if (entry.law_size == 2 && entry.nodes == 6) return code;
-  return deck_code;
+  const int beside = b.catalogue.elements.code_of(wanted->side_interface);
+  return deck_entry->interface() && deck_entry->only_corners() && beside != 0 ? beside : deck_code;
 }
 
 int chosen_formulation(const Builder& b, const ElementEntry& entry, int deck_code, bool replaced) {
-  if (entry.law_size != 4) return deck_code;
+  if (!entry.solid()) return deck_code;
   if (b.options.formulation >= 0) return b.options.formulation;
   return replaced ? 0 : deck_code;
 }
@@ -60,17 +49,13 @@ std::vector<int> card_nodes(const CardView& card) {
   return nodes;
 }
 
-int card_limit(const ElementEntry& entry) {
-  return entry.nodes > kMostCardNodes ? 2 * entry.corners : entry.nodes;
-}
-
 // Local node that the i-th node of a card is, which gives so many: corners and the middle nodes of the sides,
 // or more.
 std::size_t local_node(const Group& group, const ElementEntry& entry, std::size_t i, std::size_t given) {
   const auto corners = static_cast<std::size_t>(entry.corners);
-  if (i < corners || (entry.nodes <= kMostCardNodes && given > 2 * corners)) return i;
-  if (entry.law_size == 2) return i;
-  return static_cast<std::size_t>(middle_of(group.element->edges()[i - corners]));
+  if (i < corners || entry.interface() || (!entry.makes_nodes() && given > 2 * corners)) return i;
+  const int middle = middle_of(group.element->edges()[i - corners]);
+  return middle < 0 ? i : static_cast<std::size_t>(middle);
 }
 
 struct ElementCard {
@@ -81,7 +66,7 @@ struct ElementCard {
 
 void add_element(Builder& b, const CardView& card, const ElementCard& element) {
   Group& group = b.model.groups[static_cast<std::size_t>(element.group)];
-  const ElementEntry& entry = *b.catalogue.elements.find(group.element_code);
+  const ElementEntry& entry = *group.entry;
   const auto name = [&] { return "element " + std::to_string(element.number); };
   if (!b.element_place
            .try_emplace(element.number, ElementPlace{element.group, group.elements(), element.folded})
@@ -101,14 +86,13 @@ void add_element(Builder& b, const CardView& card, const ElementCard& element) {
       return;
     }
     if (std::find(index.begin(), index.end(), it->second) != index.end()) {
-      b.error(
-          card.where("n" + std::to_string(i + 1)),
-          name() + ": node " + std::to_string(number) + " stands twice" +
-              (entry.law_size == 2 ? "; a pair of an interface is two nodes at one place, one of each body, "
-                                     "also where the interface ends"
-               : entry.corners == 4 && entry.nodes > 4
-                   ? "; only a 4-node quadrilateral becomes a triangle by that"
-                   : ""));
+      b.error(card.where("n" + std::to_string(i + 1)),
+              name() + ": node " + std::to_string(number) + " stands twice" +
+                  (entry.interface() ? "; a pair of an interface is two nodes at one place, one of each body, "
+                                       "also where the interface ends"
+                   : entry.square() && entry.folded.empty()
+                       ? "; only a 4-node quadrilateral becomes a triangle by that"
+                       : ""));
       return;
     }
     index[local_node(group, entry, i, element.nodes.size())] = it->second;
@@ -118,38 +102,33 @@ void add_element(Builder& b, const CardView& card, const ElementCard& element) {
   group.nodes.insert(group.nodes.end(), index.begin(), index.end());
 }
 
-// A quadrilateral one of whose corners repeats the next is a triangle: its twin group is made on demand.
-int triangle_group(Builder& b, int quad_group) {
+// What a group's elements are where a corner repeats the next: its twin group is made on demand.
+int folded_group(Builder& b, int quad_group, int code) {
   const Group& quads = b.model.groups[static_cast<std::size_t>(quad_group)];
   const int number = -quads.number;
   const auto found = b.group_index.find(number);
   if (found != b.group_index.end()) return found->second;
-  for (const auto& [code, entry] : b.catalogue.elements.entries()) {
-    if (entry.law_size != 4 || entry.nodes != 3) continue;
-    Group group;
-    group.number = quads.number;
-    group.name = quads.name;
-    group.element_code = code;
-    group.element_name = entry.name + " " + entry.formulations.front().name;
-    group.element = entry.make(b.model.geometry, 0);
-    group.material = quads.material;
-    group.where = quads.where;
-    b.group_index.emplace(number, static_cast<int>(b.model.groups.size()));
-    b.model.groups.push_back(std::move(group));
-    return static_cast<int>(b.model.groups.size()) - 1;
-  }
-  return quad_group;
+  Group group;
+  group.number = quads.number;
+  group.name = quads.name;
+  set_element(group, b.catalogue, code, 0, b.model.geometry);
+  group.material = quads.material;
+  group.where = quads.where;
+  b.group_index.emplace(number, static_cast<int>(b.model.groups.size()));
+  b.model.groups.push_back(std::move(group));
+  return static_cast<int>(b.model.groups.size()) - 1;
 }
 
-void fold_triangle(Builder& b, ElementCard& element) {
-  const ElementEntry& entry =
-      *b.catalogue.elements.find(b.model.groups[static_cast<std::size_t>(element.group)].element_code);
-  if (entry.law_size != 4 || entry.nodes != 4 || element.nodes.size() != 4) return;
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (element.nodes[i] != element.nodes[(i + 1) % 4]) continue;
+void fold(Builder& b, ElementCard& element) {
+  const ElementEntry& entry = *b.model.groups[static_cast<std::size_t>(element.group)].entry;
+  const std::size_t corners = element.nodes.size();
+  if (entry.folded.empty() || corners != static_cast<std::size_t>(entry.corners)) return;
+  const int code = b.catalogue.elements.code_of(entry.folded);
+  for (std::size_t i = 0; code != 0 && i < corners; ++i) {
+    if (element.nodes[i] != element.nodes[(i + 1) % corners]) continue;
     element.nodes.erase(element.nodes.begin() + static_cast<std::ptrdiff_t>(i));
     element.folded = static_cast<int>(i);
-    element.group = triangle_group(b, element.group);
+    element.group = folded_group(b, element.group, code);
     return;
   }
 }
@@ -202,14 +181,14 @@ void read_element_card(Builder& b, const CardView& card) {
   }
   const Group& target = b.model.groups[static_cast<std::size_t>(group->second)];
   if (!target.element) return;  // its own error was reported
-  const ElementEntry& entry = *b.catalogue.elements.find(target.element_code);
+  const ElementEntry& entry = *target.entry;
   ElementCard element{card.integer("number"), group->second, card_nodes(card)};
   const int given = static_cast<int>(element.nodes.size());
-  if (given < entry.corners || given > card_limit(entry)) {
+  if (given < entry.corners || given > entry.card_nodes) {
     b.error(card.where("n1"),
             "element " + std::to_string(element.number) + ": a " + entry.name + " has " +
                 std::to_string(entry.corners) +
-                (entry.nodes > entry.corners ? " to " + std::to_string(card_limit(entry)) : "") +
+                (entry.nodes > entry.corners ? " to " + std::to_string(entry.card_nodes) : "") +
                 " nodes on its card, not " + std::to_string(given));
     return;
   }
@@ -240,7 +219,7 @@ void read_element_card(Builder& b, const CardView& card) {
       ElementCard next{element.number + j * block.columns + i, target_group, first_nodes};
       for (int& n : next.nodes)
         if (n != 0) n += i * block.column_step + j * block.row_step;
-      fold_triangle(b, next);
+      fold(b, next);
       const int before = b.problems.errors();
       add_element(b, card, next);
       if (b.problems.errors() > before) return;  // one message a card
@@ -270,6 +249,7 @@ void read_material(Builder& b, const CardView& card, const std::vector<CardView>
     return;
   }
   m.law_name = entry->name;
+  m.entry = b.catalogue.materials.share(m.code);
   std::span<const FieldValue> given;
   SourcePosition where = card.where();
   if (!parameter_cards.empty()) {
@@ -356,15 +336,14 @@ void build_groups(Builder& b) {
                                                entry->name + " is unknown; 0 default, " +
                                                formulations_of(*entry));
       } else {
-        group.element = entry->make(b.model.geometry, found->code);
-        group.element_name = entry->name + " " + found->name;
+        set_element(group, b.catalogue, group.element_code, found->code, b.model.geometry);
       }
       if (material != b.material_index.end()) {
         const Material& m = b.model.materials[static_cast<std::size_t>(material->second)];
         const MaterialEntry* law = b.catalogue.materials.find(m.code);
         if (law != nullptr && law->law_size != entry->law_size)
           b.error(card.where("material"), name + ": a " + entry->name + " needs a law for " +
-                                              (entry->law_size == 4 ? "solids" : "interfaces") + ", material " +
+                                              (entry->solid() ? "solids" : "interfaces") + ", material " +
                                               std::to_string(m.number) + " is " + law->name);
       }
     }

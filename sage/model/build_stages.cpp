@@ -106,9 +106,9 @@ void read_pressure(Builder& b, const CardView& card, std::vector<EdgeLoad>& out)
 // Values that this kind of initial stress takes and the card leaves blank.
 void note_blank_stresses(Builder& b, const CardView& card, InitialKind kind, int group_number) {
   const auto group = b.group_index.find(group_number);
-  const bool interface =
-      group != b.group_index.end() && b.model.groups[static_cast<std::size_t>(group->second)].element &&
-      b.model.groups[static_cast<std::size_t>(group->second)].element->traits().law_size == 2;
+  const bool interface = group != b.group_index.end() &&
+                         b.model.groups[static_cast<std::size_t>(group->second)].element &&
+                         b.model.groups[static_cast<std::size_t>(group->second)].interface();
   const int values = kind == InitialKind::uniform     ? (interface ? 2 : 3)
                      : kind == InitialKind::geostatic ? 3
                                                       : 0;
@@ -143,8 +143,7 @@ void read_initial(Builder& b, const CardView& card, std::vector<InitialStress>& 
   for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
     if (b.model.groups[g].number != number) continue;
     found = true;
-    if (initial.kind == InitialKind::traction && b.model.groups[g].element &&
-        b.model.groups[g].element->traits().law_size != 2)
+    if (initial.kind == InitialKind::traction && b.model.groups[g].element && !b.model.groups[g].interface())
       b.error(card.where("kind"), "kind 3 (traction of the neighbours) is for interface groups");
     initial.group = static_cast<int>(g);
     out.push_back(initial);
@@ -158,7 +157,7 @@ void check_traction(Builder& b, const CardView& card) {
   const int wanted = card.integer("v1");
   for (const InitialStress& initial : b.model.initials) {
     const Group& group = b.model.groups[static_cast<std::size_t>(initial.group)];
-    if (group.number == wanted && group.element && group.element->traits().law_size == 4) return;
+    if (group.number == wanted && group.element && group.solid()) return;
   }
   if (b.groups_known)
     b.error(card.where("v1"), "group " + std::to_string(wanted) +

@@ -102,13 +102,6 @@ NewField take(const CardView& card, std::string_view field, std::string_view as,
 
 namespace {
 
-template <class Entry>
-int code_of(const Registry<Entry>& registry, std::string_view name) {
-  for (const auto& [code, entry] : registry.entries())
-    if (entry.name == name) return code;
-  throw std::logic_error("the catalogue has no " + std::string(name));
-}
-
 bool has_field(const Deck& deck, std::string_view card, std::string_view field) {
   for (const CardSpec& spec : deck.specs)
     if (spec.name == card)
@@ -119,12 +112,16 @@ bool has_field(const Deck& deck, std::string_view card, std::string_view field) 
 
 }  // namespace
 
-int element_code(const Catalogue& catalogue, std::string_view name) {
-  return code_of(catalogue.elements, name);
+int solid_code(const Catalogue& catalogue, ParentShape shape, int nodes) {
+  for (const auto& [code, entry] : catalogue.elements.entries())
+    if (entry.solid() && entry.shape == shape && entry.nodes == nodes) return code;
+  throw std::logic_error("the catalogue has no solid of " + std::to_string(nodes) + " nodes");
 }
 
 int law_code(const Catalogue& catalogue, std::string_view name) {
-  return code_of(catalogue.materials, name);
+  const int code = catalogue.materials.code_of(name);
+  if (code == 0) throw std::logic_error("the catalogue has no " + std::string(name));
+  return code;
 }
 
 }  // namespace canonical

@@ -57,8 +57,13 @@ class CardWriter {
 
 // The field of a card, to be put into a new one.
 NewField take(const CardView& card, std::string_view field, std::string_view as = {}, double factor = 1.0);
-// Catalogue codes by name; throws std::logic_error for one that does not exist.
-int element_code(const Catalogue& catalogue, std::string_view name);
+// Code of the solid of this shape with so many nodes; throws std::logic_error where there is none.
+int solid_code(const Catalogue& catalogue, ParentShape shape, int nodes);
+inline int corner_element(const Catalogue& catalogue, bool triangle) {
+  return triangle ? solid_code(catalogue, ParentShape::triangle, 3)
+                  : solid_code(catalogue, ParentShape::square, 4);
+}
+// Catalogue code by name; throws std::logic_error for one that does not exist.
 int law_code(const Catalogue& catalogue, std::string_view name);
 
 Deck rectangle_deck(const Deck& deck, const Catalogue& catalogue);   // meshes numbered by rule

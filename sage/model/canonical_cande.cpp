@@ -306,7 +306,7 @@ Groups add_groups(const Deck& deck, const Catalogue& catalogue, const LoadFactor
     group = ++number;
     out.add("group", deck.one("control").where(),
             {{"number", group},
-             {"element", static_cast<double>(element_code(catalogue, key.triangle ? "tri3" : "quad4"))},
+             {"element", static_cast<double>(corner_element(catalogue, key.triangle))},
              {"material", static_cast<double>(soils.number.at({key.material, factors.at(key.birth)}))},
              {"name", 0.0, {}, "step " + std::to_string(key.birth)}});
   }

@@ -143,10 +143,20 @@ void add_materials(const Deck& deck, const Catalogue& catalogue, CardWriter& out
   }
 }
 
+// Of the deck's elements: triangles have six nodes, quadrilaterals eight.
+bool is_triangle(const Element& element) {
+  return element.nodes.size() == 6;
+}
+
 // Group 1 is the foundation; lift k has 2 k (quadrilaterals) and 2 k + 1 (the triangle under the slope).
 int group_of(const Element& element) {
   if (element.lift == 0) return 1;
-  return 2 * element.lift + (element.nodes.size() == 6 ? 1 : 0);
+  return 2 * element.lift + (is_triangle(element) ? 1 : 0);
+}
+
+int element_code(const Catalogue& catalogue, const Element& element) {
+  return solid_code(catalogue, is_triangle(element) ? ParentShape::triangle : ParentShape::square,
+                    static_cast<int>(element.nodes.size()));
 }
 
 void add_elements(const Mesh& mesh, const CardView& where, const Catalogue& catalogue, CardWriter& out) {
@@ -155,7 +165,7 @@ void add_elements(const Mesh& mesh, const CardView& where, const Catalogue& cata
   for (const auto& [group, e] : first_of)
     out.add("group", where.where(),
             {{"number", static_cast<double>(group)},
-             {"element", static_cast<double>(element_code(catalogue, e->nodes.size() == 6 ? "tri6" : "quad8"))},
+             {"element", static_cast<double>(element_code(catalogue, *e))},
              {"formulation", 1.0},
              {"material", e->lift == 0 ? 1.0 : 2.0},
              {"name", 0.0, {}, e->lift == 0 ? "foundation" : "lift " + std::to_string(e->lift + 1)}});

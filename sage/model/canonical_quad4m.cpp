@@ -42,7 +42,7 @@ void add_material(const Catalogue& catalogue, CardWriter& out, const CardView& e
           card);
   out.add("group", element.where("material"),
           {{"number", number},
-           {"element", static_cast<double>(element_code(catalogue, key.triangle ? "tri3" : "quad4"))},
+           {"element", static_cast<double>(corner_element(catalogue, key.triangle))},
            {"material", number},
            {"name", 0.0, {}, name}});
 }

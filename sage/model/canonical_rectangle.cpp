@@ -64,26 +64,25 @@ void read_mesh(Source& s) {
   s.mesh.y = coordinates(s, "rectangle_y", "y", "rows");
 }
 
+// Codes of this program.
 struct Kind {
-  const char* element;
-  int points, formulation;  // codes of this program's formulations
+  int element, formulation;
 };
 
 // The integration that the deck asks for; blank = 4 points of the 8-node quadrilateral.
 Kind element_kind(const Source& s) {
-  static constexpr Kind kKinds[] = {{"tri3", 1, 1},   {"tri3", 3, 2},   {"tri6", 3, 1},  {"tri6", 6, 2},
-                                    {"tri15", 12, 1}, {"tri15", 16, 2}, {"quad4", 4, 1}, {"quad4", 9, 4},
-                                    {"quad8", 4, 1},  {"quad8", 9, 2},  {"quad9", 9, 1}};
   const int points = s.card.integer("integration_points", 4);
-  const std::string name = (s.mesh.triangles ? "tri" : "quad") + std::to_string(s.mesh.nodes_per_element);
+  const int code = solid_code(s.catalogue, s.mesh.triangles ? ParentShape::triangle : ParentShape::square,
+                              s.mesh.nodes_per_element);
+  const ElementEntry& entry = *s.catalogue.elements.find(code);
   std::string known;
-  for (const Kind& kind : kKinds) {
-    if (kind.element != name) continue;
-    if (kind.points == points) return kind;
-    known += (known.empty() ? "" : ", ") + std::to_string(kind.points);
+  for (const Formulation& formulation : entry.formulations) {
+    if (!formulation.plain) continue;
+    if (formulation.points == points) return {code, formulation.code};
+    known += (known.empty() ? "" : ", ") + std::to_string(formulation.points);
   }
   refuse(s, s.card, "integration_points",
-         "no " + name + " with " + std::to_string(points) + " integration points; known: " + known);
+         "no " + entry.name + " with " + std::to_string(points) + " integration points; known: " + known);
 }
 
 void add_nodes(const Source& s, CardWriter& out) {
@@ -149,7 +148,7 @@ void add_elements(const Source& s, CardWriter& out) {
   for (int m : std::set<int>(material.begin(), material.end()))
     out.add("group", s.card.where(),
             {{"number", static_cast<double>(m)},
-             {"element", static_cast<double>(element_code(s.catalogue, kind.element))},
+             {"element", static_cast<double>(kind.element)},
              {"formulation", static_cast<double>(kind.formulation)},
              {"material", static_cast<double>(m)},
              {"name", 0.0, {}, "material " + std::to_string(m)}});

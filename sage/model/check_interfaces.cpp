@@ -1,6 +1,7 @@
 // Which side of an interface is whose.  The pairs of a zero-thickness interface coincide, so coordinates can't
 // show swapped sides (opening and closing would change places).  The solids at the sides can: their nodes run
 // counter- clockwise, so each lies to the left of its own directed edges.
+#include <algorithm>
 #include <cstdint>
 #include <unordered_map>
 
@@ -15,7 +16,7 @@ class SolidEdges {
  public:
   explicit SolidEdges(const Model& model) {
     for (const Group& group : model.groups) {
-      if (group.element->traits().law_size != 4) continue;
+      if (!group.solid()) continue;
       for (int e = 0; e < group.elements(); ++e)
         for (const std::vector<int>& edge : group.element->edges())
           add_edge(group.nodes_of(e), edge, group.element_numbers[static_cast<std::size_t>(e)]);
@@ -87,7 +88,7 @@ class SideCheck {
       const int number = group.element_numbers[static_cast<std::size_t>(e)];
       if (!bottom.touched() && !top.touched() && ++alone == 1) first_alone = number;
       const int nodes = static_cast<int>(group.node_count());
-      const std::string wrong = trouble(bottom, top, nodes);
+      const std::string wrong = trouble(bottom, top, *group.entry);
       if (wrong.empty() || line == error_line) continue;  // one message a card
       error_line = line;
       b_.error(node_fields(b_, line, nodes),
@@ -100,8 +101,18 @@ class SideCheck {
   }
 
  private:
+  // The nodes of the element whose top is this one's bottom: "4 3 2 1".
+  static std::string swapped_order(const ElementEntry& entry) {
+    std::string order;
+    for (const auto& [x, y] : entry.parent_nodes) {
+      const auto it = std::ranges::find(entry.parent_nodes, std::array{x, -y});
+      order += (order.empty() ? "" : " ") + std::to_string(it - entry.parent_nodes.begin() + 1);
+    }
+    return order;
+  }
+
   // Nodes 1 2 belong to a body on the right of 1 -> 2, nodes 3 4 to one on the left.  Empty = as it should be.
-  static std::string trouble(const Side& bottom, const Side& top, int nodes) {
+  static std::string trouble(const Side& bottom, const Side& top, const ElementEntry& entry) {
     const bool wrong_bottom = bottom.left > 0 && bottom.right == 0;
     const bool wrong_top = top.right > 0 && top.left == 0;
     if (wrong_bottom && top.left > 0)
@@ -119,7 +130,7 @@ class SideCheck {
            "; nodes 1 and 2 must be those of the body on the right of that line (below it where it runs along "
            "+x), "
            "nodes 3 and 4 those of the body on the left: node order " +
-           (nodes == 6 ? "4 3 2 1 6 5" : "4 3 2 1") + " would be right";
+           swapped_order(entry) + " would be right";
   }
 
   Builder& b_;
@@ -130,11 +141,11 @@ class SideCheck {
 
 void check_interfaces(Builder& b) {
   bool any = false;
-  for (const Group& group : b.model.groups) any = any || group.element->traits().law_size == 2;
+  for (const Group& group : b.model.groups) any = any || group.interface();
   if (!any) return;
   SideCheck sides(b);
   for (const Group& group : b.model.groups)
-    if (group.element->traits().law_size == 2) sides.check(group);
+    if (group.interface()) sides.check(group);
 }
 
 }  // namespace sage::build

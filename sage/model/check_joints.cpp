@@ -53,7 +53,7 @@ std::vector<double> shortest_edges(const Model& model) {
 std::vector<char> interface_nodes(const Model& model) {
   std::vector<char> flags(static_cast<std::size_t>(model.mesh.nodes()), 0);
   for (const Group& group : model.groups)
-    if (group.element->traits().law_size == 2)
+    if (group.interface())
       for (int node : group.nodes) flags[static_cast<std::size_t>(node)] = 1;
   return flags;
 }
@@ -115,7 +115,7 @@ std::vector<EdgeUse> outline_edges(const Model& model, Examples& hanging) {
   std::vector<EdgeUse> uses;
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     const Group& group = model.groups[g];
-    if (group.element->traits().law_size != 4) continue;
+    if (!group.solid()) continue;
     const auto& edges = group.element->edges();
     for (int e = 0; e < group.elements(); ++e)
       for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -187,7 +187,7 @@ template <class Counts>
 std::vector<char> solid_nodes(const Model& model, Counts counts) {
   std::vector<char> flags(static_cast<std::size_t>(model.mesh.nodes()), 0);
   for (std::size_t g = 0; g < model.groups.size(); ++g)
-    if (model.groups[g].element->traits().law_size == 4 && counts(g))
+    if (model.groups[g].solid() && counts(g))
       for (int node : model.groups[g].nodes) flags[static_cast<std::size_t>(node)] = 1;
   return flags;
 }
@@ -196,8 +196,7 @@ std::vector<char> solid_nodes(const Model& model, Counts counts) {
 // opens is arbitrary.  A side that is held is a rigid body.
 void warn_bare_joints(Builder& b) {
   const Model& model = b.model;
-  if (!std::ranges::any_of(model.groups, [](const Group& g) { return g.element->traits().law_size == 2; }))
-    return;
+  if (!std::ranges::any_of(model.groups, [](const Group& g) { return g.interface(); })) return;
   const std::vector<char> ever = solid_nodes(model, [](std::size_t) { return true; });
   std::vector<char> told(model.groups.size(), 0);
   Activity activity(model);
@@ -206,7 +205,7 @@ void warn_bare_joints(Builder& b) {
     const std::vector<char> now = solid_nodes(model, [&](std::size_t g) { return activity.group[g] != 0; });
     for (std::size_t g = 0; g < model.groups.size(); ++g) {
       const Group& group = model.groups[g];
-      if (group.element->traits().law_size != 2 || !activity.group[g] || told[g]) continue;
+      if (!group.interface() || !activity.group[g] || told[g]) continue;
       Examples elements, nodes;
       std::vector<int> bare;
       for (int e = 0; e < group.elements(); ++e) {

@@ -152,7 +152,7 @@ void warn_materials(Builder& b) {
     const Material& material = b.model.material_of(group);
     const std::string words = std::visit([](const auto* law) { return law->caution(); }, material.law_ref());
     if (words.empty()) continue;
-    const bool interface = group.element->traits().law_size == 2;
+    const bool interface = group.interface();
     b.warning(group.where, (interface ? "interface set " : "group ") + std::to_string(group.number) +
                                ", material " + std::to_string(material.number) + " (" + material.law_name +
                                "): " + words);
@@ -182,11 +182,8 @@ void check_supports(Builder& b) {
 }
 
 // nu of a material if its law has one, else 0.
-double poissons_ratio(const Builder& b, const Material& material) {
-  const MaterialEntry* entry = b.catalogue.materials.find(material.code);
-  for (std::size_t i = 0; i < entry->parameters.size(); ++i)
-    if (entry->parameters[i].name == "poissons_ratio") return material.parameters[i];
-  return 0.0;
+double poissons_ratio(const Material& material) {
+  return material.parameter(ParameterRole::poissons_ratio).value_or(0.0);
 }
 
 // A solver that would use one half of the matrix for both.
@@ -207,34 +204,19 @@ void check_solver(Builder& b) {
   }
 }
 
-// What does not lock in the place of a fully integrated element.
-std::string remedy_of_locking(const Group& group) {
-  switch (group.node_count()) {
-    case 3:
-      return "6-node triangles (three points) do not";
-    case 4:
-      return "b-bar (formulation 2) does not";
-    case 6:
-      return "three points (formulation 1) do not";
-    case 8:
-      return "reduced integration (formulation 1) does not";
-    default:
-      return "8-node quadrilaterals (reduced) or quad4 b-bar do not";
-  }
-}
-
 void warn_locking(Builder& b) {
   constexpr int kShown = 5;
   int found = 0;
   for (const Group& group : b.model.groups) {
     const ElementTraits& traits = group.element->traits();
-    if (traits.law_size != 4 || !(traits.locks || traits.loses_order)) continue;
-    const double nu = poissons_ratio(b, b.model.material_of(group));
+    if (!group.solid() || !(traits.locks || traits.loses_order)) continue;
+    const double nu = poissons_ratio(b.model.material_of(group));
     if (nu <= 0.45 || ++found > kShown) continue;
+    const std::string& remedy = group.entry->against_locking;
     const std::string what =
         traits.locks
             ? ": full integration locks near nu = 1/2 and reports too much stiffness; " +
-                  remedy_of_locking(group)
+                  (remedy.empty() ? "8-node quadrilaterals (reduced) or quad4 b-bar do not" : remedy)
             : ": near nu = 1/2 its error is several times that at nu = 0.3 and falls more slowly with the "
               "mesh; 8-node quadrilaterals (reduced) or quad4 b-bar keep theirs";
     b.warning(group.where, "group " + std::to_string(group.number) + " (" + group.element_name +

@@ -68,18 +68,23 @@ void check_units(Builder& b) {
   }
 }
 
-// Young's modulus of a solid, as far as its law has one; 0 = none.
+// act(parameter, value) for each number that a material's law reads.
+template <class Act>
+void for_parameters(const Material& material, Act act) {
+  for (std::size_t i = 0; material.entry != nullptr && i < material.parameters.size(); ++i)
+    act(material.entry->parameters[i], material.parameters[i]);
+}
+
+// Largest modulus of a solid, as far as its law has one; 0 = none.
 double stiffness(const Builder& b, const Material& material) {
-  const MaterialEntry* entry = b.catalogue.materials.find(material.code);
-  if (entry == nullptr || entry->law_size != 4) return 0.0;
+  if (material.entry == nullptr || !material.entry->for_solids()) return 0.0;
   double largest = 0.0;
-  for (std::size_t i = 0; i < material.parameters.size(); ++i) {
-    const std::string_view name = entry->parameters[i].name;
-    if (name == "youngs_modulus" || name == "bulk_modulus" || name == "shear_modulus")
-      largest = std::max(largest, material.parameters[i]);
-    if (name == "modulus_number" || name == "unload_number")
-      largest = std::max(largest, material.parameters[i] * b.model.units.atmospheric_pressure);
-  }
+  for_parameters(material, [&](const Parameter& p, double value) {
+    if (p.role == ParameterRole::youngs_modulus || p.role == ParameterRole::modulus)
+      largest = std::max(largest, value);
+    if (p.role == ParameterRole::modulus_number)
+      largest = std::max(largest, value * b.model.units.atmospheric_pressure);
+  });
   return largest;
 }
 
@@ -99,7 +104,7 @@ Size size_of(const Builder& b) {
 
 void check_initial(Builder& b, const InitialStress& initial) {
   const Group& group = b.model.groups[static_cast<std::size_t>(initial.group)];
-  const bool solid = group.element->traits().law_size == 4;
+  const bool solid = group.solid();
   const double modulus = stiffness(b, b.model.material_of(group));
   const std::string name = "group " + std::to_string(group.number) + ": ";
   if (initial.kind == InitialKind::geostatic) {
@@ -138,7 +143,7 @@ void check_slender(Builder& b) {
   double worst = 0.0;
   int number = 0, line = 0, found = 0;
   for (const Group& group : b.model.groups) {
-    if (group.element->traits().law_size != 4) continue;
+    if (!group.solid()) continue;
     for (int e = 0; e < group.elements(); ++e) {
       double longest = 0.0, shortest = 1e300;
       for (const std::vector<int>& edge : group.element->edges()) {
@@ -183,7 +188,7 @@ void check_overlap(Builder& b) {
   int found = 0, line = 0;
   for (std::size_t g = 0; g < groups; ++g) {
     const Group& group = b.model.groups[g];
-    if (group.element->traits().law_size != 4) continue;
+    if (!group.solid()) continue;
     for (int e = 0; e < group.elements(); ++e)
       for (const std::vector<int>& edge : group.element->edges()) {
         const auto from = static_cast<std::uint64_t>(group.nodes_of(e)[edge[0]]);
@@ -222,28 +227,39 @@ void note_missing_numbers(Builder& b) {
 
 // Poisson's ratio below zero is possible, but no soil has it.
 void check_poisson(Builder& b) {
-  for (const Material& material : b.model.materials) {
-    const MaterialEntry* entry = b.catalogue.materials.find(material.code);
-    for (std::size_t i = 0; entry != nullptr && i < material.parameters.size(); ++i)
-      if (entry->parameters[i].name == "poissons_ratio" && material.parameters[i] < 0.0)
+  for (const Material& material : b.model.materials)
+    for_parameters(material, [&](const Parameter& p, double value) {
+      if (p.role == ParameterRole::poissons_ratio && value < 0.0)
         b.warning(material.where, "material " + std::to_string(material.number) +
-                                      ": Poisson's ratio is negative, " + rounded_text(material.parameters[i]));
+                                      ": Poisson's ratio is negative, " + rounded_text(value));
+    });
+}
+
+// A strength beyond the modulus lets strains pass 1 before anything yields; a weight below zero lifts.
+void check_strengths_and_weights(Builder& b) {
+  for (const Material& material : b.model.materials) {
+    const double modulus = stiffness(b, material);
+    for_parameters(material, [&](const Parameter& p, double value) {
+      const std::string name = "material " + std::to_string(material.number) + ": " + p.name + ", ";
+      if (p.role == ParameterRole::strength && modulus > 0.0 && value > modulus)
+        b.warning(material.where,
+                  name + rounded_text(value) + ", exceeds the material's modulus, " + rounded_text(modulus));
+      if (p.role == ParameterRole::unit_weight && value < 0.0)
+        b.warning(material.where, name + rounded_text(value) + ", is a negative unit weight");
+    });
   }
 }
 
 // Friction of a degree and less is no soil's; the same number in radians is.
 void check_angles(Builder& b) {
   constexpr double kLeast = 0.05;
-  for (const Material& material : b.model.materials) {
-    const MaterialEntry* entry = b.catalogue.materials.find(material.code);
-    for (std::size_t i = 0; entry != nullptr && i < material.parameters.size(); ++i) {
-      const double angle = material.parameters[i];
-      if (entry->parameters[i].name != "friction_angle" || angle < kLeast || angle > kPi / 2.0) continue;
+  for (const Material& material : b.model.materials)
+    for_parameters(material, [&](const Parameter& p, double angle) {
+      if (p.role != ParameterRole::friction_angle || angle < kLeast || angle > kPi / 2.0) return;
       b.warning(material.where, "material " + std::to_string(material.number) + ": the friction angle is " +
                                     rounded_text(angle) + " degrees; was it meant in radians, " +
                                     rounded_text(angle / kRadiansPerDegree) + " degrees?");
-    }
-  }
+    });
 }
 
 void check_fixities(Builder& b, const Stage& stage, const Activity& before, const Size& size) {
@@ -284,14 +300,14 @@ void check_loads(Builder& b, const Stage& stage, const Size& size) {
   }
   for (const EdgeLoad& load : stage.pressures) {
     if (load.line == last_line) continue;
-    const Element& element = *b.model.groups[static_cast<std::size_t>(load.group)].element;
+    const Group& group = b.model.groups[static_cast<std::size_t>(load.group)];
     const double largest = std::max(load.normal.cwiseAbs().maxCoeff(), load.shear.cwiseAbs().maxCoeff());
     if (size.stiffness > 0.0 && largest > size.stiffness) {
       b.warning(b.at_line(load.line), "the pressure or shear " + rounded_text(largest) +
                                           " exceeds the largest modulus, " + rounded_text(size.stiffness));
     } else if (load.normal.minCoeff() < 0.0) {
       b.note(b.at_line(load.line), "a negative pressure pulls at the edge");
-    } else if (element.traits().law_size == 2) {
+    } else if (group.interface()) {
       b.note(b.at_line(load.line), "the pressure acts on one side of an interface alone, towards the joint");
     } else {
       continue;
@@ -320,7 +336,7 @@ void check_inner_edges(Builder& b, const Stage& stage, const Activity& activity)
   if (uses.empty()) return;
   for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
     const Group& group = b.model.groups[g];
-    if (!activity.group[g] || group.element->traits().law_size != 4) continue;
+    if (!activity.group[g] || !group.solid()) continue;
     for (int e = 0; e < group.elements(); ++e)
       for (const std::vector<int>& edge : group.element->edges()) {
         const EdgeKey key = ends(group, e, edge);
@@ -451,6 +467,7 @@ void check_plausible(Builder& b) {
   note_missing_numbers(b);
   check_poisson(b);
   check_angles(b);
+  check_strengths_and_weights(b);
   for (const InitialStress& initial : b.model.initials) check_initial(b, initial);
   check_twice_initial(b, b.model.initials);
   Activity activity(b.model);

@@ -21,7 +21,7 @@ std::vector<std::vector<int>> edges_at(const Model& model, Eigen::Index row, dou
     there[static_cast<std::size_t>(n)] = std::abs(model.mesh.x(row, n) - place) <= reach;
   std::map<std::pair<int, int>, std::vector<int>> directed;
   for (const Group& group : model.groups) {
-    if (group.element->traits().law_size != 4) continue;
+    if (!group.solid()) continue;
     for (int e = 0; e < group.elements(); ++e)
       for (const std::vector<int>& edge : group.element->edges()) {
         const int* nodes = group.nodes_of(e);

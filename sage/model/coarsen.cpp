@@ -22,7 +22,7 @@ std::size_t at(int i) {
 }
 
 bool is_interface(const Group& group) {
-  return group.element->traits().law_size == 2;
+  return group.interface();
 }
 
 struct Cell {
@@ -149,7 +149,7 @@ bool Coarsening::collect() {
   for (std::size_t g = 0; g < model_->groups.size(); ++g) {
     const Group& group = model_->groups[g];
     if (group.elements() == 0) continue;
-    if (b_->catalogue.elements.find(group.element_code)->corners != 4) return false;
+    if (!group.entry->square()) return false;
     std::vector<char> known(group.node_count(), 0);
     std::fill_n(known.begin(), 4, 1);
     for (const auto& edge : group.element->edges())

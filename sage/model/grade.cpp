@@ -13,7 +13,7 @@ std::vector<int> with_partners(const Model& model, int node) {
   std::vector<int> found{node};
   for (std::size_t i = 0; i < found.size(); ++i)
     for (const Group& group : model.groups) {
-      if (group.element->traits().law_size != 2) continue;
+      if (!group.interface()) continue;
       for (int e = 0; e < group.elements(); ++e)
         for (const auto& [a, z] : {std::pair{0, 3}, std::pair{1, 2}}) {
           const int *n = group.nodes_of(e), p = n[a], q = n[z];
@@ -54,8 +54,8 @@ bool add_layer(Builder& b, const std::vector<int>& centre, double ratio) {
   bool any = false;
   for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
     const int before = b.model.groups[g].elements();
-    const int corners = b.catalogue.elements.find(b.model.groups[g].element_code)->corners;
-    const bool interface = b.model.groups[g].element->traits().law_size == 2;
+    const int corners = b.model.groups[g].entry->corners;
+    const bool interface = b.model.groups[g].interface();
     for (int e = 0; e < before; ++e) {
       const int* nodes = b.model.groups[g].nodes_of(e);
       for (int k = 0; k < (interface ? 2 : corners); ++k) {

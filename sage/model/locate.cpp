@@ -35,7 +35,7 @@ Locator::Locator(const Model& model) : model_(&model) {
   Eigen::Matrix2Xd x;
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     const Group& group = model.groups[g];
-    if (group.element->traits().law_size != 4) continue;
+    if (!group.solid()) continue;
     for (int e = 0; e < group.elements(); ++e) {
       element_coordinates(model.mesh, group, e, x);
       const Vector2 low = x.rowwise().minCoeff(), high = x.rowwise().maxCoeff();
@@ -144,7 +144,7 @@ std::vector<Location> Locator::at(const Vector2& place) const {
 double reach_of(const Model& model) {
   double largest = 0.0;
   for (const Group& group : model.groups)
-    for (int e = 0; group.element->traits().law_size == 4 && e < group.elements(); ++e) {
+    for (int e = 0; group.solid() && e < group.elements(); ++e) {
       Vector2 low = Vector2::Constant(std::numeric_limits<double>::infinity()), high = -low;
       for (std::size_t i = 0; i < group.node_count(); ++i) {
         const int node = group.nodes_of(e)[i];

@@ -15,12 +15,11 @@ struct Making {
   NewNodes nodes;
   MadeEdges edges;
   std::map<EdgeKey, std::pair<std::size_t, std::string>> owner;  // inner nodes, "element 7 (quad8)"
-  std::map<EdgeKey, int> given;                                  // middle nodes that cards give
+  std::map<EdgeKey, std::vector<int>> given;                     // inner nodes that cards give, -1 = none
 };
 
 // Place of an edge's inner node between its ends.
 double place_on_edge(std::span<const Place> parent, const std::vector<int>& edge, std::size_t i) {
-  if (parent.empty()) return static_cast<double>(i - 1) / static_cast<double>(edge.size() - 1);
   const auto point = [&](int local) { return parent[static_cast<std::size_t>(local)]; };
   const auto distance = [](const Place& a, const Place& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); };
   return distance(point(edge[i]), point(edge[0])) / distance(point(edge[1]), point(edge[0]));
@@ -49,44 +48,52 @@ void make_edge(Builder& b, const Group& group, int e, int* nodes, const std::vec
   const EdgeKey key = edge_key(a, z);
   if (!fits(b, group, e, made, key, inner)) return;
   MadeEdge& edge = made.edges[key];
-  if (group.element->traits().law_size == 4) ++edge.solids;
+  if (group.solid()) ++edge.solids;
   if (inner == 0) return;
   const bool begun = !edge.nodes.empty();
   if (!begun) {
     edge.nodes.assign(inner, -1);
     edge.at.assign(inner, 0.0);
   }
-  const std::span<const Place> parent = group.element->parent_nodes();
-  int& middle_node = nodes[middle_of(local)];
-  if (const auto it = made.given.find(key); middle_node < 0 && it != made.given.end()) middle_node = it->second;
+  const std::span<const Place> parent = group.entry->parent_nodes;
+  const auto from_small = [&](std::size_t i) { return a < z ? i : inner - 1 - i; };
+  if (const auto it = made.given.find(key); it != made.given.end() && it->second.size() == inner)
+    for (std::size_t i = 0; i < inner; ++i)
+      if (int& node = nodes[local[i + 2]]; node < 0) node = it->second[from_small(i)];
   std::optional<Vector2> middle;
-  if (middle_node >= 0) middle = made.nodes.at(middle_node);
+  if (const int m = middle_of(local); m >= 0 && nodes[m] >= 0) middle = made.nodes.at(nodes[m]);
   for (std::size_t i = 0; i < inner; ++i) {
-    const std::size_t from_small = a < z ? i : inner - 1 - i;
+    const std::size_t at = from_small(i);
     int& mid = nodes[local[i + 2]];
-    if (mid < 0 && begun) mid = edge.nodes[from_small];
+    if (mid < 0 && begun) mid = edge.nodes[at];
     if (begun) continue;
     const double t = place_on_edge(parent, local, i + 2);
     if (mid < 0) mid = made.nodes.add(along_edge(made.nodes.at(a), made.nodes.at(z), middle, t));
-    edge.nodes[from_small] = mid;
-    edge.at[from_small] = a < z ? t : 1 - t;
+    edge.nodes[at] = mid;
+    edge.at[at] = a < z ? t : 1 - t;
   }
 }
 
-// A middle node that only one of the elements of an edge gives is that of the others too.
-void find_given(const Group& group, std::map<EdgeKey, int>& given) {
+// A node inside an edge that only one of its elements gives is that of the others too.
+void find_given(const Group& group, std::map<EdgeKey, std::vector<int>>& given) {
   for (int e = 0; e < group.elements(); ++e)
     for (const std::vector<int>& local : group.element->edges()) {
       const int* nodes = group.nodes_of(e);
-      const int middle = middle_of(local);
-      if (middle >= 0 && nodes[middle] >= 0)
-        given.try_emplace(edge_key(nodes[local[0]], nodes[local[1]]), nodes[middle]);
+      const int a = nodes[local[0]], z = nodes[local[1]];
+      for (std::size_t i = 2; i < local.size(); ++i) {
+        if (nodes[local[i]] < 0) continue;
+        const std::size_t inner = local.size() - 2;
+        std::vector<int>& known = given.try_emplace(edge_key(a, z), inner, -1).first->second;
+        if (known.size() != inner) continue;  // of another degree: fits() refuses it
+        int& place = known[a < z ? i - 2 : inner + 1 - i];
+        if (place < 0) place = nodes[local[i]];
+      }
     }
 }
 
 // Nodes inside a solid that no edge holds.
 void make_inner(const Group& group, int corners, int* nodes, Making& made) {
-  const std::span<const Place> parent = group.element->parent_nodes();
+  const std::span<const Place> parent = group.entry->parent_nodes;
   CoarseShape shape;
   shape.corners = corners;
   for (int k = 0; k < corners; ++k) {
@@ -100,13 +107,13 @@ void make_inner(const Group& group, int corners, int* nodes, Making& made) {
 }
 
 void make_group(Builder& b, Group& group, Making& made) {
-  const int corners = b.catalogue.elements.find(group.element_code)->corners;
+  const int corners = group.entry->corners;
   for (int e = 0; e < group.elements(); ++e) {
     int* nodes = group.nodes.data() + static_cast<std::size_t>(e) * group.node_count();
     const int before = b.problems.errors();
     for (const std::vector<int>& local : group.element->edges()) make_edge(b, group, e, nodes, local, made);
     if (b.problems.errors() > before) return;  // one message a group
-    if (group.element->traits().law_size == 4) make_inner(group, corners, nodes, made);
+    if (group.solid()) make_inner(group, corners, nodes, made);
   }
 }
 

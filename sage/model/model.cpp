@@ -2,12 +2,34 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
+#include <utility>
 
 namespace sage {
 
 LawRef Material::law_ref() const {
   if (const auto* solid = std::get_if<std::unique_ptr<SolidLaw>>(&law)) return solid->get();
   return std::get<std::unique_ptr<InterfaceLaw>>(law).get();
+}
+
+void set_element(Group& group, const Catalogue& catalogue, int code, int formulation, Geometry geometry) {
+  std::shared_ptr<const ElementEntry> entry = catalogue.elements.share(code);
+  if (entry == nullptr) throw std::logic_error("the catalogue has no element " + std::to_string(code));
+  group.element = entry->make(geometry, formulation);
+  group.element_code = code;
+  group.entry = std::move(entry);
+  const auto& known = group.entry->formulations;
+  const auto found =
+      std::find_if(known.begin(), known.end(), [&](const Formulation& f) { return f.code == formulation; });
+  const Formulation& made = found == known.end() ? known.front() : *found;
+  group.formulation = made.code;
+  group.element_name = group.entry->name + " " + made.name;
+}
+
+std::optional<double> Material::parameter(ParameterRole role) const {
+  const int i = entry == nullptr ? -1 : entry->find(role);
+  if (i < 0 || static_cast<std::size_t>(i) >= parameters.size()) return std::nullopt;
+  return parameters[static_cast<std::size_t>(i)];
 }
 
 double report_area(const Model& model, const Report& report) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,20 +28,24 @@ struct Material {
   std::string name;
   int code = 0;  // catalogue code of the law
   std::string law_name;
+  std::shared_ptr<const MaterialEntry> entry;
   std::vector<double> parameters;  // as the deck writes them
   double unit_weight = 0.0;        // force / length^3
   LawPtr law;
   SourcePosition where;
 
   LawRef law_ref() const;
+  // The first parameter of a role as the deck writes it; nothing where the law has none.
+  std::optional<double> parameter(ParameterRole role) const;
 };
 
 // Elements of one formulation and one material; connectivity in one flat array.
 struct Group {
   int number = 0;
   std::string name;
-  int element_code = 0;
+  int element_code = 0, formulation = 0;
   std::string element_name;  // "quad4 b-bar"
+  std::shared_ptr<const ElementEntry> entry;
   std::shared_ptr<const Element> element;
   int material = 0;  // index into Model::materials
   std::vector<int> element_numbers;
@@ -51,7 +56,13 @@ struct Group {
   int elements() const { return static_cast<int>(element_numbers.size()); }
   const int* nodes_of(int e) const { return nodes.data() + static_cast<std::size_t>(e) * node_count(); }
   std::size_t node_count() const { return static_cast<std::size_t>(element->traits().nodes); }
+  bool solid() const { return entry->solid(); }
+  bool interface() const { return entry->interface(); }
 };
+
+// Makes a group one of these elements.  formulation: 0 = the first.  Throws ParameterError for one that the
+// element lacks, std::logic_error for a code that the catalogue lacks.
+void set_element(Group& group, const Catalogue& catalogue, int code, int formulation, Geometry geometry);
 
 enum class FixityCode { unchanged, fixed, released };
 

@@ -1,5 +1,6 @@
 #include "sage/model/msh_file.hpp"
 
+#include <array>
 #include <charconv>
 
 #include "sage/core/error.hpp"
@@ -8,14 +9,26 @@ namespace sage::msh {
 
 namespace {
 
-// Gmsh's element types that a 2-D mesh of this program can hold.
-const Shape* shape_of(int type) {
-  static const std::map<int, Shape> kShapes{
-      {15, {nullptr, 0, 1, 1}}, {1, {nullptr, 1, 2, 2}}, {8, {nullptr, 1, 3, 2}},   {27, {nullptr, 1, 5, 2}},
-      {2, {"tri3", 2, 3, 3}},   {9, {"tri6", 2, 6, 3}},  {23, {"tri15", 2, 15, 3}}, {3, {"quad4", 2, 4, 4}},
-      {16, {"quad8", 2, 8, 4}}, {10, {"quad9", 2, 9, 4}}};
-  const auto it = kShapes.find(type);
-  return it == kShapes.end() ? nullptr : &it->second;
+// Gmsh's lines by their number of nodes.
+constexpr std::array<int, 12> kLines{0, 0, 1, 8, 26, 27, 28, 62, 63, 64, 65, 66};
+constexpr int kPoint = 15;
+
+// Of Gmsh's element types those that a 2-D mesh of this program can hold; no nodes = not this one.
+Shape shape_of(int type, const Registry<ElementEntry>& elements) {
+  if (type == kPoint) return {0, 1};
+  for (std::size_t nodes = 2; nodes < kLines.size(); ++nodes)
+    if (kLines[nodes] == type) return {1, static_cast<int>(nodes)};
+  for (const auto& [code, entry] : elements.entries())
+    if (entry.solid() && entry.gmsh.type == type && type != 0) return {2, entry.nodes, code, &entry};
+  return {};
+}
+
+// From Gmsh's order of an element's nodes to this program's.
+void reorder(std::vector<int>& nodes, const Shape& shape) {
+  if (shape.element == nullptr || shape.element->gmsh.nodes.empty()) return;
+  const std::vector<int> read = nodes;
+  for (std::size_t i = 0; i < read.size(); ++i)
+    nodes[static_cast<std::size_t>(shape.element->gmsh.nodes[i])] = read[i];
 }
 
 // Words and numbers of the file with their line.
@@ -129,7 +142,7 @@ void read_nodes(Scanner& in, MshFile& msh) {
   for (const auto& [tag, x] : msh.nodes) msh.index[tag] = next++;
 }
 
-void read_elements(Scanner& in, MshFile& msh) {
+void read_elements(Scanner& in, MshFile& msh, const Registry<ElementEntry>& elements) {
   const int blocks = in.count();
   for (int i = 0; i < 3; ++i) in.integer();
   for (int b = 0; b < blocks; ++b) {
@@ -137,18 +150,19 @@ void read_elements(Scanner& in, MshFile& msh) {
     block.entity.first = in.integer();
     block.entity.second = in.integer();
     const int type = in.integer();
-    block.shape = shape_of(type);
-    if (block.shape == nullptr)
+    block.shape = shape_of(type, elements);
+    if (block.shape.nodes == 0)
       in.fail("elements of Gmsh type " + std::to_string(type) + " have no counterpart here");
     for (int e = in.count(); e > 0; --e) {
       MshElement element;
       element.number = in.integer();
-      for (int i = 0; i < block.shape->nodes; ++i) {
+      for (int i = 0; i < block.shape.nodes; ++i) {
         const int tag = in.integer();
         const auto it = msh.index.find(tag);
         if (it == msh.index.end()) in.fail("node " + std::to_string(tag) + " is not defined");
         element.nodes.push_back(it->second);
       }
+      reorder(element.nodes, block.shape);
       block.elements.push_back(std::move(element));
     }
     msh.blocks.push_back(std::move(block));
@@ -157,7 +171,11 @@ void read_elements(Scanner& in, MshFile& msh) {
 
 }  // namespace
 
-MshFile read_msh(std::string_view text, const std::string& file) {
+int line_type(std::size_t nodes) {
+  return nodes < kLines.size() ? kLines[nodes] : 0;
+}
+
+MshFile read_msh(std::string_view text, const std::string& file, const Registry<ElementEntry>& elements) {
   Scanner in(text, file);
   MshFile msh;
   bool format = false;
@@ -178,7 +196,7 @@ MshFile read_msh(std::string_view text, const std::string& file) {
     } else if (section == "$Nodes") {
       read_nodes(in, msh);
     } else if (section == "$Elements") {
-      read_elements(in, msh);
+      read_elements(in, msh, elements);
     }
     in.pass_section(section);
   }

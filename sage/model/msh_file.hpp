@@ -7,25 +7,29 @@
 #include <utility>
 #include <vector>
 
-#include "sage/core/types.hpp"
+#include "sage/core/catalogue.hpp"
 
 namespace sage::msh {
 
+// Gmsh's type of a line of so many nodes; 0 = it has none.
+int line_type(std::size_t nodes);
+
 struct Shape {
-  const char* element;  // nullptr = a line or point
-  int dimension, nodes, corners;
+  int dimension = 0, nodes = 0;
+  int code = 0;                           // of the catalogue's element; 0 = a line or point
+  const ElementEntry* element = nullptr;  // the same
 };
 
 using EntityKey = std::pair<int, int>;  // dimension, tag
 
 struct MshElement {
   int number = 0;
-  std::vector<int> nodes;  // indices
+  std::vector<int> nodes;  // indices, in this program's order
 };
 
 struct MshBlock {
   EntityKey entity;
-  const Shape* shape = nullptr;
+  Shape shape;
   std::vector<MshElement> elements;
 };
 
@@ -37,7 +41,7 @@ struct MshFile {
   std::vector<MshBlock> blocks;
 };
 
-// Throws InputError with the line.
-MshFile read_msh(std::string_view text, const std::string& file);
+// Throws InputError with the line.  The elements outlive the result.
+MshFile read_msh(std::string_view text, const std::string& file, const Registry<ElementEntry>& elements);
 
 }  // namespace sage::msh

@@ -16,15 +16,16 @@ namespace {
 using msh::MshBlock;
 using msh::MshElement;
 using msh::MshFile;
-using msh::Shape;
 
-// Corners and edges the other way round; the first corner stays.
-void turn_round(std::vector<int>& nodes, const Shape& shape) {
-  const auto corners = nodes.begin() + shape.corners;
-  const int inner = shape.nodes == 9 ? 1 : shape.nodes == 15 ? 3 : 0;
-  std::reverse(nodes.begin() + 1, corners);
-  std::reverse(corners, nodes.end() - inner);
-  if (inner == 3) std::swap(nodes[13], nodes[14]);
+// The nodes of an element the other way round: its two parent coordinates change places, the first corner
+// stays.
+void turn_round(std::vector<int>& nodes, const ElementEntry& entry) {
+  constexpr double kSame = 1e-9;
+  const auto& at = entry.parent_nodes;
+  const std::vector<int> before = nodes;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    for (std::size_t j = 0; j < before.size(); ++j)
+      if (std::abs(at[i][0] - at[j][1]) < kSame && std::abs(at[i][1] - at[j][0]) < kSame) nodes[j] = before[i];
 }
 
 double twice_area(const Mesh& mesh, const std::vector<int>& nodes, int corners) {
@@ -54,10 +55,10 @@ class Skeleton {
     stage.title = "weight and pressures";
     stage.gravity = {0.0, -1.0};
     for (const MshBlock& block : msh_.blocks)
-      if (block.shape->dimension == 2) surface(block);
+      if (block.shape.dimension == 2) surface(block);
     if (model_.groups.empty()) throw InputError({model_.file, 0, 0, 0}, "the mesh holds no surface elements");
     for (const MshBlock& block : msh_.blocks)
-      if (block.shape->dimension == 1) curve(block);
+      if (block.shape.dimension == 1) curve(block);
     if (turned_ > 0)
       message(Severity::note, std::to_string(turned_) + " element(s) listed clockwise were turned round");
     return std::move(model_);
@@ -90,8 +91,8 @@ class Skeleton {
     Material material;
     material.number = static_cast<int>(model_.materials.size()) + 1;
     material.name = name;
-    for (const auto& [code, entry] : catalogue_.materials.entries())
-      if (entry.name == "linear_elastic") material.code = code;
+    material.code = catalogue_.materials.code_of("linear_elastic");
+    material.entry = catalogue_.materials.share(material.code);
     material.law_name = "linear_elastic";
     material.parameters = {options_.youngs_modulus, options_.poissons_ratio};
     material.unit_weight = options_.unit_weight;
@@ -99,21 +100,14 @@ class Skeleton {
     return static_cast<int>(model_.materials.size()) - 1;
   }
 
-  Group& group(const std::string& name, const char* element) {
+  Group& group(const std::string& name, int element) {
     for (Group& group : model_.groups)
-      if (group.name == name && catalogue_.elements.find(group.element_code)->name == element) return group;
+      if (group.name == name && group.element_code == element) return group;
     Group group;
     group.number = static_cast<int>(model_.groups.size()) + 1;
     group.name = name;
     group.material = material(name);
-    for (const auto& [code, entry] : catalogue_.elements.entries()) {
-      if (entry.name != element) continue;
-      group.element_code = code;
-      group.element_name = entry.name + " " + entry.formulations.front().name;
-      group.element = entry.make(model_.geometry, 0);
-    }
-    if (!group.element)
-      throw InputError({model_.file, 0, 0, 0}, "no element " + std::string(element) + " here");
+    set_element(group, catalogue_, element, 0, model_.geometry);
     model_.groups.push_back(std::move(group));
     return model_.groups.back();
   }
@@ -121,12 +115,12 @@ class Skeleton {
   void surface(const MshBlock& block) {
     std::string name = name_of(block);
     if (name.empty()) name = "surface " + std::to_string(block.entity.second);
-    Group& target = group(name, block.shape->element);
+    Group& target = group(name, block.shape.code);
     const int g = static_cast<int>(&target - model_.groups.data());
     for (const MshElement& element : block.elements) {
       std::vector<int> nodes = element.nodes;
-      if (twice_area(model_.mesh, nodes, block.shape->corners) < 0.0) {
-        turn_round(nodes, *block.shape);
+      if (twice_area(model_.mesh, nodes, block.shape.element->corners) < 0.0) {
+        turn_round(nodes, *block.shape.element);
         ++turned_;
       }
       const int e = target.elements();
@@ -215,7 +209,7 @@ void check_constants(const MshOptions& options, const std::string& file) {
 Model model_from_msh(std::string_view text, const std::string& file, const Catalogue& catalogue,
                      const MshOptions& options) {
   check_constants(options, file);
-  const MshFile mesh = msh::read_msh(text, file);
+  const MshFile mesh = msh::read_msh(text, file, catalogue.elements);
   return Skeleton(mesh, file, catalogue, options).build();
 }
 

@@ -89,7 +89,7 @@ Outline outline_of(const Model& model) {
     const auto& edges = group.element->edges();
     for (int e = 0; e < group.elements(); ++e) {
       const int* n = group.nodes_of(e);
-      if (group.element->traits().law_size == 2) {
+      if (group.interface()) {
         for (const auto& edge : edges) outline.joined.insert(edge_key(n[edge[0]], n[edge[1]]));
         continue;
       }

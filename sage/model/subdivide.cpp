@@ -15,7 +15,7 @@ constexpr double kManyNodes = 2e5;        // seconds, and a GB
 constexpr double kBytesPerNode = 4000.0;  // 4-node elements, linear and symmetric: measured 3.8 to 4.0
 
 bool is_interface(const Group& group) {
-  return group.element->traits().law_size == 2;
+  return group.interface();
 }
 
 // Side of the parent square or triangle that a local edge lies on.
@@ -114,7 +114,7 @@ struct Subdivision::SplitElement {
 
 Subdivision::Subdivision(Builder& b) : b_(&b), nodes_(b.model.mesh) {
   for (const Group& group : b.model.groups) {
-    check_nodes(b, group, b.catalogue.elements.find(group.element_code)->corners);
+    check_nodes(b, group, group.entry->corners);
     for (const int number : group.element_numbers) last_number_ = std::max(last_number_, number);
     for (int e = 0; e < group.elements(); ++e)
       for (const auto& edge : group.element->edges()) {
@@ -165,7 +165,7 @@ int Subdivision::cut(int a, int z, int middle, double t) {
 // Node at a place of the parent.  middle: a mid-side node, made only where the parent has a curve to follow
 // (else -1).
 int Subdivision::node_at(SplitElement& parent, const Place& q, bool middle) {
-  const auto& corner = parent_corners(parent.corners == 3 ? 3 : 4);
+  const auto& corner = parent_corners(parent.corners);
   for (int k = 0; k < parent.sides; ++k)
     if (same(q, corner[static_cast<std::size_t>(k)])) return parent.nodes[static_cast<std::size_t>(k)];
   for (int k = 0; k < parent.sides; ++k) {
@@ -190,13 +190,8 @@ void Subdivision::split(int g, int e, const std::vector<ChildCorners>& children)
   Group& group = b_->model.groups[static_cast<std::size_t>(g)];
   const std::size_t n = group.node_count();
   const auto& edges = group.element->edges();
-  SplitElement parent{&group,
-                      e,
-                      b_->catalogue.elements.find(group.element_code)->corners,
-                      0,
-                      std::vector<int>(group.nodes_of(e), group.nodes_of(e) + n),
-                      {},
-                      {}};
+  SplitElement parent{
+      &group, e, group.entry->corners, 0, std::vector<int>(group.nodes_of(e), group.nodes_of(e) + n), {}, {}};
   parent.sides = parent.corners;
   parent.shape.corners = parent.corners;
   for (std::size_t k = 0; k < static_cast<std::size_t>(parent.corners); ++k)
@@ -286,9 +281,7 @@ void refine(Builder& b, int times) {
     Subdivision subdivision(b);
     for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
       const Group& group = b.model.groups[g];
-      const auto& children = is_interface(group)                       ? interface
-                             : group.element->edges().size() == 3 ? triangle
-                                                                       : quad;
+      const auto& children = is_interface(group) ? interface : group.entry->triangle() ? triangle : quad;
       const int before = group.elements();
       for (int e = 0; e < before; ++e) subdivision.split(static_cast<int>(g), e, children);
     }

@@ -1,9 +1,9 @@
-// Models as input of this and other programs.  What a format can't hold is left out with a warning.
+// Models as input of this and other programs.  What a format can't hold is left out with a warning; elements
+// that it lacks are written by their corners, with one too.
 #pragma once
 
 #include <string>
 
-#include "sage/core/catalogue.hpp"
 #include "sage/model/model.hpp"
 
 namespace sage {
@@ -20,13 +20,13 @@ FieldText field_text(double value, int width);
 // A deck of layout sage1, every node and element on a card of its own.  Numbers that a field of ten columns
 // can't hold exactly are written as near as possible; a warning tells how many and the largest relative change.
 // Throws InputError for what no card can hold (elements with more than 8 nodes, numbers above 99999).
-std::string sage1_text(const Model& model, const Catalogue& catalogue, Diagnostics& diagnostics);
+std::string sage1_text(const Model& model, Diagnostics& diagnostics);
 
 // Gmsh MSH 4.1 ASCII: nodes and elements with their numbers, groups as physical surfaces, held boundary edges
 // as physical curves fix_x, fix_y, fix_xy.
-std::string msh_text(const Model& model, const Catalogue& catalogue, Diagnostics& diagnostics);
+std::string msh_text(const Model& model, Diagnostics& diagnostics);
 
 // Abaqus-style input for CalculiX: mesh, sets, elastic constants, supports and loads step by step.
-std::string inp_text(const Model& model, const Catalogue& catalogue, Diagnostics& diagnostics);
+std::string inp_text(const Model& model, Diagnostics& diagnostics);
 
 }  // namespace sage

@@ -57,11 +57,11 @@ std::string nodes_header(const Model& model) {
                            model.units.length, model.units.force);
 }
 
-// Names of the history variables of all laws of a size, each once.
-std::vector<Quantity> history_columns(const Model& model, int law_size) {
+// Names of the history variables of all laws of solids, or of all others, each once.
+std::vector<Quantity> history_columns(const Model& model, bool solid) {
   std::vector<Quantity> columns;
   for (const Group& group : model.groups) {
-    if (group.element->traits().law_size != law_size) continue;
+    if (group.solid() != solid) continue;
     const auto quantities =
         std::visit([](const auto* law) { return law->history(); }, model.material_of(group).law_ref());
     for (const Quantity& q : quantities)
@@ -204,17 +204,17 @@ void Csv::on_start(const Model& model, const Scene&, std::string_view, int) {
   increments_.text() = increments_header(model);
   nodes_.text() = nodes_header(model);
   if (!points_.file.open()) return;
-  const auto open = [&](Table& table, int law_size) {
-    const std::vector<Quantity> columns = history_columns(model, law_size);
-    table.file.text() = points_header(model, law_size == 4, columns);
+  const auto open = [&](Table& table, bool solid) {
+    const std::vector<Quantity> columns = history_columns(model, solid);
+    table.file.text() = points_header(model, solid, columns);
     for (const Quantity& q : columns) table.history.push_back(q.name);
   };
-  open(points_, 4);
-  const bool interfaces = std::any_of(model.groups.begin(), model.groups.end(),
-                                      [](const Group& g) { return g.element->traits().law_size == 2; });
+  open(points_, true);
+  const bool interfaces =
+      std::any_of(model.groups.begin(), model.groups.end(), [](const Group& g) { return g.interface(); });
   if (!interfaces) return;
   interfaces_.file = OutFile(folder_ / (stem_ + ".interfaces.csv"));
-  open(interfaces_, 2);
+  open(interfaces_, false);
 }
 
 void Csv::add_increment(const Model& model, const StepReport& report) {
@@ -230,7 +230,7 @@ void Csv::add_states(const Model& model, const StepReport& report, const Solutio
   for (Table* table : {&points_, &interfaces_})
     add_whole(table->file, [&](std::string& text) {
       for (const GroupData& data : solution.assembly->groups())
-        if (data.active && (data.state.law_size() == 4) == (table == &points_))
+        if (data.active && data.group->solid() == (table == &points_))
           point_rows({text, digits_}, model, report, data, table->history);
     });
   for (OutFile* file : all()) file->checkpoint();

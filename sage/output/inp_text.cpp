@@ -6,19 +6,20 @@
 #include <set>
 
 #include "sage/output/convert.hpp"
+#include "sage/output/foreign_element.hpp"
 
 namespace sage {
 
 namespace {
 
-// CPE4, CAX8R, ...; empty for what CalculiX has no two-dimensional element for.
-std::string element_type(const Model& model, const Group& group, const ElementEntry& entry) {
+// CPE4, CAX8R, ...: of its corners where CalculiX has no element like a solid, empty for what is none.
+std::string element_type(const Model& model, const Group& group) {
+  const ElementEntry& entry = *group.entry;
+  if (!entry.solid()) return {};
   const std::string family = model.geometry == Geometry::axisymmetric ? "CAX" : "CPE";
-  if (entry.name == "tri3") return family + "3";
-  if (entry.name == "tri6") return family + "6";
-  if (entry.name == "quad4") return family + "4";
-  if (entry.name == "quad8") return family + (group.element->traits().points == 4 ? "8R" : "8");
-  return {};
+  if (entry.calculix.type.empty()) return family + (entry.triangle() ? "3" : "4");
+  const bool reduced = group.element->traits().reduced && !entry.calculix_reduced.empty();
+  return family + (reduced ? entry.calculix_reduced : entry.calculix.type);
 }
 
 std::string set_name(const Group& group, std::size_t index) {
@@ -27,8 +28,7 @@ std::string set_name(const Group& group, std::size_t index) {
 
 class Writer {
  public:
-  Writer(const Model& model, const Catalogue& catalogue, Diagnostics& diagnostics)
-      : model_(model), catalogue_(catalogue), diagnostics_(diagnostics) {}
+  Writer(const Model& model, Diagnostics& diagnostics) : model_(model), diagnostics_(diagnostics) {}
 
   std::string text() {
     heading();
@@ -54,46 +54,45 @@ class Writer {
   void elements() {
     for (std::size_t g = 0; g < model_.groups.size(); ++g) {
       const Group& group = model_.groups[g];
-      const std::string type = element_type(model_, group, *catalogue_.elements.find(group.element_code));
+      const std::string type = element_type(model_, group);
       written_.push_back(!type.empty() && group.elements() > 0);
       if (type.empty() && group.elements() > 0)
         warning(std::to_string(group.elements()) + " " + group.element_name +
                 " element(s) left out: CalculiX has none");
       if (!written_.back()) continue;
+      if (group.entry->calculix.type.empty()) warn_of_corners(group, "CalculiX", diagnostics_);
+      const std::vector<int> order = foreign_nodes(*group.entry, group.entry->calculix);
       text_ += fmt::format("*ELEMENT, TYPE={}, ELSET={}\n", type, set_name(group, g));
       for (int e = 0; e < group.elements(); ++e) {
         text_ += std::to_string(group.element_numbers[static_cast<std::size_t>(e)]);
-        for (std::size_t i = 0; i < group.node_count(); ++i)
-          text_ += ", " + std::to_string(number(group.nodes_of(e)[i]));
+        for (int i : order) text_ += ", " + std::to_string(number(group.nodes_of(e)[i]));
         text_ += '\n';
       }
     }
   }
 
-  // The elastic constants that a law states; others have none to give.
-  static double value_of(const MaterialEntry& entry, const Material& material, std::string_view name) {
-    for (std::size_t i = 0; i < entry.parameters.size(); ++i)
-      if (entry.parameters[i].name == name) return material.parameters[i];
-    return -1.0;
+  static bool has_more_than_elasticity(const Material& material) {
+    return std::ranges::any_of(material.entry->parameters, [](const Parameter& p) {
+      return p.role != ParameterRole::youngs_modulus && p.role != ParameterRole::poissons_ratio;
+    });
   }
 
   void materials() {
     for (std::size_t g = 0; g < model_.groups.size(); ++g) {
       if (!written_[g]) continue;
       const Material& material = model_.material_of(model_.groups[g]);
-      const MaterialEntry& entry = *catalogue_.materials.find(material.code);
-      const double E = value_of(entry, material, "youngs_modulus"),
-                   nu = value_of(entry, material, "poissons_ratio");
+      const double E = material.parameter(ParameterRole::youngs_modulus).value_or(-1.0),
+                   nu = material.parameter(ParameterRole::poissons_ratio).value_or(-1.0);
       const std::string set = set_name(model_.groups[g], g);
       // Density 1 x gravity in this program's units: unit weight.
       text_ += fmt::format("*MATERIAL, NAME=M_{}\n", set);
       if (E > 0.0)
         text_ += fmt::format("*ELASTIC\n{}, {}\n", E, nu);
       else
-        warning("material " + std::to_string(material.number) + " (" + entry.name +
+        warning("material " + std::to_string(material.number) + " (" + material.law_name +
                 ") has no Young's modulus: its *ELASTIC must be added by hand");
-      if (E > 0.0 && entry.name != "linear_elastic")
-        warning("material " + std::to_string(material.number) + " (" + entry.name +
+      if (E > 0.0 && has_more_than_elasticity(material))
+        warning("material " + std::to_string(material.number) + " (" + material.law_name +
                 "): only its elastic constants are written");
       if (material.unit_weight > 0.0) text_ += fmt::format("*DENSITY\n{}\n", material.unit_weight);
       text_ += fmt::format("*SOLID SECTION, ELSET={}, MATERIAL=M_{}\n", set, set);
@@ -221,7 +220,6 @@ class Writer {
   }
 
   const Model& model_;
-  const Catalogue& catalogue_;
   Diagnostics& diagnostics_;
   std::string text_;
   std::vector<char> written_;
@@ -233,10 +231,10 @@ class Writer {
 
 }  // namespace
 
-std::string inp_text(const Model& model, const Catalogue& catalogue, Diagnostics& diagnostics) {
+std::string inp_text(const Model& model, Diagnostics& diagnostics) {
   if (!model.initials.empty())
     diagnostics.add({Severity::warning, {model.file, 0, 0, 0}, "initial stresses are left out", {}});
-  return Writer(model, catalogue, diagnostics).text();
+  return Writer(model, diagnostics).text();
 }
 
 }  // namespace sage

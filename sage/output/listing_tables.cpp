@@ -139,7 +139,7 @@ void points(std::string& text, const Model& model, const Solution& solution) {
     const int count = group.element->traits().points;
     constexpr std::size_t kRow = 112;  // characters, without a history
     text.reserve(text.size() + static_cast<std::size_t>(group.elements() * count) * kRow);
-    data.state.law_size() == 4 ? solid_columns(text, model, data) : interface_columns(text, model, data);
+    data.group->solid() ? solid_columns(text, model, data) : interface_columns(text, model, data);
     for (int e = 0; e < group.elements(); ++e) {
       element_coordinates(model.mesh, group, e, x);
       for (int p = 0; p < count; ++p) {

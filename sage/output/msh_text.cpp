@@ -3,23 +3,19 @@
 
 #include <map>
 
+#include "sage/model/msh_file.hpp"
 #include "sage/output/boundary_edges.hpp"
 #include "sage/output/convert.hpp"
+#include "sage/output/foreign_element.hpp"
 
 namespace sage {
 
 namespace {
 
-// Gmsh's code for a solid, 0 for what it doesn't know.
+// Gmsh's type of a solid: of its corners where it has none for the element.
 int solid_type(const ElementEntry& entry) {
-  static const std::map<std::string, int> kTypes{{"tri3", 2},   {"quad4", 3},  {"tri6", 9},
-                                                 {"quad9", 10}, {"quad8", 16}, {"tri15", 23}};
-  const auto it = kTypes.find(entry.name);
-  return it == kTypes.end() ? 0 : it->second;
-}
-
-int line_type(std::size_t nodes) {
-  return nodes == 2 ? 1 : nodes == 3 ? 8 : 27;
+  if (entry.gmsh.type != 0) return entry.gmsh.type;
+  return entry.triangle() ? 2 : 3;
 }
 
 struct Block {
@@ -28,14 +24,15 @@ struct Block {
   std::vector<std::vector<int>> elements;  // number, then node numbers
 };
 
-std::vector<Block> surfaces(const Model& model, const Catalogue& catalogue, int& left_out, int& largest) {
+std::vector<Block> surfaces(const Model& model, Diagnostics& diagnostics, int& left_out, int& largest) {
   std::vector<Block> blocks;
   for (const Group& group : model.groups) {
-    const int type = solid_type(*catalogue.elements.find(group.element_code));
-    if (type == 0) left_out += group.elements();
-    if (type == 0 || group.elements() == 0) continue;
+    if (!group.solid()) left_out += group.elements();
+    if (!group.solid() || group.elements() == 0) continue;
+    if (group.entry->gmsh.type == 0) warn_of_corners(group, "MSH", diagnostics);
+    const std::vector<int> order = foreign_nodes(*group.entry, group.entry->gmsh);
     Block block{2,
-                type,
+                solid_type(*group.entry),
                 static_cast<int>(blocks.size()) + 1,
                 group.name.empty() ? "group " + std::to_string(group.number) : group.name,
                 {}};
@@ -47,8 +44,7 @@ std::vector<Block> surfaces(const Model& model, const Catalogue& catalogue, int&
     for (int e = 0; e < group.elements(); ++e) {
       std::vector<int> row{group.element_numbers[static_cast<std::size_t>(e)]};
       largest = std::max(largest, row[0]);
-      for (std::size_t i = 0; i < group.node_count(); ++i)
-        row.push_back(model.mesh.number[static_cast<std::size_t>(group.nodes_of(e)[i])]);
+      for (int i : order) row.push_back(model.mesh.number[static_cast<std::size_t>(group.nodes_of(e)[i])]);
       block.elements.push_back(std::move(row));
     }
     blocks.push_back(std::move(block));
@@ -60,12 +56,14 @@ std::vector<Block> supports(const Model& model, int first_number) {
   const std::vector<char> held = held_dofs(model);
   std::map<std::pair<std::string, std::size_t>, Block> by_name;
   std::map<std::string, int> tags;
-  for (const BoundaryEdge& edge : boundary_edges(model)) {
+  for (BoundaryEdge& edge : boundary_edges(model)) {
     const std::string name = support_name(held, edge);
     if (name.empty()) continue;
+    const bool corners = model.groups[static_cast<std::size_t>(edge.group)].entry->gmsh.type == 0;
+    if (corners || msh::line_type(edge.nodes.size()) == 0) edge.nodes.resize(2);
     Block& block = by_name[{name, edge.nodes.size()}];
     block.dimension = 1;
-    block.type = line_type(edge.nodes.size());
+    block.type = msh::line_type(edge.nodes.size());
     block.name = name;
     block.tag = tags.try_emplace(name, static_cast<int>(tags.size()) + 1).first->second;
     std::vector<int> row{first_number++};
@@ -126,9 +124,9 @@ void warn_of_the_rest(const Model& model, Diagnostics& diagnostics) {
 
 }  // namespace
 
-std::string msh_text(const Model& model, const Catalogue& catalogue, Diagnostics& diagnostics) {
+std::string msh_text(const Model& model, Diagnostics& diagnostics) {
   int left_out = 0, largest = 0;
-  std::vector<Block> blocks = surfaces(model, catalogue, left_out, largest);
+  std::vector<Block> blocks = surfaces(model, diagnostics, left_out, largest);
   for (Block& block : supports(model, largest + 1)) blocks.push_back(std::move(block));
   if (left_out > 0)
     diagnostics.add({Severity::warning,

@@ -79,8 +79,8 @@ struct Scenery {
   FieldParts parts;
   std::map<std::tuple<const Element*, int, int>, SubGrid> grids = {};  // patches point into them
 
-  bool draws(std::size_t g, int law_size) const {
-    return !layout.of_group[g].empty() && model.groups[g].element->traits().law_size == law_size;
+  bool draws(std::size_t g, ElementKind kind) const {
+    return !layout.of_group[g].empty() && model.groups[g].entry->kind == kind;
   }
   Vector2 moved(int node, double deformation) const {
     return view.at(model.mesh.x.col(node) + deformation * solution.u->segment<2>(2 * node));
@@ -101,10 +101,11 @@ Scenery make_scenery(const Model& model, const Solution& solution, Field field, 
 }
 
 // The grid that an element of this size on the paper is drawn on.
-const SubGrid& grid_for(Scenery& scenery, const Element& element, const Eigen::Matrix2Xd& nodes) {
+const SubGrid& grid_for(Scenery& scenery, const Group& group, const Eigen::Matrix2Xd& nodes) {
+  const Element& element = *group.element;
   std::array<double, 2> longest{};  // of the sides along xi and along eta
-  const bool triangle = element.edges().size() == 3;
-  const auto parents = element.parent_nodes();
+  const bool triangle = group.entry->triangle();
+  const auto& parents = group.entry->parent_nodes;
   for (const std::vector<int>& edge : element.edges()) {
     const auto &a = parents[static_cast<std::size_t>(edge[0])], &b = parents[static_cast<std::size_t>(edge[1])];
     double& side = longest[triangle || a[1] == b[1] ? 0 : 1];
@@ -113,7 +114,7 @@ const SubGrid& grid_for(Scenery& scenery, const Element& element, const Eigen::M
   const int degree = element.degree();
   const int xi = sub_grid_cells(longest[0], degree), eta = triangle ? xi : sub_grid_cells(longest[1], degree);
   const auto [at, added] = scenery.grids.try_emplace({&element, xi, eta});
-  if (added) at->second = sub_grid(element, xi, eta);
+  if (added) at->second = sub_grid(group, xi, eta);
   return at->second;
 }
 
@@ -121,14 +122,14 @@ std::vector<Patch> patches(Scenery& scenery) {
   std::vector<Patch> result;
   Eigen::MatrixXd at_nodes;
   for (std::size_t g = 0; g < scenery.model.groups.size(); ++g) {
-    if (!scenery.draws(g, 4)) continue;
+    if (!scenery.draws(g, ElementKind::solid)) continue;
     const Group& group = scenery.model.groups[g];
     const int* entry = scenery.layout.of_group[g].data();
     at_nodes.resize(scenery.parts.components, static_cast<Eigen::Index>(group.node_count()));
     for (int e = 0; e < group.elements(); ++e, entry += group.node_count()) {
       for (Eigen::Index i = 0; i < at_nodes.cols(); ++i) at_nodes.col(i) = scenery.parts.at.col(entry[i]);
       const Eigen::Matrix2Xd nodes = scenery.nodes_of(group, e, scenery.view.deformation);
-      const SubGrid& grid = grid_for(scenery, *group.element, nodes);
+      const SubGrid& grid = grid_for(scenery, group, nodes);
       const Eigen::Matrix2Xd places = nodes * grid.N.transpose();
       const Eigen::MatrixXd parts = at_nodes * grid.N.transpose();
       Patch& patch = result.emplace_back(Patch{&grid.cells, {}});
@@ -212,7 +213,7 @@ void draw_outline(std::string& out, Scenery& scenery) {
   };
   std::map<std::pair<int, int>, Edge> edges;
   for (std::size_t g = 0; g < scenery.model.groups.size(); ++g) {
-    if (!scenery.draws(g, 4)) continue;
+    if (!scenery.draws(g, ElementKind::solid)) continue;
     const Group& group = scenery.model.groups[g];
     for (int e = 0; e < group.elements(); ++e)
       for (std::size_t k = 0; k < group.element->edges().size(); ++k) {
@@ -228,7 +229,7 @@ void draw_outline(std::string& out, Scenery& scenery) {
     if (edge.uses != 1) continue;
     const Group& group = scenery.model.groups[edge.group];
     const Eigen::Matrix2Xd nodes = scenery.nodes_of(group, edge.element, 0.0);
-    const SubGrid& grid = grid_for(scenery, *group.element, nodes);
+    const SubGrid& grid = grid_for(scenery, group, nodes);
     std::string path;
     append_line(path, nodes * grid.N(grid.edges[edge.edge], Eigen::all).transpose());
     fmt::format_to(std::back_inserter(out), "<path d=\"{}\"/>\n", path);
@@ -240,7 +241,7 @@ void draw_outline(std::string& out, Scenery& scenery) {
 void draw_interfaces(std::string& out, const Scenery& scenery) {
   std::string path;
   for (std::size_t g = 0; g < scenery.model.groups.size(); ++g) {
-    if (!scenery.draws(g, 2)) continue;
+    if (!scenery.draws(g, ElementKind::interface)) continue;
     const Group& group = scenery.model.groups[g];
     for (int e = 0; e < group.elements(); ++e)
       for (const std::vector<int>& side : group.element->edges()) {

@@ -28,7 +28,7 @@ bool is_displacement(Field field) {
 
 // sigma (tension +) and stress level of a point; nothing for interfaces.
 void stress_values(const GroupData& data, std::size_t point, double* values) {
-  const bool solid = data.state.law_size() == 4;
+  const bool solid = data.group->solid();
   for (std::size_t i = 0; i < 4; ++i) values[i] = solid ? data.state.committed.sigma[4 * point + i] : 0.0;
   values[4] = solid ? stress_level(data, point) : 0.0;
 }

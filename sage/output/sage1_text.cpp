@@ -29,8 +29,7 @@ std::string shortened(const std::string& text) {
 
 class Writer {
  public:
-  Writer(const Model& model, const Catalogue& catalogue, Diagnostics& diagnostics)
-      : model_(model), catalogue_(catalogue), diagnostics_(diagnostics) {}
+  Writer(const Model& model, Diagnostics& diagnostics) : model_(model), diagnostics_(diagnostics) {}
 
   std::string deck();
 
@@ -82,7 +81,6 @@ class Writer {
   void point(const Report& report);
 
   const Model& model_;
-  const Catalogue& catalogue_;
   Diagnostics& diagnostics_;
   std::string text_;
   std::vector<int> group_numbers_;
@@ -151,13 +149,9 @@ void Writer::groups() {
   text_ += "* numb elem form matl name\n";
   for (std::size_t g = 0; g < model_.groups.size(); ++g) {
     const Group& group = model_.groups[g];
-    const ElementEntry& entry = *catalogue_.elements.find(group.element_code);
-    int formulation = 0;
-    for (const Formulation& f : entry.formulations)
-      if (group.element_name == entry.name + " " + f.name) formulation = f.code;
     integer(group_number(static_cast<int>(g)));
     integer(group.element_code);
-    integer(formulation);
+    integer(group.formulation);
     integer(model_.material_of(group).number);
     name(group.name, 20);
     line();
@@ -341,8 +335,8 @@ FieldText field_text(double value, int width) {
   return {nearest, false, nearest_error / std::abs(value)};
 }
 
-std::string sage1_text(const Model& model, const Catalogue& catalogue, Diagnostics& diagnostics) {
-  return Writer(model, catalogue, diagnostics).deck();
+std::string sage1_text(const Model& model, Diagnostics& diagnostics) {
+  return Writer(model, diagnostics).deck();
 }
 
 }  // namespace sage

@@ -78,10 +78,11 @@ std::vector<GridCell> triangle_cells(Places& places, int along) {
 
 }  // namespace
 
-SubGrid sub_grid(const Element& element, int along_xi, int along_eta) {
+SubGrid sub_grid(const Group& group, int along_xi, int along_eta) {
+  const Element& element = *group.element;
   const auto& edges = element.edges();
-  const std::span<const std::array<double, 2>> nodes = element.parent_nodes();
-  const bool triangle = edges.size() == 3;
+  const std::span<const std::array<double, 2>> nodes = group.entry->parent_nodes;
+  const bool triangle = group.entry->triangle();
   Places places(triangle, along_xi, along_eta);
   SubGrid grid;
   for (const std::vector<int>& edge : edges) {

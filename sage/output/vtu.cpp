@@ -12,6 +12,7 @@
 #include <numeric>
 
 #include "sage/analysis/shown_status.hpp"
+#include "sage/output/foreign_element.hpp"
 #include "sage/output/nodal_values.hpp"
 #include "sage/output/values.hpp"
 
@@ -63,46 +64,10 @@ class VtuText {
   std::string xml_, data_;
 };
 
-// VTK's cell type and how many of the element's nodes it takes.  The orders of nodes agree.
-struct CellType {
-  std::uint8_t type;
-  std::size_t nodes;
-};
-
-CellType cell_type(const ElementTraits& traits) {
-  // Interfaces by their corners: VTK's six-node quad (30) is unknown to common readers.
-  if (traits.law_size == 2) return {9, 4};
-  switch (traits.nodes) {
-    case 3:
-      return {5, 3};
-    case 4:
-      return {9, 4};
-    case 6:
-      return {22, 6};
-    case 8:
-      return {23, 8};
-    case 9:
-      return {28, 9};
-    case 15:
-      return {69, 15};
-    case 25:
-    case 49:
-    case 81:
-      return {70, static_cast<std::size_t>(traits.nodes)};
-  }
-  return {static_cast<std::uint8_t>(7), static_cast<std::size_t>(traits.nodes)};  // a polygon
-}
-
-// VTK's Lagrange quadrilateral (70) has the nodes of its third and fourth side in the direction of the first
-// two.
-std::vector<std::size_t> cell_order(const CellType& cell) {
-  std::vector<std::size_t> order(cell.nodes);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  if (cell.type != 70) return order;
-  const auto side = static_cast<std::ptrdiff_t>(std::lround(std::sqrt(static_cast<double>(cell.nodes)))) - 2;
-  for (const std::ptrdiff_t first : {4 + 2 * side, 4 + 3 * side})
-    std::reverse(order.begin() + first, order.begin() + first + side);
-  return order;
+// VTK's type of a group's cells: of their corners where it has none for the element.
+int cell_type(const ElementEntry& entry) {
+  if (entry.vtk.type != 0) return entry.vtk.type;
+  return entry.triangle() ? 5 : 9;
 }
 
 void add_points(VtuText& vtu, const Model& model, const NodalLayout& layout) {
@@ -120,12 +85,13 @@ void add_cells(VtuText& vtu, const Model& model, const NodalLayout& layout) {
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     const std::vector<int>& entries = layout.of_group[g];
     if (entries.empty()) continue;
-    const CellType cell = cell_type(model.groups[g].element->traits());
-    const std::vector<std::size_t> order = cell_order(cell);
+    const ElementEntry& entry = *model.groups[g].entry;
+    const auto type = static_cast<std::uint8_t>(cell_type(entry));
+    const std::vector<int> order = foreign_nodes(entry, entry.vtk);
     for (std::size_t at = 0; at < entries.size(); at += model.groups[g].node_count()) {
-      for (std::size_t i : order) connectivity.push_back(entries[at + i]);
+      for (int i : order) connectivity.push_back(entries[at + static_cast<std::size_t>(i)]);
       offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
-      types.push_back(cell.type);
+      types.push_back(type);
     }
   }
   vtu.tag("      <Cells>");
@@ -145,7 +111,7 @@ std::vector<double> vectors(const NodalLayout& layout, Value value) {
 
 void add_point_data(VtuText& vtu, const Model& model, const Solution& s, const NodalLayout& layout) {
   const PointValue stress = [](const GroupData& data, std::size_t point, double* values) {
-    const bool solid = data.state.law_size() == 4;
+    const bool solid = data.group->solid();
     for (std::size_t i = 0; i < 4; ++i)
       values[i] = solid ? outward(data.state.committed.sigma[4 * point + i]) : kNone;
   };
@@ -170,7 +136,7 @@ constexpr std::array<std::string_view, kCellValues> kCellNames{
 
 void cell_values(const Mesh& mesh, const GroupData& data, std::size_t point, double* values) {
   const PointStates& state = data.state.committed;
-  const bool solid = data.state.law_size() == 4;
+  const bool solid = data.group->solid();
   const double* sigma = state.sigma.data() + point * static_cast<std::size_t>(data.state.law_size());
   const PointStatus status = shown_status(mesh, data, point);
   values[0] = solid ? mean_stress(sigma) : kNone;
@@ -188,7 +154,7 @@ void add_cell_data(VtuText& vtu, const Model& model, const Solution& s) {
   for (const GroupData& data : s.assembly->groups()) {
     if (!data.active) continue;
     const Group& group = *data.group;
-    interfaces = interfaces || data.state.law_size() == 2;
+    interfaces = interfaces || data.group->interface();
     const std::vector<double> values = element_average(
         data, kCellValues,
         [&](const GroupData& d, std::size_t point, double* v) { cell_values(model.mesh, d, point, v); });
@@ -222,6 +188,11 @@ std::string head(const Model& model, std::string_view comment) {
 }
 
 }  // namespace
+
+void warn_of_vtu(const Model& model, Diagnostics& diagnostics) {
+  for (const Group& group : model.groups)
+    if (group.elements() > 0 && group.entry->vtk.type == 0) warn_of_corners(group, "VTU", diagnostics);
+}
 
 std::string vtu_text(const Model& model, const Solution& solution, std::string_view comment) {
   const NodalLayout layout = nodal_layout(model, *solution.activity);

@@ -47,6 +47,9 @@ class Vtu final : public Output {
   std::vector<std::filesystem::path> files_;
 };
 
+// A warning for each group whose elements VTK has not: their corners are written.
+void warn_of_vtu(const Model& model, Diagnostics& diagnostics);
+
 // One state as the text of a VTU file.  The comment stands at its top, where a person sees it.
 std::string vtu_text(const Model& model, const Solution& solution, std::string_view comment = "");
 

@@ -67,7 +67,7 @@ void each_load_point(const Model& model, const Group& group,
 }
 
 bool is_solid(const Group& group) {
-  return group.element->traits().law_size == 4;
+  return group.solid();
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ struct Joint {
 std::vector<Joint> joints(const Record& record) {
   std::vector<Joint> list;
   for (const auto& [code, entry] : record.bench().catalogue().elements.entries())
-    if (entry.law_size == 2)
+    if (entry.interface())
       for (const Formulation& f : entry.formulations) list.push_back({code, f.code, entry.name + " " + f.name});
   return list;
 }
@@ -111,7 +111,7 @@ void p5(Record& record) {
       const double r2 = r1 + 0.8 * L, dz = 0.6 * L;
       Eigen::Matrix2Xd x(2, entry.nodes);
       x.leftCols(4) << r1, r2, r2, r1, 0.0, dz, dz, 0.0;
-      if (entry.nodes == 6) x.rightCols(2) << 0.5 * (r1 + r2), 0.5 * (r1 + r2), 0.5 * dz, 0.5 * dz;
+      if (!entry.only_corners()) x.rightCols(2) << 0.5 * (r1 + r2), 0.5 * (r1 + r2), 0.5 * dz, 0.5 * dz;
       std::vector<double> g(static_cast<std::size_t>(traits.geometry_size()));
       element->geometry(x, g);
       Eigen::VectorXd f = Eigen::VectorXd::Zero(traits.dofs);

@@ -43,7 +43,7 @@ Model patch_model(const Record& record, const Corners& corners, int geometry, in
   deck.group(1, element, formulation, 1);
   int number = 1;
   for (const auto& q : corners.quads) {
-    if (record.bench().catalogue().elements.find(element)->corners == 4) {
+    if (record.bench().catalogue().elements.find(element)->square()) {
       deck.element(number++, 1, {q[0], q[1], q[2], q[3]});
     } else {
       deck.element(number++, 1, {q[0], q[1], q[2]});
@@ -91,7 +91,7 @@ struct Solid {
 std::vector<Solid> solids(const Record& record) {
   std::vector<Solid> list;
   for (const auto& [code, entry] : record.bench().catalogue().elements.entries())
-    if (entry.law_size == 4)
+    if (entry.solid())
       for (const Formulation& f : entry.formulations) list.push_back({code, f.code, entry.name + " " + f.name});
   return list;
 }

@@ -65,7 +65,7 @@ int main(int argc, char** argv) {
   const LinearLaw<2> interface = interface_law(1.0, 2.0);
   for (const ElementCase& c : element_cases()) {
     if (!c.axisymmetric()) continue;
-    const bool solid = c.entry->law_size == 4;
+    const bool solid = c.entry->solid();
     const LawRef law = solid ? LawRef(static_cast<const SolidLaw*>(&elastic))
                              : LawRef(static_cast<const InterfaceLaw*>(&interface));
     benchmark::RegisterBenchmark(("f_and_K/" + c.name).c_str(), evaluate, c, law, true)

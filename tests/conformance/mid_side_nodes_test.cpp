@@ -29,10 +29,15 @@ struct Solid {
 std::vector<Solid> solids_with_mid_side_nodes() {
   std::vector<Solid> solids;
   for (const auto& [code, entry] : full_catalogue().elements.entries())
-    if (entry.law_size == 4 && entry.nodes > entry.corners)
+    if (entry.solid() && !entry.only_corners())
       for (const Formulation& f : entry.formulations)
         solids.push_back({code, f.code, &entry, entry.name + " " + f.name});
   return solids;
+}
+
+// A quadrilateral of corners and the middle nodes of its sides.
+bool gives_sides(const ElementEntry& entry) {
+  return entry.square() && entry.nodes == 2 * entry.corners;
 }
 
 // Ways to rerun the deck; 8-node squares become elements of high degree too.
@@ -50,9 +55,9 @@ std::vector<BuildOptions> reruns(const Solid& solid) {
   add(0, 2, {});
   add(0, 0, towards_corner);
   add(0, 1, towards_corner);
-  if (solid.entry->name != "quad8") return all;
+  if (!gives_sides(*solid.entry)) return all;
   for (const auto& [code, entry] : full_catalogue().elements.entries()) {
-    if (entry.corners != 4 || entry.nodes <= 15) continue;
+    if (!entry.square() || !entry.makes_nodes()) continue;
     add(code, 0, {});
     add(code, 1, {});
     add(code, 0, towards_corner);
@@ -72,7 +77,7 @@ class Square {
   explicit Square(const Solid& solid) {
     deck.material(1, 1, {kE, kNu});
     deck.group(1, solid.code, solid.formulation, 1);
-    const bool triangles = solid.entry->corners == 3;
+    const bool triangles = solid.entry->triangle();
     for (int j = 0; j < 5; ++j)
       for (int i = 0; i < 5; ++i)
         if (triangles || i % 2 == 0 || j % 2 == 0) deck.node(number(i, j), 0.5 * i, 0.5 * j);
@@ -128,7 +133,7 @@ TEST(MidSideNodes, OutlineMovedByAQuadraticField) {
       SCOPED_TRACE(words(solid, options));
       // Grading makes trapezoids, on which eight nodes hold less than all quadratics (Arnold, Boffi & Falk
       // 2002).
-      const bool eight = solid.entry->name == "quad8" && options.element == 0;
+      const bool eight = gives_sides(*solid.entry) && options.element == 0;
       if (eight && !options.gradings.empty()) continue;
       Square square(solid);
       StageCards& stage = square.deck.stage();

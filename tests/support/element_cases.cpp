@@ -1,10 +1,11 @@
 #include "tests/support/element_cases.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <stdexcept>
 #include <variant>
 
-#include "elements/lobatto.hpp"
 #include "elements/register_elements.hpp"
 #include "elements/shapes.hpp"
 
@@ -12,20 +13,12 @@ namespace sage::test {
 
 namespace {
 
-template <class Shape>
-Eigen::Matrix2Xd nodes_of() {
-  Eigen::Matrix2Xd nodes(2, Shape::nodes);
-  for (std::size_t i = 0; i < Shape::nodes; ++i)
-    nodes.col(static_cast<Eigen::Index>(i)) << Shape::node_at[i][0], Shape::node_at[i][1];
-  return nodes;
-}
-
-std::vector<ElementCase> cases_with(int law_size) {
+std::vector<ElementCase> cases_with(std::initializer_list<ElementKind> kinds) {
   std::vector<ElementCase> cases;
   for (const auto& [code, entry] : element_catalogue().elements.entries())
     for (const Formulation& formulation : entry.formulations)
       for (const Geometry geometry : {Geometry::plane_strain, Geometry::axisymmetric})
-        if (law_size == 0 || entry.law_size == law_size)
+        if (std::ranges::find(kinds, entry.kind) != kinds.end())
           cases.push_back({code, formulation.code, geometry, &entry,
                            entry.name + " " + formulation.name +
                                (geometry == Geometry::axisymmetric ? " axisymmetric" : " plane strain")});
@@ -57,13 +50,13 @@ const Catalogue& element_catalogue() {
 }
 
 std::vector<ElementCase> element_cases() {
-  return cases_with(0);
+  return cases_with({ElementKind::solid, ElementKind::interface});
 }
 std::vector<ElementCase> solid_cases() {
-  return cases_with(4);
+  return cases_with({ElementKind::solid});
 }
 std::vector<ElementCase> interface_cases() {
-  return cases_with(2);
+  return cases_with({ElementKind::interface});
 }
 
 ElementCase element_case(int code, int formulation, Geometry geometry) {
@@ -73,18 +66,12 @@ ElementCase element_case(int code, int formulation, Geometry geometry) {
 }
 
 Eigen::Matrix2Xd parent_nodes(const ElementEntry& entry) {
-  if (entry.name == "quad4") return nodes_of<Quad4>();
-  if (entry.name == "quad8") return nodes_of<Quad8>();
-  if (entry.name == "quad9") return nodes_of<Quad9>();
-  if (entry.name == "quad25") return nodes_of<LobattoQuad<4>>();
-  if (entry.name == "quad49") return nodes_of<LobattoQuad<6>>();
-  if (entry.name == "quad81") return nodes_of<LobattoQuad<8>>();
-  if (entry.name == "tri3") return nodes_of<Tri3>();
-  if (entry.name == "tri6") return nodes_of<Tri6>();
-  if (entry.name == "tri15") return nodes_of<Tri15>();
-  if (entry.name == "interface4") return columns({{-1, 0}, {1, 0}, {1, 0}, {-1, 0}});
-  if (entry.name == "interface6") return columns({{-1, 0}, {1, 0}, {1, 0}, {-1, 0}, {0, 0}, {0, 0}});
-  throw std::logic_error("parent_nodes: add " + entry.name);
+  Eigen::Matrix2Xd nodes(2, static_cast<Eigen::Index>(entry.parent_nodes.size()));
+  for (Eigen::Index i = 0; i < nodes.cols(); ++i) {
+    const auto& [xi, eta] = entry.parent_nodes[static_cast<std::size_t>(i)];
+    nodes.col(i) << xi, (entry.interface() ? 0.0 : eta);
+  }
+  return nodes;
 }
 
 Eigen::Matrix2Xd straight_element(const ElementEntry& entry, const Eigen::Matrix2Xd& corners) {
@@ -100,20 +87,20 @@ Eigen::Matrix2Xd straight_element(const ElementEntry& entry, const Eigen::Matrix
 }
 
 Eigen::Matrix2Xd sample_shape(const ElementEntry& entry) {
-  if (entry.law_size == 2) return straight_element(entry, columns({{1.0, 0.5}, {2.2, 1.1}}));
-  if (entry.corners == 3) return straight_element(entry, columns({{1.0, 0.2}, {2.3, 0.5}, {1.4, 1.7}}));
+  if (entry.interface()) return straight_element(entry, columns({{1.0, 0.5}, {2.2, 1.1}}));
+  if (entry.triangle()) return straight_element(entry, columns({{1.0, 0.2}, {2.3, 0.5}, {1.4, 1.7}}));
   return straight_element(entry, columns({{1.0, 0.1}, {2.4, 0.3}, {2.0, 1.6}, {1.2, 1.2}}));
 }
 
 Eigen::Matrix2Xd sample_shape_on_axis(const ElementEntry& entry) {
-  if (entry.law_size == 2) return straight_element(entry, columns({{0.0, 0.5}, {1.2, 1.1}}));
-  if (entry.corners == 3) return straight_element(entry, columns({{0.0, 0.2}, {1.3, 0.5}, {0.4, 1.7}}));
+  if (entry.interface()) return straight_element(entry, columns({{0.0, 0.5}, {1.2, 1.1}}));
+  if (entry.triangle()) return straight_element(entry, columns({{0.0, 0.2}, {1.3, 0.5}, {0.4, 1.7}}));
   return straight_element(entry, columns({{0.0, 0.1}, {1.4, 0.3}, {1.0, 1.6}, {0.0, 1.2}}));
 }
 
 Eigen::Matrix2Xd sample_shape_curved(const ElementEntry& entry) {
   Eigen::Matrix2Xd x = sample_shape(entry);
-  if (entry.nodes == entry.corners) return x;
+  if (entry.only_corners()) return x;
   for (Eigen::Index i = 0; i < x.cols(); ++i) {
     const Vector2 p = x.col(i);
     x.col(i) += 0.06 * Vector2(std::sin(2.0 * p.y()), std::cos(2.0 * p.x()));

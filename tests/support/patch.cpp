@@ -59,7 +59,7 @@ CornerMesh perturbed_grid(int nx, int ny, double x0, double x1, double y0, doubl
 
 PatchMesh make_mesh(const ElementEntry& entry, const CornerMesh& corners) {
   std::vector<std::vector<int>> cells = corners.quads;
-  if (entry.corners == 3) {
+  if (entry.triangle()) {
     cells.clear();
     for (const auto& q : corners.quads) {
       cells.push_back({q[0], q[1], q[2]});

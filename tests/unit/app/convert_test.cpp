@@ -129,18 +129,18 @@ TEST(FieldText, ReadsBackExactlyOrSaysNot) {
 TEST(Convert, DeckToDeckGivesTheSameResultsBitForBit) {
   const std::string first = write("strip.dat", kDeck);
   Model model = model_of(first);
-  const std::string text = sage1_text(model, full_catalogue(), model.diagnostics);
+  const std::string text = sage1_text(model, model.diagnostics);
   EXPECT_EQ(model.diagnostics.warnings(), 0);
   const std::string before = results(first);
   const std::string second = write("strip.dat", text);
   EXPECT_EQ(results(second), before);
   Model again = model_of(second);
-  EXPECT_EQ(sage1_text(again, full_catalogue(), again.diagnostics), text);
+  EXPECT_EQ(sage1_text(again, again.diagnostics), text);
 }
 
 TEST(Convert, TellsTheLargestChangeOfNumbersThatDoNotFit) {
   Model model = model_of(kInputs + "smith_griffiths/p51_5.dat");
-  const std::string text = sage1_text(model, full_catalogue(), model.diagnostics);
+  const std::string text = sage1_text(model, model.diagnostics);
   ASSERT_EQ(model.diagnostics.warnings(), 1);
   EXPECT_NE(model.diagnostics.list().back().message.find("3 number(s) need more digits"), std::string::npos)
       << model.diagnostics.list().back().message;
@@ -149,14 +149,14 @@ TEST(Convert, TellsTheLargestChangeOfNumbersThatDoNotFit) {
 
 TEST(Convert, ElementsThatNoCardHoldsAreRefused) {
   Model model = model_of(kInputs + "smith_griffiths/p51_2.dat");
-  EXPECT_THROW(sage1_text(model, full_catalogue(), model.diagnostics), InputError);
+  EXPECT_THROW(sage1_text(model, model.diagnostics), InputError);
 }
 
 TEST(Convert, DeckToGmshToDeckKeepsTheMesh) {
   for (const std::string& deck : {write("strip.dat", kDeck), kInputs + "smith_griffiths/p51_5.dat",
                                   kInputs + "smith_griffiths/p51_2.dat", kInputs + "quad4m/MDL.Q4I"}) {
     Model model = model_of(deck);
-    const std::string msh = msh_text(model, full_catalogue(), model.diagnostics);
+    const std::string msh = msh_text(model, model.diagnostics);
     const Model back = model_from_msh(msh, "mesh.msh", full_catalogue(), {});
     EXPECT_EQ(back.mesh.number, model.mesh.number);
     EXPECT_EQ(back.mesh.x, model.mesh.x);
@@ -226,7 +226,7 @@ TEST(Convert, GmshMeshBecomesASkeletonThatCheckExplains) {
   EXPECT_EQ(skeleton.stages[0].pressures[0].normal[0], 25.0);
   EXPECT_EQ(skeleton.stages[0].pressures[0].element, 1);
   EXPECT_EQ(skeleton.diagnostics.warnings(), 1) << "the curve 'wall'";
-  const std::string deck = write("square.dat", sage1_text(skeleton, full_catalogue(), skeleton.diagnostics));
+  const std::string deck = write("square.dat", sage1_text(skeleton, skeleton.diagnostics));
   try {
     model_of(deck);
     FAIL() << "a placeholder must not run";
@@ -236,7 +236,7 @@ TEST(Convert, GmshMeshBecomesASkeletonThatCheckExplains) {
   }
   Model filled =
       model_from_msh(kMesh, "square.msh", full_catalogue(), {Geometry::plane_strain, 1000.0, 0.3, 18.0});
-  EXPECT_FALSE(results(write("square.dat", sage1_text(filled, full_catalogue(), filled.diagnostics))).empty());
+  EXPECT_FALSE(results(write("square.dat", sage1_text(filled, filled.diagnostics))).empty());
 }
 
 double area_of(const Model& model, const Group& group) {
@@ -264,7 +264,7 @@ TEST(Convert, AMeshThatGmshWroteRuns) {
   EXPECT_EQ(mesh.groups[0].element->traits().nodes, 8);
   EXPECT_EQ(mesh.groups[1].name, "bank");
   EXPECT_EQ(mesh.groups[1].element->traits().nodes, 6);
-  const std::string deck = write("slope.dat", sage1_text(mesh, full_catalogue(), mesh.diagnostics));
+  const std::string deck = write("slope.dat", sage1_text(mesh, mesh.diagnostics));
   const Model model = model_of(deck);
   EXPECT_EQ(model.diagnostics.warnings(), 0);
   // 20 x 6 without a trench of radius 2: four triangles from its centre and four segments under parabolas, 2/3
@@ -315,7 +315,7 @@ TEST(Convert, MeshioReadsTheMesh) {
   if (std::system((std::string(python) + " -c 'import meshio' 2> /dev/null").c_str()) != 0)
     GTEST_SKIP() << "meshio is not installed";
   Model model = model_of(write("strip.dat", kDeck));
-  const std::string path = write("strip.msh", msh_text(model, full_catalogue(), model.diagnostics));
+  const std::string path = write("strip.msh", msh_text(model, model.diagnostics));
   const std::string script = "import meshio; m = meshio.read('" + path +
                              "'); q = sum(len(c.data) for c in m.cells if c.type == 'quad'); "
                              "assert len(m.points) == 15 and q == 8, (len(m.points), q); "
@@ -327,7 +327,7 @@ TEST(Convert, CalculixFindsTheSameDisplacements) {
   if (std::system("command -v ccx > /dev/null 2>&1") != 0) GTEST_SKIP() << "ccx is not installed";
   // Constant strain: every program must find the exact answer, -0.91e-6 at the top (p51_1.res).
   Model model = model_of(kInputs + "smith_griffiths/p51_1.dat");
-  write("p51_1.inp", inp_text(model, full_catalogue(), model.diagnostics));
+  write("p51_1.inp", inp_text(model, model.diagnostics));
   ASSERT_EQ(std::system(("cd " + scratch().string() + " && ccx p51_1 > ccx.log 2>&1").c_str()), 0);
   std::ifstream in(scratch() / "p51_1.dat");
   int found = 0;
@@ -381,7 +381,7 @@ TEST(Convert, CalculixGetsTotalDisplacements) {
   move_top(deck.stage(), 1, -0.01);
   move_top(deck.stage(), 1, 0.0);
   Model model = model_of("totals.dat", deck);
-  const std::string inp = inp_text(model, full_catalogue(), model.diagnostics);
+  const std::string inp = inp_text(model, model.diagnostics);
   EXPECT_EQ(model.diagnostics.warnings(), 0);
   EXPECT_NE(inp.find("5, 2, 2, -0.02\n"), std::string::npos) << inp;
   EXPECT_NE(inp.find("5, 2, 2, -0.03\n"), std::string::npos) << inp;
@@ -404,7 +404,7 @@ TEST(Convert, CalculixHoldsWhatIsHeldLaterWhereItIs) {
   pushed.load(3, 0.0, -2.0);
   pushed.load(4, 0.0, -2.0);
   Model model = model_of("held.dat", deck);
-  const std::string inp = inp_text(model, full_catalogue(), model.diagnostics);
+  const std::string inp = inp_text(model, model.diagnostics);
   EXPECT_EQ(model.diagnostics.warnings(), 0);
   EXPECT_NE(inp.find("*BOUNDARY, FIXED\n5, 2, 2\n6, 2, 2\n"), std::string::npos) << inp;
   if (std::system("command -v ccx > /dev/null 2>&1") != 0) return;
@@ -418,14 +418,14 @@ TEST(Convert, HeldDofsGetNoNoteOnReadingBack) {
   DeckWriter deck = column();
   move_top(deck.stage(), 1, 0.0);
   Model model = model_of("zero.dat", deck);
-  const Model back = model_of(write("zero.dat", sage1_text(model, full_catalogue(), model.diagnostics)));
+  const Model back = model_of(write("zero.dat", sage1_text(model, model.diagnostics)));
   for (const Diagnostic& d : back.diagnostics.list())
     EXPECT_EQ(d.message.find("is left blank"), std::string::npos) << to_string(d);
 }
 
 TEST(Convert, AMeshFileTellsWhatItDoesNotHold) {
   Model model = model_of(write("strip.dat", kDeck));
-  msh_text(model, full_catalogue(), model.diagnostics);
+  msh_text(model, model.diagnostics);
   const std::string said = model.diagnostics.list().back().message;
   // Loads: gravity, one node, two edges by each of two cards.
   EXPECT_NE(said.find("2 material(s), 2 stage(s), 6 load(s), 1 fixities of stages, 1 initial stress(es), "
@@ -442,7 +442,7 @@ TEST(Convert, WarnsWhereCalculixCountsFromAnotherPlace) {
   move_top(deck.stage(), 1, -0.01);
   move_top(deck.stage(), -1, 0.0);
   Model model = model_of("unknown.dat", deck);
-  inp_text(model, full_catalogue(), model.diagnostics);
+  inp_text(model, model.diagnostics);
   std::string said;
   for (const Diagnostic& d : model.diagnostics.list())
     if (d.severity == Severity::warning) {
@@ -460,7 +460,7 @@ TEST(Convert, ANodeIsNamedOnceInAWarning) {
   deck.stage().fix(5, 1, 1, 0.01, -0.01);
   deck.stage().fix(5, -1, -1);
   Model model = model_of("both.dat", deck);
-  inp_text(model, full_catalogue(), model.diagnostics);
+  inp_text(model, model.diagnostics);
   std::string said;
   for (const Diagnostic& d : model.diagnostics.list()) said += d.message + "\n";
   EXPECT_NE(said.find("stage 2: node(s) 5 could move before"), std::string::npos) << said;

@@ -107,8 +107,8 @@ TEST(PointCards, SurviveConversion) {
   const Catalogue catalogue = full_catalogue();
   const Model model = build_model(read_input(request.deck, {}), catalogue, {});
   Diagnostics said;
-  const Model again = build_model(
-      read_deck_text(sage1_text(model, catalogue, said), "again", load_layout("sage1")), catalogue, {});
+  const Model again =
+      build_model(read_deck_text(sage1_text(model, said), "again", load_layout("sage1")), catalogue, {});
   ASSERT_EQ(again.reports.size(), 2u);
   EXPECT_EQ(again.reports[0].place, model.reports[0].place);
   EXPECT_EQ(again.reports[0].name, "inner third");

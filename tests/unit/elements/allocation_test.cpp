@@ -13,8 +13,8 @@ TEST(Allocation, NoneInEvaluateAndGeometry) {
   const SmoothLaw<2> interface;
   for (const ElementCase& c : element_cases()) {
     SCOPED_TRACE(c.name);
-    const LawRef law = c.entry->law_size == 4 ? LawRef(static_cast<const SolidLaw*>(&solid))
-                                              : LawRef(static_cast<const InterfaceLaw*>(&interface));
+    const LawRef law = c.entry->solid() ? LawRef(static_cast<const SolidLaw*>(&solid))
+                                        : LawRef(static_cast<const InterfaceLaw*>(&interface));
     const auto element = c.make();
     const Eigen::Matrix2Xd x = sample_shape_on_axis(*c.entry);
     ElementRun run(*element, x, law);

@@ -19,7 +19,7 @@ Eigen::Matrix2Xd edge_forces(const Element& element, const Eigen::Matrix2Xd& x, 
 
 Eigen::Matrix2Xd rectangle(const ElementEntry& entry, double x0, double x1, double y0, double y1) {
   Eigen::Matrix2Xd corners(2, entry.corners);
-  if (entry.corners == 4)
+  if (entry.square())
     corners << x0, x1, x1, x0, y0, y0, y1, y1;
   else
     corners << x0, x1, x0, y0, y0, y1;

@@ -44,7 +44,7 @@ TEST(Elements, PassOnThatTheLawWantsASmallerStep) {
   const SmoothLaw<2> interface_law(1e-3);
   for (const ElementCase& c : element_cases()) {
     const std::unique_ptr<Element> element = c.make();
-    const bool solid = element->traits().law_size == 4;
+    const bool solid = c.entry->solid();
     const LawRef law = solid ? LawRef(static_cast<const SolidLaw*>(&solid_law))
                              : LawRef(static_cast<const InterfaceLaw*>(&interface_law));
     const Eigen::Matrix2Xd ends = (Eigen::Matrix2Xd(2, 2) << 1.0, 2.0, 0.0, 0.0).finished();

@@ -4,6 +4,11 @@
 
 #include <functional>
 
+#include "materials/linear_elastic.hpp"
+#include "materials/parameters.hpp"
+#include "sage/app/commands.hpp"
+#include "sage/deck/read_deck.hpp"
+#include "sage/model/build_model.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {
@@ -62,6 +67,42 @@ TEST_P(Plausible, IsTold) {
   const std::string said = messages(deck);
   EXPECT_NE(said.find(GetParam().says), std::string::npos) << "expected \"" << GetParam().says << "\" in\n"
                                                            << said;
+}
+
+// The checks know parameters by their roles: a law of other words and another order is judged as the rest.
+TEST(PlausibleRoles, AreSeenInALawThatTheProgramDoesNotKnow) {
+  Catalogue catalogue = app::full_catalogue();
+  catalogue.materials.add(50,
+                          {"mine",
+                           "a law of the user's own",
+                           4,
+                           {required("own_weight", Dimension::unit_weight, "", ParameterRole::unit_weight),
+                            required("grip", Dimension::stress, "", ParameterRole::strength),
+                            required("slope", Dimension::angle, "", ParameterRole::friction_angle),
+                            required("ratio", Dimension::none, "", ParameterRole::poissons_ratio),
+                            required("stiffness", Dimension::stress, "", ParameterRole::youngs_modulus)},
+                           [](std::span<const double> values, const UnitSystem&) -> LawPtr {
+                             return std::make_unique<LinearElastic>(moduli_from_young(values[4], values[3]));
+                           }});
+  const auto said = [&](const std::vector<double>& values) {
+    DeckWriter deck = sound();
+    deck.materials.clear();
+    deck.material(1, 50, values, 20.0);
+    const Model model = build_model(read_deck_text(deck.text(), "mine.dat", load_layout("sage1")), catalogue);
+    std::string text;
+    for (const Diagnostic& d : model.diagnostics.list()) text += d.message + "\n";
+    return text;
+  };
+  EXPECT_EQ(said({18.0, 10.0, 30.0, 0.3, 1e4}), "");
+  EXPECT_EQ(said({-18.0, 2e4, 0.5, -0.1, 1e4}),
+            "material 1: Poisson's ratio is negative, -0.1\n"
+            "material 1: the friction angle is 0.5 degrees; was it meant in radians, 28.6479 degrees?\n"
+            "material 1: own_weight, -18, is a negative unit weight\n"
+            "material 1: grip, 20000, exceeds the material's modulus, 10000\n");
+  const std::string soft = said({18.0, 10.0, 30.0, 0.3, 15.0});
+  EXPECT_NE(soft.find("the weight of a column as high as the mesh, 40, exceeds its modulus, 15"),
+            std::string::npos)
+      << soft;
 }
 
 TEST(PlausibleDeck, HasNothingToSay) {

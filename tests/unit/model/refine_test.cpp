@@ -57,7 +57,7 @@ DeckWriter block_deck(Cell cell = Cell::quad4, int geometry = 1) {
 void expect_conforming(const Model& model, double width, double height) {
   std::map<std::set<int>, int> uses;
   for (const Group& group : model.groups)
-    for (int e = 0; group.element->traits().law_size == 4 && e < group.elements(); ++e)
+    for (int e = 0; group.solid() && e < group.elements(); ++e)
       for (const auto& edge : group.element->edges()) {
         std::set<int> nodes;
         for (int local : edge) nodes.insert(group.nodes_of(e)[local]);
@@ -88,7 +88,7 @@ double area(const Model& model) {
   for (const Group& group : model.groups) {
     const ElementTraits& t = group.element->traits();
     geometry.resize(static_cast<std::size_t>(t.geometry_size()));
-    for (int e = 0; t.law_size == 4 && e < group.elements(); ++e) {
+    for (int e = 0; group.solid() && e < group.elements(); ++e) {
       element_coordinates(model.mesh, group, e, x);
       group.element->geometry(x, geometry);
       for (int p = 0; p < t.points; ++p) sum += geometry[static_cast<std::size_t>(p * (1 + 4 * t.dofs))];

@@ -29,7 +29,7 @@ struct Sheet {
     model.units = {"m", "kN", "kPa", 101.325, 9.81};
     model.materials.resize(1);
     Group group;
-    group.element = element.make();
+    set_element(group, test::element_catalogue(), element.code, element.formulation, element.geometry);
     model.mesh.x.resize(2, nodes * static_cast<Eigen::Index>(shapes.size()));
     for (std::size_t e = 0; e < shapes.size(); ++e) {
       model.mesh.x.middleCols(static_cast<Eigen::Index>(e) * nodes, nodes) = shapes[e];
@@ -130,7 +130,7 @@ Box box_of(const std::vector<Polygon>& polygons) {
 std::vector<Eigen::Matrix2Xd> parallelogram(const ElementEntry& entry) {
   Eigen::Matrix2Xd corners(2, 4);
   corners << 0.0, 1.0, 1.3, 0.3, 0.0, 0.0, 1.0, 1.0;
-  if (entry.corners == 4) return {test::straight_element(entry, corners)};
+  if (entry.square()) return {test::straight_element(entry, corners)};
   return {test::straight_element(entry, corners(Eigen::all, std::vector<int>{0, 1, 2})),
           test::straight_element(entry, corners(Eigen::all, std::vector<int>{0, 2, 3}))};
 }
@@ -199,7 +199,7 @@ TEST(PictureBands, RoundingAboutALimitIsOneColour) {
 // |u| of u = (x, 0) is |x|: 0 in the middle and 1 at all corners of a four-node square.
 TEST(PictureBands, LengthOfAVectorIsFoundBetweenTheNodes) {
   for (const ElementCase& element : test::solid_cases()) {
-    if (element.entry->corners != 4) continue;
+    if (!element.entry->square()) continue;
     SCOPED_TRACE(element.name);
     Eigen::Matrix2Xd corners(2, 4);
     corners << -1.0, 1.0, 1.0, -1.0, -1.0, -1.0, 1.0, 1.0;
@@ -220,7 +220,7 @@ TEST(PictureBands, LengthOfAVectorIsFoundBetweenTheNodes) {
 // Nodes on y = x^2 / 4 along the lower side: elements of degree 2 and more draw that parabola, not its chord.
 TEST(PictureBands, SidesAreCurvedWhereTheElementIs) {
   for (const ElementCase& element : test::solid_cases()) {
-    if (element.make()->degree() < 2 || element.entry->corners != 4) continue;
+    if (element.make()->degree() < 2 || !element.entry->square()) continue;
     SCOPED_TRACE(element.name);
     Eigen::Matrix2Xd x = test::parent_nodes(*element.entry);
     for (Eigen::Index i = 0; i < x.cols(); ++i) x(1, i) += 0.25 * x(0, i) * x(0, i) * 0.5 * (1.0 - x(1, i));

@@ -35,6 +35,7 @@ Material material(const Catalogue& catalogue, int number, const std::string& law
   m.name = law + " here";
   m.law_name = law;
   m.code = code_of(catalogue.materials, law);
+  m.entry = catalogue.materials.share(m.code);
   m.parameters = std::move(parameters);
   m.law = catalogue.materials.find(m.code)->make(m.parameters, {});
   return m;
@@ -45,9 +46,8 @@ Group group(const Catalogue& catalogue, int number, const std::string& element, 
   Group g;
   g.number = number;
   g.name = element == "quad4" ? "specimen" : "end";
-  g.element_code = code_of(catalogue.elements, element);
+  set_element(g, catalogue, code_of(catalogue.elements, element), 1, geometry);
   g.element_name = element;
-  g.element = catalogue.elements.find(g.element_code)->make(geometry, 1);
   g.material = material;
   g.element_numbers = std::move(numbers);
   g.nodes = std::move(nodes);

@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "sage/core/error.hpp"
@@ -147,20 +148,26 @@ TEST_F(VtuReadBack, LeavesOutGroupsThatAreNotActive) {
 // One element of every solid shape and interface: VTK's types by meshio's names.
 TEST_F(VtuReadBack, KnowsEveryShape) {
   const auto folder = fresh_folder("vtu_shapes");
-  const std::pair<int, const char*> shapes[] = {{1, "quad"},      {2, "quad8"}, {3, "triangle"},
-                                                {4, "triangle6"}, {5, "quad9"}, {6, "VTK_LAGRANGE_TRIANGLE"},
-                                                {11, "quad"},     {12, "quad"}};
-  for (const auto& [code, name] : shapes) {
+  const std::map<int, const char*> names{{5, "triangle"},
+                                         {9, "quad"},
+                                         {22, "triangle6"},
+                                         {23, "quad8"},
+                                         {28, "quad9"},
+                                         {69, "VTK_LAGRANGE_TRIANGLE"},
+                                         {70, "VTK_LAGRANGE_QUADRILATERAL"}};
+  const Specimen all;
+  for (const auto& [code, of_catalogue] : all.catalogue.elements.entries()) {
+    const char* const name = names.at(of_catalogue.vtk.type);
     Specimen base;
     Model model;
     model.units = base.model.units;
     const ElementEntry* entry = base.catalogue.elements.find(code);
     ASSERT_NE(entry, nullptr) << code;
-    const bool solid = entry->law_size == 4;
+    const bool solid = entry->solid();
     model.materials.push_back(std::move(base.model.materials[solid ? 0 : 1]));
     Group group;
     group.number = 1;
-    group.element = entry->make(Geometry::plane_strain, 0);
+    set_element(group, base.catalogue, code, 0, Geometry::plane_strain);
     group.element_numbers = {1};
     model.mesh.x = test::sample_shape(*entry);
     for (int i = 0; i < entry->nodes; ++i) {
