@@ -56,7 +56,7 @@ bool Locator::inside(const Box& box, const Vector2& place, Location& found) cons
   std::vector<double>& N = found.N;
   N.resize(nodes);
   std::vector<double> dN(2 * nodes);
-  const bool triangle = group.element->edges().size() == 3;
+  const bool triangle = group.entry->triangle();
   Vector2 q = triangle ? Vector2(1.0 / 3.0, 1.0 / 3.0) : Vector2(0.0, 0.0);
   for (int step = 0; step < kSteps; ++step) {
     if (!group.element->shape_functions(q, N, dN)) return false;
@@ -86,7 +86,7 @@ double Locator::nearest(const Box& box, const Vector2& place, Location& found) c
   const auto nodes = static_cast<std::size_t>(x.cols());
   std::vector<double> N(nodes), dN(2 * nodes);
   double least = std::numeric_limits<double>::infinity();
-  const std::vector<Vector2> corners = parent_corners(group.element->edges().size() == 3);
+  const std::vector<Vector2> corners = parent_corners(group.entry->triangle());
   for (std::size_t side = 0; side < corners.size(); ++side) {
     const Vector2 from = corners[side], along = corners[(side + 1) % corners.size()] - from;
     double t = 0.5;
