@@ -30,7 +30,7 @@ std::string unknown_solver(const std::string& name) {
   return {};
 }
 
-study::Workbench make_workbench() {
+scenes::Workbench make_workbench() {
   return {full_catalogue(), choose_solver};
 }
 

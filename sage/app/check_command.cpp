@@ -9,7 +9,7 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
-#include "sage/output/values.hpp"
+#include "sage/record/values.hpp"
 
 namespace sage::app {
 

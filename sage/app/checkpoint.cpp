@@ -6,7 +6,7 @@
 #include <system_error>
 
 #include "sage/core/archive.hpp"
-#include "sage/output/out_file.hpp"
+#include "sage/record/out_file.hpp"
 
 namespace sage::app {
 

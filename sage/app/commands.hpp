@@ -6,7 +6,7 @@
 #include <string>
 
 #include "sage/core/catalogue.hpp"
-#include "sage/study/whole_run.hpp"
+#include "sage/scenes/whole_run.hpp"
 
 namespace sage::app {
 
@@ -21,7 +21,7 @@ int solver_code(const Catalogue& catalogue, const std::string& name);
 std::string unknown_solver(const std::string& name);
 
 // The same, to run decks that the program writes itself.
-study::Workbench make_workbench();
+scenes::Workbench make_workbench();
 
 // Does the work; what it throws goes to standard error, and its kind into the exit code.  `name` stands before
 // messages that name no place in a file.

@@ -12,7 +12,7 @@
 #include "sage/compare/comparison.hpp"
 #include "sage/compare/pair_picture.hpp"
 #include "sage/model/locate.hpp"
-#include "sage/output/out_file.hpp"
+#include "sage/record/out_file.hpp"
 #include "solvers/choose_solver.hpp"
 
 namespace sage::app {

@@ -14,18 +14,18 @@
 #include <optional>
 
 #include "sage/app/exit_codes.hpp"
-#include "sage/output/discretisation.hpp"
-#include "sage/output/out_file.hpp"
-#include "sage/output/report_components.hpp"
-#include "sage/output/values.hpp"
-#include "sage/study/convergence.hpp"
+#include "sage/judge/convergence.hpp"
+#include "sage/record/discretisation.hpp"
+#include "sage/record/out_file.hpp"
+#include "sage/record/report_components.hpp"
+#include "sage/record/values.hpp"
 
 namespace sage::app {
 
 namespace {
 
-using study::Ladder;
-using study::Limit;
+using judge::Ladder;
+using judge::Limit;
 
 // One mesh of the ladder as options of the model builder, and as a user would ask for it.
 struct Rung {
@@ -135,7 +135,7 @@ class Follower {
   std::size_t meshes() const { return quantities_.empty() ? 0 : quantities_.front().values.size(); }
   // The one that the table shows.
   const Quantity& shown() const { return quantities_[shown_]; }
-  Limit shown_limit() const { return study::limit_of(shown().values, ladder_); }
+  Limit shown_limit() const { return judge::limit_of(shown().values, ladder_); }
   // Whether a mesh (from 1) is as certain as asked, later ones considered.
   bool certain(std::size_t mesh) const { return enough(worst(mesh)); }
   // The mesh (from 1) whose least certain quantity is the most certain.
@@ -234,7 +234,7 @@ std::string Follower::why_left_out(std::size_t i) const {
   const std::string beside =
       fmt::format("{:.3g} beside {:.3g} in its report", q.values.back(), q.largest.back());
   if (share <= least) return fmt::format("{}, less than {:.1g} of it", beside, least);
-  const double error = relative(study::limit_of(q.values, ladder_));
+  const double error = relative(judge::limit_of(q.values, ladder_));
   if (share <= kSmall && !(error < kCertain)) return beside + ", as small as the error of the mesh";
   const std::size_t n = q.values.size();
   const bool falls = n >= 3 && std::abs(q.values[n - 1]) < std::abs(q.values[n - 2]) &&
@@ -247,7 +247,7 @@ double Follower::worst(std::size_t mesh) const {
   double worst = 0.0;
   for (std::size_t i = 0; i < quantities_.size(); ++i)
     if (why_left_out(i).empty())
-      worst = std::max(worst, relative(study::limit_after(quantities_[i].values, mesh, ladder_)));
+      worst = std::max(worst, relative(judge::limit_after(quantities_[i].values, mesh, ladder_)));
   return worst;
 }
 
@@ -268,7 +268,7 @@ std::string Follower::result() const {
   std::string text;
   for (std::size_t i = 0; i < quantities_.size(); ++i) {
     if (!why_left_out(i).empty()) continue;
-    const Limit limit = study::limit_after(quantities_[i].values, mesh, ladder_);
+    const Limit limit = judge::limit_after(quantities_[i].values, mesh, ladder_);
     text += (text.empty() ? "result    " : "; ") + quantities_[i].name + " ";
     text += std::isfinite(limit.error) ? with_error(limit.value, limit.error)
                                        : fmt::format("{:.6g}, error unknown", limit.value);
@@ -282,7 +282,7 @@ std::vector<ConvergedValue> Follower::values() const {
   std::vector<ConvergedValue> all;
   const std::size_t mesh = best();
   const auto add = [&](const Quantity& q, bool decides) {
-    const Limit limit = study::limit_after(q.values, mesh, ladder_);
+    const Limit limit = judge::limit_after(q.values, mesh, ladder_);
     if (decides || std::isfinite(limit.error))
       all.push_back({q.name, limit.value, limit.error, !decides || enough(relative(limit))});
   };
@@ -604,7 +604,7 @@ void add_converge_options(CLI::App& parser, ConvergeOptions& options, const std:
   parser
       .add_option("--converge", options.tolerance,
                   "finer and finer meshes until the reports are certain to this relative error, e.g. 1e-5")
-      ->check(number_in(study::kLeastError, 0.5, "a relative error from 1e-10 to 0.5"));
+      ->check(number_in(judge::kLeastError, 0.5, "a relative error from 1e-10 to 0.5"));
   parser.add_option(
       "--follow", options.follow,
       "with --converge: the number that must be certain, as report1.fy (may be given more than once; "

@@ -9,10 +9,10 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
-#include "sage/model/msh_model.hpp"
-#include "sage/output/convert.hpp"
-#include "sage/output/out_file.hpp"
-#include "sage/output/values.hpp"
+#include "sage/exchange/convert.hpp"
+#include "sage/exchange/msh_model.hpp"
+#include "sage/record/out_file.hpp"
+#include "sage/record/values.hpp"
 
 namespace sage::app {
 

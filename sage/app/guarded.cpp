@@ -6,7 +6,7 @@
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
 #include "sage/core/error.hpp"
-#include "sage/output/out_file.hpp"
+#include "sage/record/out_file.hpp"
 
 namespace sage::app {
 

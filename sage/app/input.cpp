@@ -12,7 +12,7 @@
 
 #include "sage/app/commands.hpp"
 #include "sage/deck/read_deck.hpp"
-#include "sage/output/out_file.hpp"
+#include "sage/record/out_file.hpp"
 
 namespace sage::app {
 

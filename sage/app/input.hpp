@@ -5,9 +5,9 @@
 #include <functional>
 #include <string>
 
+#include "sage/build/build_model.hpp"
 #include "sage/core/catalogue.hpp"
 #include "sage/deck/deck.hpp"
-#include "sage/model/build_model.hpp"
 
 namespace sage::app {
 

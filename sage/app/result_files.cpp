@@ -16,7 +16,7 @@
 #include <utility>
 
 #include "sage/deck/source.hpp"
-#include "sage/output/values.hpp"
+#include "sage/record/values.hpp"
 
 namespace sage::app {
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sage/output/out_file.hpp"
+#include "sage/record/out_file.hpp"
 
 namespace sage::app {
 

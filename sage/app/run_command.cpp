@@ -11,8 +11,8 @@
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/interrupt.hpp"
 #include "sage/app/run_deck.hpp"
-#include "sage/output/out_file.hpp"
-#include "sage/output/picture.hpp"
+#include "sage/draw/picture.hpp"
+#include "sage/record/out_file.hpp"
 
 namespace sage::app {
 

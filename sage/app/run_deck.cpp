@@ -13,11 +13,11 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/interrupt.hpp"
+#include "sage/draw/picture.hpp"
 #include "sage/model/fingerprint.hpp"
-#include "sage/output/csv.hpp"
-#include "sage/output/picture.hpp"
-#include "sage/output/progress.hpp"
-#include "sage/output/vtu.hpp"
+#include "sage/record/csv.hpp"
+#include "sage/record/progress.hpp"
+#include "sage/record/vtu.hpp"
 #include "solvers/choose_solver.hpp"
 
 namespace sage::app {

@@ -7,9 +7,9 @@
 #include "sage/analysis/run.hpp"
 #include "sage/app/input.hpp"
 #include "sage/app/result_files.hpp"
-#include "sage/output/listing.hpp"
-#include "sage/output/report.hpp"
-#include "sage/output/summary.hpp"
+#include "sage/record/listing.hpp"
+#include "sage/record/report.hpp"
+#include "sage/record/summary.hpp"
 
 namespace sage::app {
 

@@ -7,7 +7,7 @@
 
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
-#include "sage/output/out_file.hpp"
+#include "sage/record/out_file.hpp"
 #include "sage/stress/report.hpp"
 
 namespace sage::app {
@@ -38,7 +38,7 @@ int run_rows(const StressOptions& options) {
       return std::find(options.only.begin(), options.only.end(), row.name) == options.only.end();
     });
   if (options.list) return list_rows(rows);
-  const study::Workbench bench = make_workbench();
+  const scenes::Workbench bench = make_workbench();
   std::vector<stress::RowResult> results;
   int failed = 0;
   fmt::print("{}", stress::heading());

@@ -9,7 +9,7 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/core/error.hpp"
-#include "sage/output/out_file.hpp"
+#include "sage/record/out_file.hpp"
 #include "sage/verify/book.hpp"
 
 namespace sage::app {
@@ -63,7 +63,7 @@ int run_book(const VerifyOptions& options) {
   OutFile csv, written;  // opened first: an unwritable folder shows before anything is computed
   if (!options.csv.empty()) csv = OutFile(options.csv);
   if (!options.write.empty()) written = OutFile(options.write);
-  const study::Workbench bench = make_workbench();
+  const scenes::Workbench bench = make_workbench();
   std::vector<Chapter> chapters;
   int cases = 0, rows = 0, failing = 0;
   double seconds = 0.0;

@@ -9,7 +9,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "sage/output/values.hpp"
+#include "sage/record/values.hpp"
 
 namespace sage::compare {
 

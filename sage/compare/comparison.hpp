@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "sage/compare/theory.hpp"
-#include "sage/output/number.hpp"
-#include "sage/output/sampler.hpp"
+#include "sage/record/number.hpp"
+#include "sage/record/sampler.hpp"
 
 namespace sage::compare {
 

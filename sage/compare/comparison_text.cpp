@@ -4,9 +4,9 @@
 #include <iterator>
 
 #include "sage/compare/comparison.hpp"
-#include "sage/output/discretisation.hpp"
-#include "sage/output/number.hpp"
-#include "sage/output/values.hpp"
+#include "sage/record/discretisation.hpp"
+#include "sage/record/number.hpp"
+#include "sage/record/values.hpp"
 
 namespace sage::compare {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "sage/output/svg.hpp"
+#include "sage/draw/svg.hpp"
 
 namespace sage::compare {
 

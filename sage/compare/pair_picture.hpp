@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sage/compare/side.hpp"
-#include "sage/output/picture.hpp"
+#include "sage/draw/picture.hpp"
 
 namespace sage::compare {
 

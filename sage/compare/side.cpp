@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "sage/analysis/shown_status.hpp"
-#include "sage/output/values.hpp"
+#include "sage/record/values.hpp"
 
 namespace sage::compare {
 

@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "sage/analysis/run.hpp"
-#include "sage/output/kept_state.hpp"
-#include "sage/output/report.hpp"
-#include "sage/output/summary.hpp"
+#include "sage/record/kept_state.hpp"
+#include "sage/record/report.hpp"
+#include "sage/record/summary.hpp"
 
 namespace sage::compare {
 

@@ -3,14 +3,14 @@
 
 #include <cmath>
 
+#include "sage/scenes/scenes.hpp"
 #include "sage/stress/row.hpp"
-#include "sage/study/scenes.hpp"
 
 namespace sage::stress {
 
 namespace {
 
-using namespace study;
+using namespace scenes;
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;

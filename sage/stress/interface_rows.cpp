@@ -3,15 +3,15 @@
 
 #include <cmath>
 
+#include "sage/scenes/lame.hpp"
+#include "sage/scenes/scenes.hpp"
 #include "sage/stress/row.hpp"
-#include "sage/study/lame.hpp"
-#include "sage/study/scenes.hpp"
 
 namespace sage::stress {
 
 namespace {
 
-using namespace study;
+using namespace scenes;
 
 constexpr double kUnit = 0.5 * std::numeric_limits<double>::epsilon();
 

@@ -6,15 +6,15 @@
 #include <numeric>
 #include <random>
 
+#include "sage/scenes/scenes.hpp"
+#include "sage/scenes/specimen_deck.hpp"
 #include "sage/stress/row.hpp"
-#include "sage/study/scenes.hpp"
-#include "sage/study/specimen_deck.hpp"
 
 namespace sage::stress {
 
 namespace {
 
-using namespace study;
+using namespace scenes;
 
 // Free of units: platen force of every increment, displacements of the specimen at the end, iterations.
 struct Answer {

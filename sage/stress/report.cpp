@@ -6,8 +6,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "sage/output/number.hpp"
-#include "sage/output/plot.hpp"
+#include "sage/draw/plot.hpp"
+#include "sage/record/number.hpp"
 
 namespace sage::stress {
 

@@ -39,7 +39,7 @@ double Trial::digits_lost() const {
 
 bool Ran::finite() const {
   if (!run) return true;
-  for (const study::Snapshot& s : run->increments)
+  for (const scenes::Snapshot& s : run->increments)
     if (!s.u.allFinite() || !s.internal.allFinite()) return false;
   return std::all_of(run->stress.begin(), run->stress.end(), [](const auto& s) { return s.allFinite(); });
 }
@@ -131,7 +131,7 @@ double RowResult::worst_digits() const {
   return worst;
 }
 
-RowResult evaluate(const Row& row, const study::Workbench& bench) {
+RowResult evaluate(const Row& row, const scenes::Workbench& bench) {
   const auto start = std::chrono::steady_clock::now();
   Sweep sweep(bench);
   RowResult result;

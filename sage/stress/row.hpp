@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sage/study/whole_run.hpp"
+#include "sage/scenes/whole_run.hpp"
 
 namespace sage::stress {
 
@@ -31,8 +31,8 @@ struct Trial {
 
 // What came of a deck: a finished or stopped run, or a refusal.
 struct Ran {
-  std::optional<study::WholeRun> run;  // none = the input was refused
-  std::string refusal;                 // every message of the refusal
+  std::optional<scenes::WholeRun> run;  // none = the input was refused
+  std::string refusal;                  // every message of the refusal
   bool completed() const { return run && run->completed(); }
   bool finite() const;  // of all increments; true where nothing was computed
   // All that the program said: notes, warnings, errors, the page about a failure.
@@ -42,7 +42,7 @@ struct Ran {
 // What a row's function works with.
 class Sweep {
  public:
-  explicit Sweep(const study::Workbench& bench) : bench_(&bench) {}
+  explicit Sweep(const scenes::Workbench& bench) : bench_(&bench) {}
 
   // InputError and AnalysisError become a refusal; whatever else is thrown ends the row as a failure.
   Ran run(const std::string& deck, const BuildOptions& options = {}, const RunSettings& settings = {}) const;
@@ -64,7 +64,7 @@ class Sweep {
 
  private:
   Trial& add(const std::string& label, double parameter);
-  const study::Workbench* bench_;
+  const scenes::Workbench* bench_;
 };
 
 struct Row {
@@ -96,6 +96,6 @@ struct RowResult {
   double worst_digits() const;  // lost, of all trials; NaN = none measured
 };
 
-RowResult evaluate(const Row& row, const study::Workbench& bench);
+RowResult evaluate(const Row& row, const scenes::Workbench& bench);
 
 }  // namespace sage::stress

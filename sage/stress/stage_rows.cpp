@@ -3,16 +3,16 @@
 
 #include <cmath>
 
+#include "sage/scenes/lame.hpp"
+#include "sage/scenes/scenes.hpp"
+#include "sage/scenes/specimen_deck.hpp"
 #include "sage/stress/row.hpp"
-#include "sage/study/lame.hpp"
-#include "sage/study/scenes.hpp"
-#include "sage/study/specimen_deck.hpp"
 
 namespace sage::stress {
 
 namespace {
 
-using namespace study;
+using namespace scenes;
 
 constexpr double kWeight = 20.0, kE = 1e4, kNu = 0.3;
 

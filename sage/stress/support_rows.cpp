@@ -1,14 +1,14 @@
 // Parts that nothing holds: rigid motions, islands, blocks behind open joints.
 #include <fmt/format.h>
 
+#include "sage/scenes/scenes.hpp"
 #include "sage/stress/row.hpp"
-#include "sage/study/scenes.hpp"
 
 namespace sage::stress {
 
 namespace {
 
-using namespace study;
+using namespace scenes;
 
 // A block of 2 x 2 unit cells with given supports: node, x code, y code.
 struct Support {

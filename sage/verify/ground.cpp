@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sage/study/scenes.hpp"
+#include "sage/scenes/scenes.hpp"
 #include "sage/verify/cases.hpp"
 #include "sage/verify/fields.hpp"
 

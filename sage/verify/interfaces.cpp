@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "sage/core/point_driver.hpp"
-#include "sage/study/scenes.hpp"
+#include "sage/scenes/scenes.hpp"
 #include "sage/verify/cases.hpp"
 #include "sage/verify/fields.hpp"
 

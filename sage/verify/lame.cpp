@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sage/study/lame.hpp"
+#include "sage/scenes/lame.hpp"
 #include "sage/verify/cases.hpp"
 #include "sage/verify/fields.hpp"
 

@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "sage/study/deck_writer.hpp"
-#include "sage/study/whole_run.hpp"
+#include "sage/scenes/deck_writer.hpp"
+#include "sage/scenes/whole_run.hpp"
 
 namespace sage::verify {
 
-using namespace sage::study;
+using namespace sage::scenes;
 
 enum class Where { plane_strain, axisymmetric, point };
 const char* name_of(Where where);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "sage/output/plot.hpp"
+#include "sage/draw/plot.hpp"
 #include "sage/verify/book.hpp"
 
 namespace sage::verify {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "sage/study/scenes.hpp"
+#include "sage/scenes/scenes.hpp"
 #include "sage/verify/cases.hpp"
 #include "sage/verify/fields.hpp"
 

@@ -4,16 +4,16 @@
 #include <cmath>
 #include <sstream>
 
-#include "sage/study/deck_writer.hpp"
+#include "sage/scenes/deck_writer.hpp"
 #include "tests/regression/program.hpp"
 
 namespace sage::test {
 namespace {
 
 namespace fs = std::filesystem;
-using study::Block;
-using study::Cell;
-using study::DeckWriter;
+using scenes::Block;
+using scenes::Cell;
+using scenes::DeckWriter;
 
 // Half of a flexible strip of half width 1 on clay, c = 1, phi = 0: collapse at 2 + pi (Prandtl).
 struct Footing {
@@ -49,7 +49,7 @@ struct Footing {
     for (int n : block.bottom()) deck.fix(n, 1, 1);
     for (int n : block.left()) deck.fix(n, 1, 0);
     for (int n : block.right()) deck.fix(n, 1, 0);
-    study::StageCards& stage = deck.stage(increments);
+    scenes::StageCards& stage = deck.stage(increments);
     stage.method = method;
     stage.max_iterations = iterations;
     stage.tolerance = tolerance;

@@ -6,7 +6,7 @@
 #include <map>
 #include <sstream>
 
-#include "sage/study/scenes.hpp"
+#include "sage/scenes/scenes.hpp"
 #include "tests/regression/program.hpp"
 
 namespace sage::test {
@@ -45,7 +45,7 @@ void expect_held(double value, double error, double known, double reference, con
 // Flexible load q = 1 on a half-width (radius) of 1, E = 1, nu = .3, box of 5 x 5 with a fixed base and rollers
 // at the sides: settlement of the centre in both geometries by an independent hp solution (eight digits).
 std::string flexible_load() {
-  study::DeckWriter deck(1);
+  scenes::DeckWriter deck(1);
   const double x[] = {0.0, 1.0, 2.5, 5.0}, y[] = {0.0, 2.5, 4.0, 5.0};
   for (int j = 0; j < 4; ++j)
     for (int i = 0; i < 4; ++i) deck.node(4 * j + i + 1, x[i], y[j]);
@@ -97,8 +97,8 @@ TEST(CompareConverge, SettlementsOfBothGeometriesHoldTheTrueValues) {
 // - 2 nu)/(1 - nu); a ring, u = A r + B/r with u(2) = 0 and sigma_r(1) = -p (Lame).
 TEST(CompareConverge, SlabAndThickRingHoldTheClosedForms) {
   for (const double nu : {0.3, 0.495}) {
-    study::DeckWriter deck(2);
-    const study::Block block{2, 1, study::Cell::quad4, 1, 1, study::rectangle(1.0, 2.0, 0.0, 1.0)};
+    scenes::DeckWriter deck(2);
+    const scenes::Block block{2, 1, scenes::Cell::quad4, 1, 1, scenes::rectangle(1.0, 2.0, 0.0, 1.0)};
     block.write_nodes(deck);
     deck.material(1, 1, {1.0, nu});
     deck.group(1, 1, 1, 1);
@@ -127,8 +127,8 @@ TEST(CompareConverge, SlabAndThickRingHoldTheClosedForms) {
 // The restrained cylinder, L/D = 1, nu = .495: 1.190558066 (two independent hp solutions,
 // docs/theory/accuracy.md). Theory knows the deviators of frictionless ends; those are certain too.
 TEST(CompareConverge, RestrainedCylinderBesideItsStrip) {
-  const study::RestrainedCylinder scene{1.0, 0.495, study::Cell::quad4, 2, 2, 2, 1.0};
-  study::DeckWriter deck = scene.between_rough_platens(0.01);
+  const scenes::RestrainedCylinder scene{1.0, 0.495, scenes::Cell::quad4, 2, 2, 2, 1.0};
+  scenes::DeckWriter deck = scene.between_rough_platens(0.01);
   const std::vector<int> end = scene.block().top();
   deck.triaxial_report(1, end.front(), end.back(), 1, 1.0);
   const fs::path folder = empty_folder("compare_cylinder");
@@ -146,15 +146,15 @@ TEST(CompareConverge, RestrainedCylinderBesideItsStrip) {
 
 // A uniform body: theory's ratio of the forces lies within the error of the one that was found.
 TEST(CompareConverge, TheoryStandsBesideTheRatioAndItsError) {
-  study::DeckWriter deck(2);
-  const study::Block block{2, 3, study::Cell::quad4, 1, 1, study::rectangle(0.0, 1.0, 0.0, 2.0)};
+  scenes::DeckWriter deck(2);
+  const scenes::Block block{2, 3, scenes::Cell::quad4, 1, 1, scenes::rectangle(0.0, 1.0, 0.0, 2.0)};
   block.write_nodes(deck);
   deck.material(1, 1, {3000.0, 0.3});
   deck.group(1, 1, 0, 1);
   block.write_elements(deck, 1);
   for (int node : block.bottom()) deck.fix(node, 0, 1);
   for (int node : block.left()) deck.fix(node, 1, 0);
-  study::StageCards& stage = deck.stage();
+  scenes::StageCards& stage = deck.stage();
   for (int node : block.top()) stage.fix(node, 0, 1, 0.0, -0.02);
   deck.reports.push_back("    2    0   10   12    1    1");
   const fs::path folder = empty_folder("compare_uniform");

@@ -13,7 +13,7 @@
 
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
-#include "sage/study/scenes.hpp"
+#include "sage/scenes/scenes.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace sage::app {
@@ -28,9 +28,9 @@ fs::path scratch() {
 // Quarter of the restrained cylinder, a = 1, E = 1, strain 1 %: columns x rows quadrilaterals.  Converged
 // ratios: two independent hp solutions (docs/theory/accuracy.md).
 std::string cylinder(int columns, int rows, double slenderness, double nu, int formulation = 2) {
-  const study::RestrainedCylinder scene{slenderness, nu, study::Cell::quad4, formulation, columns, rows, 1.0};
+  const scenes::RestrainedCylinder scene{slenderness, nu, scenes::Cell::quad4, formulation, columns, rows, 1.0};
   const std::vector<int> end = scene.block().top();
-  study::DeckWriter deck = scene.between_rough_platens(0.01);
+  scenes::DeckWriter deck = scene.between_rough_platens(0.01);
   deck.triaxial_report(1, end.front(), end.back(), 1, slenderness);
   return deck.text();
 }
@@ -128,7 +128,7 @@ TEST(Converge, HalvedMeshesHoldTheTrueValue) {
 // load ends.
 TEST(Converge, DisplacementOfANodeUnderAPressure) {
   for (const auto& [geometry, settlement] : {std::pair{1, 2.3855905}, {2, 1.5561672}}) {
-    study::DeckWriter deck(geometry);
+    scenes::DeckWriter deck(geometry);
     const double x[] = {0.0, 1.0, 2.5, 5.0}, y[] = {0.0, 2.5, 4.0, 5.0};
     for (int j = 0; j < 4; ++j)
       for (int i = 0; i < 4; ++i) deck.node(4 * j + i + 1, x[i], y[j]);
@@ -161,8 +161,8 @@ TEST(Converge, DisplacementOfANodeUnderAPressure) {
 // certain). From one element the fourth mesh happens to agree with the third.
 TEST(Converge, CooksTipFromVeryFewElements) {
   for (const int n : {1, 2, 4}) {
-    const study::CookDeck scene{.n = n};
-    study::DeckWriter deck = scene.deck();
+    const scenes::CookDeck scene{.n = n};
+    scenes::DeckWriter deck = scene.deck();
     const int tip = scene.block().node(n, n);
     deck.reports.push_back(fmt::format("    2    0{0:5}{0:5}    1    1", tip));
     ConvergeOptions options;
@@ -184,8 +184,8 @@ TEST(Converge, CooksTipFromVeryFewElements) {
 TEST(Converge, LameFromVeryFewElements) {
   for (const double nu : {0.3, 0.495})
     for (const int n : {1, 2, 3}) {
-      study::DeckWriter deck(2);
-      const study::Block block{n, 1, study::Cell::quad4, 1, 1, study::rectangle(1.0, 2.0, 0.0, 1.0)};
+      scenes::DeckWriter deck(2);
+      const scenes::Block block{n, 1, scenes::Cell::quad4, 1, 1, scenes::rectangle(1.0, 2.0, 0.0, 1.0)};
       block.write_nodes(deck);
       deck.material(1, 1, {1.0, nu});
       deck.group(1, 1, 1, 1);
@@ -228,7 +228,7 @@ std::string text_of(const fs::path& path) {
 // that corner's reaction vanishes with its element.  fy of the whole end: -5.89405982 (an independent hp
 // solution).
 std::string l_shape() {
-  study::DeckWriter deck(1);
+  scenes::DeckWriter deck(1);
   const double x[] = {0, 1, 2, 0, 1, 2, 0, 1}, y[] = {0, 0, 0, 1, 1, 1, 2, 2};
   for (int i = 0; i < 8; ++i) deck.node(i + 1, x[i], y[i]);
   deck.material(1, 1, {1000.0, 0.3});
@@ -238,7 +238,7 @@ std::string l_shape() {
   deck.element(3, 1, {4, 5, 8, 7});
   for (const int i : {1, 2, 3}) deck.fix(i, 0, 1);
   for (const int i : {1, 4, 7}) deck.fix(i, 1, 0);
-  study::StageCards& stage = deck.stage();
+  scenes::StageCards& stage = deck.stage();
   stage.tolerance = 1e-10;
   for (const int i : {7, 8}) stage.fix(i, 0, 1, 0.0, -0.01);
   deck.reports.push_back("    2    0    7    8    1    1");
@@ -287,8 +287,8 @@ TEST(Converge, FollowsWhatIsNamed) {
 // Side by side: a strip 2 wide that is pulled along x by 1e-3 of what presses it along y.  1e-2 leaves the
 // small displacement out, and says so; 1e-5 does not.
 TEST(Converge, SmallComponentsAreLeftOutAndReported) {
-  study::DeckWriter deck(1);
-  const study::Block block{2, 2, study::Cell::quad4, 1, 1, study::rectangle(0.0, 2.0, 0.0, 1.0)};
+  scenes::DeckWriter deck(1);
+  const scenes::Block block{2, 2, scenes::Cell::quad4, 1, 1, scenes::rectangle(0.0, 2.0, 0.0, 1.0)};
   block.write_nodes(deck);
   deck.material(1, 1, {1000.0, 0.0});
   deck.group(1, 1, 2, 1);
@@ -318,15 +318,15 @@ TEST(Converge, SmallComponentsAreLeftOutAndReported) {
 // refined once and twice by hand, agree to 1e-9.
 TEST(Converge, FinerMeshesAreNotWorse) {
   const std::string path = write("plane", [] {
-    const study::Block block{2, 2, study::Cell::quad4, 1, 1, study::rectangle(0.0, 1.4, 0.0, 1.4)};
-    study::DeckWriter deck(1);
+    const scenes::Block block{2, 2, scenes::Cell::quad4, 1, 1, scenes::rectangle(0.0, 1.4, 0.0, 1.4)};
+    scenes::DeckWriter deck(1);
     block.write_nodes(deck);
     deck.material(1, 1, {3000.0, 0.495});
     deck.group(1, 1, 1, 1);
     block.write_elements(deck, 1);
     for (int node : block.bottom()) deck.fix(node, 0, 1);
     for (int node : block.left()) deck.fix(node, 1, 0);
-    study::StageCards& stage = deck.stage();
+    scenes::StageCards& stage = deck.stage();
     for (int node : block.top()) stage.fix(node, 1, 1, 0.0, -0.14);
     deck.triaxial_report(1, 7, 9, 1, 1.4);
     return deck.text();
@@ -365,15 +365,15 @@ TEST(Converge, AFineStructuredDeckStartsCoarse) {
 // One 8-node square between rough plates, all of its corners singular; its middle nodes pushed further, so that
 // they stay.  The small elements that grading makes at four corners were folded.
 TEST(Converge, OneEightNodeSquare) {
-  const study::Block block{1, 1, study::Cell::quad8, 1, 1, study::rectangle(0.0, 1.0, 0.0, 1.0)};
+  const scenes::Block block{1, 1, scenes::Cell::quad8, 1, 1, scenes::rectangle(0.0, 1.0, 0.0, 1.0)};
   for (const double middle : {0.01, 0.02}) {
-    study::DeckWriter deck(1);
+    scenes::DeckWriter deck(1);
     block.write_nodes(deck);
     deck.material(1, 1, {1000.0, 0.3});
     deck.group(1, 2, 1, 1);
     block.write_elements(deck, 1);
     for (int node : block.bottom()) deck.fix(node, 1, 1);
-    study::StageCards& stage = deck.stage();
+    scenes::StageCards& stage = deck.stage();
     const std::vector<int> top = block.top();
     for (int node : top) stage.fix(node, 1, 1, 0.0, node == top[1] ? -middle : -0.01);
     deck.reports.push_back(fmt::format("    2    0{:5}{:5}    1    1", top.front(), top.back()));
@@ -476,8 +476,8 @@ TEST(Converge, NoEquilibriumOnTheFirstMesh) {
 
 // A bar pressed at its top, symmetric about its middle: u_x of both ends of the top together is zero.
 TEST(Converge, WhatSymmetryMakesZeroIsLeftOut) {
-  const study::Block block{1, 2, study::Cell::quad4, 1, 1, study::rectangle(0.0, 1.0, 0.0, 2.0)};
-  study::DeckWriter deck(1);
+  const scenes::Block block{1, 2, scenes::Cell::quad4, 1, 1, scenes::rectangle(0.0, 1.0, 0.0, 2.0)};
+  scenes::DeckWriter deck(1);
   block.write_nodes(deck);
   deck.material(1, 1, {1000.0, 0.3});
   deck.group(1, 1, 2, 1);
@@ -497,7 +497,7 @@ TEST(Converge, WhatSymmetryMakesZeroIsLeftOut) {
 }
 
 TEST(Converge, NeedsAReport) {
-  study::DeckWriter deck(1);
+  scenes::DeckWriter deck(1);
   for (int i = 0; i < 4; ++i) deck.node(i + 1, i % 2, i / 2);
   deck.material(1, 1, {1.0, 0.3});
   deck.group(1, 1, 0, 1);

@@ -11,7 +11,7 @@
 #include <set>
 #include <sstream>
 
-#include "sage/study/specimen_deck.hpp"
+#include "sage/scenes/specimen_deck.hpp"
 #include "tests/regression/program.hpp"
 
 namespace sage::test {
@@ -23,7 +23,7 @@ constexpr const char* kOptions = "--nodes --points --vtu --picture stress_yy --t
 
 // A plastic specimen on a sliding interface, with a report.
 std::string deck_text(int increments = 30) {
-  study::SpecimenDeck deck;
+  scenes::SpecimenDeck deck;
   deck.columns = 4;
   deck.rows = 6;
   deck.increments = increments;

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <set>
 
-#include "sage/study/specimen_deck.hpp"
+#include "sage/scenes/specimen_deck.hpp"
 #include "tests/regression/program.hpp"
 
 namespace sage::test {
@@ -27,7 +27,7 @@ std::string block() {
 
 // A run of some seconds at least: it is stopped before its end.
 std::string long_deck() {
-  study::SpecimenDeck deck;
+  scenes::SpecimenDeck deck;
   deck.columns = 30;
   deck.rows = 60;
   deck.increments = 2000;
@@ -312,7 +312,7 @@ TEST(Files, OutOfMemoryIsOneLineAndACode) {
   GTEST_SKIP() << "the address sanitizer reserves more than any limit";
 #endif
   const fs::path folder = empty_folder("memory");
-  study::SpecimenDeck deck;
+  scenes::SpecimenDeck deck;
   deck.columns = 120;
   deck.rows = 240;
   deck.increments = 1;

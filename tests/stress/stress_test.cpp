@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "sage/app/commands.hpp"
+#include "sage/scenes/scenes.hpp"
 #include "sage/stress/report.hpp"
-#include "sage/study/scenes.hpp"
 
 namespace sage::stress {
 
@@ -18,10 +18,10 @@ void PrintTo(const Row& row, std::ostream* out) {
 
 namespace {
 
-using namespace study;
+using namespace scenes;
 
-const study::Workbench& bench() {
-  static const study::Workbench workbench = app::make_workbench();
+const scenes::Workbench& bench() {
+  static const scenes::Workbench workbench = app::make_workbench();
   return workbench;
 }
 

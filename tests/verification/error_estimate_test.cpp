@@ -9,8 +9,8 @@
 
 #include "sage/app/commands.hpp"
 #include "sage/deck/read_deck.hpp"
-#include "sage/output/discretisation.hpp"
-#include "sage/study/lame.hpp"
+#include "sage/record/discretisation.hpp"
+#include "sage/scenes/lame.hpp"
 #include "solvers/choose_solver.hpp"
 #include "tests/support/run_text.hpp"
 

@@ -3,7 +3,7 @@
 // promised.
 #include <gtest/gtest.h>
 
-#include "sage/study/scenes.hpp"
+#include "sage/scenes/scenes.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {

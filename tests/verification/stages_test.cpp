@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "sage/app/commands.hpp"
-#include "sage/output/report.hpp"
-#include "sage/study/scenes.hpp"
+#include "sage/record/report.hpp"
+#include "sage/scenes/scenes.hpp"
 #include "tests/support/run_text.hpp"
 #include "tests/support/scratch_folder.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "sage/app/commands.hpp"
-#include "sage/study/scenes.hpp"
+#include "sage/scenes/scenes.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {
@@ -29,7 +29,7 @@ struct JointedSpecimen {
     Block block;
     block.columns = 14;
     block.rows = 28;
-    block.place = study::rectangle(0.0, kRadius, 0.0, 2.8);
+    block.place = scenes::rectangle(0.0, kRadius, 0.0, 2.8);
     DeckWriter deck(2);
     deck.atmospheric_pressure = 14.696;
     deck.water_unit_weight = 0.036111;
@@ -161,8 +161,8 @@ TEST(InitialBalance, GroundAtRest) {
 TEST(InitialBalance, GroupsThatArePlacedLater) {
   for (const double weight : {20.0, 10.0}) {
     Block low, high;
-    low.place = study::rectangle(0.0, 1.0, 0.0, 1.0);
-    high.place = study::rectangle(0.0, 1.0, 1.0, 2.0);
+    low.place = scenes::rectangle(0.0, 1.0, 0.0, 1.0);
+    high.place = scenes::rectangle(0.0, 1.0, 1.0, 2.0);
     high.first_node = 3;
     high.first_element = 2;
     DeckWriter deck(1);

@@ -6,8 +6,8 @@
 #include "sage/analysis/dogleg.hpp"
 #include "sage/analysis/run.hpp"
 #include "sage/app/commands.hpp"
+#include "sage/build/build_model.hpp"
 #include "sage/deck/read_deck.hpp"
-#include "sage/model/build_model.hpp"
 #include "solvers/choose_solver.hpp"
 #include "tests/support/run_text.hpp"
 

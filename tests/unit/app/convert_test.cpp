@@ -9,17 +9,17 @@
 
 #include "sage/app/commands.hpp"
 #include "sage/app/run_deck.hpp"
-#include "sage/model/msh_model.hpp"
-#include "sage/output/convert.hpp"
-#include "sage/study/deck_writer.hpp"
+#include "sage/exchange/convert.hpp"
+#include "sage/exchange/msh_model.hpp"
+#include "sage/scenes/deck_writer.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace sage::app {
 namespace {
 
 namespace fs = std::filesystem;
-using study::DeckWriter;
-using study::StageCards;
+using scenes::DeckWriter;
+using scenes::StageCards;
 
 const std::string kInputs = SAGE_SOURCE_DIR "/legacy_inputs/";
 
@@ -343,7 +343,7 @@ TEST(Convert, CalculixFindsTheSameDisplacements) {
 
 // A column of two squares, nu = 0 and E = 1000: the force of 10 at its top shortens each square by 0.01.
 DeckWriter column() {
-  const study::Block block{1, 2, study::Cell::quad4, 1, 1, study::rectangle(0.0, 1.0, 0.0, 2.0)};
+  const scenes::Block block{1, 2, scenes::Cell::quad4, 1, 1, scenes::rectangle(0.0, 1.0, 0.0, 2.0)};
   DeckWriter deck(1);
   block.write_nodes(deck);
   deck.material(1, 1, {1000.0, 0.0});

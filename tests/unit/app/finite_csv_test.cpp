@@ -9,15 +9,15 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/run_deck.hpp"
-#include "sage/output/number.hpp"
-#include "sage/study/deck_writer.hpp"
+#include "sage/record/number.hpp"
+#include "sage/scenes/deck_writer.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace sage::app {
 namespace {
 
 namespace fs = std::filesystem;
-using study::DeckWriter;
+using scenes::DeckWriter;
 
 // A column of two quad4 between supports, its sides free or held; nodes 1 2 / 3 4 / 5 6 from the bottom.
 struct Column {
@@ -36,7 +36,7 @@ struct Column {
     deck.element(1, 1, {1, 2, 4, 3});
     deck.element(2, 1, {3, 4, 6, 5});
     for (int n = 1; n <= 6; ++n) deck.fix(n, n % 2 == 1 || all_held ? 1 : 0, n <= 2 || all_held ? 1 : 0);
-    study::StageCards& stage = deck.stage(2);
+    scenes::StageCards& stage = deck.stage(2);
     if (weight != 0.0) stage.gravity_y = -1.0;
     for (int n : {5, 6}) stage.fix(n, all_held ? 1 : 0, 1, 0.0, -down);
     if (side != 0.0) stage.pressure(1, 2, side, side);
@@ -61,7 +61,7 @@ std::string loose_joint() {
   deck.element(2, 1, {11, 12, 14, 13});
   deck.element(3, 2, {3, 4, 12, 11});
   for (int n : {1, 2, 13, 14}) deck.fix(n, 1, 1);
-  study::StageCards& stage = deck.stage(1);
+  scenes::StageCards& stage = deck.stage(1);
   for (int n : {13, 14}) stage.fix(n, 1, 1, 1e-5, 0.0);
   return deck.text();
 }

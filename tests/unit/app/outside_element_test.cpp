@@ -13,9 +13,9 @@
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/run_deck.hpp"
 #include "sage/deck/read_deck.hpp"
-#include "sage/model/msh_model.hpp"
-#include "sage/output/convert.hpp"
-#include "sage/study/scenes.hpp"
+#include "sage/exchange/convert.hpp"
+#include "sage/exchange/msh_model.hpp"
+#include "sage/scenes/scenes.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace sage {
@@ -121,9 +121,9 @@ namespace fs = std::filesystem;
 
 // Quarter of the restrained cylinder, L/D = 1, nu = .25, of 2 x 2 x 2 triangles whose cards give their corners.
 std::string write_cylinder(const std::string& name) {
-  const study::RestrainedCylinder scene{1.0, 0.25, study::Cell::tri3, 1, 2, 2, 1.0};
+  const scenes::RestrainedCylinder scene{1.0, 0.25, scenes::Cell::tri3, 1, 2, 2, 1.0};
   const std::vector<int> end = scene.block().top();
-  study::DeckWriter deck = scene.between_rough_platens(0.01);
+  scenes::DeckWriter deck = scene.between_rough_platens(0.01);
   deck.groups.clear();
   deck.group(1, kCode, 0, 1);
   deck.triaxial_report(1, end.front(), end.back(), 1, 1.0);
@@ -248,7 +248,7 @@ TEST(OutsideElement, IsWrittenWholeWhereItsEntrySaysHow) {
 // Two triangles in a square; the first one's card gives 8 of its 10 nodes, the second one's its corners.  The
 // nodes on the diagonal are those of both: a lattice of 4 x 4 and no node twice.
 TEST(OutsideElement, SharesTheNodesInsideAnEdgeThatOneCardGives) {
-  study::DeckWriter deck(1);
+  scenes::DeckWriter deck(1);
   const double third = 1.0 / 3.0, two = 2.0 / 3.0;
   const double at[][2] = {{0, 0},   {1, 0},       {0, 1},       {third, 0}, {two, 0},
                           {0, two}, {third, two}, {two, third}, {1, 1}};

@@ -12,8 +12,8 @@
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/run_deck.hpp"
 #include "sage/deck/read_deck.hpp"
-#include "sage/output/convert.hpp"
-#include "sage/study/lame.hpp"
+#include "sage/exchange/convert.hpp"
+#include "sage/scenes/lame.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace sage::app {
@@ -29,7 +29,7 @@ const std::string kPointCards =
 
 // Lame's cylinder with cards behind its stage.
 std::string cylinder(const std::string& cards, int reports) {
-  std::string text = study::LameDeck{}.text();
+  std::string text = scenes::LameDeck{}.text();
   std::istringstream lines(text);
   std::string result, line;
   for (int number = 1; std::getline(lines, line); ++number) {
@@ -74,7 +74,7 @@ TEST(PointCards, AreReadWithNameAndPlace) {
   EXPECT_EQ(outcome.model->reports[0].place, Vector2(1.37, 0.11));
   EXPECT_EQ(outcome.model->reports[1].group, 0);
   EXPECT_NEAR(outcome.reports->points(0).back().stress[0],
-              -study::lame(study::LameBody::strip, 0.3, 1.37).radial, 2e-3);
+              -scenes::lame(scenes::LameBody::strip, 0.3, 1.37).radial, 2e-3);
   const std::string csv = contents(request.output.folder / "cards.report1.csv");
   EXPECT_NE(csv.find("report 1, inner third at (1.37; 0.11)"), std::string::npos) << csv;
   EXPECT_NE(csv.find("stage,increment,ux[m],uy[m],strain_xx[-]"), std::string::npos);
@@ -124,9 +124,9 @@ TEST(PointCards, ConvergeFollowsThem) {
   ASSERT_EQ(converge(request, options, full_catalogue()), kOk);
   const std::string table = contents(request.output.folder / "converged.convergence.csv");
   for (const auto& [name, exact] :
-       {std::pair{"report1.ux ", study::lame(study::LameBody::strip, 0.3, 1.37).u},
-        {"report1.stress_xx ", -study::lame(study::LameBody::strip, 0.3, 1.37).radial},
-        {"report1.stress_zz ", -study::lame(study::LameBody::strip, 0.3, 1.37).hoop}}) {
+       {std::pair{"report1.ux ", scenes::lame(scenes::LameBody::strip, 0.3, 1.37).u},
+        {"report1.stress_xx ", -scenes::lame(scenes::LameBody::strip, 0.3, 1.37).radial},
+        {"report1.stress_zz ", -scenes::lame(scenes::LameBody::strip, 0.3, 1.37).hoop}}) {
     const std::size_t at = table.rfind(name);
     ASSERT_NE(at, std::string::npos) << table;
     const double value = std::strtod(table.c_str() + at + std::string(name).size(), nullptr);
@@ -136,7 +136,7 @@ TEST(PointCards, ConvergeFollowsThem) {
 
 // A block on another is taken away in stage 2, with what pressed it: the point in it has no value at the end.
 std::string excavation() {
-  study::DeckWriter deck(1);
+  scenes::DeckWriter deck(1);
   for (int j = 0; j < 3; ++j)
     for (int i = 0; i < 2; ++i) deck.node(1 + i + 2 * j, i, j);
   deck.material(1, 1, {1000.0, 0.0});
@@ -146,7 +146,7 @@ std::string excavation() {
   deck.element(2, 2, {3, 4, 6, 5});
   for (int n = 1; n <= 6; ++n) deck.fix(n, 1, n <= 2 ? 1 : 0);
   deck.stage().pressure(2, 3, 20.0, 20.0);
-  study::StageCards& second = deck.stage(2);
+  scenes::StageCards& second = deck.stage(2);
   second.deaths = {2};
   second.pressure(1, 3, 50.0, 50.0);
   return deck.text();
@@ -212,8 +212,8 @@ TEST(PointCards, OutsideTheMeshIsAnError) {
 
 // A ring sector of two 8-node squares with curved sides, pressed from inside.
 std::string curved_ring() {
-  study::DeckWriter deck(1);
-  study::Block block{1, 2, study::Cell::quad8, 1, 1, study::rectangle(1.0, 2.0, 0.0, 90.0)};
+  scenes::DeckWriter deck(1);
+  scenes::Block block{1, 2, scenes::Cell::quad8, 1, 1, scenes::rectangle(1.0, 2.0, 0.0, 90.0)};
   block.polar = true;
   block.write_nodes(deck);
   deck.material(1, 1, {1.0, 0.3});
@@ -221,7 +221,7 @@ std::string curved_ring() {
   block.write_elements(deck, 1);
   for (int n : block.bottom()) deck.fix(n, 0, 1);
   for (int n : block.top()) deck.fix(n, 1, 0);
-  study::StageCards& stage = deck.stage();
+  scenes::StageCards& stage = deck.stage();
   for (int j = 0; j < 2; ++j) stage.pressure(block.element(0, j), 4, 1.0, 1.0);
   return deck.text();
 }

@@ -7,11 +7,11 @@
 #include <iterator>
 
 #include "sage/app/commands.hpp"
+#include "sage/build/build_model.hpp"
 #include "sage/compare/comparison.hpp"
 #include "sage/compare/pair_picture.hpp"
 #include "sage/deck/read_deck.hpp"
-#include "sage/model/build_model.hpp"
-#include "sage/study/deck_writer.hpp"
+#include "sage/scenes/deck_writer.hpp"
 #include "solvers/choose_solver.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -19,9 +19,9 @@ namespace sage::compare {
 namespace {
 
 namespace fs = std::filesystem;
-using study::Block;
-using study::Cell;
-using study::DeckWriter;
+using scenes::Block;
+using scenes::Cell;
+using scenes::DeckWriter;
 
 constexpr double kE = 3000.0, kNu = 0.3, kCell = 50.0;
 
@@ -40,7 +40,7 @@ struct Specimen {
     block.cell = cell;
     block.columns = columns;
     block.rows = rows;
-    block.place = study::rectangle(0.0, 1.0, 0.0, 2.0);
+    block.place = scenes::rectangle(0.0, 1.0, 0.0, 2.0);
     DeckWriter deck(2);
     block.write_nodes(deck);
     deck.material(1, law, parameters);
@@ -51,7 +51,7 @@ struct Specimen {
     if (confined)
       for (int n : block.right()) deck.fix(n, 1, 0);
     if (cell_pressure != 0.0) deck.initial(1, 0, cell_pressure, cell_pressure, cell_pressure);
-    study::StageCards& stage = deck.stage(increments);
+    scenes::StageCards& stage = deck.stage(increments);
     for (int n : block.top()) {
       if (top_load != 0.0)
         stage.load(n, 0.0, -top_load);
@@ -135,7 +135,7 @@ TEST(Compare, AGrowingLateralPressureIsNoTestOfTheModulus) {
   for (const bool cancels : {false, true}) {
     std::string texts[2];
     for (const double pressure : {0.0, 20.0}) {
-      Block block{1, cancels ? 4 : 1, Cell::quad4, 1, 1, study::rectangle(0.0, 1.0, 0.0, 2.0)};
+      Block block{1, cancels ? 4 : 1, Cell::quad4, 1, 1, scenes::rectangle(0.0, 1.0, 0.0, 2.0)};
       DeckWriter deck(2);
       block.write_nodes(deck);
       deck.material(1, 1, {kE, kNu});
@@ -143,7 +143,7 @@ TEST(Compare, AGrowingLateralPressureIsNoTestOfTheModulus) {
       block.write_elements(deck, 1);
       for (int n : block.bottom()) deck.fix(n, 0, 1);
       for (int n : block.left()) deck.fix(n, 1, 0);
-      study::StageCards& stage = deck.stage();
+      scenes::StageCards& stage = deck.stage();
       for (int n : block.top()) stage.fix(n, 0, 1, 0.0, -0.02);
       for (int j = 0; pressure != 0.0 && j < block.rows; ++j) {
         const double sign = cancels && 2 * j >= block.rows ? -1.0 : 1.0;
@@ -275,14 +275,14 @@ TEST(Sampler, CurvedElements) {
     block.cell = cell;
     block.columns = block.rows = 2;
     block.polar = true;
-    block.place = study::rectangle(1.0, 2.0, 0.0, 90.0);
+    block.place = scenes::rectangle(1.0, 2.0, 0.0, 90.0);
     DeckWriter deck(1);
     block.write_nodes(deck);
     deck.material(1, 1, {1.0, kNu});
     deck.group(1, static_cast<int>(cell), 0, 1);
     block.write_elements(deck, 1);
     // u = (x, y)/100: uniform strain
-    study::StageCards& stage = deck.stage();
+    scenes::StageCards& stage = deck.stage();
     for (int j = 0; j < block.up(); ++j)
       for (int i = 0; i < block.across(); ++i) {
         if (!block.exists(i, j)) continue;
@@ -501,7 +501,7 @@ TEST(Compare, NoModulusWithoutAUniformSide) {
   deck.element(2, 1, {2, 3, 6, 5});
   deck.element(3, 1, {4, 5, 8, 7});
   for (int n : {1, 2, 3}) deck.fix(n, 1, 1);
-  study::StageCards& stage = deck.stage();
+  scenes::StageCards& stage = deck.stage();
   for (int n : {7, 8}) stage.fix(n, 0, 1, 0.0, -0.01);
   const Side a = run("a", deck.text(), 1), b = run("b", deck.text(), 1, {}, 2);
   ASSERT_EQ(a.error() + b.error(), "");

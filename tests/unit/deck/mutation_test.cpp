@@ -21,8 +21,8 @@
 
 #include "problem_bytes.hpp"
 #include "sage/app/commands.hpp"
+#include "sage/build/build_model.hpp"
 #include "sage/deck/read_deck.hpp"
-#include "sage/model/build_model.hpp"
 
 namespace sage {
 namespace {

@@ -17,8 +17,8 @@
 #include "elements/register_elements.hpp"
 #include "materials/register_materials.hpp"
 #include "problem_bytes.hpp"
+#include "sage/build/build_model.hpp"
 #include "sage/deck/read_deck.hpp"
-#include "sage/model/build_model.hpp"
 #include "solvers/register_solvers.hpp"
 
 namespace sage {

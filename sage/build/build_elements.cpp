@@ -1,0 +1,365 @@
+// Materials, element groups and element cards (with block generation).
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sage/build/builder.hpp"
+#include "sage/deck/text.hpp"
+#include "sage/mesh/edges.hpp"
+
+namespace sage::build {
+
+namespace {
+
+std::string formulations_of(const ElementEntry& entry) {
+  std::string text;
+  for (const Formulation& f : entry.formulations)
+    text += (text.empty() ? "" : ", ") + std::to_string(f.code) + " " + f.name;
+  return text;
+}
+
+// The deck's element, or the one that BuildOptions puts in its place.
+int chosen_element(const Builder& b, int deck_code) {
+  const ElementEntry* deck_entry = b.catalogue.elements.find(deck_code);
+  if (b.options.element == 0 || deck_entry == nullptr) return deck_code;
+  const ElementEntry* wanted = b.catalogue.elements.find(b.options.element);
+  if (can_replace(wanted, *deck_entry)) return b.options.element;
+  if (wanted == nullptr) return deck_code;
+  // Quadratic solids need quadratic interfaces beside them.
+  const int beside = b.catalogue.elements.code_of(wanted->side_interface);
+  return deck_entry->interface() && deck_entry->only_corners() && beside != 0 ? beside : deck_code;
+}
+
+int chosen_formulation(const Builder& b, const ElementEntry& entry, int deck_code, bool replaced) {
+  if (!entry.solid()) return deck_code;
+  if (b.options.formulation >= 0) return b.options.formulation;
+  return replaced ? 0 : deck_code;
+}
+
+constexpr int kMaxElements = 50'000'000;
+constexpr std::int64_t kLargestNumber = std::numeric_limits<int>::max();
+
+// Node numbers of one element card; trailing blanks are mid-side nodes to be made later (0).
+std::vector<int> card_nodes(const CardView& card) {
+  static constexpr const char* kFields[] = {"n1", "n2",  "n3",  "n4",  "n5",  "n6",  "n7", "n8",
+                                            "n9", "n10", "n11", "n12", "n13", "n14", "n15"};
+  std::vector<int> nodes;
+  nodes.reserve(std::size(kFields));
+  for (const char* field : kFields) nodes.push_back(card.integer(field));
+  while (!nodes.empty() && nodes.back() == 0) nodes.pop_back();
+  return nodes;
+}
+
+// Local node that the i-th node of a card is, which gives so many: corners and the middle nodes of the sides,
+// or more.
+std::size_t local_node(const Group& group, const ElementEntry& entry, std::size_t i, std::size_t given) {
+  const auto corners = static_cast<std::size_t>(entry.corners);
+  if (i < corners || entry.interface() || (!entry.makes_nodes() && given > 2 * corners)) return i;
+  const int middle = mesh::middle_of(group.element->edges()[i - corners]);
+  return middle < 0 ? i : static_cast<std::size_t>(middle);
+}
+
+struct ElementCard {
+  int number = 0, group = 0;
+  std::vector<int> nodes;  // deck numbers
+  int folded = -1;         // as in ElementPlace
+};
+
+void add_element(Builder& b, const CardView& card, const ElementCard& element) {
+  Group& group = b.model.groups[static_cast<std::size_t>(element.group)];
+  const ElementEntry& entry = *group.entry;
+  const auto name = [&] { return "element " + std::to_string(element.number); };
+  if (!b.element_place
+           .try_emplace(element.number, ElementPlace{element.group, group.elements(), element.folded})
+           .second) {
+    b.error(card.where("number"), name() + " is defined twice");
+    return;
+  }
+  std::vector<int> index(static_cast<std::size_t>(entry.nodes), -1);
+  for (std::size_t i = 0; i < element.nodes.size(); ++i) {
+    const int number = element.nodes[i];
+    if (number == 0) continue;  // a mid-side node to be made
+    const auto it = b.node_index.find(number);
+    if (it == b.node_index.end()) {
+      if (b.nodes_known)
+        b.error(card.where("n" + std::to_string(i + 1)),
+                name() + ": node " + std::to_string(number) + " is not defined by any node or fill card");
+      return;
+    }
+    if (std::find(index.begin(), index.end(), it->second) != index.end()) {
+      b.error(card.where("n" + std::to_string(i + 1)),
+              name() + ": node " + std::to_string(number) + " stands twice" +
+                  (entry.interface() ? "; a pair of an interface is two nodes at one place, one of each body, "
+                                       "also where the interface ends"
+                   : entry.square() && entry.folded.empty()
+                       ? "; only a 4-node quadrilateral becomes a triangle by that"
+                       : ""));
+      return;
+    }
+    index[local_node(group, entry, i, element.nodes.size())] = it->second;
+  }
+  group.element_numbers.push_back(element.number);
+  group.element_lines.push_back(card.card().line);
+  group.nodes.insert(group.nodes.end(), index.begin(), index.end());
+}
+
+// What a group's elements are where a corner repeats the next: its twin group is made on demand.
+int folded_group(Builder& b, int quad_group, int code) {
+  const Group& quads = b.model.groups[static_cast<std::size_t>(quad_group)];
+  const int number = -quads.number;
+  const auto found = b.group_index.find(number);
+  if (found != b.group_index.end()) return found->second;
+  Group group;
+  group.number = quads.number;
+  group.name = quads.name;
+  set_element(group, b.catalogue, code, 0, b.model.geometry);
+  group.material = quads.material;
+  group.where = quads.where;
+  b.group_index.emplace(number, static_cast<int>(b.model.groups.size()));
+  b.model.groups.push_back(std::move(group));
+  return static_cast<int>(b.model.groups.size()) - 1;
+}
+
+void fold(Builder& b, ElementCard& element) {
+  const ElementEntry& entry = *b.model.groups[static_cast<std::size_t>(element.group)].entry;
+  const std::size_t corners = element.nodes.size();
+  if (entry.folded.empty() || corners != static_cast<std::size_t>(entry.corners)) return;
+  const int code = b.catalogue.elements.code_of(entry.folded);
+  for (std::size_t i = 0; code != 0 && i < corners; ++i) {
+    if (element.nodes[i] != element.nodes[(i + 1) % corners]) continue;
+    element.nodes.erase(element.nodes.begin() + static_cast<std::ptrdiff_t>(i));
+    element.folded = static_cast<int>(i);
+    element.group = folded_group(b, element.group, code);
+    return;
+  }
+}
+
+// A block of elements that starts with the one on the card.
+struct Block {
+  int columns = 1, rows = 1, column_step = 1, row_step = 0;  // steps of node numbers
+};
+
+// False, and an error, where the card's block can't be counted out.
+bool read_block(Builder& b, const CardView& card, const ElementCard& element, Block& block) {
+  block = {std::max(1, card.integer("columns")), std::max(1, card.integer("rows")),
+           card.integer("column_step", 1), card.integer("row_step")};
+  const int before = b.problems.errors();
+  for (const char* field : {"columns", "rows"})
+    if (card.integer(field) < 0)
+      b.error(card.where(field), "the " + card.label(field) + " must not be negative");
+  const std::int64_t count = std::int64_t{block.columns} * block.rows;
+  if (count > kMaxElements)
+    b.error(card.where("columns"),
+            "the block would have more than " + std::to_string(kMaxElements) + " elements");
+  if (block.columns > 1 && block.column_step == 0)
+    b.error(card.where("column_step"), "more than one column of elements needs the node step along a row");
+  if (block.rows > 1 && block.row_step == 0)
+    b.error(card.where("row_step"), "more than one row of elements needs the node step from row to row");
+  if (element.number < 1 || (count <= kMaxElements && element.number + count - 1 > kLargestNumber))
+    b.error(card.where("number"),
+            "element number " + std::to_string(element.number) +
+                (element.number < 1 ? " must be 1 or more" : " is too large for the block"));
+  if (b.problems.errors() > before) return false;
+  // Every node number of the block lies between those of its corner elements.
+  for (const std::int64_t i : {0, block.columns - 1})
+    for (const std::int64_t j : {0, block.rows - 1})
+      for (const int n : element.nodes) {
+        const std::int64_t number = n + i * block.column_step + j * block.row_step;
+        if (n == 0 || (number >= 1 && number <= kLargestNumber)) continue;
+        b.error(card.where("n1"), "element " + std::to_string(element.number) + ": its block leads to node " +
+                                      std::to_string(number) + ", which can't exist");
+        return false;
+      }
+  return true;
+}
+
+void read_element_card(Builder& b, const CardView& card) {
+  const int group_number = card.integer("group", 1);
+  const auto group = b.group_index.find(group_number);
+  if (group == b.group_index.end() || group_number < 1) {
+    b.group_missing(card.where("group"), group_number);
+    return;
+  }
+  const Group& target = b.model.groups[static_cast<std::size_t>(group->second)];
+  if (!target.element) return;  // its own error was reported
+  const ElementEntry& entry = *target.entry;
+  ElementCard element{card.integer("number"), group->second, card_nodes(card)};
+  const int given = static_cast<int>(element.nodes.size());
+  if (given < entry.corners || given > entry.card_nodes) {
+    b.error(card.where("n1"),
+            "element " + std::to_string(element.number) + ": a " + entry.name + " has " +
+                std::to_string(entry.corners) +
+                (entry.nodes > entry.corners ? " to " + std::to_string(entry.card_nodes) : "") +
+                " nodes on its card, not " + std::to_string(given));
+    return;
+  }
+  if (std::find(element.nodes.begin() + entry.corners, element.nodes.end(), 0) != element.nodes.end() ||
+      (given > entry.corners && given < std::min(entry.nodes, 2 * entry.corners)))
+    b.note(card.where(), "element " + std::to_string(element.number) +
+                             ": some of its mid-side nodes are left blank "
+                             "and will be made, though others are given");
+  for (const char* field : {"column_step", "row_step"}) {
+    const bool column = field[0] == 'c';
+    if (card.blank(field) || card.integer(field) == 0 || !card.blank(column ? "columns" : "rows")) continue;
+    b.note(card.where(field), "the " + card.label(field) + " is given but the number of " +
+                                  (column ? "columns" : "rows") + " is left blank, which reads as 1");
+  }
+  for (int c = 0; c < entry.corners; ++c) {
+    if (element.nodes[static_cast<std::size_t>(c)] != 0) continue;
+    const std::string field = "n" + std::to_string(c + 1);
+    b.error(card.where(field), "element " + std::to_string(element.number) + ": corner node " +
+                                   std::to_string(c + 1) + " of the " + entry.name + " is missing");
+    return;
+  }
+  Block block;
+  if (!read_block(b, card, element, block)) return;
+  const std::vector<int> first_nodes = element.nodes;
+  const int target_group = group->second;  // folding triangles may add to the index
+  for (int j = 0; j < block.rows; ++j) {
+    for (int i = 0; i < block.columns; ++i) {
+      ElementCard next{element.number + j * block.columns + i, target_group, first_nodes};
+      for (int& n : next.nodes)
+        if (n != 0) n += i * block.column_step + j * block.row_step;
+      fold(b, next);
+      const int before = b.problems.errors();
+      add_element(b, card, next);
+      if (b.problems.errors() > before) return;  // one message a card
+    }
+  }
+}
+
+void read_material(Builder& b, const CardView& card, const std::vector<CardView>& parameter_cards) {
+  Material material;
+  material.number = card.integer("number");
+  material.name = b.text(card, "name");
+  material.code = card.integer("law");
+  material.unit_weight = card.real("unit_weight");
+  material.where = card.where();
+  const MaterialEntry* entry = b.catalogue.materials.find(material.code);
+  const std::string name = "material " + std::to_string(material.number);
+  if (material.number < 1) b.error(card.where("number"), "a material number must be 1 or more");
+  if (!b.material_index.try_emplace(material.number, static_cast<int>(b.model.materials.size())).second)
+    b.error(card.where("number"), name + " is defined twice");
+  b.usable(card, "unit_weight", material.unit_weight);
+  if (card.blank("unit_weight")) b.blank_weights.push_back(material.number);
+  b.model.materials.push_back(std::move(material));
+  Material& m = b.model.materials.back();
+  if (entry == nullptr) {
+    b.error(card.where("law"),
+            name + ": law " + std::to_string(m.code) + " is unknown; known: " + b.catalogue.materials.known());
+    return;
+  }
+  m.law_name = entry->name;
+  m.entry = b.catalogue.materials.share(m.code);
+  std::span<const FieldValue> given;
+  SourcePosition where = card.where();
+  if (!parameter_cards.empty()) {
+    given = parameter_cards.front().list("values");
+    where = parameter_cards.front().where();
+  }
+  if (given.size() > entry->parameters.size()) {
+    b.error(where, name + ": law " + entry->name + " has " + std::to_string(entry->parameters.size()) +
+                       " parameters, the card gives " + std::to_string(given.size()));
+    return;
+  }
+  const int before = b.problems.errors();
+  for (std::size_t i = 0; i < entry->parameters.size(); ++i) {
+    const Parameter& p = entry->parameters[i];
+    const bool present = i < given.size() && !given[i].blank;
+    if (!present && p.required)
+      b.error(i < given.size() ? parameter_cards.front().where(given[i]) : where,
+              name + ": parameter " + std::to_string(i + 1) + " of " + entry->name + ", " + p.name + " (" +
+                  unit_text(p.dimension, b.model.units) + "), is missing");
+    const double value = present ? given[i].number : p.fallback;
+    if (!present && i < given.size() && !p.required) {
+      b.note(parameter_cards.front().where(given[i]),
+             name + ": parameter " + std::to_string(i + 1) + " of " + entry->name + ", " + p.name +
+                 ", is left blank: " + rounded_text(p.fallback, 6) + " is used");
+    }
+    if (!(std::abs(value) < 1e100))
+      b.error(parameter_cards.front().where(given[i]),
+              name + ": " + p.name + " is too large to compute with (beyond 1e100)");
+    m.parameters.push_back(value);
+  }
+  if (b.problems.errors() > before) return;
+  try {
+    m.law = entry->make(m.parameters, b.model.units);
+  } catch (const ParameterError& e) {
+    const auto i = static_cast<std::size_t>(std::max(0, e.parameter()));
+    const bool known = e.parameter() >= 0 && i < given.size();
+    b.error(known ? parameter_cards.front().where(given[i]) : where,
+            name + " (" + entry->name + "): " + e.what() +
+                (e.parameter() >= 0 ? " [" + entry->parameters[i].name + ", " +
+                                          unit_text(entry->parameters[i].dimension, b.model.units) + "]"
+                                    : ""));
+  }
+}
+
+}  // namespace
+
+void build_materials(Builder& b) {
+  const int before = b.problems.errors();
+  for (const CardView& card : b.deck.all("material")) read_material(b, card, b.deck.all("parameters", card));
+  b.materials_known = b.problems.errors() == before;
+}
+
+void build_groups(Builder& b) {
+  const int before = b.problems.errors();
+  for (const CardView& card : b.deck.all("group")) {
+    Group group;
+    group.number = card.integer("number");
+    group.name = b.text(card, "name");
+    group.where = card.where();
+    const std::string name = "group " + std::to_string(group.number);
+    if (group.number < 1) b.error(card.where("number"), "a group number must be 1 or more");
+    if (!b.group_index.try_emplace(group.number, static_cast<int>(b.model.groups.size())).second)
+      b.error(card.where("number"), name + " is defined twice");
+    const int deck_code = card.integer("element");
+    group.element_code = chosen_element(b, deck_code);
+    const ElementEntry* entry = b.catalogue.elements.find(group.element_code);
+    const auto material = b.material_index.find(card.integer("material"));
+    if (entry == nullptr)
+      b.error(card.where("element"), name + ": element type " + std::to_string(group.element_code) +
+                                         " is unknown; known: " + b.catalogue.elements.known());
+    if (material != b.material_index.end())
+      group.material = material->second;
+    else if (b.materials_known)
+      b.error(card.where("material"), name + ": material " + std::to_string(card.integer("material")) +
+                                          " is not defined by any material card");
+    if (entry != nullptr) {
+      const int formulation =
+          chosen_formulation(b, *entry, card.integer("formulation"), group.element_code != deck_code);
+      const auto found =
+          std::find_if(entry->formulations.begin(), entry->formulations.end(),
+                       [&](const Formulation& f) { return f.code == formulation || formulation == 0; });
+      if (found == entry->formulations.end()) {
+        b.error(card.where("formulation"), name + ": formulation " + std::to_string(formulation) + " of " +
+                                               entry->name + " is unknown; 0 default, " +
+                                               formulations_of(*entry));
+      } else {
+        set_element(group, b.catalogue, group.element_code, found->code, b.model.geometry);
+      }
+      if (material != b.material_index.end()) {
+        const Material& m = b.model.materials[static_cast<std::size_t>(material->second)];
+        const MaterialEntry* law = b.catalogue.materials.find(m.code);
+        if (law != nullptr && law->law_size != entry->law_size)
+          b.error(card.where("material"), name + ": a " + entry->name + " needs a law for " +
+                                              (entry->solid() ? "solids" : "interfaces") + ", material " +
+                                              std::to_string(m.number) + " is " + law->name);
+      }
+    }
+    b.model.groups.push_back(std::move(group));
+  }
+  if (b.model.groups.empty()) b.error(b.deck.one("control").where(), "the deck defines no element groups");
+  b.groups_known = b.problems.errors() == before;
+}
+
+void build_elements(Builder& b) {
+  const int before = b.problems.errors();
+  for (const CardView& card : b.deck.all("element")) read_element_card(b, card);
+  b.elements_known = b.nodes_known && b.groups_known && b.problems.errors() == before;
+  if (b.element_place.empty() && b.problems.errors() == 0)
+    b.error(b.deck.one("control").where(), "the deck defines no elements");
+}
+
+}  // namespace sage::build

@@ -1,0 +1,36 @@
+// Gives a deck its meaning: numbers become indices, generation cards become nodes and elements, signs are
+// flipped.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sage/deck/deck.hpp"
+#include "sage/mesh/mesh_options.hpp"
+#include "sage/model/model.hpp"
+
+namespace sage {
+
+// A point report beside those of the deck's cards: displacement and strain count from the first stage.
+struct PointRequest {
+  Vector2 place = Vector2::Zero();
+  std::string name;
+  int group = 0;  // the deck's number; 0 = the first that holds the place
+};
+
+struct BuildOptions : MeshOptions {
+  // Replaces the deck's formulation code of solid groups where it exists; -1 = as the deck says.
+  int formulation = -1;
+  // Replaces 4-node quadrilaterals by this element code (mid-side nodes are made); 0 = as the deck says.
+  int element = 0;
+  int solver = -1;       // catalogue code, 0 automatic; -1 = as the deck says
+  int geometry = 0;      // 1 plane strain, 2 axisymmetric; 0 = as the deck says
+  bool partial = false;  // what the program lacks may be left out (Deck::left_out); otherwise it is an error
+  std::vector<PointRequest> points;  // behind the deck's reports
+  bool points_outside = false;       // a requested point may lie outside: its report is blank then
+};
+
+// Throws InputError with every mistake found.  Warnings and notes end up in Model::diagnostics.
+Model build_model(const Deck& deck, const Catalogue& catalogue, const BuildOptions& options = {});
+
+}  // namespace sage

@@ -1,0 +1,283 @@
+// Fixities, loads, initial stress and stages.
+#include <algorithm>
+
+#include "sage/build/builder.hpp"
+
+namespace sage::build {
+
+namespace {
+
+FixityCode fixity_code(Builder& b, const CardView& card, std::string_view field) {
+  const int code = card.integer(field);
+  if (code == 0) return FixityCode::unchanged;
+  if (code == 1) return FixityCode::fixed;
+  if (code == -1) return FixityCode::released;
+  b.error(card.where(field), "code " + std::to_string(code) + " is unknown; 0 unchanged, 1 fixed, -1 released");
+  return FixityCode::unchanged;
+}
+
+// Nodes first, first+step ... last.  Empty after an error.
+std::vector<int> node_range(Builder& b, const CardView& card) {
+  const NumberRange range = b.range(card, "first");
+  std::vector<int> nodes;
+  for (std::int64_t number = range.first; number <= range.last; number += range.step) {
+    const int node = b.node(card, number == range.first ? "first" : "last", number);
+    if (node < 0) return {};
+    nodes.push_back(node);
+  }
+  return nodes;
+}
+
+void read_fixity(Builder& b, const CardView& card, bool in_stage, std::vector<Fixity>& out) {
+  Fixity fixity;
+  fixity.code = {fixity_code(b, card, "x_code"), fixity_code(b, card, "y_code")};
+  fixity.value = {card.real("x_value"), card.real("y_value")};
+  fixity.line = card.card().line;
+  const char* const codes[] = {"x_code", "y_code"};
+  const char* const values[] = {"x_value", "y_value"};
+  for (std::size_t c = 0; c < 2; ++c) {
+    b.usable(card, values[c], fixity.value[c]);
+    if (in_stage && fixity.code[c] == FixityCode::fixed && card.blank(values[c]))
+      b.note(card.where(values[c]),
+             "the " + card.label(values[c]) + " is left blank: held where it is, displacement 0");
+    if (fixity.value[c] == 0.0) continue;
+    if (!in_stage)
+      b.error(card.where(values[c]), "a displacement other than zero belongs on a fixity card of a stage");
+    else if (const int code = card.integer(codes[c]); code == 0 || code == -1)
+      b.error(card.where(codes[c]), "a displacement is given but the code is not 1 (fixed)");
+  }
+  if (fixity.code[0] == FixityCode::unchanged && fixity.code[1] == FixityCode::unchanged)
+    b.note(card.where(), "this fixity card changes nothing: both its codes are 0 or blank");
+  for (std::size_t c = 0; c < 2; ++c)
+    if (!in_stage && fixity.code[c] == FixityCode::released)
+      b.error(card.where(codes[c]), "only a stage can release a fixity (code -1)");
+  for (int node : node_range(b, card)) {
+    fixity.node = node;
+    out.push_back(fixity);
+  }
+}
+
+void read_load(Builder& b, const CardView& card, std::vector<NodalLoad>& out) {
+  NodalLoad load{0, {card.real("x_force"), card.real("y_force")}, card.card().line};
+  b.usable(card, "x_force", load.force.x());
+  b.usable(card, "y_force", load.force.y());
+  for (int node : node_range(b, card)) {
+    load.node = node;
+    out.push_back(load);
+  }
+}
+
+void read_pressure(Builder& b, const CardView& card, std::vector<EdgeLoad>& out) {
+  EdgeLoad load;
+  load.normal = {card.real("normal1"), card.real("normal2")};
+  load.shear = {card.real("shear1"), card.real("shear2")};
+  for (const char* field : {"normal1", "normal2", "shear1", "shear2"}) b.usable(card, field, card.real(field));
+  const int edge = card.integer("edge") - 1;
+  load.line = card.card().line;
+  const NumberRange range = b.range(card, "element");
+  for (std::int64_t number = range.first; number <= range.last; number += range.step) {
+    const auto place = b.element_place.find(static_cast<int>(number));
+    if (place == b.element_place.end()) {
+      if (b.elements_known)
+        b.error(card.where(number == range.first ? "element" : "last"),
+                "element " + std::to_string(number) + " is not defined by any element card");
+      return;
+    }
+    const Group& group = b.model.groups[static_cast<std::size_t>(place->second.group)];
+    const int folded = place->second.folded;
+    // Edges count as the element's card lists its nodes.
+    const int edges = static_cast<int>(group.element->edges().size()) + (folded >= 0 ? 1 : 0);
+    if (edge < 0 || edge >= edges || edge == folded) {
+      const std::string numbers =
+          edge == folded && edge >= 0
+              ? " has no such edge: both of its nodes are the same, the quadrilateral is a triangle"
+              : " has edges 1 to " + std::to_string(edges);
+      b.error(card.where("edge"), "edge " + std::to_string(edge + 1) + ": element " + std::to_string(number) +
+                                      " (" + group.element_name + ")" + numbers);
+      return;
+    }
+    load.edge = folded >= 0 && edge > folded ? edge - 1 : edge;
+    load.group = place->second.group;
+    load.element = place->second.element;
+    out.push_back(load);
+  }
+}
+
+// Values that this kind of initial stress takes and the card leaves blank.
+void note_blank_stresses(Builder& b, const CardView& card, InitialKind kind, int group_number) {
+  const auto group = b.group_index.find(group_number);
+  const bool interface = group != b.group_index.end() &&
+                         b.model.groups[static_cast<std::size_t>(group->second)].element &&
+                         b.model.groups[static_cast<std::size_t>(group->second)].interface();
+  const int values = kind == InitialKind::uniform     ? (interface ? 2 : 3)
+                     : kind == InitialKind::geostatic ? 3
+                                                      : 0;
+  std::string blank;
+  if (card.blank("kind")) blank = "kind (0, uniform)";
+  for (int i = 1; i <= values; ++i)
+    if (card.blank("v" + std::to_string(i)))
+      blank += (blank.empty() ? "" : ", ") + std::string("value ") + std::to_string(i);
+  if (!blank.empty())
+    b.note(card.where(), "left blank on this initial stress card, which reads as 0: " + blank);
+}
+
+void read_initial(Builder& b, const CardView& card, std::vector<InitialStress>& out) {
+  InitialStress initial;
+  initial.where = card.where();
+  const int kind = card.integer("kind");
+  const int number = card.integer("group");
+  if (kind < 0 || kind > 3) {
+    b.error(card.where("kind"),
+            "initial stress kind " + std::to_string(kind) +
+                " is unknown; 0 uniform, 1 geostatic, 2 zero, 3 traction of the neighbours");
+    return;
+  }
+  initial.kind = static_cast<InitialKind>(kind);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const std::string field = "v" + std::to_string(i + 1);
+    initial.value[i] = card.real(field);
+    b.usable(card, field, initial.value[i]);
+  }
+  note_blank_stresses(b, card, initial.kind, number);
+  bool found = false;
+  for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
+    if (b.model.groups[g].number != number) continue;
+    found = true;
+    if (initial.kind == InitialKind::traction && b.model.groups[g].element && !b.model.groups[g].interface())
+      b.error(card.where("kind"), "kind 3 (traction of the neighbours) is for interface groups");
+    initial.group = static_cast<int>(g);
+    out.push_back(initial);
+  }
+  if (!found) b.group_missing(card.where("group"), number);
+}
+
+// An interface can take the traction of a group only if that group's stress is stated.
+void check_traction(Builder& b, const CardView& card) {
+  if (card.integer("kind") != static_cast<int>(InitialKind::traction)) return;
+  const int wanted = card.integer("v1");
+  for (const InitialStress& initial : b.model.initials) {
+    const Group& group = b.model.groups[static_cast<std::size_t>(initial.group)];
+    if (group.number == wanted && group.element && group.solid()) return;
+  }
+  if (b.groups_known)
+    b.error(card.where("v1"), "group " + std::to_string(wanted) +
+                                  ", whose traction the interface should take, has no initial card of its own "
+                                  "or is no solid");
+}
+
+void read_groups(Builder& b, const CardView& card, bool death, std::vector<int>& out) {
+  for (const FieldValue& value : card.list("groups")) {
+    bool found = false;
+    const auto same = [&](int g) {
+      return static_cast<double>(b.model.groups[static_cast<std::size_t>(g)].number) == value.number;
+    };
+    if (death && std::any_of(out.begin(), out.end(), same)) {
+      b.note(card.where(value), "group " + std::to_string(static_cast<int>(value.number)) +
+                                    " is listed twice among the deaths of this stage");
+      continue;
+    }
+    for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
+      if (static_cast<double>(b.model.groups[g].number) != value.number) continue;
+      found = true;
+      out.push_back(static_cast<int>(g));
+    }
+    if (!found) b.group_missing(card.where(value), static_cast<int>(std::clamp(value.number, -2e9, 2e9)));
+  }
+}
+
+Stage read_stage(Builder& b, const CardView& card, int number) {
+  Stage stage;
+  stage.number = number;
+  stage.where = card.where();
+  stage.increments = card.integer("increments", 1) == 0 ? 1 : card.integer("increments", 1);
+  if (stage.increments < 0 || stage.increments > 10'000'000)
+    b.error(card.where("increments"), "the number of increments must be between 1 and 10000000");
+  const int method = card.integer("method");
+  if (method < 0 || method > 3)
+    b.error(card.where("method"),
+            "method " + std::to_string(method) +
+                " is unknown; 0 Newton, 1 modified Newton, 2 initial stiffness, 3 dogleg");
+  else
+    stage.method = static_cast<Method>(method);
+  if (card.integer("max_iterations") != 0) stage.max_iterations = card.integer("max_iterations");
+  if (stage.max_iterations < 1)
+    b.error(card.where("max_iterations"), "the number of iterations must not be negative");
+  stage.output_every = card.integer("output_every");
+  if (stage.output_every < 0) b.error(card.where("output_every"), "the output interval must not be negative");
+  stage.gravity = {card.real("gravity_x"), card.real("gravity_y")};
+  b.usable(card, "gravity_x", stage.gravity.x());
+  b.usable(card, "gravity_y", stage.gravity.y());
+  if (card.real("tolerance") != 0.0) stage.tolerance = card.real("tolerance");
+  if (!(stage.tolerance > 0.0 && stage.tolerance < 1.0))
+    b.error(card.where("tolerance"), "the tolerance must lie between 0 and 1 (blank = 1e-8)");
+  for (const CardView& c : b.deck.all("fixity", card)) read_fixity(b, c, true, stage.fixities);
+  for (const CardView& c : b.deck.all("load", card)) read_load(b, c, stage.loads);
+  for (const CardView& c : b.deck.all("pressure", card)) read_pressure(b, c, stage.pressures);
+  for (const CardView& c : b.deck.all("birth", card)) read_groups(b, c, false, stage.births);
+  for (const CardView& c : b.deck.all("death", card)) read_groups(b, c, true, stage.deaths);
+  for (const CardView& c : b.deck.all("initial", card)) read_initial(b, c, stage.initials);
+  return stage;
+}
+
+// The stage cards are owned by nothing or by a block; what belongs to the model as a whole has no stage as
+// owner.
+bool outside_stages(const Deck& deck, const CardView& card) {
+  const int owner = card.card().owner;
+  return owner < 0 || CardView(deck, owner).spec().name != "stage";
+}
+
+// A group is placed at most once, and removed at most once after that.
+void check_births(Builder& b) {
+  struct Life {
+    int born = 0, dead = 0;  // stage numbers, 0 = not
+  };
+  std::vector<Life> lives(b.model.groups.size());
+  const auto name = [&](int g) {
+    return "group " + std::to_string(b.model.groups[static_cast<std::size_t>(g)].number);
+  };
+  for (const Stage& stage : b.model.stages) {
+    for (int g : stage.births) {
+      Life& life = lives[static_cast<std::size_t>(g)];
+      if (life.born > 0)
+        b.error(stage.where,
+                name(g) + " is born twice; a group that was removed needs a twin to be placed again");
+      else if (life.dead > 0)
+        b.error(stage.where,
+                name(g) + " is born in stage " + std::to_string(stage.number) + " but removed in stage " +
+                    std::to_string(life.dead) +
+                    ", before it exists; a group that was removed needs a twin to be placed again");
+      life.born = stage.number;
+    }
+    for (int g : stage.deaths) {
+      Life& life = lives[static_cast<std::size_t>(g)];
+      if (life.born == stage.number)
+        b.error(stage.where, name(g) + " is born and removed in the same stage");
+      else if (life.dead > 0)
+        b.note(stage.where, name(g) + " is removed again: it is gone since stage " + std::to_string(life.dead));
+      if (life.dead == 0) life.dead = stage.number;
+    }
+  }
+}
+
+}  // namespace
+
+void build_stages(Builder& b) {
+  for (const CardView& card : b.deck.all("fixity"))
+    if (outside_stages(b.deck, card)) read_fixity(b, card, false, b.model.fixities);
+  for (const CardView& card : b.deck.all("initial"))
+    if (outside_stages(b.deck, card)) read_initial(b, card, b.model.initials);
+  for (const CardView& card : b.deck.all("initial")) check_traction(b, card);
+  int number = 0;
+  const std::vector<CardView> titles = b.deck.all("stage_title");
+  for (const CardView& card : b.deck.all("stage")) {
+    b.model.stages.push_back(read_stage(b, card, number + 1));
+    if (static_cast<std::size_t>(number) < titles.size())
+      b.model.stages.back().title = b.text(titles[static_cast<std::size_t>(number)], "title");
+    ++number;
+  }
+  if (b.model.stages.empty())
+    b.error(b.deck.one("control").where(), "the deck has no stages: nothing to compute");
+  check_births(b);
+}
+
+}  // namespace sage::build

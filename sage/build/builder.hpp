@@ -1,0 +1,76 @@
+// Shared by the files that build a model; not part of the public interface.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+
+#include "sage/build/build_model.hpp"
+#include "sage/deck/deck.hpp"
+#include "sage/mesh/work.hpp"
+#include "sage/model/model.hpp"
+
+namespace sage::build {
+
+// Where an element of the deck ended up.
+struct ElementPlace {
+  int group = 0, element = 0;
+  int folded = -1;  // edge of the card, from 0, that vanished when its quadrilateral became a triangle
+};
+
+// Numbers first, first + step ... last.  Wider than the deck's integers, so that counting past the last is
+// safe.
+struct NumberRange {
+  std::int64_t first = 0, last = -1, step = 1;  // empty as it stands
+};
+
+// Everything that the steps of building share; operations on the mesh see the part that is theirs.
+struct Builder : mesh::Work {
+  const BuildOptions& options;
+  std::unordered_map<int, int> group_index = {};
+  std::unordered_map<int, int> material_index = {};
+  std::unordered_map<int, ElementPlace> element_place = {};
+  std::vector<int> blank_weights = {};  // materials whose unit weight is left blank
+  // False once a card of that kind was refused: what refers to it is then not reported as missing as well.
+  bool nodes_known = true, materials_known = true, groups_known = true, elements_known = true;
+
+  // A number that an analysis can use: finite and below 1e100 (its square must not overflow).
+  bool usable(const CardView& card, std::string_view field, double value);
+  // A name or title; a warning where it had to be changed to be a text.
+  std::string text(const CardView& card, std::string_view field);
+  // Index of a deck node; -1 and an error where it doesn't exist.
+  int node(const CardView& card, std::string_view field, std::int64_t number);
+  // The fields `first_field`, last and step of a card.  A blank or zero last means the first only, step 0 is 1.
+  // Empty, and an error, where they make no range.
+  NumberRange range(const CardView& card, std::string_view first_field);
+  // Error at a place that names a group which no card defines.
+  void group_missing(const SourcePosition& where, int number);
+};
+
+void build_control(Builder& b);
+void build_nodes(Builder& b);
+void build_materials(Builder& b);
+void build_groups(Builder& b);
+void build_elements(Builder& b);
+void build_stages(Builder& b);
+void build_reports(Builder& b);
+// Places of point reports: outside the mesh, or where several bodies meet.
+void check_points(Builder& b);
+// Nodes and elements made against the totals that the control card states.
+void check_totals(Builder& b);
+// Numbers that are valid and yet unlikely: warnings and notes.
+void check_plausible(Builder& b);
+// Interfaces whose sides belong to the wrong bodies.
+void check_interfaces(Builder& b);
+// Loads and displacements for what is not placed.
+void check_inactive(Builder& b);
+// Shapes, supports, unused nodes, radii, solver.
+void check_model(Builder& b);
+// Cards of stages that contradict each other or can't act.
+void check_stages(Builder& b);
+// Straight sides that are held over a part of their length.
+void check_sides(Builder& b);
+// Nodes at one place, hanging nodes, joints without a solid on one side.
+void check_joints(Builder& b);
+
+}  // namespace sage::build

@@ -1,0 +1,247 @@
+// What can be known to be wrong before anything is solved.
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "sage/build/builder.hpp"
+#include "sage/deck/text.hpp"
+#include "sage/model/activity.hpp"
+
+namespace sage::build {
+
+namespace {
+
+// Between the straight sides at the corners of a solid, in degrees.
+double largest_angle(const Eigen::Matrix2Xd& x, const Element& element) {
+  const auto& edges = element.edges();
+  double largest = 0.0;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const auto& before = edges[(i + edges.size() - 1) % edges.size()];
+    const Vector2 in = x.col(edges[i][0]) - x.col(before[0]), out = x.col(edges[i][1]) - x.col(edges[i][0]);
+    const double turn = std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out));
+    largest = std::max(largest, 180.0 - turn / kRadiansPerDegree);
+  }
+  return largest;
+}
+
+void check_shapes(Builder& b) {
+  constexpr std::size_t kShown = 20;
+  constexpr double kPoorShape = 0.1;
+  // A card may make a block of elements that all have one flaw: the first of them is named.
+  struct Refused {
+    int line = 0;
+    std::string message;
+    int more = 0;
+  };
+  std::vector<Refused> refused;
+  int poor = 0;
+  double worst = 1.0, worst_angle = 0.0;
+  std::string worst_name;
+  SourcePosition worst_where;
+  Eigen::Matrix2Xd x;
+  std::vector<double> geometry;
+  for (const Group& group : b.model.groups) {
+    geometry.resize(static_cast<std::size_t>(group.element->traits().geometry_size()));
+    std::string caution;
+    int cautioned = 0;
+    for (int e = 0; e < group.elements(); ++e) {
+      element_coordinates(b.model.mesh, group, e, x);
+      const auto eu = static_cast<std::size_t>(e);
+      const std::string name = "element " + std::to_string(group.element_numbers[eu]);
+      try {
+        group.element->geometry(x, geometry);
+        const double quality = group.element->shape_quality(x);
+        if (const std::string words = group.element->caution(x); !words.empty() && ++cautioned == 1)
+          caution = name + " (" + group.element_name + "): " + words;
+        if (quality < kPoorShape) ++poor;
+        if (quality < worst) {
+          worst = quality;
+          worst_angle = largest_angle(x, *group.element);
+          worst_name = name;
+          worst_where = b.at_line(group.element_lines[eu]);
+        }
+      } catch (const ElementShapeError& error) {
+        const int line = group.element_lines[eu];
+        if (!refused.empty() && refused.back().line == line)
+          ++refused.back().more;
+        else
+          refused.push_back({line, name + " (" + group.element_name + "): " + error.what(), 0});
+      }
+    }
+    if (cautioned > 1) caution += " (and " + std::to_string(cautioned - 1) + " more)";
+    if (cautioned > 0) b.warning(group.where, caution);
+  }
+  for (std::size_t i = 0; i < std::min(kShown, refused.size()); ++i) {
+    const Refused& card = refused[i];
+    b.error(b.at_line(card.line),
+            card.message + (card.more > 0 ? " (and " + std::to_string(card.more) + " more of this card)" : ""));
+  }
+  if (refused.size() > kShown)
+    b.error(b.deck.one("control").where(),
+            "and " + std::to_string(refused.size() - kShown) + " more cards of elements with unusable shapes");
+  if (poor > 0)
+    b.warning(worst_where, std::to_string(poor) + " element(s) badly distorted; worst " + worst_name +
+                               ", smallest over mean Jacobian " + rounded_text(worst, 3) +
+                               ", largest inner angle " + rounded_text(worst_angle, 3) + " degrees");
+}
+
+// In axisymmetry a point on the axis can't move radially.
+void fix_axis(Builder& b) {
+  Model& model = b.model;
+  if (model.geometry != Geometry::axisymmetric) return;
+  const double reach = model.mesh.x.row(0).cwiseAbs().maxCoeff();
+  std::vector<char> held(static_cast<std::size_t>(model.mesh.nodes()), 0);
+  for (const Fixity& f : model.fixities)
+    if (f.code[0] == FixityCode::fixed) held[static_cast<std::size_t>(f.node)] = 1;
+  int added = 0;
+  for (int node = 0; node < model.mesh.nodes(); ++node) {
+    const double r = model.mesh.x(0, node);
+    if (r < -1e-12 * reach) continue;  // its elements are refused
+    if (std::abs(r) > 1e-12 * reach || held[static_cast<std::size_t>(node)]) continue;
+    Fixity fixity;
+    fixity.node = node;
+    fixity.code[0] = FixityCode::fixed;
+    model.fixities.push_back(fixity);
+    ++added;
+  }
+  if (added > 0)
+    b.note(b.at_line(0),
+           std::to_string(added) + " node(s) on the axis r = 0 held radially (u_r = 0 by symmetry)");
+}
+
+void note_unused_nodes(Builder& b) {
+  const Model& model = b.model;
+  std::vector<char> used(static_cast<std::size_t>(model.mesh.nodes()), 0);
+  for (const Group& group : model.groups)
+    for (int node : group.nodes) used[static_cast<std::size_t>(node)] = 1;
+  const auto unused = std::count(used.begin(), used.end(), 0);
+  if (unused == 0) return;
+  const auto first = std::find(used.begin(), used.end(), 0) - used.begin();
+  b.note(b.at_line(0), std::to_string(unused) +
+                           " node(s) belong to no element and are ignored, the first is node " +
+                           std::to_string(model.mesh.number[static_cast<std::size_t>(first)]));
+  const auto refuse = [&](const Fixity& f) {
+    const bool moved = f.value[0] != 0.0 || f.value[1] != 0.0;
+    if (moved && !used[static_cast<std::size_t>(f.node)])
+      b.error(b.at_line(f.line), "node " + std::to_string(model.mesh.number[static_cast<std::size_t>(f.node)]) +
+                                     " is displaced but belongs to no element");
+  };
+  for (const Stage& stage : model.stages) {
+    for (const Fixity& f : stage.fixities) refuse(f);
+    for (const NodalLoad& load : stage.loads)
+      if (!used[static_cast<std::size_t>(load.node)])
+        b.error(b.at_line(load.line),
+                "node " + std::to_string(model.mesh.number[static_cast<std::size_t>(load.node)]) +
+                    " is loaded but belongs to no element");
+  }
+}
+
+// Materials that no group refers to are read and then ignored.
+void note_unused_materials(Builder& b) {
+  std::vector<char> used(b.model.materials.size(), 0);
+  for (const Group& group : b.model.groups) used[static_cast<std::size_t>(group.material)] = 1;
+  for (std::size_t m = 0; m < used.size(); ++m)
+    if (!used[m])
+      b.note(b.model.materials[m].where,
+             "material " + std::to_string(b.model.materials[m].number) + " is used by no group and is ignored");
+}
+
+// What the laws themselves find worth a warning, once a group.
+void warn_materials(Builder& b) {
+  for (const Group& group : b.model.groups) {
+    const Material& material = b.model.material_of(group);
+    const std::string words = std::visit([](const auto* law) { return law->caution(); }, material.law_ref());
+    if (words.empty()) continue;
+    const bool interface = group.interface();
+    b.warning(group.where, (interface ? "interface set " : "group ") + std::to_string(group.number) +
+                               ", material " + std::to_string(material.number) + " (" + material.law_name +
+                               "): " + words);
+  }
+}
+
+// Rigid motions left free, by connected part.
+void check_supports_of(Builder& b, const Stage& stage, const Activity& activity) {
+  constexpr std::size_t kShown = 5;
+  const std::vector<int> part = connected_parts(b.model, activity);
+  const bool several = !part.empty() && *std::max_element(part.begin(), part.end()) > 0;
+  const std::vector<LoosePart> loose = loose_parts(b.model, activity, part);
+  for (std::size_t i = 0; i < std::min(kShown, loose.size()); ++i)
+    b.error(stage.where, "stage " + std::to_string(stage.number) + ": nothing holds the " +
+                             (several ? part_name(b.model, part, loose[i].part) : "mesh") + " against " +
+                             loose[i].motion + "; add fixities");
+}
+
+void check_supports(Builder& b) {
+  Activity activity(b.model);
+  for (const Stage& stage : b.model.stages) {
+    activity.enter(stage);
+    const int before = b.problems.errors();
+    check_supports_of(b, stage, activity);
+    if (b.problems.errors() > before) return;
+  }
+}
+
+// nu of a material if its law has one, else 0.
+double poissons_ratio(const Material& material) {
+  return material.parameter(ParameterRole::poissons_ratio).value_or(0.0);
+}
+
+// A solver that would use one half of the matrix for both.
+void check_solver(Builder& b) {
+  const SolverEntry* solver = b.catalogue.solvers.find(b.model.solver);
+  if (solver == nullptr || !solver->symmetric) return;
+  for (const Group& group : b.model.groups) {
+    const Material& material = b.model.material_of(group);
+    if (std::visit([](const auto* law) { return law->symmetric(); }, material.law_ref())) continue;
+    const bool from_deck = b.options.solver < 0;
+    b.error(from_deck ? b.deck.one("control").where("solver") : b.at_line(0),
+            std::string(from_deck ? "solver " + std::to_string(b.model.solver) : "the option --solver") + ": " +
+                solver->name + " is for symmetric matrices only, but material " +
+                std::to_string(material.number) + " (" + material.law_name + ") of group " +
+                std::to_string(group.number) +
+                " has an unsymmetric tangent; 0 chooses a solver that fits, `sagefe list solvers` shows them");
+    return;
+  }
+}
+
+void warn_locking(Builder& b) {
+  constexpr int kShown = 5;
+  int found = 0;
+  for (const Group& group : b.model.groups) {
+    const ElementTraits& traits = group.element->traits();
+    if (!group.solid() || !(traits.locks || traits.loses_order)) continue;
+    const double nu = poissons_ratio(b.model.material_of(group));
+    if (nu <= 0.45 || ++found > kShown) continue;
+    const std::string& remedy = group.entry->against_locking;
+    const std::string what =
+        traits.locks
+            ? ": full integration locks near nu = 1/2 and reports too much stiffness; " +
+                  (remedy.empty() ? "8-node quadrilaterals (reduced) or quad4 b-bar do not" : remedy)
+            : ": near nu = 1/2 its error is several times that at nu = 0.3 and falls more slowly with the "
+              "mesh; 8-node quadrilaterals (reduced) or quad4 b-bar keep theirs";
+    b.warning(group.where, "group " + std::to_string(group.number) + " (" + group.element_name +
+                               ") has nu = " + rounded_text(nu, 7) + what);
+  }
+  if (found > kShown)
+    b.warning(b.at_line(0), "and " + std::to_string(found - kShown) +
+                                " more groups whose elements lock or lose accuracy near nu = 1/2");
+}
+
+}  // namespace
+
+void check_model(Builder& b) {
+  check_shapes(b);
+  if (b.problems.errors() == 0) check_interfaces(b);
+  fix_axis(b);
+  check_inactive(b);
+  note_unused_nodes(b);
+  note_unused_materials(b);
+  check_joints(b);
+  check_sides(b);
+  warn_materials(b);
+  if (b.problems.errors() == 0) check_supports(b);
+  check_solver(b);
+  warn_locking(b);
+}
+
+}  // namespace sage::build

@@ -1,0 +1,141 @@
+// Straight sides of the mesh that are held over a part of their length: half a line of symmetry that was
+// forgotten.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "sage/build/builder.hpp"
+#include "sage/deck/text.hpp"
+#include "sage/model/activity.hpp"
+
+namespace sage::build {
+
+namespace {
+
+// The outer edges of solids, whenever they are placed, whose nodes all lie at a place of one coordinate.
+std::vector<std::vector<int>> edges_at(const Model& model, Eigen::Index row, double place, double reach) {
+  std::vector<char> there(static_cast<std::size_t>(model.mesh.nodes()), 0);
+  for (int n = 0; n < model.mesh.nodes(); ++n)
+    there[static_cast<std::size_t>(n)] = std::abs(model.mesh.x(row, n) - place) <= reach;
+  std::map<std::pair<int, int>, std::vector<int>> directed;
+  for (const Group& group : model.groups) {
+    if (!group.solid()) continue;
+    for (int e = 0; e < group.elements(); ++e)
+      for (const std::vector<int>& edge : group.element->edges()) {
+        const int* nodes = group.nodes_of(e);
+        if (!std::ranges::all_of(edge, [&](int i) { return there[static_cast<std::size_t>(nodes[i])] != 0; }))
+          continue;
+        std::vector<int> list;
+        for (const int local : edge) list.push_back(nodes[local]);
+        directed.try_emplace({list[0], list[1]}, std::move(list));
+      }
+  }
+  std::vector<std::vector<int>> outer;
+  for (const auto& [ends, nodes] : directed)
+    if (directed.count({ends.second, ends.first}) == 0) outer.push_back(nodes);
+  return outer;
+}
+
+// What the deck does to a node in one direction, in any stage.
+struct Deeds {
+  std::vector<char> held, moved, loaded;
+
+  Deeds(const Model& model, std::size_t c)
+      : held(static_cast<std::size_t>(model.mesh.nodes()), 0), moved(held), loaded(held) {
+    take(model.fixities, c);
+    for (const Stage& stage : model.stages) {
+      take(stage.fixities, c);
+      for (const NodalLoad& load : stage.loads) loaded[static_cast<std::size_t>(load.node)] = 1;
+      for (const EdgeLoad& load : stage.pressures) {
+        const Group& group = model.groups[static_cast<std::size_t>(load.group)];
+        for (const int local : group.element->edges()[static_cast<std::size_t>(load.edge)])
+          loaded[static_cast<std::size_t>(group.nodes_of(load.element)[local])] = 1;
+      }
+    }
+  }
+
+  void take(const std::vector<Fixity>& list, std::size_t c) {
+    for (const Fixity& f : list) {
+      if (f.code[c] != FixityCode::fixed) continue;
+      held[static_cast<std::size_t>(f.node)] = 1;
+      if (f.value[c] != 0.0) moved[static_cast<std::size_t>(f.node)] = 1;
+    }
+  }
+  bool supports(int node) const {
+    return held[static_cast<std::size_t>(node)] && !moved[static_cast<std::size_t>(node)];
+  }
+  // Left to itself: neither held nor loaded.
+  bool leaves(int node) const {
+    return !held[static_cast<std::size_t>(node)] && !loaded[static_cast<std::size_t>(node)];
+  }
+};
+
+// Parts of a straight side that hang together, as lists of edges.
+std::vector<std::vector<std::vector<int>>> connected(const std::vector<std::vector<int>>& edges) {
+  std::map<int, std::size_t> owner;  // of each node, the first edge that has it
+  std::vector<std::size_t> parent(edges.size());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto root = [&](std::size_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    for (const int node : edges[i]) parent[root(i)] = root(owner.try_emplace(node, i).first->second);
+  std::map<std::size_t, std::vector<std::vector<int>>> parts;
+  for (std::size_t i = 0; i < edges.size(); ++i) parts[root(i)].push_back(edges[i]);
+  std::vector<std::vector<std::vector<int>>> list;
+  for (auto& [first, part] : parts) list.push_back(std::move(part));
+  return list;
+}
+
+// One note where some edges of the part are held across it, and some left alone.
+void note_partly_held(Builder& b, const std::vector<std::vector<int>>& part, std::size_t c, double place,
+                      const Deeds& deeds) {
+  const auto all = [](const std::vector<int>& edge, const auto& of) {
+    return std::all_of(edge.begin(), edge.end(), of);
+  };
+  bool any_held = false, any_left = false;
+  std::set<int> held, left;
+  for (const std::vector<int>& edge : part) {
+    any_held = any_held || all(edge, [&](int node) { return deeds.supports(node); });
+    any_left =
+        any_left || (std::any_of(edge.begin(), edge.end(), [&](int node) { return deeds.leaves(node); }) &&
+                     all(edge, [&](int node) { return deeds.leaves(node) || deeds.supports(node); }));
+    for (const int node : edge) {
+      if (deeds.supports(node)) held.insert(node);
+      if (deeds.leaves(node)) left.insert(node);
+    }
+  }
+  if (!any_held || !any_left) return;
+  int line = 0;
+  for (const Fixity& f : b.model.fixities)
+    if (line == 0 && f.code[c] == FixityCode::fixed && held.count(f.node) != 0) line = f.line;
+  const std::string axis =
+      b.model.geometry == Geometry::axisymmetric ? (c == 0 ? "r" : "z") : (c == 0 ? "x" : "y");
+  b.note(b.at_line(line), "the straight side " + axis + " = " + rounded_text(place) +
+                              " is held in part: " + std::to_string(held.size()) + " nodes held along " + axis +
+                              ", " + std::to_string(left.size()) + " free, the first is node " +
+                              std::to_string(b.model.mesh.number[static_cast<std::size_t>(*left.begin())]) +
+                              "; a line of symmetry is held all along");
+}
+
+}  // namespace
+
+void check_sides(Builder& b) {
+  const Model& model = b.model;
+  if (model.mesh.nodes() == 0) return;
+  const Vector2 low = model.mesh.x.rowwise().minCoeff(), high = model.mesh.x.rowwise().maxCoeff();
+  const double reach = 1e-9 * (high - low).maxCoeff();
+  for (std::size_t c = 0; c < 2; ++c) {
+    const auto row = static_cast<Eigen::Index>(c);
+    const Deeds deeds(model, c);
+    for (const double place : {low[row], high[row]}) {
+      const std::vector<std::vector<int>> side = edges_at(model, row, place, reach);
+      for (const auto& part : connected(side)) note_partly_held(b, part, c, place, deeds);
+    }
+  }
+}
+
+}  // namespace sage::build

@@ -1,0 +1,87 @@
+#include "sage/draw/contour.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sage/draw/plot.hpp"
+#include "sage/draw/svg.hpp"
+
+namespace sage {
+
+std::vector<double> band_limits(double low, double high, int bands) {
+  const double size = std::max(std::abs(low), std::abs(high));
+  if (!(high - low > 1e-7 * size)) return {low, high};  // one value everywhere
+  std::vector<double> limits = round_ticks(low, high, bands);
+  if (limits.size() < 2) return {low, high};
+  const double step = limits[1] - limits[0], slack = 1e-6 * step;
+  if (limits.front() > low + slack) limits.insert(limits.begin(), limits.front() - step);
+  if (limits.back() < high - slack) limits.push_back(limits.back() + step);
+  return limits;
+}
+
+std::vector<Corner> above(const std::vector<Corner>& polygon, double limit) {
+  std::vector<Corner> result;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Corner &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    if (a.value >= limit) result.push_back(a);
+    if ((a.value >= limit) != (b.value >= limit)) {
+      const double t = (limit - a.value) / (b.value - a.value);
+      result.push_back({a.at + t * (b.at - a.at), limit});
+    }
+  }
+  return result;
+}
+
+void append_path(std::string& path, const std::vector<Corner>& polygon) {
+  if (polygon.size() < 3) return;
+  char pen = 'M';
+  for (const Corner& corner : polygon) {
+    path += pen;
+    svg::number(path, corner.at.x());
+    path += ' ';
+    svg::number(path, corner.at.y());
+    pen = 'L';
+  }
+  path += 'Z';
+}
+
+std::vector<Corner> polygon_of(const Patch& patch, const std::vector<int>& indices) {
+  std::vector<Corner> polygon;
+  for (int i : indices) polygon.push_back(patch.places[static_cast<std::size_t>(i)]);
+  return polygon;
+}
+
+namespace {
+
+// The part of a cell where value >= limit: whole where it can be, else triangle by triangle.
+void append_above(std::string& path, const Patch& patch, const GridCell& cell, double limit) {
+  const std::vector<Corner> polygon = polygon_of(patch, cell.corners);
+  if (cell.centre < 0) return append_path(path, above(polygon, limit));
+  const Corner& centre = patch.places[static_cast<std::size_t>(cell.centre)];
+  const auto is_above = [&](const Corner& c) { return c.value >= limit; };
+  const auto count = std::count_if(polygon.begin(), polygon.end(), is_above) + (is_above(centre) ? 1 : 0);
+  if (count == 0) return;
+  if (count == static_cast<std::ptrdiff_t>(polygon.size()) + 1) return append_path(path, polygon);
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    append_path(path, above({polygon[i], polygon[(i + 1) % polygon.size()], centre}, limit));
+}
+
+}  // namespace
+
+std::vector<std::string> band_paths(const std::vector<Patch>& patches, const std::vector<double>& limits) {
+  std::vector<std::string> paths(std::max<std::size_t>(limits.size(), 2) - 1);
+  for (const Patch& patch : patches) {
+    if (patch.places.empty()) continue;
+    const auto [low, high] =
+        std::minmax_element(patch.places.begin(), patch.places.end(),
+                            [](const Corner& a, const Corner& b) { return a.value < b.value; });
+    std::size_t first = 0;  // the band of the lowest value: the whole element
+    while (first + 1 < paths.size() && low->value >= limits[first + 1]) ++first;
+    append_path(paths[first], polygon_of(patch, patch.grid->outline));
+    for (std::size_t band = first + 1; band < paths.size() && high->value > limits[band]; ++band)
+      for (const GridCell& cell : patch.grid->cells) append_above(paths[band], patch, cell, limits[band]);
+  }
+  return paths;
+}
+
+}  // namespace sage

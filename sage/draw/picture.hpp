@@ -1,0 +1,83 @@
+// The mesh with a field as an SVG picture, without libraries.
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "sage/record/out_file.hpp"
+#include "sage/record/output.hpp"
+
+namespace sage {
+
+// Stress and strain measures compression positive; displacements along +x and +y.
+enum class Field {
+  stress_xx,  // in axisymmetry r, z, hoop and rz
+  stress_yy,
+  stress_zz,
+  stress_xy,
+  mean_stress,
+  deviator,  // q = sqrt(3 J2)
+  stress_level,
+  displacement_x,
+  displacement_y,
+  displacement,  // length of the vector
+};
+
+// "stress_yy" and so on: for options and file names.
+std::string_view field_name(Field field);
+std::optional<Field> field_from_name(std::string_view name);
+
+struct PictureOptions {
+  std::string title = {};  // empty = the model's
+  std::string state = {};  // "end of stage 2", before the name of the field
+  int width = 760;         // at most, for the mesh; the height follows from it
+  bool deformed = true;    // with the undeformed outline dashed
+  double scale =
+      0.0;           // of the displacements; 0 = such that the largest is about 5 % of the mesh, but at least 1
+  bool mesh = true;  // element edges (never above 6000 elements)
+  bool smooth = true;                                     // contour bands; false = one colour an element
+  double low = std::numeric_limits<double>::quiet_NaN();  // range of the colours; NaN = that of the field
+  double high = std::numeric_limits<double>::quiet_NaN();
+};
+
+struct FieldRange {
+  double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
+};
+
+// Of all places at which a picture with these options computes the field; low > high where no solid is active.
+FieldRange field_range(const Model& model, const Solution& solution, Field field,
+                       const PictureOptions& options = {});
+
+// A whole SVG document of the active groups.  Stress at nodes is averaged over the elements of the same
+// material; between the nodes both stress and displacement are what the element's shape functions make of them.
+// Interfaces are dark red lines.
+std::string field_svg(const Model& model, const Solution& solution, Field field,
+                      const PictureOptions& options = {});
+
+// STEM_stage1_stress_yy.svg, ... at the end of every stage and at a failure (STEM_stage1_failed_...).
+class Pictures final : public Output {
+ public:
+  // Throws OutputError where a folder bears a name that a picture could get.
+  Pictures(std::filesystem::path folder, std::string stem, std::vector<Field> fields,
+           PictureOptions options = {});
+
+  void on_stage_end(const Model&, int stage, const EquilibriumAudit&, const Solution&) override;
+  void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
+  bool wants_states(const Model&, const StepReport& report) const override {
+    return report.increment == report.increments;
+  }
+  void exchange(Archive& archive) override;
+  void stop(const std::string&) override {}
+  std::vector<std::filesystem::path> files() const override { return files_; }
+
+ private:
+  void draw(const Model&, const Solution&, const std::string& state, const std::string& caption);
+
+  std::filesystem::path folder_;
+  std::string stem_;
+  std::vector<Field> fields_;
+  PictureOptions options_;
+  std::vector<std::filesystem::path> files_;
+};
+
+}  // namespace sage

@@ -1,0 +1,433 @@
+// CANDE Level 3 decks: soil elements by load step, under the load factors of the steps.  Beams, interfaces and
+// links have no element here.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "sage/core/types.hpp"
+#include "sage/exchange/canonical.hpp"
+
+namespace sage::canonical {
+
+namespace {
+
+constexpr int kMostSteps = 99999;        // what the card has columns for
+constexpr double kCubicInches = 1728.0;  // lengths in inches, densities in lbf/ft^3
+
+void fail(const Deck& deck, const SourcePosition& where, const std::string& message) {
+  Diagnostics problems;
+  problems.add(card_diagnostic(deck, Severity::error, where, message));
+  throw InputError(problems);
+}
+
+void add_nodes(const Deck& deck, CardWriter& out) {
+  for (const CardView& node : deck.all("node")) {
+    for (const char* field : {"reference_code", "generation_x", "generation_y", "increment"})
+      if (node.integer(field) != 0)
+        fail(deck, node.where(field),
+             "node generation (" + node.label(field) + ") is not built; give the coordinates of every node");
+    out.add("node", node.where(), {take(node, "number"), take(node, "x"), take(node, "y")});
+  }
+}
+
+bool is_soil(const CardView& element) {
+  return element.integer("n3") != 0 && element.integer("class") == 0;
+}
+
+int birth_of(const CardView& element) {
+  return std::max(1, element.integer("birth"));
+}
+
+// The law of Duncan et al. (1980) from the cards D-2 to D-4, where these hold its numbers.  Decks may name a
+// standard soil instead (SW95 ...), whose numbers stand in CANDE.
+std::vector<NewField> duncan_parameters(const CardView& model, const CardView& strength, const CardView& bulk,
+                                        CardWriter& out) {
+  if (model.integer("model") != 0) {
+    out.warning(model.where("model"), "this soil's bulk modulus is that of Selig (code " +
+                                          model.text("model", "1") +
+                                          "), which is not known here; only code 0, that of Duncan, is");
+    return {};
+  }
+  if (!(bulk.real("bulk_number") > 0.0)) {
+    out.warning(bulk.where("bulk_number"),
+                "without a bulk modulus number this soil has a constant Poisson's ratio, which "
+                "is not known here");
+    return {};
+  }
+  out.warning(strength.where("modulus_number"),
+              "computed as duncan_chang_eb; the deck has no modulus for unloading: the modulus number K serves "
+              "for both");
+  return {take(strength, "modulus_number", "values"), take(strength, "modulus_exponent", "values"),
+          take(strength, "failure_ratio", "values"),  take(strength, "modulus_number", "values"),
+          take(bulk, "bulk_number", "values"),        take(bulk, "bulk_exponent", "values"),
+          take(strength, "cohesion", "values"),       take(strength, "friction_angle", "values"),
+          take(strength, "friction_drop", "values")};
+}
+
+// The parameters of a material, empty where the deck doesn't give a law that exists here.
+std::vector<NewField> parameters(const Deck& deck, const CardView& material, std::string& law,
+                                 CardWriter& out) {
+  std::vector<NewField> values;
+  const auto add = [&](const CardView& card, std::initializer_list<const char*> fields) {
+    for (const char* field : fields) values.push_back(take(card, field, "values"));
+  };
+  const auto isotropic = deck.all("isotropic", material), mohr = deck.all("mohr_coulomb", material);
+  if (!isotropic.empty()) {
+    law = "linear_elastic";
+    add(isotropic.front(), {"youngs_modulus", "poissons_ratio"});
+  } else if (!mohr.empty()) {
+    law = "mohr_coulomb";
+    add(mohr.front(), {"youngs_modulus", "poissons_ratio", "cohesion", "friction_angle"});
+  } else if (const auto model = deck.all("duncan", material), strength = deck.all("duncan_strength", material),
+             bulk = deck.all("duncan_bulk", material);
+             !model.empty() && !strength.empty() && !bulk.empty()) {
+    law = "duncan_chang_eb";
+    values = duncan_parameters(model.front(), strength.front(), bulk.front(), out);
+  }
+  return values;
+}
+
+// Net load factors of the load steps (cards E-1); 1 where there is none.
+class LoadFactors {
+ public:
+  LoadFactors(const Deck& deck, int steps) : of_step_(static_cast<std::size_t>(steps) + 1, 0.0) {
+    for (const CardView& card : deck.all("load_factor")) {
+      const int first = card.integer("first"), given = card.integer("last"), last = given == 0 ? first : given;
+      const double factor = card.real("factor", 1.0);
+      if (first < 1 || last < first)
+        fail(deck, card.where(first < 1 ? "first" : "last"),
+             "load factors count from load step 1, first to last; here from " + std::to_string(first) + " to " +
+                 std::to_string(last));
+      if (!(factor > 0.0) || !std::isfinite(factor))
+        fail(deck, card.where("factor"), "a load factor above zero is wanted (blank: 1)");
+      for (int step = first; step <= std::min(last, steps); ++step) {
+        double& place = of_step_[static_cast<std::size_t>(step)];
+        if (place != 0.0)
+          fail(deck, card.where("first"), "load step " + std::to_string(step) + " has a load factor already");
+        place = factor;
+      }
+    }
+  }
+  double at(int step) const {
+    const double factor = of_step_[static_cast<std::size_t>(step)];
+    return factor == 0.0 ? 1.0 : factor;
+  }
+  // The first step whose loads are multiplied; 0 = none.
+  int first_in_use() const {
+    for (std::size_t step = 1; step < of_step_.size(); ++step)
+      if (of_step_[step] != 0.0 && of_step_[step] != 1.0) return static_cast<int>(step);
+    return 0;
+  }
+
+ private:
+  std::vector<double> of_step_;  // 0: no card
+};
+
+// A soil of the deck under one load factor: the weight that an element brings is that of its load step, so one
+// material of the deck becomes several that differ in unit weight alone.
+struct Soils {
+  std::map<std::pair<int, double>, int> number;  // of material and factor
+
+  Soils(const Deck& deck, const LoadFactors& factors) {
+    int highest = 0;
+    std::set<int> defined;
+    for (const CardView& material : deck.all("material")) {
+      defined.insert(material.integer("number"));
+      highest = std::max(highest, material.integer("number"));
+    }
+    for (const CardView& element : deck.all("element")) {
+      if (!is_soil(element)) continue;
+      const int material = element.integer("material");
+      const double factor = factors.at(birth_of(element));
+      number.try_emplace({material, factor}, factor == 1.0 || defined.count(material) == 0 ? material : -1);
+    }
+    for (auto& [key, own] : number)
+      if (own < 0) own = ++highest;
+  }
+};
+
+// A soil of which the deck has no law that exists here: the elastic material that stands for it.
+struct StandIn {
+  std::vector<NewField> values;
+  std::string name;
+};
+
+StandIn stand_in(const Deck& deck, CardWriter& out) {
+  std::string ignored;
+  for (const CardView& material : deck.all("material"))
+    if (!deck.all("isotropic", material).empty())
+      return {parameters(deck, material, ignored, out),
+              material.text("number") + " (" + material.text("name") + ")"};
+  return {};
+}
+
+// The material's law and numbers; those of the stand-in, reported as left out, where the deck does not hold
+// them.
+std::vector<NewField> law_of(const Deck& deck, const CardView& material, const StandIn& stand_in, bool used,
+                             std::string& law, CardWriter& out) {
+  std::vector<NewField> values = parameters(deck, material, law, out);
+  if (!values.empty()) return values;
+  const std::string name = "material " + material.text("number") + " (" + material.text("name") + ")";
+  if (stand_in.values.empty())
+    fail(deck, material.where("law"),
+         name + ": its law is not known here, and the deck has no isotropic material to stand for it");
+  if (used)
+    out.left_out(material.where("law"), name + ", computed as the elastic material " + stand_in.name,
+                 name +
+                     ": its law's numbers are not in the deck or its law is not known here; computed as the "
+                     "elastic material " +
+                     stand_in.name);
+  law = "linear_elastic";
+  return stand_in.values;
+}
+
+void add_materials(const Deck& deck, const Catalogue& catalogue, const Soils& soils, CardWriter& out) {
+  const StandIn other = stand_in(deck, out);
+  for (const CardView& material : deck.all("material")) {
+    if (material.integer("law") == 6 || material.integer("law") == 7) continue;  // interfaces and links
+    const int number = material.integer("number");
+    std::map<double, int> numbers;  // by load factor
+    for (const auto& [key, own] : soils.number)
+      if (key.first == number) numbers.emplace(key.second, own);
+    std::string law;
+    const std::vector<NewField> values = law_of(deck, material, other, !numbers.empty(), law, out);
+    if (numbers.empty()) numbers.emplace(1.0, number);
+    for (const auto& [factor, own] : numbers) {
+      std::string name = material.text("name", "-");
+      if (factor != 1.0) name += " x " + number_text(factor);
+      const int card = out.add("material", material.where(),
+                               {{"number", static_cast<double>(own), material.where("number")},
+                                {"law", static_cast<double>(law_code(catalogue, law)), material.where("law")},
+                                take(material, "unit_weight", {}, factor / kCubicInches),
+                                {"name", 0.0, material.where("name"), name}});
+      out.add("parameters", material.where(), values, card);
+    }
+  }
+}
+
+struct GroupKey {
+  int birth, death, material;
+  bool triangle;
+  auto operator<=>(const GroupKey&) const = default;
+};
+using Groups = std::map<GroupKey, double>;  // ordered by load step
+
+GroupKey key_of(const CardView& element) {
+  const int n3 = element.integer("n3"), n4 = element.integer("n4");
+  return {birth_of(element), element.integer("death"), element.integer("material"), n4 == 0 || n4 == n3};
+}
+
+// Those decks turn elements either way; this program wants them counter-clockwise.
+class Turner {
+ public:
+  explicit Turner(const Deck& deck) {
+    for (const CardView& node : deck.all("node"))
+      place_.insert_or_assign(node.integer("number"), Vector2(node.real("x"), node.real("y")));
+  }
+  // The fields n1 ... in counter-clockwise order.
+  std::vector<NewField> nodes(const CardView& element, bool triangle) {
+    std::vector<NewField> list;
+    for (const char* node : {"n1", "n2", "n3", "n4"})
+      if (!triangle || node[1] != '4') list.push_back(take(element, node));
+    double twice_area = 0.0;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const auto a = place_.find(static_cast<int>(list[i].number));
+      const auto b = place_.find(static_cast<int>(list[(i + 1) % list.size()].number));
+      if (a == place_.end() || b == place_.end()) return list;
+      twice_area += a->second.x() * b->second.y() - b->second.x() * a->second.y();
+    }
+    if (twice_area >= 0.0) return list;
+    ++turned_;
+    std::reverse(list.begin(), list.end());
+    for (std::size_t i = 0; i < list.size(); ++i) list[i].name = "n" + std::to_string(i + 1);
+    return list;
+  }
+  int turned() const { return turned_; }
+
+ private:
+  std::map<int, Vector2> place_;
+  int turned_ = 0;
+};
+
+// Without its beams the pipe would be a hole with loose soil above; its nodes are held: a rigid pipe that
+// stays.
+void leave_out(const Deck& deck, CardWriter& out) {
+  int beams = 0, interfaces = 0, links = 0;
+  SourcePosition where;
+  for (const CardView& element : deck.all("element")) {
+    if (is_soil(element)) continue;
+    if (where.line == 0) where = element.where();
+    const int kind = element.integer("class");
+    ++(kind == 1 ? interfaces : kind > 1 ? links : beams);
+    if (kind != 0) continue;
+    for (const char* node : {"n1", "n2"})
+      out.add("fixity", element.where(node), {take(element, node, "first"), {"x_code", 1.0}, {"y_code", 1.0}});
+  }
+  std::string list, message;
+  const auto add = [&](int count, const std::string& what) {
+    if (count == 0) return;
+    const std::string comma = list.empty() ? "" : ", ";
+    list += comma + std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+    message += comma + std::to_string(count) + " " + what + "(s)";
+  };
+  add(beams, "beam element");
+  add(interfaces, "interface");
+  add(links, "link");
+  if (list.empty()) return;
+  if (beams > 0) list += " (the pipe; its nodes are held)";
+  message = "left out: " + message + "; this program has no such elements";
+  if (beams > 0)
+    message += ". The beams' nodes are held in x and y: the soil rests on a pipe that does not move";
+  out.left_out(where, list, message);
+}
+
+Groups add_groups(const Deck& deck, const Catalogue& catalogue, const LoadFactors& factors, const Soils& soils,
+                  CardWriter& out) {
+  Groups groups;
+  int before = 0;
+  for (const CardView& element : deck.all("element")) {
+    for (const char* field : {"node_increment", "rows", "row_increment"})
+      if (element.integer(field) > 1)
+        fail(deck, element.where(field),
+             "element generation (" + element.label(field) +
+                 ") is not built; give every element on a card of its own");
+    if (const int number = element.integer("number"); before > 0 && number > before + 1)
+      fail(deck, element.where("number"),
+           "elements " + std::to_string(before + 1) + " to " + std::to_string(number - 1) +
+               " are not given: CANDE fills such a gap by generation, which is not built; give every element "
+               "on a card "
+               "of its own");
+    before = element.integer("number");
+    if (is_soil(element)) groups.try_emplace(key_of(element), 0.0);
+  }
+  double number = 0.0;
+  for (auto& [key, group] : groups) {
+    group = ++number;
+    out.add("group", deck.one("control").where(),
+            {{"number", group},
+             {"element", static_cast<double>(corner_element(catalogue, key.triangle))},
+             {"material", static_cast<double>(soils.number.at({key.material, factors.at(key.birth)}))},
+             {"name", 0.0, {}, "step " + std::to_string(key.birth)}});
+  }
+  Turner turner(deck);
+  for (const CardView& element : deck.all("element")) {
+    if (!is_soil(element)) continue;
+    const GroupKey key = key_of(element);
+    std::vector<NewField> fields{take(element, "number"), {"group", groups.at(key)}};
+    for (NewField& node : turner.nodes(element, key.triangle)) fields.push_back(std::move(node));
+    out.add("element", element.where(), fields);
+  }
+  if (turner.turned() > 0)
+    out.note({deck.file, 0, 0, 0},
+             std::to_string(turner.turned()) + " element(s) listed clockwise were turned round");
+  return groups;
+}
+
+// Supports that hold from the start; displacements and forces belong to their load step.
+void add_boundary(const Deck& deck, const LoadFactors& factors, CardWriter& out, int step, int stage) {
+  for (const CardView& card : deck.all("fixity")) {
+    const bool x = card.integer("x_code") == 1, y = card.integer("y_code") == 1;
+    const double vx = card.real("x_value"), vy = card.real("y_value");
+    if (card.real("angle") != 0.0) fail(deck, card.where("angle"), "supports along turned axes are not built");
+    if (card.real("pressure1") != 0.0 || card.real("pressure2") != 0.0)
+      fail(deck, card.where("pressure1"), "pressures between nodes of a boundary card are not built");
+    const int of_step = std::max(1, card.integer("load_step"));
+    const bool plain = of_step == 1 && vx == 0.0 && vy == 0.0;
+    if (plain ? stage >= 0 : stage < 0 || of_step != step) continue;
+    const NewField last = take(card, "last"), by = take(card, "step");
+    if (x || y)
+      out.add("fixity", card.where(),
+              {take(card, "first"),
+               last,
+               by,
+               {"x_code", x ? 1.0 : 0.0},
+               {"y_code", y ? 1.0 : 0.0},
+               {"x_value", x ? vx : 0.0},
+               {"y_value", y ? vy : 0.0}},
+              stage);
+    const double factor = stage < 0 ? 1.0 : factors.at(step);
+    if (factor != 1.0 && ((x && vx != 0.0) || (y && vy != 0.0)))
+      out.warning(card.where(x && vx != 0.0 ? "x_value" : "y_value"),
+                  "a prescribed displacement is no load: it is not multiplied by the load factor of its step");
+    if ((!x && vx != 0.0) || (!y && vy != 0.0))
+      out.add("load", card.where(),
+              {take(card, "first"),
+               last,
+               by,
+               {"x_force", x ? 0.0 : factor * vx},
+               {"y_force", y ? 0.0 : factor * vy}},
+              stage);
+  }
+}
+
+// The control card's number, or more where an element is born or removed later.
+int load_steps(const Deck& deck) {
+  int steps = std::max(1, deck.one("control").integer("load_steps"));
+  for (const CardView& element : deck.all("element"))
+    if (is_soil(element)) steps = std::max({steps, birth_of(element), element.integer("death")});
+  if (steps > kMostSteps)
+    fail(deck, deck.one("control").where("load_steps"),
+         std::to_string(steps) + " load steps; at most " + std::to_string(kMostSteps) + " are taken");
+  return steps;
+}
+
+void add_stages(const Deck& deck, const LoadFactors& factors, CardWriter& out, const Groups& groups) {
+  const CardView control = deck.one("control");
+  const int steps = load_steps(deck);
+  for (int step = 1; step <= steps; ++step) {
+    out.add("stage_title", control.where(), {{"title", 0.0, {}, "load step " + std::to_string(step)}});
+    const int stage =
+        out.add("stage", control.where(), {{"increments", 1.0}, {"gravity_y", step == 1 ? -1.0 : 0.0}});
+    std::vector<NewField> births, deaths;
+    for (const auto& [key, number] : groups) {
+      if (step > 1 && key.birth == step) births.push_back({"groups", number});
+      if (key.death == step) deaths.push_back({"groups", number});
+    }
+    add_boundary(deck, factors, out, step, stage);
+    if (!births.empty()) out.add("birth", control.where(), births, stage);
+    if (!deaths.empty()) out.add("death", control.where(), deaths, stage);
+  }
+}
+
+// What the load factors do, and where the deck contradicts itself.
+void explain_factors(const Deck& deck, const LoadFactors& factors, CardWriter& out) {
+  const int step = factors.first_in_use();
+  if (step == 0) return;
+  const CardView first = deck.all("load_factor").front();
+  out.note(first.where("factor"),
+           "the load factors multiply what is added in their load steps: the weight of the elements born there "
+           "and the forces on nodes");
+  for (const CardView& title : deck.all("title"))
+    if (title.integer("method") == 0)
+      out.warning(title.where("method"), "this card asks for working stress (method 0), yet load step " +
+                                             std::to_string(step) +
+                                             " has a load factor other than 1; the factors are applied");
+}
+
+}  // namespace
+
+Deck cande_deck(const Deck& deck, const Catalogue& catalogue) {
+  CardWriter out(deck);
+  out.copy("title");
+  const CardView control = deck.one("control");
+  out.add("units", control.where(),
+          {{"length", 0.0, {}, "in"},
+           {"force", 0.0, {}, "lbf"},
+           {"stress", 0.0, {}, "psi"},
+           {"atmospheric_pressure", 14.696},
+           {"water_unit_weight", 0.036111}});
+  out.add("control", control.where(), {{"geometry", 1.0}, take(control, "total_nodes")});
+  const LoadFactors factors(deck, load_steps(deck));
+  const Soils soils(deck, factors);
+  add_nodes(deck, out);
+  add_materials(deck, catalogue, soils, out);
+  leave_out(deck, out);
+  const Groups groups = add_groups(deck, catalogue, factors, soils, out);
+  add_boundary(deck, factors, out, 0, -1);
+  explain_factors(deck, factors, out);
+  add_stages(deck, factors, out, groups);
+  return out.take();
+}
+
+}  // namespace sage::canonical

@@ -1,0 +1,304 @@
+// Decks whose mesh is numbered by rule (Smith and Griffiths): nodes, elements, supports, loads and steps.
+#include <algorithm>
+#include <numbers>
+#include <set>
+
+#include "sage/exchange/canonical.hpp"
+#include "sage/exchange/rectangle.hpp"
+
+namespace sage::canonical {
+
+namespace {
+
+constexpr int kMostCells = 5'000'000;
+
+struct Source {
+  const Deck& deck;
+  const Catalogue& catalogue;
+  CardView card;  // the rectangle card
+  Rectangle mesh;
+  bool axisymmetric = false;
+  // Those programs take forces for one radian, this one for the full circle.
+  double circle() const { return axisymmetric ? 2.0 * std::numbers::pi : 1.0; }
+};
+
+[[noreturn]] void refuse(const Source& s, const CardView& card, std::string_view field,
+                         const std::string& message) {
+  Diagnostics problems;
+  problems.add(card_diagnostic(s.deck, Severity::error, card.where(field), message));
+  throw InputError(problems);
+}
+
+// `intervals`: of the card with this name.
+std::vector<double> coordinates(const Source& s, std::string_view name, std::string_view field,
+                                std::string_view intervals) {
+  const CardView card = s.deck.one(name);
+  std::vector<double> at;
+  for (const FieldValue& value : card.list(field)) at.push_back(value.number);
+  const auto wanted = static_cast<std::size_t>(s.card.integer(intervals)) + 1;
+  if (at.size() != wanted)
+    refuse(s, card, field,
+           std::to_string(wanted) + " coordinates " + std::string(field) + " are needed, one more than " +
+               std::string(intervals) + ", and the card has " + std::to_string(at.size()));
+  for (std::size_t i = 1; i < at.size(); ++i)
+    if (!((at[i] > at[i - 1]) == (at[1] > at[0]) && at[i] != at[i - 1]))
+      refuse(s, card, field, "the coordinates " + std::string(field) + " must rise or fall all along");
+  return at;
+}
+
+// Codes of the layouts; where a program has one kind of mesh only, its cards leave them out.
+void read_mesh(Source& s) {
+  const CardView& card = s.card;
+  const std::int64_t cells = static_cast<std::int64_t>(card.integer("columns")) * card.integer("rows");
+  if (card.integer("columns") < 1 || card.integer("rows") < 1 || cells > kMostCells)
+    refuse(s, card, "columns", "the mesh needs columns and rows of 1 or more, at most 5000000 cells");
+  s.mesh.triangles = card.integer("shape", 2) == 1;
+  s.mesh.nodes_per_element = card.integer("nodes_per_element", 8);
+  s.mesh.along_x = card.integer("direction", 2) == 1;
+  s.axisymmetric = card.integer("geometry", s.deck.one("material_values").blank("consolidation") ? 1 : 2) == 2;
+  if (s.mesh.intervals() == 0)
+    refuse(s, card, "nodes_per_element",
+           "no element with " + std::to_string(s.mesh.nodes_per_element) +
+               " nodes: triangles have 3, 6 or 15, quadrilaterals 4, 8 or 9");
+  s.mesh.x = coordinates(s, "rectangle_x", "x", "columns");
+  s.mesh.y = coordinates(s, "rectangle_y", "y", "rows");
+}
+
+// Codes of this program.
+struct Kind {
+  int element, formulation;
+};
+
+// The integration that the deck asks for; blank = 4 points of the 8-node quadrilateral.
+Kind element_kind(const Source& s) {
+  const int points = s.card.integer("integration_points", 4);
+  const int code = solid_code(s.catalogue, s.mesh.triangles ? ParentShape::triangle : ParentShape::square,
+                              s.mesh.nodes_per_element);
+  const ElementEntry& entry = *s.catalogue.elements.find(code);
+  std::string known;
+  for (const Formulation& formulation : entry.formulations) {
+    if (!formulation.plain) continue;
+    if (formulation.points == points) return {code, formulation.code};
+    known += (known.empty() ? "" : ", ") + std::to_string(formulation.points);
+  }
+  refuse(s, s.card, "integration_points",
+         "no " + entry.name + " with " + std::to_string(points) + " integration points; known: " + known);
+}
+
+void add_nodes(const Source& s, CardWriter& out) {
+  const Rectangle& mesh = s.mesh;
+  const int k = mesh.intervals();
+  const CardView y = s.deck.one("rectangle_y");
+  for (int j = 0; j <= k * mesh.rows(); ++j)
+    for (int i = 0; i <= k * mesh.columns(); ++i) {
+      if (!mesh.exists(i, j)) continue;
+      const Vector2 at = mesh.position(i, j);
+      out.add("node", y.where("y"),
+              {{"number", static_cast<double>(mesh.number(i, j))}, {"x", at.x()}, {"y", at.y()}});
+    }
+}
+
+// One law a program: the columns of the material rows tell which.
+void add_materials(const Source& s, CardWriter& out) {
+  int number = 0;
+  for (const CardView& row : s.deck.all("material_values")) {
+    std::vector<NewField> values{take(row, "youngs_modulus", "values"), take(row, "poissons_ratio", "values")};
+    std::string law = "linear_elastic";
+    if (!row.blank("undrained_strength")) {
+      // von Mises: sqrt(J2) = c, which is cone 3 at phi = 0.
+      law = "drucker_prager";
+      values.push_back(take(row, "undrained_strength", "values"));
+      for (double value : {0.0, 0.0, 3.0}) values.push_back({"values", value});
+    } else if (!row.blank("friction_angle")) {
+      law = "mohr_coulomb";
+      for (const char* field : {"cohesion", "friction_angle", "dilation_angle"})
+        values.push_back(take(row, field, "values"));
+    }
+    if (row.real("bulk_modulus") != 0.0)
+      refuse(s, row, "bulk_modulus",
+             "pore water with a bulk modulus is not modelled; drained only (bulk modulus 0)");
+    const int card = out.add("material", row.where(),
+                             {{"number", static_cast<double>(++number)},
+                              {"law", static_cast<double>(law_code(s.catalogue, law))},
+                              {"unit_weight", row.real("unit_weight"), row.where("unit_weight")},
+                              {"name", 0.0, {}, "material " + std::to_string(number)}});
+    out.add("parameters", row.where(), values, card);
+  }
+}
+
+// Materials of the elements in their order; one program lists them row by row although it counts along y.
+std::vector<int> element_materials(const Source& s) {
+  std::vector<int> of_element(static_cast<std::size_t>(s.mesh.elements()), 1);
+  if (!s.deck.has("element_materials")) return of_element;
+  const bool row_by_row = !s.card.blank("footing");
+  const CardView card = s.deck.one("element_materials");
+  const auto list = card.list("materials");
+  for (std::size_t e = 0; e < of_element.size(); ++e) {
+    const auto [column, row] = s.mesh.cell_place(s.mesh.cell(static_cast<int>(e)));
+    const std::size_t at = row_by_row ? static_cast<std::size_t>(row * s.mesh.columns() + column) : e;
+    if (at >= list.size()) refuse(s, card, "materials", "there are fewer materials than elements");
+    of_element[e] = static_cast<int>(list[at].number);
+  }
+  return of_element;
+}
+
+void add_elements(const Source& s, CardWriter& out) {
+  const Kind kind = element_kind(s);
+  const std::vector<int> material = element_materials(s);
+  for (int m : std::set<int>(material.begin(), material.end()))
+    out.add("group", s.card.where(),
+            {{"number", static_cast<double>(m)},
+             {"element", static_cast<double>(kind.element)},
+             {"formulation", static_cast<double>(kind.formulation)},
+             {"material", static_cast<double>(m)},
+             {"name", 0.0, {}, "material " + std::to_string(m)}});
+  for (int e = 0; e < s.mesh.elements(); ++e) {
+    std::vector<NewField> fields{{"number", e + 1.0},
+                                 {"group", static_cast<double>(material[static_cast<std::size_t>(e)])}};
+    int n = 0;
+    for (int node : s.mesh.nodes(e)) fields.push_back({"n" + std::to_string(++n), static_cast<double>(node)});
+    out.add("element", s.card.where(), fields);
+  }
+}
+
+// Programs without restraint cards hold both sides against x and the bottom altogether.
+void add_fixities(const Source& s, CardWriter& out) {
+  if (s.deck.has("restraints")) return out.copy("fixity");
+  const int k = s.mesh.intervals(), right = k * s.mesh.columns(), bottom = k * s.mesh.rows();
+  for (int j = 0; j <= bottom; ++j)
+    for (int i = 0; i <= right; ++i) {
+      if (!s.mesh.exists(i, j) || (i != 0 && i != right && j != bottom)) continue;
+      out.add("fixity", s.card.where(),
+              {{"first", static_cast<double>(s.mesh.number(i, j))},
+               {"x_code", 1.0},
+               {"y_code", j == bottom ? 1.0 : 0.0}});
+    }
+}
+
+int add_stage(const Source& s, CardWriter& out, const std::string& title, int increments,
+              double gravity = 0.0) {
+  out.add("stage_title", s.card.where(), {{"title", 0.0, {}, title}});
+  return out.add("stage", s.card.where(),
+                 {{"increments", static_cast<double>(increments)}, {"gravity_y", gravity}});
+}
+
+void add_loads(const Source& s, CardWriter& out, double factor, int stage) {
+  for (const CardView& load : s.deck.all("load"))
+    out.add("load", load.where(),
+            {take(load, "first"), take(load, "x_force", {}, factor * s.circle()),
+             take(load, "y_force", {}, factor * s.circle())},
+            stage);
+}
+
+void add_displacement(CardWriter& out, const NewField& node, bool along_x, double value, int stage) {
+  out.add("fixity", node.where,
+          {node,
+           {"x_code", along_x ? 1.0 : 0.0},
+           {"y_code", along_x ? 0.0 : 1.0},
+           {"x_value", along_x ? value : 0.0},
+           {"y_value", along_x ? 0.0 : value}},
+          stage);
+}
+
+// A pressure on a row of elements' outer edges: the first row, or the last column.
+void add_pressure(const Source& s, CardWriter& out, bool top, double pressure, int stage) {
+  const bool turned = (s.mesh.x[1] > s.mesh.x[0]) == (s.mesh.y[1] > s.mesh.y[0]);
+  for (int e = 0; e < s.mesh.elements(); ++e) {
+    const auto [column, row] = s.mesh.cell_place(e);
+    if (top ? row != 0 : column != s.mesh.columns() - 1) continue;
+    out.add("pressure", s.card.where(),
+            {{"element", e + 1.0},
+             {"edge", top != turned ? 3.0 : 2.0},
+             {"normal1", pressure},
+             {"normal2", pressure}},
+            stage);
+  }
+}
+
+void add_report(const Source& s, CardWriter& out, std::vector<NewField> fields, const std::vector<int>& nodes) {
+  for (int node : nodes) fields.push_back({"nodes", static_cast<double>(node)});
+  out.add("report", s.card.where(), fields);
+}
+
+// Program 6.3: weight and surcharge first, elastic; then the rigid, smooth footing goes down.
+void add_footing(const Source& s, CardWriter& out) {
+  int stage = add_stage(s, out, "weight and surcharge", 1, -1.0);
+  add_pressure(s, out, true, s.deck.one("surcharge").real("pressure"), stage);
+  const CardView steps = s.deck.one("increments");
+  const int increments = std::max(1, steps.integer("increments"));
+  stage = add_stage(s, out, "footing", increments);
+  std::vector<int> nodes;
+  const int footing = s.card.integer("footing");
+  if (footing < 1 || footing > s.mesh.columns())
+    refuse(s, s.card, "footing",
+           "the footing must cover 1 to " + std::to_string(s.mesh.columns()) + " columns");
+  for (int i = 0; i <= 2 * footing; ++i) nodes.push_back(s.mesh.number(i, 0));
+  for (int node : nodes)
+    add_displacement(out, {"first", static_cast<double>(node), steps.where("displacement")}, false,
+                     increments * steps.real("displacement"), stage);
+  add_report(s, out, {{"kind", 2.0}, {"stage", 2.0}}, nodes);
+}
+
+// Program 6.11: consolidated under the cell pressure, then the listed nodes are displaced.
+void add_triaxial(const Source& s, CardWriter& out) {
+  const double cell = -s.deck.one("material_values").real("consolidation");
+  int stage = add_stage(s, out, "consolidation", 1);
+  out.add("initial", s.card.where(), {{"group", 1.0}, {"kind", 0.0}, {"v1", cell}, {"v2", cell}, {"v3", cell}},
+          stage);
+  add_pressure(s, out, true, cell, stage);
+  add_pressure(s, out, false, cell, stage);
+  const CardView steps = s.deck.one("iteration");
+  const int increments = std::max(1, steps.integer("increments"));
+  stage = add_stage(s, out, "compression", increments);
+  std::vector<int> nodes;
+  for (const CardView& card : s.deck.all("displacement")) {
+    nodes.push_back(card.integer("first"));
+    add_displacement(out, take(card, "first"), card.integer("direction") == 1,
+                     increments * steps.real("displacement"), stage);
+  }
+  const double height = std::abs(s.mesh.y.back() - s.mesh.y.front());
+  add_report(s, out,
+             {{"kind", 1.0}, {"group", 1.0}, {"stage", 2.0}, {"height", height}, {"cell_pressure", cell}},
+             nodes);
+}
+
+// Forces that come with factors, one stage a step; or one elastic step with displacements too.
+void add_steps(const Source& s, CardWriter& out) {
+  if (!s.deck.has("increments")) {
+    const int stage = add_stage(s, out, "load", 1);
+    add_loads(s, out, 1.0, stage);
+    for (const CardView& card : s.deck.all("displacement"))
+      add_displacement(out, take(card, "first"), card.integer("direction") == 1, card.real("value"), stage);
+    return;
+  }
+  int step = 0;
+  for (const FieldValue& factor : s.deck.one("increments").list("factors"))
+    add_loads(s, out, factor.number, add_stage(s, out, "load step " + std::to_string(++step), 1));
+}
+
+}  // namespace
+
+Deck rectangle_deck(const Deck& deck, const Catalogue& catalogue) {
+  Source s{deck, catalogue, deck.one("rectangle"), {}, false};
+  if (!s.card.blank("harmonic"))
+    refuse(
+        s, s.card, "harmonic",
+        "a body of revolution under a harmonic load has three displacements a node: no model is built from it");
+  read_mesh(s);
+  CardWriter out(deck);
+  out.add("title", s.card.where(), {{"title", 0.0, {}, deck.layout + " deck, mesh numbered by rule"}});
+  out.add("control", s.card.where(), {{"geometry", s.axisymmetric ? 2.0 : 1.0, s.card.where("geometry")}});
+  add_nodes(s, out);
+  add_materials(s, out);
+  add_elements(s, out);
+  add_fixities(s, out);
+  if (!s.card.blank("footing"))
+    add_footing(s, out);
+  else if (!deck.one("material_values").blank("consolidation"))
+    add_triaxial(s, out);
+  else
+    add_steps(s, out);
+  return out.take();
+}
+
+}  // namespace sage::canonical

@@ -1,0 +1,166 @@
+// A model's mesh as Gmsh MSH 4.1 ASCII.  Gmsh counts nodes of an element as this program does.
+#include <fmt/format.h>
+
+#include <map>
+
+#include "sage/exchange/boundary_edges.hpp"
+#include "sage/exchange/convert.hpp"
+#include "sage/exchange/msh_file.hpp"
+#include "sage/model/foreign_element.hpp"
+
+namespace sage {
+
+namespace {
+
+// Gmsh's type of a solid: of its corners where it has none for the element.
+int solid_type(const ElementEntry& entry) {
+  if (entry.gmsh.type != 0) return entry.gmsh.type;
+  return entry.triangle() ? 2 : 3;
+}
+
+struct Block {
+  int dimension = 2, type = 0, tag = 0;
+  std::string name;
+  std::vector<std::vector<int>> elements;  // number, then node numbers
+};
+
+std::vector<Block> surfaces(const Model& model, Diagnostics& diagnostics, int& left_out, int& largest) {
+  std::vector<Block> blocks;
+  for (const Group& group : model.groups) {
+    if (!group.solid()) left_out += group.elements();
+    if (!group.solid() || group.elements() == 0) continue;
+    if (group.entry->gmsh.type == 0) warn_of_corners(group, "MSH", diagnostics);
+    const std::vector<int> order = foreign_nodes(*group.entry, group.entry->gmsh);
+    Block block{2,
+                solid_type(*group.entry),
+                static_cast<int>(blocks.size()) + 1,
+                group.name.empty() ? "group " + std::to_string(group.number) : group.name,
+                {}};
+    for (const Block& other : blocks)
+      if (other.name == block.name) {
+        block.name += " " + std::to_string(group.number) + "/" + std::to_string(block.tag);
+        break;
+      }
+    for (int e = 0; e < group.elements(); ++e) {
+      std::vector<int> row{group.element_numbers[static_cast<std::size_t>(e)]};
+      largest = std::max(largest, row[0]);
+      for (int i : order) row.push_back(model.mesh.number[static_cast<std::size_t>(group.nodes_of(e)[i])]);
+      block.elements.push_back(std::move(row));
+    }
+    blocks.push_back(std::move(block));
+  }
+  return blocks;
+}
+
+std::vector<Block> supports(const Model& model, int first_number) {
+  const std::vector<char> held = held_dofs(model);
+  std::map<std::pair<std::string, std::size_t>, Block> by_name;
+  std::map<std::string, int> tags;
+  for (BoundaryEdge& edge : boundary_edges(model)) {
+    const std::string name = support_name(held, edge);
+    if (name.empty()) continue;
+    const bool corners = model.groups[static_cast<std::size_t>(edge.group)].entry->gmsh.type == 0;
+    if (corners || msh::line_type(edge.nodes.size()) == 0) edge.nodes.resize(2);
+    Block& block = by_name[{name, edge.nodes.size()}];
+    block.dimension = 1;
+    block.type = msh::line_type(edge.nodes.size());
+    block.name = name;
+    block.tag = tags.try_emplace(name, static_cast<int>(tags.size()) + 1).first->second;
+    std::vector<int> row{first_number++};
+    for (int node : edge.nodes) row.push_back(model.mesh.number[static_cast<std::size_t>(node)]);
+    block.elements.push_back(std::move(row));
+  }
+  std::vector<Block> blocks;
+  for (auto& [key, block] : by_name) blocks.push_back(std::move(block));
+  return blocks;
+}
+
+std::string clean(std::string name) {
+  for (char& c : name)
+    if (c == '"') c = '\'';
+  return name;
+}
+
+std::string entities(const Model& model, const std::vector<Block>& blocks) {
+  const Vector2 low = model.mesh.x.rowwise().minCoeff(), high = model.mesh.x.rowwise().maxCoeff();
+  const std::string box = fmt::format("{} {} 0 {} {} 0", low[0], low[1], high[0], high[1]);
+  std::map<std::pair<int, int>, bool> known;
+  std::string curves, faces;
+  int counts[2] = {0, 0};
+  for (const Block& block : blocks) {
+    if (!known.try_emplace({block.dimension, block.tag}, true).second) continue;
+    ++counts[block.dimension - 1];
+    (block.dimension == 1 ? curves : faces) += fmt::format("{} {} 1 {} 0\n", block.tag, box, block.tag);
+  }
+  return fmt::format("$Entities\n0 {} {} 0\n{}{}$EndEntities\n", counts[0], counts[1], curves, faces);
+}
+
+// A mesh file is a mesh: what else the deck says must be given anew.
+void warn_of_the_rest(const Model& model, Diagnostics& diagnostics) {
+  std::size_t loads = 0, lives = 0, displacements = 0, initials = model.initials.size();
+  for (const Stage& stage : model.stages) {
+    loads += stage.loads.size() + stage.pressures.size() + (stage.gravity.norm() > 0.0 ? 1u : 0u);
+    lives += stage.births.size() + stage.deaths.size();
+    displacements += stage.fixities.size();
+    initials += stage.initials.size();
+  }
+  std::string rest;
+  const auto add = [&](std::size_t count, const char* what) {
+    if (count > 0) rest += fmt::format("{}{} {}", rest.empty() ? "" : ", ", count, what);
+  };
+  add(model.materials.size(), "material(s)");
+  add(model.stages.size(), "stage(s)");
+  add(loads, "load(s)");
+  add(displacements, "fixities of stages");
+  add(lives, "birth(s) and death(s)");
+  add(initials, "initial stress(es)");
+  add(model.reports.size(), "report(s)");
+  if (!rest.empty())
+    diagnostics.add({Severity::warning,
+                     {model.file, 0, 0, 0},
+                     "a mesh file holds nodes, elements, groups and supports alone; left out: " + rest,
+                     {}});
+}
+
+}  // namespace
+
+std::string msh_text(const Model& model, Diagnostics& diagnostics) {
+  int left_out = 0, largest = 0;
+  std::vector<Block> blocks = surfaces(model, diagnostics, left_out, largest);
+  for (Block& block : supports(model, largest + 1)) blocks.push_back(std::move(block));
+  if (left_out > 0)
+    diagnostics.add({Severity::warning,
+                     {model.file, 0, 0, 0},
+                     std::to_string(left_out) + " interface element(s) left out: MSH has no type for them",
+                     {}});
+  warn_of_the_rest(model, diagnostics);
+  std::map<std::pair<int, int>, std::string> names;
+  std::size_t elements = 0;
+  int lowest = largest;
+  for (const Block& block : blocks) {
+    names.try_emplace({block.dimension, block.tag}, clean(block.name));
+    elements += block.elements.size();
+    for (const auto& row : block.elements) {
+      lowest = std::min(lowest, row[0]);
+      largest = std::max(largest, row[0]);
+    }
+  }
+  std::string text =
+      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n" + std::to_string(names.size()) + "\n";
+  for (const auto& [key, name] : names) text += fmt::format("{} {} \"{}\"\n", key.first, key.second, name);
+  text += "$EndPhysicalNames\n" + entities(model, blocks);
+  const auto& number = model.mesh.number;
+  text += fmt::format("$Nodes\n1 {} {} {}\n2 1 0 {}\n", number.size(), number.empty() ? 0 : number.front(),
+                      number.empty() ? 0 : *std::max_element(number.begin(), number.end()), number.size());
+  for (int n : number) text += fmt::format("{}\n", n);
+  for (int i = 0; i < model.mesh.nodes(); ++i)
+    text += fmt::format("{} {} 0\n", model.mesh.x(0, i) + 0.0, model.mesh.x(1, i) + 0.0);
+  text += fmt::format("$EndNodes\n$Elements\n{} {} {} {}\n", blocks.size(), elements, lowest, largest);
+  for (const Block& block : blocks) {
+    text += fmt::format("{} {} {} {}\n", block.dimension, block.tag, block.type, block.elements.size());
+    for (const auto& row : block.elements) text += fmt::format("{}\n", fmt::join(row, " "));
+  }
+  return text + "$EndElements\n";
+}
+
+}  // namespace sage

@@ -1,0 +1,342 @@
+// A model as a deck of layout sage1 (legacy_inputs/layouts/sage1.toml).
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <set>
+
+#include "sage/exchange/convert.hpp"
+
+namespace sage {
+
+namespace {
+
+// "0.050" -> ".05", "1.5e-07" -> "1.5E-7", "12" -> "12."; all read the same.
+std::string shortened(const std::string& text) {
+  const std::size_t e = text.find('e');
+  std::string mantissa = text.substr(0, e), exponent;
+  if (e != std::string::npos) {
+    const int power = std::atoi(text.c_str() + e + 1);
+    exponent = (power < 0 ? "E-" : "E") + std::to_string(std::abs(power));
+  }
+  if (mantissa.find('.') == std::string::npos) mantissa += '.';
+  while (mantissa.back() == '0') mantissa.pop_back();
+  const std::size_t zero = mantissa.find("0.");
+  if (mantissa.size() > 2 && zero != std::string::npos && (zero == 0 || (zero == 1 && mantissa[0] == '-')))
+    mantissa.erase(zero, 1);
+  return mantissa + exponent;
+}
+
+class Writer {
+ public:
+  Writer(const Model& model, Diagnostics& diagnostics) : model_(model), diagnostics_(diagnostics) {}
+
+  std::string deck();
+
+ private:
+  void integer(long value, int width = 5) {
+    std::string digits = std::to_string(value);
+    if (static_cast<int>(digits.size()) > width)
+      throw InputError({model_.file, 0, 0, 0}, "the number " + digits + " does not fit the " +
+                                                   std::to_string(width) + " columns of a sage1 card");
+    text_.append(static_cast<std::size_t>(width) - digits.size(), ' ') += digits;
+  }
+  void real(double value) {
+    const FieldText field = field_text(value, 10);
+    if (!field.exact) {
+      ++inexact_;
+      largest_ = std::max(largest_, field.change);
+    }
+    text_.append(10 - field.text.size(), ' ') += field.text;
+  }
+  void name(std::string value, std::size_t width) {
+    // Not in the middle of a character of UTF-8.
+    const std::size_t columns = width;
+    while (value.size() > width && (static_cast<unsigned char>(value[width]) & 0xc0u) == 0x80u) --width;
+    value.resize(width, ' ');
+    value.resize(columns, ' ');
+    text_ += value;
+  }
+  void line() {
+    while (!text_.empty() && text_.back() == ' ') text_.pop_back();
+    text_ += '\n';
+  }
+  void warning(const std::string& message) {
+    diagnostics_.add({Severity::warning, {model_.file, 0, 0, 0}, message, {}});
+  }
+
+  int group_number(int group) const { return group_numbers_[static_cast<std::size_t>(group)]; }
+  int node_number(int node) const { return model_.mesh.number[static_cast<std::size_t>(node)]; }
+  void number_groups();
+  void control(std::size_t reports);
+  void nodes();
+  void materials();
+  void groups();
+  void elements();
+  void fixity(const Fixity& fixity, bool in_stage);
+  void initial(const InitialStress& initial);
+  void list(const std::vector<int>& groups);
+  void stage(const Stage& stage);
+  bool report(const Report& report, bool write);
+  void point(const Report& report);
+
+  const Model& model_;
+  Diagnostics& diagnostics_;
+  std::string text_;
+  std::vector<int> group_numbers_;
+  int inexact_ = 0;
+  double largest_ = 0.0;
+};
+
+// Quadrilaterals and the triangles folded out of them share a number in the model; here each has its own.
+void Writer::number_groups() {
+  std::set<int> used;
+  int largest = 0;
+  for (const Group& group : model_.groups) largest = std::max(largest, group.number);
+  for (const Group& group : model_.groups)
+    group_numbers_.push_back(used.insert(group.number).second ? group.number : ++largest);
+}
+
+void Writer::control(std::size_t reports) {
+  std::size_t elements = 0;
+  for (const Group& group : model_.groups) elements += static_cast<std::size_t>(group.elements());
+  const std::size_t counts[] = {model_.mesh.number.size(),
+                                0,
+                                model_.materials.size(),
+                                model_.groups.size(),
+                                elements,
+                                model_.fixities.size(),
+                                model_.initials.size(),
+                                model_.stages.size(),
+                                reports,
+                                model_.mesh.number.size(),
+                                elements};
+  text_ += "* geom solv node fill matl grup elem fixi init stag rept nnod nele\n";
+  integer(model_.geometry == Geometry::axisymmetric ? 2 : 1);
+  integer(model_.solver);
+  for (std::size_t count : counts) integer(static_cast<long>(count));
+  line();
+}
+
+void Writer::nodes() {
+  text_ += "* node step syst         x         y\n";
+  for (int node = 0; node < model_.mesh.nodes(); ++node) {
+    integer(node_number(node));
+    text_ += "    0    0";
+    real(model_.mesh.x(0, node));
+    real(model_.mesh.x(1, node));
+    line();
+  }
+}
+
+void Writer::materials() {
+  for (const Material& material : model_.materials) {
+    text_ += "* numb  law para    weight name\n";
+    integer(material.number);
+    integer(material.code);
+    integer(static_cast<long>(material.parameters.size()));
+    real(material.unit_weight);
+    name(material.name, 20);
+    line();
+    for (std::size_t i = 0; i < material.parameters.size(); ++i) {
+      real(material.parameters[i]);
+      if (i % 8 == 7 || i + 1 == material.parameters.size()) line();
+    }
+  }
+}
+
+void Writer::groups() {
+  text_ += "* numb elem form matl name\n";
+  for (std::size_t g = 0; g < model_.groups.size(); ++g) {
+    const Group& group = model_.groups[g];
+    integer(group_number(static_cast<int>(g)));
+    integer(group.element_code);
+    integer(group.formulation);
+    integer(model_.material_of(group).number);
+    name(group.name, 20);
+    line();
+  }
+}
+
+void Writer::elements() {
+  text_ += "* numb grup   n1   n2   n3   n4   n5   n6   n7   n8\n";
+  for (std::size_t g = 0; g < model_.groups.size(); ++g) {
+    const Group& group = model_.groups[g];
+    if (group.elements() > 0 && group.node_count() > 8)
+      throw InputError(group.where, "group " + std::to_string(group.number) + " (" + group.element_name +
+                                        "): an element card of sage1 holds 8 nodes, these have " +
+                                        std::to_string(group.node_count()));
+    for (int e = 0; e < group.elements(); ++e) {
+      integer(group.element_numbers[static_cast<std::size_t>(e)]);
+      integer(group_number(static_cast<int>(g)));
+      for (std::size_t i = 0; i < group.node_count(); ++i) integer(node_number(group.nodes_of(e)[i]));
+      line();
+    }
+  }
+}
+
+void Writer::fixity(const Fixity& fixity, bool in_stage) {
+  integer(node_number(fixity.node));
+  text_ += "    0    0";
+  for (FixityCode code : fixity.code)
+    integer(code == FixityCode::fixed ? 1 : code == FixityCode::released ? -1 : 0);
+  // The displacement of a held dof is written though it is zero: left blank it would get a note.
+  if (in_stage && (fixity.code[0] == FixityCode::fixed || fixity.code[1] == FixityCode::fixed))
+    for (double value : fixity.value) real(value);
+  line();
+}
+
+void Writer::initial(const InitialStress& initial) {
+  integer(group_number(initial.group));
+  integer(static_cast<int>(initial.kind));
+  for (double value : initial.value) real(value);
+  line();
+}
+
+void Writer::list(const std::vector<int>& groups) {
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    integer(group_number(groups[i]));
+    if (i % 16 == 15 || i + 1 == groups.size()) line();
+  }
+}
+
+void Writer::stage(const Stage& stage) {
+  // A '*' in column 1 would make the title a comment.
+  name(stage.title.starts_with('*') ? " " + stage.title : stage.title, 80);
+  line();
+  text_ += "* incr meth iter outp fixi load pres brth deth init    grav x    grav y tolerance\n";
+  const std::size_t counts[] = {stage.fixities.size(), stage.loads.size(),  stage.pressures.size(),
+                                stage.births.size(),   stage.deaths.size(), stage.initials.size()};
+  for (int value : {stage.increments, static_cast<int>(stage.method), stage.max_iterations, stage.output_every})
+    integer(value);
+  for (std::size_t count : counts) integer(static_cast<long>(count));
+  for (double value : {stage.gravity.x(), stage.gravity.y(), stage.tolerance}) real(value);
+  line();
+  for (const Fixity& f : stage.fixities) fixity(f, true);
+  for (const NodalLoad& load : stage.loads) {
+    integer(node_number(load.node));
+    text_ += "    0    0";
+    real(load.force.x());
+    real(load.force.y());
+    line();
+  }
+  for (const EdgeLoad& load : stage.pressures) {
+    const Group& group = model_.groups[static_cast<std::size_t>(load.group)];
+    integer(group.element_numbers[static_cast<std::size_t>(load.element)]);
+    integer(load.edge + 1);
+    text_ += "    0    0";
+    for (double value : {load.normal[0], load.normal[1], load.shear[0], load.shear[1]}) real(value);
+    line();
+  }
+  list(stage.births);
+  list(stage.deaths);
+  for (const InitialStress& i : stage.initials) initial(i);
+}
+
+void Writer::point(const Report& report) {
+  integer(static_cast<int>(report.kind));
+  integer(report.group < 0 ? 0 : group_number(report.group));
+  for (int i = 0; i < 3; ++i) integer(0);
+  integer(report.stage + 1);
+  line();
+  for (double value : {report.place.x(), report.place.y()}) real(value);
+  name(report.name, 20);
+  line();
+}
+
+// Only nodes in equal steps fit a card.
+bool Writer::report(const Report& report, bool write) {
+  if (report.kind == ReportKind::point) {
+    if (write) point(report);
+    return true;
+  }
+  std::vector<int> numbers;
+  for (int node : report.nodes) numbers.push_back(node_number(node));
+  std::sort(numbers.begin(), numbers.end());
+  const int step = numbers.size() > 1 ? numbers[1] - numbers[0] : 1;
+  for (std::size_t i = 1; i < numbers.size(); ++i)
+    if (numbers[i] - numbers[i - 1] != step) return false;
+  if (numbers.empty()) return false;
+  if (!write) return true;
+  integer(static_cast<int>(report.kind));
+  integer(report.group < 0 ? 0 : group_number(report.group));
+  integer(numbers.front());
+  integer(numbers.back());
+  integer(step);
+  integer(report.stage + 1);
+  for (double value : {report.height, report.area, report.cell_pressure}) real(value);
+  line();
+  return true;
+}
+
+std::string Writer::deck() {
+  number_groups();
+  name(model_.title.starts_with('*') ? " " + model_.title : model_.title, 80);
+  line();
+  text_ += "* length force   stress         p_a   gamma_w\n";
+  for (const std::string& unit : {model_.units.length, model_.units.force, model_.units.stress}) name(unit, 8);
+  real(model_.units.atmospheric_pressure);
+  real(model_.units.water_unit_weight);
+  line();
+  std::size_t reports = 0;
+  for (const Report& r : model_.reports) reports += report(r, false) ? 1 : 0;
+  if (reports < model_.reports.size())
+    warning(std::to_string(model_.reports.size() - reports) +
+            " report(s) left out: their nodes are not in equal steps");
+  control(reports);
+  nodes();
+  materials();
+  groups();
+  elements();
+  if (!model_.fixities.empty()) text_ += "* first last step xcod ycod\n";
+  for (const Fixity& f : model_.fixities) fixity(f, false);
+  if (!model_.initials.empty()) text_ += "* group kind      v1        v2        v3        v4\n";
+  for (const InitialStress& i : model_.initials) initial(i);
+  for (const Stage& s : model_.stages) stage(s);
+  for (const Report& r : model_.reports) report(r, true);
+  text_ += "END\n";
+  if (inexact_ > 0) {
+    char change[32];
+    std::snprintf(change, sizeof change, "%.2g", largest_);
+    warning(std::to_string(inexact_) +
+            " number(s) need more digits than ten columns hold; largest relative change " + change);
+  }
+  return std::move(text_);
+}
+
+}  // namespace
+
+FieldText field_text(double value, int width) {
+  if (value == 0.0) return {"0.", true, 0.0};
+  char buffer[64];
+  std::string nearest;
+  double nearest_error = HUGE_VAL;
+  // The shortest exact text in both styles, then fewer and fewer digits.
+  for (int digits = 0; digits < 18; ++digits) {
+    for (const auto style : {std::chars_format::fixed, std::chars_format::scientific}) {
+      const bool fixed = style == std::chars_format::fixed;
+      if (fixed && (std::abs(value) > 1e17 || std::abs(value) < 1e-9)) continue;
+      const auto end = digits == 0 ? std::to_chars(buffer, buffer + sizeof buffer, value, style)
+                                   : std::to_chars(buffer, buffer + sizeof buffer, value, style, 17 - digits);
+      if (end.ec != std::errc()) continue;
+      std::string text = shortened(std::string(buffer, end.ptr));
+      const double error = std::abs(std::strtod(text.c_str(), nullptr) - value);
+      // 1.5E-7 may be written 1.5-7 on a card.
+      if (static_cast<int>(text.size()) == width + 1 && text.find("E-") != std::string::npos)
+        text.erase(text.find('E'), 1);
+      if (static_cast<int>(text.size()) > width) continue;
+      if (error == 0.0) return {text, true, 0.0};
+      if (error < nearest_error) {
+        nearest = text;
+        nearest_error = error;
+      }
+    }
+  }
+  return {nearest, false, nearest_error / std::abs(value)};
+}
+
+std::string sage1_text(const Model& model, Diagnostics& diagnostics) {
+  return Writer(model, diagnostics).deck();
+}
+
+}  // namespace sage

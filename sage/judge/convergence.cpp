@@ -1,0 +1,87 @@
+#include "sage/judge/convergence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sage::judge {
+
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::infinity();
+
+// d2 / d1 of the three values that end at `last`; nothing where they don't approach a limit from one side.
+std::optional<double> shrinking(std::span<const double> v, std::size_t last) {
+  const double d1 = v[last - 1] - v[last - 2], d2 = v[last] - v[last - 1];
+  if (d1 == 0.0) return {};
+  const double r = d2 / d1;
+  return r > 0.0 && r < 1.0 ? std::optional<double>(r) : std::nullopt;
+}
+
+double least_error(std::span<const double> v) {
+  return kLeastError * std::abs(v.back());
+}
+
+// The last difference as those before let expect it: one that is smaller can be chance.  Of three values the
+// first stands for the difference before it.  Halved meshes: no element divides its error by more than 32.
+double expected_difference(std::span<const double> v, Ladder ladder) {
+  constexpr double kMostByHalving = 32.0;
+  const std::size_t n = v.size();
+  const double d1 = std::abs(v[n - 2] - v[n - 3]);
+  if (ladder == Ladder::halving) return d1 / kMostByHalving;
+  const double d0 = n >= 4 ? std::abs(v[n - 3] - v[n - 4]) : std::abs(v[n - 3]);
+  return d1 < d0 ? d1 * d1 / d0 : d1;
+}
+
+// What the last difference alone says, given how it compares with the one before.  Rates of halved meshes are
+// not yet clean where this is used: half as much again.
+double plain_error(std::span<const double> v, Ladder ladder) {
+  const std::size_t n = v.size();
+  if (n < (ladder == Ladder::halving ? 3u : 2u)) return kUnknown;  // halved meshes: at an unknown rate
+  const double d2 = std::abs(v[n - 1] - v[n - 2]);
+  if (n < 3) return d2;
+  const double expected = expected_difference(v, ladder);
+  // Differences that grow mean nothing yet, unless they are within what no error is stated below.
+  if (d2 <= least_error(v)) return expected;
+  const double r = d2 / std::max(std::abs(v[n - 2] - v[n - 3]), std::numeric_limits<double>::min());
+  if (r >= 1.0) return kUnknown;
+  const double caution = ladder == Ladder::halving ? 1.5 : r > 0.1 ? 3.0 : 1.0;  // a tenth: hardly spectral
+  return std::max(d2 * std::max(1.0, r / (1.0 - r)) * caution, expected);
+}
+
+// Richardson's extrapolation, where the rates agree.
+void extrapolate(std::span<const double> v, Limit& limit) {
+  const std::size_t n = v.size();
+  const auto before = shrinking(v, n - 2), now = shrinking(v, n - 1);
+  if (!before || !now) return;
+  const double q0 = -std::log2(*before), q1 = -std::log2(*now);
+  if (std::abs(q1 - q0) >= 0.2) return;
+  const auto extrapolated = [&](std::size_t last, double r) {
+    return v[last] + (v[last] - v[last - 1]) * r / (1 - r);
+  };
+  limit.value = extrapolated(n - 1, *now);
+  limit.error =
+      std::max(std::abs(limit.value - extrapolated(n - 2, *before)), 0.1 * std::abs(limit.value - v[n - 1]));
+  limit.rate = q1;
+}
+
+}  // namespace
+
+Limit limit_of(std::span<const double> v, Ladder ladder) {
+  const std::size_t n = v.size();
+  if (n == 0) return {0.0, kUnknown, {}};
+  Limit limit{v[n - 1], plain_error(v, ladder), {}};
+  if (ladder == Ladder::halving && n >= 4) extrapolate(v, limit);
+  limit.error = std::max(limit.error, least_error(v));
+  return limit;
+}
+
+Limit limit_after(std::span<const double> v, std::size_t meshes, Ladder ladder) {
+  Limit limit = limit_of(v.first(meshes), ladder);
+  const double own = std::abs(v[meshes - 1] - limit.value);
+  for (const double later : v.subspan(meshes))
+    limit.error = std::max(limit.error, std::abs(later - limit.value) - own);
+  return limit;
+}
+
+}  // namespace sage::judge

@@ -1,0 +1,180 @@
+#include "sage/mesh/edges.hpp"
+
+#include <algorithm>
+#include <array>
+#include <unordered_map>
+
+namespace sage::mesh {
+
+namespace {
+
+// A node on an edge, at its place 0 ... 1 from the smaller end node.
+struct OnEdge {
+  double at = 0.0;
+  int node = 0;
+};
+
+// An edge with nodes that were made, and the nodes there were before: its ends, and those that its cards give.
+struct CutEdge {
+  std::vector<OnEdge> known, made;
+
+  // The first known node behind a made one; there is one before it too.
+  std::size_t behind(const OnEdge& node) const {
+    std::size_t i = 1;
+    while (i + 1 < known.size() && known[i].at < node.at) ++i;
+    return i;
+  }
+};
+
+// Edges whose made nodes take something over: outer ones, and inner ones whose own middle node says what is
+// meant.
+std::vector<CutEdge> cut_edges(const MadeEdges& edges, int first_made) {
+  std::vector<CutEdge> cut;
+  for (const auto& [ends, edge] : edges) {
+    CutEdge one{{{0.0, ends.first}, {1.0, ends.second}}, {}};
+    for (std::size_t i = 0; i < edge.nodes.size(); ++i)
+      (edge.nodes[i] < first_made ? one.known : one.made).push_back({edge.at[i], edge.nodes[i]});
+    if (one.made.empty() || (edge.solids > 1 && one.known.size() == 2)) continue;
+    std::sort(one.known.begin(), one.known.end(), [](const OnEdge& a, const OnEdge& b) { return a.at < b.at; });
+    cut.push_back(std::move(one));
+  }
+  return cut;
+}
+
+// What holds every component of every node, one list of cards after the other: those before the stages, then
+// those of each stage.
+class Supports {
+ public:
+  explicit Supports(int nodes) : held_(2 * static_cast<std::size_t>(nodes), 0) {}
+
+  // The cards of a list, later ones win; then those for the nodes that were made are added to it.
+  void follow(std::vector<Fixity>& list, const std::vector<CutEdge>& edges) {
+    cards_.clear();
+    for (const Fixity& f : list) {
+      Fixity& all = cards_.try_emplace(f.node, Fixity{f.node, {}, {}, f.line}).first->second;
+      all.line = f.line;
+      for (std::size_t c = 0; c < 2; ++c) {
+        if (f.code[c] == FixityCode::unchanged) continue;
+        all.code[c] = f.code[c];
+        all.value[c] = f.value[c];
+        held(f.node, c) = f.code[c] == FixityCode::fixed;
+      }
+    }
+    if (cards_.empty()) return;
+    for (const CutEdge& edge : edges) add_cards(edge, list);
+  }
+
+ private:
+  char& held(int node, std::size_t c) { return held_[2 * static_cast<std::size_t>(node) + c]; }
+
+  const Fixity* card(int node) const {
+    const auto it = cards_.find(node);
+    return it == cards_.end() ? nullptr : &it->second;
+  }
+
+  // Displacement that this list adds to a held node.
+  double value(int node, std::size_t c) const {
+    const Fixity* f = card(node);
+    return f != nullptr && f->code[c] == FixityCode::fixed ? f->value[c] : 0.0;
+  }
+
+  // Through all known nodes of the edge where all of them are held, else through the two around the made one.
+  double interpolated(const CutEdge& edge, const OnEdge& made, std::size_t behind, std::size_t c) {
+    const bool all = std::all_of(edge.known.begin(), edge.known.end(),
+                                 [&](const OnEdge& known) { return held(known.node, c) != 0; });
+    const std::size_t first = all ? 0 : behind - 1, end = all ? edge.known.size() : behind + 1;
+    double sum = 0.0;
+    for (std::size_t i = first; i < end; ++i) {
+      double part = value(edge.known[i].node, c);
+      for (std::size_t j = first; j < end; ++j)
+        if (j != i) part *= (made.at - edge.known[j].at) / (edge.known[i].at - edge.known[j].at);
+      sum += part;
+    }
+    return sum;
+  }
+
+  bool here(int node, std::size_t c) const {
+    return card(node) != nullptr && card(node)->code[c] == FixityCode::fixed;
+  }
+
+  // Both nodes around a made one are held.  Where a card gives a middle node that is enough.  Else one list
+  // must hold both: the ends of a long edge may belong to two other sides.
+  bool holds(const CutEdge& edge, const OnEdge& made, std::size_t behind, std::size_t c) {
+    const int before = edge.known[behind - 1].node, after = edge.known[behind].node;
+    if (held(before, c) == 0 || held(after, c) == 0) return false;
+    return edge.known.size() > 2 || held(made.node, c) != 0 || (here(before, c) && here(after, c));
+  }
+
+  void add_cards(const CutEdge& edge, std::vector<Fixity>& list) {
+    const Fixity* first = nullptr;
+    std::array<bool, 2> touched{};
+    for (const OnEdge& known : edge.known) {
+      const Fixity* f = card(known.node);
+      if (f == nullptr) continue;
+      if (first == nullptr) first = f;
+      for (std::size_t c = 0; c < 2; ++c) touched[c] = touched[c] || f->code[c] != FixityCode::unchanged;
+    }
+    if (first == nullptr) return;
+    for (const OnEdge& made : edge.made) {
+      const std::size_t behind = edge.behind(made);
+      Fixity f{made.node, {}, {}, first->line};
+      for (std::size_t c = 0; c < 2; ++c) {
+        if (!touched[c]) continue;
+        const bool hold = holds(edge, made, behind, c);
+        const bool was_held = held(made.node, c) != 0;
+        if (!hold && !was_held) continue;
+        const double value = hold ? interpolated(edge, made, behind, c) : 0.0;
+        const bool stays = hold && was_held && value == 0.0;
+        if (stays && !(here(edge.known[behind - 1].node, c) && here(edge.known[behind].node, c))) continue;
+        f.code[c] = hold ? FixityCode::fixed : FixityCode::released;
+        f.value[c] = value;
+        held(made.node, c) = hold;
+      }
+      if (f.code[0] != FixityCode::unchanged || f.code[1] != FixityCode::unchanged) list.push_back(f);
+    }
+  }
+
+  std::vector<char> held_;
+  std::unordered_map<int, Fixity> cards_;  // of the list in hand, by node
+};
+
+void inherit_report(Report& report, const std::vector<CutEdge>& edges) {
+  std::vector<int> listed = report.nodes;
+  std::sort(listed.begin(), listed.end());
+  const auto has = [&](const OnEdge& known) {
+    return std::binary_search(listed.begin(), listed.end(), known.node);
+  };
+  for (const CutEdge& edge : edges)
+    for (const OnEdge& made : edge.made) {
+      const std::size_t behind = edge.behind(made);
+      if (has(edge.known[behind - 1]) && has(edge.known[behind])) report.nodes.push_back(made.node);
+    }
+}
+
+}  // namespace
+
+void inherit_along_edges(Model& model, const MadeEdges& edges, int first_made) {
+  const std::vector<CutEdge> cut = cut_edges(edges, first_made);
+  if (cut.empty()) return;
+  Supports supports(model.mesh.nodes());
+  supports.follow(model.fixities, cut);
+  for (Stage& stage : model.stages) supports.follow(stage.fixities, cut);
+  for (Report& report : model.reports) inherit_report(report, cut);
+}
+
+int NewNodes::append() {
+  const int first_made = first_;
+  if (made_.empty()) return first_made;
+  const Eigen::Index old = mesh_->x.cols();
+  mesh_->x.conservativeResize(2, old + static_cast<Eigen::Index>(made_.size()));
+  int number = *std::max_element(mesh_->number.begin(), mesh_->number.end());
+  for (std::size_t i = 0; i < made_.size(); ++i) {
+    mesh_->x.col(old + static_cast<Eigen::Index>(i)) = made_[i];
+    mesh_->number.push_back(++number);
+  }
+  first_ = mesh_->nodes();
+  made_.clear();
+  return first_made;
+}
+
+}  // namespace sage::mesh

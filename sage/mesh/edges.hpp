@@ -1,0 +1,65 @@
+// Nodes that are made on the edges of elements, and what they take over from the ends.  Not part of the public
+// interface.
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "sage/mesh/work.hpp"
+#include "sage/model/coarse_shape.hpp"
+
+namespace sage::mesh {
+
+using EdgeKey = std::pair<int, int>;  // end nodes, smaller first
+
+inline EdgeKey edge_key(int a, int z) {
+  return {std::min(a, z), std::max(a, z)};
+}
+
+// Nodes inside an edge: those that cards give, and those that are made.
+struct MadeEdge {
+  std::vector<int> nodes;
+  std::vector<double> at;  // place of each, 0 ... 1 from the smaller to the larger end node
+  // Solids that have the edge; 1 = boundary (an interface beyond it is another body), 0 = an interface on a
+  // rigid body.
+  int solids = 0;
+};
+
+using MadeEdges = std::map<EdgeKey, MadeEdge>;
+
+// What nodes that were made (indices from first_made on) take over from those that their edge had before, which
+// keep what the deck says of them.  A made node is held while both known nodes around it are: on an outer edge
+// if one list of cards (those before the stages, or those of one stage) holds both, on an edge whose middle
+// node a card gives in any case.  Prescribed displacements are interpolated through all known nodes of the
+// edge.  It belongs to the reports that list both nodes around it.
+void inherit_along_edges(Model& model, const MadeEdges& edges, int first_made);
+
+// New nodes of a mesh, appended when all are known.
+class NewNodes {
+ public:
+  explicit NewNodes(Mesh& mesh) : mesh_(&mesh), first_(mesh.nodes()) {}
+  int add(const Vector2& x) {
+    made_.push_back(x);
+    return first_ + static_cast<int>(made_.size()) - 1;
+  }
+  Vector2 at(int node) const {
+    return node < first_ ? Vector2(mesh_->x.col(node)) : made_[static_cast<std::size_t>(node - first_)];
+  }
+  int append();  // index of the first of them
+
+ private:
+  Mesh* mesh_;
+  int first_;
+  std::vector<Vector2> made_;
+};
+
+// Local number of the node in the middle of an edge, a card's mid-side node; -1 where there is none (degrees 1
+// and 3).
+inline int middle_of(const std::vector<int>& edge) {
+  const std::size_t inner = edge.size() - 2;
+  return inner % 2 == 1 ? edge[2 + inner / 2] : -1;
+}
+
+}  // namespace sage::mesh

@@ -1,0 +1,136 @@
+// Refinement and grading that BuildOptions ask for, and what they mean for the rest of the model.
+#include <algorithm>
+
+#include "sage/mesh/subdivide.hpp"
+#include "sage/model/activity.hpp"
+
+namespace sage::mesh {
+
+namespace {
+
+std::vector<char> used_nodes(const Model& model) {
+  std::vector<char> used(static_cast<std::size_t>(model.mesh.nodes()), 0);
+  for (const Group& group : model.groups)
+    for (int node : group.nodes)
+      if (node >= 0) used[static_cast<std::size_t>(node)] = 1;
+  return used;
+}
+
+// Middle nodes that cards give, with the ends of their edges.
+std::map<int, EdgeKey> given_middles(const Model& model) {
+  std::map<int, EdgeKey> middles;
+  for (const Group& group : model.groups)
+    for (int e = 0; e < group.elements(); ++e)
+      for (const std::vector<int>& edge : group.element->edges()) {
+        const int* nodes = group.nodes_of(e);
+        const int middle = middle_of(edge) < 0 ? -1 : nodes[middle_of(edge)];
+        if (middle >= 0) middles.emplace(middle, edge_key(nodes[edge[0]], nodes[edge[1]]));
+      }
+  return middles;
+}
+
+// Supports of middle nodes that grading cut off: new nodes beside them have them only where the ends of the
+// edge are held too.
+void refuse_lost_supports(Work& b, const std::map<int, EdgeKey>& middles, const std::vector<char>& used) {
+  const auto check = [&](const std::vector<char>& held, const std::vector<Fixity>& cards) {
+    for (const Fixity& f : cards) {
+      const auto it = middles.find(f.node);
+      if (it == middles.end() || used[static_cast<std::size_t>(f.node)]) continue;
+      for (std::size_t c = 0; c < 2; ++c) {
+        const auto is_held = [&](int node) { return held[2 * static_cast<std::size_t>(node) + c] != 0; };
+        if (f.code[c] != FixityCode::fixed || (is_held(it->second.first) && is_held(it->second.second)))
+          continue;
+        b.error({b.deck.file, f.line, 0, 0},
+                "node " + std::to_string(b.model.mesh.number[static_cast<std::size_t>(f.node)]) +
+                    " is held along " + (c == 0 ? "x" : "y") +
+                    " but is no node of the graded mesh, and the ends of its edge are not both held; --refine "
+                    "keeps "
+                    "it");
+      }
+    }
+  };
+  Activity activity(b.model);
+  check(activity.held, b.model.fixities);
+  for (const Stage& stage : b.model.stages) {
+    activity.enter(stage);
+    check(activity.held, stage.fixities);
+  }
+}
+
+// Mid-side nodes that grading left without an element.
+void drop_lost_nodes(Work& b, std::vector<char> lost) {
+  Model& model = b.model;
+  const std::vector<char> used = used_nodes(model);
+  lost.resize(used.size(), 1);  // also those that one layer made and the next one cut off
+  const auto is_lost = [&](int node) {
+    return lost[static_cast<std::size_t>(node)] && !used[static_cast<std::size_t>(node)];
+  };
+  std::erase_if(model.fixities, [&](const Fixity& f) { return is_lost(f.node); });
+  for (Stage& stage : model.stages) {
+    std::erase_if(stage.fixities, [&](const Fixity& f) { return is_lost(f.node); });
+    for (const NodalLoad& load : stage.loads)
+      if (is_lost(load.node))
+        b.error({b.deck.file, load.line, 0, 0},
+                "node " + std::to_string(model.mesh.number[static_cast<std::size_t>(load.node)]) +
+                    " is loaded but is no node of the graded mesh; load its edge by a pressure card");
+  }
+  for (Report& report : model.reports) {
+    const auto of_deck = std::count_if(report.nodes.begin(), report.nodes.end(),
+                                       [&](int node) { return node < model.mesh.deck_nodes && is_lost(node); });
+    if (of_deck > 0)
+      b.note(report.where,
+             std::to_string(of_deck) +
+                 " node(s) of this report are no nodes of the graded mesh: they don't count in its mean "
+                 "displacement");
+    std::erase_if(report.nodes, is_lost);
+  }
+}
+
+void warn_point_loads(Work& b) {
+  for (const Stage& stage : b.model.stages)
+    if (!stage.loads.empty()) {
+      b.warning(
+          {b.deck.file, stage.loads.front().line, 0, 0},
+          "loads on nodes stay point loads in a refined mesh: the displacement under them does not converge");
+      return;
+    }
+}
+
+std::vector<int> nodes_of(Work& b, const Grading& grading) {
+  if (grading.node == 0) {
+    const std::vector<int> found = singular_corners(b.model);
+    if (found.empty()) b.note(b.at_line(0), "no singular corner found: the mesh is not graded");
+    return found;
+  }
+  const auto it = b.node_index.find(grading.node);
+  if (it != b.node_index.end()) return {it->second};
+  b.error(b.deck.one("control").where(), "the mesh can't be graded towards node " +
+                                             std::to_string(grading.node) +
+                                             ": the deck has none of that number");
+  return {};
+}
+
+}  // namespace
+
+void refine_as_asked(Work& b) {
+  const MeshOptions& options = b.meshing;
+  if (options.coarsen && !coarsen(b))
+    b.note(b.at_line(0), "the mesh stays as it is: no coarser one of quadrilaterals means the same");
+  if (options.refine <= 0 && options.gradings.empty()) return;
+  const std::vector<char> before = used_nodes(b.model);
+  const std::map<int, EdgeKey> middles = given_middles(b.model);
+  warn_point_loads(b);
+  refine(b, options.refine);
+  for (const Grading& grading : options.gradings)
+    for (const int node : nodes_of(b, grading)) {
+      grade(b, node, grading.layers, grading.ratio);
+      b.warning(
+          b.at_line(0),
+          "mesh graded towards node " + std::to_string(b.model.mesh.number[static_cast<std::size_t>(node)]) +
+              ": where the corner is singular the stress at it does not converge, it grows with every layer");
+    }
+  refuse_lost_supports(b, middles, used_nodes(b.model));
+  drop_lost_nodes(b, before);
+}
+
+}  // namespace sage::mesh

@@ -1,0 +1,268 @@
+// Where the elastic solution of a mesh is singular: from its boundary, the angle inside and what holds both
+// sides; and where materials meet otherwise than along a smooth line.  Williams (1952): stress ~ r^(lambda -
+// 1). A side that is held in one direction mirrors the corner.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "sage/mesh/subdivide.hpp"
+
+namespace sage::mesh {
+
+namespace {
+
+enum class Side { free, held, mirror };  // mirror: held along or across only
+
+struct BoundaryEdge {
+  int a = 0, z = 0;  // counter-clockwise: the body is to the left
+  int group = 0, element = 0, edge = 0;
+  int middle = -1;  // where a card gives it
+};
+
+double degrees(double radians) {
+  return radians / kRadiansPerDegree;
+}
+
+// Boundary edges by their ends, angles of the body at each node.  An edge is held where one list of fixities
+// holds both of its ends, and the middle node that a card gives: the ends of a long edge may belong to two
+// other sides.
+struct Outline {
+  std::vector<BoundaryEdge> edges;
+  std::map<int, std::map<int, double>> sectors;  // degrees that each kind of material has at a node
+  std::map<int, int> borders;                    // sides of elements at a node between two kinds of material
+  std::map<int, std::vector<std::size_t>> leaving, arriving;
+  std::map<int, double> angle;            // degrees
+  std::set<EdgeKey> joined;               // an interface lies on them
+  std::vector<std::array<bool, 2>> held;  // by edge and direction
+
+  void apply(const std::vector<Fixity>& fixities) {
+    std::map<int, std::array<FixityCode, 2>> codes;
+    for (const Fixity& f : fixities)
+      for (std::size_t c = 0; c < 2; ++c)
+        if (f.code[c] != FixityCode::unchanged) codes[f.node][c] = f.code[c];
+    held.resize(edges.size(), {false, false});
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const BoundaryEdge& edge = edges[i];
+      for (std::size_t c = 0; c < 2; ++c) {
+        const auto code = [&](int node) {
+          const auto it = codes.find(node);
+          return it == codes.end() ? FixityCode::unchanged : it->second[c];
+        };
+        const auto all = [&](FixityCode wanted) {
+          return code(edge.a) == wanted && code(edge.z) == wanted &&
+                 (edge.middle < 0 || code(edge.middle) == wanted);
+        };
+        const auto any = [&](FixityCode wanted) {
+          return code(edge.a) == wanted || code(edge.z) == wanted ||
+                 (edge.middle >= 0 && code(edge.middle) == wanted);
+        };
+        if (all(FixityCode::fixed)) held[i][c] = true;
+        if (any(FixityCode::released)) held[i][c] = false;
+      }
+    }
+  }
+};
+
+// The first group whose law is the same: the same code and parameters.
+std::vector<int> kinds_of_material(const Model& model) {
+  std::vector<int> kinds;
+  for (const Group& group : model.groups) {
+    const auto same = [&](const Group& other) {
+      const Material &a = model.material_of(group), &b = model.material_of(other);
+      return a.code == b.code && a.parameters == b.parameters;
+    };
+    kinds.push_back(
+        static_cast<int>(std::find_if(model.groups.begin(), model.groups.end(), same) - model.groups.begin()));
+  }
+  return kinds;
+}
+
+Outline outline_of(const Model& model) {
+  Outline outline;
+  const std::vector<int> kinds = kinds_of_material(model);
+  std::map<EdgeKey, int> uses, kind_on;
+  std::vector<BoundaryEdge> all;
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const Group& group = model.groups[g];
+    const auto& edges = group.element->edges();
+    for (int e = 0; e < group.elements(); ++e) {
+      const int* n = group.nodes_of(e);
+      if (group.interface()) {
+        for (const auto& edge : edges) outline.joined.insert(edge_key(n[edge[0]], n[edge[1]]));
+        continue;
+      }
+      for (std::size_t i = 0; i < edges.size(); ++i) {
+        const int a = n[edges[i][0]], z = n[edges[i][1]];
+        const int before = n[edges[(i + edges.size() - 1) % edges.size()][0]];
+        ++uses[edge_key(a, z)];
+        const int middle = middle_of(edges[i]) < 0 ? -1 : n[middle_of(edges[i])];
+        all.push_back({a, z, static_cast<int>(g), e, static_cast<int>(i), middle});
+        if (const auto [it, is_first] = kind_on.try_emplace(edge_key(a, z), kinds[g]);
+            !is_first && it->second != kinds[g]) {
+          ++outline.borders[a];
+          ++outline.borders[z];
+        }
+        const Vector2 out = model.mesh.x.col(z) - model.mesh.x.col(a),
+                      in = model.mesh.x.col(before) - model.mesh.x.col(a);
+        const double angle = degrees(std::atan2(out.x() * in.y() - out.y() * in.x(), out.dot(in)));
+        outline.angle[a] += angle;
+        outline.sectors[a][kinds[g]] += angle;
+      }
+    }
+  }
+  for (const BoundaryEdge& edge : all) {
+    if (uses[edge_key(edge.a, edge.z)] != 1) continue;
+    outline.leaving[edge.a].push_back(outline.edges.size());
+    outline.arriving[edge.z].push_back(outline.edges.size());
+    outline.edges.push_back(edge);
+  }
+  return outline;
+}
+
+struct SideKind {
+  Side side = Side::free;
+  bool x = false;  // of a mirror: held in x
+};
+
+SideKind kind_of(const Model& model, const Outline& outline, std::size_t edge) {
+  const BoundaryEdge& e = outline.edges[edge];
+  if (outline.joined.count(edge_key(e.a, e.z))) return {Side::held, false};
+  const Vector2 along = model.mesh.x.col(e.z) - model.mesh.x.col(e.a);
+  const double length = along.norm();
+  const bool on_axis = model.geometry == Geometry::axisymmetric &&
+                       std::abs(model.mesh.x(0, e.a)) < 1e-9 * length &&
+                       std::abs(model.mesh.x(0, e.z)) < 1e-9 * length;
+  const bool x = outline.held[edge][0] || on_axis, y = outline.held[edge][1];
+  if (!x && !y) return {Side::free, false};
+  if (x && y) return {Side::held, false};
+  const bool square = std::abs(along.x()) < 1e-6 * length || std::abs(along.y()) < 1e-6 * length;
+  return {square ? Side::mirror : Side::held, x};
+}
+
+constexpr double kSlack = 2.0;  // degrees, for meshers
+
+// Angles from which on the stress has no bound.
+bool is_singular(const SideKind& a, const SideKind& b, double angle) {
+  const bool straight = std::abs(angle - 180.0) < kSlack;
+  if (a.side == b.side) {
+    if (a.side != Side::mirror) return angle > 180.0 + kSlack;
+    return straight ? a.x != b.x : angle > 90.0 + kSlack;
+  }
+  if (a.side == Side::mirror || b.side == Side::mirror) return angle > 90.0 + kSlack;
+  return angle > 60.0;  // held and free: from 55 to 65 degrees on, by Poisson's ratio
+}
+
+void find_by_supports(const Model& model, const Outline& outline, std::set<int>& found) {
+  for (const auto& [node, leaving] : outline.leaving) {
+    const auto& arriving = outline.arriving.at(node);
+    if (leaving.size() != 1) {
+      found.insert(node);  // two parts touch in a point
+      continue;
+    }
+    const SideKind in = kind_of(model, outline, arriving.front());
+    const SideKind out = kind_of(model, outline, leaving.front());
+    if (is_singular(in, out, outline.angle.at(node))) found.insert(node);
+  }
+}
+
+// A line between two materials is smooth where it goes straight on, also by way of its mirror image.
+bool goes_on(const Model& model, const Outline& outline, int node) {
+  const auto all = [&](double angle) {
+    const auto& sectors = outline.sectors.at(node);
+    return std::all_of(sectors.begin(), sectors.end(),
+                       [&](const auto& sector) { return std::abs(sector.second - angle) < kSlack; });
+  };
+  const int borders = outline.borders.at(node);
+  const auto leaving = outline.leaving.find(node);
+  if (leaving == outline.leaving.end()) return borders == 2 && all(180.0);
+  if (borders != 1 || leaving->second.size() != 1 || !all(90.0)) return false;
+  const SideKind in = kind_of(model, outline, outline.arriving.at(node).front());
+  const SideKind out = kind_of(model, outline, leaving->second.front());
+  return in.side == Side::mirror && out.side == Side::mirror && in.x == out.x;
+}
+
+void find_by_materials(const Model& model, const Outline& outline, std::set<int>& found) {
+  for (const auto& [node, count] : outline.borders)
+    if (!goes_on(model, outline, node)) found.insert(node);
+}
+
+// Loads on edges that make the stress jump from direction to direction at a point: it is bounded, its slope is
+// not.
+class EdgeLoads {
+ public:
+  EdgeLoads(const Model& model, const Stage& stage) : model_(&model) {
+    for (const EdgeLoad& p : stage.pressures) {
+      auto [it, is_new] = load_.try_emplace({p.group, p.element, p.edge},
+                                            std::array<Vector2, 2>{Vector2::Zero(), Vector2::Zero()});
+      it->second[0] += Vector2(p.normal.x(), p.shear.x());
+      it->second[1] += Vector2(p.normal.y(), p.shear.y());
+      largest_ = std::max({largest_, p.normal.cwiseAbs().maxCoeff(), p.shear.cwiseAbs().maxCoeff()});
+    }
+  }
+  // Pressure and shear that end or jump on a straight side.
+  bool jump(const BoundaryEdge& in, const BoundaryEdge& out) const {
+    return (value(out, 0) - value(in, 1)).norm() > 1e-6 * largest_;
+  }
+  // Tractions on the sides of a corner that no one stress has: it is symmetric, n_in . t_out = n_out . t_in.
+  bool clash(const BoundaryEdge& in, const BoundaryEdge& out) const {
+    const Vector2 t_in = traction(in, 1), t_out = traction(out, 0);
+    const double difference = std::abs(normal(in).dot(t_out) - normal(out).dot(t_in));
+    return difference > std::sin(kSlack * kRadiansPerDegree) * (t_in.norm() + t_out.norm()) + 1e-6 * largest_;
+  }
+
+ private:
+  Vector2 value(const BoundaryEdge& e, std::size_t end) const {
+    const auto it = load_.find({e.group, e.element, e.edge});
+    return it == load_.end() ? Vector2::Zero() : it->second[end];
+  }
+  Vector2 normal(const BoundaryEdge& e) const {  // outward
+    const Vector2 along = (model_->mesh.x.col(e.z) - model_->mesh.x.col(e.a)).normalized();
+    return {along.y(), -along.x()};
+  }
+  Vector2 traction(const BoundaryEdge& e, std::size_t end) const {
+    const Vector2 n = normal(e), load = value(e, end);
+    return -load.x() * n + load.y() * Vector2(-n.y(), n.x());
+  }
+
+  const Model* model_;
+  std::map<std::tuple<int, int, int>, std::array<Vector2, 2>> load_;  // pressure, shear at both ends of an edge
+  double largest_ = 0.0;
+};
+
+void find_by_loads(const Model& model, const Outline& outline, const Stage& stage, std::set<int>& found) {
+  const EdgeLoads loads(model, stage);
+  for (const auto& [node, leaving] : outline.leaving) {
+    if (leaving.size() != 1) continue;
+    const std::size_t edge_in = outline.arriving.at(node).front(), edge_out = leaving.front();
+    const BoundaryEdge &in = outline.edges[edge_in], &out = outline.edges[edge_out];
+    const double angle = outline.angle.at(node);
+    if (std::abs(angle - 180.0) <= 10.0) {
+      if (loads.jump(in, out)) found.insert(node);
+      continue;
+    }
+    const Side a = kind_of(model, outline, edge_in).side, b = kind_of(model, outline, edge_out).side;
+    // Beside a line of symmetry the pressure adjusts itself, so that only shear can clash, at a right angle.
+    const bool both_free = a == Side::free && b == Side::free;
+    const bool beside_mirror = a != b && a != Side::held && b != Side::held && std::abs(angle - 90.0) < kSlack;
+    if ((both_free || beside_mirror) && loads.clash(in, out)) found.insert(node);
+  }
+}
+
+}  // namespace
+
+std::vector<int> singular_corners(const Model& model) {
+  Outline outline = outline_of(model);
+  outline.apply(model.fixities);
+  std::set<int> found;
+  for (const Stage& stage : model.stages) {
+    outline.apply(stage.fixities);
+    find_by_supports(model, outline, found);
+    find_by_loads(model, outline, stage, found);
+    find_by_materials(model, outline, found);
+  }
+  return {found.begin(), found.end()};
+}
+
+}  // namespace sage::mesh

@@ -1,0 +1,39 @@
+// What operations on a mesh work on, before there are mid-side nodes.  Not part of the public interface.
+#pragma once
+
+#include <string>
+#include <unordered_map>
+
+#include "sage/deck/deck.hpp"
+#include "sage/mesh/mesh_options.hpp"
+#include "sage/model/model.hpp"
+
+namespace sage::mesh {
+
+struct Work {
+  const Deck& deck;
+  const Catalogue& catalogue;
+  const MeshOptions& meshing;
+  Model model = {};
+  Diagnostics problems = {};                     // errors; warnings go to model.diagnostics at the end
+  std::unordered_map<int, int> node_index = {};  // deck number -> index
+
+  SourcePosition at_line(int line) const { return {deck.file, line, 0, 0}; }
+  // Adds a message that shows the card.
+  void error(const SourcePosition& where, const std::string& message) {
+    problems.add(card_diagnostic(deck, Severity::error, where, message));
+  }
+  void warning(const SourcePosition& where, const std::string& message) {
+    model.diagnostics.add(card_diagnostic(deck, Severity::warning, where, message));
+  }
+  void note(const SourcePosition& where, const std::string& message) {
+    model.diagnostics.add(card_diagnostic(deck, Severity::note, where, message));
+  }
+};
+
+// Coarsening, refinement and grading that the options ask for.
+void refine_as_asked(Work& b);
+// Mid-side and inner nodes that element cards leave blank; fixities are inherited along boundary edges.
+void make_mid_nodes(Work& b);
+
+}  // namespace sage::mesh

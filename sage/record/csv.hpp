@@ -1,0 +1,53 @@
+// Comma-separated tables for programs.  Lines that start with '#' are comments (signs and units; how the run
+// ended); then one header line with the unit of each column in brackets.  Blank = not known or does not apply.
+#pragma once
+
+#include "sage/record/number.hpp"
+#include "sage/record/out_file.hpp"
+#include "sage/record/output.hpp"
+
+namespace sage {
+
+struct CsvOptions {
+  bool increments = true;  // STEM.increments.csv: a row an increment
+  bool nodes = false;      // STEM.nodes.csv: a row a node of an output increment
+  bool points = false;     // STEM.points.csv and, where there are interfaces, STEM.interfaces.csv
+  int digits = kCsvDigits;
+};
+
+class Csv final : public Output {
+ public:
+  // Throws OutputError.
+  Csv(const std::filesystem::path& folder, const std::string& stem, CsvOptions options = {});
+
+  void on_start(const Model&, const Scene&, std::string_view solver, int equations) override;
+  void on_increment(const Model&, const StepReport&, const Solution&) override;
+  void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
+  void on_finish(const Model&, const RunResult&) override;
+  bool wants_states(const Model& model, const StepReport& report) const override {
+    return points_.file.open() && is_output_increment(stage_of(model, report.stage), report);
+  }
+  void exchange(Archive& archive) override;
+  void stop(const std::string& reason) override;
+  std::vector<std::filesystem::path> files() const override { return files_; }
+
+ private:
+  struct Table {
+    OutFile file;
+    std::vector<std::string_view> history;  // columns, in this order (points and interfaces)
+  };
+  std::array<OutFile*, 4> all() { return {&increments_, &nodes_, &points_.file, &interfaces_.file}; }
+  void add_increment(const Model&, const StepReport&);
+  void add_states(const Model&, const StepReport&, const Solution&);
+  void comment(const std::string& line);
+  void finish();
+
+  std::filesystem::path folder_;
+  std::string stem_;
+  int digits_;
+  OutFile increments_, nodes_;
+  Table points_, interfaces_;
+  std::vector<std::filesystem::path> files_;
+};
+
+}  // namespace sage

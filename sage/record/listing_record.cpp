@@ -1,0 +1,158 @@
+// What was done: increments, equilibrium, reports, work.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "sage/record/listing_parts.hpp"
+#include "sage/record/number.hpp"
+
+namespace sage::listing {
+
+namespace {
+
+auto to(std::string& text) {
+  return std::back_inserter(text);
+}
+
+void put(std::string& text, double value, int width, int digits) {
+  if (std::isnan(value))
+    fmt::format_to(to(text), "{:>{}}", "-", width);
+  else
+    append_scientific(text, value, width, digits);
+}
+
+constexpr const char* kHeldNote =
+    "   * the force holds part of what is let go over the stage, borne by no load and no support\n";
+
+bool holds(const NodesRow& row) {
+  return row.held[0] != 0.0 || row.held[1] != 0.0;
+}
+
+void triaxial_rows(std::string& text, const Model& model, const std::vector<TriaxialRow>& rows) {
+  const std::string& stress = model.units.stress;
+  fmt::format_to(
+      to(text), "   measured: force on the report's nodes / area.  correct: the law with frictionless ends.\n");
+  fmt::format_to(to(text), "   {:>5}{:>6}{:>12}{:>15}{:>15}{:>15}{:>15}{:>15}{:>10}\n", "stage", "incr",
+                 "strain", "force", "meas. deviator", "corr. deviator", "meas. axial", "corr. axial", "ratio");
+  fmt::format_to(to(text), "   {:>5}{:>6}{:>12}{:>15}{:>15}{:>15}{:>15}{:>15}{:>10}\n", "", "", "-",
+                 model.units.force, stress, stress, stress, stress, "-");
+  for (const TriaxialRow& r : rows) {
+    fmt::format_to(to(text), "   {:>5}{:>6}", r.stage, r.increment);
+    put(text, r.axial_strain, 12, 5);
+    for (double v : {r.force, r.measured_deviator, r.correct_deviator, r.measured_axial, r.correct_axial})
+      put(text, v, 15, 6);
+    fmt::format_to(to(text), "{:>10}\n",
+                   (std::isnan(r.ratio) ? std::string("-") : fmt::format("{:.5f}", r.ratio)) +
+                       (r.held != 0.0 ? " *" : ""));
+  }
+  if (std::ranges::any_of(rows, [](const TriaxialRow& r) { return r.held != 0.0; })) text += kHeldNote;
+}
+
+void node_rows(std::string& text, const Model& model, const std::vector<NodesRow>& rows) {
+  const AxisNames& names = axis_names(model.geometry);
+  fmt::format_to(
+      to(text), "   {:>5}{:>6}{:>14}{:>14}{:>14}{:>14}    (mean displacement {}, sum of forces {})\n", "stage",
+      "incr", fmt::format("u-{}", names.x), fmt::format("u-{}", names.y), fmt::format("force-{}", names.x),
+      fmt::format("force-{}", names.y), model.units.length, model.units.force);
+  for (const NodesRow& r : rows) {
+    fmt::format_to(to(text), "   {:>5}{:>6}", r.stage, r.increment);
+    for (double v : {r.displacement[0], r.displacement[1], r.force[0], r.force[1]}) put(text, v, 14, 6);
+    text += holds(r) ? " *\n" : "\n";
+  }
+  if (std::ranges::any_of(rows, holds)) text += kHeldNote;
+}
+
+void point_rows(std::string& text, const Model& model, const std::vector<PointRow>& rows) {
+  const AxisNames& names = axis_names(model.geometry);
+  text += "   stage  incr";
+  for (const std::string_view axis : {names.x, names.y})
+    fmt::format_to(to(text), "{:>14}", fmt::format("u-{}", axis));
+  for (const std::string_view name : names.strain) fmt::format_to(to(text), "{:>14}", name);
+  for (const std::string_view name : names.stress) fmt::format_to(to(text), "{:>14}", name);
+  fmt::format_to(to(text), "    (displacement {}, stress {})\n", model.units.length, model.units.stress);
+  for (const PointRow& r : rows) {
+    fmt::format_to(to(text), "   {:>5}{:>6}", r.stage, r.increment);
+    for (double v : r.displacement) put(text, v, 14, 6);
+    for (double v : r.strain) put(text, v, 14, 6);
+    for (double v : r.stress) put(text, v, 14, 6);
+    text += '\n';
+  }
+}
+
+}  // namespace
+
+void increment_columns(std::string& text) {
+  text +=
+      "\n    incr  load factor  iter  rel. force  rel. displ  rel. energy  cuts   yielded  slipping      open  "
+      "    apex\n";
+}
+
+void increment(std::string& text, const StepReport& report) {
+  const IterationRecord last = report.iterations.empty() ? IterationRecord{} : report.iterations.back();
+  append_integer(text, report.increment, 8);
+  append_scientific(text, report.load_factor, 13, 6);
+  append_integer(text, report.total_iterations, 6);
+  append_scientific(text, last.force, 12, 3);
+  append_scientific(text, last.displacement, 12, 3);
+  append_scientific(text, last.energy, 13, 3);
+  append_integer(text, report.cuts, 6);
+  for (PointStatus s : {PointStatus::yielded, PointStatus::slipping, PointStatus::open, PointStatus::apex})
+    append_integer(text, report.points[static_cast<std::size_t>(s)], 10);
+  text += report.converged ? "\n" : "   NOT CONVERGED\n";
+}
+
+void audit(std::string& text, const Model& model, const EquilibriumAudit& audit) {
+  const AxisNames& names = axis_names(model.geometry);
+  fmt::format_to(to(text), "\n   Equilibrium of the whole model ({})\n   {:>12}{:>16}{:>16}{:>16}\n",
+                 model.units.force, "", "applied", "reactions", "sum");
+  for (int c = 0; c < 2; ++c) {
+    fmt::format_to(to(text), "   {:>12}", c == 0 ? names.x : names.y);
+    for (double v : {audit.applied[c], audit.reactions[c], audit.applied[c] + audit.reactions[c]})
+      put(text, v, 16, 8);
+    text += c == 0 && model.geometry == Geometry::axisymmetric
+                ? "   (radial forces of a ring need no sum of zero)\n"
+                : "\n";
+  }
+  if (model.geometry == Geometry::plane_strain)
+    fmt::format_to(to(text), "   {:>12}{:>48.3E}   (about the origin)\n", "moment", audit.moment);
+  fmt::format_to(to(text), "   largest out of balance / force scale: {:.2e}\n", audit.out_of_balance);
+}
+
+void report_rows(std::string& text, const Model& model, const Reports& reports) {
+  for (std::size_t i = 0; i < reports.count(); ++i) {
+    const Report& report = model.reports[i];
+    switch (report.kind) {
+      case ReportKind::triaxial:
+        heading(text, fmt::format("REPORT {}: TRIAXIAL TEST (COMPRESSION POSITIVE)", i + 1));
+        triaxial_rows(text, model, reports.triaxial(i));
+        break;
+      case ReportKind::nodes:
+        heading(text, fmt::format("REPORT {}: NODES", i + 1));
+        node_rows(text, model, reports.nodes(i));
+        break;
+      case ReportKind::point:
+        heading(text,
+                fmt::format("REPORT {}: POINT {}({:.10g}; {:.10g})", i + 1,
+                            report.name.empty() ? "" : report.name + " ", report.place.x(), report.place.y()));
+        point_rows(text, model, reports.points(i));
+        break;
+    }
+  }
+}
+
+void work(std::string& text, const RunResult& result) {
+  const WorkCounters& w = result.work;
+  heading(text, "WORK");
+  fmt::format_to(to(text), "   stages done {}, increments done {}\n", result.stages_done,
+                 result.increments_done);
+  fmt::format_to(
+      to(text),
+      "   stiffness assemblies {}, force-only passes {}, element evaluations {}, linear products {}\n",
+      w.assemblies, w.residuals, w.element_evaluations, w.linear_products);
+  fmt::format_to(to(text), "   patterns analysed {}, factorisations {}, solves {}\n", w.analyses,
+                 w.factorisations, w.solves);
+}
+
+}  // namespace sage::listing

@@ -1,0 +1,195 @@
+#include "sage/record/number.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <iterator>
+#include <limits>
+#include <string_view>
+
+#include "sage/core/error.hpp"
+
+namespace sage {
+
+namespace {
+
+// digits[0] . digits[1] digits[2] ... x 10^exponent, the digits as one number.
+struct Decimal {
+  std::uint64_t number = 0;
+  int exponent = 0;
+};
+
+constexpr int kFastDigits = 15;                         // more don't survive the scaling by a power of ten
+constexpr double kSmallest = 1e-280, kLargest = 1e280;  // beyond them the library's formatter is used
+
+const std::array<double, 309>& powers_of_ten() {
+  static const std::array<double, 309> table = [] {
+    std::array<double, 309> t{};
+    for (std::size_t k = 0; k < t.size(); ++k) t[k] = std::pow(10.0, static_cast<double>(k));
+    return t;
+  }();
+  return table;
+}
+
+// value x 10^power, which is 1 or more, to the nearest integer; one rounding before.
+std::uint64_t scaled(double value, int power) {
+  const auto& ten = powers_of_ten();
+  const double half = 0.5 + (power >= 0 ? value * ten[static_cast<std::size_t>(power)]
+                                        : value / ten[static_cast<std::size_t>(-power)]);
+  return static_cast<std::uint64_t>(half);
+}
+
+// value in (kSmallest, kLargest).
+Decimal decimal_of(double value, int digits) {
+  // value in [2^binary, 2^(binary + 1)): the first guess is right or one too small.
+  const std::int64_t binary = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(value) >> 52) - 1023;
+  constexpr std::int64_t kLog2 = 1292913986;  // log10(2) 2^32
+  Decimal decimal;
+  decimal.exponent = static_cast<int>((binary * kLog2) >> 32);
+  decimal.number = scaled(value, digits - 1 - decimal.exponent);
+  if (decimal.number >= static_cast<std::uint64_t>(powers_of_ten()[static_cast<std::size_t>(digits)]))
+    decimal.number = scaled(value, digits - 1 - ++decimal.exponent);
+  return decimal;
+}
+
+// Writes the last `count` digits of `number` before `end`; returns what is left of it.
+template <class Unsigned>
+Unsigned put_digits(char* end, Unsigned number, int count) {
+  for (int i = 0; i < count; ++i) {
+    *--end = static_cast<char>('0' + number % 10);
+    number /= 10;
+  }
+  return number;
+}
+
+// In 32 bits where they do: a division there costs a third.
+std::uint64_t put_digits_before(char* end, std::uint64_t number, int count) {
+  if (number <= std::numeric_limits<std::uint32_t>::max())
+    return put_digits(end, static_cast<std::uint32_t>(number), count);
+  return put_digits(end, number, count);
+}
+
+int exponent_digits(int exponent) {
+  return std::abs(exponent) >= 100 ? 3 : 2;
+}
+
+// "+07" before `end`.
+void put_exponent_before(char* end, int exponent) {
+  const int size = exponent_digits(exponent);
+  put_digits(end, static_cast<std::uint32_t>(std::abs(exponent)), size);
+  end[-size - 1] = exponent < 0 ? '-' : '+';
+}
+
+char* put_exponent(char* at, int exponent) {
+  at += 1 + exponent_digits(exponent);
+  put_exponent_before(at, exponent);
+  return at;
+}
+
+// Room for `count` characters, justified to the right in `width`; returns their end.
+char* make_room(std::string& text, int count, int width) {
+  text.append(static_cast<std::size_t>(std::max(count, width)), ' ');
+  return text.data() + text.size();
+}
+
+void append_right(std::string& text, std::string_view what, int width) {
+  const int count = static_cast<int>(what.size());
+  std::memcpy(make_room(text, count, width) - count, what.data(), what.size());
+}
+
+bool in_range(double size) {
+  return size > kSmallest && size < kLargest;
+}
+
+// ddd.ddd for exponents near zero, d.ddde-07 beyond; trailing zeros of the digits dropped.
+char* put_plain(char* at, const Decimal& decimal, int digits) {
+  char digit[20];
+  put_digits_before(digit + digits, decimal.number, digits);
+  int last = digits;
+  while (last > 1 && digit[last - 1] == '0') --last;
+  const int exponent = decimal.exponent;
+  if (exponent < -4 || exponent >= digits) {
+    *at++ = digit[0];
+    if (last > 1) *at++ = '.';
+    for (int i = 1; i < last; ++i) *at++ = digit[i];
+    *at++ = 'e';
+    return put_exponent(at, exponent);
+  }
+  if (exponent < 0) {
+    *at++ = '0';
+    *at++ = '.';
+    for (int i = -1; i > exponent; --i) *at++ = '0';
+    for (int i = 0; i < last; ++i) *at++ = digit[i];
+    return at;
+  }
+  for (int i = 0; i <= exponent; ++i) *at++ = i < last ? digit[i] : '0';
+  if (last > exponent + 1) *at++ = '.';
+  for (int i = exponent + 1; i < last; ++i) *at++ = digit[i];
+  return at;
+}
+
+}  // namespace
+
+void append_scientific(std::string& text, double value, int width, int digits) {
+  const double size = std::abs(value);
+  if (!in_range(size)) {
+    char buffer[48];
+    const double shown = value == 0.0 ? 0.0 : value;  // no minus sign
+    const char* end = fmt::format_to(buffer, "{:.{}E}", shown, digits - 1);
+    return append_right(text, {buffer, end}, width);
+  }
+  const Decimal decimal = decimal_of(size, digits);
+  const int tail = 2 + exponent_digits(decimal.exponent), sign = value < 0.0 ? 1 : 0;
+  char* const end = make_room(text, sign + 1 + digits + tail, width);
+  put_exponent_before(end, decimal.exponent);
+  char* const point = end - tail - digits;
+  const std::uint64_t first = put_digits_before(end - tail, decimal.number, digits - 1);
+  end[-tail] = 'E';
+  *point = '.';
+  point[-1] = static_cast<char>('0' + first);
+  if (sign == 1) point[-2] = '-';
+}
+
+void append_plain(std::string& text, double value, int digits) {
+  if (value == 0.0) {
+    text += '0';
+    return;
+  }
+  const double size = std::abs(value);
+  if (!in_range(size) || digits > kFastDigits) {
+    fmt::format_to(std::back_inserter(text), "{:.{}g}", value, digits);
+    return;
+  }
+  char buffer[48];
+  char* at = buffer;
+  if (value < 0.0) *at++ = '-';
+  text.append(buffer, put_plain(at, decimal_of(size, digits), digits));
+}
+
+void append_result_cell(std::string& text, double value, int digits) {
+  if (!std::isfinite(value))
+    throw AnalysisError(
+        fmt::format("a result is {}, no finite number: the model's numbers are too large or too "
+                    "small to compute with",
+                    std::isnan(value) ? "undefined" : "infinite"));
+  text += ',';
+  append_plain(text, value, digits);
+}
+
+void append_optional_cell(std::string& text, double value, int digits) {
+  text += ',';
+  if (std::isfinite(value)) append_plain(text, value, digits);
+}
+
+void append_integer(std::string& text, long value, int width) {
+  char buffer[24];
+  append_right(text, {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr}, width);
+}
+
+}  // namespace sage

@@ -1,0 +1,439 @@
+#include "sage/record/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "sage/analysis/loads.hpp"
+#include "sage/record/number.hpp"
+#include "sage/record/values.hpp"
+
+namespace sage {
+
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr int kSubsteps = 10;  // of the law, an increment
+
+// What the weight of the soil puts on the report's nodes: what acts at the start of a stage stays, what is
+// placed or added in it grows.
+struct Weights {
+  Eigen::VectorXd start, end;
+
+  Weights(const Model& model, int stage) {
+    Activity activity(model);
+    Vector2 gravity = Vector2::Zero();
+    for (int s = 0; s < stage; ++s) {
+      activity.enter(model.stages[static_cast<std::size_t>(s)]);
+      gravity += model.stages[static_cast<std::size_t>(s)].gravity;
+    }
+    std::vector<char> both = activity.group;
+    activity.enter(model.stages[static_cast<std::size_t>(stage)]);
+    for (std::size_t g = 0; g < both.size(); ++g) both[g] = both[g] && activity.group[g];
+    start = weight_of(model, both, gravity);
+    end = weight_of(model, activity.group, gravity + model.stages[static_cast<std::size_t>(stage)].gravity);
+  }
+};
+
+// Forces on the report's nodes that nothing bears when a stage starts: they are held, and let go over the
+// stage. What equilibrium leaves at free nodes is not meant.
+std::array<double, 2> released_forces(const Model& model, const Report& report, const Solution& start) {
+  constexpr double kNoticed = 1e-4;  // of the model's largest force
+  const std::vector<char> active = active_nodes(model, *start.activity);
+  std::array<double, 2> sum{0.0, 0.0};
+  for (int node : report.nodes)
+    for (int c = 0; c < 2; ++c) {
+      const int dof = 2 * node + c;
+      if (active[static_cast<std::size_t>(node)] && !start.activity->held[static_cast<std::size_t>(dof)])
+        sum[static_cast<std::size_t>(c)] += (*start.internal)[dof] - (*start.external)[dof];
+    }
+  const double largest = start.internal->size() > 0 ? start.internal->lpNorm<Eigen::Infinity>() : 0.0;
+  for (double& s : sum)
+    if (std::abs(s) <= kNoticed * largest) s = 0.0;
+  return sum;
+}
+
+const SolidLaw* specimen_law(const Model& model, const Report& report) {
+  if (report.group < 0) return nullptr;
+  const LawRef law = model.material_of(model.groups[static_cast<std::size_t>(report.group)]).law_ref();
+  const auto* solid = std::get_if<const SolidLaw*>(&law);
+  return solid != nullptr ? *solid : nullptr;
+}
+
+// What stands in the comment lines above the columns.
+std::string remarks(const Model& model, std::size_t index) {
+  const Report& report = model.reports[index];
+  const UnitSystem& u = model.units;
+  const std::string per = forces_per(model.geometry);
+  if (report.kind == ReportKind::triaxial)
+    return fmt::format(
+        "# triaxial report; compression positive; strain and deviator count from the start of stage {0}; units "
+        "{1}, {2}, {3}; forces {4}\n"
+        "# correct: one point of the law, frictionless ends; ratio = measured / correct deviator\n",
+        report.stage + 1, u.length, u.force, u.stress, per);
+  if (report.kind == ReportKind::nodes)
+    return fmt::format(
+        "# node report: mean displacement since the start of stage {}, sum of the forces that loads and "
+        "supports "
+        "put on the nodes, without the weight of the soil; positive along +x, +y; forces {}\n",
+        report.stage + 1, per);
+  return fmt::format(
+      "# {}; displacement along +x, +y and strain since the start of stage {}; stress and strain compression "
+      "positive, shear likewise reversed and engineering; units {}, {}\n"
+      "# mean_stress = (xx + yy + zz) / 3, deviator = sqrt(3 J2); blank while nothing is placed there\n{}",
+      report_title(model, index), report.stage + 1, u.length, u.stress,
+      model.geometry == Geometry::axisymmetric ? "# x = r, y = z, zz = hoop\n" : "");
+}
+
+std::string header(const Model& model, std::size_t index) {
+  std::string text = "# " + model.title + "\n" + remarks(model, index) + "stage,increment";
+  for (const ReportColumn& column : report_columns(model, model.reports[index]))
+    text += fmt::format(",{}[{}]", column.name, column.unit);
+  return text + "\n";
+}
+
+}  // namespace
+
+struct Reports::NodeSums {
+  // Mean over the deck's own nodes, so that it keeps its meaning in finer meshes.
+  double displacement[2] = {0, 0};
+  double force[2] = {0, 0};  // sum of internal forces, less the weight
+};
+
+std::vector<ReportColumn> report_columns(const Model& model, const Report& report) {
+  const UnitSystem& u = model.units;
+  if (report.kind == ReportKind::triaxial)
+    return {{"axial_strain", "-"},
+            {"force", u.force},
+            {"measured_deviator", u.stress},
+            {"correct_deviator", u.stress, true},
+            {"measured_axial", u.stress},
+            {"correct_axial", u.stress, true},
+            {"ratio", "-", true}};
+  if (report.kind == ReportKind::nodes)
+    return {{"ux", u.length}, {"uy", u.length}, {"fx", u.force}, {"fy", u.force}};
+  std::vector<ReportColumn> columns{{"ux", u.length, true}, {"uy", u.length, true}};
+  for (const char* component : {"xx", "yy", "zz", "xy"})
+    columns.push_back({fmt::format("strain_{}", component), "-", true});
+  for (const char* component : {"xx", "yy", "zz", "xy"})
+    columns.push_back({fmt::format("stress_{}", component), u.stress, true});
+  columns.push_back({"mean_stress", u.stress, true});
+  columns.push_back({"deviator", u.stress, true});
+  return columns;
+}
+
+std::string report_title(const Model& model, std::size_t index) {
+  const Report& report = model.reports[index];
+  std::string text = fmt::format("report {}", index + 1);
+  if (report.kind == ReportKind::point)
+    text += fmt::format(", {} at ({:.10g}; {:.10g})", report.name.empty() ? "point" : report.name,
+                        report.place.x(), report.place.y());
+  return text;
+}
+
+CorrectTest::CorrectTest(const SolidLaw& law, Geometry geometry, double cell_pressure)
+    : geometry_(geometry), cell_pressure_(cell_pressure) {
+  const double p = -cell_pressure;
+  try {
+    driver_ = std::make_unique<PointDriver<4>>(law, Vector4(p, p, p, 0.0));
+  } catch (const AnalysisError&) {  // the law can't carry the cell pressure
+  }
+}
+
+double CorrectTest::deviator_at(double axial_strain) {
+  if (!driver_) return kUnknown;
+  const bool ring = geometry_ == Geometry::axisymmetric;
+  const std::array<Control, 4> control{Control::stress, Control::strain,
+                                       ring ? Control::stress : Control::strain, Control::strain};
+  const double lateral = -cell_pressure_, part = -(axial_strain - axial_strain_) / kSubsteps;
+  const Vector4 step(lateral, part, ring ? lateral : 0.0, 0.0);
+  try {
+    for (int i = 0; i < kSubsteps; ++i) driver_->advance(control, step);
+  } catch (const AnalysisError&) {
+    driver_.reset();
+    return kUnknown;
+  }
+  axial_strain_ = axial_strain;
+  return outward(driver_->sigma()[1]) - cell_pressure_;
+}
+
+// weight: at the start and the end of the stage, of which load_factor has passed.
+Reports::NodeSums Reports::sum_nodes(const Model& model, const Report& report, const Solution& solution,
+                                     const double (&weight)[2][2], double load_factor) {
+  NodeSums sums;
+  for (int c = 0; c < 2; ++c) sums.force[c] = -(1.0 - load_factor) * weight[0][c] - load_factor * weight[1][c];
+  int own = 0;
+  for (int node : report.nodes) {
+    const bool of_deck = node < model.mesh.deck_nodes;
+    own += of_deck ? 1 : 0;
+    for (int c = 0; c < 2; ++c) {
+      if (of_deck) sums.displacement[c] += (*solution.u)[2 * node + c];
+      sums.force[c] += (*solution.internal)[2 * node + c];
+    }
+  }
+  for (double& d : sums.displacement) d /= std::max(own, 1);
+  return sums;
+}
+
+void Reports::on_start(const Model& model, const Scene&, std::string_view, int) {
+  model_ = &model;
+  for (std::size_t i = 0; i < model.reports.size(); ++i) {
+    Series series;
+    series.file = OutFile(folder_ / (stem_ + ".report" + std::to_string(i + 1) + ".csv"));
+    series.file.text() = header(model, i);
+    series_.push_back(std::move(series));
+    columns_.push_back(report_columns(model, model.reports[i]));
+  }
+}
+
+bool Reports::wants_states(const Model& model, const StepReport&) const {
+  return std::any_of(model.reports.begin(), model.reports.end(),
+                     [](const Report& r) { return r.kind == ReportKind::point; });
+}
+
+void Reports::on_stage_start(const Model& model, int stage, const Solution& solution) {
+  if (series_.empty()) return;
+  enter_points(model, solution);
+  const Weights weights(model, stage);
+  for (std::size_t i = 0; i < series_.size(); ++i) {
+    Series& series = series_[i];
+    const Report& report = model.reports[i];
+    series.last_load_factor = 0.0;
+    std::ranges::copy(released_forces(model, report, solution), series.released);
+    series.release_noted = false;
+    for (int c = 0; c < 2; ++c) {
+      series.weight[0][c] = series.weight[1][c] = 0.0;
+      for (int node : report.nodes) {
+        series.weight[0][c] += weights.start[2 * node + c];
+        series.weight[1][c] += weights.end[2 * node + c];
+      }
+    }
+    if (stage >= report.stage) count_from_here(series, model, solution);
+    if (series.begun || stage < report.stage) continue;
+    series.begun = true;
+    const NodeSums sums = sum_nodes(model, report, solution, series.weight, 0.0);
+    std::copy(sums.displacement, sums.displacement + 2, series.start_displacement);
+    series.start_force = -sums.force[1];
+    begin(series, model, report);
+  }
+}
+
+void Reports::begin(Series& series, const Model& model, const Report& report) {
+  if (report.kind != ReportKind::triaxial) return;
+  series.area = report_area(model, report);
+  if (const SolidLaw* law = specimen_law(model, report))
+    series.correct = std::make_unique<CorrectTest>(*law, model.geometry, report.cell_pressure);
+}
+
+// Once a stage, in front of the first row that is concerned.
+void Reports::note_release(Series& series, const Model& model, const StepReport& step) {
+  const bool any = series.released[0] != 0.0 || series.released[1] != 0.0;
+  if (!any || series.release_noted || step.load_factor >= 1.0) return;
+  series.release_noted = true;
+  series.file.text() += fmt::format(
+      "# stage {}: forces on these nodes that nothing bears (fx {:.6g}, fy {:.6g} {} at its start) are let go "
+      "over "
+      "the stage; rows before its end hold (1 - load factor) of them\n",
+      step.stage + 1, series.released[0], series.released[1], model.units.force);
+}
+
+// What the places of points need, for the groups that are placed now.
+void Reports::enter_points(const Model& model, const Solution& solution) {
+  if (probed_ == solution.activity->group) return;
+  probed_ = solution.activity->group;
+  std::optional<ProbeMaker> maker;
+  for (std::size_t i = 0; i < series_.size(); ++i) {
+    const Report& report = model.reports[i];
+    if (report.kind != ReportKind::point) continue;
+    if (!maker) maker.emplace(model, probed_);
+    series_[i].probe = maker->at(report.place, report.group);
+  }
+}
+
+// A point's displacement counts from the first time that something is there, its strain from the time of the
+// group that is.
+void Reports::count_from_here(Series& series, const Model& model, const Solution& solution) {
+  if (!series.probe.placed() || (series.filled && series.group == series.probe.group)) return;
+  const Sample now = sample_of(model, series.probe, solution);
+  if (!series.filled) series.start_u = now.u;
+  series.start_strain = now.strain;
+  series.group = series.probe.group;
+  series.filled = true;
+}
+
+void Reports::add_triaxial(Series& series, const Report& report, const StepReport& step, const NodeSums& sums) {
+  TriaxialRow r;
+  r.stage = step.stage + 1;
+  r.increment = step.increment;
+  r.axial_strain = -(sums.displacement[1] - series.start_displacement[1]) / report.height;
+  r.force = -sums.force[1];
+  r.measured_deviator = (r.force - series.start_force) / series.area;
+  r.correct_deviator = series.correct ? series.correct->deviator_at(r.axial_strain) : kUnknown;
+  r.measured_axial = report.cell_pressure + r.measured_deviator;
+  r.correct_axial = report.cell_pressure + r.correct_deviator;
+  r.ratio = r.correct_deviator != 0.0 ? r.measured_deviator / r.correct_deviator : kUnknown;
+  if (!std::isfinite(r.ratio)) r.ratio = kUnknown;  // of a correct deviator that is next to nothing
+  r.held = -(1.0 - step.load_factor) * series.released[1];
+  series.triaxial.push_back(r);
+}
+
+void Reports::add_nodes(Series& series, const StepReport& step, const NodeSums& sums) {
+  NodesRow r{step.stage + 1, step.increment, {}, {}, {}};
+  for (int c = 0; c < 2; ++c) {
+    r.displacement[c] = sums.displacement[c] - series.start_displacement[c];
+    r.force[c] = sums.force[c];
+    r.held[c] = (1.0 - step.load_factor) * series.released[static_cast<std::size_t>(c)];
+  }
+  series.nodes.push_back(r);
+}
+
+void Reports::add_point(Series& series, const Model& model, const StepReport& step, const Solution& solution) {
+  const Sample now = sample_of(model, series.probe, solution);
+  PointRow r;
+  r.stage = step.stage + 1;
+  r.increment = step.increment;
+  for (int c = 0; c < 2; ++c) r.displacement[c] = now.u[c] - series.start_u[c];
+  for (int c = 0; c < 4; ++c) {
+    r.strain[c] = now.strain[c] - series.start_strain[c];
+    r.stress[c] = now.stress[c];
+  }
+  r.mean = now.mean;
+  r.deviator = now.deviator;
+  series.points.push_back(r);
+}
+
+std::size_t Reports::rows(std::size_t index) const {
+  const Series& series = series_[index];
+  return series.triaxial.size() + series.nodes.size() + series.points.size();  // of one kind only
+}
+
+std::pair<int, int> Reports::step(std::size_t index, std::size_t row) const {
+  const Series& series = series_[index];
+  if (row < series.triaxial.size()) return {series.triaxial[row].stage, series.triaxial[row].increment};
+  if (row < series.nodes.size()) return {series.nodes[row].stage, series.nodes[row].increment};
+  return {series.points.at(row).stage, series.points.at(row).increment};
+}
+
+std::vector<double> Reports::values(std::size_t index, std::size_t row) const {
+  const Series& series = series_[index];
+  if (row < series.triaxial.size()) {
+    const TriaxialRow& r = series.triaxial[row];
+    return {r.axial_strain,  r.force, r.measured_deviator, r.correct_deviator, r.measured_axial,
+            r.correct_axial, r.ratio};
+  }
+  if (row < series.nodes.size()) {
+    const NodesRow& r = series.nodes[row];
+    return {r.displacement[0], r.displacement[1], r.force[0], r.force[1]};
+  }
+  const PointRow& r = series.points.at(row);
+  std::vector<double> values(r.displacement, r.displacement + 2);
+  values.insert(values.end(), r.strain, r.strain + 4);
+  values.insert(values.end(), r.stress, r.stress + 4);
+  values.insert(values.end(), {r.mean, r.deviator});
+  return values;
+}
+
+// Throws AnalysisError for a result that is no finite number: the file then ends before its row.
+void Reports::append_row(std::size_t index) {
+  const std::size_t last = rows(index) - 1;
+  const auto [stage, increment] = step(index, last);
+  const std::vector<double> numbers = values(index, last);
+  std::string text;
+  append_integer(text, stage, 0);
+  text += ',';
+  append_integer(text, increment, 0);
+  for (std::size_t c = 0; c < numbers.size(); ++c) {
+    if (columns_[index][c].optional)
+      append_optional_cell(text, numbers[c], digits_);
+    else
+      append_result_cell(text, numbers[c], digits_);
+  }
+  series_[index].file.text() += text + "\n";
+}
+
+void Reports::add_rows(const Model& model, const StepReport& step, const Solution& solution) {
+  enter_points(model, solution);
+  for (std::size_t i = 0; i < series_.size(); ++i) {
+    Series& series = series_[i];
+    const Report& report = model.reports[i];
+    if (!series.begun) continue;
+    series.last_load_factor = step.load_factor;
+    note_release(series, model, step);
+    if (report.kind == ReportKind::point) {
+      add_point(series, model, step, solution);
+    } else {
+      const NodeSums sums = sum_nodes(model, report, solution, series.weight, step.load_factor);
+      if (report.kind == ReportKind::triaxial)
+        add_triaxial(series, report, step, sums);
+      else
+        add_nodes(series, step, sums);
+    }
+    append_row(i);
+    series.file.checkpoint();
+  }
+}
+
+void Reports::on_increment(const Model& model, const StepReport& step, const Solution& solution) {
+  add_rows(model, step, solution);
+}
+
+// The part of the increment that did converge is a state in equilibrium: it gets its row.
+void Reports::on_failure(const Model& model, const StepReport& step, const std::string&,
+                         const Solution& solution) {
+  if (!series_.empty() && step.load_factor > series_.front().last_load_factor) add_rows(model, step, solution);
+  for (Series& series : series_)
+    series.file.text() += fmt::format(
+        "# NOT CONVERGED in stage {}, increment {}: the last row is the last state in equilibrium, load factor "
+        "{:.6g}\n",
+        step.stage + 1, step.increment, step.load_factor);
+}
+
+void Reports::finish() {
+  for (Series& series : series_) {
+    if (!series.file.open()) continue;
+    series.file.finish();
+    files_.push_back(series.file.path());
+  }
+}
+
+void Reports::on_finish(const Model&, const RunResult&) {
+  finish();
+}
+
+// The law's own test is driven again through the strains of the rows so far.
+void Reports::exchange(Archive& archive) {
+  for (std::size_t i = 0; i < series_.size(); ++i) {
+    Series& series = series_[i];
+    series.file.exchange(archive);
+    archive(series.begun);
+    archive(series.start_displacement);
+    archive(series.start_force);
+    archive(series.weight);
+    archive(series.last_load_factor);
+    archive(series.released);
+    archive(series.release_noted);
+    archive(series.triaxial);
+    archive(series.nodes);
+    archive(series.points);
+    archive(series.filled);
+    archive(series.group);
+    for (int c = 0; c < 2; ++c) archive(series.start_u[c]);
+    for (int c = 0; c < 4; ++c) archive(series.start_strain[c]);
+    if (!archive.reading() || !series.begun) continue;
+    begin(series, *model_, model_->reports[i]);
+    if (series.correct)
+      for (const TriaxialRow& row : series.triaxial) series.correct->deviator_at(row.axial_strain);
+  }
+}
+
+void Reports::stop(const std::string& reason) {
+  for (Series& series : series_)
+    series.file.text() += "# RUN STOPPED, NOT COMPLETE: " + one_line(reason) + "\n";
+  finish();
+}
+
+}  // namespace sage

@@ -1,0 +1,151 @@
+// Reports that the deck asks for: a triaxial test against the law's own answer, sums over nodes, and points.
+#pragma once
+
+#include <memory>
+
+#include "sage/core/point_driver.hpp"
+#include "sage/record/number.hpp"
+#include "sage/record/out_file.hpp"
+#include "sage/record/output.hpp"
+#include "sage/record/sampler.hpp"
+
+namespace sage {
+
+// One increment of a triaxial report.  Compression positive, in the deck's units; NaN = not known.
+//   force              F = - sum over the report's nodes of the internal force in y (full circle, or unit
+//   thickness) axial_strain       - (mean u_y - its value at the start of the report's stage) / height
+//   measured_deviator  (F - F at the start of the stage) / area
+//   correct_deviator   of one point of the law under the same axial strain with frictionless ends: both lateral
+//                      stresses stay at the cell pressure (plane strain: sigma_xx stays and eps_zz = 0)
+//   *_axial            cell pressure + deviator
+//   ratio              measured_deviator / correct_deviator
+//   held               part of the force that neither loads nor supports put there: forces that are let go over
+//                      the stage (a release, an excavation, an initial stress out of balance) and stand in part
+struct TriaxialRow {
+  int stage = 0, increment = 0;  // both from 1
+  double axial_strain = 0.0, force = 0.0;
+  double measured_deviator = 0.0, correct_deviator = 0.0;
+  double measured_axial = 0.0, correct_axial = 0.0;
+  double ratio = 0.0;
+  double held = 0.0;
+};
+
+// One increment of a node report.  Mean displacement of the nodes since the start of the report's stage, and
+// the sum of the forces that loads and supports put on them, with what is still held of forces that are let go
+// over the stage (held: that part alone, 0 where it is not worth a word); all along +x and +y.
+struct NodesRow {
+  int stage = 0, increment = 0;
+  double displacement[2] = {0, 0};
+  double force[2] = {0, 0};
+  double held[2] = {0, 0};
+};
+
+// One increment of a point report.  Displacement along +x and +y and strain since the start of the report's
+// stage, or since the place was filled; stress as it is.  Strain and stress [xx yy zz xy] compression positive,
+// engineering shear; NaN while nothing is placed there.
+struct PointRow {
+  int stage = 0, increment = 0;
+  double displacement[2] = {0, 0};
+  double strain[4] = {0, 0, 0, 0};
+  double stress[4] = {0, 0, 0, 0};
+  double mean = 0.0, deviator = 0.0;  // p = (xx + yy + zz) / 3 and q = sqrt(3 J2) of that stress
+};
+
+// A column of a report's file, behind stage and increment.
+struct ReportColumn {
+  std::string name, unit;
+  bool optional = false;  // may have no value: blank
+};
+std::vector<ReportColumn> report_columns(const Model& model, const Report& report);
+
+// "report 2", or with the name and place of a point: "report 2, crest at (0.5; 1)".
+std::string report_title(const Model& model, std::size_t index);
+
+// The frictionless test: axial strain is given, the lateral stress stays at the cell pressure.
+class CorrectTest {
+ public:
+  // Starts from the isotropic cell pressure (compression +).
+  CorrectTest(const SolidLaw& law, Geometry geometry, double cell_pressure);
+  // Deviator (compression +) at an axial strain (compression +) since the start; NaN once the law can't follow.
+  double deviator_at(double axial_strain);
+
+ private:
+  Geometry geometry_;
+  double cell_pressure_, axial_strain_ = 0.0;
+  std::unique_ptr<PointDriver<4>> driver_;  // null: the path can't be followed further
+};
+
+// STEM.report1.csv, STEM.report2.csv, ... and the same rows in memory.
+class Reports final : public Output {
+ public:
+  // digits: of the files' numbers.
+  Reports(std::filesystem::path folder, std::string stem, int digits = kCsvDigits)
+      : folder_(std::move(folder)), stem_(std::move(stem)), digits_(digits) {}
+
+  // Rows so far of the model's report `index` (0-based); empty if it is of the other kind.
+  const std::vector<TriaxialRow>& triaxial(std::size_t index) const { return series_[index].triaxial; }
+  const std::vector<NodesRow>& nodes(std::size_t index) const { return series_[index].nodes; }
+  const std::vector<PointRow>& points(std::size_t index) const { return series_[index].points; }
+  std::size_t count() const { return series_.size(); }
+
+  // The same for reports of any kind: their rows so far, each row's stage and increment (from 1), and its
+  // values in the order of report_columns().
+  std::size_t rows(std::size_t index) const;
+  std::pair<int, int> step(std::size_t index, std::size_t row) const;
+  std::vector<double> values(std::size_t index, std::size_t row) const;
+
+  void on_start(const Model&, const Scene&, std::string_view solver, int equations) override;
+  void on_stage_start(const Model&, int stage, const Solution&) override;
+  void on_increment(const Model&, const StepReport&, const Solution&) override;
+  void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
+  bool wants_states(const Model&, const StepReport&) const override;
+  void on_finish(const Model&, const RunResult&) override;
+  void exchange(Archive& archive) override;
+  void stop(const std::string& reason) override;
+  std::vector<std::filesystem::path> files() const override { return files_; }
+
+ private:
+  struct NodeSums;
+  struct Series {
+    OutFile file;
+    bool begun = false;
+    double start_displacement[2] = {0, 0}, start_force = 0.0, area = 0.0;
+    double weight[2][2] = {};  // of the nodes, at the start and the end of the stage; x, y
+    double released[2] = {0,
+                          0};  // forces at the start of the stage that are let go over it; 0 = none to speak of
+    bool release_noted = false;  // in the file
+    double last_load_factor = 0.0;
+    std::unique_ptr<CorrectTest> correct;
+    std::vector<TriaxialRow> triaxial;
+    std::vector<NodesRow> nodes;
+    std::vector<PointRow> points;
+    Probe probe;                             // of a point, in the present stage
+    bool filled = false;                     // something was placed there, and what follows counts from it
+    int group = -1;                          // that start_strain belongs to
+    Vector2 start_u = Vector2::Zero();       // of a point
+    Vector4 start_strain = Vector4::Zero();  // of a point, compression +
+  };
+  static void begin(Series& series, const Model& model, const Report& report);
+  static void note_release(Series& series, const Model& model, const StepReport& step);
+  static NodeSums sum_nodes(const Model&, const Report&, const Solution&, const double (&weight)[2][2],
+                            double load_factor);
+  void enter_points(const Model&, const Solution&);
+  static void count_from_here(Series&, const Model&, const Solution&);
+  static void add_triaxial(Series&, const Report&, const StepReport&, const NodeSums&);
+  static void add_nodes(Series&, const StepReport&, const NodeSums&);
+  static void add_point(Series&, const Model&, const StepReport&, const Solution&);
+  void append_row(std::size_t index);
+  void add_rows(const Model&, const StepReport&, const Solution&);
+  void finish();
+
+  std::filesystem::path folder_;
+  std::string stem_;
+  int digits_;
+  std::vector<Series> series_;
+  std::vector<std::vector<ReportColumn>> columns_;
+  const Model* model_ = nullptr;  // since on_start
+  std::vector<char> probed_;      // groups that were active when the probes were made
+  std::vector<std::filesystem::path> files_;
+};
+
+}  // namespace sage

@@ -1,0 +1,141 @@
+#include "sage/record/report_components.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "sage/model/activity.hpp"
+#include "sage/model/locate.hpp"
+
+namespace sage {
+
+namespace {
+
+std::vector<std::string> columns_of(const Report& report) {
+  if (report.kind == ReportKind::triaxial)
+    return {"ratio",          "measured_deviator", "axial_strain", "force", "correct_deviator",
+            "measured_axial", "correct_axial"};
+  if (report.kind == ReportKind::nodes) return {"ux", "uy", "fx", "fy"};
+  return {"ux",        "uy",        "strain_xx", "strain_yy", "strain_zz",   "strain_xy",
+          "stress_xx", "stress_yy", "stress_zz", "stress_xy", "mean_stress", "deviator"};
+}
+
+std::string name_of(std::size_t report, const std::string& column) {
+  return "report" + std::to_string(report + 1) + "." + column;
+}
+
+// Nodes of the deck in a report that are held in a direction at some time.
+int held_nodes(const Model& model, const Report& report, std::size_t c) {
+  const auto holds = [&](const std::vector<Fixity>& fixities, int node) {
+    return std::any_of(fixities.begin(), fixities.end(),
+                       [&](const Fixity& f) { return f.node == node && f.code[c] == FixityCode::fixed; });
+  };
+  return static_cast<int>(std::count_if(report.nodes.begin(), report.nodes.end(), [&](int node) {
+    return node < model.mesh.deck_nodes &&
+           (holds(model.fixities, node) ||
+            std::any_of(model.stages.begin(), model.stages.end(),
+                        [&](const Stage& stage) { return holds(stage.fixities, node); }));
+  }));
+}
+
+int deck_nodes(const Model& model, const Report& report) {
+  return static_cast<int>(std::count_if(report.nodes.begin(), report.nodes.end(),
+                                        [&](int node) { return node < model.mesh.deck_nodes; }));
+}
+
+void add_triaxial(const Report& report, std::size_t i, const std::vector<TriaxialRow>& rows,
+                  std::vector<ReportComponent>& all) {
+  const TriaxialRow& r = rows.back();
+  const double values[] = {r.ratio,          r.measured_deviator, r.axial_strain, r.force, r.correct_deviator,
+                           r.measured_axial, r.correct_axial};
+  const std::vector<std::string> columns = columns_of(report);
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    all.push_back({name_of(i, columns[k]), values[k], std::abs(values[k]), false});
+  all[all.size() - columns.size() + (std::isfinite(r.ratio) ? 0 : 1)].main = true;
+}
+
+void add_nodes(const Model& model, const Report& report, std::size_t i, const std::vector<NodesRow>& rows,
+               std::vector<ReportComponent>& all) {
+  double largest[2] = {0.0, 0.0};  // displacement, force
+  for (const NodesRow& row : rows)
+    for (int c = 0; c < 2; ++c) {
+      largest[0] = std::max(largest[0], std::abs(row.displacement[c]));
+      largest[1] = std::max(largest[1], std::abs(row.force[c]));
+    }
+  const std::vector<std::string> columns = columns_of(report);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::size_t c = k % 2;
+    const int held = held_nodes(model, report, c), nodes = deck_nodes(model, report);
+    const bool force = k >= 2, main = force ? held >= 2 : held < 2 && held < nodes;
+    const double value = (force ? rows.back().force : rows.back().displacement)[c];
+    all.push_back({name_of(i, columns[k]), value, largest[force ? 1 : 0], main});
+  }
+}
+
+// Sisters of a point's component are those of its unit: displacements, strains, stresses.
+void add_point(const Model& model, std::size_t i, const Reports& reports, std::vector<ReportComponent>& all) {
+  const std::vector<ReportColumn> columns = report_columns(model, model.reports[i]);
+  std::map<std::string, double> largest;
+  const auto family = [&](std::size_t k) {
+    return k < 2 ? "displacement" : columns[k].name.starts_with("strain_") ? "strain" : "stress";
+  };
+  for (std::size_t row = 0; row < reports.rows(i); ++row) {
+    const std::vector<double> values = reports.values(i, row);
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      double& most = largest[family(k)];
+      if (std::abs(values[k]) > most) most = std::abs(values[k]);
+    }
+  }
+  const std::vector<double> last = reports.values(i, reports.rows(i) - 1);
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    all.push_back({name_of(i, columns[k].name), last[k], largest[family(k)],
+                   k < 2 || columns[k].name.starts_with("stress_")});
+}
+
+}  // namespace
+
+std::vector<std::string> component_names(const Model& model) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < model.reports.size(); ++i)
+    for (const std::string& column : columns_of(model.reports[i])) names.push_back(name_of(i, column));
+  return names;
+}
+
+std::string why_no_value(const Model& model, std::size_t index) {
+  const Report& report = model.reports[index];
+  if (report.kind != ReportKind::point) return {};
+  const std::string point = fmt::format("the point ({:.10g}; {:.10g})", report.place.x(), report.place.y());
+  const std::vector<Location> found = Locator(model).at(report.place);
+  if (one_body(model, found, {}, report.group).empty()) return point + " lies outside the mesh";
+  Activity activity(model);
+  int last_holder = -1, removed_in = 0;
+  for (std::size_t s = 0; s < model.stages.size(); ++s) {
+    activity.enter(model.stages[s]);
+    const std::vector<Location> now = one_body(model, found, activity.group, report.group);
+    if (now.empty() && removed_in == 0) removed_in = static_cast<int>(s) + 1;
+    if (now.empty()) continue;
+    last_holder = model.groups[now.front().group].number;
+    removed_in = 0;
+  }
+  if (last_holder < 0) return "no element that holds " + point + " is ever placed";
+  if (removed_in == 0) return {};
+  return "group " + std::to_string(last_holder) + ", which holds " + point + ", is removed in stage " +
+         std::to_string(removed_in);
+}
+
+std::vector<ReportComponent> last_components(const Model& model, const Reports& reports) {
+  std::vector<ReportComponent> all;
+  for (std::size_t i = 0; i < model.reports.size() && i < reports.count(); ++i) {
+    const Report& report = model.reports[i];
+    if (report.kind == ReportKind::triaxial && !reports.triaxial(i).empty())
+      add_triaxial(report, i, reports.triaxial(i), all);
+    if (report.kind == ReportKind::nodes && !reports.nodes(i).empty())
+      add_nodes(model, report, i, reports.nodes(i), all);
+    if (report.kind == ReportKind::point && reports.rows(i) > 0) add_point(model, i, reports, all);
+  }
+  return all;
+}
+
+}  // namespace sage

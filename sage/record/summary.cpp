@@ -1,0 +1,302 @@
+#include "sage/record/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "sage/record/values.hpp"
+
+namespace sage {
+
+namespace {
+
+constexpr std::size_t kRows = 6;     // of a report's table
+constexpr std::size_t kReports = 2;  // triaxial and node reports shown; the others are in their files
+constexpr std::size_t kPoints = 4;   // the same of points
+
+auto to(std::string& text) {
+  return std::back_inserter(text);
+}
+
+std::string status_words(const Model& model, const RunResult& result) {
+  switch (result.status) {
+    case RunStatus::completed:
+      return completed_words(model, result.motion);
+    case RunStatus::not_converged:
+      return "NOT CONVERGED";
+    case RunStatus::singular:
+      return "NOT CONVERGED: singular stiffness matrix";
+    case RunStatus::stopped:
+      return "STOPPED as asked";
+    case RunStatus::failed:
+      return "FAILED";
+  }
+  return "FAILED";
+}
+
+std::string point_words(const std::array<long, kStatuses>& points) {
+  std::string text;
+  for (PointStatus s : {PointStatus::yielded, PointStatus::slipping, PointStatus::open, PointStatus::apex}) {
+    const long count = points[static_cast<std::size_t>(s)];
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, status_name(s));
+  }
+  return text.empty() ? "none yielded, slipping or open" : text;
+}
+
+int wide(int width, int digits) {
+  return digits > 0 ? std::max(width, digits + 8) : width;
+}
+
+// Rows spread evenly over the path; the last of each stage is kept.
+template <class Row>
+std::vector<Row> chosen(const std::vector<Row>& rows) {
+  if (rows.size() <= kRows) return rows;
+  std::vector<std::size_t> ends;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (i + 1 == rows.size() || rows[i + 1].stage != rows[i].stage) ends.push_back(i);
+  const std::size_t stages = std::min(ends.size(), kRows);
+  std::vector<std::size_t> take(ends.end() - static_cast<std::ptrdiff_t>(stages), ends.end());
+  const std::size_t between = kRows - take.size();
+  for (std::size_t k = 1; k <= between; ++k) take.push_back(k * rows.size() / (between + 1) - 1);
+  std::sort(take.begin(), take.end());
+  take.erase(std::unique(take.begin(), take.end()), take.end());
+  std::vector<Row> result;
+  for (std::size_t i : take) result.push_back(rows[i]);
+  return result;
+}
+
+constexpr const char* kHeldNote =
+    "    * holds part of forces that are let go over the stage, borne by no load and no support\n";
+
+// A number in a column of `width`, or wider where more digits are asked for; "-" where it is not known.
+std::string cell(double value, const char* usual, int width, int digits) {
+  if (std::isnan(value)) return fmt::format("{:>{}}", "-", wide(width, digits));
+  return fmt::format(
+      "{:>{}}", digits > 0 ? fmt::format("{:.{}g}", value, digits) : fmt::format(fmt::runtime(usual), value),
+      wide(width, digits));
+}
+
+void triaxial_table(std::string& text, const Model& model, std::size_t index,
+                    const std::vector<TriaxialRow>& rows, int digits) {
+  fmt::format_to(to(text), "  triaxial {:<8}{:>7}{:>{}}{:>{}}{:>{}}{:>{}}\n", index + 1, "incr", "strain",
+                 wide(11, digits), "measured [" + model.units.stress + "]", wide(18, digits),
+                 "correct [" + model.units.stress + "]", wide(18, digits), "ratio", wide(10, digits));
+  for (const TriaxialRow& r : chosen(rows))
+    fmt::format_to(to(text), "    stage {:<7}{:>7}{}{:>{}}{}{}\n", r.stage, r.increment,
+                   cell(r.axial_strain, "{:.4g}", 11, digits),
+                   cell(r.measured_deviator, "{:.5g}", 0, digits) + (r.held != 0.0 ? "*" : ""),
+                   wide(18, digits), cell(r.correct_deviator, "{:.5g}", 18, digits),
+                   cell(r.ratio, "{:.4f}", 10, digits));
+  if (std::ranges::any_of(rows, [](const TriaxialRow& r) { return r.held != 0.0; })) text += kHeldNote;
+}
+
+void node_table(std::string& text, const Model& model, std::size_t index, const std::vector<NodesRow>& rows,
+                int digits) {
+  const AxisNames& names = axis_names(model.geometry);
+  const UnitSystem& u = model.units;
+  fmt::format_to(to(text), "  nodes {:<11}{:>7}", index + 1, "incr");
+  for (const std::string_view axis : {names.x, names.y})
+    fmt::format_to(to(text), "{:>{}}", fmt::format("u-{} [{}]", axis, u.length), wide(14, digits));
+  for (const std::string_view axis : {names.x, names.y})
+    fmt::format_to(to(text), "{:>{}}", fmt::format("force-{} [{}]", axis, u.force), wide(16, digits));
+  text += '\n';
+  bool any_held = false;
+  for (const NodesRow& r : chosen(rows)) {
+    const bool held = r.held[0] != 0.0 || r.held[1] != 0.0;
+    any_held = any_held || held;
+    fmt::format_to(to(text), "    stage {:<7}{:>7}", r.stage, r.increment);
+    for (double d : r.displacement) text += cell(d + 0.0, "{:.5g}", 14, digits);
+    for (double f : r.force) text += cell(f + 0.0, "{:.6g}", 16, digits);
+    text += held ? " *\n" : "\n";
+  }
+  if (any_held) text += kHeldNote;
+}
+
+void point_table(std::string& text, const Model& model, std::size_t index, const std::vector<PointRow>& rows,
+                 int digits) {
+  constexpr int kWidth = 14;
+  const AxisNames& names = axis_names(model.geometry);
+  const Report& report = model.reports[index];
+  fmt::format_to(to(text), "  point {:<11}{} ({:.10g}; {:.10g})\n    {:<13}{:>7}", index + 1, report.name,
+                 report.place.x(), report.place.y(), "", "incr");
+  for (const std::string_view axis : {names.x, names.y})
+    fmt::format_to(to(text), "{:>{}}", fmt::format("u-{} [{}]", axis, model.units.length),
+                   wide(kWidth, digits));
+  for (const std::string_view stress : names.stress)
+    fmt::format_to(to(text), "{:>{}}", fmt::format("{} [{}]", stress, model.units.stress),
+                   wide(kWidth, digits));
+  text += '\n';
+  for (const PointRow& r : chosen(rows)) {
+    fmt::format_to(to(text), "    stage {:<7}{:>7}", r.stage, r.increment);
+    for (double u : r.displacement) text += cell(u, "{:.5g}", kWidth, digits);
+    for (double stress : r.stress) text += cell(stress, "{:.5g}", kWidth, digits);
+    text += '\n';
+  }
+}
+
+void report_tables(std::string& text, const Model& model, const Reports& reports, int digits) {
+  std::size_t shown = 0, points = 0;
+  for (std::size_t i = 0; i < reports.count(); ++i) {
+    if (!reports.triaxial(i).empty() && shown++ < kReports)
+      triaxial_table(text, model, i, reports.triaxial(i), digits);
+    if (!reports.nodes(i).empty() && shown++ < kReports) node_table(text, model, i, reports.nodes(i), digits);
+    if (!reports.points(i).empty() && points++ < kPoints)
+      point_table(text, model, i, reports.points(i), digits);
+  }
+}
+
+void status_lines(std::string& text, const Model& model, const RunRecord& record) {
+  const RunResult& result = record.result;
+  fmt::format_to(to(text), "  status      {}\n", status_words(model, result));
+  if (result.status == RunStatus::completed) return;
+  if (!model.left_out.empty()) fmt::format_to(to(text), "              PARTIAL: {}\n", left_out_words(model));
+  fmt::format_to(
+      to(text),
+      "              stopped in stage {} of {}, increment {} of {}; last equilibrium at load factor {:.4g} of "
+      "the stage\n",
+      record.failed.stage + 1, model.stages.size(), record.failed.increment, record.failed.increments,
+      record.failed.load_factor);
+  if (const std::string beyond = motion_words(result.motion); !beyond.empty())
+    fmt::format_to(to(text), "              {}\n", beyond);
+}
+
+void counts(std::string& text, const Model& model, const RunRecord& record) {
+  RunRecord::StageCount sum;
+  for (const auto& stage : record.stages) {
+    sum.increments += stage.increments;
+    sum.iterations += stage.iterations;
+    sum.cuts += stage.cuts;
+  }
+  fmt::format_to(to(text), "  scene       {}, {}; {} elements, {} points, {} equations\n",
+                 model.geometry == Geometry::axisymmetric ? "axisymmetric" : "plane strain",
+                 describe(record.scene), record.scene.elements, record.scene.points, record.equations);
+  fmt::format_to(to(text), "  solver      {}\n", record.solver);
+  fmt::format_to(to(text), "  path        {} of {} stages, {} increments, {} iterations, {} cuts\n",
+                 record.result.stages_done, model.stages.size(), record.result.increments_done, sum.iterations,
+                 sum.cuts);
+  fmt::format_to(to(text), "  points      {}\n", point_words(record.points));
+}
+
+// What was left out, in one line; nothing if nothing was.
+std::string skipped(const WorkCounters& w) {
+  std::string parts;
+  const auto add = [&](long count, const char* what) {
+    if (count > 0) parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", count, what);
+  };
+  add(w.condensed, "equations condensed");
+  add(w.linear_products, "elements by K u");
+  add(w.kept_factors, "solves with kept factors");
+  add(w.repeats, "increments repeated");
+  return parts.empty() ? "" : "  left out    " + parts + "\n";
+}
+
+void work_lines(std::string& text, const RunRecord& record) {
+  const WorkCounters& w = record.result.work;
+  fmt::format_to(to(text),
+                 "  work        {} assemblies and {} force passes {:.3g} s, {} factorisations {:.3g} s, {} "
+                 "solves {:.3g} s\n",
+                 w.assemblies, w.residuals, w.assembly_seconds, w.factorisations, w.factor_seconds, w.solves,
+                 w.solve_seconds);
+  fmt::format_to(to(text), "              numbering {:.3g} s, output {:.3g} s", w.analyse_seconds,
+                 w.output_seconds);
+  text += record.seconds > 0.0 ? fmt::format(", whole run {:.3g} s\n", record.seconds) : "\n";
+  text += skipped(w);
+}
+
+void note_lines(std::string& text, const std::string& notes) {
+  constexpr std::size_t kShown = 3;
+  std::size_t count = 0;
+  for (std::size_t at = 0, end = 0; (end = notes.find('\n', at)) != std::string::npos; at = end + 1)
+    if (++count <= kShown) fmt::format_to(to(text), "  note        {}\n", notes.substr(at, end - at));
+  if (count > kShown) fmt::format_to(to(text), "  {:<12}and {} more (see the listing)\n", "", count - kShown);
+}
+
+void file_lines(std::string& text, const std::vector<std::filesystem::path>& files) {
+  constexpr std::size_t kShown = 5;
+  for (std::size_t i = 0; i < std::min(files.size(), kShown); ++i)
+    fmt::format_to(to(text), "  {:<12}{}\n", i == 0 ? "files" : "", files[i].string());
+  if (files.size() > kShown) fmt::format_to(to(text), "  {:<12}and {} more\n", "", files.size() - kShown);
+}
+
+}  // namespace
+
+void RunRecord::on_warning(const Diagnostic& d) {
+  if (d.severity == Severity::warning)
+    ++warnings;
+  else
+    notes += d.message + "\n";
+}
+
+void RunRecord::exchange(Archive& archive) {
+  archive(solver);
+  archive(equations);
+  archive(warnings);
+  archive(notes);
+  archive(stages);
+  archive(points);
+  archive(out_of_balance);
+  archive(audited);
+}
+
+void RunRecord::on_start(const Model& model, const Scene& scene_found, std::string_view solver_name,
+                         int equation_count) {
+  scene = scene_found;
+  solver = solver_name;
+  equations = equation_count;
+  warnings += model.diagnostics.warnings();
+}
+
+void RunRecord::on_increment(const Model&, const StepReport& report, const Solution&) {
+  stages.resize(std::max(stages.size(), static_cast<std::size_t>(report.stage) + 1));
+  StageCount& stage = stages[static_cast<std::size_t>(report.stage)];
+  ++stage.increments;
+  stage.iterations += report.total_iterations;
+  stage.cuts += report.cuts;
+  points = report.points;
+}
+
+void RunRecord::on_stage_end(const Model&, int, const EquilibriumAudit& audit, const Solution&) {
+  out_of_balance = std::max(out_of_balance, audit.out_of_balance);
+  ++audited;
+}
+
+void RunRecord::on_failure(const Model& model, const StepReport& report, const std::string&,
+                           const Solution& solution) {
+  on_increment(model, report, solution);
+  --stages.back().increments;
+  failed = report;
+}
+
+void RunRecord::on_finish(const Model&, const RunResult& run_result) {
+  result = run_result;
+}
+
+std::string summary(const Model& model, const RunRecord& record, const Reports* reports,
+                    const std::vector<std::filesystem::path>& files, const DiscretisationError* error,
+                    int digits) {
+  const bool ring = model.geometry == Geometry::axisymmetric;
+  const UnitSystem& u = model.units;
+  std::string text = model.title + "\n";
+  status_lines(text, model, record);
+  counts(text, model, record);
+  if (reports != nullptr) report_tables(text, model, *reports, digits);
+  if (error != nullptr) text += error->text(model);
+  if (record.audited > 0)
+    fmt::format_to(to(text), "  equilibrium whole model out of balance by {:.1e} of its largest force\n",
+                   record.out_of_balance);
+  work_lines(text, record);
+  if (record.warnings > 0) fmt::format_to(to(text), "  warnings    {} (see the listing)\n", record.warnings);
+  note_lines(text, record.notes);
+  file_lines(text, files);
+  fmt::format_to(to(text), "  signs       compression positive; units {}, {}, {}; forces {}\n", u.length,
+                 u.force, u.stress, ring ? "for the full circle" : "per unit thickness");
+  if (record.result.status != RunStatus::completed)
+    fmt::format_to(
+        to(text), "  {}\n",
+        "NOT CONVERGED: the results end at the last state in equilibrium; see the listing for the reason");
+  return text;
+}
+
+}  // namespace sage

@@ -1,0 +1,48 @@
+// One screen about a run, for the terminal.
+#pragma once
+
+#include <filesystem>
+
+#include "sage/record/discretisation.hpp"
+#include "sage/record/output.hpp"
+#include "sage/record/report.hpp"
+
+namespace sage {
+
+// Collects what the summary tells.  Costs nothing worth counting.
+class RunRecord final : public Observer {
+ public:
+  struct StageCount {
+    int increments = 0, iterations = 0, cuts = 0;
+  };
+
+  void on_warning(const Diagnostic& d) override;
+  void on_start(const Model&, const Scene&, std::string_view solver, int equations) override;
+  void on_increment(const Model&, const StepReport&, const Solution&) override;
+  void on_stage_end(const Model&, int stage, const EquilibriumAudit&, const Solution&) override;
+  void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
+  bool wants_states(const Model&, const StepReport&) const override { return false; }
+  void on_finish(const Model&, const RunResult&) override;
+  void exchange(Archive& archive) override;
+
+  Scene scene;
+  std::string solver;
+  int equations = 0;
+  int warnings = 0;                      // of the run and of reading
+  std::string notes;                     // of the run, a line each
+  std::vector<StageCount> stages;        // those begun
+  std::array<long, kStatuses> points{};  // at the last increment
+  double out_of_balance = 0.0;           // the largest of all stages
+  int audited = 0;                       // stages that reached their end
+  StepReport failed;                     // of a run that did not converge
+  RunResult result;
+  double seconds = 0.0;  // whole run, for the caller to fill in; 0 = not shown
+};
+
+// About 30 lines.  A run that did not converge says so in its second line and in its last.  digits: of the
+// reports' numbers; 0 = as many as fit the eye.
+std::string summary(const Model& model, const RunRecord& record, const Reports* reports,
+                    const std::vector<std::filesystem::path>& files, const DiscretisationError* error = nullptr,
+                    int digits = 0);
+
+}  // namespace sage

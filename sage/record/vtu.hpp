@@ -1,0 +1,56 @@
+// VTU files for ParaView and everything else that reads VTK's XML format, one an output increment, and a PVD
+// file that lists them.
+//
+// Points: one for each node and material that meet there, so that stress may jump between materials.  Cells:
+// solids as VTK's own shapes, interfaces as quadrilaterals of zero thickness; active groups only.
+//   point data  displacement, external_force, reaction (x y 0); stress [xx yy zz xy], compression positive,
+//   averaged
+//               over the elements of the same material; node number
+//   cell data   group, material, element; mean_stress, q = sqrt(3 J2), stress_level, yielded (part of the
+//   points that
+//               yield, slip, are open or at the apex): plain means over the points
+//   interfaces  interface_shear, interface_normal (cells, compression positive) where the model has any; what
+//               does not apply to a cell is NaN
+#pragma once
+
+#include "sage/record/out_file.hpp"
+#include "sage/record/output.hpp"
+
+namespace sage {
+
+// STEM_0001.vtu, STEM_0002.vtu, ..., STEM.pvd.  In the names of the VTU files stands %XX for bytes that are no
+// UTF-8.  Time in the PVD: stage - 1 + load factor of the stage.
+class Vtu final : public Output {
+ public:
+  // Throws OutputError.
+  Vtu(std::filesystem::path folder, const std::string& stem);
+
+  void on_increment(const Model&, const StepReport&, const Solution&) override;
+  void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
+  void on_finish(const Model&, const RunResult&) override;
+  bool wants_states(const Model& model, const StepReport& report) const override {
+    return is_output_increment(stage_of(model, report.stage), report);
+  }
+  void exchange(Archive& archive) override;
+  void stop(const std::string& reason) override;
+  std::vector<std::filesystem::path> files() const override { return files_; }
+
+ private:
+  void add(const Model&, const StepReport&, const Solution&, std::string_view comment);
+  void finish(std::string_view comment);
+  std::filesystem::path file(int number) const;  // from 1
+
+  std::filesystem::path folder_;
+  std::string stem_;  // of the VTU files: XML, which names them, is UTF-8
+  OutFile pvd_;
+  int count_ = 0;
+  std::vector<std::filesystem::path> files_;
+};
+
+// A warning for each group whose elements VTK has not: their corners are written.
+void warn_of_vtu(const Model& model, Diagnostics& diagnostics);
+
+// One state as the text of a VTU file.  The comment stands at its top, where a person sees it.
+std::string vtu_text(const Model& model, const Solution& solution, std::string_view comment = "");
+
+}  // namespace sage

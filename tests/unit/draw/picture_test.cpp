@@ -1,0 +1,123 @@
+#include "sage/draw/picture.hpp"
+
+#include <gtest/gtest.h>
+
+#include "sage/draw/colour_map.hpp"
+#include "sage/draw/contour.hpp"
+#include "tests/support/text.hpp"
+#include "tests/unit/record/specimen.hpp"
+
+namespace sage {
+namespace {
+
+using test::contents;
+using test::fresh_folder;
+using test::has;
+using test::Specimen;
+
+// Closed form of the fixture: sigma_zz = 10 psi compressive, so the picture says +10.
+TEST(FieldSvg, SaysCompressionPositiveWithUnits) {
+  Specimen specimen;
+  specimen.compress(0.01);
+  const std::string svg = field_svg(specimen.model, specimen.solution(), Field::stress_yy);
+  EXPECT_TRUE(has(svg, "sig-z [psi], compression positive<") && has(svg, "from 10 to 10"))
+      << svg.substr(0, 800);
+  EXPECT_TRUE(has(svg, "compressed specimen"));
+  EXPECT_TRUE(has(svg, "r [in]"));
+  EXPECT_TRUE(svg.starts_with("<svg"));
+  EXPECT_TRUE(svg.ends_with("</svg>\n"));
+}
+
+TEST(FieldSvg, DisplacementsAreAlongTheAxes) {
+  Specimen specimen(Geometry::plane_strain, false);
+  specimen.compress(0.01);
+  const std::string svg = field_svg(specimen.model, specimen.solution(), Field::displacement_y);
+  EXPECT_TRUE(has(svg, "u-y [in], positive along +y<") && has(svg, "from -0.02 to 0")) << svg.substr(0, 800);
+}
+
+// Largest displacement |(0.0025, 0.02)| of a mesh 2 high: 5 % is 0.1, so a factor of 4.96, rounded down to 2.
+TEST(FieldSvg, ScalesTheDeformationByARoundNumber) {
+  Specimen specimen(Geometry::axisymmetric, false);
+  specimen.compress(0.01);
+  EXPECT_TRUE(has(field_svg(specimen.model, specimen.solution(), Field::deviator), "deformation x 2<"));
+  PictureOptions undeformed;
+  undeformed.deformed = false;
+  EXPECT_FALSE(has(field_svg(specimen.model, specimen.solution(), Field::deviator, undeformed), "deformation"));
+}
+
+TEST(FieldSvg, EscapesTheTitle) {
+  Specimen specimen;
+  specimen.model.title = "L/D < 2 & \"pinned\"";
+  EXPECT_TRUE(has(field_svg(specimen.model, specimen.solution(), Field::stress_xx),
+                  "L/D &lt; 2 &amp; &quot;pinned&quot;"));
+}
+
+TEST(Field, NamesGoBothWays) {
+  for (Field field : {Field::stress_xx, Field::stress_xy, Field::deviator, Field::displacement})
+    EXPECT_EQ(field_from_name(field_name(field)), field);
+  EXPECT_FALSE(field_from_name("nonsense").has_value());
+}
+
+TEST(Contour, CutsAPolygonWhereTheValueIs) {
+  // Unit square, value = x.  Above 0.25 remain three quarters of it.
+  const std::vector<Corner> square{{{0, 0}, 0}, {{1, 0}, 1}, {{1, 1}, 1}, {{0, 1}, 0}};
+  const std::vector<Corner> part = above(square, 0.25);
+  double area = 0.0;
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    const Vector2 &a = part[i].at, &b = part[(i + 1) % part.size()].at;
+    area += 0.5 * (a.x() * b.y() - b.x() * a.y());
+  }
+  EXPECT_DOUBLE_EQ(area, 0.75);
+  EXPECT_EQ(above(square, 2.0).size(), 0u);
+  EXPECT_EQ(above(square, -1.0).size(), 4u);
+}
+
+TEST(Contour, LimitsAreRoundAndHoldTheRange) {
+  const std::vector<double> limits = band_limits(-0.37, 9.2, 10);
+  EXPECT_LE(limits.front(), -0.37);
+  EXPECT_GE(limits.back(), 9.2);
+  EXPECT_DOUBLE_EQ(limits[1] - limits[0], 1.0);
+  EXPECT_EQ(band_limits(3.0, 3.0, 10), (std::vector<double>{3.0, 3.0}));
+}
+
+TEST(Contour, PaintsLowBandsFirst) {
+  const CellGrid grid{{0, 1, 2, 3}, {{{0, 1, 2, 3}, 4}}};
+  const Patch patch{&grid, {{{0, 0}, 0}, {{8, 0}, 2}, {{8, 8}, 2}, {{0, 8}, 0}, {{4, 4}, 1}}};
+  const std::vector<std::string> paths = band_paths({patch}, {0.0, 1.0, 2.0});
+  ASSERT_EQ(paths.size(), 2u);
+  EXPECT_EQ(paths[0], "M0 0L8 0L8 8L0 8Z");  // the whole element, then what is above 1 on top
+  EXPECT_TRUE(has(paths[1], "8 8"));
+  EXPECT_FALSE(has(paths[1], "0 8"));
+}
+
+TEST(ColourMap, IsViridisFromDarkToLight) {
+  EXPECT_EQ(hex(viridis(0.0)), "#440154");
+  EXPECT_EQ(hex(viridis(1.0)), "#fde725");
+  double last = 0.0;
+  for (int i = 0; i <= 100; ++i) {  // lightness (Rec. 601 luma) grows all the way
+    const Colour c = viridis(0.01 * i);
+    const double luma = 0.299 * c.red + 0.587 * c.green + 0.114 * c.blue;
+    EXPECT_GT(luma, last);
+    last = luma;
+  }
+}
+
+TEST(Pictures, OneFileAFieldAndStage) {
+  Specimen specimen;
+  const auto folder = fresh_folder("pictures");
+  Pictures pictures(folder, "t", {Field::stress_yy, Field::displacement});
+  specimen.run(pictures, 0.01, 2);
+  EXPECT_EQ(pictures.files().size(), 2u);
+  EXPECT_TRUE(has(contents(folder / "t_stage1_stress_yy.svg"), "end of stage 1"));
+}
+
+TEST(Pictures, AFailedRunSaysSo) {
+  Specimen specimen;
+  const auto folder = fresh_folder("pictures_fail");
+  Pictures pictures(folder, "t", {Field::stress_yy});
+  specimen.run_and_fail(pictures, 0.01, 2);
+  EXPECT_TRUE(has(contents(folder / "t_stage1_failed_stress_yy.svg"), "NOT CONVERGED"));
+}
+
+}  // namespace
+}  // namespace sage

@@ -1,0 +1,339 @@
+// Decks of other programs as models.  Expected values: the decks' own counts and QUAD4M's own echo of its
+// areas.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "sage/app/commands.hpp"
+#include "sage/app/run_deck.hpp"
+#include "sage/deck/read_deck.hpp"
+#include "sage/record/values.hpp"
+#include "sage/scenes/whole_run.hpp"
+#include "solvers/choose_solver.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+namespace sage::app {
+namespace {
+
+const std::string kInputs = SAGE_SOURCE_DIR "/legacy_inputs/";
+
+BuildOptions partial_if(bool partial) {
+  BuildOptions options;
+  options.partial = partial;
+  return options;
+}
+
+Model model_of(const std::string& deck, const std::string& layout = "", bool partial = false) {
+  InputOptions input;
+  input.layout = layout;
+  return build_model(read_input(kInputs + deck, input), full_catalogue(), partial_if(partial));
+}
+
+std::string refusal(const std::string& deck, const std::string& layout) {
+  try {
+    model_of(deck, layout);
+  } catch (const InputError& error) {
+    return error.diagnostics().list().front().message;
+  }
+  return "";
+}
+
+bool mentions(const Diagnostics& diagnostics, Severity severity, const std::string& text) {
+  for (const Diagnostic& d : diagnostics.list())
+    if (d.severity == severity && d.message.find(text) != std::string::npos) return true;
+  return false;
+}
+
+RunOutcome run_of(const std::string& deck, bool partial = false) {
+  RunRequest request;
+  request.input.build.partial = partial;
+  request.deck = kInputs + deck;
+  request.quiet = true;
+  request.output.folder = test::scratch_folder("foreign");
+  return run_deck(request, full_catalogue());
+}
+
+TEST(ForeignModel, Quad4mAreasAgreeWithItsOwnEcho) {
+  const Model model = model_of("quad4m/MDL.Q4I");
+  EXPECT_EQ(model.mesh.nodes(), 2289);
+  std::map<int, double> area;
+  for (const Group& group : model.groups) {
+    std::vector<double> geometry(static_cast<std::size_t>(group.element->traits().geometry_size()));
+    const ElementTraits& traits = group.element->traits();
+    Eigen::Matrix2Xd x;
+    for (int e = 0; e < group.elements(); ++e) {
+      element_coordinates(model.mesh, group, e, x);
+      group.element->geometry(x, geometry);
+      double& sum = area[group.element_numbers[static_cast<std::size_t>(e)]];
+      for (int p = 0; p < traits.points; ++p)
+        sum += geometry[static_cast<std::size_t>(p * (1 + traits.law_size * traits.dofs))];
+    }
+  }
+  std::ifstream in(SAGE_SOURCE_DIR "/tests/unit/exchange/data/quad4m_areas.csv");
+  int compared = 0;
+  for (std::string line; std::getline(in, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    int number = 0;
+    double echoed = 0.0;
+    ASSERT_EQ(std::sscanf(line.c_str(), "%d,%lf", &number, &echoed), 2);
+    // Printed with three decimals, computed there in single precision.
+    EXPECT_NEAR(area.at(number), echoed, 0.0006 + 1e-5 * echoed) << "element " << number;
+    ++compared;
+  }
+  EXPECT_EQ(compared, 2933);
+}
+
+TEST(ForeignModel, Quad4mCarriesItsWeight) {
+  const RunOutcome outcome = run_of("quad4m/MDL.Q4I");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.record.result.reason;
+  EXPECT_LT(outcome.record.out_of_balance, 1e-9);
+  EXPECT_TRUE(mentions(outcome.model->diagnostics, Severity::note, "30 node(s) of a transmitting base"));
+  // N/m^3 in the deck, kN/m^3 here; E = 2 G (1 + nu) of element 1.
+  EXPECT_DOUBLE_EQ(outcome.model->materials.front().unit_weight, 22.0);
+  EXPECT_NEAR(outcome.model->materials.front().parameters[0], 2 * 4855861.0 * 1.392, 1.0);
+}
+
+TEST(ForeignModel, CandeLeavesOutItsPipeAndSaysSo) {
+  const RunOutcome outcome = run_of("cande_level3/candejar_input_test1.cid", true);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.record.result.reason;
+  EXPECT_LT(outcome.record.out_of_balance, 1e-9);
+  const Model& model = *outcome.model;
+  int elements = 0;
+  for (const Group& group : model.groups) elements += group.elements();
+  EXPECT_EQ(elements, 2047 - 36);
+  EXPECT_EQ(model.mesh.nodes(), 1471);
+  EXPECT_EQ(model.stages.size(), 28u);
+  EXPECT_TRUE(mentions(model.diagnostics, Severity::warning, "left out: 36 beam element(s)"));
+  EXPECT_TRUE(mentions(model.diagnostics, Severity::warning, "material 2 (CL90)"));
+  EXPECT_TRUE(mentions(model.diagnostics, Severity::note, "1 element(s) listed clockwise"));
+  // 115 lbf/ft^3 in inches.
+  EXPECT_NEAR(model.materials[1].unit_weight, 115.0 / 1728.0, 1e-15);
+}
+
+std::string cande_text() {
+  std::ifstream file(kInputs + "cande_level3/candejar_input_test.cid");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+Model cande_model(const std::string& text) {
+  return build_model(read_deck_text(text, "deck.cid", load_layout("cande_level3")), full_catalogue(),
+                     partial_if(true));
+}
+
+// Every part that is missing is an error of its own, at its card; with `partial` each stands in the status line
+// and the title, which all files bear.
+TEST(ForeignModel, CandeWithoutItsPipeIsRefusedUnlessAPartWillDo) {
+  const std::string deck = "cande_level3/candejar_input_test1.cid";
+  try {
+    model_of(deck);
+    FAIL() << "36 beams and a soil are missing, and nothing is said";
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.diagnostics().errors(), 2);
+    for (const Diagnostic& d : error.diagnostics().list()) {
+      if (d.severity != Severity::error) continue;
+      EXPECT_GT(d.where.line, 0);
+      EXPECT_NE(d.message.find("--partial"), std::string::npos) << d.message;
+    }
+    for (const char* part : {"36 beam element(s)", "material 2 (CL90)"})
+      EXPECT_TRUE(mentions(error.diagnostics(), Severity::error, part)) << part;
+  }
+  const Model model = model_of(deck, "", true);
+  EXPECT_EQ(completed_words(model),
+            "completed, but PARTIAL: left out material 2 (CL90), computed as the elastic material 1 (In Situ); "
+            "36 beam elements (the pipe; its nodes are held)")
+      << "no element is of material 3 (SW95)";
+  EXPECT_TRUE(model.title.starts_with("PARTIAL: 19962-3 Weholite")) << model.title;
+}
+
+TEST(ForeignModel, Quad4mStatusSaysThatThereIsNoEarthquake) {
+  EXPECT_EQ(completed_words(model_of("quad4m/MDL.Q4I")),
+            "completed, but PARTIAL: left out earthquake motion and damping");
+}
+
+std::string cande_line(const std::string& name, const std::string& record) {
+  return std::string(25 - name.size(), ' ') + name + "!!" + record + "\n";
+}
+
+// Two squares of 10 x 10 in, the upper one born in step 2, and 2 x 5 lbf on its top in step 3; held below.
+// All that the deck asks for exists here.
+std::string small_cande(const std::string& factors, const std::string& method = " 1") {
+  std::string text = cande_line("A-1", "ANALYS   3" + method + "  0two lifts") + cande_line("C-1.L3", "PREP") +
+                     cande_line("C-2.L3", "    3    3    1    3    1    6    2    4    1");
+  for (int n = 1; n <= 6; ++n)
+    text += cande_line("C-3.L3", fmt::format("{}{:>4}  00{:>11.2f}{:>10.2f}", n == 6 ? "L" : " ", n,
+                                             10.0 * ((n - 1) % 2), 10.0 * ((n - 1) / 2)));
+  text += cande_line("C-4.L3", "    1    1    2    4    3    1    1") +
+          cande_line("C-4.L3", "L   2    3    4    6    5    1    2") +
+          cande_line("C-5.L3", "    1    1       0.0    1       0.0       0.0    0") +
+          cande_line("C-5.L3", "    2    1       0.0    1       0.0       0.0    0") +
+          cande_line("C-5.L3", "    5    0       0.0    0      -5.0       0.0    3") +
+          cande_line("C-5.L3", "L   6    0       0.0    0      -5.0       0.0    3");
+  return text + cande_line("D-1", "L   1    1     120.0soil") +
+         cande_line("D-2.Isotropic", "      2000       0.3") + factors + "STOP\n";
+}
+
+// A column that is one field too wide would be seen here.
+std::string e1(int first, int last, const std::string& factor) {
+  return cande_line("E-1", fmt::format("{:>5}{:>5}{:>10}dead load", first, last, factor));
+}
+
+scenes::WholeRun run_cande(const std::string& text) {
+  const scenes::Workbench bench(
+      full_catalogue(), [](int equations, bool symmetric) { return choose_solver(equations, symmetric); });
+  return bench.run(
+      build_model(read_deck_text(text, "small.cid", load_layout("cande_level3")), full_catalogue()));
+}
+
+// Equilibrium: what the base carries is the weight of each square times the factor of the step that places it,
+// and the forces times that of theirs.
+TEST(ForeignModel, CandeLoadFactorsMultiplyTheLoadsOfTheirSteps) {
+  const double weight = 100.0 * 120.0 / 1728.0;  // of one square, lbf per inch
+  struct Case {
+    std::string cards;
+    std::array<double, 3> factor;
+  };
+  for (const Case& c : {Case{"", {1, 1, 1}}, Case{e1(1, 3, "1.30"), {1.3, 1.3, 1.3}},
+                        Case{e1(3, 0, "1.75") + e1(1, 1, "1.25") + e1(2, 2, ""), {1.25, 1.0, 1.75}},
+                        Case{e1(2, 40, "0.9"), {1.0, 0.9, 0.9}}}) {
+    SCOPED_TRACE(c.cards);
+    const scenes::WholeRun run = run_cande(small_cande(c.cards));
+    ASSERT_TRUE(run.completed());
+    double expected = 0.0;
+    const std::array<double, 3> load{weight, weight, 10.0};
+    for (std::size_t step = 0; step < 3; ++step) {
+      expected += c.factor[step] * load[step];
+      EXPECT_NEAR(run.reaction(run.increments[step], {1, 2}, 1), expected, 1e-9 * expected) << step + 1;
+    }
+  }
+}
+
+TEST(ForeignModel, CandeLoadFactorsThatMakeNoSenseAreErrors) {
+  const auto message = [](const std::string& cards) {
+    try {
+      run_cande(small_cande(cards));
+    } catch (const InputError& error) {
+      return error.diagnostics().list().back().message;
+    }
+    return std::string();
+  };
+  EXPECT_NE(message(e1(0, 2, "1.3")).find("load factors count from load step 1"), std::string::npos);
+  EXPECT_NE(message(e1(3, 2, "1.3")).find("from 3 to 2"), std::string::npos);
+  EXPECT_NE(message(e1(1, 2, "0.0")).find("above zero"), std::string::npos);
+  EXPECT_NE(message(e1(1, 2, "1.3") + e1(2, 3, "1.5")).find("load step 2 has a load factor already"),
+            std::string::npos);
+  const Model working =
+      build_model(read_deck_text(small_cande(e1(1, 1, "1.3"), " 0"), "small.cid", load_layout("cande_level3")),
+                  full_catalogue());
+  EXPECT_TRUE(mentions(working.diagnostics, Severity::warning, "working stress (method 0)"));
+}
+
+// No deck at hand gives a soil of Duncan's with its numbers: the real one with those cards put in.
+TEST(ForeignModel, CandeSoilOfDuncan) {
+  const std::string model_card = "               D-2.Duncan!!    0       0.5    1";
+  const std::string cards =
+      "               D-3.Duncan!!       1.5      36.0       5.0     450.0      0.35      0.80\n"
+      "               D-4.Duncan!!     300.0      0.10       0.0\n";
+  std::string text = cande_text();
+  const std::size_t at = text.find(model_card), end = text.find('\n', at) + 1;
+  text.insert(end, cards);
+  const Model selig = cande_model(text);
+  EXPECT_EQ(selig.materials[1].law_name, "linear_elastic");
+  EXPECT_TRUE(mentions(selig.diagnostics, Severity::warning, "bulk modulus is that of Selig (code 1)"));
+  text[at + model_card.size() - 1] = '0';
+  const Model duncan = cande_model(text);
+  EXPECT_EQ(duncan.materials[1].law_name, "duncan_chang_eb");
+  const std::vector<double> expected{450.0, 0.35, 0.80, 450.0, 300.0,
+                                     0.10,  1.5,  36.0, 5.0};  // K n Rf Kur Kb m c phi dphi
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_EQ(duncan.materials[1].parameters[i], expected[i]) << "parameter " << i + 1;
+  EXPECT_TRUE(mentions(duncan.diagnostics, Severity::warning, "no modulus for unloading"));
+}
+
+TEST(ForeignModel, CandeGenerationIsRefusedWithItsField) {
+  std::string text = cande_text();
+  const std::size_t tenth = text.find("C-4.L3!!   10"), line = text.rfind('\n', tenth) + 1;
+  ASSERT_NE(tenth, std::string::npos);
+  text.erase(line, text.find('\n', tenth) + 1 - line);
+  try {
+    cande_model(text);
+    FAIL() << "a gap in the elements was taken as it is";
+  } catch (const InputError& error) {
+    const Diagnostic& d = error.diagnostics().list().front();
+    EXPECT_NE(d.message.find("elements 10 to 10 are not given"), std::string::npos) << d.message;
+    EXPECT_GT(d.where.first_column, 0);
+  }
+}
+
+TEST(ForeignModel, AxisymmetricForcesAreForOneRadian) {
+  const Model model = model_of("smith_griffiths/p51_5.dat");
+  EXPECT_EQ(model.geometry, Geometry::axisymmetric);
+  EXPECT_NEAR(model.stages[0].loads[2].force.y(), -24.0 * 2 * 3.14159265358979, 1e-10);
+  EXPECT_EQ(model.groups[0].element_name, "quad4 full 3x3");
+}
+
+TEST(ForeignModel, FootingPrograms) {
+  const Model model = model_of("smith_griffiths/p66.dat", "sg_p66");
+  EXPECT_EQ(model.stages.size(), 10u);
+  EXPECT_EQ(model.mesh.nodes(), 121);
+  std::set<std::pair<int, std::size_t>> held;
+  for (const Fixity& f : model.fixities)
+    for (std::size_t c = 0; c < 2; ++c)
+      if (f.code[c] == FixityCode::fixed) held.insert({f.node, c});
+  EXPECT_EQ(static_cast<std::size_t>(model.dofs()) - held.size(), 192u) << "equations, as p66.res counts them";
+}
+
+TEST(ForeignModel, EmbankmentInLifts) {
+  const Model model = model_of("smith_griffiths/p69.dat", "sg_p69");
+  EXPECT_EQ(model.stages.size(), 5u);
+  std::vector<int> lifts;
+  double area = 0.0;
+  for (const Group& group : model.groups) {
+    lifts.push_back(group.elements());
+    for (int e = 0; e < group.elements(); ++e) {
+      const std::size_t corners = group.node_count() == 8 ? 4 : 3;
+      for (std::size_t i = 0; i < corners; ++i) {
+        const Vector2 a = model.mesh.x.col(group.nodes_of(e)[i]);
+        const Vector2 b = model.mesh.x.col(group.nodes_of(e)[(i + 1) % corners]);
+        area += 0.5 * (a.x() * b.y() - b.x() * a.y());
+      }
+    }
+  }
+  EXPECT_EQ(lifts, (std::vector<int>{48, 7, 1, 6, 1, 5, 1, 4, 1})) << "74 elements";
+  // 38 x 10 below; four lifts of 1 m whose toes stand at x = 20, 22, 24, 26, each slope 2 m long.
+  EXPECT_NEAR(area, 380.0 + (18.0 - 1.0) + (16.0 - 1.0) + (14.0 - 1.0) + (12.0 - 1.0), 1e-10);
+  EXPECT_EQ(model.mesh.nodes(), 263 - 8) << "two nodes of each slope element are left out";
+  std::set<std::pair<int, std::size_t>> held;
+  for (const Fixity& f : model.fixities)
+    for (std::size_t c = 0; c < 2; ++c)
+      if (f.code[c] == FixityCode::fixed) held.insert({f.node, c});
+  EXPECT_EQ(static_cast<std::size_t>(model.dofs()) - held.size(), 452u - 16u) << "p69.res: 452 freedoms";
+}
+
+TEST(ForeignModel, WhatCanNotBecomeAModelIsRefused) {
+  EXPECT_NE(refusal("smith_griffiths/p52.dat", "sg_p52").find("three displacements a node"), std::string::npos);
+  EXPECT_NE(refusal("cande_level3/candejar_cidmock_standard_lines.cid", "").find("no nodes"),
+            std::string::npos);
+}
+
+// A layout of one's own whose card has the coordinates under another name.
+TEST(ForeignModel, AMeshWithoutItsCoordinatesIsRefused) {
+  std::ifstream file(kInputs + "layouts/sg_p61.toml");
+  std::string layout{std::istreambuf_iterator<char>(file), {}};
+  const std::string field = "{ name = \"y\", label";
+  ASSERT_NE(layout.find(field), std::string::npos);
+  layout.replace(layout.find(field), field.size(), "{ name = \"z\", label");
+  const std::string path = test::scratch_folder("own_layout").string() + "/own.toml";
+  std::ofstream(path) << layout;
+  EXPECT_EQ(refusal("smith_griffiths/p61.dat", path),
+            "field \"z\" of card \"rectangle_y\" is used by nothing; the nearest name is \"y\" (or mark it: "
+            "ignored = "
+            "true)");
+}
+
+}  // namespace
+}  // namespace sage::app
