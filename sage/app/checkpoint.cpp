@@ -49,15 +49,15 @@ void expect_results(const std::filesystem::path& checkpoint, const ResultFiles& 
                            ", which is missing or has been changed since; run again without --restart");
     }
     const bool half = begins_with(partial, file.sum);
-    if (!half && results.changed_since(name))
-      throw InputError({checkpoint.string(), 0, 0, 0},
-                       "goes on from " + path.string() +
-                           ", which has been changed since its run ended; run again without --restart");
     if (!half && !begins_with(path, file.sum))
       throw InputError({checkpoint.string(), 0, 0, 0},
                        "goes on from " + partial.string() +
                            ", which is missing, shorter than it was, or has been changed since; run again "
                            "without --restart");
+    if (!half && results.changed_since(name))
+      throw InputError({checkpoint.string(), 0, 0, 0},
+                       "goes on from " + path.string() +
+                           ", which has been changed since its run ended; run again without --restart");
   }
 }
 
