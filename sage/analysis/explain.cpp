@@ -266,7 +266,7 @@ double smallest_of_largest(const Model& model, const Assembly& assembly) {
   double smallest = std::numeric_limits<double>::infinity(), largest = 0.0;
   Eigen::Matrix2Xd x;
   for (const GroupData& data : assembly.groups()) {
-    if (!data.active || data.group->element->traits().law_size != 4) continue;
+    if (!data.active || !data.group->solid()) continue;
     for (int e = 0; e < data.group->elements(); ++e) {
       element_coordinates(model.mesh, *data.group, e, x);
       const double length = (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();
