@@ -143,7 +143,7 @@ TEST(ForeignModel, CandeWithoutItsPipeIsRefusedUnlessAPartWillDo) {
       EXPECT_TRUE(mentions(error.diagnostics(), Severity::error, part)) << part;
   }
   const Model model = model_of(deck, "", true);
-  EXPECT_EQ(completed_words(model),
+  EXPECT_EQ(completed_words(model, 0.0),
             "completed, but PARTIAL: left out material 2 (CL90), computed as the elastic material 1 (In Situ); "
             "36 beam elements (the pipe; its nodes are held)")
       << "no element is of material 3 (SW95)";
@@ -151,7 +151,7 @@ TEST(ForeignModel, CandeWithoutItsPipeIsRefusedUnlessAPartWillDo) {
 }
 
 TEST(ForeignModel, Quad4mStatusSaysThatThereIsNoEarthquake) {
-  EXPECT_EQ(completed_words(model_of("quad4m/MDL.Q4I")),
+  EXPECT_EQ(completed_words(model_of("quad4m/MDL.Q4I"), 0.0),
             "completed, but PARTIAL: left out earthquake motion and damping");
 }
 
