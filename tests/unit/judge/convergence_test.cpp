@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace sage::scenes {
+namespace sage::judge {
 namespace {
 
 // 2 + c h^q + c2 h^(q + 1), h = 1, 1/2 ...
@@ -110,4 +110,4 @@ TEST(Limit, AlternatingValuesAreNotExtrapolated) {
 }
 
 }  // namespace
-}  // namespace sage::scenes
+}  // namespace sage::judge
