@@ -21,17 +21,19 @@ int solver_code(const Catalogue& catalogue, const std::string& name) {
   throw InputError({}, "unknown solver " + name + "; known: " + catalogue.solvers.known());
 }
 
-std::string unknown_solver(const std::string& name) {
-  try {
-    solver_code(full_catalogue(), name);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
+std::function<std::string(const std::string&)> known_solver(const Catalogue& catalogue) {
+  return [&catalogue](const std::string& name) {
+    try {
+      solver_code(catalogue, name);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
 }
 
-scenes::Workbench make_workbench() {
-  return {full_catalogue(), choose_solver};
+scenes::Workbench make_workbench(const Catalogue& catalogue) {
+  return {catalogue, choose_solver};
 }
 
 }  // namespace sage::app

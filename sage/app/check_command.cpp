@@ -30,9 +30,8 @@ Diagnostics balance_note(const Model& model) {
   return notes;
 }
 
-int check(const std::string& path, const InputOptions& options) {
+int check(const std::string& path, const InputOptions& options, const Catalogue& catalogue) {
   try {
-    const Catalogue catalogue = full_catalogue();
     const Deck deck = read_input(path, options);
     const Model model = build_model(deck, catalogue, options.build);
     print_diagnostics(model.diagnostics);
@@ -51,17 +50,18 @@ int check(const std::string& path, const InputOptions& options) {
 
 }  // namespace
 
-Command check_command(CLI::App& parser) {
+Command check_command(CLI::App& parser, const Catalogue& catalogue) {
   auto options = std::make_shared<CheckOptions>();
   parser.add_option("DECK", options->decks, "deck files")->required();
   add_input_options(parser, options->input);
-  add_build_options(parser, options->input.build);
+  add_build_options(parser, options->input.build, catalogue);
   parser.add_option("--solver", options->solver, "solver by name, as `run` would be told")
-      ->check(unknown_solver);
-  return [options] {
+      ->check(known_solver(catalogue));
+  return [options, &catalogue] {
     int worst = kOk;
-    if (!options->solver.empty()) options->input.build.solver = solver_code(full_catalogue(), options->solver);
-    for (const std::string& path : options->decks) worst = std::max(worst, check(path, options->input));
+    if (!options->solver.empty()) options->input.build.solver = solver_code(catalogue, options->solver);
+    for (const std::string& path : options->decks)
+      worst = std::max(worst, check(path, options->input, catalogue));
     return worst;
   };
 }

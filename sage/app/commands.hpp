@@ -1,4 +1,5 @@
-// The subcommands.  Each adds its options to its parser and returns what main() calls when it was chosen.
+// The subcommands.  Each adds its options to its parser and returns what main() calls when it was chosen.  The
+// catalogue says what decks can ask for, and outlives the command.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -12,29 +13,29 @@ namespace sage::app {
 
 using Command = std::function<int()>;  // gives an exit code
 
-// Everything that exists: elements, materials, solvers.
+// Every piece of the program itself: elements, materials, solvers.
 Catalogue full_catalogue();
 
 // Catalogue code of a solver, -1 for an empty name.  Throws InputError for one that is unknown.
 int solver_code(const Catalogue& catalogue, const std::string& name);
-// A message if no solver has this name (a check of CLI11).
-std::string unknown_solver(const std::string& name);
+// A check of CLI11: a message if no solver has the name.
+std::function<std::string(const std::string&)> known_solver(const Catalogue& catalogue);
 
-// The same, to run decks that the program writes itself.
-scenes::Workbench make_workbench();
+// To run decks that the program writes itself.
+scenes::Workbench make_workbench(const Catalogue& catalogue = full_catalogue());
 
 // Does the work; what it throws goes to standard error, and its kind into the exit code.  `name` stands before
 // messages that name no place in a file.
 int guarded(const std::string& name, const std::function<int()>& work);
 
-Command run_command(CLI::App& parser);
-Command check_command(CLI::App& parser);
-Command echo_command(CLI::App& parser);
-Command list_command(CLI::App& parser);
-Command tables_command(CLI::App& parser);
-Command convert_command(CLI::App& parser);
-Command verify_command(CLI::App& parser);
-Command compare_command(CLI::App& parser);
-Command stress_command(CLI::App& parser);
+Command run_command(CLI::App& parser, const Catalogue& catalogue);
+Command check_command(CLI::App& parser, const Catalogue& catalogue);
+Command echo_command(CLI::App& parser, const Catalogue& catalogue);
+Command list_command(CLI::App& parser, const Catalogue& catalogue);
+Command tables_command(CLI::App& parser, const Catalogue& catalogue);
+Command convert_command(CLI::App& parser, const Catalogue& catalogue);
+Command verify_command(CLI::App& parser, const Catalogue& catalogue);
+Command compare_command(CLI::App& parser, const Catalogue& catalogue);
+Command stress_command(CLI::App& parser, const Catalogue& catalogue);
 
 }  // namespace sage::app

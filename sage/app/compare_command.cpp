@@ -213,7 +213,7 @@ int exit_code_of(const FinishedSide& a, const FinishedSide& b) {
   return code;
 }
 
-int compare_decks(const CompareOptions& o) {
+int compare_decks(const CompareOptions& o, const Catalogue& catalogue) {
   if (o.decks.size() == 1 && !o.both && !o.changes_b()) {
     fmt::print(stderr, "sagefe compare: one deck needs --both or an option that ends in -b\n");
     return kUsage;
@@ -230,7 +230,6 @@ int compare_decks(const CompareOptions& o) {
     fmt::print(stderr, "sagefe compare: {}\n", error.what());
     return kUsage;
   }
-  const Catalogue catalogue = full_catalogue();
   const SideOptions options[2] = {side_a(o), side_b(o)};
   const std::string name_a = case_name(options[0].deck), name_b = case_name(options[1].deck);
   const std::string stem = name_a == name_b ? name_a : name_a + "_" + name_b;
@@ -269,25 +268,27 @@ int compare_decks(const CompareOptions& o) {
 
 }  // namespace
 
-Command compare_command(CLI::App& parser) {
+Command compare_command(CLI::App& parser, const Catalogue& catalogue) {
   auto o = std::make_shared<CompareOptions>();
   parser.add_option("DECK", o->decks, "deck A, and deck B unless one deck is run in two ways")
       ->required()
       ->expected(1, 2);
   parser.add_flag("--both", o->both, "A in plane strain, B in axisymmetry");
   add_input_options(parser, o->input);
-  add_build_options(parser, o->input.build);
+  add_build_options(parser, o->input.build, catalogue);
   o->input.build.points_outside = true;  // of one of the two
-  parser.add_option("--solver", o->solver, "solver by name (see sagefe list solvers)")->check(unknown_solver);
+  parser.add_option("--solver", o->solver, "solver by name (see sagefe list solvers)")
+      ->check(known_solver(catalogue));
   add_threads_option(parser, o->threads);
   CompareOptions& options = *o;
   add_formulation_option(parser, "--formulation-b", "formulation code of B, where it differs from A",
                          [&options](int code) { options.formulation_b = code; });
-  add_element_option(parser, "--element-b", "element that replaces 4-node quadrilaterals in B, code or name",
+  add_element_option(parser, catalogue, "--element-b",
+                     "element that replaces 4-node quadrilaterals in B, code or name",
                      [&options](int code) { options.element_b = code; });
   parser.add_option("--geometry-b", o->geometry_b, "geometry of B: 1 plane strain, 2 axisymmetric")
       ->check(CLI::Range(1, 2));
-  parser.add_option("--solver-b", o->solver_b, "solver of B by name")->check(unknown_solver);
+  parser.add_option("--solver-b", o->solver_b, "solver of B by name")->check(known_solver(catalogue));
   parser.add_option("--layout-b", o->layout_b, "card layout of B");
   parser.add_option("--line", o->lines,
                     "x1,y1,x2,y2[:name[:n]]: displacement and stress at n places (default 11)");
@@ -300,7 +301,7 @@ Command compare_command(CLI::App& parser) {
         return field_from_name(name) ? std::string() : "unknown field " + name;
       });
   parser.add_option("-o,--output", o->folder, "folder for results (default: out)");
-  return [o] { return compare_decks(*o); };
+  return [o, &catalogue] { return compare_decks(*o, catalogue); };
 }
 
 }  // namespace sage::app

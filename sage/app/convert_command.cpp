@@ -55,7 +55,7 @@ void warn_of_results(const std::filesystem::path& to, Diagnostics& diagnostics) 
                    {}});
 }
 
-int convert(const ConvertOptions& options) {
+int convert(const ConvertOptions& options, const Catalogue& catalogue) {
   const std::string to = ending(options.to);
   if (to != ".dat" && to != ".msh" && to != ".inp") {
     fmt::print(stderr, "sagefe: {}: the ending tells the format: .dat deck, .msh Gmsh, .inp CalculiX\n",
@@ -68,7 +68,6 @@ int convert(const ConvertOptions& options) {
                options.to);
     return kUsage;
   }
-  const Catalogue catalogue = full_catalogue();
   Model model = read_model(options, catalogue);
   write_file(options.to, to == ".dat"   ? sage1_text(model, model.diagnostics)
                          : to == ".msh" ? msh_text(model, model.diagnostics)
@@ -83,7 +82,7 @@ int convert(const ConvertOptions& options) {
 
 }  // namespace
 
-Command convert_command(CLI::App& parser) {
+Command convert_command(CLI::App& parser, const Catalogue& catalogue) {
   auto options = std::make_shared<ConvertOptions>();
   parser.add_option("IN", options->from, "deck of any layout, or .msh (MSH 4.1 ASCII)")->required();
   parser.add_option("OUT", options->to, "file to write: .dat, .msh or .inp")->required();
@@ -92,8 +91,8 @@ Command convert_command(CLI::App& parser) {
   parser.add_option("--poisson", options->mesh.poissons_ratio, "from .msh: Poisson's ratio of all groups");
   parser.add_option("--weight", options->mesh.unit_weight, "from .msh: unit weight of all groups");
   add_input_options(parser, options->input);
-  add_build_options(parser, options->input.build);
-  return [options] { return convert(*options); };
+  add_build_options(parser, options->input.build, catalogue);
+  return [options, &catalogue] { return convert(*options, catalogue); };
 }
 
 }  // namespace sage::app

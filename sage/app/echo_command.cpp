@@ -20,7 +20,7 @@ struct EchoOptions {
 
 }  // namespace
 
-Command echo_command(CLI::App& parser) {
+Command echo_command(CLI::App& parser, const Catalogue&) {
   auto options = std::make_shared<EchoOptions>();
   parser.add_option("DECK", options->deck, "deck file")->required();
   add_input_options(parser, options->input);

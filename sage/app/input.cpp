@@ -25,11 +25,11 @@ void add_input_options(CLI::App& parser, InputOptions& options) {
 namespace {
 
 // By code or name; -1 = there is none.  Codes are checked when the model is built.
-int element_code(const std::string& text) {
+int element_code(const Catalogue& catalogue, const std::string& text) {
   int code = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), code);
   if (error == std::errc() && end == text.data() + text.size()) return code;
-  const int found = full_catalogue().elements.code_of(text);
+  const int found = catalogue.elements.code_of(text);
   return found == 0 ? -1 : found;
 }
 
@@ -92,14 +92,13 @@ void add_digits_option(CLI::App& parser, int& digits) {
       ->check(CLI::Range(2, 17));
 }
 
-void add_element_option(CLI::App& parser, const std::string& flag, const std::string& words,
-                        const std::function<void(int)>& set) {
+void add_element_option(CLI::App& parser, const Catalogue& catalogue, const std::string& flag,
+                        const std::string& words, const std::function<void(int)>& set) {
   parser
       .add_option_function<std::string>(
-          flag, [set](const std::string& text) { set(element_code(text)); }, words)
-      ->check([](const std::string& text) {
-        const Catalogue catalogue = full_catalogue();
-        const int code = element_code(text);
+          flag, [set, &catalogue](const std::string& text) { set(element_code(catalogue, text)); }, words)
+      ->check([&catalogue](const std::string& text) {
+        const int code = element_code(catalogue, text);
         if (code < 0) return "unknown element " + text + "; known: " + catalogue.elements.known();
         const ElementEntry* entry = catalogue.elements.find(code);  // codes are checked with the model
         return entry == nullptr || (entry->solid() && entry->square())
@@ -113,11 +112,11 @@ void add_formulation_option(CLI::App& parser, const std::string& flag, const std
   parser.add_option_function<int>(flag, set, words)->check(CLI::Range(0, 99));
 }
 
-void add_build_options(CLI::App& parser, BuildOptions& options) {
+void add_build_options(CLI::App& parser, BuildOptions& options, const Catalogue& catalogue) {
   options.say = [](const std::string& text) { fmt::print(stderr, "sagefe: {}\n", text); };
   add_formulation_option(parser, "--formulation", "replace the formulation code of all solid elements",
                          [&options](int code) { options.formulation = code; });
-  add_element_option(parser, "--element",
+  add_element_option(parser, catalogue, "--element",
                      "replace 4-node quadrilaterals by this element, code or name (its other nodes are made)",
                      [&options](int code) { options.element = code; });
   parser.add_flag(

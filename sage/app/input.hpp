@@ -29,13 +29,13 @@ void add_digits_option(CLI::App& parser, int& digits);
 
 // An element by code or name that takes the place of quadrilaterals, and a formulation code: of both sides of a
 // comparison, or of one.
-void add_element_option(CLI::App& parser, const std::string& flag, const std::string& words,
-                        const std::function<void(int)>& set);
+void add_element_option(CLI::App& parser, const Catalogue& catalogue, const std::string& flag,
+                        const std::string& words, const std::function<void(int)>& set);
 void add_formulation_option(CLI::App& parser, const std::string& flag, const std::string& words,
                             const std::function<void(int)>& set);
 
 // Those that change how the deck's elements are computed.
-void add_build_options(CLI::App& parser, BuildOptions& options);
+void add_build_options(CLI::App& parser, BuildOptions& options, const Catalogue& catalogue);
 
 // Check of an option: a message if the text is no finite number from `low` to `high`, named so in the message.
 // (CLI11's own ranges let NaN pass.)

@@ -45,13 +45,12 @@ void list_solvers(const Catalogue& catalogue) {
 
 }  // namespace
 
-Command list_command(CLI::App& parser) {
+Command list_command(CLI::App& parser, const Catalogue& catalogue) {
   auto what = std::make_shared<std::string>();
   parser.add_option("WHAT", *what, "elements, materials or solvers")
       ->required()
       ->check(CLI::IsMember({"elements", "materials", "solvers"}));
-  return [what] {
-    const Catalogue catalogue = full_catalogue();
+  return [what, &catalogue] {
     if (*what == "elements") list_elements(catalogue);
     if (*what == "materials") list_materials(catalogue);
     if (*what == "solvers") list_solvers(catalogue);

@@ -2,5 +2,5 @@
 #include "sage/app/program.hpp"
 
 int main(int argc, char** argv) {
-  return sage::app::run_program(argc, argv);
+  return sage::sagefe(argc, argv);
 }

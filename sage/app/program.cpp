@@ -13,8 +13,8 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 
-namespace sage::app {
-
+namespace sage {
+namespace app {
 namespace {
 
 constexpr const char* kDescription =
@@ -31,7 +31,7 @@ constexpr const char* kFooter =
 struct Entry {
   const char* name;
   const char* about;
-  Command (*add_options)(CLI::App& parser);
+  Command (*add_options)(CLI::App& parser, const Catalogue& catalogue);
 };
 
 constexpr Entry kCommands[] = {
@@ -63,7 +63,7 @@ const Entry* find_command(const std::string& word) {
   return nullptr;
 }
 
-int run_command_line(int argc, char** argv) {
+int run_command_line(int argc, char** argv, const AddToCatalogue& add) {
   CLI::App root(kDescription, "sagefe");
   root.footer(kFooter);
   root.require_subcommand(1);
@@ -73,10 +73,15 @@ int run_command_line(int argc, char** argv) {
   const bool named = word < argc;
   const Entry* chosen = named ? find_command(argv[word]) : nullptr;
   if (named && chosen == nullptr) return kUsage;
+  Catalogue catalogue;
+  if (chosen != nullptr) {
+    catalogue = full_catalogue();
+    if (add) add(catalogue);
+  }
   Command execute;
   for (const Entry& entry : kCommands) {
     CLI::App* parser = root.add_subcommand(entry.name, entry.about);
-    if (&entry == chosen) execute = entry.add_options(*parser);
+    if (&entry == chosen) execute = entry.add_options(*parser, catalogue);
   }
   try {
     root.parse(argc, argv);
@@ -100,22 +105,27 @@ void take_no_signal_for_large_files() {
 }
 
 }  // namespace
+}  // namespace app
 
-int run_program(int argc, char** argv) {
+int sagefe(int argc, char** argv, const AddToCatalogue& add) {
+  using namespace app;
   fill_standard_streams();
   take_no_signal_for_large_files();
   int code = kOutput;
   try {
-    code = run_command_line(argc, argv);
+    code = run_command_line(argc, argv, add);
   } catch (const std::system_error&) {
     return kOutput;  // not even a message could be written
   } catch (const std::bad_alloc&) {
     std::fputs("sagefe: not enough memory\n", stderr);
     return kNotConverged;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "sagefe: {}\n", error.what());  // of `add`, such as a code that is taken
+    return kUsage;
   }
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
   fmt::print(stderr, "sagefe: standard output could not be written\n");
   return kOutput;
 }
 
-}  // namespace sage::app
+}  // namespace sage

@@ -1,9 +1,17 @@
-// The program without its main(), so that a test can run it in a child process of its own.
+// The whole program as a function, for a main() with pieces of one's own (docs/manual/own_program.md).
 #pragma once
 
-namespace sage::app {
+#include <functional>
 
-// From the command line to an exit code (sage/app/exit_codes.hpp); prints to the standard streams.
-int run_program(int argc, char** argv);
+#include "sage/core/catalogue.hpp"
 
-}  // namespace sage::app
+namespace sage {
+
+using AddToCatalogue = std::function<void(Catalogue&)>;
+
+// From the command line to an exit code (sage/app/exit_codes.hpp): every command of `sagefe`, with what `add`
+// puts into the catalogue beside the elements, laws and solvers of the program.  Prints to the standard
+// streams; ignores SIGXFSZ from then on, and hears SIGINT and SIGTERM while `run` computes.  Throws nothing.
+int sagefe(int argc, char** argv, const AddToCatalogue& add = {});
+
+}  // namespace sage

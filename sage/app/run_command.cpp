@@ -84,8 +84,7 @@ std::string skip_names() {
   return text;
 }
 
-int run_all(const RunOptions& options) {
-  const Catalogue catalogue = full_catalogue();
+int run_all(const RunOptions& options, const Catalogue& catalogue) {
   std::set<std::string> names;
   for (const std::string& deck : options.decks)
     if (!names.insert(case_name(deck)).second) {
@@ -112,13 +111,13 @@ int run_all(const RunOptions& options) {
 
 }  // namespace
 
-Command run_command(CLI::App& parser) {
+Command run_command(CLI::App& parser, const Catalogue& catalogue) {
   auto options = std::make_shared<RunOptions>();
   RunRequest& request = options->request;
   parser.add_option("DECK", options->decks, "deck files")->required();
   parser.add_option("-o,--output", request.output.folder, "folder for results (default: out)");
   parser.add_option("--solver", request.solver, "solver by name (see sagefe list solvers)")
-      ->check(unknown_solver);
+      ->check(known_solver(catalogue));
   add_threads_option(parser, request.threads);
   parser
       .add_option("--refine-solves", request.refinement,
@@ -158,8 +157,8 @@ Command run_command(CLI::App& parser) {
       ->check(number_in(-1e9, 1e9, "a number of seconds"));
   parser.add_flag("-q,--quiet", options->quiet, "print no summary");
   add_input_options(parser, request.input);
-  add_build_options(parser, request.input.build);
-  return [options] { return run_all(*options); };
+  add_build_options(parser, request.input.build, catalogue);
+  return [options, &catalogue] { return run_all(*options, catalogue); };
 }
 
 }  // namespace sage::app

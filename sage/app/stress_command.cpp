@@ -26,7 +26,7 @@ int list_rows(const std::vector<stress::Row>& rows) {
   return kOk;
 }
 
-int run_rows(const StressOptions& options) {
+int run_rows(const StressOptions& options, const Catalogue& catalogue) {
   std::vector<stress::Row> rows = stress::all_rows();
   for (const std::string& name : options.only)
     if (std::none_of(rows.begin(), rows.end(), [&](const stress::Row& row) { return row.name == name; })) {
@@ -38,7 +38,7 @@ int run_rows(const StressOptions& options) {
       return std::find(options.only.begin(), options.only.end(), row.name) == options.only.end();
     });
   if (options.list) return list_rows(rows);
-  const scenes::Workbench bench = make_workbench();
+  const scenes::Workbench bench = make_workbench(catalogue);
   std::vector<stress::RowResult> results;
   int failed = 0;
   fmt::print("{}", stress::heading());
@@ -65,14 +65,14 @@ int run_rows(const StressOptions& options) {
 
 }  // namespace
 
-Command stress_command(CLI::App& parser) {
+Command stress_command(CLI::App& parser, const Catalogue& catalogue) {
   auto options = std::make_shared<StressOptions>();
   parser.add_flag("--list", options->list, "the rows and their references; computes nothing");
   parser.add_option("--only", options->only, "these rows only");
   parser.add_flag("--details", options->details, "every trial, not only those that failed");
   parser.add_option("--csv", options->csv, "write every trial to this file");
   parser.add_option("--write", options->page, "write a Markdown page, and plots into a folder beside it");
-  return [options] { return run_rows(*options); };
+  return [options, &catalogue] { return run_rows(*options, catalogue); };
 }
 
 }  // namespace sage::app

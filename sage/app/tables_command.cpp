@@ -75,8 +75,7 @@ void print_entry(const Entry& entry, double ratio) {
   fmt::print("\n");
 }
 
-int print_tables(const TableOptions& options) {
-  const Catalogue catalogue = full_catalogue();
+int print_tables(const TableOptions& options, const Catalogue& catalogue) {
   std::map<std::string, RunOutcome> runs;
   std::string table;
   int worst = kOk;
@@ -106,12 +105,12 @@ int print_tables(const TableOptions& options) {
 
 }  // namespace
 
-Command tables_command(CLI::App& parser) {
+Command tables_command(CLI::App& parser, const Catalogue& catalogue) {
   auto options = std::make_shared<TableOptions>();
   parser.add_option("--cases", options->cases, "folder with tables.csv and the decks");
   parser.add_option("-o,--output", options->folder, "folder for results (default: out)");
   parser.add_flag("--pinned", options->pinned, "only the columns with pinned ends");
-  return [options] { return print_tables(*options); };
+  return [options, &catalogue] { return print_tables(*options, catalogue); };
 }
 
 }  // namespace sage::app

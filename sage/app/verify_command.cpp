@@ -53,7 +53,7 @@ void write_book(OutFile& book, const std::vector<Chapter>& chapters) {
   book.finish();
 }
 
-int run_book(const VerifyOptions& options) {
+int run_book(const VerifyOptions& options, const Catalogue& catalogue) {
   const std::vector<Section> sections = book();
   if (options.list) return list_cases(options, sections);
   if (!options.write.empty() && !options.only.empty()) {
@@ -63,7 +63,7 @@ int run_book(const VerifyOptions& options) {
   OutFile csv, written;  // opened first: an unwritable folder shows before anything is computed
   if (!options.csv.empty()) csv = OutFile(options.csv);
   if (!options.write.empty()) written = OutFile(options.write);
-  const scenes::Workbench bench = make_workbench();
+  const scenes::Workbench bench = make_workbench(catalogue);
   std::vector<Chapter> chapters;
   int cases = 0, rows = 0, failing = 0;
   double seconds = 0.0;
@@ -103,7 +103,7 @@ int run_book(const VerifyOptions& options) {
 
 }  // namespace
 
-Command verify_command(CLI::App& parser) {
+Command verify_command(CLI::App& parser, const Catalogue& catalogue) {
   auto options = std::make_shared<VerifyOptions>();
   parser.add_flag("--list", options->list, "the cases, computing nothing");
   parser.add_option("--only", options->only, "cases (or sections) whose name contains this");
@@ -114,7 +114,7 @@ Command verify_command(CLI::App& parser) {
                   "the book as Markdown with plots beside it (default docs/verification.md)")
       ->expected(0, 1)
       ->default_str("docs/verification.md");
-  return [options] { return run_book(*options); };
+  return [options, &catalogue] { return run_book(*options, catalogue); };
 }
 
 }  // namespace sage::app

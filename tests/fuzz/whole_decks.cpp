@@ -313,7 +313,7 @@ struct Ended {
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  std::exit(sage::app::run_program(static_cast<int>(words.size()), argv.data()));
+  std::exit(sage::sagefe(static_cast<int>(words.size()), argv.data()));
 }
 
 // True if the process ended in time.

@@ -33,6 +33,15 @@ step("run the consumer" ${SCRATCH}/consumer/consumer)
 # 100 kPa on a column 1 m high with E = 1000 kPa and nu = 0.
 expect("${output}" "settlement 0\\.100000 m")
 
+# The program with a law of one's own: pressed by 100 kPa with E_h = 2000, E_v = 1000, nu_vh = 0.3 in plane strain, sigma_zz is
+# nu_vh E_h / E_v 100 = 60 kPa and the top sinks by (100 - nu_vh 60) / E_v = 0.082 m.
+step("list the materials of the own program" ${SCRATCH}/consumer/own_program list materials)
+expect("${output}" "90  layered \\(solid\\)")
+step("run a deck with the own law" ${SCRATCH}/consumer/own_program run ${SOURCE}/consumer/own.dat -o ${SCRATCH}/own)
+expect("${output}" "-0\\.082 ")
+step("compare in both geometries" ${SCRATCH}/consumer/own_program compare --both ${SOURCE}/consumer/own.dat -o ${SCRATCH}/own)
+expect("${output}" "layered")
+
 # The program.
 step("list elements" ${prefix}/bin/sagefe list elements)
 expect("${output}" "quad4")
