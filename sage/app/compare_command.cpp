@@ -8,6 +8,7 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/converge.hpp"
 #include "sage/app/exit_codes.hpp"
+#include "sage/app/interrupt.hpp"
 #include "sage/app/run_deck.hpp"
 #include "sage/compare/comparison.hpp"
 #include "sage/compare/pair_picture.hpp"
@@ -120,10 +121,11 @@ Model build_side(const SideOptions& options, const Catalogue& catalogue) {
 }
 
 compare::Side run_model(Model model, const std::string& label, const SideOptions& options, const Place& place,
-                        const std::string& stem) {
+                        const std::string& stem, bool stoppable) {
   RunSettings settings;
   settings.threads = threads_for(options.threads);
   settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
+  if (stoppable) settings.stop_asked = interrupted;
   compare::Side side(label, std::move(model), place.folder, stem);
   side.run(place.catalogue, settings);
   if (!side.error().empty()) fmt::print(stderr, "{}: {}\n", options.deck, side.error());
@@ -144,7 +146,7 @@ FinishedSide run_side(const char* letter, const SideOptions& options, const Plac
   const std::string label = label_of(letter, options, &*model);
   if (options.input.strict && model->diagnostics.warnings() > 0)
     return {{label, "warnings count as errors (--strict)"}};
-  return {run_model(std::move(*model), label, options, place, stem)};
+  return {run_model(std::move(*model), label, options, place, stem, true)};
 }
 
 // Finer and finer meshes; the best of them is the side.
@@ -170,7 +172,8 @@ FinishedSide climb_side(const char* letter, const SideOptions& options, const Co
   best.input.build.say = {};
   Model model = build_side(best, place.catalogue);
   const std::string best_label = label_of(letter, best, &model, found.options);
-  compare::Side side = run_model(std::move(model), best_label, best, place, stem);
+  // An interrupted climb still has this mesh, which has been computed before.
+  compare::Side side = run_model(std::move(model), best_label, best, place, stem, false);
   side.set_not_reached(found.not_reached);
   return {std::move(side), found};
 }
@@ -236,6 +239,7 @@ int compare_decks(const CompareOptions& o, const Catalogue& catalogue) {
   for (const SideOptions& side : options) keep_input(side.deck);
   ResultFiles results(o.folder, stem + ".compare", {options[0].deck, 0, "comparison"});
   const Place place{o.folder, results, catalogue};
+  const InterruptWatch watch;
   ConvergeOptions converge = o.converge;
   converge.screen = stderr;  // the answer comes first on the other one
   if (converge.asked()) require_points_of_decks(o, options, catalogue);
@@ -263,7 +267,9 @@ int compare_decks(const CompareOptions& o, const Catalogue& catalogue) {
   }
   for (std::size_t i = 0; i < files.size(); ++i)
     fmt::print("{:<7}{}\n", i == 0 ? "files:" : "", files[i].string());
-  return exit_code_of(side_a, side_b);
+  if (interrupted())
+    fmt::print(stderr, "sagefe compare: interrupted: what is missing above was not computed\n");
+  return interrupted() ? kInterrupted : exit_code_of(side_a, side_b);
 }
 
 }  // namespace

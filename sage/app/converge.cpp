@@ -420,6 +420,12 @@ Ladder Climb::choose_ladder() {
                                    "only {}",
                                    name, fmt::join(known, ", ")));
   const Ladder ladder = ladder_for(first, catalogue_);
+  if (ladder == Ladder::spectral && (build.element > 0 || build.formulation >= 0))
+    fmt::print(
+        stderr,
+        "{}: note: where the scene allows it --converge chooses elements and formulation itself: --element and "
+        "--formulation are not used\n",
+        request_.deck);
   if (ladder == Ladder::spectral && !build.coarsen) {
     BuildOptions coarse = build;
     coarse.coarsen = true;

@@ -137,12 +137,17 @@ bool ends_stay_plane(const Side& side, std::size_t stage) {
   return spread <= 1e-6 * moved;
 }
 
-// The last stage that compresses or stretches the model evenly along y, under constant lateral pressure or none
-// of lateral strain.
+// What is born, removed or made heavier within a stage strains the model beside its ends.
+bool ends_alone_act(const Stage& stage) {
+  return stage.births.empty() && stage.deaths.empty() && stage.gravity.isZero(0.0);
+}
+
+// The last stage that compresses or stretches the model evenly along y by its ends alone, under constant
+// lateral pressure or none of lateral strain.
 std::optional<std::size_t> straining_stage(const Side& side, Lateral lateral) {
   for (std::size_t s = side.stages().size(); s-- > 0;)
-    if (!std::isnan(apparent_modulus(side, s)) && ends_stay_plane(side, s) &&
-        (lateral == Lateral::confined || lateral_pressure_constant(side, s)))
+    if (ends_alone_act(side.model().stages[s]) && !std::isnan(apparent_modulus(side, s)) &&
+        ends_stay_plane(side, s) && (lateral == Lateral::confined || lateral_pressure_constant(side, s)))
       return s;
   return std::nullopt;
 }

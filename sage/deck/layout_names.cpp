@@ -8,8 +8,8 @@ namespace sage {
 
 namespace {
 
-// One card that the model builder knows (sage/model/build_*.cpp and canonical_*.cpp).  Names stand between
-// blanks; "a|b": one of them is enough.
+// One card that the model builder knows (sage/build/build_*.cpp and sage/exchange/canonical_*.cpp).  Names
+// stand between blanks; "a|b": one of them is enough.
 struct KnownCard {
   std::string_view family, name;
   bool card_needed;

@@ -496,6 +496,20 @@ TEST(Converge, WhatSymmetryMakesZeroIsLeftOut) {
     EXPECT_NEAR(row.value, -0.0185, 0.002) << "2 x 10 / (1000 / 0.91) and a little less";
 }
 
+TEST(Converge, ElementsThatItChoosesItselfAreNoted) {
+  ConvergeOptions options;
+  options.tolerance = 1e-2;
+  RunRequest request = request_for(write("own_element", cylinder(2, 2, 1.0, 0.25)));
+  for (const int element : {0, 2}) {
+    request.input.build.element = element;
+    ::testing::internal::CaptureStderr();
+    EXPECT_EQ(converge(request, options, full_catalogue()), kOk);
+    const std::string messages = ::testing::internal::GetCapturedStderr();
+    EXPECT_EQ(messages.find("--element and --formulation are not used") != std::string::npos, element > 0)
+        << messages;
+  }
+}
+
 TEST(Converge, NeedsAReport) {
   scenes::DeckWriter deck(1);
   for (int i = 0; i < 4; ++i) deck.node(i + 1, i % 2, i / 2);

@@ -364,6 +364,20 @@ TEST(Fault, InterruptedAndRestarted) {
   }
 }
 
+// What is complete is compared, and nothing stays behind under a temporary name.
+TEST(Fault, ComparisonsAreInterruptedToo) {
+  const fs::path folder = empty_folder("interrupted_comparison");
+  write(folder / "deck.dat", deck_text(99999));
+  const Finished run = sagefe(folder, "compare deck.dat --both",
+                              R"(timeout 120 sh -c '"$0" "$@" & child=$!
+                                 while ! ls out/*.partial > /dev/null 2>&1; do sleep 0.02; done
+                                 sleep 0.2; kill -TERM $child; wait $child')");
+  EXPECT_EQ(run.exit_code, 5) << run.err;
+  EXPECT_NE(run.err.find("sagefe compare: interrupted"), std::string::npos) << run.err;
+  for (const auto& entry : fs::directory_iterator(folder / "out"))
+    EXPECT_NE(entry.path().extension(), ".partial") << entry.path();
+}
+
 // Nothing that could go on is left, and that is said.
 TEST(Fault, InterruptedWithoutCheckpoints) {
   const fs::path folder = empty_folder("interrupted_without");

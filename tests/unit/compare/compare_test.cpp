@@ -129,6 +129,15 @@ TEST(Compare, FreeLateralStrainGivesBothModuli) {
   EXPECT_NEAR(ratio->b, 1.0, 1e-9);
 }
 
+// A lift that is born with its weight strains what is below it, and the top shows a part of that weight only.
+TEST(Compare, AStageThatBringsALiftIsNoTestOfTheModulus) {
+  std::ifstream file(SAGE_SOURCE_DIR "/legacy_inputs/stages/fill_lifts_plane/deck.dat");
+  const std::string deck{std::istreambuf_iterator<char>(file), {}};
+  const Side a = run("a", deck, 1), b = run("b", deck, 2);
+  ASSERT_EQ(a.error() + b.error(), "");
+  EXPECT_EQ(find(compare(a, b, {}).theory, "apparent modulus"), nullptr);
+}
+
 // A pressure on the side that grows while the plate goes down, on one element whose side has no node between
 // its ends, and on several where it pushes below as it pulls above: E is not what the top shows.
 TEST(Compare, AGrowingLateralPressureIsNoTestOfTheModulus) {
