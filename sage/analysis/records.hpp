@@ -69,7 +69,7 @@ struct StepReport {
   std::array<long, kStatuses> points{};     // by PointStatus
   WorstDof worst;  // after a failure: of the iteration that came nearest to equilibrium
   double smallest_pivot_ratio = -1.0;
-  double motion = 0.0;   // largest displacement of a node so far, as a share of the model's size
+  double motion = 0.0;   // so far: difference of displacements along an axis over the model's extent along it
   double refused = 0.0;  // the same of the last step that was refused as flow without end; 0 = none was
 };
 
@@ -94,7 +94,7 @@ struct RunResult {
   std::string reason;  // one page for a person, empty when completed
   int stages_done = 0;
   int increments_done = 0;
-  double motion = 0.0;  // largest displacement of a node, as a share of the model's size
+  double motion = 0.0;  // largest difference of displacements along an axis over the model's extent along it
   WorkCounters work;
 };
 

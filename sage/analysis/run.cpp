@@ -30,8 +30,7 @@ class Run {
     u_.setZero(model.dofs());
     du_.setZero(model.dofs());
     external_.setZero(model.dofs());
-    if (model.mesh.nodes() > 0)
-      size_ = (model.mesh.x.rowwise().maxCoeff() - model.mesh.x.rowwise().minCoeff()).maxCoeff();
+    measure_extent();
     assembly_.set_stop(settings.stop_asked);
   }
 
@@ -65,6 +64,8 @@ class Run {
   double stiffness_share(double from, double to, const NewtonStep& step) const;
   double refused_motion(double from, double to, const NewtonStep& step) const;
   void warn_about_motion(const Stage& stage);
+  void measure_extent();
+  double motion() const;
   bool fail(StepReport& report, const NewtonStep& step);
   void exchange(Archive& archive, const Place& place);
   void offer_checkpoint(Place place);
@@ -104,9 +105,11 @@ class Run {
   Eigen::VectorXd committed_force_;               // internal, at the committed state
   double stiffest_ = 0.0, last_stiffness_ = 0.0;  // along the motion: largest of the stage, of the last step
   std::vector<char> held_before_, groups_before_, lived_;
-  double path_error_ = 0.0;  // largest of the stage
-  double size_ = 0.0;        // of the model: the longer side of the box around its nodes
-  std::string loose_part_;   // the first of the stage
+  double path_error_ = 0.0;           // largest of the stage
+  std::vector<int> nodes_;            // those that elements have
+  Vector2 extent_ = Vector2::Zero();  // of the box around them
+  double size_ = 0.0;                 // its longer side
+  std::string loose_part_;            // the first of the stage
 };
 
 Solution Run::solution() const {
@@ -249,7 +252,42 @@ void Run::accept(double reached) {
   assembly_.commit(du_);
   u_ += du_;
   external_ = (1.0 - reached) * external_start_ + reached * force_end_;
-  if (size_ > 0.0) result_.motion = std::max(result_.motion, u_.lpNorm<Eigen::Infinity>() / size_);
+  result_.motion = std::max(result_.motion, motion());
+}
+
+// Of the nodes that elements have.
+void Run::measure_extent() {
+  std::vector<char> used(static_cast<std::size_t>(model_.mesh.nodes()), 0);
+  for (const Group& group : model_.groups)
+    for (const int node : group.nodes) used[static_cast<std::size_t>(node)] = 1;
+  for (int node = 0; node < model_.mesh.nodes(); ++node)
+    if (used[static_cast<std::size_t>(node)]) nodes_.push_back(node);
+  if (nodes_.empty()) return;
+  Vector2 low = model_.mesh.x.col(nodes_.front()), high = low;
+  for (const int node : nodes_) {
+    low = low.cwiseMin(model_.mesh.x.col(node));
+    high = high.cwiseMax(model_.mesh.x.col(node));
+  }
+  extent_ = high - low;
+  size_ = extent_.maxCoeff();
+}
+
+// How much displacements along an axis differ, as a share of the model's extent along it: about the mean
+// strain, and none for a translation.  Around an axis of symmetry the radial displacement itself strains.
+double Run::motion() const {
+  Vector2 low = Vector2::Zero(), high = Vector2::Zero();
+  const bool axisymmetric = model_.geometry == Geometry::axisymmetric;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Vector2 u = u_.segment<2>(2 * nodes_[i]);
+    if (i == 0) low = high = u;
+    if (i == 0 && axisymmetric) low.x() = high.x() = 0.0;
+    low = low.cwiseMin(u);
+    high = high.cwiseMax(u);
+  }
+  double largest = 0.0;
+  for (int axis = 0; axis < 2; ++axis)
+    if (extent_[axis] > 0.0) largest = std::max(largest, (high[axis] - low[axis]) / extent_[axis]);
+  return largest;
 }
 
 // Back to the committed state, with its own internal forces.  The next attempt starts with the tangent of the

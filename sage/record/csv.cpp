@@ -46,7 +46,7 @@ std::string increments_header(const Model& model) {
              "stage,increment,load_factor[-],converged,iterations,relative_force[-],relative_displacement[-],"
              "relative_energy[-],cuts,substeps,elastic,unloading,yielded,slipping,open,apex,worst_node,worst_"
              "component,"
-             "worst_residual[{}],smallest_pivot_ratio[-],largest_displacement_over_size[-]\n",
+             "worst_residual[{}],smallest_pivot_ratio[-],displacement_over_extent[-]\n",
              model.units.force);
 }
 
