@@ -50,17 +50,26 @@ std::vector<int> rising_degrees(const Catalogue& catalogue) {
   return codes;
 }
 
+// The elements are halved.
+Ladder halving(const Model& model) {
+  int degree = 0;
+  for (const Group& group : model.groups)
+    if (group.solid() && group.elements() > 0 && (degree == 0 || group.element->degree() < degree))
+      degree = group.element->degree();
+  return {.kind = Ladder::halving, .most = std::pow(4.0, std::max(degree, 1))};
+}
+
 // High degrees pay where the law is linear, and fit where all solids are quadrilaterals without interfaces.
 Ladder ladder_for(const Model& model, const Catalogue& catalogue) {
   const std::vector<int> degrees = rising_degrees(catalogue);
-  if (degrees.empty()) return Ladder::halving;
+  if (degrees.empty()) return halving(model);
   for (const Group& group : model.groups) {
     const bool quad = can_replace(catalogue.elements.find(degrees.front()), *group.entry);
     const LawRef law = model.material_of(group).law_ref();
     const auto* solid = std::get_if<const SolidLaw*>(&law);
-    if (group.elements() > 0 && (!quad || solid == nullptr || !(*solid)->linear())) return Ladder::halving;
+    if (group.elements() > 0 && (!quad || solid == nullptr || !(*solid)->linear())) return halving(model);
   }
-  return Ladder::spectral;
+  return {Ladder::spectral, degrees.size()};
 }
 
 std::string grade_text(const Grading& g) {
@@ -260,7 +269,7 @@ std::size_t Follower::best() const {
 
 bool Follower::exhausted() const {
   constexpr double kNearlyCertain = 1e-6;
-  return ladder_ == Ladder::spectral && best() + 2 <= meshes() && worst(best()) <= kNearlyCertain;
+  return ladder_.kind == Ladder::spectral && best() + 2 <= meshes() && worst(best()) <= kNearlyCertain;
 }
 
 std::string Follower::result() const {
@@ -420,13 +429,13 @@ Ladder Climb::choose_ladder() {
                                    "only {}",
                                    name, fmt::join(known, ", ")));
   const Ladder ladder = ladder_for(first, catalogue_);
-  if (ladder == Ladder::spectral && (build.element > 0 || build.formulation >= 0))
+  if (ladder.kind == Ladder::spectral && (build.element > 0 || build.formulation >= 0))
     fmt::print(
         stderr,
         "{}: note: where the scene allows it --converge chooses elements and formulation itself: --element and "
         "--formulation are not used\n",
         request_.deck);
-  if (ladder == Ladder::spectral && !build.coarsen) {
+  if (ladder.kind == Ladder::spectral && !build.coarsen) {
     BuildOptions coarse = build;
     coarse.coarsen = true;
     coarse.say = {};
@@ -456,7 +465,7 @@ RunRequest Climb::request_for(const Rung& rung) {
 // Four times the elements cost four times and more; the next degree twice.
 bool Climb::out_of_time() {
   const double last = rows_.empty() ? 0.0 : rows_.back().seconds;
-  if (seconds_since(start_) + (ladder_ == Ladder::halving ? 4.0 : 2.0) * last <= options_.max_seconds)
+  if (seconds_since(start_) + (ladder_.kind == Ladder::halving ? 4.0 : 2.0) * last <= options_.max_seconds)
     return false;
   stopped_ = fmt::format("the next mesh would pass the limit of {:g} s (--max-seconds)", options_.max_seconds);
   return true;
@@ -521,8 +530,8 @@ void Climb::find_blanks(const Model& model, const std::vector<ReportComponent>& 
 
 // False: it can't be used, and stopped_ says why.
 bool Climb::add_mesh(int level) {
-  const Rung rung = ladder_ == Ladder::spectral ? spectral_rung(request_.input.build, catalogue_, level)
-                                                : halving_rung(request_.input.build, level);
+  const Rung rung = ladder_.kind == Ladder::spectral ? spectral_rung(request_.input.build, catalogue_, level)
+                                                     : halving_rung(request_.input.build, level);
   const std::optional<RunOutcome> outcome = run_mesh(rung);
   if (outcome) stopped_ = why_unusable(*outcome, rung);
   if (!stopped_.empty()) return false;

@@ -18,34 +18,52 @@ std::optional<double> shrinking(std::span<const double> v, std::size_t last) {
   return r > 0.0 && r < 1.0 ? std::optional<double>(r) : std::nullopt;
 }
 
+// |v[k] - v[k - 1]|.
+double difference(std::span<const double> v, std::size_t k) {
+  return std::abs(v[k] - v[k - 1]);
+}
+
 double least_error(std::span<const double> v) {
   return kLeastError * std::abs(v.back());
 }
 
 // The last difference as those before let expect it: one that is smaller can be chance.  Of three values the
-// first stands for the difference before it.  Halved meshes: no element divides its error by more than 32.
+// first stands for the difference before it.
 double expected_difference(std::span<const double> v, Ladder ladder) {
-  constexpr double kMostByHalving = 32.0;
   const std::size_t n = v.size();
-  const double d1 = std::abs(v[n - 2] - v[n - 3]);
-  if (ladder == Ladder::halving) return d1 / kMostByHalving;
-  const double d0 = n >= 4 ? std::abs(v[n - 3] - v[n - 4]) : std::abs(v[n - 3]);
+  const double d1 = difference(v, n - 2);
+  if (ladder.kind == Ladder::halving) return d1 / ladder.most;
+  // From the last degree to the first halved mesh of it no rate carries over.
+  if (n == ladder.degrees + 1) return std::max(d1, 4.0 * difference(v, n - 1));
+  const double d0 = n >= 4 ? difference(v, n - 3) : std::abs(v[n - 3]);
   return d1 < d0 ? d1 * d1 / d0 : d1;
+}
+
+// The ratio of the last two differences.  Spectral: behind a difference that was small by chance, the last
+// one's share of the one before that, in two equal steps.
+double ratio_of_differences(std::span<const double> v, Ladder ladder) {
+  const std::size_t n = v.size();
+  const double d2 = difference(v, n - 1), d1 = difference(v, n - 2);
+  if (d2 < d1) return d2 / d1;
+  const double d0 = ladder.kind == Ladder::spectral && n >= 4 ? difference(v, n - 3) : 0.0;
+  return d2 < d0 ? std::sqrt(d2 / d0) : 1.0;
 }
 
 // What the last difference alone says, given how it compares with the one before.  Rates of halved meshes are
 // not yet clean where this is used: half as much again.
 double plain_error(std::span<const double> v, Ladder ladder) {
   const std::size_t n = v.size();
-  if (n < (ladder == Ladder::halving ? 3u : 2u)) return kUnknown;  // halved meshes: at an unknown rate
-  const double d2 = std::abs(v[n - 1] - v[n - 2]);
+  if (n < (ladder.kind == Ladder::halving ? 3u : 2u)) return kUnknown;  // halved meshes: at an unknown rate
+  const double d2 = difference(v, n - 1);
   if (n < 3) return d2;
   const double expected = expected_difference(v, ladder);
   // Differences that grow mean nothing yet, unless they are within what no error is stated below.
   if (d2 <= least_error(v)) return expected;
-  const double r = d2 / std::max(std::abs(v[n - 2] - v[n - 3]), std::numeric_limits<double>::min());
+  const double r = ratio_of_differences(v, ladder);
   if (r >= 1.0) return kUnknown;
-  const double caution = ladder == Ladder::halving ? 1.5 : r > 0.1 ? 3.0 : 1.0;  // a tenth: hardly spectral
+  const double caution = ladder.kind == Ladder::halving ? 1.5
+                         : r > 0.1                      ? 3.0
+                                                        : 1.0;  // a tenth: hardly spectral
   return std::max(d2 * std::max(1.0, r / (1.0 - r)) * caution, expected);
 }
 
@@ -71,7 +89,7 @@ Limit limit_of(std::span<const double> v, Ladder ladder) {
   const std::size_t n = v.size();
   if (n == 0) return {0.0, kUnknown, {}};
   Limit limit{v[n - 1], plain_error(v, ladder), {}};
-  if (ladder == Ladder::halving && n >= 4) extrapolate(v, limit);
+  if (ladder.kind == Ladder::halving && n >= 4) extrapolate(v, limit);
   limit.error = std::max(limit.error, least_error(v));
   return limit;
 }

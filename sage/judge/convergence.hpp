@@ -6,9 +6,15 @@
 
 namespace sage::judge {
 
-enum class Ladder {
-  halving,   // each mesh has half the element size of the one before: error ~ h^q with an unknown q
-  spectral,  // degree and grading grow together: the error falls by a large factor each time
+struct Ladder {
+  enum Kind {
+    halving,   // each mesh has half the element size of the one before: error ~ h^q with an unknown q
+    spectral,  // degree and grading grow together: the error falls by a large factor each time
+  };
+
+  Kind kind = halving;
+  std::size_t degrees = 3;  // spectral: so many meshes of rising degree, then halved elements of the highest
+  double most = 16.0;  // halving: by what a mesh divides the error at best, 4^p (energy, elements of degree p)
 };
 
 // No stated error is smaller than this part of the value: what equilibrium to 1e-8 of the forces, the numbers

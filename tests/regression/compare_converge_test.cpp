@@ -69,7 +69,7 @@ constexpr double kPlaneSettlement = -2.3855905, kRoundSettlement = -1.5561672;
 TEST(CompareConverge, SettlementsOfBothGeometriesHoldTheTrueValues) {
   const fs::path folder = empty_folder("compare_settlement");
   write(folder / "load.dat", flexible_load());
-  const Finished done = sagefe(folder, "compare load.dat --both --converge 1e-6");
+  const Finished done = sagefe(folder, "compare load.dat --both --converge 1e-5");
   EXPECT_EQ(done.exit_code, 0) << done.err;
   const auto answers = answers_of(folder / "out/load.compare.csv");
   ASSERT_TRUE(answers.contains("report1.uy"));

@@ -48,7 +48,7 @@ struct Finished {
 // Runs sagefe in a folder, so that messages name the files as they stand in `arguments`.  `under`: a command
 // that runs it, e.g. one that kills it.
 Finished sagefe(const std::filesystem::path& folder, const std::string& arguments,
-                const std::string& under = "timeout 60");
+                const std::string& under = "timeout 300");
 
 // For `under`: SIGKILL after so many seconds, exit code 137 then.  Ends when the program is gone, and its locks
 // with it; `timeout -s KILL` doesn't wait for that.
