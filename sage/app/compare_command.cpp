@@ -165,7 +165,7 @@ FinishedSide climb_side(const char* letter, const SideOptions& options, const Co
     found.not_reached = error.what();
     return {{label, error.what()}, found};
   }
-  if (!found.best) return {{label, found.not_reached}, found};
+  if (!found.best) return {{label, "NOT REACHED: " + found.not_reached}, found};
   SideOptions best = options;
   best.input.strict = false;  // as the deck's own mesh, which has passed
   best.input.build = *found.best;

@@ -365,6 +365,7 @@ class Climb {
 
  private:
   Ladder choose_ladder();
+  std::string why_not_graded(const Deck& deck) const;
   std::optional<RunOutcome> run_mesh(const Rung& rung);
   std::string why_unusable(const RunOutcome& outcome, const Rung& rung);
   void find_blanks(const Model& model, const std::vector<ReportComponent>& components);
@@ -435,13 +436,36 @@ Ladder Climb::choose_ladder() {
         "{}: note: where the scene allows it --converge chooses elements and formulation itself: --element and "
         "--formulation are not used\n",
         request_.deck);
-  if (ladder.kind == Ladder::spectral && !build.coarsen) {
+  if (ladder.kind == Ladder::halving) return ladder;
+  const bool coarsen = build.coarsen;
+  if (!coarsen) {
     BuildOptions coarse = build;
     coarse.coarsen = true;
     coarse.say = {};
     build.coarsen = build_model(deck, catalogue_, coarse).mesh.deck_nodes < first.mesh.deck_nodes;
   }
+  if (const std::string why = why_not_graded(deck); !why.empty()) {
+    build.coarsen = coarsen;
+    fmt::print(stderr,
+               "{}: note: the deck's own elements are halved, for layers at its corners do not fit: {}\n",
+               request_.deck, why);
+    return halving(first);
+  }
   return ladder;
+}
+
+// Why the first mesh of high degree can't be made of a deck whose own mesh can: a support that its layers would
+// cut off, say.  Empty: it can.
+std::string Climb::why_not_graded(const Deck& deck) const {
+  BuildOptions build = spectral_rung(request_.input.build, catalogue_, 0).build;
+  build.say = {};
+  try {
+    build_model(deck, catalogue_, build);
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    return what.substr(0, what.find('\n'));
+  }
+  return {};
 }
 
 RunRequest Climb::request_for(const Rung& rung) {

@@ -106,13 +106,20 @@ double free_pressure_change(const Side& side, std::size_t stage, std::size_t fac
   return sum <= side.floors().force ? 0.0 : sum / side.faces()[face].area;
 }
 
-// The pressure on the upright faces stays as it was over a stage: that on nodes which are held judged without
-// the faces' ends, where rough platens hold them.
+// All nodes of a face are held across it, as those of a plane of symmetry: it answers what the platens do to
+// the rest of the model.
+bool held_across(const FaceState& face) {
+  return std::all_of(face.held.begin(), face.held.end(), [](char held) { return held != 0; });
+}
+
+// The pressure on the upright faces stays as it was over a stage, except where a whole face is held: that on
+// nodes which are held judged without the faces' ends, where rough platens hold them.
 bool lateral_pressure_constant(const Side& side, std::size_t stage) {
   const StageState& state = side.stages()[stage];
   double lateral = 0.0, axial = 0.0;
   for (std::size_t i = 0; i < state.faces.size(); ++i) {
     const Face& face = side.faces()[i];
+    if (face.normal == 0 && held_across(state.faces[i])) continue;
     const Vector2 change = state.faces[i].inner_force - state.faces_before[i].inner_force;
     double stress = std::abs(change[face.normal]) / face.area;
     if (face.normal == 0) stress = std::max(stress, free_pressure_change(side, stage, i));

@@ -96,9 +96,12 @@ Limit limit_of(std::span<const double> v, Ladder ladder) {
 
 Limit limit_after(std::span<const double> v, std::size_t meshes, Ladder ladder) {
   Limit limit = limit_of(v.first(meshes), ladder);
-  const double own = std::abs(v[meshes - 1] - limit.value);
-  for (const double later : v.subspan(meshes))
-    limit.error = std::max(limit.error, std::abs(later - limit.value) - own);
+  const double own = std::abs(v[meshes - 1] - limit.value), stated = limit.error;
+  for (std::size_t n = meshes + 1; n <= v.size(); ++n) {
+    limit.error = std::max(limit.error, std::abs(v[n - 1] - limit.value) - own);
+    const Limit later = limit_of(v.first(n), ladder);
+    if (later.error < stated) limit.error = std::max(limit.error, std::abs(later.value - limit.value));
+  }
   return limit;
 }
 

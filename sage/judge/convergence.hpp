@@ -35,8 +35,8 @@ struct Limit {
 // be chance: the error is no less than what they let expect.
 Limit limit_of(std::span<const double> values, Ladder ladder);
 
-// What the first `meshes` of the values said, with an error that holds the later values too: these may lie no
-// further from the limit than the last of the first ones does.
+// What the first `meshes` of the values said, with an error that holds the later values too, which may lie no
+// further from the limit than the last of the first ones does, and the later limits that are more certain.
 Limit limit_after(std::span<const double> values, std::size_t meshes, Ladder ladder);
 
 }  // namespace sage::judge

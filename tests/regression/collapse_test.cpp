@@ -105,8 +105,7 @@ Collapse collapse(const std::string& name, const Footing& footing) {
                            differences(folder / "out/deck.nodes.csv", "uy") / footing.depth);
   const std::vector<double> factors = column(folder / "out/deck.increments.csv", "load_factor");
   result.load = factors.empty() ? 0.0 : footing.load * factors.back();
-  const std::vector<double> shares =
-      column(folder / "out/deck.increments.csv", "displacement_over_extent");
+  const std::vector<double> shares = column(folder / "out/deck.increments.csv", "displacement_over_extent");
   EXPECT_FALSE(shares.empty());
   if (!shares.empty() && shares.back() > 0.0) {
     EXPECT_NEAR(shares.back(), result.motion, 1e-6 * shares.back());

@@ -224,6 +224,32 @@ std::string text_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+// One 8-node square on a rough base, the middle of its right side held across it: layers at the corner below
+// would cut that node off, so the square is halved.
+TEST(Converge, ASupportThatLayersWouldLoseIsHalved) {
+  scenes::DeckWriter deck(1);
+  const double place[][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {.5, 0}, {1, .5}, {.5, 1}, {0, .5}};
+  for (int i = 0; i < 8; ++i) deck.node(i + 1, place[i][0], place[i][1]);
+  deck.material(1, 1, {1000.0, 0.3});
+  deck.group(1, 2, 2, 1);
+  deck.element(1, 1, {1, 2, 3, 4, 5, 6, 7, 8});
+  for (const int node : {1, 2, 5}) deck.fix(node, 1, 1);
+  for (const int node : {4, 6, 8}) deck.fix(node, 1, 0);
+  scenes::StageCards& stage = deck.stage();
+  for (const int node : {3, 4, 7}) stage.fix(node, 0, 1, 0.0, -0.01);
+  deck.reports.push_back("    2    0    3    3    1    1");
+  ConvergeOptions options;
+  options.tolerance = 0.05;
+  options.follow = {"report1.ux"};
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(converge(request_for(write("held_middle", deck.text())), options, full_catalogue()), kOk);
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_NE(said.find("note: the deck's own elements are halved"), std::string::npos) << said;
+  EXPECT_NE(said.find("node 6 is held along x but is no node of the graded mesh"), std::string::npos) << said;
+  std::string last;
+  EXPECT_GE(table_of("held_middle", last).size(), 3u) << last;
+}
+
 // Three squares in the shape of an L, the ends of its legs pushed and one corner of them held along x as well:
 // that corner's reaction vanishes with its element.  fy of the whole end: -5.89405982 (an independent hp
 // solution).

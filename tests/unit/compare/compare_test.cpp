@@ -12,6 +12,7 @@
 #include "sage/compare/pair_picture.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "sage/scenes/deck_writer.hpp"
+#include "sage/scenes/scenes.hpp"
 #include "solvers/choose_solver.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -167,6 +168,22 @@ TEST(Compare, AGrowingLateralPressureIsNoTestOfTheModulus) {
       EXPECT_EQ(find(c.theory, "apparent modulus, A") == nullptr, k == 1) << cancels;
       EXPECT_EQ(find(c.theory, "apparent modulus, B (") == nullptr, k == 1) << cancels;
     }
+  }
+}
+
+// Rough platens: the plane of symmetry carries what they hold back, and no pressure acts on the free side.
+TEST(Compare, RoughPlatensRaiseTheModulusInBothGeometries) {
+  const scenes::RestrainedCylinder scene{1.0, kNu, Cell::quad4, 1, 4, 4, 1.0};
+  const std::string deck = scene.between_rough_platens(0.01).text();
+  const Side a = run("a", deck, 1), b = run("b", deck, 2);
+  ASSERT_EQ(a.error() + b.error(), "");
+  const Comparison c = compare(a, b, {});
+  for (const char* what : {"apparent modulus, A", "apparent modulus, B ("}) {
+    const Expectation* e = find(c.theory, what);
+    ASSERT_NE(e, nullptr) << what;
+    EXPECT_GT(e->found, 1.01 * e->expected) << what;
+    EXPECT_LT(e->found, 1.5 * e->expected) << what;
+    EXPECT_NE(e->why.find("restrained"), std::string::npos) << e->why;
   }
 }
 

@@ -126,6 +126,16 @@ TEST(Limit, LaterMeshesWidenAnEarlierError) {
   EXPECT_EQ(after.error, then.error);
 }
 
+// A reaction at a single node, which vanishes like the root of the mesh: what four meshes said must hold the
+// zero that the later ones extrapolate to.
+TEST(Limit, ALaterLimitThatIsMoreCertainWidensAnEarlierError) {
+  const std::vector<double> values{-3.709948496,  -1.728659954,  -1.142587638,  -0.8179480992, -0.5855773477,
+                                   -0.4181282742, -0.2978525678, -0.2117716133, -0.150347914};
+  const Limit last = limit_of(values, kHalving), early = limit_after(values, 4, kHalving);
+  EXPECT_LE(std::abs(last.value), last.error);
+  EXPECT_GE(early.error, std::abs(early.value));
+}
+
 TEST(Limit, GrowingDifferencesAreNoLimit) {
   EXPECT_TRUE(std::isinf(limit_of(std::vector<double>{1.0, 1.1, 1.3, 1.7}, kHalving).error));
   EXPECT_TRUE(std::isinf(limit_of(std::vector<double>{1.0, 1.1, 0.9}, kSpectral).error));
