@@ -1,5 +1,5 @@
-// The only difference between the two geometries.  x is r and y is z when axisymmetric; the ring is a full
-// circle.
+// The only difference between the two geometries.  x is r and y is z when axisymmetric;
+// the ring is a full circle.
 #pragma once
 
 #include "sage/core/element.hpp"

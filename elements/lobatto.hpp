@@ -1,7 +1,7 @@
-// Quadrilaterals of any even degree p: products of Lagrange polynomials through the Gauss-Lobatto points, which
-// keep high degrees well-conditioned (Szabo & Babuska 1991; Karniadakis & Sherwin 2005).  Nodes: corners, then
-// the inner nodes of each edge in its counter-clockwise direction, then the nodes inside row by row, xi
-// fastest.
+// Quadrilaterals of any even degree p: products of Lagrange polynomials through the Gauss-Lobatto
+// points, which keep high degrees well-conditioned (Szabo & Babuska 1991; Karniadakis & Sherwin 2005).
+// Nodes: corners, then the inner nodes of each edge in its counter-clockwise direction, then the nodes
+// inside row by row, xi fastest.
 #pragma once
 
 #include "elements/shapes.hpp"

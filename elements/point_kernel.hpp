@@ -10,8 +10,8 @@
 
 namespace sage {
 
-// B^T of one point, dofs x law_size: a column is a strain component, so that products with B^T run down whole
-// columns.
+// B^T of one point, dofs x law_size: a column is a strain component, so that products with
+// B^T run down whole columns.
 template <int LawSize, int Dofs>
 using OperatorT = Eigen::Matrix<double, Dofs, LawSize>;
 
@@ -47,8 +47,8 @@ struct StackedOperators {
   }
 };
 
-// K = sum B^T w D B over the points, column by column; added to K where `first` is false.  No symmetry is
-// assumed.
+// K = sum B^T w D B over the points, column by column; added to K where `first` is
+// false.  No symmetry is assumed.
 template <int LawSize, int Dofs, int Points>
 void sum_stiffness(const StackedOperators<LawSize, Dofs, Points>& all, bool first, Eigen::Map<Matrix<Dofs>> K) {
   using Operators = StackedOperators<LawSize, Dofs, Points>;

@@ -10,8 +10,8 @@
 
 namespace sage {
 
-// What traits() says.  reduced: fewer independent strains than deformation modes (tests/conformance proves
-// each).
+// What traits() says.  reduced: fewer independent strains than deformation modes
+// (tests/conformance proves each).
 struct SolidFlags {
   bool reduced_plane = false;
   bool reduced_axisymmetric = false;

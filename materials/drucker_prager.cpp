@@ -192,10 +192,10 @@ void DruckerPrager::return_to_cap(const Vector4& s_trial, double q_trial, PointO
   out.status = PointStatus::apex;
 }
 
-// The increment taken at constant rate, beta = 0: elastic up to the cone, then R = |s| changes linearly while s
-// turns towards the strain rate, tan(psi/2) = exp(-kappa) tan(psi0/2), kappa = 2 G |de| / logarithmic mean of
-// R. Krieg & Krieg (1977), Loret & Prevost (1986), Szabo & Kossa (2012).  False where the formula doesn't
-// apply.
+// The increment taken at constant rate, beta = 0: elastic up to the cone, then R = |s| changes linearly
+// while s turns towards the strain rate, tan(psi/2) = exp(-kappa) tan(psi0/2), kappa = 2 G |de| /
+// logarithmic mean of R. Krieg & Krieg (1977), Loret & Prevost (1986), Szabo & Kossa (2012).  False where
+// the formula doesn't apply.
 bool DruckerPrager::integrate_exactly(const PointIn<4>& in, PointOut<4>& out) const {
   using Real = Dual<4>;
   using Tensor = Real[4];

@@ -51,8 +51,8 @@ class DruckerPrager final : public SolidLaw {
 
  private:
   enum { kShear, kVolume };
-  // Sums of sqrt(2 de_p:de_p), the plastic shear gamma of simple shear, and of the plastic volume strain (+
-  // dilates).
+  // Sums of sqrt(2 de_p:de_p), the plastic shear gamma of simple shear, and of the plastic
+  // volume strain (+ dilates).
   static constexpr std::array<Quantity, 2> kHistory{
       {{"plastic_shear_strain", Dimension::none, 0.0}, {"plastic_volume_strain", Dimension::none, 0.0}}};
 

@@ -153,8 +153,8 @@ HyperbolicParameters hyperbolic_parameters(const Parameters& p, VolumeRule volum
   const double steepest = h.phi0 - h.dphi * std::log10(h.floor);
   if (steepest >= 89.5 * kRadiansPerDegree)
     p.refuse("friction_loss", "must leave the friction angle below 89.5 degrees at the stress floor");
-  // The strength must not fall with sigma_3: d/d sigma_3 of sigma_3 sin phi/(1 - sin phi) >= 0 at the last
-  // decade.
+  // The strength must not fall with sigma_3: d/d sigma_3 of sigma_3 sin phi/(1 - sin
+  // phi) >= 0 at the last decade.
   const double flattest = h.phi0 - h.dphi * kLastDecade, sine = std::sin(flattest);
   if (sine * (1.0 - sine) < std::cos(flattest) * h.dphi / std::log(10.0))
     p.refuse("friction_loss", "must leave a strength that grows with sigma_3 up to 1000 p_a");

@@ -1,6 +1,6 @@
-// The assembled matrix in compressed columns.  The first assembly looks up the place of every term; for a
-// second one the places (slots) are kept, and assembly is a plain scatter.  Many matrices are assembled only
-// once.
+// The assembled matrix in compressed columns.  The first assembly looks up the place of every
+// term; for a second one the places (slots) are kept, and assembly is a plain scatter.  Many
+// matrices are assembled only once.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
-// Symbolic side of the multifrontal solver (Duff & Reid 1983): one dense front for each part of the separator
-// tree.
+// Symbolic side of the multifrontal solver (Duff & Reid 1983): one dense front for each
+// part of the separator tree.
 //
 // A front has the pivots of its part and the equations that they touch later, its border.  Its local index runs
 // over pivots and border, each padded to whole tiles of 8.  Arms hold the pivot rows (U) and, transposed, the

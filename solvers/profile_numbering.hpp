@@ -1,6 +1,6 @@
-// Numberings that keep the profile of the factors small: reverse Cuthill-McKee from an end or from a whole
-// side. Every function returns the groups in the order of elimination; parts that are not connected come one by
-// one.
+// Numberings that keep the profile of the factors small: reverse Cuthill-McKee from an end or from a
+// whole side. Every function returns the groups in the order of elimination; parts that are not
+// connected come one by one.
 #pragma once
 
 #include <span>

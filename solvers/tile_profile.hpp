@@ -49,8 +49,8 @@ struct TileScatter {
 // only). Throws std::length_error where a target exceeds 2^31 - 1.
 TileScatter make_tile_scatter(const TileProfile& profile, const AssembledMatrix& matrix);
 
-// Diagonal blocks of a triangular factor: term [k * 8 + i], k < i, couples i to k; reciprocal holds 1 /
-// diagonal.
+// Diagonal blocks of a triangular factor: term [k * 8 + i], k < i, couples i to k; reciprocal holds
+// 1 / diagonal.
 struct TileTriangle {
   const double* tiles = nullptr;       // off-diagonal tiles
   const double* diagonal = nullptr;    // diagonal tiles

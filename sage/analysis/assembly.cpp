@@ -12,8 +12,8 @@ namespace sage {
 
 namespace {
 
-// Matrices of nonlinear groups are kept to see whether K has changed, as long as they are not the bulk of the
-// memory.
+// Matrices of nonlinear groups are kept to see whether K has changed, as long as they are
+// not the bulk of the memory.
 constexpr std::size_t kMostKept = std::size_t{1} << 26;  // bytes
 
 std::span<const Quantity> history_of(const LawRef& law) {

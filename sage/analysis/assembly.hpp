@@ -24,7 +24,7 @@ class Assembly {
 
   // Equations and element order of a stage.  rate: displacement of every prescribed dof over the stage.
   void enter_stage(const Activity& activity, const Eigen::VectorXd& rate);
-  // A group that is placed: free of stress, with its first history.
+  // Birth of a group: free of stress, with its first history.
   void reset_group(std::size_t group);
   // After committed states were set from outside (initial stress): the forces that belong to them.
   void take_states();
@@ -43,8 +43,8 @@ class Assembly {
   void condense(int increments, const SolverMaker& make);
   const Condensation* condensation() const { return condensation_.get(); }
 
-  // A step begins: target = loads at its end, rate_part = its part of the prescribed displacements.  Needed by
-  // iterate().
+  // A step begins: target = loads at its end, rate_part = its part of the prescribed
+  // displacements.  Needed by iterate().
   void begin_step(const Eigen::VectorXd& target, double rate_part);
   // As evaluate(), within the iterations of a step: a condensed region acts by its border.
   Outcome iterate(const Eigen::VectorXd& du, LinearSolver* solver);

@@ -4,8 +4,8 @@
 // With l = condensed, n = kept, p = prescribed dofs of the linear region, f0 its internal forces at the start
 // of a step and F the loads at its end:
 //   K_ll du_l = F_l - f0_l - K_ln du_n - K_lp du_p
-//   f_n = g + S du_n,   S = K_nn - K_nl K_ll^-1 K_ln,   g = f0_n + K_np du_p + K_nl K_ll^-1 (F_l - f0_l - K_lp
-//   du_p)
+//   f_n = g + S du_n,   S = K_nn - K_nl K_ll^-1 K_ln,
+//   g = f0_n + K_np du_p + K_nl K_ll^-1 (F_l - f0_l - K_lp du_p)
 // Once the region's forces f are known at some du, f_n = f(du)_n + S (change of du_n): S then multiplies small
 // changes, and its rounding counts no more.
 #pragma once

@@ -22,8 +22,8 @@ struct ErrorEstimate {
   double relative() const;
 };
 
-// Stress of all points of all groups, as in the state store: to measure from another state than the unstressed
-// one.
+// Stress of all points of all groups, as in the state store: to measure from another
+// state than the unstressed one.
 using StressState = std::vector<std::vector<double>>;
 StressState stress_state(const Assembly& assembly);
 

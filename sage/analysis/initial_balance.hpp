@@ -20,11 +20,11 @@ struct InitialImbalance {
   bool counts() const { return dof >= 0 && std::abs(force) > kUnbalancedStress * largest; }
 };
 
-// At the start of a stage (0-based), for the groups that start with stress in it.  internal: forces of the
-// stress, external: loads at the stage's end, both every dof.  The weight of all groups must be balanced; a
-// load that the stage itself adds may be (the stress of a cell pressure) or not (a load on ground at rest).
-// Nodes that the stage releases, takes groups away from or builds on are left out: their forces are let go on
-// purpose.
+// At the start of a stage (0-based), for the groups that start with stress in it.  internal: forces of
+// the stress, external: loads at the stage's end, both every dof.  The weight of all groups must be
+// balanced; a load that the stage itself adds may be (the stress of a cell pressure) or not (a load on
+// ground at rest).  Nodes that the stage releases, takes groups away from or builds on are left out:
+// their forces are let go on purpose.
 InitialImbalance initial_imbalance(const Model& model, const Activity& activity, int stage,
                                    const Eigen::VectorXd& internal, const Eigen::VectorXd& external);
 

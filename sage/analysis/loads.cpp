@@ -15,13 +15,13 @@ void scatter(const Group& group, int element, const std::vector<double>& f, Eige
   }
 }
 
-// Of the groups that are placed (a flag each).
-void add_edge_loads(const Model& model, const std::vector<char>& placed, const Stage& stage,
+// Of the active groups (a flag each).
+void add_edge_loads(const Model& model, const std::vector<char>& active, const Stage& stage,
                     Eigen::VectorXd& force) {
   Eigen::Matrix2Xd x;
   std::vector<double> f;
   for (const EdgeLoad& load : stage.pressures) {
-    if (!placed[static_cast<std::size_t>(load.group)]) continue;
+    if (!active[static_cast<std::size_t>(load.group)]) continue;
     const Group& group = model.groups[static_cast<std::size_t>(load.group)];
     element_coordinates(model.mesh, group, load.element, x);
     f.assign(static_cast<std::size_t>(group.element->traits().dofs), 0.0);
@@ -102,12 +102,12 @@ Eigen::VectorXd external_force(const Model& model, int last) {
   const auto changes = [](const Stage& stage) { return !stage.births.empty() || !stage.deaths.empty(); };
   const bool lasting = std::none_of(model.stages.begin(), model.stages.end(), changes);
   Activity activity(model);
-  std::vector<std::vector<char>> placed;  // groups, stage by stage
+  std::vector<std::vector<char>> active_groups;  // groups, stage by stage
   Eigen::VectorXd force = Eigen::VectorXd::Zero(model.dofs());
   Vector2 gravity = Vector2::Zero();
   for (const Stage& stage : stages) {
     activity.enter(stage);
-    placed.push_back(activity.group);
+    active_groups.push_back(activity.group);
     gravity += stage.gravity;
     for (const NodalLoad& load : stage.loads) force.segment<2>(2 * load.node) += load.force;
     if (lasting) continue;
@@ -115,9 +115,9 @@ Eigen::VectorXd external_force(const Model& model, int last) {
     for (int node = 0; node < model.mesh.nodes(); ++node)
       if (!active[static_cast<std::size_t>(node)]) force.segment<2>(2 * node).setZero();
   }
-  // A group is placed once: what it had in the stage of the card and has at the end, it had between.
-  for (std::size_t s = 0; s < placed.size(); ++s) {
-    std::vector<char>& groups = placed[s];
+  // A group is born once: what it had in the stage of the card and has at the end, it had between.
+  for (std::size_t s = 0; s < active_groups.size(); ++s) {
+    std::vector<char>& groups = active_groups[s];
     for (std::size_t g = 0; g < groups.size(); ++g) groups[g] = groups[g] && activity.group[g];
     add_edge_loads(model, groups, stages[s], force);
   }

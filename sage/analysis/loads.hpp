@@ -8,8 +8,8 @@
 namespace sage {
 
 // All loads that act at the end of stage `last` (0-based): nodal loads, edge loads and body forces of the
-// stages up to it.  A load acts as long as what bears it: not where that isn't placed in the load's own stage,
-// nor, once that was removed, on what is placed there later.  One entry a dof, tension-positive axes (x, y).
+// stages up to it.  A load acts as long as what bears it: not where that isn't active in the load's own stage,
+// nor, once that was removed, on what is born there later.  One entry a dof, tension-positive axes (x, y).
 Eigen::VectorXd external_force(const Model& model, int last);
 
 // Weight of groups (a flag each) under gravity, in multiples of the materials' unit weight.  One entry a dof.

@@ -220,10 +220,10 @@ bool Step::converged(const IterationRecord& record) const {
          (record.energy <= tol && record.displacement <= std::sqrt(tol));
 }
 
-// Forces are K times displacements: what the rounding of those makes can't be balanced (stiff joints, nu near
-// 1/2). A residual of that size ends the step once corrections are tiny, if it is small beside the forces; or
-// if all forces are no more than the rounding of a motion that is prescribed (a loose part, moved without
-// stress).
+// Forces are K times displacements: what the rounding of those makes can't be balanced (stiff joints,
+// nu near 1/2). A residual of that size ends the step once corrections are tiny, if it is small beside
+// the forces; or if all forces are no more than the rounding of a motion that is prescribed (a loose
+// part, moved without stress).
 bool Step::at_rounding(const IterationRecord& record) const {
   constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon(), kTiny = 1e-6;
   if (!(record.displacement <= kTiny) || record.step_length < 1.0 || residual_.size() == 0) return false;
@@ -308,8 +308,8 @@ NewtonStep Step::solve(const Eigen::VectorXd& rate, double rate_part) {
   return settings_.method == Method::dogleg ? iterate_with_dogleg() : iterate_with_line_search();
 }
 
-// The tangent is not that of the place reached: earlier corrections help.  A step that made things worse starts
-// anew.
+// The tangent is not that of the place reached: earlier corrections help.  A step that made
+// things worse starts anew.
 void Step::accelerate(double old_norm) {
   if (residual_.norm() > 2.0 * old_norm) acceleration_.restart();
   acceleration_.improve(correction_);

@@ -87,8 +87,8 @@ void ProbeMaker::add_stress(Probe& probe, const Location& location, double part)
   }
 }
 
-// What is extrapolated to the nodes has the degree that the best places determine, and the shape functions hold
-// it.
+// What is extrapolated to the nodes has the degree that the best places determine, and
+// the shape functions hold it.
 void ProbeMaker::add_own(Probe& probe, const Location& location, double part) const {
   const Group& group = model_->groups[location.group];
   Eigen::Matrix2Xd x;

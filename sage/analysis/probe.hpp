@@ -27,7 +27,7 @@ struct Probe {
   std::vector<Node> nodes;
   std::vector<Point> points;
 
-  bool placed() const { return group >= 0; }
+  bool active() const { return group >= 0; }
 };
 
 // Tension positive.
@@ -36,7 +36,7 @@ struct ProbeValue {
   Vector4 strain = Vector4::Zero(), stress = Vector4::Zero();
 };
 
-// All zero for a probe that is not placed.
+// All zero for an inactive probe.
 ProbeValue read_probe(const Probe& probe, const Solution& solution);
 
 class ProbeMaker {

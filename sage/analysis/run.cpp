@@ -158,7 +158,7 @@ void Run::place_groups(const Stage& stage) {
   for (std::size_t g = 0; g < lived_.size(); ++g) lived_[g] = lived_[g] || activity_.group[g];
 }
 
-// What is placed has not moved yet, also where something was that has been removed since.
+// What is born has not moved yet, also where something was that has been removed since.
 // Called before the stage is entered.
 void Run::start_new_nodes() {
   if (std::ranges::all_of(activity_.group, [](char active) { return active != 0; })) return;
@@ -292,8 +292,8 @@ double Run::motion() const {
 
 // Back to the committed state, with its own internal forces.  The next attempt starts with the tangent of the
 // way that the last step took.  At du = 0 points on their yield surfaces answer elastically: from there a cut
-// step would have to find all of the plastic zone anew, however short it is.  next: its share of the stage; 0 =
-// from there all the same.
+// step would have to find all of the plastic zone anew, however short it is.
+// next: its share of the stage; 0 = from there all the same.
 void Run::reject(const Stage& stage, double next) {
   linear_size_ = 0.0;
   on_last_way_ = false;

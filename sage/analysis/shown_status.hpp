@@ -1,4 +1,4 @@
-// What a point is said to do: its law's status, but for openings that are rounding.
+// The status that is shown for a point: its law's, but for openings that are rounding.
 #pragma once
 
 #include "sage/analysis/group_data.hpp"

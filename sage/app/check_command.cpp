@@ -55,7 +55,7 @@ Command check_command(CLI::App& parser, const Catalogue& catalogue) {
   parser.add_option("DECK", options->decks, "deck files")->required();
   add_input_options(parser, options->input);
   add_build_options(parser, options->input.build, catalogue);
-  parser.add_option("--solver", options->solver, "solver by name, as `run` would be told")
+  parser.add_option("--solver", options->solver, "solver by name, as for `run`")
       ->check(known_solver(catalogue));
   return [options, &catalogue] {
     int worst = kOk;

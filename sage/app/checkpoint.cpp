@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view kFirstLine = "sagefe restart 3\n";
 
-// What a checkpoint means depends on every line of the program: its build is told by its own file.
+// What a checkpoint means depends on every line of the program: its build is identified by its own file.
 std::uint64_t build_identity() {
   static const std::optional<Checksum> program = checksum_of("/proc/self/exe");
   if (!program) throw OutputError("a checkpoint can't name this build: /proc/self/exe can't be read");

@@ -88,7 +88,7 @@ struct Place {
   const Catalogue& catalogue;
 };
 
-// A side, and what finer and finer meshes said of it, where that was asked for.
+// A side, and what finer and finer meshes found for it, where that was asked for.
 struct FinishedSide {
   compare::Side side;
   std::optional<Convergence> convergence = {};

@@ -169,7 +169,7 @@ class Follower {
   Ladder ladder_;
   double tolerance_;
   std::vector<Quantity> quantities_;  // followed
-  std::vector<Quantity> others_;      // not followed: their limits are told, and decide nothing
+  std::vector<Quantity> others_;      // not followed: their limits are reported, and decide nothing
   std::size_t shown_ = 0;
 };
 
@@ -537,7 +537,7 @@ std::string Climb::why_unusable(const RunOutcome& outcome, const Rung& rung) {
                        (blanks_.empty() ? std::string() : fmt::format(": {}", fmt::join(blanks_, "; "))));
 }
 
-// Reports without a value at the end: said with the result, or a mistake where one is to be followed.
+// Reports without a value at the end: listed with the result, or a mistake where one is to be followed.
 void Climb::find_blanks(const Model& model, const std::vector<ReportComponent>& components) {
   for (const std::string& name : options_.follow)
     if (find_component(components, name) == nullptr) {

@@ -1,5 +1,5 @@
-// --converge of run and compare: finer and finer meshes until what the deck's reports say is as certain as
-// asked.
+// --converge of run and compare: finer and finer meshes until what the deck's reports
+// say is as certain as asked.
 #pragma once
 
 #include <cstdio>
@@ -30,7 +30,7 @@ void add_converge_options(CLI::App& parser, ConvergeOptions& options, const std:
 struct ConvergedValue {
   std::string name;  // "report1.fy"
   double value = 0.0;
-  double error = std::numeric_limits<double>::infinity();  // infinite = nothing can be said
+  double error = std::numeric_limits<double>::infinity();  // infinite = nothing is known
   bool reached = false;                                    // as certain as asked for, or not followed
 };
 

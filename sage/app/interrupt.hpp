@@ -1,5 +1,5 @@
-// Ctrl-C and SIGTERM while decks are computed: the first is a wish, which runs end by; the second ends the
-// process.
+// Ctrl-C and SIGTERM while decks are computed: the first is a wish, which runs end by;
+// the second ends the process.
 #pragma once
 
 #include <signal.h>

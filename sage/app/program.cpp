@@ -50,8 +50,8 @@ constexpr Entry kCommands[] = {
      stress_command},
 };
 
-// The command that the first word which is no option names, whose options alone are made; nullptr, and said,
-// where it is none.
+// The command that the first word which is no option names, whose options alone are made; nullptr, with a
+// message, where it is none.
 const Entry* find_command(const std::string& word) {
   std::string known;
   for (const Entry& entry : kCommands) {
@@ -91,8 +91,8 @@ int run_command_line(int argc, char** argv, const AddToCatalogue& add) {
   return execute ? guarded("sagefe", execute) : kUsage;
 }
 
-// Where the caller closed a standard stream, a file of results would take its number, and messages would go
-// there.
+// Where the caller closed a standard stream, a file of results would take its number,
+// and messages would go there.
 void fill_standard_streams() {
   for (int stream : {0, 1, 2})
     if (fcntl(stream, F_GETFD) == -1 && open("/dev/null", O_RDWR) == -1) return;

@@ -61,7 +61,7 @@ Checkpoint checkpoint_of(const RunRequest& request, const Model& model, ResultFi
   return {o.folder / (stem_of(request) + ".restart"), request.checkpoint_seconds, run, results};
 }
 
-// The bytes to go on from; empty, and said, where there are none.
+// The bytes to go on from; empty, with a note, where there are none.
 std::string resume_from(Checkpoint& checkpoint, const RunRequest& request) {
   std::optional<std::string> state = checkpoint.load();
   if (!state && !request.quiet)
@@ -76,7 +76,7 @@ std::string resume_from(Checkpoint& checkpoint, const RunRequest& request) {
   return state.value_or("");
 }
 
-// What an earlier run left is removed; what can't be, because it has been changed, is said.
+// What an earlier run left is removed; a note names what can't be, because it has been changed.
 void close(ResultFiles& results, const RunRequest& request) {
   for (const std::filesystem::path& file : results.close())
     if (!request.quiet)

@@ -214,7 +214,7 @@ void check_totals(Builder& b) {
   compare("total_elements", "elements", elements);
 }
 
-// A deck that asks for more than there is: refused, or computed in part and said so with every result.
+// A deck that asks for more than there is: refused, or computed in part with a line about it in every result.
 void take_left_out(Builder& b) {
   bool refused = false;
   for (const LeftOut& one : b.deck.left_out) {

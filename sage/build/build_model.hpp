@@ -1,5 +1,5 @@
-// Gives a deck its meaning: numbers become indices, generation cards become nodes and elements, signs are
-// flipped.
+// Gives a deck its meaning: numbers become indices, generation cards become nodes and
+// elements, signs are flipped.
 #pragma once
 
 #include <string>

@@ -219,14 +219,14 @@ Stage read_stage(Builder& b, const CardView& card, int number) {
   return stage;
 }
 
-// The stage cards are owned by nothing or by a block; what belongs to the model as a whole has no stage as
-// owner.
+// The stage cards are owned by nothing or by a block; what belongs to the model as a
+// whole has no stage as owner.
 bool outside_stages(const Deck& deck, const CardView& card) {
   const int owner = card.card().owner;
   return owner < 0 || CardView(deck, owner).spec().name != "stage";
 }
 
-// A group is placed at most once, and removed at most once after that.
+// A group is born at most once, and removed at most once after that.
 void check_births(Builder& b) {
   struct Life {
     int born = 0, dead = 0;  // stage numbers, 0 = not
@@ -240,12 +240,11 @@ void check_births(Builder& b) {
       Life& life = lives[static_cast<std::size_t>(g)];
       if (life.born > 0)
         b.error(stage.where,
-                name(g) + " is born twice; a group that was removed needs a twin to be placed again");
+                name(g) + " is born twice; a group that was removed needs a twin to be born again");
       else if (life.dead > 0)
-        b.error(stage.where,
-                name(g) + " is born in stage " + std::to_string(stage.number) + " but removed in stage " +
-                    std::to_string(life.dead) +
-                    ", before it exists; a group that was removed needs a twin to be placed again");
+        b.error(stage.where, name(g) + " is born in stage " + std::to_string(stage.number) +
+                                 " but removed in stage " + std::to_string(life.dead) +
+                                 ", before it exists; a group that was removed needs a twin to be born again");
       life.born = stage.number;
     }
     for (int g : stage.deaths) {

@@ -18,8 +18,8 @@ struct ElementPlace {
   int folded = -1;  // edge of the card, from 0, that vanished when its quadrilateral became a triangle
 };
 
-// Numbers first, first + step ... last.  Wider than the deck's integers, so that counting past the last is
-// safe.
+// Numbers first, first + step ... last.  Wider than the deck's integers, so that
+// counting past the last is safe.
 struct NumberRange {
   std::int64_t first = 0, last = -1, step = 1;  // empty as it stands
 };
@@ -62,7 +62,7 @@ void check_totals(Builder& b);
 void check_plausible(Builder& b);
 // Interfaces whose sides belong to the wrong bodies.
 void check_interfaces(Builder& b);
-// Loads and displacements for what is not placed.
+// Loads and displacements on inactive nodes and elements.
 void check_inactive(Builder& b);
 // Shapes, supports, unused nodes, radii, solver.
 void check_model(Builder& b);

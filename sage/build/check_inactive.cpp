@@ -36,7 +36,7 @@ void tell(Builder& b, const IdleCards& idle, const Stage& stage, const std::stri
 void check_inactive(Builder& b) {
   const Model& model = b.model;
   Activity activity(model);
-  std::set<std::size_t> told;  // reports
+  std::set<std::size_t> reported;  // reports
   for (const Stage& stage : model.stages) {
     activity.enter(stage);
     const std::vector<char> active = active_nodes(model, activity);
@@ -57,15 +57,15 @@ void check_inactive(Builder& b) {
     for (std::size_t i = 0; i < model.reports.size(); ++i) {
       const Report& report = model.reports[i];
       if (report.kind == ReportKind::point || stage.number <= report.stage ||
-          !std::all_of(report.nodes.begin(), report.nodes.end(), idle_node) || !told.insert(i).second)
+          !std::all_of(report.nodes.begin(), report.nodes.end(), idle_node) || !reported.insert(i).second)
         continue;
       b.warning(report.where, "stage " + std::to_string(stage.number) +
-                                  ": no element that is placed then has a node "
+                                  ": no element that is active then has a node "
                                   "of this report: it shows the displacements of before and no force");
     }
-    tell(b, loads, stage, "the load of node", "no element that is placed then has the node");
-    tell(b, displacements, stage, "the displacement of node", "no element that is placed then has the node");
-    tell(b, pressures, stage, "the pressure on element", "its group is not placed then");
+    tell(b, loads, stage, "the load of node", "no element that is active then has the node");
+    tell(b, displacements, stage, "the displacement of node", "no element that is active then has the node");
+    tell(b, pressures, stage, "the pressure on element", "its group is not active then");
   }
 }
 

@@ -11,7 +11,7 @@ namespace sage::build {
 
 namespace {
 
-// Directed edge -> number of a solid to the left of it.  All solids count, placed now or in a later stage.
+// Directed edge -> number of a solid to the left of it.  All solids count, active now or in a later stage.
 class SolidEdges {
  public:
   explicit SolidEdges(const Model& model) {
@@ -34,8 +34,8 @@ class SolidEdges {
     return static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32U | static_cast<std::uint32_t>(b);
   }
 
-  // From corner to corner, and piece by piece over mid-side nodes: linear interfaces may lie on a quadratic
-  // edge.
+  // From corner to corner, and piece by piece over mid-side nodes: linear interfaces
+  // may lie on a quadratic edge.
   void add_edge(const int* nodes, const std::vector<int>& edge, int number) {
     const int first = nodes[edge[0]], last = nodes[edge[1]];
     solid_.try_emplace(key(first, last), number);

@@ -198,14 +198,14 @@ void warn_bare_joints(Builder& b) {
   const Model& model = b.model;
   if (!std::ranges::any_of(model.groups, [](const Group& g) { return g.interface(); })) return;
   const std::vector<char> ever = solid_nodes(model, [](std::size_t) { return true; });
-  std::vector<char> told(model.groups.size(), 0);
+  std::vector<char> reported(model.groups.size(), 0);
   Activity activity(model);
   for (const Stage& stage : model.stages) {
     activity.enter(stage);
     const std::vector<char> now = solid_nodes(model, [&](std::size_t g) { return activity.group[g] != 0; });
     for (std::size_t g = 0; g < model.groups.size(); ++g) {
       const Group& group = model.groups[g];
-      if (!group.interface() || !activity.group[g] || told[g]) continue;
+      if (!group.interface() || !activity.group[g] || reported[g]) continue;
       Examples elements, nodes;
       std::vector<int> bare;
       for (int e = 0; e < group.elements(); ++e) {
@@ -221,7 +221,7 @@ void warn_bare_joints(Builder& b) {
           elements.add(std::to_string(group.element_numbers[static_cast<std::size_t>(e)]));
       }
       if (bare.empty()) continue;
-      told[g] = 1;
+      reported[g] = 1;
       std::sort(bare.begin(), bare.end());
       bare.erase(std::unique(bare.begin(), bare.end()), bare.end());
       for (const int node : bare) nodes.add(number_of(model, node));

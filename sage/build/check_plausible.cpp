@@ -1,6 +1,6 @@
-// Valid numbers that are unlikely to be meant: a unit system whose atmosphere is not one, gravity without
-// weight, a pressure beyond Young's modulus.  Warnings and notes only; thresholds are far from what sound decks
-// hold.
+// Valid numbers that are unlikely to be meant: a unit system whose atmosphere is not one, gravity
+// without weight, a pressure beyond Young's modulus.  Warnings and notes only; thresholds are far
+// from what sound decks hold.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -168,8 +168,8 @@ void check_slender(Builder& b) {
                                    " times: is a coordinate wrong?");
 }
 
-// Two solids on the same hand of one edge lie on each other.  Twins of which one goes before the other comes
-// may.
+// Two solids on the same hand of one edge lie on each other.  Twins of which one goes
+// before the other comes may.
 void check_overlap(Builder& b) {
   const std::size_t groups = b.model.groups.size();
   std::vector<std::vector<char>> active(groups);  // by group, then by stage

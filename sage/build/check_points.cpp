@@ -30,7 +30,7 @@ void note_boundary(Builder& b, const Report& report, const std::vector<Location>
     if (!answers(l) && others.empty()) others = number_of(b.model, l.group);
   b.note(report.where, "the point " + place_text(report.place) + " lies where bodies meet: group " +
                            number_of(b.model, answering.front().group) +
-                           " answers while it is placed, not group " + others +
+                           " answers while it is active, not group " + others +
                            "; give the point's group to choose");
 }
 
@@ -66,7 +66,7 @@ void check_points(Builder& b) {
                                                      " but in group " + number_of(model, found.front().group)));
     else if (!placed_from(model, report, found))
       b.warning(report.where, "no element that holds the point " + place_text(report.place) +
-                                  " is placed from the report's stage on: it shows nothing");
+                                  " is active from the report's stage on: it shows nothing");
     else
       note_boundary(b, report, found);
   }

@@ -1,5 +1,5 @@
-// Straight sides of the mesh that are held over a part of their length: half a line of symmetry that was
-// forgotten.
+// Straight sides of the mesh that are held over a part of their length: half a line of
+// symmetry that was forgotten.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -14,7 +14,7 @@ namespace sage::build {
 
 namespace {
 
-// The outer edges of solids, whenever they are placed, whose nodes all lie at a place of one coordinate.
+// The outer edges of solids, whenever they are active, whose nodes all lie at a place of one coordinate.
 std::vector<std::vector<int>> edges_at(const Model& model, Eigen::Index row, double place, double reach) {
   std::vector<char> there(static_cast<std::size_t>(model.mesh.nodes()), 0);
   for (int n = 0; n < model.mesh.nodes(); ++n)

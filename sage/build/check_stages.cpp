@@ -19,7 +19,7 @@ std::string node_name(const Builder& b, int node) {
 // Of several cards for a dof the last stands; where they differ, one of them is a mistake.
 void warn_contradictions(Builder& b, const Stage& stage) {
   std::map<std::pair<int, std::size_t>, const Fixity*> seen;
-  std::set<std::pair<int, int>> told;  // lines
+  std::set<std::pair<int, int>> reported;  // lines
   for (const Fixity& f : stage.fixities) {
     if (f.node >= b.model.mesh.deck_nodes) continue;  // made nodes inherit from two corners
     for (std::size_t c = 0; c < 2; ++c) {
@@ -28,7 +28,7 @@ void warn_contradictions(Builder& b, const Stage& stage) {
       const Fixity& before = *it->second;
       it->second = &f;
       if (is_new || (before.code[c] == f.code[c] && before.value[c] == f.value[c])) continue;
-      if (!told.insert({before.line, f.line}).second) continue;
+      if (!reported.insert({before.line, f.line}).second) continue;
       const std::string direction = c == 0 ? " in x" : " in y", other = "line " + std::to_string(before.line);
       const std::string name = "stage " + std::to_string(stage.number) + ": " + node_name(b, f.node);
       if (before.code[c] == f.code[c])
@@ -100,7 +100,7 @@ void check_left(Builder& b) {
     activity.enter(stage);
     if (any_element(b.model, activity)) continue;
     b.error(stage.where, "stage " + std::to_string(stage.number) +
-                             ": no element takes part: every group is removed or not yet placed");
+                             ": no element takes part: every group is removed or not yet born");
     return;
   }
 }

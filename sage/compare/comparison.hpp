@@ -56,7 +56,7 @@ struct Answer {
 // A value of a report as finer and finer meshes have it.
 struct CertainValue {
   std::string name;                 // "report1.fy"
-  double value = 0.0, error = 0.0;  // infinite = nothing can be said of it
+  double value = 0.0, error = 0.0;  // infinite = nothing is known of it
   bool reached = true;              // as certain as was asked for
 };
 

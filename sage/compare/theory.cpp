@@ -131,8 +131,8 @@ bool lateral_pressure_constant(const Side& side, std::size_t stage) {
   return lateral <= 1e-6 * axial;
 }
 
-// Both ends stay plane over a stage, as between platens or under an even pressure: not under forces on single
-// nodes.
+// Both ends stay plane over a stage, as between platens or under an even pressure: not
+// under forces on single nodes.
 bool ends_stay_plane(const Side& side, std::size_t stage) {
   const StageState& state = side.stages()[stage];
   double spread = 0.0, moved = 0.0;

@@ -1,6 +1,6 @@
-// Values to bytes and back, for checkpoints.  One function names the values for both directions, so that
-// writing and reading cannot drift apart.  The bytes are those of this machine: a checkpoint is for the same
-// program.
+// Values to bytes and back, for checkpoints.  One function names the values for both directions,
+// so that writing and reading cannot drift apart.  The bytes are those of this machine: a
+// checkpoint is for the same program.
 #pragma once
 
 #include <cstdint>

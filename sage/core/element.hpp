@@ -86,8 +86,8 @@ class Element {
   // Least-squares or exact extrapolation from points to nodes: nodes x points, row-major.
   virtual std::span<const double> point_to_node() const = 0;
 
-  // The same for one element; differs only where the rule depends on the place (a quadratic interface at r =
-  // 0).
+  // The same for one element; differs only where the rule depends on the place (a quadratic interface
+  // at r = 0).
   virtual std::span<const double> point_to_node_at(const NodeCoordinates& /*x*/) const {
     return point_to_node();
   }
@@ -103,8 +103,8 @@ class Element {
   // Smallest detJ over the mean detJ at the integration points and corners; 1 = parallelogram, <= 0 = unusable.
   virtual double shape_quality(const NodeCoordinates& x) const = 0;
 
-  // A warning for the user about a usable element, empty if there is none: e.g. a pair of nodes without
-  // stiffness.
+  // A warning for the user about a usable element, empty if there is none: e.g. a pair
+  // of nodes without stiffness.
   virtual std::string caution(const NodeCoordinates& /*x*/) const { return {}; }
 };
 

@@ -41,9 +41,9 @@ Vector<N> lack(const std::array<Control, N>& control, const Vector<N>& target, c
   return r;
 }
 
-// Strain correction for a lack of stress; none for strain-controlled components.  The smallest one where the
-// tangent is singular, as on an edge of a yield surface, where the split between two equal principal strains is
-// free.
+// Strain correction for a lack of stress; none for strain-controlled components.  The smallest one
+// where the tangent is singular, as on an edge of a yield surface, where the split between two equal
+// principal strains is free.
 template <int N>
 Vector<N> correction_for(const std::array<Control, N>& control, const Vector<N>& r, Matrix<N> D) {
   const double size = D.cwiseAbs().maxCoeff();

@@ -1,6 +1,6 @@
-// One point of a law, driven without a mesh.  Laboratory paths (triaxial, oedometer, direct shear) are such
-// paths, and so is the answer of any test with uniform stress: the "correct" response that a mesh is compared
-// with.
+// One point of a law, driven without a mesh.  Laboratory paths (triaxial, oedometer, direct shear)
+// are such paths, and so is the answer of any test with uniform stress: the "correct" response
+// that a mesh is compared with.
 #pragma once
 
 #include <array>

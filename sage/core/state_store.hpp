@@ -1,7 +1,7 @@
-// Stress, strain and history of every point of a group, in flat arrays: committed and trial.
-// A commit is a swap; a cut step needs no undo, because the committed side is never written.
-// Where the trial side of stress and strain is not needed, the committed one takes no room until somebody
-// looks.
+// Stress, strain and history of every point of a group, in flat arrays: committed and
+// trial.  A commit is a swap; a cut step needs no undo, because the committed side is never
+// written.  Where the trial side of stress and strain is not needed, the committed one
+// takes no room until somebody looks.
 #pragma once
 
 #include <cstddef>

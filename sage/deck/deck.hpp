@@ -66,7 +66,7 @@ struct Card {
 // What a deck asks for and the model lacks.
 struct LeftOut {
   std::string what;    // for the line that says how a run ended: "36 beam elements (the pipe)"
-  Diagnostic message;  // an error: the deck is refused unless BuildOptions::partial; else it is only told
+  Diagnostic message;  // an error: the deck is refused unless BuildOptions::partial; else it is only reported
 };
 
 // Reads one card's values by canonical field name.

@@ -22,7 +22,7 @@ bool DeckReader::is_faulty(int value) const {
   return std::find(faulty_.begin(), faulty_.end(), value) != faulty_.end();
 }
 
-// True where a value that it needs has an error, which is said.
+// True where a value that it needs has an error, which has been reported.
 bool DeckReader::is_faulty(const Expression& expression) const {
   return std::ranges::any_of(expression.nodes, [this](const ExpressionNode& node) {
     if (node.kind != ExpressionNode::Kind::field) return false;

@@ -86,7 +86,7 @@ class DeckReader {
   const FieldValue* field_value(int card, int field) const;
 
   void truncated(const LayoutEntry& entry);
-  void stop(const std::string& why, int line);  // a note below an error that was said
+  void stop(const std::string& why, int line);  // a note below an error that was reported
   void fail_and_stop(const SourcePosition& where, const std::string& message);
   bool fits_the_file(int count, bool repeats) const;
   void check_after_end();

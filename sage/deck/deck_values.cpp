@@ -1,5 +1,5 @@
-// What a card that was read is held against: faults of its fields, what stands behind them, required values,
-// codes.
+// What a card that was read is held against: faults of its fields, what stands behind
+// them, required values, codes.
 #include <algorithm>
 
 #include "sage/deck/deck_reader.hpp"
@@ -12,7 +12,7 @@ void DeckReader::close_card(const CardRule& rule, Card card, bool complete) {
   latest_[static_cast<std::size_t>(card.spec)] = static_cast<int>(deck_.cards.size());
   deck_.cards.push_back(card);
   if (!flaws_.empty()) report_flaws(rule, card);
-  if (complete) check_values(rule, card);  // else the deck ended in the card, which is said
+  if (complete) check_values(rule, card);  // else the deck ended in the card, which has been reported
 }
 
 void DeckReader::report_flaws(const CardRule& rule, const Card& card) {
@@ -199,7 +199,7 @@ void DeckReader::check_rest(const CardRule& rule, const Card& card, std::size_t 
     overlong_noted_ = true;
     const int first = layout_.records.record_length + 1;
     log_.add(Severity::note, {deck_.file, records_.line(), first, first + static_cast<int>(beyond.size()) - 1},
-             "characters beyond column " + std::to_string(first - 1) + " are ignored (said once)");
+             "characters beyond column " + std::to_string(first - 1) + " are ignored (reported once)");
   }
   if (layout_.last_sequence_column > 0 &&
       last_field_end >= static_cast<std::size_t>(layout_.first_sequence_column))
@@ -239,7 +239,7 @@ void DeckReader::check_sequence_number(const CardRule& rule, const Card& card, s
            {deck_.file, records_.line(), layout_.first_sequence_column, layout_.last_sequence_column},
            quoted(number) + " looks like a sequence number, but the fields of the " + rule.spec.label +
                " card reach into columns " + std::to_string(layout_.first_sequence_column) + "-" +
-               std::to_string(layout_.last_sequence_column) + " (said once)");
+               std::to_string(layout_.last_sequence_column) + " (reported once)");
   static_cast<void>(card);
 }
 

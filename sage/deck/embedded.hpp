@@ -9,7 +9,7 @@ namespace sage {
 struct EmbeddedLayout {
   std::string_view name;
   std::string_view bytes;  // sage/deck/layout_bytes.hpp
-  bool has_marks = false;  // decks of this layout can be told by their first lines
+  bool has_marks = false;  // decks of this layout can be recognised by their first lines
 };
 
 std::span<const EmbeddedLayout> embedded_layouts();

@@ -60,8 +60,8 @@ FieldResult read_real_field(std::string_view text, NumberForm form);
 // Lw: optional point, then T or F in either case; the rest is ignored.
 FieldResult read_logical_field(std::string_view text);
 
-// "12.5", "1.5D-3", "-7": a number with its ends trimmed, as free format has it.  `integer` accepts digits
-// only.
+// "12.5", "1.5D-3", "-7": a number with its ends trimmed, as free format has it.
+// `integer` accepts digits only.
 FieldResult read_free_number(std::string_view text, bool integer);
 
 // "is not a number": what the fault means, for messages.

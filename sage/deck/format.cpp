@@ -211,8 +211,8 @@ class FormatParser {
     } else if (wanted == Decimals::needed) {
       fail("a real field needs its decimals: F10.0, not F10");
     }
-    // Ew.dEe and Gw.dEe: e doesn't matter when reading.  Fw.d and Dw.d have none: an E behind them is the next
-    // item.
+    // Ew.dEe and Gw.dEe: e doesn't matter when reading.  Fw.d and Dw.d have none: an E
+    // behind them is the next item.
     if (exponent == Exponent::allowed && peek() == 'E' && peek(1) >= '0' && peek(1) <= '9') {
       ++at_;
       needed_number("exponent digits");

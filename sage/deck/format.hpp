@@ -55,8 +55,8 @@ struct Format {
   bool reversion_has_data = false;
 };
 
-// Throws FormatError.  Blanks are insignificant, letters of either case, commas may be left out as gfortran
-// allows.
+// Throws FormatError.  Blanks are insignificant, letters of either case, commas may be
+// left out as gfortran allows.
 Format compile_format(std::string_view text);
 
 // Hands out the steps of a FORMAT one after the other, with repeats and groups unrolled.

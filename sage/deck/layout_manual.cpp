@@ -29,7 +29,7 @@ std::string cell(std::string text) {
   return text;
 }
 
-// "1-5", "6-10", ... of a FORMAT's fields; a card behind the first is said.
+// "1-5", "6-10", ... of a FORMAT's fields; a card behind the first is named.
 std::vector<std::string> field_columns(const CardRule& card) {
   std::vector<std::string> columns;
   FormatWalker walker(card.format);

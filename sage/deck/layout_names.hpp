@@ -19,9 +19,9 @@ struct NameMarks {
   std::map<std::pair<int, int>, int> lines;
 };
 
-// Throws InputError with every name that nothing uses and that isn't marked as ignored, every name that the
-// model builder needs and nobody gives, and every card that doesn't belong to the card that it is looked for
-// under.
+// Throws InputError with every name that nothing uses and that isn't marked as ignored, every name
+// that the model builder needs and nobody gives, and every card that doesn't belong to the card
+// that it is looked for under.
 void check_names(const Layout& layout, const NameMarks& marks);
 
 // The same, from the text of a layout file.

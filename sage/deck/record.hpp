@@ -106,8 +106,8 @@ class FormattedRead {
       : source_(source), walker_(format), format_(format), seams_(seams), blanks_(source.rules().blanks) {}
 
   ReadEnd begin() { return new_record(); }
-  // Appends one value.  text_length: characters that the variable holds, for A without a width (0 = rest of
-  // record).
+  // Appends one value.  text_length: characters that the variable holds, for A without a
+  // width (0 = rest of record).
   ReadEnd read(FieldKind kind, std::vector<FieldValue>& values, std::vector<FieldFlaw>& flaws,
                int text_length = 0);
   // Format control after the last value: trailing slashes, then the rest of the record is passed over.

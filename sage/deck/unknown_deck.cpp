@@ -13,8 +13,8 @@ namespace {
 constexpr std::size_t kShown = 3;              // of the problems as the standard layout
 constexpr std::size_t kTrialSize = 4'000'000;  // larger decks are not read once more for every layout
 
-// Lines of the deck's second and third records; 0 = there is none.  The first is a title, which any line can
-// be.
+// Lines of the deck's second and third records; 0 = there is none.  The first is a
+// title, which any line can be.
 std::array<int, 2> first_lines(const SourceText& source, const Layout& layout) {
   RecordSource records(source, layout.records);
   std::array<int, 2> lines{};

@@ -162,8 +162,8 @@ StandIn stand_in(const Deck& deck, CardWriter& out) {
   return {};
 }
 
-// The material's law and numbers; those of the stand-in, reported as left out, where the deck does not hold
-// them.
+// The material's law and numbers; those of the stand-in, reported as left out, where
+// the deck does not hold them.
 std::vector<NewField> law_of(const Deck& deck, const CardView& material, const StandIn& stand_in, bool used,
                              std::string& law, CardWriter& out) {
   std::vector<NewField> values = parameters(deck, material, law, out);
@@ -250,8 +250,8 @@ class Turner {
   int turned_ = 0;
 };
 
-// Without its beams the pipe would be a hole with loose soil above; its nodes are held: a rigid pipe that
-// stays.
+// Without its beams the pipe would be a hole with loose soil above; its nodes are
+// held: a rigid pipe that stays.
 void leave_out(const Deck& deck, CardWriter& out) {
   int beams = 0, interfaces = 0, links = 0;
   SourcePosition where;

@@ -57,9 +57,9 @@ struct Mesh {
     place(n[7], xm, y0);
     elements.push_back({{n[0], n[6], n[4], n[2], n[7], n[5], n[3], n[1]}, lift});
   }
-  // The element under the slope: its lower left, lower right and upper right corners.  What stands on the slope
-  // between the first and the last is its middle node; that program has five nodes there, all on one straight
-  // line.
+  // The element under the slope: its lower left, lower right and upper right corners.  What stands on
+  // the slope between the first and the last is its middle node; that program has five nodes there,
+  // all on one straight line.
   void add_slope(const Eight& n, int middle, double x0, double x1, double y0, double y1, int lift) {
     place(n[0], x0, y0);
     place(n[6], x1, y0);
@@ -71,8 +71,8 @@ struct Mesh {
   }
 };
 
-// Nodes are numbered row by row from the bottom, each along x: 2 n + 1 on lines through corners, n + 1 between
-// them.
+// Nodes are numbered row by row from the bottom, each along x: 2 n + 1 on lines through
+// corners, n + 1 between them.
 Mesh embankment_mesh(const Deck& deck) {
   const CardView foundation = deck.one("foundation"), embankment = deck.one("embankment");
   const int columns = foundation.integer("columns"), rows = foundation.integer("rows");

@@ -17,8 +17,8 @@ using msh::MshBlock;
 using msh::MshElement;
 using msh::MshFile;
 
-// The nodes of an element the other way round: its two parent coordinates change places, the first corner
-// stays.
+// The nodes of an element the other way round: its two parent coordinates change
+// places, the first corner stays.
 void turn_round(std::vector<int>& nodes, const ElementEntry& entry) {
   constexpr double kSame = 1e-9;
   const auto& at = entry.parent_nodes;

@@ -23,19 +23,19 @@ inline constexpr double kLeastError = 1e-10;
 
 struct Limit {
   double value = 0.0;
-  double error = 0.0;  // half the width of what the limit is expected in; infinite = nothing can be said
+  double error = 0.0;          // half the width of what the limit is expected in; infinite = nothing is known
   std::optional<double> rate;  // q of halving where two successive rates agree, so that `value` is extrapolated
 };
 
-// halving: with differences d1, d2 of the last three values and r = d2 / d1 = 2^-q the limit is v + d2 r / (1 -
-// r) (Richardson 1911).  Extrapolated only where the rates of two successive triples differ by less than 0.2;
-// then `error` is the change that the last mesh made to the extrapolated value, and no less than a tenth of the
-// extrapolation itself.  In all other cases the last value stands, with the last difference or, where it falls
+// halving: with differences d1, d2 of the last three values and r = d2 / d1 = 2^-q the limit is
+// v + d2 r / (1 - r) (Richardson 1911).  Extrapolated only where the rates of two successive triples differ by
+// less than 0.2; then `error` is the change that the last mesh made to the extrapolated value, and no less than
+// a tenth of the extrapolation itself.  In all other cases the last value stands, with the last difference or, where it falls
 // slowly (r > 1/2), the sum of the geometric series.  A last difference much smaller than the ones before can
 // be chance: the error is no less than what they let expect.
 Limit limit_of(std::span<const double> values, Ladder ladder);
 
-// What the first `meshes` of the values said, with an error that holds the later values too, which may lie no
+// What the first `meshes` of the values show, with an error that holds the later values too, which may lie no
 // further from the limit than the last of the first ones does, and the later limits that are more certain.
 Limit limit_after(std::span<const double> values, std::size_t meshes, Ladder ladder);
 

@@ -290,8 +290,8 @@ bool Coarsening::moves_as_one(const Report& report, std::size_t c) const {
   return true;
 }
 
-// A mean displacement is that of the nodes which the deck lists: they stay, unless supports move all of them
-// alike.
+// A mean displacement is that of the nodes which the deck lists: they stay, unless
+// supports move all of them alike.
 void Coarsening::require_report(const Report& report) {
   if (report.nodes.empty()) return;
   bool alike = moves_as_one(report, 1);

@@ -26,8 +26,8 @@ struct CutEdge {
   }
 };
 
-// Edges whose made nodes take something over: outer ones, and inner ones whose own middle node says what is
-// meant.
+// Edges whose made nodes take something over: outer ones, and inner ones whose own
+// middle node says what is meant.
 std::vector<CutEdge> cut_edges(const MadeEdges& edges, int first_made) {
   std::vector<CutEdge> cut;
   for (const auto& [ends, edge] : edges) {

@@ -1,5 +1,5 @@
-// Nodes that are made on the edges of elements, and what they take over from the ends.  Not part of the public
-// interface.
+// Nodes that are made on the edges of elements, and what they take over from the ends.  Not
+// part of the public interface.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Where the elastic solution of a mesh is singular: from its boundary, the angle inside and what holds both
-// sides; and where materials meet otherwise than along a smooth line.  Williams (1952): stress ~ r^(lambda -
-// 1). A side that is held in one direction mirrors the corner.
+// sides; and where materials meet otherwise than along a smooth line.  Williams (1952): stress
+// ~ r^(lambda - 1).  A side that is held in one direction mirrors the corner.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -188,8 +188,8 @@ void find_by_materials(const Model& model, const Outline& outline, std::set<int>
     if (!goes_on(model, outline, node)) found.insert(node);
 }
 
-// Loads on edges that make the stress jump from direction to direction at a point: it is bounded, its slope is
-// not.
+// Loads on edges that make the stress jump from direction to direction at a point: it is
+// bounded, its slope is not.
 class EdgeLoads {
  public:
   EdgeLoads(const Model& model, const Stage& stage) : model_(&model) {

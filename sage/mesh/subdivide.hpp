@@ -22,8 +22,8 @@ class Subdivision {
   // The first child takes the element's place and number; the others come after the group's last.
   void split(int group, int element, const std::vector<ChildCorners>& children);
 
-  // New nodes into the mesh, fixities and reports along the edges that were cut, loads on the edges of
-  // children.
+  // New nodes into the mesh, fixities and reports along the edges that were cut, loads
+  // on the edges of children.
   void finish();
 
  private:
@@ -54,9 +54,9 @@ void refine(Work& b, int times);
 // so that the part at the node is `ratio` times as large, again and again.
 void grade(Work& b, int node, int layers, double ratio);
 
-// The coarsest mesh of quadrilaterals that means the same: outline, groups, supports, loads and reported
-// numbers stay. False where there is none coarser, or elements are no quadrilaterals of corners and mid-side
-// nodes.
+// The coarsest mesh of quadrilaterals that means the same: outline, groups, supports, loads and
+// reported numbers stay. False where there is none coarser, or elements are no quadrilaterals of
+// corners and mid-side nodes.
 bool coarsen(Work& b);
 
 // Corners of the mesh where the solution is singular: see docs/theory/accuracy.md.  Sorted indices.

@@ -1,4 +1,4 @@
-// What takes part in a stage: groups that are placed and not yet removed, dofs that are held.
+// What takes part in a stage: groups that are born and not yet removed, dofs that are held.
 #pragma once
 
 #include <functional>

@@ -19,8 +19,8 @@ bool CoarseShape::curved() const {
   return false;
 }
 
-// Corner part plus, for each curved side, its middle node's distance from the chord times the middle node's
-// function.
+// Corner part plus, for each curved side, its middle node's distance from the chord times
+// the middle node's function.
 Vector2 CoarseShape::at(const Place& q) const {
   const auto [x, y] = q;
   std::array<double, 4> linear{}, bubble{};

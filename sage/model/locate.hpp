@@ -40,7 +40,7 @@ class Locator {
 // Of a mesh as the deck has it: the most by which a place that Locator::at gives to an element lies outside.
 double reach_of(const Model& model);
 
-// Groups whose stress is one field: of one material, and placed at the same time.  A number for every group.
+// Groups whose stress is one field: of one material, and born at the same time.  A number for every group.
 std::vector<int> zones_of(const Model& model);
 
 // Of `found`, those that one body answers with: the elements that share a node with the first of an active

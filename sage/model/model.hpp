@@ -16,8 +16,8 @@ struct Mesh {
   Eigen::Matrix2Xd x;       // one column a node
   std::vector<int> number;  // the deck's node numbers; mid-side nodes made here get numbers above the deck's
   int deck_nodes = 0;       // nodes from here on were made by the program
-  // Length: a place so close outside a solid counts as on its edge, however small the elements there are
-  // (Locator).
+  // Length: a place so close outside a solid counts as on its edge, however small the
+  // elements there are (Locator).
   double reach = 0.0;
 
   int nodes() const { return static_cast<int>(number.size()); }
@@ -159,8 +159,8 @@ struct Model {
   }
 };
 
-// Area under a triaxial report's nodes: the deck's, or pi r_max^2, or the width in plane strain.  NaN without
-// nodes.
+// Area under a triaxial report's nodes: the deck's, or pi r_max^2, or the width in plane
+// strain.  NaN without nodes.
 double report_area(const Model& model, const Report& report);
 
 // Coordinates of an element's nodes, in x (2 x nodes).

@@ -13,7 +13,7 @@ namespace sage {
 // Estimated at the end of the last stage (or of the last increment in equilibrium).
 class DiscretisationError final : public Observer {
  public:
-  // reports: of the same run, told of every event before this.
+  // reports: of the same run, notified of every event before this.
   explicit DiscretisationError(const Reports& reports) : reports_(&reports) {}
 
   void on_start(const Model&, const Scene&, std::string_view solver, int equations) override;
@@ -30,8 +30,8 @@ class DiscretisationError final : public Observer {
   const std::optional<ErrorEstimate>& estimate() const { return estimate_; }
   // Error of the last ratio of the first triaxial report; nothing where it does not follow from the energy.
   //
-  // The end moves by d, all else is held at zero: F d = a(u, u), and the mesh's F_h d = a(u_h, u_h) = a(u, u) +
-  // |e|^2. So F_h - F = |e|^2 / d, the square of the error in the energy norm of what the report's stages add.
+  // The end moves by d, all else is held at zero: F d = a(u, u), and the mesh's
+  // F_h d = a(u_h, u_h) = a(u, u) + |e|^2.  So F_h - F = |e|^2 / d, the square of the error in the energy norm of what the report's stages add.
   const std::optional<double>& ratio_error() const { return ratio_error_; }
   // Lines of the summary.
   std::string text(const Model& model) const;

@@ -20,7 +20,7 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr int kSubsteps = 10;  // of the law, an increment
 
 // What the weight of the soil puts on the report's nodes: what acts at the start of a stage stays, what is
-// placed or added in it grows.
+// born or added in it grows.
 struct Weights {
   Eigen::VectorXd start, end;
 
@@ -84,7 +84,7 @@ std::string remarks(const Model& model, std::size_t index) {
   return fmt::format(
       "# {}; displacement along +x, +y and strain since the start of stage {}; stress and strain compression "
       "positive, shear likewise reversed and engineering; units {}, {}\n"
-      "# mean_stress = (xx + yy + zz) / 3, deviator = sqrt(3 J2); blank while nothing is placed there\n{}",
+      "# mean_stress = (xx + yy + zz) / 3, deviator = sqrt(3 J2); blank while nothing is active there\n{}",
       report_title(model, index), report.stage + 1, u.length, u.stress,
       model.geometry == Geometry::axisymmetric ? "# x = r, y = z, zz = hoop\n" : "");
 }
@@ -241,7 +241,7 @@ void Reports::note_release(Series& series, const Model& model, const StepReport&
       step.stage + 1, series.released[0], series.released[1], model.units.force);
 }
 
-// What the places of points need, for the groups that are placed now.
+// What the places of points need, for the groups that are active now.
 void Reports::enter_points(const Model& model, const Solution& solution) {
   if (probed_ == solution.activity->group) return;
   probed_ = solution.activity->group;
@@ -257,7 +257,7 @@ void Reports::enter_points(const Model& model, const Solution& solution) {
 // A point's displacement counts from the first time that something is there, its strain from the time of the
 // group that is.
 void Reports::count_from_here(Series& series, const Model& model, const Solution& solution) {
-  if (!series.probe.placed() || (series.filled && series.group == series.probe.group)) return;
+  if (!series.probe.active() || (series.filled && series.group == series.probe.group)) return;
   const Sample now = sample_of(model, series.probe, solution);
   if (!series.filled) series.start_u = now.u;
   series.start_strain = now.strain;

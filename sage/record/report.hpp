@@ -42,7 +42,7 @@ struct NodesRow {
 
 // One increment of a point report.  Displacement along +x and +y and strain since the start of the report's
 // stage, or since the place was filled; stress as it is.  Strain and stress [xx yy zz xy] compression positive,
-// engineering shear; NaN while nothing is placed there.
+// engineering shear; NaN while nothing is active there.
 struct PointRow {
   int stage = 0, increment = 0;
   double displacement[2] = {0, 0};
@@ -120,7 +120,7 @@ class Reports final : public Output {
     std::vector<NodesRow> nodes;
     std::vector<PointRow> points;
     Probe probe;                             // of a point, in the present stage
-    bool filled = false;                     // something was placed there, and what follows counts from it
+    bool filled = false;                     // something was born there, and what follows counts from it
     int group = -1;                          // that start_strain belongs to
     Vector2 start_u = Vector2::Zero();       // of a point
     Vector4 start_strain = Vector4::Zero();  // of a point, compression +

@@ -119,7 +119,7 @@ std::string why_no_value(const Model& model, std::size_t index) {
     last_holder = model.groups[now.front().group].number;
     removed_in = 0;
   }
-  if (last_holder < 0) return "no element that holds " + point + " is ever placed";
+  if (last_holder < 0) return "no element that holds " + point + " is ever active";
   if (removed_in == 0) return {};
   return "group " + std::to_string(last_holder) + ", which holds " + point + ", is removed in stage " +
          std::to_string(removed_in);

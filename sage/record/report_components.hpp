@@ -23,9 +23,9 @@ std::vector<std::string> component_names(const Model& model);
 // All components of all reports that have a row.
 std::vector<ReportComponent> last_components(const Model& model, const Reports& reports);
 
-// Why a report has no value at the end of a complete run: "group 2, which holds the point (0.5; 1.5), is
-// removed in stage 2".  Empty for reports other than of points, and for a point that a placed element holds
-// then.
+// Why a report has no value at the end of a complete run: "group 2, which holds the point (0.5;
+// 1.5), is removed in stage 2".  Empty for reports other than of points, and for a point that an
+// active element holds then.
 std::string why_no_value(const Model& model, std::size_t report);
 
 }  // namespace sage

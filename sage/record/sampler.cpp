@@ -8,7 +8,7 @@ namespace sage {
 
 Sample sample_of(const Model& model, const Probe& probe, const Solution& solution) {
   Sample sample;
-  if (!probe.placed()) {
+  if (!probe.active()) {
     constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
     sample.u.setConstant(kUnknown);
     sample.strain.setConstant(kUnknown);

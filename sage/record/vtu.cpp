@@ -32,8 +32,8 @@ constexpr std::string_view vtk_type() {
   if constexpr (std::is_same_v<T, std::uint8_t>) return "UInt8";
 }
 
-// XML tags with offsets, and the data that they point to: each block is its size in bytes (UInt64), then its
-// bytes.
+// XML tags with offsets, and the data that they point to: each block is its size in bytes
+// (UInt64), then its bytes.
 class VtuText {
  public:
   void tag(std::string_view text) {
@@ -177,8 +177,8 @@ std::string not_converged(const StepReport& report) {
                      report.stage + 1, report.load_factor);
 }
 
-// Title, units and signs as a comment: readers pass over it, people see it at the top.  XML allows no "--" in
-// it.
+// Title, units and signs as a comment: readers pass over it, people see it at the top.
+// XML allows no "--" in it.
 std::string head(const Model& model, std::string_view comment) {
   std::string text = fmt::format("  {}\n{}", model.title, sign_convention(model, "  "));
   if (!comment.empty()) text += fmt::format("  {}\n", comment);

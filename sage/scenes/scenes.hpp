@@ -17,8 +17,8 @@ struct Ground {
   Ground(int geometry, Cell cell, int columns, int rows);
 };
 
-// A heavy block, 4 x 1, of unit weight 20 on an interface of law 22; what holds it sideways is the interface
-// alone.
+// A heavy block, 4 x 1, of unit weight 20 on an interface of law 22; what holds it
+// sideways is the interface alone.
 struct BlockOnPlane {
   static constexpr double weight = 80.0;  // of all of it
   Block block;
@@ -44,8 +44,8 @@ struct TriaxialDeck {
 // Axial stress (compression +) of a triaxial deck's run after a stage's last increment.
 double axial_stress(const TriaxialDeck& deck, const WholeRun& run, std::size_t stage);
 
-// Quarter of a cylinder, radius 1, half-height L/D, E = 1, whose ends may be held: the source chapter's
-// problem.
+// Quarter of a cylinder, radius 1, half-height L/D, E = 1, whose ends may be held: the
+// source chapter's problem.
 struct RestrainedCylinder {
   double slenderness = 1.0, nu = 0.25;  // L/D; nu >= .5: incompressible
   Cell cell = Cell::quad8;
@@ -59,8 +59,8 @@ struct RestrainedCylinder {
   double ratio(const WholeRun& run, double strain = 1.0) const;
 };
 
-// Cook's membrane (0, 0) (48, 44) (48, 60) (0, 44) in plane strain, clamped on the left, shear force F on the
-// right.
+// Cook's membrane (0, 0) (48, 44) (48, 60) (0, 44) in plane strain, clamped on the left,
+// shear force F on the right.
 struct CookDeck {
   double E = 1.0, nu = 1.0 / 3.0, F = 1.0;
   Cell cell = Cell::quad4;

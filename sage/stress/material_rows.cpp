@@ -148,8 +148,8 @@ void cook(Sweep& s) {
     }
 }
 
-// Triaxial compression far beyond yield: q = sigma3 (N-1) + 2 c sqrt(N), for the cone too, which is matched
-// there.
+// Triaxial compression far beyond yield: q = sigma3 (N-1) + 2 c sqrt(N), for the cone
+// too, which is matched there.
 void friction(Sweep& s) {
   const double c = 5.0, cell = 50.0, E = 3000.0;
   for (int law : {4, 3})

@@ -35,7 +35,7 @@ struct Ran {
   std::string refusal;                  // every message of the refusal
   bool completed() const { return run && run->completed(); }
   bool finite() const;  // of all increments; true where nothing was computed
-  // All that the program said: notes, warnings, errors, the page about a failure.
+  // All messages of the program: notes, warnings, errors, the page about a failure.
   std::string words() const;
 };
 

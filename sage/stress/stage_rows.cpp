@@ -35,7 +35,7 @@ void initial_stress(Sweep& s) {
   }
 }
 
-// The ground on top of a layer that stays is taken away and placed again, several times.
+// The ground on top of a layer that stays is taken away and filled again, several times.
 void everything_dug(Sweep& s) {
   for (int cycles : {1, 2, 5}) {
     Ground ground(1, Cell::quad4, 4, 4);
@@ -44,7 +44,7 @@ void everything_dug(Sweep& s) {
     const int groups = 2 + cycles;
     deck.material(1, 1, {kE, kNu}, kWeight);
     for (int g = 1; g <= groups; ++g) deck.group(g, 1, 1, 1);
-    // Rows 0 and 1 are the layer; rows 2 and 3 are there once for each time they are placed.
+    // Rows 0 and 1 are the layer; rows 2 and 3 are there once for each time they are filled.
     int number = 1;
     for (int g = 1; g <= groups; ++g)
       for (int j = g == 1 ? 0 : 2; j < (g == 1 ? 2 : 4); ++j)
@@ -60,8 +60,8 @@ void everything_dug(Sweep& s) {
     }
     const Ran ran = s.run(deck.text());
     const std::string label = fmt::format("{} time(s)", cycles);
-    // A confined column: sigma_v = gamma z in the layer; in new ground gamma z too, sigma_h = nu/(1-nu)
-    // sigma_v.
+    // A confined column: sigma_v = gamma z in the layer; in new ground gamma z too,
+    // sigma_h = nu/(1-nu) sigma_v.
     double stress = kUnknown, settled = kUnknown, stale = kUnknown;
     if (ran.completed()) {
       const auto& top = ran.run->stress[static_cast<std::size_t>(groups - 1)];
@@ -173,7 +173,7 @@ std::vector<Row> stage_rows() {
   return {
       {"initial-stress", family, "K0 from 0 to 5 in sand of phi = 30",
        "Ka = 1/3 <= K0 <= Kp = 3: nothing moves (1e-10 H); outside: announced", "", false, initial_stress},
-      {"excavate-and-refill", family, "ground dug out and placed again",
+      {"excavate-and-refill", family, "ground dug out and filled again",
        "stress of a confined column, closed form; new elements start without stress. Allowed: 1e-10", "", false,
        everything_dug},
       {"failed-step", family, "a step that fails and is halved", "the direct half steps, bit for bit", "",

@@ -1,5 +1,5 @@
-// Elastic boxes under flexible and rigid loads, and Cook's membrane: converged references without truncation
-// error.
+// Elastic boxes under flexible and rigid loads, and Cook's membrane: converged references
+// without truncation error.
 #include <fmt/format.h>
 
 #include <cmath>

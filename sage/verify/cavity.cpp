@@ -293,10 +293,10 @@ void tresca_cavity(Record& record, Cavity::Body body) {
   }
 }
 
-// Ring 1 to b = 4 under p0 all round, then more from inside; c = 10, phi = 30.  Compression +, N = (1 + sin
-// phi)/(1 - sin phi), h = c cot phi.  Plastic to C, sigma_r + h = N (sigma_t + h) there, so (sigma_r + h)
-// r^((N-1)/N) is constant; outside sigma_r = p0 + A (1/r^2 - 1/b^2), whose hoop stress yields at C.  u_b =
-// (1 - nu) A/(G b), whatever the dilation.  Collapse at C = b.
+// Ring 1 to b = 4 under p0 all round, then more from inside; c = 10, phi = 30.  Compression +,
+// N = (1 + sin phi)/(1 - sin phi), h = c cot phi.  Plastic to C, sigma_r + h = N (sigma_t + h) there, so
+// (sigma_r + h) r^((N-1)/N) is constant; outside sigma_r = p0 + A (1/r^2 - 1/b^2), whose hoop stress yields
+// at C.  u_b = (1 - nu) A/(G b), whatever the dilation.  Collapse at C = b.
 void cohesive_ring(Record& record, Cavity::Body body) {
   const double E = 20000.0, nu = 0.3, G = E / (2 * (1 + nu)), c = 10.0, phi = 30.0, p0 = 30.0, b = 4.0;
   const double s = std::sin(phi * kRadiansPerDegree), N = (1 + s) / (1 - s);

@@ -114,8 +114,8 @@ void nu_sweep(Record& record, const std::vector<LameBody>& bodies) {
     }
 }
 
-// The source chapter's element gives less than a thousandth of the displacement, and the program says so
-// before.
+// The source chapter's element gives less than a thousandth of the displacement, and
+// the program says so before.
 void locking(Record& record) {
   const Kind full{"quad4 full", Cell::quad4, 1, 4, 2.0};
   for (LameBody body : {LameBody::sector, LameBody::strip, LameBody::sphere}) {

@@ -42,8 +42,8 @@ void triaxial_compression(Record& record) {
   }
 }
 
-// Cone of triaxial compression in extension: q = M p with M = 6 sin phi/(3 - sin phi), cell = p + q/3, axial =
-// p - 2q/3, so sin phi_e = 3 M/(6 - M).  Mohr-Coulomb keeps phi.
+// Cone of triaxial compression in extension: q = M p with M = 6 sin phi/(3 - sin phi), cell = p + q/3,
+// axial = p - 2q/3, so sin phi_e = 3 M/(6 - M).  Mohr-Coulomb keeps phi.
 void triaxial_extension(Record& record) {
   const double cell = 100.0;
   for (double phi : {20.0, 30.0}) {
@@ -96,10 +96,10 @@ double cone_angle(double alpha) {
   return std::asin(3 * std::sqrt(3.0) * alpha / (2 + std::sqrt(3.0) * alpha)) / kDegree;
 }
 
-// Constant strain rate from a point on the cone: R = |s| = sqrt2 (k - alpha I1), psi the angle between s and
-// de. Without volume change R = R0 + B, tan(psi/2) = tan(psi0/2) (R/R0)^(-2 G e/B), e = |de|, B = -3 sqrt2 K
-// alpha deps_v. With dilation: the rate equations R psi' = -2 G e sin psi, R' = A cos psi + B, integrated to 10
-// digits.
+// Constant strain rate from a point on the cone: R = |s| = sqrt2 (k - alpha I1), psi the angle between
+// s and de. Without volume change R = R0 + B, tan(psi/2) = tan(psi0/2) (R/R0)^(-2 G e/B), e = |de|, B =
+// -3 sqrt2 K alpha deps_v. With dilation: the rate equations R psi' = -2 G e sin psi, R' = A cos psi +
+// B, integrated to 10 digits.
 void constant_rate(Record& record) {
   const double G = 1000.0, nu = 0.3, K = 2 * G * (1 + nu) / (3 * (1 - 2 * nu)), E = 2 * G * (1 + nu);
   const double alpha = 0.2, k = 10.0, phi = cone_angle(alpha);

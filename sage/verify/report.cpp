@@ -143,7 +143,7 @@ and an order of convergence while it is at least the theory's less 0.15, unless 
 computed - reference. A failing case stays in the table as failing, and `sagefe verify` then ends with exit code 3.
 
 **Signs and units.** As outside the program: pressures and bearing loads positive in compression; stress components that are compared with
-formulas (sigma_r, sigma_z, ...) tension positive, and said so; displacements along the axes. Forces are per unit thickness in plane strain and for the full circle in
+formulas (sigma_r, sigma_z, ...) tension positive, and marked so; displacements along the axes. Forces are per unit thickness in plane strain and for the full circle in
 axisymmetry. Numbers are in consistent units, mostly E = p = a = 1; angles in degrees.
 
 **References.** *closed form*: exact, the formula is in the case's source file. *converged computation*: an independent hp finite-element,

@@ -72,8 +72,8 @@ void acads(Record& record) {
               0.03);
 }
 
-// Vertical cut of height 1 in Tresca clay, c_u = 1, square cells of 1/n: gamma H/c_u at collapse under growing
-// weight.
+// Vertical cut of height 1 in Tresca clay, c_u = 1, square cells of 1/n: gamma H/c_u at
+// collapse under growing weight.
 double vertical_cut_load(const Record& record, int n, bool& completed) {
   const int cut = 3 * n / 4, columns = 5 * n / 2, below = 3 * n / 4,
             rows = below + n;  // cells left of the face, below the foot

@@ -13,8 +13,8 @@ namespace sage {
 
 namespace {
 
-// Sequential MUMPS, multifrontal L U with threshold pivoting.  Numbers of controls are those of its user's
-// guide.
+// Sequential MUMPS, multifrontal L U with threshold pivoting.  Numbers of controls are
+// those of its user's guide.
 class MumpsSolver final : public MatrixSolver {
  public:
   MumpsSolver() : MatrixSolver({"mumps", false}) {

@@ -1,6 +1,6 @@
-// Compares orderings on n x 2n meshes of Q4: own nested dissection, AMD and METIS, all factorised by CHOLMOD's
-// supernodal Cholesky, so that nothing but the ordering differs.  Milliseconds of processor time, best of
-// three.
+// Compares orderings on n x 2n meshes of Q4: own nested dissection, AMD and METIS, all factorised by
+// CHOLMOD's supernodal Cholesky, so that nothing but the ordering differs.  Milliseconds of
+// processor time, best of three.
 //   ordering_bench [n ...]
 #include <algorithm>
 #include <cstdio>

@@ -1,5 +1,5 @@
-// Prints what every solver of the catalogue takes for an n x 2n mesh of Q4 elements: milliseconds, best of some
-// runs.
+// Prints what every solver of the catalogue takes for an n x 2n mesh of Q4 elements:
+// milliseconds, best of some runs.
 //   solver_bench [n ...] [--cpu] [--unsymmetric-only] [--solver name] [--threads n]
 #include <algorithm>
 #include <chrono>

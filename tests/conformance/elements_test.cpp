@@ -258,8 +258,8 @@ TEST(Elements, SymmetricLawGivesSymmetricStiffness) {
   }
 }
 
-// Columns: translations in x and y and a rotation about the origin; axisymmetric: translation along the axis
-// only.
+// Columns: translations in x and y and a rotation about the origin; axisymmetric:
+// translation along the axis only.
 Eigen::MatrixXd rigid_motions(const ElementCase& c, const Eigen::Matrix2Xd& x) {
   Eigen::MatrixXd u = Eigen::MatrixXd::Zero(2 * x.cols(), c.axisymmetric() ? 1 : 3);
   for (Eigen::Index i = 0; i < x.cols(); ++i) {
@@ -371,9 +371,9 @@ TEST(InterfaceElements, WeightsSumToLengthOrArea) {
   }
 }
 
-// Strain of a linear field is exact at every point: xx = a, yy = d, xy = b + c, and zz = u_r / r when
-// axisymmetric. Elements that average the dilatation keep its mean instead, so here the field has a constant
-// one.
+// Strain of a linear field is exact at every point: xx = a, yy = d, xy = b + c, and zz = u_r / r
+// when axisymmetric. Elements that average the dilatation keep its mean instead, so here the
+// field has a constant one.
 TEST(SolidElements, LinearFieldsGiveExactStrain) {
   const SmoothLaw<4> law;
   for (const ElementCase& c : solid_cases()) {

@@ -122,10 +122,10 @@ TEST_P(Laws, OrdinaryIncrementsAreAnswered) {
   with_law([](const auto& law) { check_answers(law, GetParam().strain); });
 }
 
-// The fraction of states where the tangent and central differences agree must be all but the kinks: at a corner
-// of a yield surface or a branch of the law one-sided derivatives differ, so 3 % of random states may fail.
-// Step: 1e-6 of the increment.  Tolerance 2e-5 of the largest term of D: truncation and rounding of the
-// differences.
+// The fraction of states where the tangent and central differences agree must be all but the kinks: at a
+// corner of a yield surface or a branch of the law one-sided derivatives differ, so 3 % of random states
+// may fail.  Step: 1e-6 of the increment.  Tolerance 2e-5 of the largest term of D: truncation and
+// rounding of the differences.
 template <int N>
 void check_tangent(const Law<N>& law, double size) {
   Walker walker(7);
@@ -155,8 +155,8 @@ TEST_P(Laws, TangentIsTheDerivative) {
   with_law([](const auto& law) { check_tangent(law, GetParam().strain); });
 }
 
-// symmetric() = true must hold in every state; a law that says false must show an unsymmetric tangent
-// somewhere.
+// symmetric() = true must hold in every state; a law that says false must show an
+// unsymmetric tangent somewhere.
 template <int N>
 void check_symmetry(const Law<N>& law, double size) {
   Walker walker(5);
@@ -240,8 +240,8 @@ void check_status(const Law<N>& law, double size) {
   EXPECT_GT(yielded, 0);
 }
 TEST_P(Laws, StatusIsHonest) {
-  // Without shear stiffness there is nothing to slip, and 89 degrees of friction need more than these
-  // increments.
+  // Without shear stiffness there is nothing to slip, and 89 degrees of friction need
+  // more than these increments.
   const bool can_yield = GetParam().bounded && GetParam().what != "cd_free" && GetParam().what != "cd_89";
   if (can_yield) with_law([](const auto& law) { check_status(law, GetParam().strain); });
 }

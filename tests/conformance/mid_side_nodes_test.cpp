@@ -131,8 +131,8 @@ TEST(MidSideNodes, OutlineMovedByAQuadraticField) {
   for (const Solid& solid : solids_with_mid_side_nodes())
     for (const BuildOptions& options : reruns(solid)) {
       SCOPED_TRACE(words(solid, options));
-      // Grading makes trapezoids, on which eight nodes hold less than all quadratics (Arnold, Boffi & Falk
-      // 2002).
+      // Grading makes trapezoids, on which eight nodes hold less than all quadratics
+      // (Arnold, Boffi & Falk 2002).
       const bool eight = gives_sides(*solid.entry) && options.element == 0;
       if (eight && !options.gradings.empty()) continue;
       Square square(solid);

@@ -29,8 +29,8 @@ struct MeshSettings {
   int columns = 14, rows = 28;
   Supports supports = Supports::triaxial;
   double poisson = 0.3;
-  // Share of an unsymmetric rank-one term in every element's modulus, as in non-associated plasticity; 0 =
-  // elastic.
+  // Share of an unsymmetric rank-one term in every element's modulus, as in non-associated plasticity;
+  // 0 = elastic.
   double unsymmetric = 0.0;
   // Modulus of the topmost row of elements over that of the others.
   double stiff_top = 1.0;

@@ -39,6 +39,13 @@ step("list the materials of the own program" ${SCRATCH}/consumer/own_program lis
 expect("${output}" "90  layered \\(solid\\)")
 step("run a deck with the own law" ${SCRATCH}/consumer/own_program run ${SOURCE}/consumer/own.dat -o ${SCRATCH}/own)
 expect("${output}" "-0\\.082 ")
+# The solver of one's own, with a law whose tangent is not symmetric: Table 7.4 for phi = 28.5 has 1.0290 at 1 %.
+step("list the solvers of the own program" ${SCRATCH}/consumer/own_program list solvers)
+expect("${output}" "90  sparse_lu")
+step("run a deck with the own solver" ${SCRATCH}/consumer/own_program run --solver sparse_lu
+     ${prefix}/share/sagefe/legacy_inputs/chapter7/dp_285/deck.dat -o ${SCRATCH}/own)
+expect("${output}" "solver +sparse_lu")
+expect("${output}" "completed: every increment in equilibrium")
 step("compare in both geometries" ${SCRATCH}/consumer/own_program compare --both ${SOURCE}/consumer/own.dat -o ${SCRATCH}/own)
 expect("${output}" "layered")
 

@@ -89,7 +89,7 @@ TEST(GoodDecks, LineEndsDoNotMatter) {
   EXPECT_EQ(increments_of(unfinished, "no_last_line_end"), plain);
 }
 
-// As a Fortran program would have been told to: a blank or zero last means the first alone, step 0 means 1.
+// As in a Fortran program: a blank or zero last means the first alone, step 0 means 1.
 TEST(GoodDecks, BlankLastMeansFirst) {
   const DeckText deck = block_deck();
   const std::string alone =

@@ -260,8 +260,8 @@ TEST(CommandLine, EchoShowsEachCardUnderARuler) {
                           "first = 1  columns = 2  column_step = 1  rows = 2  row_step = 3", "\"psi\""});
 }
 
-// A block starts at 100 under a pressure of 10: before the run by check, with the run in the listing and on the
-// screen.
+// A block starts at 100 under a pressure of 10: before the run by check, with the run in the
+// listing and on the screen.
 TEST(CommandLine, InitialStressOutOfBalanceIsNamedByCheckAndRun) {
   const fs::path folder = empty_folder("unbalanced");
   write(folder / "good.dat", block_deck().text());
@@ -391,9 +391,10 @@ TEST(FailedRuns, FrictionlessBlockIsSingularAndNamed) {
     EXPECT_EQ(run.exit_code, 3) << solver;
     expect_words(run.err, {"deck.dat: stage 1, increment 1: the stiffness matrix is singular at node ",
                            ", direction x", solver, "3 (quad4", "interface without stiffness"});
-    const std::string said =
+    const std::string printed =
         run.err.substr(std::min(run.err.size(), run.err.find("singular at node ") + 17), 1);
-    EXPECT_NE(std::string("5678").find(said), std::string::npos) << "not a node of the loose element: " << said;
+    EXPECT_NE(std::string("5678").find(printed), std::string::npos)
+        << "not a node of the loose element: " << printed;
     expect_words(read(folder / "out" / "deck.lst"), {"NOT CONVERGED", "singular"});
   }
 }

@@ -143,9 +143,9 @@ TEST(Collapse, StressOfTheMotionItselfIsNoMeasureOfEquilibrium) {
   }
 }
 
-// A column of clay (strength 20) within a filling of E = 1e-7 on the same nodes: 30 are in equilibrium only
-// after about 10 / 1e-7 = 10^8 times the column's height, which is no answer to a load; up to 20 nothing is
-// refused.
+// A column of clay (strength 20) within a filling of E = 1e-7 on the same nodes: 30 are in
+// equilibrium only after about 10 / 1e-7 = 10^8 times the column's height, which is no answer to a
+// load; up to 20 nothing is refused.
 TEST(Collapse, AStepOfFlowWithoutEndIsRefused) {
   const DeckText deck = collapse_deck()
                             .with("control", card({"1", "0", "4", "0", "2", "2", "2", "2", "0", "1", "0"}))
@@ -167,7 +167,7 @@ TEST(Collapse, AStepOfFlowWithoutEndIsRefused) {
   EXPECT_NEAR(factors.back(), 2.0 / 3.0, 0.1 / 4096 * 2);
 }
 
-// A coarse mesh stands a load a little above collapse by moving thrice its size: that is said wherever the
+// A coarse mesh stands a load a little above collapse by moving thrice its size: that stands wherever the
 // result is, and does not read like an ordinary one.
 TEST(Collapse, DisplacementsBeyondSmallStrainsAreNamed) {
   Footing footing;

@@ -243,16 +243,17 @@ TEST(Converge, ASupportThatLayersWouldLoseIsHalved) {
   options.follow = {"report1.ux"};
   testing::internal::CaptureStderr();
   EXPECT_EQ(converge(request_for(write("held_middle", deck.text())), options, full_catalogue()), kOk);
-  const std::string said = testing::internal::GetCapturedStderr();
-  EXPECT_NE(said.find("note: the deck's own elements are halved"), std::string::npos) << said;
-  EXPECT_NE(said.find("node 6 is held along x but is no node of the graded mesh"), std::string::npos) << said;
+  const std::string printed = testing::internal::GetCapturedStderr();
+  EXPECT_NE(printed.find("note: the deck's own elements are halved"), std::string::npos) << printed;
+  EXPECT_NE(printed.find("node 6 is held along x but is no node of the graded mesh"), std::string::npos)
+      << printed;
   std::string last;
   EXPECT_GE(table_of("held_middle", last).size(), 3u) << last;
 }
 
-// Three squares in the shape of an L, the ends of its legs pushed and one corner of them held along x as well:
-// that corner's reaction vanishes with its element.  fy of the whole end: -5.89405982 (an independent hp
-// solution).
+// Three squares in the shape of an L, the ends of its legs pushed and one corner of them held along x as
+// well:  that corner's reaction vanishes with its element.  fy of the whole end: -5.89405982 (an
+// independent hp solution).
 std::string l_shape() {
   scenes::DeckWriter deck(1);
   const double x[] = {0, 1, 2, 0, 1, 2, 0, 1}, y[] = {0, 0, 0, 1, 1, 1, 2, 2};

@@ -96,8 +96,8 @@ DeckText block_deck() {
       {"fixity_left", card({"1", "7", "3", "1", "0"})},
       {"initial", card({"1", "0"}, {"10.", "10.", "10."})},
       {"stage_title", "The top goes down, the right side is pressed"},
-      // increments method iterations output, fixities loads pressures births deaths initials, gravity,
-      // tolerance
+      // increments method iterations output, fixities loads pressures births deaths
+      // initials, gravity, tolerance
       {"stage", card({"2", "0", "0", "0", "1", "1", "1", "0", "0", "0"}, {"", "", ""})},
       {"stage_fixity", card({"7", "9", "1", "0", "1"}, {"", "-0.001"})},
       {"load", card({"3", "", ""}, {"-1.", "0."})},

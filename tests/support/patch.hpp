@@ -1,5 +1,5 @@
-// A tiny dense finite-element program for patch tests: mesh of one or more groups, prescribed displacements,
-// solve.
+// A tiny dense finite-element program for patch tests: mesh of one or more groups,
+// prescribed displacements, solve.
 #pragma once
 
 #include <vector>

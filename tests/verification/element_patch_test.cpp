@@ -1,5 +1,5 @@
-// Patch tests: a mesh of any shape must reproduce every state of uniform strain.  P1 to P3; P6 is in
-// conformance.
+// Patch tests: a mesh of any shape must reproduce every state of uniform strain.  P1 to
+// P3; P6 is in conformance.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -103,8 +103,8 @@ TEST(PatchP1, PlaneStrain) {
 }
 
 // The same displacements at nu = .4999999.  The exact field balances to rounding.  Solving for it multiplies
-// rounding by the condition number, K/G = 5e6 times that of the mesh (some 100 at nu = .25): 2e-16 * 5e8 =
-// 1e-7. Attained: 2e-9, and 2e-8 for the quartic triangle.
+// rounding by the condition number, K/G = 5e6 times that of the mesh (some 100 at nu = .25): 2e-16 * 5e8
+// = 1e-7.  Attained: 2e-9, and 2e-8 for the quartic triangle.
 constexpr double kNearlyIncompressible = 1e-7;
 
 TEST(PatchP1, PlaneStrainNearlyIncompressible) {

@@ -1,5 +1,5 @@
-// The Zienkiewicz-Zhu estimate against the true error in the energy norm, on the thick cylinder: effectivity =
-// estimated over true.
+// The Zienkiewicz-Zhu estimate against the true error in the energy norm, on the thick cylinder: effectivity
+// = estimated over true.
 #include "sage/analysis/error_estimate.hpp"
 
 #include <gtest/gtest.h>

@@ -84,8 +84,8 @@ TEST(InterfaceP4, NormalIsPositiveWhenItOpens) {
   EXPECT_GT(run.f(2 * 3 + 1), 0.0) << "the internal force pulls the top node back down against a force up";
 }
 
-// Curved: on a parabola the pairs of the lumped rules carry exactly their own traction.  Weights by fine
-// summation.
+// Curved: on a parabola the pairs of the lumped rules carry exactly their own traction.
+// Weights by fine summation.
 TEST(InterfaceP4, CurvedPairsCarryTheirOwnTraction) {
   const LinearLaw<2> law = interface_law(kShear, kNormal);
   for (const int formulation : {kRowSum, kNewtonCotes}) {
@@ -126,9 +126,9 @@ TEST(InterfaceP4, CurvedPairsCarryTheirOwnTraction) {
   }
 }
 
-// P5.  Uniform traction on a ring from r1 to r2: 2 pi L t {(2 r1 + r2)/6, (r1 + 2 r2)/6}, quadratic
-// 2 pi L t {r1/6, r2/6, (r1 + r2)/3}.  The linear Newton-Cotes rule gives {r1/2, r2/2}: the source chapter's
-// objection.
+// P5.  Uniform traction on a ring from r1 to r2: 2 pi L t {(2 r1 + r2)/6, (r1 + 2 r2)/6},
+// quadratic 2 pi L t {r1/6, r2/6, (r1 + r2)/3}.  The linear Newton-Cotes rule gives {r1/2, r2/2}:
+// the source chapter's objection.
 TEST(InterfaceP5, ForcesOfUniformTractionInARing) {
   const LinearLaw<2> law = interface_law(kShear, kNormal);
   const Vector2 along(0.8, 0.6), normal(-0.6, 0.8);
@@ -193,8 +193,8 @@ struct Sandwich {
   int columns = 0;
 };
 
-// Blocks (x0, x0 + 3) x (-1, 0) and (x0, x0 + 3) x (0, 1) in `columns` elements each; nodes on y = 0 are
-// double.
+// Blocks (x0, x0 + 3) x (-1, 0) and (x0, x0 + 3) x (0, 1) in `columns` elements each;
+// nodes on y = 0 are double.
 Sandwich make_sandwich(const ElementEntry& solid, const ElementEntry& interface, double x0, int columns) {
   CornerMesh lower, upper;
   lower = perturbed_grid(columns, 1, x0, x0 + 3.0, -1.0, 0.0, 0.0);

@@ -115,9 +115,9 @@ TEST_P(Invariance, Mirror) {
 INSTANTIATE_TEST_SUITE_P(Specimens, Invariance, testing::Values(false, true),
                          [](const auto& one) { return one.param ? "DruckerPrager" : "Elastic"; });
 
-// The radial return errs in the direction of the stress, in proportion to the increment.  Measured here: 1.8e-5
-// of the force with 15 increments, 4e-6 with 60; four times as many increments must gain a factor of 3 at
-// least.
+// The radial return errs in the direction of the stress, in proportion to the increment.  Measured
+// here: 1.8e-5 of the force with 15 increments, 4e-6 with 60; four times as many increments must
+// gain a factor of 3 at least.
 TEST(IncrementCount, DruckerPragerSpecimen) {
   std::vector<double> force;
   for (int increments : {15, 60, 240}) {

@@ -66,8 +66,8 @@ std::string shipped(const std::string& name) {
   return text.str();
 }
 
-// The same over decks that are shipped, with a wall and its interfaces; and the base carries the weight that is
-// left.
+// The same over decks that are shipped, with a wall and its interfaces; and the base
+// carries the weight that is left.
 TEST(Excavation, ShippedTwinsAgree) {
   for (const std::string name : {"cut", "shaft"}) {
     SCOPED_TRACE(name);
@@ -151,7 +151,7 @@ DeckWriter column_with_upper_groups(std::initializer_list<int> upper) {
   return deck;
 }
 
-// P on each upper corner.  The upper half goes and takes the loads with it; what is placed there later has not
+// P on each upper corner.  The upper half goes and takes the loads with it; what is born there later has not
 // moved, and bears only what comes after it.
 TEST(Refill, BeginsWithoutDisplacementAndWithoutTheOldLoads) {
   DeckWriter deck = column_with_upper_groups({2, 3});
@@ -177,7 +177,7 @@ TEST(Refill, BeginsWithoutDisplacementAndWithoutTheOldLoads) {
   EXPECT_NEAR(run.reaction(run.last(), {1, 2}, 1), 2 * Q, 1e-12 * P);
 }
 
-// A load on what is placed only later never acts: the warning says so.
+// A load on what is born only later never acts: the warning says so.
 TEST(Refill, LoadsBeforeThePlacingNeverAct) {
   DeckWriter deck = column_with_upper_groups({2});
   StageCards& early = deck.stage();

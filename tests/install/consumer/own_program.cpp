@@ -1,9 +1,10 @@
-// `sagefe` with a law of one's own: soil that is stiffer along its layers than across them.  This is the
-// example of docs/manual/own_program.md.
+// `sagefe` with a law of one's own, soil that is stiffer along its layers than across them, and a solver of
+// one's own.  This is the example of docs/manual/own_program.md.
 #include <Eigen/LU>
 
 #include "materials/parameters.hpp"
 #include "sage/app/program.hpp"
+#include "sparse_lu.hpp"
 
 namespace {
 
@@ -52,5 +53,8 @@ sage::MaterialEntry layered() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return sage::sagefe(argc, argv, [](sage::Catalogue& catalogue) { catalogue.materials.add(90, layered()); });
+  return sage::sagefe(argc, argv, [](sage::Catalogue& catalogue) {
+    catalogue.materials.add(90, layered());
+    catalogue.solvers.add(90, sparse_lu());
+  });
 }

@@ -137,7 +137,7 @@ TEST(LimitLoad, IsBracketedAndTheLastEquilibriumKept) {
   }
 }
 
-// Who runs with a matrix kept from before is not told to do so.
+// Who runs with a matrix kept from before is not advised to do so.
 TEST(Advice, NamesAnotherMethodThanTheStages) {
   for (int method : {1, 2}) {
     const std::string reason = press(25.0, method).result.reason;
@@ -218,9 +218,9 @@ BuildOptions graded() {
 }
 
 // The small elements at the edge flow from the first increment on.  Started from the elastic
-// tangent after every cut, and stopped after twelve cuts in all, the run ended at 5.6 % of the push.  200
-// increments of the same mesh, which need no help, end at 150.476; Prandtl: c N_c b = 148.3, and the mesh's
-// error.
+// tangent after every cut, and stopped after twelve cuts in all, the run ended at 5.6 % of the
+// push.  200 increments of the same mesh, which need no help, end at 150.476; Prandtl: c N_c b =
+// 148.3, and the mesh's error.
 TEST(Cuts, TheRunGoesOnByItselfWhereShorterStepsDo) {
   const test::WholeRun run = test::run_text(footing(0), graded());
   ASSERT_TRUE(run.completed()) << run.failure;

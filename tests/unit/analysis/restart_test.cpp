@@ -78,7 +78,7 @@ TEST(Restart, InitialStiffnessHasNoneWithinAStage) {
   expect_same_from_every_checkpoint(specimen(2, false), 0);
 }
 
-// Ground with a lift that is placed and a part that is dug, under its own weight.
+// Ground with a lift that is born and a part that is dug, under its own weight.
 std::string cut_and_fill(int law) {
   DeckWriter deck(1);
   Block ground{4, 2, Cell::quad4, 1, 1, rectangle(0.0, 4.0, -2.0, 0.0)};

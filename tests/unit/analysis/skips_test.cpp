@@ -7,8 +7,8 @@
 namespace sage::test {
 namespace {
 
-// An elastic specimen on a hyperbolic interface: a large linear region.  Increments are many enough to condense
-// it.
+// An elastic specimen on a hyperbolic interface: a large linear region.  Increments are
+// many enough to condense it.
 std::string friction() {
   SpecimenDeck deck;
   deck.columns = 8;
@@ -250,9 +250,9 @@ TEST(Skips, JointOnItsMemory) {
                             .increments = 4}));
 }
 
-// A platen on a block that is pressed sideways, free to follow it: nothing presses the joint, and rounding made
-// it open, the platen loose and the matrix singular, with the profile and multifrontal solvers but not with
-// UMFPACK.
+// A platen on a block that is pressed sideways, free to follow it: nothing presses the joint, and
+// rounding made it open, the platen loose and the matrix singular, with the profile and multifrontal
+// solvers but not with UMFPACK.
 TEST(Skips, PlatenThatNothingPresses) {
   DeckWriter deck(1);
   Block block{3, 4, Cell::quad8, 1, 1, rectangle(0.0, 1.0, 0.0, 2.0)};

@@ -426,12 +426,12 @@ TEST(Convert, HeldDofsGetNoNoteOnReadingBack) {
 TEST(Convert, AMeshFileTellsWhatItDoesNotHold) {
   Model model = model_of(write("strip.dat", kDeck));
   msh_text(model, model.diagnostics);
-  const std::string said = model.diagnostics.list().back().message;
+  const std::string printed = model.diagnostics.list().back().message;
   // Loads: gravity, one node, two edges by each of two cards.
-  EXPECT_NE(said.find("2 material(s), 2 stage(s), 6 load(s), 1 fixities of stages, 1 initial stress(es), "
-                      "1 report(s)"),
+  EXPECT_NE(printed.find("2 material(s), 2 stage(s), 6 load(s), 1 fixities of stages, 1 initial stress(es), "
+                         "1 report(s)"),
             std::string::npos)
-      << said;
+      << printed;
 }
 
 TEST(Convert, WarnsWhereCalculixCountsFromAnotherPlace) {
@@ -443,14 +443,14 @@ TEST(Convert, WarnsWhereCalculixCountsFromAnotherPlace) {
   move_top(deck.stage(), -1, 0.0);
   Model model = model_of("unknown.dat", deck);
   inp_text(model, model.diagnostics);
-  std::string said;
+  std::string printed;
   for (const Diagnostic& d : model.diagnostics.list())
     if (d.severity == Severity::warning) {
       EXPECT_GT(d.where.line, 0) << d.message;
-      said += d.message + "\n";
+      printed += d.message + "\n";
     }
-  EXPECT_NE(said.find("stage 2: node(s) 5 could move before"), std::string::npos) << said;
-  EXPECT_NE(said.find("stage 3: the release of node(s) 5 is left out"), std::string::npos) << said;
+  EXPECT_NE(printed.find("stage 2: node(s) 5 could move before"), std::string::npos) << printed;
+  EXPECT_NE(printed.find("stage 3: the release of node(s) 5 is left out"), std::string::npos) << printed;
 }
 
 // Of a card that moves both of its dofs.
@@ -461,10 +461,10 @@ TEST(Convert, ANodeIsNamedOnceInAWarning) {
   deck.stage().fix(5, -1, -1);
   Model model = model_of("both.dat", deck);
   inp_text(model, model.diagnostics);
-  std::string said;
-  for (const Diagnostic& d : model.diagnostics.list()) said += d.message + "\n";
-  EXPECT_NE(said.find("stage 2: node(s) 5 could move before"), std::string::npos) << said;
-  EXPECT_NE(said.find("stage 3: the release of node(s) 5 is left out"), std::string::npos) << said;
+  std::string printed;
+  for (const Diagnostic& d : model.diagnostics.list()) printed += d.message + "\n";
+  EXPECT_NE(printed.find("stage 2: node(s) 5 could move before"), std::string::npos) << printed;
+  EXPECT_NE(printed.find("stage 3: the release of node(s) 5 is left out"), std::string::npos) << printed;
 }
 
 }  // namespace

@@ -188,7 +188,7 @@ TEST(OutsideElement, ConvergesByHalving) {
   EXPECT_LE(std::abs(value - 1.036223), error + 1e-6);
 }
 
-// What no format knows is written by its corners, and said once a group; never as another shape.
+// What no format knows is written by its corners, with one warning a group; never as another shape.
 TEST(OutsideElement, IsWrittenByItsCornersWhereAFormatLacksIt) {
   const Catalogue catalogue = catalogue_with_tri10(false);
   const std::string path = write_cylinder("corners");

@@ -86,7 +86,7 @@ TEST(PointCards, AreReadWithNameAndPlace) {
             std::string::npos);
 }
 
-// A first node on the card of a point report looks as if it said where: the point card does.
+// A first node on the card of a point report looks as if it gave the place: the point card does.
 TEST(PointCards, FieldsThatAPointDoesNotUseAreNoted) {
   const auto notes = [](const std::string& first_node) {
     const std::string cards = "    3    0" + first_node + "    0    0    1\n      1.37      0.11inner third\n";
@@ -106,9 +106,9 @@ TEST(PointCards, SurviveConversion) {
   const RunRequest request = request_for("convert", cylinder(kPointCards, 2));
   const Catalogue catalogue = full_catalogue();
   const Model model = build_model(read_input(request.deck, {}), catalogue, {});
-  Diagnostics said;
+  Diagnostics printed;
   const Model again =
-      build_model(read_deck_text(sage1_text(model, said), "again", load_layout("sage1")), catalogue, {});
+      build_model(read_deck_text(sage1_text(model, printed), "again", load_layout("sage1")), catalogue, {});
   ASSERT_EQ(again.reports.size(), 2u);
   EXPECT_EQ(again.reports[0].place, model.reports[0].place);
   EXPECT_EQ(again.reports[0].name, "inner third");

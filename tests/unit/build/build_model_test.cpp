@@ -110,8 +110,8 @@ TEST(Triangles, AFoldedQuadrilateralBecomesOne) {
   EXPECT_EQ(triangles, 2);
 }
 
-// Edges count as the card lists the nodes, wherever the repeated corner stands: the loaded side is 3-1, 1-2 or
-// 2-3.
+// Edges count as the card lists the nodes, wherever the repeated corner stands: the
+// loaded side is 3-1, 1-2 or 2-3.
 TEST(Triangles, EdgesKeepTheNumbersOfTheCard) {
   const auto loaded = [](const std::string& element, int edge) {
     std::string text = deck(kSquare, {}, {element, "    2    1    1    3    4    4"});

@@ -55,8 +55,8 @@ TEST(BareJoints, AreNamedAfterARemoval) {
   }
 }
 
-// Pulled open, the joint leaves its upper nodes free along it: where that is stands on the record of the run
-// too.
+// Pulled open, the joint leaves its upper nodes free along it: where that is stands on
+// the record of the run too.
 TEST(BareJoints, RunNamesANodeBehindAnOpenJoint) {
   DeckWriter deck = joint_between_squares();
   deck.stages.clear();
@@ -96,7 +96,7 @@ TEST(BareJoints, NoFalseAlarm) {
     EXPECT_EQ(message_with(app::make_workbench().build(deck->text()), kBare), "");
 }
 
-// A half model, two cells wide: four rows of ground and two of fill on it, placed in the second stage.
+// A half model, two cells wide: four rows of ground and two of fill on it, born in the second stage.
 struct HalfModel {
   int held_rows = 4;  // of the line of symmetry
   Cell cell = Cell::quad4;

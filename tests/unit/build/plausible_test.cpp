@@ -1,5 +1,5 @@
-// Valid decks with a number that is unlikely to be meant: each gets its warning or note, and the sound deck
-// none.
+// Valid decks with a number that is unlikely to be meant: each gets its warning or
+// note, and the sound deck none.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -31,7 +31,7 @@ DeckWriter sound() {
   return deck;
 }
 
-// Element 5 on top of elements 3 and 4's left half, placed in a second stage.
+// Element 5 on top of elements 3 and 4's left half, born in a second stage.
 void place_later(DeckWriter& deck) {
   deck.node(10, 0.0, 3.0);
   deck.node(11, 1.0, 3.0);
@@ -64,9 +64,9 @@ class Plausible : public testing::TestWithParam<Unlikely> {};
 TEST_P(Plausible, IsTold) {
   DeckWriter deck = sound();
   GetParam().change(deck);
-  const std::string said = messages(deck);
-  EXPECT_NE(said.find(GetParam().says), std::string::npos) << "expected \"" << GetParam().says << "\" in\n"
-                                                           << said;
+  const std::string printed = messages(deck);
+  EXPECT_NE(printed.find(GetParam().says), std::string::npos) << "expected \"" << GetParam().says << "\" in\n"
+                                                              << printed;
 }
 
 // The checks know parameters by their roles: a law of other words and another order is judged as the rest.
@@ -84,7 +84,7 @@ TEST(PlausibleRoles, AreSeenInALawThatTheProgramDoesNotKnow) {
                            [](std::span<const double> values, const UnitSystem&) -> LawPtr {
                              return std::make_unique<LinearElastic>(moduli_from_young(values[4], values[3]));
                            }});
-  const auto said = [&](const std::vector<double>& values) {
+  const auto printed = [&](const std::vector<double>& values) {
     DeckWriter deck = sound();
     deck.materials.clear();
     deck.material(1, 50, values, 20.0);
@@ -93,13 +93,13 @@ TEST(PlausibleRoles, AreSeenInALawThatTheProgramDoesNotKnow) {
     for (const Diagnostic& d : model.diagnostics.list()) text += d.message + "\n";
     return text;
   };
-  EXPECT_EQ(said({18.0, 10.0, 30.0, 0.3, 1e4}), "");
-  EXPECT_EQ(said({-18.0, 2e4, 0.5, -0.1, 1e4}),
+  EXPECT_EQ(printed({18.0, 10.0, 30.0, 0.3, 1e4}), "");
+  EXPECT_EQ(printed({-18.0, 2e4, 0.5, -0.1, 1e4}),
             "material 1: Poisson's ratio is negative, -0.1\n"
             "material 1: the friction angle is 0.5 degrees; was it meant in radians, 28.65 degrees?\n"
             "material 1: own_weight, -18, is a negative unit weight\n"
             "material 1: grip, 2e+04, exceeds the material's modulus, 1e+04\n");
-  const std::string soft = said({18.0, 10.0, 30.0, 0.3, 15.0});
+  const std::string soft = printed({18.0, 10.0, 30.0, 0.3, 15.0});
   EXPECT_NE(soft.find("the weight of a column as high as the mesh, 40, exceeds its modulus, 15"),
             std::string::npos)
       << soft;
@@ -260,11 +260,11 @@ TEST(Titles, AreTextWhateverTheCardHolds) {
   for (const Case& c : cases) {
     const WholeRun run = run_text(titled(c.card));
     EXPECT_EQ(run.model->title, c.title);
-    std::string said;
+    std::string printed;
     for (const Diagnostic& d : run.model->diagnostics.list())
-      if (d.severity == Severity::warning) said += d.message;
-    EXPECT_NE(said.find(c.says), std::string::npos) << said;
-    EXPECT_EQ(said.empty(), c.says.empty()) << said;
+      if (d.severity == Severity::warning) printed += d.message;
+    EXPECT_NE(printed.find(c.says), std::string::npos) << printed;
+    EXPECT_EQ(printed.empty(), c.says.empty()) << printed;
   }
 }
 
@@ -340,7 +340,7 @@ INSTANTIATE_TEST_SUITE_P(
                    dig(d, {2});
                    d.reports.push_back("    2    0    7    9    1    1        0.        0.        0.");
                  },
-                 "warning: stage 2: no element that is placed then has a node of this report"},
+                 "warning: stage 2: no element that is active then has a node of this report"},
         Unlikely{"GravityHuge", [](DeckWriter& d) { d.stages[0].gravity_y = -2000.0; },
                  "gravity is 2000 times the unit weights"},
         Unlikely{"PressureHuge", [](DeckWriter& d) { d.stages[0].pressure(4, 3, 2e4, 0.0); },
@@ -368,7 +368,7 @@ INSTANTIATE_TEST_SUITE_P(
                    place_later(d);
                    d.stages[0].load(10, 0.0, -1.0);
                  },
-                 "warning: the load of node 10 of stage 1 does nothing: no element that is placed then has the "
+                 "warning: the load of node 10 of stage 1 does nothing: no element that is active then has the "
                  "node"},
         Unlikely{"DisplacementOfNothing",
                  [](DeckWriter& d) {
@@ -381,7 +381,7 @@ INSTANTIATE_TEST_SUITE_P(
                    place_later(d);
                    d.stages[0].pressure(5, 3, 1.0, 1.0);
                  },
-                 "warning: the pressure on element 5 of stage 1 does nothing: its group is not placed then"},
+                 "warning: the pressure on element 5 of stage 1 does nothing: its group is not active then"},
         Unlikely{"TwoDisplacements",
                  [](DeckWriter& d) {
                    d.stages[0].fix(9, 0, 1, 0.0, -0.02);

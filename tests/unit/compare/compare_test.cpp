@@ -414,7 +414,7 @@ TEST(Compare, TheAnswerComesFirst) {
   EXPECT_NEAR(deviator.ratio(), kE / plane, 1e-9);
   EXPECT_NEAR(deviator.expected, kE / plane, 1e-9);
   EXPECT_TRUE(std::isnan(deviator.error_a) && std::isnan(deviator.ratio_error()));
-  // What finer meshes said takes the place of the run's, with its error: of the ratio the sum of both.
+  // What finer meshes found takes the place of the run's, with its error: of the ratio the sum of both.
   const Answer stress = answer("report2.stress_yy");
   EXPECT_EQ(stress.a, 83.0);
   EXPECT_EQ(stress.error_b, 0.5);
@@ -461,8 +461,8 @@ TEST(Compare, AnswersSayWhatIsNotCertain) {
   EXPECT_NE(text.find("nothing is known; NOT REACHED in B; error unknown in B\n"), std::string::npos) << text;
 }
 
-// The chapter's own deck, whose strains differ by rounding between the runs: E against E / (1 - nu^2), nu =
-// 1/3.
+// The chapter's own deck, whose strains differ by rounding between the runs: E against E / (1 - nu^2),
+// nu = 1/3.
 TEST(Compare, TheoryKnowsTheChaptersSpecimen) {
   std::ifstream in(SAGE_SOURCE_DIR "/legacy_inputs/chapter7/pinned_ld2_nu0333/deck.dat");
   const std::string deck{std::istreambuf_iterator<char>(in), {}};
@@ -507,8 +507,8 @@ TEST(Compare, DifferencesBelowTheToleranceAreZero) {
   EXPECT_EQ(row.difference(), 0.0);
   EXPECT_EQ(row.relative(), 0.0);
 
-  // The floors are those of the runs: tolerance x forces x sqrt(dofs), far above rounding and far below the
-  // forces.
+  // The floors are those of the runs: tolerance x forces x sqrt(dofs), far above rounding
+  // and far below the forces.
   const Side a = run("a", Specimen{}.text(), 2);
   EXPECT_GT(a.floors().force, 1e-8 * 100.0);
   EXPECT_LT(a.floors().force, 1e-6 * 1000.0);

@@ -54,8 +54,8 @@ Diagnostics diagnostics(const std::string& text, const Layout& layout = sage1(),
 // First line of each diagnostic.
 Lines messages(const std::string& text, const Layout& layout = sage1(), const ReadOptions& options = {}) {
   Lines all;
-  const Diagnostics said = diagnostics(text, layout, options);
-  for (const Diagnostic& d : said.list()) {
+  const Diagnostics printed = diagnostics(text, layout, options);
+  for (const Diagnostic& d : printed.list()) {
     const std::string shown = to_string(d);
     all.push_back(shown.substr(0, shown.find('\n')));
   }
@@ -100,12 +100,12 @@ TEST(Diagnostics, SequenceNumbersThatRunIntoAField) {
   const std::string stage = "    4    0   25    1    1    0    1    0    0    0       0.0       0.0  ";
   EXPECT_EQ(hint(with_line(28, stage + "SAGE0280")),
             "note: columns 73-80 may hold a sequence number, which runs into this field");
-  const Lines said = messages(with_line(28, stage + "00000280"));
-  ASSERT_EQ(said.size(), 1u);
-  EXPECT_EQ(said[0],
+  const Lines printed = messages(with_line(28, stage + "00000280"));
+  ASSERT_EQ(printed.size(), 1u);
+  EXPECT_EQ(printed[0],
             "deck.dat:28:73-80: warning: \"00000280\" looks like a sequence number, but the fields of the "
             "stage card reach "
-            "into columns 73-80 (said once)");
+            "into columns 73-80 (reported once)");
 }
 
 TEST(Diagnostics, NearMissesAreWarnings) {
@@ -125,7 +125,7 @@ TEST(Diagnostics, NearMissesAreWarnings) {
   EXPECT_EQ(messages(with_line(10, lines()[9] + "      oops")),
             (Lines{"deck.dat:10:52-55: note: characters behind the last field of the node card are ignored"}));
   EXPECT_EQ(messages(with_line(10, lines()[9] + std::string(40, ' ') + "oops")),
-            (Lines{"deck.dat:10:81-89: note: characters beyond column 80 are ignored (said once)"}));
+            (Lines{"deck.dat:10:81-89: note: characters beyond column 80 are ignored (reported once)"}));
 }
 
 TEST(Diagnostics, StrictTurnsWarningsIntoErrors) {
@@ -267,16 +267,16 @@ TEST(Diagnostics, TheEnd) {
 TEST(Diagnostics, OnlySoManyAreShown) {
   std::string text = "title\nm       kN      kPa\n    1    0  200    0    0    0    0\n";
   for (int i = 0; i < 200; ++i) text += "    x    0    0       1.0       2.0\n";
-  const Lines said = messages(text + "END\n");
-  ASSERT_EQ(said.size(), 51u);
-  EXPECT_EQ(said[50], "deck.dat: error: and 150 more errors");
+  const Lines printed = messages(text + "END\n");
+  ASSERT_EQ(printed.size(), 51u);
+  EXPECT_EQ(printed[50], "deck.dat: error: and 150 more errors");
 }
 
 TEST(Diagnostics, ReadingStopsAtAThousandErrors) {
   std::string text = "title\nm       kN      kPa\n    1    0 9999    0    0    0    0\n";
   for (int i = 0; i < 9999; ++i) text += "    x    0    0       1.0       2.0\n";
-  const Lines said = messages(text + "END\n");
-  EXPECT_EQ(said[50], "deck.dat:1004: note: too many errors: reading stops here");
+  const Lines printed = messages(text + "END\n");
+  EXPECT_EQ(printed[50], "deck.dat:1004: note: too many errors: reading stops here");
 }
 
 TEST(Diagnostics, ZeroModeWarnsOfTrimmedCards) {

@@ -1,7 +1,7 @@
 // Every kind of field of every shipped deck, damaged in turn and read and built again.  Each answer falls in
 // one class:
 //   error     refused
-//   told      accepted with a warning or a note that the sound deck does not get
+//   reported      accepted with a warning or a note that the sound deck does not get
 //   same      the same problem: mesh, materials, groups, supports, stages and reports are equal bit for bit
 //   control   the same problem, solved with other iteration control or written out more or less often
 //   another   another valid deck, which nobody can tell from one that was meant (a load of 9 instead of 10)
@@ -32,8 +32,8 @@ using test::values_as_read;
 
 namespace fs = std::filesystem;
 
-enum class Answer { error, told, same, control, another };
-constexpr const char* kAnswers[] = {"error", "told", "same", "control", "another"};
+enum class Answer { error, reported, same, control, another };
+constexpr const char* kAnswers[] = {"error", "reported", "same", "control", "another"};
 
 enum class Damage { blank, letters, huge, infinite, negative, line_cut, deck_cut, shift_right, shift_left };
 constexpr Damage kDamages[] = {Damage::blank,    Damage::letters,     Damage::huge,
@@ -115,7 +115,7 @@ Answer answer(const Sound& s, const std::string& text) {
     }
     if (problem == s.problem && control == s.control) return Answer::same;
     if (!std::includes(s.messages.begin(), s.messages.end(), messages.begin(), messages.end()))
-      return Answer::told;
+      return Answer::reported;
     return problem == s.problem ? Answer::control : Answer::another;
   } catch (const InputError& error) {
     EXPECT_GT(error.diagnostics().errors(), 0);

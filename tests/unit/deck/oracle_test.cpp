@@ -165,9 +165,9 @@ std::string record_for(Random& random, const std::vector<Item>& items) {
 
 constexpr int max_values = 12;
 
-// T and TL move within a record.  Behind a short record or a comma gfortran counts their columns from what it
-// has consumed, not from the padded record as the standard has it, and may lose its place: such cases are no
-// reference.
+// T and TL move within a record.  Behind a short record or a comma gfortran counts their columns from
+// what it has consumed, not from the padded record as the standard has it, and may lose its place:
+// such cases are no reference.
 bool has_tabs(const FortranCase& made) {
   return made.format.find('T') != std::string::npos;
 }

@@ -97,8 +97,8 @@ TEST(EdgeLoad, RingWithLinearPressure) {
 
 // Divergence theorem: a uniform stress and its tractions on all edges are in balance at every node,
 //   integral B^T sigma dV = boundary integral N^T (sigma n) dA.
-// Ties together sign and order of edges, B, hoop strain, r in the weights, and B-bar.  A ring needs sigma_rr =
-// sigma_tt and no shear to be in balance without body force.
+// Ties together sign and order of edges, B, hoop strain, r in the weights, and B-bar.  A ring needs
+// sigma_rr = sigma_tt and no shear to be in balance without body force.
 TEST(EdgeLoad, BalancesUniformStress) {
   const SmoothLaw<4> law;
   for (const ElementCase& c : solid_cases()) {
@@ -136,8 +136,8 @@ TEST(EdgeLoad, SidesOfAnInterface) {
   }
 }
 
-// Rectangle r1..r2 x h: node forces of b_z in proportion (2 r1 + r2) : (r1 + 2 r2), a quarter of the height
-// each.
+// Rectangle r1..r2 x h: node forces of b_z in proportion (2 r1 + r2) : (r1 + 2 r2), a
+// quarter of the height each.
 TEST(BodyLoad, ConsistentInARing) {
   const ElementCase c = element_case(1, 2, Geometry::axisymmetric);
   const auto x = rectangle(*c.entry, 1.0, 3.0, 0.0, 0.5);

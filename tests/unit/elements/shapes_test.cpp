@@ -30,8 +30,8 @@ TYPED_TEST(Shapes, PartitionOfUnity) {
   }
 }
 
-// Central differences with h = 1e-5: truncation h^2 N'''/6 < 1e-8 for quartics, 5e-8 for degree 8, rounding
-// 1e-11.
+// Central differences with h = 1e-5: truncation h^2 N'''/6 < 1e-8 for quartics, 5e-8 for
+// degree 8, rounding 1e-11.
 TYPED_TEST(Shapes, DerivativesMatchDifferences) {
   const double h = 1e-5;
   for (const ParentPoint& q : kSamples)

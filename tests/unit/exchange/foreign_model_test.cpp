@@ -1,5 +1,5 @@
-// Decks of other programs as models.  Expected values: the decks' own counts and QUAD4M's own echo of its
-// areas.
+// Decks of other programs as models.  Expected values: the decks' own counts and
+// QUAD4M's own echo of its areas.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -131,7 +131,7 @@ TEST(ForeignModel, CandeWithoutItsPipeIsRefusedUnlessAPartWillDo) {
   const std::string deck = "cande_level3/candejar_input_test1.cid";
   try {
     model_of(deck);
-    FAIL() << "36 beams and a soil are missing, and nothing is said";
+    FAIL() << "36 beams and a soil are missing, and no message says so";
   } catch (const InputError& error) {
     ASSERT_EQ(error.diagnostics().errors(), 2);
     for (const Diagnostic& d : error.diagnostics().list()) {

@@ -102,7 +102,7 @@ TEST(Limit, NoErrorIsStatedBelowTheFloor) {
 }
 
 // Three values: a difference of 1e-3 does not fall to nothing at once.  Halved meshes: nor by more than
-// 4^p times; four-node elements that lock said 1.043 +- 0.004 where 1.054 is true.
+// 4^p times; four-node elements that lock gave 1.043 +- 0.004 where 1.054 is true.
 TEST(Limit, ASuddenAgreementCanBeChance) {
   EXPECT_NEAR(limit_of(std::vector<double>{1.0, 1.001, 1.001}, kSpectral).error, 1e-6, 1e-12);
   EXPECT_NEAR(limit_of(std::vector<double>{1.0, 1.001, 1.001}, kHalving).error, 1e-3 / 16.0, 1e-12);
@@ -111,7 +111,7 @@ TEST(Limit, ASuddenAgreementCanBeChance) {
   EXPECT_GT(limit.error, std::abs(1.0538 - limit.value));
 }
 
-// What was said after three meshes, given the fourth and fifth.
+// What was known after three meshes, given the fourth and fifth.
 TEST(Limit, LaterMeshesWidenAnEarlierError) {
   const std::vector<double> spoiled{1.0, 1.01, 1.0101, 1.0101005, 1.0111};
   EXPECT_EQ(limit_after(spoiled, 5, kSpectral).error, limit_of(spoiled, kSpectral).error);
@@ -126,7 +126,7 @@ TEST(Limit, LaterMeshesWidenAnEarlierError) {
   EXPECT_EQ(after.error, then.error);
 }
 
-// A reaction at a single node, which vanishes like the root of the mesh: what four meshes said must hold the
+// A reaction at a single node, which vanishes like the root of the mesh: what four meshes state must hold the
 // zero that the later ones extrapolate to.
 TEST(Limit, ALaterLimitThatIsMoreCertainWidensAnEarlierError) {
   const std::vector<double> values{-3.709948496,  -1.728659954,  -1.142587638,  -0.8179480992, -0.5855773477,

@@ -87,8 +87,8 @@ TEST(CloughDuncan, SlipsAtTheStrength) {
   }
 }
 
-// Shear column: the elastic part alone comes back.  Linear, slip at w_y = tau_f/k, then back by tau_f/k: tau =
-// 0.
+// Shear column: the elastic part alone comes back.  Linear, slip at w_y = tau_f/k, then back by tau_f/k:
+// tau = 0.
 TEST(CloughDuncan, SlipIsPermanent) {
   const auto law = test::interface(22, joint(0.0, 0));
   PointDriver<2> point(*law, {0.0, -50.0});
@@ -395,8 +395,8 @@ TEST(CloughDuncan, TangentOfTheZeroIncrement) {
   }
 }
 
-// Stiffness below 1: beyond the strength 0.3 of k w = 0.5 a fifth (k_sf/k) stays; k_sf above k adds nothing to
-// k.
+// Stiffness below 1: beyond the strength 0.3 of k w = 0.5 a fifth (k_sf/k) stays; k_sf
+// above k adds nothing to k.
 TEST(CloughDuncan, StiffnessAfterSlipOfASoftJoint) {
   const double k_j = 0.5 / 0.036111;
   const auto slip = [&](double k_sf) {
@@ -409,8 +409,8 @@ TEST(CloughDuncan, StiffnessAfterSlipOfASoftJoint) {
   EXPECT_NEAR(slip(2.0).h[4], 0.0, 1e-12);
 }
 
-// On the strength to the last digit is admissible; the level is tau/tau_f, 0 without stress, infinite without
-// strength.
+// On the strength to the last digit is admissible; the level is tau/tau_f, 0 without stress,
+// infinite without strength.
 TEST(CloughDuncan, StressLevelAndStrength) {
   const auto law = test::interface(22, {2.0, 0.0, 0.0, 0.5, 5000.0, 0.0, 1e6, 1e6, 0.0});
   std::array<double, 5> h{};

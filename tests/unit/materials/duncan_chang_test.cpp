@@ -30,9 +30,9 @@ TEST(DuncanChang, HyperbolaOfTheTriaxialTest) {
   }
 }
 
-// A straight strain path in one increment equals the same path in 100: the law finds its own substeps.
-// The tolerance (1e-3 by default) is on the Euler half of a substep; Heun's is smaller: 1e-4 here, 1e-6 for
-// 1e-5.
+// A straight strain path in one increment equals the same path in 100: the law finds its own
+// substeps.  The tolerance (1e-3 by default) is on the Euler half of a substep; Heun's is smaller:
+// 1e-4 here, 1e-6 for 1e-5.
 TEST(DuncanChang, IncrementSizeDoesNotMatter) {
   std::vector<double> fine = kEb;
   fine.insert(fine.end(), {0.0, 0.49, 0.01, 0.0, 0.0, 1e-5});
@@ -81,8 +81,8 @@ TEST(DuncanChang, VolumeFromTheBulkModulus) {
   EXPECT_NEAR(path.back().volume_strain, path.back().deviator / 3.0 / (250 * 101.325), 1e-9);
 }
 
-// Unload and reload: unloading ends with slope E_ur, reloading comes back to the hyperbola and goes on along
-// it.
+// Unload and reload: unloading ends with slope E_ur, reloading comes back to the
+// hyperbola and goes on along it.
 TEST(DuncanChang, UnloadReload) {
   constexpr std::array<Control, 4> kTriaxial{Control::stress, Control::strain, Control::stress,
                                              Control::strain};
@@ -139,10 +139,10 @@ TEST(DuncanChang, PathErrorIsThatOfOneStep) {
     ASSERT_EQ(point.steps(), 1);
     const auto many = triaxial_test(*law, 100.0, strain, 1000).back();
     const double error = (many.deviator - (point.sigma()[0] - point.sigma()[1])) / point.sigma().norm();
-    const double told =
+    const double stated =
         law->path_error({start, Vector4::Zero(), point.eps(), h}, point.sigma(), point.history());
-    EXPECT_GT(told, error / 3) << strain;
-    EXPECT_LT(told, error * 3) << strain;
+    EXPECT_GT(stated, error / 3) << strain;
+    EXPECT_LT(stated, error * 3) << strain;
   }
 }
 
@@ -150,16 +150,16 @@ TEST(DuncanChang, PathErrorIsThatOfOneStep) {
 // compression: E = E_i, and of E and B one is proportional to the stress, the other constant.
 TEST(DuncanChang, PathErrorOfIsotropicCompression) {
   const double p0 = 50.0, p1 = 100.0, p_a = 101.325;
-  const auto told = [&](double n, double m) {
+  const auto stated = [&](double n, double m) {
     const auto law = test::solid(6, {400, n, 0.8, 600, 500, m, 5, 33});
     return law->path_error({-p0 * unit_tensor(), Vector4::Zero(), Vector4::Zero(), std::vector<double>{0.0}},
                            -p1 * unit_tensor(), std::vector<double>{0.0});
   };
   const auto G = [](double E, double B) { return 3 * B * E / (9 * B - E); };
   const double lag_B = (p1 - p0) / (p1 + p0) / 4;
-  EXPECT_NEAR(told(0.0, 1.0), 3 * lag_B * lag_B * (p1 - p0) / p1, 1e-12);
+  EXPECT_NEAR(stated(0.0, 1.0), 3 * lag_B * lag_B * (p1 - p0) / p1, 1e-12);
   const double G0 = G(400 * p0, 500 * p_a), G1 = G(400 * p1, 500 * p_a), lag_G = (G1 - G0) / (G1 + G0) / 4;
-  EXPECT_NEAR(told(1.0, 0.0), 3 * lag_G * lag_G * (p1 - p0) / p1, 1e-12);
+  EXPECT_NEAR(stated(1.0, 0.0), 3 * lag_G * lag_G * (p1 - p0) / p1, 1e-12);
 }
 
 // The isotropic tangent is symmetric and is the secant of the step.

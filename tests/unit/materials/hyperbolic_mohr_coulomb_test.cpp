@@ -128,14 +128,14 @@ TEST(HyperbolicMohrCoulomb, PathErrorAtTheEnvelope) {
   const auto failing = [&](double sigma_3) {
     return Vector4(-sigma_3, -sigma_3 - (10 * c + 2 * sigma_3 * s) / (1 - s), -sigma_3, 0.0);
   };
-  const auto told = [&](const Vector4& from, const Vector4& to) {
+  const auto stated = [&](const Vector4& from, const Vector4& to) {
     const std::vector<double> h{0.0};
     return law->path_error({from, Vector4::Zero(), Vector4::Zero(), h}, to, h);
   };
   const Vector4 inside{-200, -200, -200, 0};
-  EXPECT_NEAR(told(inside, failing(200)), 3.0 / 16.0 * (failing(200) - inside).norm() / failing(200).norm(),
+  EXPECT_NEAR(stated(inside, failing(200)), 3.0 / 16.0 * (failing(200) - inside).norm() / failing(200).norm(),
               1e-12);
-  EXPECT_NEAR(told(failing(200), failing(300)), 0.0, 1e-12);
+  EXPECT_NEAR(stated(failing(200), failing(300)), 0.0, 1e-12);
 }
 
 TEST(HyperbolicMohrCoulomb, InitialStressMustBeAdmissible) {

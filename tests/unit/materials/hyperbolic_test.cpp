@@ -142,8 +142,8 @@ TEST(Hyperbolic, Tension) {
   EXPECT_NEAR(young(hyperbolic_moduli(p, -10, -10, 0)), 1e-3 * at_zero, 1e-9);
 }
 
-// Derivatives with respect to sigma_1, sigma_3 and the memory; step 1e-4 of 100 kPa, tolerance 1e-6 of the
-// modulus.
+// Derivatives with respect to sigma_1, sigma_3 and the memory; step 1e-4 of 100 kPa,
+// tolerance 1e-6 of the modulus.
 TEST(Hyperbolic, DerivativesMatchDifferences) {
   for (const VolumeRule volume : {VolumeRule::bulk_1980, VolumeRule::poisson_1970}) {
     HyperbolicParameters p = soil();

@@ -421,8 +421,8 @@ TEST(GradeAuto, FindsCornersWhoseTractionsNoStressHas) {
     deck.stages[0].pressure(1, c.edge, c.pressure, c.pressure, c.shear, c.shear);
     EXPECT_EQ(graded_nodes(build(deck.text(), with(0, 0, automatic))), c.nodes);
   }
-  // Shear that is the same on both sides of the free corner is one stress; a pressure on a slanting side is
-  // none.
+  // Shear that is the same on both sides of the free corner is one stress; a pressure
+  // on a slanting side is none.
   for (const bool slanting : {false, true}) {
     DeckWriter deck = one_cell(slanting ? 1.4 : 1.0);
     for (const int node : {1, 2}) deck.fix(node, 1, 1);
@@ -478,9 +478,9 @@ TEST(RefineOption, LargeMeshesAreAnnouncedOrRefused) {
   struct Stop {};
   const DeckWriter deck = block_deck();
   BuildOptions options = with(0, 12);
-  std::string said;
+  std::string printed;
   options.say = [&](const std::string& text) {
-    said = text;
+    printed = text;
     throw Stop();
   };
   try {
@@ -491,14 +491,15 @@ TEST(RefineOption, LargeMeshesAreAnnouncedOrRefused) {
     EXPECT_NE(words.find("--refine 12 would make 67108864 elements"), std::string::npos) << words;
     EXPECT_NE(words.find("--refine 10 makes 4194304"), std::string::npos) << words;
   }
-  EXPECT_EQ(said, "");
+  EXPECT_EQ(printed, "");
   options.refine = 10;
   EXPECT_THROW(build(deck.text(), options), Stop);
-  EXPECT_NE(said.find("4194304 elements with about 4194304 nodes: expect 17 GB"), std::string::npos) << said;
-  said.clear();
+  EXPECT_NE(printed.find("4194304 elements with about 4194304 nodes: expect 17 GB"), std::string::npos)
+      << printed;
+  printed.clear();
   options.refine = 3;
   EXPECT_EQ(build(deck.text(), options).mesh.nodes(), 17 * 17);
-  EXPECT_EQ(said, "");
+  EXPECT_EQ(printed, "");
 }
 
 // What is announced against what is made.

@@ -268,7 +268,7 @@ TEST(PointReport, NothingIsAveragedAcrossMaterials) {
   }
   int notes = 0;
   for (const Diagnostic& d : r.model->diagnostics.list())
-    notes += d.message.find("lies where bodies meet: group 1 answers while it is placed, not group 2") !=
+    notes += d.message.find("lies where bodies meet: group 1 answers while it is active, not group 2") !=
                      std::string::npos
                  ? 1
                  : 0;

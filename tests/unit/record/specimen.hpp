@@ -31,8 +31,8 @@ class Specimen {
   // Increment `increment` of `increments` in stage `stage` (0-based), converged.
   StepReport step(int increment, int increments, int stage = 0) const;
 
-  // Runs the calls that a run makes: start, stage start, `increments` equal increments to `strain`, end,
-  // finish.
+  // Runs the calls that a run makes: start, stage start, `increments` equal increments
+  // to `strain`, end, finish.
   void run(Observer& observer, double strain, int increments);
   // The same, but the last increment fails after a cut.
   void run_and_fail(Observer& observer, double strain, int increments);
