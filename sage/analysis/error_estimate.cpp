@@ -195,6 +195,97 @@ const SolidLaw* solid_law(const GroupData& data) {
   return data.active && law != nullptr ? *law : nullptr;
 }
 
+// The polynomials of all patches, each made when it is first asked for.
+class PatchFits {
+ public:
+  PatchFits(const Model& model, const std::vector<ElementRef>& elements,
+            const std::vector<ElementStress>& stress)
+      : model_(model), elements_(elements), stress_(stress) {}
+
+  // Those around an element's corners inside its material; where it has none, one of all of its neighbours.
+  // Valid until the next call.
+  std::vector<const Fit*> of(const Group& group, std::size_t k) {
+    const Patches& patches = of_material(group.material);
+    const int* nodes = group.nodes_of(elements_[k].element);
+    std::vector<const Fit*> use;
+    for (int c = 0; c < stress_[k].corners; ++c) {
+      if (!patches.inside(nodes[c])) continue;
+      auto it = fits_.find({group.material, nodes[c]});
+      if (it == fits_.end())
+        it = fits_.emplace(std::pair{group.material, nodes[c]}, fit(patches.around(nodes[c]))).first;
+      use.push_back(&it->second);
+    }
+    if (!use.empty()) return use;
+    own_.emplace(fit(patches.neighbours(*group.element, nodes)));
+    return {&*own_};
+  }
+
+ private:
+  const Patches& of_material(int material) {
+    auto known = patches_.find(material);
+    if (known == patches_.end()) {
+      std::vector<char> same;
+      for (const Group& other : model_.groups) same.push_back(other.material == material);
+      known = patches_.try_emplace(material, model_, same, elements_).first;
+    }
+    return known->second;
+  }
+  Fit fit(const std::vector<std::size_t>& patch) const {
+    std::vector<const ElementStress*> members;
+    members.reserve(patch.size());
+    for (std::size_t k : patch) members.push_back(&stress_[k]);
+    return Fit(members);
+  }
+
+  const Model& model_;
+  const std::vector<ElementRef>& elements_;
+  const std::vector<ElementStress>& stress_;
+  std::map<int, Patches> patches_;           // by material
+  std::map<std::pair<int, int>, Fit> fits_;  // by material and vertex
+  std::optional<Fit> own_;
+};
+
+// |sigma* - sigma|^2 over an element, sigma* the mean of the fits; |sigma|^2 is added to `size`.
+double fitted_error(const ElementStress& s, const std::vector<const Fit*>& fits, const Matrix4& C,
+                    double& size) {
+  double error = 0.0;
+  for (Eigen::Index p = 0; p < s.points.rows(); ++p) {
+    Eigen::RowVector4d smooth = Eigen::RowVector4d::Zero();
+    for (const Fit* fit : fits) smooth += fit->at(s.point_at.col(p)) / static_cast<double>(fits.size());
+    const Vector4 own_stress = s.points.row(p), difference = smooth.transpose() - own_stress;
+    error += s.w(p) * difference.dot(C * difference);
+    size += s.w(p) * own_stress.dot(C * own_stress);
+  }
+  return error;
+}
+
+// Elements of high degree show their error themselves by their highest degrees; the polynomials of patches are
+// far too coarse for them where sizes jump from layer to layer.
+bool shows_its_own_error(const ElementStress& s) {
+  return s.degree >= 4 && s.points.rows() == (s.degree + 1) * (s.degree + 1);
+}
+
+// above: highest_degrees() of the element's points.
+double own_error(const ElementStress& s, const Eigen::MatrixXd& above, const Matrix4& C) {
+  const Stress4 top = above * s.points;
+  double error = 0.0;
+  for (Eigen::Index p = 0; p < s.points.rows(); ++p)
+    error += s.w(p) * top.row(p).dot((C * top.row(p).transpose()).transpose());
+  return error;
+}
+
+void add_element(ErrorEstimate& estimate, const ElementRef& element, double error) {
+  estimate.error += error;
+  estimate.element[element.group].push_back(error);
+  const bool worst =
+      estimate.worst_group < 0 || error > estimate.element[static_cast<std::size_t>(estimate.worst_group)]
+                                                          [static_cast<std::size_t>(estimate.worst_element)];
+  if (error > 0.0 && worst) {
+    estimate.worst_group = static_cast<int>(element.group);
+    estimate.worst_element = element.element;
+  }
+}
+
 }  // namespace
 
 double ErrorEstimate::relative() const {
@@ -223,72 +314,19 @@ ErrorEstimate estimate_error(const Model& model, const Solution& solution, const
     }
   }
 
-  std::map<int, Patches> patches;
-  std::map<int, Eigen::MatrixXd> highest;   // by points a line
-  std::map<std::pair<int, int>, Fit> fits;  // by material and vertex
-  const auto fit_of = [&](const std::vector<std::size_t>& patch) {
-    std::vector<const ElementStress*> members;
-    members.reserve(patch.size());
-    for (std::size_t k : patch) members.push_back(&stress[k]);
-    return Fit(members);
-  };
+  PatchFits fits(model, elements, stress);
+  std::map<int, Eigen::MatrixXd> highest;  // by points a line
   for (std::size_t k = 0; k < elements.size(); ++k) {
     const GroupData& data = groups[elements[k].group];
-    const Group& group = *data.group;
-    auto known = patches.find(group.material);
-    if (known == patches.end()) {
-      std::vector<char> same;
-      for (const Group& other : model.groups) same.push_back(other.material == group.material);
-      known = patches.try_emplace(group.material, model, same, elements).first;
-    }
-    const Patches& of_material = known->second;
-    const int* nodes = group.nodes_of(elements[k].element);
-    std::vector<const Fit*> use;
-    for (int c = 0; c < stress[k].corners; ++c) {
-      const std::vector<std::size_t>& patch = of_material.around(nodes[c]);
-      if (!of_material.inside(nodes[c])) continue;
-      auto it = fits.find({group.material, nodes[c]});
-      if (it == fits.end()) it = fits.emplace(std::pair{group.material, nodes[c]}, fit_of(patch)).first;
-      use.push_back(&it->second);
-    }
-    std::optional<Fit> own;  // an element without a vertex inside: all of its neighbours
-    if (use.empty()) {
-      own.emplace(fit_of(of_material.neighbours(*group.element, nodes)));
-      use.push_back(&*own);
-    }
     const Matrix4 C = result.energy ? compliance(*solid_law(data)) : Matrix4::Identity();
-    double error = 0.0;
-    for (Eigen::Index p = 0; p < stress[k].points.rows(); ++p) {
-      Eigen::RowVector4d smooth = Eigen::RowVector4d::Zero();
-      for (const Fit* fit : use) smooth += fit->at(stress[k].point_at.col(p)) / static_cast<double>(use.size());
-      const Vector4 own_stress = stress[k].points.row(p), difference = smooth.transpose() - own_stress;
-      const double w = stress[k].w(p);
-      error += w * difference.dot(C * difference);
-      result.size += w * own_stress.dot(C * own_stress);
-    }
-    // Elements of high degree tell their error themselves by their highest degrees; the polynomials of patches
-    // are far too coarse for them where sizes jump from layer to layer.
-    const Eigen::Index points = stress[k].points.rows();
-    const int line = stress[k].degree + 1;
-    if (stress[k].degree >= 4 && points == line * line) {
+    double error = fitted_error(stress[k], fits.of(*data.group, k), C, result.size);
+    if (shows_its_own_error(stress[k])) {
+      const int line = stress[k].degree + 1;
       auto& above = highest[line];
       if (above.size() == 0) above = highest_degrees(line);
-      const Stress4 top = above * stress[k].points;
-      double own_error = 0.0;
-      for (Eigen::Index p = 0; p < points; ++p)
-        own_error += stress[k].w(p) * top.row(p).dot((C * top.row(p).transpose()).transpose());
-      error = std::min(error, own_error);
+      error = std::min(error, own_error(stress[k], above, C));
     }
-    result.error += error;
-    auto& of_group = result.element[elements[k].group];
-    of_group.push_back(error);
-    const bool worst =
-        result.worst_group < 0 || error > result.element[static_cast<std::size_t>(result.worst_group)]
-                                                        [static_cast<std::size_t>(result.worst_element)];
-    if (error > 0.0 && worst) {
-      result.worst_group = static_cast<int>(elements[k].group);
-      result.worst_element = elements[k].element;
-    }
+    add_element(result, elements[k], error);
   }
   return result;
 }

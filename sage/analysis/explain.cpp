@@ -204,11 +204,15 @@ std::string dof_name(const Model& model, int dof) {
 std::string explain_singular(const Model& model, const Activity& activity, const Assembly& assembly,
                              const StepReport& report, const NewtonStep& step) {
   const Stage& stage = model.stages[static_cast<std::size_t>(report.stage)];
+  const std::string place = "stage " + std::to_string(report.stage + 1) + ", increment " +
+                            std::to_string(report.increment) + ": the stiffness matrix is singular";
+  if (step.singular_equation < 0)
+    return place + " (" + step.message + "); this solver can't tell where.\n" +
+           "  try: --solver frontal, which names the node.\n" + bracket_line(model, report) +
+           refused_line(report);
   const int dof = assembly.dof_of(step.singular_equation);
   const Neighbours near = around(assembly, dof / 2);
-  std::string text = "stage " + std::to_string(report.stage + 1) + ", increment " +
-                     std::to_string(report.increment) + ": the stiffness matrix is singular at " +
-                     dof_name(model, dof) + " (" + step.message + ").\n";
+  std::string text = place + " at " + dof_name(model, dof) + " (" + step.message + ").\n";
   text += "  elements there: " + near.elements + "\n  likely: ";
   if (near.open_point || behind_open_joint(model, activity, assembly, dof / 2))
     text +=

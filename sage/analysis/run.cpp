@@ -432,7 +432,7 @@ bool Run::fail(StepReport& report, const NewtonStep& step) {
   report.converged = false;
   report.motion = result_.motion;
   warn_about_motion(model_.stages[static_cast<std::size_t>(report.stage)]);
-  if (step.outcome == StepOutcome::singular && step.singular_equation >= 0) {
+  if (step.outcome == StepOutcome::singular) {
     result_.status = RunStatus::singular;
     result_.reason = explain_singular(model_, activity_, assembly_, report, step);
   } else {

@@ -135,18 +135,49 @@ int threads_for(int asked) {
   return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
+namespace {
+
+// The deck as a model; its checksum becomes the owner's.
+std::unique_ptr<Model> model_of(const RunRequest& request, const Catalogue& catalogue, ResultOwner& owner) {
+  const Deck deck = read_input(request.deck, request.input);
+  BuildOptions build = request.input.build;
+  if (!request.solver.empty()) build.solver = solver_code(catalogue, request.solver);
+  auto model = std::make_unique<Model>(build_model(deck, catalogue, build));
+  owner.deck_sum = checksum(*deck.source);
+  if (request.output.vtu) warn_of_vtu(*model, model->diagnostics);
+  return model;
+}
+
+RunSettings settings_for(const RunRequest& request) {
+  RunSettings settings;
+  settings.skips = request.skips;
+  settings.threads = threads_for(request.threads);
+  settings.refinement = request.refinement;
+  settings.condition = request.condition;
+  settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
+  return settings;
+}
+
+void note_missing_locks(const RunRequest& request) {
+  fmt::print(stderr, "{}: note: {} lies on a file system without locks: nothing keeps a second run out of it\n",
+             request.deck, request.output.folder.string());
+}
+
+std::vector<std::filesystem::path> files_of(const Reports& reports,
+                                            const std::vector<std::unique_ptr<Output>>& outputs) {
+  std::vector<std::filesystem::path> files = reports.files();
+  for (const auto& output : outputs)
+    for (const std::filesystem::path& file : output->files()) files.push_back(file);
+  return files;
+}
+
+}  // namespace
+
 RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   const auto start = std::chrono::steady_clock::now();
   RunOutcome outcome;
   ResultOwner owner{request.deck, 0, "run"};
-  {
-    const Deck deck = read_input(request.deck, request.input);
-    BuildOptions build = request.input.build;
-    if (!request.solver.empty()) build.solver = solver_code(catalogue, request.solver);
-    outcome.model = std::make_unique<Model>(build_model(deck, catalogue, build));
-    owner.deck_sum = checksum(*deck.source);
-  }
-  if (request.output.vtu) warn_of_vtu(*outcome.model, outcome.model->diagnostics);
+  outcome.model = model_of(request, catalogue, owner);
   const Model& model = *outcome.model;
   if (!request.quiet) print_diagnostics(model.diagnostics);
   if (request.input.strict && model.diagnostics.warnings() > 0) {
@@ -157,19 +188,11 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
     outcome.too_large = true;
     return outcome;
   }
-  RunSettings settings;
-  settings.skips = request.skips;
-  settings.threads = threads_for(request.threads);
-  settings.refinement = request.refinement;
-  settings.condition = request.condition;
-  settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
+  RunSettings settings = settings_for(request);
   std::optional<ResultFiles> own;
   if (request.results == nullptr) own.emplace(request.output.folder, stem_of(request), owner);
   ResultFiles& results = own ? *own : *request.results;
-  if (!results.locked() && !request.quiet)
-    fmt::print(stderr,
-               "{}: note: {} lies on a file system without locks: nothing keeps a second run out of it\n",
-               request.deck, request.output.folder.string());
+  if (!results.locked() && !request.quiet) note_missing_locks(request);
   Checkpoint checkpoint = checkpoint_of(request, model, results);
   bool has_checkpoint = request.restart && std::filesystem::exists(checkpoint.file());
   EndOfInterrupted end(checkpoint.ever_due(), request.interrupt_patience);
@@ -212,9 +235,7 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
     throw;
   }
   if (own) close(*own, request);
-  outcome.files = outcome.reports->files();
-  for (const auto& output : outputs)
-    for (const std::filesystem::path& file : output->files()) outcome.files.push_back(file);
+  outcome.files = files_of(*outcome.reports, outputs);
   outcome.record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return outcome;
 }

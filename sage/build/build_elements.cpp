@@ -228,6 +228,30 @@ void read_element_card(Builder& b, const CardView& card) {
   }
 }
 
+// Every parameter of a law, from its card or its fallback.  `given` stands on the first of the cards, if any.
+void read_parameters(Builder& b, Material& m, const SourcePosition& where, std::span<const FieldValue> given,
+                     const std::vector<CardView>& cards) {
+  const std::string name = "material " + std::to_string(m.number);
+  for (std::size_t i = 0; i < m.entry->parameters.size(); ++i) {
+    const Parameter& p = m.entry->parameters[i];
+    const bool present = i < given.size() && !given[i].blank;
+    if (!present && p.required)
+      b.error(i < given.size() ? cards.front().where(given[i]) : where,
+              name + ": parameter " + std::to_string(i + 1) + " of " + m.entry->name + ", " + p.name + " (" +
+                  unit_text(p.dimension, b.model.units) + "), is missing");
+    const double value = present ? given[i].number : p.fallback;
+    if (!present && i < given.size() && !p.required) {
+      b.note(cards.front().where(given[i]), name + ": parameter " + std::to_string(i + 1) + " of " +
+                                                m.entry->name + ", " + p.name +
+                                                ", is left blank: " + rounded_text(p.fallback, 6) + " is used");
+    }
+    if (!(std::abs(value) < 1e100))
+      b.error(cards.front().where(given[i]),
+              name + ": " + p.name + " is too large to compute with (beyond 1e100)");
+    m.parameters.push_back(value);
+  }
+}
+
 void read_material(Builder& b, const CardView& card, const std::vector<CardView>& parameter_cards) {
   Material material;
   material.number = card.integer("number");
@@ -263,24 +287,7 @@ void read_material(Builder& b, const CardView& card, const std::vector<CardView>
     return;
   }
   const int before = b.problems.errors();
-  for (std::size_t i = 0; i < entry->parameters.size(); ++i) {
-    const Parameter& p = entry->parameters[i];
-    const bool present = i < given.size() && !given[i].blank;
-    if (!present && p.required)
-      b.error(i < given.size() ? parameter_cards.front().where(given[i]) : where,
-              name + ": parameter " + std::to_string(i + 1) + " of " + entry->name + ", " + p.name + " (" +
-                  unit_text(p.dimension, b.model.units) + "), is missing");
-    const double value = present ? given[i].number : p.fallback;
-    if (!present && i < given.size() && !p.required) {
-      b.note(parameter_cards.front().where(given[i]),
-             name + ": parameter " + std::to_string(i + 1) + " of " + entry->name + ", " + p.name +
-                 ", is left blank: " + rounded_text(p.fallback, 6) + " is used");
-    }
-    if (!(std::abs(value) < 1e100))
-      b.error(parameter_cards.front().where(given[i]),
-              name + ": " + p.name + " is too large to compute with (beyond 1e100)");
-    m.parameters.push_back(value);
-  }
+  read_parameters(b, m, where, given, parameter_cards);
   if (b.problems.errors() > before) return;
   try {
     m.law = entry->make(m.parameters, b.model.units);

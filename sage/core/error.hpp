@@ -76,7 +76,7 @@ class ElementShapeError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Thrown by LinearSolver::factorise.  `equation` is the one whose pivot vanished.
+// Thrown by LinearSolver::factorise.  `equation` is the one whose pivot vanished, -1 where the solver can't tell.
 class SingularMatrix : public std::runtime_error {
  public:
   SingularMatrix(int equation, double pivot_ratio, const std::string& message)
