@@ -183,7 +183,7 @@ void require_points(const CompareOptions& o, const Model* a, const Model* b) {
   const auto holds = [](const Model* model, const PointRequest& point) {
     return model != nullptr && !Locator(*model).at(point.place).empty();
   };
-  if (a == nullptr && b == nullptr) return;
+  if ((a == nullptr && b == nullptr) || interrupted()) return;
   for (const PointRequest& point : o.input.build.points)
     if (!holds(a, point) && !holds(b, point))
       throw InputError({o.decks.front(), 0, 0, 0},
@@ -243,7 +243,8 @@ int compare_decks(const CompareOptions& o, const Catalogue& catalogue) {
   ConvergeOptions converge = o.converge;
   converge.screen = stderr;  // the answer comes first on the other one
   if (converge.asked()) require_points_of_decks(o, options, catalogue);
-  const auto finish = [&](const char* letter, const SideOptions& side, const char* ending) {
+  const auto finish = [&](const char* letter, const SideOptions& side, const char* ending) -> FinishedSide {
+    if (interrupted()) return {{label_of(letter, side, nullptr), "not run, interrupted before"}};
     return converge.asked() ? climb_side(letter, side, converge, place, stem + ending)
                             : run_side(letter, side, place, stem + ending);
   };

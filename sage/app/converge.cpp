@@ -664,7 +664,9 @@ Convergence climb(const RunRequest& request, const ConvergeOptions& options, con
 }
 
 int converge(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue) {
-  return climb(request, options, catalogue).exit_code;
+  const Convergence found = climb(request, options, catalogue);
+  if (!found.not_reached.empty()) fmt::print(stderr, "{}: NOT REACHED: {}\n", request.deck, found.not_reached);
+  return found.exit_code;
 }
 
 }  // namespace sage::app

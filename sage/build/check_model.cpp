@@ -175,6 +175,8 @@ void check_supports(Builder& b) {
   Activity activity(b.model);
   for (const Stage& stage : b.model.stages) {
     activity.enter(stage);
+    const bool changed = !stage.births.empty() || !stage.deaths.empty() || !stage.fixities.empty();
+    if (!changed && &stage != &b.model.stages.front()) continue;
     const int before = b.problems.errors();
     check_supports_of(b, stage, activity);
     if (b.problems.errors() > before) return;

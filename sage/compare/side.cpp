@@ -95,6 +95,7 @@ void Side::run(const Catalogue& catalogue, const RunSettings& settings) {
   try {
     const RunResult result = sage::run(*model_, catalogue, settings, observers);
     if (result.status != RunStatus::completed) error_ = result.reason;
+    if (result.status == RunStatus::stopped) reports_->stop(error_);
   } catch (const OutputError&) {
     throw;
   } catch (const std::exception& error) {

@@ -362,11 +362,16 @@ bool has_word(const std::string& line, const std::string& word) {
   return false;
 }
 
-// A first line of a CSV file that holds inf or nan outside its comments; empty if there is none.
+// A first row of a CSV file that holds inf or nan; empty if there is none.  Comments and the line of the
+// columns repeat the deck's title and the names of its units, which may be such words.
 std::string not_finite(const fs::path& file) {
   std::ifstream in(file);
-  for (std::string line; std::getline(in, line);)
-    if (!line.starts_with('#') && (has_word(line, "inf") || has_word(line, "nan"))) return line;
+  bool columns = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with('#')) continue;
+    if (columns && (has_word(line, "inf") || has_word(line, "nan"))) return line;
+    columns = true;
+  }
   return {};
 }
 

@@ -474,7 +474,9 @@ TEST(Converge, StopsAtItsLimitsAndSaysSo) {
   EXPECT_NE(last.find("NOT REACHED"), std::string::npos) << last;
   EXPECT_NE(last.find("--max-dofs"), std::string::npos) << last;
   options.max_dofs = 10;
+  ::testing::internal::CaptureStderr();
   EXPECT_EQ(converge(request_for(path), options, full_catalogue()), kNotConverged) << "not even the first mesh";
+  EXPECT_NE(::testing::internal::GetCapturedStderr().find("NOT REACHED"), std::string::npos);
   EXPECT_TRUE(table_of("limited", last).empty());
   EXPECT_NE(last.find("result    none"), std::string::npos) << last;
   EXPECT_NE(last.find("--max-dofs"), std::string::npos) << last;

@@ -367,10 +367,14 @@ TEST(Fault, InterruptedAndRestarted) {
   }
 }
 
-// What is complete is compared, and nothing stays behind under a temporary name.
+// What is complete is compared, and nothing stays behind under a temporary name, the deck's reports neither.
 TEST(Fault, ComparisonsAreInterruptedToo) {
   const fs::path folder = empty_folder("interrupted_comparison");
-  write(folder / "deck.dat", deck_text(99999));
+  std::string deck = read(fs::path(SAGE_SOURCE_DIR) / "legacy_inputs/hyperbolic/strip_footing/deck.dat");
+  const std::string increments = "   40    0    0   10";
+  ASSERT_NE(deck.find(increments), std::string::npos);
+  deck.replace(deck.find(increments), increments.size(), "99999    0    0    0");
+  write(folder / "deck.dat", deck);
   const Finished run = sagefe(folder, "compare deck.dat --both",
                               R"(timeout 120 sh -c '"$0" "$@" & child=$!
                                  while ! ls out/*.partial > /dev/null 2>&1; do sleep 0.02; done
@@ -379,6 +383,8 @@ TEST(Fault, ComparisonsAreInterruptedToo) {
   EXPECT_NE(run.err.find("sagefe compare: interrupted"), std::string::npos) << run.err;
   for (const auto& entry : fs::directory_iterator(folder / "out"))
     EXPECT_NE(entry.path().extension(), ".partial") << entry.path();
+  EXPECT_NE(read(folder / "out/deck.a.report1.csv").find("RUN STOPPED, NOT COMPLETE"), std::string::npos);
+  EXPECT_NE(run.out.find("not run, interrupted before"), std::string::npos) << run.out;
 }
 
 // Nothing that could go on is left, and a message says so.
