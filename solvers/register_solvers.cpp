@@ -2,8 +2,7 @@
 
 #include "solvers/frontal.hpp"
 #include "solvers/library_module.hpp"
-#include "solvers/skyline_ldlt.hpp"
-#include "solvers/skyline_lu.hpp"
+#include "solvers/skyline.hpp"
 #include "solvers/solver_codes.hpp"
 
 namespace sage {

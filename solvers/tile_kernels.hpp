@@ -82,6 +82,7 @@ inline void tile_raise_maximum(Lanes& maximum, const Lanes& x) {
 // |term| before it is divided by the diagonal: a term of the reduced matrix.
 template <bool unit, int live = kTile>
 inline void tile_solve(double* C, const double* T, const double* reciprocal, Lanes& maximum) {
+#pragma GCC unroll 4
   for (int lane = 0; lane < kTile; lane += kLanes) {
     Lanes c[live];
 #pragma GCC unroll 8
@@ -144,6 +145,23 @@ inline void tile_factorise(double* A, double* unit, double* reciprocal, Lanes& m
       for (int j = k; j < kTile; ++j) A[i * kTile + j] -= factor * row[j];
     }
     for (int i = live; i < kTile; ++i) unit[k * kTile + i] = 0.0;
+  }
+}
+
+// Elimination within the upper triangle of a symmetric diagonal tile A = L D L^T, whose lower triangle is never
+// read.  On return L, transposed, stands above A's diagonal; check(k, pivot) sees every pivot before it is used.
+template <class Check>
+inline void tile_factorise_symmetric(double* A, double* reciprocal, Lanes& maximum, Check&& check) {
+  for (int k = 0; k < kTile; ++k) {
+    double* row = A + k * kTile;
+    check(k, row[k]);
+    tile_raise_maximum(maximum, Lanes{} + row[k]);
+    reciprocal[k] = 1.0 / row[k];
+    for (int i = k + 1; i < kTile; ++i) {
+      const double factor = row[i] * reciprocal[k];
+      for (int j = i; j < kTile; ++j) A[i * kTile + j] -= factor * row[j];
+    }
+    for (int i = k + 1; i < kTile; ++i) row[i] *= reciprocal[k];
   }
 }
 
