@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "materials/linear_elastic.hpp"
-#include "tests/support/allocation_counter.hpp"
-#include "tests/support/element_cases.hpp"
-#include "tests/support/test_laws.hpp"
+#include "sage/conformance/allocations.hpp"
+#include "sage/conformance/sample_laws.hpp"
+#include "tests/support/elements.hpp"
 
 namespace sage::test {
 namespace {

@@ -11,11 +11,11 @@
 
 #include <cholmod.h>
 
+#include "sage/conformance/solver_systems.hpp"
 #include "solvers/assembled_matrix.hpp"
 #include "solvers/library/long_columns.hpp"
 #include "solvers/nested_dissection.hpp"
 #include "solvers/profile_numbering.hpp"
-#include "tests/conformance/solver_systems.hpp"
 
 namespace {
 
@@ -64,7 +64,7 @@ Result measure(const EquationGraph& graph, cholmod_sparse& K, int ordering) {
 }
 
 void bench(int n) {
-  const test::System system = test::q4_mesh({.columns = n, .rows = 2 * n});
+  const conformance::System system = conformance::q4_mesh({.columns = n, .rows = 2 * n});
   const EquationGraph graph = make_equation_graph(system.equations, system.elements);
   AssembledMatrix matrix;
   matrix.analyse(graph, system.elements, true);

@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "sage/conformance/solver_systems.hpp"
 #include "solvers/register_solvers.hpp"
-#include "tests/conformance/solver_systems.hpp"
 
 namespace {
 
-using sage::test::System;
+using sage::conformance::System;
 using Clock = std::chrono::steady_clock;
 
 int threads = 1;
@@ -65,7 +65,7 @@ double residual(const sage::LinearSolver& solver, const std::vector<double>& x) 
 
 void bench(const sage::SolverEntry& entry, int n) {
   const System system =
-      sage::test::q4_mesh({.columns = n, .rows = 2 * n, .unsymmetric = entry.symmetric ? 0.0 : 0.5});
+      sage::conformance::q4_mesh({.columns = n, .rows = 2 * n, .unsymmetric = entry.symmetric ? 0.0 : 0.5});
   const auto solver = entry.make();
   solver->set_threads(threads);
   Times times;

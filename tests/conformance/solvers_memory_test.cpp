@@ -7,10 +7,13 @@
 
 #include <gtest/gtest.h>
 
+#include "sage/conformance/solver_systems.hpp"
 #include "solvers/register_solvers.hpp"
-#include "tests/conformance/solver_systems.hpp"
 
 namespace sage::test {
+
+using namespace conformance;
+
 namespace {
 
 // Pages that the process has, by the first number of /proc/self/statm, in bytes.

@@ -40,7 +40,7 @@ TEST(Manual, WaterIsUsedForOneLawAlone) {
   const Catalogue catalogue = app::full_catalogue();
   const UnitSystem dry{"m", "kN", "kPa", 101.325, 0.0};
   int refusals = 0;
-  for (const Sample& sample : samples()) {
+  for (const conformance::LawSample& sample : samples()) {
     const MaterialEntry& entry = *catalogue.materials.find(sample.code);
     bool refused = false;
     try {

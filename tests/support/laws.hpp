@@ -7,17 +7,16 @@
 #include <vector>
 
 #include "materials/register_materials.hpp"
+#include "sage/conformance/law_driver.hpp"
 
 namespace sage::test {
+
+using namespace conformance;
 
 // psi and lbf/in^3: the units of the source chapter.
 inline UnitSystem psi_units() {
   return {"in", "lbf", "psi", 14.696, 0.036111};
 }
-inline UnitSystem kpa_units() {
-  return {"m", "kN", "kPa", 101.325, 9.807};
-}
-
 inline const Catalogue& catalogue() {
   static const Catalogue all = [] {
     Catalogue c;
@@ -37,50 +36,6 @@ inline std::unique_ptr<SolidLaw> solid(int code, const std::vector<double>& valu
 inline std::unique_ptr<InterfaceLaw> interface(int code, const std::vector<double>& values,
                                                const UnitSystem& units = psi_units()) {
   return std::get<std::unique_ptr<InterfaceLaw>>(make_law(code, values, units));
-}
-
-// One update with its own history storage.
-template <int N>
-struct Answer {
-  Vector<N> sigma;
-  Matrix<N> D;
-  std::vector<double> h;
-  PointStatus status;
-  Outcome outcome;
-};
-template <int N>
-Answer<N> update(const Law<N>& law, const Vector<N>& sigma0, const Vector<N>& deps, std::vector<double> h0) {
-  Answer<N> a;
-  a.h.assign(h0.size(), -12345.0);  // so that a forgotten history shows
-  PointOut<N> out;
-  out.sigma.setConstant(-12345.0);
-  out.D.setConstant(-12345.0);
-  out.h1 = a.h;
-  a.outcome = law.update({sigma0, Vector<N>::Zero(), deps, h0}, out);
-  a.sigma = out.sigma;
-  a.D = out.D;
-  a.status = out.status;
-  return a;
-}
-template <int N>
-std::vector<double> initial_history(const Law<N>& law, const Vector<N>& sigma) {
-  std::vector<double> h;
-  for (const Quantity& q : law.history()) h.push_back(q.initial);
-  law.initialise(sigma, h);
-  return h;
-}
-
-// d sigma/d deps by central differences; `step` is the strain increment on either side.
-template <int N>
-Matrix<N> difference_tangent(const Law<N>& law, const Vector<N>& sigma0, const Vector<N>& deps,
-                             const std::vector<double>& h0, double step) {
-  Matrix<N> D;
-  for (int j = 0; j < N; ++j) {
-    const Vector<N> d = step * Vector<N>::Unit(j);
-    D.col(j) = (update<N>(law, sigma0, deps + d, h0).sigma - update<N>(law, sigma0, deps - d, h0).sigma) /
-               (2.0 * step);
-  }
-  return D;
 }
 
 }  // namespace sage::test

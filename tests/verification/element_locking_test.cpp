@@ -6,7 +6,8 @@
 #include <cmath>
 
 #include "materials/linear_elastic.hpp"
-#include "tests/support/patch.hpp"
+#include "sage/conformance/patch.hpp"
+#include "tests/support/elements.hpp"
 
 namespace sage::test {
 namespace {

@@ -7,8 +7,9 @@
 
 #include "elements/shapes.hpp"
 #include "materials/linear_elastic.hpp"
-#include "tests/support/patch.hpp"
-#include "tests/support/test_laws.hpp"
+#include "sage/conformance/patch.hpp"
+#include "sage/conformance/sample_laws.hpp"
+#include "tests/support/elements.hpp"
 
 namespace sage::test {
 namespace {

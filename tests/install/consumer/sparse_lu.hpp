@@ -9,6 +9,8 @@
 #include "sage/core/error.hpp"
 #include "sage/core/linear_solver.hpp"
 
+namespace own {
+
 class SparseLu final : public sage::LinearSolver {
  public:
   const sage::SolverTraits& traits() const override { return traits_; }
@@ -32,6 +34,7 @@ class SparseLu final : public sage::LinearSolver {
   }
 
   void factorise() override {
+    if (K_.rows() == 0) return;  // every displacement is prescribed; SparseLU does not take such a matrix
     K_.setFromTriplets(terms_.begin(), terms_.end());
     lu_.compute(K_);
     if (lu_.info() != Eigen::Success) throw sage::SingularMatrix(-1, 0.0, lu_.lastErrorMessage());
@@ -42,6 +45,7 @@ class SparseLu final : public sage::LinearSolver {
   }
 
   void solve(std::span<const double> b, std::span<double> x) const override {
+    if (K_.rows() == 0) return;
     const Eigen::Map<const Eigen::VectorXd> right(b.data(), K_.rows());
     Eigen::Map<Eigen::VectorXd>(x.data(), K_.rows()) = lu_.solve(right);
   }
@@ -65,3 +69,5 @@ inline sage::SolverEntry sparse_lu() {
   return {"sparse_lu", "Eigen's supernodal LU with partial pivoting", false,
           [] { return std::make_unique<SparseLu>(); }};
 }
+
+}  // namespace own

@@ -7,9 +7,9 @@
 #include "sage/analysis/run.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/build/build_model.hpp"
+#include "sage/conformance/allocations.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "solvers/choose_solver.hpp"
-#include "tests/support/allocation_counter.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage {
@@ -63,9 +63,9 @@ Count count(const std::string& text, int solver) {
   Count result;
   Watch watch;
   Observer* observers[] = {&watch};
-  const std::size_t before = test::allocations();
+  const std::size_t before = conformance::allocations();
   const RunResult run_result = run(model, catalogue, settings, observers);
-  result.allocations = test::allocations() - before;
+  result.allocations = conformance::allocations() - before;
   result.iterations = watch.iterations;
   result.status = run_result.status;
   return result;

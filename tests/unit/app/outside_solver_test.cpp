@@ -10,7 +10,7 @@ namespace {
 
 scenes::Workbench with_sparse_lu() {
   Catalogue catalogue = app::full_catalogue();
-  catalogue.solvers.add(90, sparse_lu());
+  catalogue.solvers.add(90, own::sparse_lu());
   return {catalogue, [](int, bool) { return 90; }};
 }
 

@@ -7,7 +7,7 @@
 
 #include "sage/draw/contour.hpp"
 #include "sage/draw/picture.hpp"
-#include "tests/support/element_cases.hpp"
+#include "tests/support/elements.hpp"
 #include "tests/unit/record/specimen.hpp"
 
 namespace sage {

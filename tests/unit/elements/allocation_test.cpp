@@ -1,9 +1,9 @@
 // evaluate() and geometry() of every element allocate nothing.
 #include <gtest/gtest.h>
 
-#include "tests/support/allocation_counter.hpp"
-#include "tests/support/element_cases.hpp"
-#include "tests/support/test_laws.hpp"
+#include "sage/conformance/allocations.hpp"
+#include "sage/conformance/sample_laws.hpp"
+#include "tests/support/elements.hpp"
 
 namespace sage::test {
 namespace {

@@ -1,7 +1,7 @@
 // What an interface tells besides its stiffness: sides, shape, extrapolation to nodes.
 #include <gtest/gtest.h>
 
-#include "tests/support/element_cases.hpp"
+#include "tests/support/elements.hpp"
 
 namespace sage::test {
 namespace {

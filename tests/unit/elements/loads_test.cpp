@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "tests/support/element_cases.hpp"
-#include "tests/support/test_laws.hpp"
+#include "sage/conformance/sample_laws.hpp"
+#include "tests/support/elements.hpp"
 
 namespace sage::test {
 namespace {

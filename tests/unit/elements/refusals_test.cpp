@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "sage/conformance/sample_laws.hpp"
 #include "sage/core/error.hpp"
-#include "tests/support/element_cases.hpp"
-#include "tests/support/test_laws.hpp"
+#include "tests/support/elements.hpp"
 
 namespace sage::test {
 namespace {

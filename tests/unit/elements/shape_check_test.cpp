@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "sage/core/error.hpp"
-#include "tests/support/element_cases.hpp"
+#include "tests/support/elements.hpp"
 
 namespace sage::test {
 namespace {

@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "sage/core/error.hpp"
-#include "tests/support/element_cases.hpp"
+#include "tests/support/elements.hpp"
 #include "tests/unit/record/specimen.hpp"
 
 namespace sage {

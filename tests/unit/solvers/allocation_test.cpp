@@ -3,11 +3,14 @@
 
 #include <ostream>
 
+#include "sage/conformance/allocations.hpp"
+#include "sage/conformance/solver_systems.hpp"
 #include "solvers/register_solvers.hpp"
-#include "tests/conformance/solver_systems.hpp"
-#include "tests/support/allocation_counter.hpp"
 
 namespace sage::test {
+
+using namespace conformance;
+
 namespace {
 
 struct Case {

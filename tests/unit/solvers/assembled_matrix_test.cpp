@@ -3,10 +3,13 @@
 
 #include <algorithm>
 
+#include "sage/conformance/solver_systems.hpp"
 #include "solvers/assembled_matrix.hpp"
-#include "tests/conformance/solver_systems.hpp"
 
 namespace sage::test {
+
+using namespace conformance;
+
 namespace {
 
 using Eigen::MatrixXd;

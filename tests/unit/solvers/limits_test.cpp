@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/LU>
 
+#include "sage/conformance/solver_systems.hpp"
 #include "sage/core/error.hpp"
 #include "solvers/aligned_array.hpp"
 #include "solvers/front_tree.hpp"
@@ -17,9 +18,11 @@
 #include "solvers/register_solvers.hpp"
 #include "solvers/thread_pool.hpp"
 #include "solvers/tile_profile.hpp"
-#include "tests/conformance/solver_systems.hpp"
 
 namespace sage::test {
+
+using namespace conformance;
+
 namespace {
 
 // `equations` equations that all meet one another, as one element that has them all would make them.

@@ -6,11 +6,14 @@
 
 #include <gtest/gtest.h>
 
+#include "sage/conformance/solver_systems.hpp"
 #include "solvers/nested_dissection.hpp"
 #include "solvers/profile_numbering.hpp"
-#include "tests/conformance/solver_systems.hpp"
 
 namespace sage::test {
+
+using namespace conformance;
+
 namespace {
 
 std::size_t at(int i) {

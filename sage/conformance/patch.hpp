@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "tests/support/element_cases.hpp"
+#include "sage/conformance/element_cases.hpp"
 
-namespace sage::test {
+namespace sage::conformance {
 
 struct CornerMesh {
   Eigen::Matrix2Xd x;                   // corners
@@ -57,4 +57,4 @@ Eigen::Matrix2Xd solve(const Eigen::Matrix2Xd& x, const std::vector<Group>& grou
 // Nodes on edges that belong to one element only, one flag a node.
 std::vector<char> boundary_nodes(const PatchMesh& mesh, const Element& element);
 
-}  // namespace sage::test
+}  // namespace sage::conformance

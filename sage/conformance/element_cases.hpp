@@ -1,4 +1,4 @@
-// Every element of the catalogue in both geometries, sample shapes for each, and a run of one element.
+// Every element of a catalogue in both geometries, sample shapes for each, and a run of one element.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 
 #include "sage/core/catalogue.hpp"
 
-namespace sage::test {
+namespace sage::conformance {
 
 struct ElementCase {
   int code = 0, formulation = 0;
@@ -19,11 +19,11 @@ struct ElementCase {
   bool axisymmetric() const { return geometry == Geometry::axisymmetric; }
 };
 
-const Catalogue& element_catalogue();
-std::vector<ElementCase> element_cases();    // all
-std::vector<ElementCase> solid_cases();      // law_size 4
-std::vector<ElementCase> interface_cases();  // law_size 2
-ElementCase element_case(int code, int formulation, Geometry geometry);
+// All formulations in both geometries, of the elements with these codes or, where there are none, of all.  The
+// catalogue must outlive the answer.
+std::vector<ElementCase> element_cases(const Catalogue& catalogue, const std::vector<int>& codes = {});
+// Those of one kind.
+std::vector<ElementCase> of_kind(ElementKind kind, const std::vector<ElementCase>& cases);
 
 // Nodes of the parent shape, 2 x nodes; for an interface (xi, 0).
 Eigen::Matrix2Xd parent_nodes(const ElementEntry& entry);
@@ -55,4 +55,4 @@ struct ElementRun {
   Eigen::VectorXd f;
 };
 
-}  // namespace sage::test
+}  // namespace sage::conformance

@@ -1,29 +1,15 @@
-#include "tests/support/element_cases.hpp"
+#include "sage/conformance/element_cases.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <stdexcept>
 #include <variant>
 
-#include "elements/register_elements.hpp"
 #include "elements/shapes.hpp"
 
-namespace sage::test {
+namespace sage::conformance {
 
 namespace {
-
-std::vector<ElementCase> cases_with(std::initializer_list<ElementKind> kinds) {
-  std::vector<ElementCase> cases;
-  for (const auto& [code, entry] : element_catalogue().elements.entries())
-    for (const Formulation& formulation : entry.formulations)
-      for (const Geometry geometry : {Geometry::plane_strain, Geometry::axisymmetric})
-        if (std::ranges::find(kinds, entry.kind) != kinds.end())
-          cases.push_back({code, formulation.code, geometry, &entry,
-                           entry.name + " " + formulation.name +
-                               (geometry == Geometry::axisymmetric ? " axisymmetric" : " plane strain")});
-  return cases;
-}
 
 Eigen::Matrix2Xd columns(std::initializer_list<Vector2> points) {
   Eigen::Matrix2Xd x(2, static_cast<Eigen::Index>(points.size()));
@@ -40,29 +26,24 @@ Eigen::VectorXd history_start(std::span<const Quantity> history) {
 
 }  // namespace
 
-const Catalogue& element_catalogue() {
-  static const Catalogue catalogue = [] {
-    Catalogue c;
-    register_elements(c);
-    return c;
-  }();
-  return catalogue;
+std::vector<ElementCase> element_cases(const Catalogue& catalogue, const std::vector<int>& codes) {
+  std::vector<ElementCase> cases;
+  for (const auto& [code, entry] : catalogue.elements.entries()) {
+    if (!codes.empty() && std::ranges::find(codes, code) == codes.end()) continue;
+    for (const Formulation& formulation : entry.formulations)
+      for (const Geometry geometry : {Geometry::plane_strain, Geometry::axisymmetric})
+        cases.push_back({code, formulation.code, geometry, &entry,
+                         entry.name + " " + formulation.name +
+                             (geometry == Geometry::axisymmetric ? " axisymmetric" : " plane strain")});
+  }
+  return cases;
 }
 
-std::vector<ElementCase> element_cases() {
-  return cases_with({ElementKind::solid, ElementKind::interface});
-}
-std::vector<ElementCase> solid_cases() {
-  return cases_with({ElementKind::solid});
-}
-std::vector<ElementCase> interface_cases() {
-  return cases_with({ElementKind::interface});
-}
-
-ElementCase element_case(int code, int formulation, Geometry geometry) {
-  for (const ElementCase& c : element_cases())
-    if (c.code == code && c.formulation == formulation && c.geometry == geometry) return c;
-  throw std::logic_error("no such element");
+std::vector<ElementCase> of_kind(ElementKind kind, const std::vector<ElementCase>& cases) {
+  std::vector<ElementCase> found;
+  for (const ElementCase& c : cases)
+    if (c.entry->kind == kind) found.push_back(c);
+  return found;
 }
 
 Eigen::Matrix2Xd parent_nodes(const ElementEntry& entry) {
@@ -143,4 +124,4 @@ Eigen::MatrixXd ElementRun::B(int point) const {
   return Eigen::Map<const Eigen::MatrixXd>(block + 1, t.dofs, t.law_size).transpose();
 }
 
-}  // namespace sage::test
+}  // namespace sage::conformance

@@ -1,4 +1,4 @@
-// Linear systems for tests and benchmarks of solvers, made here so that neither elements nor laws are needed.
+// Linear systems for tests and benchmarks of solvers, made so that neither elements nor laws are needed.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 #include "sage/core/linear_solver.hpp"
 
-namespace sage::test {
+namespace sage::conformance {
 
 struct System {
   int equations = 0;
@@ -51,7 +51,12 @@ System& add_spring(System& system, int a, int b, double stiffness);
 // The assembled matrix; symmetric solvers see the same, because they read the upper triangles.
 Eigen::MatrixXd dense(const System& system);
 
+// K x, element by element, and the largest column sum of the elements' |K| added up, which is at least that of
+// |K|.
+Eigen::VectorXd product(const System& system, const Eigen::VectorXd& x);
+double norm1(const System& system);
+
 // analyse, clear and add.
 void load(LinearSolver& solver, const System& system);
 
-}  // namespace sage::test
+}  // namespace sage::conformance

@@ -5,7 +5,7 @@
 
 #include "sage/core/law.hpp"
 
-namespace sage::test {
+namespace sage::conformance {
 
 template <int N>
 class LinearLaw final : public Law<N> {
@@ -64,4 +64,4 @@ class SmoothLaw final : public Law<N> {
   Vector<N> b_, c_;
 };
 
-}  // namespace sage::test
+}  // namespace sage::conformance

@@ -1,11 +1,11 @@
-#include "tests/conformance/solver_systems.hpp"
+#include "sage/conformance/solver_systems.hpp"
 
 #include <array>
 #include <cmath>
 #include <random>
 #include <utility>
 
-namespace sage::test {
+namespace sage::conformance {
 
 namespace {
 
@@ -126,10 +126,30 @@ MatrixXd dense(const System& system) {
   return A;
 }
 
+Eigen::VectorXd product(const System& system, const Eigen::VectorXd& x) {
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(system.equations);
+  for (int e = 0; e < system.elements.count(); ++e) {
+    const auto list = system.elements.of(e);
+    const MatrixXd& K = system.K[static_cast<std::size_t>(e)];
+    for (Eigen::Index c = 0; c < K.cols(); ++c)
+      for (Eigen::Index r = 0; r < K.rows(); ++r) {
+        const int i = list[static_cast<std::size_t>(r)], j = list[static_cast<std::size_t>(c)];
+        if (i >= 0 && j >= 0) y(i) += K(r, c) * x(j);
+      }
+  }
+  return y;
+}
+
+double norm1(const System& system) {
+  System magnitudes = system;
+  for (MatrixXd& K : magnitudes.K) K = K.cwiseAbs().transpose().eval();
+  return product(magnitudes, Eigen::VectorXd::Ones(system.equations)).maxCoeff();
+}
+
 void load(LinearSolver& solver, const System& system) {
   solver.analyse(system.equations, system.elements);
   solver.clear();
   for (int e = 0; e < system.elements.count(); ++e) solver.add(e, system.K[static_cast<std::size_t>(e)].data());
 }
 
-}  // namespace sage::test
+}  // namespace sage::conformance

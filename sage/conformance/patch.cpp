@@ -1,11 +1,11 @@
-#include "tests/support/patch.hpp"
+#include "sage/conformance/patch.hpp"
 
 #include <Eigen/LU>
 #include <cmath>
 #include <map>
 #include <utility>
 
-namespace sage::test {
+namespace sage::conformance {
 
 namespace {
 
@@ -140,4 +140,4 @@ std::vector<char> boundary_nodes(const PatchMesh& mesh, const Element& element) 
   return on_boundary;
 }
 
-}  // namespace sage::test
+}  // namespace sage::conformance

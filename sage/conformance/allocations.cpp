@@ -1,4 +1,4 @@
-#include "tests/support/allocation_counter.hpp"
+#include "sage/conformance/allocations.hpp"
 
 #include <atomic>
 #include <cstdlib>
@@ -76,10 +76,10 @@ void operator delete[](void* p, std::size_t, std::align_val_t) noexcept {
   std::free(p);
 }
 
-namespace sage::test {
+namespace sage::conformance {
 
 std::size_t allocations() {
   return count.load();
 }
 
-}  // namespace sage::test
+}  // namespace sage::conformance

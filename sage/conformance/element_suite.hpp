@@ -1,0 +1,498 @@
+// What every element must satisfy, whatever its shape, rule or geometry, as a suite of GoogleTest for elements
+// in and out of the tree.  Include it in one file of a test program and run it over a catalogue or some of its
+// codes (elements/README.md):
+//   using sage::conformance::Elements;
+//   INSTANTIATE_TEST_SUITE_P(Mine, Elements,
+//                            testing::Values(sage::conformance::ElementSubject{"tri10", &catalogue, {40}}),
+//                            sage::conformance::name_of_elements);
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <ostream>
+#include <set>
+
+#include "materials/linear_elastic.hpp"
+#include "sage/conformance/element_cases.hpp"
+#include "sage/conformance/patch.hpp"
+#include "sage/conformance/sample_laws.hpp"
+
+namespace sage::conformance {
+
+// A displacement without any symmetry.
+inline Eigen::VectorXd wavy(int dofs, double size) {
+  Eigen::VectorXd u(dofs);
+  for (int i = 0; i < dofs; ++i) u(i) = size * std::sin(1.3 * i * i + 0.7 * i + 0.4);
+  return u;
+}
+
+struct ElasticLaws {
+  LinearElastic solid{moduli_from_young(1000.0, 0.3)};
+  LinearLaw<2> interface = interface_law(300.0, 2000.0);
+  LawRef of(const ElementCase& c) const {
+    return c.entry->solid() ? LawRef(static_cast<const SolidLaw*>(&solid))
+                            : LawRef(static_cast<const InterfaceLaw*>(&interface));
+  }
+};
+
+struct SmoothLaws {
+  SmoothLaw<4> solid{};
+  SmoothLaw<2> interface {};
+  LawRef of(const ElementCase& c) const {
+    return c.entry->solid() ? LawRef(static_cast<const SolidLaw*>(&solid))
+                            : LawRef(static_cast<const InterfaceLaw*>(&interface));
+  }
+};
+
+// Elements of a catalogue, which must outlive the tests.
+struct ElementSubject {
+  std::string what;  // letters, digits and _
+  const Catalogue* catalogue;
+  std::vector<int> codes = {};  // empty: all
+};
+
+inline void PrintTo(const ElementSubject& subject, std::ostream* out) {
+  *out << subject.what;
+}
+inline std::string name_of_elements(const ::testing::TestParamInfo<ElementSubject>& info) {
+  return info.param.what;
+}
+
+class Elements : public ::testing::TestWithParam<ElementSubject> {
+ protected:
+  static const Catalogue& catalogue() { return *GetParam().catalogue; }
+  static std::vector<ElementCase> cases() { return element_cases(catalogue(), GetParam().codes); }
+  static std::vector<ElementCase> solid_cases() { return of_kind(ElementKind::solid, cases()); }
+  static std::vector<ElementCase> interface_cases() { return of_kind(ElementKind::interface, cases()); }
+  static std::vector<ElementEntry> entries() {
+    std::vector<ElementEntry> found;
+    for (const ElementCase& c : cases())
+      if (found.empty() || found.back().name != c.entry->name) found.push_back(*c.entry);
+    return found;
+  }
+};
+
+TEST_P(Elements, DefaultIsTheFirstFormulation) {
+  for (const ElementEntry& entry : entries()) {
+    const auto by_zero = entry.make(Geometry::plane_strain, 0);
+    const auto by_code = entry.make(Geometry::plane_strain, entry.formulations.front().code);
+    EXPECT_EQ(by_zero->traits().name, by_code->traits().name);
+    EXPECT_FALSE(entry.summary.empty());
+  }
+}
+
+// What the entry says in place of the element: corners first, N_i = 1 at node i and 0 at the others.
+TEST_P(Elements, ParentNodesAreThoseOfTheShapeFunctions) {
+  for (const ElementCase& c : solid_cases()) {
+    SCOPED_TRACE(c.name);
+    const auto element = c.make();
+    const auto n = static_cast<std::size_t>(c.entry->nodes);
+    ASSERT_EQ(c.entry->parent_nodes.size(), n);
+    EXPECT_EQ(c.entry->corners, c.entry->triangle() ? 3 : 4);
+    EXPECT_EQ(element->edges().size(), static_cast<std::size_t>(c.entry->corners));
+    const std::vector<std::array<double, 2>> corners =
+        c.entry->triangle() ? std::vector<std::array<double, 2>>{{0, 0}, {1, 0}, {0, 1}}
+                            : std::vector<std::array<double, 2>>{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    for (std::size_t i = 0; i < corners.size(); ++i) EXPECT_EQ(c.entry->parent_nodes[i], corners[i]);
+    std::vector<double> N(n), dN(2 * n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto& [xi, eta] = c.entry->parent_nodes[i];
+      ASSERT_TRUE(element->shape_functions({xi, eta}, N, dN));
+      for (std::size_t j = 0; j < n; ++j) EXPECT_NEAR(N[j], i == j ? 1.0 : 0.0, 1e-12);
+    }
+  }
+}
+
+// Place of node i of VTK's cell types in the parent shape, from VTK's file formats: corners, sides, inner
+// nodes. Its Lagrange quadrilateral (70) runs the third side from corner 3 to 2 and the fourth from corner 0 to
+// 3, and counts equal steps where our nodes of high degree stand at Gauss-Lobatto points.
+inline std::vector<std::array<double, 2>> vtk_places(const ElementEntry& entry) {
+  const bool triangle = entry.triangle();
+  std::vector<std::array<double, 2>> at(entry.parent_nodes.begin(), entry.parent_nodes.begin() + entry.corners);
+  const auto corner = at;
+  const int nodes = entry.nodes, corners = entry.corners;
+  int p = 1;
+  while ((triangle ? (p + 1) * (p + 2) / 2 : (p + 1) * (p + 1)) < nodes) ++p;
+  const auto add = [&](std::size_t a, std::size_t z, double t) {
+    at.push_back(
+        {corner[a][0] + t * (corner[z][0] - corner[a][0]), corner[a][1] + t * (corner[z][1] - corner[a][1])});
+  };
+  for (int side = 0; side < corners; ++side) {
+    auto a = static_cast<std::size_t>(side), z = static_cast<std::size_t>((side + 1) % corners);
+    if (!triangle && side >= 2) std::swap(a, z);
+    for (int i = 1; i < p; ++i) add(a, z, static_cast<double>(i) / p);
+  }
+  for (int j = 1; j < p; ++j)
+    for (int i = 1; i < p - (triangle ? j : 0); ++i) {
+      const double x = static_cast<double>(i) / p, y = static_cast<double>(j) / p;
+      at.push_back(triangle ? std::array{x, y} : std::array{2 * x - 1, 2 * y - 1});
+    }
+  at.resize(static_cast<std::size_t>(nodes));  // the serendipity quadrilateral has none inside
+  return at;
+}
+
+// Up to degree 8 Gauss-Lobatto points lie within 0.18 of equal steps, which two exchanged ones do not.
+TEST_P(Elements, VtkCountsTheirNodesAsTheEntrySays) {
+  const std::set<int> known{0, 5, 9, 22, 23, 28, 69, 70};
+  for (const ElementEntry& entry : entries()) {
+    SCOPED_TRACE(entry.name);
+    ASSERT_EQ(known.count(entry.vtk.type), 1u) << "add VTK's order of type " << entry.vtk.type;
+    if (!entry.solid() || entry.vtk.type == 0) continue;
+    const double near = entry.makes_nodes() ? 0.18 : 1e-12;
+    const std::vector<std::array<double, 2>> wanted = vtk_places(entry);
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      const std::size_t local = entry.vtk.nodes.empty() ? i : static_cast<std::size_t>(entry.vtk.nodes[i]);
+      const auto& at = entry.parent_nodes[local];
+      EXPECT_NEAR(at[0], wanted[i][0], near) << i;
+      EXPECT_NEAR(at[1], wanted[i][1], near) << i;
+    }
+  }
+}
+
+TEST_P(Elements, WhatTheEntryNamesExists) {
+  const Registry<ElementEntry>& elements = catalogue().elements;
+  for (const ElementEntry& entry : entries()) {
+    SCOPED_TRACE(entry.name);
+    for (const auto* order : {&entry.vtk.nodes, &entry.gmsh.nodes, &entry.calculix.nodes}) {
+      const std::set<int> distinct(order->begin(), order->end());
+      EXPECT_EQ(distinct.size(), order->size());
+      EXPECT_TRUE(order->empty() || *distinct.rbegin() < entry.nodes);
+    }
+    EXPECT_GE(entry.card_nodes, entry.corners);
+    EXPECT_LE(entry.card_nodes, entry.nodes);
+    for (const Formulation& f : entry.formulations)
+      EXPECT_EQ(f.points, entry.make(Geometry::plane_strain, f.code)->traits().points) << f.name;
+    EXPECT_TRUE(entry.folded.empty() || elements.code_of(entry.folded) != 0);
+    if (entry.side_interface.empty()) continue;
+    const ElementEntry* beside = elements.find(elements.code_of(entry.side_interface));
+    ASSERT_NE(beside, nullptr);
+    EXPECT_TRUE(beside->interface());
+    EXPECT_EQ(beside->make(Geometry::plane_strain, 0)->edges().front().size(),
+              entry.make(Geometry::plane_strain, 0)->edges().front().size());
+  }
+}
+
+TEST_P(Elements, TraitsAgreeWithTheEntry) {
+  std::set<std::string_view> names;
+  for (const ElementCase& c : cases()) {
+    SCOPED_TRACE(c.name);
+    const auto element = c.make();
+    const ElementTraits& t = element->traits();
+    EXPECT_EQ(t.nodes, c.entry->nodes);
+    EXPECT_EQ(t.dofs, 2 * t.nodes);
+    EXPECT_EQ(t.law_size, c.entry->law_size);
+    EXPECT_EQ(t.geometry, c.geometry);
+    names.insert(t.name);
+  }
+  EXPECT_EQ(names.size() * 2, cases().size());  // each name in both geometries
+}
+
+// K = df/du by central differences with a nonlinear unsymmetric law, from a state with stress, strain and
+// history. f is quadratic in u, so the differences are exact but for rounding: 1e-16 |f| / 1e-4 = 1e-12 |K|.
+TEST_P(Elements, StiffnessIsTheDerivativeOfTheForce) {
+  const SmoothLaws laws;
+  for (const ElementCase& c : cases()) {
+    SCOPED_TRACE(c.name);
+    const auto element = c.make();
+    ElementRun run(*element, sample_shape_curved(*c.entry), laws.of(c));
+    for (std::size_t i = 0; i < run.sigma0.size(); ++i) run.sigma0[i] = 5.0 * std::cos(static_cast<double>(i));
+    const Eigen::VectorXd u = wavy(element->traits().dofs, 0.5);
+    ASSERT_EQ(run.evaluate(u), Outcome::ok);
+    const Eigen::MatrixXd K = run.K;
+    EXPECT_GT((K - K.transpose()).norm(), 1e-3 * K.norm()) << "the law is unsymmetric and so must be K";
+    for (int j = 0; j < u.size(); ++j) {
+      Eigen::VectorXd step = Eigen::VectorXd::Zero(u.size());
+      step(j) = 1e-3;
+      run.evaluate(u + step, false);
+      const Eigen::VectorXd plus = run.f;
+      run.evaluate(u - step, false);
+      EXPECT_LT(((plus - run.f) / 2e-3 - K.col(j)).norm(), 1e-10 * K.norm()) << "column " << j;
+    }
+  }
+}
+
+// Trial stress, strain and history of each point come from that point's committed values.
+TEST_P(Elements, EachPointGetsItsOwnState) {
+  const SmoothLaws laws;
+  for (const ElementCase& c : cases()) {
+    SCOPED_TRACE(c.name);
+    const auto element = c.make();
+    const ElementTraits& t = element->traits();
+    ElementRun run(*element, sample_shape(*c.entry), laws.of(c));
+    for (std::size_t i = 0; i < run.sigma0.size(); ++i) {
+      run.sigma0[i] = 10.0 + static_cast<double>(i);
+      run.eps0[i] = -0.01 * static_cast<double>(i);
+    }
+    for (std::size_t i = 0; i < run.h0.size(); ++i) run.h0[i] = 100.0 * static_cast<double>(i);
+    const Eigen::VectorXd u = wavy(t.dofs, 0.1);
+    run.evaluate(u);
+    Eigen::VectorXd f = Eigen::VectorXd::Zero(t.dofs);
+    for (int p = 0; p < t.points; ++p) {
+      const Eigen::VectorXd deps = run.B(p) * u;
+      const auto first = static_cast<std::size_t>(p * t.law_size);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(t.law_size); ++i)
+        EXPECT_NEAR(run.eps1[first + i], run.eps0[first + i] + deps(static_cast<int>(i)), 1e-13);
+      const auto h = static_cast<std::size_t>(2 * p);
+      EXPECT_NEAR(run.h1[h], run.h0[h] + deps.sum(), 1e-12 * (1.0 + run.h0[h]));
+      EXPECT_EQ(run.h1[h + 1], run.h0[h + 1] + 1.0);
+      EXPECT_EQ(run.status[static_cast<std::size_t>(p)], PointStatus::yielded);
+      f += run.weight(p) * run.B(p).transpose() *
+           Eigen::Map<const Eigen::VectorXd>(run.sigma1.data() + first, t.law_size);
+    }
+    EXPECT_LT((f - run.f).norm(), 1e-12 * f.norm());
+  }
+}
+
+TEST_P(Elements, NoIncrementGivesBackTheCommittedStress) {
+  const ElasticLaws laws;
+  for (const ElementCase& c : cases()) {
+    SCOPED_TRACE(c.name);
+    const auto element = c.make();
+    ElementRun run(*element, sample_shape(*c.entry), laws.of(c));
+    for (std::size_t i = 0; i < run.sigma0.size(); ++i) run.sigma0[i] = 3.0 + static_cast<double>(i);
+    run.evaluate(Eigen::VectorXd::Zero(element->traits().dofs));
+    EXPECT_EQ(run.sigma1, run.sigma0);
+  }
+}
+
+TEST_P(Elements, ALawThatRefusesCutsTheStep) {
+  const SmoothLaw<4> solid(1e-6);
+  const SmoothLaw<2> interface(1e-6);
+  for (const ElementCase& c : cases()) {
+    SCOPED_TRACE(c.name);
+    const LawRef law = c.entry->solid() ? LawRef(static_cast<const SolidLaw*>(&solid))
+                                        : LawRef(static_cast<const InterfaceLaw*>(&interface));
+    const auto element = c.make();
+    ElementRun run(*element, sample_shape(*c.entry), law);
+    EXPECT_EQ(run.evaluate(wavy(element->traits().dofs, 1.0)), Outcome::cut_step);
+    EXPECT_EQ(run.evaluate(Eigen::VectorXd::Zero(element->traits().dofs)), Outcome::ok);
+  }
+}
+
+TEST_P(Elements, SymmetricLawGivesSymmetricStiffness) {
+  const ElasticLaws laws;
+  for (const ElementCase& c : cases()) {
+    SCOPED_TRACE(c.name);
+    const auto element = c.make();
+    ElementRun run(*element, sample_shape_curved(*c.entry), laws.of(c));
+    run.evaluate(wavy(element->traits().dofs, 0.01));
+    EXPECT_LT((run.K - run.K.transpose()).norm(), 1e-14 * run.K.norm());
+  }
+}
+
+// Columns: translations in x and y and a rotation about the origin; axisymmetric:
+// translation along the axis only.
+inline Eigen::MatrixXd rigid_motions(const ElementCase& c, const Eigen::Matrix2Xd& x) {
+  Eigen::MatrixXd u = Eigen::MatrixXd::Zero(2 * x.cols(), c.axisymmetric() ? 1 : 3);
+  for (Eigen::Index i = 0; i < x.cols(); ++i) {
+    if (c.axisymmetric()) {
+      u(2 * i + 1, 0) = 1.0;
+    } else {
+      u.block<2, 3>(2 * i, 0) << 1.0, 0.0, -x(1, i), 0.0, 1.0, x(0, i);
+    }
+  }
+  return u;
+}
+
+// Patch P6.  A common motion of both faces is rigid for an interface too, also when axisymmetric.
+TEST_P(Elements, RigidMotionsGiveNoForce) {
+  const ElasticLaws laws;
+  for (const ElementCase& c : cases()) {
+    SCOPED_TRACE(c.name);
+    const auto element = c.make();
+    for (const auto& x :
+         {sample_shape(*c.entry), sample_shape_curved(*c.entry), sample_shape_on_axis(*c.entry)}) {
+      ElementRun run(*element, x, laws.of(c));
+      const Eigen::MatrixXd rigid = rigid_motions(c, x);
+      run.evaluate(rigid.col(0));
+      EXPECT_LT((run.K * rigid).norm(), 1e-13 * run.K.norm() * rigid.norm());
+      EXPECT_LT(run.f.norm(), 1e-13 * run.K.norm() * rigid.norm());
+    }
+  }
+}
+
+// Patch P6: number of deformation modes that the element resists, against dofs - rigid motions.  An element
+// that resists fewer must say so (traits().reduced), and only such a one may.
+TEST_P(Elements, SolidRankIsFullUnlessReduced) {
+  const ElasticLaws laws;
+  for (const ElementCase& c : solid_cases()) {
+    SCOPED_TRACE(c.name);
+    const auto element = c.make();
+    const ElementTraits& t = element->traits();
+    ElementRun run(*element, sample_shape(*c.entry), laws.of(c));
+    run.evaluate(Eigen::VectorXd::Zero(t.dofs));
+    const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(run.K).eigenvalues();
+    EXPECT_GT(eigenvalues(0), -1e-12 * eigenvalues(t.dofs - 1)) << "K is positive semi-definite";
+    const auto positive = (eigenvalues.array() > 1e-9 * eigenvalues(t.dofs - 1)).count();
+    const int full = t.dofs - (c.axisymmetric() ? 1 : 3);
+    if (t.reduced)
+      EXPECT_EQ(positive, full - 1);
+    else
+      EXPECT_EQ(positive, full);
+  }
+}
+
+// Relative motions of the pairs: each is resisted, except where the element warns of it (Newton-Cotes at r = 0).
+TEST_P(Elements, InterfaceEveryPairIsHeldUnlessTheElementWarns) {
+  const ElasticLaws laws;
+  for (const ElementCase& c : interface_cases()) {
+    SCOPED_TRACE(c.name);
+    const auto element = c.make();
+    for (const auto& x : {sample_shape(*c.entry), sample_shape_on_axis(*c.entry)}) {
+      ElementRun run(*element, x, laws.of(c));
+      run.evaluate(Eigen::VectorXd::Zero(element->traits().dofs));
+      const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(run.K).eigenvalues();
+      const auto positive = (eigenvalues.array() > 1e-9 * eigenvalues.maxCoeff()).count();
+      const bool warns = !element->caution(x).empty();
+      EXPECT_EQ(positive, element->traits().nodes - (warns ? 2 : 0));
+    }
+  }
+}
+
+// Sum of w = area (shoelace), or volume of the ring = 2 pi times the first moment of the polygon (Pappus).
+TEST_P(Elements, SolidWeightsSumToAreaOrVolume) {
+  for (const ElementCase& c : solid_cases()) {
+    SCOPED_TRACE(c.name);
+    const auto element = c.make();
+    const SmoothLaw<4> law;
+    for (const auto& x : {sample_shape(*c.entry), sample_shape_on_axis(*c.entry)}) {
+      double area = 0.0, moment = 0.0;
+      for (int i = 0; i < c.entry->corners; ++i) {
+        const int j = (i + 1) % c.entry->corners;
+        const double cross = x(0, i) * x(1, j) - x(0, j) * x(1, i);
+        area += cross / 2.0;
+        moment += cross * (x(0, i) + x(0, j)) / 6.0;
+      }
+      ElementRun run(*element, x, static_cast<const SolidLaw*>(&law));
+      double sum = 0.0;
+      for (int p = 0; p < element->traits().points; ++p) {
+        EXPECT_GT(run.weight(p), 0.0);
+        sum += run.weight(p);
+      }
+      const double expected = c.axisymmetric() ? 2.0 * kPi * moment : area;
+      EXPECT_NEAR(sum, expected, 1e-13 * expected);
+    }
+  }
+}
+
+// Sum of w = length, or 2 pi times length times mean radius (frustum), for every rule.
+TEST_P(Elements, InterfaceWeightsSumToLengthOrArea) {
+  const LinearLaw<2> law = interface_law(1.0, 1.0);
+  for (const ElementCase& c : interface_cases()) {
+    SCOPED_TRACE(c.name);
+    const auto element = c.make();
+    for (const auto& x : {sample_shape(*c.entry), sample_shape_on_axis(*c.entry)}) {
+      ElementRun run(*element, x, static_cast<const InterfaceLaw*>(&law));
+      double sum = 0.0;
+      for (int p = 0; p < element->traits().points; ++p) sum += run.weight(p);
+      const double length = (x.col(1) - x.col(0)).norm();
+      const double expected = length * (c.axisymmetric() ? kPi * (x(0, 0) + x(0, 1)) : 1.0);
+      EXPECT_NEAR(sum, expected, 1e-13 * expected);
+    }
+  }
+}
+
+// Strain of a linear field is exact at every point: xx = a, yy = d, xy = b + c, and zz = u_r / r
+// when axisymmetric. Elements that average the dilatation keep its mean instead, so here the
+// field has a constant one.
+TEST_P(Elements, SolidLinearFieldsGiveExactStrain) {
+  const SmoothLaw<4> law;
+  for (const ElementCase& c : solid_cases()) {
+    SCOPED_TRACE(c.name);
+    const auto element = c.make();
+    const double b = c.axisymmetric() ? 0.0 : 0.3;
+    for (const auto& x :
+         {sample_shape(*c.entry), sample_shape_on_axis(*c.entry), sample_shape_curved(*c.entry)}) {
+      Eigen::VectorXd u(2 * x.cols());
+      for (Eigen::Index i = 0; i < x.cols(); ++i)
+        u.segment<2>(2 * i) << 0.2 * x(0, i) + b * x(1, i), 0.5 * x(0, i) - 0.7 * x(1, i);
+      ElementRun run(*element, x, static_cast<const SolidLaw*>(&law));
+      for (int p = 0; p < element->traits().points; ++p) {
+        const Vector4 expected(0.2, -0.7, c.axisymmetric() ? 0.2 : 0.0, b + 0.5);
+        EXPECT_LT((run.B(p) * u - expected).norm(), 1e-13) << "point " << p;
+      }
+    }
+  }
+}
+
+// position() and point_to_node(): values of a + b x + c y at the points give those at the nodes back, exactly
+// on straight-sided elements.  With one point the node gets the point's value.
+TEST_P(Elements, PointToNodeReproducesLinearFields) {
+  const auto field = [](const Vector2& p) { return 2.0 + 3.0 * p.x() - 5.0 * p.y(); };
+  for (const ElementCase& c : cases()) {
+    SCOPED_TRACE(c.name);
+    const auto element = c.make();
+    const ElementTraits& t = element->traits();
+    for (const auto& x : {sample_shape(*c.entry), sample_shape_on_axis(*c.entry)}) {
+      const std::span<const double> E = element->point_to_node_at(x);
+      ASSERT_EQ(static_cast<int>(E.size()), t.nodes * t.points);
+      for (int i = 0; i < t.nodes; ++i) {
+        double value = 0.0, ones = 0.0;
+        for (int p = 0; p < t.points; ++p) {
+          value += E[static_cast<std::size_t>(i * t.points + p)] * field(element->position(x, p));
+          ones += E[static_cast<std::size_t>(i * t.points + p)];
+        }
+        EXPECT_NEAR(ones, 1.0, 1e-13);
+        EXPECT_NEAR(value, t.points == 1 ? field(element->position(x, 0)) : field(x.col(i)), 1e-12);
+      }
+    }
+  }
+}
+
+// Sum of the forces of a body load = b times area or volume, whatever the number of points of the stiffness.
+TEST_P(Elements, SolidBodyLoadCarriesTheWholeWeight) {
+  const SmoothLaw<4> law;
+  for (const ElementCase& c : solid_cases()) {
+    SCOPED_TRACE(c.name);
+    const auto element = c.make();
+    const auto x = sample_shape_on_axis(*c.entry);
+    ElementRun run(*element, x, static_cast<const SolidLaw*>(&law));
+    double volume = 0.0;
+    for (int p = 0; p < element->traits().points; ++p) volume += run.weight(p);
+    std::vector<double> f(static_cast<std::size_t>(element->traits().dofs), 1.0);  // loads are added
+    element->body_load(x, {2.0, -3.0}, f);
+    const auto forces = Eigen::Map<const Eigen::Matrix2Xd>(f.data(), 2, c.entry->nodes);
+    const Vector2 total = forces.rowwise().sum() - Vector2::Constant(c.entry->nodes);
+    EXPECT_NEAR(total.x(), 2.0 * volume, 1e-12 * volume);
+    EXPECT_NEAR(total.y(), -3.0 * volume, 1e-12 * volume);
+  }
+}
+
+TEST_P(Elements, SolidQualityIsOneForParallelograms) {
+  for (const ElementCase& c : solid_cases()) {
+    SCOPED_TRACE(c.name);
+    Eigen::Matrix2Xd corners(2, c.entry->corners);
+    if (c.entry->square())
+      corners << 1, 3, 4, 2, 0, 1, 3, 2;
+    else
+      corners << 1, 3, 2, 0, 1, 2;
+    EXPECT_NEAR(c.make()->shape_quality(straight_element(*c.entry, corners)), 1.0, 1e-13);
+    if (c.entry->square()) {
+      const double quality = c.make()->shape_quality(sample_shape(*c.entry));
+      EXPECT_GT(quality, 0.2);
+      EXPECT_LT(quality, 0.9);
+    }
+  }
+}
+
+// The patch of MacNeal & Harder (1985) with u = 1e-3 (x + y / 2), v = 1e-3 (y + x / 2) on its boundary: the same
+// field inside, but for rounding.
+TEST_P(Elements, SolidPatchKeepsUniformStrain) {
+  const LinearElastic law(moduli_from_young(1e6, 0.25));
+  for (const ElementCase& c : solid_cases()) {
+    if (c.axisymmetric()) continue;
+    SCOPED_TRACE(c.name);
+    const PatchMesh mesh = make_mesh(*c.entry, macneal_harder());
+    const auto element = c.make();
+    const std::vector<Group> groups{{element.get(), static_cast<const SolidLaw*>(&law), mesh.elements}};
+    std::vector<char> fixed;
+    for (const char on : boundary_nodes(mesh, *element)) fixed.insert(fixed.end(), 2, on);
+    const Eigen::Matrix2Xd exact = 1e-3 * (Matrix2() << 1.0, 0.5, 0.5, 1.0).finished() * mesh.x;
+    const Eigen::Matrix2Xd u = solve(mesh.x, groups, fixed, exact, Eigen::VectorXd::Zero(mesh.dofs()));
+    EXPECT_LT((u - exact).cwiseAbs().maxCoeff(), 1e-12 * exact.cwiseAbs().maxCoeff());
+  }
+}
+
+}  // namespace sage::conformance

@@ -1,0 +1,422 @@
+// What every law must satisfy, as a suite of GoogleTest for laws in and out of the tree.  Include it in one file
+// of a test program and run it over samples of your laws (materials/README.md):
+//   using sage::conformance::Laws;
+//   INSTANTIATE_TEST_SUITE_P(Mine, Laws, testing::ValuesIn(sage::conformance::law_subjects(catalogue, samples)),
+//                            sage::conformance::name_of_law);
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <ostream>
+#include <random>
+#include <string>
+
+#include "sage/conformance/allocations.hpp"
+#include "sage/conformance/law_driver.hpp"
+#include "sage/conformance/law_sample.hpp"
+#include "sage/core/catalogue.hpp"
+
+namespace sage::conformance {
+
+// The catalogue must outlive the tests.
+struct LawSubject {
+  const Catalogue* catalogue;
+  LawSample sample;
+};
+
+inline void PrintTo(const LawSubject& subject, std::ostream* out) {
+  *out << subject.sample.what;
+}
+inline std::string name_of_law(const ::testing::TestParamInfo<LawSubject>& info) {
+  return info.param.sample.what;
+}
+inline std::vector<LawSubject> law_subjects(const Catalogue& catalogue, const std::vector<LawSample>& samples) {
+  std::vector<LawSubject> subjects;
+  for (const LawSample& sample : samples) subjects.push_back({&catalogue, sample});
+  return subjects;
+}
+
+class Laws : public ::testing::TestWithParam<LawSubject> {
+ protected:
+  static const LawSample& sample() { return GetParam().sample; }
+  static const MaterialEntry& entry() { return *GetParam().catalogue->materials.find(sample().code); }
+
+  // Runs `check` with the law of this sample, whatever its size.
+  template <class Check>
+  static void with_law(const Check& check, const std::vector<double>& values, const UnitSystem& units) {
+    const LawPtr law = entry().make(values, units);
+    std::visit([&](const auto& p) { check(*p); }, law);
+  }
+  template <class Check>
+  static void with_law(const Check& check) {
+    with_law(check, sample().values, kpa_units());
+  }
+};
+
+// Random but reproducible states: an admissible isotropic start, then a few random increments.
+class Walker {
+ public:
+  explicit Walker(unsigned seed) : random_(seed) {}
+  template <int N>
+  Vector<N> increment(double size) {
+    Vector<N> d;
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    for (int i = 0; i < N; ++i) d[i] = size * uniform(random_);
+    return d;
+  }
+  Vector4 strain(double size, Vector<4>*) {  // mostly shearing: volume change a fifth of the rest
+    Vector4 d = increment<4>(size);
+    const double mean = d.head<3>().mean();
+    d.head<3>().array() -= 0.8 * mean;
+    return d;
+  }
+  Vector2 strain(double size, Vector<2>*) {  // normal stiffness is 50 times the shear stiffness
+    return increment<2>(size).cwiseProduct(Vector2(1.0, 0.05));
+  }
+
+ private:
+  std::mt19937 random_;
+};
+
+inline Vector4 start_stress(const SolidLaw&) {
+  return {-60.0, -60.0, -60.0, 0.0};
+}
+inline Vector2 start_stress(const InterfaceLaw&) {
+  return {0.0, -60.0};
+}
+
+template <int N>
+struct State {
+  Vector<N> sigma;
+  std::vector<double> h;
+};
+
+// A state after `steps` random increments.  Steps that the law refuses are left out, as the analysis would.
+template <int N>
+State<N> wander(const Law<N>& law, Walker& walker, double size, int steps) {
+  State<N> s{start_stress(law), {}};
+  s.h = initial_history<N>(law, s.sigma);
+  for (int i = 0; i < steps; ++i) {
+    const Vector<N> deps = walker.strain(size, static_cast<Vector<N>*>(nullptr));
+    const auto a = update<N>(law, s.sigma, deps, s.h);
+    if (a.outcome == Outcome::ok) s = {a.sigma, a.h};
+  }
+  return s;
+}
+
+template <int N>
+void check_zero_increment(const Law<N>& law, double size) {
+  Walker walker(11);
+  for (int trial = 0; trial < 100; ++trial) {
+    const State<N> s = wander<N>(law, walker, size, trial % 7);
+    const auto a = update<N>(law, s.sigma, Vector<N>::Zero(), s.h);
+    EXPECT_EQ(a.outcome, Outcome::ok);
+    EXPECT_LE((a.sigma - s.sigma).norm(), 1e-13 * (s.sigma.norm() + 60.0)) << trial;
+    for (std::size_t i = 0; i < s.h.size(); ++i) EXPECT_NEAR(a.h[i], s.h[i], 1e-13 * (1.0 + std::abs(s.h[i])));
+  }
+}
+// 1e-13 of the stress: returning from exactly on the surface may change the last digit.
+TEST_P(Laws, ZeroIncrementIsAFixedPoint) {
+  with_law([](const auto& law) { check_zero_increment(law, sample().strain); });
+}
+
+// An increment of ordinary size has an answer, nearly always; one that the law refuses has one in parts of it,
+// as few halvings away as the analysis tries (12); a linear law never refuses.  Without this a law that refuses
+// everything would pass all the rest.
+template <int N>
+void check_answers(const Law<N>& law, double size) {
+  Walker walker(13);
+  constexpr int kStates = 200, kHalvings = 12;
+  int refused = 0;
+  for (int trial = 0; trial < kStates; ++trial) {
+    const State<N> s = wander<N>(law, walker, size, trial % 5);
+    Vector<N> deps = walker.strain(std::pow(10.0, -(trial % 3)) * size, static_cast<Vector<N>*>(nullptr));
+    if (update<N>(law, s.sigma, deps, s.h).outcome == Outcome::ok) continue;
+    ++refused;
+    int halvings = 0;
+    do deps *= 0.5;
+    while (++halvings < kHalvings && update<N>(law, s.sigma, deps, s.h).outcome != Outcome::ok);
+    EXPECT_LT(halvings, kHalvings) << "refused down to a 4096th, trial " << trial;
+  }
+  EXPECT_LE(refused, law.linear() ? 0 : kStates / 20);
+}
+TEST_P(Laws, OrdinaryIncrementsAreAnswered) {
+  with_law([](const auto& law) { check_answers(law, sample().strain); });
+}
+
+// The fraction of states where the tangent and central differences agree must be all but the kinks: at a
+// corner of a yield surface or a branch of the law one-sided derivatives differ, so 3 % of random states
+// may fail.  Step: 1e-6 of the increment.  Tolerance 2e-5 of the largest term of D: truncation and
+// rounding of the differences.
+template <int N>
+void check_tangent(const Law<N>& law, double size) {
+  Walker walker(7);
+  int kinks = 0, refused = 0;
+  const int states = 200;
+  for (int trial = 0; trial < states; ++trial) {
+    const State<N> s = wander<N>(law, walker, size, trial % 5);
+    const Vector<N> deps = walker.strain(size, static_cast<Vector<N>*>(nullptr));
+    const auto a = update<N>(law, s.sigma, deps, s.h);
+    if (a.outcome != Outcome::ok) {
+      ++refused;
+      continue;
+    }
+    const Matrix<N> D = difference_tangent<N>(law, s.sigma, deps, s.h, 1e-6 * size);
+    // Where the true tangent vanishes the law may leave up to 1e-6 of its elastic one.
+    const double largest = std::max(a.D.cwiseAbs().maxCoeff(), D.cwiseAbs().maxCoeff());
+    const double initial =
+        update<N>(law, start_stress(law), Vector<N>::Zero(), initial_history<N>(law, start_stress(law)))
+            .D.cwiseAbs()
+            .maxCoeff();
+    if (!((a.D - D).cwiseAbs().maxCoeff() <= 2e-5 * largest + 1e-6 * initial)) ++kinks;
+  }
+  EXPECT_LE(kinks, states * 3 / 100);
+  EXPECT_LE(refused, states / 20) << "not looked at";
+}
+TEST_P(Laws, TangentIsTheDerivative) {
+  with_law([](const auto& law) { check_tangent(law, sample().strain); });
+}
+
+// symmetric() = true must hold in every state; a law that says false must show an
+// unsymmetric tangent somewhere.
+template <int N>
+void check_symmetry(const Law<N>& law, double size) {
+  Walker walker(5);
+  double worst = 0.0;
+  for (int trial = 0; trial < 150; ++trial) {
+    const State<N> s = wander<N>(law, walker, size, trial % 5);
+    const auto a = update<N>(law, s.sigma, walker.strain(size, static_cast<Vector<N>*>(nullptr)), s.h);
+    const double largest = a.D.cwiseAbs().maxCoeff();
+    if (largest > 0.0) worst = std::max(worst, (a.D - a.D.transpose()).cwiseAbs().maxCoeff() / largest);
+  }
+  if (law.symmetric()) {
+    EXPECT_LE(worst, 1e-12);
+  } else {
+    EXPECT_GT(worst, 1e-6) << "the law could say that it is symmetric";
+  }
+}
+TEST_P(Laws, SymmetryIsHonest) {
+  with_law([](const auto& law) { check_symmetry(law, sample().strain); });
+}
+
+// linear() = true: one D for ever, sigma = sigma0 + D deps.
+template <int N>
+void check_linear(const Law<N>& law, double size) {
+  if (!law.linear()) return;
+  Walker walker(3);
+  const Matrix<N> D =
+      update<N>(law, Vector<N>::Zero(), Vector<N>::Zero(), initial_history<N>(law, Vector<N>::Zero())).D;
+  for (int trial = 0; trial < 50; ++trial) {
+    const State<N> s = wander<N>(law, walker, size, 3);
+    const Vector<N> deps = walker.strain(100.0 * size, static_cast<Vector<N>*>(nullptr));
+    const auto a = update<N>(law, s.sigma, deps, s.h);
+    EXPECT_EQ((a.D - D).norm(), 0.0);
+    EXPECT_LE((a.sigma - s.sigma - D * deps).norm(), 1e-13 * a.sigma.norm());
+  }
+}
+TEST_P(Laws, LinearIsHonest) {
+  with_law([](const auto& law) { check_linear(law, sample().strain); });
+}
+
+// stress_level <= 1 + 1e-8 after any increment, from a thousandth of the sample's strain to a thousand times
+// it; increments that the law refuses (cut_step) aren't an answer.
+template <int N>
+void check_surface(const Law<N>& law, double size) {
+  Walker walker(2);
+  int answered = 0;  // of increments up to the sample's
+  for (int trial = 0; trial < 280; ++trial) {
+    const State<N> s = wander<N>(law, walker, size, trial % 5);
+    const double factor = std::pow(10.0, trial % 7 - 3);
+    const auto a = update<N>(law, s.sigma, walker.strain(factor * size, static_cast<Vector<N>*>(nullptr)), s.h);
+    if (a.outcome != Outcome::ok) continue;
+    answered += factor <= 1.0 ? 1 : 0;
+    EXPECT_LE(law.stress_level(a.sigma, a.h), 1.0 + 1e-8) << trial << " " << a.sigma;
+  }
+  EXPECT_GE(answered, 160 * 19 / 20) << "the others were not looked at";
+}
+TEST_P(Laws, StrengthIsNeverExceeded) {
+  if (sample().bounded) with_law([](const auto& law) { check_surface(law, sample().strain); });
+}
+
+// Status says what happened: yielded, slipping and apex only at stress level 1, elastic only inside or on it.
+template <int N>
+void check_status(const Law<N>& law, double size) {
+  Walker walker(23);
+  int yielded = 0;
+  for (int trial = 0; trial < 150; ++trial) {
+    const State<N> s = wander<N>(law, walker, size, trial % 5);
+    const auto a = update<N>(law, s.sigma, walker.strain(size, static_cast<Vector<N>*>(nullptr)), s.h);
+    const double level = law.stress_level(a.sigma, a.h);
+    const bool fails = a.status == PointStatus::yielded || a.status == PointStatus::slipping;
+    const bool strengthless = a.status == PointStatus::slipping && level == 0.0;
+    if (fails && !strengthless) {
+      EXPECT_NEAR(level, 1.0, 1e-8);
+    }
+    if (a.status == PointStatus::open) {
+      EXPECT_EQ(a.sigma.norm(), 0.0);
+    }
+    if (fails) ++yielded;
+  }
+  EXPECT_GT(yielded, 0);
+}
+TEST_P(Laws, StatusIsHonest) {
+  if (sample().bounded && sample().reaches_strength)
+    with_law([](const auto& law) { check_status(law, sample().strain); });
+}
+
+// Finite numbers for any increment: 1e3 of strain, 1e-300, pure tension, from an unstressed start as well.
+template <int N>
+void check_finite(const Law<N>& law) {
+  Walker walker(17);
+  for (int trial = 0; trial < 160; ++trial) {
+    const double size = trial % 4 == 0 ? 1e3 : trial % 4 == 1 ? 1.0 : trial % 4 == 2 ? 1e-9 : 1e-300;
+    const Vector<N> sigma = trial % 3 == 0 ? Vector<N>(Vector<N>::Zero()) : Vector<N>(start_stress(law));
+    const auto h = initial_history<N>(law, sigma);
+    const auto a = update<N>(law, sigma, walker.increment<N>(size), h);
+    EXPECT_TRUE(a.sigma.allFinite()) << a.sigma;
+    EXPECT_TRUE(a.D.allFinite()) << a.D;
+    for (const double value : a.h) EXPECT_TRUE(std::isfinite(value));
+    EXPECT_FALSE(std::isnan(law.stress_level(a.sigma, a.h)));
+  }
+}
+TEST_P(Laws, NoNotANumber) {
+  with_law([](const auto& law) { check_finite(law); });
+}
+
+// Every field of the answer is written, history included: the fixture fills them with -12345.
+TEST_P(Laws, EveryFieldIsWritten) {
+  with_law([](const auto& law) {
+    Walker walker(29);
+    for (int trial = 0; trial < 20; ++trial) {
+      const auto s = wander(law, walker, sample().strain, trial % 4);
+      auto deps = s.sigma;
+      deps = walker.strain(sample().strain, &deps);
+      const auto a = update(law, s.sigma, deps, s.h);
+      EXPECT_EQ(a.h.size(), law.history().size());
+      for (const double value : a.h) EXPECT_NE(value, -12345.0);
+      EXPECT_EQ((a.D.array() == -12345.0).count(), 0);
+    }
+  });
+}
+
+// Stress-like parameters and stresses times 1e12 or 1e-12: same status, same relative stress.  1e-9: the
+// substeps of the hyperbolic laws and the corners of the planes amplify rounding.
+template <int N>
+void check_scaling(const Law<N>& law, const Law<N>& scaled, double factor, double size) {
+  Walker walker(31);
+  for (int trial = 0; trial < 100; ++trial) {
+    const State<N> s = wander<N>(law, walker, size, trial % 5);
+    const Vector<N> deps = walker.strain(size, static_cast<Vector<N>*>(nullptr));
+    std::vector<double> h = s.h;
+    const auto quantities = law.history();
+    for (std::size_t i = 0; i < h.size(); ++i)
+      if (quantities[i].dimension == Dimension::stress) h[i] *= factor;
+    const auto a = update<N>(law, s.sigma, deps, s.h);
+    const auto b = update<N>(scaled, factor * s.sigma, deps, h);
+    EXPECT_EQ(a.status, b.status);
+    EXPECT_LE((b.sigma / factor - a.sigma).norm(), 1e-9 * (a.sigma.norm() + 60.0)) << trial;
+    EXPECT_LE((b.D / factor - a.D).norm(), 1e-7 * a.D.norm()) << trial;
+    const double error = law.path_error({s.sigma, Vector<N>::Zero(), deps, s.h}, a.sigma, a.h);
+    EXPECT_NEAR(scaled.path_error({factor * s.sigma, Vector<N>::Zero(), deps, h}, b.sigma, b.h), error,
+                1e-6 * error)
+        << trial;
+  }
+}
+TEST_P(Laws, NoHiddenUnits) {
+  for (const double factor : {1e12, 1e-12}) {
+    UnitSystem units = kpa_units();
+    units.atmospheric_pressure *= factor;
+    units.water_unit_weight *= factor;  // stress per length
+    std::vector<double> values = sample().values;
+    const std::vector<Parameter>& rows = entry().parameters;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const bool stress =
+          rows[i].dimension == Dimension::stress || rows[i].dimension == Dimension::stress_per_length;
+      if (stress && values[i] != -1.0) values[i] *= factor;
+    }
+    with_law([&](const auto& law) {
+      with_law(
+          [&](const auto& scaled) {
+            if constexpr (std::is_same_v<decltype(law), decltype(scaled)>)
+              check_scaling(law, scaled, factor, sample().strain);
+          },
+          values, units);
+    });
+  }
+}
+
+// Of stress; strain, with its engineering shear, turns by the inverse transposed.
+inline Matrix4 turned_by(double degrees) {
+  const double c = std::cos(degrees * kRadiansPerDegree), s = std::sin(degrees * kRadiansPerDegree);
+  Matrix4 turn;
+  turn << c * c, s * s, 0.0, 2.0 * c * s,  //
+      s * s, c * c, 0.0, -2.0 * c * s,     //
+      0.0, 0.0, 1.0, 0.0,                  //
+      -c * s, c * s, 0.0, c * c - s * s;
+  return turn;
+}
+
+// A law that knows no direction in the plane: in turned axes it answer the turned stress.  90 degrees change the
+// places of xx and yy alone; only another angle brings the shear into it.  Tangents may differ at kinks, which
+// rounding meets from either side: 3 % of the states.
+inline void check_turning(const SolidLaw& law, double size) {
+  for (const double degrees : {27.0, 90.0, -63.0}) {
+    const Matrix4 stress = turned_by(degrees), strain = turned_by(-degrees).transpose();
+    Walker walker(37);
+    int kinks = 0;
+    constexpr int kStates = 100;
+    for (int trial = 0; trial < kStates; ++trial) {
+      const auto s = wander<4>(law, walker, size, trial % 5);
+      const Vector4 deps = walker.strain(size, static_cast<Vector4*>(nullptr));
+      const auto a = update<4>(law, s.sigma, deps, s.h);
+      const auto b = update<4>(law, stress * s.sigma, strain * deps, s.h);
+      EXPECT_EQ(a.outcome, b.outcome) << trial << ", " << degrees << " degrees";
+      EXPECT_LE((stress * a.sigma - b.sigma).norm(), 1e-9 * (a.sigma.norm() + 60.0))
+          << trial << ", " << degrees << " degrees";
+      if (!((stress * a.D * stress.transpose() - b.D).norm() <= 1e-6 * a.D.norm())) ++kinks;
+    }
+    EXPECT_LE(kinks, kStates * 3 / 100) << degrees << " degrees";
+  }
+}
+inline void check_turning(const InterfaceLaw&, double) {}  // its axes are those of the joint
+TEST_P(Laws, TurnsWithTheAxes) {
+  if (!sample().knows_directions) with_law([](const auto& law) { check_turning(law, sample().strain); });
+}
+
+// A state that `initialise` accepts is a state that update keeps.
+TEST_P(Laws, InitialStressIsKept) {
+  with_law([](const auto& law) {
+    auto h = initial_history(law, start_stress(law));
+    const bool accepted = law.initialise(start_stress(law), h);
+    EXPECT_TRUE(accepted);
+    auto zero = start_stress(law);
+    zero.setZero();
+    const auto a = update(law, start_stress(law), zero, h);
+    EXPECT_EQ((a.sigma - start_stress(law)).norm(), 0.0);
+    EXPECT_EQ(a.h, h);
+  });
+}
+
+TEST_P(Laws, UpdateAllocatesNothing) {
+  with_law([](const auto& law) {
+    Walker walker(41);
+    auto sigma = start_stress(law);
+    auto h0 = initial_history(law, sigma);
+    auto h1 = h0;
+    auto deps = sigma;
+    using Vec = decltype(deps);
+    constexpr int N = Vec::RowsAtCompileTime;
+    PointOut<N> out;
+    out.h1 = h1;
+    const long before = allocations();
+    for (int trial = 0; trial < 50; ++trial) {
+      deps = walker.strain(sample().strain * std::pow(10.0, trial % 4 - 1), &deps);
+      law.update({sigma, Vec::Zero(), deps, h0}, out);
+      law.stress_level(out.sigma, h1);
+    }
+    EXPECT_EQ(allocations(), before);
+  });
+}
+
+}  // namespace sage::conformance

@@ -1,0 +1,353 @@
+// What every solver must do, as a suite of GoogleTest for solvers in and out of the tree: the answer of a dense
+// L U with pivoting, a matrix that is singular refused, the same bits every time.  Include it in one file of a
+// test program and run it over a catalogue or some of its codes (solvers/README.md):
+//   using sage::conformance::Solvers;
+//   INSTANTIATE_TEST_SUITE_P(Mine, Solvers, testing::ValuesIn(sage::conformance::solver_subjects(catalogue, {90})),
+//                            sage::conformance::name_of_solver);
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+#include <ostream>
+#include <random>
+
+#include "sage/conformance/solver_systems.hpp"
+#include "sage/core/catalogue.hpp"
+#include "sage/core/error.hpp"
+
+namespace sage::conformance {
+
+inline Eigen::VectorXd random_vector(int n, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> term(-1.0, 1.0);
+  return Eigen::VectorXd::NullaryExpr(n, [&] { return term(random); });
+}
+
+inline std::span<double> span_of(Eigen::VectorXd& v) {
+  return {v.data(), static_cast<std::size_t>(v.size())};
+}
+
+// A solver of a catalogue, which must outlive the tests.
+struct SolverSubject {
+  const Catalogue* catalogue;
+  int code;
+  const SolverEntry& entry() const { return *catalogue->solvers.find(code); }
+};
+
+inline void PrintTo(const SolverSubject& subject, std::ostream* out) {
+  *out << subject.entry().name;
+}
+inline std::string name_of_solver(const testing::TestParamInfo<SolverSubject>& info) {
+  return info.param.entry().name;
+}
+// Those with these codes or, where there are none, all.
+inline std::vector<SolverSubject> solver_subjects(const Catalogue& catalogue,
+                                                  const std::vector<int>& codes = {}) {
+  std::vector<SolverSubject> subjects;
+  for (const auto& [code, entry] : catalogue.solvers.entries())
+    if (codes.empty() || std::find(codes.begin(), codes.end(), code) != codes.end())
+      subjects.push_back({&catalogue, code});
+  return subjects;
+}
+
+class Solvers : public testing::TestWithParam<SolverSubject> {
+ protected:
+  static const SolverEntry& entry() { return GetParam().entry(); }
+  static std::unique_ptr<LinearSolver> make() { return entry().make(); }
+  static bool symmetric() { return entry().symmetric; }
+
+  static Eigen::VectorXd solve(const LinearSolver& solver, Eigen::VectorXd b) {
+    Eigen::VectorXd x = Eigen::VectorXd::Constant(b.size(), std::numeric_limits<double>::quiet_NaN());
+    solver.solve(span_of(b), span_of(x));
+    return x;
+  }
+
+  // ||K x - b|| <= 1e-12 (||K|| ||x|| + ||b||) in the largest norm: a backward-stable answer has 1e-15 times a
+  // small factor; 1e-12 leaves room for elimination without pivoting.
+  static void expect_solved(const Eigen::MatrixXd& K, const Eigen::VectorXd& x, const Eigen::VectorXd& b) {
+    const double scale =
+        K.cwiseAbs().rowwise().sum().maxCoeff() * x.cwiseAbs().maxCoeff() + b.cwiseAbs().maxCoeff();
+    EXPECT_LE((K * x - b).cwiseAbs().maxCoeff(), 1e-12 * scale);
+  }
+
+  // Against a dense L U with pivoting.  The error may be the condition number times the rounding error, ~1e-12
+  // for these systems (condition below 1e5).
+  static void expect_answer(const System& system) {
+    const auto solver = make();
+    load(*solver, system);
+    solver->factorise();
+    const Eigen::MatrixXd K = dense(system);
+    const Eigen::PartialPivLU<Eigen::MatrixXd> reference(K);
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+      const Eigen::VectorXd b = random_vector(system.equations, seed);
+      const Eigen::VectorXd x = solve(*solver, b), expected = reference.solve(b);
+      expect_solved(K, x, b);
+      EXPECT_LE((x - expected).cwiseAbs().maxCoeff(), 1e-10 * expected.cwiseAbs().maxCoeff());
+    }
+  }
+
+  static SingularMatrix singular(const System& system) {
+    const auto solver = make();
+    load(*solver, system);
+    try {
+      solver->factorise();
+    } catch (const SingularMatrix& error) {
+      return error;
+    }
+    ADD_FAILURE() << "no SingularMatrix, smallest pivot ratio " << solver->report().smallest_pivot_ratio;
+    return SingularMatrix(-1, 0.0, "");
+  }
+};
+
+TEST_P(Solvers, TraitsAgreeWithTheCatalogue) {
+  EXPECT_EQ(make()->traits().name, entry().name);
+  EXPECT_EQ(make()->traits().symmetric, entry().symmetric);
+}
+
+TEST_P(Solvers, SolvesRandomSystemsOfEverySize) {
+  for (const int n : {1, 2, 3, 7, 8, 9, 15, 16, 17, 40, 63, 64, 65, 200}) {
+    SCOPED_TRACE(n);
+    expect_answer(random_system(n, symmetric(), static_cast<unsigned>(n)));
+  }
+}
+
+TEST_P(Solvers, SolvesElasticMeshes) {
+  expect_answer(q4_mesh({.columns = 14, .rows = 28}));
+  expect_answer(q4_mesh({.columns = 9, .rows = 5, .supports = Supports::bottom, .poisson = 0.49}));
+  expect_answer(q4_mesh({.columns = 1, .rows = 40, .supports = Supports::triaxial}));
+}
+
+TEST_P(Solvers, SolvesUnsymmetricMeshes) {
+  if (symmetric()) GTEST_SKIP() << "symmetric solver";
+  const System system = q4_mesh({.columns = 14, .rows = 28, .unsymmetric = 0.7});
+  ASSERT_GT((dense(system) - dense(system).transpose()).cwiseAbs().maxCoeff(), 50.0);  // of ~1000
+  expect_answer(system);
+}
+
+TEST_P(Solvers, SolvesAMeshLargeEnoughForTheSupernodalPath) {
+  const System system = q4_mesh({.columns = 40, .rows = 60, .unsymmetric = symmetric() ? 0.0 : 0.5});
+  const auto solver = make();
+  load(*solver, system);
+  solver->factorise();
+  const Eigen::VectorXd b = random_vector(system.equations, 5), x = solve(*solver, b);
+  EXPECT_LE((product(system, x) - b).cwiseAbs().maxCoeff(), 1e-12 * norm1(system) * x.cwiseAbs().maxCoeff());
+}
+
+// A symmetric matrix with negative eigenvalues: softening.  The middle of the mesh is shifted by -K.
+TEST_P(Solvers, SolvesAnIndefiniteMatrix) {
+  for (const int columns : {6, 40}) {
+    System system = q4_mesh({.columns = columns, .rows = columns});
+    for (std::size_t e = 0; e < system.K.size(); e += 7) system.K[e] *= -0.5;
+    const auto solver = make();
+    load(*solver, system);
+    solver->factorise();
+    const Eigen::VectorXd b = random_vector(system.equations, 5);
+    expect_solved(dense(system), solve(*solver, b), b);
+  }
+}
+
+TEST_P(Solvers, SolvesInPlace) {
+  const System system = q4_mesh({.columns = 4, .rows = 4});
+  const auto solver = make();
+  load(*solver, system);
+  solver->factorise();
+  Eigen::VectorXd b = random_vector(system.equations, 2);
+  const Eigen::VectorXd x = solve(*solver, b);
+  solver->solve(span_of(b), span_of(b));
+  EXPECT_EQ(x, b);
+}
+
+TEST_P(Solvers, FactorisesAgainWithNewValues) {
+  System system = q4_mesh({.columns = 8, .rows = 8});
+  const auto solver = make();
+  load(*solver, system);
+  solver->factorise();
+  const Eigen::VectorXd b = random_vector(system.equations, 2);
+  const Eigen::VectorXd first = solve(*solver, b);
+  for (std::size_t e = 0; e < system.K.size(); ++e) system.K[e] *= 1.0 + static_cast<double>(e % 5);
+  solver->clear();
+  for (int e = 0; e < system.elements.count(); ++e)
+    solver->add(e, system.K[static_cast<std::size_t>(e)].data());
+  solver->factorise();
+  expect_solved(dense(system), solve(*solver, b), b);
+  // And a new pattern, smaller than the first.
+  const System other = random_system(20, symmetric(), 8);
+  load(*solver, other);
+  solver->factorise();
+  const Eigen::VectorXd c = random_vector(20, 2);
+  expect_solved(dense(other), solve(*solver, c), c);
+  load(*solver, q4_mesh({.columns = 8, .rows = 8}));
+  solver->factorise();
+  EXPECT_EQ(solve(*solver, b), first);
+}
+
+TEST_P(Solvers, RepeatsItselfToTheLastBit) {
+  const System system = q4_mesh({.columns = 20, .rows = 20});
+  const Eigen::VectorXd b = random_vector(system.equations, 2);
+  Eigen::VectorXd first;
+  for (int run = 0; run < 3; ++run) {
+    const auto solver = make();
+    load(*solver, system);
+    solver->factorise();
+    const Eigen::VectorXd x = solve(*solver, b);
+    if (run == 0) first = x;
+    EXPECT_EQ(x, first);
+  }
+}
+
+TEST_P(Solvers, GivesItsWorkspaceBackAndTakesItAgain) {
+  const System system = q4_mesh({.columns = 40, .rows = 60});
+  const Eigen::VectorXd b = random_vector(system.equations, 3);
+  const auto solver = make();
+  solver->set_threads(2);
+  load(*solver, system);
+  solver->factorise();
+  const Eigen::VectorXd x = solve(*solver, b);
+  solver->release_workspace();
+  EXPECT_EQ(solve(*solver, b), x);
+  solver->factorise();
+  EXPECT_EQ(solve(*solver, b), x);
+}
+
+TEST_P(Solvers, OneEquation) {
+  System system;
+  system.equations = 1;
+  add_spring(system, 0, -1, 4.0);
+  const auto solver = make();
+  load(*solver, system);
+  solver->factorise();
+  EXPECT_DOUBLE_EQ(solve(*solver, Eigen::VectorXd::Constant(1, 2.0))(0), 0.5);
+}
+
+TEST_P(Solvers, NoEquations) {
+  System system;
+  add_spring(system, -1, -1, 4.0);
+  const auto solver = make();
+  load(*solver, system);
+  EXPECT_NO_THROW(solver->factorise());
+  EXPECT_NO_THROW(solver->solve({}, {}));
+}
+
+TEST_P(Solvers, AFreeBodyNearlyIncompressibleIsSingular) {
+  singular(q4_mesh({.columns = 10, .rows = 10, .supports = Supports::none, .poisson = 0.499}));
+  singular(q4_mesh({.columns = 40, .rows = 80, .supports = Supports::none, .poisson = 0.49}));
+}
+
+// A stiff block on top of a soft one: the rounding error of stiff terms may leave a soft pivot of 1e3 times the
+// usual size, 1e3 x 1e-15.  What is not refused must at least show in the report.
+TEST_P(Solvers, AFreeBodyOfUnequalStiffnessIsRefusedOrReported) {
+  const System system = q4_mesh({.columns = 8, .rows = 8, .supports = Supports::none, .stiff_top = 1e3});
+  const auto solver = make();
+  load(*solver, system);
+  try {
+    solver->factorise();
+    EXPECT_LT(solver->report().smallest_pivot_ratio, 1e-11);
+  } catch (const SingularMatrix& error) {
+    EXPECT_LT(error.pivot_ratio(), 1e-11);
+  }
+}
+
+TEST_P(Solvers, AStiffPlatenOnSoftSoilIsNotSingular) {
+  const System system = q4_mesh({.columns = 8, .rows = 12, .supports = Supports::bottom, .stiff_top = 1e8});
+  const auto solver = make();
+  load(*solver, system);
+  ASSERT_NO_THROW(solver->factorise());
+  const Eigen::VectorXd b = random_vector(system.equations, 2);
+  expect_solved(dense(system), solve(*solver, b), b);
+}
+
+// Small diagonal terms beside large ones off the diagonal: elimination in the given order spoils the answer.
+// Solvers that do not pivot notice the growth and refine, or say that they have no answer.
+TEST_P(Solvers, AMatrixThatNeedsPivotingIsMendedOrRefused) {
+  for (const double small : {1e-4, 1e-7, 1e-10, 1e-12})
+    for (const int pairs : {1, 5, 30}) {
+      SCOPED_TRACE(small);
+      System system;
+      system.equations = 2 * pairs;
+      Eigen::MatrixXd K(2, 2);
+      K << small, 1.0, 1.0, small;
+      for (int i = 0; i < pairs; ++i) system.add_element({2 * i, 2 * i + 1}, K);
+      for (int i = 0; i + 1 < pairs; ++i) add_spring(system, 2 * i + 1, 2 * i + 2, small);
+      const auto solver = make();
+      load(*solver, system);
+      const Eigen::VectorXd b = random_vector(system.equations, 3);
+      const Eigen::VectorXd expected = Eigen::FullPivLU<Eigen::MatrixXd>(dense(system)).solve(b);
+      try {
+        solver->factorise();
+        const Eigen::VectorXd x = solve(*solver, b);
+        EXPECT_LE((x - expected).cwiseAbs().maxCoeff(), 1e-11 * expected.cwiseAbs().maxCoeff());
+      } catch (const std::runtime_error& refusal) {
+        EXPECT_LT(small, 1e-9) << refusal.what();
+      }
+    }
+}
+
+TEST_P(Solvers, AMatrixThatIsNotANumberIsRefused) {
+  System system = q4_mesh({.columns = 3, .rows = 3});
+  system.K[4](0, 0) = std::numeric_limits<double>::quiet_NaN();
+  const auto solver = make();
+  load(*solver, system);
+  EXPECT_THROW(solver->factorise(), std::runtime_error);
+}
+
+TEST_P(Solvers, WorksAgainAfterASingularMatrix) {
+  System system = q4_mesh({.columns = 3, .rows = 3});
+  const auto solver = make();
+  load(*solver, system);
+  solver->clear();
+  EXPECT_THROW(solver->factorise(), SingularMatrix);
+  for (int e = 0; e < system.elements.count(); ++e)
+    solver->add(e, system.K[static_cast<std::size_t>(e)].data());
+  solver->factorise();
+  const Eigen::VectorXd b = random_vector(system.equations, 2);
+  expect_solved(dense(system), solve(*solver, b), b);
+}
+
+// Which equation it is may stay unknown (-1), not that there is one.
+TEST_P(Solvers, WhatIsLeftFreeIsSingular) {
+  System system = q4_mesh({.columns = 3, .rows = 3});
+  const int lonely = system.equations++;
+  EXPECT_TRUE(singular(system).equation() == lonely || singular(system).equation() == -1) << "of no element";
+  add_spring(system, 4, lonely, 0.0);
+  EXPECT_TRUE(singular(system).equation() == lonely || singular(system).equation() == -1) << "a zero row";
+  const System held = q4_mesh({.columns = 5, .rows = 5});
+  for (const int size : {1, 3, 10, 30}) {
+    SCOPED_TRACE(size);
+    const System free = q4_mesh({.columns = size, .rows = size, .supports = Supports::none});
+    const int named = singular(join(held, free)).equation();
+    EXPECT_TRUE(named == -1 || named >= held.equations) << "the equation belongs to the free body";
+  }
+}
+
+// The dogleg, refinement and the estimate of the condition number need them; a solver may have none of them.
+TEST_P(Solvers, WhatItOffersBeyondSolvingIsRight) {
+  const System system = random_system(60, symmetric(), 3);
+  const auto solver = make();
+  load(*solver, system);
+  solver->factorise();
+  const Eigen::MatrixXd K = dense(system);
+  Eigen::VectorXd x = random_vector(60, 1), y(60);
+  const auto offers = [](const auto& call) {
+    try {
+      call();
+    } catch (const std::logic_error&) {
+      return false;
+    }
+    return true;
+  };
+  if (offers([&] { solver->multiply(span_of(x), span_of(y)); })) {
+    EXPECT_LE((y - K * x).cwiseAbs().maxCoeff(), 1e-13 * y.cwiseAbs().maxCoeff());
+  }
+  if (offers([&] { solver->multiply_transposed(span_of(x), span_of(y)); })) {
+    EXPECT_LE((y - K.transpose() * x).cwiseAbs().maxCoeff(), 1e-13 * y.cwiseAbs().maxCoeff());
+  }
+  if (offers([&] { solver->solve_transposed(span_of(x), span_of(y)); })) expect_solved(K.transpose(), y, x);
+  if (solver->norm1() >= 0.0) {
+    EXPECT_NEAR(solver->norm1(), K.cwiseAbs().colwise().sum().maxCoeff(), 1e-13 * solver->norm1());
+  }
+}
+
+}  // namespace sage::conformance
