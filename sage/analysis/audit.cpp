@@ -1,0 +1,39 @@
+#include "sage/analysis/audit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sage {
+
+EquilibriumAudit audit_equilibrium(const Model& model, const Assembly& assembly,
+                                   const Eigen::VectorXd& external, const Eigen::VectorXd& force_start) {
+  EquilibriumAudit audit;
+  const Eigen::VectorXd& f = assembly.internal_force();
+  double moment_scale = 0.0, scale[2] = {0, 0};
+  for (int dof = 0; dof < model.dofs(); ++dof) {
+    if (!assembly.in_use(dof)) continue;
+    const int c = dof % 2;
+    const double reaction = assembly.equation_of(dof) < 0 ? f[dof] - external[dof] : 0.0;
+    const double force = external[dof] + reaction;
+    audit.applied[c] += external[dof];
+    audit.reactions[c] += reaction;
+    const double arm = c == 0 ? -model.mesh.x(1, dof / 2) : model.mesh.x(0, dof / 2);
+    audit.moment += force * arm;
+    const double size = std::max(std::abs(external[dof]) + std::abs(reaction), std::abs(force_start[dof]));
+    scale[c] += size;
+    moment_scale += size * std::abs(arm);
+  }
+  audit.scale = std::max(scale[0], scale[1]);
+  const bool plane = model.geometry == Geometry::plane_strain;
+  if (audit.scale > 0.0) {
+    audit.out_of_balance = std::abs(audit.applied[1] + audit.reactions[1]) / audit.scale;
+    if (plane)  // radial forces of a ring need no sum of zero
+      audit.out_of_balance =
+          std::max(audit.out_of_balance, std::abs(audit.applied[0] + audit.reactions[0]) / audit.scale);
+  }
+  if (plane && moment_scale > 0.0)
+    audit.out_of_balance = std::max(audit.out_of_balance, std::abs(audit.moment) / moment_scale);
+  return audit;
+}
+
+}  // namespace sage

@@ -1,0 +1,71 @@
+#include "sage/analysis/run_checkpoint.hpp"
+
+namespace sage {
+
+namespace {
+
+[[noreturn]] void refuse() {
+  throw InputError({}, "the checkpoint does not belong to this model");
+}
+
+// Within a stage the states before the last step are kept beside that step, because the tangent that the next
+// step starts with was taken there.  factorised: the solver holds factors.
+void exchange(const Resumable& run, Archive& archive, const Place& place, bool& factorised) {
+  const bool within = place.increment > 0;
+  run.state.exchange_totals(archive);
+  archive(run.result.stages_done);
+  archive(run.result.increments_done);
+  archive(run.result.motion);
+  archive(run.result.work);
+  archive(factorised);
+  if (within) run.state.exchange_path(archive);
+  run.system.assembly().exchange(archive, within);
+}
+
+// The last step's end is evaluated once more: that gives its tangent too.  What the run still had in hand is
+// made again, so that the counters and the pivots on the record go on as if nothing had happened.
+void evaluate_again(const Resumable& run, bool within, bool factorised) {
+  System& system = run.system;
+  if (!within && !factorised) return;
+  if (system.assembly().evaluate(run.state.du, &system.solver()) == Outcome::cut_step) refuse();
+  system.stiffness().assembled = true;
+  if (within) system.assembly().commit_again();
+  if (!factorised) return;
+  system.solver().factorise();
+  system.stiffness().factorised = true;
+}
+
+}  // namespace
+
+std::string checkpoint_bytes(const Resumable& run, Place place) {
+  Archive archive;
+  archive(place);
+  bool factorised = run.system.stiffness().factorised;
+  exchange(run, archive, place, factorised);
+  run.audience.exchange(archive);
+  return archive.bytes();
+}
+
+Place resume_from(const Resumable& run, const std::string& bytes) {
+  Archive archive(bytes);
+  Place place;
+  archive(place);
+  const bool within = place.increment > 0;
+  const int opened = within ? place.stage : place.stage - 1;  // the last stage that was opened
+  if (opened < 0 || opened >= static_cast<int>(run.model.stages.size())) refuse();
+  System& system = run.system;
+  for (int s = 0; s < opened; ++s) system.pass_stage(s);
+  system.open_stage(opened);
+  bool factorised = false;
+  exchange(run, archive, place, factorised);
+  const WorkCounters work = run.result.work;
+  evaluate_again(run, within, factorised && (within || system.stiffness().constant));
+  run.audience.tell(
+      [&](Observer& o) { o.on_start(run.model, system.scene(), system.solver_name(), system.equations()); });
+  run.audience.exchange(archive);
+  if (!archive.at_end()) throw InputError({}, "the checkpoint is longer than it should be");
+  run.result.work = work;
+  return place;
+}
+
+}  // namespace sage

@@ -1,0 +1,52 @@
+// What a run carries from step to step.
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+#include "sage/core/archive.hpp"
+
+namespace sage {
+
+// Where a run stands: increments of a stage that are done.
+struct Place {
+  int stage = 0, increment = 0;
+};
+
+// The way through a stage.  Vectors have one entry a dof.
+struct StagePath {
+  Eigen::VectorXd external_start, force_start;  // loads and internal forces at its start
+  Eigen::VectorXd force_end;                    // loads at its end
+  double linear_size = 0.0;  // of the last step, where it was linear, as a share of the stage; 0 = it was not
+  double last_size = 0.0;    // of the last step, likewise; 0 = there is none
+  double stiffest = 0.0, last_stiffness = 0.0;  // along the motion: largest so far, of the last step
+  double path_error = 0.0;                      // largest so far
+  std::string loose_part;                       // the first; empty = none
+};
+
+struct RunState {
+  Eigen::VectorXd u, external;  // displacements and loads at the committed state, every dof
+  Eigen::VectorXd du;           // the step in hand or just taken
+  StagePath path;
+
+  // To a checkpoint or back: as it stands after an increment (within a stage), or between two stages.
+  void exchange_totals(Archive& archive) {
+    archive(u);
+    archive(external);
+  }
+  void exchange_path(Archive& archive) {
+    archive(du);
+    archive(path.linear_size);
+    archive(path.last_size);
+    archive(path.stiffest);
+    archive(path.last_stiffness);
+    archive(path.path_error);
+    archive(path.loose_part);
+    archive(path.external_start);
+    archive(path.force_start);
+    archive(path.force_end);
+  }
+};
+
+}  // namespace sage

@@ -1,0 +1,82 @@
+#include "sage/analysis/stage_warnings.hpp"
+
+#include "sage/analysis/explain.hpp"
+#include "sage/analysis/uniqueness.hpp"
+
+namespace sage {
+
+namespace {
+
+// The messages of one stage.
+class Messages {
+ public:
+  explicit Messages(const Stage& stage) : stage_(stage) {}
+  void add(const std::string& message, Severity severity = Severity::warning) {
+    list_.push_back(stage_message(stage_, message, severity));
+  }
+  std::vector<Diagnostic> list() && { return std::move(list_); }
+
+ private:
+  const Stage& stage_;
+  std::vector<Diagnostic> list_;
+};
+
+// Beyond it the results are those of small strains, which describe something else.
+void add_motion(Messages& messages, double motion) {
+  if (!(motion > kLargeMotion)) return;
+  messages.add("displacements reach " + short_number(motion) +
+               " times the model's size: results that suppose small strains (to about " +
+               short_number(kLargeMotion) + " times) do not describe this");
+}
+
+void add_points(Messages& messages, const Assembly& assembly) {
+  const auto points = assembly.count_points();
+  const long apex = points[static_cast<std::size_t>(PointStatus::apex)];
+  if (apex > 0)
+    messages.add(
+        std::to_string(apex) +
+        " point(s) at the apex or cut off in tension: results there depend on how the law treats tension");
+  const UniquenessCount unique = count_loss_of_uniqueness(assembly);
+  if (unique.lost > 0)
+    messages.add("loss of uniqueness: the determinant of the acoustic tensor is negative at " +
+                 std::to_string(unique.lost) + " of " + std::to_string(unique.plastic) +
+                 " yielding points (flow is not associated): the answer can depend on mesh and steps");
+}
+
+}  // namespace
+
+Diagnostic stage_message(const Stage& stage, const std::string& message, Severity severity) {
+  return {severity, stage.where, "stage " + std::to_string(stage.number) + ": " + message, {}};
+}
+
+std::vector<Diagnostic> motion_warnings(const Stage& stage, double motion) {
+  Messages messages(stage);
+  add_motion(messages, motion);
+  return std::move(messages).list();
+}
+
+std::vector<Diagnostic> stage_warnings(const Stage& stage, const StageFindings& findings,
+                                       const Assembly& assembly) {
+  constexpr double kPoorAudit = 1e-6;
+  Messages messages(stage);
+  add_motion(messages, findings.motion);
+  if (findings.out_of_balance > kPoorAudit)
+    messages.add("loads and reactions of the whole model are out of balance by " +
+                 short_number(findings.out_of_balance) + " of the largest force");
+  if (!findings.digits.words.empty())
+    messages.add(findings.digits.words, findings.digits.poor ? Severity::warning : Severity::note);
+  if (findings.path_error > kPathTolerance)
+    messages.add(
+        "the stiffness of a hyperbolic law changes so much that an increment in 64 parts is still too long; "
+        "with more increments the results would change by more than 1 %");
+  if (!findings.loose_part.empty()) messages.add(findings.loose_part);
+  add_points(messages, assembly);
+  if (findings.last_force > stage.tolerance)
+    messages.add("equilibrium to " + short_number(findings.last_force) +
+                 " of the forces only, the tolerance is " + short_number(stage.tolerance) +
+                 ": no correction improves it further, what is left is rounding (very stiff beside very soft "
+                 "parts, or nu close to 1/2)");
+  return std::move(messages).list();
+}
+
+}  // namespace sage

@@ -1,0 +1,30 @@
+// What a reader should know about a stage before trusting its results.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sage/analysis/assembly.hpp"
+#include "sage/analysis/condition.hpp"
+#include "sage/analysis/records.hpp"
+
+namespace sage {
+
+Diagnostic stage_message(const Stage& stage, const std::string& message, Severity severity = Severity::warning);
+
+// Displacements beyond those that small strains describe; motion: RunResult::motion.
+std::vector<Diagnostic> motion_warnings(const Stage& stage, double motion);
+
+// What has been gathered when a stage is complete.
+struct StageFindings {
+  double motion = 0.0;          // RunResult::motion
+  double out_of_balance = 0.0;  // EquilibriumAudit::out_of_balance
+  DigitsReport digits;
+  double path_error = 0.0;  // Law::path_error, the largest of the stage
+  std::string loose_part;   // the first of the stage; empty = none
+  double last_force = 0.0;  // out of balance at the end of the last increment, relative
+};
+std::vector<Diagnostic> stage_warnings(const Stage& stage, const StageFindings& findings,
+                                       const Assembly& assembly);
+
+}  // namespace sage

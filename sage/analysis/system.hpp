@@ -1,0 +1,53 @@
+// What a run computes with: the parts of the model that take part in a stage, their equations and the solver.
+#pragma once
+
+#include "sage/analysis/condition.hpp"
+#include "sage/analysis/newton.hpp"
+#include "sage/analysis/run.hpp"
+
+namespace sage {
+
+class System {
+ public:
+  // All arguments but the catalogue's entries must outlive it.
+  System(const Model& model, const Catalogue& catalogue, const RunSettings& settings, WorkCounters& work);
+
+  // A stage (0-based) that a checkpoint has behind it: only what it leaves to later ones.
+  void pass_stage(int s);
+  // What takes part, equations and numbering.  True if the pattern is that of the stage before.
+  bool open_stage(int s);
+
+  const Scene& scene() const { return scene_; }
+  const Activity& activity() const { return activity_; }
+  const Eigen::VectorXd& rate() const { return rate_; }  // prescribed displacements over the stage, every dof
+  Assembly& assembly() { return assembly_; }
+  const Assembly& assembly() const { return assembly_; }
+  Stiffness& stiffness() { return stiffness_; }
+  LinearSolver& solver() { return *solver_; }
+  const std::string& solver_name() const { return solver_name_; }
+
+  int equations() const;  // condensed ones too
+  double smallest_pivot() const;
+  DigitsReport digits() const;  // of the factorisation at hand, if there is one
+
+ private:
+  void enter(const Stage& stage);
+  const SolverEntry* choose_solver(int equations, bool symmetric) const;
+  std::unique_ptr<LinearSolver> make(const SolverEntry& entry) const;
+  void make_solver();
+
+  const Model& model_;
+  const Catalogue& catalogue_;
+  const RunSettings& settings_;
+  WorkCounters& work_;
+  Scene scene_;
+  Assembly assembly_;
+  Activity activity_;
+  Eigen::VectorXd rate_;
+  std::unique_ptr<LinearSolver> solver_;
+  std::string solver_name_;
+  Stiffness stiffness_;
+  std::vector<char> held_before_, groups_before_, lived_;
+};
+
+}  // namespace sage
