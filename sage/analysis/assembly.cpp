@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sage/analysis/shown_status.hpp"
+#include "sage/analysis/tangent.hpp"
 
 namespace sage {
 
@@ -41,6 +42,10 @@ std::size_t matrix_size(const GroupData& data) {
   return dofs * dofs;
 }
 
+std::span<const int> nodes_of(const GroupData& data, int element) {
+  return {data.group->nodes_of(element), data.group->node_count()};
+}
+
 bool stress_free(const GroupData& data) {
   const std::vector<double>& sigma = data.state.committed.sigma;
   return std::all_of(sigma.begin(), sigma.end(), [](double s) { return s == 0.0; });
@@ -72,7 +77,6 @@ Assembly::Assembly(const Model& model, const Scene& scene, const Skips& skips, W
   scratch_f_.resize(dofs);
   scratch_du_.resize(dofs);
   internal_.setZero(model.dofs());
-  coupling_.setZero(model.dofs());
   behind_.setZero(model.dofs());
   if (!std::ranges::all_of(groups_, &GroupData::constant)) changing_.setZero(model.dofs());
 }
@@ -87,7 +91,6 @@ void Assembly::reset_group(std::size_t group) {
 void Assembly::enter_stage(const Activity& activity, const Eigen::VectorXd& rate) {
   if (is_behind_) recover_states();
   rate_ = rate;
-  filled_ = nullptr;
   const auto dofs = static_cast<std::size_t>(model_->dofs());
   node_used_ = active_nodes(*model_, activity);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
@@ -248,17 +251,6 @@ double Assembly::add_force(const GroupData& data, int element, const double* f, 
   return sum;
 }
 
-void Assembly::add_matrix(const GroupData& data, int element, const double* K, LinearSolver& solver) {
-  solver.add(data.first_element + element, K);
-  const int* nodes = data.group->nodes_of(element);
-  const int n = static_cast<int>(data.group->node_count());
-  for (int j = 0; j < 2 * n; ++j) {
-    const double rate = rate_[2 * nodes[j / 2] + j % 2];
-    if (rate == 0.0) continue;
-    for (int i = 0; i < 2 * n; ++i) coupling_[2 * nodes[i / 2] + i % 2] += K[j * 2 * n + i] * rate;
-  }
-}
-
 const double* Assembly::geometry_of(GroupData& data, int element) {
   const Group& group = *data.group;
   const auto size = static_cast<std::size_t>(group.element->traits().geometry_size());
@@ -308,21 +300,21 @@ Outcome Assembly::evaluate_element(GroupData& data, int element, const Eigen::Ve
   return data.group->element->evaluate(in, out);
 }
 
-Outcome Assembly::evaluate_group(GroupData& data, const Eigen::VectorXd& du, LinearSolver* solver) {
+Outcome Assembly::evaluate_group(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent) {
   const std::size_t size = matrix_size(data);
-  const bool compare = solver != nullptr && keeps_matrices(data);
+  const bool compare = tangent != nullptr && keeps_matrices(data);
   for (int e = 0; e < data.group->elements(); ++e) {
     stop_if_asked_at(e);
-    if (evaluate_element(data, e, &du, solver != nullptr ? scratch_K_.data() : nullptr) == Outcome::cut_step)
+    if (evaluate_element(data, e, &du, tangent != nullptr ? scratch_K_.data() : nullptr) == Outcome::cut_step)
       return Outcome::cut_step;
     changing_sum_ += add_force(data, e, scratch_f_.data(), changing_);
     if (compare) {
       double* kept = data.K.data() + static_cast<std::size_t>(e) * size;
       if (std::memcmp(kept, scratch_K_.data(), size * sizeof(double)) == 0) continue;
       std::copy_n(scratch_K_.data(), size, kept);
-      matrix_changed_ = true;
-    } else if (solver != nullptr) {
-      add_matrix(data, e, scratch_K_.data(), *solver);
+      tangent->differs();
+    } else if (tangent != nullptr) {
+      tangent->add(data.first_element + e, nodes_of(data, e), scratch_K_.data());
     }
   }
   work_->element_evaluations += data.group->elements();
@@ -358,47 +350,41 @@ void Assembly::evaluate_constant(GroupData& data, const Eigen::VectorXd& du) {
   work_->linear_products += data.group->elements();
 }
 
-// All matrices that are kept go to the solver (those of other groups went there as they were made).
-void Assembly::fill(LinearSolver& solver) {
+// All matrices that are kept (those of other groups are added as they are made).
+void Assembly::fill(Tangent& tangent) const {
   for (const GroupData& data : groups_) {
     if (!in_system(data) || !keeps_matrices(data)) continue;
     for (int e = 0; e < data.group->elements(); ++e) {
       stop_if_asked_at(e);
-      add_matrix(data, e, data.matrix_of(e), solver);
+      tangent.add(data.first_element + e, nodes_of(data, e), data.matrix_of(e));
     }
   }
-  if (condensation_) solver.add(elements_ - 1, condensation_->S().data());
+  if (condensation_) tangent.add(elements_ - 1, {}, condensation_->S().data());
 }
 
-// Forces and matrices of the groups that are not constant, and all kept matrices into the solver.
-Outcome Assembly::evaluate_changing(const Eigen::VectorXd& du, LinearSolver* solver) {
-  ++(solver != nullptr ? work_->assemblies : work_->residuals);
+Outcome Assembly::evaluate_groups(const Eigen::VectorXd& du, Tangent* tangent) {
+  for (GroupData& data : groups_)
+    if (data.active && !data.constant && evaluate_group(data, du, tangent) == Outcome::cut_step)
+      return Outcome::cut_step;
+  return Outcome::ok;
+}
+
+// Forces and matrices of the groups that are not constant, and all kept matrices into the tangent.
+Outcome Assembly::evaluate_changing(const Eigen::VectorXd& du, Tangent* tangent) {
+  ++(tangent != nullptr ? work_->assemblies : work_->residuals);
   changing_.setZero();
   changing_sum_ = 0.0;
-  const bool all_kept = std::all_of(groups_.begin(), groups_.end(), [&](const GroupData& data) {
-    return !data.active || data.group->elements() == 0 || keeps_matrices(data);
-  });
-  const auto clear = [&] {
-    solver->clear();
-    coupling_.setZero();
-  };
-  if (solver != nullptr) {
-    matrix_changed_ = !all_kept || filled_ != solver;
-    if (!all_kept) clear();
+  const auto elements = [&] { return evaluate_groups(du, tangent); };
+  Outcome outcome = Outcome::ok;
+  if (tangent != nullptr) {
+    const bool all_kept = std::ranges::all_of(groups_, [&](const GroupData& data) {
+      return !data.active || data.group->elements() == 0 || keeps_matrices(data);
+    });
+    outcome = tangent->assemble(all_kept, elements, [&] { fill(*tangent); });
+  } else {
+    outcome = elements();
   }
-  for (GroupData& data : groups_) {
-    if (!data.active || data.constant) continue;
-    if (evaluate_group(data, du, solver) == Outcome::cut_step) {
-      if (solver != nullptr) filled_ = nullptr;
-      return Outcome::cut_step;
-    }
-  }
-  if (solver != nullptr && matrix_changed_) {
-    if (all_kept) clear();
-    fill(*solver);
-    filled_ = solver;
-  }
-  return std::isfinite(changing_sum_) ? Outcome::ok : Outcome::cut_step;
+  return outcome == Outcome::ok && std::isfinite(changing_sum_) ? Outcome::ok : Outcome::cut_step;
 }
 
 void Assembly::add_constant(const Eigen::VectorXd& du) {
@@ -412,11 +398,15 @@ void Assembly::add_constant(const Eigen::VectorXd& du) {
   force_scale_ = std::sqrt(changing_sum_ + constant_sum_);
 }
 
-Outcome Assembly::evaluate(const Eigen::VectorXd& du, LinearSolver* solver) {
+Outcome Assembly::evaluate(const Eigen::VectorXd& du, Tangent* tangent) {
   const Timer timer(work_->assembly_seconds);
-  if (evaluate_changing(du, solver) == Outcome::cut_step) return Outcome::cut_step;
-  add_constant(du);
-  return std::isfinite(force_scale_) ? Outcome::ok : Outcome::cut_step;
+  Outcome outcome = evaluate_changing(du, tangent);
+  if (outcome == Outcome::ok) {
+    add_constant(du);
+    if (!std::isfinite(force_scale_)) outcome = Outcome::cut_step;
+  }
+  if (tangent != nullptr) tangent->settle(outcome);
+  return outcome;
 }
 
 namespace {
@@ -472,10 +462,12 @@ void Assembly::begin_step(const Eigen::VectorXd& target, double rate_part) {
 }
 
 // The force scale of the linear region is that of the last whole evaluation: complete() brings it up to date.
-Outcome Assembly::iterate(const Eigen::VectorXd& du, LinearSolver* solver) {
-  if (!condensation_) return evaluate(du, solver);
+Outcome Assembly::iterate(const Eigen::VectorXd& du, Tangent* tangent) {
+  if (!condensation_) return evaluate(du, tangent);
   const Timer timer(work_->assembly_seconds);
-  if (evaluate_changing(du, solver) == Outcome::cut_step) return Outcome::cut_step;
+  const Outcome outcome = evaluate_changing(du, tangent);
+  if (tangent != nullptr) tangent->settle(outcome);
+  if (outcome == Outcome::cut_step) return outcome;
   internal_ = changing_;
   condensation_->add_forces(du, internal_);
   force_scale_ = std::sqrt(changing_sum_ + constant_sum_);

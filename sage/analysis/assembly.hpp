@@ -15,6 +15,8 @@
 
 namespace sage {
 
+class Tangent;
+
 class Assembly {
  public:
   Assembly(const Model& model, const Scene& scene, const Skips& skips, WorkCounters& work);
@@ -47,18 +49,15 @@ class Assembly {
   // displacements.  Needed by iterate().
   void begin_step(const Eigen::VectorXd& target, double rate_part);
   // As evaluate(), within the iterations of a step: a condensed region acts by its border.
-  Outcome iterate(const Eigen::VectorXd& du, LinearSolver* solver);
+  Outcome iterate(const Eigen::VectorXd& du, Tangent* tangent);
   // Fills in du of condensed dofs as the last iterate() implies; forces and their scale are then those of all
   // elements, and the next iterate() counts from them.  Nothing where no region is condensed.
   void complete(Eigen::VectorXd& du);
   // |correction| of all free dofs; correction: an equation each.
   double whole_norm(const Eigen::VectorXd& correction);
 
-  // Internal forces at committed state + du.  With a solver, K too: given to it, and its product with the
-  // prescribed displacements' rate kept (coupling()).
-  Outcome evaluate(const Eigen::VectorXd& du, LinearSolver* solver);
-  // False: the last evaluation with a solver found the very K that the solver holds, and left it alone.
-  bool matrix_changed() const { return matrix_changed_; }
+  // Internal forces at committed state + du.  With a tangent, K too.
+  Outcome evaluate(const Eigen::VectorXd& du, Tangent* tangent);
   // Law::path_error of the trial states, the mean over all points by the work of their stress increments.
   double path_error() const;
   // Trial states become committed; du as in the evaluation before.
@@ -70,7 +69,6 @@ class Assembly {
   void recover_states();
 
   const Eigen::VectorXd& internal_force() const { return internal_; }  // every dof
-  const Eigen::VectorXd& coupling() const { return coupling_; }        // K(free, prescribed) rate, every dof
   // sqrt(sum over elements of |f_e|^2): a force scale that vanishes only in a stress-free mesh.
   double force_scale() const { return force_scale_; }
 
@@ -85,18 +83,18 @@ class Assembly {
  private:
   const double* geometry_of(GroupData& data, int element);
   Outcome evaluate_element(GroupData& data, int element, const Eigen::VectorXd* du, double* K);
-  Outcome evaluate_changing(const Eigen::VectorXd& du, LinearSolver* solver);
+  Outcome evaluate_changing(const Eigen::VectorXd& du, Tangent* tangent);
+  Outcome evaluate_groups(const Eigen::VectorXd& du, Tangent* tangent);
   void add_constant(const Eigen::VectorXd& du);
   bool in_system(const GroupData& data) const;
   void number_elements();
-  Outcome evaluate_group(GroupData& data, const Eigen::VectorXd& du, LinearSolver* solver);
+  Outcome evaluate_group(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent);
   void evaluate_constant(GroupData& data, const Eigen::VectorXd& du);
   void keep_matrices(GroupData& data);
   void make_shifts(GroupData& data, int matrices) const;
   void gather(const GroupData& data, int element, const Eigen::VectorXd& u);
   double add_force(const GroupData& data, int element, const double* f, Eigen::VectorXd& to) const;
-  void add_matrix(const GroupData& data, int element, const double* K, LinearSolver& solver);
-  void fill(LinearSolver& solver);
+  void fill(Tangent& tangent) const;
   void stop_if_asked_at(int element) const;
   bool keeps_matrices(const GroupData& data) const { return !data.matrix.empty(); }
 
@@ -110,7 +108,7 @@ class Assembly {
   std::vector<int> equation_of_dof_, dof_of_equation_;
   std::vector<char> node_used_;
   int elements_ = 0;  // of the system
-  Eigen::VectorXd rate_, internal_, coupling_;
+  Eigen::VectorXd rate_, internal_;
   // Internal forces of groups that are not constant, every dof; no size where there are none.
   Eigen::VectorXd changing_;
   std::unique_ptr<Condensation> condensation_;
@@ -118,8 +116,6 @@ class Assembly {
   Eigen::VectorXd behind_;  // displacement that the states of constant groups do not know yet, every dof
   bool is_behind_ = false;
   double force_scale_ = 0.0, changing_sum_ = 0.0, constant_sum_ = 0.0;
-  const LinearSolver* filled_ = nullptr;  // the solver that holds K as it is kept here
-  bool matrix_changed_ = true;
   std::vector<double> scratch_geometry_, scratch_K_, scratch_f_, scratch_du_, scratch_sigma_, scratch_eps_;
   std::vector<double> no_stress_;  // zeros, of one element
   Eigen::Matrix2Xd scratch_x_;

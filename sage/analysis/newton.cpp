@@ -13,10 +13,10 @@ namespace {
 // Shared by the parts of one step; vectors of equations are sized once.
 class Step {
  public:
-  Step(Assembly& assembly, Stiffness& stiffness, const Eigen::VectorXd& target, const NewtonSettings& settings,
+  Step(Assembly& assembly, Tangent& tangent, const Eigen::VectorXd& target, const NewtonSettings& settings,
        WorkCounters& work, Eigen::VectorXd& du)
       : assembly_(assembly),
-        stiffness_(stiffness),
+        tangent_(tangent),
         target_(target),
         settings_(settings),
         work_(work),
@@ -28,10 +28,10 @@ class Step {
 
  private:
   bool full_newton() const {
-    return (settings_.method == Method::newton || settings_.method == Method::dogleg) && !stiffness_.constant;
+    return (settings_.method == Method::newton || settings_.method == Method::dogleg) && !tangent_.constant();
   }
   bool new_K_each_iteration() const { return full_newton() && !settings_.contract; }
-  bool accelerated() const { return !full_newton() && !stiffness_.constant; }
+  bool accelerated() const { return !full_newton() && !tangent_.constant(); }
   bool repeats();
   void accelerate(double old_norm);
   NewtonStep& iterate_with_line_search();
@@ -40,7 +40,6 @@ class Step {
   IterationRecord measure_whole();
   Outcome evaluate(bool with_K);
   void form_residual();
-  void factorise_if_needed();
   void correct();
   bool predict(const Eigen::VectorXd& rate, double rate_part);
   bool search_line();
@@ -56,7 +55,7 @@ class Step {
   void move(double factor);
 
   Assembly& assembly_;
-  Stiffness& stiffness_;
+  Tangent& tangent_;
   const Eigen::VectorXd& target_;
   const NewtonSettings& settings_;
   WorkCounters& work_;
@@ -73,12 +72,7 @@ class Step {
 };
 
 Outcome Step::evaluate(bool with_K) {
-  const Outcome outcome = assembly_.iterate(du_, with_K ? stiffness_.solver : nullptr);
-  if (with_K) {
-    stiffness_.assembled = outcome == Outcome::ok;
-    if (outcome != Outcome::ok || assembly_.matrix_changed()) stiffness_.factorised = false;
-  }
-  return outcome;
+  return assembly_.iterate(du_, with_K ? &tangent_ : nullptr);
 }
 
 void Step::form_residual() {
@@ -89,24 +83,9 @@ void Step::form_residual() {
   }
 }
 
-void Step::factorise_if_needed() {
-  if (stiffness_.factorised) {
-    ++work_.kept_factors;
-    return;
-  }
-  const Timer timer(work_.factor_seconds);
-  ++work_.factorisations;
-  stiffness_.solver->factorise();
-  if (stiffness_.constant) stiffness_.solver->release_workspace();
-  stiffness_.factorised = true;
-}
-
 void Step::correct() {
-  factorise_if_needed();
-  const Timer timer(work_.solve_seconds);
-  ++work_.solves;
-  const auto n = static_cast<std::size_t>(assembly_.equations());
-  stiffness_.solver->solve({residual_.data(), n}, {correction_.data(), n});
+  tangent_.factorise(work_);
+  tangent_.solve(residual_, correction_, work_);
 }
 
 void Step::move(double factor) {
@@ -116,7 +95,7 @@ void Step::move(double factor) {
 // An increment after one that was linear to the last digit: the same step again, if it leaves next to nothing
 // out of balance.  It costs one force pass.
 bool Step::repeats() {
-  if (!stiffness_.assembled) return false;
+  if (!tangent_.current()) return false;
   start_scale_ = assembly_.force_scale();
   form_residual();
   start_residual_ = residual_;
@@ -140,14 +119,14 @@ bool Step::repeats() {
 // First correction: prescribed displacements enter through K(free, prescribed).
 bool Step::predict(const Eigen::VectorXd& rate, double rate_part) {
   du_.setZero();
-  if (!stiffness_.assembled && evaluate(true) == Outcome::cut_step) return false;
+  if (!tangent_.current() && evaluate(true) == Outcome::cut_step) return false;
   if (start_known_) {
     residual_ = start_residual_;
   } else {
     start_scale_ = assembly_.force_scale();  // a step may end without any stress
     form_residual();
   }
-  const Eigen::VectorXd& coupling = assembly_.coupling();
+  const Eigen::VectorXd& coupling = tangent_.coupling();
   for (int eq = 0; eq < assembly_.equations(); ++eq)
     residual_[eq] -= rate_part * coupling[assembly_.dof_of(eq)];
   correct();
@@ -201,7 +180,7 @@ IterationRecord Step::measure() const {
 // of the internal forces themselves, near nu = 1/2 K/G times that of the displacements.  The run warns of it.
 bool Step::linear_rounding(const IterationRecord& record) const {
   const std::size_t done = result_.iterations.size();
-  return stiffness_.constant && done >= 3 && record.force > 0.5 * result_.iterations[done - 2].force &&
+  return tangent_.constant() && done >= 3 && record.force > 0.5 * result_.iterations[done - 2].force &&
          record.force <= std::sqrt(settings_.tolerance);
 }
 
@@ -227,7 +206,7 @@ bool Step::converged(const IterationRecord& record) const {
 bool Step::at_rounding(const IterationRecord& record) const {
   constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon(), kTiny = 1e-6;
   if (!(record.displacement <= kTiny) || record.step_length < 1.0 || residual_.size() == 0) return false;
-  const double unit = kRounding * stiffness_.solver->norm1();  // negative where the solver has no norm
+  const double unit = kRounding * tangent_.solver().norm1();  // negative where the solver has no norm
   const double largest = residual_.lpNorm<Eigen::Infinity>();
   if (record.force <= std::sqrt(settings_.tolerance)) return largest <= unit * du_.lpNorm<Eigen::Infinity>();
   return largest <= unit * prescribed_ && scale() <= 1e3 * unit * prescribed_;
@@ -354,7 +333,7 @@ NewtonStep& Step::iterate_with_dogleg() {
     newton = correction_;
     energy_scale_ = std::max(energy_scale_, std::abs(newton.dot(residual_)));
     old_residual = residual_;
-    dogleg.choose(*stiffness_.solver, residual_, newton, correction_);
+    dogleg.choose(tangent_.solver(), residual_, newton, correction_);
     step_length_ = dogleg.step_length();
     move(1.0);
     const bool computed = evaluate(false) == Outcome::ok;
@@ -373,10 +352,10 @@ NewtonStep& Step::iterate_with_dogleg() {
 
 }  // namespace
 
-NewtonStep newton_step(Assembly& assembly, Stiffness& stiffness, const Eigen::VectorXd& target,
+NewtonStep newton_step(Assembly& assembly, Tangent& tangent, const Eigen::VectorXd& target,
                        const Eigen::VectorXd& rate, double rate_part, const NewtonSettings& settings,
                        WorkCounters& work, Eigen::VectorXd& du) {
-  Step step(assembly, stiffness, target, settings, work, du);
+  Step step(assembly, tangent, target, settings, work, du);
   try {
     return step.solve(rate, rate_part);
   } catch (const SingularMatrix& error) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sage/analysis/assembly.hpp"
-#include "sage/core/linear_solver.hpp"
+#include "sage/analysis/tangent.hpp"
 
 namespace sage {
 
@@ -17,14 +17,6 @@ struct NewtonSettings {
 
 enum class StepOutcome { converged, not_converged, law_cut, singular };
 
-// State of the stiffness that outlives a step.
-struct Stiffness {
-  LinearSolver* solver = nullptr;
-  bool assembled = false;   // the solver holds a K that belongs to the committed state
-  bool factorised = false;  // and its factors
-  bool constant = false;    // K can never change while the pattern stands (a linear scene)
-};
-
 struct NewtonStep {
   StepOutcome outcome = StepOutcome::not_converged;
   bool repeated = false;  // the step before once more
@@ -37,7 +29,7 @@ struct NewtonStep {
 
 // target: external force at the end of the step, every dof.  rate_part: part of the stage's prescribed
 // displacement in this step.  du: in, size of all dofs; out, the increment found.
-NewtonStep newton_step(Assembly& assembly, Stiffness& stiffness, const Eigen::VectorXd& target,
+NewtonStep newton_step(Assembly& assembly, Tangent& tangent, const Eigen::VectorXd& target,
                        const Eigen::VectorXd& rate, double rate_part, const NewtonSettings& settings,
                        WorkCounters& work, Eigen::VectorXd& du);
 

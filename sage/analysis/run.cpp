@@ -71,7 +71,7 @@ class Run {
   System system_;
   RunState state_;
   Assembly& assembly_ = system_.assembly();
-  Stiffness& stiffness_ = system_.stiffness();
+  Tangent& tangent_ = system_.tangent();
   StagePath& path_ = state_.path;
   const Extent extent_;
   Eigen::VectorXd target_;
@@ -109,17 +109,13 @@ void Run::start_new_nodes() {
 // released supports leave out of balance is held at the start and let go in proportion over the stage.
 void Run::prepare_stage(int s) {
   start_new_nodes();
-  const bool same_pattern = system_.open_stage(s);
+  system_.open_stage(s);
   start_states(model_.stages[static_cast<std::size_t>(s)].initials);
   assembly_.take_states();
-  const bool keep_factors =
-      same_pattern && stiffness_.constant && stiffness_.factorised && system_.rate().isZero(0.0);
-  if (!keep_factors) stiffness_.assembled = stiffness_.factorised = false;
   state_.du.setZero();
   path_.linear_size = 0.0;
-  if (assembly_.evaluate(state_.du, stiffness_.assembled ? nullptr : &system_.solver()) == Outcome::cut_step)
+  if (assembly_.evaluate(state_.du, tangent_.current() ? nullptr : &tangent_) == Outcome::cut_step)
     throw AnalysisError("stage " + std::to_string(s + 1) + ": a law cannot start from the state it is given");
-  stiffness_.assembled = true;
   assembly_.commit(state_.du);
   path_.force_start = committed_force_ = assembly_.internal_force();
   path_.last_size = path_.stiffest = path_.last_stiffness = 0.0;
@@ -136,14 +132,14 @@ void Run::prepare_stage(int s) {
 
 bool Run::contracts(const Stage& stage) const {
   constexpr int kLarge = 20000;  // equations: a factorisation costs a dozen force passes and solutions
-  return settings_.skips.contraction && stage.method == Method::newton && !stiffness_.constant &&
+  return settings_.skips.contraction && stage.method == Method::newton && !tangent_.constant() &&
          assembly_.equations() > kLarge;
 }
 
 // After a step of the same size that was linear: one correction, and the very same K at its end.
 bool Run::can_repeat(const Stage& stage, double size) const {
   const bool newton = stage.method == Method::newton || stage.method == Method::dogleg;
-  return settings_.skips.repeats && newton && !stiffness_.constant && path_.linear_size > 0.0 &&
+  return settings_.skips.repeats && newton && !tangent_.constant() && path_.linear_size > 0.0 &&
          std::abs(size - path_.linear_size) < 1e-12;
 }
 
@@ -152,17 +148,13 @@ NewtonStep Run::attempt(const Stage& stage, double from, double to) {
   NewtonSettings newton{stage.method, stage.max_iterations, stage.tolerance, settings_.line_search};
   newton.repeat = can_repeat(stage, to - from);
   newton.contract = contracts(stage);
-  return newton_step(assembly_, stiffness_, target_, system_.rate(), to - from, newton, result_.work,
-                     state_.du);
+  return newton_step(assembly_, tangent_, target_, system_.rate(), to - from, newton, result_.work, state_.du);
 }
 
 // Modified Newton: the tangent at the end of a step serves the next one.  It must be taken with the step still
 // in hand: at du = 0 a law on its yield surface answers elastically.
 void Run::renew_tangent() {
-  if (stiffness_.constant) return;
-  assembly_.evaluate(state_.du, &system_.solver());
-  stiffness_.assembled = true;
-  if (assembly_.matrix_changed()) stiffness_.factorised = false;
+  if (!tangent_.constant()) assembly_.evaluate(state_.du, &tangent_);
 }
 
 void Run::accept(double reached) {
@@ -179,9 +171,9 @@ void Run::accept(double reached) {
 void Run::reject(const Stage& stage, double next) {
   path_.linear_size = 0.0;
   on_last_way_ = false;
-  const bool keep_K = stiffness_.constant || stage.method == Method::initial_stiffness;
+  const bool keep_K = tangent_.constant() || stage.method == Method::initial_stiffness;
   if (!keep_K) {
-    stiffness_.assembled = stiffness_.factorised = false;
+    tangent_.set_aside();
     if (next > 0.0) start_on_last_way(next);
   }
   state_.du.setZero();
@@ -190,7 +182,7 @@ void Run::reject(const Stage& stage, double next) {
 
 // Linear scenes cut no step.
 void Run::keep_way(double size) {
-  if (stiffness_.constant) return;
+  if (tangent_.constant()) return;
   last_du_ = state_.du;
   path_.last_size = size;
   committed_force_ = assembly_.internal_force();
@@ -200,13 +192,13 @@ void Run::keep_way(double size) {
 void Run::start_on_last_way(double size) {
   if (!(path_.last_size > 0.0)) return;
   state_.du = (0.5 * size / path_.last_size) * last_du_;
-  stiffness_.assembled = on_last_way_ = assembly_.evaluate(state_.du, &system_.solver()) != Outcome::cut_step;
+  on_last_way_ = assembly_.evaluate(state_.du, &tangent_) == Outcome::ok;
 }
 
 // Of the step in hand: where supports move, the growth of their forces along their own motion; else the growth
 // of the loads over the motion along them.  Both fall to nothing at a limit load (Bergan's current stiffness).
 void Run::measure_stiffness(double from, double to) {
-  if (stiffness_.constant) return;
+  if (tangent_.constant()) return;
   const double size = to - from;
   double work = 0.0;
   if (!system_.rate().isZero(0.0)) {
@@ -241,7 +233,7 @@ double Run::stiffness_share(double from, double to, const NewtonStep& step) cons
 double Run::refused_motion(double from, double to, const NewtonStep& step) const {
   constexpr double kFar = 1e3;    // model's sizes
   constexpr double kSoft = 0.01;  // of the stage's largest stiffness, or prescribed motion over the largest
-  if (step.outcome != StepOutcome::converged || stiffness_.constant) return 0.0;
+  if (step.outcome != StepOutcome::converged || tangent_.constant()) return 0.0;
   const double motion = state_.du.size() > 0 ? state_.du.lpNorm<Eigen::Infinity>() : 0.0;
   if (!(motion > kFar * extent_.size()) || !(extent_.size() > 0.0)) return 0.0;
   const double prescribed = (to - from) * system_.rate().lpNorm<Eigen::Infinity>();
@@ -272,7 +264,7 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
       }
       path_.path_error = std::max(path_.path_error, error);
       if (stage.method == Method::modified_newton || contracts(stage)) renew_tangent();
-      const bool linear = step.repeated || (step.iterations.size() == 1 && !assembly_.matrix_changed());
+      const bool linear = step.repeated || (step.iterations.size() == 1 && !tangent_.changed());
       path_.linear_size = linear ? to - reached : 0.0;
       on_last_way_ = false;
       measure_stiffness(reached, to);
@@ -292,7 +284,7 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
     report.points = assembly_.count_points();
     report.failed_at = to;  // beyond `reached`, which may have passed an earlier failure
     const bool shortest = to - reached < 1.001 * std::ldexp(whole, -settings_.max_cuts);
-    if (shortest || stiffness_.constant) {
+    if (shortest || tangent_.constant()) {
       report.stiffness_share = stiffness_share(reached, to, step);
       return fail(report, step);
     }
@@ -331,7 +323,7 @@ void Run::find_loose_part(const StepReport& report) {
 
 void Run::start() {
   audience_.tell(
-      [&](Observer& o) { o.on_start(model_, system_.scene(), system_.solver_name(), system_.equations()); });
+      [&](Observer& o) { o.on_start(model_, system_.scene(), tangent_.name(), system_.equations()); });
 }
 
 void Run::offer_checkpoint(Place place) {
@@ -386,7 +378,7 @@ void Run::end_stage(int s, double last_force) {
 bool Run::run_stage(int s, int done) {
   const Stage& stage = model_.stages[static_cast<std::size_t>(s)];
   if (done == 0) begin_stage(s);
-  const bool whole_stages_only = stage.method == Method::initial_stiffness && !stiffness_.constant;
+  const bool whole_stages_only = stage.method == Method::initial_stiffness && !tangent_.constant();
   double last_force = 0.0;  // out of balance at the end of the last increment, relative
   double reached = static_cast<double>(done) / stage.increments;
   for (int i = done + 1; i <= stage.increments; ++i) {

@@ -27,12 +27,9 @@ void exchange(const Resumable& run, Archive& archive, const Place& place, bool& 
 void evaluate_again(const Resumable& run, bool within, bool factorised) {
   System& system = run.system;
   if (!within && !factorised) return;
-  if (system.assembly().evaluate(run.state.du, &system.solver()) == Outcome::cut_step) refuse();
-  system.stiffness().assembled = true;
+  if (system.assembly().evaluate(run.state.du, &system.tangent()) == Outcome::cut_step) refuse();
   if (within) system.assembly().commit_again();
-  if (!factorised) return;
-  system.solver().factorise();
-  system.stiffness().factorised = true;
+  if (factorised) system.tangent().factorise(run.result.work);
 }
 
 }  // namespace
@@ -40,7 +37,7 @@ void evaluate_again(const Resumable& run, bool within, bool factorised) {
 std::string checkpoint_bytes(const Resumable& run, Place place) {
   Archive archive;
   archive(place);
-  bool factorised = run.system.stiffness().factorised;
+  bool factorised = run.system.tangent().factorised();
   exchange(run, archive, place, factorised);
   run.audience.exchange(archive);
   return archive.bytes();
@@ -59,9 +56,9 @@ Place resume_from(const Resumable& run, const std::string& bytes) {
   bool factorised = false;
   exchange(run, archive, place, factorised);
   const WorkCounters work = run.result.work;
-  evaluate_again(run, within, factorised && (within || system.stiffness().constant));
+  evaluate_again(run, within, factorised && (within || system.tangent().constant()));
   run.audience.tell(
-      [&](Observer& o) { o.on_start(run.model, system.scene(), system.solver_name(), system.equations()); });
+      [&](Observer& o) { o.on_start(run.model, system.scene(), system.tangent().name(), system.equations()); });
   run.audience.exchange(archive);
   if (!archive.at_end()) throw InputError({}, "the checkpoint is longer than it should be");
   run.result.work = work;

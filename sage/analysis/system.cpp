@@ -14,6 +14,7 @@ System::System(const Model& model, const Catalogue& catalogue, const RunSettings
       scene_(analyse_scene(model)),
       assembly_(model, scene_, settings.skips, work),
       activity_(model),
+      tangent_(scene_.linear && settings.skips.factors),
       lived_(model.groups.size(), 0) {
   assembly_.set_stop(settings.stop_asked);
 }
@@ -38,15 +39,11 @@ std::unique_ptr<LinearSolver> System::make(const SolverEntry& entry) const {
   return solver;
 }
 
-void System::make_solver() {
+void System::analyse() {
   const SolverEntry* entry = choose_solver(assembly_.equations(), scene_.symmetric);
-  solver_ = make(*entry);
-  solver_name_ = entry->name;
-  stiffness_ = {};
-  stiffness_.solver = solver_.get();
-  const Timer timer(work_.analyse_seconds);
-  ++work_.analyses;
-  solver_->analyse(assembly_.equations(), assembly_.element_equations());
+  tangent_.analyse(make(*entry), entry->name, assembly_.equations(), assembly_.element_equations(), work_);
+  held_before_ = activity_.held;
+  groups_before_ = activity_.group;
 }
 
 // A group that has lived before comes back without stress and history.
@@ -61,7 +58,7 @@ void System::pass_stage(int s) {
   enter(model_.stages[static_cast<std::size_t>(s)]);
 }
 
-bool System::open_stage(int s) {
+void System::open_stage(int s) {
   const Stage& stage = model_.stages[static_cast<std::size_t>(s)];
   rate_ = prescribed_rate(model_, stage);
   enter(stage);
@@ -69,15 +66,12 @@ bool System::open_stage(int s) {
   assembly_.enter_stage(activity_, rate_);
   assembly_.condense(stage.increments,
                      [&](int equations, bool symmetric) { return make(*choose_solver(equations, symmetric)); });
-  const bool same_pattern = solver_ && !condensed_before && !assembly_.condensation() &&
+  tangent_.set_rate(rate_);
+  const bool same_pattern = tangent_.analysed() && !condensed_before && !assembly_.condensation() &&
                             held_before_ == activity_.held && groups_before_ == activity_.group;
-  if (!same_pattern) {
-    make_solver();
-    held_before_ = activity_.held;
-    groups_before_ = activity_.group;
-  }
-  stiffness_.constant = scene_.linear && settings_.skips.factors;
-  return same_pattern;
+  if (!same_pattern) analyse();
+  const bool serves = tangent_.constant() && tangent_.factorised() && rate_.isZero(0.0);
+  if (!serves) tangent_.forget();
 }
 
 int System::equations() const {
@@ -85,15 +79,15 @@ int System::equations() const {
 }
 
 double System::smallest_pivot() const {
-  const double own = solver_->report().smallest_pivot_ratio;
+  const double own = tangent_.solver().report().smallest_pivot_ratio;
   if (!assembly_.condensation()) return own;
   const double inner = assembly_.condensation()->report().smallest_pivot_ratio;
   return own < 0.0 || inner < 0.0 ? std::max(own, inner) : std::min(own, inner);
 }
 
 DigitsReport System::digits() const {
-  if (!stiffness_.factorised) return {};
-  return report_digits(*solver_, assembly_.equations(), smallest_pivot(), settings_.condition);
+  if (!tangent_.factorised()) return {};
+  return report_digits(tangent_.solver(), assembly_.equations(), smallest_pivot(), settings_.condition);
 }
 
 }  // namespace sage

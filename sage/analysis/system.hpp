@@ -14,17 +14,16 @@ class System {
 
   // A stage (0-based) that a checkpoint has behind it: only what it leaves to later ones.
   void pass_stage(int s);
-  // What takes part, equations and numbering.  True if the pattern is that of the stage before.
-  bool open_stage(int s);
+  // What takes part, equations and numbering.  K and its factors stay where they can serve.
+  void open_stage(int s);
 
   const Scene& scene() const { return scene_; }
   const Activity& activity() const { return activity_; }
   const Eigen::VectorXd& rate() const { return rate_; }  // prescribed displacements over the stage, every dof
   Assembly& assembly() { return assembly_; }
   const Assembly& assembly() const { return assembly_; }
-  Stiffness& stiffness() { return stiffness_; }
-  LinearSolver& solver() { return *solver_; }
-  const std::string& solver_name() const { return solver_name_; }
+  Tangent& tangent() { return tangent_; }
+  const Tangent& tangent() const { return tangent_; }
 
   int equations() const;  // condensed ones too
   double smallest_pivot() const;
@@ -34,7 +33,7 @@ class System {
   void enter(const Stage& stage);
   const SolverEntry* choose_solver(int equations, bool symmetric) const;
   std::unique_ptr<LinearSolver> make(const SolverEntry& entry) const;
-  void make_solver();
+  void analyse();
 
   const Model& model_;
   const Catalogue& catalogue_;
@@ -44,9 +43,7 @@ class System {
   Assembly assembly_;
   Activity activity_;
   Eigen::VectorXd rate_;
-  std::unique_ptr<LinearSolver> solver_;
-  std::string solver_name_;
-  Stiffness stiffness_;
+  Tangent tangent_;
   std::vector<char> held_before_, groups_before_, lived_;
 };
 

@@ -1,0 +1,90 @@
+// K of the equations in use: the solver that holds it, and what is known of it.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "sage/analysis/records.hpp"
+#include "sage/core/linear_solver.hpp"
+
+namespace sage {
+
+class Tangent {
+ public:
+  enum class State {
+    empty,       // the solver holds no K that could serve
+    stale,       // K as it was last assembled, for a place that no correction starts from any more
+    current,     // K that the next correction may be made with
+    factorised,  // and its factors
+  };
+
+  // constant: K can never change while the pattern stands (a linear scene).
+  explicit Tangent(bool constant) : constant_(constant) {}
+
+  // A new pattern of equations, and a solver for it.
+  void analyse(std::unique_ptr<LinearSolver> solver, const std::string& name, int equations,
+               ElementEquations elements, WorkCounters& work);
+  // rate: displacement of every prescribed dof over the stage, for coupling().
+  void set_rate(const Eigen::VectorXd& rate) { rate_ = rate; }
+
+  State state() const { return state_; }
+  bool constant() const { return constant_; }
+  bool analysed() const { return solver_ != nullptr; }
+  bool current() const { return state_ >= State::current; }
+  bool factorised() const { return state_ == State::factorised; }
+  const LinearSolver& solver() const { return *solver_; }
+  const std::string& name() const { return name_; }
+  const Eigen::VectorXd& coupling() const { return coupling_; }  // K(free, prescribed) rate, every dof
+
+  void forget() { state_ = State::empty; }
+  // What follows starts elsewhere: K and its factors serve no more, unless an assembly there finds the same K.
+  void set_aside() {
+    if (current()) state_ = State::stale;
+  }
+
+  // One assembly.  `elements` makes all matrices that can change: it adds those that nobody keeps, and says
+  // where one differs from the one that is kept; `kept` adds all that are kept, and is called only if the
+  // solver does not hold them already.  all_kept: none are of the first kind.
+  template <class Elements, class Kept>
+  Outcome assemble(bool all_kept, Elements elements, Kept kept);
+  // From within: the element's matrix, column-major, of the dofs of these nodes; with no nodes the equations
+  // meet no prescribed dof.
+  void add(int element, std::span<const int> nodes, const double* K);
+  void differs() { changed_ = true; }
+  // After it: whether the forces of the same pass are numbers.  K of a pass that failed serves nobody.
+  void settle(Outcome pass);
+  // False: the last assembly found the very K that the solver holds, and left it alone.
+  bool changed() const { return changed_; }
+
+  // Nothing where there are factors already.  Throws SingularMatrix.
+  void factorise(WorkCounters& work);
+  // Needs factors.
+  void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, WorkCounters& work) const;
+
+ private:
+  void clear();
+
+  bool constant_;
+  State state_ = State::empty;
+  bool changed_ = true;
+  std::unique_ptr<LinearSolver> solver_;
+  std::string name_;
+  Eigen::VectorXd rate_, coupling_;
+};
+
+template <class Elements, class Kept>
+Outcome Tangent::assemble(bool all_kept, Elements elements, Kept kept) {
+  changed_ = !all_kept || state_ == State::empty;
+  if (!all_kept) clear();
+  if (elements() == Outcome::cut_step) {
+    state_ = State::empty;
+    return Outcome::cut_step;
+  }
+  if (!changed_) return Outcome::ok;
+  if (all_kept) clear();
+  kept();
+  state_ = State::stale;
+  return Outcome::ok;
+}
+
+}  // namespace sage
