@@ -4,6 +4,7 @@ find_package(CLI11 REQUIRED)
 find_package(tomlplusplus REQUIRED)
 include(cmake/FindSuiteSparseLibs.cmake)
 include(cmake/FindMumps.cmake)
+include(cmake/FindHdf5Serial.cmake)
 
 # libfmt from its headers, compiled once (cmake/fmt.cpp says why).
 add_library(sage_fmt STATIC cmake/fmt.cpp)

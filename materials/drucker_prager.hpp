@@ -54,7 +54,8 @@ class DruckerPrager final : public SolidLaw {
   // Sums of sqrt(2 de_p:de_p), the plastic shear gamma of simple shear, and of the plastic
   // volume strain (+ dilates).
   static constexpr std::array<Quantity, 2> kHistory{
-      {{"plastic_shear_strain", Dimension::none, 0.0}, {"plastic_volume_strain", Dimension::none, 0.0}}};
+      {{"plastic_shear_strain", Dimension::none, 0.0, QuantityRole::plastic_shear_strain},
+       {"plastic_volume_strain", Dimension::none, 0.0, QuantityRole::plastic_volume_strain}}};
 
   double scale(double p, double q) const;  // the stress that tolerances are relative to
   void return_to_cone(const Vector4& s_trial, double q_trial, double p, PointOut<4>& out) const;

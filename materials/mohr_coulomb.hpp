@@ -37,7 +37,8 @@ class MohrCoulomb final : public SolidLaw {
   enum { kShear, kVolume };
   // Sums of sqrt(2 de_p:de_p) and of the plastic volume strain (+ dilates).
   static constexpr std::array<Quantity, 2> kHistory{
-      {{"plastic_shear_strain", Dimension::none, 0.0}, {"plastic_volume_strain", Dimension::none, 0.0}}};
+      {{"plastic_shear_strain", Dimension::none, 0.0, QuantityRole::plastic_shear_strain},
+       {"plastic_volume_strain", Dimension::none, 0.0, QuantityRole::plastic_volume_strain}}};
   ElasticModuli elastic_;
   MohrCoulombPlanes planes_;
   Matrix4 D_elastic_;

@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "sage/core/linear_solver.hpp"
+#include "sage/core/module.hpp"
 
 namespace sage {
 
 // Changes with LinearSolver and with what the module shares with the program; other modules are not accepted.
 // The module holds it in a section of its own, where it can be read before anything of the module runs.
 #define SAGE_SOLVER_MODULE_VERSION "sage-solvers-3"
-#define SAGE_SOLVER_MODULE_SECTION ".sage_module"
+#define SAGE_SOLVER_MODULE_SECTION SAGE_MODULE_SECTION
 
 // Looks for the module where SAGE_SOLVER_MODULE says, beside the executable (../<lib>/sagefe), and on the
 // search path that the linker wrote into the executable, which programs of the build tree have and installed
@@ -25,8 +26,5 @@ std::unique_ptr<LinearSolver> make_library_solver(std::string_view name);
 using MakeLibrarySolver = LinearSolver* (*)(const char* name);
 std::vector<std::string> solver_module_places();
 MakeLibrarySolver load_solver_module(const std::vector<std::string>& places);
-
-// Bytes of a section of an ELF file of 64 bits, at most 64 KiB of them; empty where there is none.
-std::string elf_section(const std::string& file, std::string_view name);
 
 }  // namespace sage

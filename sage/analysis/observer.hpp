@@ -1,6 +1,8 @@
 // What a run shows to those who watch: listing, CSV, VTU, pictures, tests.  Observers change nothing.
 #pragma once
 
+#include <span>
+
 #include "sage/analysis/assembly.hpp"
 #include "sage/analysis/records.hpp"
 #include "sage/analysis/scene.hpp"
@@ -13,8 +15,14 @@ struct Solution {
   const Eigen::VectorXd* u = nullptr;         // every dof: displacement since the start of the run
   const Eigen::VectorXd* internal = nullptr;  // every dof: internal force
   const Eigen::VectorXd* external = nullptr;  // every dof: applied load
-  const Assembly* assembly = nullptr;         // stresses, strains and histories of all points
+  const Assembly* assembly = nullptr;         // of a run that goes on; null of a state that was kept
   const Activity* activity = nullptr;
+  std::span<const GroupData> kept{};  // without an assembly
+
+  // Stresses, strains and histories of all points, by Model::groups.
+  std::span<const GroupData> groups() const {
+    return assembly != nullptr ? std::span<const GroupData>(assembly->groups()) : kept;
+  }
 };
 
 class Observer {

@@ -22,7 +22,7 @@ ProbeValue read_probe(const Probe& probe, const Solution& solution) {
   ProbeValue value;
   for (const Probe::Node& n : probe.nodes) value.u += n.weight * solution.u->segment<2>(2 * n.node);
   for (const Probe::Point& p : probe.points) {
-    const PointStates& state = solution.assembly->groups()[p.group].state.committed;
+    const PointStates& state = solution.groups()[p.group].state.committed;
     value.stress += p.weight * Eigen::Map<const Vector4>(state.sigma.data() + 4 * p.point);
     value.strain += p.weight * Eigen::Map<const Vector4>(state.eps.data() + 4 * p.point);
   }

@@ -26,6 +26,7 @@ struct SideOptions {
   InputOptions input;
   std::string solver;
   int threads = 0;
+  std::vector<std::string> fields = {};  // of reports of points
 };
 
 struct CompareOptions {
@@ -37,7 +38,7 @@ struct CompareOptions {
   ConvergeOptions converge;
   std::optional<int> formulation_b, element_b, geometry_b;
   std::optional<std::string> solver_b, layout_b;
-  std::vector<std::string> lines, pictures;
+  std::vector<std::string> lines, pictures, fields;
   int digits = 0;
   std::filesystem::path folder = "out";
 
@@ -45,13 +46,13 @@ struct CompareOptions {
 };
 
 SideOptions side_a(const CompareOptions& o) {
-  SideOptions side{o.decks.front(), o.input, o.solver, o.threads};
+  SideOptions side{o.decks.front(), o.input, o.solver, o.threads, o.fields};
   if (o.both) side.input.build.geometry = 1;
   return side;
 }
 
 SideOptions side_b(const CompareOptions& o) {
-  SideOptions side{o.decks.back(), o.input, o.solver_b.value_or(o.solver), o.threads};
+  SideOptions side{o.decks.back(), o.input, o.solver_b.value_or(o.solver), o.threads, o.fields};
   BuildOptions& build = side.input.build;
   build.formulation = o.formulation_b.value_or(build.formulation);
   build.element = o.element_b.value_or(build.element);
@@ -110,22 +111,26 @@ RunRequest climb_request(const SideOptions& options, const Place& place, const s
   request.solver = options.solver;
   request.threads = options.threads;
   request.output.folder = place.folder;
+  request.output.fields = options.fields;
   request.results = &place.results;
+  request.keep_result = true;
   return request;
 }
 
 Model build_side(const SideOptions& options, const Catalogue& catalogue) {
   BuildOptions build = options.input.build;
   build.solver = solver_code(catalogue, options.solver);
-  return build_model(read_input(options.deck, options.input), catalogue, build);
+  Model model = build_model(read_input(options.deck, options.input), catalogue, build);
+  for (Report& report : model.reports) report.fields = options.fields;
+  return model;
 }
 
 compare::Side run_model(Model model, const std::string& label, const SideOptions& options, const Place& place,
-                        const std::string& stem, bool stoppable) {
+                        const std::string& stem) {
   RunSettings settings;
   settings.threads = threads_for(options.threads);
   settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
-  if (stoppable) settings.stop_asked = interrupted;
+  settings.stop_asked = interrupted;
   compare::Side side(label, std::move(model), place.folder, stem);
   side.run(place.catalogue, settings);
   if (!side.error().empty()) fmt::print(stderr, "{}: {}\n", options.deck, side.error());
@@ -146,7 +151,7 @@ FinishedSide run_side(const char* letter, const SideOptions& options, const Plac
   const std::string label = label_of(letter, options, &*model);
   if (options.input.strict && model->diagnostics.warnings() > 0)
     return {{label, "warnings count as errors (--strict)"}};
-  return {run_model(std::move(*model), label, options, place, stem, true)};
+  return {run_model(std::move(*model), label, options, place, stem)};
 }
 
 // Finer and finer meshes; the best of them is the side.
@@ -167,13 +172,11 @@ FinishedSide climb_side(const char* letter, const SideOptions& options, const Co
   }
   if (!found.best) return {{label, "NOT REACHED: " + found.not_reached}, found};
   SideOptions best = options;
-  best.input.strict = false;  // as the deck's own mesh, which has passed
   best.input.build = *found.best;
-  best.input.build.say = {};
-  Model model = build_side(best, place.catalogue);
-  const std::string best_label = label_of(letter, best, &model, found.options);
-  // An interrupted climb still has this mesh, which has been computed before.
-  compare::Side side = run_model(std::move(model), best_label, best, place, stem, false);
+  RunOutcome& run = *found.best_run;
+  const std::string best_label = label_of(letter, best, run.model.get(), found.options);
+  compare::Side side(best_label, std::move(run.model), std::move(run.reports), std::move(run.record),
+                     std::move(*run.result));
   side.set_not_reached(found.not_reached);
   return {std::move(side), found};
 }
@@ -206,6 +209,24 @@ void require_points_of_decks(const CompareOptions& o, const SideOptions (&sides)
   require_points(o, models[0] ? &*models[0] : nullptr, models[1] ? &*models[1] : nullptr);
 }
 
+// Names that the catalogue lacks may be history variables of either side's laws.
+void require_fields_of_decks(const CompareOptions& o, const SideOptions (&sides)[2],
+                             const Catalogue& catalogue) {
+  const auto known = [&](const std::string& name) {
+    return catalogue.fields.find(name) != nullptr || catalogue.fields.choose(name).has_value();
+  };
+  if (std::ranges::all_of(o.pictures, known) && std::ranges::all_of(o.fields, known)) return;
+  std::vector<Model> models;
+  for (const SideOptions& side : sides) {
+    try {
+      models.push_back(build_side(side, catalogue));
+    } catch (const InputError&) {
+      return;  // said when the side is run
+    }
+  }
+  require_fields(o.pictures, o.fields, {&models[0], &models[1]});
+}
+
 int exit_code_of(const FinishedSide& a, const FinishedSide& b) {
   int code = kOk;
   for (const FinishedSide* one : {&a, &b}) {
@@ -234,6 +255,7 @@ int compare_decks(const CompareOptions& o, const Catalogue& catalogue) {
     return kUsage;
   }
   const SideOptions options[2] = {side_a(o), side_b(o)};
+  require_fields_of_decks(o, options, catalogue);
   const std::string name_a = case_name(options[0].deck), name_b = case_name(options[1].deck);
   const std::string stem = name_a == name_b ? name_a : name_a + "_" + name_b;
   for (const SideOptions& side : options) keep_input(side.deck);
@@ -251,13 +273,14 @@ int compare_decks(const CompareOptions& o, const Catalogue& catalogue) {
   const FinishedSide side_a = finish("A", options[0], ".a"), side_b = finish("B", options[1], ".b");
   const compare::Side &a = side_a.side, &b = side_b.side;
   require_points(o, a.has_model() ? &a.model() : nullptr, b.has_model() ? &b.model() : nullptr);
-  const compare::Comparison comparison = compare::compare(a, b, lines, side_a.certain(), side_b.certain());
+  const compare::Comparison comparison =
+      compare::compare(a, b, lines, side_a.certain(), side_b.certain(), o.fields);
   std::vector<std::filesystem::path> files{o.folder / (stem + ".compare.csv")};
   write_file(files.front(), compare::to_csv(comparison, a, b, o.digits > 0 ? o.digits : kCsvDigits));
   for (const std::string& name : o.pictures) {
     if (!a.has_state() && !b.has_state()) break;
     files.push_back(o.folder / fmt::format("{}.compare_{}.svg", stem, name));
-    write_file(files.back(), compare::pair_svg(a, b, field_from_name(name).value()));
+    write_file(files.back(), compare::pair_svg(a, b, name));
   }
   results.close();
   fmt::print("{}", compare::to_text(comparison, a, b));
@@ -301,12 +324,8 @@ Command compare_command(CLI::App& parser, const Catalogue& catalogue) {
                     "x1,y1,x2,y2[:name[:n]]: displacement and stress at n places (default 11)");
   add_converge_options(parser, o->converge, "of each side, ");
   add_digits_option(parser, o->digits);
-  parser
-      .add_option("--picture", o->pictures,
-                  "SVG of both fields on one scale of colours (names as in sagefe run)")
-      ->check([](const std::string& name) {
-        return field_from_name(name) ? std::string() : "unknown field " + name;
-      });
+  add_field_options(parser, catalogue, o->pictures, o->fields, "SVG of both sides on one scale of colours",
+                    "lines and reports of points");
   parser.add_option("-o,--output", o->folder, "folder for results (default: out)");
   return [o, &catalogue] { return compare_decks(*o, catalogue); };
 }

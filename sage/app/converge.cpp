@@ -39,6 +39,7 @@ struct Row {
   double seconds = 0.0;
   std::vector<std::pair<std::filesystem::path, std::string>> files;
   Rung rung;
+  std::shared_ptr<RunOutcome> run = {};  // where results are kept: each mesh has fewer elements than the next
 };
 
 // Quadrilaterals of rising degree that take the cards of 4- and 8-node ones.
@@ -394,6 +395,7 @@ class Climb {
   std::vector<std::string> blanks_;          // reports without a value at the end, and why
   std::optional<Rung> without_equilibrium_;  // the first mesh, where that found none
   std::string stopped_;                      // why the next mesh isn't there
+  std::shared_ptr<RunOutcome> without_run_;  // of that mesh, where results are kept
 };
 
 Climb::Climb(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue)
@@ -556,13 +558,18 @@ void Climb::find_blanks(const Model& model, const std::vector<ReportComponent>& 
 bool Climb::add_mesh(int level) {
   const Rung rung = ladder_.kind == Ladder::spectral ? spectral_rung(request_.input.build, catalogue_, level)
                                                      : halving_rung(request_.input.build, level);
-  const std::optional<RunOutcome> outcome = run_mesh(rung);
+  std::optional<RunOutcome> outcome = run_mesh(rung);
   if (outcome) stopped_ = why_unusable(*outcome, rung);
-  if (!stopped_.empty()) return false;
+  const bool first_without = outcome && without_equilibrium_ && rows_.empty();
+  if (!stopped_.empty()) {
+    if (first_without && request_.keep_result) without_run_ = std::make_shared<RunOutcome>(std::move(*outcome));
+    return false;
+  }
   Row row{outcome->record.scene.elements, outcome->model->dofs(), outcome->record.seconds, {}, rung};
   for (const std::filesystem::path& file : outcome->files) row.files.emplace_back(file, bytes_of(file));
   if (!table_) start_table(follower_.shown().name);
   table_->row(follower_.meshes(), row, follower_.shown_limit(), follower_.shown().values.back(), rung.options);
+  if (request_.keep_result) row.run = std::make_shared<RunOutcome>(std::move(*outcome));
   rows_.push_back(std::move(row));
   return true;
 }
@@ -612,6 +619,7 @@ Convergence Climb::outcome(bool reached) const {
   if (best != nullptr) {
     result.best = best->build;
     result.options = best->options;
+    result.best_run = rows_.empty() ? without_run_ : rows_[follower_.best() - 1].run;
   }
   return result;
 }

@@ -41,7 +41,8 @@ struct Convergence {
   std::vector<ConvergedValue> values;
   // The best mesh, or the first one where that found no equilibrium; nothing where not even that was run.
   std::optional<BuildOptions> best;
-  std::string options;  // the same as a user would ask for it
+  std::string options;                   // the same as a user would ask for it
+  std::shared_ptr<RunOutcome> best_run;  // of that mesh, where the request asks for results to be kept
   std::filesystem::path table;
 };
 

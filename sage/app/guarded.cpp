@@ -16,6 +16,9 @@ int guarded(const std::string& name, const std::function<int()>& work) {
   } catch (const InputError& error) {
     print_diagnostics(error.diagnostics());
     return kInput;
+  } catch (const UsageError& error) {
+    fmt::print(stderr, "{}: {}\n", name, error.what());
+    return kUsage;
   } catch (const OverInput& error) {
     fmt::print(stderr, "{}: {}\n", name, error.what());
     return kUsage;

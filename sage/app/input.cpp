@@ -4,6 +4,7 @@
 
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -12,6 +13,7 @@
 
 #include "sage/app/commands.hpp"
 #include "sage/deck/read_deck.hpp"
+#include "sage/draw/picture.hpp"
 #include "sage/record/out_file.hpp"
 
 namespace sage::app {
@@ -90,6 +92,41 @@ void add_digits_option(CLI::App& parser, int& digits) {
                   "significant digits of numbers in CSV files and in the reports on the screen (default: 10 in "
                   "CSV; 16 is the most that means something, 17 gives back every bit)")
       ->check(CLI::Range(2, 17));
+}
+
+void add_field_options(CLI::App& parser, const Catalogue& catalogue, std::vector<std::string>& pictures,
+                       std::vector<std::string>& fields, const std::string& picture_words,
+                       const std::string& field_words) {
+  parser.add_option("--picture", pictures,
+                    picture_words + ": " + catalogue.fields.known() + ", or a history variable of a law");
+  parser.add_option("--field", fields,
+                    "more fields in " + field_words + " (see sagefe list fields); may be repeated");
+}
+
+void require_fields(const std::vector<std::string>& pictures, const std::vector<std::string>& fields,
+                    const std::vector<const Model*>& models) {
+  if (pictures.empty() && fields.empty()) return;
+  std::vector<FieldTable> tables;
+  for (const Model* model : models) tables.push_back(fields_of(*model));
+  for (const std::string& name : fields)
+    if (std::ranges::none_of(tables, [&](const FieldTable& table) { return table.find(name) != nullptr; })) {
+      std::string known;
+      for (const FieldEntry& row : tables.front().rows()) known += (known.empty() ? "" : ", ") + row.name;
+      throw UsageError("--field: unknown field " + name + "; known: " + known);
+    }
+  for (const std::string& name : pictures) {
+    std::string reason;
+    for (const FieldTable& table : tables) {
+      try {
+        picture_field(table, name);
+        reason.clear();
+        break;
+      } catch (const std::invalid_argument& error) {
+        reason = error.what();
+      }
+    }
+    if (!reason.empty()) throw UsageError("--picture: " + reason);
+  }
 }
 
 void add_element_option(CLI::App& parser, const Catalogue& catalogue, const std::string& flag,

@@ -3,6 +3,7 @@
 
 #include <CLI/App.hpp>
 #include <functional>
+#include <stdexcept>
 #include <string>
 
 #include "sage/build/build_model.hpp"
@@ -10,6 +11,12 @@
 #include "sage/deck/deck.hpp"
 
 namespace sage::app {
+
+// The command line asks for what there is not (exit code 1), found out when a deck had been read.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 // Options that every command which reads a deck shares.
 struct InputOptions {
@@ -33,6 +40,14 @@ void add_element_option(CLI::App& parser, const Catalogue& catalogue, const std:
                         const std::string& words, const std::function<void(int)>& set);
 void add_formulation_option(CLI::App& parser, const std::string& flag, const std::string& words,
                             const std::function<void(int)>& set);
+
+// --picture and --field, with what they are for; names are looked at by require_fields.
+void add_field_options(CLI::App& parser, const Catalogue& catalogue, std::vector<std::string>& pictures,
+                       std::vector<std::string>& fields, const std::string& picture_words,
+                       const std::string& field_words);
+// Throws UsageError for a field that no model's results have, or that can't be drawn.
+void require_fields(const std::vector<std::string>& pictures, const std::vector<std::string>& fields,
+                    const std::vector<const Model*>& models);
 
 // Those that change how the deck's elements are computed.
 void add_build_options(CLI::App& parser, BuildOptions& options, const Catalogue& catalogue);

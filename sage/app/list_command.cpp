@@ -43,17 +43,35 @@ void list_solvers(const Catalogue& catalogue) {
                entry.summary);
 }
 
+void list_fields(const Catalogue& catalogue) {
+  const UnitSystem generic{"length", "force", "stress", 0.0, 0.0};
+  constexpr const char* kPlaces[] = {"nodes", "integration points", "elements", "increments"};
+  for (int place = 0; place < 4; ++place) {
+    fmt::print("{}: name [unit] (components) meaning\n", kPlaces[place]);
+    for (const FieldEntry& row : catalogue.fields.rows()) {
+      if (static_cast<int>(row.place()) != place) continue;
+      std::string components;
+      for (const FieldComponent& c : row.components) components += (components.empty() ? " (" : " ") + c.name;
+      fmt::print("      {} [{}]{}{} {}{}\n", row.name, unit_text(row.dimension, generic), components,
+                 components.empty() ? "" : ")", row.meaning,
+                 row.sign == FieldSign::compression_positive ? ", compression positive" : "");
+    }
+  }
+  fmt::print("and at integration points the history variables of the deck's laws, by their names\n");
+}
+
 }  // namespace
 
 Command list_command(CLI::App& parser, const Catalogue& catalogue) {
   auto what = std::make_shared<std::string>();
-  parser.add_option("WHAT", *what, "elements, materials or solvers")
+  parser.add_option("WHAT", *what, "elements, materials, solvers or fields")
       ->required()
-      ->check(CLI::IsMember({"elements", "materials", "solvers"}));
+      ->check(CLI::IsMember({"elements", "materials", "solvers", "fields"}));
   return [what, &catalogue] {
     if (*what == "elements") list_elements(catalogue);
     if (*what == "materials") list_materials(catalogue);
     if (*what == "solvers") list_solvers(catalogue);
+    if (*what == "fields") list_fields(catalogue);
     return kOk;
   };
 }

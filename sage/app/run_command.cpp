@@ -11,7 +11,6 @@
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/interrupt.hpp"
 #include "sage/app/run_deck.hpp"
-#include "sage/draw/picture.hpp"
 #include "sage/record/out_file.hpp"
 
 namespace sage::app {
@@ -50,8 +49,8 @@ int run_one(const RunOptions& options, const std::string& deck, const Catalogue&
   return guarded(deck, [&] {
     if (options.converge.asked()) {
       const OutputOptions& output = request.output;
-      if (output.nodes || output.points || output.vtu || output.error || !output.pictures.empty() ||
-          request.restart)
+      if (output.nodes || output.points || output.vtu || output.result || output.error ||
+          !output.pictures.empty() || request.restart)
         fmt::print(stderr,
                    "{}: note: --converge writes its table only; the options of its last line give that mesh "
                    "again, with all outputs\n",
@@ -132,14 +131,10 @@ Command run_command(CLI::App& parser, const Catalogue& catalogue) {
   parser.add_flag("--points", request.output.points, "write STEM.points.csv: stress and state of all points");
   add_digits_option(parser, request.output.digits);
   parser.add_flag("--vtu", request.output.vtu, "write VTU files and a PVD for ParaView");
-  parser
-      .add_option(
-          "--picture", request.output.pictures,
-          "SVG pictures at the end of each stage: stress_xx, stress_yy, stress_zz, stress_xy, mean_stress, "
-          "deviator, stress_level, displacement_x, displacement_y, displacement")
-      ->check([](const std::string& name) {
-        return field_from_name(name) ? std::string() : "unknown field " + name;
-      });
+  parser.add_flag("--result", request.output.result,
+                  "write STEM.h5: all fields at all output increments in one HDF5 file (also for ParaView)");
+  add_field_options(parser, catalogue, request.output.pictures, request.output.fields,
+                    "SVG pictures at the end of each stage", "listing, CSV and reports of points");
   parser.add_flag("--error", request.output.error, "estimate the error of the mesh (Zienkiewicz-Zhu)");
   add_converge_options(parser, options->converge);
   parser.add_flag("!--no-listing", request.output.listing, "write no listing");

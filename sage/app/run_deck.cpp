@@ -17,6 +17,7 @@
 #include "sage/model/fingerprint.hpp"
 #include "sage/record/csv.hpp"
 #include "sage/record/progress.hpp"
+#include "sage/record/result_file.hpp"
 #include "sage/record/vtu.hpp"
 #include "solvers/choose_solver.hpp"
 
@@ -36,15 +37,15 @@ std::vector<std::unique_ptr<Output>> make_outputs(const RunRequest& request, con
   std::vector<std::unique_ptr<Output>> outputs;
   if (options.listing)
     outputs.push_back(std::make_unique<Listing>(options.folder, stem, catalogue,
-                                                ListingOptions{options.tables, "", &reports}));
+                                                ListingOptions{options.tables, "", &reports, options.fields}));
   if (options.increments || options.nodes || options.points)
     outputs.push_back(std::make_unique<Csv>(
         options.folder, stem,
-        CsvOptions{options.increments, options.nodes, options.points, csv_digits(options)}));
+        CsvOptions{options.increments, options.nodes, options.points, csv_digits(options), options.fields}));
   if (options.vtu) outputs.push_back(std::make_unique<Vtu>(options.folder, stem));
-  std::vector<Field> fields;
-  for (const std::string& name : options.pictures) fields.push_back(field_from_name(name).value());
-  if (!fields.empty()) outputs.push_back(std::make_unique<Pictures>(options.folder, stem, fields));
+  if (options.result) outputs.push_back(std::make_unique<ResultOutput>(options.folder, stem));
+  if (!options.pictures.empty())
+    outputs.push_back(std::make_unique<Pictures>(options.folder, stem, options.pictures));
   return outputs;
 }
 
@@ -57,7 +58,9 @@ Checkpoint checkpoint_of(const RunRequest& request, const Model& model, ResultFi
     if (!(request.skips.*skip.flag)) run += fmt::format(" without {}", skip.name);
   if (request.refinement > 0) run += fmt::format(" refined {}", request.refinement);
   if (o.digits > 0) run += fmt::format(" digits {}", o.digits);
+  if (o.result) run += " result";
   for (const std::string& picture : o.pictures) run += " " + picture;
+  for (const std::string& field : o.fields) run += " field " + field;
   return {o.folder / (stem_of(request) + ".restart"), request.checkpoint_seconds, run, results};
 }
 
@@ -144,7 +147,9 @@ std::unique_ptr<Model> model_of(const RunRequest& request, const Catalogue& cata
   if (!request.solver.empty()) build.solver = solver_code(catalogue, request.solver);
   auto model = std::make_unique<Model>(build_model(deck, catalogue, build));
   owner.deck_sum = checksum(*deck.source);
-  if (request.output.vtu) warn_of_vtu(*model, model->diagnostics);
+  if (request.output.vtu || request.output.result) warn_of_vtu(*model, model->diagnostics);
+  require_fields(request.output.pictures, request.output.fields, {model.get()});
+  for (Report& report : model->reports) report.fields = request.output.fields;
   return model;
 }
 
@@ -212,6 +217,10 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   if (request.output.error) {
     outcome.error = std::make_unique<DiscretisationError>(*outcome.reports);
     observers.push_back(outcome.error.get());
+  }
+  if (request.keep_result) {
+    outcome.result = std::make_unique<Result>();
+    observers.push_back(outcome.result.get());
   }
   for (const auto& output : outputs) observers.push_back(output.get());
   observers.push_back(&progress);

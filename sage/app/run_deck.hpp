@@ -9,6 +9,7 @@
 #include "sage/app/result_files.hpp"
 #include "sage/record/listing.hpp"
 #include "sage/record/report.hpp"
+#include "sage/record/result.hpp"
 #include "sage/record/summary.hpp"
 
 namespace sage::app {
@@ -22,7 +23,9 @@ struct OutputOptions {
   int digits = 0;                     // of numbers in CSV files and in the summary's reports; 0 = the usual
   bool error = false;                 // estimate of the discretisation error
   bool vtu = false;                   // STEM_0001.vtu ... and STEM.pvd
+  bool result = false;                // STEM.h5
   std::vector<std::string> pictures;  // fields, as SVG at the end of each stage
+  std::vector<std::string> fields;    // more columns of tables and of reports of points, by name
 };
 
 struct RunRequest {
@@ -42,6 +45,7 @@ struct RunRequest {
   double interrupt_patience = 10.0;  // s that an interrupted run gives the increment in hand to end
   StopAsked stop_asked;              // ends the run early, see RunSettings
   ResultFiles* results = nullptr;    // of the run that this one is a part of; null = it has its own
+  bool keep_result = false;          // RunOutcome::result is wanted
 };
 
 // Reports and record stay readable after the run.
@@ -54,6 +58,7 @@ struct RunOutcome {
   std::unique_ptr<Reports> reports;
   std::unique_ptr<DiscretisationError> error;  // where asked for
   RunRecord record;
+  std::unique_ptr<Result> result;  // of the model above; where it is wanted
   std::vector<std::filesystem::path> files;
 };
 

@@ -252,6 +252,7 @@ Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOp
   const Deck& deck = rewritten ? *rewritten : as_read;
   build::Builder b{{deck, catalogue, options}, options};
   b.model.diagnostics = deck.diagnostics;
+  b.model.fields = catalogue.fields;
   build::build_control(b);
   build::take_left_out(b);
   build::build_nodes(b);

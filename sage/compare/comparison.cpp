@@ -335,47 +335,67 @@ void add_reports(Comparison& c, const Side& a, const Side& b) {
   }
 }
 
+// What a line shows: the usual fields, then those that were asked for and live at nodes or points.
+FieldList line_fields(const FieldTable& table, const std::vector<std::string>& asked) {
+  FieldList fields = fields_named(table, {"displacement", "stress", "mean_stress", "deviator"});
+  for (const std::string& name : asked) {
+    const FieldEntry* row = table.find(name);
+    const bool lives =
+        row != nullptr && (row->place() == FieldPlace::node || row->place() == FieldPlace::point);
+    if (lives && row->form == FieldForm::number && std::ranges::find(fields, row) == fields.end())
+      fields.push_back(row);
+  }
+  return fields;
+}
+
 struct Component {
-  const char* name;
-  bool length;  // unit: length or stress
-  double (*of)(const Sample&);
+  std::string name, unit;
 };
 
-constexpr Component kComponents[] = {
-    {"u_x", true, [](const Sample& s) { return s.u.x(); }},
-    {"u_y", true, [](const Sample& s) { return s.u.y(); }},
-    {"sigma_xx", false, [](const Sample& s) { return s.stress[0]; }},
-    {"sigma_yy", false, [](const Sample& s) { return s.stress[1]; }},
-    {"sigma_zz", false, [](const Sample& s) { return s.stress[2]; }},
-    {"sigma_xy", false, [](const Sample& s) { return s.stress[3]; }},
-    {"mean stress p", false, [](const Sample& s) { return s.mean; }},
-    {"deviator q", false, [](const Sample& s) { return s.deviator; }},
-};
+std::vector<Component> components_of(const FieldList& fields, const UnitSystem& units) {
+  std::vector<Component> components;
+  for (const FieldEntry* field : fields)
+    for (std::size_t c = 0; c < field->size(); ++c) {
+      const std::string& name = field->symbol.empty() ? field->name : field->symbol;
+      components.push_back({field->components.empty() ? name : name + "_" + field->components[c].name,
+                            unit_text(field->dimension, units)});
+    }
+  return components;
+}
+
+// The rows that either side's results have.
+FieldTable table_of(const Side& a, const Side& b) {
+  FieldTable table = a.has_model() ? fields_of(a.model()) : FieldTable();
+  const FieldTable of_b = b.has_model() ? fields_of(b.model()) : FieldTable();
+  for (const FieldEntry& row : of_b.rows())
+    if (table.find(row.name) == nullptr) table.add(row);
+  return table;
+}
 
 // By the means of its places, which are in the CSV one by one.
-void add_line(Comparison& c, const Side& a, const Side& b, const Line& line) {
-  const UnitSystem& u = units_of(a, b);
+void add_line(Comparison& c, const Side& a, const Side& b, const Line& line, const FieldList& fields) {
+  const std::vector<Component> components = components_of(fields, units_of(a, b));
   std::vector<Sample> samples[2];
   const Side* sides[2] = {&a, &b};
   for (std::size_t k = 0; k < 2; ++k) {
     if (!sides[k]->has_state()) continue;
     const Solution last = sides[k]->last();
-    const Sampler sampler(sides[k]->model(), last);
+    const Sampler sampler(sides[k]->model(), last, fields);
     for (int i = 0; i < line.n; ++i) {
       const double t = static_cast<double>(i) / (line.n - 1);
       samples[k].push_back(sampler.at((1.0 - t) * line.from + t * line.to));
     }
   }
-  const auto value = [&](std::size_t k, int i, const Component& component) {
-    return samples[k].empty() ? kUnknown : component.of(samples[k][static_cast<std::size_t>(i)]);
+  const auto value = [&](std::size_t k, int i, std::size_t component) {
+    return samples[k].empty() ? kUnknown : samples[k][static_cast<std::size_t>(i)].values[component];
   };
   for (int i = 0; i < line.n; ++i) {
     const double t = static_cast<double>(i) / (line.n - 1);
     const Vector2 place = (1.0 - t) * line.from + t * line.to;
     const std::string section = fmt::format("line {} at ({:.6g}; {:.6g})", line.name, place.x(), place.y());
-    for (const Component& component : kComponents)
-      c.details.push_back({section, component.name, component.length ? u.length : u.stress,
-                           value(0, i, component), value(1, i, component), kUnknown});
+    for (std::size_t n = 0; n < components.size(); ++n)
+      c.details.push_back(
+          {section, components[n].name, components[n].unit, value(0, i, n), value(1, i, n), kUnknown});
   }
   // A side without results has no places, and takes none from the other.
   std::vector<int> common;
@@ -392,14 +412,13 @@ void add_line(Comparison& c, const Side& a, const Side& b, const Line& line) {
     c.notes.push_back(fmt::format("line {}: {} of {} places lie outside of one mesh or both; the means are {}",
                                   line.name, line.n - n, line.n,
                                   n > 0 ? "over the other " + std::to_string(n) : std::string("not known")));
-  for (const Component& component : kComponents) {
+  for (std::size_t q = 0; q < components.size(); ++q) {
     double mean[2] = {0.0, 0.0};
     for (std::size_t k = 0; k < 2; ++k) {
-      for (const int i : common) mean[k] += value(k, i, component) / n;
+      for (const int i : common) mean[k] += value(k, i, q) / n;
       if (n == 0) mean[k] = kUnknown;
     }
-    c.rows.push_back(
-        {section, component.name, component.length ? u.length : u.stress, mean[0], mean[1], kUnknown});
+    c.rows.push_back({section, components[q].name, components[q].unit, mean[0], mean[1], kUnknown});
   }
 }
 
@@ -599,7 +618,8 @@ double Answer::ratio_error() const {
 }
 
 Comparison compare(const Side& a, const Side& b, const std::vector<Line>& lines,
-                   const std::vector<CertainValue>& certain_a, const std::vector<CertainValue>& certain_b) {
+                   const std::vector<CertainValue>& certain_a, const std::vector<CertainValue>& certain_b,
+                   const std::vector<std::string>& fields) {
   Comparison c;
   add_answers(c, a, b, certain_a, certain_b);
   add_course(c, a, b);
@@ -607,7 +627,9 @@ Comparison compare(const Side& a, const Side& b, const std::vector<Line>& lines,
   add_totals(c, a, b);
   add_faces(c, a, b);
   add_reports(c, a, b);
-  for (const Line& line : lines) add_line(c, a, b, line);
+  const FieldTable table = table_of(a, b);
+  const FieldList on_lines = line_fields(table, fields);
+  for (const Line& line : lines) add_line(c, a, b, line, on_lines);
   add_nodal(c, a, b);
   for (std::vector<Row>* rows : {&c.rows, &c.details}) {
     set_floors(*rows, a, b);

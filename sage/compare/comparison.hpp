@@ -70,9 +70,11 @@ struct Comparison {
 
 // Either side may have failed, or not even have a model.
 // certain_a, certain_b: values that take the place of what the reports end with, where both end at one step.
+// fields: more than the usual ones on lines, by name.
 Comparison compare(const Side& a, const Side& b, const std::vector<Line>& lines,
                    const std::vector<CertainValue>& certain_a = {},
-                   const std::vector<CertainValue>& certain_b = {});
+                   const std::vector<CertainValue>& certain_b = {},
+                   const std::vector<std::string>& fields = {});
 
 // A page for the terminal; signs and units at its end.
 std::string to_text(const Comparison& comparison, const Side& a, const Side& b);

@@ -24,15 +24,20 @@ Size size_of(const std::string& svg) {
   return size;
 }
 
+// A history variable may be of the laws of one side only.
+bool shows(const Side& side, std::string_view field) {
+  return side.has_state() && fields_of(side.model()).choose(field).has_value();
+}
+
 }  // namespace
 
-std::string pair_svg(const Side& a, const Side& b, Field field) {
+std::string pair_svg(const Side& a, const Side& b, std::string_view field) {
   constexpr int kTop = 44, kGap = 16, kBottom = 30;
   PictureOptions options;
   options.width = 560;
   FieldRange range;
   for (const Side* side : {&a, &b}) {
-    if (!side->has_state()) continue;
+    if (!shows(*side, field)) continue;
     const FieldRange one = field_range(side->model(), side->last(), field, options);
     range.low = std::min(range.low, one.low);
     range.high = std::max(range.high, one.high);
@@ -45,7 +50,7 @@ std::string pair_svg(const Side& a, const Side& b, Field field) {
   Size sizes[2];
   const Side* sides[2] = {&a, &b};
   for (std::size_t k = 0; k < 2; ++k) {
-    if (!sides[k]->has_state()) continue;
+    if (!shows(*sides[k], field)) continue;
     options.state = sides[k]->error().empty() ? "end of the run" : "NOT COMPLETE, last equilibrium";
     options.title = k == 0 ? "A" : "B";
     drawings[k] = field_svg(sides[k]->model(), sides[k]->last(), field, options);

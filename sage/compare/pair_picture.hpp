@@ -7,6 +7,6 @@
 namespace sage::compare {
 
 // Of the last states in equilibrium.  A side without a state leaves its place empty, and says so.
-std::string pair_svg(const Side& a, const Side& b, Field field);
+std::string pair_svg(const Side& a, const Side& b, std::string_view field);
 
 }  // namespace sage::compare

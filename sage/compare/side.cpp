@@ -65,7 +65,7 @@ double shear_stress(const Face& face, const FaceState& state) {
 
 PointCounts count_points(const Mesh& mesh, const Solution& solution) {
   PointCounts counts;
-  for (const GroupData& data : solution.assembly->groups()) {
+  for (const GroupData& data : solution.groups()) {
     if (!data.active) continue;
     const bool solid = data.group->solid();
     for (std::size_t p = 0; p < data.state.committed.status.size(); ++p) {
@@ -89,9 +89,21 @@ Side::Side(std::string label, Model model, const std::filesystem::path& folder, 
       reports_(std::make_unique<Reports>(folder, stem)),
       faces_(faces_of(*model_)) {}
 
+Side::Side(std::string label, std::unique_ptr<Model> model, std::unique_ptr<Reports> reports, RunRecord record,
+           Result result)
+    : label_(std::move(label)),
+      model_(std::move(model)),
+      reports_(std::move(reports)),
+      record_(std::move(record)),
+      faces_(faces_of(*model_)),
+      result_(std::move(result)) {
+  if (record_.result.status != RunStatus::completed) error_ = record_.result.reason;
+  read_result();
+}
+
 void Side::run(const Catalogue& catalogue, const RunSettings& settings) {
   const auto start = std::chrono::steady_clock::now();
-  Observer* observers[] = {this};
+  Observer* observers[] = {&record_, reports_.get(), &result_};
   try {
     const RunResult result = sage::run(*model_, catalogue, settings, observers);
     if (result.status != RunStatus::completed) error_ = result.reason;
@@ -102,7 +114,18 @@ void Side::run(const Catalogue& catalogue, const RunSettings& settings) {
     error_ = error.what();
     reports_->stop(error_);
   }
+  read_result();
   record_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void Side::read_result() {
+  for (std::size_t i = 0; i < result_.starts().size(); ++i) {
+    const Frame& start = result_.starts()[i];
+    StageState& state = stages_.emplace_back();
+    state.stage = start.report().stage;
+    state.faces_before = face_states(start.view());
+    if (i < result_.ends().size()) close_stage(state, result_.ends()[i]);
+  }
 }
 
 std::vector<FaceState> Side::face_states(const Solution& now) const {
@@ -128,65 +151,24 @@ std::vector<FaceState> Side::face_states(const Solution& now) const {
   return states;
 }
 
-void Side::on_start(const Model& model, const Scene& scene, std::string_view solver, int equations) {
-  record_.on_start(model, scene, solver, equations);
-  reports_->on_start(model, scene, solver, equations);
-}
-
-void Side::on_stage_start(const Model& model, int stage, const Solution& now) {
-  reports_->on_stage_start(model, stage, now);
-  if (stage == 0) first_ = std::make_unique<KeptState>(model, now);
-  StageState state;
-  state.stage = stage;
-  state.faces_before = face_states(now);
-  stages_.push_back(std::move(state));
-}
-
-void Side::on_increment(const Model& model, const StepReport& report, const Solution& now) {
-  record_.on_increment(model, report, now);
-  reports_->on_increment(model, report, now);
-}
-
-void Side::close_stage(double load_factor, const Solution& now) {
-  StageState& state = stages_.back();
-  state.load_factor = load_factor;
+void Side::close_stage(StageState& state, const Frame& end) {
+  const Solution now = end.view();
+  state.load_factor = end.report().load_factor;
   state.faces = face_states(now);
   for (int dof = 0; dof < model_->dofs(); ++dof) {
     state.applied[dof % 2] += (*now.external)[dof];
     if (now.activity->held[static_cast<std::size_t>(dof)]) state.reactions[dof % 2] += reaction(now, dof);
   }
-  raise_floors(stage_of(*model_, state.stage), now);
-  last_ = std::make_unique<KeptState>(*model_, now);
+  raise_floors(stage_of(*model_, state.stage), end);
 }
 
-void Side::raise_floors(const Stage& stage, const Solution& now) {
+void Side::raise_floors(const Stage& stage, const Frame& end) {
   const double tolerance = stage.tolerance;
-  double stress = 0.0;
-  for (const GroupData& data : now.assembly->groups())
-    if (data.active)
-      for (double s : data.state.committed.sigma) stress = std::max(stress, std::abs(s));
+  const Solution now = end.view();
   floors_.force = std::max(floors_.force,
                            tolerance * now.internal->norm() * std::sqrt(static_cast<double>(model_->dofs())));
   floors_.displacement = std::max(floors_.displacement, tolerance * now.u->lpNorm<Eigen::Infinity>());
-  floors_.stress = std::max(floors_.stress, tolerance * stress);
-}
-
-void Side::on_stage_end(const Model& model, int stage, const EquilibriumAudit& audit, const Solution& now) {
-  record_.on_stage_end(model, stage, audit, now);
-  reports_->on_stage_end(model, stage, audit, now);
-  close_stage(1.0, now);
-}
-
-void Side::on_failure(const Model& model, const StepReport& report, const std::string& reason,
-                      const Solution& now) {
-  record_.on_failure(model, report, reason, now);
-  reports_->on_failure(model, report, reason, now);
-  close_stage(report.load_factor, now);
-}
-
-void Side::on_finish(const Model& model, const RunResult& result) {
-  record_.on_finish(model, result);
-  reports_->on_finish(model, result);
+  floors_.stress = std::max(floors_.stress, tolerance * end.largest_stress());
 }
 
 }  // namespace sage::compare

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "sage/analysis/run.hpp"
-#include "sage/record/kept_state.hpp"
 #include "sage/record/report.hpp"
+#include "sage/record/result.hpp"
 #include "sage/record/summary.hpp"
 
 namespace sage::compare {
@@ -62,10 +62,13 @@ struct PointCounts {
 };
 PointCounts count_points(const Mesh& mesh, const Solution& solution);
 
-class Side final : public Observer {
+class Side {
  public:
   // label: "A: deck.dat, plane strain".  Reports go to folder/stem.report1.csv ...
   Side(std::string label, Model model, const std::filesystem::path& folder, const std::string& stem);
+  // Of a run that has ended.
+  Side(std::string label, std::unique_ptr<Model> model, std::unique_ptr<Reports> reports, RunRecord record,
+       Result result);
   // A side that could not even begin.
   Side(std::string label, std::string error) : label_(std::move(label)), error_(std::move(error)) {}
 
@@ -79,28 +82,21 @@ class Side final : public Observer {
   const std::string& not_reached() const { return not_reached_; }
   void set_not_reached(std::string why) { not_reached_ = std::move(why); }
   bool has_model() const { return model_ != nullptr; }
-  bool has_state() const { return last_ != nullptr; }
+  bool has_state() const { return !result_.ends().empty(); }
   const Model& model() const { return *model_; }
   const RunRecord& record() const { return record_; }
   const Reports& reports() const { return *reports_; }
   const std::vector<Face>& faces() const { return faces_; }
   const std::vector<StageState>& stages() const { return stages_; }
   const Floors& floors() const { return floors_; }
-  Solution first() const { return first_->view(); }  // before the first increment
-  Solution last() const { return last_->view(); }
-
-  void on_warning(const Diagnostic& d) override { record_.on_warning(d); }
-  void on_start(const Model&, const Scene&, std::string_view solver, int equations) override;
-  void on_stage_start(const Model&, int stage, const Solution&) override;
-  void on_increment(const Model&, const StepReport&, const Solution&) override;
-  void on_stage_end(const Model&, int stage, const EquilibriumAudit&, const Solution&) override;
-  void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
-  void on_finish(const Model&, const RunResult&) override;
+  Solution first() const { return result_.starts().front().view(); }  // before the first increment
+  Solution last() const { return result_.ends().back().view(); }
 
  private:
   std::vector<FaceState> face_states(const Solution& now) const;
-  void close_stage(double load_factor, const Solution& now);
-  void raise_floors(const Stage& stage, const Solution& now);
+  void read_result();
+  void close_stage(StageState& state, const Frame& end);
+  void raise_floors(const Stage& stage, const Frame& end);
 
   std::string label_, error_, not_reached_;
   std::unique_ptr<Model> model_;
@@ -109,7 +105,7 @@ class Side final : public Observer {
   std::vector<Face> faces_;
   std::vector<StageState> stages_;
   Floors floors_;
-  std::unique_ptr<KeptState> first_, last_;
+  Result result_;
 };
 
 }  // namespace sage::compare

@@ -313,7 +313,7 @@ bool uniform_ends(const Side& side, std::size_t stage) {
 }
 
 double plane_strain_defect(const Side& side) {
-  const auto &now = side.last().assembly->groups(), &start = side.first().assembly->groups();
+  const auto now = side.last().groups(), start = side.first().groups();
   double worst = kUnknown, size = 0.0;
   for (std::size_t g = 0; g < now.size(); ++g) {
     const Material& material = side.model().material_of(*now[g].group);

@@ -13,6 +13,7 @@
 
 #include "sage/core/element.hpp"
 #include "sage/core/error.hpp"
+#include "sage/core/field.hpp"
 #include "sage/core/law.hpp"
 #include "sage/core/linear_solver.hpp"
 #include "sage/core/units.hpp"
@@ -69,13 +70,6 @@ struct Formulation {
   std::string summary;
   int points = 0;     // integration points
   bool plain = true;  // every point has its own strain; other programs mean such a one by a number of points
-};
-
-// What an element is to those that lay out, load, draw and report it.  Bars, beams and coupled elements will
-// get kinds of their own.
-enum class ElementKind {
-  solid,      // fills an area; its law relates four stresses to strains
-  interface,  // joins two bodies: bottom and top side at one place; its law relates two tractions to slips
 };
 
 // What an element is the map of.  Its corners come first among its nodes, in this order.
@@ -185,6 +179,7 @@ struct Catalogue {
   Registry<ElementEntry> elements;
   Registry<MaterialEntry> materials;
   Registry<SolverEntry> solvers;
+  FieldTable fields;
 };
 
 }  // namespace sage

@@ -13,11 +13,20 @@
 
 namespace sage {
 
-// A history variable of a law: listing, VTU and restart learn its name from here and nowhere else.
+// What a history variable is to outputs that don't know the law.
+enum class QuantityRole : std::uint8_t {
+  none,
+  plastic_shear_strain,   // sum of sqrt(2 de_p : de_p)
+  plastic_volume_strain,  // + dilates
+};
+
+// A history variable of a law: listing, CSV, VTU, result file and restart learn its name from here and nowhere
+// else.
 struct Quantity {
   std::string_view name;
   Dimension dimension = Dimension::none;
   double initial = 0.0;
+  QuantityRole role = QuantityRole::none;
 };
 
 // What a point is doing; counted per step and shown in every report.

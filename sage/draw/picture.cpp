@@ -75,7 +75,8 @@ struct Scenery {
   const Solution& solution;
   NodalLayout layout;
   View view;
-  Field field;
+  FieldTable table;  // that the field is of
+  FieldChoice field;
   FieldParts parts;
   std::map<std::tuple<const Element*, int, int>, SubGrid> grids = {};  // patches point into them
 
@@ -93,10 +94,12 @@ struct Scenery {
   }
 };
 
-Scenery make_scenery(const Model& model, const Solution& solution, Field field, const PictureOptions& options) {
-  Scenery scenery{model, solution, nodal_layout(model, *solution.activity), {}, field, {}};
+Scenery make_scenery(const Model& model, const Solution& solution, std::string_view field,
+                     const PictureOptions& options) {
+  Scenery scenery{model, solution, nodal_layout(model, *solution.activity), {}, fields_of(model), {}, {}};
+  scenery.field = picture_field(scenery.table, field);
   scenery.view = make_view(model, solution, scenery.layout, options);
-  scenery.parts = field_parts(model, solution, scenery.layout, field);
+  scenery.parts = field_parts(model, solution, scenery.layout, *scenery.field.entry);
   return scenery;
 }
 
@@ -134,7 +137,8 @@ std::vector<Patch> patches(Scenery& scenery) {
       const Eigen::MatrixXd parts = at_nodes * grid.N.transpose();
       Patch& patch = result.emplace_back(Patch{&grid.cells, {}});
       for (Eigen::Index p = 0; p < places.cols(); ++p)
-        patch.places.push_back({places.col(p), field_value(scenery.field, scenery.parts, parts.col(p).data())});
+        patch.places.push_back(
+            {places.col(p), field_number(scenery.field, scenery.parts, parts.col(p).data())});
     }
   }
   return result;
@@ -264,7 +268,7 @@ void draw_interfaces(std::string& out, const Scenery& scenery) {
 
 void draw_axes(std::string& out, const Scenery& scenery) {
   const View& view = scenery.view;
-  const AxisNames& names = axis_names(scenery.model.geometry);
+  const AxisNames names = axis_names(scenery.model.geometry);
   const std::string& unit = scenery.model.units.length;
   const double bottom = kTop + view.height + 10.0, left = kLeft - 10.0;
   const double right = view.at(view.high).x();
@@ -314,13 +318,13 @@ void draw_legend(std::string& out, const std::vector<double>& limits, double lef
 
 }  // namespace
 
-FieldRange field_range(const Model& model, const Solution& solution, Field field,
+FieldRange field_range(const Model& model, const Solution& solution, std::string_view field,
                        const PictureOptions& options) {
   Scenery scenery = make_scenery(model, solution, field, options);
   return range_of(patches(scenery));
 }
 
-std::string field_svg(const Model& model, const Solution& solution, Field field,
+std::string field_svg(const Model& model, const Solution& solution, std::string_view field,
                       const PictureOptions& options) {
   Scenery scenery = make_scenery(model, solution, field, options);
   std::vector<Patch> all = patches(scenery);
@@ -335,7 +339,7 @@ std::string field_svg(const Model& model, const Solution& solution, Field field,
   const View& view = scenery.view;
   const Heading words{
       options.title.empty() ? model.title : options.title,
-      (options.state.empty() ? "" : options.state + ": ") + describe_field(model, field),
+      (options.state.empty() ? "" : options.state + ": ") + describe(scenery.field, model),
       fmt::format("from {:.4g} to {:.4g}", lowest, highest) +
           (view.deformation > 0.0 ? fmt::format("; deformation x {:g}", view.deformation) : "")};
   const double legend = std::max(view.at(view.high).x() + 36.0, kLeft + 120.0);
@@ -356,7 +360,7 @@ std::string field_svg(const Model& model, const Solution& solution, Field field,
   return out;
 }
 
-Pictures::Pictures(std::filesystem::path folder, std::string stem, std::vector<Field> fields,
+Pictures::Pictures(std::filesystem::path folder, std::string stem, std::vector<std::string> fields,
                    PictureOptions options)
     : folder_(std::move(folder)),
       stem_(std::move(stem)),
@@ -369,8 +373,8 @@ void Pictures::draw(const Model& model, const Solution& solution, const std::str
                     const std::string& caption) {
   PictureOptions options = options_;
   options.state = caption;
-  for (Field field : fields_) {
-    files_.push_back(folder_ / fmt::format("{}_{}_{}.svg", stem_, state, field_name(field)));
+  for (const std::string& field : fields_) {
+    files_.push_back(folder_ / fmt::format("{}_{}_{}.svg", stem_, state, field));
     write_file(files_.back(), field_svg(model, solution, field, options));
   }
 }

@@ -2,30 +2,16 @@
 #pragma once
 
 #include <limits>
-#include <optional>
 
+#include "sage/record/field_reader.hpp"
 #include "sage/record/out_file.hpp"
 #include "sage/record/output.hpp"
 
 namespace sage {
 
-// Stress and strain measures compression positive; displacements along +x and +y.
-enum class Field {
-  stress_xx,  // in axisymmetry r, z, hoop and rz
-  stress_yy,
-  stress_zz,
-  stress_xy,
-  mean_stress,
-  deviator,  // q = sqrt(3 J2)
-  stress_level,
-  displacement_x,
-  displacement_y,
-  displacement,  // length of the vector
-};
-
-// "stress_yy" and so on: for options and file names.
-std::string_view field_name(Field field);
-std::optional<Field> field_from_name(std::string_view name);
+// A field is named as FieldTable::choose takes it, of fields_of(model): "stress_yy", "displacement",
+// "plastic_shear_strain".  An unknown one, or one that lives neither at nodes nor at points: std::invalid_argument.
+FieldChoice picture_field(const FieldTable& table, std::string_view name);
 
 struct PictureOptions {
   std::string title = {};  // empty = the model's
@@ -45,20 +31,20 @@ struct FieldRange {
 };
 
 // Of all places at which a picture with these options computes the field; low > high where no solid is active.
-FieldRange field_range(const Model& model, const Solution& solution, Field field,
+FieldRange field_range(const Model& model, const Solution& solution, std::string_view field,
                        const PictureOptions& options = {});
 
 // A whole SVG document of the active groups.  Stress at nodes is averaged over the elements of the same
 // material; between the nodes both stress and displacement are what the element's shape functions make of them.
 // Interfaces are dark red lines.
-std::string field_svg(const Model& model, const Solution& solution, Field field,
+std::string field_svg(const Model& model, const Solution& solution, std::string_view field,
                       const PictureOptions& options = {});
 
 // STEM_stage1_stress_yy.svg, ... at the end of every stage and at a failure (STEM_stage1_failed_...).
 class Pictures final : public Output {
  public:
   // Throws OutputError where a folder bears a name that a picture could get.
-  Pictures(std::filesystem::path folder, std::string stem, std::vector<Field> fields,
+  Pictures(std::filesystem::path folder, std::string stem, std::vector<std::string> fields,
            PictureOptions options = {});
 
   void on_stage_end(const Model&, int stage, const EquilibriumAudit&, const Solution&) override;
@@ -75,7 +61,7 @@ class Pictures final : public Output {
 
   std::filesystem::path folder_;
   std::string stem_;
-  std::vector<Field> fields_;
+  std::vector<std::string> fields_;
   PictureOptions options_;
   std::vector<std::filesystem::path> files_;
 };

@@ -6,21 +6,18 @@
 
 namespace sage {
 
-// "sig-z [psi], compression positive"
-std::string describe_field(const Model& model, Field field);
-
-// What a field is computed from, at the entries of a layout: displacements, or stresses (tension positive) and
-// their level; 0 at interfaces.  These are what shape functions carry to places between the nodes, not the
-// field itself: the length of a vector and the second invariant of a stress are no polynomials.
+// What is carried of a field (carry()), at the entries of a layout: that is what shape functions take to places
+// between the nodes, not the field itself; the length of a vector and the second invariant of a stress are no
+// polynomials.
 struct FieldParts {
   int components = 0;
   Eigen::MatrixXd at;    // components x entries
-  double largest = 0.0;  // displacement or stress
+  double largest = 0.0;  // displacement or stress: what is rounding beside it is zero
 };
-FieldParts field_parts(const Model& model, const Solution& solution, const NodalLayout& layout, Field field);
+FieldParts field_parts(const Model& model, const Solution& solution, const NodalLayout& layout,
+                       const FieldEntry& field);
 
-// The field from its parts at one place, with the signs that people read; what is rounding beside the largest
-// is zero.
-double field_value(Field field, const FieldParts& parts, const double* at);
+// The number that a picture shows, from its parts at one place; what is rounding beside the largest is zero.
+double field_number(const FieldChoice& field, const FieldParts& parts, const double* at);
 
 }  // namespace sage

@@ -134,6 +134,7 @@ struct Report {
   double height = 0.0, area = 0.0, cell_pressure = 0.0;
   Vector2 place = Vector2::Zero();  // point
   std::string name;                 // point; may be empty
+  std::vector<std::string> fields;  // point: more than the usual ones, by name
   int stage = 0;                    // strain and deviator count from the start of this stage (0-based)
   SourcePosition where;
 };
@@ -142,7 +143,8 @@ struct Model {
   std::string file, title;
   Geometry geometry = Geometry::plane_strain;
   UnitSystem units;
-  int solver = 0;  // catalogue code, 0 = automatic
+  int solver = 0;     // catalogue code, 0 = automatic
+  FieldTable fields;  // what results have, besides the history of the laws
   Mesh mesh;
   std::vector<Material> materials;
   std::vector<Group> groups;

@@ -2,6 +2,7 @@
 // ended); then one header line with the unit of each column in brackets.  Blank = not known or does not apply.
 #pragma once
 
+#include "sage/record/field_reader.hpp"
 #include "sage/record/number.hpp"
 #include "sage/record/out_file.hpp"
 #include "sage/record/output.hpp"
@@ -13,6 +14,7 @@ struct CsvOptions {
   bool nodes = false;      // STEM.nodes.csv: a row a node of an output increment
   bool points = false;     // STEM.points.csv and, where there are interfaces, STEM.interfaces.csv
   int digits = kCsvDigits;
+  std::vector<std::string> fields = {};  // more of the table's fields, behind the usual columns
 };
 
 class Csv final : public Output {
@@ -25,7 +27,7 @@ class Csv final : public Output {
   void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
   void on_finish(const Model&, const RunResult&) override;
   bool wants_states(const Model& model, const StepReport& report) const override {
-    return points_.file.open() && is_output_increment(stage_of(model, report.stage), report);
+    return wants_points_ && is_output_increment(stage_of(model, report.stage), report);
   }
   void exchange(Archive& archive) override;
   void stop(const std::string& reason) override;
@@ -34,9 +36,11 @@ class Csv final : public Output {
  private:
   struct Table {
     OutFile file;
-    std::vector<std::string_view> history;  // columns, in this order (points and interfaces)
+    FieldList fields;  // columns, in this order
   };
-  std::array<OutFile*, 4> all() { return {&increments_, &nodes_, &points_.file, &interfaces_.file}; }
+  std::array<Table*, 4> all() { return {&increments_, &nodes_, &points_, &interfaces_}; }
+  void open(Table& table, std::string header, const Model& model);
+  void choose_fields(const Model& model);
   void add_increment(const Model&, const StepReport&);
   void add_states(const Model&, const StepReport&, const Solution&);
   void comment(const std::string& line);
@@ -45,8 +49,11 @@ class Csv final : public Output {
   std::filesystem::path folder_;
   std::string stem_;
   int digits_;
-  OutFile increments_, nodes_;
-  Table points_, interfaces_;
+  std::vector<std::string> asked_;  // fields
+  bool wants_points_;
+  FieldTable fields_;                   // of the model
+  std::vector<FieldEntry> history_[2];  // of solids, of interfaces
+  Table increments_, nodes_, points_, interfaces_;
   std::vector<std::filesystem::path> files_;
 };
 

@@ -9,9 +9,10 @@ namespace sage {
 
 namespace {
 
-void states(std::string& text, const Model& model, const Solution& solution) {
-  listing::nodes(text, model, solution);
-  listing::points(text, model, solution);
+void states(std::string& text, const Model& model, const Solution& solution,
+            const std::vector<std::string>& fields) {
+  listing::nodes(text, model, solution, fields);
+  listing::points(text, model, solution, fields);
 }
 
 void indented(std::string& text, const std::string& page) {
@@ -88,7 +89,7 @@ void Listing::on_increment(const Model& model, const StepReport& report, const S
   const bool last = report.increment == report.increments;  // its tables come with the end of the stage
   if (tables_ == Tables::all && !last && is_output_increment(stage_of(model, report.stage), report)) {
     fmt::format_to(std::back_inserter(text), "\n   STATE: {}\n", last_state_);
-    states(text, model, solution);
+    states(text, model, solution, options_.fields);
     columns_shown_ = false;
   }
   file_.checkpoint();
@@ -100,7 +101,7 @@ void Listing::on_stage_end(const Model& model, int stage, const EquilibriumAudit
   listing::audit(text, model, audit);
   if (tables_ != Tables::none) {
     fmt::format_to(std::back_inserter(text), "\n   STATE: end of stage {}\n", stage + 1);
-    states(text, model, solution);
+    states(text, model, solution, options_.fields);
   }
   file_.checkpoint();
 }
@@ -116,7 +117,7 @@ void Listing::on_failure(const Model& model, const StepReport& report, const std
   listing::heading(text, "LAST CONVERGED STATE");
   fmt::format_to(std::back_inserter(text), "   {}\n", last_state_);
   if (options_.tables != Tables::none)
-    states(text, model, solution);
+    states(text, model, solution, options_.fields);
   else
     text += "   (no tables: --tables none)\n";
 }

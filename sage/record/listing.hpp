@@ -16,8 +16,9 @@ inline constexpr int kManyPoints = 20000;
 
 struct ListingOptions {
   Tables tables = Tables::automatic;
-  std::string date = {};             // shown if given; left out, so that listings compare
-  const Reports* reports = nullptr;  // whose rows the listing repeats at its end
+  std::string date = {};                 // shown if given; left out, so that listings compare
+  const Reports* reports = nullptr;      // whose rows the listing repeats at its end
+  std::vector<std::string> fields = {};  // more of the table's fields, behind the usual columns
 };
 
 // STEM.lst

@@ -23,9 +23,11 @@ void groups(std::string& text, const Model& model);
 void counts(std::string& text, const Model& model);
 void stage(std::string& text, const Model& model, int stage);
 
-// listing_tables.cpp: states.
-void nodes(std::string& text, const Model& model, const Solution& solution);
-void points(std::string& text, const Model& model, const Solution& solution);
+// listing_tables.cpp: states, with the usual columns and those of the fields that were asked for.
+void nodes(std::string& text, const Model& model, const Solution& solution,
+           const std::vector<std::string>& asked);
+void points(std::string& text, const Model& model, const Solution& solution,
+            const std::vector<std::string>& asked);
 
 // listing_record.cpp: what was done.
 void increment_columns(std::string& text);

@@ -51,7 +51,7 @@ void triaxial_rows(std::string& text, const Model& model, const std::vector<Tria
 }
 
 void node_rows(std::string& text, const Model& model, const std::vector<NodesRow>& rows) {
-  const AxisNames& names = axis_names(model.geometry);
+  const AxisNames names = axis_names(model.geometry);
   fmt::format_to(
       to(text), "   {:>5}{:>6}{:>14}{:>14}{:>14}{:>14}    (mean displacement {}, sum of forces {})\n", "stage",
       "incr", fmt::format("u-{}", names.x), fmt::format("u-{}", names.y), fmt::format("force-{}", names.x),
@@ -65,12 +65,11 @@ void node_rows(std::string& text, const Model& model, const std::vector<NodesRow
 }
 
 void point_rows(std::string& text, const Model& model, const std::vector<PointRow>& rows) {
-  const AxisNames& names = axis_names(model.geometry);
   text += "   stage  incr";
-  for (const std::string_view axis : {names.x, names.y})
-    fmt::format_to(to(text), "{:>14}", fmt::format("u-{}", axis));
-  for (const std::string_view name : names.strain) fmt::format_to(to(text), "{:>14}", name);
-  for (const std::string_view name : names.stress) fmt::format_to(to(text), "{:>14}", name);
+  const FieldTable table;
+  for (const FieldEntry* field : fields_named(table, {"displacement", "strain", "stress"}))
+    for (std::size_t c = 0; c < field->size(); ++c)
+      fmt::format_to(to(text), "{:>14}", field->label(c, model.geometry));
   fmt::format_to(to(text), "    (displacement {}, stress {})\n", model.units.length, model.units.stress);
   for (const PointRow& r : rows) {
     fmt::format_to(to(text), "   {:>5}{:>6}", r.stage, r.increment);
@@ -104,7 +103,7 @@ void increment(std::string& text, const StepReport& report) {
 }
 
 void audit(std::string& text, const Model& model, const EquilibriumAudit& audit) {
-  const AxisNames& names = axis_names(model.geometry);
+  const AxisNames names = axis_names(model.geometry);
   fmt::format_to(to(text), "\n   Equilibrium of the whole model ({})\n   {:>12}{:>16}{:>16}{:>16}\n",
                  model.units.force, "", "applied", "reactions", "sum");
   for (int c = 0; c < 2; ++c) {

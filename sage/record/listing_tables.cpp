@@ -1,12 +1,14 @@
 // States in columns: nodes, integration points, interface points.  Most of a listing's time is here.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
-#include "sage/analysis/shown_status.hpp"
+#include "sage/record/field_reader.hpp"
 #include "sage/record/listing_parts.hpp"
 #include "sage/record/number.hpp"
+#include "sage/record/values.hpp"
 
 namespace sage::listing {
 
@@ -41,105 +43,144 @@ void append_level(std::string& text, double level) {
   text.append(digits, 4);
 }
 
-void history_columns(std::string& text, const GroupData& data, const UnitSystem& units) {
-  for (const Quantity& quantity : history_of(data)) {
-    const std::string unit = unit_text(quantity.dimension, units);
-    column(text, unit == "-" ? std::string(quantity.name) : fmt::format("{} [{}]", quantity.name, unit), 22);
+// History and fields that were asked for: wide enough for their names.
+constexpr int kWide = 22;
+
+// What the tables of one group show: components first, then stress level and status, then these.
+struct GroupColumns {
+  FieldList components, wide;
+  const FieldEntry *level, *status;
+  std::size_t most = 1;  // values of a field
+};
+
+GroupColumns columns_of(const GroupData& data, const FieldTable& table, const std::vector<FieldEntry>& history,
+                        const std::vector<std::string>& asked) {
+  GroupColumns columns;
+  columns.components = data.group->solid() ? fields_named(table, {"stress"})
+                                           : fields_named(table, {"traction", "relative_displacement"});
+  columns.level = table.find("stress_level");
+  columns.status = table.find("status");
+  for (const FieldEntry& row : history) columns.wide.push_back(&row);
+  for (const std::string& name : asked) {
+    const FieldEntry* row = table.find(name);
+    const bool there =
+        row == nullptr || std::ranges::any_of(history, [&](const FieldEntry& h) { return h.name == name; });
+    if (!there && applies(*row, data)) columns.wide.push_back(row);
   }
+  for (const FieldList* list : {&columns.components, &columns.wide})
+    for (const FieldEntry* row : *list) columns.most = std::max(columns.most, row->size());
+  return columns;
 }
 
-void history(std::string& text, const GroupData& data, std::size_t point) {
-  const std::span<const Quantity> quantities = history_of(data);
-  const double* h = data.state.committed.h.data() + point * quantities.size();
-  for (std::size_t i = 0; i < quantities.size(); ++i)
-    append_scientific(text, outward(quantities[i], h[i]), 22, kDigits);
+void wide_columns(std::string& text, const FieldList& fields, const UnitSystem& units) {
+  for (const FieldEntry* field : fields)
+    for (std::size_t c = 0; c < field->size(); ++c) {
+      const std::string unit = unit_text(field->dimension, units), name = field->column(c);
+      column(text, unit == "-" ? name : fmt::format("{} [{}]", name, unit), kWide);
+    }
 }
 
-void solid_columns(std::string& text, const Model& model, const GroupData& data) {
-  const AxisNames& names = axis_names(model.geometry);
-  fmt::format_to(std::back_inserter(text), "\n   Stresses of group {} {} ({}, compression positive)\n",
-                 data.group->number, data.group->name, model.units.stress);
+void point_columns(std::string& text, const Model& model, const GroupData& data, const GroupColumns& columns) {
+  if (data.group->solid())
+    fmt::format_to(std::back_inserter(text), "\n   Stresses of group {} {} ({}, compression positive)\n",
+                   data.group->number, data.group->name, model.units.stress);
+  else
+    fmt::format_to(std::back_inserter(text),
+                   "\n   Interface of group {} {} (stress {}, relative displacement {}; compression and "
+                   "closing positive)\n",
+                   data.group->number, data.group->name, model.units.stress, model.units.length);
   column(text, "element", 9);
   column(text, "pt", 4);
-  column(text, names.x);
-  column(text, names.y);
-  for (std::string_view name : names.stress) column(text, name);
+  column(text, axis_names(model.geometry).x);
+  column(text, axis_names(model.geometry).y);
+  for (const FieldEntry* field : columns.components)
+    for (std::size_t c = 0; c < field->size(); ++c) column(text, field->label(c, model.geometry));
   text += "   level  status    ";
-  history_columns(text, data, model.units);
+  wide_columns(text, columns.wide, model.units);
   text += '\n';
 }
 
-void interface_columns(std::string& text, const Model& model, const GroupData& data) {
-  const AxisNames& names = axis_names(model.geometry);
-  fmt::format_to(
-      std::back_inserter(text),
-      "\n   Interface of group {} {} (stress {}, relative displacement {}; compression and closing positive)\n",
-      data.group->number, data.group->name, model.units.stress, model.units.length);
-  column(text, "element", 9);
-  column(text, "pt", 4);
-  for (std::string_view name : {names.x, names.y, std::string_view("shear"), std::string_view("normal"),
-                                std::string_view("rel.shear"), std::string_view("rel.normal")})
-    column(text, name);
-  text += "   level  status    ";
-  history_columns(text, data, model.units);
-  text += '\n';
-}
-
-// Components, stress level, status and history of one point.
-void point_values(std::string& text, const Mesh& mesh, const GroupData& data, std::size_t point) {
-  const PointStates& state = data.state.committed;
-  const auto n = static_cast<std::size_t>(data.state.law_size());
-  for (std::size_t i = 0; i < n; ++i) put(text, outward(state.sigma[point * n + i]));
-  if (n == 2)
-    for (std::size_t i = 0; i < n; ++i) put(text, outward(state.eps[point * n + i]));
-  append_level(text, stress_level(data, point));
+// Components, stress level, status, history and what was asked for, of one point.
+void point_values(std::string& text, const PointState& point, const GroupColumns& columns,
+                  std::vector<double>& values) {
+  for (const FieldEntry* field : columns.components) {
+    read_field(*field, point, values.data());
+    for (std::size_t c = 0; c < field->size(); ++c) put(text, values[c]);
+  }
+  read_field(*columns.level, point, values.data());
+  append_level(text, values[0]);
   text += "  ";
-  if (history_of(data).empty()) {
-    text += status_name(shown_status(mesh, data, point));
-  } else {
-    left(text, status_name(shown_status(mesh, data, point)), 10);
-    history(text, data, point);
+  read_field(*columns.status, point, values.data());
+  left(text, word_of(*columns.status, values[0]), columns.wide.empty() ? 0 : 10);
+  for (const FieldEntry* field : columns.wide) {
+    read_field(*field, point, values.data());
+    for (std::size_t c = 0; c < field->size(); ++c) append_scientific(text, values[c], kWide, kDigits);
   }
   text += '\n';
 }
 
 }  // namespace
 
-void nodes(std::string& text, const Model& model, const Solution& solution) {
-  const AxisNames& names = axis_names(model.geometry);
+void nodes(std::string& text, const Model& model, const Solution& solution,
+           const std::vector<std::string>& asked) {
+  const AxisNames axes = axis_names(model.geometry);
   const std::vector<char> active = active_nodes(model, *solution.activity);
+  const FieldTable table = model.fields;
+  const FieldEntry &moved = *table.find("displacement"), &reaction = *table.find("reaction");
+  FieldList wide;
+  std::size_t most = 2;
+  for (const std::string& name : asked) {
+    const FieldEntry* row = table.find(name);
+    if (row == nullptr || row->place() != FieldPlace::node || row == &moved || row == &reaction) continue;
+    wide.push_back(row);
+    most = std::max(most, row->size());
+  }
   fmt::format_to(std::back_inserter(text),
                  "\n   Nodes (displacement {}, reaction of supports {}; positive along +{}, +{})\n",
-                 model.units.length, model.units.force, names.x, names.y);
+                 model.units.length, model.units.force, axes.x, axes.y);
   column(text, "node", 9);
-  for (const std::string& name :
-       {std::string(names.x), std::string(names.y), fmt::format("u-{}", names.x), fmt::format("u-{}", names.y),
-        fmt::format("react-{}", names.x), fmt::format("react-{}", names.y)})
-    column(text, name);
+  column(text, axes.x);
+  column(text, axes.y);
+  for (const FieldEntry* field : {&moved, &reaction})
+    for (std::size_t c = 0; c < 2; ++c) column(text, field->label(c, model.geometry));
+  wide_columns(text, wide, model.units);
   text += '\n';
+  std::vector<double> values(most);
   for (int node = 0; node < model.mesh.nodes(); ++node) {
-    const auto n = static_cast<std::size_t>(node);
-    if (!active[n]) continue;
-    append_integer(text, model.mesh.number[n], 9);
-    for (int c = 0; c < 2; ++c) put(text, model.mesh.x(c, node));
-    for (int c = 0; c < 2; ++c) put(text, (*solution.u)[2 * node + c]);
-    const bool held[2] = {solution.activity->held[2 * n] != 0, solution.activity->held[2 * n + 1] != 0};
-    if (held[0]) put(text, reaction(solution, 2 * node));
-    if (!held[0] && held[1]) text.append(kWidth, ' ');
-    if (held[1]) put(text, reaction(solution, 2 * node + 1));
+    if (!active[static_cast<std::size_t>(node)]) continue;
+    const NodeView view = node_view(model, solution, node);
+    append_integer(text, view.number, 9);
+    for (int c = 0; c < 2; ++c) put(text, view.place[c]);
+    read_field(moved, view, values.data());
+    for (std::size_t c = 0; c < 2; ++c) put(text, values[c]);
+    read_field(reaction, view, values.data());
+    const bool held[2] = {!std::isnan(values[0]), !std::isnan(values[1])};
+    if (held[0]) put(text, values[0]);
+    if (!held[0] && (held[1] || !wide.empty())) text.append(kWidth, ' ');
+    if (held[1]) put(text, values[1]);
+    if (!held[1] && !wide.empty()) text.append(kWidth, ' ');
+    for (const FieldEntry* field : wide) {
+      read_field(*field, view, values.data());
+      for (std::size_t c = 0; c < field->size(); ++c) append_scientific(text, values[c], kWide, kDigits);
+    }
     text += '\n';
   }
 }
 
-void points(std::string& text, const Model& model, const Solution& solution) {
+void points(std::string& text, const Model& model, const Solution& solution,
+            const std::vector<std::string>& asked) {
+  const FieldTable table = model.fields;
   Eigen::Matrix2Xd x;
-  for (const GroupData& data : solution.assembly->groups()) {
+  for (const GroupData& data : solution.groups()) {
     if (!data.active) continue;
     const Group& group = *data.group;
     const int count = group.element->traits().points;
     constexpr std::size_t kRow = 112;  // characters, without a history
     text.reserve(text.size() + static_cast<std::size_t>(group.elements() * count) * kRow);
-    data.group->solid() ? solid_columns(text, model, data) : interface_columns(text, model, data);
+    const std::vector<FieldEntry> history = history_fields(data.law);
+    const GroupColumns columns = columns_of(data, table, history, asked);
+    std::vector<double> values(columns.most);
+    point_columns(text, model, data, columns);
     for (int e = 0; e < group.elements(); ++e) {
       element_coordinates(model.mesh, group, e, x);
       for (int p = 0; p < count; ++p) {
@@ -148,7 +189,7 @@ void points(std::string& text, const Model& model, const Solution& solution) {
         append_integer(text, p + 1, 4);
         put(text, at.x());
         put(text, at.y());
-        point_values(text, model.mesh, data, static_cast<std::size_t>(e * count + p));
+        point_values(text, {model.mesh, data, static_cast<std::size_t>(e * count + p)}, columns, values);
       }
     }
   }

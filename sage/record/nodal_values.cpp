@@ -25,22 +25,41 @@ NodalLayout nodal_layout(const Model& model, const Activity& activity) {
   return layout;
 }
 
+std::size_t size_of(const FieldList& fields) {
+  std::size_t size = 0;
+  for (const FieldEntry* field : fields) size += field->size();
+  return size;
+}
+
+std::size_t carried_size_of(const FieldList& fields) {
+  std::size_t size = 0;
+  for (const FieldEntry* field : fields) size += carried_size(*field);
+  return size;
+}
+
 std::vector<double> nodal_average(const Model& model, const Solution& solution, const NodalLayout& layout,
-                                  int components, const PointValue& value) {
-  const auto n = static_cast<std::size_t>(components);
+                                  const FieldList& fields) {
+  const std::size_t n = carried_size_of(fields);
   std::vector<double> sum(static_cast<std::size_t>(layout.entries()) * n, 0.0);
   std::vector<int> uses(static_cast<std::size_t>(layout.entries()), 0);
   std::vector<double> at_points;
   Eigen::Matrix2Xd x;
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
-    const GroupData& data = solution.assembly->groups()[g];
+    const GroupData& data = solution.groups()[g];
     if (layout.of_group[g].empty()) continue;
     const Group& group = *data.group;
     const auto points = static_cast<std::size_t>(group.element->traits().points);
     at_points.resize(points * n);
     for (int e = 0; e < group.elements(); ++e) {
       const auto eu = static_cast<std::size_t>(e);
-      for (std::size_t p = 0; p < points; ++p) value(data, eu * points + p, at_points.data() + p * n);
+      for (std::size_t p = 0; p < points; ++p) {
+        const PointState point(model.mesh, data, eu * points + p);
+        double* to = at_points.data() + p * n;
+        for (const FieldEntry* field : fields) {
+          carry(*field, point, to);
+          to += carried_size(*field);
+        }
+      }
       element_coordinates(model.mesh, group, e, x);
       const std::span<const double> map = group.element->point_to_node_at(x);
       for (std::size_t i = 0; i < group.node_count(); ++i) {
@@ -55,15 +74,49 @@ std::vector<double> nodal_average(const Model& model, const Solution& solution, 
   return sum;
 }
 
-std::vector<double> element_average(const GroupData& data, int components, const PointValue& value) {
-  const auto n = static_cast<std::size_t>(components);
+namespace {
+
+// Adds one of `points` points to the mean over its element; what a field of_mean adds is what it carries.
+void add_share(const FieldList& fields, const PointState& point, double points, std::vector<double>& one,
+               double* sum) {
+  for (const FieldEntry* field : fields) {
+    const std::size_t n = field->of_mean ? carried_size(*field) : field->size();
+    if (field->of_mean)
+      carry(*field, point, one.data());
+    else
+      read_field(*field, point, one.data());
+    for (std::size_t c = 0; c < n; ++c) sum[c] += one[c] / points;
+    sum += n;
+  }
+}
+
+}  // namespace
+
+std::vector<double> element_average(const Mesh& mesh, const GroupData& data, const FieldList& fields) {
+  const std::size_t n = size_of(fields);
+  std::size_t summed = 0, most = 0;
+  for (const FieldEntry* field : fields) {
+    summed += field->of_mean ? carried_size(*field) : field->size();
+    most = std::max({most, carried_size(*field), field->size()});
+  }
   const auto points = static_cast<std::size_t>(data.group->element->traits().points);
-  std::vector<double> mean(static_cast<std::size_t>(data.group->elements()) * n, 0.0), one(n);
-  for (std::size_t k = 0; k < mean.size() / n; ++k)
-    for (std::size_t p = 0; p < points; ++p) {
-      value(data, k * points + p, one.data());
-      for (std::size_t c = 0; c < n; ++c) mean[k * n + c] += one[c] / static_cast<double>(points);
+  const auto elements = static_cast<std::size_t>(data.group->elements());
+  std::vector<double> mean(elements * n, 0.0), sum(summed), one(most);
+  for (std::size_t e = 0; e < elements; ++e) {
+    std::ranges::fill(sum, 0.0);
+    for (std::size_t p = 0; p < points; ++p)
+      add_share(fields, {mesh, data, e * points + p}, static_cast<double>(points), one, sum.data());
+    const double* from = sum.data();
+    double* to = mean.data() + e * n;
+    for (const FieldEntry* field : fields) {
+      if (field->of_mean)
+        value_of_carried(*field, from, to);
+      else
+        std::copy_n(from, field->size(), to);
+      from += field->of_mean ? carried_size(*field) : field->size();
+      to += field->size();
     }
+  }
   return mean;
 }
 

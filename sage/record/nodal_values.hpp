@@ -1,10 +1,9 @@
 // Values at nodes from values at integration points, for pictures and VTU.
 #pragma once
 
-#include <functional>
 #include <vector>
 
-#include "sage/analysis/observer.hpp"
+#include "sage/record/field_reader.hpp"
 
 namespace sage {
 
@@ -19,15 +18,18 @@ struct NodalLayout {
 
 NodalLayout nodal_layout(const Model& model, const Activity& activity);
 
-// Fills `values` (components) for one point of the committed state.
-using PointValue = std::function<void(const GroupData& data, std::size_t point, double* values)>;
-
-// entries x components: extrapolated from the points (Element::point_to_node), then the plain mean over the
-// elements that share the entry.
+// What is carried (carry()) of fields that live at points, one field behind the other.  entries x numbers:
+// extrapolated from the points (Element::point_to_node), then the plain mean over the elements that share the
+// entry.
 std::vector<double> nodal_average(const Model& model, const Solution& solution, const NodalLayout& layout,
-                                  int components, const PointValue& value);
+                                  const FieldList& fields);
 
-// elements x components of a group: the plain mean over an element's points.
-std::vector<double> element_average(const GroupData& data, int components, const PointValue& value);
+// Values of fields that live at points, one field behind the other.  elements x numbers of a group: the plain
+// mean over an element's points; of a field of_mean, the value of the mean of what is carried.
+std::vector<double> element_average(const Mesh& mesh, const GroupData& data, const FieldList& fields);
+
+// Numbers of all these fields together.
+std::size_t size_of(const FieldList& fields);
+std::size_t carried_size_of(const FieldList& fields);
 
 }  // namespace sage

@@ -218,6 +218,26 @@ void OutFile::finish() {
   if (sync_) sync_path(path_.parent_path());
 }
 
+void OutFile::written_by(const std::function<void(const std::filesystem::path&)>& write_it) {
+  cut_to(0);
+  try {
+    write_it(partial_);
+  } catch (...) {
+    discard();
+    throw;
+  }
+  expect_in_place();
+  const std::optional<Checksum> sum = checksum_of(partial_);
+  if (!sum) fail(partial_, "it can't be read back");
+  sum_ = *sum;
+}
+
+void OutFile::discard() {
+  text_.clear();
+  file_.reset();
+  if (partial_ != path_) ::unlink(partial_.c_str());
+}
+
 std::optional<Checksum> checksum_of(const std::filesystem::path& file, std::uint64_t most) {
   const int descriptor = open_waiting_for_signals(file, O_RDONLY | O_NONBLOCK);
   if (descriptor < 0) return std::nullopt;

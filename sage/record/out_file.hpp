@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -64,8 +65,15 @@ class OutFile {
   // Writes if much is waiting or half a second has passed: a killed run then leaves a useful NAME.partial.
   // Throws OutputError where that has been removed meanwhile.
   void checkpoint();
+  // Writes all that is waiting.
+  void flush() { write(); }
   // Writes the rest, closes, renames.
   void finish();
+  // A library writes the whole file, under the name that it is given; finish() comes next.  What the library
+  // throws goes through, and NAME.partial is removed.
+  void written_by(const std::function<void(const std::filesystem::path& partial)>& write);
+  // Nobody wants the file: NAME.partial is removed.
+  void discard();
 
   // Checkpoint: everything so far is written and on the disk, and where it ends is kept.  Reading: NAME.partial
   // is cut back to that place and goes on from there.  Throws InputError if what stands before it is not what
@@ -75,6 +83,7 @@ class OutFile {
 
   bool open() const { return file_ != nullptr; }
   const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& partial() const { return partial_; }
 
  private:
   struct Close {

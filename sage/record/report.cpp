@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "sage/analysis/loads.hpp"
+#include "sage/record/nodal_values.hpp"
 #include "sage/record/number.hpp"
 #include "sage/record/values.hpp"
 
@@ -116,14 +117,24 @@ std::vector<ReportColumn> report_columns(const Model& model, const Report& repor
             {"ratio", "-", true}};
   if (report.kind == ReportKind::nodes)
     return {{"ux", u.length}, {"uy", u.length}, {"fx", u.force}, {"fy", u.force}};
-  std::vector<ReportColumn> columns{{"ux", u.length, true}, {"uy", u.length, true}};
-  for (const char* component : {"xx", "yy", "zz", "xy"})
-    columns.push_back({fmt::format("strain_{}", component), "-", true});
-  for (const char* component : {"xx", "yy", "zz", "xy"})
-    columns.push_back({fmt::format("stress_{}", component), u.stress, true});
-  columns.push_back({"mean_stress", u.stress, true});
-  columns.push_back({"deviator", u.stress, true});
+  const FieldTable table = fields_of(model);
+  std::vector<ReportColumn> columns;
+  for (const FieldEntry* field : point_report_fields(table, report))
+    for (std::size_t c = 0; c < field->size(); ++c)
+      columns.push_back({field->column(c), unit_text(field->dimension, u), true});
   return columns;
+}
+
+FieldList point_report_fields(const FieldTable& table, const Report& report) {
+  FieldList fields = fields_named(table, {"displacement", "strain", "stress", "mean_stress", "deviator"});
+  for (const std::string& name : report.fields) {
+    const FieldEntry* row = table.find(name);
+    const bool lives =
+        row != nullptr && (row->place() == FieldPlace::node || row->place() == FieldPlace::point);
+    if (lives && row->form == FieldForm::number && std::ranges::find(fields, row) == fields.end())
+      fields.push_back(row);
+  }
+  return fields;
 }
 
 std::string report_title(const Model& model, std::size_t index) {
@@ -181,10 +192,15 @@ Reports::NodeSums Reports::sum_nodes(const Model& model, const Report& report, c
 
 void Reports::on_start(const Model& model, const Scene&, std::string_view, int) {
   model_ = &model;
+  fields_ = fields_of(model);
   for (std::size_t i = 0; i < model.reports.size(); ++i) {
     Series series;
     series.file = OutFile(folder_ / (stem_ + ".report" + std::to_string(i + 1) + ".csv"));
     series.file.text() = header(model, i);
+    if (model.reports[i].kind == ReportKind::point) {
+      series.fields = point_report_fields(fields_, model.reports[i]);
+      series.start.assign(size_of(series.fields), 0.0);
+    }
     series_.push_back(std::move(series));
     columns_.push_back(report_columns(model, model.reports[i]));
   }
@@ -254,13 +270,16 @@ void Reports::enter_points(const Model& model, const Solution& solution) {
   }
 }
 
-// A point's displacement counts from the first time that something is there, its strain from the time of the
-// group that is.
+// What lives at nodes counts from the first time that something is there, what lives at points from the time of
+// the group that is.
 void Reports::count_from_here(Series& series, const Model& model, const Solution& solution) {
   if (!series.probe.active() || (series.filled && series.group == series.probe.group)) return;
-  const Sample now = sample_of(model, series.probe, solution);
-  if (!series.filled) series.start_u = now.u;
-  series.start_strain = now.strain;
+  const Sample now = sample_of(model, series.probe, solution, series.fields);
+  std::size_t at = 0;
+  for (const FieldEntry* field : series.fields)
+    for (std::size_t c = 0; c < field->size(); ++c, ++at)
+      if (field->from_start && (field->place() == FieldPlace::point || !series.filled))
+        series.start[at] = now.values[at];
   series.group = series.probe.group;
   series.filled = true;
 }
@@ -292,17 +311,18 @@ void Reports::add_nodes(Series& series, const StepReport& step, const NodeSums& 
 }
 
 void Reports::add_point(Series& series, const Model& model, const StepReport& step, const Solution& solution) {
-  const Sample now = sample_of(model, series.probe, solution);
+  std::vector<double> v = sample_of(model, series.probe, solution, series.fields).values;
+  for (std::size_t i = 0; i < v.size(); ++i) v[i] -= series.start[i];
   PointRow r;
   r.stage = step.stage + 1;
   r.increment = step.increment;
-  for (int c = 0; c < 2; ++c) r.displacement[c] = now.u[c] - series.start_u[c];
-  for (int c = 0; c < 4; ++c) {
-    r.strain[c] = now.strain[c] - series.start_strain[c];
-    r.stress[c] = now.stress[c];
-  }
-  r.mean = now.mean;
-  r.deviator = now.deviator;
+  const double* at = v.data();
+  for (double& displacement : r.displacement) displacement = *at++;
+  for (double& strain : r.strain) strain = *at++;
+  for (double& stress : r.stress) stress = *at++;
+  r.mean = *at++;
+  r.deviator = *at++;
+  series.more.insert(series.more.end(), v.begin() + (at - v.data()), v.end());
   series.points.push_back(r);
 }
 
@@ -334,6 +354,9 @@ std::vector<double> Reports::values(std::size_t index, std::size_t row) const {
   values.insert(values.end(), r.strain, r.strain + 4);
   values.insert(values.end(), r.stress, r.stress + 4);
   values.insert(values.end(), {r.mean, r.deviator});
+  const std::size_t more = series.more.size() / series.points.size();
+  const double* first = series.more.data() + row * more;
+  values.insert(values.end(), first, first + more);
   return values;
 }
 
@@ -421,8 +444,8 @@ void Reports::exchange(Archive& archive) {
     archive(series.points);
     archive(series.filled);
     archive(series.group);
-    for (int c = 0; c < 2; ++c) archive(series.start_u[c]);
-    for (int c = 0; c < 4; ++c) archive(series.start_strain[c]);
+    archive(series.start);
+    archive(series.more);
     if (!archive.reading() || !series.begun) continue;
     begin(series, *model_, model_->reports[i]);
     if (series.correct)

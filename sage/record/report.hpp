@@ -50,6 +50,8 @@ struct PointRow {
   double stress[4] = {0, 0, 0, 0};
   double mean = 0.0, deviator = 0.0;  // p = (xx + yy + zz) / 3 and q = sqrt(3 J2) of that stress
 };
+// The usual fields of a point report, whose values are those numbers; then come those of Report::fields.
+FieldList point_report_fields(const FieldTable& table, const Report& report);
 
 // A column of a report's file, behind stage and increment.
 struct ReportColumn {
@@ -119,11 +121,12 @@ class Reports final : public Output {
     std::vector<TriaxialRow> triaxial;
     std::vector<NodesRow> nodes;
     std::vector<PointRow> points;
-    Probe probe;                             // of a point, in the present stage
-    bool filled = false;                     // something was born there, and what follows counts from it
-    int group = -1;                          // that start_strain belongs to
-    Vector2 start_u = Vector2::Zero();       // of a point
-    Vector4 start_strain = Vector4::Zero();  // of a point, compression +
+    std::vector<double> more;   // numbers of Report::fields, a row behind the other
+    Probe probe;                // of a point, in the present stage
+    bool filled = false;        // something was born there, and what follows counts from it
+    int group = -1;             // that `start` belongs to
+    std::vector<double> start;  // numbers of a point that rows count from; 0 = as they are
+    FieldList fields;           // of a point
   };
   static void begin(Series& series, const Model& model, const Report& report);
   static void note_release(Series& series, const Model& model, const StepReport& step);
@@ -143,6 +146,7 @@ class Reports final : public Output {
   int digits_;
   std::vector<Series> series_;
   std::vector<std::vector<ReportColumn>> columns_;
+  FieldTable fields_;
   const Model* model_ = nullptr;  // since on_start
   std::vector<char> probed_;      // groups that were active when the probes were made
   std::vector<std::filesystem::path> files_;

@@ -13,13 +13,14 @@ namespace sage {
 
 namespace {
 
-std::vector<std::string> columns_of(const Report& report) {
+std::vector<std::string> columns_of(const Model& model, const Report& report) {
   if (report.kind == ReportKind::triaxial)
     return {"ratio",          "measured_deviator", "axial_strain", "force", "correct_deviator",
             "measured_axial", "correct_axial"};
   if (report.kind == ReportKind::nodes) return {"ux", "uy", "fx", "fy"};
-  return {"ux",        "uy",        "strain_xx", "strain_yy", "strain_zz",   "strain_xy",
-          "stress_xx", "stress_yy", "stress_zz", "stress_xy", "mean_stress", "deviator"};
+  std::vector<std::string> names;
+  for (const ReportColumn& column : report_columns(model, report)) names.push_back(column.name);
+  return names;
 }
 
 std::string name_of(std::size_t report, const std::string& column) {
@@ -45,12 +46,12 @@ int deck_nodes(const Model& model, const Report& report) {
                                         [&](int node) { return node < model.mesh.deck_nodes; }));
 }
 
-void add_triaxial(const Report& report, std::size_t i, const std::vector<TriaxialRow>& rows,
+void add_triaxial(const Model& model, const Report& report, std::size_t i, const std::vector<TriaxialRow>& rows,
                   std::vector<ReportComponent>& all) {
   const TriaxialRow& r = rows.back();
   const double values[] = {r.ratio,          r.measured_deviator, r.axial_strain, r.force, r.correct_deviator,
                            r.measured_axial, r.correct_axial};
-  const std::vector<std::string> columns = columns_of(report);
+  const std::vector<std::string> columns = columns_of(model, report);
   for (std::size_t k = 0; k < columns.size(); ++k)
     all.push_back({name_of(i, columns[k]), values[k], std::abs(values[k]), false});
   all[all.size() - columns.size() + (std::isfinite(r.ratio) ? 0 : 1)].main = true;
@@ -64,7 +65,7 @@ void add_nodes(const Model& model, const Report& report, std::size_t i, const st
       largest[0] = std::max(largest[0], std::abs(row.displacement[c]));
       largest[1] = std::max(largest[1], std::abs(row.force[c]));
     }
-  const std::vector<std::string> columns = columns_of(report);
+  const std::vector<std::string> columns = columns_of(model, report);
   for (std::size_t k = 0; k < 4; ++k) {
     const std::size_t c = k % 2;
     const int held = held_nodes(model, report, c), nodes = deck_nodes(model, report);
@@ -74,23 +75,24 @@ void add_nodes(const Model& model, const Report& report, std::size_t i, const st
   }
 }
 
-// Sisters of a point's component are those of its unit: displacements, strains, stresses.
+// Sisters of a point's component are those of its dimension: displacements, strains, stresses.
 void add_point(const Model& model, std::size_t i, const Reports& reports, std::vector<ReportComponent>& all) {
   const std::vector<ReportColumn> columns = report_columns(model, model.reports[i]);
-  std::map<std::string, double> largest;
-  const auto family = [&](std::size_t k) {
-    return k < 2 ? "displacement" : columns[k].name.starts_with("strain_") ? "strain" : "stress";
-  };
+  std::map<Dimension, double> largest;
+  const FieldTable table = fields_of(model);
+  std::vector<Dimension> family;
+  for (const FieldEntry* field : point_report_fields(table, model.reports[i]))
+    family.insert(family.end(), field->size(), field->dimension);
   for (std::size_t row = 0; row < reports.rows(i); ++row) {
     const std::vector<double> values = reports.values(i, row);
     for (std::size_t k = 0; k < columns.size(); ++k) {
-      double& most = largest[family(k)];
+      double& most = largest[family[k]];
       if (std::abs(values[k]) > most) most = std::abs(values[k]);
     }
   }
   const std::vector<double> last = reports.values(i, reports.rows(i) - 1);
   for (std::size_t k = 0; k < columns.size(); ++k)
-    all.push_back({name_of(i, columns[k].name), last[k], largest[family(k)],
+    all.push_back({name_of(i, columns[k].name), last[k], largest[family[k]],
                    k < 2 || columns[k].name.starts_with("stress_")});
 }
 
@@ -99,7 +101,7 @@ void add_point(const Model& model, std::size_t i, const Reports& reports, std::v
 std::vector<std::string> component_names(const Model& model) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < model.reports.size(); ++i)
-    for (const std::string& column : columns_of(model.reports[i])) names.push_back(name_of(i, column));
+    for (const std::string& column : columns_of(model, model.reports[i])) names.push_back(name_of(i, column));
   return names;
 }
 
@@ -130,7 +132,7 @@ std::vector<ReportComponent> last_components(const Model& model, const Reports& 
   for (std::size_t i = 0; i < model.reports.size() && i < reports.count(); ++i) {
     const Report& report = model.reports[i];
     if (report.kind == ReportKind::triaxial && !reports.triaxial(i).empty())
-      add_triaxial(report, i, reports.triaxial(i), all);
+      add_triaxial(model, report, i, reports.triaxial(i), all);
     if (report.kind == ReportKind::nodes && !reports.nodes(i).empty())
       add_nodes(model, report, i, reports.nodes(i), all);
     if (report.kind == ReportKind::point && reports.rows(i) > 0) add_point(model, i, reports, all);

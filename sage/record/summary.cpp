@@ -94,7 +94,7 @@ void triaxial_table(std::string& text, const Model& model, std::size_t index,
 
 void node_table(std::string& text, const Model& model, std::size_t index, const std::vector<NodesRow>& rows,
                 int digits) {
-  const AxisNames& names = axis_names(model.geometry);
+  const AxisNames names = axis_names(model.geometry);
   const UnitSystem& u = model.units;
   fmt::format_to(to(text), "  nodes {:<11}{:>7}", index + 1, "incr");
   for (const std::string_view axis : {names.x, names.y})
@@ -117,16 +117,16 @@ void node_table(std::string& text, const Model& model, std::size_t index, const 
 void point_table(std::string& text, const Model& model, std::size_t index, const std::vector<PointRow>& rows,
                  int digits) {
   constexpr int kWidth = 14;
-  const AxisNames& names = axis_names(model.geometry);
   const Report& report = model.reports[index];
   fmt::format_to(to(text), "  point {:<11}{} ({:.10g}; {:.10g})\n    {:<13}{:>7}", index + 1, report.name,
                  report.place.x(), report.place.y(), "", "incr");
-  for (const std::string_view axis : {names.x, names.y})
-    fmt::format_to(to(text), "{:>{}}", fmt::format("u-{} [{}]", axis, model.units.length),
-                   wide(kWidth, digits));
-  for (const std::string_view stress : names.stress)
-    fmt::format_to(to(text), "{:>{}}", fmt::format("{} [{}]", stress, model.units.stress),
-                   wide(kWidth, digits));
+  const FieldTable table;
+  for (const FieldEntry* field : fields_named(table, {"displacement", "stress"}))
+    for (std::size_t c = 0; c < field->size(); ++c)
+      fmt::format_to(
+          to(text), "{:>{}}",
+          fmt::format("{} [{}]", field->label(c, model.geometry), unit_text(field->dimension, model.units)),
+          wide(kWidth, digits));
   text += '\n';
   for (const PointRow& r : chosen(rows)) {
     fmt::format_to(to(text), "    stage {:<7}{:>7}", r.stage, r.increment);

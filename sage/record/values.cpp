@@ -9,21 +9,8 @@
 namespace sage {
 
 std::string_view status_name(PointStatus status) {
-  switch (status) {
-    case PointStatus::elastic:
-      return "elastic";
-    case PointStatus::unloading:
-      return "unloading";
-    case PointStatus::yielded:
-      return "yielded";
-    case PointStatus::slipping:
-      return "slipping";
-    case PointStatus::open:
-      return "open";
-    case PointStatus::apex:
-      return "apex";
-  }
-  return "?";
+  static const FieldEntry* const row = FieldTable().find("status");
+  return row->words[static_cast<std::size_t>(status)];
 }
 
 std::string_view method_name(Method method) {
@@ -40,39 +27,8 @@ std::string_view method_name(Method method) {
   return "?";
 }
 
-const AxisNames& axis_names(Geometry geometry) {
-  static const AxisNames plane{
-      "x", "y", {"sig-x", "sig-y", "sig-z", "tau-xy"}, {"eps-x", "eps-y", "eps-z", "gam-xy"}};
-  static const AxisNames ring{
-      "r", "z", {"sig-r", "sig-z", "sig-hoop", "tau-rz"}, {"eps-r", "eps-z", "eps-hoop", "gam-rz"}};
-  return geometry == Geometry::axisymmetric ? ring : plane;
-}
-
-std::span<const Quantity> history_of(const GroupData& data) {
-  return std::visit([](const auto* law) { return law->history(); }, data.law);
-}
-
-double stress_level(const GroupData& data, std::size_t point) {
-  const auto history = static_cast<std::size_t>(data.state.history_size());
-  const std::span<const double> h{data.state.committed.h.data() + point * history, history};
-  const double* sigma =
-      data.state.committed.sigma.data() + point * static_cast<std::size_t>(data.state.law_size());
-  if (const auto* solid = std::get_if<const SolidLaw*>(&data.law))
-    return (*solid)->stress_level(Vector4::Map(sigma), h);
-  return std::get<const InterfaceLaw*>(data.law)->stress_level(Vector2::Map(sigma), h);
-}
-
 double outward(const Quantity& quantity, double value) {
   return quantity.dimension == Dimension::angle ? value / kRadiansPerDegree : value;
-}
-
-double mean_stress(const double* sigma) {
-  return outward((sigma[0] + sigma[1] + sigma[2]) / 3.0);
-}
-
-double deviator_stress(const double* sigma) {
-  const double a = sigma[0] - sigma[1], b = sigma[1] - sigma[2], c = sigma[2] - sigma[0];
-  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3.0 * sigma[3] * sigma[3]);
 }
 
 std::string left_out_words(const Model& model) {

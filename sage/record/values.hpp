@@ -21,15 +21,12 @@ std::string_view status_name(PointStatus status);  // "yielded"
 std::string_view method_name(Method method);       // "Newton"
 
 struct AxisNames {
-  std::string_view x, y;                           // x y, or r z
-  std::array<std::string_view, 4> stress, strain;  // in the order of the components
+  std::string_view x, y;  // x y, or r z
 };
-const AxisNames& axis_names(Geometry geometry);
+inline AxisNames axis_names(Geometry geometry) {
+  return geometry == Geometry::axisymmetric ? AxisNames{"r", "z"} : AxisNames{"x", "y"};
+}
 
-// A point's mobilised strength, asked from its law at the committed state.
-double stress_level(const GroupData& data, std::size_t point);
-
-std::span<const Quantity> history_of(const GroupData& data);
 // A history variable as people read it: the law's own sign, angles in degrees.
 double outward(const Quantity& quantity, double value);
 
@@ -37,10 +34,6 @@ double outward(const Quantity& quantity, double value);
 inline double reaction(const Solution& solution, int dof) {
   return (*solution.internal)[dof] - (*solution.external)[dof];
 }
-
-// Mean stress (compression +) and q = sqrt(3 J2) of a stress [xx yy zz xy].
-double mean_stress(const double* sigma);
-double deviator_stress(const double* sigma);
 
 // How a run ended that reached its end, with what the model lacks of its deck: "completed: every increment in
 // equilibrium", or "completed, but PARTIAL: left out ...".

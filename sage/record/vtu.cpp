@@ -8,21 +8,18 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
-#include <limits>
 #include <numeric>
+#include <utility>
 
-#include "sage/analysis/shown_status.hpp"
 #include "sage/model/foreign_element.hpp"
-#include "sage/record/nodal_values.hpp"
 #include "sage/record/values.hpp"
+#include "sage/record/vtk_data.hpp"
 
 namespace sage {
 
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "the VTU writer appends raw little-endian data");
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 template <class T>
 constexpr std::string_view vtk_type() {
@@ -32,144 +29,91 @@ constexpr std::string_view vtk_type() {
   if constexpr (std::is_same_v<T, std::uint8_t>) return "UInt8";
 }
 
-// XML tags with offsets, and the data that they point to: each block is its size in bytes
-// (UInt64), then its bytes.
+// XML tags with offsets, and the data that they point to: each block is its size in bytes (UInt64), then its
+// bytes.
 class VtuText {
  public:
   void tag(std::string_view text) {
-    xml_ += text;
-    xml_ += '\n';
+    xml_.back() += text;
+    xml_.back() += '\n';
   }
 
   template <class T>
   void array(std::string_view name, int components, const std::vector<T>& values,
              std::string_view attributes = "") {
-    fmt::format_to(std::back_inserter(xml_),
+    fmt::format_to(std::back_inserter(xml_.back()),
                    "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{} format=\"appended\" "
-                   "offset=\"{}\"/>\n",
-                   vtk_type<T>(), name, components, attributes, data_.size());
+                   "offset=\"",
+                   vtk_type<T>(), name, components, attributes);
+    xml_.emplace_back("\"/>\n");
     const std::uint64_t bytes = values.size() * sizeof(T);
-    data_.append(reinterpret_cast<const char*>(&bytes), sizeof bytes);
-    data_.append(reinterpret_cast<const char*>(values.data()), bytes);
+    std::string& block = blocks_.emplace_back();
+    block.reserve(sizeof bytes + bytes);
+    block.append(reinterpret_cast<const char*>(&bytes), sizeof bytes);
+    block.append(reinterpret_cast<const char*>(values.data()), bytes);
   }
 
   std::string text() && {
-    xml_ += "  <AppendedData encoding=\"raw\">\n_";
-    xml_ += data_;
-    xml_ += "\n  </AppendedData>\n</VTKFile>\n";
-    return std::move(xml_);
+    std::vector<std::size_t> offset(blocks_.size());
+    std::string data;
+    for (std::size_t i : order()) {
+      offset[i] = data.size();
+      data += std::exchange(blocks_[i], {});
+    }
+    std::string all;
+    for (std::size_t i = 0; i < xml_.size(); ++i) {
+      all += xml_[i];
+      if (i < offset.size()) all += std::to_string(offset[i]);
+    }
+    all += "  <AppendedData encoding=\"raw\">\n_";
+    all += data;
+    all += "\n  </AppendedData>\n</VTKFile>\n";
+    return all;
   }
 
  private:
-  std::string xml_, data_;
+  // Of the blocks in the data.  meshio 5.3 makes base64 of them, gives each tag its new offset as it goes, and
+  // finds the next tag by the old one: no block may begin where one before it begins in base64.
+  std::vector<std::size_t> order() const {
+    std::vector<std::size_t> order, left(blocks_.size());
+    std::iota(left.begin(), left.end(), 0);
+    std::vector<std::size_t> taken;
+    std::size_t raw = 0, base64 = 0;
+    while (!left.empty()) {
+      taken.push_back(base64);
+      const auto free = [&](std::size_t i) { return std::ranges::count(taken, raw + blocks_[i].size()) == 0; };
+      auto next = std::ranges::find_if(left, free);
+      if (next == left.end()) next = left.begin();
+      raw += blocks_[*next].size();
+      base64 += (blocks_[*next].size() + 2) / 3 * 4;
+      order.push_back(*next);
+      left.erase(next);
+    }
+    return order;
+  }
+
+  std::vector<std::string> xml_{1}, blocks_;  // between two pieces of XML stands the offset of a block
 };
 
-// VTK's type of a group's cells: of their corners where it has none for the element.
-int cell_type(const ElementEntry& entry) {
-  if (entry.vtk.type != 0) return entry.vtk.type;
-  return entry.triangle() ? 5 : 9;
+void add_arrays(VtuText& vtu, const std::vector<VtkArray>& arrays) {
+  for (const VtkArray& array : arrays) {
+    std::string names;
+    for (std::size_t c = 0; c < array.components.size(); ++c)
+      names += fmt::format(" ComponentName{}=\"{}\"", c, array.components[c]);
+    const int width = static_cast<int>(array.width);
+    std::visit([&](const auto& values) { vtu.array(array.name, width, values, names); }, array.values);
+  }
 }
 
-void add_points(VtuText& vtu, const Model& model, const NodalLayout& layout) {
-  std::vector<double> x;
-  x.reserve(layout.node.size() * 3);
-  for (int node : layout.node) x.insert(x.end(), {model.mesh.x(0, node), model.mesh.x(1, node), 0.0});
+void add_grid(VtuText& vtu, const VtkGrid& grid) {
   vtu.tag("      <Points>");
-  vtu.array("Points", 3, x);
+  vtu.array("Points", 3, grid.points);
   vtu.tag("      </Points>");
-}
-
-void add_cells(VtuText& vtu, const Model& model, const NodalLayout& layout) {
-  std::vector<std::int64_t> connectivity, offsets;
-  std::vector<std::uint8_t> types;
-  for (std::size_t g = 0; g < model.groups.size(); ++g) {
-    const std::vector<int>& entries = layout.of_group[g];
-    if (entries.empty()) continue;
-    const ElementEntry& entry = *model.groups[g].entry;
-    const auto type = static_cast<std::uint8_t>(cell_type(entry));
-    const std::vector<int> order = foreign_nodes(entry, entry.vtk);
-    for (std::size_t at = 0; at < entries.size(); at += model.groups[g].node_count()) {
-      for (int i : order) connectivity.push_back(entries[at + static_cast<std::size_t>(i)]);
-      offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
-      types.push_back(type);
-    }
-  }
   vtu.tag("      <Cells>");
-  vtu.array("connectivity", 1, connectivity);
-  vtu.array("offsets", 1, offsets);
-  vtu.array("types", 1, types);
+  vtu.array("connectivity", 1, grid.connectivity);
+  vtu.array("offsets", 1, grid.offsets);
+  vtu.array("types", 1, grid.types);
   vtu.tag("      </Cells>");
-}
-
-template <class Value>
-std::vector<double> vectors(const NodalLayout& layout, Value value) {
-  std::vector<double> result;
-  result.reserve(layout.node.size() * 3);
-  for (int node : layout.node) result.insert(result.end(), {value(2 * node), value(2 * node + 1), 0.0});
-  return result;
-}
-
-void add_point_data(VtuText& vtu, const Model& model, const Solution& s, const NodalLayout& layout) {
-  const PointValue stress = [](const GroupData& data, std::size_t point, double* values) {
-    const bool solid = data.group->solid();
-    for (std::size_t i = 0; i < 4; ++i)
-      values[i] = solid ? outward(data.state.committed.sigma[4 * point + i]) : kNone;
-  };
-  std::vector<std::int32_t> numbers;
-  for (int node : layout.node) numbers.push_back(model.mesh.number[static_cast<std::size_t>(node)]);
-  vtu.tag("      <PointData Vectors=\"displacement\">");
-  vtu.array("displacement", 3, vectors(layout, [&](int dof) { return (*s.u)[dof]; }));
-  vtu.array("external_force", 3, vectors(layout, [&](int dof) { return (*s.external)[dof]; }));
-  vtu.array("reaction", 3, vectors(layout, [&](int dof) {
-              return s.activity->held[static_cast<std::size_t>(dof)] ? reaction(s, dof) : 0.0;
-            }));
-  vtu.array("stress", 4, nodal_average(model, s, layout, 4, stress),
-            " ComponentName0=\"xx\" ComponentName1=\"yy\" ComponentName2=\"zz\" ComponentName3=\"xy\"");
-  vtu.array("node", 1, numbers);
-  vtu.tag("      </PointData>");
-}
-
-// mean stress, q, stress level, yielded, interface shear, interface normal of a point.
-constexpr int kCellValues = 6;
-constexpr std::array<std::string_view, kCellValues> kCellNames{
-    "mean_stress", "q", "stress_level", "yielded", "interface_shear", "interface_normal"};
-
-void cell_values(const Mesh& mesh, const GroupData& data, std::size_t point, double* values) {
-  const PointStates& state = data.state.committed;
-  const bool solid = data.group->solid();
-  const double* sigma = state.sigma.data() + point * static_cast<std::size_t>(data.state.law_size());
-  const PointStatus status = shown_status(mesh, data, point);
-  values[0] = solid ? mean_stress(sigma) : kNone;
-  values[1] = solid ? deviator_stress(sigma) : kNone;
-  values[2] = stress_level(data, point);
-  values[3] = status == PointStatus::elastic || status == PointStatus::unloading ? 0.0 : 1.0;
-  values[4] = solid ? kNone : outward(sigma[0]);
-  values[5] = solid ? kNone : outward(sigma[1]);
-}
-
-void add_cell_data(VtuText& vtu, const Model& model, const Solution& s) {
-  std::vector<std::int32_t> group_number, material_number, element_number;
-  std::array<std::vector<double>, kCellValues> columns;
-  bool interfaces = false;
-  for (const GroupData& data : s.assembly->groups()) {
-    if (!data.active) continue;
-    const Group& group = *data.group;
-    interfaces = interfaces || data.group->interface();
-    const std::vector<double> values = element_average(
-        data, kCellValues,
-        [&](const GroupData& d, std::size_t point, double* v) { cell_values(model.mesh, d, point, v); });
-    for (std::size_t k = 0; k < values.size(); ++k) columns[k % kCellValues].push_back(values[k]);
-    const auto elements = static_cast<std::size_t>(group.elements());
-    group_number.insert(group_number.end(), elements, group.number);
-    material_number.insert(material_number.end(), elements, model.material_of(group).number);
-    element_number.insert(element_number.end(), group.element_numbers.begin(), group.element_numbers.end());
-  }
-  vtu.tag("      <CellData>");
-  vtu.array("group", 1, group_number);
-  vtu.array("material", 1, material_number);
-  vtu.array("element", 1, element_number);
-  for (std::size_t c = 0; c < (interfaces ? 6u : 4u); ++c) vtu.array(kCellNames[c], 1, columns[c]);
-  vtu.tag("      </CellData>");
 }
 
 std::string not_converged(const StepReport& report) {
@@ -196,19 +140,22 @@ void warn_of_vtu(const Model& model, Diagnostics& diagnostics) {
 
 std::string vtu_text(const Model& model, const Solution& solution, std::string_view comment) {
   const NodalLayout layout = nodal_layout(model, *solution.activity);
-  std::size_t cells = 0;
-  for (std::size_t g = 0; g < model.groups.size(); ++g)
-    cells += solution.activity->group[g] ? static_cast<std::size_t>(model.groups[g].elements()) : 0;
+  const VtkGrid grid = vtk_grid(model, layout);
+  const FieldTable table = fields_of(model);
   VtuText vtu;
   vtu.tag(
       "<?xml version=\"1.0\"?>\n" + head(model, comment) +
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">");
   vtu.tag("  <UnstructuredGrid>");
-  vtu.tag(fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">", layout.entries(), cells));
-  add_points(vtu, model, layout);
-  add_cells(vtu, model, layout);
-  add_point_data(vtu, model, solution, layout);
-  add_cell_data(vtu, model, solution);
+  vtu.tag(fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">", layout.entries(),
+                      grid.types.size()));
+  add_grid(vtu, grid);
+  vtu.tag("      <PointData Vectors=\"displacement\">");
+  add_arrays(vtu, vtk_point_data(model, solution, layout, table));
+  vtu.tag("      </PointData>");
+  vtu.tag("      <CellData>");
+  add_arrays(vtu, vtk_cell_data(model, solution, table));
+  vtu.tag("      </CellData>");
   vtu.tag("    </Piece>");
   vtu.tag("  </UnstructuredGrid>");
   return std::move(vtu).text();

@@ -3,14 +3,10 @@
 //
 // Points: one for each node and material that meet there, so that stress may jump between materials.  Cells:
 // solids as VTK's own shapes, interfaces as quadrilaterals of zero thickness; active groups only.
-//   point data  displacement, external_force, reaction (x y 0); stress [xx yy zz xy], compression positive,
-//   averaged
-//               over the elements of the same material; node number
-//   cell data   group, material, element; mean_stress, q = sqrt(3 J2), stress_level, yielded (part of the
-//   points that
-//               yield, slip, are open or at the apex): plain means over the points
-//   interfaces  interface_shear, interface_normal (cells, compression positive) where the model has any; what
-//               does not apply to a cell is NaN
+//   point data  fields of nodes; stress and strain [xx yy zz xy yz xz], averaged over the elements of the same
+//               material
+//   cell data   fields of elements, and those of integration points: plain means over the points.  What does not
+//               apply to a cell is NaN
 #pragma once
 
 #include "sage/record/out_file.hpp"

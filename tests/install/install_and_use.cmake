@@ -46,6 +46,31 @@ step("list the materials of the own program" ${SCRATCH}/consumer/own_program lis
 expect("${output}" "90  layered \\(solid\\)")
 step("run a deck with the own law" ${SCRATCH}/consumer/own_program run ${SOURCE}/consumer/own.dat -o ${SCRATCH}/own)
 expect("${output}" "-0\\.082 ")
+# The field of one's own in every output: sigma_zz / sigma_yy = 60 / 100, see above.
+step("list the fields of the own program" ${SCRATCH}/consumer/own_program list fields)
+expect("${output}" "stress_ratio \\[-\\] sigma_zz / sigma_yy")
+step("run a deck with the own field" ${SCRATCH}/consumer/own_program run ${SOURCE}/consumer/own.dat -o ${SCRATCH}/own_field
+     --points --vtu --field stress_ratio --picture stress_ratio --point 0.5,0.5 --digits 5)
+file(READ ${SCRATCH}/own_field/own.points.csv points)
+expect("${points}" ",status,stress_ratio\\[-\\]\n")
+expect("${points}" ",elastic,0\\.6\n")
+file(STRINGS ${SCRATCH}/own_field/own_0001.vtu arrays REGEX "Name=\"stress_ratio\"")
+expect("${arrays}" "stress_ratio")
+file(READ ${SCRATCH}/own_field/own_stage1_stress_ratio.svg picture)
+expect("${picture}" "sigma_zz / sigma_yy")
+file(GLOB report ${SCRATCH}/own_field/own.report*.csv)
+list(POP_BACK report report)
+file(READ ${report} report)
+expect("${report}" ",deviator\\[[^,]*\\],stress_ratio\\[-\\]\n")
+expect("${report}" "\n1,1,.*,0\\.6\n")
+if(EXISTS ${BUILD}/sage/record/libsage_data.so)
+  file(GLOB data_module ${prefix}/lib*/sagefe/libsage_data.so ${prefix}/lib/*/sagefe/libsage_data.so)
+  step("a result file with the own field" ${CMAKE_COMMAND} -E env SAGE_DATA_MODULE=${data_module}
+       ${SCRATCH}/consumer/own_program run ${SOURCE}/consumer/own.dat -o ${SCRATCH}/own_field
+       --result -q)
+  file(STRINGS ${SCRATCH}/own_field/own.h5 names REGEX "stress_ratio")
+  expect("${names}" "stress_ratio")
+endif()
 # The solver of one's own, with a law whose tangent is not symmetric: Table 7.4 for phi = 28.5 has 1.0290 at 1 %.
 step("list the solvers of the own program" ${SCRATCH}/consumer/own_program list solvers)
 expect("${output}" "90  sparse_lu")

@@ -1,0 +1,78 @@
+#include "sage/core/field.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace sage {
+
+FieldPlace FieldEntry::place() const {
+  constexpr FieldPlace kPlaces[] = {FieldPlace::node,     FieldPlace::node,  FieldPlace::point,
+                                    FieldPlace::point,    FieldPlace::point, FieldPlace::element,
+                                    FieldPlace::increment};
+  static_assert(std::size(kPlaces) == std::variant_size_v<FieldSource>);
+  return kPlaces[value.index()];
+}
+
+std::string FieldEntry::column(std::size_t component) const {
+  if (component < columns.size()) return columns[component];
+  return components.empty() ? name : name + "_" + components[component].name;
+}
+
+const std::string& FieldEntry::label(std::size_t component, Geometry geometry) const {
+  if (components.empty()) return meaning;
+  const FieldComponent& one = components[component];
+  const std::string& own = one.label[geometry == Geometry::axisymmetric ? 1 : 0];
+  return own.empty() ? one.name : own;
+}
+
+std::string field_unit(const FieldEntry& entry, const UnitSystem& units) {
+  std::string text;
+  if (entry.dimension != Dimension::none) text += " [" + unit_text(entry.dimension, units) + "]";
+  if (entry.sign == FieldSign::compression_positive) text += ", compression positive";
+  return text;
+}
+
+void FieldTable::add(FieldEntry entry) {
+  if (entry.name.empty()) throw std::logic_error("catalogue: a field needs a name");
+  if (find(entry.name) != nullptr) throw std::logic_error("catalogue: field " + entry.name + " is taken");
+  rows_ = std::make_shared<std::vector<FieldEntry>>(rows().begin(), rows().end());
+  rows_->push_back(std::move(entry));
+}
+
+std::span<const FieldEntry> FieldTable::rows() const {
+  return rows_ ? *rows_ : program_fields();
+}
+
+const FieldEntry* FieldTable::find(std::string_view name) const {
+  const auto all = rows();
+  const auto it = std::find_if(all.begin(), all.end(), [&](const FieldEntry& row) { return row.name == name; });
+  return it == all.end() ? nullptr : &*it;
+}
+
+std::optional<FieldChoice> FieldTable::choose(std::string_view name) const {
+  for (const FieldEntry& row : rows()) {
+    if (row.form == FieldForm::word) continue;
+    const bool single = row.size() == 1;
+    if (row.name == name && single) return FieldChoice{&row, 0};
+    if (row.name == name && row.shape == FieldShape::vector) return FieldChoice{&row, -1};
+    for (std::size_t c = 0; c < row.components.size(); ++c)
+      if (name.size() == row.name.size() + 1 + row.components[c].name.size() && name.starts_with(row.name) &&
+          name[row.name.size()] == '_' && name.ends_with(row.components[c].name))
+        return FieldChoice{&row, static_cast<int>(c)};
+  }
+  return std::nullopt;
+}
+
+std::string FieldTable::known() const {
+  std::string text;
+  for (const FieldEntry& row : rows()) {
+    const FieldPlace place = row.place();
+    if (row.form != FieldForm::number || (place != FieldPlace::node && place != FieldPlace::point)) continue;
+    const auto add = [&](const std::string& name) { text += (text.empty() ? "" : ", ") + name; };
+    for (const FieldComponent& component : row.components) add(row.name + "_" + component.name);
+    if (row.size() == 1 || row.shape == FieldShape::vector) add(row.name);
+  }
+  return text;
+}
+
+}  // namespace sage

@@ -1,0 +1,43 @@
+// The seam between the result file and the library that writes it, which is a module loaded on use.  Nothing of
+// the library is seen here.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sage/core/module.hpp"
+
+namespace sage {
+
+// Changes with DataFile.
+#define SAGE_DATA_MODULE_VERSION "sage-data-1"
+
+enum class DataType : std::uint8_t { float64, int64, int32, uint8 };
+
+// A file of named tables in folders, "/a/b/table"; folders are made as they are named.  Functions that give a
+// bool: false where the file could not be written, and error() says why.
+class DataFile {
+ public:
+  virtual ~DataFile() = default;
+  // A table of rows of this shape (empty: of one number), to which append() adds.  chunk: rows that are stored
+  // together.
+  virtual bool table(const char* path, DataType type, const std::vector<std::uint64_t>& row,
+                     std::uint64_t chunk) = 0;
+  virtual bool append(const char* path, const void* rows, std::uint64_t count) = 0;
+  // Of a folder or table.
+  virtual bool text(const char* path, const char* name, const char* value) = 0;
+  virtual bool numbers(const char* path, const char* name, const std::int64_t* values, std::uint64_t count) = 0;
+  virtual bool close() = 0;
+  virtual const char* error() const = 0;
+};
+
+// Takes the place of what the file holds.  Throws OutputError where the module can't be loaded or the file not be
+// opened.
+std::unique_ptr<DataFile> make_data_file(const std::string& path);
+// Throws OutputError that lists the places, as make_data_file would.
+void expect_data_module();
+std::vector<std::string> data_module_places();
+
+}  // namespace sage

@@ -1,0 +1,257 @@
+#include "sage/record/field_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "sage/analysis/shown_status.hpp"
+#include "sage/record/values.hpp"
+
+namespace sage {
+
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+std::span<const Quantity> history_of(const LawRef& law) {
+  return std::visit(
+      [](const auto* one) { return one == nullptr ? std::span<const Quantity>() : one->history(); }, law);
+}
+
+// Place of a quantity in a law's history; -1 = it has none of the name.
+int find_quantity(const LawRef& law, std::string_view name) {
+  const std::span<const Quantity> quantities = history_of(law);
+  for (std::size_t i = 0; i < quantities.size(); ++i)
+    if (quantities[i].name == name) return static_cast<int>(i);
+  return -1;
+}
+
+FieldEntry history_row(const Quantity& quantity) {
+  const std::string name(quantity.name);
+  const auto value = [name](const PointView& point, double* result) {
+    const int i = find_quantity(point.law, name);
+    const auto at = static_cast<std::size_t>(i);
+    *result = i < 0 ? kNone : outward(history_of(point.law)[at], point.history[at]);
+  };
+  return {.name = name,
+          .meaning = name,
+          .dimension = quantity.dimension,
+          .value = PointField{value},
+          .has_law = [name](LawRef law) { return find_quantity(law, name) >= 0; }};
+}
+
+void set_none(const FieldEntry& entry, double* value) {
+  std::fill_n(value, entry.size(), kNone);
+}
+
+}  // namespace
+
+std::vector<FieldEntry> history_fields(const LawRef& law) {
+  std::vector<FieldEntry> rows;
+  for (const Quantity& quantity : history_of(law)) rows.push_back(history_row(quantity));
+  return rows;
+}
+
+std::vector<FieldEntry> history_fields(const Model& model, std::optional<ElementKind> kind) {
+  std::vector<FieldEntry> rows;
+  for (const Group& group : model.groups) {
+    if (kind && group.entry->kind != *kind) continue;
+    for (const Quantity& quantity : history_of(model.material_of(group).law_ref()))
+      if (std::ranges::none_of(rows, [&](const FieldEntry& row) { return row.name == quantity.name; }))
+        rows.push_back(history_row(quantity));
+  }
+  return rows;
+}
+
+FieldTable fields_of(const Model& model) {
+  FieldTable table = model.fields;
+  for (FieldEntry& row : history_fields(model))
+    if (table.find(row.name) == nullptr) table.add(std::move(row));
+  return table;
+}
+
+FieldList fields_named(const FieldTable& table, std::initializer_list<std::string_view> names) {
+  FieldList list;
+  for (std::string_view name : names) {
+    list.push_back(table.find(name));
+    if (list.back() == nullptr) throw std::logic_error("no field " + std::string(name));
+  }
+  return list;
+}
+
+PointState::PointState(const Mesh& mesh, const GroupData& data, std::size_t point) {
+  const PointStates& state = data.state.committed;
+  const auto n = static_cast<std::size_t>(data.state.law_size());
+  const auto history = static_cast<std::size_t>(data.state.history_size());
+  view = {data.law,
+          {state.sigma.data() + point * n, n},
+          {state.eps.data() + point * n, n},
+          {state.h.data() + point * history, history},
+          shown_status(mesh, data, point)};
+  solid = data.group->solid();
+  for (int i = 0; solid && i < 4; ++i) {
+    stress[i] = outward(view.sigma[static_cast<std::size_t>(i)]);
+    strain[i] = outward(view.eps[static_cast<std::size_t>(i)]);
+  }
+}
+
+bool applies(const FieldEntry& entry, ElementKind kind) {
+  if (std::holds_alternative<StressField>(entry.value) || std::holds_alternative<StrainField>(entry.value))
+    return kind == ElementKind::solid;
+  return std::holds_alternative<PointField>(entry.value) && entry.kind.value_or(kind) == kind;
+}
+
+bool applies(const FieldEntry& entry, const GroupData& data) {
+  return applies(entry, data.group->entry->kind) && (!entry.has_law || entry.has_law(data.law));
+}
+
+void read_field(const FieldEntry& entry, const PointState& point, double* value) {
+  if (!applies(entry, point.solid ? ElementKind::solid : ElementKind::interface) ||
+      (entry.has_law && !entry.has_law(point.view.law)))
+    set_none(entry, value);
+  else if (const auto* stress = std::get_if<StressField>(&entry.value))
+    stress->of(point.stress, value);
+  else if (const auto* strain = std::get_if<StrainField>(&entry.value))
+    strain->of(point.strain, value);
+  else
+    std::get<PointField>(entry.value).of(point.view, value);
+}
+
+void read_field(const FieldEntry& entry, const NodeView& node, double* value) {
+  if (const auto* moved = std::get_if<DisplacementField>(&entry.value))
+    moved->of(node.displacement, value);
+  else if (const auto* any = std::get_if<NodeField>(&entry.value))
+    any->of(node, value);
+  else
+    set_none(entry, value);
+}
+
+void read_field(const FieldEntry& entry, const ElementView& element, double* value) {
+  if (const auto* field = std::get_if<ElementField>(&entry.value))
+    field->of(element, value);
+  else
+    set_none(entry, value);
+}
+
+void read_field(const FieldEntry& entry, const IncrementView& increment, double* value) {
+  if (const auto* field = std::get_if<IncrementField>(&entry.value))
+    field->of(increment, value);
+  else
+    set_none(entry, value);
+}
+
+NodeView node_view(const Model& model, const Solution& solution, int node) {
+  NodeView view;
+  view.number = model.mesh.number[static_cast<std::size_t>(node)];
+  view.place = model.mesh.x.col(node);
+  view.displacement = solution.u->segment<2>(2 * node);
+  view.load = solution.external->segment<2>(2 * node);
+  for (int c = 0; c < 2; ++c)
+    view.reaction[c] = solution.activity->held[static_cast<std::size_t>(2 * node + c)]
+                           ? reaction(solution, 2 * node + c)
+                           : kNone;
+  return view;
+}
+
+ElementView element_view(const Model& model, const Group& group, int element, const Eigen::Matrix2Xd& x) {
+  return {group.element_numbers[static_cast<std::size_t>(element)], group.number,
+          model.material_of(group).number, *group.element, x};
+}
+
+IncrementView increment_view(const Model& model, const StepReport& r) {
+  const IterationRecord last = r.iterations.empty() ? IterationRecord{} : r.iterations.back();
+  IncrementView view{r.stage + 1, r.increment, r.load_factor,     r.converged, r.total_iterations, r.cuts,
+                     r.substeps,  last.force,  last.displacement, last.energy, std::span(r.points)};
+  const bool worst = r.worst.node >= 0;
+  view.worst_node = worst ? model.mesh.number[static_cast<std::size_t>(r.worst.node)] : kNone;
+  view.worst_component = worst ? r.worst.component : kNone;
+  view.worst_residual = worst ? r.worst.residual : kNone;
+  view.pivot_ratio = r.smallest_pivot_ratio >= 0.0 ? r.smallest_pivot_ratio : kNone;
+  view.motion = r.motion;
+  return view;
+}
+
+std::size_t carried_size(const FieldEntry& entry) {
+  if (std::holds_alternative<DisplacementField>(entry.value)) return 2;
+  if (std::holds_alternative<StressField>(entry.value) || std::holds_alternative<StrainField>(entry.value))
+    return 4;
+  return entry.size();
+}
+
+void carry(const FieldEntry& entry, const PointState& point, double* parts) {
+  if (std::holds_alternative<StressField>(entry.value) || std::holds_alternative<StrainField>(entry.value)) {
+    const bool stress = std::holds_alternative<StressField>(entry.value);
+    Vector4::Map(parts) = !point.solid ? Vector4(Vector4::Constant(kNone))
+                          : stress     ? point.stress
+                                       : point.strain;
+    return;
+  }
+  read_field(entry, point, parts);
+}
+
+void carry(const FieldEntry& entry, const NodeView& node, double* parts) {
+  if (std::holds_alternative<DisplacementField>(entry.value))
+    Vector2::Map(parts) = node.displacement;
+  else
+    read_field(entry, node, parts);
+}
+
+void value_of_carried(const FieldEntry& entry, const double* parts, double* value) {
+  if (const auto* moved = std::get_if<DisplacementField>(&entry.value))
+    moved->of(Vector2::Map(parts), value);
+  else if (const auto* stress = std::get_if<StressField>(&entry.value))
+    stress->of(Vector4::Map(parts), value);
+  else if (const auto* strain = std::get_if<StrainField>(&entry.value))
+    strain->of(Vector4::Map(parts), value);
+  else
+    for (std::size_t c = 0; c < entry.size(); ++c) value[c] = parts[c] < entry.least ? entry.least : parts[c];
+}
+
+double chosen(const FieldChoice& choice, const double* value) {
+  if (!choice.length()) return value[choice.component];
+  return choice.entry->size() == 2 ? std::hypot(value[0], value[1]) : std::hypot(value[0], value[1], value[2]);
+}
+
+std::vector<double> field_at(const FieldEntry& entry, const Model& model, const Probe& probe,
+                             const Solution& solution) {
+  std::vector<double> value(entry.size(), kNone), parts(carried_size(entry), 0.0), one(parts.size());
+  const FieldPlace place = entry.place();
+  if (!probe.active() || (place != FieldPlace::node && place != FieldPlace::point)) return value;
+  const auto add = [&](double weight) {
+    for (std::size_t i = 0; i < parts.size(); ++i) parts[i] += weight * one[i];
+  };
+  if (place == FieldPlace::node)
+    for (const Probe::Node& n : probe.nodes) {
+      carry(entry, node_view(model, solution, n.node), one.data());
+      add(n.weight);
+    }
+  else
+    for (const Probe::Point& p : probe.points) {
+      carry(entry, PointState(model.mesh, solution.groups()[p.group], p.point), one.data());
+      add(p.weight);
+    }
+  value_of_carried(entry, parts.data(), value.data());
+  return value;
+}
+
+std::string describe(const FieldChoice& choice, const Model& model) {
+  const FieldEntry& entry = *choice.entry;
+  const std::string unit = field_unit(entry, model.units);
+  if (choice.length()) return "length of " + entry.meaning + unit;
+  const auto component = static_cast<std::size_t>(choice.component);
+  const std::string& label = entry.label(component, model.geometry);
+  if (entry.sign != FieldSign::along_axes || component > 1) return label + unit;
+  const AxisNames axes = axis_names(model.geometry);
+  return fmt::format("{} {}{}, positive along +{}", entry.meaning, label, unit,
+                     component == 0 ? axes.x : axes.y);
+}
+
+std::string_view word_of(const FieldEntry& entry, double value) {
+  if (!(value >= 0.0 && value < static_cast<double>(entry.words.size()))) return {};
+  return entry.words[static_cast<std::size_t>(value)];
+}
+
+}  // namespace sage

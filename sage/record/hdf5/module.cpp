@@ -1,0 +1,200 @@
+// Result files by HDF5.  What the program looks for in this module: its version, which it reads in the file before
+// it loads it, and one function.
+#include <hdf5.h>
+
+#include <cerrno>
+#include <cstring>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sage/record/data_file.hpp"
+
+namespace sage {
+
+namespace {
+
+hid_t hdf5_type(DataType type) {
+  switch (type) {
+    case DataType::float64:
+      return H5T_IEEE_F64LE;
+    case DataType::int64:
+      return H5T_STD_I64LE;
+    case DataType::int32:
+      return H5T_STD_I32LE;
+    case DataType::uint8:
+      return H5T_STD_U8LE;
+  }
+  return H5I_INVALID_HID;
+}
+
+// Closes what it holds.
+class Id {
+ public:
+  Id(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  Id(const Id&) = delete;
+  Id& operator=(const Id&) = delete;
+  ~Id() {
+    if (id_ >= 0) close_(id_);
+  }
+  hid_t get() const { return id_; }
+  bool ok() const { return id_ >= 0; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+// The innermost of HDF5's own messages.
+herr_t first_message(unsigned, const H5E_error2_t* error, void* text) {
+  if (error->desc != nullptr) *static_cast<std::string*>(text) = error->desc;
+  return 0;
+}
+
+class Hdf5File final : public DataFile {
+ public:
+  explicit Hdf5File(const char* path) {
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    const Id properties(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+    H5Pset_obj_track_times(properties.get(), false);
+    errno = 0;
+    file_ = H5Fcreate(path, H5F_ACC_TRUNC, properties.get(), H5P_DEFAULT);
+  }
+  ~Hdf5File() override { close(); }
+  bool is_open() const { return file_ >= 0; }
+
+  bool table(const char* path, DataType type, const std::vector<std::uint64_t>& row,
+             std::uint64_t chunk) override {
+    const int rank = static_cast<int>(row.size()) + 1;
+    std::vector<hsize_t> size{0}, most{H5S_UNLIMITED}, piece{chunk};
+    for (std::uint64_t n : row) {
+      size.push_back(n);
+      most.push_back(n);
+      piece.push_back(n);
+    }
+    std::uint64_t numbers = 1;
+    for (std::uint64_t n : row) numbers *= n;
+    const Id space(H5Screate_simple(rank, size.data(), most.data()), H5Sclose);
+    const Id how(H5Pcreate(H5P_DATASET_CREATE), H5Pclose), links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+    H5Pset_obj_track_times(how.get(), false);  // equal runs, equal bytes
+    H5Pset_create_intermediate_group(links.get(), 1);
+    bool done = space.ok() && make_folders(path) && H5Pset_chunk(how.get(), rank, piece.data()) >= 0;
+    if (done && numbers > 16) done = H5Pset_shuffle(how.get()) >= 0 && H5Pset_deflate(how.get(), 1) >= 0;
+    if (!done) return failed();
+    const hid_t set =
+        H5Dcreate2(file_, path, hdf5_type(type), space.get(), links.get(), how.get(), H5P_DEFAULT);
+    if (set < 0) return failed();
+    sets_[path] = set;
+    return true;
+  }
+
+  bool append(const char* path, const void* rows, std::uint64_t count) override {
+    const auto set = sets_.find(path);
+    if (set == sets_.end()) {
+      error_ = std::string("no table ") + path;
+      return false;
+    }
+    if (count == 0) return true;
+    const Id before(H5Dget_space(set->second), H5Sclose), type(H5Dget_type(set->second), H5Tclose);
+    std::vector<hsize_t> size(static_cast<std::size_t>(H5Sget_simple_extent_ndims(before.get())));
+    H5Sget_simple_extent_dims(before.get(), size.data(), nullptr);
+    std::vector<hsize_t> start(size.size(), 0), more = size;
+    start[0] = size[0];
+    more[0] = count;
+    size[0] += count;
+    errno = 0;
+    if (H5Dset_extent(set->second, size.data()) < 0) return failed();
+    const Id file_space(H5Dget_space(set->second), H5Sclose);
+    const Id memory(H5Screate_simple(static_cast<int>(more.size()), more.data(), nullptr), H5Sclose);
+    H5Sselect_hyperslab(file_space.get(), H5S_SELECT_SET, start.data(), nullptr, more.data(), nullptr);
+    return H5Dwrite(set->second, type.get(), memory.get(), file_space.get(), H5P_DEFAULT, rows) >= 0 ||
+           failed();
+  }
+
+  // Of a fixed length: VTK reads no other.
+  bool text(const char* path, const char* name, const char* value) override {
+    const Id type(H5Tcopy(H5T_C_S1), H5Tclose), space(H5Screate(H5S_SCALAR), H5Sclose);
+    const std::size_t length = std::strlen(value);
+    H5Tset_size(type.get(), length > 0 ? length : 1);
+    H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
+    bool ascii = true;
+    for (const char* c = value; *c != '\0'; ++c) ascii = ascii && static_cast<unsigned char>(*c) < 0x80;
+    if (!ascii) H5Tset_cset(type.get(), H5T_CSET_UTF8);
+    return attribute(path, name, type.get(), type.get(), space.get(), length > 0 ? value : "\0");
+  }
+
+  bool numbers(const char* path, const char* name, const std::int64_t* values, std::uint64_t count) override {
+    const hsize_t size = count;
+    const Id space(count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &size, nullptr), H5Sclose);
+    return attribute(path, name, H5T_STD_I64LE, H5T_NATIVE_INT64, space.get(), values);
+  }
+
+  bool close() override {
+    bool done = true;
+    errno = 0;
+    for (const auto& [path, set] : sets_) done = H5Dclose(set) >= 0 && done;
+    sets_.clear();
+    if (file_ >= 0) done = H5Fclose(file_) >= 0 && done;
+    file_ = H5I_INVALID_HID;
+    return done || failed();
+  }
+
+  const char* error() const override { return error_.c_str(); }
+
+ private:
+  // Groups without times, which intermediate groups of HDF5's own making have not.
+  bool make_folders(const std::string& path) {
+    for (std::size_t at = path.find('/', 1); at != std::string::npos; at = path.find('/', at + 1)) {
+      const std::string folder = path.substr(0, at);
+      if (H5Lexists(file_, folder.c_str(), H5P_DEFAULT) > 0) continue;
+      const Id how(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+      H5Pset_obj_track_times(how.get(), false);
+      const Id group(H5Gcreate2(file_, folder.c_str(), H5P_DEFAULT, how.get(), H5P_DEFAULT), H5Gclose);
+      if (!group.ok()) return false;
+    }
+    return true;
+  }
+
+  bool attribute(const std::string& path, const char* name, hid_t type, hid_t memory, hid_t space,
+                 const void* value) {
+    errno = 0;
+    if (!make_folders(path + "/")) return failed();
+    const Id object(H5Oopen(file_, path.c_str(), H5P_DEFAULT), H5Oclose);
+    if (!object.ok()) return failed();
+    const Id made(H5Acreate2(object.get(), name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    return (made.ok() && H5Awrite(made.get(), memory, value) >= 0) || failed();
+  }
+
+  // What the system says comes first: a full disk.
+  bool failed() {
+    if (!error_.empty()) return false;
+    if (errno != 0)
+      error_ = std::strerror(errno);
+    else
+      H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, first_message, &error_);
+    if (error_.empty()) error_ = "HDF5 gives no reason";
+    return false;
+  }
+
+  hid_t file_ = H5I_INVALID_HID;
+  std::map<std::string, hid_t> sets_;
+  std::string error_;
+};
+
+}  // namespace
+
+}  // namespace sage
+
+extern "C" {
+
+extern const char sage_data_module_version[];
+[[gnu::section(SAGE_MODULE_SECTION), gnu::used]] const char sage_data_module_version[] =
+    SAGE_DATA_MODULE_VERSION;
+
+// The caller owns the file.  nullptr: it can't be opened.
+sage::DataFile* sage_make_data_file(const char* path) {
+  auto file = std::make_unique<sage::Hdf5File>(path);
+  return file->is_open() ? file.release() : nullptr;
+}
+
+}  // extern "C"

@@ -1,0 +1,103 @@
+#include "sage/record/result.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sage {
+
+namespace {
+
+// A group's committed states without what is kept of its elements.
+GroupData states_of(const GroupData& data) {
+  GroupData copy;
+  copy.group = data.group;
+  copy.law = data.law;
+  copy.active = data.active;
+  const auto history = std::visit([](const auto* law) { return law->history(); }, data.law);
+  copy.state = StateStore(0, data.state.law_size(), history, false);
+  copy.state.committed = data.state.committed;
+  return copy;
+}
+
+}  // namespace
+
+Frame::Frame(const Model& model, const StepReport& report, const Solution& now)
+    : report_(report), u_(*now.u), internal_(*now.internal), external_(*now.external), activity_(model) {
+  if (report_.iterations.size() > 1)
+    report_.iterations.erase(report_.iterations.begin(), report_.iterations.end() - 1);
+  activity_ = *now.activity;
+  for (const GroupData& data : now.groups()) {
+    groups_.push_back(states_of(data));
+    if (data.active)
+      for (double sigma : data.state.committed.sigma)
+        largest_stress_ = std::max(largest_stress_, std::abs(sigma));
+  }
+}
+
+Frame::Frame(const Model& model) : activity_(model) {
+  for (const Group& group : model.groups) {
+    GroupData data;
+    data.group = &group;
+    data.law = model.material_of(group).law_ref();
+    const auto history = std::visit([](const auto* law) { return law->history(); }, data.law);
+    data.state = StateStore(0, group.element->traits().law_size, history, false);
+    groups_.push_back(std::move(data));
+  }
+}
+
+void Frame::exchange(Archive& archive) {
+  StepReport& r = report_;
+  archive(r.stage);
+  archive(r.increment);
+  archive(r.increments);
+  archive(r.load_factor);
+  archive(r.converged);
+  archive(r.cuts);
+  archive(r.substeps);
+  archive(r.iterations);
+  archive(r.total_iterations);
+  archive(r.points);
+  archive(r.worst);
+  archive(r.smallest_pivot_ratio);
+  archive(r.motion);
+  archive(u_);
+  archive(internal_);
+  archive(external_);
+  archive(activity_.group);
+  archive(activity_.held);
+  for (GroupData& data : groups_) {
+    archive(data.active);
+    PointStates& state = data.state.committed;
+    archive(state.sigma);
+    archive(state.eps);
+    archive(state.h);
+    archive(state.status);
+  }
+}
+
+void Result::on_stage_start(const Model& model, int stage, const Solution& now) {
+  StepReport report;
+  report.stage = stage;
+  last_ = report;
+  starts_.emplace_back(model, report, now);
+  if (starts_.size() > 1) starts_.back().drop_points();
+}
+
+void Result::on_increment(const Model&, const StepReport& report, const Solution&) {
+  last_ = report;
+}
+
+void Result::end(const Model& model, const StepReport& report, const Solution& now) {
+  if (!ends_.empty()) ends_.back().drop_points();
+  ends_.emplace_back(model, report, now);
+}
+
+void Result::on_stage_end(const Model& model, int, const EquilibriumAudit&, const Solution& now) {
+  end(model, last_, now);
+}
+
+void Result::on_failure(const Model& model, const StepReport& report, const std::string&, const Solution& now) {
+  end(model, report, now);
+}
+
+}  // namespace sage

@@ -1,0 +1,430 @@
+#include "sage/record/result_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "sage/record/data_file.hpp"
+#include "sage/record/values.hpp"
+#include "sage/record/vtk_data.hpp"
+
+namespace sage {
+
+namespace {
+
+using Shape = std::vector<std::uint64_t>;
+
+// A DataFile whose failures are OutputErrors.
+class Tables {
+ public:
+  Tables(const std::filesystem::path& partial, std::filesystem::path path)
+      : path_(std::move(path)), file_(make_data_file(partial.string())) {}
+
+  void table(const std::string& name, DataType type, const Shape& row = {}, std::uint64_t chunk = 1) {
+    expect(file_->table(name.c_str(), type, row, std::max<std::uint64_t>(chunk, 1)));
+  }
+  template <class T>
+  void append(const std::string& name, const std::vector<T>& values, std::uint64_t rows) {
+    expect(file_->append(name.c_str(), values.data(), rows));
+  }
+  // A table that is complete at once.
+  template <class T>
+  void whole(const std::string& name, const std::vector<T>& values, const Shape& row = {}) {
+    std::uint64_t numbers = 1;
+    for (std::uint64_t n : row) numbers *= n;
+    const std::uint64_t rows = numbers == 0 ? 0 : values.size() / numbers;
+    table(name, type_of<T>(), row, rows);
+    append(name, values, rows);
+  }
+  void text(const std::string& path, const char* name, const std::string& value) {
+    expect(file_->text(path.c_str(), name, value.c_str()));
+  }
+  void numbers(const std::string& path, const char* name, const std::vector<std::int64_t>& values) {
+    expect(file_->numbers(path.c_str(), name, values.data(), values.size()));
+  }
+  void close() { expect(file_->close()); }
+
+  template <class T>
+  static constexpr DataType type_of() {
+    if constexpr (std::is_same_v<T, double>) return DataType::float64;
+    if constexpr (std::is_same_v<T, std::int64_t>) return DataType::int64;
+    if constexpr (std::is_same_v<T, std::int32_t>) return DataType::int32;
+    return DataType::uint8;
+  }
+
+ private:
+  void expect(bool done) const {
+    if (!done) throw OutputError("cannot write " + path_.string() + ": " + file_->error());
+  }
+
+  std::filesystem::path path_;
+  std::unique_ptr<DataFile> file_;
+};
+
+template <class T>
+std::string joined(const std::vector<T>& parts) {
+  return fmt::format("{}", fmt::join(parts, " "));
+}
+
+// What a reader must know of a field's numbers.
+void describe_table(Tables& out, const std::string& path, const FieldEntry& field, const Model& model) {
+  constexpr const char* kSigns[] = {"", "compression positive", "along the axes"};
+  out.text(path, "meaning", field.meaning);
+  out.text(path, "unit", unit_text(field.dimension, model.units));
+  out.text(path, "sign", kSigns[static_cast<std::size_t>(field.sign)]);
+  std::vector<std::string> names;
+  for (const FieldComponent& component : field.components) names.push_back(component.name);
+  if (!names.empty()) out.text(path, "components", joined(names));
+  if (!field.words.empty()) out.text(path, "words", joined(field.words));
+}
+
+// VTK's own part: grids of active groups as parts, each step with the part that it has, and arrays of steps one
+// behind the other.
+class VtkPart {
+ public:
+  VtkPart(Tables& out, const Model& model, const FieldTable& fields)
+      : out_(out), model_(model), fields_(fields) {
+    out_.numbers(kRoot, "Version", {2, 0});
+    out_.text(kRoot, "Type", "UnstructuredGrid");
+    out_.table(root("Points"), DataType::float64, {3}, kChunk);
+    out_.table(root("Types"), DataType::uint8, {}, kChunk);
+    for (const char* name : {"Connectivity", "Offsets"}) out_.table(root(name), DataType::int64, {}, kChunk);
+    for (const char* name : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"})
+      out_.table(root(name), DataType::int64);
+    out_.table(steps("Values"), DataType::float64);
+    for (const char* name : {"PartOffsets", "NumberOfParts", "PointOffsets"})
+      out_.table(steps(name), DataType::int64);
+    for (const char* name : {"CellOffsets", "ConnectivityIdOffsets"})
+      out_.table(steps(name), DataType::int64, {1});
+  }
+
+  void add(const Frame& frame) {
+    const Solution now = frame.view();
+    if (count_ == 0 || now.activity->group != active_) add_grid(now);
+    const auto one = [&](const char* name, std::int64_t value) {
+      out_.append(steps(name), std::vector{value}, 1);
+    };
+    out_.append(steps("Values"), std::vector{frame.report().stage + frame.report().load_factor}, 1);
+    one("PartOffsets", parts_ - 1);
+    one("NumberOfParts", 1);
+    one("PointOffsets", here_.points);
+    one("CellOffsets", here_.cells);
+    one("ConnectivityIdOffsets", here_.ids);
+    add_arrays("PointData", vtk_point_data(model_, now, layout_, fields_), layout_.node.size(), point_rows_);
+    add_arrays("CellData", vtk_cell_data(model_, now, fields_), cells_, cell_rows_);
+    ++count_;
+  }
+
+  void finish() { out_.numbers(steps(""), "NSteps", {count_}); }
+
+ private:
+  static constexpr const char* kRoot = "/VTKHDF";
+  static constexpr std::uint64_t kChunk = 4096;
+  static std::string root(const std::string& name) { return std::string(kRoot) + "/" + name; }
+  static std::string steps(const std::string& name) {
+    return std::string(kRoot) + "/Steps" + (name.empty() ? "" : "/" + name);
+  }
+  struct Place {
+    std::int64_t points = 0, cells = 0, ids = 0;
+  };
+
+  void add_grid(const Solution& now) {
+    active_ = now.activity->group;
+    layout_ = nodal_layout(model_, *now.activity);
+    const VtkGrid grid = vtk_grid(model_, layout_);
+    cells_ = grid.types.size();
+    std::vector<std::int64_t> ends{0};
+    ends.insert(ends.end(), grid.offsets.begin(), grid.offsets.end());
+    here_ = next_;
+    const auto points = static_cast<std::int64_t>(layout_.node.size()),
+               cells = static_cast<std::int64_t>(cells_),
+               ids = static_cast<std::int64_t>(grid.connectivity.size());
+    out_.append(root("Points"), grid.points, layout_.node.size());
+    out_.append(root("Types"), grid.types, cells_);
+    out_.append(root("Connectivity"), grid.connectivity, grid.connectivity.size());
+    out_.append(root("Offsets"), ends, ends.size());
+    out_.append(root("NumberOfPoints"), std::vector{points}, 1);
+    out_.append(root("NumberOfCells"), std::vector{cells}, 1);
+    out_.append(root("NumberOfConnectivityIds"), std::vector{ids}, 1);
+    next_ = {next_.points + points, next_.cells + cells, next_.ids + ids};
+    ++parts_;
+  }
+
+  void add_arrays(const std::string& where, const std::vector<VtkArray>& arrays, std::size_t rows,
+                  std::int64_t& before) {
+    for (const VtkArray& array : arrays) {
+      const std::string path = root(where) + "/" + array.name,
+                        offsets = steps(where + "Offsets") + "/" + array.name;
+      std::visit(
+          [&](const auto& values) {
+            using T = typename std::decay_t<decltype(values)>::value_type;
+            if (count_ == 0) {
+              out_.table(path, Tables::type_of<T>(), array.width > 1 ? Shape{array.width} : Shape{}, rows);
+              out_.text(path, "unit", unit_text(array.field->dimension, model_.units));
+              out_.table(offsets, DataType::int64);
+            }
+            out_.append(path, values, rows);
+          },
+          array.values);
+      out_.append(offsets, std::vector{before}, 1);
+    }
+    before += static_cast<std::int64_t>(rows);
+  }
+
+  Tables& out_;
+  const Model& model_;
+  const FieldTable& fields_;
+  std::int64_t count_ = 0, parts_ = 0, point_rows_ = 0, cell_rows_ = 0;
+  std::vector<char> active_;
+  NodalLayout layout_;
+  std::size_t cells_ = 0;
+  Place here_, next_;
+};
+
+// Everything by its own place: increments, nodes, integration points of every group.
+class OwnPart {
+ public:
+  OwnPart(Tables& out, const Model& model, const FieldTable& fields)
+      : out_(out), model_(model), fields_(fields) {
+    start_increments();
+    start_nodes();
+    for (const Group& group : model.groups) start_group(group);
+  }
+
+  void add(const Frame& frame) {
+    const Solution now = frame.view();
+    add_increment(frame.report());
+    add_nodes(now);
+    for (std::size_t g = 0; g < model_.groups.size(); ++g) add_group(now.groups()[g]);
+  }
+
+ private:
+  static std::string increments(const std::string& name) { return "/sage/increments/" + name; }
+  static std::string nodes(const std::string& name) { return "/sage/nodes/" + name; }
+  static std::string in(const Group& group, const std::string& name = "") {
+    return fmt::format("/sage/groups/{}", group.number) + (name.empty() ? "" : "/" + name);
+  }
+  static bool whole_numbers(const FieldEntry& field) {
+    return field.form != FieldForm::number && !field.optional;
+  }
+  static Shape with_size(Shape shape, const FieldEntry& field) {
+    if (field.size() > 1) shape.push_back(field.size());
+    return shape;
+  }
+
+  // Words are stored by their places in `words`.
+  void start(const std::string& path, const FieldEntry& field, const Shape& rows) {
+    out_.table(path, whole_numbers(field) ? DataType::int32 : DataType::float64, with_size(rows, field));
+    describe_table(out_, path, field, model_);
+  }
+  void append(const std::string& path, const FieldEntry& field, const std::vector<double>& values) {
+    if (!whole_numbers(field)) {
+      out_.append(path, values, 1);
+      return;
+    }
+    std::vector<std::int32_t> whole;
+    for (double value : values) whole.push_back(std::isnan(value) ? -1 : static_cast<std::int32_t>(value));
+    out_.append(path, whole, 1);
+  }
+
+  void start_increments() {
+    out_.table(increments("stage"), DataType::int32);
+    out_.table(increments("increment"), DataType::int32);
+    for (const FieldEntry& field : fields_.rows())
+      if (field.place() == FieldPlace::increment) start(increments(field.name), field, {});
+  }
+  void add_increment(const StepReport& report) {
+    const IncrementView view = increment_view(model_, report);
+    out_.append(increments("stage"), std::vector<std::int32_t>{view.stage}, 1);
+    out_.append(increments("increment"), std::vector<std::int32_t>{view.increment}, 1);
+    for (const FieldEntry& field : fields_.rows()) {
+      if (field.place() != FieldPlace::increment) continue;
+      std::vector<double> values(field.size());
+      read_field(field, view, values.data());
+      append(increments(field.name), field, values);
+    }
+  }
+
+  bool own_node_field(const FieldEntry& field) const {
+    return field.place() == FieldPlace::node && field.name != "node";
+  }
+  void start_nodes() {
+    std::vector<double> places;
+    for (int n = 0; n < model_.mesh.nodes(); ++n)
+      places.insert(places.end(), {model_.mesh.x(0, n), model_.mesh.x(1, n)});
+    const std::vector<std::int32_t> numbers(model_.mesh.number.begin(), model_.mesh.number.end());
+    out_.whole(nodes("node"), numbers);
+    out_.whole(nodes("place"), places, {2});
+    for (const FieldEntry& field : fields_.rows())
+      if (own_node_field(field)) start(nodes(field.name), field, {numbers.size()});
+  }
+  // NaN where no active element has the node.
+  void add_nodes(const Solution& now) {
+    const std::vector<char> active = active_nodes(model_, *now.activity);
+    for (const FieldEntry& field : fields_.rows()) {
+      if (!own_node_field(field)) continue;
+      std::vector<double> values(active.size() * field.size(), std::nan(""));
+      for (std::size_t n = 0; n < active.size(); ++n)
+        if (active[n])
+          read_field(field, node_view(model_, now, static_cast<int>(n)), values.data() + n * field.size());
+      append(nodes(field.name), field, values);
+    }
+  }
+
+  FieldList point_fields(const Group& group) const {
+    FieldList list;
+    for (const FieldEntry& field : fields_.rows())
+      if (applies(field, group.entry->kind) &&
+          (!field.has_law || field.has_law(model_.material_of(group).law_ref())))
+        list.push_back(&field);
+    return list;
+  }
+  static std::size_t points_of(const Group& group) {
+    return static_cast<std::size_t>(group.elements() * group.element->traits().points);
+  }
+  void start_group(const Group& group) {
+    std::vector<double> places;
+    std::vector<std::int32_t> nodes_of;
+    Eigen::Matrix2Xd x;
+    for (int e = 0; e < group.elements(); ++e) {
+      element_coordinates(model_.mesh, group, e, x);
+      for (int p = 0; p < group.element->traits().points; ++p) {
+        const Vector2 at = group.element->position(x, p);
+        places.insert(places.end(), {at.x(), at.y()});
+      }
+    }
+    for (int node : group.nodes) nodes_of.push_back(model_.mesh.number[static_cast<std::size_t>(node)]);
+    out_.whole(in(group, "place"), places, {2});
+    out_.whole(in(group, "nodes"), nodes_of, {group.node_count()});
+    out_.whole(in(group, "active"), std::vector<std::uint8_t>{});
+    out_.text(in(group), "name", group.name);
+    out_.text(in(group), "element", group.element_name);
+    out_.text(in(group), "law", model_.material_of(group).law_name);
+    out_.numbers(in(group), "points", {group.element->traits().points});
+    for (const FieldEntry& field : fields_.rows())
+      if (field.place() == FieldPlace::element) add_element_field(group, field);
+    for (const FieldEntry* field : point_fields(group))
+      start(in(group, field->name), *field, {points_of(group)});
+  }
+  void add_element_field(const Group& group, const FieldEntry& field) {
+    std::vector<double> values(static_cast<std::size_t>(group.elements()) * field.size());
+    Eigen::Matrix2Xd x;
+    for (int e = 0; e < group.elements(); ++e) {
+      element_coordinates(model_.mesh, group, e, x);
+      read_field(field, element_view(model_, group, e, x),
+                 values.data() + static_cast<std::size_t>(e) * field.size());
+    }
+    const std::string path = in(group, field.name);
+    if (whole_numbers(field)) {
+      out_.whole(path, std::vector<std::int32_t>(values.begin(), values.end()), with_size({}, field));
+    } else {
+      out_.whole(path, values, with_size({}, field));
+    }
+    describe_table(out_, path, field, model_);
+  }
+  // NaN (words: -1) while the group is not active.
+  void add_group(const GroupData& data) {
+    const Group& group = *data.group;
+    out_.append(in(group, "active"), std::vector<std::uint8_t>{static_cast<std::uint8_t>(data.active)}, 1);
+    for (const FieldEntry* field : point_fields(group)) {
+      std::vector<double> values(points_of(group) * field->size(), std::nan(""));
+      if (data.active)
+        for (std::size_t p = 0; p < points_of(group); ++p)
+          read_field(*field, {model_.mesh, data, p}, values.data() + p * field->size());
+      append(in(group, field->name), *field, values);
+    }
+  }
+
+  Tables& out_;
+  const Model& model_;
+  const FieldTable& fields_;
+};
+
+// States one after the other, so that one alone is in memory.
+class FrameReader {
+ public:
+  FrameReader(const Model& model, const std::filesystem::path& file)
+      : model_(model), in_(file, std::ios::binary) {}
+  Frame next(std::uint64_t size) {
+    std::string bytes(size, '\0');
+    if (!in_.read(bytes.data(), static_cast<std::streamsize>(size)))
+      throw OutputError("the states of the run can't be read back for its result file");
+    Frame frame(model_);
+    Archive archive(std::move(bytes));
+    frame.exchange(archive);
+    return frame;
+  }
+
+ private:
+  const Model& model_;
+  std::ifstream in_;
+};
+
+}  // namespace
+
+ResultOutput::ResultOutput(std::filesystem::path folder, const std::string& stem)
+    : path_(folder / (stem + ".h5")) {
+  expect_data_module();
+  expect_no_input(path_);
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path_, ignored))
+    throw OutputError("cannot write " + path_.string() + ": " + std::generic_category().message(EISDIR));
+  states_ = OutFile(path_.string() + ".states");
+}
+
+void ResultOutput::add(const Model& model, const StepReport& report, const Solution& solution) {
+  Frame frame(model, report, solution);
+  Archive archive;
+  frame.exchange(archive);
+  states_.text() += archive.bytes();
+  frames_.push_back(archive.bytes().size());
+  states_.checkpoint();
+}
+
+void ResultOutput::on_increment(const Model& model, const StepReport& report, const Solution& solution) {
+  if (is_output_increment(stage_of(model, report.stage), report)) add(model, report, solution);
+}
+
+void ResultOutput::on_failure(const Model& model, const StepReport& report, const std::string& reason,
+                              const Solution& solution) {
+  failure_ = one_line(reason);
+  add(model, report, solution);
+}
+
+void ResultOutput::exchange(Archive& archive) {
+  states_.exchange(archive);
+  archive(frames_);
+}
+
+void ResultOutput::on_finish(const Model& model, const RunResult& result) {
+  states_.flush();
+  OutFile file(path_);
+  file.written_by([&](const std::filesystem::path& partial) {
+    const FieldTable fields = fields_of(model);
+    Tables out(partial, path_);
+    out.text("/sage", "title", model.title);
+    out.text("/sage", "deck", model.file);
+    out.text("/sage", "program", "sagefe " SAGE_VERSION);
+    out.text("/sage", "status",
+             failure_.empty() ? completed_words(model, result.motion) : "NOT CONVERGED: " + failure_);
+    out.text("/sage", "signs", sign_convention(model, ""));
+    out.text("/sage", "geometry", model.geometry == Geometry::axisymmetric ? "axisymmetric" : "plane strain");
+    VtkPart vtk(out, model, fields);
+    OwnPart own(out, model, fields);
+    FrameReader reader(model, states_.partial());
+    for (std::uint64_t size : frames_) {
+      const Frame frame = reader.next(size);
+      vtk.add(frame);
+      own.add(frame);
+    }
+    vtk.finish();
+    out.close();
+  });
+  file.finish();
+  files_.push_back(path_);
+  states_.discard();
+}
+
+}  // namespace sage

@@ -1,0 +1,37 @@
+// STEM.h5: all fields at all output increments in one file of HDF5, which Python, ParaView (VTKHDF) and others
+// read; docs/manual/result_file.md is its layout, docs/decisions/0012 says why it is so.
+#pragma once
+
+#include "sage/record/out_file.hpp"
+#include "sage/record/result.hpp"
+
+namespace sage {
+
+// While the run goes, its states wait in STEM.h5.states.partial, from which --restart goes on.  STEM.h5 is written
+// when the run has ended, whole, or not at all.
+class ResultOutput final : public Output {
+ public:
+  // Throws OutputError, also where the module that writes such files can't be loaded.
+  ResultOutput(std::filesystem::path folder, const std::string& stem);
+
+  void on_increment(const Model&, const StepReport&, const Solution&) override;
+  void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
+  void on_finish(const Model&, const RunResult&) override;
+  bool wants_states(const Model& model, const StepReport& report) const override {
+    return is_output_increment(stage_of(model, report.stage), report);
+  }
+  void exchange(Archive& archive) override;
+  void stop(const std::string&) override {}
+  std::vector<std::filesystem::path> files() const override { return files_; }
+
+ private:
+  void add(const Model&, const StepReport&, const Solution&);
+
+  std::filesystem::path path_;
+  OutFile states_;
+  std::vector<std::uint64_t> frames_;  // bytes of each
+  std::string failure_;                // what the run says that found no equilibrium
+  std::vector<std::filesystem::path> files_;
+};
+
+}  // namespace sage

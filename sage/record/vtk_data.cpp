@@ -1,0 +1,175 @@
+#include "sage/record/vtk_data.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sage/model/foreign_element.hpp"
+
+namespace sage {
+
+namespace {
+
+// VTK's type of a group's cells: of their corners where it has none for the element.
+int cell_type(const ElementEntry& entry) {
+  if (entry.vtk.type != 0) return entry.vtk.type;
+  return entry.triangle() ? 5 : 9;
+}
+
+// Rows of `stride` numbers, of which a field's begin at `at`.
+struct Rows {
+  const std::vector<double>& values;
+  std::size_t stride, at = 0;
+
+  std::size_t count() const { return values.size() / stride; }
+  double operator()(std::size_t row, std::size_t component) const {
+    return values[row * stride + at + component];
+  }
+};
+
+VtkArray array_of(const FieldEntry& field) {
+  VtkArray array;
+  array.name = field.arrays.empty() ? field.name : field.arrays.front();
+  array.field = &field;
+  return array;
+}
+
+void add_numbers(const FieldEntry& field, const Rows& rows, std::vector<VtkArray>& arrays) {
+  VtkArray array = array_of(field);
+  const std::size_t n = field.size();
+  if (field.shape == FieldShape::tensor) array.components = {"xx", "yy", "zz", "xy", "yz", "xz"};
+  if (field.shape == FieldShape::numbers)
+    for (const FieldComponent& component : field.components) array.components.push_back(component.name);
+  array.width = field.shape == FieldShape::tensor ? 6 : field.shape == FieldShape::vector ? 3 : n;
+  std::vector<double> values(rows.count() * array.width, 0.0);
+  for (std::size_t i = 0; i < rows.count(); ++i)
+    for (std::size_t c = 0; c < n; ++c) values[i * array.width + c] = rows(i, c);
+  array.values = std::move(values);
+  arrays.push_back(std::move(array));
+}
+
+void add_field(const FieldEntry& field, const Rows& rows, std::vector<VtkArray>& arrays) {
+  if (field.form == FieldForm::integer) {
+    arrays.push_back(array_of(field));
+    std::vector<std::int32_t> values(rows.count());
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::int32_t>(rows(i, 0));
+    arrays.back().values = std::move(values);
+  } else if (field.arrays.size() > 1) {
+    for (std::size_t c = 0; c < field.size(); ++c) {
+      arrays.push_back(array_of(field));
+      arrays.back().name = field.arrays[c];
+      std::vector<double> values(rows.count());
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = rows(i, c);
+      arrays.back().values = std::move(values);
+    }
+  } else {
+    add_numbers(field, rows, arrays);
+  }
+}
+
+FieldList cell_fields(const Model& model, const FieldTable& table) {
+  const auto shown = [&](const FieldEntry& field) {
+    return std::ranges::any_of(model.groups, [&](const Group& group) {
+      return applies(field, group.entry->kind) &&
+             (!field.has_law || field.has_law(model.material_of(group).law_ref()));
+    });
+  };
+  FieldList fields;
+  for (const FieldEntry& field : table.rows()) {
+    if (field.place() != FieldPlace::point || field.shape == FieldShape::tensor) continue;
+    const bool of_solids = applies(field, ElementKind::solid) && !field.has_law;
+    if (field.form != FieldForm::word && (of_solids || shown(field))) fields.push_back(&field);
+  }
+  return fields;
+}
+
+std::vector<double> element_values(const Model& model, const Solution& s, const FieldEntry& field) {
+  std::vector<double> values;
+  Eigen::Matrix2Xd x;
+  for (const GroupData& data : s.groups()) {
+    if (!data.active) continue;
+    const Group& group = *data.group;
+    for (int e = 0; e < group.elements(); ++e) {
+      element_coordinates(model.mesh, group, e, x);
+      values.resize(values.size() + field.size());
+      read_field(field, element_view(model, group, e, x), values.data() + values.size() - field.size());
+    }
+  }
+  return values;
+}
+
+std::vector<double> node_values(const Model& model, const Solution& s, const NodalLayout& layout,
+                                const FieldEntry& field) {
+  std::vector<double> values(layout.node.size() * field.size());
+  for (std::size_t i = 0; i < layout.node.size(); ++i)
+    read_field(field, node_view(model, s, layout.node[i]), values.data() + i * field.size());
+  if (field.shape == FieldShape::vector)
+    for (double& value : values)
+      if (std::isnan(value)) value = 0.0;  // the reaction where nothing is held
+  return values;
+}
+
+}  // namespace
+
+VtkGrid vtk_grid(const Model& model, const NodalLayout& layout) {
+  VtkGrid grid;
+  grid.points.reserve(layout.node.size() * 3);
+  for (int node : layout.node)
+    grid.points.insert(grid.points.end(), {model.mesh.x(0, node), model.mesh.x(1, node), 0.0});
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const std::vector<int>& entries = layout.of_group[g];
+    if (entries.empty()) continue;
+    const ElementEntry& entry = *model.groups[g].entry;
+    const auto type = static_cast<std::uint8_t>(cell_type(entry));
+    const std::vector<int> order = foreign_nodes(entry, entry.vtk);
+    for (std::size_t at = 0; at < entries.size(); at += model.groups[g].node_count()) {
+      for (int i : order) grid.connectivity.push_back(entries[at + static_cast<std::size_t>(i)]);
+      grid.offsets.push_back(static_cast<std::int64_t>(grid.connectivity.size()));
+      grid.types.push_back(type);
+    }
+  }
+  return grid;
+}
+
+std::vector<VtkArray> vtk_point_data(const Model& model, const Solution& s, const NodalLayout& layout,
+                                     const FieldTable& table) {
+  std::vector<VtkArray> arrays;
+  FieldList tensors;
+  for (const FieldEntry& field : table.rows()) {
+    if (field.place() == FieldPlace::node && field.form != FieldForm::word)
+      add_field(field, {node_values(model, s, layout, field), field.size()}, arrays);
+    if (field.place() == FieldPlace::point && field.shape == FieldShape::tensor) tensors.push_back(&field);
+  }
+  const std::vector<double> carried = nodal_average(model, s, layout, tensors);
+  const std::size_t stride = carried_size_of(tensors);
+  std::size_t at = 0;
+  for (const FieldEntry* field : tensors) {
+    std::vector<double> values(layout.node.size() * field->size());
+    for (std::size_t i = 0; i < layout.node.size(); ++i)
+      value_of_carried(*field, carried.data() + i * stride + at, values.data() + i * field->size());
+    add_field(*field, {values, field->size()}, arrays);
+    at += carried_size(*field);
+  }
+  return arrays;
+}
+
+std::vector<VtkArray> vtk_cell_data(const Model& model, const Solution& s, const FieldTable& table) {
+  std::vector<VtkArray> arrays;
+  for (const FieldEntry& field : table.rows())
+    if (field.place() == FieldPlace::element && field.form != FieldForm::word)
+      add_field(field, {element_values(model, s, field), field.size()}, arrays);
+  const FieldList fields = cell_fields(model, table);
+  std::vector<double> rows;
+  for (const GroupData& data : s.groups()) {
+    if (!data.active) continue;
+    const std::vector<double> more = element_average(model.mesh, data, fields);
+    rows.insert(rows.end(), more.begin(), more.end());
+  }
+  std::size_t at = 0;
+  for (const FieldEntry* field : fields) {
+    add_field(*field, {rows, size_of(fields), at}, arrays);
+    at += field->size();
+  }
+  return arrays;
+}
+
+}  // namespace sage

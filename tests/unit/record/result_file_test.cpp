@@ -1,0 +1,212 @@
+// The result file, read back by HDF5's own library: fields of a specimen whose state is known in closed form.
+#include "sage/record/result_file.hpp"
+
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <cmath>
+
+#include "tests/unit/record/specimen.hpp"
+
+namespace sage {
+namespace {
+
+using test::contents;
+using test::fresh_folder;
+using test::Specimen;
+
+// A file of HDF5 and what it holds.
+class Hdf5 {
+ public:
+  explicit Hdf5(const std::filesystem::path& path)
+      : file_(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT)) {}
+  Hdf5(const Hdf5&) = delete;
+  Hdf5& operator=(const Hdf5&) = delete;
+  ~Hdf5() { H5Fclose(file_); }
+
+  bool has(const std::string& path) const {
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    const hid_t object = H5Oopen(file_, path.c_str(), H5P_DEFAULT);
+    if (object >= 0) H5Oclose(object);
+    return object >= 0;
+  }
+  std::vector<hsize_t> shape(const std::string& path) const {
+    const hid_t set = H5Dopen2(file_, path.c_str(), H5P_DEFAULT), space = H5Dget_space(set);
+    std::vector<hsize_t> size(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
+    H5Sget_simple_extent_dims(space, size.data(), nullptr);
+    H5Sclose(space);
+    H5Dclose(set);
+    return size;
+  }
+  std::vector<double> numbers(const std::string& path) const {
+    std::size_t count = 1;
+    for (hsize_t n : shape(path)) count *= n;
+    std::vector<double> values(count);
+    const hid_t set = H5Dopen2(file_, path.c_str(), H5P_DEFAULT);
+    EXPECT_GE(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0) << path;
+    H5Dclose(set);
+    return values;
+  }
+  std::string text(const std::string& path, const char* name) const {
+    const hid_t attribute = H5Aopen_by_name(file_, path.c_str(), name, H5P_DEFAULT, H5P_DEFAULT),
+                type = H5Aget_type(attribute);
+    std::string value(H5Tget_size(type), '\0');
+    H5Aread(attribute, type, value.data());
+    H5Tclose(type);
+    H5Aclose(attribute);
+    return value.c_str();
+  }
+
+ private:
+  hid_t file_;
+};
+
+using Shape = std::vector<hsize_t>;
+
+// sigma_1 = E e along the axis in a cylinder, all else zero; two increments of half the strain each.
+TEST(ResultFile, HoldsTheFieldsOfTheCompressedSpecimen) {
+  Specimen specimen;
+  const auto folder = fresh_folder("result");
+  ResultOutput result(folder, "t");
+  specimen.run(result, 0.01, 2);
+  ASSERT_EQ(result.files(), std::vector<std::filesystem::path>{folder / "t.h5"});
+  EXPECT_FALSE(std::filesystem::exists(folder / "t.h5.states.partial"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "t.h5.partial"));
+  const Hdf5 file(folder / "t.h5");
+  EXPECT_EQ(file.numbers("/sage/increments/load_factor"), (std::vector<double>{0.5, 1.0}));
+  EXPECT_EQ(file.shape("/sage/groups/1/stress"), (Shape{2, 8, 4}));
+  const std::vector<double> stress = file.numbers("/sage/groups/1/stress"),
+                            principal = file.numbers("/sage/groups/1/principal_stress"),
+                            p = file.numbers("/sage/groups/1/mean_stress"),
+                            q = file.numbers("/sage/groups/1/deviator"),
+                            strain = file.numbers("/sage/groups/1/strain");
+  for (std::size_t step = 0; step < 2; ++step)
+    for (std::size_t point = 0; point < 8; ++point) {
+      const double axial = step == 0 ? 5.0 : 10.0;
+      const std::size_t i = step * 8 + point;
+      EXPECT_NEAR(stress[4 * i + 1], axial, 1e-9);
+      EXPECT_NEAR(stress[4 * i], 0.0, 1e-9);
+      EXPECT_NEAR(principal[3 * i], axial, 1e-9);
+      EXPECT_NEAR(principal[3 * i + 2], 0.0, 1e-9);
+      EXPECT_NEAR(p[i], axial / 3.0, 1e-9);
+      EXPECT_NEAR(q[i], axial, 1e-9);
+      EXPECT_NEAR(strain[4 * i + 1], axial / Specimen::kE, 1e-12);
+      EXPECT_NEAR(strain[4 * i], -Specimen::kNu * axial / Specimen::kE, 1e-12);
+    }
+  const std::vector<double> traction = file.numbers("/sage/groups/2/traction");
+  EXPECT_NEAR(traction.back(), 10.0, 1e-9);
+  EXPECT_EQ(file.text("/sage/groups/1/stress", "unit"), "psi");
+  EXPECT_EQ(file.text("/sage/groups/1/stress", "components"), "xx yy zz xy");
+  EXPECT_EQ(file.text("/sage/groups/1/stress", "sign"), "compression positive");
+  EXPECT_EQ(file.text("/sage", "title"), specimen.model.title);
+  EXPECT_FALSE(file.has("/sage/groups/1/traction"));
+  EXPECT_FALSE(file.has("/sage/groups/2/stress"));
+}
+
+// What ParaView's reader asks for: parts, steps and where each array of a step begins.
+TEST(ResultFile, HasTheLayoutOfVtkHdf) {
+  Specimen specimen;
+  const auto folder = fresh_folder("result_vtk");
+  ResultOutput result(folder, "t");
+  specimen.run(result, 0.01, 3);
+  const Hdf5 file(folder / "t.h5");
+  EXPECT_EQ(file.text("/VTKHDF", "Type"), "UnstructuredGrid");
+  EXPECT_EQ(file.numbers("/VTKHDF/Steps/Values").size(), 3u);
+  EXPECT_EQ(file.numbers("/VTKHDF/NumberOfPoints"), std::vector<double>{10});  // one grid for all steps
+  EXPECT_EQ(file.numbers("/VTKHDF/NumberOfCells"), std::vector<double>{3});
+  EXPECT_EQ(file.numbers("/VTKHDF/Offsets"), (std::vector<double>{0, 4, 8, 12}));
+  EXPECT_EQ(file.numbers("/VTKHDF/Types"), (std::vector<double>{9, 9, 9}));
+  EXPECT_EQ(file.numbers("/VTKHDF/Steps/PartOffsets"), (std::vector<double>{0, 0, 0}));
+  EXPECT_EQ(file.shape("/VTKHDF/Steps/CellOffsets"), (Shape{3, 1}));
+  EXPECT_EQ(file.numbers("/VTKHDF/Steps/PointDataOffsets/stress"), (std::vector<double>{0, 10, 20}));
+  EXPECT_EQ(file.numbers("/VTKHDF/Steps/CellDataOffsets/q"), (std::vector<double>{0, 3, 6}));
+  EXPECT_EQ(file.shape("/VTKHDF/PointData/stress"), (Shape{30, 6}));
+  EXPECT_EQ(file.shape("/VTKHDF/PointData/displacement"), (Shape{30, 3}));
+  const std::vector<double> q = file.numbers("/VTKHDF/CellData/q"),
+                            u = file.numbers("/VTKHDF/PointData/displacement"),
+                            nodes = file.numbers("/VTKHDF/PointData/node");
+  for (std::size_t step = 0; step < 3; ++step)
+    EXPECT_NEAR(q[3 * step], 10.0 * static_cast<double>(step + 1) / 3.0, 1e-9);
+  for (std::size_t i = 20; i < 30; ++i) {
+    const auto index = static_cast<Eigen::Index>(nodes[i] / 10.0) - 1;
+    EXPECT_NEAR(u[3 * i], specimen.u[2 * index], 1e-15);
+    EXPECT_NEAR(u[3 * i + 1], specimen.u[2 * index + 1], 1e-15);
+  }
+}
+
+TEST(ResultFile, EqualRunsGiveEqualBytes) {
+  const auto folder = fresh_folder("result_equal");
+  std::string bytes[2];
+  for (std::string& one : bytes) {
+    Specimen specimen;
+    ResultOutput result(folder, "t");
+    specimen.run(result, 0.01, 2);
+    one = contents(folder / "t.h5");
+  }
+  EXPECT_GT(bytes[0].size(), 1000u);
+  EXPECT_TRUE(bytes[0] == bytes[1]);
+}
+
+TEST(ResultFile, FailedRunHoldsTheLastStateAndSaysSo) {
+  Specimen specimen;
+  const auto folder = fresh_folder("result_fail");
+  ResultOutput result(folder, "t");
+  specimen.run_and_fail(result, 0.01, 2);
+  const Hdf5 file(folder / "t.h5");
+  EXPECT_TRUE(file.text("/sage", "status").starts_with("NOT CONVERGED")) << file.text("/sage", "status");
+  EXPECT_EQ(file.numbers("/sage/increments/load_factor").back(), 0.75);
+  EXPECT_EQ(file.numbers("/sage/increments/converged").back(), 0.0);
+}
+
+// A run that an error stops leaves no result file, whole or half.
+TEST(ResultFile, IsWholeOrAbsent) {
+  Specimen specimen;
+  const auto folder = fresh_folder("result_stop");
+  {
+    ResultOutput result(folder, "t");
+    specimen.compress(0.01);
+    result.on_increment(specimen.model, specimen.step(1, 2), specimen.solution());
+    result.stop("disk full");
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "t.h5"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "t.h5.partial"));
+}
+
+// Goes on from a checkpoint to the same bytes.
+TEST(ResultFile, RestartGivesTheSameBytes) {
+  const auto folder = fresh_folder("result_restart");
+  Specimen whole;
+  ResultOutput straight(folder, "a");
+  whole.run(straight, 0.01, 3);
+  Archive kept;
+  {
+    Specimen killed;
+    ResultOutput result(folder, "b");
+    killed.compress(0.01 * 1 / 3);
+    result.on_increment(killed.model, killed.step(1, 3), killed.solution());
+    result.exchange(kept);
+    killed.compress(0.77);  // behind the checkpoint: cut off
+    result.on_increment(killed.model, killed.step(2, 3), killed.solution());
+  }
+  Specimen specimen;
+  specimen.compress(0.01 * 1 / 3);
+  ResultOutput result(folder, "b");
+  Archive back(kept.bytes());
+  result.exchange(back);
+  for (int i : {2, 3}) {
+    specimen.compress(0.01 * i / 3);
+    result.on_increment(specimen.model, specimen.step(i, 3), specimen.solution());
+  }
+  result.on_finish(specimen.model, {});
+  EXPECT_TRUE(contents(folder / "a.h5") == contents(folder / "b.h5"));
+}
+
+TEST(ResultFile, RefusesAFolderOfItsNameAtOnce) {
+  const auto folder = fresh_folder("result_folder");
+  std::filesystem::create_directories(folder / "t.h5");
+  EXPECT_THROW(ResultOutput(folder, "t"), OutputError);
+  EXPECT_THROW(ResultOutput("/dev/null/results", "t"), OutputError);
+}
+
+}  // namespace
+}  // namespace sage
