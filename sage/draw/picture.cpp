@@ -182,8 +182,15 @@ double length(const std::string& text) {
   return static_cast<double>(text.size());
 }
 
+// A patch of a field that is not known there stays white.
 void draw_bands(std::string& out, const std::vector<Patch>& all, const std::vector<double>& limits) {
-  const std::vector<std::string> paths = band_paths(all, limits);
+  const auto unknown = [](const Patch& patch) {
+    return std::ranges::any_of(patch.places, [](const Corner& c) { return std::isnan(c.value); });
+  };
+  const bool all_known = std::ranges::none_of(all, unknown);
+  std::vector<Patch> known;
+  if (!all_known) std::ranges::remove_copy_if(all, std::back_inserter(known), unknown);
+  const std::vector<std::string> paths = band_paths(all_known ? all : known, limits);
   for (std::size_t band = 0; band < paths.size(); ++band) {
     const std::string colour =
         hex(viridis((static_cast<double>(band) + 0.5) / static_cast<double>(paths.size())));
@@ -329,7 +336,7 @@ std::string field_svg(const Model& model, const Solution& solution, std::string_
   Scenery scenery = make_scenery(model, solution, field, options);
   std::vector<Patch> all = patches(scenery);
   FieldRange range = range_of(all);
-  if (all.empty()) range = {0.0, 0.0};
+  if (!(range.low <= range.high)) range = {0.0, 0.0};  // no solid, or known nowhere
   const auto [lowest, highest] = range;
   const std::vector<double> limits = band_limits(std::isnan(options.low) ? lowest : options.low,
                                                  std::isnan(options.high) ? highest : options.high, kBands);

@@ -82,20 +82,18 @@ FieldList fields_named(const FieldTable& table, std::initializer_list<std::strin
   return list;
 }
 
-PointState::PointState(const Mesh& mesh, const GroupData& data, std::size_t point) {
+// 0 - x: no -0 comes out.
+PointState::PointState(const Mesh& mesh, const GroupData& data, std::size_t point)
+    : view{data.law, {}, {}, {}, shown_status(mesh, data, point)}, solid(data.group->solid()) {
   const PointStates& state = data.state.committed;
   const auto n = static_cast<std::size_t>(data.state.law_size());
   const auto history = static_cast<std::size_t>(data.state.history_size());
-  view = {data.law,
-          {state.sigma.data() + point * n, n},
-          {state.eps.data() + point * n, n},
-          {state.h.data() + point * history, history},
-          shown_status(mesh, data, point)};
-  solid = data.group->solid();
-  for (int i = 0; solid && i < 4; ++i) {
-    stress[i] = outward(view.sigma[static_cast<std::size_t>(i)]);
-    strain[i] = outward(view.eps[static_cast<std::size_t>(i)]);
-  }
+  view.sigma = {state.sigma.data() + point * n, n};
+  view.eps = {state.eps.data() + point * n, n};
+  view.history = {state.h.data() + point * history, history};
+  if (!solid) return;
+  stress = Vector4::Zero() - Vector4::Map(view.sigma.data());
+  strain = Vector4::Zero() - Vector4::Map(view.eps.data());
 }
 
 bool applies(const FieldEntry& entry, ElementKind kind) {
@@ -109,15 +107,16 @@ bool applies(const FieldEntry& entry, const GroupData& data) {
 }
 
 void read_field(const FieldEntry& entry, const PointState& point, double* value) {
-  if (!applies(entry, point.solid ? ElementKind::solid : ElementKind::interface) ||
-      (entry.has_law && !entry.has_law(point.view.law)))
-    set_none(entry, value);
-  else if (const auto* stress = std::get_if<StressField>(&entry.value))
-    stress->of(point.stress, value);
-  else if (const auto* strain = std::get_if<StrainField>(&entry.value))
-    strain->of(point.strain, value);
-  else
-    std::get<PointField>(entry.value).of(point.view, value);
+  if (const auto* stress = std::get_if<StressField>(&entry.value)) {
+    if (point.solid) return stress->of(point.stress, value);
+  } else if (const auto* any = std::get_if<PointField>(&entry.value)) {
+    const ElementKind kind = point.solid ? ElementKind::solid : ElementKind::interface;
+    if (entry.kind.value_or(kind) == kind && (!entry.has_law || entry.has_law(point.view.law)))
+      return any->of(point.view, value);
+  } else if (const auto* strain = std::get_if<StrainField>(&entry.value)) {
+    if (point.solid) return strain->of(point.strain, value);
+  }
+  set_none(entry, value);
 }
 
 void read_field(const FieldEntry& entry, const NodeView& node, double* value) {

@@ -374,6 +374,10 @@ ResultOutput::ResultOutput(std::filesystem::path folder, const std::string& stem
   states_ = OutFile(path_.string() + ".states");
 }
 
+ResultOutput::~ResultOutput() {
+  if (!files_.empty()) states_.discard();
+}
+
 void ResultOutput::add(const Model& model, const StepReport& report, const Solution& solution) {
   Frame frame(model, report, solution);
   Archive archive;
@@ -424,7 +428,6 @@ void ResultOutput::on_finish(const Model& model, const RunResult& result) {
   });
   file.finish();
   files_.push_back(path_);
-  states_.discard();
 }
 
 }  // namespace sage

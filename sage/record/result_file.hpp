@@ -13,6 +13,10 @@ class ResultOutput final : public Output {
  public:
   // Throws OutputError, also where the module that writes such files can't be loaded.
   ResultOutput(std::filesystem::path folder, const std::string& stem);
+  // Once the file is written nobody needs the states; until here a checkpoint may still name them.
+  ~ResultOutput() override;
+  ResultOutput(const ResultOutput&) = delete;
+  ResultOutput& operator=(const ResultOutput&) = delete;
 
   void on_increment(const Model&, const StepReport&, const Solution&) override;
   void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;

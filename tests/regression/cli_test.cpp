@@ -32,10 +32,11 @@ TEST(CommandLine, HelpOfEverySubcommandNamesItsOptions) {
   const fs::path folder = empty_folder("help");
   const std::vector<std::pair<std::string, std::vector<const char*>>> commands = {
       {"", {"run", "check", "echo", "list", "tables", "--help", "--version", "Exit codes"}},
-      {"run", {"DECK",          "--output",   "--solver",      "--tables", "--nodes",  "--points",
-               "--no-listing",  "--vtu",      "--picture",     "--quiet",  "--layout", "--strict",
-               "--formulation", "--element",  "--geometry",    "--refine", "--grade",  "--error",
-               "--converge",    "--max-dofs", "--max-seconds", "--follow", "--coarsen"}},
+      {"run",
+       {"DECK",          "--output",      "--solver",   "--tables", "--nodes", "--points", "--no-listing",
+        "--vtu",         "--picture",     "--field",    "--result", "--quiet", "--layout", "--strict",
+        "--formulation", "--element",     "--geometry", "--refine", "--grade", "--error",  "--converge",
+        "--max-dofs",    "--max-seconds", "--follow",   "--coarsen"}},
       {"check",
        {"DECK", "--layout", "--strict", "--formulation", "--element", "--geometry", "--refine", "--grade"}},
       {"echo", {"DECK", "--layout", "--strict"}},

@@ -63,6 +63,20 @@ TEST(FieldSvg, NamesAreThoseOfTheTable) {
 }
 
 // sigma_1 = 10 psi along the axis, sigma_3 = 0 around it.
+// A field that is known nowhere (no strength left, a law without such a history) leaves the mesh white.
+TEST(FieldSvg, StaysWhiteWhereAFieldIsNotKnown) {
+  Specimen specimen;
+  specimen.compress(0.01);
+  specimen.model.fields.add(
+      {.name = "unknown", .meaning = "unknown", .value = StressField{[](const Vector4&, double* v) {
+                                                  *v = std::numeric_limits<double>::quiet_NaN();
+                                                }}});
+  const std::string svg = field_svg(specimen.model, specimen.solution(), "unknown");
+  EXPECT_FALSE(has(svg, "stroke-width=\"0.4\""));
+  EXPECT_FALSE(has(svg, "nan"));
+  EXPECT_TRUE(has(svg, "stroke-opacity"));  // the mesh
+}
+
 TEST(FieldSvg, PrincipalStressesOfTheCompressedSpecimen) {
   Specimen specimen;
   specimen.compress(0.01);

@@ -67,9 +67,11 @@ using Shape = std::vector<hsize_t>;
 TEST(ResultFile, HoldsTheFieldsOfTheCompressedSpecimen) {
   Specimen specimen;
   const auto folder = fresh_folder("result");
-  ResultOutput result(folder, "t");
-  specimen.run(result, 0.01, 2);
-  ASSERT_EQ(result.files(), std::vector<std::filesystem::path>{folder / "t.h5"});
+  {
+    ResultOutput result(folder, "t");
+    specimen.run(result, 0.01, 2);
+    ASSERT_EQ(result.files(), std::vector<std::filesystem::path>{folder / "t.h5"});
+  }
   EXPECT_FALSE(std::filesystem::exists(folder / "t.h5.states.partial"));
   EXPECT_FALSE(std::filesystem::exists(folder / "t.h5.partial"));
   const Hdf5 file(folder / "t.h5");
