@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <iterator>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "sage/model/foreign_element.hpp"
@@ -75,15 +76,25 @@ class VtuText {
   // Of the blocks in the data.  meshio 5.3 makes base64 of them, gives each tag its new offset as it goes, and
   // finds the next tag by the old one: no block may begin where one before it begins in base64.
   std::vector<std::size_t> order() const {
-    std::vector<std::size_t> order, left(blocks_.size());
-    std::iota(left.begin(), left.end(), 0);
-    std::vector<std::size_t> taken;
+    std::vector<std::size_t> list(blocks_.size());
+    std::iota(list.begin(), list.end(), 0);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      if (const auto found = order_from(list)) return *found;
+      std::ranges::rotate(list, list.begin() + 1);
+    }
+    return list;
+  }
+
+  // Nearest to this order; nothing where that finds none.
+  std::optional<std::vector<std::size_t>> order_from(std::vector<std::size_t> left) const {
+    std::vector<std::size_t> order, taken;
     std::size_t raw = 0, base64 = 0;
     while (!left.empty()) {
       taken.push_back(base64);
-      const auto free = [&](std::size_t i) { return std::ranges::count(taken, raw + blocks_[i].size()) == 0; };
-      auto next = std::ranges::find_if(left, free);
-      if (next == left.end()) next = left.begin();
+      const auto next = std::ranges::find_if(left, [&](std::size_t i) {
+        return left.size() == 1 || std::ranges::count(taken, raw + blocks_[i].size()) == 0;
+      });
+      if (next == left.end()) return std::nullopt;
       raw += blocks_[*next].size();
       base64 += (blocks_[*next].size() + 2) / 3 * 4;
       order.push_back(*next);
