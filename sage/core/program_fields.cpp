@@ -12,13 +12,16 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-// In the plane: centre and radius of Mohr's circle, and the angle of the larger compression to +x (radians).
+// In the plane: centre and radius of Mohr's circle, and the angle of the larger compression to +x (radians, in
+// (-pi/2, pi/2]).  Rounding beside the stress itself must not turn it: 0 where all directions are the same.
 struct Circle {
   double centre, radius, angle;
   explicit Circle(const Vector4& s)
-      : centre(0.5 * (s[0] + s[1])),
-        radius(std::hypot(0.5 * (s[0] - s[1]), s[3])),
-        angle(0.5 * std::atan2(2.0 * s[3], s[0] - s[1])) {}
+      : centre(0.5 * (s[0] + s[1])), radius(std::hypot(0.5 * (s[0] - s[1]), s[3])) {
+    const double rounding = 1e-10 * s.cwiseAbs().maxCoeff();
+    const auto rounded = [&](double x) { return std::abs(x) > rounding ? x : 0.0; };
+    angle = 0.5 * std::atan2(rounded(2.0 * s[3]), rounded(s[0] - s[1]));
+  }
   double major() const { return centre + radius; }
   double minor() const { return centre - radius; }
 };
@@ -50,8 +53,8 @@ void direction_3(const Vector4& s, double* value) {
   const Circle plane(s);
   if (s[2] < plane.minor())
     direction(0.0, 0.0, 1.0, value);
-  else if (plane.angle < 0.0)
-    direction(-std::sin(plane.angle), std::cos(plane.angle), 0.0, value);
+  else if (plane.angle <= 0.0)
+    direction(0.0 - std::sin(plane.angle), std::cos(plane.angle), 0.0, value);
   else
     direction(std::sin(plane.angle), -std::cos(plane.angle), 0.0, value);
 }

@@ -1,5 +1,8 @@
 #include "sage/record/data_file.hpp"
 
+#include <cerrno>
+#include <cstring>
+
 #include "sage/core/error.hpp"
 
 namespace sage {
@@ -39,8 +42,11 @@ void expect_data_module() {
 }
 
 std::unique_ptr<DataFile> make_data_file(const std::string& path) {
-  std::unique_ptr<DataFile> file(loaded()(path.c_str()));
-  if (!file) throw OutputError("cannot write " + path + ": HDF5 refuses it");
+  const MakeDataFile make = loaded();
+  errno = 0;
+  std::unique_ptr<DataFile> file(make(path.c_str()));
+  if (!file)
+    throw OutputError("cannot write " + path + ": " + (errno != 0 ? std::strerror(errno) : "HDF5 refuses it"));
   return file;
 }
 

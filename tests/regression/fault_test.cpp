@@ -130,6 +130,24 @@ TEST(Fault, FullDiskAndRestart) {
   }
 }
 
+// The result file is written last and by a library that must not end the program in its own way.
+TEST(Fault, FullDiskUnderAResultFile) {
+  const fs::path folder = empty_folder("full_disk_result");
+  fs::copy_file(fs::path(SAGE_SOURCE_DIR) / "legacy_inputs/chapter7/friction_08_nu025/deck.dat",
+                folder / "deck.dat");
+  const Finished whole = sagefe(folder, "run deck.dat -q --result");
+  if (whole.err.find("can't be loaded") != std::string::npos) GTEST_SKIP() << "built without HDF5";
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  for (const int blocks : {100, 200, 300}) {  // of 1024 bytes
+    fs::remove_all(folder / "out");
+    const Finished full =
+        sagefe(folder, "run deck.dat -q --result",
+               "bash -c 'trap \"\" XFSZ; ulimit -f " + std::to_string(blocks) + "; exec \"$@\"' -");
+    EXPECT_EQ(full.exit_code, 4) << blocks << "\n" << full.err;
+    EXPECT_FALSE(fs::exists(folder / "out/deck.h5"));
+  }
+}
+
 TEST(Fault, UnwritableFolderAndRestart) {
   if (geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
   const fs::path folder = folder_with_deck("unwritable");

@@ -191,8 +191,10 @@ extern const char sage_data_module_version[];
 [[gnu::section(SAGE_MODULE_SECTION), gnu::used]] const char sage_data_module_version[] =
     SAGE_DATA_MODULE_VERSION;
 
-// The caller owns the file.  nullptr: it can't be opened.
+// The caller owns the file.  nullptr: it can't be opened; errno says why, where the system knows.
 sage::DataFile* sage_make_data_file(const char* path) {
+  // At the end of the program HDF5 would close a file once more that a full disk kept it from closing, and crash.
+  H5dont_atexit();
   auto file = std::make_unique<sage::Hdf5File>(path);
   return file->is_open() ? file.release() : nullptr;
 }

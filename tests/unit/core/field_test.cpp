@@ -62,6 +62,21 @@ TEST(FieldTable, PrincipalDirectionsAreThoseOfTheirStresses) {
     }
 }
 
+// Zero shear comes out of a run as rounding of either sign; equal stresses have no direction of their own.
+TEST(FieldTable, RoundingTurnsNoDirection) {
+  for (const double rounding : {0.0, 1e-14, -1e-14}) {
+    const Vector4 upright(100.0, 200.0, 100.0, rounding), lying(200.0, 100.0, 100.0, rounding),
+        equal(100.0 + rounding, 100.0, 100.0, rounding);
+    EXPECT_EQ(of_stress("principal_angle", upright)[0], 90.0);
+    EXPECT_EQ(of_stress("principal_angle", lying)[0], 0.0);
+    EXPECT_EQ(of_stress("principal_angle", equal)[0], 0.0);
+    EXPECT_EQ(of_stress("principal_direction_1", upright)[1], 1.0);
+    if (rounding == 0.0) {
+      EXPECT_EQ(of_stress("principal_direction_3", lying)[1], 1.0);
+    }
+  }
+}
+
 // Triaxial test: cell pressure 50, deviator 100: p = 50 + 100 / 3, q = 100.
 TEST(FieldTable, TriaxialStateHasItsPAndQ) {
   const Vector4 s(50, 150, 50, 0);
