@@ -65,7 +65,7 @@ Condensation::Condensation(const std::vector<GroupData>& groups, const std::vect
   }
 }
 
-// Displacements count from the element's first node, as in Assembly::evaluate_constant.
+// Displacements count from the element's first node, as in ConstantRegion.
 void Condensation::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
   y.setZero();
   for (const GroupData& data : *groups_) {
@@ -172,6 +172,43 @@ double Condensation::whole_norm(const Eigen::VectorXd& correction) {
   for (Eigen::Index i = 0; i < rhs_.size(); ++i) rhs_[i] = work_y_[condensed_[static_cast<std::size_t>(i)]];
   solve();
   return std::sqrt(correction.squaredNorm() + solution_.squaredNorm());
+}
+
+namespace {
+
+// Dofs of elements that are not constant.
+std::vector<char> changing_dofs(const std::vector<GroupData>& groups, int dofs) {
+  std::vector<char> flags(static_cast<std::size_t>(dofs), 0);
+  for (const GroupData& data : groups) {
+    if (!data.active || data.constant) continue;
+    for (int node : data.group->nodes)
+      for (int c = 0; c < 2; ++c) flags[static_cast<std::size_t>(2 * node + c)] = 1;
+  }
+  return flags;
+}
+
+}  // namespace
+
+std::unique_ptr<Condensation> condense_if_it_pays(const std::vector<GroupData>& groups,
+                                                  const std::vector<int>& free_dofs, int dofs, int increments,
+                                                  const SolverMaker& make) {
+  // Measured: the matrix of the border costs a solution for each of its dofs, an iteration saves about eight.
+  constexpr int kWidestBorder = 400, kFewestCondensed = 100, kBorderPerIncrement = 15;
+  constexpr double kPoorPivot = 1e-6;  // of an ill-conditioned region: its elimination would cost digits
+  const std::vector<char> keep = changing_dofs(groups, dofs);
+  const auto kept = static_cast<int>(std::count_if(
+      free_dofs.begin(), free_dofs.end(), [&](int dof) { return keep[static_cast<std::size_t>(dof)] != 0; }));
+  const int condensed = static_cast<int>(free_dofs.size()) - kept;
+  if (kept == 0 || kept > kWidestBorder || condensed < kFewestCondensed || condensed < 4 * kept ||
+      kept > kBorderPerIncrement * increments)
+    return nullptr;
+  try {
+    auto region = std::make_unique<Condensation>(groups, free_dofs, keep, make);
+    if (region->report().smallest_pivot_ratio < kPoorPivot) return nullptr;
+    return region;
+  } catch (const SingularMatrix&) {
+    return nullptr;  // a region that only its border holds: the whole system says what is wrong, or solves it
+  }
 }
 
 }  // namespace sage

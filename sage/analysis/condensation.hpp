@@ -1,4 +1,4 @@
-// Static condensation: free dofs that belong to constant (linear) elements only are eliminated once for all;
+// The skip 'condensation'.  Static condensation: free dofs that belong to constant (linear) elements only are eliminated once for all;
 // the iterations see the others, the kept ones, and one dense matrix that stands for the whole linear region.
 //
 // With l = condensed, n = kept, p = prescribed dofs of the linear region, f0 its internal forces at the start
@@ -69,5 +69,11 @@ class Condensation {
   double held_work_ = 0.0;
   mutable Eigen::VectorXd kept_du_, kept_f_;
 };
+
+// The constant region of the active groups, where its elimination pays in so many increments; nullptr where it
+// does not, where K_ll is singular or nearly so.  free_dofs: those with an equation; dofs: of the model.
+std::unique_ptr<Condensation> condense_if_it_pays(const std::vector<GroupData>& groups,
+                                                  const std::vector<int>& free_dofs, int dofs, int increments,
+                                                  const SolverMaker& make);
 
 }  // namespace sage

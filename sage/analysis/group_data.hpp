@@ -24,6 +24,8 @@ struct GroupData {
   // Constant: internal force of each element at the committed state, and tried; empty = zero.
   std::vector<double> force, trial_force;
 
+  bool keeps_matrices() const { return !matrix.empty(); }
+  std::size_t matrix_size() const { return dofs() * dofs(); }
   std::size_t dofs() const { return static_cast<std::size_t>(group->element->traits().dofs); }
   const double* matrix_of(int element) const {
     return K.data() + static_cast<std::size_t>(matrix[static_cast<std::size_t>(element)]) * dofs() * dofs();

@@ -74,10 +74,11 @@ InitialImbalance initial_imbalance(const Model& model) {
   activity.enter(first);
   assembly.enter_stage(activity, prescribed_rate(model, first));
   Diagnostics refused;  // the run tells of it
-  for (const std::vector<InitialStress>* list : {&model.initials, &first.initials})
-    for (const InitialStress& initial : *list)
-      apply_initial_stress(model, initial, assembly.groups()[static_cast<std::size_t>(initial.group)], refused);
-  assembly.take_states();
+  assembly.start_states([&](std::vector<GroupData>& groups) {
+    for (const std::vector<InitialStress>* list : {&model.initials, &first.initials})
+      for (const InitialStress& initial : *list)
+        apply_initial_stress(model, initial, groups[static_cast<std::size_t>(initial.group)], refused);
+  });
   if (assembly.evaluate(Eigen::VectorXd::Zero(model.dofs()), nullptr) == Outcome::cut_step) return {};
   return initial_imbalance(model, activity, 0, assembly.internal_force(), external_force(model, 0));
 }

@@ -4,7 +4,9 @@
 #include <limits>
 
 #include "sage/analysis/acceleration.hpp"
+#include "sage/analysis/contraction.hpp"
 #include "sage/analysis/dogleg.hpp"
+#include "sage/analysis/repeats.hpp"
 
 namespace sage {
 
@@ -13,9 +15,11 @@ namespace {
 // Shared by the parts of one step; vectors of equations are sized once.
 class Step {
  public:
-  Step(Assembly& assembly, Tangent& tangent, const Eigen::VectorXd& target, const NewtonSettings& settings,
-       WorkCounters& work, Eigen::VectorXd& du)
+  Step(Assembly& assembly, Tangent& tangent, const Eigen::VectorXd& target, double rate_part,
+       const NewtonSettings& settings, WorkCounters& work, Eigen::VectorXd& du)
       : assembly_(assembly),
+        pass_(assembly, target, rate_part),
+        rate_part_(rate_part),
         tangent_(tangent),
         target_(target),
         settings_(settings),
@@ -24,7 +28,7 @@ class Step {
         residual_(assembly.equations()),
         correction_(assembly.equations()) {}
 
-  NewtonStep solve(const Eigen::VectorXd& rate, double rate_part);
+  NewtonStep solve(const Eigen::VectorXd& rate);
 
  private:
   bool full_newton() const {
@@ -41,7 +45,7 @@ class Step {
   Outcome evaluate(bool with_K);
   void form_residual();
   void correct();
-  bool predict(const Eigen::VectorXd& rate, double rate_part);
+  bool predict(const Eigen::VectorXd& rate);
   bool search_line();
   IterationRecord measure() const;
   bool converged(const IterationRecord& record) const;
@@ -55,6 +59,8 @@ class Step {
   void move(double factor);
 
   Assembly& assembly_;
+  IteratedStep pass_;
+  double rate_part_;  // of the stage's prescribed displacements
   Tangent& tangent_;
   const Eigen::VectorXd& target_;
   const NewtonSettings& settings_;
@@ -72,7 +78,7 @@ class Step {
 };
 
 Outcome Step::evaluate(bool with_K) {
-  return assembly_.iterate(du_, with_K ? &tangent_ : nullptr);
+  return pass_.iterate(du_, with_K ? &tangent_ : nullptr);
 }
 
 void Step::form_residual() {
@@ -103,8 +109,7 @@ bool Step::repeats() {
   if (evaluate(false) == Outcome::cut_step) return false;
   form_residual();
   correction_.setZero();
-  // Rounding: what is left beyond it would be another answer than that of a correction.
-  const double limit = std::min(1e-14, 1e-3 * settings_.tolerance);
+  const double limit = Repeats::limit(settings_.tolerance);
   if (!(measure().force <= limit)) return false;
   const IterationRecord record = measure_whole();
   if (!(record.force <= limit)) return false;
@@ -117,7 +122,7 @@ bool Step::repeats() {
 }
 
 // First correction: prescribed displacements enter through K(free, prescribed).
-bool Step::predict(const Eigen::VectorXd& rate, double rate_part) {
+bool Step::predict(const Eigen::VectorXd& rate) {
   du_.setZero();
   if (!tangent_.current() && evaluate(true) == Outcome::cut_step) return false;
   if (start_known_) {
@@ -128,13 +133,13 @@ bool Step::predict(const Eigen::VectorXd& rate, double rate_part) {
   }
   const Eigen::VectorXd& coupling = tangent_.coupling();
   for (int eq = 0; eq < assembly_.equations(); ++eq)
-    residual_[eq] -= rate_part * coupling[assembly_.dof_of(eq)];
+    residual_[eq] -= rate_part_ * coupling[assembly_.dof_of(eq)];
   correct();
   energy_scale_ = std::abs(correction_.dot(residual_));
   if (const Condensation* region = assembly_.condensation()) energy_scale_ += std::abs(region->held_work());
   result_.predicted_work = energy_scale_;
   first_force_ = std::max({residual_.norm(), start_scale_, load_scale_});
-  du_ = rate_part * rate;
+  du_ = rate_part_ * rate;
   prescribed_ = du_.size() > 0 ? du_.lpNorm<Eigen::Infinity>() : 0.0;
   move(1.0);
   return true;
@@ -155,13 +160,13 @@ double Step::scale() const {
 // With a condensed region: of the whole model, as without one.
 IterationRecord Step::measure_whole() {
   if (assembly_.condensation() == nullptr) return measure();
-  assembly_.complete(du_);
+  pass_.complete(du_);
   form_residual();
   IterationRecord record = measure();
   const double size = du_.norm();
   // The displacement counts where the energy does not decide.
   if (record.energy > settings_.tolerance * settings_.tolerance && size > 0.0)
-    record.displacement = assembly_.whole_norm(correction_) / size;
+    record.displacement = pass_.whole_norm(correction_) / size;
   return record;
 }
 
@@ -277,13 +282,12 @@ bool Step::record_iteration() {
   return true;
 }
 
-NewtonStep Step::solve(const Eigen::VectorXd& rate, double rate_part) {
+NewtonStep Step::solve(const Eigen::VectorXd& rate) {
   load_scale_ = load_size();
   result_.outcome = StepOutcome::law_cut;
   result_.iterations.reserve(static_cast<std::size_t>(settings_.max_iterations));
-  assembly_.begin_step(target_, rate_part);
   if (settings_.repeat && repeats()) return result_;
-  if (!predict(rate, rate_part)) return result_;
+  if (!predict(rate)) return result_;
   return settings_.method == Method::dogleg ? iterate_with_dogleg() : iterate_with_line_search();
 }
 
@@ -295,7 +299,6 @@ void Step::accelerate(double old_norm) {
 }
 
 NewtonStep& Step::iterate_with_line_search() {
-  constexpr double kGoodContraction = 0.2;
   double old_norm = residual_.norm();
   if (accelerated()) acceleration_.improve(correction_);
   for (int i = 1; i <= settings_.max_iterations; ++i) {
@@ -308,7 +311,7 @@ NewtonStep& Step::iterate_with_line_search() {
     if (hopeless() || record_iteration()) return result_;
     if (i == settings_.max_iterations) break;
     const double norm = residual_.norm();
-    if (settings_.contract && norm > kGoodContraction * old_norm && evaluate(true) == Outcome::cut_step)
+    if (settings_.contract && contracts_poorly(norm, old_norm) && evaluate(true) == Outcome::cut_step)
       return result_;
     correct();
     if (accelerated()) accelerate(old_norm);
@@ -355,9 +358,9 @@ NewtonStep& Step::iterate_with_dogleg() {
 NewtonStep newton_step(Assembly& assembly, Tangent& tangent, const Eigen::VectorXd& target,
                        const Eigen::VectorXd& rate, double rate_part, const NewtonSettings& settings,
                        WorkCounters& work, Eigen::VectorXd& du) {
-  Step step(assembly, tangent, target, settings, work, du);
   try {
-    return step.solve(rate, rate_part);
+    Step step(assembly, tangent, target, rate_part, settings, work, du);
+    return step.solve(rate);
   } catch (const SingularMatrix& error) {
     NewtonStep result;
     result.outcome = StepOutcome::singular;

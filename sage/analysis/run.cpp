@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sage/analysis/audit.hpp"
+#include "sage/analysis/contraction.hpp"
 #include "sage/analysis/explain.hpp"
 #include "sage/analysis/extent.hpp"
 #include "sage/analysis/initial_balance.hpp"
@@ -86,9 +87,10 @@ Solution Run::solution() const {
 
 void Run::start_states(const std::vector<InitialStress>& initials) {
   Diagnostics warnings;
-  for (const InitialStress& initial : initials)
-    apply_initial_stress(model_, initial, assembly_.groups()[static_cast<std::size_t>(initial.group)],
-                         warnings);
+  assembly_.start_states([&](std::vector<GroupData>& groups) {
+    for (const InitialStress& initial : initials)
+      apply_initial_stress(model_, initial, groups[static_cast<std::size_t>(initial.group)], warnings);
+  });
   warn(warnings.list());
 }
 
@@ -111,9 +113,8 @@ void Run::prepare_stage(int s) {
   start_new_nodes();
   system_.open_stage(s);
   start_states(model_.stages[static_cast<std::size_t>(s)].initials);
-  assembly_.take_states();
   state_.du.setZero();
-  path_.linear_size = 0.0;
+  path_.repeats.forget();
   if (assembly_.evaluate(state_.du, tangent_.current() ? nullptr : &tangent_) == Outcome::cut_step)
     throw AnalysisError("stage " + std::to_string(s + 1) + ": a law cannot start from the state it is given");
   assembly_.commit(state_.du);
@@ -131,16 +132,13 @@ void Run::prepare_stage(int s) {
 }
 
 bool Run::contracts(const Stage& stage) const {
-  constexpr int kLarge = 20000;  // equations: a factorisation costs a dozen force passes and solutions
   return settings_.skips.contraction && stage.method == Method::newton && !tangent_.constant() &&
-         assembly_.equations() > kLarge;
+         contraction_pays(assembly_.equations());
 }
 
-// After a step of the same size that was linear: one correction, and the very same K at its end.
 bool Run::can_repeat(const Stage& stage, double size) const {
   const bool newton = stage.method == Method::newton || stage.method == Method::dogleg;
-  return settings_.skips.repeats && newton && !tangent_.constant() && path_.linear_size > 0.0 &&
-         std::abs(size - path_.linear_size) < 1e-12;
+  return settings_.skips.repeats && newton && !tangent_.constant() && path_.repeats.due(size);
 }
 
 NewtonStep Run::attempt(const Stage& stage, double from, double to) {
@@ -169,7 +167,7 @@ void Run::accept(double reached) {
 // step would have to find all of the plastic zone anew, however short it is.
 // next: its share of the stage; 0 = from there all the same.
 void Run::reject(const Stage& stage, double next) {
-  path_.linear_size = 0.0;
+  path_.repeats.forget();
   on_last_way_ = false;
   const bool keep_K = tangent_.constant() || stage.method == Method::initial_stiffness;
   if (!keep_K) {
@@ -265,7 +263,7 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
       path_.path_error = std::max(path_.path_error, error);
       if (stage.method == Method::modified_newton || contracts(stage)) renew_tangent();
       const bool linear = step.repeated || (step.iterations.size() == 1 && !tangent_.changed());
-      path_.linear_size = linear ? to - reached : 0.0;
+      path_.repeats.take(linear, to - reached);
       on_last_way_ = false;
       measure_stiffness(reached, to);
       accept(to);

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "sage/analysis/repeats.hpp"
 #include "sage/core/archive.hpp"
 
 namespace sage {
@@ -18,8 +19,8 @@ struct Place {
 struct StagePath {
   Eigen::VectorXd external_start, force_start;  // loads and internal forces at its start
   Eigen::VectorXd force_end;                    // loads at its end
-  double linear_size = 0.0;  // of the last step, where it was linear, as a share of the stage; 0 = it was not
-  double last_size = 0.0;    // of the last step, likewise; 0 = there is none
+  Repeats repeats;
+  double last_size = 0.0;                       // of the last step, as a share of the stage; 0 = there is none
   double stiffest = 0.0, last_stiffness = 0.0;  // along the motion: largest so far, of the last step
   double path_error = 0.0;                      // largest so far
   std::string loose_part;                       // the first; empty = none
@@ -37,7 +38,7 @@ struct RunState {
   }
   void exchange_path(Archive& archive) {
     archive(du);
-    archive(path.linear_size);
+    path.repeats.exchange(archive);
     archive(path.last_size);
     archive(path.stiffest);
     archive(path.last_stiffness);

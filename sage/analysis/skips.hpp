@@ -1,5 +1,6 @@
 // What a run leaves out because the scene does not need it.  Every skip can be switched off; the results with
-// and without it then differ by rounding only.
+// and without it then differ by rounding only.  Each has a file: kept_matrices (factors), constant_region
+// (elements), late_states, condensation, repeats, contraction.
 #pragma once
 
 #include <array>

@@ -63,9 +63,9 @@ void System::open_stage(int s) {
   rate_ = prescribed_rate(model_, stage);
   enter(stage);
   const bool condensed_before = assembly_.condensation() != nullptr;
-  assembly_.enter_stage(activity_, rate_);
-  assembly_.condense(stage.increments,
-                     [&](int equations, bool symmetric) { return make(*choose_solver(equations, symmetric)); });
+  assembly_.enter_stage(activity_, rate_, stage.increments, [&](int equations, bool symmetric) {
+    return make(*choose_solver(equations, symmetric));
+  });
   tangent_.set_rate(rate_);
   const bool same_pattern = tangent_.analysed() && !condensed_before && !assembly_.condensation() &&
                             held_before_ == activity_.held && groups_before_ == activity_.group;

@@ -1,0 +1,39 @@
+#include "sage/analysis/changing_region.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sage/analysis/kept_matrices.hpp"
+#include "sage/analysis/tangent.hpp"
+
+namespace sage {
+
+ChangingRegion::ChangingRegion(std::vector<GroupData>& groups, ElementWork& element, WorkCounters& work)
+    : groups_(&groups), element_(&element), work_(&work) {}
+
+Outcome ChangingRegion::evaluate_group(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent) {
+  double* const K = tangent != nullptr ? element_->K() : nullptr;
+  for (int e = 0; e < data.group->elements(); ++e) {
+    element_->stop_if_asked_at(e);
+    if (element_->evaluate(data, e, &du, K) == Outcome::cut_step) return Outcome::cut_step;
+    sum_ += add_force(data, e, element_->f(), forces_);
+    if (tangent == nullptr) continue;
+    if (!data.keeps_matrices())
+      tangent->add(data.first_element + e, nodes_of(data, e), K);
+    else if (replace_matrix(data, e, K))
+      tangent->differs();
+  }
+  work_->element_evaluations += data.group->elements();
+  return Outcome::ok;
+}
+
+Outcome ChangingRegion::evaluate(const Eigen::VectorXd& du, Tangent* tangent) {
+  forces_.setZero();
+  sum_ = 0.0;
+  for (GroupData& data : *groups_)
+    if (data.active && !data.constant && evaluate_group(data, du, tangent) == Outcome::cut_step)
+      return Outcome::cut_step;
+  return Outcome::ok;
+}
+
+}  // namespace sage

@@ -1,0 +1,121 @@
+#include "sage/analysis/constant_region.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+namespace sage {
+
+namespace {
+
+bool stress_free(const GroupData& data) {
+  const std::vector<double>& sigma = data.state.committed.sigma;
+  return std::all_of(sigma.begin(), sigma.end(), [](double s) { return s == 0.0; });
+}
+
+}  // namespace
+
+ConstantRegion::ConstantRegion(const Model& model, std::vector<GroupData>& groups, ElementWork& element,
+                               WorkCounters& work)
+    : model_(&model), groups_(&groups), element_(&element), work_(&work) {}
+
+// K u cannot be better than rounding of its largest terms.  Near nu = 1/2 those belong to a change of volume
+// that all but vanishes, and summing B u first keeps the digits.
+bool ConstantRegion::suits(const LawRef& law) {
+  constexpr double kMostRatio = 1e4;  // of the largest to the smallest stiffness; nu = .4998
+  const auto* solid = std::get_if<const SolidLaw*>(&law);
+  if (solid == nullptr) return true;  // of joints the relative displacement is taken first
+  std::vector<double> h((*solid)->history().size());
+  PointIn<4> in{Vector4::Zero(), Vector4::Zero(), Vector4::Zero(), h};
+  std::vector<double> h1 = h;
+  PointOut<4> out;
+  out.h1 = h1;
+  if ((*solid)->update(in, out) != Outcome::ok) return false;
+  const Vector4 stiffness = out.D.selfadjointView<Eigen::Lower>().eigenvalues();
+  return stiffness[3] <= kMostRatio * stiffness[0];
+}
+
+void ConstantRegion::make_matrices(GroupData& data, const std::vector<int>& shapes) {
+  data.matrix = shapes;
+  const int matrices = *std::max_element(data.matrix.begin(), data.matrix.end()) + 1;
+  data.K.resize(static_cast<std::size_t>(matrices) * data.matrix_size());
+  int made = 0;
+  for (int e = 0; e < data.group->elements(); ++e) {
+    element_->stop_if_asked_at(e);
+    if (data.matrix[static_cast<std::size_t>(e)] != made) continue;
+    element_->evaluate(data, e, nullptr, data.K.data() + static_cast<std::size_t>(made) * data.matrix_size());
+    ++made;
+  }
+  make_shifts(data, made);
+  work_->element_evaluations += made;
+}
+
+void ConstantRegion::make_shifts(GroupData& data, int matrices) const {
+  const std::size_t n = data.dofs();
+  data.shift.assign(static_cast<std::size_t>(matrices) * n, 0.0);
+  const bool ring = model_->geometry == Geometry::axisymmetric && data.group->solid();
+  if (!ring) return;
+  for (std::size_t m = 0; m < static_cast<std::size_t>(matrices); ++m)
+    for (std::size_t j = 0; j < n; j += 2)
+      for (std::size_t i = 0; i < n; ++i) data.shift[m * n + i] += data.K[(m * n + j) * n + i];
+}
+
+void ConstantRegion::take_states() {
+  for (GroupData& data : *groups_) {
+    if (!data.active || !data.constant) continue;
+    data.force.clear();
+    if (stress_free(data)) continue;
+    const std::size_t dofs = data.dofs();
+    data.force.resize(static_cast<std::size_t>(data.group->elements()) * dofs);
+    for (int e = 0; e < data.group->elements(); ++e) {
+      element_->evaluate(data, e, nullptr, nullptr);
+      std::copy_n(element_->f(), dofs, data.force.data() + static_cast<std::size_t>(e) * dofs);
+    }
+    work_->element_evaluations += data.group->elements();
+  }
+}
+
+void ConstantRegion::add_forces(const Eigen::VectorXd& du, Eigen::VectorXd& to) {
+  sum_ = 0.0;
+  for (GroupData& data : *groups_)
+    if (data.active && data.constant) add_group(data, du, to);
+}
+
+// K times displacements relative to the first node: differences of neighbours are exact where they are small,
+// and stiff joints and nu near 1/2 make much of every rounding.  A shift along y costs nothing, one along x
+// only in a ring.
+void ConstantRegion::add_group(GroupData& data, const Eigen::VectorXd& du, Eigen::VectorXd& to) {
+  const std::size_t n = data.dofs();
+  const bool from_zero = data.force.empty();
+  data.trial_force.clear();
+  if (from_zero && du.isZero(0.0)) return;
+  data.trial_force.resize(static_cast<std::size_t>(data.group->elements()) * n);
+  double* const u = element_->du();
+  for (int e = 0; e < data.group->elements(); ++e) {
+    element_->stop_if_asked_at(e);
+    element_->gather(data, e, du);
+    const double x = u[0], y = u[1];
+    for (std::size_t i = 0; i < n; i += 2) {
+      u[i] -= x;
+      u[i + 1] -= y;
+    }
+    const double* K = data.matrix_of(e);
+    const double* shift = data.shift_of(e);
+    double* f = data.trial_force.data() + static_cast<std::size_t>(e) * n;
+    if (!from_zero) std::copy_n(data.force.data() + static_cast<std::size_t>(e) * n, n, f);
+    for (std::size_t i = 0; i < n; ++i) f[i] += shift[i] * x;
+    for (std::size_t j = 2; j < n; ++j)
+      for (std::size_t i = 0; i < n; ++i) f[i] += K[j * n + i] * u[j];
+    sum_ += add_force(data, e, f, to);
+  }
+  work_->linear_products += data.group->elements();
+}
+
+void ConstantRegion::add_committed_forces(Eigen::VectorXd& to) const {
+  for (const GroupData& data : *groups_) {
+    if (!data.active || !data.constant || data.force.empty()) continue;
+    for (int e = 0; e < data.group->elements(); ++e)
+      add_force(data, e, data.force.data() + static_cast<std::size_t>(e) * data.dofs(), to);
+  }
+}
+
+}  // namespace sage

@@ -1,0 +1,42 @@
+// The skip 'elements': groups of linear laws whose matrices are made once, one for all congruent elements; their
+// forces are K u, and no law is asked.
+#pragma once
+
+#include <vector>
+
+#include "sage/analysis/element_work.hpp"
+#include "sage/analysis/records.hpp"
+
+namespace sage {
+
+class ConstantRegion {
+ public:
+  // All arguments must outlive it.
+  ConstantRegion(const Model& model, std::vector<GroupData>& groups, ElementWork& element, WorkCounters& work);
+
+  // Whether K u keeps the digits that B u has.
+  static bool suits(const LawRef& law);
+
+  // K of every shape of a group's elements (shapes_of).
+  void make_matrices(GroupData& data, const std::vector<int>& shapes);
+  // The forces that belong to committed states which were set from outside.
+  void take_states();
+
+  // Adds the internal forces at committed state + du.
+  void add_forces(const Eigen::VectorXd& du, Eigen::VectorXd& to);
+  double sum() const { return sum_; }  // over the elements of |f_e|^2, in the last such pass
+  // Adds those at the committed state.
+  void add_committed_forces(Eigen::VectorXd& to) const;
+
+ private:
+  void make_shifts(GroupData& data, int matrices) const;
+  void add_group(GroupData& data, const Eigen::VectorXd& du, Eigen::VectorXd& to);
+
+  const Model* model_;
+  std::vector<GroupData>* groups_;
+  ElementWork* element_;
+  WorkCounters* work_;
+  double sum_ = 0.0;
+};
+
+}  // namespace sage

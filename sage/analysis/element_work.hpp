@@ -1,0 +1,52 @@
+// One element at a time: room for what goes into it and what comes out.
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "sage/analysis/group_data.hpp"
+#include "sage/core/stop.hpp"
+
+namespace sage {
+
+class ElementWork {
+ public:
+  // keep_geometry: w and B of elements that are not constant stay from pass to pass.  The model must outlive it.
+  ElementWork(const Model& model, bool keep_geometry);
+
+  void set_stop(StopAsked asked) { stop_asked_ = std::move(asked); }
+  // Every so many elements, the first included.  Throws Stopped.
+  void stop_if_asked_at(int element) const;
+
+  // Internal forces at committed state + du (nullptr: none) into f(), K where it is not nullptr.  Stress and
+  // strain of constant groups go into sigma() and eps(), all other states into the trial side.
+  Outcome evaluate(GroupData& data, int element, const Eigen::VectorXd* du, double* K);
+  // The element's part of u into du().
+  void gather(const GroupData& data, int element, const Eigen::VectorXd& u);
+
+  double* du() { return du_.data(); }
+  double* K() { return K_.data(); }
+  const double* f() const { return f_.data(); }
+  const double* sigma() const { return sigma_.data(); }
+  const double* eps() const { return eps_.data(); }
+
+ private:
+  const double* geometry_of(GroupData& data, int element);
+
+  const Model* model_;
+  bool keep_geometry_;
+  StopAsked stop_asked_;
+  std::vector<double> geometry_, K_, f_, du_, sigma_, eps_;
+  std::vector<double> no_stress_;  // zeros, of one element
+  Eigen::Matrix2Xd x_;
+};
+
+inline std::span<const int> nodes_of(const GroupData& data, int element) {
+  return {data.group->nodes_of(element), data.group->node_count()};
+}
+
+// Adds an element's forces to those of all dofs.  Returns |f|^2.
+double add_force(const GroupData& data, int element, const double* f, Eigen::VectorXd& to);
+
+}  // namespace sage

@@ -1,0 +1,29 @@
+#include "sage/analysis/late_states.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace sage {
+
+void LateStates::recover(std::vector<GroupData>& groups, ElementWork& element, WorkCounters& work) {
+  for (GroupData& data : groups) data.state.make_room();
+  if (!is_behind_) return;
+  const Timer timer(work.assembly_seconds);
+  for (GroupData& data : groups) {
+    if (!data.active || !data.constant) continue;
+    const auto size = static_cast<std::size_t>(data.group->element->traits().points * data.state.law_size());
+    for (int e = 0; e < data.group->elements(); ++e) {
+      element.evaluate(data, e, &behind_, nullptr);
+      const std::size_t at = static_cast<std::size_t>(e) * size;
+      std::copy_n(element.sigma(), size, data.state.committed.sigma.data() + at);
+      std::copy_n(element.eps(), size, data.state.committed.eps.data() + at);
+    }
+    std::swap(data.state.committed.h, data.state.trial.h);
+    std::swap(data.state.committed.status, data.state.trial.status);
+    work.element_evaluations += data.group->elements();
+  }
+  behind_.setZero();
+  is_behind_ = false;
+}
+
+}  // namespace sage
