@@ -100,6 +100,7 @@ Outcome evaluate_points(const ElementIn& in, ElementOut& out) {
     point.deps.noalias() = Bt.transpose().lazyProduct(du);
     point.h0 = {in.h0 + h, history};
     result.h1 = {out.h1 + h, history};
+    point.context = in.contexts != nullptr ? in.contexts + p : nullptr;
     if (law.update(point, result) != Outcome::ok) return Outcome::cut_step;
 
     Eigen::Map<Vector<LawSize>>(out.sigma1 + p * LawSize) = result.sigma;

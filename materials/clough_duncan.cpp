@@ -155,6 +155,13 @@ bool CloughDuncan::initialise(const Vector2& sigma, std::span<double> h) const {
   return sigma[1] <= p_.sigma_t && std::abs(sigma[0]) <= tau_f * (1.0 + 1e-8);
 }
 
+// A gap stands between bodies that don't touch, and only once their bond is broken.
+bool CloughDuncan::accepts_history(const Vector2& sigma, std::span<const double> h) const {
+  const bool open = h[kGap] > 0.0, broken = h[kBroken] == 1.0;
+  return h[kGap] >= 0.0 && (broken || (h[kBroken] == 0.0 && !open)) && (!open || sigma.isZero(0.0)) &&
+         h[kMemory] >= std::abs(sigma[0]) * (1.0 - 1e-8) && h[kHardening] >= 0.0;
+}
+
 Outcome CloughDuncan::update(const PointIn<2>& in, PointOut<2>& out) const {
   const Normal normal = normal_response(in);
   std::copy(in.h0.begin(), in.h0.end(), out.h1.begin());
@@ -205,7 +212,8 @@ double CloughDuncan::stress_level(const Vector2& sigma, std::span<const double> 
 }
 
 MaterialEntry clough_duncan_entry() {
-  return {"clough_duncan", "hyperbolic interface with Coulomb slip, opening and closing", 2, rows(), make};
+  return {"clough_duncan",       "hyperbolic interface with Coulomb slip, opening and closing", 2, rows(), make,
+          CloughDuncan::kHistory};
 }
 
 }  // namespace sage

@@ -37,12 +37,18 @@ struct CloughDuncanParameters {
 class CloughDuncan final : public InterfaceLaw {
  public:
   explicit CloughDuncan(const CloughDuncanParameters& parameters) : p_(parameters) {}
+  static constexpr std::array<Quantity, 5> kHistory{{{"gap", Dimension::length, 0.0},
+                                                     {"tension_broken", Dimension::none, 0.0},
+                                                     {"largest_shear_stress", Dimension::stress, 0.0},
+                                                     {"stress_above_strength", Dimension::stress, 0.0},
+                                                     {"plastic_slip", Dimension::length, 0.0}}};
   std::span<const Quantity> history() const override { return kHistory; }
   // Without friction, and without shear stiffness ("free ends") or any strength, shear never meets normal.
   bool symmetric() const override {
     return p_.tan_phi == 0.0 && (p_.k_unit == 0.0 || (p_.c == 0.0 && p_.k_sf == 0.0));
   }
   bool initialise(const Vector2& sigma, std::span<double> h) const override;
+  bool accepts_history(const Vector2& sigma, std::span<const double> h) const override;
   Outcome update(const PointIn<2>& in, PointOut<2>& out) const override;
   std::string caution() const override {
     if (p_.k_unit == 0.0) return "no shear resistance: the stiffness number k_j is zero";
@@ -55,11 +61,6 @@ class CloughDuncan final : public InterfaceLaw {
  private:
   using Real = Dual<2>;  // derivatives with respect to the two increments [shear, normal]
   enum { kGap, kBroken, kMemory, kHardening, kSlip };
-  static constexpr std::array<Quantity, 5> kHistory{{{"gap", Dimension::length, 0.0},
-                                                     {"tension_broken", Dimension::none, 0.0},
-                                                     {"largest_shear_stress", Dimension::stress, 0.0},
-                                                     {"stress_above_strength", Dimension::stress, 0.0},
-                                                     {"plastic_slip", Dimension::length, 0.0}}};
   struct Normal {
     Real sigma;    // tension positive
     Real sliding;  // share of the increment that found the joint in contact

@@ -115,6 +115,10 @@ bool DruckerPrager::initialise(const Vector4& sigma, std::span<double> h) const 
   return f <= 1e-8 * scale(p, q) && p <= p_max_ + 1e-8 * scale(p, q);
 }
 
+bool DruckerPrager::accepts_history(const Vector4& /*sigma*/, std::span<const double> h) const {
+  return h[kShear] >= 0.0;
+}
+
 Outcome DruckerPrager::update(const PointIn<4>& in, PointOut<4>& out) const {
   const auto [K, G] = p_.elastic;
   const auto [alpha, k] = p_.cone;
@@ -251,7 +255,9 @@ bool DruckerPrager::integrate_exactly(const PointIn<4>& in, PointOut<4>& out) co
 }
 
 MaterialEntry drucker_prager_entry() {
-  return {"drucker_prager", "Drucker-Prager cone, elastic - perfectly plastic, any dilation", 4, rows(), make};
+  return {
+      "drucker_prager",       "Drucker-Prager cone, elastic - perfectly plastic, any dilation", 4, rows(), make,
+      DruckerPrager::kHistory};
 }
 
 }  // namespace sage

@@ -40,9 +40,15 @@ struct DruckerPragerParameters {
 class DruckerPrager final : public SolidLaw {
  public:
   explicit DruckerPrager(const DruckerPragerParameters& parameters);
+  // Sums of sqrt(2 de_p:de_p), the plastic shear gamma of simple shear, and of the plastic
+  // volume strain (+ dilates).
+  static constexpr std::array<Quantity, 2> kHistory{
+      {{"plastic_shear_strain", Dimension::none, 0.0, QuantityRole::plastic_shear_strain},
+       {"plastic_volume_strain", Dimension::none, 0.0, QuantityRole::plastic_volume_strain}}};
   std::span<const Quantity> history() const override { return kHistory; }
   bool symmetric() const override { return p_.cone.alpha == p_.beta && !p_.exact; }
   bool initialise(const Vector4& sigma, std::span<double> h) const override;
+  bool accepts_history(const Vector4& sigma, std::span<const double> h) const override;
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override;
   // A cone that reaches beyond Mohr-Coulomb's tension limit in triaxial extension, or no strength at all.
   std::string caution() const override;
@@ -51,11 +57,6 @@ class DruckerPrager final : public SolidLaw {
 
  private:
   enum { kShear, kVolume };
-  // Sums of sqrt(2 de_p:de_p), the plastic shear gamma of simple shear, and of the plastic
-  // volume strain (+ dilates).
-  static constexpr std::array<Quantity, 2> kHistory{
-      {{"plastic_shear_strain", Dimension::none, 0.0, QuantityRole::plastic_shear_strain},
-       {"plastic_volume_strain", Dimension::none, 0.0, QuantityRole::plastic_volume_strain}}};
 
   double scale(double p, double q) const;  // the stress that tolerances are relative to
   void return_to_cone(const Vector4& s_trial, double q_trial, double p, PointOut<4>& out) const;

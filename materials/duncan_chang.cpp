@@ -35,6 +35,12 @@ bool DuncanChang::initialise(const Vector4& sigma, std::span<double> h) const {
   return hyperbolic_level(steps_.moduli, s.sigma_1, s.sigma_3) <= 1.0 + 1e-8;
 }
 
+bool DuncanChang::accepts_history(const Vector4& sigma, std::span<const double> h) const {
+  double own[1];
+  initialise(sigma, own);
+  return h[kMemory] >= own[kMemory] * (1.0 - 1e-8);
+}
+
 Outcome DuncanChang::update(const PointIn<4>& in, PointOut<4>& out) const {
   const HyperbolicAnswer a = integrate(steps_, in.sigma0, in.deps, in.h0[kMemory]);
   out.sigma = a.sigma;
@@ -50,17 +56,25 @@ double DuncanChang::stress_level(const Vector4& sigma, std::span<const double> /
 }
 
 MaterialEntry duncan_chang_1970_entry() {
-  return {"duncan_chang_1970", "hyperbolic E and Poisson's ratio (Duncan & Chang 1970)", 4,
-          rows(VolumeRule::poisson_1970), [](std::span<const double> values, const UnitSystem& units) {
+  return {"duncan_chang_1970",
+          "hyperbolic E and Poisson's ratio (Duncan & Chang 1970)",
+          4,
+          rows(VolumeRule::poisson_1970),
+          [](std::span<const double> values, const UnitSystem& units) {
             return make(VolumeRule::poisson_1970, values, units);
-          }};
+          },
+          DuncanChang::kHistory};
 }
 
 MaterialEntry duncan_chang_eb_entry() {
-  return {"duncan_chang_eb", "hyperbolic E and bulk modulus (Duncan, Byrne, Wong & Mabry 1980)", 4,
-          rows(VolumeRule::bulk_1980), [](std::span<const double> values, const UnitSystem& units) {
+  return {"duncan_chang_eb",
+          "hyperbolic E and bulk modulus (Duncan, Byrne, Wong & Mabry 1980)",
+          4,
+          rows(VolumeRule::bulk_1980),
+          [](std::span<const double> values, const UnitSystem& units) {
             return make(VolumeRule::bulk_1980, values, units);
-          }};
+          },
+          DuncanChang::kHistory};
 }
 
 }  // namespace sage

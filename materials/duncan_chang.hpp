@@ -19,10 +19,12 @@ enum class HyperbolicTangent {
 class DuncanChang final : public SolidLaw {
  public:
   DuncanChang(const HyperbolicSteps& steps, HyperbolicTangent tangent) : steps_(steps), tangent_(tangent) {}
+  static constexpr std::array<Quantity, 1> kHistory{{{"largest_stress_state", Dimension::none, 0.0}}};
   std::span<const Quantity> history() const override { return kHistory; }
   bool symmetric() const override { return tangent_ == HyperbolicTangent::isotropic; }
   // False above the strength.
   bool initialise(const Vector4& sigma, std::span<double> h) const override;
+  bool accepts_history(const Vector4& sigma, std::span<const double> h) const override;
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override;
   double path_error(const PointIn<4>& in, const Vector4& sigma, std::span<const double> h) const override {
     return sage::path_error(steps_, in, sigma, in.h0[kMemory], h[kMemory]);
@@ -31,7 +33,6 @@ class DuncanChang final : public SolidLaw {
 
  private:
   enum { kMemory };
-  static constexpr std::array<Quantity, 1> kHistory{{{"largest_stress_state", Dimension::none, 0.0}}};
   HyperbolicSteps steps_;
   HyperbolicTangent tangent_;
 };

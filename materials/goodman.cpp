@@ -20,6 +20,11 @@ bool Goodman::initialise(const Vector2& sigma, std::span<double> h) const {
   return !p_.opens || sigma[1] <= 0.0;
 }
 
+// A gap stands between bodies that don't touch.
+bool Goodman::accepts_history(const Vector2& sigma, std::span<const double> h) const {
+  return h[kGap] == 0.0 || (p_.opens && h[kGap] > 0.0 && sigma.isZero(0.0));
+}
+
 Outcome Goodman::update(const PointIn<2>& in, PointOut<2>& out) const {
   // An open joint carries nothing until its gap is used up; a closed one has no gap.
   const double opening = in.h0[kGap] + in.deps[1];
@@ -41,12 +46,16 @@ Outcome Goodman::update(const PointIn<2>& in, PointOut<2>& out) const {
 
 MaterialEntry goodman_entry() {
   return {
-      "goodman", "interface with constant shear and normal stiffness, no stress while open", 2, rows(),
+      "goodman",
+      "interface with constant shear and normal stiffness, no stress while open",
+      2,
+      rows(),
       [](std::span<const double> values, const UnitSystem& units) -> LawPtr {
         const Parameters p(rows(), values, units);
         return std::make_unique<Goodman>(GoodmanParameters{
             p.not_negative("shear_stiffness"), p.positive("normal_stiffness"), p.code("tension", {0, 1}) == 0});
-      }};
+      },
+      Goodman::kHistory};
 }
 
 }  // namespace sage

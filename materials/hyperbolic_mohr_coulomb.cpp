@@ -55,6 +55,12 @@ bool HyperbolicMohrCoulomb::initialise(const Vector4& sigma, std::span<double> h
   return stress_level(sigma, h) <= 1.0 + 1e-8 && -s.sigma_3 <= steps_.T;
 }
 
+bool HyperbolicMohrCoulomb::accepts_history(const Vector4& sigma, std::span<const double> h) const {
+  double own[1];
+  initialise(sigma, own);
+  return h[kMemory] >= own[kMemory] * (1.0 - 1e-8);
+}
+
 Outcome HyperbolicMohrCoulomb::update(const PointIn<4>& in, PointOut<4>& out) const {
   const HyperbolicAnswer a = integrate(steps_, in.sigma0, in.deps, in.h0[kMemory]);
   out.sigma = a.sigma;
@@ -65,8 +71,12 @@ Outcome HyperbolicMohrCoulomb::update(const PointIn<4>& in, PointOut<4>& out) co
 }
 
 MaterialEntry hyperbolic_mohr_coulomb_entry() {
-  return {"hyperbolic_mohr_coulomb", "hyperbolic E and bulk modulus inside Mohr-Coulomb (after Morrison 1995)",
-          4, rows(), make};
+  return {"hyperbolic_mohr_coulomb",
+          "hyperbolic E and bulk modulus inside Mohr-Coulomb (after Morrison 1995)",
+          4,
+          rows(),
+          make,
+          HyperbolicMohrCoulomb::kHistory};
 }
 
 }  // namespace sage

@@ -14,8 +14,10 @@ namespace sage {
 class HyperbolicMohrCoulomb final : public SolidLaw {
  public:
   explicit HyperbolicMohrCoulomb(const HyperbolicSteps& steps) : steps_(steps) {}
+  static constexpr std::array<Quantity, 1> kHistory{{{"largest_stress_state", Dimension::none, 0.0}}};
   std::span<const Quantity> history() const override { return kHistory; }
   bool initialise(const Vector4& sigma, std::span<double> h) const override;
+  bool accepts_history(const Vector4& sigma, std::span<const double> h) const override;
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override;
   double path_error(const PointIn<4>& in, const Vector4& sigma, std::span<const double> h) const override {
     return sage::path_error(steps_, in, sigma, in.h0[kMemory], h[kMemory]);
@@ -25,7 +27,6 @@ class HyperbolicMohrCoulomb final : public SolidLaw {
 
  private:
   enum { kMemory };
-  static constexpr std::array<Quantity, 1> kHistory{{{"largest_stress_state", Dimension::none, 0.0}}};
   HyperbolicSteps steps_;
 };
 

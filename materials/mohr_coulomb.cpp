@@ -59,6 +59,10 @@ bool MohrCoulomb::initialise(const Vector4& sigma, std::span<double> h) const {
   return mohr_coulomb_level(planes_, sigma) <= 1.0 + 1e-8;
 }
 
+bool MohrCoulomb::accepts_history(const Vector4& /*sigma*/, std::span<const double> h) const {
+  return h[kShear] >= 0.0;
+}
+
 Outcome MohrCoulomb::update(const PointIn<4>& in, PointOut<4>& out) const {
   std::copy(in.h0.begin(), in.h0.end(), out.h1.begin());
   const Vector4 trial = in.sigma0 + D_elastic_ * in.deps;
@@ -78,7 +82,8 @@ Outcome MohrCoulomb::update(const PointIn<4>& in, PointOut<4>& out) const {
 }
 
 MaterialEntry mohr_coulomb_entry() {
-  return {"mohr_coulomb", "Mohr-Coulomb, elastic - perfectly plastic, any dilation", 4, rows(), make};
+  return {"mohr_coulomb",       "Mohr-Coulomb, elastic - perfectly plastic, any dilation", 4, rows(), make,
+          MohrCoulomb::kHistory};
 }
 
 }  // namespace sage

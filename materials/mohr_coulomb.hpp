@@ -21,9 +21,14 @@ class MohrCoulomb final : public SolidLaw {
  public:
   MohrCoulomb(const ElasticModuli& elastic, const MohrCoulombPlanes& planes)
       : elastic_(elastic), planes_(planes), D_elastic_(elastic_matrix(elastic)) {}
+  // Sums of sqrt(2 de_p:de_p) and of the plastic volume strain (+ dilates).
+  static constexpr std::array<Quantity, 2> kHistory{
+      {{"plastic_shear_strain", Dimension::none, 0.0, QuantityRole::plastic_shear_strain},
+       {"plastic_volume_strain", Dimension::none, 0.0, QuantityRole::plastic_volume_strain}}};
   std::span<const Quantity> history() const override { return kHistory; }
   bool symmetric() const override { return planes_.N == planes_.M; }
   bool initialise(const Vector4& sigma, std::span<double> h) const override;
+  bool accepts_history(const Vector4& sigma, std::span<const double> h) const override;
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override;
   std::string caution() const override {
     if (planes_.Y > 0.0 || planes_.N > 1.0) return {};
@@ -35,10 +40,6 @@ class MohrCoulomb final : public SolidLaw {
 
  private:
   enum { kShear, kVolume };
-  // Sums of sqrt(2 de_p:de_p) and of the plastic volume strain (+ dilates).
-  static constexpr std::array<Quantity, 2> kHistory{
-      {{"plastic_shear_strain", Dimension::none, 0.0, QuantityRole::plastic_shear_strain},
-       {"plastic_volume_strain", Dimension::none, 0.0, QuantityRole::plastic_volume_strain}}};
   ElasticModuli elastic_;
   MohrCoulombPlanes planes_;
   Matrix4 D_elastic_;

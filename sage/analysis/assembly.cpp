@@ -10,14 +10,6 @@
 
 namespace sage {
 
-namespace {
-
-std::span<const Quantity> history_of(const LawRef& law) {
-  return std::visit([](const auto* l) { return l->history(); }, law);
-}
-
-}  // namespace
-
 Assembly::Assembly(const Model& model, const Scene& scene, const Skips& skips, WorkCounters& work)
     : model_(&model),
       scene_(&scene),
@@ -31,6 +23,8 @@ Assembly::Assembly(const Model& model, const Scene& scene, const Skips& skips, W
     GroupData data;
     data.group = &model.groups[g];
     data.law = model.material_of(model.groups[g]).law_ref();
+    data.wants_context = wants_context(data.law);
+    wants_moment_ = wants_moment_ || data.wants_context;
     data.constant = scene.group_linear[g] != 0 && skips.elements && ConstantRegion::suits(data.law);
     groups_.push_back(std::move(data));
     reset_group(g);
@@ -152,7 +146,7 @@ Outcome Assembly::evaluate(const Eigen::VectorXd& du, Tangent* tangent) {
 }
 
 double Assembly::path_error() const {
-  return scene_->linear ? 0.0 : mean_path_error(groups_, scene_->group_linear);
+  return scene_->linear ? 0.0 : mean_path_error(model_->mesh, groups_, scene_->group_linear, element_.moment());
 }
 
 void Assembly::commit_again() {

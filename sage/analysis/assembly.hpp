@@ -25,6 +25,12 @@ class Assembly {
   Assembly(const Assembly&) = delete;
   Assembly& operator=(const Assembly&) = delete;
 
+  // When what is evaluated from now on takes place; asked for only where a law wants it.
+  bool wants_moment() const { return wants_moment_; }
+  void set_moment(const Moment& moment) { element_.set_moment(moment); }
+  const Moment& moment() const { return element_.moment(); }
+  const Mesh& mesh() const { return model_->mesh; }
+
   // Passes over the elements ask it now and then and throw Stopped.
   void set_stop(StopAsked asked) { element_.set_stop(std::move(asked)); }
 
@@ -97,6 +103,7 @@ class Assembly {
   LateStates late_;
   std::unique_ptr<Condensation> condensation_;
   Equations equations_;
+  bool wants_moment_ = false;
   int elements_ = 0;  // of the system
   Eigen::VectorXd rate_, internal_;
   Eigen::VectorXd prescribed_, constant_force_;  // of a condensed region, at the start of a step

@@ -14,23 +14,40 @@ class Audience {
   template <class Call>
   void tell(Call call) {
     const Timer timer(*seconds_);
-    for (Observer* observer : observers_) call(*observer);
+    outside([&] {
+      for (Observer* observer : observers_) call(*observer);
+    });
   }
+  // Calls what belongs to the caller of the run.
+  template <class Call>
+  void outside(Call call) {
+    is_outside_ = true;
+    call();
+    is_outside_ = false;
+  }
+  // True behind an exception that came from there.
+  bool is_outside() const { return is_outside_; }
+
   void warn(const Diagnostic& diagnostic) {
     tell([&](Observer& o) { o.on_warning(diagnostic); });
   }
-  bool wants_states(const Model& model, const StepReport& report) const {
-    for (const Observer* observer : observers_)
-      if (observer->wants_states(model, report)) return true;
-    return false;
+  bool wants_states(const Model& model, const StepReport& report) {
+    bool wanted = false;
+    outside([&] {
+      for (const Observer* observer : observers_) wanted = wanted || observer->wants_states(model, report);
+    });
+    return wanted;
   }
   void exchange(Archive& archive) {
-    for (Observer* observer : observers_) observer->exchange(archive);
+    outside([&] {
+      for (Observer* observer : observers_) observer->exchange(archive);
+    });
   }
 
  private:
   std::span<Observer* const> observers_;
   double* seconds_;
+  bool is_outside_ = false;
 };
 
 }  // namespace sage

@@ -52,7 +52,7 @@ void ConstantRegion::make_matrices(GroupData& data, const std::vector<int>& shap
 void ConstantRegion::make_shifts(GroupData& data, int matrices) const {
   const std::size_t n = data.dofs();
   data.shift.assign(static_cast<std::size_t>(matrices) * n, 0.0);
-  const bool ring = model_->geometry == Geometry::axisymmetric && data.group->solid();
+  const bool ring = model_->geometry == Geometry::axisymmetric && !data.group->interface();
   if (!ring) return;
   for (std::size_t m = 0; m < static_cast<std::size_t>(matrices); ++m)
     for (std::size_t j = 0; j < n; j += 2)

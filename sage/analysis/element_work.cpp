@@ -6,14 +6,17 @@ namespace sage {
 
 ElementWork::ElementWork(const Model& model, bool keep_geometry)
     : model_(&model), keep_geometry_(keep_geometry) {
-  std::size_t dofs = 0, geometry = 0, stresses = 0;
+  std::size_t dofs = 0, geometry = 0, stresses = 0, contexts = 0;
   for (const Group& group : model.groups) {
     const ElementTraits& traits = group.element->traits();
     dofs = std::max(dofs, static_cast<std::size_t>(traits.dofs));
     geometry = std::max(geometry, static_cast<std::size_t>(traits.geometry_size()));
     stresses = std::max(stresses, static_cast<std::size_t>(traits.points * traits.law_size));
+    if (wants_context(model.material_of(group).law_ref()))
+      contexts = std::max(contexts, static_cast<std::size_t>(traits.points));
   }
   geometry_.resize(geometry);
+  contexts_.resize(contexts);
   sigma_.resize(stresses);
   eps_.resize(stresses);
   no_stress_.assign(stresses, 0.0);
@@ -54,6 +57,13 @@ const double* ElementWork::geometry_of(GroupData& data, int element) {
   return data.geometry.data() + static_cast<std::size_t>(element) * size;
 }
 
+const PointContext* ElementWork::contexts_of(const GroupData& data, int element) {
+  element_coordinates(model_->mesh, *data.group, element, x_);
+  for (int p = 0; p < data.group->element->traits().points; ++p)
+    contexts_[static_cast<std::size_t>(p)] = context_of(data, element, x_, p, moment_);
+  return contexts_.data();
+}
+
 Outcome ElementWork::evaluate(GroupData& data, int element, const Eigen::VectorXd* du, double* K) {
   const ElementTraits& traits = data.group->element->traits();
   const auto points = static_cast<std::size_t>(traits.points);
@@ -73,6 +83,7 @@ Outcome ElementWork::evaluate(GroupData& data, int element, const Eigen::VectorX
   in.sigma0 = has_room ? data.state.committed.sigma.data() + at : no_stress_.data();
   in.eps0 = has_room ? data.state.committed.eps.data() + at : no_stress_.data();
   in.h0 = data.state.committed.h.data() + e * points * history;
+  if (data.wants_context) in.contexts = contexts_of(data, element);
   ElementOut out;
   out.K = K;
   out.f = f_.data();

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "sage/analysis/group_data.hpp"
+#include "sage/analysis/moment.hpp"
 #include "sage/core/stop.hpp"
 
 namespace sage {
@@ -18,6 +18,10 @@ class ElementWork {
   void set_stop(StopAsked asked) { stop_asked_ = std::move(asked); }
   // Every so many elements, the first included.  Throws Stopped.
   void stop_if_asked_at(int element) const;
+
+  // Of all evaluations from now on, for laws that want it.
+  void set_moment(const Moment& moment) { moment_ = moment; }
+  const Moment& moment() const { return moment_; }
 
   // Internal forces at committed state + du (nullptr: none) into f(), K where it is not nullptr.  Stress and
   // strain of constant groups go into sigma() and eps(), all other states into the trial side.
@@ -33,6 +37,7 @@ class ElementWork {
 
  private:
   const double* geometry_of(GroupData& data, int element);
+  const PointContext* contexts_of(const GroupData& data, int element);
 
   const Model* model_;
   bool keep_geometry_;
@@ -40,6 +45,8 @@ class ElementWork {
   std::vector<double> geometry_, K_, f_, du_, sigma_, eps_;
   std::vector<double> no_stress_;  // zeros, of one element
   Eigen::Matrix2Xd x_;
+  Moment moment_;
+  std::vector<PointContext> contexts_;  // of one element; none where no law wants them
 };
 
 inline std::span<const int> nodes_of(const GroupData& data, int element) {

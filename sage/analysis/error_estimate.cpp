@@ -183,7 +183,7 @@ ElementStress element_stress(const Model& model, const GroupData& data, int e,
 
 // D^-1 of a linear law; the unit matrix for the others.
 Matrix4 compliance(const SolidLaw& law) {
-  if (!law.linear()) return Matrix4::Identity();
+  if (!has_constant_stiffness(law)) return Matrix4::Identity();
   PointIn<4> in{Vector4::Zero(), Vector4::Zero(), Vector4::Zero(), {}};
   PointOut<4> out;
   law.update(in, out);

@@ -28,7 +28,7 @@ Neighbours around(const Assembly& assembly, int node) {
     for (int e = 0; e < group.elements(); ++e) {
       const int* nodes = group.nodes_of(e);
       if (std::find(nodes, nodes + group.node_count(), node) == nodes + group.node_count()) continue;
-      if (group.solid()) result.only_interfaces = false;
+      if (!group.interface()) result.only_interfaces = false;
       for (std::size_t p = 0; p < points; ++p) {
         const PointStatus status = data.state.trial.status[static_cast<std::size_t>(e) * points + p];
         result.open_point = result.open_point || status == PointStatus::open;
@@ -186,6 +186,28 @@ std::string tried_line(const Stage& stage, const StepReport& report) {
          short_number(report.failed_at - report.load_factor) + " of the stage\n";
 }
 
+// What the states say of a singular matrix whose solver can't name the equation.
+std::string likely_anywhere(const Model& model, const Activity& activity, const Assembly& assembly) {
+  const std::array<long, kStatuses> points = trial_points(assembly);
+  const auto count = [&](PointStatus status) { return points[static_cast<std::size_t>(status)]; };
+  std::string text;
+  if (count(PointStatus::open) > 0) {
+    const std::vector<int> part = parts_between_open_joints(model, assembly, StateKind::trial);
+    const std::vector<LoosePart> loose = loose_parts(model, activity, part);
+    if (!loose.empty())
+      text = "  likely: interfaces are open and nothing holds the " + part_name(model, part, loose[0].part) +
+             " against " + loose[0].motion + ".\n";
+  }
+  const long plastic = count(PointStatus::yielded) + count(PointStatus::apex) + count(PointStatus::slipping);
+  if (text.empty() && plastic > 0) text = "  likely: a collapse mechanism.\n";
+  if (text.empty())
+    text =
+        "  likely: a rigid motion or an hourglass mode (too few fixities, reduced integration on a single "
+        "layer), or an interface\n  without stiffness.\n";
+  return text + "  points at the last attempt: " + counts_line(points) +
+         "\n  try: --solver frontal, which names the node.\n";
+}
+
 }  // namespace
 
 std::string short_number(double value) {
@@ -206,10 +228,9 @@ std::string explain_singular(const Model& model, const Activity& activity, const
   const Stage& stage = model.stages[static_cast<std::size_t>(report.stage)];
   const std::string place = "stage " + std::to_string(report.stage + 1) + ", increment " +
                             std::to_string(report.increment) + ": the stiffness matrix is singular";
-  if (step.singular_equation < 0)
+  if (step.singular_equation < 0 || step.singular_equation >= assembly.equations())
     return place + " (" + step.message + "); this solver can't tell where.\n" +
-           "  try: --solver frontal, which names the node.\n" + bracket_line(model, report) +
-           refused_line(report);
+           likely_anywhere(model, activity, assembly) + bracket_line(model, report) + refused_line(report);
   const int dof = assembly.dof_of(step.singular_equation);
   const Neighbours near = around(assembly, dof / 2);
   std::string text = place + " at " + dof_name(model, dof) + " (" + step.message + ").\n";

@@ -13,7 +13,8 @@ struct GroupData {
   const Group* group = nullptr;
   LawRef law;
   bool active = false;
-  bool constant = false;  // of a linear law, and matrices and forces are kept: iterations call no law
+  bool wants_context = false;  // its law does
+  bool constant = false;       // of a linear law, and matrices and forces are kept: iterations call no law
   StateStore state;
   std::vector<double> geometry;  // w and B of all elements; empty = made anew in each pass
   int first_element = 0;         // in the solver's element order, while it is part of the system

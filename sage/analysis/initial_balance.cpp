@@ -14,6 +14,7 @@ std::vector<char> stressed_groups(const Model& model, const Activity& activity, 
   const Stage& now = model.stages[static_cast<std::size_t>(stage)];
   std::vector<char> flags(model.groups.size(), 0);
   const auto mark = [&](const InitialStress& initial) {
+    if (initial.kind == InitialKind::history) return;
     const auto g = static_cast<std::size_t>(initial.group);
     flags[g] = initial.kind != InitialKind::zero && activity.group[g];
   };
@@ -64,6 +65,7 @@ InitialImbalance initial_imbalance(const Model& model, const Activity& activity,
 InitialImbalance initial_imbalance(const Model& model) {
   if (model.stages.empty()) return {};
   const Stage& first = model.stages.front();
+  // A history has no forces, but the law may refuse it.
   const auto stressed = [](const InitialStress& initial) { return initial.kind != InitialKind::zero; };
   if (!std::ranges::any_of(model.initials, stressed) && !std::ranges::any_of(first.initials, stressed))
     return {};
@@ -76,8 +78,7 @@ InitialImbalance initial_imbalance(const Model& model) {
   Diagnostics refused;  // the run tells of it
   assembly.start_states([&](std::vector<GroupData>& groups) {
     for (const std::vector<InitialStress>* list : {&model.initials, &first.initials})
-      for (const InitialStress& initial : *list)
-        apply_initial_stress(model, initial, groups[static_cast<std::size_t>(initial.group)], refused);
+      apply_initials(model, *list, groups, refused);
   });
   if (assembly.evaluate(Eigen::VectorXd::Zero(model.dofs()), nullptr) == Outcome::cut_step) return {};
   return initial_imbalance(model, activity, 0, assembly.internal_force(), external_force(model, 0));

@@ -1,6 +1,7 @@
 #include "sage/analysis/loads.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 namespace sage {
@@ -59,6 +60,7 @@ Vector4 solid_stress(const InitialStress& initial, const Vector2& x) {
     case InitialKind::traction:
       return -Vector4(initial.value[0], initial.value[1], initial.value[2], initial.value[3]);
     case InitialKind::zero:
+    case InitialKind::history:
       break;
   }
   return Vector4::Zero();
@@ -67,7 +69,9 @@ Vector4 solid_stress(const InitialStress& initial, const Vector2& x) {
 // The initial stress stated for a group (by deck number), for the traction on its interfaces.
 const InitialStress* initial_of_group(const Model& model, int number) {
   for (const InitialStress& initial : model.initials)
-    if (model.groups[static_cast<std::size_t>(initial.group)].number == number) return &initial;
+    if (initial.kind != InitialKind::history &&
+        model.groups[static_cast<std::size_t>(initial.group)].number == number)
+      return &initial;
   return nullptr;
 }
 
@@ -86,6 +90,31 @@ bool start_point(const Law<N>& law, const Vector<N>& sigma, std::size_t point, S
   const auto history = static_cast<std::size_t>(state.history_size());
   Vector<N>::Map(state.committed.sigma.data() + point * N) = sigma;
   return law.initialise(sigma, {state.committed.h.data() + point * history, history});
+}
+
+// At a point of an element; x: its nodes.  neighbour: whose traction an interface takes.
+template <int N>
+Vector<N> initial_stress(const InitialStress& initial, const InitialStress* neighbour, const Group& group,
+                         const Eigen::Matrix2Xd& x, int point) {
+  if constexpr (N == 4)
+    if (group.solid()) return solid_stress(initial, group.element->position(x, point));
+  if constexpr (N == 2)
+    if (neighbour != nullptr) return traction(solid_stress(*neighbour, group.element->position(x, point)), x);
+  Vector<N> sigma = Vector<N>::Zero();
+  if (initial.kind == InitialKind::uniform)
+    for (int i = 0; i < N; ++i) sigma[i] = -initial.value[static_cast<std::size_t>(i)];
+  return sigma;
+}
+
+template <int N>
+bool start_point_with(const Law<N>& law, const InitialStress& initial, std::size_t point, StateStore& state) {
+  const auto history = static_cast<std::size_t>(state.history_size());
+  const std::span<const Quantity> quantities = law.history();
+  const std::span<double> h(state.committed.h.data() + point * history, history);
+  const auto first = static_cast<std::size_t>(initial.value[0]) - 1;
+  for (std::size_t i = 1; i < initial.value.size() && first + i - 1 < history; ++i)
+    if (!std::isnan(initial.value[i])) h[first + i - 1] = inward(quantities[first + i - 1], initial.value[i]);
+  return law.accepts_history(Vector<N>::Map(state.committed.sigma.data() + point * N), h);
 }
 
 }  // namespace
@@ -161,18 +190,11 @@ void apply_initial_stress(const Model& model, const InitialStress& initial, Grou
     element_coordinates(model.mesh, group, e, x);
     for (int p = 0; p < traits.points; ++p) {
       const auto point = static_cast<std::size_t>(e * traits.points + p);
-      bool admissible = true;
-      if (group.solid()) {
-        const Vector4 sigma = solid_stress(initial, group.element->position(x, p));
-        admissible = start_point<4>(*std::get<const SolidLaw*>(data.law), sigma, point, data.state);
-      } else {
-        Vector2 t = Vector2::Zero();
-        if (initial.kind == InitialKind::traction)
-          t = traction(solid_stress(*neighbour, group.element->position(x, p)), x);
-        else if (initial.kind == InitialKind::uniform)
-          t = -Vector2(initial.value[0], initial.value[1]);
-        admissible = start_point<2>(*std::get<const InterfaceLaw*>(data.law), t, point, data.state);
-      }
+      const bool admissible = std::visit(
+          [&]<int N>(const Law<N>* law) {
+            return start_point<N>(*law, initial_stress<N>(initial, neighbour, group, x, p), point, data.state);
+          },
+          data.law);
       refused += admissible ? 0 : 1;
     }
   }
@@ -181,6 +203,34 @@ void apply_initial_stress(const Model& model, const InitialStress& initial, Grou
                                            " lies outside the yield surface of its law at " +
                                            std::to_string(refused) +
                                            " point(s); the first increment will shed it");
+}
+
+void apply_initial_history(const Model& model, const InitialStress& initial, GroupData& data) {
+  const Group& group = *data.group;
+  const ElementTraits& traits = group.element->traits();
+  data.state.make_room();
+  for (int e = 0; e < group.elements(); ++e)
+    for (int p = 0; p < traits.points; ++p) {
+      const auto point = static_cast<std::size_t>(e * traits.points + p);
+      const bool accepted = std::visit(
+          [&](const auto* law) { return start_point_with(*law, initial, point, data.state); }, data.law);
+      if (accepted) continue;
+      throw InputError(initial.where, "group " + std::to_string(group.number) + ": " +
+                                          model.material_of(group).law_name +
+                                          " can't go on from this history at its initial stress, at point " +
+                                          std::to_string(p + 1) + " of element " +
+                                          std::to_string(group.element_numbers[static_cast<std::size_t>(e)]));
+    }
+}
+
+void apply_initials(const Model& model, const std::vector<InitialStress>& initials,
+                    std::vector<GroupData>& groups, Diagnostics& diagnostics) {
+  for (const InitialStress& initial : initials)
+    if (initial.kind != InitialKind::history)
+      apply_initial_stress(model, initial, groups[static_cast<std::size_t>(initial.group)], diagnostics);
+  for (const InitialStress& initial : initials)
+    if (initial.kind == InitialKind::history)
+      apply_initial_history(model, initial, groups[static_cast<std::size_t>(initial.group)]);
 }
 
 }  // namespace sage

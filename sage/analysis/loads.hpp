@@ -26,4 +26,11 @@ Eigen::VectorXd prescribed_rate(const Model& model, const Stage& stage);
 void apply_initial_stress(const Model& model, const InitialStress& initial, GroupData& data,
                           Diagnostics& diagnostics);
 
+// Sets the history that a card of InitialKind::history states.  Throws InputError where the law refuses it.
+void apply_initial_history(const Model& model, const InitialStress& initial, GroupData& data);
+
+// All cards of the model or of a stage: stresses, then histories, which count from what the stresses have made.
+void apply_initials(const Model& model, const std::vector<InitialStress>& initials,
+                    std::vector<GroupData>& groups, Diagnostics& diagnostics);
+
 }  // namespace sage

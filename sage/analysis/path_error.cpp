@@ -11,12 +11,15 @@ struct WeightedMean {
 };
 
 template <int N>
-void add_path_error(const GroupData& data, const Law<N>& law, WeightedMean& mean) {
+void add_path_error(const Mesh& mesh, const GroupData& data, const Law<N>& law, const Moment& moment,
+                    WeightedMean& mean) {
   const StateStore& state = data.state;
   const ElementTraits& traits = data.group->element->traits();
   const auto stride = static_cast<std::size_t>(traits.geometry_size() / traits.points);
   const auto history = static_cast<std::size_t>(state.history_size());
   const std::size_t points = state.committed.status.size();
+  Eigen::Matrix2Xd x;
+  PointContext context;
   for (std::size_t p = 0; p < points; ++p) {
     const auto at = [&](const std::vector<double>& v) { return Eigen::Map<const Vector<N>>(v.data() + p * N); };
     const auto h = [&](const PointStates& s) {
@@ -26,17 +29,25 @@ void add_path_error(const GroupData& data, const Law<N>& law, WeightedMean& mean
     const Vector<N> eps0 = at(state.committed.eps), deps = at(state.trial.eps) - eps0;
     const double work = data.geometry[p * stride] * std::abs((sigma1 - sigma0).dot(deps));
     mean.weight += work;
-    mean.sum += work * law.path_error({sigma0, eps0, deps, h(state.committed)}, sigma1, h(state.trial));
+    PointIn<N> in{sigma0, eps0, deps, h(state.committed)};
+    if (data.wants_context) {
+      const int element = static_cast<int>(p) / traits.points, point = static_cast<int>(p) % traits.points;
+      element_coordinates(mesh, *data.group, element, x);
+      context = context_of(data, element, x, point, moment);
+      in.context = &context;
+    }
+    mean.sum += work * law.path_error(in, sigma1, h(state.trial));
   }
 }
 
 }  // namespace
 
-double mean_path_error(const std::vector<GroupData>& groups, const std::vector<char>& group_linear) {
+double mean_path_error(const Mesh& mesh, const std::vector<GroupData>& groups,
+                       const std::vector<char>& group_linear, const Moment& moment) {
   WeightedMean mean;
   for (std::size_t g = 0; g < groups.size(); ++g)
     if (groups[g].active && !group_linear[g])
-      std::visit([&](const auto* law) { add_path_error(groups[g], *law, mean); }, groups[g].law);
+      std::visit([&](const auto* law) { add_path_error(mesh, groups[g], *law, moment, mean); }, groups[g].law);
   return mean.weight > 0.0 ? mean.sum / mean.weight : 0.0;
 }
 

@@ -3,12 +3,14 @@
 
 #include <vector>
 
-#include "sage/analysis/group_data.hpp"
+#include "sage/analysis/moment.hpp"
 
 namespace sage {
 
 // Law::path_error of the trial states, the mean over all points by the work of their stress increments.
-// group_linear: a flag a group; their laws have no such error, whether they are asked (skips) or not.
-double mean_path_error(const std::vector<GroupData>& groups, const std::vector<char>& group_linear);
+// group_linear: a flag a group; their laws have no such error, whether they are asked (skips) or not.  moment: of
+// the step.
+double mean_path_error(const Mesh& mesh, const std::vector<GroupData>& groups,
+                       const std::vector<char>& group_linear, const Moment& moment);
 
 }  // namespace sage

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "sage/analysis/audit.hpp"
 #include "sage/analysis/contraction.hpp"
@@ -36,18 +37,20 @@ class Run {
  private:
   void start_new_nodes();
   void start_states(const std::vector<InitialStress>& initials);
+  void evaluate_start();
   void prepare_stage(int s);
   void begin_stage(int s);
   bool run_stage(int s, int done);
   void end_stage(int s, double last_force);
   void end_increment(StepReport& report);
+  void set_moment(double load_factor, double share);
   bool run_increment(const Stage& stage, StepReport& report, double& reached);
   NewtonStep attempt(const Stage& stage, double from, double to);
   void renew_tangent();
   bool contracts(const Stage& stage) const;
   bool can_repeat(const Stage& stage, double size) const;
   void accept(double reached);
-  void reject(const Stage& stage, double next);
+  void reject(const Stage& stage, double reached, double next);
   void keep_way(double size);
   void start_on_last_way(double size);
   void measure_stiffness(double from, double to);
@@ -74,6 +77,7 @@ class Run {
   Assembly& assembly_ = system_.assembly();
   Tangent& tangent_ = system_.tangent();
   StagePath& path_ = state_.path;
+  Place place_;  // the increment in hand
   const Extent extent_;
   Eigen::VectorXd target_;
   Eigen::VectorXd last_du_;          // the last step of the stage, if path_.last_size > 0
@@ -87,10 +91,8 @@ Solution Run::solution() const {
 
 void Run::start_states(const std::vector<InitialStress>& initials) {
   Diagnostics warnings;
-  assembly_.start_states([&](std::vector<GroupData>& groups) {
-    for (const InitialStress& initial : initials)
-      apply_initial_stress(model_, initial, groups[static_cast<std::size_t>(initial.group)], warnings);
-  });
+  assembly_.start_states(
+      [&](std::vector<GroupData>& groups) { apply_initials(model_, initials, groups, warnings); });
   warn(warnings.list());
 }
 
@@ -107,6 +109,28 @@ void Run::start_new_nodes() {
     if (!borne[static_cast<std::size_t>(node)]) state_.u.segment<2>(2 * node).setZero();
 }
 
+// What is evaluated from now on ends at that load factor of the stage, after a step of that share of it; 0 = a
+// state that stands.
+void Run::set_moment(double load_factor, double share) {
+  if (assembly_.wants_moment())
+    assembly_.set_moment(moment_at(model_, place_.stage, place_.increment, load_factor, share));
+}
+
+// The tangent of laws that depend on time is that of the first increment, where they have an answer for it; forces
+// are those at its start.
+void Run::evaluate_start() {
+  const int s = place_.stage;
+  const double increment = 1.0 / model_.stages[static_cast<std::size_t>(s)].increments;
+  Tangent* tangent = tangent_.current() ? nullptr : &tangent_;
+  if (assembly_.wants_moment() && tangent != nullptr) {
+    set_moment(increment, increment);
+    if (assembly_.evaluate(state_.du, tangent) == Outcome::ok) tangent = nullptr;
+  }
+  set_moment(0.0, 0.0);
+  if (assembly_.evaluate(state_.du, tangent) == Outcome::cut_step)
+    throw AnalysisError("stage " + std::to_string(s + 1) + ": a law cannot start from the state it is given");
+}
+
 // The states and the loads at both ends of a stage.  What the forces of removed parts, initial stress and
 // released supports leave out of balance is held at the start and let go in proportion over the stage.
 void Run::prepare_stage(int s) {
@@ -115,8 +139,8 @@ void Run::prepare_stage(int s) {
   start_states(model_.stages[static_cast<std::size_t>(s)].initials);
   state_.du.setZero();
   path_.repeats.forget();
-  if (assembly_.evaluate(state_.du, tangent_.current() ? nullptr : &tangent_) == Outcome::cut_step)
-    throw AnalysisError("stage " + std::to_string(s + 1) + ": a law cannot start from the state it is given");
+  place_ = {s, 0};
+  evaluate_start();
   assembly_.commit(state_.du);
   path_.force_start = committed_force_ = assembly_.internal_force();
   path_.last_size = path_.stiffest = path_.last_stiffness = 0.0;
@@ -143,6 +167,7 @@ bool Run::can_repeat(const Stage& stage, double size) const {
 
 NewtonStep Run::attempt(const Stage& stage, double from, double to) {
   target_ = (1.0 - to) * path_.force_start + to * path_.force_end;
+  set_moment(to, to - from);
   NewtonSettings newton{stage.method, stage.max_iterations, stage.tolerance, settings_.line_search};
   newton.repeat = can_repeat(stage, to - from);
   newton.contract = contracts(stage);
@@ -165,16 +190,18 @@ void Run::accept(double reached) {
 // Back to the committed state, with its own internal forces.  The next attempt starts with the tangent of the
 // way that the last step took.  At du = 0 points on their yield surfaces answer elastically: from there a cut
 // step would have to find all of the plastic zone anew, however short it is.
-// next: its share of the stage; 0 = from there all the same.
-void Run::reject(const Stage& stage, double next) {
+// reached: load factor of that state.  next: share of the stage of the attempt; 0 = from there all the same.
+void Run::reject(const Stage& stage, double reached, double next) {
   path_.repeats.forget();
   on_last_way_ = false;
   const bool keep_K = tangent_.constant() || stage.method == Method::initial_stiffness;
   if (!keep_K) {
     tangent_.set_aside();
+    set_moment(reached + next, next);
     if (next > 0.0) start_on_last_way(next);
   }
   state_.du.setZero();
+  set_moment(reached, 0.0);
   assembly_.evaluate(state_.du, nullptr);
 }
 
@@ -244,6 +271,7 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
   const double whole = 1.0 / report.increments;
   double size = end - reached;
   report.substeps = 0;
+  place_ = {report.stage, report.increment};
   while (reached < end) {
     const double to = size >= end - reached - 1e-12 * whole ? end : reached + size;
     const NewtonStep step = attempt(stage, reached, to);
@@ -257,7 +285,7 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
       if (error > kPathTolerance && to - reached > 1.001 * kSmallestPart * whole) {
         size = (to - reached) * std::clamp(0.9 * std::cbrt(kPathTolerance / error), 0.25, 0.75);
         size = std::max(size, kSmallestPart * whole);
-        reject(stage, 0.0);
+        reject(stage, reached, 0.0);
         continue;
       }
       path_.path_error = std::max(path_.path_error, error);
@@ -276,7 +304,7 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
     }
     // Half way along a collapse mechanism the matrix may be singular where the committed state's is not.
     if (step.outcome == StepOutcome::singular && on_last_way_) {
-      reject(stage, 0.0);
+      reject(stage, reached, 0.0);
       continue;
     }
     report.points = assembly_.count_points();
@@ -288,7 +316,7 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
     }
     ++report.cuts;
     size = 0.5 * (to - reached);
-    reject(stage, size);
+    reject(stage, reached, size);
   }
   return true;
 }
@@ -305,6 +333,7 @@ bool Run::fail(StepReport& report, const NewtonStep& step) {
     result_.reason = explain_failure(model_, assembly_, report, step);
   }
   state_.du.setZero();
+  set_moment(report.load_factor, 0.0);
   assembly_.evaluate(state_.du, nullptr);
   assembly_.recover_states();
   audience_.tell([&](Observer& o) { o.on_failure(model_, report, result_.reason, solution()); });
@@ -327,7 +356,8 @@ void Run::start() {
 void Run::offer_checkpoint(Place place) {
   if (!settings_.checkpoint_due || !settings_.checkpoint_due()) return;
   const Timer timer(result_.work.output_seconds);
-  settings_.save_checkpoint(checkpoint_bytes(resumable(), place));
+  const std::string bytes = checkpoint_bytes(resumable(), place);
+  audience_.outside([&] { settings_.save_checkpoint(bytes); });
 }
 
 Place Run::resume() {
@@ -421,6 +451,13 @@ RunResult Run::execute() {
     run_stages();
   } catch (const Stopped&) {
     stop();
+    return result_;
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    if (audience_.is_outside()) throw;
+    result_.status = RunStatus::failed;
+    result_.reason = error.what();
     return result_;
   }
   audience_.tell([&](Observer& o) { o.on_finish(model_, result_); });

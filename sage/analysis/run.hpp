@@ -35,8 +35,18 @@ struct RunSettings {
   StopAsked stop_asked;
 };
 
-// Throws InputError for what only shows at run time (e.g. a refused initial stress); everything that happens to
-// the numbers ends in RunResult, after the observers have seen the last converged state.
+// What happens to the numbers ends in RunResult, after the observers have seen the last converged state (on_failure,
+// on_finish).  So does what keeps the run from going on: a solver that is unknown, does not suit, can't be loaded or
+// gives up, a law that can't start from its state, an element that can't be integrated.  Its status is then
+// RunStatus::failed, with the reason; as after RunStatus::stopped, observers hear no on_finish, and what becomes of
+// their files is the caller's choice (Output::stop).
+// Throws:
+//   InputError      what only shows at run time: a history that a law refuses, an interface that should take the
+//                   traction of a group without initial stress, a checkpoint of another model
+//   std::bad_alloc  not enough memory
+//   std::logic_error  a piece that breaks its contract (a mistake of the programmer)
+// and whatever observers and RunSettings::save_checkpoint throw (OutputError, AnalysisError of a result that is no
+// number).
 RunResult run(const Model& model, const Catalogue& catalogue, const RunSettings& settings,
               std::span<Observer* const> observers);
 

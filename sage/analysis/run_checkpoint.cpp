@@ -24,9 +24,16 @@ void exchange(const Resumable& run, Archive& archive, const Place& place, bool& 
 
 // The last step's end is evaluated once more: that gives its tangent too.  What the run still had in hand is
 // made again, so that the counters and the pivots on the record go on as if nothing had happened.
-void evaluate_again(const Resumable& run, bool within, bool factorised) {
+void evaluate_again(const Resumable& run, const Place& place, bool factorised) {
   System& system = run.system;
+  const bool within = place.increment > 0;
   if (!within && !factorised) return;
+  if (within && system.assembly().wants_moment()) {
+    const int increments = run.model.stages[static_cast<std::size_t>(place.stage)].increments;
+    const double reached = static_cast<double>(place.increment) / increments;
+    system.assembly().set_moment(
+        moment_at(run.model, place.stage, place.increment, reached, run.state.path.last_size));
+  }
   if (system.assembly().evaluate(run.state.du, &system.tangent()) == Outcome::cut_step) refuse();
   if (within) system.assembly().commit_again();
   if (factorised) system.tangent().factorise(run.result.work);
@@ -56,7 +63,7 @@ Place resume_from(const Resumable& run, const std::string& bytes) {
   bool factorised = false;
   exchange(run, archive, place, factorised);
   const WorkCounters work = run.result.work;
-  evaluate_again(run, within, factorised && (within || system.tangent().constant()));
+  evaluate_again(run, place, factorised && (within || system.tangent().constant()));
   run.audience.tell(
       [&](Observer& o) { o.on_start(run.model, system.scene(), system.tangent().name(), system.equations()); });
   run.audience.exchange(archive);

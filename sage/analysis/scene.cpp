@@ -21,7 +21,7 @@ Scene analyse_scene(const Model& model) {
   std::vector<char> nonlinear(static_cast<std::size_t>(model.mesh.nodes()), 0);
   for (const Group& group : model.groups) {
     const LawRef law = model.material_of(group).law_ref();
-    const bool linear = ask(law, [](const auto& l) { return l.linear(); });
+    const bool linear = has_constant_stiffness(law);
     const bool symmetric = ask(law, [](const auto& l) { return l.symmetric(); });
     scene.group_linear.push_back(linear ? 1 : 0);
     scene.linear = scene.linear && linear;

@@ -7,7 +7,7 @@ PointStatus shown_status(const Mesh& mesh, const GroupData& data, std::size_t po
   const PointStates& state = data.state.committed;
   const PointStatus status = state.status[point];
   if (status != PointStatus::open) return status;
-  const auto history = std::visit([](const auto* law) { return law->history(); }, data.law);
+  const auto history = history_of(data.law);
   const int element = static_cast<int>(point) / data.group->element->traits().points;
   const int* nodes = data.group->nodes_of(element);
   const double length = (mesh.x.col(nodes[1]) - mesh.x.col(nodes[0])).norm();

@@ -38,6 +38,7 @@ double smallest_acoustic_ratio(const Matrix4& D, const Matrix4& elastic) {
 
 UniquenessCount count_loss_of_uniqueness(const Assembly& assembly, StepKind step) {
   UniquenessCount count;
+  Eigen::Matrix2Xd x;
   for (const GroupData& data : assembly.groups()) {
     const auto* law = std::get_if<const SolidLaw*>(&data.law);
     if (!data.active || law == nullptr || (*law)->symmetric()) continue;
@@ -50,7 +51,15 @@ UniquenessCount count_loss_of_uniqueness(const Assembly& assembly, StepKind step
       if (now.status[p] != PointStatus::yielded) continue;
       ++count.plastic;
       const std::span<const double> h0(before.h.data() + p * history, history);
-      PointIn<4> in{vector_at(before.sigma, p), vector_at(before.eps, p), Vector4::Zero(), h0};
+      PointIn<4> in{vector_at(before.sigma, p), vector_at(before.eps, p), Vector4::Zero(), h0, nullptr};
+      PointContext context;
+      if (data.wants_context) {
+        const int points = data.group->element->traits().points;
+        element_coordinates(assembly.mesh(), *data.group, static_cast<int>(p) / points, x);
+        context =
+            context_of(data, static_cast<int>(p) / points, x, static_cast<int>(p) % points, assembly.moment());
+        in.context = &context;
+      }
       PointOut<4> out;
       out.h1 = h;
       if ((*law)->update(in, out) != Outcome::ok) continue;

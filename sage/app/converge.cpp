@@ -68,7 +68,8 @@ Ladder ladder_for(const Model& model, const Catalogue& catalogue) {
     const bool quad = can_replace(catalogue.elements.find(degrees.front()), *group.entry);
     const LawRef law = model.material_of(group).law_ref();
     const auto* solid = std::get_if<const SolidLaw*>(&law);
-    if (group.elements() > 0 && (!quad || solid == nullptr || !(*solid)->linear())) return halving(model);
+    if (group.elements() > 0 && (!quad || solid == nullptr || !has_constant_stiffness(**solid)))
+      return halving(model);
   }
   return {Ladder::spectral, degrees.size()};
 }

@@ -25,14 +25,16 @@ void list_materials(const Catalogue& catalogue) {
   const UnitSystem generic{"length", "force", "stress", 0.0, 0.0};
   fmt::print("code  law, parameters in the order of the card\n");
   for (const auto& [code, entry] : catalogue.materials.entries()) {
-    fmt::print("{:4}  {} ({}): {}\n", code, entry.name, entry.for_solids() ? "solid" : "interface",
-               entry.summary);
+    fmt::print("{:4}  {} ({}): {}\n", code, entry.name, law_words(entry.law_size), entry.summary);
     int number = 0;
     for (const Parameter& p : entry.parameters) {
       const std::string otherwise = p.required ? "required" : fmt::format("blank = {:g}", p.fallback);
       fmt::print("      {:4}  {} [{}] {}; {}\n", ++number, p.name, unit_text(p.dimension, generic), p.meaning,
                  otherwise);
     }
+    number = 0;
+    for (const Quantity& q : entry.history)
+      fmt::print("      {:4}  history: {} [{}]\n", ++number, q.name, unit_text(q.dimension, generic));
   }
 }
 

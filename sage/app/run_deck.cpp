@@ -227,6 +227,7 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
   observers.push_back(&end);
   try {
     const RunResult result = run(model, catalogue, settings, observers);
+    if (result.status == RunStatus::failed) throw AnalysisError(result.reason);
     outcome.exit_code = result.status == RunStatus::completed ? kOk : kNotConverged;
     if (result.status == RunStatus::stopped) {
       outcome.record.result = result;

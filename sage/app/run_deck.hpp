@@ -69,7 +69,7 @@ void add_threads_option(CLI::App& parser, int& threads);
 // Those of the linear solver: what was asked for, or one for each processor where that is 0.
 int threads_for(int asked);
 
-// Throws InputError, OutputError.
+// Throws InputError, OutputError, and AnalysisError with the reason of a run that failed (RunStatus::failed).
 RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue);
 
 }  // namespace sage::app

@@ -18,6 +18,14 @@ std::string formulations_of(const ElementEntry& entry) {
   return text;
 }
 
+// "solids": what an element's laws are for.
+std::string laws_for(const ElementEntry& entry) {
+  if (entry.law_size == 4) return "solids";
+  if (entry.law_size == 2) return "interfaces";
+  return "structures of " + std::to_string(entry.law_size) +
+         (entry.law_size == 1 ? " component" : " components");
+}
+
 // The deck's element, or the one that BuildOptions puts in its place.
 int chosen_element(const Builder& b, int deck_code) {
   const ElementEntry* deck_entry = b.catalogue.elements.find(deck_code);
@@ -344,15 +352,18 @@ void build_groups(Builder& b) {
                                                entry->name + " is unknown; 0 default, " +
                                                formulations_of(*entry));
       } else {
-        set_element(group, b.catalogue, group.element_code, found->code, b.model.geometry);
+        try {
+          set_element(group, b.catalogue, group.element_code, found->code, b.model.geometry);
+        } catch (const ParameterError& error) {
+          b.error(card.where("element"), name + ": " + error.what());
+        }
       }
       if (material != b.material_index.end()) {
         const Material& m = b.model.materials[static_cast<std::size_t>(material->second)];
         const MaterialEntry* law = b.catalogue.materials.find(m.code);
         if (law != nullptr && law->law_size != entry->law_size)
-          b.error(card.where("material"), name + ": a " + entry->name + " needs a law for " +
-                                              (entry->solid() ? "solids" : "interfaces") + ", material " +
-                                              std::to_string(m.number) + " is " + law->name);
+          b.error(card.where("material"), name + ": a " + entry->name + " needs a law for " + laws_for(*entry) +
+                                              ", material " + std::to_string(m.number) + " is " + law->name);
       }
     }
     b.model.groups.push_back(std::move(group));

@@ -1,5 +1,7 @@
 // Fixities, loads, initial stress and stages.
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "sage/build/builder.hpp"
 
@@ -91,7 +93,8 @@ void read_pressure(Builder& b, const CardView& card, std::vector<EdgeLoad>& out)
       const std::string numbers =
           edge == folded && edge >= 0
               ? " has no such edge: both of its nodes are the same, the quadrilateral is a triangle"
-              : " has edges 1 to " + std::to_string(edges);
+          : edges == 0 ? std::string(" has no edges")
+                       : " has edges 1 to " + std::to_string(edges);
       b.error(card.where("edge"), "edge " + std::to_string(edge + 1) + ": element " + std::to_string(number) +
                                       " (" + group.element_name + ")" + numbers);
       return;
@@ -106,12 +109,11 @@ void read_pressure(Builder& b, const CardView& card, std::vector<EdgeLoad>& out)
 // Values that this kind of initial stress takes and the card leaves blank.
 void note_blank_stresses(Builder& b, const CardView& card, InitialKind kind, int group_number) {
   const auto group = b.group_index.find(group_number);
-  const bool interface = group != b.group_index.end() &&
-                         b.model.groups[static_cast<std::size_t>(group->second)].element &&
-                         b.model.groups[static_cast<std::size_t>(group->second)].interface();
-  const int values = kind == InitialKind::uniform     ? (interface ? 2 : 3)
-                     : kind == InitialKind::geostatic ? 3
-                                                      : 0;
+  const Group* known =
+      group == b.group_index.end() ? nullptr : &b.model.groups[static_cast<std::size_t>(group->second)];
+  const bool line = known != nullptr && known->element && !known->solid();
+  const int components = line ? known->entry->law_size : 3;  // of a solid xy is mostly zero
+  const int values = kind == InitialKind::uniform ? components : kind == InitialKind::geostatic ? 3 : 0;
   std::string blank;
   if (card.blank("kind")) blank = "kind (0, uniform)";
   for (int i = 1; i <= values; ++i)
@@ -121,15 +123,75 @@ void note_blank_stresses(Builder& b, const CardView& card, InitialKind kind, int
     b.note(card.where(), "left blank on this initial stress card, which reads as 0: " + blank);
 }
 
+// Quantities that a card of InitialKind::history states, by their places in the law's history.
+std::vector<std::size_t> stated_quantities(const InitialStress& initial) {
+  std::vector<std::size_t> places;
+  for (std::size_t i = 1; i < initial.value.size(); ++i)
+    if (!std::isnan(initial.value[i])) places.push_back(static_cast<std::size_t>(initial.value[0]) + i - 2);
+  return places;
+}
+
+std::string known_quantities(std::span<const Quantity> quantities) {
+  std::string text;
+  for (std::size_t i = 0; i < quantities.size(); ++i)
+    text += (i > 0 ? ", " : "") + std::to_string(i + 1) + " " + std::string(quantities[i].name);
+  return text.empty() ? "has no history" : "has the history " + text;
+}
+
+// False, and an error, where the law of a group lacks what the card states, or another card states it too.
+bool fits_history(Builder& b, const CardView& card, const InitialStress& initial,
+                  const std::vector<InitialStress>& before) {
+  const Group& group = b.model.groups[static_cast<std::size_t>(initial.group)];
+  const Material& material = b.model.material_of(group);
+  const std::string name = "group " + std::to_string(group.number);
+  const std::span<const Quantity> quantities = history_of(material.law_ref());
+  const auto first = static_cast<std::size_t>(initial.value[0]) - 1;
+  for (const std::size_t place : stated_quantities(initial)) {
+    const std::string field = "v" + std::to_string(place - first + 2);
+    if (place >= quantities.size()) {
+      b.error(card.where(field), name + ": " + material.law_name + " " + known_quantities(quantities) +
+                                     ": there is no quantity " + std::to_string(place + 1));
+      return false;
+    }
+    for (const InitialStress& other : before) {
+      if (other.group != initial.group || other.kind != InitialKind::history) continue;
+      const std::vector<std::size_t> stated = stated_quantities(other);
+      if (std::find(stated.begin(), stated.end(), place) == stated.end()) continue;
+      b.error(card.where(field), name + ": the card in line " + std::to_string(other.where.line) +
+                                     " states its " + std::string(quantities[place].name) + " already");
+      return false;
+    }
+  }
+  return true;
+}
+
+// Blank values become NaN.  False, and an error, without a number of the first quantity or without values.
+bool read_history(Builder& b, const CardView& card, InitialStress& initial) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const double first = initial.value[0];
+  if (!(first >= 1.0 && first <= 1e6 && first == std::floor(first))) {
+    b.error(card.where("v1"),
+            "value 1 of a history card (kind 4) is the number of the first quantity that it states, 1 or more; "
+            "`sagefe list materials` counts them");
+    return false;
+  }
+  for (std::size_t i = 1; i < initial.value.size(); ++i)
+    if (card.blank("v" + std::to_string(i + 1))) initial.value[i] = kNone;
+  if (!stated_quantities(initial).empty()) return true;
+  b.error(card.where("v2"), "a history card (kind 4) states at least one value, from value 2 on");
+  return false;
+}
+
 void read_initial(Builder& b, const CardView& card, std::vector<InitialStress>& out) {
   InitialStress initial;
   initial.where = card.where();
   const int kind = card.integer("kind");
   const int number = card.integer("group");
-  if (kind < 0 || kind > 3) {
-    b.error(card.where("kind"),
-            "initial stress kind " + std::to_string(kind) +
-                " is unknown; 0 uniform, 1 geostatic, 2 zero, 3 traction of the neighbours");
+  if (kind < 0 || kind > 4) {
+    b.error(
+        card.where("kind"),
+        "initial stress kind " + std::to_string(kind) +
+            " is unknown; 0 uniform, 1 geostatic, 2 zero, 3 traction of the neighbours, 4 history of the law");
     return;
   }
   initial.kind = static_cast<InitialKind>(kind);
@@ -138,6 +200,7 @@ void read_initial(Builder& b, const CardView& card, std::vector<InitialStress>& 
     initial.value[i] = card.real(field);
     b.usable(card, field, initial.value[i]);
   }
+  if (initial.kind == InitialKind::history && !read_history(b, card, initial)) return;
   note_blank_stresses(b, card, initial.kind, number);
   bool found = false;
   for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
@@ -145,7 +208,12 @@ void read_initial(Builder& b, const CardView& card, std::vector<InitialStress>& 
     found = true;
     if (initial.kind == InitialKind::traction && b.model.groups[g].element && !b.model.groups[g].interface())
       b.error(card.where("kind"), "kind 3 (traction of the neighbours) is for interface groups");
+    if (initial.kind == InitialKind::geostatic && b.model.groups[g].element && b.model.groups[g].structure())
+      b.error(card.where("kind"), "kind 1 (geostatic) is for solids; structures take kind 0 or 2");
     initial.group = static_cast<int>(g);
+    if (initial.kind == InitialKind::history && b.materials_known && b.model.groups[g].element &&
+        !fits_history(b, card, initial, out))
+      return;
     out.push_back(initial);
   }
   if (!found) b.group_missing(card.where("group"), number);
@@ -157,7 +225,8 @@ void check_traction(Builder& b, const CardView& card) {
   const int wanted = card.integer("v1");
   for (const InitialStress& initial : b.model.initials) {
     const Group& group = b.model.groups[static_cast<std::size_t>(initial.group)];
-    if (group.number == wanted && group.element && group.solid()) return;
+    if (initial.kind != InitialKind::history && group.number == wanted && group.element && group.solid())
+      return;
   }
   if (b.groups_known)
     b.error(card.where("v1"), "group " + std::to_string(wanted) +
@@ -192,6 +261,9 @@ Stage read_stage(Builder& b, const CardView& card, int number) {
   stage.increments = card.integer("increments", 1) == 0 ? 1 : card.integer("increments", 1);
   if (stage.increments < 0 || stage.increments > 10'000'000)
     b.error(card.where("increments"), "the number of increments must be between 1 and 10000000");
+  if (card.real("duration") != 0.0) stage.duration = card.real("duration");
+  if (b.usable(card, "duration", stage.duration) && !(stage.duration > 0.0))
+    b.error(card.where("duration"), "the duration of a stage must not be negative (blank = 1)");
   const int method = card.integer("method");
   if (method < 0 || method > 3)
     b.error(card.where("method"),

@@ -123,6 +123,7 @@ void check_initial(Builder& b, const InitialStress& initial) {
                 name + "the initial stress exceeds the material's modulus, " + rounded_text(modulus));
   }
   if (initial.kind != InitialKind::uniform) return;
+  if (group.structure()) return;  // what is much for a section is not known
   const std::size_t normals = solid ? 3 : 2;
   for (std::size_t i = solid ? 0 : 1; i < normals; ++i) {
     if (initial.value[i] >= 0.0) continue;
@@ -419,6 +420,7 @@ void check_tolerance(Builder& b, const Stage& stage) {
 void check_twice_initial(Builder& b, const std::vector<InitialStress>& initials) {
   std::map<int, int> lines;  // by group
   for (const InitialStress& initial : initials) {
+    if (initial.kind == InitialKind::history) continue;
     const auto [first, added] = lines.try_emplace(initial.group, initial.where.line);
     if (added || first->second == initial.where.line) continue;
     b.warning(initial.where,

@@ -66,7 +66,7 @@ double shear_stress(const Face& face, const FaceState& state) {
 PointCounts count_points(const Mesh& mesh, const Solution& solution) {
   PointCounts counts;
   for (const GroupData& data : solution.groups()) {
-    if (!data.active) continue;
+    if (!data.active || data.group->structure()) continue;
     const bool solid = data.group->solid();
     for (std::size_t p = 0; p < data.state.committed.status.size(); ++p) {
       const PointStatus status = shown_status(mesh, data, p);
@@ -107,7 +107,7 @@ void Side::run(const Catalogue& catalogue, const RunSettings& settings) {
   try {
     const RunResult result = sage::run(*model_, catalogue, settings, observers);
     if (result.status != RunStatus::completed) error_ = result.reason;
-    if (result.status == RunStatus::stopped) reports_->stop(error_);
+    if (result.status == RunStatus::stopped || result.status == RunStatus::failed) reports_->stop(error_);
   } catch (const OutputError&) {
     throw;
   } catch (const std::exception& error) {

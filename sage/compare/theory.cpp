@@ -25,8 +25,8 @@ bool is_solid(const Group& group) {
 }
 
 bool is_elastic(const Material& material) {
-  return std::visit([](const auto* law) { return law->linear(); }, material.law_ref()) &&
-         material.parameter(ParameterRole::youngs_modulus) && material.parameter(ParameterRole::poissons_ratio);
+  return has_constant_stiffness(material.law_ref()) && material.parameter(ParameterRole::youngs_modulus) &&
+         material.parameter(ParameterRole::poissons_ratio);
 }
 
 bool is_plastic(const Material& material) {

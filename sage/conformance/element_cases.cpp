@@ -50,7 +50,7 @@ Eigen::Matrix2Xd parent_nodes(const ElementEntry& entry) {
   Eigen::Matrix2Xd nodes(2, static_cast<Eigen::Index>(entry.parent_nodes.size()));
   for (Eigen::Index i = 0; i < nodes.cols(); ++i) {
     const auto& [xi, eta] = entry.parent_nodes[static_cast<std::size_t>(i)];
-    nodes.col(i) << xi, (entry.interface() ? 0.0 : eta);
+    nodes.col(i) << xi, (entry.solid() ? eta : 0.0);
   }
   return nodes;
 }
@@ -68,13 +68,13 @@ Eigen::Matrix2Xd straight_element(const ElementEntry& entry, const Eigen::Matrix
 }
 
 Eigen::Matrix2Xd sample_shape(const ElementEntry& entry) {
-  if (entry.interface()) return straight_element(entry, columns({{1.0, 0.5}, {2.2, 1.1}}));
+  if (!entry.solid()) return straight_element(entry, columns({{1.0, 0.5}, {2.2, 1.1}}));
   if (entry.triangle()) return straight_element(entry, columns({{1.0, 0.2}, {2.3, 0.5}, {1.4, 1.7}}));
   return straight_element(entry, columns({{1.0, 0.1}, {2.4, 0.3}, {2.0, 1.6}, {1.2, 1.2}}));
 }
 
 Eigen::Matrix2Xd sample_shape_on_axis(const ElementEntry& entry) {
-  if (entry.interface()) return straight_element(entry, columns({{0.0, 0.5}, {1.2, 1.1}}));
+  if (!entry.solid()) return straight_element(entry, columns({{0.0, 0.5}, {1.2, 1.1}}));
   if (entry.triangle()) return straight_element(entry, columns({{0.0, 0.2}, {1.3, 0.5}, {0.4, 1.7}}));
   return straight_element(entry, columns({{0.0, 0.1}, {1.4, 0.3}, {1.0, 1.6}, {0.0, 1.2}}));
 }
@@ -107,7 +107,7 @@ ElementRun::ElementRun(const Element& e, const Eigen::Matrix2Xd& x, LawRef l) : 
 }
 
 Outcome ElementRun::evaluate(const Eigen::VectorXd& du, bool want_stiffness) {
-  const ElementIn in{geometry.data(), du.data(), law, sigma0.data(), eps0.data(), h0.data()};
+  const ElementIn in{geometry.data(), du.data(), law, sigma0.data(), eps0.data(), h0.data(), contexts};
   ElementOut out{
       want_stiffness ? K.data() : nullptr, f.data(), sigma1.data(), eps1.data(), h1.data(), status.data()};
   return element->evaluate(in, out);

@@ -25,10 +25,10 @@ std::vector<ElementCase> element_cases(const Catalogue& catalogue, const std::ve
 // Those of one kind.
 std::vector<ElementCase> of_kind(ElementKind kind, const std::vector<ElementCase>& cases);
 
-// Nodes of the parent shape, 2 x nodes; for an interface (xi, 0).
+// Nodes of the parent shape, 2 x nodes; for an interface or a structure (xi, 0).
 Eigen::Matrix2Xd parent_nodes(const ElementEntry& entry);
 
-// The straight-sided element over these corners: 2 x 4 or 2 x 3; for an interface the two ends.
+// The straight-sided element over these corners: 2 x 4 or 2 x 3; for an interface or a structure the two ends.
 Eigen::Matrix2Xd straight_element(const ElementEntry& entry, const Eigen::Matrix2Xd& corners);
 
 // A distorted straight-sided element away from the axis, one that touches it, and one with curved sides.
@@ -48,6 +48,7 @@ struct ElementRun {
 
   const Element* element;
   LawRef law;
+  const PointContext* contexts = nullptr;  // one a point, if any
   int history = 0;
   std::vector<double> geometry, sigma0, eps0, h0, sigma1, eps1, h1;
   std::vector<PointStatus> status;

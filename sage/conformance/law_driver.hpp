@@ -12,6 +12,21 @@ inline UnitSystem kpa_units() {
   return {"m", "kN", "kPa", 101.325, 9.807};
 }
 
+// For laws that want it: a step of the first increment, and the state that stands at its end.
+inline const PointContext& some_context(bool step_taken) {
+  static const PointContext step{.element = 1, .stage = 1, .increment = 1, .time = 0.5, .dt = 0.5};
+  static const PointContext still{.element = 1, .stage = 1, .increment = 1, .time = 0.5, .dt = 0.0};
+  return step_taken ? step : still;
+}
+
+// Input without strain so far; a step that strains takes its time, one that doesn't takes none.
+template <int N>
+PointIn<N> point_in(const Law<N>& law, const Vector<N>& sigma0, const Vector<N>& deps,
+                    std::span<const double> h0) {
+  return {sigma0, Vector<N>::Zero(), deps, h0,
+          law.wants_context() ? &some_context(!deps.isZero(0.0)) : nullptr};
+}
+
 // One update with its own history storage.
 template <int N>
 struct Answer {
@@ -29,7 +44,7 @@ Answer<N> update(const Law<N>& law, const Vector<N>& sigma0, const Vector<N>& de
   out.sigma.setConstant(-12345.0);
   out.D.setConstant(-12345.0);
   out.h1 = a.h;
-  a.outcome = law.update({sigma0, Vector<N>::Zero(), deps, h0}, out);
+  a.outcome = law.update(point_in<N>(law, sigma0, deps, h0), out);
   a.sigma = out.sigma;
   a.D = out.D;
   a.status = out.status;

@@ -71,6 +71,10 @@ class Walker {
     d.head<3>().array() -= 0.8 * mean;
     return d;
   }
+  template <int N>
+  Vector<N> strain(double size, Vector<N>*) {
+    return increment<N>(size);
+  }
   Vector2 strain(double size, Vector<2>*) {  // normal stiffness is 50 times the shear stiffness
     return increment<2>(size).cwiseProduct(Vector2(1.0, 0.05));
   }
@@ -84,6 +88,10 @@ inline Vector4 start_stress(const SolidLaw&) {
 }
 inline Vector2 start_stress(const InterfaceLaw&) {
   return {0.0, -60.0};
+}
+template <int N>
+Vector<N> start_stress(const Law<N>&) {  // of structures
+  return Vector<N>::Zero();
 }
 
 template <int N>
@@ -317,8 +325,8 @@ void check_scaling(const Law<N>& law, const Law<N>& scaled, double factor, doubl
     EXPECT_EQ(a.status, b.status);
     EXPECT_LE((b.sigma / factor - a.sigma).norm(), 1e-9 * (a.sigma.norm() + 60.0)) << trial;
     EXPECT_LE((b.D / factor - a.D).norm(), 1e-7 * a.D.norm()) << trial;
-    const double error = law.path_error({s.sigma, Vector<N>::Zero(), deps, s.h}, a.sigma, a.h);
-    EXPECT_NEAR(scaled.path_error({factor * s.sigma, Vector<N>::Zero(), deps, h}, b.sigma, b.h), error,
+    const double error = law.path_error(point_in<N>(law, s.sigma, deps, s.h), a.sigma, a.h);
+    EXPECT_NEAR(scaled.path_error(point_in<N>(scaled, factor * s.sigma, deps, h), b.sigma, b.h), error,
                 1e-6 * error)
         << trial;
   }
@@ -379,9 +387,33 @@ inline void check_turning(const SolidLaw& law, double size) {
     EXPECT_LE(kinks, kStates * 3 / 100) << degrees << " degrees";
   }
 }
-inline void check_turning(const InterfaceLaw&, double) {}  // its axes are those of the joint
+template <int N>
+void check_turning(const Law<N>&, double) {}  // the axes are those of the joint or the structure
 TEST_P(Laws, TurnsWithTheAxes) {
   if (!sample().knows_directions) with_law([](const auto& law) { check_turning(law, sample().strain); });
+}
+
+// What the catalogue says of the history is what the law has.
+TEST_P(Laws, HistoryIsThatOfTheEntry) {
+  const LawPtr law = entry().make(sample().values, kpa_units());
+  EXPECT_EQ(size_of_law(reference(law)), entry().law_size);
+  const std::span<const Quantity> own = history_of(reference(law)), stated = entry().history;
+  ASSERT_EQ(own.size(), stated.size());
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    EXPECT_EQ(own[i].name, stated[i].name);
+    EXPECT_EQ(own[i].dimension, stated[i].dimension);
+  }
+}
+
+// The history that `initialise` makes is one to go on from; so is that of any state that update has reached.
+TEST_P(Laws, OwnHistoryIsAccepted) {
+  with_law([](const auto& law) {
+    Walker walker(43);
+    for (int trial = 0; trial < 50; ++trial) {
+      const auto s = wander(law, walker, sample().strain, trial % 5);
+      EXPECT_TRUE(law.accepts_history(s.sigma, s.h)) << trial;
+    }
+  });
 }
 
 // A state that `initialise` accepts is a state that update keeps.
@@ -412,7 +444,7 @@ TEST_P(Laws, UpdateAllocatesNothing) {
     const long before = allocations();
     for (int trial = 0; trial < 50; ++trial) {
       deps = walker.strain(sample().strain * std::pow(10.0, trial % 4 - 1), &deps);
-      law.update({sigma, Vec::Zero(), deps, h0}, out);
+      law.update(point_in<N>(law, sigma, deps, h0), out);
       law.stress_level(out.sigma, h1);
     }
     EXPECT_EQ(allocations(), before);

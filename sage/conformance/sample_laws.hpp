@@ -64,4 +64,23 @@ class SmoothLaw final : public Law<N> {
   Vector<N> b_, c_;
 };
 
+// Elastic with D = 1; writes the number of the point that its context names into its history, -1 without one.
+template <int N>
+class ContextLaw final : public Law<N> {
+ public:
+  std::span<const Quantity> history() const override { return kHistory; }
+  bool symmetric() const override { return true; }
+  bool wants_context() const override { return true; }
+  Outcome update(const PointIn<N>& in, PointOut<N>& out) const override {
+    out.sigma = in.sigma0 + in.deps;
+    out.D.setIdentity();
+    out.h1[0] = in.context != nullptr ? in.context->point : -1.0;
+    out.status = PointStatus::elastic;
+    return Outcome::ok;
+  }
+
+ private:
+  static constexpr std::array<Quantity, 1> kHistory{{{"point", Dimension::none, 0.0}}};
+};
+
 }  // namespace sage::conformance

@@ -41,14 +41,22 @@ struct Parameter {
   ParameterRole role = ParameterRole::none;
 };
 
+// "solid", "interface", "structure of 3 components": what a law of so many components is for.
+inline std::string law_words(int law_size) {
+  if (law_size == 4) return "solid";
+  if (law_size == 2) return "interface";
+  return "structure of " + std::to_string(law_size) + (law_size == 1 ? " component" : " components");
+}
+
 // Parameters arrive as the deck writes them: degrees, compression-positive stress.
 struct MaterialEntry {
   std::string name;
   std::string summary;
-  int law_size = 4;
+  int law_size = 4;  // components of stress, 1 .. kMostLawSize: of the law that `make` gives
   std::vector<Parameter> parameters;
-  // Throws ParameterError.
+  // Throws ParameterError.  The law has law_size components.
   std::function<LawPtr(std::span<const double> values, const UnitSystem& units)> make;
+  std::span<const Quantity> history{};  // of those laws, for people: decks count it from 1
 
   bool for_solids() const { return law_size == 4; }
   // Place of a parameter on the card, from 0; -1 = there is none.  Of several of a role the first.
@@ -76,6 +84,7 @@ struct Formulation {
 enum class ParentShape {
   triangle,  // (0, 0) (1, 0) (0, 1)
   square,    // (-1, -1) (1, -1) (1, 1) (-1, 1); of an interface the lower side is the bottom, the upper the top
+  line,      // (-1, 0) (1, 0)
 };
 
 // The element in another program's files.
@@ -104,11 +113,12 @@ struct ElementEntry {
   ForeignElement<std::string> calculix{};   // what follows CPE or CAX
   std::string calculix_reduced{};           // the same under reduced integration; empty: no other
   std::vector<Formulation> formulations{};  // the first is the default (deck code 0)
-  // Throws ParameterError for an unknown formulation code.
+  // Throws ParameterError for an unknown formulation code, or a geometry that it can't be in.
   std::function<std::unique_ptr<Element>(Geometry geometry, int formulation)> make{};
 
   bool solid() const { return kind == ElementKind::solid; }
   bool interface() const { return kind == ElementKind::interface; }
+  bool structure() const { return kind == ElementKind::structure; }
   bool triangle() const { return shape == ParentShape::triangle; }
   bool square() const { return shape == ParentShape::square; }
   bool only_corners() const { return nodes == corners; }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,7 +23,7 @@ struct ElementTraits {
   int nodes = 0;
   int dofs = 0;              // 2 a node, ordered u1 v1 u2 v2 ...
   int points = 0;            // integration points
-  int law_size = 4;          // 4 solid, 2 interface
+  int law_size = 4;          // 4 solid, 2 interface, 1, 3 or 5 structure
   bool reduced = false;      // reduced integration: fewer points than full rank needs (hourglass possible)
   bool locks = false;        // stiffens without bound as nu -> 1/2 (full integration of low order)
   bool loses_order = false;  // as nu -> 1/2 it still converges, but slower than its shape functions allow
@@ -38,6 +39,8 @@ struct ElementIn {
   const double* sigma0 = nullptr;  // points x law_size, committed stress
   const double* eps0 = nullptr;    // points x law_size, committed strain
   const double* h0 = nullptr;      // points x history size
+  // One a point where the law wants them, else nullptr: to be handed on as PointIn::context.
+  const PointContext* contexts = nullptr;
 };
 
 struct ElementOut {
@@ -65,16 +68,23 @@ class Element {
   // Position of an integration point.
   virtual Vector2 position(const NodeCoordinates& x, int point) const = 0;
 
-  // f += integral of N^T b dV; b = force per volume in x and y.
-  virtual void body_load(const NodeCoordinates& x, const Vector2& b, std::span<double> f) const = 0;
+  // f += integral of N^T b dV; b = force per volume in x and y (of a line: per length).  Nothing where an
+  // element has no weight.
+  virtual void body_load(const NodeCoordinates& /*x*/, const Vector2& /*b*/, std::span<double> /*f*/) const {}
 
-  // Local node numbers of each edge, counter-clockwise: corner, corner[, mid-side nodes in order].
-  virtual const std::vector<std::vector<int>>& edges() const = 0;
+  // Local node numbers of each edge, counter-clockwise: corner, corner[, mid-side nodes in order].  None: no
+  // edge load can be put on the element.
+  virtual const std::vector<std::vector<int>>& edges() const {
+    static const std::vector<std::vector<int>> none;
+    return none;
+  }
 
   // f += integral of N^T t dA over an edge.  normal > 0 pushes into the element (a pressure); shear > 0 acts
   // along the edge in its counter-clockwise direction.  Both vary linearly from first to second corner.
-  virtual void edge_load(const NodeCoordinates& x, int edge, const Vector2& normal, const Vector2& shear,
-                         std::span<double> f) const = 0;
+  virtual void edge_load(const NodeCoordinates& /*x*/, int /*edge*/, const Vector2& /*normal*/,
+                         const Vector2& /*shear*/, std::span<double> /*f*/) const {
+    throw std::logic_error("an element with edges takes loads on them");
+  }
 
   // Stress at the places where it is most accurate (p x p Gauss points of a quadrilateral of degree p), from
   // the stress at the points: samples x points, row-major.  Empty: the points are those places.
@@ -101,7 +111,7 @@ class Element {
   }
 
   // Smallest detJ over the mean detJ at the integration points and corners; 1 = parallelogram, <= 0 = unusable.
-  virtual double shape_quality(const NodeCoordinates& x) const = 0;
+  virtual double shape_quality(const NodeCoordinates& /*x*/) const { return 1.0; }
 
   // A warning for the user about a usable element, empty if there is none: e.g. a pair
   // of nodes without stiffness.

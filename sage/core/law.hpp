@@ -29,6 +29,14 @@ struct Quantity {
   QuantityRole role = QuantityRole::none;
 };
 
+// A history variable as decks and outputs write it, and back: the law's own sign, angles in degrees.
+inline double outward(const Quantity& quantity, double value) {
+  return quantity.dimension == Dimension::angle ? value / kRadiansPerDegree : value;
+}
+inline double inward(const Quantity& quantity, double value) {
+  return quantity.dimension == Dimension::angle ? value * kRadiansPerDegree : value;
+}
+
 // What a point is doing; counted per step and shown in every report.
 enum class PointStatus : std::uint8_t {
   elastic,    // inside its yield surface (or a law that has none)
@@ -42,14 +50,34 @@ enum class PointStatus : std::uint8_t {
 // cut_step: no answer for this increment, a smaller one may have one.  Everything else throws.
 enum class Outcome : std::uint8_t { ok, cut_step };
 
+// Where and when a law is asked, for laws that want to know (Law::wants_context).  A stage lasts as long as its
+// duration says (1 where the deck says nothing); within it time runs in proportion to the load factor.
+struct PointContext {
+  int element = 0;                  // the deck's number
+  int point = 0;                    // integration point of the element, from 0
+  Vector2 place = Vector2::Zero();  // of the point: (x, y), or (r, z)
+  int stage = 0;                    // from 1
+  int increment = 0;                // of the stage, from 1; 0 = its start
+  // At the end of the step that is tried: the durations of all stages before and this stage's part up to there.
+  double time = 0.0;
+  // Length of that step, from the committed state.  A step that is cut or divided is tried again with its own.
+  // 0 where the committed state itself is evaluated (start of a stage, after a cut): deps is zero then too, and
+  // the answer is sigma0 and h0.
+  double dt = 0.0;
+};
+
 // All that a law may see.  Tension positive, radians.  N = 4: [xx yy zz xy], engineering shear.
 // N = 2: [shear, normal] traction and relative displacement; normal > 0 opens.
+// Structures have section forces and what they do work on, first the axial force and strain: N = 1 [axial];
+// N = 3 [axial, shear, bending]; N = 5 [axial, hoop, shear, bending, hoop bending].
 template <int N>
 struct PointIn {
   Vector<N> sigma0;            // committed stress
   Vector<N> eps0;              // committed strain (relative displacement), without deps
   Vector<N> deps;              // increment since the committed state
   std::span<const double> h0;  // committed history
+  // nullptr where the law does not want one.
+  const PointContext* context = nullptr;
 };
 
 // All that a law must produce, every field, on every call.
@@ -75,9 +103,16 @@ class Law {
   // sigma = sigma0 + D deps with one constant D for ever: the scene may then skip Newton and reassembly.
   virtual bool linear() const { return false; }
 
+  // PointIn::context is there in every update and path_error.  Such a law is never taken for linear.
+  virtual bool wants_context() const { return false; }
+
   // Makes a history consistent with an initial stress (tension +).  h arrives with the initial values.
   // Returns false if the law cannot carry that stress (outside its yield surface): the caller reports it.
   virtual bool initialise(const Vector<N>& /*sigma*/, std::span<double> /*h*/) const { return true; }
+
+  // Whether the law can go on from a history that the deck states, at this initial stress.  `h` is what
+  // initialise() left, with the stated values in their places.
+  virtual bool accepts_history(const Vector<N>& /*sigma*/, std::span<const double> /*h*/) const { return true; }
 
   // Allocates nothing.  deps = 0 must give back sigma0 and h0 when the state is admissible.
   virtual Outcome update(const PointIn<N>& in, PointOut<N>& out) const = 0;
@@ -103,9 +138,37 @@ class Law {
 inline constexpr double kPathTolerance = 4e-3;
 inline constexpr double kSmallestPart = 1.0 / 64.0;  // of an increment, for this reason
 
+// Its stiffness never changes, whenever and wherever it is asked.
+template <int N>
+bool has_constant_stiffness(const Law<N>& law) {
+  return law.linear() && !law.wants_context();
+}
+
 using SolidLaw = Law<4>;
 using InterfaceLaw = Law<2>;
-using LawRef = std::variant<const SolidLaw*, const InterfaceLaw*>;
-using LawPtr = std::variant<std::unique_ptr<SolidLaw>, std::unique_ptr<InterfaceLaw>>;
+// Laws of 1 to kMostLawSize components; solids and interfaces first.
+using LawRef = std::variant<const SolidLaw*, const InterfaceLaw*, const Law<1>*, const Law<3>*, const Law<5>*>;
+using LawPtr = std::variant<std::unique_ptr<SolidLaw>, std::unique_ptr<InterfaceLaw>, std::unique_ptr<Law<1>>,
+                            std::unique_ptr<Law<3>>, std::unique_ptr<Law<5>>>;
+inline constexpr int kMostLawSize = 5;
+
+inline LawRef reference(const LawPtr& law) {
+  return std::visit(
+      []<class L>(const std::unique_ptr<L>& held) { return LawRef(static_cast<const L*>(held.get())); }, law);
+}
+// Components of stress and strain.
+inline int size_of_law(const LawRef& law) {
+  return std::visit([]<int N>(const Law<N>*) { return N; }, law);
+}
+inline std::span<const Quantity> history_of(const LawRef& law) {
+  return std::visit(
+      [](const auto* held) { return held == nullptr ? std::span<const Quantity>() : held->history(); }, law);
+}
+inline bool wants_context(const LawRef& law) {
+  return std::visit([](const auto* held) { return held->wants_context(); }, law);
+}
+inline bool has_constant_stiffness(const LawRef& law) {
+  return std::visit([](const auto* held) { return has_constant_stiffness(*held); }, law);
+}
 
 }  // namespace sage

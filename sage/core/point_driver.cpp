@@ -27,7 +27,12 @@ PointDriver<N>::PointDriver(const Law<N>& law, const Vector<N>& sigma)
 template <int N>
 Outcome PointDriver<N>::call(const Vector<N>& deps, PointOut<N>& out) {
   ++iterations_;
-  return law_.update({sigma_, eps_, deps, h_}, out);
+  return law_.update(input(deps), out);
+}
+
+template <int N>
+PointIn<N> PointDriver<N>::input(const Vector<N>& deps) const {
+  return {sigma_, eps_, deps, h_, law_.wants_context() ? &context_ : nullptr};
 }
 
 namespace {
@@ -72,8 +77,7 @@ bool PointDriver<N>::attempt(const std::array<Control, N>& control, const Vector
     scale = std::max(scale, out.sigma.cwiseAbs().maxCoeff());
     if (!r.allFinite()) return false;
     if (r.cwiseAbs().maxCoeff() <= kTolerance * scale) {
-      if (may_divide && law_.path_error({sigma_, eps_, deps, h_}, out.sigma, h_trial_) > kPathTolerance)
-        return false;
+      if (may_divide && law_.path_error(input(deps), out.sigma, h_trial_) > kPathTolerance) return false;
       sigma_ = out.sigma;
       eps_ += deps;
       h_.swap(h_trial_);
@@ -91,8 +95,10 @@ bool PointDriver<N>::attempt(const std::array<Control, N>& control, const Vector
 }
 
 template <int N>
-void PointDriver<N>::advance(const std::array<Control, N>& control, const Vector<N>& target) {
+void PointDriver<N>::advance(const std::array<Control, N>& control, const Vector<N>& target, double duration) {
   double done = 0.0, share = 1.0;  // of the step
+  const double start = context_.time;
+  ++context_.increment;
   const Vector<N> sigma_start = sigma_;
   const double smallest = std::ldexp(1.0, -kHalvings);
   while (done < 1.0) {
@@ -101,17 +107,23 @@ void PointDriver<N>::advance(const std::array<Control, N>& control, const Vector
       part[i] = control[static_cast<std::size_t>(i)] == Control::strain
                     ? share * target[i]
                     : sigma_start[i] + (done + share) * (target[i] - sigma_start[i]);
+    context_.dt = share * duration;
+    context_.time = start + (done + share) * duration;
     if (attempt(control, part, share > kSmallestPart)) {
       done += share;
     } else {
       share *= 0.5;
+      context_.time = start + done * duration;
       if (share < smallest) throw AnalysisError("point driver: the path can't be followed further");
     }
   }
 }
 
+template class PointDriver<1>;
 template class PointDriver<2>;
+template class PointDriver<3>;
 template class PointDriver<4>;
+template class PointDriver<5>;
 
 std::vector<TriaxialPoint> triaxial_test(const SolidLaw& law, double cell_pressure, double axial_strain,
                                          int steps) {

@@ -23,8 +23,8 @@ class PointDriver {
   // One step.  target[i] is the strain increment of a strain-controlled component, or the stress that a
   // stress-controlled one has at the end.  Newton on the law's tangent; a step that fails is halved, up to
   // 2^12 parts.  Throws AnalysisError when that fails too (the path can't be followed: collapse, lost contact);
-  // the state is then the last one that was reached.
-  void advance(const std::array<Control, N>& control, const Vector<N>& target);
+  // the state is then the last one that was reached.  duration: time of the step, for laws that want it.
+  void advance(const std::array<Control, N>& control, const Vector<N>& target, double duration = 1.0);
 
   const Vector<N>& sigma() const { return sigma_; }
   const Vector<N>& eps() const { return eps_; }
@@ -39,16 +39,22 @@ class PointDriver {
  private:
   bool attempt(const std::array<Control, N>& control, const Vector<N>& target, bool may_divide);
   Outcome call(const Vector<N>& deps, PointOut<N>& out);
+  PointIn<N> input(const Vector<N>& deps) const;
 
   const Law<N>& law_;
   Vector<N> sigma_, eps_;
   std::vector<double> h_, h_trial_;
   PointStatus status_ = PointStatus::elastic;
   int iterations_ = 0, steps_ = 0;
+  // Stage 1, an increment for each advance(), at the origin; handed on where the law wants it.
+  PointContext context_{.stage = 1};
 };
 
+extern template class PointDriver<1>;
 extern template class PointDriver<2>;
+extern template class PointDriver<3>;
 extern template class PointDriver<4>;
+extern template class PointDriver<5>;
 
 // Compression positive, as the laboratory plots it.
 struct TriaxialPoint {

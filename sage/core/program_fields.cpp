@@ -65,17 +65,18 @@ double deviator(const Vector4& s) {
 }
 
 double stress_level(const PointView& point) {
-  if (const auto* solid = std::get_if<const SolidLaw*>(&point.law))
-    return (*solid)->stress_level(Vector4::Map(point.sigma.data()), point.history);
-  return std::get<const InterfaceLaw*>(point.law)->stress_level(Vector2::Map(point.sigma.data()),
-                                                                point.history);
+  return std::visit(
+      [&]<int N>(const Law<N>* law) {
+        return law->stress_level(Vector<N>::Map(point.sigma.data()), point.history);
+      },
+      point.law);
 }
 
 // From the history where the law keeps it there; an elastic law of one stiffness has none.
 void plastic_strain(const PointView& point, double* value) {
   const auto [quantities, linear] = std::visit(
       [](const auto* law) {
-        return std::pair{law->history(), law->linear()};
+        return std::pair{law->history(), has_constant_stiffness(*law)};
       },
       point.law);
   value[0] = value[1] = linear ? 0.0 : kNone;
@@ -229,6 +230,21 @@ void add_interface_fields(std::vector<FieldEntry>& rows) {
        .arrays = {"interface_relative_shear", "interface_relative_normal"}});
 }
 
+// The first component of every structure's law.
+void add_structure_fields(std::vector<FieldEntry>& rows) {
+  rows.push_back({.name = "axial_force",
+                  .meaning = "axial force of structures",
+                  .dimension = Dimension::force,
+                  .value = PointField{[](const PointView& p, double* v) { *v = 0.0 - p.sigma[0]; }},
+                  .sign = FieldSign::compression_positive,
+                  .kind = ElementKind::structure});
+  rows.push_back({.name = "axial_strain",
+                  .meaning = "axial strain of structures",
+                  .value = PointField{[](const PointView& p, double* v) { *v = 0.0 - p.eps[0]; }},
+                  .sign = FieldSign::compression_positive,
+                  .kind = ElementKind::structure});
+}
+
 void add_state_fields(std::vector<FieldEntry>& rows) {
   rows.push_back({.name = "stress_level",
                   .meaning = "stress level (1 = at strength)",
@@ -319,6 +335,7 @@ const std::vector<FieldEntry>& program_fields() {
     add_stress_fields(all);
     add_strain_fields(all);
     add_interface_fields(all);
+    add_structure_fields(all);
     add_state_fields(all);
     add_element_fields(all);
     add_increment_fields(all);

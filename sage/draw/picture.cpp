@@ -273,6 +273,20 @@ void draw_interfaces(std::string& out, const Scenery& scenery) {
                    "<path fill=\"none\" stroke=\"#b2182b\" stroke-width=\"1.8\" d=\"{}\"/>\n", path);
 }
 
+// From end to end.
+void draw_structures(std::string& out, const Scenery& scenery) {
+  std::string path;
+  for (std::size_t g = 0; g < scenery.model.groups.size(); ++g) {
+    if (!scenery.draws(g, ElementKind::structure)) continue;
+    const Group& group = scenery.model.groups[g];
+    for (int e = 0; e < group.elements(); ++e)
+      append_line(path, scenery.nodes_of(group, e, scenery.view.deformation).leftCols(group.entry->corners));
+  }
+  if (!path.empty())
+    fmt::format_to(std::back_inserter(out),
+                   "<path fill=\"none\" stroke=\"#1f4e9c\" stroke-width=\"2.4\" d=\"{}\"/>\n", path);
+}
+
 void draw_axes(std::string& out, const Scenery& scenery) {
   const View& view = scenery.view;
   const AxisNames names = axis_names(scenery.model.geometry);
@@ -361,6 +375,7 @@ std::string field_svg(const Model& model, const Solution& solution, std::string_
   if (options.mesh && all.size() <= kMostElements) draw_mesh(out, all);
   if (view.deformation > 0.0) draw_outline(out, scenery);
   draw_interfaces(out, scenery);
+  draw_structures(out, scenery);
   draw_axes(out, scenery);
   draw_legend(out, limits, legend, view.height);
   out += svg::kClose;

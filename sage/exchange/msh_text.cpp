@@ -27,7 +27,13 @@ struct Block {
 std::vector<Block> surfaces(const Model& model, Diagnostics& diagnostics, int& left_out, int& largest) {
   std::vector<Block> blocks;
   for (const Group& group : model.groups) {
-    if (!group.solid()) left_out += group.elements();
+    if (group.interface()) left_out += group.elements();
+    if (group.structure() && group.elements() > 0)
+      diagnostics.add({Severity::warning,
+                       group.where,
+                       std::to_string(group.elements()) + " " + group.element_name +
+                           " element(s) left out: mesh files are written with solids alone",
+                       {}});
     if (!group.solid() || group.elements() == 0) continue;
     if (group.entry->gmsh.type == 0) warn_of_corners(group, "MSH", diagnostics);
     const std::vector<int> order = foreign_nodes(*group.entry, group.entry->gmsh);

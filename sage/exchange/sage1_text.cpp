@@ -189,7 +189,12 @@ void Writer::fixity(const Fixity& fixity, bool in_stage) {
 void Writer::initial(const InitialStress& initial) {
   integer(group_number(initial.group));
   integer(static_cast<int>(initial.kind));
-  for (double value : initial.value) real(value);
+  for (double value : initial.value) {
+    if (std::isnan(value))
+      text_ += "          ";  // left as it is
+    else
+      real(value);
+  }
   line();
 }
 
@@ -201,6 +206,9 @@ void Writer::list(const std::vector<int>& groups) {
 }
 
 void Writer::stage(const Stage& stage) {
+  if (stage.duration != 1.0)
+    warning("stage " + std::to_string(stage.number) +
+            ": its duration is left out, a sage1 deck has no place for it");
   // A '*' in column 1 would make the title a comment.
   name(stage.title.starts_with('*') ? " " + stage.title : stage.title, 80);
   line();

@@ -56,6 +56,7 @@ bool add_layer(Work& b, const std::vector<int>& centre, double ratio) {
     const int before = b.model.groups[g].elements();
     const int corners = b.model.groups[g].entry->corners;
     const bool interface = b.model.groups[g].interface();
+    if (b.model.groups[g].structure()) continue;  // its end nodes stay
     for (int e = 0; e < before; ++e) {
       const int* nodes = b.model.groups[g].nodes_of(e);
       for (int k = 0; k < (interface ? 2 : corners); ++k) {

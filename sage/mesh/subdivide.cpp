@@ -55,7 +55,8 @@ void check_nodes(Work& b, const Group& group, int corners) {
       }
 }
 
-// Sizes after every element was split into four and every interface into two, so many times.
+// Sizes after every element was split into four and every interface into two, so many times; structures stay
+// whole.
 struct Refined {
   double elements = 0.0, nodes = 0.0;
 };
@@ -63,6 +64,10 @@ struct Refined {
 Refined refined(const Model& model, int times) {
   Refined size;
   for (const Group& group : model.groups) {
+    if (group.structure()) {
+      size.elements += group.elements();
+      continue;
+    }
     const double elements = group.elements() * std::pow(is_interface(group) ? 2.0 : 4.0, times);
     size.elements += elements;
     if (is_interface(group)) continue;
@@ -281,6 +286,7 @@ void refine(Work& b, int times) {
     Subdivision subdivision(b);
     for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
       const Group& group = b.model.groups[g];
+      if (group.structure()) continue;
       const auto& children = is_interface(group) ? interface : group.entry->triangle() ? triangle : quad;
       const int before = group.elements();
       for (int e = 0; e < before; ++e) subdivision.split(static_cast<int>(g), e, children);

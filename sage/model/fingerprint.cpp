@@ -20,8 +20,8 @@ void add_initials(Archive& archive, const std::vector<InitialStress>& initials) 
 }
 
 void add_stage(Archive& archive, const Stage& s) {
-  add(archive, s.title, s.increments, s.method, s.max_iterations, s.output_every, s.tolerance, s.gravity.x(),
-      s.gravity.y());
+  add(archive, s.title, s.increments, s.duration, s.method, s.max_iterations, s.output_every, s.tolerance,
+      s.gravity.x(), s.gravity.y());
   add_fixities(archive, s.fixities);
   for (const NodalLoad& load : s.loads) add(archive, load.node, load.force.x(), load.force.y());
   for (const EdgeLoad& load : s.pressures)

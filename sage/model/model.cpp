@@ -8,8 +8,7 @@
 namespace sage {
 
 LawRef Material::law_ref() const {
-  if (const auto* solid = std::get_if<std::unique_ptr<SolidLaw>>(&law)) return solid->get();
-  return std::get<std::unique_ptr<InterfaceLaw>>(law).get();
+  return reference(law);
 }
 
 void set_element(Group& group, const Catalogue& catalogue, int code, int formulation, Geometry geometry) {

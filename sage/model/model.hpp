@@ -58,6 +58,7 @@ struct Group {
   std::size_t node_count() const { return static_cast<std::size_t>(element->traits().nodes); }
   bool solid() const { return entry->solid(); }
   bool interface() const { return entry->interface(); }
+  bool structure() const { return entry->structure(); }
 };
 
 // Makes a group one of these elements.  formulation: 0 = the first.  Throws ParameterError for one that the
@@ -90,10 +91,11 @@ struct EdgeLoad {
 };
 
 enum class InitialKind {
-  uniform,    // given stress (solids: xx yy zz xy; interfaces: shear, normal)
+  uniform,    // given stress (solids: xx yy zz xy; interfaces: shear, normal; structures: the law's components)
   geostatic,  // vertical stress from a surface level and unit weight, horizontal by K0
   zero,       // explicitly none
   traction,   // interfaces: the traction that the neighbouring group's initial stress puts on the interface
+  history,    // history of the law: number of the first quantity (from 1), then values; NaN = left as it is
 };
 
 struct InitialStress {
@@ -109,6 +111,7 @@ struct Stage {
   int number = 0;
   std::string title;
   int increments = 1;
+  double duration = 1.0;  // for laws that depend on time; the load factor grows in proportion to time
   Method method = Method::newton;
   int max_iterations = 25;
   int output_every = 1;

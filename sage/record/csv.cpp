@@ -155,7 +155,20 @@ Csv::Csv(const std::filesystem::path& folder, const std::string& stem, CsvOption
   if (options.points) points_.file = OutFile(folder / (stem + ".points.csv"));
 }
 
-// The usual columns, the history of the laws, then what was asked for.
+Csv::Table& Csv::of(ElementKind kind) {
+  switch (kind) {
+    case ElementKind::interface:
+      return interfaces_;
+    case ElementKind::structure:
+      return structures_;
+    case ElementKind::solid:
+      break;
+  }
+  return points_;
+}
+
+// The usual columns, the history of the laws, then what was asked for.  Structures show every field of theirs:
+// of the program's own first.
 void Csv::choose_fields(const Model& model) {
   const auto program = FieldTable().rows();
   for (const FieldEntry& row : program)
@@ -163,11 +176,15 @@ void Csv::choose_fields(const Model& model) {
   nodes_.fields = fields_named({}, {"displacement", "external_force", "reaction"});
   points_.fields = fields_named({}, {"stress", "strain", "stress_level", "status"});
   interfaces_.fields = fields_named({}, {"traction", "relative_displacement", "stress_level", "status"});
-  history_[0] = history_fields(model, ElementKind::solid);
-  history_[1] = history_fields(model, ElementKind::interface);
-  for (const FieldEntry& row : history_[0]) points_.fields.push_back(&row);
-  for (const FieldEntry& row : history_[1]) interfaces_.fields.push_back(&row);
   fields_ = fields_of(model);
+  for (const FieldEntry& row : fields_.rows())
+    if (row.kind == ElementKind::structure) structures_.fields.push_back(&row);
+  for (const char* name : {"stress_level", "status"}) structures_.fields.push_back(fields_.find(name));
+  for (const ElementKind kind : kElementKinds) {
+    std::vector<FieldEntry>& history = history_[static_cast<std::size_t>(kind)];
+    history = history_fields(model, kind);
+    for (const FieldEntry& row : history) of(kind).fields.push_back(&row);
+  }
   const auto add = [](Table& table, const FieldEntry* row) {
     if (std::ranges::none_of(table.fields, [&](const FieldEntry* one) { return one->name == row->name; }))
       table.fields.push_back(row);
@@ -177,8 +194,8 @@ void Csv::choose_fields(const Model& model) {
     if (row == nullptr) continue;
     if (row->place() == FieldPlace::node) add(nodes_, row);
     if (row->place() == FieldPlace::increment) add(increments_, row);
-    if (applies(*row, ElementKind::solid)) add(points_, row);
-    if (applies(*row, ElementKind::interface)) add(interfaces_, row);
+    for (const ElementKind kind : kElementKinds)
+      if (applies(*row, kind)) add(of(kind), row);
   }
 }
 
@@ -191,9 +208,14 @@ void Csv::on_start(const Model& model, const Scene&, std::string_view, int) {
   open(increments_, head(model) + "stage,increment", model);
   open(nodes_, places_header(model, "node"), model);
   open(points_, places_header(model, kPointColumns), model);
-  if (wants_points_ && std::ranges::any_of(model.groups, [](const Group& g) { return g.interface(); }))
-    interfaces_.file = OutFile(folder_ / (stem_ + ".interfaces.csv"));
-  open(interfaces_, places_header(model, kPointColumns), model);
+  const std::pair<ElementKind, const char*> kOthers[] = {{ElementKind::interface, ".interfaces.csv"},
+                                                         {ElementKind::structure, ".structures.csv"}};
+  for (const auto& [kind, name] : kOthers) {
+    const auto has = [kind = kind](const Group& group) { return group.entry->kind == kind; };
+    if (wants_points_ && std::ranges::any_of(model.groups, has))
+      of(kind).file = OutFile(folder_ / (stem_ + name));
+    open(of(kind), places_header(model, kPointColumns), model);
+  }
 }
 
 void Csv::add_increment(const Model& model, const StepReport& report) {
@@ -214,11 +236,11 @@ void Csv::add_states(const Model& model, const StepReport& report, const Solutio
   add_whole(nodes_.file, [&](std::string& text) {
     node_rows({text, digits_}, model, report, solution, nodes_.fields);
   });
-  for (Table* table : {&points_, &interfaces_})
-    add_whole(table->file, [&](std::string& text) {
+  for (const ElementKind kind : kElementKinds)
+    add_whole(of(kind).file, [&](std::string& text) {
       for (const GroupData& data : solution.groups())
-        if (data.active && data.group->solid() == (table == &points_))
-          point_rows({text, digits_}, model, report, data, table->fields);
+        if (data.active && data.group->entry->kind == kind)
+          point_rows({text, digits_}, model, report, data, of(kind).fields);
     });
   for (Table* table : all()) table->file.checkpoint();
 }

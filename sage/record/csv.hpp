@@ -12,7 +12,8 @@ namespace sage {
 struct CsvOptions {
   bool increments = true;  // STEM.increments.csv: a row an increment
   bool nodes = false;      // STEM.nodes.csv: a row a node of an output increment
-  bool points = false;     // STEM.points.csv and, where there are interfaces, STEM.interfaces.csv
+  // STEM.points.csv and, where there are interfaces or structures, STEM.interfaces.csv and STEM.structures.csv.
+  bool points = false;
   int digits = kCsvDigits;
   std::vector<std::string> fields = {};  // more of the table's fields, behind the usual columns
 };
@@ -38,7 +39,8 @@ class Csv final : public Output {
     OutFile file;
     FieldList fields;  // columns, in this order
   };
-  std::array<Table*, 4> all() { return {&increments_, &nodes_, &points_, &interfaces_}; }
+  std::array<Table*, 5> all() { return {&increments_, &nodes_, &points_, &interfaces_, &structures_}; }
+  Table& of(ElementKind kind);
   void open(Table& table, std::string header, const Model& model);
   void choose_fields(const Model& model);
   void add_increment(const Model&, const StepReport&);
@@ -51,9 +53,9 @@ class Csv final : public Output {
   int digits_;
   std::vector<std::string> asked_;  // fields
   bool wants_points_;
-  FieldTable fields_;                   // of the model
-  std::vector<FieldEntry> history_[2];  // of solids, of interfaces
-  Table increments_, nodes_, points_, interfaces_;
+  FieldTable fields_;                                                  // of the model
+  std::array<std::vector<FieldEntry>, kElementKinds.size()> history_;  // of the laws of each kind
+  Table increments_, nodes_, points_, interfaces_, structures_;
   std::vector<std::filesystem::path> files_;
 };
 

@@ -16,11 +16,6 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-std::span<const Quantity> history_of(const LawRef& law) {
-  return std::visit(
-      [](const auto* one) { return one == nullptr ? std::span<const Quantity>() : one->history(); }, law);
-}
-
 // Place of a quantity in a law's history; -1 = it has none of the name.
 int find_quantity(const LawRef& law, std::string_view name) {
   const std::span<const Quantity> quantities = history_of(law);
@@ -84,7 +79,9 @@ FieldList fields_named(const FieldTable& table, std::initializer_list<std::strin
 
 // 0 - x: no -0 comes out.
 PointState::PointState(const Mesh& mesh, const GroupData& data, std::size_t point)
-    : view{data.law, {}, {}, {}, shown_status(mesh, data, point)}, solid(data.group->solid()) {
+    : view{data.law, {}, {}, {}, shown_status(mesh, data, point)},
+      kind(data.group->entry->kind),
+      solid(kind == ElementKind::solid) {
   const PointStates& state = data.state.committed;
   const auto n = static_cast<std::size_t>(data.state.law_size());
   const auto history = static_cast<std::size_t>(data.state.history_size());
@@ -110,8 +107,7 @@ void read_field(const FieldEntry& entry, const PointState& point, double* value)
   if (const auto* stress = std::get_if<StressField>(&entry.value)) {
     if (point.solid) return stress->of(point.stress, value);
   } else if (const auto* any = std::get_if<PointField>(&entry.value)) {
-    const ElementKind kind = point.solid ? ElementKind::solid : ElementKind::interface;
-    if (entry.kind.value_or(kind) == kind && (!entry.has_law || entry.has_law(point.view.law)))
+    if (entry.kind.value_or(point.kind) == point.kind && (!entry.has_law || entry.has_law(point.view.law)))
       return any->of(point.view, value);
   } else if (const auto* strain = std::get_if<StrainField>(&entry.value)) {
     if (point.solid) return strain->of(point.strain, value);

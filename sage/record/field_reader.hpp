@@ -20,6 +20,7 @@ FieldList fields_named(const FieldTable& table, std::initializer_list<std::strin
 // An integration point as its fields see it.
 struct PointState {
   PointView view;
+  ElementKind kind = ElementKind::solid;
   bool solid = false;
   Vector4 stress = Vector4::Zero(), strain = Vector4::Zero();  // of solids, compression positive
 

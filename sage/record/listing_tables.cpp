@@ -56,15 +56,25 @@ struct GroupColumns {
 GroupColumns columns_of(const GroupData& data, const FieldTable& table, const std::vector<FieldEntry>& history,
                         const std::vector<std::string>& asked) {
   GroupColumns columns;
-  columns.components = data.group->solid() ? fields_named(table, {"stress"})
-                                           : fields_named(table, {"traction", "relative_displacement"});
+  switch (data.group->entry->kind) {
+    case ElementKind::solid:
+      columns.components = fields_named(table, {"stress"});
+      break;
+    case ElementKind::interface:
+      columns.components = fields_named(table, {"traction", "relative_displacement"});
+      break;
+    case ElementKind::structure:
+      for (const FieldEntry& row : table.rows())
+        if (row.kind == ElementKind::structure && applies(row, data)) columns.wide.push_back(&row);
+      break;
+  }
   columns.level = table.find("stress_level");
   columns.status = table.find("status");
   for (const FieldEntry& row : history) columns.wide.push_back(&row);
   for (const std::string& name : asked) {
     const FieldEntry* row = table.find(name);
-    const bool there =
-        row == nullptr || std::ranges::any_of(history, [&](const FieldEntry& h) { return h.name == name; });
+    const bool there = row == nullptr ||
+                       std::ranges::any_of(columns.wide, [&](const FieldEntry* w) { return w->name == name; });
     if (!there && applies(*row, data)) columns.wide.push_back(row);
   }
   for (const FieldList* list : {&columns.components, &columns.wide})
@@ -81,14 +91,25 @@ void wide_columns(std::string& text, const FieldList& fields, const UnitSystem& 
 }
 
 void point_columns(std::string& text, const Model& model, const GroupData& data, const GroupColumns& columns) {
-  if (data.group->solid())
-    fmt::format_to(std::back_inserter(text), "\n   Stresses of group {} {} ({}, compression positive)\n",
-                   data.group->number, data.group->name, model.units.stress);
-  else
-    fmt::format_to(std::back_inserter(text),
-                   "\n   Interface of group {} {} (stress {}, relative displacement {}; compression and "
-                   "closing positive)\n",
-                   data.group->number, data.group->name, model.units.stress, model.units.length);
+  const auto to = std::back_inserter(text);
+  const int number = data.group->number;
+  const std::string& name = data.group->name;
+  switch (data.group->entry->kind) {
+    case ElementKind::solid:
+      fmt::format_to(to, "\n   Stresses of group {} {} ({}, compression positive)\n", number, name,
+                     model.units.stress);
+      break;
+    case ElementKind::interface:
+      fmt::format_to(to,
+                     "\n   Interface of group {} {} (stress {}, relative displacement {}; compression and "
+                     "closing positive)\n",
+                     number, name, model.units.stress, model.units.length);
+      break;
+    case ElementKind::structure:
+      fmt::format_to(to, "\n   Structure of group {} {} (force {}, compression positive)\n", number, name,
+                     model.units.force);
+      break;
+  }
   column(text, "element", 9);
   column(text, "pt", 4);
   column(text, axis_names(model.geometry).x);

@@ -155,7 +155,7 @@ CorrectTest::CorrectTest(const SolidLaw& law, Geometry geometry, double cell_pre
   }
 }
 
-double CorrectTest::deviator_at(double axial_strain) {
+double CorrectTest::deviator_at(double axial_strain, double duration) {
   if (!driver_) return kUnknown;
   const bool ring = geometry_ == Geometry::axisymmetric;
   const std::array<Control, 4> control{Control::stress, Control::strain,
@@ -163,7 +163,7 @@ double CorrectTest::deviator_at(double axial_strain) {
   const double lateral = -cell_pressure_, part = -(axial_strain - axial_strain_) / kSubsteps;
   const Vector4 step(lateral, part, ring ? lateral : 0.0, 0.0);
   try {
-    for (int i = 0; i < kSubsteps; ++i) driver_->advance(control, step);
+    for (int i = 0; i < kSubsteps; ++i) driver_->advance(control, step, duration / kSubsteps);
   } catch (const AnalysisError&) {
     driver_.reset();
     return kUnknown;
@@ -291,7 +291,9 @@ void Reports::add_triaxial(Series& series, const Report& report, const StepRepor
   r.axial_strain = -(sums.displacement[1] - series.start_displacement[1]) / report.height;
   r.force = -sums.force[1];
   r.measured_deviator = (r.force - series.start_force) / series.area;
-  r.correct_deviator = series.correct ? series.correct->deviator_at(r.axial_strain) : kUnknown;
+  const double before = static_cast<double>(step.increment - 1) / step.increments;
+  r.duration = (step.load_factor - before) * model_->stages[static_cast<std::size_t>(step.stage)].duration;
+  r.correct_deviator = series.correct ? series.correct->deviator_at(r.axial_strain, r.duration) : kUnknown;
   r.measured_axial = report.cell_pressure + r.measured_deviator;
   r.correct_axial = report.cell_pressure + r.correct_deviator;
   r.ratio = r.correct_deviator != 0.0 ? r.measured_deviator / r.correct_deviator : kUnknown;
@@ -449,7 +451,8 @@ void Reports::exchange(Archive& archive) {
     if (!archive.reading() || !series.begun) continue;
     begin(series, *model_, model_->reports[i]);
     if (series.correct)
-      for (const TriaxialRow& row : series.triaxial) series.correct->deviator_at(row.axial_strain);
+      for (const TriaxialRow& row : series.triaxial)
+        series.correct->deviator_at(row.axial_strain, row.duration);
   }
 }
 

@@ -28,6 +28,7 @@ struct TriaxialRow {
   double measured_axial = 0.0, correct_axial = 0.0;
   double ratio = 0.0;
   double held = 0.0;
+  double duration = 1.0;  // of the increment, for laws that depend on time
 };
 
 // One increment of a node report.  Mean displacement of the nodes since the start of the report's stage, and
@@ -68,8 +69,9 @@ class CorrectTest {
  public:
   // Starts from the isotropic cell pressure (compression +).
   CorrectTest(const SolidLaw& law, Geometry geometry, double cell_pressure);
-  // Deviator (compression +) at an axial strain (compression +) since the start; NaN once the law can't follow.
-  double deviator_at(double axial_strain);
+  // Deviator (compression +) at an axial strain (compression +) since the start, that much time after the call
+  // before; NaN once the law can't follow.
+  double deviator_at(double axial_strain, double duration = 1.0);
 
  private:
   Geometry geometry_;
@@ -134,7 +136,7 @@ class Reports final : public Output {
                             double load_factor);
   void enter_points(const Model&, const Solution&);
   static void count_from_here(Series&, const Model&, const Solution&);
-  static void add_triaxial(Series&, const Report&, const StepReport&, const NodeSums&);
+  void add_triaxial(Series&, const Report&, const StepReport&, const NodeSums&);
   static void add_nodes(Series&, const StepReport&, const NodeSums&);
   static void add_point(Series&, const Model&, const StepReport&, const Solution&);
   void append_row(std::size_t index);

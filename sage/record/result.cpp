@@ -13,7 +13,7 @@ GroupData states_of(const GroupData& data) {
   copy.group = data.group;
   copy.law = data.law;
   copy.active = data.active;
-  const auto history = std::visit([](const auto* law) { return law->history(); }, data.law);
+  const auto history = history_of(data.law);
   copy.state = StateStore(0, data.state.law_size(), history, false);
   copy.state.committed = data.state.committed;
   return copy;
@@ -39,7 +39,7 @@ Frame::Frame(const Model& model) : activity_(model) {
     GroupData data;
     data.group = &group;
     data.law = model.material_of(group).law_ref();
-    const auto history = std::visit([](const auto* law) { return law->history(); }, data.law);
+    const auto history = history_of(data.law);
     data.state = StateStore(0, group.element->traits().law_size, history, false);
     groups_.push_back(std::move(data));
   }

@@ -27,10 +27,6 @@ std::string_view method_name(Method method) {
   return "?";
 }
 
-double outward(const Quantity& quantity, double value) {
-  return quantity.dimension == Dimension::angle ? value / kRadiansPerDegree : value;
-}
-
 std::string left_out_words(const Model& model) {
   std::string text;
   for (const std::string& what : model.left_out) text += (text.empty() ? "left out " : "; ") + what;

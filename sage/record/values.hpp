@@ -27,9 +27,6 @@ inline AxisNames axis_names(Geometry geometry) {
   return geometry == Geometry::axisymmetric ? AxisNames{"r", "z"} : AxisNames{"x", "y"};
 }
 
-// A history variable as people read it: the law's own sign, angles in degrees.
-double outward(const Quantity& quantity, double value);
-
 // What the supports do to the mesh at a held dof, along +x or +y: internal force minus applied load.
 inline double reaction(const Solution& solution, int dof) {
   return (*solution.internal)[dof] - (*solution.external)[dof];

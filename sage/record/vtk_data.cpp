@@ -12,7 +12,15 @@ namespace {
 // VTK's type of a group's cells: of their corners where it has none for the element.
 int cell_type(const ElementEntry& entry) {
   if (entry.vtk.type != 0) return entry.vtk.type;
-  return entry.triangle() ? 5 : 9;
+  switch (entry.shape) {
+    case ParentShape::line:
+      return 3;
+    case ParentShape::triangle:
+      return 5;
+    case ParentShape::square:
+      break;
+  }
+  return 9;
 }
 
 // Rows of `stride` numbers, of which a field's begin at `at`.

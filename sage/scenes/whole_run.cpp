@@ -99,6 +99,7 @@ WholeRun Workbench::run(Model model, const RunSettings& settings) const {
   Keeper keeper(run);
   Observer* observers[] = {&keeper};
   run.result = sage::run(*run.model, catalogue_, with_choice, observers);
+  if (run.result.status == RunStatus::failed) run.failure = run.result.reason;
   return run;
 }
 

@@ -34,7 +34,11 @@ struct WholeRun {
 
   bool warns(const std::string& words) const;  // some warning contains them
   bool completed() const { return result.status == RunStatus::completed; }
-  const Snapshot& last() const { return increments.back(); }
+  // Throws AnalysisError where there is none.
+  const Snapshot& last() const {
+    if (increments.empty()) throw AnalysisError("no increment was computed: " + failure);
+    return increments.back();
+  }
   int index(int number) const;  // of a deck node
   Vector2 u(int number) const;  // at the end
   Vector2 position(int number) const;

@@ -56,12 +56,13 @@ Ran Sweep::run(const std::string& deck, const BuildOptions& options, const RunSe
   Ran ran;
   try {
     ran.run = bench_->run(deck, options, settings);
+    if (ran.run->result.status != RunStatus::failed) return ran;
+    ran.refusal = ran.run->failure;
+    ran.run.reset();
   } catch (const InputError& error) {
     for (const Severity severity : {Severity::error, Severity::warning})
       for (const Diagnostic& d : error.diagnostics().list())
         if (d.severity == severity) ran.refusal += to_string(d) + "\n";
-  } catch (const AnalysisError& error) {
-    ran.refusal = error.what();
   }
   return ran;
 }

@@ -44,7 +44,7 @@ class Sweep {
  public:
   explicit Sweep(const scenes::Workbench& bench) : bench_(&bench) {}
 
-  // InputError and AnalysisError become a refusal; whatever else is thrown ends the row as a failure.
+  // InputError and a run that failed become a refusal; whatever else is thrown ends the row as a failure.
   Ran run(const std::string& deck, const BuildOptions& options = {}, const RunSettings& settings = {}) const;
   const Catalogue& catalogue() const { return bench_->catalogue(); }
 

@@ -1,6 +1,7 @@
 // The suite of elements over every element of the catalogue, and what is of this catalogue alone.
 #include "tests/support/elements.hpp"
 #include "sage/conformance/element_suite.hpp"
+#include "tests/install/consumer/bar.hpp"
 
 namespace sage::conformance {
 namespace {
@@ -8,6 +9,18 @@ namespace {
 using test::element_catalogue;
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, Elements, ::testing::Values(ElementSubject{"all", &element_catalogue()}),
+                         name_of_elements);
+
+// A structure, which the catalogue has none of.
+const Catalogue& bar_alone() {
+  static const Catalogue catalogue = [] {
+    Catalogue c;
+    c.elements.add(50, own::bar2());
+    return c;
+  }();
+  return catalogue;
+}
+INSTANTIATE_TEST_SUITE_P(Own, Elements, ::testing::Values(ElementSubject{"bar2", &bar_alone()}),
                          name_of_elements);
 
 TEST(Catalogue, CodesNamesAndDefaults) {

@@ -6,6 +6,8 @@
 
 #include "sage/conformance/law_suite.hpp"
 #include "tests/conformance/law_samples.hpp"
+#include "tests/install/consumer/bar.hpp"
+#include "tests/install/consumer/creep.hpp"
 #include "tests/support/laws.hpp"
 
 namespace sage::conformance {
@@ -13,6 +15,22 @@ namespace {
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, Laws, ::testing::ValuesIn(law_subjects(test::catalogue(), test::samples())),
                          name_of_law);
+
+// What the catalogue has none of: a law of one component, and one that depends on time.
+const Catalogue& own_laws() {
+  static const Catalogue catalogue = [] {
+    Catalogue c;
+    c.materials.add(80, own::rod());
+    c.materials.add(91, own::maxwell());
+    return c;
+  }();
+  return catalogue;
+}
+INSTANTIATE_TEST_SUITE_P(
+    Own, Laws,
+    ::testing::ValuesIn(law_subjects(own_laws(), {{.what = "rod", .code = 80, .values = {2e5, 0.01}},
+                                                  {.what = "maxwell", .code = 91, .values = {1e4, 0.3, 2.0}}})),
+    name_of_law);
 
 // Elastic, with one fault planted.
 enum class Fault { none, refuses, stiff_in_shear };

@@ -89,7 +89,35 @@ step("run a deck with the own element" ${SCRATCH}/consumer/own_program run ${SCR
 expect("${output}" "tri10")
 expect("${output}" "-0\\.082 ")
 
-# All three pass the suites that come with the package.
+# A structure of one's own and its law of one component: two bars of EA = 200 and length 5 in a V, pulled by 16; each carries 10 and
+# the node sinks by 10 * 5 / (200 * 4/5) = 0.3125.
+step("list the materials with the bar's" ${SCRATCH}/consumer/own_program list materials)
+expect("${output}" "80  rod \\(structure of 1 component\\)")
+file(WRITE ${SCRATCH}/truss.dat "two bars
+m       kN      kPa
+    1    0    3    0    1    1    2    2    0    1    0
+    1                 -3.        4.
+    2                  3.        4.
+    3                  0.        0.
+    1   80    2          
+     1000.        .2
+    1   50    0    1
+    1    1    1    3
+    2    1    3    2
+    1    0    0    1    1
+    2    0    0    1    1
+pull
+    1    0    0    0    0    1
+    3              0.      -16.
+END
+")
+step("run a truss of own bars" ${SCRATCH}/consumer/own_program run ${SCRATCH}/truss.dat -o ${SCRATCH}/own --points --nodes)
+file(READ ${SCRATCH}/own/truss.structures.csv bars)
+expect("${bars}" ",-10(\\.0+)?,-0\\.05(0*),")
+file(READ ${SCRATCH}/own/truss.nodes.csv nodes)
+expect("${nodes}" ",-0\\.3125")
+
+# All of them pass the suites that come with the package.
 if(suites)
   step("suites over the own pieces" ${SCRATCH}/consumer/own_pieces_test)
 endif()

@@ -1,5 +1,7 @@
 // `sagefe` with pieces of one's own: a law, soil that is stiffer along its layers than across them, an element,
-// the ten-node triangle, a solver and a field.  This is the example of docs/manual/own_program.md.
+// the ten-node triangle, a bar with its law, a law that depends on time, a solver and a field.  This is the example of docs/manual/own_program.md.
+#include "bar.hpp"
+#include "creep.hpp"
 #include "layered.hpp"
 #include "own_field.hpp"
 #include "sage/app/program.hpp"
@@ -9,7 +11,10 @@
 int main(int argc, char** argv) {
   return sage::sagefe(argc, argv, [](sage::Catalogue& catalogue) {
     catalogue.materials.add(90, own::layered());
+    catalogue.materials.add(80, own::rod());
+    catalogue.materials.add(91, own::maxwell());
     catalogue.elements.add(40, own::tri10());
+    catalogue.elements.add(50, own::bar2());
     catalogue.solvers.add(90, own::sparse_lu());
     catalogue.fields.add(own::stress_ratio());
   });
