@@ -1,5 +1,5 @@
-// A structure of one's own: the two-node bar and its elastic law.  This is the example of docs/manual/own_element.md
-// for elements that are no solids.
+// A structure of one's own: the two-node bar and its elastic law.  This is the example of elements/README.md for
+// elements that are no solids.
 #pragma once
 
 #include <array>

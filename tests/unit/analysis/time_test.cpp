@@ -169,6 +169,20 @@ TEST(Time, ARestartGoesOnAtItsTime) {
     }
 }
 
+// Nothing but the state that stands is shown of a stage whose steps are all too long: forces, too, at dt = 0.
+TEST(Time, AFailureShowsTheStateBefore) {
+  Model model = bench().build(column(91, {0.5}, 2).text());
+  model.stages[1].duration = 1000.0;
+  RunSettings settings;
+  settings.max_cuts = 3;
+  const WholeRun run = bench().run(std::move(model), settings);
+  ASSERT_EQ(run.result.status, RunStatus::not_converged) << run.failure;
+  ASSERT_EQ(run.increments.size(), 2u);
+  EXPECT_TRUE(run.increments[1].u == run.increments[0].u);
+  EXPECT_LE((run.increments[1].internal - run.increments[0].internal).norm(),
+            1e-14 * run.increments[0].internal.norm());
+}
+
 // A stage card of another layout may have a field for it, here in the room that sage1 gives the tolerance.
 TEST(Time, ALayoutMayGiveTheDuration) {
   std::ifstream in(SAGE_SOURCE_DIR "/legacy_inputs/layouts/sage1.toml");

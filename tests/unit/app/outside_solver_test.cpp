@@ -1,9 +1,14 @@
 // A solver that the program does not know, Eigen's SparseLU: the example of solvers/README.md.
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+
 #include "sage/app/commands.hpp"
+#include "sage/app/run_deck.hpp"
 #include "sage/scenes/scenes.hpp"
 #include "tests/install/consumer/sparse_lu.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace sage {
 namespace {
@@ -55,6 +60,38 @@ TEST(OutsideSolver, ASingularMatrixWithoutAnEquationIsNoMissingEquilibrium) {
       << run.failure;
   EXPECT_NE(run.failure.find("--solver frontal"), std::string::npos) << run.failure;
   EXPECT_EQ(app::make_workbench().run(deck.text()).result.status, RunStatus::singular);
+}
+
+// A solver that gives up ends the command as ever: with its words, and outputs that say where they end.
+TEST(OutsideSolver, OneThatGivesUpEndsTheCommandWithItsWords) {
+  class GivesUp final : public LinearSolver {
+   public:
+    const SolverTraits& traits() const override { return traits_; }
+    void analyse(int, ElementEquations) override {}
+    void clear() override {}
+    void add(int, const double*) override {}
+    void factorise() override { throw AnalysisError("out of digits"); }
+    void solve(std::span<const double>, std::span<double>) const override {}
+
+   private:
+    SolverTraits traits_{.name = "gives_up"};
+  };
+  Catalogue catalogue = app::full_catalogue();
+  catalogue.solvers.add(91, {"gives_up", "throws", false, [] { return std::make_unique<GivesUp>(); }});
+  app::RunRequest request;
+  request.deck = SAGE_SOURCE_DIR "/legacy_inputs/chapter7/pinned_ld2_nu025/deck.dat";
+  request.output.folder = test::scratch_folder("gives_up");
+  request.solver = "gives_up";
+  request.quiet = true;
+  try {
+    app::run_deck(request, catalogue);
+    ADD_FAILURE() << "it went on";
+  } catch (const AnalysisError& error) {
+    EXPECT_STREQ(error.what(), "out of digits");
+  }
+  std::ifstream in(request.output.folder / (app::stem_of(request) + ".increments.csv"));
+  const std::string rows{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_NE(rows.find("# RUN STOPPED, NOT COMPLETE: out of digits"), std::string::npos) << rows;
 }
 
 }  // namespace
