@@ -7,6 +7,11 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(sage_options INTERFACE -Wno-restrict -Wno-uninitialized -Wno-maybe-uninitialized -Wno-array-bounds
                                                 -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
+# The compiler looks for garbage of its own when it holds so much (kB) and then twice that: up to a sixth of its time
+# with the defaults, for some 200 MB.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(sage_options INTERFACE --param=ggc-min-heapsize=524288 --param=ggc-min-expand=100)
+endif()
 if(SAGE_NATIVE)
   # The instruction set that this machine shares with most others of the last ten years, so that results do not change from one to
   # the next. Not -march=native: with it GCC 12.2 stored constant lists {x, x, x, 0} as {x, x, x, x} on a machine tested
@@ -46,10 +51,13 @@ if(SAGE_COVERAGE)
   target_link_options(sage_options INTERFACE -fprofile-instr-generate)
 endif()
 
-# sage_target(NAME [HOT] SOURCES ... LINKS ...): one library a folder.  HOT: its loops decide the run time.
+# sage_target(NAME [HOT] [TOGETHER n] SOURCES ... [COLD ...] LINKS ...): one library a folder.
+# HOT: its loops decide the run time.  The compiler spends most of its time on headers and on the same templates in
+# each source, so with SAGE_UNITY it takes sources together: so many at a time as TOGETHER says, or those of COLD in a
+# room that has others whose loops count; what is inlined in those must not depend on a file's neighbours.
 function(sage_target name)
-  cmake_parse_arguments(ARG "HOT" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
-  add_library(${name} STATIC ${ARG_SOURCES})
+  cmake_parse_arguments(ARG "HOT" "TOGETHER" "SOURCES;COLD;LINKS;PRIVATE_LINKS" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES} ${ARG_COLD})
   target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                                             $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/sagefe>)
   target_link_libraries(${name} PUBLIC ${ARG_LINKS} PRIVATE $<BUILD_INTERFACE:sage_options> ${ARG_PRIVATE_LINKS})
@@ -59,13 +67,20 @@ function(sage_target name)
   target_compile_features(${name} PUBLIC cxx_std_20)
   string(REPLACE "sage_" "" export_name ${name})
   if(name STREQUAL "sage_core")
-    # Eigen and the library headers that nearly every file includes, parsed once.
-    target_precompile_headers(sage_core PRIVATE <Eigen/Core> <algorithm> <array> <cmath> <functional> <map> <memory>
-                                                <span> <string> <string_view> <variant> <vector>)
+    # Eigen, libfmt and the library headers that many files include, parsed once.
+    target_precompile_headers(sage_core PRIVATE <Eigen/Core> <algorithm> <array> <cmath> <filesystem> <fmt/format.h>
+                                                <functional> <map> <memory> <optional> <set> <span> <string> <string_view>
+                                                <unordered_map> <variant> <vector>)
   else()
     target_precompile_headers(${name} REUSE_FROM sage_core)
   endif()
   set_target_properties(${name} PROPERTIES EXPORT_NAME ${export_name} SAGE_HOT ${ARG_HOT})
+  if(ARG_TOGETHER AND SAGE_UNITY)
+    set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${ARG_TOGETHER})
+  elseif(ARG_COLD AND SAGE_UNITY)
+    set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+    set_source_files_properties(${ARG_COLD} PROPERTIES UNITY_GROUP cold)
+  endif()
   add_library(sagefe::${export_name} ALIAS ${name})
   set_property(GLOBAL APPEND PROPERTY SAGE_TARGETS ${name})
 endfunction()

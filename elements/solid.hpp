@@ -99,7 +99,7 @@ class Solid final : public PointElement<4, 2 * Shape::nodes, Rule::points> {
     Eigen::Map<Eigen::Matrix<double, 2, Shape::nodes>> forces(f.data());
     for (const RulePoint& q : Shape::LoadRule::table) {
       const ShapeAt<Shape> at({q.xi, q.eta});
-      const Matrix2 J = x * at.dN;
+      const Matrix2 J = x.lazyProduct(at.dN);
       const double w = q.w * determinant(J) * Kinematics::measure(x.row(0).dot(at.N));
       forces += w * b * at.N.transpose();
     }

@@ -9,22 +9,22 @@ namespace sage {
 
 namespace {
 
-using Vector = std::vector<double>;
+using Values = std::vector<double>;
 
-double sum_of_sizes(const Vector& x) {
+double sum_of_sizes(const Values& x) {
   double sum = 0.0;
   for (const double term : x) sum += std::abs(term);
   return sum;
 }
 
-std::size_t largest_place(const Vector& x) {
+std::size_t largest_place(const Values& x) {
   const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
   return static_cast<std::size_t>(std::max_element(x.begin(), x.end(), smaller) - x.begin());
 }
 
 // Higham's vector of alternating, growing terms, which defeats cancellations that fool the iteration.
 double alternating_estimate(const LinearSolver& solver, std::size_t n) {
-  Vector x(n);
+  Values x(n);
   for (std::size_t i = 0; i < n; ++i) {
     const double size = 1.0 + static_cast<double>(i) / static_cast<double>(std::max<std::size_t>(n - 1, 1));
     x[i] = i % 2 == 0 ? size : -size;
@@ -44,7 +44,7 @@ std::string power_of_ten(double value) {
 double reciprocal_condition(const LinearSolver& solver, int equations) {
   if (equations == 0) return 1.0;
   const auto n = static_cast<std::size_t>(equations);
-  Vector x(n, 1.0 / static_cast<double>(n)), z(n);
+  Values x(n, 1.0 / static_cast<double>(n)), z(n);
   double estimate = 0.0;
   for (int step = 0; step < 5; ++step) {
     solver.solve(x, x);

@@ -1,7 +1,8 @@
 #include "sage/analysis/constant_region.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
+
+#include "sage/core/dense.hpp"
 
 namespace sage {
 
@@ -30,7 +31,7 @@ bool ConstantRegion::suits(const LawRef& law) {
   PointOut<4> out;
   out.h1 = h1;
   if ((*solid)->update(in, out) != Outcome::ok) return false;
-  const Vector4 stiffness = out.D.selfadjointView<Eigen::Lower>().eigenvalues();
+  const Eigen::VectorXd stiffness = dense_matrix::symmetric_eigensystem(out.D).values;
   return stiffness[3] <= kMostRatio * stiffness[0];
 }
 

@@ -1,14 +1,13 @@
 #include "sage/analysis/error_estimate.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
 
 #include "sage/analysis/patch_fit.hpp"
+#include "sage/core/dense.hpp"
 #include "sage/model/coarse_shape.hpp"
 
 namespace sage {
@@ -35,7 +34,7 @@ class Fit {
     Eigen::Index row = 0;
     for (const ElementStress* e : patch)
       for (Eigen::Index i = 0; i < e->samples.rows(); ++i) values.row(row++) = e->samples.row(i);
-    coefficients_ = V.colPivHouseholderQr().solve(values);
+    coefficients_ = dense_matrix::least_squares(V, values);
   }
 
   Eigen::RowVector4d at(const Vector2& x) const { return polynomial_.terms(x) * coefficients_; }
@@ -64,7 +63,7 @@ Eigen::MatrixXd highest_degrees(int n) {
   for (int k = 1; k < n; ++k) jacobi(k, k - 1) = jacobi(k - 1, k) = k / std::sqrt(4.0 * k * k - 1.0);
   // Row i of the eigenvectors: +-sqrt(w) times the orthonormal Legendre polynomial of degree i at each point;
   // the sign is that of row 0.
-  const Eigen::MatrixXd Q = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(jacobi).eigenvectors();
+  const Eigen::MatrixXd Q = dense_matrix::symmetric_eigensystem(jacobi).vectors;
   const Eigen::VectorXd first = Q.row(0).transpose();
   const Eigen::MatrixXd lower = Q.topRows(n - 2);
   const Eigen::MatrixXd line =

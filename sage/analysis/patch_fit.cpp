@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/QR>
+#include "sage/core/dense.hpp"
 
 namespace sage {
 
@@ -58,9 +58,7 @@ void PatchPolynomial::fill(const std::vector<const Eigen::Matrix2Xd*>& samples, 
 // What is less certain by 1000 than the rest is none of the field: bent rows of places are nearly straight.
 bool PatchPolynomial::independent() const {
   constexpr double kLeast = 1e-3;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(V_);
-  qr.setThreshold(kLeast);
-  return qr.rank() == V_.cols();
+  return dense_matrix::rank(V_, kLeast) == V_.cols();
 }
 
 Eigen::RowVectorXd PatchPolynomial::terms(const Vector2& x) const {

@@ -1,7 +1,8 @@
 #include "sage/analysis/probe.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
+
+#include "sage/core/dense.hpp"
 
 namespace sage {
 
@@ -124,7 +125,7 @@ void ProbeMaker::add_patch(Probe& probe, const std::vector<std::size_t>& patch, 
   }
   const PatchPolynomial polynomial(places, degree);
   const Eigen::MatrixXd& V = polynomial.matrix();
-  const Eigen::MatrixXd fit = V.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(V.rows(), V.rows()));
+  const Eigen::MatrixXd fit = dense_matrix::least_squares(V, Eigen::MatrixXd::Identity(V.rows(), V.rows()));
   const Eigen::RowVectorXd weights = part * polynomial.terms(place) * fit;
   Eigen::Index row = 0;
   for (std::size_t k : patch) {

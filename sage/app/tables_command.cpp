@@ -30,16 +30,16 @@ struct TableOptions {
 };
 
 // A line of tables.csv.
-struct Entry {
+struct ChapterEntry {
   std::string table, row, column, deck;
   int stage = 0, increment = 0;
   double chapter = 0.0, converged = 0.0;  // converged: 0 = not known
 };
 
-std::vector<Entry> read_entries(const std::filesystem::path& path) {
+std::vector<ChapterEntry> read_entries(const std::filesystem::path& path) {
   std::ifstream in(path);
   if (!in) throw InputError({path.string(), 0, 0, 0}, "the list of table entries can't be read (see --cases)");
-  std::vector<Entry> entries;
+  std::vector<ChapterEntry> entries;
   std::string line;
   bool header = true;
   while (std::getline(in, line)) {
@@ -55,7 +55,7 @@ std::vector<Entry> read_entries(const std::filesystem::path& path) {
   return entries;
 }
 
-double ratio_of(const RunOutcome& outcome, const Entry& entry) {
+double ratio_of(const RunOutcome& outcome, const ChapterEntry& entry) {
   for (const TriaxialRow& row : outcome.reports->triaxial(0))
     if (row.stage == entry.stage && row.increment == entry.increment) return row.ratio;
   return std::nan("");
@@ -67,7 +67,7 @@ void print_header(const std::string& table) {
              "converged", "chapter error");
 }
 
-void print_entry(const Entry& entry, double ratio) {
+void print_entry(const ChapterEntry& entry, double ratio) {
   fmt::print("{:<15} {:<22} {:8.4f} {:9.5f} {:+10.5f}", entry.row, entry.column, entry.chapter, ratio,
              ratio - entry.chapter);
   if (entry.converged > 0.0)
@@ -79,7 +79,7 @@ int print_tables(const TableOptions& options, const Catalogue& catalogue) {
   std::map<std::string, RunOutcome> runs;
   std::string table;
   int worst = kOk;
-  for (const Entry& entry : read_entries(options.cases / "tables.csv")) {
+  for (const ChapterEntry& entry : read_entries(options.cases / "tables.csv")) {
     if (options.pinned && !entry.column.starts_with("pinned")) continue;
     if (!runs.count(entry.deck)) {
       RunRequest request;

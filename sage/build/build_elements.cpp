@@ -1,7 +1,6 @@
 // Materials, element groups and element cards (with block generation).
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "sage/build/builder.hpp"
 #include "sage/deck/text.hpp"
@@ -45,7 +44,6 @@ int chosen_formulation(const Builder& b, const ElementEntry& entry, int deck_cod
 }
 
 constexpr int kMaxElements = 50'000'000;
-constexpr std::int64_t kLargestNumber = std::numeric_limits<int>::max();
 
 // Node numbers of one element card; trailing blanks are mid-side nodes to be made later (0).
 std::vector<int> card_nodes(const CardView& card) {

@@ -1,6 +1,5 @@
 // Node cards (with line generation) and fill cards (blocks between four corner nodes).
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <vector>
@@ -12,7 +11,6 @@ namespace sage::build {
 namespace {
 
 constexpr int kMaxNodes = 20'000'000;
-constexpr std::int64_t kLargestNumber = std::numeric_limits<int>::max();
 
 using PlacedNodes = std::map<int, Vector2>;  // ordered by number, as listings are
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <unordered_map>
 
@@ -11,6 +12,8 @@
 #include "sage/model/model.hpp"
 
 namespace sage::build {
+
+inline constexpr std::int64_t kLargestNumber = std::numeric_limits<int>::max();  // of a node or an element
 
 // Where an element of the deck ended up.
 struct ElementPlace {

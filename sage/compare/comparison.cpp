@@ -15,8 +15,6 @@ namespace sage::compare {
 
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
 std::vector<double> numbers(const std::string& text, std::size_t count) {
   std::vector<double> values;
   std::size_t at = 0;

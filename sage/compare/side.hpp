@@ -1,6 +1,7 @@
 // One of the two runs that a comparison sets side by side, with all that the comparison looks at.
 #pragma once
 
+#include <limits>
 #include <memory>
 
 #include "sage/analysis/run.hpp"
@@ -9,6 +10,8 @@
 #include "sage/record/summary.hpp"
 
 namespace sage::compare {
+
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 // A straight side of the box around the mesh.
 struct Face {

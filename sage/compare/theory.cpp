@@ -13,8 +13,6 @@ namespace sage::compare {
 
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
 double parameter(const Material& material, std::string_view name, double fallback) {
   const int i = material.entry->find(name);
   return i < 0 ? fallback : material.parameters[static_cast<std::size_t>(i)];

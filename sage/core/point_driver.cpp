@@ -1,9 +1,9 @@
 #include "sage/core/point_driver.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "sage/core/dense.hpp"
 #include "sage/core/error.hpp"
 
 namespace sage {
@@ -55,7 +55,7 @@ Vector<N> correction_for(const std::array<Control, N>& control, const Vector<N>&
   for (int i = 0; i < N; ++i)
     if (control[static_cast<std::size_t>(i)] == Control::strain)
       D.row(i) = size * Vector<N>::Unit(i).transpose();
-  return Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(D).solve(r);
+  return dense_matrix::smallest_solution(D, r);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <array>
 #include <charconv>
 
+#include "sage/deck/text.hpp"
+
 namespace sage {
 
 namespace {
@@ -12,10 +14,6 @@ using Kind = ExpressionNode::Kind;
 bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
 constexpr int max_depth = 50;
 
 // Precedence from weak to strong: or, and, comparison, + -, *, operand.

@@ -7,15 +7,13 @@
 #include <limits>
 #include <string>
 
+#include "sage/deck/text.hpp"
+
 namespace sage {
 
 namespace {
 
 constexpr int largest_free_exponent = 99999;
-
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
 
 char lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;

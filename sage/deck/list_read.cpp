@@ -1,8 +1,8 @@
 // List-directed input, as gfortran's runtime does it.
 #include <algorithm>
-#include <limits>
 
 #include "sage/deck/record.hpp"
+#include "sage/deck/text.hpp"
 
 namespace sage {
 
@@ -10,18 +10,11 @@ namespace {
 
 constexpr int largest_repeat = 200000000;  // gfortran's own limit
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
 bool is_space(char c) {
   return c == ' ' || c == '\t';
 }
 bool is_separator(char c) {
   return is_space(c) || c == ',' || c == ';' || c == '/' || c == '\n';
-}
-
-std::uint16_t column(std::size_t c) {
-  return static_cast<std::uint16_t>(std::min<std::size_t>(c, std::numeric_limits<std::uint16_t>::max()));
 }
 
 }  // namespace
@@ -179,8 +172,9 @@ ReadEnd ListRead::read(FieldKind kind, std::vector<FieldValue>& values, std::vec
   value.line = line_of_token_;
   value.text = token_.text;
   const std::size_t offset = static_cast<std::size_t>(source_.skipped()) + token_.first;
-  value.first_column = column(offset + 1);
-  value.last_column = column(offset + std::max<std::size_t>(token_.text.size() + (token_.quoted ? 2 : 0), 1));
+  value.first_column = stored_column(offset + 1);
+  value.last_column =
+      stored_column(offset + std::max<std::size_t>(token_.text.size() + (token_.quoted ? 2 : 0), 1));
   if (token_.null && result.fault == FieldFault::none) return ReadEnd::complete;
   if (result.fault == FieldFault::none) result = convert(token_, kind);
   if (again && kind != token_kind_) result.fault = FieldFault::no_value;  // "2*1" into an integer and a real

@@ -9,10 +9,6 @@ namespace sage {
 
 namespace {
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
 // A guess at how the character that spoils a number came there.
 std::string character_hint(std::string_view text, std::size_t at, FieldKind kind, const FieldValue& value) {
   const char c = at < text.size() ? text[at] : '\0';

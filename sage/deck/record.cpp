@@ -1,15 +1,10 @@
 #include "sage/deck/record.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace sage {
 
 namespace {
-
-std::uint16_t column(std::size_t c) {
-  return static_cast<std::uint16_t>(std::min<std::size_t>(c, std::numeric_limits<std::uint16_t>::max()));
-}
 
 // The separator stands right before the record proper.
 bool has_separator(std::string_view line, const RecordRules& rules) {
@@ -153,8 +148,8 @@ void FormattedRead::take_field(const FormatStep& step, FieldKind kind, int text_
   value.kind = kind;
   if (!field.empty()) {
     const std::size_t offset = static_cast<std::size_t>(source_.skipped()) + start;
-    value.first_column = column(offset + 1);
-    value.last_column = column(offset + field.size());
+    value.first_column = stored_column(offset + 1);
+    value.last_column = stored_column(offset + field.size());
   }
   switch (kind) {
     case FieldKind::integer:

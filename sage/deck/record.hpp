@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,6 +16,11 @@
 #include "sage/deck/source.hpp"
 
 namespace sage {
+
+// A column as positions hold it: the largest stands for all beyond.
+inline std::uint16_t stored_column(std::size_t c) {
+  return static_cast<std::uint16_t>(std::min<std::size_t>(c, std::numeric_limits<std::uint16_t>::max()));
+}
 
 // Where records begin and end, and which lines are none.
 struct RecordRules {

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 
+#include "sage/deck/text.hpp"
+
 namespace sage {
 
 namespace {
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
 bool is_of_number(char c) {
   return is_digit(c) || c == '.';
 }

@@ -9,6 +9,10 @@
 
 namespace sage {
 
+inline bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
 // Without blanks and tabs at both ends.
 inline std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t");

@@ -22,7 +22,7 @@ namespace sage {
 
 namespace {
 
-constexpr int kFont = 13, kTitleFont = 16, kBands = 10, kMostElements = 6000;
+constexpr int kBands = 10, kMostElements = 6000;
 constexpr double kLeft = 70.0, kRight = 130.0, kTop = 108.0, kBottom = 54.0, kLegendText = 70.0;
 
 // Where the deformed mesh stands on the paper.
@@ -303,15 +303,15 @@ void draw_axes(std::string& out, const Scenery& scenery) {
   for (std::size_t i = 0; i < xs.size(); ++i) {
     const double x = view.at({xs[i], 0.0}).x();
     svg::line(out, x, bottom, x, bottom + 5.0, "#666666", 1.0);
-    svg::text(out, x, bottom + 19.0, x_labels[i], kFont - 1, "middle");
+    svg::text(out, x, bottom + 19.0, x_labels[i], svg::kFont - 1, "middle");
   }
   for (std::size_t i = 0; i < ys.size(); ++i) {
     const double y = view.at({0.0, ys[i]}).y();
     svg::line(out, left - 5.0, y, left, y, "#666666", 1.0);
-    svg::text(out, left - 8.0, y + 4.0, y_labels[i], kFont - 1, "end");
+    svg::text(out, left - 8.0, y + 4.0, y_labels[i], svg::kFont - 1, "end");
   }
-  svg::text(out, right + 14.0, bottom + 19.0, fmt::format("{} [{}]", names.x, unit), kFont, "start");
-  svg::text(out, 8.0, kTop - 12.0, fmt::format("{} [{}]", names.y, unit), kFont, "start");
+  svg::text(out, right + 14.0, bottom + 19.0, fmt::format("{} [{}]", names.x, unit), svg::kFont, "start");
+  svg::text(out, 8.0, kTop - 12.0, fmt::format("{} [{}]", names.y, unit), svg::kFont, "start");
 }
 
 void draw_legend(std::string& out, const std::vector<double>& limits, double left, double height) {
@@ -326,14 +326,14 @@ void draw_legend(std::string& out, const std::vector<double>& limits, double lef
                    bottom - box * static_cast<double>(k + 1), box, colour);
   }
   if (limits.front() == limits.back()) {
-    svg::text(out, left + 27.0, bottom - 0.5 * box + 4.0, fmt::format("{:.4g}", limits.front()), kFont,
+    svg::text(out, left + 27.0, bottom - 0.5 * box + 4.0, fmt::format("{:.4g}", limits.front()), svg::kFont,
               "start");
     return;
   }
   for (std::size_t k = 0; k <= bands; ++k) {
     const double y = bottom - box * static_cast<double>(k);
     svg::line(out, left + 20.0, y, left + 24.0, y, "#444444", 1.0);
-    svg::text(out, left + 28.0, y + 4.5, labels[k], kFont, "start");
+    svg::text(out, left + 28.0, y + 4.5, labels[k], svg::kFont, "start");
   }
 }
 
@@ -364,13 +364,14 @@ std::string field_svg(const Model& model, const Solution& solution, std::string_
       fmt::format("from {:.4g} to {:.4g}", lowest, highest) +
           (view.deformation > 0.0 ? fmt::format("; deformation x {:g}", view.deformation) : "")};
   const double legend = std::max(view.at(view.high).x() + 36.0, kLeft + 120.0);
-  const double width = std::max({legend + 28.0 + kLegendText, 16.0 + 0.64 * kTitleFont * length(words.title),
-                                 16.0 + 0.56 * kFont * length(words.what)});
+  const double width =
+      std::max({legend + 28.0 + kLegendText, 16.0 + 0.64 * svg::kTitleFont * length(words.title),
+                16.0 + 0.56 * svg::kFont * length(words.what)});
   const double height = kTop + std::max(view.height, 16.0 * static_cast<double>(limits.size())) + kBottom;
   std::string out = svg::open(static_cast<int>(width), static_cast<int>(height));
-  svg::text(out, 8.0, 24.0, words.title, kTitleFont, "start", "font-weight=\"bold\"");
-  svg::text(out, 8.0, 46.0, words.what, kFont, "start");
-  svg::text(out, 8.0, 64.0, words.range, kFont, "start");
+  svg::text(out, 8.0, 24.0, words.title, svg::kTitleFont, "start", "font-weight=\"bold\"");
+  svg::text(out, 8.0, 46.0, words.what, svg::kFont, "start");
+  svg::text(out, 8.0, 64.0, words.range, svg::kFont, "start");
   draw_bands(out, all, limits);
   if (options.mesh && all.size() <= kMostElements) draw_mesh(out, all);
   if (view.deformation > 0.0) draw_outline(out, scenery);

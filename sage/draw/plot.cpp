@@ -14,8 +14,6 @@ namespace sage {
 
 namespace {
 
-constexpr int kFont = 13, kTitleFont = 16;
-
 // One axis: values to screen positions.
 struct Axis {
   bool log = false;
@@ -81,25 +79,25 @@ void draw_axes(std::string& out, const Plot& plot, const Axis& x, const Axis& y,
     const double at = x.at(xs.values[i]);
     svg::line(out, at, y.from, at, y.to, "#e3e3e3", 1.0);
     svg::line(out, at, y.from, at, y.from + 5.0, "#444444", 1.0);
-    svg::text(out, at, y.from + 20.0, xs.labels[i], kFont, "middle");
+    svg::text(out, at, y.from + 20.0, xs.labels[i], svg::kFont, "middle");
   }
   double widest = 0.0;
   for (std::size_t i = 0; i < ys.values.size(); ++i) {
     const double at = y.at(ys.values[i]);
     svg::line(out, x.from, at, x.to, at, "#e3e3e3", 1.0);
     svg::line(out, x.from - 5.0, at, x.from, at, "#444444", 1.0);
-    svg::text(out, x.from - 9.0, at + 4.5, ys.labels[i], kFont, "end");
-    widest = std::max(widest, text_width(ys.labels[i], kFont));
+    svg::text(out, x.from - 9.0, at + 4.5, ys.labels[i], svg::kFont, "end");
+    widest = std::max(widest, text_width(ys.labels[i], svg::kFont));
   }
   fmt::format_to(
       std::back_inserter(out),
       "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" stroke=\"#444444\"/>\n",
       x.from, y.to, x.to - x.from, y.from - y.to);
-  svg::text(out, 0.5 * (x.from + x.to), y.from + 42.0, plot.x_label, kFont, "middle");
+  svg::text(out, 0.5 * (x.from + x.to), y.from + 42.0, plot.x_label, svg::kFont, "middle");
   const double left = x.from - widest - 24.0, middle = 0.5 * (y.from + y.to);
-  svg::text(out, left, middle, plot.y_label, kFont, "middle",
+  svg::text(out, left, middle, plot.y_label, svg::kFont, "middle",
             fmt::format("transform=\"rotate(-90 {:.1f} {:.1f})\"", left, middle));
-  svg::text(out, 0.5 * (x.from + x.to), 28.0, plot.title, kTitleFont, "middle", "font-weight=\"bold\"");
+  svg::text(out, 0.5 * (x.from + x.to), 28.0, plot.title, svg::kTitleFont, "middle", "font-weight=\"bold\"");
 }
 
 void draw_series(std::string& out, const PlotSeries& series, const Axis& x, const Axis& y, const char* colour) {
@@ -140,7 +138,7 @@ void draw_legend(std::string& out, const Plot& plot, double left, double top) {
     if (series.markers)
       fmt::format_to(std::back_inserter(out), "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"{}\"/>\n",
                      left + 13.0, y, line_colour(i));
-    svg::text(out, left + 33.0, y + 4.5, series.name, kFont, "start");
+    svg::text(out, left + 33.0, y + 4.5, series.name, svg::kFont, "start");
     y += 21.0;
   }
 }
@@ -148,7 +146,7 @@ void draw_legend(std::string& out, const Plot& plot, double left, double top) {
 double legend_width(const Plot& plot) {
   double width = 0.0;
   for (const PlotSeries& series : plot.series)
-    if (!series.name.empty()) width = std::max(width, 62.0 + text_width(series.name, kFont));
+    if (!series.name.empty()) width = std::max(width, 62.0 + text_width(series.name, svg::kFont));
   return width;
 }
 
@@ -205,7 +203,7 @@ std::string plot_svg(const Plot& plot) {
   y.finish();
   const Ticks xs = ticks_of(x), ys = ticks_of(y);
   double widest = 0.0;
-  for (const std::string& label : ys.labels) widest = std::max(widest, text_width(label, kFont));
+  for (const std::string& label : ys.labels) widest = std::max(widest, text_width(label, svg::kFont));
   x.from = 46.0 + widest;
   x.to = plot.width - std::max(20.0, 16.0 + legend_width(plot));
   y.from = plot.height - 58.0;

@@ -6,6 +6,8 @@
 
 namespace sage::svg {
 
+inline constexpr int kFont = 13, kTitleFont = 16;  // sizes of the words, px
+
 std::string open(int width, int height);  // white ground, sans-serif
 inline constexpr std::string_view kClose = "</svg>\n";
 

@@ -21,7 +21,7 @@ void fail(const Deck& deck, const SourcePosition& where, const std::string& mess
   throw InputError(problems);
 }
 
-void add_nodes(const Deck& deck, CardWriter& out) {
+void add_listed_nodes(const Deck& deck, CardWriter& out) {
   for (const CardView& node : deck.all("node")) {
     for (const char* field : {"reference_code", "generation_x", "generation_y", "increment"})
       if (node.integer(field) != 0)
@@ -420,7 +420,7 @@ Deck cande_deck(const Deck& deck, const Catalogue& catalogue) {
   out.add("control", control.where(), {{"geometry", 1.0}, take(control, "total_nodes")});
   const LoadFactors factors(deck, load_steps(deck));
   const Soils soils(deck, factors);
-  add_nodes(deck, out);
+  add_listed_nodes(deck, out);
   add_materials(deck, catalogue, soils, out);
   leave_out(deck, out);
   const Groups groups = add_groups(deck, catalogue, factors, soils, out);

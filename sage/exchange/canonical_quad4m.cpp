@@ -63,7 +63,7 @@ void add_elements(const Deck& deck, const Catalogue& catalogue, CardWriter& out)
   }
 }
 
-void add_nodes(const Deck& deck, CardWriter& out) {
+void add_nodes_and_supports(const Deck& deck, CardWriter& out) {
   int transmitting = 0;
   for (const CardView& node : deck.all("node")) {
     out.add("node", node.where(), {take(node, "number"), take(node, "x"), take(node, "y")});
@@ -90,7 +90,7 @@ Deck quad4m_deck(const Deck& deck, const Catalogue& catalogue) {
   out.add(
       "control", control.where(),
       {{"geometry", 1.0}, take(control, "nodes", "total_nodes"), take(control, "elements", "total_elements")});
-  add_nodes(deck, out);
+  add_nodes_and_supports(deck, out);
   add_elements(deck, catalogue, out);
   out.left_out(
       {deck.file, 0, 0, 0}, "earthquake motion and damping",

@@ -26,9 +26,9 @@ std::string set_name(const Group& group, std::size_t index) {
   return "G" + std::to_string(index + 1) + "_" + std::to_string(group.number);
 }
 
-class Writer {
+class InpWriter {
  public:
-  Writer(const Model& model, Diagnostics& diagnostics) : model_(model), diagnostics_(diagnostics) {}
+  InpWriter(const Model& model, Diagnostics& diagnostics) : model_(model), diagnostics_(diagnostics) {}
 
   std::string text() {
     heading();
@@ -234,7 +234,7 @@ class Writer {
 std::string inp_text(const Model& model, Diagnostics& diagnostics) {
   if (!model.initials.empty())
     diagnostics.add({Severity::warning, {model.file, 0, 0, 0}, "initial stresses are left out", {}});
-  return Writer(model, diagnostics).text();
+  return InpWriter(model, diagnostics).text();
 }
 
 }  // namespace sage

@@ -27,9 +27,9 @@ std::string shortened(const std::string& text) {
   return mantissa + exponent;
 }
 
-class Writer {
+class Sage1Writer {
  public:
-  Writer(const Model& model, Diagnostics& diagnostics) : model_(model), diagnostics_(diagnostics) {}
+  Sage1Writer(const Model& model, Diagnostics& diagnostics) : model_(model), diagnostics_(diagnostics) {}
 
   std::string deck();
 
@@ -89,7 +89,7 @@ class Writer {
 };
 
 // Quadrilaterals and the triangles folded out of them share a number in the model; here each has its own.
-void Writer::number_groups() {
+void Sage1Writer::number_groups() {
   std::set<int> used;
   int largest = 0;
   for (const Group& group : model_.groups) largest = std::max(largest, group.number);
@@ -97,7 +97,7 @@ void Writer::number_groups() {
     group_numbers_.push_back(used.insert(group.number).second ? group.number : ++largest);
 }
 
-void Writer::control(std::size_t reports) {
+void Sage1Writer::control(std::size_t reports) {
   std::size_t elements = 0;
   for (const Group& group : model_.groups) elements += static_cast<std::size_t>(group.elements());
   const std::size_t counts[] = {model_.mesh.number.size(),
@@ -118,7 +118,7 @@ void Writer::control(std::size_t reports) {
   line();
 }
 
-void Writer::nodes() {
+void Sage1Writer::nodes() {
   text_ += "* node step syst         x         y\n";
   for (int node = 0; node < model_.mesh.nodes(); ++node) {
     integer(node_number(node));
@@ -129,7 +129,7 @@ void Writer::nodes() {
   }
 }
 
-void Writer::materials() {
+void Sage1Writer::materials() {
   for (const Material& material : model_.materials) {
     text_ += "* numb  law para    weight name\n";
     integer(material.number);
@@ -145,7 +145,7 @@ void Writer::materials() {
   }
 }
 
-void Writer::groups() {
+void Sage1Writer::groups() {
   text_ += "* numb elem form matl name\n";
   for (std::size_t g = 0; g < model_.groups.size(); ++g) {
     const Group& group = model_.groups[g];
@@ -158,7 +158,7 @@ void Writer::groups() {
   }
 }
 
-void Writer::elements() {
+void Sage1Writer::elements() {
   text_ += "* numb grup   n1   n2   n3   n4   n5   n6   n7   n8\n";
   for (std::size_t g = 0; g < model_.groups.size(); ++g) {
     const Group& group = model_.groups[g];
@@ -175,7 +175,7 @@ void Writer::elements() {
   }
 }
 
-void Writer::fixity(const Fixity& fixity, bool in_stage) {
+void Sage1Writer::fixity(const Fixity& fixity, bool in_stage) {
   integer(node_number(fixity.node));
   text_ += "    0    0";
   for (FixityCode code : fixity.code)
@@ -186,7 +186,7 @@ void Writer::fixity(const Fixity& fixity, bool in_stage) {
   line();
 }
 
-void Writer::initial(const InitialStress& initial) {
+void Sage1Writer::initial(const InitialStress& initial) {
   integer(group_number(initial.group));
   integer(static_cast<int>(initial.kind));
   for (double value : initial.value) {
@@ -198,14 +198,14 @@ void Writer::initial(const InitialStress& initial) {
   line();
 }
 
-void Writer::list(const std::vector<int>& groups) {
+void Sage1Writer::list(const std::vector<int>& groups) {
   for (std::size_t i = 0; i < groups.size(); ++i) {
     integer(group_number(groups[i]));
     if (i % 16 == 15 || i + 1 == groups.size()) line();
   }
 }
 
-void Writer::stage(const Stage& stage) {
+void Sage1Writer::stage(const Stage& stage) {
   if (stage.duration != 1.0)
     warning("stage " + std::to_string(stage.number) +
             ": its duration is left out, a sage1 deck has no place for it");
@@ -241,7 +241,7 @@ void Writer::stage(const Stage& stage) {
   for (const InitialStress& i : stage.initials) initial(i);
 }
 
-void Writer::point(const Report& report) {
+void Sage1Writer::point(const Report& report) {
   integer(static_cast<int>(report.kind));
   integer(report.group < 0 ? 0 : group_number(report.group));
   for (int i = 0; i < 3; ++i) integer(0);
@@ -253,7 +253,7 @@ void Writer::point(const Report& report) {
 }
 
 // Only nodes in equal steps fit a card.
-bool Writer::report(const Report& report, bool write) {
+bool Sage1Writer::report(const Report& report, bool write) {
   if (report.kind == ReportKind::point) {
     if (write) point(report);
     return true;
@@ -277,7 +277,7 @@ bool Writer::report(const Report& report, bool write) {
   return true;
 }
 
-std::string Writer::deck() {
+std::string Sage1Writer::deck() {
   number_groups();
   name(model_.title.starts_with('*') ? " " + model_.title : model_.title, 80);
   line();
@@ -344,7 +344,7 @@ FieldText field_text(double value, int width) {
 }
 
 std::string sage1_text(const Model& model, Diagnostics& diagnostics) {
-  return Writer(model, diagnostics).deck();
+  return Sage1Writer(model, diagnostics).deck();
 }
 
 }  // namespace sage

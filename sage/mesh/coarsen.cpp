@@ -21,10 +21,6 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-bool is_interface(const Group& group) {
-  return group.interface();
-}
-
 struct Cell {
   int group = 0, element = 0;
   std::array<int, 4> corner{};
@@ -130,7 +126,7 @@ bool Coarsening::add_cell(std::size_t g, int e) {
     }
     Line& on = lines_[at(it->second)];
     on.cells.emplace_back(c, k);
-    on.solids += is_interface(group) ? 0 : 1;
+    on.solids += group.interface() ? 0 : 1;
     if (on.cells.size() > 2) return false;
   }
   for (const auto& edge : group.element->edges())
@@ -410,7 +406,7 @@ bool Coarsening::walk(Block& block) const {
     start = side.back();
   }
   if (block.side[3].back() != block.side[0].front() || steps != next.size()) return false;
-  if (!is_interface(model_->groups[at(cells_[at(block.cells.front())].group)])) return true;
+  if (!model_->groups[at(cells_[at(block.cells.front())].group)].interface()) return true;
   for (int k = 0; k < 4; ++k)
     if (local[block.side[at(k)].front()] != k) return false;
   return block.side[1].size() == 2 && block.side[3].size() == 2;
@@ -454,7 +450,7 @@ bool Coarsening::faults_in_side(const std::vector<int>& side) {
 // The angles of an element must be those of a quadrilateral that can be integrated well.
 bool Coarsening::well_shaped(const Block& block) const {
   constexpr double kLeastSine = 0.05;  // three degrees
-  if (block.cells.size() == 1 || is_interface(model_->groups[at(cells_[at(block.cells.front())].group)]))
+  if (block.cells.size() == 1 || model_->groups[at(cells_[at(block.cells.front())].group)].interface())
     return true;
   for (int k = 0; k < 4; ++k) {
     const Vector2 c = x(block.side[at(k)].front());
@@ -467,7 +463,7 @@ bool Coarsening::well_shaped(const Block& block) const {
 // Elements that are much longer than wide converge slowly near singular corners: lines of the deck cut them.
 bool Coarsening::split_long(const Block& block) {
   constexpr double kLongest = 4.0;
-  if (is_interface(model_->groups[at(cells_[at(block.cells.front())].group)])) return false;
+  if (model_->groups[at(cells_[at(block.cells.front())].group)].interface()) return false;
   const auto length = [&](std::size_t k) {
     return (x(block.side[k].back()) - x(block.side[k].front())).norm();
   };
@@ -516,7 +512,7 @@ void Coarsening::carry_loads(std::size_t s) {
       EdgeLoad load;
       load.group = group;
       load.element = element;
-      load.edge = is_interface(model_->groups[at(group)]) ? k / 2 : k;
+      load.edge = model_->groups[at(group)].interface() ? k / 2 : k;
       load.normal = {(*first)[0].x(), (*last)[1].x()};
       load.shear = {(*first)[0].y(), (*last)[1].y()};
       load.line = stage.pressures.front().line;

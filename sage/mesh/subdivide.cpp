@@ -14,13 +14,9 @@ constexpr double kMaxElements = 1e7;      // 40 GB and more
 constexpr double kManyNodes = 2e5;        // seconds, and a GB
 constexpr double kBytesPerNode = 4000.0;  // 4-node elements, linear and symmetric: measured 3.8 to 4.0
 
-bool is_interface(const Group& group) {
-  return group.interface();
-}
-
 // Side of the parent square or triangle that a local edge lies on.
 int side_of(const Group& group, int edge) {
-  return is_interface(group) ? 2 * edge : edge;
+  return group.interface() ? 2 * edge : edge;
 }
 
 bool same(const Place& a, const Place& b) {
@@ -68,9 +64,9 @@ Refined refined(const Model& model, int times) {
       size.elements += group.elements();
       continue;
     }
-    const double elements = group.elements() * std::pow(is_interface(group) ? 2.0 : 4.0, times);
+    const double elements = group.elements() * std::pow(group.interface() ? 2.0 : 4.0, times);
     size.elements += elements;
-    if (is_interface(group)) continue;
+    if (group.interface()) continue;
     // Each edge belongs to two elements; the angles of the elements around a node sum to a full circle.
     const auto edges = static_cast<double>(group.element->edges().size());
     const double inside_edge = static_cast<double>(group.element->edges().front().size()) - 2.0;
@@ -113,8 +109,8 @@ struct Subdivision::SplitElement {
   CoarseShape shape;
   std::vector<std::pair<Place, int>> inner;  // nodes made inside
 
-  int edge_of_side(int side) const { return is_interface(*group) ? side / 2 : side; }
-  bool has_edge(int side) const { return !is_interface(*group) || side % 2 == 0; }
+  int edge_of_side(int side) const { return group->interface() ? side / 2 : side; }
+  bool has_edge(int side) const { return !group->interface() || side % 2 == 0; }
 };
 
 Subdivision::Subdivision(Work& b) : b_(&b), nodes_(b.model.mesh) {
@@ -125,7 +121,7 @@ Subdivision::Subdivision(Work& b) : b_(&b), nodes_(b.model.mesh) {
       for (const auto& edge : group.element->edges()) {
         const int* nodes = group.nodes_of(e);
         MadeEdge& known = edges_[edge_key(nodes[edge[0]], nodes[edge[1]])];
-        known.solids += is_interface(group) ? 0 : 1;
+        known.solids += group.interface() ? 0 : 1;
         const int middle = middle_of(edge) < 0 ? -1 : nodes[middle_of(edge)];
         if (middle < 0 || !known.nodes.empty()) continue;
         known.nodes.push_back(middle);
@@ -201,7 +197,7 @@ void Subdivision::split(int g, int e, const std::vector<ChildCorners>& children)
   parent.shape.corners = parent.corners;
   for (std::size_t k = 0; k < static_cast<std::size_t>(parent.corners); ++k)
     parent.shape.corner[k] = nodes_.at(parent.nodes[k]);
-  if (!is_interface(group))
+  if (!group.interface())
     for (std::size_t k = 0; k < edges.size(); ++k)
       if (const int m = middle_of(edges[k]); m >= 0 && parent.nodes[static_cast<std::size_t>(m)] >= 0)
         parent.shape.middle[k] = nodes_.at(parent.nodes[static_cast<std::size_t>(m)]);
@@ -287,7 +283,7 @@ void refine(Work& b, int times) {
     for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
       const Group& group = b.model.groups[g];
       if (group.structure()) continue;
-      const auto& children = is_interface(group) ? interface : group.entry->triangle() ? triangle : quad;
+      const auto& children = group.interface() ? interface : group.entry->triangle() ? triangle : quad;
       const int before = group.elements();
       for (int e = 0; e < before; ++e) subdivision.split(static_cast<int>(g), e, children);
     }

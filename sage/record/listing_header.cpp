@@ -1,8 +1,6 @@
 // What was read: the part of the listing before the first stage.
 #include <fmt/format.h>
 
-#include <iterator>
-
 #include "sage/record/listing_parts.hpp"
 #include "sage/record/number.hpp"
 #include "sage/record/output.hpp"
@@ -10,10 +8,6 @@
 namespace sage::listing {
 
 namespace {
-
-auto to(std::string& text) {
-  return std::back_inserter(text);
-}
 
 void row_of_stars(std::string& text) {
   fmt::format_to(to(text), " {:*<98}\n", "");

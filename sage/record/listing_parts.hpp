@@ -1,6 +1,7 @@
 // The parts of a listing, each appended to a text.
 #pragma once
 
+#include <iterator>
 #include <string>
 
 #include "sage/core/catalogue.hpp"
@@ -8,6 +9,11 @@
 #include "sage/record/values.hpp"
 
 namespace sage::listing {
+
+// The end of a text, where fmt appends.
+inline auto to(std::string& text) {
+  return std::back_inserter(text);
+}
 
 // "== TITLE ====..." with an empty line before it.
 void heading(std::string& text, std::string_view title);

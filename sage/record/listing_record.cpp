@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "sage/record/listing_parts.hpp"
 #include "sage/record/number.hpp"
@@ -11,10 +10,6 @@
 namespace sage::listing {
 
 namespace {
-
-auto to(std::string& text) {
-  return std::back_inserter(text);
-}
 
 void put(std::string& text, double value, int width, int digits) {
   if (std::isnan(value))

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "sage/record/field_reader.hpp"
 #include "sage/record/listing_parts.hpp"
@@ -21,7 +20,7 @@ void put(std::string& text, double value) {
 }
 
 void column(std::string& text, std::string_view name, int width = kWidth) {
-  fmt::format_to(std::back_inserter(text), "{:>{}}", name, width);
+  fmt::format_to(to(text), "{:>{}}", name, width);
 }
 
 void left(std::string& text, std::string_view word, std::size_t width) {
@@ -32,7 +31,7 @@ void left(std::string& text, std::string_view word, std::size_t width) {
 // "   0.725": three decimals of a number that stands between 0 and 1.
 void append_level(std::string& text, double level) {
   if (!(level >= 0.0 && level < 999.0)) {
-    fmt::format_to(std::back_inserter(text), "{:8.3g}", level);
+    fmt::format_to(to(text), "{:8.3g}", level);
     return;
   }
   const long thousandths = std::lround(1000.0 * level);
@@ -91,22 +90,21 @@ void wide_columns(std::string& text, const FieldList& fields, const UnitSystem& 
 }
 
 void point_columns(std::string& text, const Model& model, const GroupData& data, const GroupColumns& columns) {
-  const auto to = std::back_inserter(text);
   const int number = data.group->number;
   const std::string& name = data.group->name;
   switch (data.group->entry->kind) {
     case ElementKind::solid:
-      fmt::format_to(to, "\n   Stresses of group {} {} ({}, compression positive)\n", number, name,
+      fmt::format_to(to(text), "\n   Stresses of group {} {} ({}, compression positive)\n", number, name,
                      model.units.stress);
       break;
     case ElementKind::interface:
-      fmt::format_to(to,
+      fmt::format_to(to(text),
                      "\n   Interface of group {} {} (stress {}, relative displacement {}; compression and "
                      "closing positive)\n",
                      number, name, model.units.stress, model.units.length);
       break;
     case ElementKind::structure:
-      fmt::format_to(to, "\n   Structure of group {} {} (force {}, compression positive)\n", number, name,
+      fmt::format_to(to(text), "\n   Structure of group {} {} (force {}, compression positive)\n", number, name,
                      model.units.force);
       break;
   }
@@ -156,8 +154,7 @@ void nodes(std::string& text, const Model& model, const Solution& solution,
     wide.push_back(row);
     most = std::max(most, row->size());
   }
-  fmt::format_to(std::back_inserter(text),
-                 "\n   Nodes (displacement {}, reaction of supports {}; positive along +{}, +{})\n",
+  fmt::format_to(to(text), "\n   Nodes (displacement {}, reaction of supports {}; positive along +{}, +{})\n",
                  model.units.length, model.units.force, axes.x, axes.y);
   column(text, "node", 9);
   column(text, axes.x);

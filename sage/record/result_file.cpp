@@ -17,9 +17,9 @@ namespace {
 using Shape = std::vector<std::uint64_t>;
 
 // A DataFile whose failures are OutputErrors.
-class Tables {
+class TableFile {
  public:
-  Tables(const std::filesystem::path& partial, std::filesystem::path path)
+  TableFile(const std::filesystem::path& partial, std::filesystem::path path)
       : path_(std::move(path)), file_(make_data_file(partial.string())) {}
 
   void table(const std::string& name, DataType type, const Shape& row = {}, std::uint64_t chunk = 1) {
@@ -69,7 +69,7 @@ std::string joined(const std::vector<T>& parts) {
 }
 
 // What a reader must know of a field's numbers.
-void describe_table(Tables& out, const std::string& path, const FieldEntry& field, const Model& model) {
+void describe_table(TableFile& out, const std::string& path, const FieldEntry& field, const Model& model) {
   constexpr const char* kSigns[] = {"", "compression positive", "along the axes"};
   out.text(path, "meaning", field.meaning);
   out.text(path, "unit", unit_text(field.dimension, model.units));
@@ -84,7 +84,7 @@ void describe_table(Tables& out, const std::string& path, const FieldEntry& fiel
 // behind the other.
 class VtkPart {
  public:
-  VtkPart(Tables& out, const Model& model, const FieldTable& fields)
+  VtkPart(TableFile& out, const Model& model, const FieldTable& fields)
       : out_(out), model_(model), fields_(fields) {
     out_.numbers(kRoot, "Version", {2, 0});
     out_.text(kRoot, "Type", "UnstructuredGrid");
@@ -161,7 +161,7 @@ class VtkPart {
           [&](const auto& values) {
             using T = typename std::decay_t<decltype(values)>::value_type;
             if (count_ == 0) {
-              out_.table(path, Tables::type_of<T>(), array.width > 1 ? Shape{array.width} : Shape{}, rows);
+              out_.table(path, TableFile::type_of<T>(), array.width > 1 ? Shape{array.width} : Shape{}, rows);
               out_.text(path, "unit", unit_text(array.field->dimension, model_.units));
               out_.table(offsets, DataType::int64);
             }
@@ -173,7 +173,7 @@ class VtkPart {
     before += static_cast<std::int64_t>(rows);
   }
 
-  Tables& out_;
+  TableFile& out_;
   const Model& model_;
   const FieldTable& fields_;
   std::int64_t count_ = 0, parts_ = 0, point_rows_ = 0, cell_rows_ = 0;
@@ -186,7 +186,7 @@ class VtkPart {
 // Everything by its own place: increments, nodes, integration points of every group.
 class OwnPart {
  public:
-  OwnPart(Tables& out, const Model& model, const FieldTable& fields)
+  OwnPart(TableFile& out, const Model& model, const FieldTable& fields)
       : out_(out), model_(model), fields_(fields) {
     start_increments();
     start_nodes();
@@ -337,7 +337,7 @@ class OwnPart {
     }
   }
 
-  Tables& out_;
+  TableFile& out_;
   const Model& model_;
   const FieldTable& fields_;
 };
@@ -407,7 +407,7 @@ void ResultOutput::on_finish(const Model& model, const RunResult& result) {
   OutFile file(path_);
   file.written_by([&](const std::filesystem::path& partial) {
     const FieldTable fields = fields_of(model);
-    Tables out(partial, path_);
+    TableFile out(partial, path_);
     out.text("/sage", "title", model.title);
     out.text("/sage", "deck", model.file);
     out.text("/sage", "program", "sagefe " SAGE_VERSION);

@@ -13,8 +13,6 @@ namespace {
 
 using namespace scenes;
 
-constexpr double kUnit = 0.5 * std::numeric_limits<double>::epsilon();
-
 // Lame on both rings.  The gap p/kn is a difference of displacements of size 1: kn digits go.
 void normal_stiffness(Sweep& s) {
   for (int power = 0; power <= 12; ++power) {

@@ -14,7 +14,6 @@ namespace {
 using namespace scenes;
 
 constexpr double kRatios[] = {0.3, 0.49, 0.499, 0.4999, 0.49999, 0.499999, 0.4999999};
-constexpr double kUnit = 0.5 * std::numeric_limits<double>::epsilon();
 
 double lame_error(const Ran& ran, const LameDeck& deck) {
   return ran.completed() ? scenes::lame_error(*ran.run, deck.body, deck.nu) : kUnknown;

@@ -32,7 +32,6 @@ std::string outcome_of(const Ran& ran) {
 }  // namespace
 
 double Trial::digits_lost() const {
-  constexpr double kUnit = 0.5 * std::numeric_limits<double>::epsilon();
   if (std::isnan(error)) return kUnknown;
   return std::clamp(std::log10(std::max(error, kUnit) / kUnit), 0.0, 16.0);
 }

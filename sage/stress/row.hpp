@@ -13,6 +13,7 @@
 namespace sage::stress {
 
 inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kUnit = 0.5 * std::numeric_limits<double>::epsilon();  // of rounding
 
 // One run of a row, judged.
 struct Trial {

@@ -14,7 +14,6 @@ namespace {
 
 using namespace scenes;
 
-constexpr double kUnit = 0.5 * std::numeric_limits<double>::epsilon();
 constexpr double kE = 1e6, kNu = 0.25;
 
 // u = 1e-3 (x + y/2), v = 1e-3 (y + x/2) in plane strain: sigma_x = sigma_y = 1600, sigma_z = 800, tau = 400

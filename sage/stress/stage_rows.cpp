@@ -14,13 +14,13 @@ namespace {
 
 using namespace scenes;
 
-constexpr double kWeight = 20.0, kE = 1e4, kNu = 0.3;
+constexpr double kWeight = 20.0, kGroundE = 1e4, kGroundNu = 0.3;
 
 // phi = 30, c = 0: between Ka = 1/3 and Kp = 3.
 void initial_stress(Sweep& s) {
   for (double K0 : {0.0, 0.1, 0.2, 0.3, 0.33, 0.334, 0.5, 1.0, 2.0, 2.99, 3.01, 5.0}) {
     Ground ground(1, Cell::quad4, 4, 4);
-    ground.deck.material(1, 4, {kE, kNu, 0.0, 30.0, 0.0}, kWeight);
+    ground.deck.material(1, 4, {kGroundE, kGroundNu, 0.0, 30.0, 0.0}, kWeight);
     ground.deck.group(1, 1, 0, 1);
     ground.block.write_elements(ground.deck, 1);
     ground.deck.initial(1, 1, 0.0, kWeight, K0, 0.0);
@@ -42,7 +42,7 @@ void everything_dug(Sweep& s) {
     DeckWriter& deck = ground.deck;
     const Block& block = ground.block;
     const int groups = 2 + cycles;
-    deck.material(1, 1, {kE, kNu}, kWeight);
+    deck.material(1, 1, {kGroundE, kGroundNu}, kWeight);
     for (int g = 1; g <= groups; ++g) deck.group(g, 1, 1, 1);
     // Rows 0 and 1 are the layer; rows 2 and 3 are there once for each time they are filled.
     int number = 1;
@@ -68,10 +68,10 @@ void everything_dug(Sweep& s) {
       const auto& layer = ran.run->stress[0];
       stress = std::abs(layer.row(1).mean() + 3.0 * kWeight) / (3.0 * kWeight);
       stale = std::abs(top.row(1).mean() + 1.0 * kWeight) / kWeight +
-              (top.row(0) - kNu / (1.0 - kNu) * top.row(1)).cwiseAbs().maxCoeff() / kWeight;
+              (top.row(0) - kGroundNu / (1.0 - kGroundNu) * top.row(1)).cwiseAbs().maxCoeff() / kWeight;
       // The layer is elastic: after a whole cycle it is where it was.
       const int node = block.node(0, 2);
-      const double M = kE * (1 - kNu) / ((1 + kNu) * (1 - 2 * kNu));
+      const double M = kGroundE * (1 - kGroundNu) / ((1 + kGroundNu) * (1 - 2 * kGroundNu));
       settled = ran.run->u(node).y() / (-kWeight * (2.0 * 2.0 + 0.5 * 4.0) / M) - 1.0;
     }
     s.right(label + ": stress of the layer that stayed", kUnknown, ran, stress, 1e-10);
@@ -80,7 +80,7 @@ void everything_dug(Sweep& s) {
   }
   // Nothing at all is left.
   Ground ground(1, Cell::quad4, 4, 4);
-  ground.deck.material(1, 1, {kE, kNu}, kWeight);
+  ground.deck.material(1, 1, {kGroundE, kGroundNu}, kWeight);
   ground.deck.group(1, 1, 0, 1);
   ground.block.write_elements(ground.deck, 1);
   ground.deck.stage().gravity_y = -1.0;

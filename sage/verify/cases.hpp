@@ -5,6 +5,8 @@
 
 namespace sage::verify {
 
+inline constexpr double kDegree = kRadiansPerDegree;
+
 Section patch_cases();
 Section interface_patch_cases();
 Section lame_cases();

@@ -12,8 +12,8 @@ namespace sage::verify {
 
 namespace {
 
-constexpr double kWeight = 20.0, kE = 1e4, kNu = 0.3;
-const double kOedometer = kE * (1 - kNu) / ((1 + kNu) * (1 - 2 * kNu));
+constexpr double kWeight = 20.0, kGroundE = 1e4, kGroundNu = 0.3;
+const double kOedometer = kGroundE * (1 - kGroundNu) / ((1 + kGroundNu) * (1 - 2 * kGroundNu));
 
 struct NullCase {
   const char* name;
@@ -37,7 +37,7 @@ void null_step(Record& record) {
   for (int geometry : {1, 2})
     for (const NullCase& c : cases) {
       Ground ground(geometry, c.cell, 4, 6);
-      std::vector<double> parameters{kE, kNu};
+      std::vector<double> parameters{kGroundE, kGroundNu};
       if (c.law != 1) parameters.insert(parameters.end(), {5.0, 30.0, 0.0});
       ground.deck.material(1, c.law, parameters, kWeight);
       ground.deck.group(1, static_cast<int>(c.cell), geometry == 2 ? c.ring_formulation : 0, 1);
@@ -58,7 +58,7 @@ void rest_column(Record& record) {
   for (int geometry : {1, 2})
     for (Cell cell : {Cell::quad4, Cell::quad8}) {
       Ground ground(geometry, cell, 1, 5);
-      ground.deck.material(1, 1, {kE, kNu}, kWeight);
+      ground.deck.material(1, 1, {kGroundE, kGroundNu}, kWeight);
       ground.deck.group(1, static_cast<int>(cell), 1, 1);
       ground.block.write_elements(ground.deck, 1);
       ground.deck.stage().gravity_y = -1.0;
@@ -67,7 +67,7 @@ void rest_column(Record& record) {
       record.near(where_of(geometry), "settlement, " + name, -run.u(ground.block.top().front()).y(),
                   kWeight * 25.0 / (2 * kOedometer), 1e-10);
       const PointStresses& s = run.stress[0];
-      const double ratio = kNu / (1 - kNu);
+      const double ratio = kGroundNu / (1 - kGroundNu);
       record.small(where_of(geometry), "sigma_h - K0 sigma_v over gamma H, " + name,
                    (s.row(0) - ratio * s.row(1)).cwiseAbs().maxCoeff() / (kWeight * 5.0), 1e-10);
       record.small(where_of(geometry), "sigma_z (or hoop) - sigma_h over gamma H, " + name,
@@ -79,7 +79,7 @@ void rest_column(Record& record) {
 WholeRun dig(const Record& record, int geometry, const std::vector<int>& portions, bool initial_stress) {
   const int columns = 6, rows = 6, wide = 3, deep = 4;
   Ground ground(geometry, Cell::quad4, columns, rows);
-  ground.deck.material(1, 1, {kE, kNu}, kWeight);
+  ground.deck.material(1, 1, {kGroundE, kGroundNu}, kWeight);
   for (int g = 1; g <= 1 + deep; ++g) ground.deck.group(g, 1, 2, 1);
   const Block& all = ground.block;
   all.write_elements(ground.deck, 1);
@@ -135,7 +135,7 @@ void excavation(Record& record) {
 void lifts(Record& record) {
   for (int geometry : {1, 2}) {
     Ground ground(geometry, Cell::quad4, 1, 3);
-    ground.deck.material(1, 1, {kE, kNu}, kWeight);
+    ground.deck.material(1, 1, {kGroundE, kGroundNu}, kWeight);
     const Block& block = ground.block;
     for (int g = 1; g <= 3; ++g) ground.deck.group(g, 1, 1, 1);
     for (int j = 0; j < 3; ++j)

@@ -14,8 +14,6 @@ namespace sage::verify {
 
 namespace {
 
-constexpr double kDegree = kRadiansPerDegree;
-
 // Block H = 2 in pure shear (u_y = 0 everywhere) on an interface: delta = tau (H/G + 1/k_s); beyond
 // c + sigma_n tan phi it slides as a rigid body; on the way back only the elastic part returns.
 void shear_column(Record& record) {

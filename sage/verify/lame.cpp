@@ -28,18 +28,18 @@ TensorField stress(LameBody body, double nu) {
   return [=](const Vector2& x) { return lame_stress(body, nu, x); };
 }
 
-struct Kind {
+struct LameKind {
   const char* name;
   Cell cell;
   int formulation, coarsest;
   double order;  // of the displacements; that of the stress is one less
 };
 
-DeckWriter deck_of(LameBody body, const Kind& kind, int n, double nu) {
+DeckWriter deck_of(LameBody body, const LameKind& kind, int n, double nu) {
   return LameDeck{body, kind.cell, kind.formulation, n, nu}.deck();
 }
 
-const Kind kKinds[] = {
+const LameKind kLameKinds[] = {
     {"quad4 full", Cell::quad4, 1, 4, 2.0},
     {"quad4 b-bar", Cell::quad4, 2, 4, 2.0},
     {"quad8 reduced", Cell::quad8, 1, 2, 3.0},
@@ -51,7 +51,7 @@ const Kind kKinds[] = {
 };
 
 void orders(Record& record, LameBody body) {
-  for (const Kind& kind : kKinds) {
+  for (const LameKind& kind : kLameKinds) {
     std::vector<double> size, u, s;
     double at_nodes = 0.0;
     for (int level = 0; level < 3; ++level) {
@@ -86,9 +86,10 @@ double pressure_error(const WholeRun& run, const TensorField& exact) {
 }
 
 void nu_sweep(Record& record, const std::vector<LameBody>& bodies) {
-  const Kind kinds[] = {{"quad4 b-bar", Cell::quad4, 2, 16, 2.0}, {"quad8 reduced", Cell::quad8, 1, 8, 3.0}};
+  const LameKind kinds[] = {{"quad4 b-bar", Cell::quad4, 2, 16, 2.0},
+                            {"quad8 reduced", Cell::quad8, 1, 8, 3.0}};
   for (LameBody body : bodies)
-    for (const Kind& kind : kinds) {
+    for (const LameKind& kind : kinds) {
       const Where where = where_of_body(body);
       double error = 0.0, pressure = 0.0;
       for (double nu : {0.3, 0.49, 0.499, 0.4999, 0.49999, 0.4999999}) {
@@ -117,7 +118,7 @@ void nu_sweep(Record& record, const std::vector<LameBody>& bodies) {
 // The source chapter's element gives less than a thousandth of the displacement, and
 // the program says so before.
 void locking(Record& record) {
-  const Kind full{"quad4 full", Cell::quad4, 1, 4, 2.0};
+  const LameKind full{"quad4 full", Cell::quad4, 1, 4, 2.0};
   for (LameBody body : {LameBody::sector, LameBody::strip, LameBody::sphere}) {
     const WholeRun run = record.run(deck_of(body, full, 4, 0.4999999));
     record.small(where_of_body(body), fmt::format("u(a) / exact, {}", name_of_body(body)),
@@ -128,7 +129,7 @@ void locking(Record& record) {
                   record.run(deck_of(body, full, 4, 0.3)).warns("lock") ? 1.0 : 0.0, 0.0, 0.5);
   }
   // No warning either for those that do not lock.
-  for (const Kind& kind : kKinds) {
+  for (const LameKind& kind : kLameKinds) {
     const int n = kind.order == 3.0 ? 4 : 2 * kind.coarsest;
     const WholeRun run = record.run(deck_of(LameBody::sector, kind, n, 0.4999999));
     const double loss = lame_error(run, LameBody::sector, 0.4999999) /

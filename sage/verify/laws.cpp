@@ -13,8 +13,6 @@ namespace sage::verify {
 
 namespace {
 
-constexpr double kDegree = kRadiansPerDegree;
-
 const UnitSystem kKilopascal{"m", "kN", "kPa", 101.325, 9.81};
 
 std::unique_ptr<SolidLaw> solid(const Record& record, int code, const std::vector<double>& parameters) {

@@ -71,7 +71,7 @@ struct Problem {
 
 enum class Mesh { squares, parallelograms, trapezoids };
 
-struct Kind {
+struct MeshKind {
   const char* name;
   Cell cell;
   int formulation, coarsest;
@@ -81,7 +81,7 @@ struct Kind {
 
 // Trapezoids: rows of nodes shifted up and down by a quarter of a cell, the same pattern on every level, so
 // that cells never come near parallelograms.
-std::function<Vector2(double, double)> placed(const Kind& kind, double x0, int n) {
+std::function<Vector2(double, double)> placed(const MeshKind& kind, double x0, int n) {
   const bool trapezoids = kind.mesh == Mesh::trapezoids;
   return [=](double s, double t) -> Vector2 {
     if (!trapezoids) return {x0 + s, t};
@@ -98,8 +98,8 @@ std::function<Vector2(double, double)> placed(const Kind& kind, double x0, int n
   };
 }
 
-void converge(Record& record, const Problem& problem, const std::vector<Kind>& kinds) {
-  for (const Kind& kind : kinds) {
+void converge(Record& record, const Problem& problem, const std::vector<MeshKind>& kinds) {
+  for (const MeshKind& kind : kinds) {
     std::vector<double> size, u, s;
     for (int level = 0; level < 3; ++level) {
       const int n = kind.coarsest << level;
@@ -128,7 +128,7 @@ void converge(Record& record, const Problem& problem, const std::vector<Kind>& k
   }
 }
 
-const std::vector<Kind> kKinds = {
+const std::vector<MeshKind> kMeshKinds = {
     {"quad4 full", Cell::quad4, 1, 8, Mesh::squares, 2, 1},
     {"quad4 b-bar", Cell::quad4, 2, 8, Mesh::squares, 2, 1},
     {"quad8 reduced", Cell::quad8, 1, 4, Mesh::squares, 3, 2},
@@ -153,16 +153,16 @@ Section manufactured_cases() {
           {"mms.plane", "u = sin(pi x) cos(pi y)/10, v = (x^2 y - cos(pi x) sin(pi y))/10 on the unit square",
            "the field itself, its body force by second derivatives", Grade::exact, gate,
            [](Record& r) {
-             converge(r, {1, 0.0}, kKinds);
+             converge(r, {1, 0.0}, kMeshKinds);
            }},
           {"mms.axis", "u_r = r (1 - r^2) cos(pi z)/10, u_z = (r^2 + z^2) sin(z)/10 from the axis to r = 1",
            "the field itself", Grade::exact, gate,
            [](Record& r) {
-             converge(r, {2, 0.0}, kKinds);
+             converge(r, {2, 0.0}, kMeshKinds);
            }},
           {"mms.ring", "the same between r = 1 and 2", "the field itself", Grade::exact, gate,
            [](Record& r) {
-             converge(r, {2, 1.0}, kKinds);
+             converge(r, {2, 1.0}, kMeshKinds);
            }},
       }};
 }

@@ -13,7 +13,7 @@ namespace sage::verify {
 
 namespace {
 
-const double kNu[] = {.1, .2, .25, .3, .333, 1.0 / 3, .4, .45, .49, .495, .499, .4999, .5};
+const double kPoissonsRatios[] = {.1, .2, .25, .3, .333, 1.0 / 3, .4, .45, .49, .495, .499, .4999, .5};
 const double kSlenderness[] = {0.5, 1, 2, 3};
 const double kRatio[][4] = {
     {1.010744, 1.005345, 1.002638, 1.001757}, {1.046550, 1.022428, 1.010986, 1.007297},
@@ -26,15 +26,15 @@ const double kRatio[][4] = {
 };
 
 void table(Record& record, std::size_t column) {
-  for (std::size_t i = 0; i < std::size(kNu); ++i) {
+  for (std::size_t i = 0; i < std::size(kPoissonsRatios); ++i) {
     RestrainedCylinder c;
     c.slenderness = kSlenderness[column];
-    c.nu = kNu[i];
+    c.nu = kPoissonsRatios[i];
     c.columns = c.slenderness > 1.0 ? 24 : 30;
     c.rows = 30;
     const WholeRun run = record.run(c.between_rough_platens());
-    record.near(Where::axisymmetric, fmt::format("ratio, nu = {:.4g}", kNu[i]), c.ratio(run), kRatio[i][column],
-                3e-5);
+    record.near(Where::axisymmetric, fmt::format("ratio, nu = {:.4g}", kPoissonsRatios[i]), c.ratio(run),
+                kRatio[i][column], 3e-5);
   }
 }
 

@@ -11,8 +11,6 @@ namespace sage::verify {
 
 namespace {
 
-constexpr double kDegree = kRadiansPerDegree;
-
 struct Soil {
   double c, phi, weight, E, nu;
   bool associated = true;
