@@ -333,19 +333,6 @@ void add_reports(Comparison& c, const Side& a, const Side& b) {
   }
 }
 
-// What a line shows: the usual fields, then those that were asked for and live at nodes or points.
-FieldList line_fields(const FieldTable& table, const std::vector<std::string>& asked) {
-  FieldList fields = fields_named(table, {"displacement", "stress", "mean_stress", "deviator"});
-  for (const std::string& name : asked) {
-    const FieldEntry* row = table.find(name);
-    const bool lives =
-        row != nullptr && (row->place() == FieldPlace::node || row->place() == FieldPlace::point);
-    if (lives && row->form == FieldForm::number && std::ranges::find(fields, row) == fields.end())
-      fields.push_back(row);
-  }
-  return fields;
-}
-
 struct Component {
   std::string name, unit;
 };
@@ -366,7 +353,7 @@ FieldTable table_of(const Side& a, const Side& b) {
   FieldTable table = a.has_model() ? fields_of(a.model()) : FieldTable();
   const FieldTable of_b = b.has_model() ? fields_of(b.model()) : FieldTable();
   for (const FieldEntry& row : of_b.rows())
-    if (table.find(row.name) == nullptr) table.add(row);
+    if (table.clash(row).empty()) table.add(row);
   return table;
 }
 
@@ -626,7 +613,8 @@ Comparison compare(const Side& a, const Side& b, const std::vector<Line>& lines,
   add_faces(c, a, b);
   add_reports(c, a, b);
   const FieldTable table = table_of(a, b);
-  const FieldList on_lines = line_fields(table, fields);
+  const FieldList on_lines =
+      fields_at_places(table, {"displacement", "stress", "mean_stress", "deviator"}, fields);
   for (const Line& line : lines) add_line(c, a, b, line, on_lines);
   add_nodal(c, a, b);
   for (std::vector<Row>* rows : {&c.rows, &c.details}) {

@@ -32,9 +32,59 @@ std::string field_unit(const FieldEntry& entry, const UnitSystem& units) {
   return text;
 }
 
+namespace {
+
+// Columns of CSV files and tables of the result file that are there without a field: what says where a row is.
+std::span<const std::string_view> columns_of_places(FieldPlace place) {
+  static constexpr std::string_view kIncrements[] = {"stage", "increment"};
+  static constexpr std::string_view kPlaces[] = {"stage", "increment", "node",  "group", "element", "point",
+                                                 "x",     "y",         "place", "nodes", "active"};
+  if (place == FieldPlace::increment) return kIncrements;
+  return kPlaces;
+}
+
+// Whether columns of both stand in one file: reports have fields of nodes and points, the result file has those of
+// elements and points in one folder.
+bool share_a_file(FieldPlace a, FieldPlace b) {
+  const auto is_point = [](FieldPlace place) { return place == FieldPlace::point; };
+  const bool apart = a == FieldPlace::increment || b == FieldPlace::increment;
+  return a == b || (!apart && (is_point(a) || is_point(b)));
+}
+
+std::vector<std::string> columns_of(const FieldEntry& entry) {
+  std::vector<std::string> columns;
+  for (std::size_t c = 0; c < entry.size(); ++c) columns.push_back(entry.column(c));
+  return columns;
+}
+
+}  // namespace
+
+std::string FieldTable::clash(const FieldEntry& entry) const {
+  if (find(entry.name) != nullptr) return "field " + entry.name + " is taken";
+  std::vector<std::string> own = columns_of(entry);
+  const auto refused = [&](const std::string& column, const std::string& owner) {
+    return "field " + entry.name + ": its column " + column + " is " + owner;
+  };
+  for (std::size_t i = 0; i < own.size(); ++i)
+    if (std::find(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(i), own[i]) !=
+        own.begin() + static_cast<std::ptrdiff_t>(i))
+      return refused(own[i], "there twice");
+  if (std::find(own.begin(), own.end(), entry.name) == own.end()) own.push_back(entry.name);
+  for (std::string_view taken : columns_of_places(entry.place()))
+    if (std::find(own.begin(), own.end(), taken) != own.end())
+      return refused(std::string(taken), "one that says where a row of the results is");
+  for (const FieldEntry& row : rows()) {
+    if (!share_a_file(row.place(), entry.place())) continue;
+    for (const std::string& column : columns_of(row))
+      if (std::find(own.begin(), own.end(), column) != own.end())
+        return refused(column, "one of the field " + row.name);
+  }
+  return {};
+}
+
 void FieldTable::add(FieldEntry entry) {
   if (entry.name.empty()) throw std::logic_error("catalogue: a field needs a name");
-  if (find(entry.name) != nullptr) throw std::logic_error("catalogue: field " + entry.name + " is taken");
+  if (const std::string reason = clash(entry); !reason.empty()) throw std::logic_error("catalogue: " + reason);
   rows_ = std::make_shared<std::vector<FieldEntry>>(rows().begin(), rows().end());
   rows_->push_back(std::move(entry));
 }

@@ -144,8 +144,11 @@ struct FieldChoice {
 // rows until one of them adds.
 class FieldTable {
  public:
-  // Throws std::logic_error on a name that is taken, or a row that has none.
+  // Throws std::logic_error on a row without a name, and on one that clashes.
   void add(FieldEntry entry);
+  // Why results can't have the row too: its name is taken, or some file would have two columns (or tables) of one
+  // name.  Empty = they can.
+  std::string clash(const FieldEntry& entry) const;
   std::span<const FieldEntry> rows() const;
   // nullptr = there is none.
   const FieldEntry* find(std::string_view name) const;

@@ -64,7 +64,7 @@ std::vector<FieldEntry> history_fields(const Model& model, std::optional<Element
 FieldTable fields_of(const Model& model) {
   FieldTable table = model.fields;
   for (FieldEntry& row : history_fields(model))
-    if (table.find(row.name) == nullptr) table.add(std::move(row));
+    if (table.clash(row).empty()) table.add(std::move(row));
   return table;
 }
 
@@ -75,6 +75,19 @@ FieldList fields_named(const FieldTable& table, std::initializer_list<std::strin
     if (list.back() == nullptr) throw std::logic_error("no field " + std::string(name));
   }
   return list;
+}
+
+FieldList fields_at_places(const FieldTable& table, std::initializer_list<std::string_view> usual,
+                           const std::vector<std::string>& asked) {
+  FieldList fields = fields_named(table, usual);
+  for (const std::string& name : asked) {
+    const FieldEntry* row = table.find(name);
+    const bool lives =
+        row != nullptr && (row->place() == FieldPlace::node || row->place() == FieldPlace::point);
+    if (lives && row->form == FieldForm::number && std::ranges::find(fields, row) == fields.end())
+      fields.push_back(row);
+  }
+  return fields;
 }
 
 // 0 - x: no -0 comes out.
@@ -99,20 +112,23 @@ bool applies(const FieldEntry& entry, ElementKind kind) {
   return std::holds_alternative<PointField>(entry.value) && entry.kind.value_or(kind) == kind;
 }
 
+bool applies(const FieldEntry& entry, ElementKind kind, const LawRef& law) {
+  return applies(entry, kind) && (!entry.has_law || entry.has_law(law));
+}
+
 bool applies(const FieldEntry& entry, const GroupData& data) {
-  return applies(entry, data.group->entry->kind) && (!entry.has_law || entry.has_law(data.law));
+  return applies(entry, data.group->entry->kind, data.law);
 }
 
 void read_field(const FieldEntry& entry, const PointState& point, double* value) {
-  if (const auto* stress = std::get_if<StressField>(&entry.value)) {
-    if (point.solid) return stress->of(point.stress, value);
-  } else if (const auto* any = std::get_if<PointField>(&entry.value)) {
-    if (entry.kind.value_or(point.kind) == point.kind && (!entry.has_law || entry.has_law(point.view.law)))
-      return any->of(point.view, value);
-  } else if (const auto* strain = std::get_if<StrainField>(&entry.value)) {
-    if (point.solid) return strain->of(point.strain, value);
-  }
-  set_none(entry, value);
+  if (!applies(entry, point.kind, point.view.law))
+    set_none(entry, value);
+  else if (const auto* stress = std::get_if<StressField>(&entry.value))
+    stress->of(point.stress, value);
+  else if (const auto* strain = std::get_if<StrainField>(&entry.value))
+    strain->of(point.strain, value);
+  else
+    std::get<PointField>(entry.value).of(point.view, value);
 }
 
 void read_field(const FieldEntry& entry, const NodeView& node, double* value) {

@@ -11,11 +11,14 @@ using FieldList = std::vector<const FieldEntry*>;
 // A row for each history variable of a law; and of the laws of a kind of element (or of all), each name once.
 std::vector<FieldEntry> history_fields(const LawRef& law);
 std::vector<FieldEntry> history_fields(const Model& model, std::optional<ElementKind> kind = {});
-// The model's table, and behind it the history rows whose name no row of it has.
+// The model's table, and behind it the history rows that clash with none of it.
 FieldTable fields_of(const Model& model);
 
 // Rows of a table by name.  Throws std::logic_error for a name that it lacks.
 FieldList fields_named(const FieldTable& table, std::initializer_list<std::string_view> names);
+// The same, and behind them those of the fields asked for that are numbers at nodes or points.
+FieldList fields_at_places(const FieldTable& table, std::initializer_list<std::string_view> usual,
+                           const std::vector<std::string>& asked);
 
 // An integration point as its fields see it.
 struct PointState {
@@ -29,6 +32,7 @@ struct PointState {
 
 // Whether a row that lives at points has values in elements of a kind, and of a law.
 bool applies(const FieldEntry& entry, ElementKind kind);
+bool applies(const FieldEntry& entry, ElementKind kind, const LawRef& law);
 bool applies(const FieldEntry& entry, const GroupData& data);
 
 // entry.size() numbers.  At a point where the row does not apply: NaN.

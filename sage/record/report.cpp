@@ -126,15 +126,8 @@ std::vector<ReportColumn> report_columns(const Model& model, const Report& repor
 }
 
 FieldList point_report_fields(const FieldTable& table, const Report& report) {
-  FieldList fields = fields_named(table, {"displacement", "strain", "stress", "mean_stress", "deviator"});
-  for (const std::string& name : report.fields) {
-    const FieldEntry* row = table.find(name);
-    const bool lives =
-        row != nullptr && (row->place() == FieldPlace::node || row->place() == FieldPlace::point);
-    if (lives && row->form == FieldForm::number && std::ranges::find(fields, row) == fields.end())
-      fields.push_back(row);
-  }
-  return fields;
+  return fields_at_places(table, {"displacement", "strain", "stress", "mean_stress", "deviator"},
+                          report.fields);
 }
 
 std::string report_title(const Model& model, std::size_t index) {

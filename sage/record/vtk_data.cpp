@@ -77,8 +77,7 @@ void add_field(const FieldEntry& field, const Rows& rows, std::vector<VtkArray>&
 FieldList cell_fields(const Model& model, const FieldTable& table) {
   const auto shown = [&](const FieldEntry& field) {
     return std::ranges::any_of(model.groups, [&](const Group& group) {
-      return applies(field, group.entry->kind) &&
-             (!field.has_law || field.has_law(model.material_of(group).law_ref()));
+      return applies(field, group.entry->kind, model.material_of(group).law_ref());
     });
   };
   FieldList fields;

@@ -127,5 +127,39 @@ TEST(FieldTable, CopiesShareRowsUntilOneAdds) {
   EXPECT_THROW(two.add(FieldEntry{}), std::logic_error);
 }
 
+// Two columns of one name in a file: of another field, of what says where a row is, of the field itself.
+TEST(FieldTable, RefusesColumnsThatAreThere) {
+  const auto number = [](const char* name, FieldSource value, std::vector<FieldComponent> components = {}) {
+    return FieldEntry{
+        .name = name, .meaning = name, .value = std::move(value), .components = std::move(components)};
+  };
+  const NodeField node{[](const NodeView&, double* v) { *v = 0.0; }};
+  const PointField point{[](const PointView&, double* v) { *v = 0.0; }};
+  const IncrementField increment{[](const IncrementView&, double* v) { *v = 0.0; }};
+  const auto refusal = [](FieldEntry entry) {
+    try {
+      FieldTable().add(std::move(entry));
+    } catch (const std::logic_error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  for (const auto& [entry, words] :
+       {std::pair{number("stress_xx", point), "column stress_xx is one of the field stress"},
+        std::pair{number("stress_xx", node),
+                  "column stress_xx is one of the field stress"},  // reports have both
+        std::pair{number("place", point), "place is one that says where"},
+        std::pair{number("x", node), "x is one that says where"},
+        std::pair{number("material", point), "field material is taken"},
+        std::pair{number("increment", increment), "increment is one that says where"},
+        std::pair{number("own", point, {{"a"}, {"a"}}), "column own_a is there twice"}}) {
+    const std::string said = refusal(entry);
+    EXPECT_NE(said.find(entry.name), std::string::npos) << said;
+    EXPECT_NE(said.find(words), std::string::npos) << entry.name << ": " << said;
+  }
+  EXPECT_EQ(refusal(number("stress_xx", increment)), "") << "no file has columns of both";
+  EXPECT_EQ(refusal(number("own", point, {{"a"}, {"b"}})), "");
+}
+
 }  // namespace
 }  // namespace sage
