@@ -112,31 +112,33 @@ System& add_spring(System& system, int a, int b, double stiffness) {
   return system;
 }
 
-MatrixXd dense(const System& system) {
-  MatrixXd A = MatrixXd::Zero(system.equations, system.equations);
+namespace {
+
+// act(row, column, value) for every term of every element that is in the matrix.
+template <class Act>
+void each_term(const System& system, const Act& act) {
   for (int e = 0; e < system.elements.count(); ++e) {
     const auto list = system.elements.of(e);
     const MatrixXd& K = system.K[static_cast<std::size_t>(e)];
     for (Eigen::Index c = 0; c < K.cols(); ++c)
       for (Eigen::Index r = 0; r < K.rows(); ++r) {
         const int i = list[static_cast<std::size_t>(r)], j = list[static_cast<std::size_t>(c)];
-        if (i >= 0 && j >= 0) A(i, j) += K(r, c);
+        if (i >= 0 && j >= 0) act(i, j, K(r, c));
       }
   }
+}
+
+}  // namespace
+
+MatrixXd dense(const System& system) {
+  MatrixXd A = MatrixXd::Zero(system.equations, system.equations);
+  each_term(system, [&](int i, int j, double value) { A(i, j) += value; });
   return A;
 }
 
 Eigen::VectorXd product(const System& system, const Eigen::VectorXd& x) {
   Eigen::VectorXd y = Eigen::VectorXd::Zero(system.equations);
-  for (int e = 0; e < system.elements.count(); ++e) {
-    const auto list = system.elements.of(e);
-    const MatrixXd& K = system.K[static_cast<std::size_t>(e)];
-    for (Eigen::Index c = 0; c < K.cols(); ++c)
-      for (Eigen::Index r = 0; r < K.rows(); ++r) {
-        const int i = list[static_cast<std::size_t>(r)], j = list[static_cast<std::size_t>(c)];
-        if (i >= 0 && j >= 0) y(i) += K(r, c) * x(j);
-      }
-  }
+  each_term(system, [&](int i, int j, double value) { y(i) += value * x(j); });
   return y;
 }
 
