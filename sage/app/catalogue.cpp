@@ -16,8 +16,7 @@ Catalogue full_catalogue() {
 
 int solver_code(const Catalogue& catalogue, const std::string& name) {
   if (name.empty()) return -1;
-  for (const auto& [code, entry] : catalogue.solvers.entries())
-    if (entry.name == name) return code;
+  if (const int code = catalogue.solvers.code_of(name); code != 0) return code;
   throw InputError({}, "unknown solver " + name + "; known: " + catalogue.solvers.known());
 }
 

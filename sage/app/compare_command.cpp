@@ -170,11 +170,9 @@ FinishedSide climb_side(const char* letter, const SideOptions& options, const Co
     found.not_reached = error.what();
     return {{label, error.what()}, found};
   }
-  if (!found.best) return {{label, "NOT REACHED: " + found.not_reached}, found};
-  SideOptions best = options;
-  best.input.build = *found.best;
+  if (!found.best_run) return {{label, "NOT REACHED: " + found.not_reached}, found};
   RunOutcome& run = *found.best_run;
-  const std::string best_label = label_of(letter, best, run.model.get(), found.options);
+  const std::string best_label = label_of(letter, options, run.model.get(), found.options);
   compare::Side side(best_label, std::move(run.model), std::move(run.reports), std::move(run.record),
                      std::move(*run.result));
   side.set_not_reached(found.not_reached);
@@ -209,22 +207,42 @@ void require_points_of_decks(const CompareOptions& o, const SideOptions (&sides)
   require_points(o, models[0] ? &*models[0] : nullptr, models[1] ? &*models[1] : nullptr);
 }
 
-// Names that the catalogue lacks may be history variables of either side's laws.
-void require_fields_of_decks(const CompareOptions& o, const SideOptions (&sides)[2],
-                             const Catalogue& catalogue) {
+// Names of fields as require_fields gives them; those that the catalogue lacks may be history variables of either
+// side's laws.
+std::vector<std::string> fields_asked(const CompareOptions& o, const SideOptions (&sides)[2],
+                                      const Catalogue& catalogue) {
   const auto known = [&](const std::string& name) {
     return catalogue.fields.find(name) != nullptr || catalogue.fields.choose(name).has_value();
   };
-  if (std::ranges::all_of(o.pictures, known) && std::ranges::all_of(o.fields, known)) return;
+  if (std::ranges::all_of(o.pictures, known) && std::ranges::all_of(o.fields, known))
+    return require_fields(o.pictures, o.fields, {catalogue.fields});
   std::vector<Model> models;
   for (const SideOptions& side : sides) {
     try {
       models.push_back(build_side(side, catalogue));
     } catch (const InputError&) {
-      return;  // said when the side is run
+      return o.fields;  // said when the side is run
     }
   }
-  require_fields(o.pictures, o.fields, {&models[0], &models[1]});
+  return require_fields(o.pictures, o.fields, {fields_of(models[0]), fields_of(models[1])});
+}
+
+// Fields that were asked for in vain.
+void warn_of_fields(const CompareOptions& o, const compare::Side& a, const compare::Side& b) {
+  for (const compare::Side* side : {&a, &b}) {
+    if (!side->has_model()) continue;
+    const Model& model = side->model();
+    const bool reports =
+        std::ranges::any_of(model.reports, [](const Report& r) { return r.kind == ReportKind::point; });
+    const auto has_column = [&](const FieldEntry& row) {
+      const bool lives = row.place() == FieldPlace::node || row.place() == FieldPlace::point;
+      return (reports || !o.lines.empty()) && lives && row.form == FieldForm::number;
+    };
+    const std::string text =
+        fields_without_column(o.fields, fields_of(model), has_column,
+                              "--line and --point have those of nodes and integration points");
+    if (!text.empty()) return fmt::print(stderr, "sagefe compare: warning: {}\n", text);
+  }
 }
 
 int exit_code_of(const FinishedSide& a, const FinishedSide& b) {
@@ -237,7 +255,8 @@ int exit_code_of(const FinishedSide& a, const FinishedSide& b) {
   return code;
 }
 
-int compare_decks(const CompareOptions& o, const Catalogue& catalogue) {
+int compare_decks(const CompareOptions& asked, const Catalogue& catalogue) {
+  CompareOptions o = asked;
   if (o.decks.size() == 1 && !o.both && !o.changes_b()) {
     fmt::print(stderr, "sagefe compare: one deck needs --both or an option that ends in -b\n");
     return kUsage;
@@ -254,8 +273,9 @@ int compare_decks(const CompareOptions& o, const Catalogue& catalogue) {
     fmt::print(stderr, "sagefe compare: {}\n", error.what());
     return kUsage;
   }
-  const SideOptions options[2] = {side_a(o), side_b(o)};
-  require_fields_of_decks(o, options, catalogue);
+  SideOptions options[2] = {side_a(o), side_b(o)};
+  o.fields = fields_asked(o, options, catalogue);
+  for (SideOptions& side : options) side.fields = o.fields;
   const std::string name_a = case_name(options[0].deck), name_b = case_name(options[1].deck);
   const std::string stem = name_a == name_b ? name_a : name_a + "_" + name_b;
   for (const SideOptions& side : options) keep_input(side.deck);
@@ -273,6 +293,7 @@ int compare_decks(const CompareOptions& o, const Catalogue& catalogue) {
   const FinishedSide side_a = finish("A", options[0], ".a"), side_b = finish("B", options[1], ".b");
   const compare::Side &a = side_a.side, &b = side_b.side;
   require_points(o, a.has_model() ? &a.model() : nullptr, b.has_model() ? &b.model() : nullptr);
+  warn_of_fields(o, a, b);
   const compare::Comparison comparison =
       compare::compare(a, b, lines, side_a.certain(), side_b.certain(), o.fields);
   std::vector<std::filesystem::path> files{o.folder / (stem + ".compare.csv")};
@@ -320,8 +341,10 @@ Command compare_command(CLI::App& parser, const Catalogue& catalogue) {
       ->check(CLI::Range(1, 2));
   parser.add_option("--solver-b", o->solver_b, "solver of B by name")->check(known_solver(catalogue));
   parser.add_option("--layout-b", o->layout_b, "card layout of B");
-  parser.add_option("--line", o->lines,
-                    "x1,y1,x2,y2[:name[:n]]: displacement and stress at n places (default 11)");
+  parser
+      .add_option("--line", o->lines,
+                  "x1,y1,x2,y2[:name[:n]]: displacement and stress at n places (default 11); may be repeated")
+      ->allow_extra_args(false);
   add_converge_options(parser, o->converge, "of each side, ");
   add_digits_option(parser, o->digits);
   add_field_options(parser, catalogue, o->pictures, o->fields, "SVG of both sides on one scale of colours",

@@ -618,7 +618,6 @@ Convergence Climb::outcome(bool reached) const {
                      : without_equilibrium_ ? &*without_equilibrium_
                                             : nullptr;
   if (best != nullptr) {
-    result.best = best->build;
     result.options = best->options;
     result.best_run = rows_.empty() ? without_run_ : rows_[follower_.best() - 1].run;
   }
@@ -653,10 +652,12 @@ void add_converge_options(CLI::App& parser, ConvergeOptions& options, const std:
       .add_option("--converge", options.tolerance,
                   "finer and finer meshes until the reports are certain to this relative error, e.g. 1e-5")
       ->check(number_in(judge::kLeastError, 0.5, "a relative error from 1e-10 to 0.5"));
-  parser.add_option(
-      "--follow", options.follow,
-      "with --converge: the number that must be certain, as report1.fy (may be given more than once; "
-      "default: the main ones of all reports, without those that are small beside the others)");
+  parser
+      .add_option(
+          "--follow", options.follow,
+          "with --converge: the number that must be certain, as report1.fy (may be given more than once; "
+          "default: the main ones of all reports, without those that are small beside the others)")
+      ->allow_extra_args(false);
   parser
       .add_option("--max-dofs", options.max_dofs,
                   "with --converge: " + whose + "largest model (default 400000)")

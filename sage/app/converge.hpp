@@ -39,10 +39,9 @@ struct Convergence {
   std::string not_reached;  // "relative error 1e-05 asked for; ...: why"; empty when reached
   // On the best mesh: all that is followed, and of the other columns of the reports those whose error is known.
   std::vector<ConvergedValue> values;
-  // The best mesh, or the first one where that found no equilibrium; nothing where not even that was run.
-  std::optional<BuildOptions> best;
-  std::string options;                   // the same as a user would ask for it
-  std::shared_ptr<RunOutcome> best_run;  // of that mesh, where the request asks for results to be kept
+  // Of the best mesh, or of the first one where that found no equilibrium; nothing where not even that was run.
+  std::string options;                   // what a user would ask for to have that mesh
+  std::shared_ptr<RunOutcome> best_run;  // where the request asks for results to be kept
   std::filesystem::path table;
 };
 

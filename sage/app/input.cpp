@@ -97,23 +97,43 @@ void add_digits_option(CLI::App& parser, int& digits) {
 void add_field_options(CLI::App& parser, const Catalogue& catalogue, std::vector<std::string>& pictures,
                        std::vector<std::string>& fields, const std::string& picture_words,
                        const std::string& field_words) {
-  parser.add_option("--picture", pictures,
-                    picture_words + ": " + catalogue.fields.known() + ", or a history variable of a law");
-  parser.add_option("--field", fields,
-                    "more fields in " + field_words + " (see sagefe list fields); may be repeated");
+  parser
+      .add_option(
+          "--picture", pictures,
+          picture_words + ": " + catalogue.fields.known() + ", or a history variable of a law; may be repeated")
+      ->allow_extra_args(false);
+  parser
+      .add_option("--field", fields,
+                  "more fields in " + field_words + " (see sagefe list fields); may be repeated")
+      ->allow_extra_args(false);
 }
 
-void require_fields(const std::vector<std::string>& pictures, const std::vector<std::string>& fields,
-                    const std::vector<const Model*>& models) {
-  if (pictures.empty() && fields.empty()) return;
-  std::vector<FieldTable> tables;
-  for (const Model* model : models) tables.push_back(fields_of(*model));
-  for (const std::string& name : fields)
-    if (std::ranges::none_of(tables, [&](const FieldTable& table) { return table.find(name) != nullptr; })) {
+namespace {
+
+// The field of that name, or the one that has a component of it.
+const FieldEntry* field_of(const std::vector<FieldTable>& tables, const std::string& name) {
+  for (const FieldTable& table : tables)
+    if (const FieldEntry* row = table.find(name)) return row;
+  for (const FieldTable& table : tables)
+    if (const auto choice = table.choose(name)) return choice->entry;
+  return nullptr;
+}
+
+}  // namespace
+
+std::vector<std::string> require_fields(const std::vector<std::string>& pictures,
+                                        const std::vector<std::string>& fields,
+                                        const std::vector<FieldTable>& tables) {
+  std::vector<std::string> names;
+  for (const std::string& name : fields) {
+    const FieldEntry* field = field_of(tables, name);
+    if (field == nullptr) {
       std::string known;
       for (const FieldEntry& row : tables.front().rows()) known += (known.empty() ? "" : ", ") + row.name;
-      throw UsageError("--field: unknown field " + name + "; known: " + known);
+      throw UsageError("--field: unknown field " + name + "; known: " + known + ", or a component of one");
     }
+    if (std::ranges::find(names, field->name) == names.end()) names.push_back(field->name);
+  }
   for (const std::string& name : pictures) {
     std::string reason;
     for (const FieldTable& table : tables) {
@@ -127,6 +147,19 @@ void require_fields(const std::vector<std::string>& pictures, const std::vector<
     }
     if (!reason.empty()) throw UsageError("--picture: " + reason);
   }
+  return names;
+}
+
+std::string fields_without_column(const std::vector<std::string>& fields, const FieldTable& table,
+                                  const std::function<bool(const FieldEntry&)>& has_column,
+                                  const std::string& way_out) {
+  std::string names;
+  for (const std::string& name : fields) {
+    const FieldEntry* row = table.find(name);
+    if (row != nullptr && !has_column(*row)) names += (names.empty() ? "" : ", ") + name;
+  }
+  return names.empty() ? ""
+                       : "--field " + names + ": no output that is asked for has a column for it; " + way_out;
 }
 
 void add_element_option(CLI::App& parser, const Catalogue& catalogue, const std::string& flag,

@@ -45,9 +45,15 @@ void add_formulation_option(CLI::App& parser, const std::string& flag, const std
 void add_field_options(CLI::App& parser, const Catalogue& catalogue, std::vector<std::string>& pictures,
                        std::vector<std::string>& fields, const std::string& picture_words,
                        const std::string& field_words);
-// Throws UsageError for a field that no model's results have, or that can't be drawn.
-void require_fields(const std::vector<std::string>& pictures, const std::vector<std::string>& fields,
-                    const std::vector<const Model*>& models);
+// Gives the names of `fields`, each once; that of a component ("stress_yy") stands for its field.  tables: of the
+// results.  Throws UsageError for a field that none of them has, or that can't be drawn.
+std::vector<std::string> require_fields(const std::vector<std::string>& pictures,
+                                        const std::vector<std::string>& fields,
+                                        const std::vector<FieldTable>& tables);
+// "--field NAME: no output ...; WAY_OUT": of the fields for which `has_column` is false; empty = there are none.
+std::string fields_without_column(const std::vector<std::string>& fields, const FieldTable& table,
+                                  const std::function<bool(const FieldEntry&)>& has_column,
+                                  const std::string& way_out);
 
 // Those that change how the deck's elements are computed.
 void add_build_options(CLI::App& parser, BuildOptions& options, const Catalogue& catalogue);

@@ -143,6 +143,7 @@ Command run_command(CLI::App& parser, const Catalogue& catalogue) {
           "--without", options->without,
           "switch off what the program leaves out where a scene does not need it: " + skip_names() + ", all")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->check(CLI::IsMember(skip_list()));
   parser.add_flag("--restart", request.restart,
                   "go on from the checkpoint (STEM.restart) that a stopped run left in the output folder");

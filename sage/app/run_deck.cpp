@@ -16,6 +16,7 @@
 #include "sage/draw/picture.hpp"
 #include "sage/model/fingerprint.hpp"
 #include "sage/record/csv.hpp"
+#include "sage/record/data_file.hpp"
 #include "sage/record/progress.hpp"
 #include "sage/record/result_file.hpp"
 #include "sage/record/vtu.hpp"
@@ -140,15 +141,41 @@ int threads_for(int asked) {
 
 namespace {
 
-// The deck as a model; its checksum becomes the owner's.
-std::unique_ptr<Model> model_of(const RunRequest& request, const Catalogue& catalogue, ResultOwner& owner) {
+// A warning about the fields that were asked for in vain.
+void warn_of_fields(const OutputOptions& o, Model& model) {
+  const bool tables = o.listing && o.tables != Tables::none, all = o.vtu || o.result;
+  const bool reports =
+      std::ranges::any_of(model.reports, [](const Report& r) { return r.kind == ReportKind::point; });
+  const auto has_column = [&](const FieldEntry& row) {
+    const bool in_reports = reports && row.form == FieldForm::number;
+    switch (row.place()) {
+      case FieldPlace::node:
+        return o.nodes || tables || in_reports || all;
+      case FieldPlace::point:
+        return o.points || tables || in_reports || all;
+      case FieldPlace::increment:
+        return o.increments || o.result;
+      case FieldPlace::element:
+        return all;
+    }
+    return true;
+  };
+  const std::string text = fields_without_column(
+      o.fields, fields_of(model), has_column,
+      "ask for --nodes (fields of nodes), --points (of integration points) or --result (all)");
+  if (!text.empty()) model.diagnostics.add({Severity::warning, {model.file, 0, 0, 0}, text, {}});
+}
+
+// The deck as a model; its checksum becomes the owner's, and names of fields' components those of the fields.
+std::unique_ptr<Model> model_of(RunRequest& request, const Catalogue& catalogue, ResultOwner& owner) {
   const Deck deck = read_input(request.deck, request.input);
   BuildOptions build = request.input.build;
   if (!request.solver.empty()) build.solver = solver_code(catalogue, request.solver);
   auto model = std::make_unique<Model>(build_model(deck, catalogue, build));
   owner.deck_sum = checksum(*deck.source);
   if (request.output.vtu || request.output.result) warn_of_vtu(*model, model->diagnostics);
-  require_fields(request.output.pictures, request.output.fields, {model.get()});
+  request.output.fields = require_fields(request.output.pictures, request.output.fields, {fields_of(*model)});
+  warn_of_fields(request.output, *model);
   for (Report& report : model->reports) report.fields = request.output.fields;
   return model;
 }
@@ -178,7 +205,8 @@ std::vector<std::filesystem::path> files_of(const Reports& reports,
 
 }  // namespace
 
-RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
+RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
+  RunRequest request = asked;
   const auto start = std::chrono::steady_clock::now();
   RunOutcome outcome;
   ResultOwner owner{request.deck, 0, "run"};
@@ -193,6 +221,7 @@ RunOutcome run_deck(const RunRequest& request, const Catalogue& catalogue) {
     outcome.too_large = true;
     return outcome;
   }
+  if (request.output.result) expect_data_module();  // before any file is begun
   RunSettings settings = settings_for(request);
   std::optional<ResultFiles> own;
   if (request.results == nullptr) own.emplace(request.output.folder, stem_of(request), owner);

@@ -276,9 +276,7 @@ class OwnPart {
   FieldList point_fields(const Group& group) const {
     FieldList list;
     for (const FieldEntry& field : fields_.rows())
-      if (applies(field, group.entry->kind) &&
-          (!field.has_law || field.has_law(model_.material_of(group).law_ref())))
-        list.push_back(&field);
+      if (applies(field, group.entry->kind, model_.material_of(group).law_ref())) list.push_back(&field);
     return list;
   }
   static std::size_t points_of(const Group& group) {
@@ -375,7 +373,8 @@ ResultOutput::ResultOutput(std::filesystem::path folder, const std::string& stem
 }
 
 ResultOutput::~ResultOutput() {
-  if (!files_.empty()) states_.discard();
+  const bool of_no_checkpoint = !frames_.empty() && !in_checkpoint_;
+  if (!files_.empty() || of_no_checkpoint) states_.discard();
 }
 
 void ResultOutput::add(const Model& model, const StepReport& report, const Solution& solution) {
@@ -398,6 +397,7 @@ void ResultOutput::on_failure(const Model& model, const StepReport& report, cons
 }
 
 void ResultOutput::exchange(Archive& archive) {
+  in_checkpoint_ = true;
   states_.exchange(archive);
   archive(frames_);
 }

@@ -13,7 +13,7 @@ class ResultOutput final : public Output {
  public:
   // Throws OutputError, also where the module that writes such files can't be loaded.
   ResultOutput(std::filesystem::path folder, const std::string& stem);
-  // Once the file is written nobody needs the states; until here a checkpoint may still name them.
+  // Once the file is written nobody needs the states; until then only a checkpoint may name them.
   ~ResultOutput() override;
   ResultOutput(const ResultOutput&) = delete;
   ResultOutput& operator=(const ResultOutput&) = delete;
@@ -33,6 +33,7 @@ class ResultOutput final : public Output {
 
   std::filesystem::path path_;
   OutFile states_;
+  bool in_checkpoint_ = false;         // --restart goes on from the states
   std::vector<std::uint64_t> frames_;  // bytes of each
   std::string failure_;                // what the run says that found no equilibrium
   std::vector<std::filesystem::path> files_;

@@ -58,6 +58,48 @@ TEST(CommandLine, HelpOfEverySubcommandNamesItsOptions) {
   }
 }
 
+// Each value has its option: a deck behind it is a deck.
+TEST(CommandLine, OptionsThatMayBeRepeatedTakeOneValueEach) {
+  const fs::path folder = empty_folder("one_value_each");
+  write(folder / "deck.dat", block_deck().text());
+  for (const char* options :
+       {"--field mean_stress --field deviator", "--picture mean_stress --picture stress_yy", "--without all",
+        "--converge 0.4 --follow report1.ratio"}) {
+    const Finished run = sagefe(folder, std::string("run -q -o out ") + options + " deck.dat");
+    EXPECT_EQ(run.exit_code, 0) << options << "\n" << run.err;
+  }
+}
+
+TEST(CommandLine, AFieldWithoutAColumnIsAWarning) {
+  const fs::path folder = empty_folder("field_in_vain");
+  write(folder / "deck.dat", block_deck().text());
+  const char* kIn = "no output that is asked for has a column for it";
+  const Finished vain = sagefe(folder, "run deck.dat -q --tables none --field mean_stress --field deviator");
+  EXPECT_EQ(vain.exit_code, 0);
+  expect_words(vain.err, {"--field mean_stress, deviator: ", kIn, "--points"});
+  for (const char* more : {"--points", "--tables stage", "--point 0.5,0.5", "--vtu"}) {
+    const Finished shown =
+        sagefe(folder, std::string("run deck.dat -q --field mean_stress ") +
+                           (std::string(more) == "--tables stage" ? "" : "--tables none ") + more);
+    EXPECT_EQ(shown.err.find(kIn), std::string::npos) << more;
+  }
+  const Finished compared = sagefe(folder, "compare deck.dat --both --field mean_stress");
+  expect_words(compared.err, {"--field mean_stress: ", kIn, "--line"});
+}
+
+// As --picture does.
+TEST(CommandLine, AComponentStandsForItsField) {
+  const fs::path folder = empty_folder("component");
+  write(folder / "deck.dat", block_deck().text());
+  const std::string run = "run deck.dat -q --points --tables none ";
+  ASSERT_EQ(sagefe(folder, run + "--field principal_stress -o whole").exit_code, 0);
+  const Finished one = sagefe(folder, run + "--field principal_stress_1 --field principal_stress_2 -o one");
+  ASSERT_EQ(one.exit_code, 0) << one.err;
+  const std::string points = read(folder / "one" / "deck.points.csv");
+  EXPECT_NE(points.find(",principal_stress_1["), std::string::npos);
+  EXPECT_EQ(points, read(folder / "whole" / "deck.points.csv"));
+}
+
 // /dev/full accepts an open and refuses every write, as a full disk does.
 TEST(CommandLine, StandardOutputThatCantBeWrittenIsExitCode4) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this system";

@@ -145,7 +145,21 @@ TEST(Fault, FullDiskUnderAResultFile) {
                "bash -c 'trap \"\" XFSZ; ulimit -f " + std::to_string(blocks) + "; exec \"$@\"' -");
     EXPECT_EQ(full.exit_code, 4) << blocks << "\n" << full.err;
     EXPECT_FALSE(fs::exists(folder / "out/deck.h5"));
+    EXPECT_FALSE(fs::exists(folder / "out/deck.h5.partial"));
+    EXPECT_FALSE(fs::exists(folder / "out/deck.h5.states.partial")) << "no checkpoint names it";
   }
+}
+
+// Found missing before any file is begun.  A copy of the program that looks in a folder that is not there.
+TEST(Fault, MissingModuleOfResultFilesLeavesNothing) {
+  const fs::path folder = folder_with_deck("no_module");
+  const Finished none =
+      sagefe(folder, "run deck.dat -q --result",
+             "timeout 60 sh -c 'sed s,/sage/record,/sage/absent,g \"$0\" > other; chmod +x other; "
+             "exec ./other \"$@\"'");
+  EXPECT_EQ(none.exit_code, 4) << none.err;
+  EXPECT_NE(none.err.find("can't be loaded"), std::string::npos) << none.err;
+  EXPECT_TRUE(!fs::exists(folder / "out") || fs::is_empty(folder / "out"));
 }
 
 TEST(Fault, UnwritableFolderAndRestart) {
