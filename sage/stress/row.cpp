@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+
+#include "sage/judge/attempt.hpp"
 
 namespace sage::stress {
 
@@ -132,19 +133,9 @@ double RowResult::worst_digits() const {
 }
 
 RowResult evaluate(const Row& row, const scenes::Workbench& bench) {
-  const auto start = std::chrono::steady_clock::now();
   Sweep sweep(bench);
-  RowResult result;
-  try {
-    row.run(sweep);
-  } catch (const std::exception& error) {
-    result.thrown = error.what();
-  } catch (...) {
-    result.thrown = "something that is no std::exception";
-  }
-  result.trials = std::move(sweep.trials);
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return result;
+  const judge::Attempt attempt = judge::attempt([&] { row.run(sweep); });
+  return {std::move(sweep.trials), attempt.thrown, attempt.seconds};
 }
 
 std::vector<Row> all_rows() {

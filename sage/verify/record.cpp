@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "sage/core/error.hpp"
+#include "sage/judge/attempt.hpp"
 
 namespace sage::verify {
 
@@ -142,16 +143,10 @@ double bisect(double low, double high, double width, const std::function<bool(do
 }
 
 CaseResult run_case(const Case& one, const Workbench& bench) {
-  const auto start = std::chrono::steady_clock::now();
   Record record(bench);
-  try {
-    one.run(record);
-  } catch (const std::exception& error) {
-    record.stopped(error.what());
-  }
-  CaseResult outcome{&one, record.rows(), record.sequences(), 0.0};
-  outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return outcome;
+  const judge::Attempt attempt = judge::attempt([&] { one.run(record); });
+  if (attempt.threw) record.stopped(attempt.thrown);
+  return {&one, record.rows(), record.sequences(), attempt.seconds};
 }
 
 }  // namespace sage::verify
