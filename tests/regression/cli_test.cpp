@@ -58,14 +58,14 @@ TEST(CommandLine, HelpOfEverySubcommandNamesItsOptions) {
   }
 }
 
-// Each value has its option: a deck behind it is a deck.
+// What follows a value are decks, the first of several too.
 TEST(CommandLine, OptionsThatMayBeRepeatedTakeOneValueEach) {
   const fs::path folder = empty_folder("one_value_each");
-  write(folder / "deck.dat", block_deck().text());
+  for (const char* deck : {"a.dat", "b.dat"}) write(folder / deck, block_deck().text());
   for (const char* options :
        {"--field mean_stress --field deviator", "--picture mean_stress --picture stress_yy", "--without all",
         "--converge 0.4 --follow report1.ratio"}) {
-    const Finished run = sagefe(folder, std::string("run -q -o out ") + options + " deck.dat");
+    const Finished run = sagefe(folder, std::string("run -q -o out ") + options + " a.dat b.dat");
     EXPECT_EQ(run.exit_code, 0) << options << "\n" << run.err;
   }
 }
