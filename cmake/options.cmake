@@ -61,9 +61,14 @@ function(sage_target name)
   target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                                             $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/sagefe>)
   target_link_libraries(${name} PUBLIC ${ARG_LINKS} PRIVATE $<BUILD_INTERFACE:sage_options> ${ARG_PRIVATE_LINKS})
-  # The layout of fixed-size Eigen types must not depend on the processor flags of who includes the headers.
+  # The layout of fixed-size Eigen types must not depend on more of the processor's flags than it has to.
   # Nor must the blocks of its products depend on the caches of the machine; asking for them takes longer than a small product.
   target_compile_definitions(${name} PUBLIC EIGEN_MAX_ALIGN_BYTES=32 EIGEN_NO_CPUID)
+  # Eigen aligns them as AVX wants only where it is on.  And a program of one's own that makes one of the elements'
+  # templates too hands the linker a second one, which may take the place of the first: both must be the same.
+  if(SAGE_NATIVE AND SAGE_HAVE_AVX2)
+    target_compile_options(${name} INTERFACE $<INSTALL_INTERFACE:-march=x86-64-v3>)
+  endif()
   target_compile_features(${name} PUBLIC cxx_std_20)
   string(REPLACE "sage_" "" export_name ${name})
   if(name STREQUAL "sage_core")

@@ -10,27 +10,63 @@
 
 namespace sage {
 
+namespace {
+
+// Dofs and fields of elements with unknowns of their own.
+void list_dofs(GroupData& data, const DofMap& dof_map) {
+  if (data.group->entry->unknowns.empty()) return;
+  std::vector<int> dofs;
+  for (int e = 0; e < data.group->elements(); ++e) {
+    dof_map.list(*data.group, e, dofs);
+    if (dofs.size() != data.dofs())
+      throw std::logic_error(data.group->element_name + ": its entry lists " + std::to_string(dofs.size()) +
+                             " unknowns, its traits have " + std::to_string(data.dofs()) + " dofs");
+    data.dof_list.insert(data.dof_list.end(), dofs.begin(), dofs.end());
+  }
+  for (const int dof : dofs) data.field_of_dof.push_back(dof_map.at(dof).field);
+}
+
+bool all_finite(const FieldSums& values) {
+  return std::ranges::all_of(values, [](double v) { return std::isfinite(v); });
+}
+
+FieldSums scales_of(const FieldSums& a, const FieldSums& b) {
+  FieldSums scales{};
+  for (std::size_t f = 0; f < scales.size(); ++f) scales[f] = std::sqrt(a[f] + b[f]);
+  return scales;
+}
+
+}  // namespace
+
 Assembly::Assembly(const Model& model, const Scene& scene, const Skips& skips, WorkCounters& work)
     : model_(&model),
       scene_(&scene),
       skips_(skips),
       work_(&work),
+      dof_map_(model),
       element_(model, !scene.linear),
       changing_(groups_, element_, work),
       constant_(model, groups_, element_, work),
-      late_(model.dofs()) {
+      late_(dof_map_.dofs()) {
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     GroupData data;
     data.group = &model.groups[g];
     data.law = model.material_of(model.groups[g]).law_ref();
     data.wants_context = wants_context(data.law);
-    wants_moment_ = wants_moment_ || data.wants_context;
-    data.constant = scene.group_linear[g] != 0 && skips.elements && ConstantRegion::suits(data.law);
+    wants_moment_ = wants_moment_ || data.wants_context || data.group->element->traits().sees_unknowns;
+    data.constant =
+        scene.group_linear[g] != 0 && skips.elements && ConstantRegion::suits(*data.group, data.law);
+    list_dofs(data, dof_map_);
     groups_.push_back(std::move(data));
     reset_group(g);
   }
-  internal_.setZero(model.dofs());
-  if (!std::ranges::all_of(groups_, &GroupData::constant)) changing_.size_forces(model.dofs());
+  internal_.setZero(dof_map_.dofs());
+  if (!std::ranges::all_of(groups_, &GroupData::constant)) changing_.size_forces(dof_map_.dofs());
+}
+
+bool Assembly::sees_unknowns() const {
+  return std::ranges::any_of(groups_,
+                             [](const GroupData& data) { return data.group->element->traits().sees_unknowns; });
 }
 
 void Assembly::reset_group(std::size_t group) {
@@ -55,8 +91,8 @@ void Assembly::enter_stage(const Activity& activity, const Eigen::VectorXd& rate
 void Assembly::enter_stage(const Activity& activity, const Eigen::VectorXd& rate, int increments,
                            const SolverMaker& make) {
   enter_stage(activity, rate);
-  if (!skips_.condensation || scene_->linear) return;
-  condensation_ = condense_if_it_pays(groups_, equations_.dofs(), model_->dofs(), increments, make);
+  if (!skips_.condensation || scene_->linear || !dof_map_.only_displacement()) return;
+  condensation_ = condense_if_it_pays(groups_, equations_.dofs(), dof_map_.dofs(), increments, make);
   if (!condensation_) return;
   work_->condensed = condensation_->condensed();
   equations_.keep(condensation_->kept());
@@ -86,11 +122,11 @@ ElementEquations Assembly::element_equations() const {
   ElementEquations list;
   std::size_t terms = 0;
   for (const GroupData& data : groups_)
-    if (in_system(data)) terms += data.group->nodes.size() * 2;
+    if (in_system(data)) terms += static_cast<std::size_t>(data.group->elements()) * data.dofs();
   list.equations.reserve(terms + (condensation_ ? equations_.dofs().size() : 0));
   list.offset.reserve(static_cast<std::size_t>(elements_) + 1);
   for (const GroupData& data : groups_)
-    if (in_system(data)) append_equations(*data.group, equations_.of_dofs(), list);
+    if (in_system(data)) append_equations(data, equations_.of_dofs(), list);
   if (!condensation_) return list;
   for (int eq = 0; eq < equations(); ++eq) list.equations.push_back(eq);
   list.offset.push_back(static_cast<std::int64_t>(list.equations.size()));
@@ -103,10 +139,10 @@ void Assembly::fill(Tangent& tangent) const {
     if (!in_system(data) || !data.keeps_matrices()) continue;
     for (int e = 0; e < data.group->elements(); ++e) {
       element_.stop_if_asked_at(e);
-      tangent.add(data.first_element + e, nodes_of(data, e), data.matrix_of(e));
+      tangent.add(data.first_element + e, data.dofs_of(e), data.matrix_of(e));
     }
   }
-  if (condensation_) tangent.add(elements_ - 1, {}, condensation_->S().data());
+  if (condensation_) tangent.add(elements_ - 1, condensation_->S().data());
 }
 
 // Forces and matrices of the groups that are not constant, and all kept matrices into the tangent.
@@ -122,7 +158,7 @@ Outcome Assembly::evaluate_changing(const Eigen::VectorXd& du, Tangent* tangent)
   } else {
     outcome = elements();
   }
-  return outcome == Outcome::ok && std::isfinite(changing_.sum()) ? Outcome::ok : Outcome::cut_step;
+  return outcome == Outcome::ok && all_finite(changing_.sums()) ? Outcome::ok : Outcome::cut_step;
 }
 
 void Assembly::add_constant(const Eigen::VectorXd& du) {
@@ -131,7 +167,7 @@ void Assembly::add_constant(const Eigen::VectorXd& du) {
   else
     internal_.setZero();
   constant_.add_forces(du, internal_);
-  force_scale_ = std::sqrt(changing_.sum() + constant_.sum());
+  force_scale_ = scales_of(changing_.sums(), constant_.sums());
 }
 
 Outcome Assembly::evaluate(const Eigen::VectorXd& du, Tangent* tangent) {
@@ -139,7 +175,7 @@ Outcome Assembly::evaluate(const Eigen::VectorXd& du, Tangent* tangent) {
   Outcome outcome = evaluate_changing(du, tangent);
   if (outcome == Outcome::ok) {
     add_constant(du);
-    if (!std::isfinite(force_scale_)) outcome = Outcome::cut_step;
+    if (!all_finite(force_scale_)) outcome = Outcome::cut_step;
   }
   if (tangent != nullptr) tangent->settle(outcome);
   return outcome;
@@ -196,7 +232,7 @@ IteratedStep::IteratedStep(Assembly& assembly, const Eigen::VectorXd& target, do
     : assembly_(&assembly), region_(assembly.condensation_.get()) {
   if (region_ == nullptr) return;
   const Timer timer(assembly.work_->solve_seconds);
-  assembly.constant_force_.setZero(assembly.model_->dofs());
+  assembly.constant_force_.setZero(assembly.dof_map_.dofs());
   assembly.constant_.add_committed_forces(assembly.constant_force_);
   assembly.prescribed_ = rate_part * assembly.rate_;
   region_->begin_step(target, assembly.prescribed_, assembly.constant_force_);
@@ -214,7 +250,7 @@ Outcome IteratedStep::iterate(const Eigen::VectorXd& du, Tangent* tangent) {
   if (outcome == Outcome::cut_step) return outcome;
   all.internal_ = all.changing_.forces();
   region_->add_forces(du, all.internal_);
-  all.force_scale_ = std::sqrt(all.changing_.sum() + all.constant_.sum());
+  all.force_scale_ = scales_of(all.changing_.sums(), all.constant_.sums());
   return Outcome::ok;
 }
 
@@ -228,7 +264,7 @@ void IteratedStep::complete(Eigen::VectorXd& du) {
   region_->complete(du);
   all.add_constant(du);
   double residual = region_->largest_residual(all.internal_);
-  for (int i = 0; i < kSteps && residual > kRounding * all.force_scale_; ++i) {
+  for (int i = 0; i < kSteps && residual > kRounding * all.force_scale(0); ++i) {
     region_->refine(all.internal_, du);
     all.add_constant(du);
     const double last = std::exchange(residual, region_->largest_residual(all.internal_));

@@ -48,6 +48,12 @@ class Assembly {
     constant_.take_states();
   }
 
+  const DofMap& dof_map() const { return dof_map_; }
+  // Some element sees the committed unknowns.
+  bool sees_unknowns() const;
+  // Those unknowns; they must stay where they are.
+  void set_committed(const Eigen::VectorXd& u) { element_.set_committed(&u); }
+
   int equations() const { return equations_.count(); }
   // Of the elements of the system: all active ones, or with a condensed region those of changing groups and the
   // region's dense matrix last.
@@ -71,8 +77,8 @@ class Assembly {
   void recover_states() { late_.recover(groups_, element_, *work_); }
 
   const Eigen::VectorXd& internal_force() const { return internal_; }  // every dof
-  // sqrt(sum over elements of |f_e|^2): a force scale that vanishes only in a stress-free mesh.
-  double force_scale() const { return force_scale_; }
+  // sqrt(sum over elements of |f_e|^2), of a field of unknowns: a scale that vanishes only in a stress-free mesh.
+  double force_scale(int field) const { return force_scale_[static_cast<std::size_t>(field)]; }
 
   // States of all groups and what goes with them.  before_step: those of active groups as they were before the
   // last commit (reading gives them back as committed).
@@ -96,6 +102,7 @@ class Assembly {
   const Scene* scene_;
   Skips skips_;
   WorkCounters* work_;
+  DofMap dof_map_;
   std::vector<GroupData> groups_;
   ElementWork element_;
   ChangingRegion changing_;
@@ -107,7 +114,7 @@ class Assembly {
   int elements_ = 0;  // of the system
   Eigen::VectorXd rate_, internal_;
   Eigen::VectorXd prescribed_, constant_force_;  // of a condensed region, at the start of a step
-  double force_scale_ = 0.0;
+  FieldSums force_scale_{};
 };
 
 // One step of the stage and its iterations.  A condensed region acts by its border alone in it.

@@ -10,16 +10,25 @@ EquilibriumAudit audit_equilibrium(const Model& model, const Assembly& assembly,
   EquilibriumAudit audit;
   const Eigen::VectorXd& f = assembly.internal_force();
   double moment_scale = 0.0, scale[2] = {0, 0};
-  for (int dof = 0; dof < model.dofs(); ++dof) {
+  const DofMap& map = assembly.dof_map();
+  audit.fields.resize(static_cast<std::size_t>(map.fields()) - 1);
+  for (int dof = 0; dof < map.dofs(); ++dof) {
     if (!assembly.in_use(dof)) continue;
-    const int c = dof % 2;
+    const auto [node, field, c] = map.at(dof);
     const double reaction = assembly.equation_of(dof) < 0 ? f[dof] - external[dof] : 0.0;
+    const double size = std::max(std::abs(external[dof]) + std::abs(reaction), std::abs(force_start[dof]));
+    if (field > 0) {
+      FieldAudit& sums = audit.fields[static_cast<std::size_t>(field) - 1];
+      sums.applied += external[dof];
+      sums.reactions += reaction;
+      sums.scale += size;
+      continue;
+    }
     const double force = external[dof] + reaction;
     audit.applied[c] += external[dof];
     audit.reactions[c] += reaction;
-    const double arm = c == 0 ? -model.mesh.x(1, dof / 2) : model.mesh.x(0, dof / 2);
+    const double arm = c == 0 ? -model.mesh.x(1, node) : model.mesh.x(0, node);
     audit.moment += force * arm;
-    const double size = std::max(std::abs(external[dof]) + std::abs(reaction), std::abs(force_start[dof]));
     scale[c] += size;
     moment_scale += size * std::abs(arm);
   }
@@ -33,6 +42,12 @@ EquilibriumAudit audit_equilibrium(const Model& model, const Assembly& assembly,
   }
   if (plane && moment_scale > 0.0)
     audit.out_of_balance = std::max(audit.out_of_balance, std::abs(audit.moment) / moment_scale);
+  for (std::size_t i = 0; i < audit.fields.size(); ++i) {
+    const FieldAudit& sums = audit.fields[i];
+    if (model.unknowns[i + 1].balanced && sums.scale > 0.0)
+      audit.out_of_balance =
+          std::max(audit.out_of_balance, std::abs(sums.applied + sums.reactions) / sums.scale);
+  }
   return audit;
 }
 

@@ -16,10 +16,10 @@ Outcome ChangingRegion::evaluate_group(GroupData& data, const Eigen::VectorXd& d
   for (int e = 0; e < data.group->elements(); ++e) {
     element_->stop_if_asked_at(e);
     if (element_->evaluate(data, e, &du, K) == Outcome::cut_step) return Outcome::cut_step;
-    sum_ += add_force(data, e, element_->f(), forces_);
+    add_force(data, e, element_->f(), forces_, sums_);
     if (tangent == nullptr) continue;
     if (!data.keeps_matrices())
-      tangent->add(data.first_element + e, nodes_of(data, e), K);
+      tangent->add(data.first_element + e, data.dofs_of(e), K);
     else if (replace_matrix(data, e, K))
       tangent->differs();
   }
@@ -29,7 +29,7 @@ Outcome ChangingRegion::evaluate_group(GroupData& data, const Eigen::VectorXd& d
 
 Outcome ChangingRegion::evaluate(const Eigen::VectorXd& du, Tangent* tangent) {
   forces_.setZero();
-  sum_ = 0.0;
+  sums_.fill(0.0);
   for (GroupData& data : *groups_)
     if (data.active && !data.constant && evaluate_group(data, du, tangent) == Outcome::cut_step)
       return Outcome::cut_step;

@@ -22,7 +22,7 @@ class ChangingRegion {
 
   // Every dof; no size where no group is of this kind.
   const Eigen::VectorXd& forces() const { return forces_; }
-  double sum() const { return sum_; }  // over the elements of |f_e|^2
+  const FieldSums& sums() const { return sums_; }
 
  private:
   Outcome evaluate_group(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent);
@@ -31,7 +31,7 @@ class ChangingRegion {
   ElementWork* element_;
   WorkCounters* work_;
   Eigen::VectorXd forces_;
-  double sum_ = 0.0;
+  FieldSums sums_{};
 };
 
 }  // namespace sage

@@ -30,7 +30,7 @@ Condensation::Condensation(const std::vector<GroupData>& groups, const std::vect
   for (const GroupData& data : groups) {
     if (!data.active || !data.constant) continue;
     all_symmetric = all_symmetric && symmetric(data.law);
-    append_equations(*data.group, equation, elements);
+    append_equations(data, equation, elements);
   }
   solver_ = make(condensed(), all_symmetric);
   solver_->analyse(condensed(), std::move(elements));
@@ -70,24 +70,27 @@ void Condensation::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const 
   y.setZero();
   for (const GroupData& data : *groups_) {
     if (!data.active || !data.constant) continue;
-    const std::size_t nodes = data.group->node_count(), dofs = 2 * nodes;
+    const std::size_t nodes = data.group->node_count(), dofs = data.dofs();
     for (int e = 0; e < data.group->elements(); ++e) {
       const int* node = data.group->nodes_of(e);
       const double* K = data.matrix_of(e);
-      const double first[] = {x[2 * node[0]], x[2 * node[0] + 1]};
+      const int first_dof = DofMap::displacement(node[0]);
+      const double first[] = {x[first_dof], x[first_dof + 1]};
       if (first[0] != 0.0) {
         const double* shift = data.shift_of(e);
         for (std::size_t i = 0; i < nodes; ++i) {
-          y[2 * node[i]] += shift[2 * i] * first[0];
-          y[2 * node[i] + 1] += shift[2 * i + 1] * first[0];
+          const int dof = DofMap::displacement(node[i]);
+          y[dof] += shift[2 * i] * first[0];
+          y[dof + 1] += shift[2 * i + 1] * first[0];
         }
       }
       for (std::size_t j = 2; j < dofs; ++j) {
-        const double xj = x[2 * node[j / 2] + static_cast<int>(j % 2)] - first[j % 2];
+        const double xj = x[DofMap::displacement(node[j / 2], static_cast<int>(j % 2))] - first[j % 2];
         if (xj == 0.0) continue;
         for (std::size_t i = 0; i < nodes; ++i) {
-          y[2 * node[i]] += K[j * dofs + 2 * i] * xj;
-          y[2 * node[i] + 1] += K[j * dofs + 2 * i + 1] * xj;
+          const int dof = DofMap::displacement(node[i]);
+          y[dof] += K[j * dofs + 2 * i] * xj;
+          y[dof + 1] += K[j * dofs + 2 * i + 1] * xj;
         }
       }
     }
@@ -181,8 +184,10 @@ std::vector<char> changing_dofs(const std::vector<GroupData>& groups, int dofs) 
   std::vector<char> flags(static_cast<std::size_t>(dofs), 0);
   for (const GroupData& data : groups) {
     if (!data.active || data.constant) continue;
-    for (int node : data.group->nodes)
-      for (int c = 0; c < 2; ++c) flags[static_cast<std::size_t>(2 * node + c)] = 1;
+    for (int e = 0; e < data.group->elements(); ++e) {
+      const ElementDofs own = data.dofs_of(e);
+      for (std::size_t i = 0; i < own.size(); ++i) flags[static_cast<std::size_t>(own[i])] = 1;
+    }
   }
   return flags;
 }

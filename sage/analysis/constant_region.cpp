@@ -21,7 +21,8 @@ ConstantRegion::ConstantRegion(const Model& model, std::vector<GroupData>& group
 
 // K u cannot be better than rounding of its largest terms.  Near nu = 1/2 those belong to a change of volume
 // that all but vanishes, and summing B u first keeps the digits.
-bool ConstantRegion::suits(const LawRef& law) {
+bool ConstantRegion::suits(const Group& group, const LawRef& law) {
+  if (!group.entry->unknowns.empty() || !group.element->traits().linear) return false;
   constexpr double kMostRatio = 1e4;  // of the largest to the smallest stiffness; nu = .4998
   const auto* solid = std::get_if<const SolidLaw*>(&law);
   if (solid == nullptr) return true;  // of joints the relative displacement is taken first
@@ -76,7 +77,7 @@ void ConstantRegion::take_states() {
 }
 
 void ConstantRegion::add_forces(const Eigen::VectorXd& du, Eigen::VectorXd& to) {
-  sum_ = 0.0;
+  sums_.fill(0.0);
   for (GroupData& data : *groups_)
     if (data.active && data.constant) add_group(data, du, to);
 }
@@ -93,7 +94,7 @@ void ConstantRegion::add_group(GroupData& data, const Eigen::VectorXd& du, Eigen
   double* const u = element_->du();
   for (int e = 0; e < data.group->elements(); ++e) {
     element_->stop_if_asked_at(e);
-    element_->gather(data, e, du);
+    data.dofs_of(e).gather(du, u);
     const double x = u[0], y = u[1];
     for (std::size_t i = 0; i < n; i += 2) {
       u[i] -= x;
@@ -106,7 +107,7 @@ void ConstantRegion::add_group(GroupData& data, const Eigen::VectorXd& du, Eigen
     for (std::size_t i = 0; i < n; ++i) f[i] += shift[i] * x;
     for (std::size_t j = 2; j < n; ++j)
       for (std::size_t i = 0; i < n; ++i) f[i] += K[j * n + i] * u[j];
-    sum_ += add_force(data, e, f, to);
+    add_force(data, e, f, to, sums_);
   }
   work_->linear_products += data.group->elements();
 }
@@ -115,7 +116,7 @@ void ConstantRegion::add_committed_forces(Eigen::VectorXd& to) const {
   for (const GroupData& data : *groups_) {
     if (!data.active || !data.constant || data.force.empty()) continue;
     for (int e = 0; e < data.group->elements(); ++e)
-      add_force(data, e, data.force.data() + static_cast<std::size_t>(e) * data.dofs(), to);
+      data.dofs_of(e).add(data.force.data() + static_cast<std::size_t>(e) * data.dofs(), to);
   }
 }
 

@@ -14,8 +14,8 @@ class ConstantRegion {
   // All arguments must outlive it.
   ConstantRegion(const Model& model, std::vector<GroupData>& groups, ElementWork& element, WorkCounters& work);
 
-  // Whether K u keeps the digits that B u has.
-  static bool suits(const LawRef& law);
+  // Whether displacements are all that the elements solve for, and K u keeps the digits that B u has.
+  static bool suits(const Group& group, const LawRef& law);
 
   // K of every shape of a group's elements (shapes_of).
   void make_matrices(GroupData& data, const std::vector<int>& shapes);
@@ -24,7 +24,7 @@ class ConstantRegion {
 
   // Adds the internal forces at committed state + du.
   void add_forces(const Eigen::VectorXd& du, Eigen::VectorXd& to);
-  double sum() const { return sum_; }  // over the elements of |f_e|^2, in the last such pass
+  const FieldSums& sums() const { return sums_; }  // in the last such pass
   // Adds those at the committed state.
   void add_committed_forces(Eigen::VectorXd& to) const;
 
@@ -36,7 +36,7 @@ class ConstantRegion {
   std::vector<GroupData>* groups_;
   ElementWork* element_;
   WorkCounters* work_;
-  double sum_ = 0.0;
+  FieldSums sums_{};
 };
 
 }  // namespace sage

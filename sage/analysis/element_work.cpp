@@ -23,19 +23,12 @@ ElementWork::ElementWork(const Model& model, bool keep_geometry)
   K_.resize(dofs * dofs);
   f_.resize(dofs);
   du_.resize(dofs);
+  u0_.resize(dofs);
 }
 
 void ElementWork::stop_if_asked_at(int element) const {
   constexpr int kEvery = 256;
   if (element % kEvery == 0) stop_if_asked(stop_asked_);
-}
-
-void ElementWork::gather(const GroupData& data, int element, const Eigen::VectorXd& u) {
-  const int* nodes = data.group->nodes_of(element);
-  for (std::size_t i = 0; i < data.group->node_count(); ++i) {
-    du_[2 * i] = u[2 * nodes[i]];
-    du_[2 * i + 1] = u[2 * nodes[i] + 1];
-  }
 }
 
 const double* ElementWork::geometry_of(GroupData& data, int element) {
@@ -70,8 +63,9 @@ Outcome ElementWork::evaluate(GroupData& data, int element, const Eigen::VectorX
   const auto law_size = static_cast<std::size_t>(traits.law_size);
   const auto history = static_cast<std::size_t>(data.state.history_size());
   const auto e = static_cast<std::size_t>(element);
+  const ElementDofs dofs = data.dofs_of(element);
   if (du != nullptr)
-    gather(data, element, *du);
+    dofs.gather(*du, du_.data());
   else
     std::fill(du_.begin(), du_.end(), 0.0);
   const std::size_t at = e * points * law_size;
@@ -84,6 +78,10 @@ Outcome ElementWork::evaluate(GroupData& data, int element, const Eigen::VectorX
   in.eps0 = has_room ? data.state.committed.eps.data() + at : no_stress_.data();
   in.h0 = data.state.committed.h.data() + e * points * history;
   if (data.wants_context) in.contexts = contexts_of(data, element);
+  if (traits.sees_unknowns) {
+    in.u0 = committed_of(dofs);
+    in.dt = moment_.dt;
+  }
   ElementOut out;
   out.K = K;
   out.f = f_.data();
@@ -94,17 +92,24 @@ Outcome ElementWork::evaluate(GroupData& data, int element, const Eigen::VectorX
   return data.group->element->evaluate(in, out);
 }
 
-double add_force(const GroupData& data, int element, const double* f, Eigen::VectorXd& to) {
-  const int* nodes = data.group->nodes_of(element);
-  const int n = static_cast<int>(data.group->node_count());
-  double sum = 0.0;
-  for (int i = 0; i < n; ++i) {
-    const int dof = 2 * nodes[i];
-    to[dof] += f[2 * i];
-    to[dof + 1] += f[2 * i + 1];
-    sum += f[2 * i] * f[2 * i] + f[2 * i + 1] * f[2 * i + 1];
+// Elements of a model that stands by itself have not moved yet.
+const double* ElementWork::committed_of(const ElementDofs& dofs) {
+  u0_.assign(u0_.size(), 0.0);
+  if (committed_ != nullptr) dofs.gather(*committed_, u0_.data());
+  return u0_.data();
+}
+
+void add_force(const GroupData& data, int element, const double* f, Eigen::VectorXd& to, FieldSums& sums) {
+  const ElementDofs dofs = data.dofs_of(element);
+  dofs.add(f, to);
+  if (data.field_of_dof.empty()) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < dofs.size(); i += 2) sum += f[i] * f[i] + f[i + 1] * f[i + 1];
+    sums[0] += sum;
+    return;
   }
-  return sum;
+  for (std::size_t i = 0; i < dofs.size(); ++i)
+    sums[static_cast<std::size_t>(data.field_of_dof[i])] += f[i] * f[i];
 }
 
 }  // namespace sage

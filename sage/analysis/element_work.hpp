@@ -1,7 +1,7 @@
 // One element at a time: room for what goes into it and what comes out.
 #pragma once
 
-#include <span>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -9,6 +9,9 @@
 #include "sage/core/stop.hpp"
 
 namespace sage {
+
+// Over the elements, of each field of unknowns: sum of the squares of their forces.
+using FieldSums = std::array<double, kMostFields>;
 
 class ElementWork {
  public:
@@ -22,13 +25,12 @@ class ElementWork {
   // Of all evaluations from now on, for laws that want it.
   void set_moment(const Moment& moment) { moment_ = moment; }
   const Moment& moment() const { return moment_; }
+  // Committed unknowns, for elements that see them; they must stay there.
+  void set_committed(const Eigen::VectorXd* u) { committed_ = u; }
 
   // Internal forces at committed state + du (nullptr: none) into f(), K where it is not nullptr.  Stress and
   // strain of constant groups go into sigma() and eps(), all other states into the trial side.
   Outcome evaluate(GroupData& data, int element, const Eigen::VectorXd* du, double* K);
-  // The element's part of u into du().
-  void gather(const GroupData& data, int element, const Eigen::VectorXd& u);
-
   double* du() { return du_.data(); }
   double* K() { return K_.data(); }
   const double* f() const { return f_.data(); }
@@ -36,24 +38,22 @@ class ElementWork {
   const double* eps() const { return eps_.data(); }
 
  private:
+  const double* committed_of(const ElementDofs& dofs);
   const double* geometry_of(GroupData& data, int element);
   const PointContext* contexts_of(const GroupData& data, int element);
 
   const Model* model_;
   bool keep_geometry_;
   StopAsked stop_asked_;
-  std::vector<double> geometry_, K_, f_, du_, sigma_, eps_;
+  const Eigen::VectorXd* committed_ = nullptr;
+  std::vector<double> geometry_, K_, f_, du_, u0_, sigma_, eps_;
   std::vector<double> no_stress_;  // zeros, of one element
   Eigen::Matrix2Xd x_;
   Moment moment_;
   std::vector<PointContext> contexts_;  // of one element; none where no law wants them
 };
 
-inline std::span<const int> nodes_of(const GroupData& data, int element) {
-  return {data.group->nodes_of(element), data.group->node_count()};
-}
-
-// Adds an element's forces to those of all dofs.  Returns |f|^2.
-double add_force(const GroupData& data, int element, const double* f, Eigen::VectorXd& to);
+// Adds an element's forces to those of all dofs, and their squares to the sums.
+void add_force(const GroupData& data, int element, const double* f, Eigen::VectorXd& to, FieldSums& sums);
 
 }  // namespace sage

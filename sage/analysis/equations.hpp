@@ -12,11 +12,12 @@ class Equations {
  public:
   // One for every dof that an active element has and no support holds, by number of the dof.
   void number(const Model& model, const Activity& activity) {
-    node_used_ = active_nodes(model, activity);
+    const DofMap& map = activity.dof_map;
+    find_used(model, activity);
     std::vector<int> dofs;
-    for (int dof = 0; dof < model.dofs(); ++dof)
+    for (int dof = 0; dof < map.dofs(); ++dof)
       if (in_use(dof) && !activity.held[static_cast<std::size_t>(dof)]) dofs.push_back(dof);
-    take_only(std::move(dofs), static_cast<std::size_t>(model.dofs()));
+    take_only(std::move(dofs), static_cast<std::size_t>(map.dofs()));
   }
   // Those of the other dofs leave the system.
   void keep(std::vector<int> dofs) { take_only(std::move(dofs), of_dof_.size()); }
@@ -26,10 +27,28 @@ class Equations {
   const std::vector<int>& of_dofs() const { return of_dof_; }  // of each dof; -1 = none
   int of(int dof) const { return of_dof_[static_cast<std::size_t>(dof)]; }
   int dof(int equation) const { return dofs_[static_cast<std::size_t>(equation)]; }
-  // False: no active element has the node of this dof.
-  bool in_use(int dof) const { return node_used_[static_cast<std::size_t>(dof / 2)] != 0; }
+  // False: no active element has this dof.
+  bool in_use(int dof) const { return used_[static_cast<std::size_t>(dof)] != 0; }
 
  private:
+  void find_used(const Model& model, const Activity& activity) {
+    used_.assign(static_cast<std::size_t>(activity.dof_map.dofs()), 0);
+    std::vector<int> listed;
+    const auto use = [this](int dof) { used_[static_cast<std::size_t>(dof)] = 1; };
+    for (std::size_t g = 0; g < model.groups.size(); ++g) {
+      const Group& group = model.groups[g];
+      if (!activity.group[g]) continue;
+      if (group.entry->unknowns.empty()) {
+        for (const int node : group.nodes)
+          for (int c = 0; c < 2; ++c) use(DofMap::displacement(node, c));
+        continue;
+      }
+      for (int e = 0; e < group.elements(); ++e) {
+        activity.dof_map.list(group, e, listed);
+        for (const int dof : listed) use(dof);
+      }
+    }
+  }
   void take_only(std::vector<int> dofs, std::size_t all) {
     dofs_ = std::move(dofs);
     of_dof_.assign(all, -1);
@@ -37,7 +56,7 @@ class Equations {
       of_dof_[static_cast<std::size_t>(dofs_[eq])] = static_cast<int>(eq);
   }
 
-  std::vector<char> node_used_;
+  std::vector<char> used_;  // a flag a dof
   std::vector<int> dofs_, of_dof_;
 };
 

@@ -86,7 +86,8 @@ std::string counts_line(const std::array<long, kStatuses>& points) {
 // True where the stage prescribes displacements.
 bool moves(const Stage& stage) {
   return std::ranges::any_of(stage.fixities,
-                             [](const Fixity& f) { return f.value[0] != 0.0 || f.value[1] != 0.0; });
+                             [](const Fixity& f) { return f.value[0] != 0.0 || f.value[1] != 0.0; }) ||
+         std::ranges::any_of(stage.field_fixities, [](const FieldFixity& f) { return f.value != 0.0; });
 }
 
 // What else may find an equilibrium.
@@ -128,7 +129,8 @@ std::array<long, kStatuses> trial_points(const Assembly& assembly) {
 }
 
 bool loads(const Stage& stage) {
-  return !stage.loads.empty() || !stage.pressures.empty() || !stage.gravity.isZero(0.0);
+  return !stage.loads.empty() || !stage.field_loads.empty() || !stage.pressures.empty() ||
+         !stage.gravity.isZero(0.0);
 }
 
 const char* driver_name(const Stage& stage) {
@@ -179,6 +181,21 @@ std::string refused_line(const StepReport& report) {
          short_number(report.refused) + " times the model's size, with next to no resistance\n";
 }
 
+// Of a field that nothing gives a level: what goes in can't go out.
+std::string missing_level(const UnknownField& field) {
+  return "nothing determines the level of the " + field.name +
+         " there: no node of that part has it prescribed.\n" + "  try: a fixity of the " + field.name +
+         " at one node or more of the part.";
+}
+
+const std::string& load_name(const Model& model, int field) {
+  return model.unknowns[static_cast<std::size_t>(field)].load;
+}
+
+std::string load_unit(const Model& model, int field) {
+  return unit_text(model.unknowns[static_cast<std::size_t>(field)].load_dimension, model.units);
+}
+
 // "tried: method 0 (Newton), 50 iterations, steps down to 6.1e-06 of the stage".
 std::string tried_line(const Stage& stage, const StepReport& report) {
   return std::string("  tried: method ") + method_name(stage.method) + ", up to " +
@@ -216,11 +233,13 @@ std::string short_number(double value) {
   return text;
 }
 
-std::string dof_name(const Model& model, int dof) {
+std::string unknown_name(const Model& model, const DofMap::Unknown& unknown) {
+  const std::string node =
+      "node " + std::to_string(model.mesh.number[static_cast<std::size_t>(unknown.node)]) + ", ";
+  if (unknown.field > 0) return node + model.unknowns[static_cast<std::size_t>(unknown.field)].name;
   const bool axisymmetric = model.geometry == Geometry::axisymmetric;
-  const char* direction = dof % 2 == 0 ? (axisymmetric ? "r" : "x") : (axisymmetric ? "z" : "y");
-  return "node " + std::to_string(model.mesh.number[static_cast<std::size_t>(dof / 2)]) + ", direction " +
-         direction;
+  const char* direction = unknown.component == 0 ? (axisymmetric ? "r" : "x") : (axisymmetric ? "z" : "y");
+  return node + "direction " + direction;
 }
 
 std::string explain_singular(const Model& model, const Activity& activity, const Assembly& assembly,
@@ -231,11 +250,13 @@ std::string explain_singular(const Model& model, const Activity& activity, const
   if (step.singular_equation < 0 || step.singular_equation >= assembly.equations())
     return place + " (" + step.message + "); this solver can't tell where.\n" +
            likely_anywhere(model, activity, assembly) + bracket_line(model, report) + refused_line(report);
-  const int dof = assembly.dof_of(step.singular_equation);
-  const Neighbours near = around(assembly, dof / 2);
-  std::string text = place + " at " + dof_name(model, dof) + " (" + step.message + ").\n";
+  const DofMap::Unknown unknown = assembly.dof_map().at(assembly.dof_of(step.singular_equation));
+  const Neighbours near = around(assembly, unknown.node);
+  std::string text = place + " at " + unknown_name(model, unknown) + " (" + step.message + ").\n";
   text += "  elements there: " + near.elements + "\n  likely: ";
-  if (near.open_point || behind_open_joint(model, activity, assembly, dof / 2))
+  if (unknown.field > 0)
+    text += missing_level(model.unknowns[static_cast<std::size_t>(unknown.field)]);
+  else if (near.open_point || behind_open_joint(model, activity, assembly, unknown.node))
     text +=
         "an interface there is open and carries nothing: the part behind it is loose.\n"
         "  try: support that part, give the interface a small residual stiffness, or close it first.";
@@ -265,10 +286,11 @@ namespace {
 // A node that active interfaces alone have, all of them open.
 std::string loose_node(const Model& model, const Activity& activity, const std::vector<int>& part) {
   const std::vector<char> active = active_nodes(model, activity);
-  for (int dof = 0; dof < model.dofs(); ++dof) {
-    const auto node = static_cast<std::size_t>(dof / 2);
+  for (int dof = 0; dof < activity.dof_map.displacements(); ++dof) {
+    const DofMap::Unknown unknown = activity.dof_map.at(dof);
+    const auto node = static_cast<std::size_t>(unknown.node);
     if (!active[node] || part[node] >= 0 || activity.held[static_cast<std::size_t>(dof)]) continue;
-    return "all interfaces at " + dof_name(model, dof) +
+    return "all interfaces at " + unknown_name(model, unknown) +
            ", are open and no solid is active there: nothing holds it, " + "where it stands is arbitrary";
   }
   return {};
@@ -325,8 +347,10 @@ std::string explain_failure(const Model& model, const Assembly& assembly, const 
   text += tried_line(stage, report);
   text += refused_line(report);
   if (step.worst.node >= 0)
-    text += "  largest out-of-balance force of the best iteration: " + short_number(step.worst.residual) + " " +
-            model.units.force + " at " + dof_name(model, 2 * step.worst.node + step.worst.component) +
+    text += "  largest out-of-balance " + load_name(model, step.worst.field) +
+            " of the best iteration: " + short_number(step.worst.residual) + " " +
+            load_unit(model, step.worst.field) + " at " +
+            unknown_name(model, {step.worst.node, step.worst.field, step.worst.component}) +
             ", between elements " + around(assembly, step.worst.node).elements + "\n";
   text += "  points at the last attempt: " + counts_line(trial_points(assembly)) + "\n";
   if (!step.iterations.empty()) {

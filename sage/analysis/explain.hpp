@@ -24,6 +24,6 @@ std::string explain_failure(const Model& model, const Assembly& assembly, const 
 std::string short_number(double value);
 
 // "node 12, direction y" (r, z when axisymmetric)
-std::string dof_name(const Model& model, int dof);
+std::string unknown_name(const Model& model, const DofMap::Unknown& unknown);
 
 }  // namespace sage

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sage/model/dof_map.hpp"
+
 namespace sage {
 
 Extent::Extent(const Model& model) : axisymmetric_(model.geometry == Geometry::axisymmetric) {
@@ -23,7 +25,7 @@ Extent::Extent(const Model& model) : axisymmetric_(model.geometry == Geometry::a
 double Extent::motion(const Eigen::VectorXd& u) const {
   Vector2 low = Vector2::Zero(), high = Vector2::Zero();
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const Vector2 here = u.segment<2>(2 * nodes_[i]);
+    const Vector2 here = u.segment<2>(DofMap::displacement(nodes_[i]));
     if (i == 0) low = high = here;
     if (i == 0 && axisymmetric_) low.x() = high.x() = 0.0;
     low = low.cwiseMin(here);

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "sage/analysis/element_dofs.hpp"
 #include "sage/core/linear_solver.hpp"
 #include "sage/core/state_store.hpp"
 #include "sage/model/model.hpp"
@@ -16,6 +17,9 @@ struct GroupData {
   bool wants_context = false;  // its law does
   bool constant = false;       // of a linear law, and matrices and forces are kept: iterations call no law
   StateStore state;
+  // Elements with unknowns of their own: the dofs of all of them, and the field of each dof of one.  Empty: the
+  // displacements of the nodes.
+  std::vector<int> dof_list, field_of_dof;
   std::vector<double> geometry;  // w and B of all elements; empty = made anew in each pass
   int first_element = 0;         // in the solver's element order, while it is part of the system
   std::vector<double> K;         // kept element matrices, column-major
@@ -28,6 +32,11 @@ struct GroupData {
   bool keeps_matrices() const { return !matrix.empty(); }
   std::size_t matrix_size() const { return dofs() * dofs(); }
   std::size_t dofs() const { return static_cast<std::size_t>(group->element->traits().dofs); }
+  ElementDofs dofs_of(int element) const {
+    if (!dof_list.empty())
+      return ElementDofs::listed({dof_list.data() + static_cast<std::size_t>(element) * dofs(), dofs()});
+    return ElementDofs({group->nodes_of(element), group->node_count()});
+  }
   const double* matrix_of(int element) const {
     return K.data() + static_cast<std::size_t>(matrix[static_cast<std::size_t>(element)]) * dofs() * dofs();
   }
@@ -37,12 +46,12 @@ struct GroupData {
 };
 
 // The equations of all elements of a group, behind those that are listed.  equation_of: by dof; -1 = none.
-inline void append_equations(const Group& group, const std::vector<int>& equation_of, ElementEquations& list) {
-  for (int e = 0; e < group.elements(); ++e) {
-    const int* nodes = group.nodes_of(e);
-    for (std::size_t i = 0; i < group.node_count(); ++i)
-      for (int c = 0; c < 2; ++c)
-        list.equations.push_back(equation_of[static_cast<std::size_t>(2 * nodes[i] + c)]);
+inline void append_equations(const GroupData& data, const std::vector<int>& equation_of,
+                             ElementEquations& list) {
+  for (int e = 0; e < data.group->elements(); ++e) {
+    const ElementDofs dofs = data.dofs_of(e);
+    for (std::size_t i = 0; i < dofs.size(); ++i)
+      list.equations.push_back(equation_of[static_cast<std::size_t>(dofs[i])]);
     list.offset.push_back(static_cast<std::int64_t>(list.equations.size()));
   }
 }

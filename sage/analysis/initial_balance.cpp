@@ -49,8 +49,8 @@ InitialImbalance initial_imbalance(const Model& model, const Activity& activity,
     if (stage > 0 && (f.code[0] == FixityCode::released || f.code[1] == FixityCode::released))
       looked_at[static_cast<std::size_t>(f.node)] = 0;
   const Eigen::VectorXd added = stage_loads(model, stage, activity);
-  for (int dof = 0; dof < model.dofs(); ++dof) {
-    if (!looked_at[static_cast<std::size_t>(dof / 2)]) continue;
+  for (int dof = 0; dof < activity.dof_map.displacements(); ++dof) {
+    if (!looked_at[static_cast<std::size_t>(activity.dof_map.at(dof).node)]) continue;
     worst.largest = std::max(worst.largest, std::abs(internal[dof]));
     if (activity.held[static_cast<std::size_t>(dof)]) continue;
     const auto [low, high] = std::minmax({external[dof] - added[dof], external[dof]});
@@ -74,13 +74,14 @@ InitialImbalance initial_imbalance(const Model& model) {
   Assembly assembly(model, scene, {}, work);
   Activity activity(model);
   activity.enter(first);
-  assembly.enter_stage(activity, prescribed_rate(model, first));
+  assembly.enter_stage(activity, prescribed_rate(first, activity.dof_map));
   Diagnostics refused;  // the run tells of it
   assembly.start_states([&](std::vector<GroupData>& groups) {
     for (const std::vector<InitialStress>* list : {&model.initials, &first.initials})
       apply_initials(model, *list, groups, refused);
   });
-  if (assembly.evaluate(Eigen::VectorXd::Zero(model.dofs()), nullptr) == Outcome::cut_step) return {};
+  if (assembly.evaluate(Eigen::VectorXd::Zero(activity.dof_map.dofs()), nullptr) == Outcome::cut_step)
+    return {};
   return initial_imbalance(model, activity, 0, assembly.internal_force(), external_force(model, 0));
 }
 
@@ -89,7 +90,8 @@ std::string explain_imbalance(const Model& model, int stage, const InitialImbala
   const Stage& now = model.stages[static_cast<std::size_t>(stage)];
   return "the initial stress is out of balance by up to " + short_number(std::abs(imbalance.force)) + " " +
          model.units.force + " (" + short_number(100.0 * std::abs(imbalance.force) / imbalance.largest) +
-         " % of the largest force that it puts on a node) at " + dof_name(model, imbalance.dof) +
+         " % of the largest force that it puts on a node) at " +
+         unknown_name(model, DofMap(model).at(imbalance.dof)) +
          "; what is not balanced is let go in proportion over the " +
          (now.increments == 1 ? "one increment" : std::to_string(now.increments) + " increments") +
          " of the stage";

@@ -14,7 +14,7 @@ inline constexpr double kUnbalancedStress = 1e-3;
 
 // Where the forces of an initial stress stand farthest from balance.
 struct InitialImbalance {
-  int dof = -1;          // 2 node + component; -1: no group starts with stress in this stage
+  int dof = -1;          // a displacement; -1: no group starts with stress in this stage
   double force = 0.0;    // what nothing balances there, along +x (r) or +y (z)
   double largest = 0.0;  // force that the initial stress puts on a node, supports included
   bool counts() const { return dof >= 0 && std::abs(force) > kUnbalancedStress * largest; }

@@ -8,40 +8,68 @@ namespace sage {
 
 namespace {
 
-void scatter(const Group& group, int element, const std::vector<double>& f, Eigen::VectorXd& force) {
-  const int* nodes = group.nodes_of(element);
-  for (std::size_t i = 0; i < group.node_count(); ++i) {
-    force[2 * nodes[i]] += f[2 * i];
-    force[2 * nodes[i] + 1] += f[2 * i + 1];
+// Adds loads of single elements to those of all dofs.
+class LoadSum {
+ public:
+  LoadSum(const Model& model, const DofMap& dof_map, Eigen::VectorXd& force)
+      : model_(model), dof_map_(dof_map), force_(force) {}
+
+  // add(x, f): the element's load onto f, which is zero.
+  template <class Add>
+  void add(const Group& group, int element, Add add_load) {
+    element_coordinates(model_.mesh, group, element, x_);
+    f_.assign(static_cast<std::size_t>(group.element->traits().dofs), 0.0);
+    add_load(x_, f_);
+    dof_map_.list(group, element, dofs_);
+    for (std::size_t i = 0; i < dofs_.size(); ++i) force_[dofs_[i]] += f_[i];
   }
-}
+
+ private:
+  const Model& model_;
+  const DofMap& dof_map_;
+  Eigen::VectorXd& force_;
+  Eigen::Matrix2Xd x_;
+  std::vector<double> f_;
+  std::vector<int> dofs_;
+};
 
 // Of the active groups (a flag each).
-void add_edge_loads(const Model& model, const std::vector<char>& active, const Stage& stage,
-                    Eigen::VectorXd& force) {
-  Eigen::Matrix2Xd x;
-  std::vector<double> f;
+void add_edge_loads(const Model& model, const std::vector<char>& active, const Stage& stage, LoadSum& sum) {
   for (const EdgeLoad& load : stage.pressures) {
     if (!active[static_cast<std::size_t>(load.group)]) continue;
     const Group& group = model.groups[static_cast<std::size_t>(load.group)];
-    element_coordinates(model.mesh, group, load.element, x);
-    f.assign(static_cast<std::size_t>(group.element->traits().dofs), 0.0);
-    group.element->edge_load(x, load.edge, load.normal, load.shear, f);
-    scatter(group, load.element, f, force);
+    sum.add(group, load.element, [&](const Eigen::Matrix2Xd& x, std::vector<double>& f) {
+      group.element->edge_load(x, load.edge, load.normal, load.shear, f);
+    });
   }
 }
 
-void add_body_forces(const Model& model, const Group& group, const Vector2& gravity, Eigen::VectorXd& force) {
+void add_body_forces(const Model& model, const Group& group, const Vector2& gravity, LoadSum& sum) {
   const Vector2 b = gravity * model.material_of(group).unit_weight;
   if (b.isZero(0.0)) return;
-  Eigen::Matrix2Xd x;
-  std::vector<double> f(static_cast<std::size_t>(group.element->traits().dofs));
-  for (int e = 0; e < group.elements(); ++e) {
-    element_coordinates(model.mesh, group, e, x);
-    std::fill(f.begin(), f.end(), 0.0);
-    group.element->body_load(x, b, f);
-    scatter(group, e, f, force);
-  }
+  for (int e = 0; e < group.elements(); ++e)
+    sum.add(group, e,
+            [&](const Eigen::Matrix2Xd& x, std::vector<double>& f) { group.element->body_load(x, b, f); });
+}
+
+// A flag a dof: an active element has its node.
+std::vector<char> active_dofs(const Model& model, const Activity& activity) {
+  const std::vector<char> nodes = active_nodes(model, activity);
+  std::vector<char> flags(static_cast<std::size_t>(activity.dof_map.dofs()));
+  for (int dof = 0; dof < activity.dof_map.dofs(); ++dof)
+    flags[static_cast<std::size_t>(dof)] = nodes[static_cast<std::size_t>(activity.dof_map.at(dof).node)];
+  return flags;
+}
+
+// Point loads of a stage, in every field.
+void add_point_loads(const Stage& stage, const DofMap& map, Eigen::VectorXd& force) {
+  for (const NodalLoad& load : stage.loads) force.segment<2>(DofMap::displacement(load.node)) += load.force;
+  for (const FieldLoad& load : stage.field_loads) force[map.of(load.node, load.field)] += load.value;
+}
+
+void drop_inactive(const std::vector<char>& active, Eigen::VectorXd& force) {
+  for (Eigen::Index dof = 0; dof < force.size(); ++dof)
+    if (!active[static_cast<std::size_t>(dof)]) force[dof] = 0.0;
 }
 
 // Compression-positive vertical and horizontal stress at a level.
@@ -120,9 +148,11 @@ bool start_point_with(const Law<N>& law, const InitialStress& initial, std::size
 }  // namespace
 
 Eigen::VectorXd weight_of(const Model& model, const std::vector<char>& groups, const Vector2& gravity) {
-  Eigen::VectorXd force = Eigen::VectorXd::Zero(model.dofs());
+  const DofMap map(model);
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(map.dofs());
+  LoadSum sum(model, map, force);
   for (std::size_t g = 0; g < model.groups.size(); ++g)
-    if (groups[g]) add_body_forces(model, model.groups[g], gravity, force);
+    if (groups[g]) add_body_forces(model, model.groups[g], gravity, sum);
   return force;
 }
 
@@ -132,43 +162,42 @@ Eigen::VectorXd external_force(const Model& model, int last) {
   const bool lasting = std::none_of(model.stages.begin(), model.stages.end(), changes);
   Activity activity(model);
   std::vector<std::vector<char>> active_groups;  // groups, stage by stage
-  Eigen::VectorXd force = Eigen::VectorXd::Zero(model.dofs());
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(activity.dof_map.dofs());
   Vector2 gravity = Vector2::Zero();
   for (const Stage& stage : stages) {
     activity.enter(stage);
     active_groups.push_back(activity.group);
     gravity += stage.gravity;
-    for (const NodalLoad& load : stage.loads) force.segment<2>(2 * load.node) += load.force;
-    if (lasting) continue;
-    const std::vector<char> active = active_nodes(model, activity);
-    for (int node = 0; node < model.mesh.nodes(); ++node)
-      if (!active[static_cast<std::size_t>(node)]) force.segment<2>(2 * node).setZero();
+    add_point_loads(stage, activity.dof_map, force);
+    if (!lasting) drop_inactive(active_dofs(model, activity), force);
   }
   // A group is born once: what it had in the stage of the card and has at the end, it had between.
+  LoadSum sum(model, activity.dof_map, force);
   for (std::size_t s = 0; s < active_groups.size(); ++s) {
     std::vector<char>& groups = active_groups[s];
     for (std::size_t g = 0; g < groups.size(); ++g) groups[g] = groups[g] && activity.group[g];
-    add_edge_loads(model, groups, stages[s], force);
+    add_edge_loads(model, groups, stages[s], sum);
   }
   return force + weight_of(model, activity.group, gravity);
 }
 
 Eigen::VectorXd stage_loads(const Model& model, int stage, const Activity& activity) {
-  Eigen::VectorXd force = Eigen::VectorXd::Zero(model.dofs());
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(activity.dof_map.dofs());
   const Stage& now = model.stages[static_cast<std::size_t>(stage)];
-  const std::vector<char> active = active_nodes(model, activity);
-  for (const NodalLoad& load : now.loads)
-    if (active[static_cast<std::size_t>(load.node)]) force.segment<2>(2 * load.node) += load.force;
-  add_edge_loads(model, activity.group, now, force);
+  add_point_loads(now, activity.dof_map, force);
+  drop_inactive(active_dofs(model, activity), force);
+  LoadSum sum(model, activity.dof_map, force);
+  add_edge_loads(model, activity.group, now, sum);
   return force;
 }
 
-Eigen::VectorXd prescribed_rate(const Model& model, const Stage& stage) {
-  Eigen::VectorXd rate = Eigen::VectorXd::Zero(model.dofs());
+Eigen::VectorXd prescribed_rate(const Stage& stage, const DofMap& map) {
+  Eigen::VectorXd rate = Eigen::VectorXd::Zero(map.dofs());
   for (const Fixity& f : stage.fixities)
-    for (int c = 0; c < 2; ++c)
-      if (f.code[static_cast<std::size_t>(c)] == FixityCode::fixed)
-        rate[2 * f.node + c] = f.value[static_cast<std::size_t>(c)];
+    for (std::size_t c = 0; c < 2; ++c)
+      if (f.code[c] == FixityCode::fixed) rate[DofMap::displacement(f.node, static_cast<int>(c))] = f.value[c];
+  for (const FieldFixity& f : stage.field_fixities)
+    if (const int dof = map.of(f.node, f.field); dof >= 0 && f.code == FixityCode::fixed) rate[dof] = f.value;
   return rate;
 }
 

@@ -19,7 +19,7 @@ Eigen::VectorXd weight_of(const Model& model, const std::vector<char>& groups, c
 Eigen::VectorXd stage_loads(const Model& model, int stage, const Activity& activity);
 
 // Displacement that each prescribed dof gets over a stage.
-Eigen::VectorXd prescribed_rate(const Model& model, const Stage& stage);
+Eigen::VectorXd prescribed_rate(const Stage& stage, const DofMap& map);
 
 // Sets the committed stress and history of a group's points.  Stress that a law can't carry is reported as a
 // warning in `diagnostics` with the number of points.

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "sage/analysis/acceleration.hpp"
+#include "sage/analysis/by_field.hpp"
 #include "sage/analysis/contraction.hpp"
 #include "sage/analysis/dogleg.hpp"
 #include "sage/analysis/repeats.hpp"
@@ -25,6 +26,7 @@ class Step {
         settings_(settings),
         work_(work),
         du_(du),
+        fields_(assembly),
         residual_(assembly.equations()),
         correction_(assembly.equations()) {}
 
@@ -47,14 +49,21 @@ class Step {
   void correct();
   bool predict(const Eigen::VectorXd& rate);
   bool search_line();
+  IterationRecord measure(int field) const;
   IterationRecord measure() const;
   bool converged(const IterationRecord& record) const;
+  bool converged(int field, const IterationRecord& record) const;
   bool linear_rounding(const IterationRecord& record) const;
-  bool at_rounding(const IterationRecord& record) const;
-  double scale() const;
+  bool at_rounding(int field, const IterationRecord& record) const;
+  double stiffness_norm(int field) const;
+  double scale(int field) const;
+  double residual_size() const;
+  double work_left() const;
   bool hopeless() const;
-  bool outgrown(const IterationRecord& record) const;
-  double load_size() const;
+  bool outgrown(int field, const IterationRecord& record) const;
+  double load_size(int field) const;
+  void take_start_scales();
+  void take_energy(const Eigen::VectorXd& correction);
   void find_worst();
   void move(double factor);
 
@@ -66,14 +75,17 @@ class Step {
   const NewtonSettings& settings_;
   WorkCounters& work_;
   Eigen::VectorXd& du_;
+  const ByField fields_;
   Eigen::VectorXd residual_, correction_, start_residual_;
   Acceleration acceleration_;
   bool start_known_ = false;  // start_residual_ is the residual at du = 0
-  double prescribed_ = 0.0;   // largest displacement that supports are given in this step
-  double load_scale_ = 0.0;   // |loads| of all free dofs
-  double first_force_ = 0.0;  // largest of the step's start, its loads, and what its first correction balances
-  double energy_scale_ = 0.0, start_scale_ = 0.0, slope_ = 0.0, step_length_ = 1.0;
-  double best_ = std::numeric_limits<double>::infinity();  // smallest |residual| so far
+  // Of each field of unknowns:
+  FieldSums prescribed_{};   // largest unknown that supports are given in this step
+  FieldSums load_scale_{};   // |loads| of all free dofs
+  FieldSums first_force_{};  // largest of the step's start, its loads, and what its first correction balances
+  FieldSums energy_scale_{}, start_scale_{};
+  double slope_ = 0.0, step_length_ = 1.0;
+  double best_ = std::numeric_limits<double>::infinity();  // smallest residual_size() so far
   NewtonStep result_;
 };
 
@@ -102,7 +114,7 @@ void Step::move(double factor) {
 // out of balance.  It costs one force pass.
 bool Step::repeats() {
   if (!tangent_.current()) return false;
-  start_scale_ = assembly_.force_scale();
+  take_start_scales();
   form_residual();
   start_residual_ = residual_;
   start_known_ = true;
@@ -128,33 +140,67 @@ bool Step::predict(const Eigen::VectorXd& rate) {
   if (start_known_) {
     residual_ = start_residual_;
   } else {
-    start_scale_ = assembly_.force_scale();  // a step may end without any stress
+    take_start_scales();  // a step may end without any stress
     form_residual();
   }
   const Eigen::VectorXd& coupling = tangent_.coupling();
   for (int eq = 0; eq < assembly_.equations(); ++eq)
     residual_[eq] -= rate_part_ * coupling[assembly_.dof_of(eq)];
   correct();
-  energy_scale_ = std::abs(correction_.dot(residual_));
-  if (const Condensation* region = assembly_.condensation()) energy_scale_ += std::abs(region->held_work());
-  result_.predicted_work = energy_scale_;
-  first_force_ = std::max({residual_.norm(), start_scale_, load_scale_});
+  double work = 0.0;
+  for (int f = 0; f < fields_.count(); ++f)
+    work += at(energy_scale_, f) = std::abs(fields_.dot(correction_, residual_, f));
+  if (const Condensation* region = assembly_.condensation()) {
+    energy_scale_[0] += std::abs(region->held_work());
+    work = energy_scale_[0];
+  }
+  result_.predicted_work = work;
+  for (int f = 0; f < fields_.count(); ++f)
+    at(first_force_, f) = std::max({fields_.norm(residual_, f), at(start_scale_, f), at(load_scale_, f)});
   du_ = rate_part_ * rate;
-  prescribed_ = du_.size() > 0 ? du_.lpNorm<Eigen::Infinity>() : 0.0;
+  for (int f = 0; f < fields_.count(); ++f) at(prescribed_, f) = fields_.largest_of_dofs(du_, f);
   move(1.0);
   return true;
 }
 
-double Step::load_size() const {
+void Step::take_start_scales() {
+  for (int f = 0; f < fields_.count(); ++f) at(start_scale_, f) = assembly_.force_scale(f);
+}
+
+void Step::take_energy(const Eigen::VectorXd& correction) {
+  for (int f = 0; f < fields_.count(); ++f)
+    at(energy_scale_, f) = std::max(at(energy_scale_, f), std::abs(fields_.dot(correction, residual_, f)));
+}
+
+double Step::load_size(int field) const {
   double sum = 0.0;
-  for (int eq = 0; eq < assembly_.equations(); ++eq) sum += std::pow(target_[assembly_.dof_of(eq)], 2);
-  if (const Condensation* region = assembly_.condensation())
+  for (int eq = 0; eq < assembly_.equations(); ++eq)
+    if (fields_.of_equation(eq) == field) sum += std::pow(target_[assembly_.dof_of(eq)], 2);
+  if (const Condensation* region = assembly_.condensation(); region != nullptr && field == 0)
     for (int dof : region->condensed_dofs()) sum += std::pow(target_[dof], 2);
   return std::sqrt(sum);
 }
 
-double Step::scale() const {
-  return std::max({assembly_.force_scale(), load_scale_, start_scale_});
+double Step::scale(int field) const {
+  return std::max({assembly_.force_scale(field), at(load_scale_, field), at(start_scale_, field)});
+}
+
+// Fields have no common unit: each counts by what the step had to balance in it.
+double Step::residual_size() const {
+  if (fields_.count() == 1) return residual_.norm();
+  double sum = 0.0;
+  for (int f = 0; f < fields_.count(); ++f)
+    if (at(first_force_, f) > 0.0) sum += std::pow(fields_.norm(residual_, f) / at(first_force_, f), 2);
+  return std::sqrt(sum);
+}
+
+// Of the work that is left along the correction; of each field by the largest of its corrections so far.
+double Step::work_left() const {
+  if (fields_.count() == 1) return correction_.dot(residual_);
+  double sum = 0.0;
+  for (int f = 0; f < fields_.count(); ++f)
+    if (at(energy_scale_, f) > 0.0) sum += fields_.dot(correction_, residual_, f) / at(energy_scale_, f);
+  return sum;
 }
 
 // With a condensed region: of the whole model, as without one.
@@ -163,21 +209,37 @@ IterationRecord Step::measure_whole() {
   pass_.complete(du_);
   form_residual();
   IterationRecord record = measure();
-  const double size = du_.norm();
+  const double size = fields_.norm_of_dofs(du_, 0);
   // The displacement counts where the energy does not decide.
   if (record.energy > settings_.tolerance * settings_.tolerance && size > 0.0)
     record.displacement = pass_.whole_norm(correction_) / size;
   return record;
 }
 
-IterationRecord Step::measure() const {
+IterationRecord Step::measure(int field) const {
   IterationRecord record;
-  const double force_scale = scale(), size = du_.norm();
-  const double force = residual_.norm(), energy = std::abs(correction_.dot(residual_));
+  const double force_scale = scale(field), size = fields_.norm_of_dofs(du_, field);
+  const double force = fields_.norm(residual_, field);
+  const double energy = std::abs(fields_.dot(correction_, residual_, field)), whole = at(energy_scale_, field);
   record.force = force_scale > 0.0 ? force / force_scale : 0.0;
-  record.displacement = size > 0.0 ? correction_.norm() / size : 0.0;
-  record.energy = energy_scale_ > 0.0 ? energy / energy_scale_ : 0.0;
+  record.displacement = size > 0.0 ? fields_.norm(correction_, field) / size : 0.0;
+  record.energy = whole > 0.0 ? energy / whole : 0.0;
   record.step_length = step_length_;
+  return record;
+}
+
+// Of the field that is farthest from its end.
+IterationRecord Step::measure() const {
+  IterationRecord record = measure(0);
+  const auto take = [](double& worst, double value) {
+    if (!(value <= worst)) worst = value;  // not a number counts as worst
+  };
+  for (int f = 1; f < fields_.count(); ++f) {
+    const IterationRecord other = measure(f);
+    take(record.force, other.force);
+    take(record.displacement, other.displacement);
+    take(record.energy, other.energy);
+  }
   return record;
 }
 
@@ -193,53 +255,87 @@ bool Step::linear_rounding(const IterationRecord& record) const {
 // (a linear step ends with its first correction, which is then the whole increment).
 // Forces of very stiff joints are k times differences of displacements and can't be balanced better than those
 // are rounded: a full correction that no longer changes the displacements ends the step too.
-bool Step::converged(const IterationRecord& record) const {
+bool Step::converged(int field, const IterationRecord& record) const {
   constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
   const double tol = settings_.tolerance;
-  if (outgrown(record)) return false;
+  if (outgrown(field, record)) return false;
   if (record.displacement <= kRounding && record.step_length >= 1.0 && record.force <= std::sqrt(tol))
     return true;
-  if (!(record.force <= tol)) return at_rounding(record) || linear_rounding(record);
+  if (!(record.force <= tol)) return at_rounding(field, record) || linear_rounding(record);
   return record.energy <= tol * tol || record.force <= 1e-3 * tol ||
          (record.energy <= tol && record.displacement <= std::sqrt(tol));
+}
+
+// Every field for itself.  record: of all of them.
+bool Step::converged(const IterationRecord& record) const {
+  if (fields_.count() == 1) return converged(0, record);
+  for (int f = 0; f < fields_.count(); ++f)
+    if (!converged(f, measure(f))) return false;
+  return true;
 }
 
 // Forces are K times displacements: what the rounding of those makes can't be balanced (stiff joints,
 // nu near 1/2). A residual of that size ends the step once corrections are tiny, if it is small beside
 // the forces; or if all forces are no more than the rounding of a motion that is prescribed (a loose
 // part, moved without stress).
-bool Step::at_rounding(const IterationRecord& record) const {
+bool Step::at_rounding(int field, const IterationRecord& record) const {
   constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon(), kTiny = 1e-6;
   if (!(record.displacement <= kTiny) || record.step_length < 1.0 || residual_.size() == 0) return false;
-  const double unit = kRounding * tangent_.solver().norm1();  // negative where the solver has no norm
-  const double largest = residual_.lpNorm<Eigen::Infinity>();
-  if (record.force <= std::sqrt(settings_.tolerance)) return largest <= unit * du_.lpNorm<Eigen::Infinity>();
-  return largest <= unit * prescribed_ && scale() <= 1e3 * unit * prescribed_;
+  const double unit = kRounding * stiffness_norm(field);  // negative where the solver has no norm
+  const double largest = fields_.largest(residual_, field);
+  if (record.force <= std::sqrt(settings_.tolerance))
+    return largest <= unit * fields_.largest_of_dofs(du_, field);
+  const double prescribed = at(prescribed_, field);
+  return largest <= unit * prescribed && scale(field) <= 1e3 * unit * prescribed;
+}
+
+// Of the field's own block of K; of one among several from below, which is the careful side.
+double Step::stiffness_norm(int field) const {
+  const double norm1 = tangent_.solver().norm1();
+  if (fields_.count() == 1 || norm1 < 0.0) return norm1;
+  const Eigen::VectorXd probe = fields_.alternating(field);
+  Eigen::VectorXd product(probe.size());
+  const auto n = static_cast<std::size_t>(probe.size());
+  tangent_.solver().multiply({probe.data(), n}, {product.data(), n});
+  return fields_.largest(product, field);
 }
 
 // Beyond 1/eps of the step's own forces no digit of those is left in a residual: the iteration has run away,
 // and what comes behind is noise, however small it may be beside the stress that it has made itself.
 bool Step::hopeless() const {
-  const double size = residual_.norm();
-  return !std::isfinite(size) ||
-         (first_force_ > 0.0 && size * std::numeric_limits<double>::epsilon() > first_force_);
+  for (int f = 0; f < fields_.count(); ++f) {
+    const double size = fields_.norm(residual_, f), first = at(first_force_, f);
+    if (!std::isfinite(size) || (first > 0.0 && size * std::numeric_limits<double>::epsilon() > first))
+      return true;
+  }
+  return false;
 }
 
 // Stress that balances itself is made by the motion and grows with it (mean stress near nu = 1/2): beside that
 // of an iteration that runs away any load is small.  What is left out of balance must be small beside what the
 // step has to balance, too.
-bool Step::outgrown(const IterationRecord& record) const {
+bool Step::outgrown(int field, const IterationRecord& record) const {
   constexpr double kShare = 0.01;
-  const double largest = std::max(kShare, 10.0 * settings_.tolerance) * first_force_;
-  return first_force_ > 0.0 && record.force * scale() > largest;
+  const double first = at(first_force_, field);
+  const double largest = std::max(kShare, 10.0 * settings_.tolerance) * first;
+  return first > 0.0 && record.force * scale(field) > largest;
 }
 
 void Step::find_worst() {
-  if (residual_.size() == 0) return;
-  Eigen::Index worst = 0;
-  residual_.cwiseAbs().maxCoeff(&worst);
-  const int dof = assembly_.dof_of(static_cast<int>(worst));
-  result_.worst = {dof / 2, dof % 2, residual_[worst]};
+  int worst = -1;
+  double largest = -1.0;
+  for (int f = 0; f < fields_.count(); ++f) {
+    const int eq = fields_.place_of_largest(residual_, f);
+    if (eq < 0) continue;
+    const double scale_here = fields_.count() > 1 ? scale(f) : 1.0;
+    const double share = scale_here > 0.0 ? std::abs(residual_[eq]) / scale_here : 0.0;
+    if (share <= largest) continue;
+    largest = share;
+    worst = eq;
+  }
+  if (worst < 0) return;
+  const DofMap::Unknown unknown = assembly_.dof_map().at(assembly_.dof_of(worst));
+  result_.worst = {unknown.node, unknown.field, unknown.component, residual_[worst]};
 }
 
 // Crisfield's criterion on the slope correction . residual: the full step is kept while it is below 0.8 of the
@@ -247,7 +343,7 @@ void Step::find_worst() {
 bool Step::search_line() {
   constexpr double kAccept = 0.8;
   constexpr int kTrials = 4;
-  double a = 0.0, slope_a = slope_, length = 1.0, slope = correction_.dot(residual_);
+  double a = 0.0, slope_a = slope_, length = 1.0, slope = work_left();
   double b = 1.0, slope_b = slope;
   for (int trial = 0; trial < kTrials; ++trial) {
     if (std::abs(slope) <= kAccept * std::abs(slope_)) break;
@@ -258,7 +354,7 @@ bool Step::search_line() {
     length = next;
     if (evaluate(new_K_each_iteration()) == Outcome::cut_step) return false;
     form_residual();
-    slope = correction_.dot(residual_);
+    slope = work_left();
     const bool beyond = between && slope_a * slope > 0.0;  // the zero lies between here and b
     (beyond ? a : b) = next;
     (beyond ? slope_a : slope_b) = slope;
@@ -273,7 +369,7 @@ bool Step::record_iteration() {
   IterationRecord record = measure();
   if (record.force <= kNear * settings_.tolerance || converged(record)) record = measure_whole();
   result_.iterations.push_back(record);
-  const double size = residual_.norm();
+  const double size = residual_size();
   const bool done = converged(record);
   if (done || size <= best_) find_worst();
   best_ = std::min(best_, size);
@@ -283,7 +379,7 @@ bool Step::record_iteration() {
 }
 
 NewtonStep Step::solve(const Eigen::VectorXd& rate) {
-  load_scale_ = load_size();
+  for (int f = 0; f < fields_.count(); ++f) at(load_scale_, f) = load_size(f);
   result_.outcome = StepOutcome::law_cut;
   result_.iterations.reserve(static_cast<std::size_t>(settings_.max_iterations));
   if (settings_.repeat && repeats()) return result_;
@@ -294,30 +390,30 @@ NewtonStep Step::solve(const Eigen::VectorXd& rate) {
 // The tangent is not that of the place reached: earlier corrections help.  A step that made
 // things worse starts anew.
 void Step::accelerate(double old_norm) {
-  if (residual_.norm() > 2.0 * old_norm) acceleration_.restart();
+  if (residual_size() > 2.0 * old_norm) acceleration_.restart();
   acceleration_.improve(correction_);
 }
 
 NewtonStep& Step::iterate_with_line_search() {
-  double old_norm = residual_.norm();
+  double old_norm = residual_size();
   if (accelerated()) acceleration_.improve(correction_);
   for (int i = 1; i <= settings_.max_iterations; ++i) {
     if (evaluate(new_K_each_iteration()) == Outcome::cut_step) return result_;
     form_residual();
     step_length_ = 1.0;
-    if (settings_.line_search && !accelerated() && i > 1 &&
-        std::abs(correction_.dot(residual_)) > 0.8 * std::abs(slope_) && !search_line())
+    if (settings_.line_search && !accelerated() && i > 1 && std::abs(work_left()) > 0.8 * std::abs(slope_) &&
+        !search_line())
       return result_;
     if (hopeless() || record_iteration()) return result_;
     if (i == settings_.max_iterations) break;
-    const double norm = residual_.norm();
+    const double norm = residual_size();
     if (settings_.contract && contracts_poorly(norm, old_norm) && evaluate(true) == Outcome::cut_step)
       return result_;
     correct();
     if (accelerated()) accelerate(old_norm);
     old_norm = norm;
-    slope_ = correction_.dot(residual_);
-    energy_scale_ = std::max(energy_scale_, std::abs(slope_));
+    take_energy(correction_);
+    slope_ = work_left();
     move(1.0);
   }
   result_.outcome = StepOutcome::not_converged;
@@ -334,7 +430,7 @@ NewtonStep& Step::iterate_with_dogleg() {
     if (hopeless() || record_iteration()) return result_;
     correct();
     newton = correction_;
-    energy_scale_ = std::max(energy_scale_, std::abs(newton.dot(residual_)));
+    take_energy(newton);
     old_residual = residual_;
     dogleg.choose(tangent_.solver(), residual_, newton, correction_);
     step_length_ = dogleg.step_length();

@@ -21,7 +21,8 @@ std::vector<double> corner_shares(const Vector2& q, const ElementEntry& entry) {
 
 ProbeValue read_probe(const Probe& probe, const Solution& solution) {
   ProbeValue value;
-  for (const Probe::Node& n : probe.nodes) value.u += n.weight * solution.u->segment<2>(2 * n.node);
+  for (const Probe::Node& n : probe.nodes)
+    value.u += n.weight * solution.u->segment<2>(DofMap::displacement(n.node));
   for (const Probe::Point& p : probe.points) {
     const PointStates& state = solution.groups()[p.group].state.committed;
     value.stress += p.weight * Eigen::Map<const Vector4>(state.sigma.data() + 4 * p.point);

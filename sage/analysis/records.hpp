@@ -49,8 +49,9 @@ struct IterationRecord {
 // Where the largest out-of-balance force stands.
 struct WorstDof {
   int node = -1;
-  int component = 0;      // 0 = x (r), 1 = y (z)
-  double residual = 0.0;  // in the deck's force unit
+  int field = 0;          // of Model::unknowns, 0 = displacement
+  int component = 0;      // of a displacement: 0 = x (r), 1 = y (z)
+  double residual = 0.0;  // in the unit of the field's loads
 };
 
 struct StepReport {
@@ -74,12 +75,18 @@ struct StepReport {
 };
 
 // Sum of forces over the whole model at the end of a stage.
+// Sum of what one further field of unknowns balances.
+struct FieldAudit {
+  double applied = 0.0, reactions = 0.0, scale = 0.0;
+};
+
 struct EquilibriumAudit {
   double applied[2] = {0, 0};  // external loads in x and y
   double reactions[2] = {0, 0};
-  double moment = 0.0;          // of loads and reactions together, about the origin (plane strain)
-  double out_of_balance = 0.0;  // largest of |sum| / force scale over the checks that apply
-  double scale = 0.0;           // the largest force or moment that took part
+  double moment = 0.0;             // of loads and reactions together, about the origin (plane strain)
+  double out_of_balance = 0.0;     // largest of |sum| / force scale over the checks that apply
+  double scale = 0.0;              // the largest force or moment that took part
+  std::vector<FieldAudit> fields;  // those behind the displacement, in the order of Model::unknowns
 };
 
 // Up to here small strains describe displacements well (shares of the model's size, the longer side of the box

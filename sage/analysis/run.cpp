@@ -27,9 +27,11 @@ class Run {
         audience_(observers, result_.work.output_seconds),
         system_(model, catalogue, settings, result_.work),
         extent_(model) {
-    state_.u.setZero(model.dofs());
-    state_.du.setZero(model.dofs());
-    state_.external.setZero(model.dofs());
+    const int dofs = assembly_.dof_map().dofs();
+    state_.u.setZero(dofs);
+    state_.du.setZero(dofs);
+    state_.external.setZero(dofs);
+    assembly_.set_committed(state_.u);
   }
 
   RunResult execute();
@@ -105,8 +107,9 @@ void Run::warn(const std::vector<Diagnostic>& list) {
 void Run::start_new_nodes() {
   if (std::ranges::all_of(system_.activity().group, [](char active) { return active != 0; })) return;
   const std::vector<char> borne = active_nodes(model_, system_.activity());
-  for (int node = 0; node < model_.mesh.nodes(); ++node)
-    if (!borne[static_cast<std::size_t>(node)]) state_.u.segment<2>(2 * node).setZero();
+  const DofMap& map = assembly_.dof_map();
+  for (int dof = 0; dof < map.dofs(); ++dof)
+    if (!borne[static_cast<std::size_t>(map.at(dof).node)]) state_.u[dof] = 0.0;
 }
 
 // What is evaluated from now on ends at that load factor of the stage, after a step of that share of it; 0 = a
@@ -182,6 +185,7 @@ void Run::renew_tangent() {
 
 void Run::accept(double reached) {
   assembly_.commit(state_.du);
+  if (assembly_.sees_unknowns()) state_.u_before = state_.u;
   state_.u += state_.du;
   state_.external = (1.0 - reached) * path_.external_start + reached * path_.force_end;
   result_.motion = std::max(result_.motion, extent_.motion(state_.u));
@@ -228,7 +232,7 @@ void Run::measure_stiffness(double from, double to) {
   double work = 0.0;
   if (!system_.rate().isZero(0.0)) {
     const Eigen::VectorXd& f = assembly_.internal_force();
-    for (int dof = 0; dof < model_.dofs(); ++dof)
+    for (int dof = 0; dof < assembly_.dof_map().dofs(); ++dof)
       if (system_.rate()[dof] != 0.0) work += (f[dof] - committed_force_[dof]) * system_.rate()[dof];
     path_.last_stiffness = work / size;
   } else {
@@ -259,9 +263,10 @@ double Run::refused_motion(double from, double to, const NewtonStep& step) const
   constexpr double kFar = 1e3;    // model's sizes
   constexpr double kSoft = 0.01;  // of the stage's largest stiffness, or prescribed motion over the largest
   if (step.outcome != StepOutcome::converged || tangent_.constant()) return 0.0;
-  const double motion = state_.du.size() > 0 ? state_.du.lpNorm<Eigen::Infinity>() : 0.0;
+  const int n = assembly_.dof_map().displacements();
+  const double motion = n > 0 ? state_.du.head(n).lpNorm<Eigen::Infinity>() : 0.0;
   if (!(motion > kFar * extent_.size()) || !(extent_.size() > 0.0)) return 0.0;
-  const double prescribed = (to - from) * system_.rate().lpNorm<Eigen::Infinity>();
+  const double prescribed = (to - from) * system_.rate().head(n).lpNorm<Eigen::Infinity>();
   const double share = prescribed > 0.0 ? prescribed / motion : stiffness_share(from, to, step);
   return share >= 0.0 && share < kSoft ? motion / extent_.size() : 0.0;
 }

@@ -34,7 +34,10 @@ void evaluate_again(const Resumable& run, const Place& place, bool factorised) {
     system.assembly().set_moment(
         moment_at(run.model, place.stage, place.increment, reached, run.state.path.last_size));
   }
+  const Eigen::VectorXd end = run.state.u;
+  if (within && system.assembly().sees_unknowns()) run.state.u = run.state.u_before;
   if (system.assembly().evaluate(run.state.du, &system.tangent()) == Outcome::cut_step) refuse();
+  run.state.u = end;
   if (within) system.assembly().commit_again();
   if (factorised) system.tangent().factorise(run.result.work);
 }

@@ -29,6 +29,7 @@ struct StagePath {
 struct RunState {
   Eigen::VectorXd u, external;  // displacements and loads at the committed state, every dof
   Eigen::VectorXd du;           // the step in hand or just taken
+  Eigen::VectorXd u_before;     // before that step, where elements see unknowns
   StagePath path;
 
   // To a checkpoint or back: as it stands after an increment (within a stage), or between two stages.
@@ -38,6 +39,7 @@ struct RunState {
   }
   void exchange_path(Archive& archive) {
     archive(du);
+    archive(u_before);
     path.repeats.exchange(archive);
     archive(path.last_size);
     archive(path.stiffest);

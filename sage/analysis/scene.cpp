@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sage/analysis/congruent.hpp"
+#include "sage/model/dof_map.hpp"
 
 namespace sage {
 
@@ -17,17 +18,19 @@ bool ask(const LawRef& law, Question question) {
 
 Scene analyse_scene(const Model& model) {
   Scene scene;
-  scene.dofs = model.dofs();
+  const DofMap map(model);
+  scene.dofs = map.dofs();
   std::vector<char> nonlinear(static_cast<std::size_t>(model.mesh.nodes()), 0);
   for (const Group& group : model.groups) {
     const LawRef law = model.material_of(group).law_ref();
-    const bool linear = has_constant_stiffness(law);
-    const bool symmetric = ask(law, [](const auto& l) { return l.symmetric(); });
+    const ElementTraits& traits = group.element->traits();
+    const bool linear = traits.linear && has_constant_stiffness(law);
+    const bool symmetric = traits.symmetric && ask(law, [](const auto& l) { return l.symmetric(); });
     scene.group_linear.push_back(linear ? 1 : 0);
     scene.linear = scene.linear && linear;
     scene.symmetric = scene.symmetric && symmetric;
     scene.elements += group.elements();
-    scene.points += group.elements() * group.element->traits().points;
+    scene.points += group.elements() * traits.points;
     std::vector<int>& shapes = scene.shapes.emplace_back();
     if (linear) {
       shapes = shapes_of(model.mesh, group, model.geometry);
@@ -37,7 +40,8 @@ Scene analyse_scene(const Model& model) {
       for (int node : group.nodes) nonlinear[static_cast<std::size_t>(node)] = 1;
     }
   }
-  scene.nonlinear_dofs = 2 * static_cast<int>(std::count(nonlinear.begin(), nonlinear.end(), 1));
+  for (int dof = 0; dof < map.dofs(); ++dof)
+    scene.nonlinear_dofs += nonlinear[static_cast<std::size_t>(map.at(dof).node)];
   return scene;
 }
 

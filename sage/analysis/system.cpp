@@ -39,9 +39,20 @@ std::unique_ptr<LinearSolver> System::make(const SolverEntry& entry) const {
   return solver;
 }
 
+std::vector<EquationPlace> System::places() const {
+  std::vector<EquationPlace> places;
+  for (int eq = 0; eq < assembly_.equations(); ++eq) {
+    const DofMap::Unknown unknown = assembly_.dof_map().at(assembly_.dof_of(eq));
+    places.push_back({model_.mesh.x.col(unknown.node), unknown.node, unknown.field, unknown.component});
+  }
+  return places;
+}
+
 void System::analyse() {
   const SolverEntry* entry = choose_solver(assembly_.equations(), scene_.symmetric);
-  tangent_.analyse(make(*entry), entry->name, assembly_.equations(), assembly_.element_equations(), work_);
+  std::unique_ptr<LinearSolver> solver = make(*entry);
+  if (solver->traits().wants_places) solver->set_places(places());
+  tangent_.analyse(std::move(solver), entry->name, assembly_.equations(), assembly_.element_equations(), work_);
   held_before_ = activity_.held;
   groups_before_ = activity_.group;
 }
@@ -60,7 +71,7 @@ void System::pass_stage(int s) {
 
 void System::open_stage(int s) {
   const Stage& stage = model_.stages[static_cast<std::size_t>(s)];
-  rate_ = prescribed_rate(model_, stage);
+  rate_ = prescribed_rate(stage, activity_.dof_map);
   enter(stage);
   const bool condensed_before = assembly_.condensation() != nullptr;
   assembly_.enter_stage(activity_, rate_, stage.increments, [&](int equations, bool symmetric) {

@@ -33,6 +33,7 @@ class System {
   void enter(const Stage& stage);
   const SolverEntry* choose_solver(int equations, bool symmetric) const;
   std::unique_ptr<LinearSolver> make(const SolverEntry& entry) const;
+  std::vector<EquationPlace> places() const;
   void analyse();
 
   const Model& model_;

@@ -19,14 +19,13 @@ void Tangent::clear() {
   coupling_.setZero(rate_.size());
 }
 
-void Tangent::add(int element, std::span<const int> nodes, const double* K) {
+void Tangent::add(int element, const ElementDofs& dofs, const double* K) {
   solver_->add(element, K);
-  const int n = 2 * static_cast<int>(nodes.size());
-  for (int j = 0; j < n; ++j) {
-    const double rate = rate_[2 * nodes[static_cast<std::size_t>(j / 2)] + j % 2];
+  const std::size_t n = dofs.size();
+  for (std::size_t j = 0; j < n; ++j) {
+    const double rate = rate_[dofs[j]];
     if (rate == 0.0) continue;
-    for (int i = 0; i < n; ++i)
-      coupling_[2 * nodes[static_cast<std::size_t>(i / 2)] + i % 2] += K[j * n + i] * rate;
+    for (std::size_t i = 0; i < n; ++i) coupling_[dofs[i]] += K[j * n + i] * rate;
   }
 }
 

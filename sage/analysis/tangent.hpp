@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "sage/analysis/element_dofs.hpp"
 #include "sage/analysis/records.hpp"
 #include "sage/core/linear_solver.hpp"
 
@@ -25,7 +26,10 @@ class Tangent {
   void analyse(std::unique_ptr<LinearSolver> solver, const std::string& name, int equations,
                ElementEquations elements, WorkCounters& work);
   // rate: displacement of every prescribed dof over the stage, for coupling().
-  void set_rate(const Eigen::VectorXd& rate) { rate_ = rate; }
+  void set_rate(const Eigen::VectorXd& rate) {
+    rate_ = rate;
+    if (rate_.isZero(0.0)) coupling_.setZero(rate_.size());  // factors may go on to serve
+  }
 
   State state() const { return state_; }
   bool constant() const { return constant_; }
@@ -47,9 +51,10 @@ class Tangent {
   // solver does not hold them already.  all_kept: none are of the first kind.
   template <class Elements, class Kept>
   Outcome assemble(bool all_kept, Elements elements, Kept kept);
-  // From within: the element's matrix, column-major, of the dofs of these nodes; with no nodes the equations
-  // meet no prescribed dof.
-  void add(int element, std::span<const int> nodes, const double* K);
+  // From within: the element's matrix, column-major.
+  void add(int element, const ElementDofs& dofs, const double* K);
+  // The same where none of its dofs is prescribed.
+  void add(int element, const double* K) { solver_->add(element, K); }
   void differs() { changed_ = true; }
   // After it: whether the forces of the same pass are numbers.  K of a pass that failed serves nobody.
   void settle(Outcome pass);

@@ -517,7 +517,7 @@ std::string Climb::why_unusable(const RunOutcome& outcome, const Rung& rung) {
   const RunResult& result = outcome.record.result;
   if (outcome.too_large)
     return fmt::format("the next mesh has {} dofs, more than the limit of {} (--max-dofs)",
-                       outcome.model->dofs(), options_.max_dofs);
+                       DofMap(*outcome.model).dofs(), options_.max_dofs);
   if (result.status == RunStatus::stopped)
     return seconds_since(start_) > options_.max_seconds
                ? fmt::format("the limit of {:g} s (--max-seconds) came within the next mesh",
@@ -566,7 +566,7 @@ bool Climb::add_mesh(int level) {
     if (first_without && request_.keep_result) without_run_ = std::make_shared<RunOutcome>(std::move(*outcome));
     return false;
   }
-  Row row{outcome->record.scene.elements, outcome->model->dofs(), outcome->record.seconds, {}, rung};
+  Row row{outcome->record.scene.elements, DofMap(*outcome->model).dofs(), outcome->record.seconds, {}, rung};
   for (const std::filesystem::path& file : outcome->files) row.files.emplace_back(file, bytes_of(file));
   if (!table_) start_table(follower_.shown().name);
   table_->row(follower_.meshes(), row, follower_.shown_limit(), follower_.shown().values.back(), rung.options);

@@ -217,7 +217,7 @@ RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
     outcome.exit_code = kInput;
     return outcome;
   }
-  if (request.max_dofs > 0 && model.dofs() > request.max_dofs) {
+  if (request.max_dofs > 0 && DofMap(model).dofs() > request.max_dofs) {
     outcome.too_large = true;
     return outcome;
   }

@@ -30,7 +30,48 @@ std::vector<int> node_range(Builder& b, const CardView& card) {
   return nodes;
 }
 
-void read_fixity(Builder& b, const CardView& card, bool in_stage, std::vector<Fixity>& out) {
+// Which field of unknowns a card is about: 0 = displacement, -1 after an error.
+int read_unknown(Builder& b, const CardView& card) {
+  if (card.blank("unknown")) return 0;
+  const std::string name = b.text(card, "unknown");
+  const int field = find_unknown(b.model.unknowns, name);
+  if (field >= 0 || !b.groups_known) return field;
+  std::string known;
+  for (const UnknownField& unknown : b.model.unknowns) known += (known.empty() ? "" : ", ") + unknown.name;
+  b.error(card.where("unknown"), "no element of the deck solves for " + name + "; it has: " + known);
+  return field;
+}
+
+// The fields of a card that belong to the second component of a displacement.
+void require_one_component(Builder& b, const CardView& card, std::initializer_list<const char*> fields) {
+  for (const char* field : fields)
+    if (card.real(field) != 0.0)
+      b.error(card.where(field), "the " + card.label(field) + " must be blank: " + b.text(card, "unknown") +
+                                     " is one number a node, in the columns of x");
+}
+
+// False: no element gives the node that field, which is an error.
+bool has_unknown(Builder& b, const CardView& card, int node, int field) {
+  if (b.dof_map.of(node, field) >= 0) return true;
+  b.error(card.where("unknown"), "node " + std::to_string(b.model.mesh.number[static_cast<std::size_t>(node)]) +
+                                     " has no " + b.model.unknowns[static_cast<std::size_t>(field)].name +
+                                     ": no element there solves for it");
+  return false;
+}
+
+void read_field_fixity(Builder& b, const CardView& card, int field, const Fixity& fixity,
+                       std::vector<FieldFixity>& out) {
+  require_one_component(b, card, {"y_code", "y_value"});
+  for (int node : node_range(b, card)) {
+    if (!has_unknown(b, card, node, field)) return;
+    out.push_back({field, node, fixity.code[0], fixity.value[0], fixity.line});
+  }
+}
+
+void read_fixity(Builder& b, const CardView& card, bool in_stage, std::vector<Fixity>& out,
+                 std::vector<FieldFixity>& out_fields) {
+  const int field = read_unknown(b, card);
+  if (field < 0) return;
   Fixity fixity;
   fixity.code = {fixity_code(b, card, "x_code"), fixity_code(b, card, "y_code")};
   fixity.value = {card.real("x_value"), card.real("y_value")};
@@ -40,29 +81,43 @@ void read_fixity(Builder& b, const CardView& card, bool in_stage, std::vector<Fi
   for (std::size_t c = 0; c < 2; ++c) {
     b.usable(card, values[c], fixity.value[c]);
     if (in_stage && fixity.code[c] == FixityCode::fixed && card.blank(values[c]))
-      b.note(card.where(values[c]),
-             "the " + card.label(values[c]) + " is left blank: held where it is, displacement 0");
+      b.note(card.where(values[c]), "the " + card.label(values[c]) + " is left blank: held where it is" +
+                                        (field > 0 ? "" : ", displacement 0"));
     if (fixity.value[c] == 0.0) continue;
     if (!in_stage)
-      b.error(card.where(values[c]), "a displacement other than zero belongs on a fixity card of a stage");
+      b.error(card.where(values[c]), std::string(field > 0 ? "a value" : "a displacement") +
+                                         " other than zero belongs on a fixity card of a stage");
     else if (const int code = card.integer(codes[c]); code == 0 || code == -1)
-      b.error(card.where(codes[c]), "a displacement is given but the code is not 1 (fixed)");
+      b.error(card.where(codes[c]), std::string(field > 0 ? "a value" : "a displacement") +
+                                        " is given but the code is not 1 (fixed)");
   }
   if (fixity.code[0] == FixityCode::unchanged && fixity.code[1] == FixityCode::unchanged)
     b.note(card.where(), "this fixity card changes nothing: both its codes are 0 or blank");
   for (std::size_t c = 0; c < 2; ++c)
     if (!in_stage && fixity.code[c] == FixityCode::released)
       b.error(card.where(codes[c]), "only a stage can release a fixity (code -1)");
+  if (field > 0) return read_field_fixity(b, card, field, fixity, out_fields);
   for (int node : node_range(b, card)) {
     fixity.node = node;
     out.push_back(fixity);
   }
 }
 
-void read_load(Builder& b, const CardView& card, std::vector<NodalLoad>& out) {
+void read_load(Builder& b, const CardView& card, std::vector<NodalLoad>& out,
+               std::vector<FieldLoad>& out_fields) {
+  const int field = read_unknown(b, card);
+  if (field < 0) return;
   NodalLoad load{0, {card.real("x_force"), card.real("y_force")}, card.card().line};
   b.usable(card, "x_force", load.force.x());
   b.usable(card, "y_force", load.force.y());
+  if (field > 0) {
+    require_one_component(b, card, {"y_force"});
+    for (int node : node_range(b, card)) {
+      if (!has_unknown(b, card, node, field)) return;
+      out_fields.push_back({field, node, load.force.x(), load.line});
+    }
+    return;
+  }
   for (int node : node_range(b, card)) {
     load.node = node;
     out.push_back(load);
@@ -282,8 +337,9 @@ Stage read_stage(Builder& b, const CardView& card, int number) {
   if (card.real("tolerance") != 0.0) stage.tolerance = card.real("tolerance");
   if (!(stage.tolerance > 0.0 && stage.tolerance < 1.0))
     b.error(card.where("tolerance"), "the tolerance must lie between 0 and 1 (blank = 1e-8)");
-  for (const CardView& c : b.deck.all("fixity", card)) read_fixity(b, c, true, stage.fixities);
-  for (const CardView& c : b.deck.all("load", card)) read_load(b, c, stage.loads);
+  for (const CardView& c : b.deck.all("fixity", card))
+    read_fixity(b, c, true, stage.fixities, stage.field_fixities);
+  for (const CardView& c : b.deck.all("load", card)) read_load(b, c, stage.loads, stage.field_loads);
   for (const CardView& c : b.deck.all("pressure", card)) read_pressure(b, c, stage.pressures);
   for (const CardView& c : b.deck.all("birth", card)) read_groups(b, c, false, stage.births);
   for (const CardView& c : b.deck.all("death", card)) read_groups(b, c, true, stage.deaths);
@@ -333,8 +389,10 @@ void check_births(Builder& b) {
 }  // namespace
 
 void build_stages(Builder& b) {
+  collect_unknowns(b.model);
+  b.dof_map = DofMap(b.model);
   for (const CardView& card : b.deck.all("fixity"))
-    if (outside_stages(b.deck, card)) read_fixity(b, card, false, b.model.fixities);
+    if (outside_stages(b.deck, card)) read_fixity(b, card, false, b.model.fixities, b.model.field_fixities);
   for (const CardView& card : b.deck.all("initial"))
     if (outside_stages(b.deck, card)) read_initial(b, card, b.model.initials);
   for (const CardView& card : b.deck.all("initial")) check_traction(b, card);

@@ -9,7 +9,7 @@
 #include "sage/build/build_model.hpp"
 #include "sage/deck/deck.hpp"
 #include "sage/mesh/work.hpp"
-#include "sage/model/model.hpp"
+#include "sage/model/dof_map.hpp"
 
 namespace sage::build {
 
@@ -33,6 +33,7 @@ struct Builder : mesh::Work {
   std::unordered_map<int, int> group_index = {};
   std::unordered_map<int, int> material_index = {};
   std::unordered_map<int, ElementPlace> element_place = {};
+  DofMap dof_map = {};                  // once the elements are known
   std::vector<int> blank_weights = {};  // materials whose unit weight is left blank
   // False once a card of that kind was refused: what refers to it is then not reported as missing as well.
   bool nodes_known = true, materials_known = true, groups_known = true, elements_known = true;

@@ -213,7 +213,7 @@ void warn_bare_joints(Builder& b) {
         for (std::size_t i = 0; i < group.node_count(); ++i) {
           const int node = group.nodes_of(e)[i];
           const auto n = static_cast<std::size_t>(node);
-          const bool held = activity.held[2 * n] && activity.held[2 * n + 1];
+          const bool held = activity.holds(node, 0) && activity.holds(node, 1);
           // Nodes that no solid ever has are a body of the deck's own, which its loads may hold.
           if (ever[n] && !now[n] && !held) bare.push_back(node);
         }

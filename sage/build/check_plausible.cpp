@@ -265,10 +265,10 @@ void check_angles(Builder& b) {
 
 void check_fixities(Builder& b, const Stage& stage, const Activity& before, const Size& size) {
   int last_line = 0;
-  std::set<std::size_t> held_here;  // by an earlier card: check_stages speaks of the contradiction
+  std::set<int> held_here;  // by an earlier card: check_stages speaks of the contradiction
   for (const Fixity& f : stage.fixities) {
     for (std::size_t c = 0; c < 2; ++c)
-      if (f.code[c] == FixityCode::fixed) held_here.insert(2 * static_cast<std::size_t>(f.node) + c);
+      if (f.code[c] == FixityCode::fixed) held_here.insert(DofMap::displacement(f.node, static_cast<int>(c)));
     if (f.line == last_line) continue;  // one message a card
     for (std::size_t c = 0; c < 2; ++c) {
       if (std::abs(f.value[c]) > size.length) {
@@ -277,8 +277,9 @@ void check_fixities(Builder& b, const Stage& stage, const Activity& before, cons
                                          " is larger than the mesh, " + rounded_text(size.length) +
                                          "; strains are taken as small");
       }
-      const std::size_t dof = 2 * static_cast<std::size_t>(f.node) + c;
-      if (f.code[c] == FixityCode::released && !before.held[dof] && held_here.count(dof) == 0) {
+      const auto component = static_cast<int>(c);
+      if (f.code[c] == FixityCode::released && !before.holds(f.node, component) &&
+          held_here.count(DofMap::displacement(f.node, component)) == 0) {
         last_line = f.line;
         b.note(b.at_line(f.line), "code -1 releases node " +
                                       std::to_string(b.model.mesh.number[static_cast<std::size_t>(f.node)]) +

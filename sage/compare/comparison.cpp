@@ -447,9 +447,10 @@ void add_nodal(Comparison& c, const Side& a, const Side& b) {
     double largest_a = 0.0, largest_b = 0.0, difference = -1.0;
     int worst = 0;
     for (int n = 0; n < a.model().mesh.nodes(); ++n) {
-      largest_a = std::max(largest_a, std::abs(ua[2 * n + k]));
-      largest_b = std::max(largest_b, std::abs(ub[2 * n + k]));
-      const double d = std::abs(ub[2 * n + k] - ua[2 * n + k]);
+      const int dof = DofMap::displacement(n, k);
+      largest_a = std::max(largest_a, std::abs(ua[dof]));
+      largest_b = std::max(largest_b, std::abs(ub[dof]));
+      const double d = std::abs(ub[dof] - ua[dof]);
       if (d > difference) {
         difference = d;
         worst = n;
@@ -459,7 +460,7 @@ void add_nodal(Comparison& c, const Side& a, const Side& b) {
     table.add("largest |u| along " + direction, largest_a, largest_b);
     table.add(fmt::format("u along {} of node {} (largest difference)", direction,
                           a.model().mesh.number[static_cast<std::size_t>(worst)]),
-              ua[2 * worst + k], ub[2 * worst + k]);
+              ua[DofMap::displacement(worst, k)], ub[DofMap::displacement(worst, k)]);
   }
 }
 

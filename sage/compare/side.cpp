@@ -135,12 +135,12 @@ std::vector<FaceState> Side::face_states(const Solution& now) const {
     Vector2 least = Vector2::Constant(std::numeric_limits<double>::infinity()), most = -least;
     for (std::size_t i = 0; i < face.nodes.size(); ++i) {
       const int node = face.nodes[i];
-      const Vector2 force = now.internal->segment<2>(2 * node);
+      const Vector2 force = now.internal->segment<2>(DofMap::displacement(node));
       state.force += force;
       if (!face.at_end[i]) state.inner_force += force;
       state.normal_force.push_back(force[face.normal]);
-      state.held.push_back(now.activity->held[static_cast<std::size_t>(2 * node + face.normal)]);
-      const Vector2 u = now.u->segment<2>(2 * node);
+      state.held.push_back(now.activity->holds(node, face.normal));
+      const Vector2 u = now.u->segment<2>(DofMap::displacement(node));
       state.displacement += u / static_cast<double>(face.nodes.size());
       least = least.cwiseMin(u);
       most = most.cwiseMax(u);
@@ -155,9 +155,11 @@ void Side::close_stage(StageState& state, const Frame& end) {
   const Solution now = end.view();
   state.load_factor = end.report().load_factor;
   state.faces = face_states(now);
-  for (int dof = 0; dof < model_->dofs(); ++dof) {
-    state.applied[dof % 2] += (*now.external)[dof];
-    if (now.activity->held[static_cast<std::size_t>(dof)]) state.reactions[dof % 2] += reaction(now, dof);
+  const DofMap& map = now.activity->dof_map;
+  for (int dof = 0; dof < map.displacements(); ++dof) {
+    const int c = map.at(dof).component;
+    state.applied[c] += (*now.external)[dof];
+    if (now.activity->held[static_cast<std::size_t>(dof)]) state.reactions[c] += reaction(now, dof);
   }
   raise_floors(stage_of(*model_, state.stage), end);
 }
@@ -165,9 +167,10 @@ void Side::close_stage(StageState& state, const Frame& end) {
 void Side::raise_floors(const Stage& stage, const Frame& end) {
   const double tolerance = stage.tolerance;
   const Solution now = end.view();
-  floors_.force = std::max(floors_.force,
-                           tolerance * now.internal->norm() * std::sqrt(static_cast<double>(model_->dofs())));
-  floors_.displacement = std::max(floors_.displacement, tolerance * now.u->lpNorm<Eigen::Infinity>());
+  const int n = now.activity->dof_map.displacements();
+  floors_.force =
+      std::max(floors_.force, tolerance * now.internal->head(n).norm() * std::sqrt(static_cast<double>(n)));
+  floors_.displacement = std::max(floors_.displacement, tolerance * now.u->head(n).lpNorm<Eigen::Infinity>());
   floors_.stress = std::max(floors_.stress, tolerance * end.largest_stress());
 }
 

@@ -59,10 +59,9 @@ const Face* find_face(const Side& side, std::string_view name) {
 
 // Part of a face's nodes that are held in a direction at the end.
 double held_part(const Side& side, const Face& face, int component) {
-  const std::vector<char>& held = side.last().activity->held;
-  const auto count = std::count_if(face.nodes.begin(), face.nodes.end(), [&](int node) {
-    return held[2 * static_cast<std::size_t>(node) + static_cast<std::size_t>(component)] != 0;
-  });
+  const Activity& activity = *side.last().activity;
+  const auto count = std::count_if(face.nodes.begin(), face.nodes.end(),
+                                   [&](int node) { return activity.holds(node, component); });
   return static_cast<double>(count) / static_cast<double>(face.nodes.size());
 }
 

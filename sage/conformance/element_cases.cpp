@@ -102,12 +102,15 @@ ElementRun::ElementRun(const Element& e, const Eigen::Matrix2Xd& x, LawRef l) : 
   for (std::size_t p = 0; p < points; ++p) h0.insert(h0.end(), start.begin(), start.end());
   h1.assign(h0.size(), 0.0);
   status.assign(points, PointStatus::elastic);
+  u0.setZero(t.dofs);
   K.setZero(t.dofs, t.dofs);
   f.setZero(t.dofs);
 }
 
 Outcome ElementRun::evaluate(const Eigen::VectorXd& du, bool want_stiffness) {
-  const ElementIn in{geometry.data(), du.data(), law, sigma0.data(), eps0.data(), h0.data(), contexts};
+  ElementIn in{geometry.data(), du.data(), law, sigma0.data(), eps0.data(), h0.data(), contexts};
+  in.u0 = u0.data();
+  in.dt = dt;
   ElementOut out{
       want_stiffness ? K.data() : nullptr, f.data(), sigma1.data(), eps1.data(), h1.data(), status.data()};
   return element->evaluate(in, out);

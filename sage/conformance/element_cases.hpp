@@ -52,6 +52,8 @@ struct ElementRun {
   int history = 0;
   std::vector<double> geometry, sigma0, eps0, h0, sigma1, eps1, h1;
   std::vector<PointStatus> status;
+  Eigen::VectorXd u0;  // zero unless it is set
+  double dt = 0.0;
   Eigen::MatrixXd K;
   Eigen::VectorXd f;
 };

@@ -17,6 +17,7 @@
 #include "sage/core/law.hpp"
 #include "sage/core/linear_solver.hpp"
 #include "sage/core/units.hpp"
+#include "sage/core/unknown.hpp"
 
 namespace sage {
 
@@ -113,6 +114,9 @@ struct ElementEntry {
   ForeignElement<std::string> calculix{};   // what follows CPE or CAX
   std::string calculix_reduced{};           // the same under reduced integration; empty: no other
   std::vector<Formulation> formulations{};  // the first is the default (deck code 0)
+  // What is solved for at its nodes, in the order of the element's dofs: field by field, in a field node by node.
+  // Empty: the displacement of every node.
+  std::vector<ElementUnknown> unknowns{};
   // Throws ParameterError for an unknown formulation code, or a geometry that it can't be in.
   std::function<std::unique_ptr<Element>(Geometry geometry, int formulation)> make{};
 

@@ -21,12 +21,15 @@ struct ElementTraits {
   std::string_view name;
   Geometry geometry = Geometry::plane_strain;
   int nodes = 0;
-  int dofs = 0;              // 2 a node, ordered u1 v1 u2 v2 ...
-  int points = 0;            // integration points
-  int law_size = 4;          // 4 solid, 2 interface, 1, 3 or 5 structure
-  bool reduced = false;      // reduced integration: fewer points than full rank needs (hourglass possible)
-  bool locks = false;        // stiffens without bound as nu -> 1/2 (full integration of low order)
-  bool loses_order = false;  // as nu -> 1/2 it still converges, but slower than its shape functions allow
+  int dofs = 0;                // 2 a node, ordered u1 v1 u2 v2 ..., or as ElementEntry::unknowns says
+  int points = 0;              // integration points
+  int law_size = 4;            // 4 solid, 2 interface, 1, 3 or 5 structure
+  bool reduced = false;        // reduced integration: fewer points than full rank needs (hourglass possible)
+  bool locks = false;          // stiffens without bound as nu -> 1/2 (full integration of low order)
+  bool symmetric = true;       // K is wherever the law's D is
+  bool linear = true;          // f is linear in du, with one K for every dt, wherever the law is
+  bool sees_unknowns = false;  // ElementIn::u0 and dt are wanted
+  bool loses_order = false;    // as nu -> 1/2 it still converges, but slower than its shape functions allow
   // Doubles filled by geometry(): for each point its weight w, then B^T (dofs x law_size, column-major).
   int geometry_size() const { return points * (1 + law_size * dofs); }
 };
@@ -34,13 +37,16 @@ struct ElementTraits {
 // One element's inputs.  Pointers are to contiguous blocks of the sizes that the traits give.
 struct ElementIn {
   const double* geometry = nullptr;  // from Element::geometry
-  const double* du = nullptr;        // dofs: displacement since the committed state
+  const double* du = nullptr;        // dofs: unknowns since the committed state
   LawRef law;
   const double* sigma0 = nullptr;  // points x law_size, committed stress
   const double* eps0 = nullptr;    // points x law_size, committed strain
   const double* h0 = nullptr;      // points x history size
   // One a point where the law wants them, else nullptr: to be handed on as PointIn::context.
   const PointContext* contexts = nullptr;
+  // For elements that see them: committed unknowns (dofs), and the time of the step; 0 at a state that stands.
+  const double* u0 = nullptr;
+  double dt = 0.0;
 };
 
 struct ElementOut {

@@ -17,6 +17,7 @@
 #include "sage/core/element.hpp"
 #include "sage/core/law.hpp"
 #include "sage/core/units.hpp"
+#include "sage/core/unknown.hpp"
 
 namespace sage {
 
@@ -31,11 +32,17 @@ inline constexpr std::array<ElementKind, 3> kElementKinds{ElementKind::solid, El
 
 // What the value of a field may be computed from.  Numbers are as people read them: stress and strain
 // compression positive, displacements and forces along +x (+r) and +y (+z), full circle in axisymmetry.
+// One further unknown of a node; NaN where the node lacks the field, and where nothing holds it for `reaction`.
+struct UnknownView {
+  double value = 0.0, load = 0.0, reaction = 0.0;
+};
+
 struct NodeView {
   int number = 0;  // the deck's
   Vector2 place = Vector2::Zero();
   Vector2 displacement = Vector2::Zero(), load = Vector2::Zero();
-  Vector2 reaction = Vector2::Zero();  // what supports do to the mesh; NaN where nothing is held
+  Vector2 reaction = Vector2::Zero();               // what supports do to the mesh; NaN where nothing is held
+  std::array<UnknownView, kMostFields> unknowns{};  // by place in Model::unknowns; 0 is not filled in
 };
 
 // An integration point.  This alone is as the law keeps it: tension positive, radians.

@@ -25,9 +25,17 @@ struct ElementEquations {
   }
 };
 
+// Where each equation stands: for solvers that number or scale by it.
+struct EquationPlace {
+  Eigen::Vector2d x = Eigen::Vector2d::Zero();  // of its node
+  int node = 0;                                 // counted from 0
+  int field = 0, component = 0;                 // field: 0 = displacement, then the model's others
+};
+
 struct SolverTraits {
   std::string_view name;
-  bool symmetric = false;  // uses only a symmetric K (one triangle); must not be given an unsymmetric one
+  bool symmetric = false;     // uses only a symmetric K (one triangle); must not be given an unsymmetric one
+  bool wants_places = false;  // set_places() is called before analyse()
 };
 
 // What the last factorisation can tell about itself.  Negative = not known.
@@ -56,6 +64,10 @@ class LinearSolver {
   // From now on long work asks it now and then and throws Stopped where it says so; the same call may be made
   // again then.  Libraries that nothing can interrupt ask before they begin.
   virtual void set_stop(StopAsked /*asked*/) {}
+
+  // One entry an equation, for those that want them; valid within the call.  A solver that is given a part of
+  // the equations alone (the skip 'condensation') gets none.
+  virtual void set_places(std::span<const EquationPlace> /*places*/) {}
 
   // Numbering, symbolic work and storage for a pattern.  Called once per pattern.
   virtual void analyse(int equations, ElementEquations elements) = 0;

@@ -308,8 +308,8 @@ void add_increment_fields(std::vector<FieldEntry>& rows) {
         [k](const View& i) { return i.points[k]; });
   add("worst_node", "node that is farthest from equilibrium", kInteger, true,
       [](const View& i) { return i.worst_node; });
-  add("worst_component", "direction of that", FieldForm::word, true,
-      [](const View& i) { return i.worst_component; });
+  add("worst_component", "direction of that (0 x or r, 1 y or z; 2 and up: the further unknowns)",
+      FieldForm::word, true, [](const View& i) { return i.worst_component; });
   rows.back().words = {"x", "y"};
   add(
       "worst_residual", "force out of balance there", kNumber, true,

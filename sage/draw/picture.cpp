@@ -53,13 +53,13 @@ View make_view(const Model& model, const Solution& s, const NodalLayout& layout,
   for (int node : layout.node) {
     view.low = view.low.cwiseMin(model.mesh.x.col(node));
     view.high = view.high.cwiseMax(model.mesh.x.col(node));
-    largest = std::max(largest, s.u->segment<2>(2 * node).norm());
+    largest = std::max(largest, s.u->segment<2>(DofMap::displacement(node)).norm());
   }
   const double size = (view.high - view.low).maxCoeff();
   if (options.deformed && largest > 0.0)
     view.deformation = options.scale > 0.0 ? options.scale : std::max(1.0, round_down(0.05 * size / largest));
   for (int node : layout.node) {
-    const Vector2 x = model.mesh.x.col(node) + view.deformation * s.u->segment<2>(2 * node);
+    const Vector2 x = model.mesh.x.col(node) + view.deformation * s.u->segment<2>(DofMap::displacement(node));
     view.low = view.low.cwiseMin(x);
     view.high = view.high.cwiseMax(x);
   }
@@ -84,7 +84,7 @@ struct Scenery {
     return !layout.of_group[g].empty() && model.groups[g].entry->kind == kind;
   }
   Vector2 moved(int node, double deformation) const {
-    return view.at(model.mesh.x.col(node) + deformation * solution.u->segment<2>(2 * node));
+    return view.at(model.mesh.x.col(node) + deformation * solution.u->segment<2>(DofMap::displacement(node)));
   }
   // On the paper: one column a node of the element.
   Eigen::Matrix2Xd nodes_of(const Group& group, int e, double deformation) const {

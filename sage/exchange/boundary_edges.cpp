@@ -26,19 +26,11 @@ std::vector<BoundaryEdge> boundary_edges(const Model& model) {
   return all;
 }
 
-std::vector<char> held_dofs(const Model& model) {
-  std::vector<char> held(static_cast<std::size_t>(model.dofs()), 0);
-  for (const Fixity& fixity : model.fixities)
-    for (std::size_t c = 0; c < 2; ++c)
-      if (fixity.code[c] == FixityCode::fixed) held[2 * static_cast<std::size_t>(fixity.node) + c] = 1;
-  return held;
-}
-
-std::string support_name(const std::vector<char>& held, const BoundaryEdge& edge) {
+std::string support_name(const Activity& activity, const BoundaryEdge& edge) {
   bool x = true, y = true;
   for (int node : edge.nodes) {
-    x = x && held[2 * static_cast<std::size_t>(node)];
-    y = y && held[2 * static_cast<std::size_t>(node) + 1];
+    x = x && activity.holds(node, 0);
+    y = y && activity.holds(node, 1);
   }
   if (!x && !y) return {};
   return x && y ? "fix_xy" : x ? "fix_x" : "fix_y";

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "sage/model/model.hpp"
+#include "sage/model/activity.hpp"
 
 namespace sage {
 
@@ -15,10 +15,7 @@ struct BoundaryEdge {
 // Edges that belong to one solid element only.
 std::vector<BoundaryEdge> boundary_edges(const Model& model);
 
-// "fix_x", "fix_y", "fix_xy" where the model's supports hold all nodes of the edge; empty if they don't.
-std::string support_name(const std::vector<char>& held, const BoundaryEdge& edge);
-
-// What the fixities before the first stage hold: two entries a node.
-std::vector<char> held_dofs(const Model& model);
+// "fix_x", "fix_y", "fix_xy" where the supports hold all nodes of the edge; empty if they don't.
+std::string support_name(const Activity& activity, const BoundaryEdge& edge);
 
 }  // namespace sage

@@ -1,4 +1,5 @@
 #include "sage/exchange/msh_model.hpp"
+#include "sage/model/dof_map.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -56,6 +57,7 @@ class Skeleton {
     stage.gravity = {0.0, -1.0};
     for (const MshBlock& block : msh_.blocks)
       if (block.shape.dimension == 2) surface(block);
+    collect_unknowns(model_);
     if (model_.groups.empty()) throw InputError({model_.file, 0, 0, 0}, "the mesh holds no surface elements");
     for (const MshBlock& block : msh_.blocks)
       if (block.shape.dimension == 1) curve(block);

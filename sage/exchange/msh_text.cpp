@@ -59,11 +59,11 @@ std::vector<Block> surfaces(const Model& model, Diagnostics& diagnostics, int& l
 }
 
 std::vector<Block> supports(const Model& model, int first_number) {
-  const std::vector<char> held = held_dofs(model);
+  const Activity before_stages(model);
   std::map<std::pair<std::string, std::size_t>, Block> by_name;
   std::map<std::string, int> tags;
   for (BoundaryEdge& edge : boundary_edges(model)) {
-    const std::string name = support_name(held, edge);
+    const std::string name = support_name(before_stages, edge);
     if (name.empty()) continue;
     const bool corners = model.groups[static_cast<std::size_t>(edge.group)].entry->gmsh.type == 0;
     if (corners || msh::line_type(edge.nodes.size()) == 0) edge.nodes.resize(2);

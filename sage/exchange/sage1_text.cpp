@@ -74,6 +74,8 @@ class Sage1Writer {
   void groups();
   void elements();
   void fixity(const Fixity& fixity, bool in_stage);
+  void fixity(const FieldFixity& fixity, bool in_stage);
+  void unknown(int field);
   void initial(const InitialStress& initial);
   void list(const std::vector<int>& groups);
   void stage(const Stage& stage);
@@ -105,7 +107,7 @@ void Sage1Writer::control(std::size_t reports) {
                                 model_.materials.size(),
                                 model_.groups.size(),
                                 elements,
-                                model_.fixities.size(),
+                                model_.fixities.size() + model_.field_fixities.size(),
                                 model_.initials.size(),
                                 model_.stages.size(),
                                 reports,
@@ -186,6 +188,25 @@ void Sage1Writer::fixity(const Fixity& fixity, bool in_stage) {
   line();
 }
 
+// The columns of y stay blank.
+void Sage1Writer::fixity(const FieldFixity& fixity, bool in_stage) {
+  integer(node_number(fixity.node));
+  text_ += "    0    0";
+  integer(fixity.code == FixityCode::fixed ? 1 : fixity.code == FixityCode::released ? -1 : 0);
+  integer(0);
+  if (in_stage && fixity.code == FixityCode::fixed)
+    real(fixity.value);
+  else
+    text_ += "          ";
+  unknown(fixity.field);
+}
+
+void Sage1Writer::unknown(int field) {
+  text_ += "          ";
+  name(model_.unknowns[static_cast<std::size_t>(field)].name, 20);
+  line();
+}
+
 void Sage1Writer::initial(const InitialStress& initial) {
   integer(group_number(initial.group));
   integer(static_cast<int>(initial.kind));
@@ -213,20 +234,31 @@ void Sage1Writer::stage(const Stage& stage) {
   name(stage.title.starts_with('*') ? " " + stage.title : stage.title, 80);
   line();
   text_ += "* incr meth iter outp fixi load pres brth deth init    grav x    grav y tolerance\n";
-  const std::size_t counts[] = {stage.fixities.size(), stage.loads.size(),  stage.pressures.size(),
-                                stage.births.size(),   stage.deaths.size(), stage.initials.size()};
+  const std::size_t counts[] = {stage.fixities.size() + stage.field_fixities.size(),
+                                stage.loads.size() + stage.field_loads.size(),
+                                stage.pressures.size(),
+                                stage.births.size(),
+                                stage.deaths.size(),
+                                stage.initials.size()};
   for (int value : {stage.increments, static_cast<int>(stage.method), stage.max_iterations, stage.output_every})
     integer(value);
   for (std::size_t count : counts) integer(static_cast<long>(count));
   for (double value : {stage.gravity.x(), stage.gravity.y(), stage.tolerance}) real(value);
   line();
   for (const Fixity& f : stage.fixities) fixity(f, true);
+  for (const FieldFixity& f : stage.field_fixities) fixity(f, true);
   for (const NodalLoad& load : stage.loads) {
     integer(node_number(load.node));
     text_ += "    0    0";
     real(load.force.x());
     real(load.force.y());
     line();
+  }
+  for (const FieldLoad& load : stage.field_loads) {
+    integer(node_number(load.node));
+    text_ += "    0    0";
+    real(load.value);
+    unknown(load.field);
   }
   for (const EdgeLoad& load : stage.pressures) {
     const Group& group = model_.groups[static_cast<std::size_t>(load.group)];
@@ -298,6 +330,7 @@ std::string Sage1Writer::deck() {
   elements();
   if (!model_.fixities.empty()) text_ += "* first last step xcod ycod\n";
   for (const Fixity& f : model_.fixities) fixity(f, false);
+  for (const FieldFixity& f : model_.field_fixities) fixity(f, false);
   if (!model_.initials.empty()) text_ += "* group kind      v1        v2        v3        v4\n";
   for (const InitialStress& i : model_.initials) initial(i);
   for (const Stage& s : model_.stages) stage(s);

@@ -324,6 +324,8 @@ void Coarsening::require_middle(Line& on) {
 void Coarsening::require_by_model() {
   for (const Stage& stage : model_->stages)
     for (const NodalLoad& load : stage.loads) require(load.node);
+  for (const Stage& stage : model_->stages)
+    for (const FieldLoad& load : stage.field_loads) require(load.node);
   for (const Grading& grading : b_->meshing.gradings)
     if (const auto it = b_->node_index.find(grading.node); it != b_->node_index.end()) require(it->second);
   for (const Report& report : model_->reports) require_report(report);
@@ -581,9 +583,12 @@ void Coarsening::drop_nodes(std::vector<char> gone) {
     for (auto& entry : list) entry.node = to[at(entry.node)];
   };
   renumber(model_->fixities);
+  renumber(model_->field_fixities);
   for (Stage& stage : model_->stages) {
     renumber(stage.fixities);
     renumber(stage.loads);
+    renumber(stage.field_fixities);
+    renumber(stage.field_loads);
   }
   for (Report& report : model_->reports) {
     std::erase_if(report.nodes, [&](int node) { return gone[at(node)] != 0; });

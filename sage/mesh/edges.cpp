@@ -45,7 +45,7 @@ std::vector<CutEdge> cut_edges(const MadeEdges& edges, int first_made) {
 // those of each stage.
 class Supports {
  public:
-  explicit Supports(int nodes) : held_(2 * static_cast<std::size_t>(nodes), 0) {}
+  explicit Supports(int nodes) : held_(static_cast<std::size_t>(nodes)) {}
 
   // The cards of a list, later ones win; then those for the nodes that were made are added to it.
   void follow(std::vector<Fixity>& list, const std::vector<CutEdge>& edges) {
@@ -65,7 +65,7 @@ class Supports {
   }
 
  private:
-  char& held(int node, std::size_t c) { return held_[2 * static_cast<std::size_t>(node) + c]; }
+  bool& held(int node, std::size_t c) { return held_[static_cast<std::size_t>(node)][c]; }
 
   const Fixity* card(int node) const {
     const auto it = cards_.find(node);
@@ -81,7 +81,7 @@ class Supports {
   // Through all known nodes of the edge where all of them are held, else through the two around the made one.
   double interpolated(const CutEdge& edge, const OnEdge& made, std::size_t behind, std::size_t c) {
     const bool all = std::all_of(edge.known.begin(), edge.known.end(),
-                                 [&](const OnEdge& known) { return held(known.node, c) != 0; });
+                                 [&](const OnEdge& known) { return held(known.node, c); });
     const std::size_t first = all ? 0 : behind - 1, end = all ? edge.known.size() : behind + 1;
     double sum = 0.0;
     for (std::size_t i = first; i < end; ++i) {
@@ -101,8 +101,8 @@ class Supports {
   // must hold both: the ends of a long edge may belong to two other sides.
   bool holds(const CutEdge& edge, const OnEdge& made, std::size_t behind, std::size_t c) {
     const int before = edge.known[behind - 1].node, after = edge.known[behind].node;
-    if (held(before, c) == 0 || held(after, c) == 0) return false;
-    return edge.known.size() > 2 || held(made.node, c) != 0 || (here(before, c) && here(after, c));
+    if (!held(before, c) || !held(after, c)) return false;
+    return edge.known.size() > 2 || held(made.node, c) || (here(before, c) && here(after, c));
   }
 
   void add_cards(const CutEdge& edge, std::vector<Fixity>& list) {
@@ -121,7 +121,7 @@ class Supports {
       for (std::size_t c = 0; c < 2; ++c) {
         if (!touched[c]) continue;
         const bool hold = holds(edge, made, behind, c);
-        const bool was_held = held(made.node, c) != 0;
+        const bool was_held = held(made.node, c);
         if (!hold && !was_held) continue;
         const double value = hold ? interpolated(edge, made, behind, c) : 0.0;
         const bool stays = hold && was_held && value == 0.0;
@@ -134,7 +134,7 @@ class Supports {
     }
   }
 
-  std::vector<char> held_;
+  std::vector<std::array<bool, 2>> held_;  // of each node
   std::unordered_map<int, Fixity> cards_;  // of the list in hand, by node
 };
 
@@ -151,6 +151,24 @@ void inherit_report(Report& report, const std::vector<CutEdge>& edges) {
     }
 }
 
+// The supports of one field of one number a node, in a list of cards, follow as those of a displacement do.
+void follow_field(Supports& supports, int field, std::vector<FieldFixity>& list,
+                  const std::vector<CutEdge>& edges) {
+  std::vector<Fixity> cards;
+  for (const FieldFixity& f : list)
+    if (f.field == field) cards.push_back({f.node, {f.code}, {f.value}, f.line});
+  const std::size_t given = cards.size();
+  supports.follow(cards, edges);
+  for (std::size_t i = given; i < cards.size(); ++i)
+    list.push_back({field, cards[i].node, cards[i].code[0], cards[i].value[0], cards[i].line});
+}
+
+void inherit_field(Model& model, int field, const std::vector<CutEdge>& edges) {
+  Supports supports(model.mesh.nodes());
+  follow_field(supports, field, model.field_fixities, edges);
+  for (Stage& stage : model.stages) follow_field(supports, field, stage.field_fixities, edges);
+}
+
 }  // namespace
 
 void inherit_along_edges(Model& model, const MadeEdges& edges, int first_made) {
@@ -159,6 +177,8 @@ void inherit_along_edges(Model& model, const MadeEdges& edges, int first_made) {
   Supports supports(model.mesh.nodes());
   supports.follow(model.fixities, cut);
   for (Stage& stage : model.stages) supports.follow(stage.fixities, cut);
+  for (std::size_t field = 1; field < model.unknowns.size(); ++field)
+    inherit_field(model, static_cast<int>(field), cut);
   for (Report& report : model.reports) inherit_report(report, cut);
 }
 

@@ -32,12 +32,12 @@ std::map<int, EdgeKey> given_middles(const Model& model) {
 // Supports of middle nodes that grading cut off: new nodes beside them have them only where the ends of the
 // edge are held too.
 void refuse_lost_supports(Work& b, const std::map<int, EdgeKey>& middles, const std::vector<char>& used) {
-  const auto check = [&](const std::vector<char>& held, const std::vector<Fixity>& cards) {
+  const auto check = [&](const Activity& activity, const std::vector<Fixity>& cards) {
     for (const Fixity& f : cards) {
       const auto it = middles.find(f.node);
       if (it == middles.end() || used[static_cast<std::size_t>(f.node)]) continue;
       for (std::size_t c = 0; c < 2; ++c) {
-        const auto is_held = [&](int node) { return held[2 * static_cast<std::size_t>(node) + c] != 0; };
+        const auto is_held = [&](int node) { return activity.holds(node, static_cast<int>(c)); };
         if (f.code[c] != FixityCode::fixed || (is_held(it->second.first) && is_held(it->second.second)))
           continue;
         b.error({b.deck.file, f.line, 0, 0},
@@ -50,10 +50,10 @@ void refuse_lost_supports(Work& b, const std::map<int, EdgeKey>& middles, const 
     }
   };
   Activity activity(b.model);
-  check(activity.held, b.model.fixities);
+  check(activity, b.model.fixities);
   for (const Stage& stage : b.model.stages) {
     activity.enter(stage);
-    check(activity.held, stage.fixities);
+    check(activity, stage.fixities);
   }
 }
 
@@ -65,14 +65,21 @@ void drop_lost_nodes(Work& b, std::vector<char> lost) {
   const auto is_lost = [&](int node) {
     return lost[static_cast<std::size_t>(node)] && !used[static_cast<std::size_t>(node)];
   };
-  std::erase_if(model.fixities, [&](const Fixity& f) { return is_lost(f.node); });
-  for (Stage& stage : model.stages) {
-    std::erase_if(stage.fixities, [&](const Fixity& f) { return is_lost(f.node); });
-    for (const NodalLoad& load : stage.loads)
+  const auto holds_lost = [&](const auto& fixity) { return is_lost(fixity.node); };
+  const auto refuse_lost = [&](const auto& loads) {
+    for (const auto& load : loads)
       if (is_lost(load.node))
         b.error({b.deck.file, load.line, 0, 0},
                 "node " + std::to_string(model.mesh.number[static_cast<std::size_t>(load.node)]) +
                     " is loaded but is no node of the graded mesh; load its edge by a pressure card");
+  };
+  std::erase_if(model.fixities, holds_lost);
+  std::erase_if(model.field_fixities, holds_lost);
+  for (Stage& stage : model.stages) {
+    std::erase_if(stage.fixities, holds_lost);
+    std::erase_if(stage.field_fixities, holds_lost);
+    refuse_lost(stage.loads);
+    refuse_lost(stage.field_loads);
   }
   for (Report& report : model.reports) {
     const auto of_deck = std::count_if(report.nodes.begin(), report.nodes.end(),

@@ -9,13 +9,19 @@ namespace sage {
 
 namespace {
 
-void apply(const std::vector<Fixity>& fixities, std::vector<char>& held) {
+// dof: -1 where a node that was made along a held edge lacks the field.
+void apply(FixityCode code, int dof, std::vector<char>& held) {
+  if (dof < 0) return;
+  if (code == FixityCode::fixed) held[static_cast<std::size_t>(dof)] = 1;
+  if (code == FixityCode::released) held[static_cast<std::size_t>(dof)] = 0;
+}
+
+void apply(const std::vector<Fixity>& fixities, const std::vector<FieldFixity>& others, const DofMap& dof_map,
+           std::vector<char>& held) {
   for (const Fixity& f : fixities)
-    for (std::size_t c = 0; c < 2; ++c) {
-      const std::size_t dof = 2 * static_cast<std::size_t>(f.node) + c;
-      if (f.code[c] == FixityCode::fixed) held[dof] = 1;
-      if (f.code[c] == FixityCode::released) held[dof] = 0;
-    }
+    for (std::size_t c = 0; c < 2; ++c)
+      apply(f.code[c], DofMap::displacement(f.node, static_cast<int>(c)), held);
+  for (const FieldFixity& f : others) apply(f.code, dof_map.of(f.node, f.field), held);
 }
 
 int root(std::vector<int>& parent, int i) {
@@ -38,16 +44,16 @@ std::string mode_name(const Eigen::Vector3d& mode) {
 }  // namespace
 
 Activity::Activity(const Model& model)
-    : group(model.groups.size(), 1), held(static_cast<std::size_t>(model.dofs()), 0) {
+    : dof_map(model), group(model.groups.size(), 1), held(static_cast<std::size_t>(dof_map.dofs()), 0) {
   for (const Stage& stage : model.stages)
     for (int g : stage.births) group[static_cast<std::size_t>(g)] = 0;
-  apply(model.fixities, held);
+  apply(model.fixities, model.field_fixities, dof_map, held);
 }
 
 void Activity::enter(const Stage& stage) {
   for (int g : stage.births) group[static_cast<std::size_t>(g)] = 1;
   for (int g : stage.deaths) group[static_cast<std::size_t>(g)] = 0;
-  apply(stage.fixities, held);
+  apply(stage.fixities, stage.field_fixities, dof_map, held);
 }
 
 std::vector<char> active_nodes(const Model& model, const Activity& activity) {
@@ -108,8 +114,8 @@ std::vector<LoosePart> loose_parts(const Model& model, const Activity& activity,
     const auto pu = static_cast<std::size_t>(p);
     const Vector2 d = (Vector2(model.mesh.x.col(node)) - centre[pu]) / reach;
     const Eigen::Vector3d row_x(1.0, 0.0, -d.y()), row_y(0.0, 1.0, d.x());
-    if (activity.held[static_cast<std::size_t>(2 * node)]) gram[pu] += row_x * row_x.transpose();
-    if (activity.held[static_cast<std::size_t>(2 * node + 1)]) gram[pu] += row_y * row_y.transpose();
+    if (activity.holds(node, 0)) gram[pu] += row_x * row_x.transpose();
+    if (activity.holds(node, 1)) gram[pu] += row_y * row_y.transpose();
   }
   std::vector<LoosePart> loose;
   for (std::size_t p = 0; p < gram.size(); ++p) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sage/model/model.hpp"
+#include "sage/model/dof_map.hpp"
 
 namespace sage {
 
@@ -14,8 +14,14 @@ struct Activity {
   // Births, deaths and fixities of a stage, on top of those before it.
   void enter(const Stage& stage);
 
+  // Of a displacement.
+  bool holds(int node, int component) const {
+    return held[static_cast<std::size_t>(DofMap::displacement(node, component))] != 0;
+  }
+
+  DofMap dof_map;
   std::vector<char> group;  // active now
-  std::vector<char> held;   // a dof: prescribed (2 node + component)
+  std::vector<char> held;   // a dof: prescribed
 };
 
 // A flag for every node: some element of an active group has it.

@@ -15,6 +15,10 @@ void add_fixities(Archive& archive, const std::vector<Fixity>& fixities) {
   for (const Fixity& f : fixities) add(archive, f.node, f.code, f.value);
 }
 
+void add_field_fixities(Archive& archive, const std::vector<FieldFixity>& fixities) {
+  for (const FieldFixity& f : fixities) add(archive, f.field, f.node, f.code, f.value);
+}
+
 void add_initials(Archive& archive, const std::vector<InitialStress>& initials) {
   for (const InitialStress& initial : initials) add(archive, initial.group, initial.kind, initial.value);
 }
@@ -24,6 +28,8 @@ void add_stage(Archive& archive, const Stage& s) {
       s.gravity.x(), s.gravity.y());
   add_fixities(archive, s.fixities);
   for (const NodalLoad& load : s.loads) add(archive, load.node, load.force.x(), load.force.y());
+  add_field_fixities(archive, s.field_fixities);
+  for (const FieldLoad& load : s.field_loads) add(archive, load.field, load.node, load.value);
   for (const EdgeLoad& load : s.pressures)
     add(archive, load.group, load.element, load.edge, load.normal.x(), load.normal.y(), load.shear.x(),
         load.shear.y());
@@ -44,6 +50,7 @@ std::uint64_t fingerprint(const Model& model) {
   for (const Group& g : model.groups)
     add(archive, g.number, g.name, g.element_code, g.element_name, g.material, g.element_numbers, g.nodes);
   add_fixities(archive, model.fixities);
+  add_field_fixities(archive, model.field_fixities);
   add_initials(archive, model.initials);
   for (const Stage& stage : model.stages) add_stage(archive, stage);
   for (const Report& r : model.reports)

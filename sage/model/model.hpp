@@ -90,6 +90,20 @@ struct EdgeLoad {
   int line = 0;
 };
 
+// A support or a load in a field of one number a node (Model::unknowns); as Fixity and NodalLoad are.
+struct FieldFixity {
+  int field = 1, node = 0;
+  FixityCode code = FixityCode::unchanged;
+  double value = 0.0;
+  int line = 0;
+};
+
+struct FieldLoad {
+  int field = 1, node = 0;
+  double value = 0.0;  // added over the stage
+  int line = 0;
+};
+
 enum class InitialKind {
   uniform,    // given stress (solids: xx yy zz xy; interfaces: shear, normal; structures: the law's components)
   geostatic,  // vertical stress from a surface level and unit weight, horizontal by K0
@@ -119,6 +133,8 @@ struct Stage {
   Vector2 gravity = Vector2::Zero();  // added over the stage, in multiples of the materials' unit weight
   std::vector<Fixity> fixities;
   std::vector<NodalLoad> loads;
+  std::vector<FieldFixity> field_fixities;
+  std::vector<FieldLoad> field_loads;
   std::vector<EdgeLoad> pressures;
   std::vector<int> births, deaths;      // groups
   std::vector<InitialStress> initials;  // of groups born in this stage
@@ -151,14 +167,15 @@ struct Model {
   Mesh mesh;
   std::vector<Material> materials;
   std::vector<Group> groups;
-  std::vector<Fixity> fixities;  // before the first stage; values must be zero
+  std::vector<UnknownField> unknowns{displacement_field()};  // displacement, then those of the elements
+  std::vector<Fixity> fixities;                              // before the first stage; values must be zero
+  std::vector<FieldFixity> field_fixities;                   // likewise
   std::vector<InitialStress> initials;
   std::vector<Stage> stages;
   std::vector<Report> reports;
   Diagnostics diagnostics;            // warnings and notes of reading and building
   std::vector<std::string> left_out;  // what the deck asks for and this is without, to be named with results
 
-  int dofs() const { return 2 * mesh.nodes(); }
   const Material& material_of(const Group& group) const {
     return materials[static_cast<std::size_t>(group.material)];
   }

@@ -176,6 +176,8 @@ void Csv::choose_fields(const Model& model) {
   nodes_.fields = fields_named({}, {"displacement", "external_force", "reaction"});
   points_.fields = fields_named({}, {"stress", "strain", "stress_level", "status"});
   interfaces_.fields = fields_named({}, {"traction", "relative_displacement", "stress_level", "status"});
+  unknowns_ = unknown_fields(model);
+  for (const FieldEntry& row : unknowns_) nodes_.fields.push_back(&row);
   fields_ = fields_of(model);
   for (const FieldEntry& row : fields_.rows())
     if (row.kind == ElementKind::structure) structures_.fields.push_back(&row);

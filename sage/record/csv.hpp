@@ -54,6 +54,7 @@ class Csv final : public Output {
   std::vector<std::string> asked_;  // fields
   bool wants_points_;
   FieldTable fields_;                                                  // of the model
+  std::vector<FieldEntry> unknowns_;                                   // besides displacement
   std::array<std::vector<FieldEntry>, kElementKinds.size()> history_;  // of the laws of each kind
   Table increments_, nodes_, points_, interfaces_, structures_;
   std::vector<std::filesystem::path> files_;

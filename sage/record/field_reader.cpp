@@ -61,8 +61,31 @@ std::vector<FieldEntry> history_fields(const Model& model, std::optional<Element
   return rows;
 }
 
+// What the nodes have of each further unknown: its value, its loads and what holds it.
+std::vector<FieldEntry> unknown_fields(const Model& model) {
+  std::vector<FieldEntry> rows;
+  for (std::size_t i = 1; i < model.unknowns.size(); ++i) {
+    const UnknownField& unknown = model.unknowns[i];
+    const auto add = [&](const std::string& name, const std::string& meaning, Dimension dimension, auto part) {
+      rows.push_back({.name = name,
+                      .meaning = meaning,
+                      .dimension = dimension,
+                      .value = NodeField{[=](const NodeView& node, double* v) { *v = node.unknowns[i].*part; }},
+                      .optional = true});
+    };
+    add(unknown.name, unknown.name, unknown.dimension, &UnknownView::value);
+    add(unknown.name + "_" + unknown.load, unknown.load + " of the " + unknown.name + ", applied",
+        unknown.load_dimension, &UnknownView::load);
+    add(unknown.name + "_reaction", unknown.load + " of the " + unknown.name + " where it is held",
+        unknown.load_dimension, &UnknownView::reaction);
+  }
+  return rows;
+}
+
 FieldTable fields_of(const Model& model) {
   FieldTable table = model.fields;
+  for (FieldEntry& row : unknown_fields(model))
+    if (table.find(row.name) == nullptr) table.add(std::move(row));
   for (FieldEntry& row : history_fields(model))
     if (table.clash(row).empty()) table.add(std::move(row));
   return table;
@@ -154,16 +177,33 @@ void read_field(const FieldEntry& entry, const IncrementView& increment, double*
     set_none(entry, value);
 }
 
+namespace {
+
+void view_unknowns(const Solution& solution, int node, NodeView& view) {
+  const Activity& activity = *solution.activity;
+  for (int field = 1; field < activity.dof_map.fields(); ++field) {
+    UnknownView& unknown = view.unknowns[static_cast<std::size_t>(field)];
+    unknown = {kNone, kNone, kNone};
+    const int dof = activity.dof_map.of(node, field);
+    if (dof < 0) continue;
+    unknown.value = (*solution.u)[dof];
+    unknown.load = (*solution.external)[dof];
+    if (activity.held[static_cast<std::size_t>(dof)]) unknown.reaction = reaction(solution, dof);
+  }
+}
+
+}  // namespace
+
 NodeView node_view(const Model& model, const Solution& solution, int node) {
   NodeView view;
   view.number = model.mesh.number[static_cast<std::size_t>(node)];
   view.place = model.mesh.x.col(node);
-  view.displacement = solution.u->segment<2>(2 * node);
-  view.load = solution.external->segment<2>(2 * node);
+  const int first = DofMap::displacement(node);
+  view.displacement = solution.u->segment<2>(first);
+  view.load = solution.external->segment<2>(first);
   for (int c = 0; c < 2; ++c)
-    view.reaction[c] = solution.activity->held[static_cast<std::size_t>(2 * node + c)]
-                           ? reaction(solution, 2 * node + c)
-                           : kNone;
+    view.reaction[c] = solution.activity->holds(node, c) ? reaction(solution, first + c) : kNone;
+  view_unknowns(solution, node, view);
   return view;
 }
 
@@ -178,7 +218,7 @@ IncrementView increment_view(const Model& model, const StepReport& r) {
                      r.substeps,  last.force,  last.displacement, last.energy, std::span(r.points)};
   const bool worst = r.worst.node >= 0;
   view.worst_node = worst ? model.mesh.number[static_cast<std::size_t>(r.worst.node)] : kNone;
-  view.worst_component = worst ? r.worst.component : kNone;
+  view.worst_component = worst ? r.worst.component + (r.worst.field > 0 ? 1 + r.worst.field : 0) : kNone;
   view.worst_residual = worst ? r.worst.residual : kNone;
   view.pivot_ratio = r.smallest_pivot_ratio >= 0.0 ? r.smallest_pivot_ratio : kNone;
   view.motion = r.motion;

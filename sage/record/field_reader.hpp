@@ -11,7 +11,10 @@ using FieldList = std::vector<const FieldEntry*>;
 // A row for each history variable of a law; and of the laws of a kind of element (or of all), each name once.
 std::vector<FieldEntry> history_fields(const LawRef& law);
 std::vector<FieldEntry> history_fields(const Model& model, std::optional<ElementKind> kind = {});
-// The model's table, and behind it the history rows that clash with none of it.
+// Rows for the unknowns besides displacement: of one named "c" whose load is "flux", "c", "c_flux" and
+// "c_reaction".
+std::vector<FieldEntry> unknown_fields(const Model& model);
+// The model's table, and behind it the rows of unknowns and histories that clash with none of it.
 FieldTable fields_of(const Model& model);
 
 // Rows of a table by name.  Throws std::logic_error for a name that it lacks.

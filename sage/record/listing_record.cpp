@@ -111,6 +111,14 @@ void audit(std::string& text, const Model& model, const EquilibriumAudit& audit)
   }
   if (model.geometry == Geometry::plane_strain)
     fmt::format_to(to(text), "   {:>12}{:>48.3E}   (about the origin)\n", "moment", audit.moment);
+  for (std::size_t i = 0; i < audit.fields.size(); ++i) {
+    const UnknownField& field = model.unknowns[i + 1];
+    const FieldAudit& sums = audit.fields[i];
+    fmt::format_to(to(text), "   {:>12}", field.load);
+    for (double v : {sums.applied, sums.reactions, sums.applied + sums.reactions}) put(text, v, 16, 8);
+    fmt::format_to(to(text), "   ({}{})\n", field.name,
+                   field.balanced ? "" : "; elements keep or make some, it needs no sum of zero");
+  }
   fmt::format_to(to(text), "   largest out of balance / force scale: {:.2e}\n", audit.out_of_balance);
 }
 

@@ -119,6 +119,14 @@ void point_columns(std::string& text, const Model& model, const GroupData& data,
   text += '\n';
 }
 
+// Blank where the value is not known.
+void put_wide(std::string& text, double value) {
+  if (std::isnan(value))
+    text.append(kWide, ' ');
+  else
+    append_scientific(text, value, kWide, kDigits);
+}
+
 // Components, stress level, status, history and what was asked for, of one point.
 void point_values(std::string& text, const PointState& point, const GroupColumns& columns,
                   std::vector<double>& values) {
@@ -133,7 +141,7 @@ void point_values(std::string& text, const PointState& point, const GroupColumns
   left(text, word_of(*columns.status, values[0]), columns.wide.empty() ? 0 : 10);
   for (const FieldEntry* field : columns.wide) {
     read_field(*field, point, values.data());
-    for (std::size_t c = 0; c < field->size(); ++c) append_scientific(text, values[c], kWide, kDigits);
+    for (std::size_t c = 0; c < field->size(); ++c) put_wide(text, values[c]);
   }
   text += '\n';
 }
@@ -146,7 +154,9 @@ void nodes(std::string& text, const Model& model, const Solution& solution,
   const std::vector<char> active = active_nodes(model, *solution.activity);
   const FieldTable table = model.fields;
   const FieldEntry &moved = *table.find("displacement"), &reaction = *table.find("reaction");
+  const std::vector<FieldEntry> unknowns = unknown_fields(model);
   FieldList wide;
+  for (const FieldEntry& row : unknowns) wide.push_back(&row);
   std::size_t most = 2;
   for (const std::string& name : asked) {
     const FieldEntry* row = table.find(name);
@@ -179,7 +189,7 @@ void nodes(std::string& text, const Model& model, const Solution& solution,
     if (!held[1] && !wide.empty()) text.append(kWidth, ' ');
     for (const FieldEntry* field : wide) {
       read_field(*field, view, values.data());
-      for (std::size_t c = 0; c < field->size(); ++c) append_scientific(text, values[c], kWide, kDigits);
+      for (std::size_t c = 0; c < field->size(); ++c) put_wide(text, values[c]);
     }
     text += '\n';
   }

@@ -16,10 +16,11 @@ class Progress final : public Observer {
   ~Progress() override { clear(); }
 
   // The first increment of a large model, with its first factors, is a long silence.
-  void on_stage_start(const Model& model, int stage, const Solution&) override {
-    if (!on_ || model.dofs() < 200'000) return;
+  void on_stage_start(const Model& model, int stage, const Solution& start) override {
+    const int dofs = start.activity->dof_map.dofs();
+    if (!on_ || dofs < 200'000) return;
     std::fprintf(stderr, "\r\033[Kstage %d of %zu, %d degrees of freedom, first increment", stage + 1,
-                 model.stages.size(), model.dofs());
+                 model.stages.size(), dofs);
     std::fflush(stderr);
     shown_ = true;
   }

@@ -48,7 +48,7 @@ std::array<double, 2> released_forces(const Model& model, const Report& report, 
   std::array<double, 2> sum{0.0, 0.0};
   for (int node : report.nodes)
     for (int c = 0; c < 2; ++c) {
-      const int dof = 2 * node + c;
+      const int dof = DofMap::displacement(node, c);
       if (active[static_cast<std::size_t>(node)] && !start.activity->held[static_cast<std::size_t>(dof)])
         sum[static_cast<std::size_t>(c)] += (*start.internal)[dof] - (*start.external)[dof];
     }
@@ -175,8 +175,8 @@ Reports::NodeSums Reports::sum_nodes(const Model& model, const Report& report, c
     const bool of_deck = node < model.mesh.deck_nodes;
     own += of_deck ? 1 : 0;
     for (int c = 0; c < 2; ++c) {
-      if (of_deck) sums.displacement[c] += (*solution.u)[2 * node + c];
-      sums.force[c] += (*solution.internal)[2 * node + c];
+      if (of_deck) sums.displacement[c] += (*solution.u)[DofMap::displacement(node, c)];
+      sums.force[c] += (*solution.internal)[DofMap::displacement(node, c)];
     }
   }
   for (double& d : sums.displacement) d /= std::max(own, 1);
@@ -217,8 +217,8 @@ void Reports::on_stage_start(const Model& model, int stage, const Solution& solu
     for (int c = 0; c < 2; ++c) {
       series.weight[0][c] = series.weight[1][c] = 0.0;
       for (int node : report.nodes) {
-        series.weight[0][c] += weights.start[2 * node + c];
-        series.weight[1][c] += weights.end[2 * node + c];
+        series.weight[0][c] += weights.start[DofMap::displacement(node, c)];
+        series.weight[1][c] += weights.end[DofMap::displacement(node, c)];
       }
     }
     if (stage >= report.stage) count_from_here(series, model, solution);

@@ -56,7 +56,7 @@ int WholeRun::index(int number) const {
 }
 
 Vector2 WholeRun::u(int number) const {
-  return last().u.segment<2>(2 * index(number));
+  return last().u.segment<2>(DofMap::displacement(index(number)));
 }
 
 Vector2 WholeRun::position(int number) const {
@@ -64,7 +64,7 @@ Vector2 WholeRun::position(int number) const {
 }
 
 Vector2 WholeRun::reaction(const Snapshot& at, int number) const {
-  const int dof = 2 * index(number);
+  const int dof = DofMap::displacement(index(number));
   return at.internal.segment<2>(dof) - at.external.segment<2>(dof);
 }
 

@@ -306,7 +306,7 @@ void tension(Sweep& s) {
       double force = 0.0, u = 0.0;
       for (const Snapshot& at : ran.run->increments) {
         const double now = ran.run->reaction(at, deck.block().top(), 1);
-        const double moved = at.u[2 * ran.run->index(deck.block().top().front()) + 1];
+        const double moved = at.u[DofMap::displacement(ran.run->index(deck.block().top().front()), 1)];
         work += 0.5 * (force + now) * (moved - u);
         negative = negative || work < -1e-9;
         force = now;

@@ -11,6 +11,10 @@ namespace sage::verify {
 
 namespace {
 
+int radial_dof(const WholeRun& run, int number) {
+  return DofMap::displacement(run.index(number));
+}
+
 const char* law_name(int code) {
   return code == 4 ? "Mohr-Coulomb" : "Drucker-Prager";
 }
@@ -256,7 +260,7 @@ void frictional_cavity(Record& record, Cavity::Body body, const std::vector<int>
       const Snapshot& at = run.increments[12 * ++stage];
       const int node = cavity.block.node(cavity.columns / 2, 0);  // outside the plastic zone
       const double r = run.position(node).x();
-      const double u = at.u[2 * run.index(node)] - run.increments[0].u[2 * run.index(node)];
+      const double u = at.u[radial_dof(run, node)] - run.increments[0].u[radial_dof(run, node)];
       record.near(cavity.where(),
                   fmt::format("{}: plastic radius at p = {:.3f}", law_name(code),
                               (p0 + delta) * std::pow(c, kk * (A - 1) / A)),
@@ -288,7 +292,7 @@ void tresca_cavity(Record& record, Cavity::Body body) {
     const double p = p0 + (sphere ? 4.0 / 3 * (1 + std::log(3 * G * u)) : 1 + std::log(2 * G * u));
     // The displacement at that pressure; as pressure: an error of u by 1 % is one of p by .01 (or .0133) c_u.
     const int inner = cavity.block.node(0, 0);
-    const double found = at.u[2 * run.index(inner)] - run.increments[0].u[2 * run.index(inner)];
+    const double found = at.u[radial_dof(run, inner)] - run.increments[0].u[radial_dof(run, inner)];
     record.near(cavity.where(), fmt::format("u_a at p - p0 = {:.4f} c_u", p - p0), found, u, 0.02);
   }
 }
@@ -322,12 +326,12 @@ void cohesive_ring(Record& record, Cavity::Body body) {
       before = pressure(C);
     }
     const WholeRun run = record.run(deck);
-    const int rim = run.index(ring.block.node(ring.block.across() - 1, 0));
+    const int rim = radial_dof(run, ring.block.node(ring.block.across() - 1, 0));
     std::size_t stage = 0;
     for (double C : fronts) {
       const Snapshot& at = run.increments[6 * ++stage];
       record.near(ring.where(), fmt::format("psi = {:g}: u_b with the front at {:g} a", psi, C),
-                  at.u[2 * rim] - run.increments[0].u[2 * rim], (1 - nu) * amount(C) / (G * b), 5e-4);
+                  at.u[rim] - run.increments[0].u[rim], (1 - nu) * amount(C) / (G * b), 5e-4);
     }
     DeckWriter over = ring.start(4, parameters, p0);
     const double collapse = (p0 + h) * std::pow(b, power) - h, beyond = 120.0;

@@ -107,17 +107,17 @@ void hold(Model& model, const std::vector<char>& nodes, const VectorField& u) {
 }
 
 void add_body_force(Model& model, const VectorField& b) {
-  Eigen::VectorXd force = Eigen::VectorXd::Zero(model.dofs());
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(DofMap(model).dofs());
   for (const Group& group : model.groups) {
     if (!is_solid(group)) continue;
     each_load_point(model, group, [&](int e, const LoadPoint& point) {
       const Vector2 load = point.w * b(point.x);
       for (Eigen::Index i = 0; i < point.N.size(); ++i)
-        force.segment<2>(2 * group.nodes_of(e)[i]) += point.N[i] * load;
+        force.segment<2>(DofMap::displacement(group.nodes_of(e)[i])) += point.N[i] * load;
     });
   }
   for (int node = 0; node < model.mesh.nodes(); ++node)
-    model.stages.front().loads.push_back({node, force.segment<2>(2 * node), 0});
+    model.stages.front().loads.push_back({node, force.segment<2>(DofMap::displacement(node)), 0});
 }
 
 Vector4 stress_of(const Material& material, const Vector4& strain) {
@@ -147,7 +147,7 @@ FieldErrors field_errors(const WholeRun& run, const VectorField& u, const Tensor
     each_load_point(model, group, [&](int e, const LoadPoint& point) {
       Vector2 computed = Vector2::Zero();
       for (Eigen::Index i = 0; i < point.N.size(); ++i)
-        computed += point.N[i] * run.last().u.segment<2>(2 * group.nodes_of(e)[i]);
+        computed += point.N[i] * run.last().u.segment<2>(DofMap::displacement(group.nodes_of(e)[i]));
       const Vector2 exact = u(point.x);
       du += point.w * (computed - exact).squaredNorm();
       size_u += point.w * exact.squaredNorm();

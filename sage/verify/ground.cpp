@@ -113,7 +113,8 @@ void excavation(Record& record) {
       const std::string name = initial_stress ? "K0 = .7" : "gravity turned on";
       double difference = 0.0, size = 0.0;
       for (int node : once.model->groups[0].nodes) {
-        const Vector2 a = once.last().u.segment<2>(2 * node), b = thrice.last().u.segment<2>(2 * node);
+        const Vector2 a = once.last().u.segment<2>(DofMap::displacement(node)),
+                      b = thrice.last().u.segment<2>(DofMap::displacement(node));
         difference = std::max(difference, (a - b).norm());
         size = std::max(size, a.norm());
       }
@@ -121,9 +122,10 @@ void excavation(Record& record) {
       record.small(where, "displacement, one stage - three, " + name, difference / size, 1e-10);
       record.small(where, "stress, one stage - three, over gamma H, " + name,
                    (once.stress[0] - thrice.stress[0]).cwiseAbs().maxCoeff() / (kWeight * 6.0), 1e-10);
-      const int floor = once.index(2 * 7 + 1);  // on the left side, two rows above the base
+      const int floor =
+          DofMap::displacement(once.index(2 * 7 + 1), 1);  // on the left side, two rows above the base
       record.within(where, "floor of the pit rises, " + name,
-                    once.last().u[2 * floor + 1] > once.increments[0].u[2 * floor + 1] ? 1.0 : 0.0, 1.0, 0.5);
+                    once.last().u[floor] > once.increments[0].u[floor] ? 1.0 : 0.0, 1.0, 0.5);
       double up = 0.0;
       for (int number : once.model->mesh.number) up += once.reaction(number).y();
       const double left = geometry == 1 ? 36.0 - 12.0 : kPi * (36.0 * 6.0 - 9.0 * 4.0);

@@ -77,7 +77,8 @@ double patch_error(const Record& record, Model model, const VectorField& u, cons
   const Eigen::Matrix2Xd& x = run.model->mesh.x;
   double error = 0.0, size = 0.0;
   for (Eigen::Index i = 0; i < x.cols(); ++i) {
-    error = std::max(error, (run.last().u.segment<2>(2 * i) - u(x.col(i))).norm());
+    error = std::max(error,
+                     (run.last().u.segment<2>(DofMap::displacement(static_cast<int>(i))) - u(x.col(i))).norm());
     size = std::max(size, u(x.col(i)).norm());
   }
   return std::max(error / size, largest_stress_error(run, 0, [&](const Vector2&) { return sigma; }));

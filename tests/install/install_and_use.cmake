@@ -117,6 +117,32 @@ expect("${bars}" ",-10(\\.0+)?,-0\\.05(0*),")
 file(READ ${SCRATCH}/own/truss.nodes.csv nodes)
 expect("${nodes}" ",-0\\.3125")
 
+# The element with a third unknown: one square, concentration 0 below and 1 above, flux k / H = 2.
+file(WRITE ${SCRATCH}/own_diffusion.dat "swelling soil
+m       kN      kPa
+    1    0    4    0    1    1    1    3    0    1    0
+    1                  0.        0.
+    2                  1.        0.
+    3                  0.        1.
+    4                  1.        1.
+    1   92    5
+     1000.      0.25        2.        0.       90.
+    1   41    0    1
+    1    1    1    2    4    3
+    1    4    1    1    0
+    1    2    1    0    1
+    1    2    1    1    0                    concentration
+wetting
+    1    0    0    0    1    0
+    3    4    1    1    0       1.0          concentration
+END
+")
+step("run a deck with the own unknown" ${SCRATCH}/consumer/own_program run ${SCRATCH}/own_diffusion.dat --nodes -o ${SCRATCH}/own)
+file(READ ${SCRATCH}/own/own_diffusion.nodes.csv csv)
+set(output "${csv}")
+expect("${output}" "concentration_reaction")
+expect("${output}" "1,1,4,1,1,[^\n]*,1,0,1\n")
+
 # All of them pass the suites that come with the package.
 if(suites)
   step("suites over the own pieces" ${SCRATCH}/consumer/own_pieces_test)

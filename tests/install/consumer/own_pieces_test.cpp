@@ -1,6 +1,7 @@
 // The suites that come with the package, over pieces of one's own.
 #include "bar.hpp"
 #include "creep.hpp"
+#include "diffusion.hpp"
 #include "layered.hpp"
 #include "sage/conformance/element_suite.hpp"
 #include "sage/conformance/law_suite.hpp"
@@ -18,6 +19,7 @@ const Catalogue& pieces() {
     c.materials.add(91, own::maxwell());
     c.elements.add(40, own::tri10());
     c.elements.add(50, own::bar2());
+    c.elements.add(41, own::diffusion_quad());
     c.solvers.add(90, own::sparse_lu());
     return c;
   }();

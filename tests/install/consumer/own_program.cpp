@@ -1,7 +1,9 @@
 // `sagefe` with pieces of one's own: a law, soil that is stiffer along its layers than across them, an element,
-// the ten-node triangle, a bar with its law, a law that depends on time, a solver and a field.  This is the example of docs/manual/own_program.md.
+// the ten-node triangle, a bar with its law, a law that depends on time, an element with a third unknown, a solver
+// and a field.  This is the example of docs/manual/own_program.md.
 #include "bar.hpp"
 #include "creep.hpp"
+#include "diffusion.hpp"
 #include "layered.hpp"
 #include "own_field.hpp"
 #include "sage/app/program.hpp"
@@ -13,8 +15,10 @@ int main(int argc, char** argv) {
     catalogue.materials.add(90, own::layered());
     catalogue.materials.add(80, own::rod());
     catalogue.materials.add(91, own::maxwell());
+    catalogue.materials.add(92, own::swelling_soil());
     catalogue.elements.add(40, own::tri10());
     catalogue.elements.add(50, own::bar2());
+    catalogue.elements.add(41, own::diffusion_quad());
     catalogue.solvers.add(90, own::sparse_lu());
     catalogue.fields.add(own::stress_ratio());
   });

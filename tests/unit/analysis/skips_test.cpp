@@ -284,6 +284,26 @@ TEST(Skips, AreTaken) {
   EXPECT_LE(strong.factorisations, 3);
 }
 
+// Factors that serve a second stage, in which nothing moves a support: the displacements of the first one have no
+// part in its first correction, which is the whole answer.
+TEST(Skips, KeptFactorsForgetWhatMovedBefore) {
+  DeckWriter deck(1);
+  Block block{4, 4, Cell::quad4, 1, 1, rectangle(0.0, 1.0, 0.0, 1.0)};
+  block.write_nodes(deck);
+  deck.material(1, 1, {1e4, 0.3});
+  deck.group(1, 1, 1, 1);
+  block.write_elements(deck, 1);
+  for (int n : block.bottom()) deck.fix(n, 1, 1);
+  for (int n : block.top()) deck.fix(n, 0, 1);
+  StageCards& move = deck.stage(1);
+  for (int n : block.top()) move.fix(n, 0, 1, 0.0, -0.01);
+  deck.stage(1).pressure(block.element(3, 1), 2, 20.0, 20.0);
+  const WholeRun run = run_text(deck.text());
+  EXPECT_EQ(run.last().stage, 1);
+  EXPECT_EQ(run.last().iterations, 1);
+  EXPECT_EQ(run.result.work.factorisations, 1);
+}
+
 TEST(Skips, OffMeansOff) {
   RunSettings none;
   for (const SkipName& skip : kSkipNames) none.skips.*skip.flag = false;

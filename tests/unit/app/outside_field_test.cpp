@@ -10,6 +10,7 @@
 #include "sage/app/run_deck.hpp"
 #include "tests/install/consumer/layered.hpp"
 #include "tests/install/consumer/own_field.hpp"
+#include "tests/support/csv_column.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace sage {
@@ -18,27 +19,6 @@ namespace {
 std::string read(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
-}
-
-// Numbers of a column of a CSV file, by its name without the unit.
-std::vector<double> column(const std::string& csv, const std::string& name) {
-  std::vector<double> numbers;
-  std::ptrdiff_t at = -1;
-  std::istringstream lines(csv);
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with('#')) continue;
-    std::vector<std::string> cells;
-    std::istringstream parts(line);
-    for (std::string cell; std::getline(parts, cell, ',');) cells.push_back(cell);
-    if (at < 0) {
-      const auto is = [&](const std::string& cell) { return cell.substr(0, cell.find('[')) == name; };
-      at = std::find_if(cells.begin(), cells.end(), is) - cells.begin();
-      if (at == std::ssize(cells)) return {};
-    } else {
-      numbers.push_back(std::stod(cells.at(static_cast<std::size_t>(at))));
-    }
-  }
-  return numbers;
 }
 
 Catalogue with_own_field() {
@@ -67,17 +47,17 @@ TEST(OutsideField, IsInEveryOutput) {
   const app::RunOutcome outcome = app::run_deck(request_into(folder), with_own_field());
   ASSERT_EQ(outcome.exit_code, app::kOk);
   const std::string points = read(folder / "own.points.csv");
-  ASSERT_EQ(column(points, "stress_ratio").size(), 4u);
-  for (double ratio : column(points, "stress_ratio")) EXPECT_NEAR(ratio, 0.6, 1e-9);
+  ASSERT_EQ(test::csv_column(points, "stress_ratio").size(), 4u);
+  for (double ratio : test::csv_column(points, "stress_ratio")) EXPECT_NEAR(ratio, 0.6, 1e-9);
   const double expected[] = {100.0, 60.0, 0.0};
   for (int i = 0; i < 3; ++i)
-    for (double sigma : column(points, "principal_stress_" + std::to_string(i + 1)))
+    for (double sigma : test::csv_column(points, "principal_stress_" + std::to_string(i + 1)))
       EXPECT_NEAR(sigma, expected[i], 1e-7);
   const std::size_t last = outcome.model->reports.size() - 1;
   const std::string report = read(folder / ("own.report" + std::to_string(last + 1) + ".csv"));
-  EXPECT_NEAR(column(report, "stress_ratio").back(), 0.6, 1e-9);
-  EXPECT_NEAR(column(report, "principal_stress_2").back(), 60.0, 1e-7);
-  EXPECT_NEAR(column(report, "stress_yy").back(), 100.0, 1e-7);
+  EXPECT_NEAR(test::csv_column(report, "stress_ratio").back(), 0.6, 1e-9);
+  EXPECT_NEAR(test::csv_column(report, "principal_stress_2").back(), 60.0, 1e-7);
+  EXPECT_NEAR(test::csv_column(report, "stress_yy").back(), 100.0, 1e-7);
   EXPECT_NE(read(folder / "own_0001.vtu").find("Name=\"stress_ratio\""), std::string::npos);
   EXPECT_NE(read(folder / "own_stage1_stress_ratio.svg").find("from 0.6 to 0.6"), std::string::npos);
   EXPECT_NE(read(folder / "own.lst").find("principal_stress_1 [kPa"), std::string::npos);

@@ -40,9 +40,9 @@ struct Sheet {
       group.nodes.push_back(n);
     }
     model.groups.push_back(std::move(group));
-    u.resize(model.dofs());
+    u.resize(DofMap(model).dofs());
     for (int n = 0; n < model.mesh.nodes(); ++n) u.segment<2>(2 * n) = field(model.mesh.x.col(n));
-    none = Eigen::VectorXd::Zero(model.dofs());
+    none = Eigen::VectorXd::Zero(DofMap(model).dofs());
   }
 
   std::string svg(std::string_view field, bool deformed = false) const {

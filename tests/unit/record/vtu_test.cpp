@@ -179,8 +179,8 @@ TEST_F(VtuReadBack, KnowsEveryShape) {
     WorkCounters work;
     Assembly assembly(model, scene, Skips{}, work);
     const Activity activity(model);
-    const Eigen::VectorXd u = Eigen::VectorXd::LinSpaced(model.dofs(), 0.0, 1.0);
-    assembly.enter_stage(activity, Eigen::VectorXd::Zero(model.dofs()));
+    const Eigen::VectorXd u = Eigen::VectorXd::LinSpaced(DofMap(model).dofs(), 0.0, 1.0);
+    assembly.enter_stage(activity, Eigen::VectorXd::Zero(DofMap(model).dofs()));
     assembly.recover_states();
     write_file(folder / "a.vtu", vtu_text(model, {&u, &u, &u, &assembly, &activity}));
     const auto lines = read_back(folder / "a.vtu");

@@ -1,0 +1,36 @@
+// Fields of unknowns: what the equations are solved for at nodes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sage/core/units.hpp"
+
+namespace sage {
+
+// Displacement has two components, along x (r) and y (z); any other field is one number a node.
+struct UnknownField {
+  std::string name;                       // "pore_pressure"
+  Dimension dimension = Dimension::none;  // of the unknown
+  std::string load = "load";              // what its equation balances: "force", "flux"
+  Dimension load_dimension = Dimension::none;
+  // What comes in through loads and held nodes goes out through others: no element keeps or makes any of it.
+  bool balanced = true;
+
+  bool displacement() const { return name == "displacement"; }
+  int components() const { return displacement() ? 2 : 1; }
+};
+
+inline UnknownField displacement_field() {
+  return {"displacement", Dimension::length, "force", Dimension::force};
+}
+
+// A field at some nodes of an element.
+struct ElementUnknown {
+  UnknownField field;
+  std::vector<int> nodes{};  // local numbers; empty: all of them
+};
+
+inline constexpr int kMostFields = 8;  // of one model
+
+}  // namespace sage
