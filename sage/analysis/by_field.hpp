@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <utility>
+#include <random>
 #include <vector>
 
 #include "sage/analysis/assembly.hpp"
@@ -49,12 +49,18 @@ class ByField {
       if (of_equation(eq) == field && (place < 0 || std::abs(v[eq]) > std::abs(v[place]))) place = eq;
     return place;
   }
-  // 1 and -1 in turn at the field's equations, 0 elsewhere.
-  Eigen::VectorXd alternating(int field) const {
-    Eigen::VectorXd v = Eigen::VectorXd::Zero(assembly_->equations());
-    double sign = 1.0;
+  // The field's part of a vector, 0 elsewhere.
+  Eigen::VectorXd part(const Eigen::VectorXd& v, int field) const {
+    Eigen::VectorXd own = Eigen::VectorXd::Zero(v.size());
     for (int eq = 0; eq < static_cast<int>(v.size()); ++eq)
-      if (of_equation(eq) == field) v[eq] = std::exchange(sign, -sign);
+      if (of_equation(eq) == field) own[eq] = v[eq];
+    return own;
+  }
+  // 1 and -1 without an order at all equations: no row of a matrix cancels against them but by chance.
+  Eigen::VectorXd signs() const {
+    Eigen::VectorXd v(assembly_->equations());
+    std::minstd_rand next;
+    for (double& sign : v) sign = next() % 2 == 0 ? 1.0 : -1.0;
     return v;
   }
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "sage/model/activity.hpp"
+#include "sage/model/active_dofs.hpp"
 
 namespace sage {
 
@@ -13,7 +13,7 @@ class Equations {
   // One for every dof that an active element has and no support holds, by number of the dof.
   void number(const Model& model, const Activity& activity) {
     const DofMap& map = activity.dof_map;
-    find_used(model, activity);
+    used_ = active_dofs(model, activity);
     std::vector<int> dofs;
     for (int dof = 0; dof < map.dofs(); ++dof)
       if (in_use(dof) && !activity.held[static_cast<std::size_t>(dof)]) dofs.push_back(dof);
@@ -31,24 +31,6 @@ class Equations {
   bool in_use(int dof) const { return used_[static_cast<std::size_t>(dof)] != 0; }
 
  private:
-  void find_used(const Model& model, const Activity& activity) {
-    used_.assign(static_cast<std::size_t>(activity.dof_map.dofs()), 0);
-    std::vector<int> listed;
-    const auto use = [this](int dof) { used_[static_cast<std::size_t>(dof)] = 1; };
-    for (std::size_t g = 0; g < model.groups.size(); ++g) {
-      const Group& group = model.groups[g];
-      if (!activity.group[g]) continue;
-      if (group.entry->unknowns.empty()) {
-        for (const int node : group.nodes)
-          for (int c = 0; c < 2; ++c) use(DofMap::displacement(node, c));
-        continue;
-      }
-      for (int e = 0; e < group.elements(); ++e) {
-        activity.dof_map.list(group, e, listed);
-        for (const int dof : listed) use(dof);
-      }
-    }
-  }
   void take_only(std::vector<int> dofs, std::size_t all) {
     dofs_ = std::move(dofs);
     of_dof_.assign(all, -1);

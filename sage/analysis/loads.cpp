@@ -52,15 +52,6 @@ void add_body_forces(const Model& model, const Group& group, const Vector2& grav
             [&](const Eigen::Matrix2Xd& x, std::vector<double>& f) { group.element->body_load(x, b, f); });
 }
 
-// A flag a dof: an active element has its node.
-std::vector<char> active_dofs(const Model& model, const Activity& activity) {
-  const std::vector<char> nodes = active_nodes(model, activity);
-  std::vector<char> flags(static_cast<std::size_t>(activity.dof_map.dofs()));
-  for (int dof = 0; dof < activity.dof_map.dofs(); ++dof)
-    flags[static_cast<std::size_t>(dof)] = nodes[static_cast<std::size_t>(activity.dof_map.at(dof).node)];
-  return flags;
-}
-
 // Point loads of a stage, in every field.
 void add_point_loads(const Stage& stage, const DofMap& map, Eigen::VectorXd& force) {
   for (const NodalLoad& load : stage.loads) force.segment<2>(DofMap::displacement(load.node)) += load.force;

@@ -11,7 +11,8 @@ struct NewtonSettings {
   int max_iterations = 25;
   double tolerance = 1e-8;  // force and energy; displacement sqrt(tolerance)
   bool line_search = true;
-  bool repeat = false;    // du holds the step before, which was linear: it is tried first
+  bool repeat = false;                         // du holds the step before, which was linear: it is tried first
+  const Eigen::VectorXd* committed = nullptr;  // unknowns at the start of the step, every dof; null = zero
   bool contract = false;  // factors are kept while they contract well; K may then be behind du at the end
 };
 

@@ -12,6 +12,7 @@
 #include "sage/analysis/loads.hpp"
 #include "sage/analysis/run_checkpoint.hpp"
 #include "sage/analysis/stage_warnings.hpp"
+#include "sage/model/active_dofs.hpp"
 
 namespace sage {
 
@@ -106,10 +107,9 @@ void Run::warn(const std::vector<Diagnostic>& list) {
 // Called before the stage is entered.
 void Run::start_new_nodes() {
   if (std::ranges::all_of(system_.activity().group, [](char active) { return active != 0; })) return;
-  const std::vector<char> borne = active_nodes(model_, system_.activity());
-  const DofMap& map = assembly_.dof_map();
-  for (int dof = 0; dof < map.dofs(); ++dof)
-    if (!borne[static_cast<std::size_t>(map.at(dof).node)]) state_.u[dof] = 0.0;
+  const std::vector<char> borne = active_dofs(model_, system_.activity());
+  for (std::size_t dof = 0; dof < borne.size(); ++dof)
+    if (!borne[dof]) state_.u[static_cast<Eigen::Index>(dof)] = 0.0;
 }
 
 // What is evaluated from now on ends at that load factor of the stage, after a step of that share of it; 0 = a
@@ -174,6 +174,7 @@ NewtonStep Run::attempt(const Stage& stage, double from, double to) {
   NewtonSettings newton{stage.method, stage.max_iterations, stage.tolerance, settings_.line_search};
   newton.repeat = can_repeat(stage, to - from);
   newton.contract = contracts(stage);
+  newton.committed = &state_.u;
   return newton_step(assembly_, tangent_, target_, system_.rate(), to - from, newton, result_.work, state_.du);
 }
 

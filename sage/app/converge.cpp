@@ -65,7 +65,8 @@ Ladder ladder_for(const Model& model, const Catalogue& catalogue) {
   const std::vector<int> degrees = rising_degrees(catalogue);
   if (degrees.empty()) return halving(model);
   for (const Group& group : model.groups) {
-    const bool quad = can_replace(catalogue.elements.find(degrees.front()), *group.entry);
+    const bool quad =
+        group.entry->unknowns.empty() && can_replace(catalogue.elements.find(degrees.front()), *group.entry);
     const LawRef law = model.material_of(group).law_ref();
     const auto* solid = std::get_if<const SolidLaw*>(&law);
     if (group.elements() > 0 && (!quad || solid == nullptr || !has_constant_stiffness(**solid)))

@@ -203,6 +203,31 @@ std::vector<std::filesystem::path> files_of(const Reports& reports,
   return files;
 }
 
+// False: the outcome says why not.
+bool may_run(const RunRequest& request, const Model& model, RunOutcome& outcome) {
+  if (request.input.strict && model.diagnostics.warnings() > 0)
+    outcome.exit_code = kInput;
+  else
+    outcome.too_large = request.max_dofs > 0 && DofMap(model).dofs() > request.max_dofs;
+  return outcome.exit_code == kOk && !outcome.too_large;
+}
+
+// Record, reports, what was asked to be kept, and the outputs.
+std::vector<Observer*> observers_of(const RunRequest& request,
+                                    const std::vector<std::unique_ptr<Output>>& outputs, RunOutcome& outcome) {
+  std::vector<Observer*> observers{&outcome.record, outcome.reports.get()};
+  if (request.output.error) {
+    outcome.error = std::make_unique<DiscretisationError>(*outcome.reports);
+    observers.push_back(outcome.error.get());
+  }
+  if (request.keep_result) {
+    outcome.result = std::make_unique<Result>();
+    observers.push_back(outcome.result.get());
+  }
+  for (const auto& output : outputs) observers.push_back(output.get());
+  return observers;
+}
+
 }  // namespace
 
 RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
@@ -213,14 +238,7 @@ RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
   outcome.model = model_of(request, catalogue, owner);
   const Model& model = *outcome.model;
   if (!request.quiet) print_diagnostics(model.diagnostics);
-  if (request.input.strict && model.diagnostics.warnings() > 0) {
-    outcome.exit_code = kInput;
-    return outcome;
-  }
-  if (request.max_dofs > 0 && DofMap(model).dofs() > request.max_dofs) {
-    outcome.too_large = true;
-    return outcome;
-  }
+  if (!may_run(request, model, outcome)) return outcome;
   if (request.output.result) expect_data_module();  // before any file is begun
   RunSettings settings = settings_for(request);
   std::optional<ResultFiles> own;
@@ -242,16 +260,7 @@ RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
     has_checkpoint = true;
   };
   Progress progress;
-  std::vector<Observer*> observers{&outcome.record, outcome.reports.get()};
-  if (request.output.error) {
-    outcome.error = std::make_unique<DiscretisationError>(*outcome.reports);
-    observers.push_back(outcome.error.get());
-  }
-  if (request.keep_result) {
-    outcome.result = std::make_unique<Result>();
-    observers.push_back(outcome.result.get());
-  }
-  for (const auto& output : outputs) observers.push_back(output.get());
+  std::vector<Observer*> observers = observers_of(request, outputs, outcome);
   observers.push_back(&progress);
   observers.push_back(&end);
   try {

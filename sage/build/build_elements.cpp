@@ -28,7 +28,7 @@ std::string laws_for(const ElementEntry& entry) {
 // The deck's element, or the one that BuildOptions puts in its place.
 int chosen_element(const Builder& b, int deck_code) {
   const ElementEntry* deck_entry = b.catalogue.elements.find(deck_code);
-  if (b.options.element == 0 || deck_entry == nullptr) return deck_code;
+  if (b.options.element == 0 || deck_entry == nullptr || !deck_entry->unknowns.empty()) return deck_code;
   const ElementEntry* wanted = b.catalogue.elements.find(b.options.element);
   if (can_replace(wanted, *deck_entry)) return b.options.element;
   if (wanted == nullptr) return deck_code;

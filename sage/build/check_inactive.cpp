@@ -5,7 +5,7 @@
 #include <set>
 
 #include "sage/build/builder.hpp"
-#include "sage/model/activity.hpp"
+#include "sage/model/active_dofs.hpp"
 
 namespace sage::build {
 
@@ -28,6 +28,29 @@ void tell(Builder& b, const IdleCards& idle, const Stage& stage, const std::stri
     std::string text = what + " " + std::to_string(card.first);
     if (card.count > 1) text += " (and " + std::to_string(card.count - 1) + " more)";
     b.warning(b.at_line(line), text + " of stage " + std::to_string(stage.number) + " does nothing: " + why);
+  }
+}
+
+// Values and loads of an unknown that no active element solves for at the node.
+void check_unknowns(Builder& b, const Stage& stage, const Activity& activity) {
+  if (stage.field_fixities.empty() && stage.field_loads.empty()) return;
+  const std::vector<char> active = active_dofs(b.model, activity);
+  for (std::size_t field = 1; field < b.model.unknowns.size(); ++field) {
+    const auto idle = [&](const auto& card) {
+      const int dof = activity.dof_map.of(card.node, card.field);
+      return card.field == static_cast<int>(field) && card.value != 0.0 && dof >= 0 &&
+             active[static_cast<std::size_t>(dof)] == 0;
+    };
+    const auto number_of = [&](int node) { return b.model.mesh.number[static_cast<std::size_t>(node)]; };
+    IdleCards values, loads;
+    for (const FieldFixity& f : stage.field_fixities)
+      if (idle(f) && f.code == FixityCode::fixed) add(values, f.line, number_of(f.node));
+    for (const FieldLoad& load : stage.field_loads)
+      if (idle(load)) add(loads, load.line, number_of(load.node));
+    const UnknownField& unknown = b.model.unknowns[field];
+    const std::string why = "no element that is active then solves for the " + unknown.name + " there";
+    tell(b, values, stage, "the " + unknown.name + " of node", why);
+    tell(b, loads, stage, "the " + unknown.load + " of node", why);
   }
 }
 
@@ -63,6 +86,7 @@ void check_inactive(Builder& b) {
                                   ": no element that is active then has a node "
                                   "of this report: it shows the displacements of before and no force");
     }
+    check_unknowns(b, stage, activity);
     tell(b, loads, stage, "the load of node", "no element that is active then has the node");
     tell(b, displacements, stage, "the displacement of node", "no element that is active then has the node");
     tell(b, pressures, stage, "the pressure on element", "its group is not active then");

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "sage/build/builder.hpp"
 #include "sage/deck/text.hpp"
@@ -16,31 +17,48 @@ std::string node_name(const Builder& b, int node) {
   return "node " + std::to_string(b.model.mesh.number[static_cast<std::size_t>(node)]);
 }
 
+// A card's word on one unknown of one node.
+struct Support {
+  int node, unknown;  // 0 and 1: displacement in x and y; then the other fields
+  FixityCode code;
+  double value;
+  int line;
+};
+
+std::vector<Support> supports_of(const Stage& stage) {
+  std::vector<Support> list;
+  for (const Fixity& f : stage.fixities)
+    for (std::size_t c = 0; c < 2; ++c)
+      list.push_back({f.node, static_cast<int>(c), f.code[c], f.value[c], f.line});
+  for (const FieldFixity& f : stage.field_fixities)
+    list.push_back({f.node, 1 + f.field, f.code, f.value, f.line});
+  return list;
+}
+
 // Of several cards for a dof the last stands; where they differ, one of them is a mistake.
 void warn_contradictions(Builder& b, const Stage& stage) {
-  std::map<std::pair<int, std::size_t>, const Fixity*> seen;
+  std::map<std::pair<int, int>, Support> seen;
   std::set<std::pair<int, int>> reported;  // lines
-  for (const Fixity& f : stage.fixities) {
-    if (f.node >= b.model.mesh.deck_nodes) continue;  // made nodes inherit from two corners
-    for (std::size_t c = 0; c < 2; ++c) {
-      if (f.code[c] == FixityCode::unchanged) continue;
-      const auto [it, is_new] = seen.try_emplace({f.node, c}, &f);
-      const Fixity& before = *it->second;
-      it->second = &f;
-      if (is_new || (before.code[c] == f.code[c] && before.value[c] == f.value[c])) continue;
-      if (!reported.insert({before.line, f.line}).second) continue;
-      const std::string direction = c == 0 ? " in x" : " in y", other = "line " + std::to_string(before.line);
-      const std::string name = "stage " + std::to_string(stage.number) + ": " + node_name(b, f.node);
-      if (before.code[c] == f.code[c])
-        b.warning(b.at_line(f.line), name + " is given two displacements" + direction + ": " +
-                                         rounded_text(before.value[c]) + " by " + other + ", " +
-                                         rounded_text(f.value[c]) + " here; the last card stands");
-      else
-        b.warning(b.at_line(f.line), name + " is " + (f.code[c] == FixityCode::released ? "released" : "held") +
-                                         direction + " here but " +
-                                         (f.code[c] == FixityCode::released ? "held" : "released") + " by " +
-                                         other + " of the same stage; the last card stands");
-    }
+  for (const Support& f : supports_of(stage)) {
+    if (f.node >= b.model.mesh.deck_nodes || f.code == FixityCode::unchanged) continue;  // made nodes inherit
+    const auto [it, is_new] = seen.try_emplace({f.node, f.unknown}, f);
+    const Support before = std::exchange(it->second, f);
+    if (is_new || (before.code == f.code && before.value == f.value)) continue;
+    if (!reported.insert({before.line, f.line}).second) continue;
+    const bool moved = f.unknown < 2;
+    const std::string field = moved ? "" : b.model.unknowns[static_cast<std::size_t>(f.unknown) - 1].name;
+    const std::string direction = moved ? (f.unknown == 0 ? " in x" : " in y") : " in " + field;
+    const std::string other = "line " + std::to_string(before.line);
+    const std::string name = "stage " + std::to_string(stage.number) + ": " + node_name(b, f.node);
+    if (before.code == f.code)
+      b.warning(b.at_line(f.line), name + " is given two " + (moved ? "displacements" : "values") + direction +
+                                       ": " + rounded_text(before.value) + " by " + other + ", " +
+                                       rounded_text(f.value) + " here; the last card stands");
+    else
+      b.warning(b.at_line(f.line), name + " is " + (f.code == FixityCode::released ? "released" : "held") +
+                                       direction + " here but " +
+                                       (f.code == FixityCode::released ? "held" : "released") + " by " + other +
+                                       " of the same stage; the last card stands");
   }
 }
 

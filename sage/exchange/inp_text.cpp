@@ -232,6 +232,7 @@ class InpWriter {
 }  // namespace
 
 std::string inp_text(const Model& model, Diagnostics& diagnostics) {
+  warn_of_unknowns(model, "CalculiX", diagnostics);
   if (!model.initials.empty())
     diagnostics.add({Severity::warning, {model.file, 0, 0, 0}, "initial stresses are left out", {}});
   return InpWriter(model, diagnostics).text();

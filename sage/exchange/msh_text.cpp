@@ -139,6 +139,7 @@ std::string msh_text(const Model& model, Diagnostics& diagnostics) {
                      {model.file, 0, 0, 0},
                      std::to_string(left_out) + " interface element(s) left out: MSH has no type for them",
                      {}});
+  warn_of_unknowns(model, "MSH", diagnostics);
   warn_of_the_rest(model, diagnostics);
   std::map<std::pair<int, int>, std::string> names;
   std::size_t elements = 0;

@@ -198,11 +198,11 @@ void Sage1Writer::fixity(const FieldFixity& fixity, bool in_stage) {
     real(fixity.value);
   else
     text_ += "          ";
+  text_ += "          ";
   unknown(fixity.field);
 }
 
 void Sage1Writer::unknown(int field) {
-  text_ += "          ";
   name(model_.unknowns[static_cast<std::size_t>(field)].name, 20);
   line();
 }
@@ -258,6 +258,7 @@ void Sage1Writer::stage(const Stage& stage) {
     integer(node_number(load.node));
     text_ += "    0    0";
     real(load.value);
+    real(0.0);
     unknown(load.field);
   }
   for (const EdgeLoad& load : stage.pressures) {

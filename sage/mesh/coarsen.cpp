@@ -324,8 +324,12 @@ void Coarsening::require_middle(Line& on) {
 void Coarsening::require_by_model() {
   for (const Stage& stage : model_->stages)
     for (const NodalLoad& load : stage.loads) require(load.node);
-  for (const Stage& stage : model_->stages)
+  // Of other fields than displacement no node is dropped that has a card.
+  for (const FieldFixity& f : model_->field_fixities) require(f.node);
+  for (const Stage& stage : model_->stages) {
+    for (const FieldFixity& f : stage.field_fixities) require(f.node);
     for (const FieldLoad& load : stage.field_loads) require(load.node);
+  }
   for (const Grading& grading : b_->meshing.gradings)
     if (const auto it = b_->node_index.find(grading.node); it != b_->node_index.end()) require(it->second);
   for (const Report& report : model_->reports) require_report(report);

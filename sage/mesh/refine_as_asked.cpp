@@ -95,9 +95,9 @@ void drop_lost_nodes(Work& b, std::vector<char> lost) {
 
 void warn_point_loads(Work& b) {
   for (const Stage& stage : b.model.stages)
-    if (!stage.loads.empty()) {
+    if (!stage.loads.empty() || !stage.field_loads.empty()) {
       b.warning(
-          {b.deck.file, stage.loads.front().line, 0, 0},
+          {b.deck.file, stage.loads.empty() ? stage.field_loads.front().line : stage.loads.front().line, 0, 0},
           "loads on nodes stay point loads in a refined mesh: the displacement under them does not converge");
       return;
     }

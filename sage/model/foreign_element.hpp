@@ -27,4 +27,16 @@ inline void warn_of_corners(const Group& group, std::string_view format, Diagnos
   diagnostics.add({Severity::warning, group.where, text, {}});
 }
 
+// Unknowns besides displacement, with their supports and loads, which only our own decks can say.
+inline void warn_of_unknowns(const Model& model, std::string_view format, Diagnostics& diagnostics) {
+  for (std::size_t i = 1; i < model.unknowns.size(); ++i) {
+    const std::string& name = model.unknowns[i].name;
+    diagnostics.add({Severity::warning,
+                     {model.file, 0, 0, 0},
+                     "the " + name + " of nodes is left out, with its supports, values and loads: " +
+                         std::string(format) + " as it is written here knows displacements alone",
+                     {}});
+  }
+}
+
 }  // namespace sage

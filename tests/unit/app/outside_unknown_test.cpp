@@ -13,9 +13,12 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/run_deck.hpp"
+#include "sage/build/build_model.hpp"
 #include "sage/conformance/element_cases.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "sage/exchange/convert.hpp"
+#include "sage/model/dof_map.hpp"
+#include "sage/scenes/scenes.hpp"
 #include "solvers/choose_solver.hpp"
 #include "tests/install/consumer/diffusion.hpp"
 #include "tests/support/csv_column.hpp"
@@ -42,7 +45,8 @@ struct Column {
   double E = 1000.0, nu = 0.25, k0 = 2.0, growth = 0.0, swelling = 0.0, storage = 0.0;
   int increments = 1;
   std::vector<std::string> before{}, fixities{},
-      loads{};  // cards: supports of all stages, then of the one stage
+      loads{};           // cards: supports of all stages, then of the first one
+  std::string second{};  // another stage, whole
 
   static std::string level(int node, double c) {
     return fmt::format("{:5}{:5}{:5}{:5}{:5}{:10.4f}{:10}concentration", node, node + 1, 1, 1, 0, c, "");
@@ -59,8 +63,8 @@ struct Column {
 
   std::string text() const {
     std::string deck = "swelling column\nm       kN      kPa\n";
-    deck += fmt::format("    1    0{:5}    0    1    1{:5}{:5}    0    1    0\n", 2 * elements + 2, elements,
-                        2 + before.size());
+    deck += fmt::format("    1    0{:5}    0    1    1{:5}{:5}    0{:5}    0\n", 2 * elements + 2, elements,
+                        2 + before.size(), second.empty() ? 1 : 2);
     for (int i = 0; i <= elements; ++i)
       for (int j = 0; j < 2; ++j)
         deck += fmt::format("{:5}          {:10.4f}{:10.4f}\n", row(i) + j, double(j), double(i));
@@ -74,7 +78,7 @@ struct Column {
     deck += fmt::format("wetting\n{:5}    0    0    1{:5}{:5}\n", increments, fixities.size(), loads.size());
     for (const std::string& card : fixities) deck += card + "\n";
     for (const std::string& card : loads) deck += card + "\n";
-    return deck + "END\n";
+    return deck + second + "END\n";
   }
 };
 
@@ -322,6 +326,42 @@ TEST(OutsideUnknown, RestartsGoOnBitByBit) {
   }
 }
 
+// The same concentration everywhere makes fluxes of rounding alone: they must not keep a mechanical stage from its
+// end.
+TEST(OutsideUnknown, AnEvenLevelHasNothingToBalance) {
+  for (const double level : {0.3, 0.1234, 1e4}) {
+    Column column;
+    column.swelling = 90.0;
+    column.fixities = {Column::level(1, level), Column::level(Column::top(), level)};
+    column.second =
+        fmt::format("pressing\n    2    0    0    1    0    0    1\n{:5}    3          {:10.1f}{:10.1f}\n",
+                    Column::elements, 10.0, 10.0);
+    const app::RunRequest request = request_of(column, "even");
+    ASSERT_EQ(app::run_deck(request, with_diffusion()).exit_code, app::kOk) << level;
+    for (double c : last(request, "concentration")) EXPECT_NEAR(c, level, 1e-12 * level);
+    const double strain = (90.0 * level - 10.0) / column.oedometric();
+    EXPECT_NEAR(last(request, "uy").back(), Column::elements * strain, 1e-9 * level);
+  }
+}
+
+TEST(OutsideUnknown, CardsThatContradictOrDoNothingAreNamed) {
+  const auto warnings_of = [](const Column& column) {
+    std::string all;
+    for (const Diagnostic& d :
+         app::run_deck(request_of(column, "warned"), with_diffusion()).model->diagnostics.list())
+      all += d.message + "\n";
+    return all;
+  };
+  Column twice = between_levels();
+  twice.fixities.push_back(Column::level(Column::top(), 2.0));
+  EXPECT_NE(warnings_of(twice).find("node 11 is given two values in concentration: 1 by line"),
+            std::string::npos);
+  EXPECT_EQ(warnings_of(between_levels()).find("null step"), std::string::npos);
+  Column point = between_levels();
+  point.loads = {Column::inflow(5, 1.0)};
+  EXPECT_EQ(warnings_of(point).find("does nothing"), std::string::npos);
+}
+
 // A sage1 deck that the program writes of the model gives the same answer.
 TEST(OutsideUnknown, DecksThatAreWrittenKeepIt) {
   Column column = between_levels();
@@ -337,6 +377,87 @@ TEST(OutsideUnknown, DecksThatAreWrittenKeepIt) {
   ASSERT_EQ(app::run_deck(request, catalogue).exit_code, app::kOk);
   EXPECT_EQ(last(request, "concentration"), c);
   EXPECT_EQ(last(request, "uy"), uy);
+}
+
+// A solver that asks where its equations stand, in front of another one.
+class Surveyor final : public LinearSolver {
+ public:
+  Surveyor(std::unique_ptr<LinearSolver> inner, std::vector<EquationPlace>& seen)
+      : inner_(std::move(inner)), seen_(&seen) {}
+  const SolverTraits& traits() const override { return traits_; }
+  void set_places(std::span<const EquationPlace> places) override {
+    seen_->assign(places.begin(), places.end());
+  }
+  void analyse(int equations, ElementEquations elements) override {
+    inner_->analyse(equations, std::move(elements));
+  }
+  void clear() override { inner_->clear(); }
+  void add(int element, const double* K) override { inner_->add(element, K); }
+  void factorise() override { inner_->factorise(); }
+  void solve(std::span<const double> b, std::span<double> x) const override { inner_->solve(b, x); }
+  void multiply(std::span<const double> x, std::span<double> y) const override { inner_->multiply(x, y); }
+  double norm1() const override { return inner_->norm1(); }
+
+ private:
+  SolverTraits traits_{.name = "surveyor", .symmetric = false, .wants_places = true};
+  std::unique_ptr<LinearSolver> inner_;
+  std::vector<EquationPlace>* seen_;
+};
+
+TEST(OutsideUnknown, SolversSeePlaceAndFieldOfTheEquations) {
+  Catalogue catalogue = with_diffusion();
+  std::vector<EquationPlace> seen;
+  const SolverEntry plain = *catalogue.solvers.find(catalogue.solvers.code_of("skyline_lu"));
+  catalogue.solvers.add(95, {"surveyor", "asks where equations stand", false,
+                             [&seen, plain] { return std::make_unique<Surveyor>(plain.make(), seen); }});
+  app::RunRequest request = request_of(between_levels(), "places");
+  request.solver = "surveyor";
+  ASSERT_EQ(app::run_deck(request, catalogue).exit_code, app::kOk);
+  // Heights 1 to 5 have u_y at both nodes, 1 to 4 their concentration.
+  ASSERT_EQ(seen.size(), 18u);
+  for (std::size_t eq = 0; eq < 10; ++eq) {
+    EXPECT_EQ(seen[eq].field, 0);
+    EXPECT_EQ(seen[eq].component, 1);
+    EXPECT_EQ(seen[eq].x, Vector2(static_cast<double>(eq % 2), 1.0 + static_cast<double>(eq / 2)));
+  }
+  for (std::size_t eq = 10; eq < 18; ++eq) {
+    EXPECT_EQ(seen[eq].field, 1);
+    EXPECT_EQ(seen[eq].node, static_cast<int>(eq) - 8);
+  }
+}
+
+// A field that corners alone have, as a pore pressure beside a quadratic displacement.
+TEST(DofMap, NumbersFieldsOfSomeNodes) {
+  Catalogue catalogue = app::full_catalogue();
+  ElementEntry entry = *catalogue.elements.find(2);
+  entry.name = "quad8 with a pressure at its corners";
+  entry.unknowns = {{displacement_field()}, {{.name = "pore_pressure"}, {0, 1, 2, 3}}};
+  catalogue.elements.add(kElement, entry);
+  scenes::DeckWriter deck(1);
+  const scenes::Block block{2, 1, scenes::Cell::quad8, 1, 1, scenes::rectangle(0.0, 2.0, 0.0, 1.0)};
+  block.write_nodes(deck);
+  deck.material(1, 1, {1e4, 0.3});
+  deck.group(1, kElement, 0, 1);
+  block.write_elements(deck, 1);
+  for (int n : block.bottom()) deck.fix(n, 1, 1);
+  deck.stage();
+  const Model model = build_model(read_deck_text(deck.text(), "deck", load_layout("sage1")), catalogue);
+  const DofMap map(model);
+  const int nodes = model.mesh.nodes();
+  EXPECT_EQ(map.fields(), 2);
+  EXPECT_EQ(map.dofs(), 2 * nodes + 6) << "six corners";
+  for (int dof = 0; dof < map.dofs(); ++dof) {
+    const auto [node, field, component] = map.at(dof);
+    EXPECT_EQ(map.of(node, field, component), dof);
+  }
+  std::vector<int> dofs;
+  map.list(model.groups[0], 1, dofs);
+  ASSERT_EQ(dofs.size(), 20u);
+  for (std::size_t i = 0; i < 8; ++i) {
+    const int node = model.groups[0].nodes_of(1)[i];
+    EXPECT_EQ(dofs[2 * i], DofMap::displacement(node));
+    EXPECT_EQ(map.of(node, 1), i < 4 ? dofs[16 + i] : -1);
+  }
 }
 
 // K = df/du by central differences; f is of the second degree in the unknowns, so that they are exact but for

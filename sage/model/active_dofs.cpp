@@ -1,0 +1,25 @@
+#include "sage/model/active_dofs.hpp"
+
+namespace sage {
+
+std::vector<char> active_dofs(const Model& model, const Activity& activity) {
+  std::vector<char> flags(static_cast<std::size_t>(activity.dof_map.dofs()), 0);
+  std::vector<int> listed;
+  const auto mark = [&](int dof) { flags[static_cast<std::size_t>(dof)] = 1; };
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const Group& group = model.groups[g];
+    if (!activity.group[g]) continue;
+    if (group.entry->unknowns.empty()) {
+      for (const int node : group.nodes)
+        for (int c = 0; c < 2; ++c) mark(DofMap::displacement(node, c));
+      continue;
+    }
+    for (int e = 0; e < group.elements(); ++e) {
+      activity.dof_map.list(group, e, listed);
+      for (const int dof : listed) mark(dof);
+    }
+  }
+  return flags;
+}
+
+}  // namespace sage
