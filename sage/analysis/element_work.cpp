@@ -100,14 +100,21 @@ const double* ElementWork::committed_of(const ElementDofs& dofs) {
 }
 
 void add_force(const GroupData& data, int element, const double* f, Eigen::VectorXd& to, FieldSums& sums) {
-  const ElementDofs dofs = data.dofs_of(element);
-  dofs.add(f, to);
-  if (data.field_of_dof.empty()) {
+  if (data.dof_list.empty()) {
+    const int* nodes = data.group->nodes_of(element);
+    const int n = static_cast<int>(data.group->node_count());
     double sum = 0.0;
-    for (std::size_t i = 0; i < dofs.size(); i += 2) sum += f[i] * f[i] + f[i + 1] * f[i + 1];
+    for (int i = 0; i < n; ++i) {
+      const int dof = DofMap::displacement(nodes[i]);
+      to[dof] += f[2 * i];
+      to[dof + 1] += f[2 * i + 1];
+      sum += f[2 * i] * f[2 * i] + f[2 * i + 1] * f[2 * i + 1];
+    }
     sums[0] += sum;
     return;
   }
+  const ElementDofs dofs = data.dofs_of(element);
+  dofs.add(f, to);
   for (std::size_t i = 0; i < dofs.size(); ++i)
     sums[static_cast<std::size_t>(data.field_of_dof[i])] += f[i] * f[i];
 }
