@@ -346,10 +346,9 @@ TEST(OutsideUnknown, AnEvenLevelHasNothingToBalance) {
 
 TEST(OutsideUnknown, CardsThatContradictOrDoNothingAreNamed) {
   const auto warnings_of = [](const Column& column) {
+    const app::RunOutcome run = app::run_deck(request_of(column, "warned"), with_diffusion());
     std::string all;
-    for (const Diagnostic& d :
-         app::run_deck(request_of(column, "warned"), with_diffusion()).model->diagnostics.list())
-      all += d.message + "\n";
+    for (const Diagnostic& d : run.model->diagnostics.list()) all += d.message + "\n";
     return all;
   };
   Column twice = between_levels();
