@@ -44,7 +44,8 @@ struct FieldSpec {
   bool has_fallback = false;  // blank gives `fallback` instead of 0
   double fallback = 0.0;
   BlankNote blank_note = BlankNote::never;
-  std::string use;  // what the value is used for, where its name may promise more; for echo and manual
+  std::string use;        // what the value is used for, where its name may promise more; for echo and manual
+  bool computed = false;  // stands on no card: the layout gives its value by an expression
 };
 
 // A card's definition, from the layout.
@@ -53,6 +54,7 @@ struct CardSpec {
   std::string label;              // the layout's own name for it: "C-3.L3"; same as name where it has none
   std::string format;             // "(2I5,3F10.0)"; empty = list-directed
   std::vector<FieldSpec> fields;  // one a value; the last may repeat (lists)
+  bool made = false;              // stands in no record: all of its fields are computed
 };
 
 struct Card {

@@ -24,38 +24,12 @@ bool DeckReader::is_faulty(int value) const {
 
 // True where a value that it needs has an error, which has been reported.
 bool DeckReader::is_faulty(const Expression& expression) const {
+  if (faulty_.empty()) return false;
   return std::ranges::any_of(expression.nodes, [this](const ExpressionNode& node) {
-    if (node.kind != ExpressionNode::Kind::field) return false;
+    if (node.field < 0) return false;
     const FieldValue* value = field_value(node.card, node.field);
     return value && is_faulty(static_cast<int>(value - deck_.values.data()));
   });
-}
-
-const FieldValue* DeckReader::field_value(int card, int field) const {
-  int index = latest_[static_cast<std::size_t>(card)];
-  std::size_t first = 0, count = 0;
-  if (card == own_rule_ && own_card_ >= 0) {  // the card being read isn't closed yet
-    first = static_cast<std::size_t>(own_card_);
-    count = deck_.values.size() - first;
-  } else if (index >= 0) {
-    const Card& read = deck_.cards[static_cast<std::size_t>(index)];
-    first = static_cast<std::size_t>(read.first_value);
-    count = static_cast<std::size_t>(read.value_count);
-  }
-  return static_cast<std::size_t>(field) < count ? &deck_.values[first + static_cast<std::size_t>(field)]
-                                                 : nullptr;
-}
-
-ExpressionValue DeckReader::value_of(int card, int field) const {
-  const FieldValue* value = field_value(card, field);
-  if (!value) return {};
-  const FieldSpec& spec = rule_of(card).spec.fields[static_cast<std::size_t>(field)];
-  const double number = value->blank && spec.has_fallback ? spec.fallback : value->number;
-  return {number, trimmed(value->text)};
-}
-
-bool DeckReader::truth(const Expression& expression) const {
-  return evaluate(expression, [this](int card, int field) { return value_of(card, field); }) != 0.0;
 }
 
 // The value of a count; false, and reading stops, if it can't be one.
@@ -73,7 +47,8 @@ bool DeckReader::count_of(const Expression& expression, const std::string& what,
       return false;
     }
   }
-  const double number = evaluate(expression, [this](int card, int field) { return value_of(card, field); });
+  const double number = number_of(expression);
+  if (stopped_) return false;
   if (number >= 0.0 && number <= largest_count && number == std::floor(number)) {
     count = static_cast<int>(number);
     return true;
@@ -223,11 +198,11 @@ std::string DeckReader::unmet(const LayoutEntry& entry) const {
 }
 
 // "the 4 that were announced (...) are read", for a card that came too late.
-std::string DeckReader::announced(int rule) const {
+std::string DeckReader::announced(int rule) {
   const LayoutEntry* entry = entry_of_[static_cast<std::size_t>(rule)];
   if (entry && !entry->when.empty() && !truth(entry->when)) return unmet(*entry);
   if (!entry || entry->run != LayoutEntry::Run::counted) return "its place is earlier";
-  const double count = evaluate(entry->count, [this](int card, int field) { return value_of(card, field); });
+  const double count = number_of(entry->count);
   const std::string source = " (" + count_source(entry->count) + ")";
   if (count == 0.0) return "none was announced" + source;
   if (count == 1.0) return "the one that was announced" + source + " has been read";
@@ -235,7 +210,7 @@ std::string DeckReader::announced(int rule) const {
 }
 
 bool DeckReader::reads_well(const CardRule& rule, int line) const {
-  if (rule.list_directed || rule.is_item || !rule.rules.back().count.empty()) return false;
+  if (rule.list_directed || rule.is_item || rule.spec.made || !rule.rules.back().count.empty()) return false;
   if (rule.spec.fields.front().kind == FieldKind::text) return false;  // reads anything
   RecordSource records = records_;
   records.rewind_to(line);
@@ -245,6 +220,7 @@ bool DeckReader::reads_well(const CardRule& rule, int line) const {
   std::vector<FieldFlaw> flaws;
   int given = 0;
   for (const FieldSpec& spec : rule.spec.fields) {
+    if (spec.computed) continue;
     if (read.read(spec.kind, values, flaws) != ReadEnd::complete || records.line() != line) return false;
     if (spec.required && values.back().blank) return false;
     if (!values.back().blank) ++given;

@@ -22,7 +22,13 @@ DeckReader::DeckReader(const SourceText& source, const Layout& layout, const Rea
       log_(deck_, options),
       texts_(std::make_shared<std::deque<std::string>>()),
       latest_(layout.cards.size(), -1),
-      entry_of_(layout.cards.size(), nullptr) {
+      previous_(layout.cards.size(), -1),
+      entry_of_(layout.cards.size(), nullptr),
+      opens_(layout.cards.size(), 0),
+      followers_(layout.cards.size()),
+      counts_(layout.cards.size(), 0),
+      summed_(layout.cards.size()),
+      made_limit_(100'000 + 64 * source.text()->size()) {
   deck_.file = source.name();
   deck_.layout = layout.name;
   deck_.source = source.text();
@@ -35,13 +41,21 @@ DeckReader::DeckReader(const SourceText& source, const Layout& layout, const Rea
       return r.map.empty() && r.allowed.empty() && r.must_equal.empty();
     });
     plain_.push_back(plain);
+    computes_.push_back(std::ranges::any_of(rule.spec.fields, [](const FieldSpec& f) { return f.computed; }));
   }
   find_entries(layout.entries);
+  for_each_expression(layout, [this](const Expression& expression) {
+    for (const ExpressionNode& node : expression.nodes)
+      if (node.kind == ExpressionNode::Kind::sum && sums_.try_emplace({node.card, node.field}, 0.0).second)
+        summed_[static_cast<std::size_t>(node.card)].push_back(node.field);
+  });
 }
 
 void DeckReader::find_entries(const std::vector<LayoutEntry>& entries) {
   for (const LayoutEntry& entry : entries) {
     if (entry.card >= 0) entry_of_[static_cast<std::size_t>(entry.card)] = &entry;
+    if (entry.card >= 0 && entry.opens) opens_[static_cast<std::size_t>(entry.card)] = 1;
+    if (entry.made_from >= 0) followers_[static_cast<std::size_t>(entry.made_from)].push_back(&entry);
     // The first card of a block is counted by the block.
     if (entry.card < 0 && entry.entries.front().card >= 0) {
       find_entries(entry.entries);
@@ -68,6 +82,7 @@ Deck DeckReader::read() {
 void DeckReader::read_entries(const std::vector<LayoutEntry>& entries, int owner) {
   for (const LayoutEntry& entry : entries) {
     if (stopped_ || end_run_) return;
+    if (entry.made_from >= 0) continue;  // stands behind its card
     read_entry(entry, owner);
     if (entry.opens && entry.card >= 0) owner = latest_[static_cast<std::size_t>(entry.card)];
   }
@@ -110,14 +125,22 @@ void DeckReader::read_counted(const LayoutEntry& entry, int owner) {
   int count = 0;
   if (!count_of(entry.count, card_name(entry) + " cards", count)) return;
   run_.wanted = count;
+  const bool reads = is_read(entry);
   for (int i = 0; i < count && !stopped_; ++i) {
     run_.done = i;
-    if (records_.at_end()) return truncated(entry);
+    if (reads && records_.at_end()) return truncated(entry);
     const Place before = place();
+    const std::size_t made = made_values_;
     read_one(entry, owner);
-    if (end_run_ || place() == before) break;  // a block of which nothing is to be read
+    if (end_run_ || (place() == before && made_values_ == made))
+      break;  // a block of which nothing is to be read
   }
   end_run_ = false;
+}
+
+bool DeckReader::is_read(const LayoutEntry& entry) const {
+  return entry.card >= 0 ? !rule_of(entry.card).spec.made
+                         : std::ranges::any_of(entry.entries, [this](const auto& e) { return is_read(e); });
 }
 
 void DeckReader::read_named(const LayoutEntry& entry, int owner) {
@@ -149,17 +172,26 @@ void DeckReader::read_until(const LayoutEntry& entry, int owner) {
     if (!stopped_ && place() == before)
       return fail_and_stop(log_.line(records_.next_line()), "no card of this block can be read here");
     if (stopped_ || !truth(entry.until)) continue;
-    if (entry.drop_last && deck_.cards.size() > cards) {
-      if (entry.card >= 0) latest_[static_cast<std::size_t>(entry.card)] = -1;
-      deck_.cards.resize(cards);
-      deck_.values.resize(values);
-    }
+    if (entry.drop_last && deck_.cards.size() > cards) drop_cards(cards, values);
     return;
   }
 }
 
+// As if the cards behind so many had not been read.
+void DeckReader::drop_cards(std::size_t cards, std::size_t values) {
+  for (std::size_t i = cards; i < deck_.cards.size(); ++i) {
+    count_card(deck_.cards[i], -1);
+    latest_[static_cast<std::size_t>(deck_.cards[i].spec)] = -1;
+    previous_[static_cast<std::size_t>(deck_.cards[i].spec)] = -1;
+  }
+  list_sums_.clear();
+  deck_.cards.resize(cards);
+  deck_.values.resize(values);
+}
+
 void DeckReader::read_one(const LayoutEntry& entry, int owner) {
   if (entry.card < 0) return read_entries(entry.entries, owner);
+  if (rule_of(entry.card).spec.made) return make_card(entry, owner, records_.line());
   if (records_.at_end()) return truncated(entry);
   const CardRule& rule = rule_of(entry.card);
   if (!layout_.card_separator.empty() && !name_matches(rule)) {
@@ -210,6 +242,13 @@ void DeckReader::read_card(int index, int owner) {
 template <class Read>
 bool DeckReader::read_fields(Read& read, const CardRule& rule) {
   for (std::size_t i = 0; i < rule.rules.size(); ++i) {
+    if (rule.spec.fields[i].computed) {  // its place; the value comes when the card is complete
+      if (!rule.rules[i].count.empty() || rule.rules[i].values.size() > 1) return true;
+      FieldValue& value = deck_.values.emplace_back();
+      value.line = records_.line();
+      value.kind = rule.spec.fields[i].kind;
+      continue;
+    }
     if (!rule.rules[i].count.empty()) return read_list(read, rule, i);
     const ReadEnd end = read.read(rule.spec.fields[i].kind, deck_.values, flaws_);
     if (end == ReadEnd::ended_by_slash) return true;
@@ -254,7 +293,8 @@ bool DeckReader::read_formatted(const CardRule& rule, Card& card) {
     if (misplaced == Misplaced::no) {
       close_card(rule, card, complete);
       if (!complete || stopped_ || cut) return complete;
-      const bool slip = !seams_.empty() && check_seams(rule, deck_.cards.back());
+      card = deck_.cards[static_cast<std::size_t>(latest_[static_cast<std::size_t>(card.spec)])];
+      const bool slip = !seams_.empty() && check_seams(rule, card);
       check_rest(rule, card, last_field_end, slip);
       return complete;
     }

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,7 +16,7 @@
 
 namespace sage {
 
-class DeckReader {
+class DeckReader : private ExpressionScope {
  public:
   DeckReader(const SourceText& source, const Layout& layout, const ReadOptions& options);
 
@@ -31,7 +33,7 @@ class DeckReader {
 
   // Line and values read so far: what doesn't move them would be read for ever.
   using Place = std::pair<int, std::size_t>;
-  Place place() const { return {records_.line(), deck_.values.size()}; }
+  Place place() const { return {records_.line(), deck_.values.size() - made_values_}; }
 
   void find_entries(const std::vector<LayoutEntry>& entries);
   void read_entries(const std::vector<LayoutEntry>& entries, int owner);
@@ -40,6 +42,26 @@ class DeckReader {
   void read_named(const LayoutEntry& entry, int owner);
   void read_until(const LayoutEntry& entry, int owner);
   void read_one(const LayoutEntry& entry, int owner);
+  void drop_cards(std::size_t cards, std::size_t values);
+  // Whether anything of it stands in records.
+  bool is_read(const LayoutEntry& entry) const;
+
+  // Cards that stand in no record, and fields that stand on no card (computed.cpp).
+  void make_cards(const LayoutEntry& entry, int owner, int line);
+  void make_card(const LayoutEntry& entry, int owner, int line);
+  void make_followers(int rule, int card);
+  int owner_of_followers(int card) const;
+  void compute_fields(const CardRule& rule, Card& card);
+  void compute_list(const CardRule& rule, std::size_t field, const Card& card);
+  void compute(const CardRule& rule, std::size_t field, const Expression& expression, FieldValue& value);
+  void set_number(const CardRule& rule, std::size_t field, const Expression& expression, double number,
+                  FieldValue& value);
+  void take_place(const Expression& expression, FieldValue& value) const;
+  bool may_make(std::size_t values, int line);
+  void fault(const SourcePosition& where, const std::string& what, const Expression& expression,
+             const ExpressionResult& result);
+  void count_card(const Card& card, int sign);
+  bool ends_run(const Card& card);
 
   // One card.
   void read_card(int rule, int owner);
@@ -70,13 +92,22 @@ class DeckReader {
   std::string expected_card(const CardRule& rule) const;
   Misplaced check_place(const CardRule& rule, const Card& card);
   bool cut_list(const CardRule& rule, const Card& card);
-  std::string announced(int rule) const;
+  std::string announced(int rule);
   bool reads_well(const CardRule& rule, int line) const;
   bool name_matches(const CardRule& rule);
 
   // Expressions.
+  ExpressionValue value_of(const ExpressionNode& node, double operand) const override;
   ExpressionValue value_of(int card, int field) const;
-  bool truth(const Expression& expression) const;
+  ExpressionValue previous_value(const ExpressionNode& node) const;
+  // The values of a list: those of the last field of a card.
+  std::span<const FieldValue> list_of(int card, int field) const;
+  ExpressionValue item_of(const ExpressionNode& node, double place) const;
+  double sum_of(const ExpressionNode& node) const;
+  double sum_of_first(const ExpressionNode& node, double count) const;
+  SourcePosition where_of(const Expression& expression) const;
+  double number_of(const Expression& expression);
+  bool truth(const Expression& expression) { return number_of(expression) != 0.0; }
   bool count_of(const Expression& expression, const std::string& what, int& count);
   static std::string a_card(const std::string& name);  // "a node card", "an element card"
   std::string count_source(const Expression& expression) const;
@@ -102,10 +133,26 @@ class DeckReader {
   std::vector<FieldFlaw> flaws_;
   std::vector<Seam> seams_;                   // of the card being read
   std::vector<int> latest_;                   // last card of each rule, -1 = none
+  std::vector<int> previous_;                 // the card of the rule before that, -1 = none
   std::vector<int> faulty_;                   // values with errors, ascending
   std::vector<const LayoutEntry*> entry_of_;  // the entry that counts a rule's cards
   std::vector<char> plain_;                   // rules whose fields need no map, list and comparison
-  std::optional<ListRead> list_read_;         // the last list-directed READ, for cards that go on in it
+  std::vector<char> computes_;                // rules with computed fields
+  std::vector<char> opens_;                   // rules that the cards made from them belong to
+  std::vector<std::vector<const LayoutEntry*>> followers_;  // what is made behind every card of a rule
+  std::vector<int> counts_;                                 // cards of each rule so far
+  std::map<std::pair<int, int>, double> sums_;  // of the fields of rules that expressions sum, so far
+  std::vector<std::vector<int>> summed_;        // which fields these are
+  struct ListSum {                              // how far a list has been summed
+    int first_value = -1;
+    std::size_t count = 0;
+    double sum = 0.0;
+  };
+  mutable std::map<std::pair<int, int>, ListSum> list_sums_;
+  std::map<const char*, std::string_view> kept_texts_;  // texts of expressions, which outlive the layout
+  std::size_t made_values_ = 0, made_limit_ = 0;        // values that stand in no record
+  int list_index_ = 0;                                  // of the list that is computed
+  std::optional<ListRead> list_read_;  // the last list-directed READ, for cards that go on in it
   RunState run_;
   int previous_rule_ = -1;             // last rule before the present run
   int own_card_ = -1, own_rule_ = -1;  // the card being read, for counts that name its own fields

@@ -7,12 +7,31 @@
 
 namespace sage {
 
+namespace {
+
+// The last field that stands on the card.
+std::size_t last_read_field(const CardRule& rule) {
+  std::size_t field = rule.spec.fields.size() - 1;
+  while (field > 0 && rule.spec.fields[field].computed) --field;
+  return field;
+}
+
+}  // namespace
+
 void DeckReader::close_card(const CardRule& rule, Card card, bool complete) {
   card.value_count = static_cast<std::int32_t>(deck_.values.size()) - card.first_value;
-  latest_[static_cast<std::size_t>(card.spec)] = static_cast<int>(deck_.cards.size());
-  deck_.cards.push_back(card);
   if (!flaws_.empty()) report_flaws(rule, card);
   if (complete) check_values(rule, card);  // else the deck ended in the card, which has been reported
+  const bool ends = ends_run(card);
+  if (computes_[static_cast<std::size_t>(card.spec)] && complete && !ends) compute_fields(rule, card);
+  const auto index = static_cast<int>(deck_.cards.size());
+  previous_[static_cast<std::size_t>(card.spec)] = latest_[static_cast<std::size_t>(card.spec)];
+  latest_[static_cast<std::size_t>(card.spec)] = index;
+  deck_.cards.push_back(card);
+  own_card_ = own_rule_ = -1;
+  count_card(card, 1);
+  if (complete && !ends && !followers_[static_cast<std::size_t>(card.spec)].empty())
+    make_followers(card.spec, index);
 }
 
 void DeckReader::report_flaws(const CardRule& rule, const Card& card) {
@@ -46,7 +65,7 @@ void DeckReader::check_values(const CardRule& rule, const Card& card) {
                "a value is missing " + field_text(rule, spec));
       faulty_.push_back(static_cast<int>(first + i));
     }
-    if (plain_[static_cast<std::size_t>(card.spec)]) continue;
+    if (plain_[static_cast<std::size_t>(card.spec)] || spec.computed) continue;
     if (!rule.rules[i].map.empty()) apply_map(rule, i, value);
     if (!rule.rules[i].allowed.empty()) check_allowed(rule, i, static_cast<int>(first + i));
     const std::string& wanted = rule.rules[i].must_equal;
@@ -213,11 +232,15 @@ void DeckReader::check_rest(const CardRule& rule, const Card& card, std::size_t 
   const int offset = records_.skipped() + 1;
   const SourcePosition where{deck_.file, records_.line(), offset + static_cast<int>(first),
                              offset + static_cast<int>(record.find_last_not_of(" \t\x1a"))};
-  const FieldValue& last = deck_.values.back();
+  const std::size_t field = last_read_field(rule);
+  if (card.value_count == 0) return;
+  const FieldValue& last = field + 1 == rule.rules.size() && !rule.rules[field].count.empty()
+                               ? deck_.values[static_cast<std::size_t>(card.first_value + card.value_count) - 1]
+                               : deck_.values[static_cast<std::size_t>(card.first_value) + field];
   if (last.blank && last.kind != FieldKind::text && begins_with_number(record.substr(first)))
     return log_.add(Severity::warning, where,
                     "a number stands behind the last field of the " + rule.spec.label +
-                        " card, which is blank: it is not read " + field_text(rule, rule.spec.fields.back()),
+                        " card, which is blank: it is not read " + field_text(rule, rule.spec.fields[field]),
                     "is the card shifted?");
   log_.add(Severity::note, where,
            "characters behind the last field of the " + rule.spec.label + " card are ignored");
@@ -230,7 +253,7 @@ void DeckReader::check_sequence_number(const CardRule& rule, const Card& card, s
   const auto first = static_cast<std::size_t>(layout_.first_sequence_column) - 1;
   const auto size = static_cast<std::size_t>(layout_.last_sequence_column) - first;
   if (record.size() < first + size || first < 2) return;
-  const FieldSpec& last = rule.spec.fields.back();
+  const FieldSpec& last = rule.spec.fields[last_read_field(rule)];
   const std::string_view number = record.substr(first, size);
   const bool digits = std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
   if (!digits || last.kind == FieldKind::text || !all_blank(record.substr(first - 2, 2))) return;

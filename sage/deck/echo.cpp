@@ -26,7 +26,7 @@ void echo_values(const Deck& deck, const Card& card, std::ostream& out) {
     std::string item = "  " + spec.fields[field].name;
     if (static_cast<std::size_t>(card.value_count) > spec.fields.size() && field + 1 == spec.fields.size())
       item += "(" + std::to_string(static_cast<std::size_t>(i) - field + 1) + ")";
-    item += " = " + value_text(value);
+    item += (spec.fields[field].computed ? " := " : " = ") + value_text(value);
     if (line.size() + item.size() > 110) {
       out << line << '\n';
       line = "      ";
@@ -65,6 +65,11 @@ void echo(const Deck& deck, std::ostream& out) {
   int shown_line = 0, shown_spec = -1;
   for (const Card& card : deck.cards) {
     const CardSpec& spec = deck.specs[static_cast<std::size_t>(card.spec)];
+    if (spec.made) {
+      out << "    + " << spec.name << (spec.label != spec.name ? " [" + spec.label + "]" : "") << ", made:\n";
+      echo_values(deck, card, out);
+      continue;
+    }
     const bool first = card.spec != shown_spec;
     if (first) {
       out << '\n' << spec.name;

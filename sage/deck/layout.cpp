@@ -48,11 +48,11 @@ std::vector<std::string> built_in_layouts() {
   return names;
 }
 
-Layout load_layout(const std::string& path_or_name) {
+Layout load_layout(const std::string& path_or_name, bool checked) {
   for (const EmbeddedLayout& embedded : embedded_layouts())
     if (embedded.name == path_or_name) return unpacked(embedded);
   const bool path = path_or_name.find('/') != std::string::npos || path_or_name.find('.') != std::string::npos;
-  if (path) return load_checked_layout(read_file(path_or_name), path_or_name);
+  if (path) return (checked ? load_checked_layout : load_layout_text)(read_file(path_or_name), path_or_name);
   std::string known;
   for (const std::string& name : built_in_layouts()) known += (known.empty() ? "" : ", ") + name;
   throw InputError({path_or_name, 0, 0, 0},

@@ -18,10 +18,13 @@ namespace sage {
 struct FieldRule {
   std::string codes;  // allowed codes, for the manual: "1 plane strain, 2 axisymmetric"
   std::vector<std::pair<std::string, double>>
-      map;                      // foreign code -> ours; keys are the field's trimmed characters
-  std::vector<double> allowed;  // the field reads one of these; empty = anything
-  std::string must_equal;       // the card is wrong unless the field reads this
-  Expression count;             // how many values the last field repeats; empty = one
+      map;                         // foreign code -> ours; keys are the field's trimmed characters
+  std::vector<double> allowed;     // the field reads one of these; empty = anything
+  std::string must_equal;          // the card is wrong unless the field reads this
+  Expression count;                // how many values the last field repeats; empty = one
+  std::vector<Expression> values;  // of a computed field: its value, or those of a list one by one
+  bool ignored = false;            // no meaning is wanted for it
+  int line = 0;                    // of the layout file
 };
 
 struct CardRule {
@@ -35,7 +38,8 @@ struct CardRule {
   int items_card = -1;  // the cards that the rest of this READ makes, one an item; -1 = none
   Expression items_count;
   bool is_item = false;
-  int line = 0;  // of the layout file
+  bool ignored = false;  // no meaning is wanted for its fields
+  int line = 0;          // of the layout file
 };
 
 // One entry of the sequence of cards: a card, or a block of entries read together.
@@ -50,6 +54,7 @@ struct LayoutEntry {
   Expression until;        // Run::until: the run ends after the card for which it is true
   bool drop_last = false;  // that card only ends the run and is not kept
   int headings = 0;        // lines before the first card of the run that are passed over
+  int made_from = -1;      // a made card: it stands behind every card of this kind; -1 = at its own place
   int line = 0;
 };
 
@@ -72,10 +77,35 @@ struct Layout {
   std::vector<LayoutEntry> entries;
 };
 
+// Every expression of a layout, in any order.
+template <class Visit>
+void for_each_expression(const std::vector<LayoutEntry>& entries, const Visit& visit) {
+  for (const LayoutEntry& entry : entries) {
+    for (const Expression* one : {&entry.when, &entry.count, &entry.until})
+      if (!one->empty()) visit(*one);
+    for_each_expression(entry.entries, visit);
+  }
+}
+template <class Visit>
+void for_each_expression(const Layout& layout, const Visit& visit) {
+  for_each_expression(layout.entries, visit);
+  for (const CardRule& card : layout.cards) {
+    if (!card.items_count.empty()) visit(card.items_count);
+    for (const FieldRule& field : card.rules) {
+      if (!field.count.empty()) visit(field.count);
+      for (const Expression& one : field.values) visit(one);
+    }
+  }
+}
+
 // A built-in layout by name, or a layout file by its path.  Throws InputError at the layout file's own line.
-Layout load_layout(const std::string& path_or_name);
+// checked: also at names that nothing uses.
+Layout load_layout(const std::string& path_or_name, bool checked = true);
 Layout load_layout_text(std::string_view toml, const std::string& file);
 std::vector<std::string> built_in_layouts();
+
+// Every name of the layout and who uses it, and the names that the program also knows for its cards.
+std::string names_listing(const Layout& layout);
 
 // Name of the layout that this deck asks for or bears the marks of; empty if nothing tells.
 std::string recognised_layout(std::string_view deck_text);

@@ -20,13 +20,13 @@ void exchange_list(Archive& archive, std::vector<T>& list, Exchange exchange_one
 }
 
 void exchange(Archive& archive, ExpressionNode& node) {
-  auto& [kind, number, text, card, field] = node;
-  exchange_all(archive, kind, number, text, card, field);
+  auto& [kind, number, text, card, field, words] = node;
+  exchange_all(archive, kind, number, text, card, field, words);
 }
 
 void exchange(Archive& archive, Expression& expression) {
-  auto& [source, nodes] = expression;
-  archive(source);
+  auto& [source, nodes, line, words] = expression;
+  exchange_all(archive, source, line, words);
   exchange_list(archive, nodes, [](Archive& a, ExpressionNode& node) { exchange(a, node); });
 }
 
@@ -42,24 +42,25 @@ void exchange(Archive& archive, Format& format) {
 }
 
 void exchange(Archive& archive, FieldSpec& field) {
-  auto& [name, label, unit, kind, required, has_fallback, fallback, blank_note, use] = field;
-  exchange_all(archive, name, label, unit, kind, required, has_fallback, fallback, blank_note, use);
+  auto& [name, label, unit, kind, required, has_fallback, fallback, blank_note, use, computed] = field;
+  exchange_all(archive, name, label, unit, kind, required, has_fallback, fallback, blank_note, use, computed);
 }
 
 void exchange(Archive& archive, FieldRule& rule) {
-  auto& [codes, map, allowed, must_equal, count] = rule;
-  exchange_all(archive, codes, must_equal);
+  auto& [codes, map, allowed, must_equal, count, values, ignored, line] = rule;
+  exchange_all(archive, codes, must_equal, ignored, line);
   exchange_list(archive, map, [](Archive& a, auto& code) { exchange_all(a, code.first, code.second); });
   exchange_list(archive, allowed, [](Archive& a, double& code) { a(code); });
   exchange(archive, count);
+  exchange_list(archive, values, [](Archive& a, Expression& value) { exchange(a, value); });
 }
 
 void exchange(Archive& archive, CardRule& card) {
-  auto& [spec, key, about, rules, list_directed, same_read, format, items_card, items_count, is_item, line] =
-      card;
-  auto& [name, label, format_text, fields] = spec;
-  exchange_all(archive, name, label, format_text, key, about, list_directed, same_read, items_card, is_item,
-               line);
+  auto& [spec, key, about, rules, list_directed, same_read, format, items_card, items_count, is_item, ignored,
+         line] = card;
+  auto& [name, label, format_text, fields, made] = spec;
+  exchange_all(archive, name, label, format_text, made, key, about, list_directed, same_read, items_card,
+               is_item, ignored, line);
   exchange_list(archive, fields, [](Archive& a, FieldSpec& field) { exchange(a, field); });
   exchange_list(archive, rules, [](Archive& a, FieldRule& rule) { exchange(a, rule); });
   exchange(archive, format);
@@ -67,8 +68,8 @@ void exchange(Archive& archive, CardRule& card) {
 }
 
 void exchange(Archive& archive, LayoutEntry& entry) {
-  auto& [card, entries, opens, run, when, count, until, drop_last, headings, line] = entry;
-  exchange_all(archive, card, opens, run, drop_last, headings, line);
+  auto& [card, entries, opens, run, when, count, until, drop_last, headings, made_from, line] = entry;
+  exchange_all(archive, card, opens, run, drop_last, headings, made_from, line);
   exchange_list(archive, entries, [](Archive& a, LayoutEntry& inner) { exchange(a, inner); });
   exchange(archive, when);
   exchange(archive, count);

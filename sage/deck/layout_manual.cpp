@@ -35,6 +35,10 @@ std::vector<std::string> field_columns(const CardRule& card) {
   FormatWalker walker(card.format);
   int at = 1, record = 1;
   while (columns.size() < card.spec.fields.size()) {
+    if (card.spec.fields[columns.size()].computed) {
+      columns.emplace_back("-");
+      continue;
+    }
     const FormatStep& step = walker.next();
     if (step.edit == Edit::tab_to) at = step.width;
     if (step.edit == Edit::tab_by) at = std::max(1, at + step.width);
@@ -53,6 +57,12 @@ std::vector<std::string> field_columns(const CardRule& card) {
   return columns;
 }
 
+std::string values_text(const FieldRule& rule) {
+  std::string text;
+  for (const Expression& one : rule.values) text += (text.empty() ? "`" : ", `") + one.source + "`";
+  return text;
+}
+
 void add_field(const FieldSpec& spec, const FieldRule& rule, const std::string& place, std::string& out) {
   std::string notes = rule.codes;
   const auto note = [&](const std::string& text) { notes += (notes.empty() ? "" : "; ") + text; };
@@ -61,6 +71,7 @@ void add_field(const FieldSpec& spec, const FieldRule& rule, const std::string& 
   if (spec.blank_note == BlankNote::compared) note("a blank is noted where other cards have a value");
   if (spec.has_fallback) note("blank gives " + number_text(spec.fallback));
   if (!rule.must_equal.empty()) note("must read " + rule.must_equal);
+  if (spec.computed) note("computed: " + values_text(rule));
   if (!rule.count.empty()) note("repeats: " + rule.count.source);
   if (!spec.use.empty()) note(spec.use);
   out += "| " + place + " | `" + spec.name + "` | " + kind_text(spec.kind) + " | " + cell(spec.label) + " | " +
@@ -68,7 +79,7 @@ void add_field(const FieldSpec& spec, const FieldRule& rule, const std::string& 
 }
 
 void add_fields(const CardRule& card, std::string& out) {
-  const bool columns = !card.list_directed && !card.is_item;
+  const bool columns = !card.list_directed && !card.is_item && !card.spec.made;
   out += columns ? "| Columns |" : "| Value |";
   out += " Field | Kind | Meaning | Unit | Codes and defaults |\n|---|---|---|---|---|---|\n";
   const std::vector<std::string> places = columns ? field_columns(card) : std::vector<std::string>();
@@ -122,7 +133,9 @@ void add_cards(const Layout& layout, const std::vector<LayoutEntry>& entries, st
     if (card.spec.name != card.key) out += " (`" + card.spec.name + "`)";
     out += "\n\n";
     if (!card.about.empty()) out += card.about + "\n\n";
-    out += card.list_directed ? std::string("List-directed") : "FORMAT `" + card.spec.format + "`";
+    out += card.list_directed ? std::string("List-directed")
+           : card.spec.made   ? std::string("Stands in no record: its values are computed")
+                              : "FORMAT `" + card.spec.format + "`";
     out += ", " + run_text(entry) + ".\n\n";
     if (!card.spec.fields.empty()) add_fields(card, out);
     if (card.items_card < 0) continue;

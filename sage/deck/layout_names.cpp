@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace sage {
@@ -139,20 +141,76 @@ std::string nearest(std::string_view name, const std::vector<std::string_view>& 
 
 class NameCheck {
  public:
-  NameCheck(const Layout& layout, const NameMarks& marks) : layout_(layout), marks_(marks), family_(family()) {}
-
-  void run() {
+  explicit NameCheck(const Layout& layout) : layout_(layout), family_(family()) {
+    for_each_expression(layout, [this](const Expression& expression) {
+      for (const ExpressionNode& node : expression.nodes)
+        if (node.field >= 0) in_expressions_.insert({node.card, node.field});
+    });
     owners_.assign(layout_.cards.size(), -1);
     find_owners(layout_.entries, -1);
+  }
+
+  void run() {
     for (std::size_t i = 0; i < layout_.cards.size(); ++i)
-      if (marks_.ignored_cards.count(static_cast<int>(i)) == 0) check_card(static_cast<int>(i));
+      if (!layout_.cards[i].ignored) check_card(static_cast<int>(i));
     for (const KnownCard& known : kKnown)
       if (known.family == family_ && known.card_needed && !has_card(known.name))
         error(0, "the layout has no card \"" + std::string(known.name) + "\", which every model needs");
     if (problems_.errors() > 0) throw InputError(problems_);
   }
 
+  std::string listing() const {
+    std::string out;
+    for (std::size_t i = 0; i < layout_.cards.size(); ++i) list_card(static_cast<int>(i), out);
+    std::string missing;
+    for (const KnownCard& one : kKnown)
+      if (one.family == family_ && !has_card(one.name))
+        missing += (missing.empty() ? "" : ", ") + std::string(one.name) + (one.card_needed ? " (needed)" : "");
+    if (!missing.empty()) out += "cards that the program knows too\n" + listed("", missing);
+    return out;
+  }
+
  private:
+  static std::string listed(std::string title, const std::string& names) {
+    if (names.empty()) return {};
+    title.resize(std::max<std::size_t>(title.size(), 22), ' ');
+    return "  " + title + names + '\n';
+  }
+  // Names of one card by what becomes of them.
+  void list_card(int index, std::string& out) const {
+    const CardRule& card = rule(index);
+    const KnownCard* meaning = known(card.spec.name);
+    const std::vector<std::string_view> names =
+        meaning ? known_fields(*meaning) : std::vector<std::string_view>();
+    out += card.key + (card.spec.name != card.key ? ", as " + card.spec.name : "") +
+           (card.spec.made ? ", made" : "") + (card.ignored ? ", ignored" : "") + '\n';
+    std::string used, expressions, ignored, unused;
+    for (std::size_t f = 0; f < card.spec.fields.size(); ++f) {
+      const std::string& name = card.spec.fields[f].name;
+      const bool means = !card.ignored && means_something(meaning, names, name);
+      const bool needed =
+          in_expressions_.contains({index, static_cast<int>(f)}) || !card.rules[f].must_equal.empty();
+      std::string& list = means                                   ? used
+                          : needed                                ? expressions
+                          : card.ignored || card.rules[f].ignored ? ignored
+                                                                  : unused;
+      list += (list.empty() ? "" : ", ") + name;
+      if (&list == &unused)
+        list += " (" + nearest(name, not_given(card, names)).substr(names.empty() ? 0 : 2) + ")";
+    }
+    std::string others;
+    if (!card.ignored)
+      for (const std::string_view name : not_given(card, names))
+        others += (others.empty() ? "" : ", ") + std::string(name);
+    out += listed("used by the program", used) + listed("used by the layout", expressions) +
+           listed("ignored", ignored) + listed("used by nothing", unused) +
+           listed("could be given too", others);
+  }
+  bool means_something(const KnownCard* meaning, const std::vector<std::string_view>& names,
+                       const std::string& name) const {
+    return std::find(names.begin(), names.end(), name) != names.end() ||
+           (meaning && meaning->name == "element" && family_ == "sage1" && is_node_name(name));
+  }
   const CardRule& rule(int card) const { return layout_.cards[static_cast<std::size_t>(card)]; }
   bool has_card(std::string_view name) const {
     return std::any_of(layout_.cards.begin(), layout_.cards.end(),
@@ -179,11 +237,23 @@ class NameCheck {
     return nullptr;
   }
 
+  // A card made from another belongs to it if that opens, otherwise to what that belongs to.
+  int owner_of(const LayoutEntry& entry, int owner) const {
+    if (entry.made_from < 0) return owner;
+    return opening_.contains(entry.made_from) ? entry.made_from
+                                              : owners_[static_cast<std::size_t>(entry.made_from)];
+  }
   void find_owners(const std::vector<LayoutEntry>& entries, int owner) {
     for (const LayoutEntry& entry : entries) {
-      if (entry.card >= 0) owners_[static_cast<std::size_t>(entry.card)] = owner;
+      if (entry.card >= 0) {
+        owners_[static_cast<std::size_t>(entry.card)] = owner_of(entry, owner);
+        const int item = rule(entry.card).items_card;
+        if (item >= 0) owners_[static_cast<std::size_t>(item)] = entry.opens ? entry.card : owner;
+      }
       find_owners(entry.entries, owner);
-      if (entry.opens && entry.card >= 0) owner = entry.card;
+      if (!entry.opens || entry.card < 0) continue;
+      opening_.insert(entry.card);
+      if (entry.made_from < 0) owner = entry.card;
     }
   }
 
@@ -192,9 +262,8 @@ class NameCheck {
   }
 
   bool is_used(int card, int field) const {
-    const std::pair<int, int> place{card, field};
-    return marks_.ignored_fields.count(place) > 0 || marks_.in_expressions.count(place) > 0 ||
-           !rule(card).rules[static_cast<std::size_t>(field)].must_equal.empty();
+    const FieldRule& one = rule(card).rules[static_cast<std::size_t>(field)];
+    return one.ignored || in_expressions_.contains({card, field}) || !one.must_equal.empty();
   }
 
   // What the card could still mean.
@@ -211,12 +280,10 @@ class NameCheck {
     for (std::size_t f = 0; f < card.spec.fields.size(); ++f) {
       const int field = static_cast<int>(f);
       const std::string& name = card.spec.fields[f].name;
-      if (is_used(index, field) || std::find(names.begin(), names.end(), name) != names.end()) continue;
+      if (is_used(index, field) || means_something(meaning, names, name)) continue;
       if (!meaning) return unknown_card(card);
-      if (meaning->name == "element" && family_ == "sage1" && is_node_name(name)) continue;
-      error(marks_.lines.at({index, field}),
-            "field \"" + name + "\" of card \"" + card.spec.name + "\" is used by nothing" +
-                nearest(name, not_given(card, names)) + " (or mark it: ignored = true)");
+      error(card.rules[f].line, "field \"" + name + "\" of card \"" + card.spec.name + "\" is used by nothing" +
+                                    nearest(name, not_given(card, names)) + " (or mark it: ignored = true)");
     }
     if (!meaning) return;
     for (const std::string_view group : words(meaning->needed)) {
@@ -244,7 +311,8 @@ class NameCheck {
     const int owner = owners_[static_cast<std::size_t>(index)];
     const bool alone_too = meaning.owner[0] == '?';
     const std::string wanted(meaning.owner.substr(alone_too ? 1 : 0));
-    if ((alone_too && owner < 0) || (owner >= 0 && rule(owner).spec.name == wanted)) return;
+    if ((alone_too && (owner < 0 || rule(index).is_item)) || (owner >= 0 && rule(owner).spec.name == wanted))
+      return;
     const std::string found = owner < 0 ? "to none" : "to card \"" + rule(owner).spec.name + "\"";
     error(rule(index).line, "card \"" + rule(index).spec.name + "\" must belong to a card \"" + wanted +
                                 "\" and belongs " + found + ": put opens = true on the \"" + wanted +
@@ -252,16 +320,21 @@ class NameCheck {
   }
 
   const Layout& layout_;
-  const NameMarks& marks_;
+  std::set<std::pair<int, int>> in_expressions_;
   std::string_view family_;
   std::vector<int> owners_;
+  std::set<int> opening_;  // cards that those behind them belong to
   Diagnostics problems_;
 };
 
 }  // namespace
 
-void check_names(const Layout& layout, const NameMarks& marks) {
-  NameCheck(layout, marks).run();
+void check_names(const Layout& layout) {
+  NameCheck(layout).run();
+}
+
+std::string names_listing(const Layout& layout) {
+  return NameCheck(layout).listing();
 }
 
 }  // namespace sage

@@ -1,8 +1,11 @@
 // Layout files: TOML -> Layout, with the layout file's own line in every complaint.
+#include <algorithm>
 #include <map>
+#include <optional>
 
 #include "sage/deck/layout.hpp"
 #include "sage/deck/layout_names.hpp"
+#include "sage/deck/text.hpp"
 #include "sage/deck/toml_file.hpp"
 
 namespace sage {
@@ -32,7 +35,6 @@ class LayoutReader : private TomlFile {
     read_entries(*cards, layout_.entries, 1);
     return std::move(layout_);
   }
-  const NameMarks& marks() const { return marks_; }
 
  private:
   void read_record_rules() {
@@ -89,16 +91,20 @@ class LayoutReader : private TomlFile {
   }
 
   LayoutEntry read_entry(const toml::table& table, int depth) {
-    known_keys(table, {"name", "as", "label", "about", "format", "fields", "items", "block", "card", "opens",
-                       "repeat", "until", "until_dropped", "when", "headings", "same_read", "ignored"});
+    known_keys(table,
+               {"name", "as", "label", "about", "format", "fields", "items", "block", "card", "opens", "repeat",
+                "until", "until_dropped", "when", "headings", "same_read", "ignored", "made", "made_from"});
     LayoutEntry entry;
     entry.line = static_cast<int>(table.source().begin.line);
     const bool block = table.contains("block");
+    read_source(table, block, entry);
     if (!block) {
       entry.card = read_card(table, false);
       bare_card_ = entry.card;
     }
     read_run(table, entry);
+    source_card_ = -1;
+    made_ = false;
     entry.opens = flag(table, "opens");
     entry.headings = integer(table, "headings", 0, 0, 1000);
     if (const toml::node* inner = table.get("card")) {
@@ -113,9 +119,24 @@ class LayoutReader : private TomlFile {
     return entry;
   }
 
+  // A made card: which card it stands behind, and what it can't have.
+  void read_source(const toml::table& table, bool block, LayoutEntry& entry) {
+    source_card_ = -1;
+    made_ = flag(table, "made") || table.contains("made_from");
+    if (!made_) return;
+    if (block) fail(table, "a block is not made: its cards are");
+    for (const char* key : {"format", "items", "same_read", "headings", "until", "until_dropped"})
+      if (const toml::node* node = table.get(key))
+        fail(*node, "a made card stands in no record: it has no " + std::string(key));
+    if (!table.contains("made_from")) return;
+    const std::string source = text(table, "made_from");
+    source_card_ = entry.made_from = find_card(source);
+    if (source_card_ < 0) fail(*table.get("made_from"), "no card \"" + source + "\" stands before this");
+  }
+
   // When, count and until of an entry.  A block's `until` is read after its cards, since it speaks of them.
   void read_run(const toml::table& table, LayoutEntry& entry) {
-    if (table.contains("when")) entry.when = expression(table, "when", -1);
+    if (table.contains("when")) entry.when = expression(table, "when", source_card_);
     const bool repeat = table.contains("repeat");
     const bool until = table.contains("until") || table.contains("until_dropped");
     if (repeat) {
@@ -126,7 +147,7 @@ class LayoutReader : private TomlFile {
         entry.run = LayoutEntry::Run::named;
       } else {
         entry.run = LayoutEntry::Run::counted;
-        entry.count = expression(table, "repeat", -1);
+        entry.count = expression(table, "repeat", source_card_);
       }
     }
     if (until && entry.card >= 0) read_until(table, entry);
@@ -136,20 +157,24 @@ class LayoutReader : private TomlFile {
     if (entry.run == LayoutEntry::Run::counted) fail(table, "repeat = a count and until can't both be given");
     if (entry.run == LayoutEntry::Run::once) entry.run = LayoutEntry::Run::until;
     entry.drop_last = table.contains("until_dropped");
+    reads_values_ = entry.drop_last && entry.card >= 0;  // what only ends a run has no computed fields
     entry.until = expression(table, entry.drop_last ? "until_dropped" : "until", entry.card);
+    reads_values_ = false;
   }
 
   // The first card of a block opens it unless another says so.
   void finish_block(const toml::table& table, LayoutEntry& entry) {
     if (table.contains("until") || table.contains("until_dropped")) read_until(table, entry);
-    const bool chosen =
-        std::any_of(entry.entries.begin(), entry.entries.end(), [](auto& e) { return e.opens; });
+    const bool chosen = std::any_of(entry.entries.begin(), entry.entries.end(),
+                                    [](auto& e) { return e.opens && e.made_from < 0; });
     if (!chosen) entry.entries.front().opens = true;
     for (const LayoutEntry& inner : entry.entries)
-      if (inner.opens && (inner.card < 0 || inner.run != LayoutEntry::Run::once))
+      if (inner.opens && inner.made_from < 0 && (inner.card < 0 || inner.run != LayoutEntry::Run::once))
         fail(table, "the card that opens a block must be a single card");
-    if (entry.run == LayoutEntry::Run::named && entry.entries.front().card < 0)
-      fail(table, "a block repeated by name must begin with a card");
+    const int first = entry.entries.front().card;
+    if (entry.run == LayoutEntry::Run::named &&
+        (first < 0 || layout_.cards[static_cast<std::size_t>(first)].spec.made))
+      fail(table, "a block repeated by name must begin with a card that is read");
   }
 
   int read_card(const toml::table& table, bool is_item) {
@@ -161,20 +186,24 @@ class LayoutReader : private TomlFile {
     card.about = text(table, "about");
     card.is_item = is_item;
     card.same_read = flag(table, "same_read");
+    card.spec.made = made_ && !is_item;
+    card.ignored = flag(table, "ignored");
     const auto [place, added] = index_of_.try_emplace(card.key, static_cast<int>(layout_.cards.size()));
     if (!added) fail(table, "card \"" + card.key + "\" is defined twice");
     if (layout_.cards.size() == most_cards)
       fail(table, "a layout has at most " + std::to_string(most_cards) + " kinds of cards");
-    if (!is_item) read_format(table, card);
+    if (!is_item && !made_) read_format(table, card);
     if (card.same_read && !card.list_directed) fail(table, "same_read belongs to list-directed cards");
-    if (!card.list_directed)
+    if (!card.list_directed && !made_)
       if (const toml::node* items = table.get("items")) fail(*items, "items belong to list-directed cards");
     const auto index = layout_.cards.size();
     layout_.cards.push_back(card);  // its own fields may be named by its counts
     bare_card_ = static_cast<int>(index);
-    if (flag(table, "ignored")) marks_.ignored_cards.insert(bare_card_);
+    reads_values_ = true;
     read_fields(table, layout_.cards[index]);
-    if (!layout_.cards[index].list_directed && !is_item) check_format(table, layout_.cards[index]);
+    read_values(table, layout_.cards[index]);
+    reads_values_ = false;
+    if (!layout_.cards[index].list_directed && !is_item && !made_) check_format(table, layout_.cards[index]);
     read_items(table, static_cast<int>(index));
     return static_cast<int>(index);
   }
@@ -204,14 +233,15 @@ class LayoutReader : private TomlFile {
       const toml::table* field = entry.as_table();
       if (!field) fail(entry, "a field is { name = ..., ... }");
       if (!card.rules.empty() && !card.rules.back().count.empty())
-        fail(entry, "only the last field of a card can repeat (count)");
+        fail(entry, field->contains("value") ? "computed fields stand before the field that repeats (count)"
+                                             : "only the last field of a card can repeat (count)");
       read_field(*field, card);
     }
   }
 
   void read_field(const toml::table& table, CardRule& card) {
     known_keys(table, {"name", "label", "unit", "kind", "required", "default", "codes", "map", "allowed",
-                       "equals", "count", "blank", "ignored", "use"});
+                       "equals", "count", "blank", "ignored", "use", "value"});
     FieldSpec spec;
     FieldRule rule;
     spec.name = text(table, "name", true);
@@ -220,7 +250,10 @@ class LayoutReader : private TomlFile {
         fail(table, "field \"" + spec.name + "\" is named twice in card \"" + card.key + "\"");
     spec.label = table.contains("label") ? text(table, "label") : spec.name;
     spec.unit = text(table, "unit");
-    spec.kind = field_kind(table, card);
+    spec.computed = table.contains("value");
+    if (spec.computed) check_computed(table);
+    if (card.spec.made && !spec.computed) fail(table, "a field of a made card needs its value");
+    spec.kind = spec.computed ? named_kind(table).value_or(FieldKind::real) : field_kind(table, card);
     spec.required = flag(table, "required");
     if (const toml::node* node = table.get("default")) {
       const auto value = node->value<double>();
@@ -237,21 +270,63 @@ class LayoutReader : private TomlFile {
     rule.must_equal = text(table, "equals");
     read_map(table, rule);
     read_allowed(table, rule);
-    const std::pair<int, int> place{bare_card_, static_cast<int>(card.spec.fields.size())};
-    marks_.lines[place] = static_cast<int>(table.source().begin.line);
-    if (flag(table, "ignored")) marks_.ignored_fields.insert(place);
+    rule.line = static_cast<int>(table.source().begin.line);
+    rule.ignored = flag(table, "ignored");
     card.spec.fields.push_back(spec);
     card.rules.push_back(rule);
     if (table.contains("count")) card.rules.back().count = expression(table, "count", -1);
   }
 
-  FieldKind field_kind(const toml::table& table, const CardRule& card) const {
+  void check_computed(const toml::table& table) const {
+    for (const char* key : {"required", "default", "map", "equals", "blank"})
+      if (const toml::node* node = table.get(key))
+        fail(*node, "a computed field (value) is never read: it has no " + std::string(key));
+  }
+
+  // Values of computed fields, once all fields of the card are known.
+  void read_values(const toml::table& table, CardRule& card) {
+    const toml::node* fields = table.get("fields");
+    if (!fields) return;
+    for (std::size_t i = 0; i < card.spec.fields.size(); ++i) {
+      FieldSpec& spec = card.spec.fields[i];
+      if (!spec.computed) continue;
+      const toml::table& field = *(*fields->as_array())[i].as_table();
+      computed_field_ = static_cast<int>(i);
+      read_value(field, card, i);
+      computed_field_ = -1;
+      const bool words = card.rules[i].values.front().words;
+      for (const Expression& one : card.rules[i].values)
+        if (one.words != words)
+          fail(*field.get("value"), "the values of a list are numbers or texts, not both");
+      const FieldKind kind = named_kind(field).value_or(words ? FieldKind::text : FieldKind::real);
+      if ((kind == FieldKind::text) != words)
+        fail(*field.get("value"), words ? "the value is a text, the field's kind is another"
+                                        : "the value is a number, the field's kind is text");
+      spec.kind = kind;
+    }
+  }
+
+  void read_value(const toml::table& field, CardRule& card, std::size_t i) {
+    const toml::node& node = *field.get("value");
+    const toml::array* list = node.as_array();
+    if (list && (i + 1 < card.spec.fields.size() || list->empty() || field.contains("count")))
+      fail(node, "a list of values, [a, b, ...], belongs to the last field of a card and has no count");
+    if (!list) return card.rules[i].values.push_back(expression(node, "value", -1));
+    for (const toml::node& one : *list) card.rules[i].values.push_back(expression(one, "value", -1));
+  }
+
+  std::optional<FieldKind> named_kind(const toml::table& table) const {
     const std::string kind = text(table, "kind");
     if (kind == "integer") return FieldKind::integer;
     if (kind == "real") return FieldKind::real;
     if (kind == "text") return FieldKind::text;
     if (kind == "logical") return FieldKind::logical;
     if (!kind.empty()) fail(*table.get("kind"), "kind must be integer, real, text or logical");
+    return std::nullopt;
+  }
+
+  FieldKind field_kind(const toml::table& table, const CardRule& card) const {
+    if (const auto kind = named_kind(table)) return *kind;
     if (card.list_directed || card.is_item) fail(table, "a field of a list-directed card needs its kind");
     return kind_from_format(table, card);
   }
@@ -259,7 +334,7 @@ class LayoutReader : private TomlFile {
   // The FORMAT tells the kind of its n-th field.
   FieldKind kind_from_format(const toml::table& table, const CardRule& card) const {
     FormatWalker walker(card.format);
-    std::size_t wanted = card.spec.fields.size();
+    auto wanted = std::ranges::count_if(card.spec.fields, [](const FieldSpec& f) { return !f.computed; });
     for (int passes = 0;;) {
       const FormatStep& step = walker.next();
       if (step.edit == Edit::end) {
@@ -304,11 +379,15 @@ class LayoutReader : private TomlFile {
   // A list goes on with the edits behind it and, on reversion, with the last group: two passes show them all.
   void check_format(const toml::table& table, const CardRule& card) const {
     FormatWalker walker(card.format);
-    const bool list = !card.rules.back().count.empty();
+    std::vector<const FieldSpec*> fields;
+    for (const FieldSpec& spec : card.spec.fields)
+      if (!spec.computed) fields.push_back(&spec);
+    if (fields.empty()) fail(table, "no field of the card is read: give made = true instead of a FORMAT");
+    const bool list = !card.rules.back().count.empty() && !card.spec.fields.back().computed;
     std::size_t field = 0;
     int passes = 0;
     for (int steps = 0; steps < 100000; ++steps) {
-      const bool complete = field == card.spec.fields.size();
+      const bool complete = field == fields.size();
       if (complete && (!list || passes > 2)) return;
       const FormatStep& step = walker.next();
       if (step.edit == Edit::end) {
@@ -318,7 +397,7 @@ class LayoutReader : private TomlFile {
         walker.revert();
       }
       if (!is_data(step.edit)) continue;
-      const FieldSpec& spec = card.spec.fields[std::min(field, card.spec.fields.size() - 1)];
+      const FieldSpec& spec = *fields[std::min(field, fields.size() - 1)];
       if (!edit_fits(step.edit, spec.kind))
         fail(*table.get("format"),
              "FORMAT " + card.spec.format + " doesn't suit field \"" + spec.name + "\": its kind is another");
@@ -347,43 +426,80 @@ class LayoutReader : private TomlFile {
 
   // `own` is the card that a bare field name means; -1 = the card being read.
   Expression expression(const toml::table& table, std::string_view key, int own) const {
-    const toml::node& node = *table.get(key);
-    if (const auto number = node.value_exact<std::int64_t>()) {
-      Expression constant{std::to_string(*number), {{}}};
-      constant.nodes[0].number = static_cast<double>(*number);
-      return constant;
+    return expression(*table.get(key), key, own);
+  }
+
+  Expression expression(const toml::node& node, std::string_view key, int own) const {
+    Expression result;
+    if (const auto number = node.value<double>(); number && node.is_number()) {
+      result.source = number_text(*number);
+      result.nodes.emplace_back().number = *number;
+    } else if (const auto source = node.value_exact<std::string>()) {
+      const int bare = own >= 0 ? own : bare_card_;
+      try {
+        result = compile_expression(*source, [&](std::string_view card, std::string_view field,
+                                                 ExpressionNode& found) { resolve(card, field, bare, found); });
+      } catch (const ExpressionError& error) {
+        fail(node, error.what());
+      }
+      if (result.words && key != "value")
+        fail(node, "\"" + std::string(key) + "\" must give a number, not a text");
+    } else {
+      fail(node, "\"" + std::string(key) + "\" must be a number or an expression in quotes");
     }
-    const auto source = node.value_exact<std::string>();
-    if (!source) fail(node, "\"" + std::string(key) + "\" must be a number or an expression in quotes");
-    const int bare = own >= 0 ? own : bare_card_;
-    try {
-      return compile_expression(*source, [&](std::string_view card, std::string_view field,
-                                             ExpressionNode& found) { resolve(card, field, bare, found); });
-    } catch (const ExpressionError& error) {
-      fail(node, error.what());
-    }
+    result.line = static_cast<int>(node.source().begin.line);
+    return result;
+  }
+
+  // Place of a field that has its value by now; -1 = the card has none of this name.
+  int field_place(int card, std::string_view name) const {
+    const auto& fields = layout_.cards[static_cast<std::size_t>(card)].spec.fields;
+    for (std::size_t i = 0; i < fields.size(); ++i)
+      if (fields[i].name == name) return static_cast<int>(i);
+    return -1;
+  }
+  // A computed field of the card being read whose turn has not come.
+  bool is_later(int card, int field) const {
+    const CardRule& rule = layout_.cards[static_cast<std::size_t>(card)];
+    return card == bare_card_ && reads_values_ && rule.spec.fields[static_cast<std::size_t>(field)].computed &&
+           field >= computed_field_;
   }
 
   void resolve(std::string_view card, std::string_view field, int bare, ExpressionNode& found) const {
-    const int index = card.empty() ? bare : find_card(card);
+    int index = card.empty() ? bare : find_card(card);
     if (index < 0) throw ExpressionError("no card \"" + std::string(card) + "\" stands before this");
-    const auto& fields = layout_.cards[static_cast<std::size_t>(index)].spec.fields;
-    for (std::size_t i = 0; i < fields.size(); ++i)
-      if (fields[i].name == field) {
-        found.card = index;
-        found.field = static_cast<int>(i);
-        marks_.in_expressions.insert({index, found.field});
-        return;
+    found.card = index;
+    if (field.empty()) return;
+    int place = field_place(index, field);
+    const bool before = found.kind == ExpressionNode::Kind::previous;  // of the card before: complete
+    const bool later = place >= 0 && !before && is_later(index, place);
+    // A bare name in a card made from another may be of that card.
+    if (card.empty() && source_card_ >= 0 && (place < 0 || later)) {
+      if (const int of_source = field_place(source_card_, field); of_source >= 0) {
+        index = source_card_;
+        place = of_source;
       }
-    throw ExpressionError("card \"" + layout_.cards[static_cast<std::size_t>(index)].key +
-                          "\" has no field \"" + std::string(field) + "\"");
+    }
+    const CardRule& rule = layout_.cards[static_cast<std::size_t>(index)];
+    if (place < 0)
+      throw ExpressionError("card \"" + rule.key + "\" has no field \"" + std::string(field) + "\"");
+    if (!before && is_later(index, place))
+      throw ExpressionError("field \"" + std::string(field) + "\" of card \"" + rule.key +
+                            "\" is computed later than this");
+    found.card = index;
+    found.field = place;
+    found.words = rule.spec.fields[static_cast<std::size_t>(place)].kind == FieldKind::text &&
+                  rule.rules[static_cast<std::size_t>(place)].map.empty();
   }
 
   const toml::table& root_;
   Layout layout_;
   std::map<std::string, int, std::less<>> index_of_;  // cards by their keys
   int bare_card_ = -1;
-  mutable NameMarks marks_;  // expressions are compiled by const members
+  int source_card_ = -1;       // the card that the one being read is made from
+  int computed_field_ = -1;    // whose value is being read
+  bool reads_values_ = false;  // the card's fields and its items are not complete
+  bool made_ = false;          // the card being read
 };
 
 constexpr std::size_t most_characters = 16u << 20;
@@ -439,9 +555,8 @@ Layout load_layout_text(std::string_view toml_text, const std::string& file) {
 
 Layout load_checked_layout(std::string_view toml_text, const std::string& file) {
   const toml::table root = parse(toml_text, file);
-  LayoutReader reader(root, file);
-  Layout layout = reader.read();
-  check_names(layout, reader.marks());
+  Layout layout = LayoutReader(root, file).read();
+  check_names(layout);
   return layout;
 }
 

@@ -1,0 +1,337 @@
+// Fields that stand on no card and cards that stand in no record: their values are expressions over what was read.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sage/deck/deck_reader.hpp"
+#include "sage/deck/text.hpp"
+
+namespace sage {
+
+namespace {
+
+double number_in(const FieldValue& value, const FieldSpec& spec) {
+  return value.blank && spec.has_fallback ? spec.fallback : value.number;
+}
+
+bool is_list(const FieldRule& rule) {
+  return !rule.count.empty() || rule.values.size() > 1;
+}
+
+}  // namespace
+
+// ---- What expressions find
+
+const FieldValue* DeckReader::field_value(int card, int field) const {
+  const int index = latest_[static_cast<std::size_t>(card)];
+  std::size_t first = 0, count = 0;
+  if (card == own_rule_ && own_card_ >= 0) {  // the card being read isn't closed yet
+    first = static_cast<std::size_t>(own_card_);
+    count = deck_.values.size() - first;
+  } else if (index >= 0) {
+    const Card& read = deck_.cards[static_cast<std::size_t>(index)];
+    first = static_cast<std::size_t>(read.first_value);
+    count = static_cast<std::size_t>(read.value_count);
+  }
+  return static_cast<std::size_t>(field) < count ? &deck_.values[first + static_cast<std::size_t>(field)]
+                                                 : nullptr;
+}
+
+ExpressionValue DeckReader::value_of(int card, int field) const {
+  const FieldValue* value = field_value(card, field);
+  if (!value) return {};
+  return {number_in(*value, rule_of(card).spec.fields[static_cast<std::size_t>(field)]), trimmed(value->text)};
+}
+
+ExpressionValue DeckReader::value_of(const ExpressionNode& node, double operand) const {
+  using Kind = ExpressionNode::Kind;
+  const auto number = [](double x) { return ExpressionValue{x, {}}; };
+  switch (node.kind) {
+    case Kind::field:
+      return value_of(node.card, node.field);
+    case Kind::blank: {
+      const FieldValue* value = field_value(node.card, node.field);
+      return number(!value || value->blank ? 1.0 : 0.0);
+    }
+    case Kind::previous:
+      return previous_value(node);
+    case Kind::sum:
+      return number(sum_of(node));
+    case Kind::count:
+      return number(counts_[static_cast<std::size_t>(node.card)]);
+    case Kind::order:
+      return number(counts_[static_cast<std::size_t>(node.card)] +
+                    (node.card == own_rule_ && own_card_ >= 0 ? 1 : 0));
+    case Kind::index:
+      return number(list_index_);
+    case Kind::item:
+      return item_of(node, operand);
+    default:
+      return number(sum_of_first(node, operand));
+  }
+}
+
+// While a card is being read, the latest of its kind is the one before.
+ExpressionValue DeckReader::previous_value(const ExpressionNode& node) const {
+  const int index = previous_[static_cast<std::size_t>(node.card)];
+  const int latest = latest_[static_cast<std::size_t>(node.card)];
+  const int wanted = node.card == own_rule_ && own_card_ >= 0 ? latest : index;
+  if (wanted < 0) return {};
+  const Card& card = deck_.cards[static_cast<std::size_t>(wanted)];
+  if (node.field >= card.value_count) return {};
+  const FieldValue& value = deck_.values[static_cast<std::size_t>(card.first_value + node.field)];
+  return {number_in(value, rule_of(node.card).spec.fields[static_cast<std::size_t>(node.field)]),
+          trimmed(value.text)};
+}
+
+// The values of a field; of the last of a card all that follow.
+std::span<const FieldValue> DeckReader::list_of(int card, int field) const {
+  const FieldValue* first = field_value(card, field);
+  if (!first) return {};
+  if (static_cast<std::size_t>(field) + 1 < rule_of(card).spec.fields.size()) return {first, 1};
+  const int index = latest_[static_cast<std::size_t>(card)];
+  std::size_t end = deck_.values.size();
+  if (card != own_rule_ || own_card_ < 0) {
+    const Card& read = deck_.cards[static_cast<std::size_t>(index)];
+    end = static_cast<std::size_t>(read.first_value + read.value_count);
+  }
+  return {first, end - static_cast<std::size_t>(first - deck_.values.data())};
+}
+
+// NaN where the list has no such place.
+ExpressionValue DeckReader::item_of(const ExpressionNode& node, double place) const {
+  const std::span<const FieldValue> list = list_of(node.card, node.field);
+  if (!(place >= 1.0 && place <= static_cast<double>(list.size()) && place == std::floor(place)))
+    return {std::numeric_limits<double>::quiet_NaN(), {}};
+  const FieldValue& value = list[static_cast<std::size_t>(place) - 1];
+  return {number_in(value, rule_of(node.card).spec.fields[static_cast<std::size_t>(node.field)]),
+          trimmed(value.text)};
+}
+
+double DeckReader::sum_of(const ExpressionNode& node) const {
+  double sum = sums_.at({node.card, node.field});
+  if (node.card == own_rule_ && own_card_ >= 0)
+    for (const FieldValue& value : list_of(node.card, node.field))
+      sum += number_in(value, rule_of(node.card).spec.fields[static_cast<std::size_t>(node.field)]);
+  return sum;
+}
+
+// Goes on from where the last sum of this list ended, so that all running sums of a list take one pass.
+double DeckReader::sum_of_first(const ExpressionNode& node, double count) const {
+  const std::span<const FieldValue> list = list_of(node.card, node.field);
+  if (!(count >= 0.0 && count <= static_cast<double>(list.size()) && count == std::floor(count)))
+    return std::numeric_limits<double>::quiet_NaN();
+  if (list.empty()) return 0.0;
+  ListSum& last = list_sums_[{node.card, node.field}];
+  const auto first_value = static_cast<int>(list.data() - deck_.values.data());
+  const auto wanted = static_cast<std::size_t>(count);
+  if (last.first_value != first_value || last.count > wanted) last = {first_value, 0, 0.0};
+  const FieldSpec& spec = rule_of(node.card).spec.fields[static_cast<std::size_t>(node.field)];
+  for (; last.count < wanted; ++last.count) last.sum += number_in(list[last.count], spec);
+  return last.sum;
+}
+
+// Of the first value that the expression takes from the deck; line 0 where it takes none.
+SourcePosition DeckReader::where_of(const Expression& expression) const {
+  for (const ExpressionNode& node : expression.nodes)
+    if (node.field >= 0)
+      if (const FieldValue* value = field_value(node.card, node.field); value && value->line > 0)
+        return log_.where(*value);
+  return {deck_.file, 0, 0, 0};
+}
+
+void DeckReader::fault(const SourcePosition& where, const std::string& what, const Expression& expression,
+                       const ExpressionResult& result) {
+  const std::string number =
+      std::string_view(result.fault).find("number") != std::string_view::npos && result.fault_number != 0.0
+          ? ", " + number_text(result.fault_number) + ","
+          : "";
+  log_.add(Severity::error, where.line > 0 ? where : log_.line(records_.line()),
+           what + " can't be computed: " + result.fault + number + " in \"" + expression.source + "\" (" +
+               layout_.file + ", line " + std::to_string(expression.line) + ")");
+}
+
+// Of a condition or a count; an error, and the end of reading, where it can't be computed.
+double DeckReader::number_of(const Expression& expression) {
+  const ExpressionResult result = evaluate(expression, *this);
+  if (!result.fault) return result.value.number;
+  fault(where_of(expression), "what follows", expression, result);
+  stopped_ = true;
+  return 0.0;
+}
+
+// ---- Computed fields
+
+// The position of the value that it is computed from.
+void DeckReader::take_place(const Expression& expression, FieldValue& value) const {
+  const SourcePosition where = where_of(expression);
+  if (where.line == 0) return;
+  value.line = where.line;
+  value.first_column = static_cast<std::uint16_t>(where.first_column);
+  value.last_column = static_cast<std::uint16_t>(where.last_column);
+}
+
+void DeckReader::set_number(const CardRule& rule, std::size_t field, const Expression& expression,
+                            double number, FieldValue& value) {
+  const FieldSpec& spec = rule.spec.fields[field];
+  value.number = number;
+  if (spec.kind != FieldKind::integer) return;
+  const double whole = std::round(number);
+  if (std::abs(number - whole) <= 1e-9 * std::max(1.0, std::abs(number)) && std::abs(whole) < 2147483648.0) {
+    value.number = whole;
+    return;
+  }
+  log_.add(Severity::error, value.line > 0 ? log_.where(value) : log_.line(records_.line()),
+           "the value " + number_text(number) + " is no integer " + field_text(rule, spec) + ": " +
+               expression.source + " (" + layout_.file + ", line " + std::to_string(expression.line) + ")");
+  faulty_.push_back(static_cast<int>(&value - deck_.values.data()));
+}
+
+void DeckReader::compute(const CardRule& rule, std::size_t field, const Expression& expression,
+                         FieldValue& value) {
+  const FieldSpec& spec = rule.spec.fields[field];
+  value.kind = spec.kind;
+  value.blank = false;
+  take_place(expression, value);
+  if (!faulty_.empty() && is_faulty(expression)) {  // which has been reported
+    faulty_.push_back(static_cast<int>(&value - deck_.values.data()));
+    return;
+  }
+  const ExpressionResult result = evaluate(expression, *this);
+  if (result.fault) {
+    fault(log_.where(value), "the " + spec.label + " of the " + rule.spec.label + " card", expression, result);
+    faulty_.push_back(static_cast<int>(&value - deck_.values.data()));
+    return;
+  }
+  if (spec.kind != FieldKind::text) return set_number(rule, field, expression, result.value.number, value);
+  value.text = result.value.text;
+  value.blank = value.text.empty();
+  for (const ExpressionNode& node : expression.nodes) {  // the layout's own text doesn't outlive it
+    if (node.kind != ExpressionNode::Kind::text || node.text.data() != value.text.data()) continue;
+    const auto [kept, added] = kept_texts_.try_emplace(node.text.data());
+    if (added) kept->second = texts_->emplace_back(node.text);
+    value.text = kept->second;
+  }
+}
+
+// The values of a list that is computed stand behind all others of the card.
+void DeckReader::compute_list(const CardRule& rule, std::size_t field, const Card& card) {
+  const FieldRule& one = rule.rules[field];
+  auto count = static_cast<int>(one.values.size());
+  if (!one.count.empty() && !count_of(one.count, rule.spec.fields[field].label, count)) return;
+  if (!may_make(static_cast<std::size_t>(count), card.line)) return;
+  for (int i = 0; i < count && !stopped_; ++i) {
+    list_index_ = i + 1;
+    FieldValue value;  // values may move where one is added
+    value.line = card.line;
+    deck_.values.push_back(value);
+    const Expression& expression = one.values[one.count.empty() ? static_cast<std::size_t>(i) : 0];
+    compute(rule, field, expression, deck_.values.back());
+    if (!one.allowed.empty()) check_allowed(rule, field, static_cast<int>(deck_.values.size()) - 1);
+  }
+}
+
+void DeckReader::compute_fields(const CardRule& rule, Card& card) {
+  const auto first = static_cast<std::size_t>(card.first_value);
+  const std::size_t fields = rule.rules.size() - (is_list(rule.rules.back()) ? 1 : 0);
+  for (std::size_t i = deck_.values.size() - first; i < fields; ++i) {  // a slash ended the READ early
+    FieldValue& value = deck_.values.emplace_back();
+    value.line = card.line;
+    value.kind = rule.spec.fields[i].kind;
+  }
+  for (std::size_t i = 0; i < rule.rules.size() && !stopped_; ++i) {
+    if (!rule.spec.fields[i].computed) continue;
+    if (is_list(rule.rules[i])) {
+      compute_list(rule, i, card);
+      continue;
+    }
+    compute(rule, i, rule.rules[i].values.front(), deck_.values[first + i]);
+    if (!rule.rules[i].allowed.empty()) check_allowed(rule, i, static_cast<int>(first + i));
+  }
+  card.value_count = static_cast<std::int32_t>(deck_.values.size() - first);
+}
+
+// ---- Made cards
+
+// Memory grows with the file, not with what a count says.
+bool DeckReader::may_make(std::size_t values, int line) {
+  made_values_ += values;
+  if (made_values_ <= made_limit_) return true;
+  fail_and_stop(log_.line(line), "the layout makes more than " + std::to_string(made_limit_) +
+                                     " values out of a deck of " + std::to_string(source_.text()->size()) +
+                                     " characters: is a count wrong?");
+  return false;
+}
+
+void DeckReader::make_card(const LayoutEntry& entry, int owner, int line) {
+  const CardRule& rule = rule_of(entry.card);
+  if (!may_make(rule.rules.size(), line)) return;
+  Card card;
+  card.spec = entry.card;
+  card.owner = owner;
+  card.line = line;
+  card.first_value = static_cast<std::int32_t>(deck_.values.size());
+  own_card_ = card.first_value;
+  own_rule_ = entry.card;
+  flaws_.clear();
+  FieldValue value;
+  value.line = line;
+  deck_.values.resize(deck_.values.size() + rule.rules.size() - (is_list(rule.rules.back()) ? 1 : 0), value);
+  const std::size_t index = deck_.cards.size();
+  close_card(rule, card, true);
+  if (entry.made_from >= 0) return;
+  // The line of what it says; that of the card read last, where it says nothing of the deck.
+  Card& made = deck_.cards[index];
+  for (std::int32_t i = 0; i < made.value_count; ++i) {
+    const FieldValue& one = deck_.values[static_cast<std::size_t>(made.first_value + i)];
+    if (one.first_column == 0) continue;
+    made.line = one.line;
+    return;
+  }
+}
+
+void DeckReader::make_cards(const LayoutEntry& entry, int owner, int line) {
+  if (!entry.when.empty() && (is_faulty(entry.when) || !truth(entry.when))) return;
+  int count = 1;
+  if (!entry.count.empty() && !count_of(entry.count, card_name(entry) + " cards", count)) return;
+  for (int i = 0; i < count && !stopped_; ++i) make_card(entry, owner, line);
+}
+
+// What the layout makes out of a card stands right behind it.
+void DeckReader::make_followers(int rule, int card) {
+  const int owner = owner_of_followers(card);
+  const int line = deck_.cards[static_cast<std::size_t>(card)].line;
+  for (const LayoutEntry* entry : followers_[static_cast<std::size_t>(rule)])
+    if (!stopped_) make_cards(*entry, owner, line);
+}
+
+// Themselves if they open, otherwise what they belong to; an item of a list belongs to the READ's first card.
+int DeckReader::owner_of_followers(int index) const {
+  const Card& card = deck_.cards[static_cast<std::size_t>(index)];
+  if (opens_[static_cast<std::size_t>(card.spec)]) return index;
+  if (!rule_of(card.spec).is_item || card.owner < 0) return card.owner;
+  const Card& read = deck_.cards[static_cast<std::size_t>(card.owner)];
+  return opens_[static_cast<std::size_t>(read.spec)] ? card.owner : read.owner;
+}
+
+// sign: -1 takes the card out again.
+void DeckReader::count_card(const Card& card, int sign) {
+  const auto rule = static_cast<std::size_t>(card.spec);
+  counts_[rule] += sign;
+  for (const int field : summed_[rule]) {
+    const FieldSpec& spec = rule_of(card.spec).spec.fields[static_cast<std::size_t>(field)];
+    const bool list = static_cast<std::size_t>(field) + 1 == rule_of(card.spec).spec.fields.size();
+    double& sum = sums_[{card.spec, field}];
+    for (std::int32_t i = field; i < (list ? card.value_count : std::min(field + 1, card.value_count)); ++i)
+      sum += sign * number_in(deck_.values[static_cast<std::size_t>(card.first_value + i)], spec);
+  }
+}
+
+// A card that only ends its run has no computed values.
+bool DeckReader::ends_run(const Card& card) {
+  const auto rule = static_cast<std::size_t>(card.spec);
+  if (!computes_[rule] && followers_[rule].empty()) return false;
+  return run_.entry && run_.entry->drop_last && run_.entry->card == card.spec && truth(run_.entry->until);
+}
+
+}  // namespace sage
