@@ -259,6 +259,7 @@ Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOp
   build::build_materials(b);
   build::build_groups(b);
   build::build_elements(b);
+  build::split_removed(b);
   build::build_stages(b);
   build::build_reports(b);
   if (b.problems.errors() == 0) build::check_totals(b);

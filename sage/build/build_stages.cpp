@@ -18,7 +18,9 @@ FixityCode fixity_code(Builder& b, const CardView& card, std::string_view field)
   return FixityCode::unchanged;
 }
 
-// Nodes first, first+step ... last.  Empty after an error.
+}  // namespace
+
+// Nodes first, first+step ... last.
 std::vector<int> node_range(Builder& b, const CardView& card) {
   const NumberRange range = b.range(card, "first");
   std::vector<int> nodes;
@@ -29,6 +31,8 @@ std::vector<int> node_range(Builder& b, const CardView& card) {
   }
   return nodes;
 }
+
+namespace {
 
 // Which field of unknowns a card is about: 0 = displacement, -1 after an error.
 int read_unknown(Builder& b, const CardView& card) {
@@ -103,6 +107,8 @@ void read_fixity(Builder& b, const CardView& card, bool in_stage, std::vector<Fi
   }
 }
 
+}  // namespace
+
 void read_load(Builder& b, const CardView& card, std::vector<NodalLoad>& out,
                std::vector<FieldLoad>& out_fields) {
   const int field = read_unknown(b, card);
@@ -160,6 +166,8 @@ void read_pressure(Builder& b, const CardView& card, std::vector<EdgeLoad>& out)
     out.push_back(load);
   }
 }
+
+namespace {
 
 // Values that this kind of initial stress takes and the card leaves blank.
 void note_blank_stresses(Builder& b, const CardView& card, InitialKind kind, int group_number) {
@@ -344,8 +352,13 @@ Stage read_stage(Builder& b, const CardView& card, int number) {
   for (const CardView& c : b.deck.all("birth", card)) read_groups(b, c, false, stage.births);
   for (const CardView& c : b.deck.all("death", card)) read_groups(b, c, true, stage.deaths);
   for (const CardView& c : b.deck.all("initial", card)) read_initial(b, c, stage.initials);
+  for (const CardView& c : b.deck.all("removal", card))
+    if (const auto found = b.removed.find(c.index()); found != b.removed.end())
+      stage.deaths.insert(stage.deaths.end(), found->second.begin(), found->second.end());
   return stage;
 }
+
+}  // namespace
 
 // The stage cards are owned by nothing or by a block; what belongs to the model as a
 // whole has no stage as owner.
@@ -353,6 +366,8 @@ bool outside_stages(const Deck& deck, const CardView& card) {
   const int owner = card.card().owner;
   return owner < 0 || CardView(deck, owner).spec().name != "stage";
 }
+
+namespace {
 
 // A group is born at most once, and removed at most once after that.
 void check_births(Builder& b) {
@@ -404,6 +419,8 @@ void build_stages(Builder& b) {
       b.model.stages.back().title = b.text(titles[static_cast<std::size_t>(number)], "title");
     ++number;
   }
+  build_steps(b);
+  build_strength_stages(b);
   if (b.model.stages.empty())
     b.error(b.deck.one("control").where(), "the deck has no stages: nothing to compute");
   check_births(b);

@@ -35,6 +35,8 @@ struct Builder : mesh::Work {
   std::unordered_map<int, ElementPlace> element_place = {};
   DofMap dof_map = {};                  // once the elements are known
   std::vector<int> blank_weights = {};  // materials whose unit weight is left blank
+  // Groups that a removal card takes away, by the card's index: its elements have groups of their own.
+  std::unordered_map<int, std::vector<int>> removed = {};
   // False once a card of that kind was refused: what refers to it is then not reported as missing as well.
   bool nodes_known = true, materials_known = true, groups_known = true, elements_known = true;
 
@@ -51,12 +53,26 @@ struct Builder : mesh::Work {
   void group_missing(const SourcePosition& where, int number);
 };
 
+// Of build_stages.cpp, for the stages that build_steps.cpp makes.
+std::vector<int> node_range(Builder& b, const CardView& card);  // empty after an error
+bool outside_stages(const Deck& deck, const CardView& card);
+void read_load(Builder& b, const CardView& card, std::vector<NodalLoad>& out,
+               std::vector<FieldLoad>& out_fields);
+void read_pressure(Builder& b, const CardView& card, std::vector<EdgeLoad>& out);
+
 void build_control(Builder& b);
 void build_nodes(Builder& b);
 void build_materials(Builder& b);
 void build_groups(Builder& b);
 void build_elements(Builder& b);
+// Gives the elements that removal cards name by number groups of their own.
+void split_removed(Builder& b);
 void build_stages(Builder& b);
+// Stages that cards outside of stages ask for: start stress, loads by factors, displacements in equal
+// increments, removals.
+void build_steps(Builder& b);
+// A stage for every factor by which the strengths are divided.
+void build_strength_stages(Builder& b);
 void build_reports(Builder& b);
 // Places of point reports: outside the mesh, or where several bodies meet.
 void check_points(Builder& b);

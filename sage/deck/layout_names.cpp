@@ -16,8 +16,13 @@ struct KnownCard {
   std::string_view family, name;
   bool card_needed;
   std::string_view needed, others;
-  std::string_view owner;  // the card that it is looked for under; "?" before it: or on its own
+  // The card that it is looked for under; "?" before it: or on its own; "!": on its own where the layout has no
+  // such card.
+  std::string_view owner;
 };
+
+// Families whose mesh is of one kind of element: they share the cards of "body".
+constexpr std::string_view kBodies[] = {"rectangle", "slope", "mesh"};
 
 constexpr std::string_view kElement = "n3 n4 n5 n6 n7 n8 group columns rows column_step row_step";
 
@@ -32,7 +37,7 @@ constexpr KnownCard kKnown[] = {
     {"sage1", "control", true, "", "geometry solver total_nodes total_elements", ""},
     {"sage1", "node", true, "number x y", "step system ratio", ""},
     {"sage1", "fill", false, "first columns rows row_step", "column_step column_ratio row_ratio", ""},
-    {"sage1", "material", true, "number law", "unit_weight name", ""},
+    {"sage1", "material", true, "number law", "unit_weight name k0", ""},
     {"sage1", "parameters", false, "values", "", "material"},
     {"sage1", "group", true, "number element material", "formulation name", ""},
     {"sage1", "element", true, "number n1 n2", kElement, ""},
@@ -42,8 +47,8 @@ constexpr KnownCard kKnown[] = {
     {"sage1", "stage_title", false, "title", "", ""},
     {"sage1", "stage", true, "",
      "increments duration method max_iterations output_every gravity_x gravity_y tolerance", ""},
-    {"sage1", "load", false, "first x_force|y_force", "last step x_force y_force unknown", "stage"},
-    {"sage1", "pressure", false, "element edge normal1 normal2", "last step shear1 shear2", "stage"},
+    {"sage1", "load", false, "first x_force|y_force", "last step x_force y_force unknown", "!stage"},
+    {"sage1", "pressure", false, "element edge normal1 normal2", "last step shear1 shear2", "!stage"},
     {"sage1", "birth", false, "groups", "", "stage"},
     {"sage1", "death", false, "groups", "", "stage"},
     {"sage1", "report", false, "first|nodes",
@@ -76,16 +81,32 @@ constexpr KnownCard kKnown[] = {
      "geometry shape nodes_per_element direction integration_points footing harmonic", ""},
     {"rectangle", "rectangle_x", true, "x", "", ""},
     {"rectangle", "rectangle_y", true, "y", "", ""},
-    {"rectangle", "material_values", true, "youngs_modulus poissons_ratio",
-     "undrained_strength friction_angle cohesion dilation_angle bulk_modulus unit_weight consolidation", ""},
-    {"rectangle", "element_materials", false, "materials", "", ""},
-    {"rectangle", "restraints", false, "", "count", ""},
-    {"rectangle", "fixity", false, "first x_code|y_code", "last step x_code y_code x_value y_value", ""},
-    {"rectangle", "load", false, "first x_force|y_force", "x_force y_force", ""},
-    {"rectangle", "displacement", false, "first direction", "value", ""},
     {"rectangle", "surcharge", false, "pressure", "", ""},
-    {"rectangle", "increments", false, "factors|displacement", "increments factors displacement", ""},
     {"rectangle", "iteration", false, "", "increments displacement", ""},
+
+    {"slope", "slope", true, "crest slope toe height depth columns toe_columns rows foundation_rows",
+     "integration_points", ""},
+
+    {"mesh", "mesh", true, "nodes elements", "geometry dimensions shape nodes_per_element integration_points",
+     ""},
+    {"mesh", "mesh_nodes", true, "coordinates", "", ""},
+    {"mesh", "mesh_elements", true, "nodes", "", ""},
+
+    {"body", "material_values", true, "youngs_modulus poissons_ratio",
+     "undrained_strength friction_angle cohesion dilation_angle bulk_modulus unit_weight consolidation k0", ""},
+    {"body", "element_materials", false, "materials", "", ""},
+    {"body", "restraints", false, "", "count", ""},
+    {"body", "fixity", false, "first x_code|y_code", "last step x_code y_code x_value y_value", ""},
+    {"body", "load", false, "first x_force|y_force", "x_force y_force", ""},
+
+    {"steps", "gravity", false, "gravity_x|gravity_y", "gravity_x gravity_y", ""},
+    {"steps", "displacement", false, "first direction", "last step value", ""},
+    {"steps", "increments", false, "factors|totals|displacement|increments",
+     "increments factors totals displacement", ""},
+    {"steps", "increment", false, "factor|total", "factor total", ""},
+    {"steps", "removal", false, "elements", "", ""},
+    {"steps", "strength_factors", false, "factors", "", ""},
+    {"steps", "start_stress", false, "", "level k0", ""},
 
     {"embankment", "foundation", true, "columns rows", "increments", ""},
     {"embankment", "embankment", true, "lifts columns rows", "slope pressure_at_rest", ""},
@@ -154,7 +175,7 @@ class NameCheck {
     for (std::size_t i = 0; i < layout_.cards.size(); ++i)
       if (!layout_.cards[i].ignored) check_card(static_cast<int>(i));
     for (const KnownCard& known : kKnown)
-      if (known.family == family_ && known.card_needed && !has_card(known.name))
+      if (belongs(known) && known.card_needed && !has_card(known.name) && !replaced(known))
         error(0, "the layout has no card \"" + std::string(known.name) + "\", which every model needs");
     if (problems_.errors() > 0) throw InputError(problems_);
   }
@@ -164,7 +185,7 @@ class NameCheck {
     for (std::size_t i = 0; i < layout_.cards.size(); ++i) list_card(static_cast<int>(i), out);
     std::string missing;
     for (const KnownCard& one : kKnown)
-      if (one.family == family_ && !has_card(one.name))
+      if (belongs(one) && !has_card(one.name))
         missing += (missing.empty() ? "" : ", ") + std::string(one.name) + (one.card_needed ? " (needed)" : "");
     if (!missing.empty()) out += "cards that the program knows too\n" + listed("", missing);
     return out;
@@ -227,13 +248,27 @@ class NameCheck {
   // As the model builder tells them apart.
   std::string_view family() const {
     if (has_card("foundation")) return "embankment";
-    if (has_card("rectangle")) return "rectangle";
+    for (const std::string_view body : kBodies)
+      if (has_card(body)) return body;
     if (element_has("shear_modulus")) return "quad4m";
     return element_has("class") ? "cande" : "sage1";
   }
+  bool is_body() const {
+    return std::find(std::begin(kBodies), std::end(kBodies), family_) != std::end(kBodies);
+  }
+  bool belongs(const KnownCard& card) const {
+    return card.family == family_ || (card.family == "body" && is_body()) ||
+           (card.family == "steps" && (is_body() || family_ == "sage1"));
+  }
+  // Stages are made from these cards where the layout has none.
+  bool replaced(const KnownCard& card) const {
+    return card.name == "stage" && std::any_of(std::begin(kKnown), std::end(kKnown), [&](const KnownCard& one) {
+             return (one.family == "steps" || (belongs(one) && one.owner == "!stage")) && has_card(one.name);
+           });
+  }
   const KnownCard* known(std::string_view name) const {
     for (const KnownCard& card : kKnown)
-      if (card.family == family_ && card.name == name) return &card;
+      if (belongs(card) && card.name == name) return &card;
     return nullptr;
   }
 
@@ -301,7 +336,7 @@ class NameCheck {
   void unknown_card(const CardRule& card) {
     std::vector<std::string_view> names;
     for (const KnownCard& one : kKnown)
-      if (one.family == family_) names.push_back(one.name);
+      if (belongs(one)) names.push_back(one.name);
     error(card.line, "card \"" + card.spec.name + "\" is used by nothing" + nearest(card.spec.name, names) +
                          " (as = \"...\" renames it, ignored = true passes over it)");
   }
@@ -309,8 +344,10 @@ class NameCheck {
   void check_owner(int index, const KnownCard& meaning) {
     if (meaning.owner.empty()) return;
     const int owner = owners_[static_cast<std::size_t>(index)];
+    const bool marked = meaning.owner[0] == '?' || meaning.owner[0] == '!';
+    const std::string wanted(meaning.owner.substr(marked ? 1 : 0));
+    if (meaning.owner[0] == '!' && !has_card(wanted)) return;
     const bool alone_too = meaning.owner[0] == '?';
-    const std::string wanted(meaning.owner.substr(alone_too ? 1 : 0));
     if ((alone_too && (owner < 0 || rule(index).is_item)) || (owner >= 0 && rule(owner).spec.name == wanted))
       return;
     const std::string found = owner < 0 ? "to none" : "to card \"" + rule(owner).spec.name + "\"";

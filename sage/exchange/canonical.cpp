@@ -87,6 +87,14 @@ void CardWriter::copy(std::string_view name) {
       fields.push_back({field.name, text ? 0.0 : card.real(field.name), card.where(field.name),
                         text ? card.text(field.name) : std::string()});
     }
+    // The last field may be a list.
+    if (!card.spec().fields.empty() && !fields.empty() &&
+        fields.back().name == card.spec().fields.back().name) {
+      const std::string field = fields.back().name;
+      const std::span<const FieldValue> list = card.list(field);
+      for (std::size_t i = 1; i < list.size(); ++i)
+        fields.push_back({field, list[i].number, card.where(list[i]), {}});
+    }
     add(std::string(name), card.where(), fields);
   }
 }
@@ -130,6 +138,8 @@ int law_code(const Catalogue& catalogue, std::string_view name) {
 std::optional<Deck> canonical_deck(const Deck& deck, const Catalogue& catalogue) {
   if (deck.has("foundation")) return canonical::embankment_deck(deck, catalogue);
   if (deck.has("rectangle")) return canonical::rectangle_deck(deck, catalogue);
+  if (deck.has("slope")) return canonical::slope_deck(deck, catalogue);
+  if (deck.has("mesh")) return canonical::listed_deck(deck, catalogue);
   if (canonical::has_field(deck, "element", "shear_modulus")) return canonical::quad4m_deck(deck, catalogue);
   if (canonical::has_field(deck, "element", "class")) return canonical::cande_deck(deck, catalogue);
   return std::nullopt;

@@ -67,6 +67,8 @@ inline int corner_element(const Catalogue& catalogue, bool triangle) {
 int law_code(const Catalogue& catalogue, std::string_view name);
 
 Deck rectangle_deck(const Deck& deck, const Catalogue& catalogue);   // meshes numbered by rule
+Deck slope_deck(const Deck& deck, const Catalogue& catalogue);       // a slope numbered by rule
+Deck listed_deck(const Deck& deck, const Catalogue& catalogue);      // meshes listed by order
 Deck embankment_deck(const Deck& deck, const Catalogue& catalogue);  // built in lifts
 Deck quad4m_deck(const Deck& deck, const Catalogue& catalogue);
 Deck cande_deck(const Deck& deck, const Catalogue& catalogue);

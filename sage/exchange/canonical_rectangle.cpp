@@ -1,9 +1,8 @@
-// Decks whose mesh is numbered by rule (Smith and Griffiths): nodes, elements, supports, loads and steps.
+// Decks whose mesh is a rectangle numbered by rule (Smith and Griffiths): nodes, elements, supports, and the
+// stages of two programs that go ways of their own.
 #include <algorithm>
-#include <numbers>
-#include <set>
 
-#include "sage/exchange/canonical.hpp"
+#include "sage/exchange/canonical_body.hpp"
 #include "sage/exchange/rectangle.hpp"
 
 namespace sage::canonical {
@@ -12,22 +11,9 @@ namespace {
 
 constexpr int kMostCells = 5'000'000;
 
-struct Source {
-  const Deck& deck;
-  const Catalogue& catalogue;
-  CardView card;  // the rectangle card
+struct Source : Body {
   Rectangle mesh;
-  bool axisymmetric = false;
-  // Those programs take forces for one radian, this one for the full circle.
-  double circle() const { return axisymmetric ? 2.0 * std::numbers::pi : 1.0; }
 };
-
-[[noreturn]] void refuse(const Source& s, const CardView& card, std::string_view field,
-                         const std::string& message) {
-  Diagnostics problems;
-  problems.add(card_diagnostic(s.deck, Severity::error, card.where(field), message));
-  throw InputError(problems);
-}
 
 // `intervals`: of the card with this name.
 std::vector<double> coordinates(const Source& s, std::string_view name, std::string_view field,
@@ -64,101 +50,28 @@ void read_mesh(Source& s) {
   s.mesh.y = coordinates(s, "rectangle_y", "y", "rows");
 }
 
-// Codes of this program.
-struct Kind {
-  int element, formulation;
-};
-
-// The integration that the deck asks for; blank = 4 points of the 8-node quadrilateral.
-Kind element_kind(const Source& s) {
-  const int points = s.card.integer("integration_points", 4);
-  const int code = solid_code(s.catalogue, s.mesh.triangles ? ParentShape::triangle : ParentShape::square,
-                              s.mesh.nodes_per_element);
-  const ElementEntry& entry = *s.catalogue.elements.find(code);
-  std::string known;
-  for (const Formulation& formulation : entry.formulations) {
-    if (!formulation.plain) continue;
-    if (formulation.points == points) return {code, formulation.code};
-    known += (known.empty() ? "" : ", ") + std::to_string(formulation.points);
-  }
-  refuse(s, s.card, "integration_points",
-         "no " + entry.name + " with " + std::to_string(points) + " integration points; known: " + known);
-}
-
-void add_nodes(const Source& s, CardWriter& out) {
+void number_mesh(Source& s) {
   const Rectangle& mesh = s.mesh;
   const int k = mesh.intervals();
-  const CardView y = s.deck.one("rectangle_y");
+  const SourcePosition where = s.deck.one("rectangle_y").where("y");
   for (int j = 0; j <= k * mesh.rows(); ++j)
-    for (int i = 0; i <= k * mesh.columns(); ++i) {
-      if (!mesh.exists(i, j)) continue;
-      const Vector2 at = mesh.position(i, j);
-      out.add("node", y.where("y"),
-              {{"number", static_cast<double>(mesh.number(i, j))}, {"x", at.x()}, {"y", at.y()}});
-    }
+    for (int i = 0; i <= k * mesh.columns(); ++i)
+      if (mesh.exists(i, j)) s.nodes.push_back({mesh.number(i, j), mesh.position(i, j), where});
+  for (int e = 0; e < mesh.elements(); ++e) s.elements.push_back({mesh.nodes(e), s.card.where()});
+  s.triangles = mesh.triangles;
+  s.nodes_per_element = mesh.nodes_per_element;
 }
 
-// One law a program: the columns of the material rows tell which.
-void add_materials(const Source& s, CardWriter& out) {
-  int number = 0;
-  for (const CardView& row : s.deck.all("material_values")) {
-    std::vector<NewField> values{take(row, "youngs_modulus", "values"), take(row, "poissons_ratio", "values")};
-    std::string law = "linear_elastic";
-    if (!row.blank("undrained_strength")) {
-      // von Mises: sqrt(J2) = c, which is cone 3 at phi = 0.
-      law = "drucker_prager";
-      values.push_back(take(row, "undrained_strength", "values"));
-      for (double value : {0.0, 0.0, 3.0}) values.push_back({"values", value});
-    } else if (!row.blank("friction_angle")) {
-      law = "mohr_coulomb";
-      for (const char* field : {"cohesion", "friction_angle", "dilation_angle"})
-        values.push_back(take(row, field, "values"));
-    }
-    if (row.real("bulk_modulus") != 0.0)
-      refuse(s, row, "bulk_modulus",
-             "pore water with a bulk modulus is not modelled; drained only (bulk modulus 0)");
-    const int card = out.add("material", row.where(),
-                             {{"number", static_cast<double>(++number)},
-                              {"law", static_cast<double>(law_code(s.catalogue, law))},
-                              {"unit_weight", row.real("unit_weight"), row.where("unit_weight")},
-                              {"name", 0.0, {}, "material " + std::to_string(number)}});
-    out.add("parameters", row.where(), values, card);
-  }
-}
-
-// Materials of the elements in their order; one program lists them row by row although it counts along y.
-std::vector<int> element_materials(const Source& s) {
-  std::vector<int> of_element(static_cast<std::size_t>(s.mesh.elements()), 1);
-  if (!s.deck.has("element_materials")) return of_element;
-  const bool row_by_row = !s.card.blank("footing");
-  const CardView card = s.deck.one("element_materials");
-  const auto list = card.list("materials");
+// Material of each element; one program lists them row by row although it counts along y.
+std::vector<int> materials_by_place(const Source& s) {
+  std::vector<int> listed = element_materials(s);
+  if (s.card.blank("footing")) return listed;
+  std::vector<int> of_element(listed.size());
   for (std::size_t e = 0; e < of_element.size(); ++e) {
     const auto [column, row] = s.mesh.cell_place(s.mesh.cell(static_cast<int>(e)));
-    const std::size_t at = row_by_row ? static_cast<std::size_t>(row * s.mesh.columns() + column) : e;
-    if (at >= list.size()) refuse(s, card, "materials", "there are fewer materials than elements");
-    of_element[e] = static_cast<int>(list[at].number);
+    of_element[e] = listed[static_cast<std::size_t>(row * s.mesh.columns() + column)];
   }
   return of_element;
-}
-
-void add_elements(const Source& s, CardWriter& out) {
-  const Kind kind = element_kind(s);
-  const std::vector<int> material = element_materials(s);
-  for (int m : std::set<int>(material.begin(), material.end()))
-    out.add("group", s.card.where(),
-            {{"number", static_cast<double>(m)},
-             {"element", static_cast<double>(kind.element)},
-             {"formulation", static_cast<double>(kind.formulation)},
-             {"material", static_cast<double>(m)},
-             {"name", 0.0, {}, "material " + std::to_string(m)}});
-  for (int e = 0; e < s.mesh.elements(); ++e) {
-    std::vector<NewField> fields{{"number", e + 1.0},
-                                 {"group", static_cast<double>(material[static_cast<std::size_t>(e)])}};
-    int n = 0;
-    for (int node : s.mesh.nodes(e)) fields.push_back({"n" + std::to_string(++n), static_cast<double>(node)});
-    out.add("element", s.card.where(), fields);
-  }
 }
 
 // Programs without restraint cards hold both sides against x and the bottom altogether.
@@ -180,14 +93,6 @@ int add_stage(const Source& s, CardWriter& out, const std::string& title, int in
   out.add("stage_title", s.card.where(), {{"title", 0.0, {}, title}});
   return out.add("stage", s.card.where(),
                  {{"increments", static_cast<double>(increments)}, {"gravity_y", gravity}});
-}
-
-void add_loads(const Source& s, CardWriter& out, double factor, int stage) {
-  for (const CardView& load : s.deck.all("load"))
-    out.add("load", load.where(),
-            {take(load, "first"), take(load, "x_force", {}, factor * s.circle()),
-             take(load, "y_force", {}, factor * s.circle())},
-            stage);
 }
 
 void add_displacement(CardWriter& out, const NewField& node, bool along_x, double value, int stage) {
@@ -262,42 +167,25 @@ void add_triaxial(const Source& s, CardWriter& out) {
              nodes);
 }
 
-// Forces that come with factors, one stage a step; or one elastic step with displacements too.
-void add_steps(const Source& s, CardWriter& out) {
-  if (!s.deck.has("increments")) {
-    const int stage = add_stage(s, out, "load", 1);
-    add_loads(s, out, 1.0, stage);
-    for (const CardView& card : s.deck.all("displacement"))
-      add_displacement(out, take(card, "first"), card.integer("direction") == 1, card.real("value"), stage);
-    return;
-  }
-  int step = 0;
-  for (const FieldValue& factor : s.deck.one("increments").list("factors"))
-    add_loads(s, out, factor.number, add_stage(s, out, "load step " + std::to_string(++step), 1));
-}
-
 }  // namespace
 
 Deck rectangle_deck(const Deck& deck, const Catalogue& catalogue) {
-  Source s{deck, catalogue, deck.one("rectangle"), {}, false};
+  Source s{{deck, catalogue, deck.one("rectangle")}, {}};
   if (!s.card.blank("harmonic"))
     refuse(
         s, s.card, "harmonic",
         "a body of revolution under a harmonic load has three displacements a node: no model is built from it");
   read_mesh(s);
+  number_mesh(s);
   CardWriter out(deck);
-  out.add("title", s.card.where(), {{"title", 0.0, {}, deck.layout + " deck, mesh numbered by rule"}});
-  out.add("control", s.card.where(), {{"geometry", s.axisymmetric ? 2.0 : 1.0, s.card.where("geometry")}});
-  add_nodes(s, out);
-  add_materials(s, out);
-  add_elements(s, out);
+  add_body(s, materials_by_place(s), "mesh numbered by rule", out);
   add_fixities(s, out);
   if (!s.card.blank("footing"))
     add_footing(s, out);
   else if (!deck.one("material_values").blank("consolidation"))
     add_triaxial(s, out);
   else
-    add_steps(s, out);
+    add_loading(s, out);
   return out.take();
 }
 

@@ -138,6 +138,7 @@ struct Stage {
   std::vector<EdgeLoad> pressures;
   std::vector<int> births, deaths;      // groups
   std::vector<InitialStress> initials;  // of groups born in this stage
+  double strength_factor = 0.0;         // by which the strengths were divided for it; 0 = it is about no factor
   SourcePosition where;
 };
 

@@ -74,7 +74,8 @@ void Listing::on_start(const Model& model, const Scene& scene, std::string_view 
         scene.points);
 }
 
-void Listing::on_stage_start(const Model& model, int stage, const Solution&) {
+void Listing::on_stage_start(const Model& model, int stage, const Solution& solution) {
+  strength_.start(model, stage, solution);
   listing::stage(file_.text(), model, stage);
   columns_shown_ = false;
   if (stage == 0) last_state_ = "the state before the first increment";
@@ -82,6 +83,7 @@ void Listing::on_stage_start(const Model& model, int stage, const Solution&) {
 
 void Listing::on_increment(const Model& model, const StepReport& report, const Solution& solution) {
   std::string& text = file_.text();
+  strength_.increment(model, report);
   if (!columns_shown_) listing::increment_columns(text);
   listing::increment(text, report);
   columns_shown_ = true;
@@ -98,6 +100,7 @@ void Listing::on_increment(const Model& model, const StepReport& report, const S
 void Listing::on_stage_end(const Model& model, int stage, const EquilibriumAudit& audit,
                            const Solution& solution) {
   std::string& text = file_.text();
+  strength_.end(model, stage, solution);
   listing::audit(text, model, audit);
   if (tables_ != Tables::none) {
     fmt::format_to(std::back_inserter(text), "\n   STATE: end of stage {}\n", stage + 1);
@@ -109,6 +112,7 @@ void Listing::on_stage_end(const Model& model, int stage, const EquilibriumAudit
 void Listing::on_failure(const Model& model, const StepReport& report, const std::string& reason,
                          const Solution& solution) {
   std::string& text = file_.text();
+  strength_.failed(model, report, solution);
   if (!columns_shown_) listing::increment_columns(text);
   listing::increment(text, report);
   listing::heading(text, "NOT CONVERGED");
@@ -124,6 +128,10 @@ void Listing::on_failure(const Model& model, const StepReport& report, const std
 
 void Listing::on_finish(const Model& model, const RunResult& result) {
   std::string& text = file_.text();
+  if (!strength_.rows().empty()) {
+    listing::heading(text, "STRENGTH DIVIDED BY FACTORS");
+    text += strength_table(model, strength_.rows());
+  }
   if (options_.reports != nullptr) listing::report_rows(text, model, *options_.reports);
   listing::work(text, result);
   if (result.status == RunStatus::completed)
@@ -142,6 +150,7 @@ void Listing::exchange(Archive& archive) {
   file_.exchange(archive);
   archive(columns_shown_);
   archive(last_state_);
+  strength_.exchange(archive);
 }
 
 void Listing::stop(const std::string& reason) {

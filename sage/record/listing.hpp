@@ -5,6 +5,7 @@
 #include "sage/record/out_file.hpp"
 #include "sage/record/output.hpp"
 #include "sage/record/report.hpp"
+#include "sage/record/strength.hpp"
 
 namespace sage {
 
@@ -52,6 +53,7 @@ class Listing final : public Output {
   ListingOptions options_;
   Tables tables_ = Tables::stage_end;
   std::vector<Diagnostic> early_;  // warnings from before the header
+  StrengthRows strength_;
   bool started_ = false, columns_shown_ = false;
   std::string last_state_;  // "stage 2, increment 10, load factor 1"
 };

@@ -238,6 +238,7 @@ void RunRecord::exchange(Archive& archive) {
   archive(points);
   archive(out_of_balance);
   archive(audited);
+  strength.exchange(archive);
 }
 
 void RunRecord::on_start(const Model& model, const Scene& scene_found, std::string_view solver_name,
@@ -248,7 +249,8 @@ void RunRecord::on_start(const Model& model, const Scene& scene_found, std::stri
   warnings += model.diagnostics.warnings();
 }
 
-void RunRecord::on_increment(const Model&, const StepReport& report, const Solution&) {
+void RunRecord::on_increment(const Model& model, const StepReport& report, const Solution&) {
+  if (report.converged) strength.increment(model, report);
   stages.resize(std::max(stages.size(), static_cast<std::size_t>(report.stage) + 1));
   StageCount& stage = stages[static_cast<std::size_t>(report.stage)];
   ++stage.increments;
@@ -257,7 +259,9 @@ void RunRecord::on_increment(const Model&, const StepReport& report, const Solut
   points = report.points;
 }
 
-void RunRecord::on_stage_end(const Model&, int, const EquilibriumAudit& audit, const Solution&) {
+void RunRecord::on_stage_end(const Model& model, int stage, const EquilibriumAudit& audit,
+                             const Solution& solution) {
+  strength.end(model, stage, solution);
   out_of_balance = std::max(out_of_balance, audit.out_of_balance);
   ++audited;
 }
@@ -267,6 +271,7 @@ void RunRecord::on_failure(const Model& model, const StepReport& report, const s
   on_increment(model, report, solution);
   --stages.back().increments;
   failed = report;
+  strength.failed(model, report, solution);
 }
 
 void RunRecord::on_finish(const Model&, const RunResult& run_result) {
@@ -281,6 +286,8 @@ std::string summary(const Model& model, const RunRecord& record, const Reports* 
   std::string text = model.title + "\n";
   status_lines(text, model, record);
   counts(text, model, record);
+  if (const auto& rows = record.strength.rows(); !rows.empty())
+    text += "  strength divided by factors, each an analysis of its own\n" + strength_table(model, rows);
   if (reports != nullptr) report_tables(text, model, *reports, digits);
   if (error != nullptr) text += error->text(model);
   if (record.audited > 0)

@@ -6,6 +6,7 @@
 #include "sage/record/discretisation.hpp"
 #include "sage/record/output.hpp"
 #include "sage/record/report.hpp"
+#include "sage/record/strength.hpp"
 
 namespace sage {
 
@@ -18,6 +19,9 @@ class RunRecord final : public Observer {
 
   void on_warning(const Diagnostic& d) override;
   void on_start(const Model&, const Scene&, std::string_view solver, int equations) override;
+  void on_stage_start(const Model& model, int stage, const Solution& solution) override {
+    strength.start(model, stage, solution);
+  }
   void on_increment(const Model&, const StepReport&, const Solution&) override;
   void on_stage_end(const Model&, int stage, const EquilibriumAudit&, const Solution&) override;
   void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
@@ -34,7 +38,8 @@ class RunRecord final : public Observer {
   std::array<long, kStatuses> points{};  // at the last increment
   double out_of_balance = 0.0;           // the largest of all stages
   int audited = 0;                       // stages that reached their end
-  StepReport failed;                     // of a run that did not converge
+  StrengthRows strength;
+  StepReport failed;  // of a run that did not converge
   RunResult result;
   double seconds = 0.0;  // whole run, for the caller to fill in; 0 = not shown
 };

@@ -1,0 +1,140 @@
+#include "sage/exchange/canonical_body.hpp"
+
+#include <numbers>
+#include <set>
+
+namespace sage::canonical {
+
+void refuse(const Body& body, const CardView& card, std::string_view field, const std::string& message) {
+  Diagnostics problems;
+  problems.add(card_diagnostic(body.deck, Severity::error, card.where(field), message));
+  throw InputError(problems);
+}
+
+namespace {
+
+// Codes of this program.
+struct Kind {
+  int element, formulation;
+};
+
+// The integration that the deck asks for; blank = 4 points of the 8-node quadrilateral.
+Kind element_kind(const Body& body) {
+  const int points = body.card.integer("integration_points", 4);
+  const int code = solid_code(body.catalogue, body.triangles ? ParentShape::triangle : ParentShape::square,
+                              body.nodes_per_element);
+  const ElementEntry& entry = *body.catalogue.elements.find(code);
+  std::string known;
+  for (const Formulation& formulation : entry.formulations) {
+    if (!formulation.plain) continue;
+    if (formulation.points == points) return {code, formulation.code};
+    known += (known.empty() ? "" : ", ") + std::to_string(formulation.points);
+  }
+  refuse(body, body.card, "integration_points",
+         "no " + entry.name + " with " + std::to_string(points) + " integration points; known: " + known);
+}
+
+// The law that the columns of a material row tell, and its parameters.
+std::string law_of(const CardView& row, std::vector<NewField>& values) {
+  if (!row.blank("undrained_strength")) {
+    // von Mises: sqrt(J2) = c, which is cone 3 at phi = 0.
+    values.push_back(take(row, "undrained_strength", "values"));
+    for (double value : {0.0, 0.0, 3.0}) values.push_back({"values", value});
+    return "drucker_prager";
+  }
+  if (row.blank("friction_angle")) return "linear_elastic";
+  for (const char* field : {"cohesion", "friction_angle", "dilation_angle"})
+    values.push_back(take(row, field, "values"));
+  return "mohr_coulomb";
+}
+
+void add_materials(const Body& body, CardWriter& out) {
+  int number = 0;
+  for (const CardView& row : body.deck.all("material_values")) {
+    std::vector<NewField> values{take(row, "youngs_modulus", "values"), take(row, "poissons_ratio", "values")};
+    const std::string law = law_of(row, values);
+    if (row.real("bulk_modulus") != 0.0)
+      refuse(body, row, "bulk_modulus",
+             "pore water with a bulk modulus is not modelled; drained only (bulk modulus 0)");
+    std::vector<NewField> fields{{"number", static_cast<double>(++number)},
+                                 {"law", static_cast<double>(law_code(body.catalogue, law))},
+                                 {"unit_weight", row.real("unit_weight"), row.where("unit_weight")},
+                                 {"name", 0.0, {}, "material " + std::to_string(number)}};
+    if (!row.blank("k0")) fields.push_back(take(row, "k0"));
+    const int card = out.add("material", row.where(), fields);
+    out.add("parameters", row.where(), values, card);
+  }
+}
+
+bool any_value(const Deck& deck, std::string_view field) {
+  for (const CardView& row : deck.all("material_values"))
+    if (row.real(field) != 0.0) return true;
+  return false;
+}
+
+}  // namespace
+
+std::vector<int> element_materials(const Body& body) {
+  std::vector<int> of_element(body.elements.size(), 1);
+  if (!body.deck.has("element_materials")) return of_element;
+  const CardView card = body.deck.one("element_materials");
+  const auto list = card.list("materials");
+  const double known = static_cast<double>(body.deck.all("material_values").size());
+  if (list.size() < of_element.size())
+    refuse(body, card, "materials", "there are fewer materials than elements");
+  for (std::size_t e = 0; e < of_element.size(); ++e) {
+    if (!(list[e].number >= 1.0 && list[e].number <= known)) {
+      Diagnostics problems;
+      problems.add(card_diagnostic(
+          body.deck, Severity::error, card.where(list[e]),
+          "element " + std::to_string(e + 1) + " is of a material that no row of values gives"));
+      throw InputError(problems);
+    }
+    of_element[e] = static_cast<int>(list[e].number);
+  }
+  return of_element;
+}
+
+void add_body(const Body& body, const std::vector<int>& material, const std::string& what, CardWriter& out) {
+  out.add("title", body.card.where(), {{"title", 0.0, {}, body.deck.layout + " deck, " + what}});
+  out.add("control", body.card.where(),
+          {{"geometry", body.axisymmetric ? 2.0 : 1.0, body.card.where("geometry")}});
+  for (const BodyNode& node : body.nodes)
+    out.add("node", node.where,
+            {{"number", static_cast<double>(node.number)}, {"x", node.x.x()}, {"y", node.x.y()}});
+  add_materials(body, out);
+  const Kind kind = element_kind(body);
+  for (int m : std::set<int>(material.begin(), material.end()))
+    out.add("group", body.card.where(),
+            {{"number", static_cast<double>(m)},
+             {"element", static_cast<double>(kind.element)},
+             {"formulation", static_cast<double>(kind.formulation)},
+             {"material", static_cast<double>(m)},
+             {"name", 0.0, {}, "material " + std::to_string(m)}});
+  for (std::size_t e = 0; e < body.elements.size(); ++e) {
+    std::vector<NewField> fields{{"number", static_cast<double>(e) + 1.0},
+                                 {"group", static_cast<double>(material[e])}};
+    int n = 0;
+    for (int node : body.elements[e].nodes)
+      fields.push_back({"n" + std::to_string(++n), static_cast<double>(node)});
+    out.add("element", body.elements[e].where, fields);
+  }
+}
+
+void add_loading(const Body& body, CardWriter& out) {
+  const Deck& deck = body.deck;
+  const double circle = body.axisymmetric ? 2.0 * std::numbers::pi : 1.0;
+  for (const CardView& load : deck.all("load"))
+    out.add("load", load.where(),
+            {take(load, "first"), take(load, "x_force", {}, circle), take(load, "y_force", {}, circle)});
+  for (const char* card :
+       {"displacement", "increments", "increment", "removal", "strength_factors", "gravity", "start_stress"})
+    out.copy(card);
+  const bool starts = deck.has("start_stress") || any_value(deck, "k0");
+  if (starts && !deck.has("start_stress")) out.add("start_stress", deck.one("material_values").where(), {});
+  if (!starts && !deck.has("gravity") && any_value(deck, "unit_weight"))
+    out.add("gravity", deck.one("material_values").where(), {{"gravity_x", 0.0}, {"gravity_y", -1.0}});
+  // An elastic body that nothing loads is a deck too: its answer is zero.
+}
+
+}  // namespace sage::canonical
