@@ -214,10 +214,27 @@ void check_totals(Builder& b) {
   compare("total_elements", "elements", elements);
 }
 
+// What a layout says that the deck asks for and the program has not.
+std::vector<LeftOut> left_out_cards(Builder& b, const Deck& as_read) {
+  std::vector<LeftOut> all;
+  for (const CardView& card : as_read.all("left_out")) {
+    const std::string what = card.text("what", "something");
+    const SourcePosition where = card.blank("of") ? card.where() : card.where("of");
+    const std::string message = "the deck asks for " + what + ", which this program does not compute";
+    if (card.integer("partial") == 0)
+      b.problems.add(card_diagnostic(as_read, Severity::error, where, message));
+    else
+      all.push_back({what, card_diagnostic(as_read, Severity::error, where, message)});
+  }
+  return all;
+}
+
 // A deck that asks for more than there is: refused, or computed in part with a line about it in every result.
-void take_left_out(Builder& b) {
+void take_left_out(Builder& b, const Deck& as_read) {
   bool refused = false;
-  for (const LeftOut& one : b.deck.left_out) {
+  std::vector<LeftOut> list = left_out_cards(b, as_read);
+  list.insert(list.end(), b.deck.left_out.begin(), b.deck.left_out.end());
+  for (const LeftOut& one : list) {
     Diagnostic message = one.message;
     b.model.left_out.push_back(one.what);
     if (message.severity == Severity::error) {
@@ -254,7 +271,8 @@ Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOp
   b.model.diagnostics = deck.diagnostics;
   b.model.fields = catalogue.fields;
   build::build_control(b);
-  build::take_left_out(b);
+  build::take_left_out(b, as_read);
+  if (b.problems.errors() > 0 && as_read.has("left_out")) throw refusal(deck, b.problems);
   build::build_nodes(b);
   build::build_materials(b);
   build::build_groups(b);

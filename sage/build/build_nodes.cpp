@@ -178,6 +178,31 @@ void fill_block(Builder& b, PlacedNodes& nodes, const CardView& card, int errors
   }
 }
 
+// Nodes of a card's middle fields: the i-th middle node is that of the side between corners i and i + 1.
+void place_middle_nodes(const CardView& card, int corners, PlacedNodes& nodes) {
+  for (int i = 0; i < corners; ++i) {
+    const int middle = card.integer("n" + std::to_string(corners + i + 1));
+    if (middle < 1 || nodes.count(middle) > 0) continue;
+    const auto from = nodes.find(card.integer("n" + std::to_string(i + 1)));
+    const auto to = nodes.find(card.integer("n" + std::to_string((i + 1) % corners + 1)));
+    if (from != nodes.end() && to != nodes.end()) nodes.emplace(middle, 0.5 * (from->second + to->second));
+  }
+}
+
+// Where the control card asks for it, mid-side nodes that no node card gives stand in the middle of straight
+// sides.
+void add_middle_nodes(Builder& b, PlacedNodes& nodes) {
+  if (b.deck.one("control").integer("middle_nodes") == 0) return;
+  std::map<int, int> corners;  // of the groups' elements
+  for (const CardView& group : b.deck.all("group")) {
+    const ElementEntry* entry = b.catalogue.elements.find(group.integer("element"));
+    if (entry != nullptr && entry->solid()) corners[group.integer("number")] = entry->corners;
+  }
+  for (const CardView& card : b.deck.all("element"))
+    if (const auto found = corners.find(card.integer("group", 1)); found != corners.end())
+      place_middle_nodes(card, found->second, nodes);
+}
+
 }  // namespace
 
 void build_nodes(Builder& b) {
@@ -185,6 +210,7 @@ void build_nodes(Builder& b) {
   const int before = b.problems.errors();
   read_node_cards(b, nodes);
   for (const CardView& card : b.deck.all("fill")) fill_block(b, nodes, card, before);
+  add_middle_nodes(b, nodes);
   b.nodes_known = b.problems.errors() == before;
   if (nodes.empty() && b.problems.errors() == 0)
     b.error(b.deck.one("control").where(), "the deck defines no nodes");

@@ -349,6 +349,7 @@ Stage read_stage(Builder& b, const CardView& card, int number) {
     read_fixity(b, c, true, stage.fixities, stage.field_fixities);
   for (const CardView& c : b.deck.all("load", card)) read_load(b, c, stage.loads, stage.field_loads);
   for (const CardView& c : b.deck.all("pressure", card)) read_pressure(b, c, stage.pressures);
+  for (const CardView& c : b.deck.all("edge_load", card)) read_edge_load(b, c, stage.pressures, stage.loads);
   for (const CardView& c : b.deck.all("birth", card)) read_groups(b, c, false, stage.births);
   for (const CardView& c : b.deck.all("death", card)) read_groups(b, c, true, stage.deaths);
   for (const CardView& c : b.deck.all("initial", card)) read_initial(b, c, stage.initials);

@@ -82,6 +82,10 @@ Loads read_loads(Builder& b, bool values_needed) {
     seen(card);
     read_pressure(b, card, all.pressures);
   }
+  for (const CardView& card : on_their_own(b, "edge_load")) {
+    seen(card);
+    read_edge_load(b, card, all.pressures, all.loads);
+  }
   for (const CardView& card : on_their_own(b, "gravity")) {
     seen(card);
     all.gravity += Vector2(card.real("gravity_x"), card.real("gravity_y"));

@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "sage/build/build_model.hpp"
 #include "sage/deck/deck.hpp"
@@ -27,13 +29,20 @@ struct NumberRange {
   std::int64_t first = 0, last = -1, step = 1;  // empty as it stands
 };
 
+// An edge of a solid by its end nodes, counter-clockwise around the element.
+struct DirectedEdge {
+  int group = 0, element = 0, edge = 0;
+};
+
 // Everything that the steps of building share; operations on the mesh see the part that is theirs.
 struct Builder : mesh::Work {
   const BuildOptions& options;
   std::unordered_map<int, int> group_index = {};
   std::unordered_map<int, int> material_index = {};
   std::unordered_map<int, ElementPlace> element_place = {};
-  DofMap dof_map = {};                  // once the elements are known
+  DofMap dof_map = {};  // once the elements are known
+  // By indices of their end nodes; filled when first asked.
+  std::map<std::pair<int, int>, DirectedEdge> edges = {};
   std::vector<int> blank_weights = {};  // materials whose unit weight is left blank
   // Groups that a removal card takes away, by the card's index: its elements have groups of their own.
   std::unordered_map<int, std::vector<int>> removed = {};
@@ -73,6 +82,9 @@ void build_stages(Builder& b);
 void build_steps(Builder& b);
 // A stage for every factor by which the strengths are divided.
 void build_strength_stages(Builder& b);
+// Pressure and shear on an edge that is given by its nodes.  `forces`: of what is not linear along the edge.
+void read_edge_load(Builder& b, const CardView& card, std::vector<EdgeLoad>& out,
+                    std::vector<NodalLoad>& forces);
 void build_reports(Builder& b);
 // Places of point reports: outside the mesh, or where several bodies meet.
 void check_points(Builder& b);

@@ -326,7 +326,8 @@ bool DeckReader::read_items(const CardRule& rule, ListRead& read) {
   int count = 0;
   const CardRule& item = rule_of(rule.items_card);
   if (!count_of(rule.items_count, item.spec.label + " items", count)) return true;
-  const int owner = static_cast<int>(deck_.cards.size()) - 1;
+  const int owner =
+      latest_[static_cast<std::size_t>(&rule - layout_.cards.data())];  // others may be made behind it
   if (!fits_the_file(count, true)) {
     fail_and_stop(log_.line(records_.line()), std::to_string(count) + " " + item.spec.label +
                                                   " items can't be in a deck of " +

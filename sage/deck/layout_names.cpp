@@ -34,7 +34,7 @@ bool is_node_name(std::string_view name) {
 constexpr KnownCard kKnown[] = {
     {"sage1", "title", false, "", "title", ""},
     {"sage1", "units", false, "", "length force stress atmospheric_pressure water_unit_weight", ""},
-    {"sage1", "control", true, "", "geometry solver total_nodes total_elements", ""},
+    {"sage1", "control", true, "", "geometry solver total_nodes total_elements middle_nodes", ""},
     {"sage1", "node", true, "number x y", "step system ratio", ""},
     {"sage1", "fill", false, "first columns rows row_step", "column_step column_ratio row_ratio", ""},
     {"sage1", "material", true, "number law", "unit_weight name k0", ""},
@@ -49,11 +49,14 @@ constexpr KnownCard kKnown[] = {
      "increments duration method max_iterations output_every gravity_x gravity_y tolerance", ""},
     {"sage1", "load", false, "first x_force|y_force", "last step x_force y_force unknown", "!stage"},
     {"sage1", "pressure", false, "element edge normal1 normal2", "last step shear1 shear2", "!stage"},
+    {"sage1", "edge_load", false, "n1 n2 normal1 normal2", "n3 element normal3 shear1 shear2 shear3", "!stage"},
     {"sage1", "birth", false, "groups", "", "stage"},
     {"sage1", "death", false, "groups", "", "stage"},
     {"sage1", "report", false, "first|nodes",
      "kind first last step nodes group stage height area cell_pressure", ""},
     {"sage1", "point", false, "x y", "name", "report"},
+
+    {"any", "left_out", false, "what", "of partial", ""},
 
     {"quad4m", "title", false, "", "title", ""},
     {"quad4m", "units", true, "system", "", ""},
@@ -209,8 +212,8 @@ class NameCheck {
     for (std::size_t f = 0; f < card.spec.fields.size(); ++f) {
       const std::string& name = card.spec.fields[f].name;
       const bool means = !card.ignored && means_something(meaning, names, name);
-      const bool needed =
-          in_expressions_.contains({index, static_cast<int>(f)}) || !card.rules[f].must_equal.empty();
+      const bool needed = in_expressions_.contains({index, static_cast<int>(f)}) ||
+                          !card.rules[f].must_equal.empty() || card.rules[f].allowed.size() == 1;
       std::string& list = means                                   ? used
                           : needed                                ? expressions
                           : card.ignored || card.rules[f].ignored ? ignored
@@ -257,7 +260,7 @@ class NameCheck {
     return std::find(std::begin(kBodies), std::end(kBodies), family_) != std::end(kBodies);
   }
   bool belongs(const KnownCard& card) const {
-    return card.family == family_ || (card.family == "body" && is_body()) ||
+    return card.family == family_ || card.family == "any" || (card.family == "body" && is_body()) ||
            (card.family == "steps" && (is_body() || family_ == "sage1"));
   }
   // Stages are made from these cards where the layout has none.
@@ -298,7 +301,8 @@ class NameCheck {
 
   bool is_used(int card, int field) const {
     const FieldRule& one = rule(card).rules[static_cast<std::size_t>(field)];
-    return one.ignored || in_expressions_.contains({card, field}) || !one.must_equal.empty();
+    return one.ignored || in_expressions_.contains({card, field}) || !one.must_equal.empty() ||
+           one.allowed.size() == 1;  // checked, and then it says nothing more
   }
 
   // What the card could still mean.
@@ -343,13 +347,13 @@ class NameCheck {
 
   void check_owner(int index, const KnownCard& meaning) {
     if (meaning.owner.empty()) return;
-    const int owner = owners_[static_cast<std::size_t>(index)];
     const bool marked = meaning.owner[0] == '?' || meaning.owner[0] == '!';
     const std::string wanted(meaning.owner.substr(marked ? 1 : 0));
-    if (meaning.owner[0] == '!' && !has_card(wanted)) return;
-    const bool alone_too = meaning.owner[0] == '?';
-    if ((alone_too && (owner < 0 || rule(index).is_item)) || (owner >= 0 && rule(owner).spec.name == wanted))
-      return;
+    const int owner = owners_[static_cast<std::size_t>(index)];
+    // Where the layout has no such card, what belongs to another stands on its own.
+    if (marked && !has_card(wanted)) return;
+    if (meaning.owner[0] == '?' && (owner < 0 || rule(index).is_item)) return;
+    if (owner >= 0 && rule(owner).spec.name == wanted) return;
     const std::string found = owner < 0 ? "to none" : "to card \"" + rule(owner).spec.name + "\"";
     error(rule(index).line, "card \"" + rule(index).spec.name + "\" must belong to a card \"" + wanted +
                                 "\" and belongs " + found + ": put opens = true on the \"" + wanted +

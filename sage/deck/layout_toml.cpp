@@ -472,9 +472,8 @@ class LayoutReader : private TomlFile {
     if (field.empty()) return;
     int place = field_place(index, field);
     const bool before = found.kind == ExpressionNode::Kind::previous;  // of the card before: complete
-    const bool later = place >= 0 && !before && is_later(index, place);
-    // A bare name in a card made from another may be of that card.
-    if (card.empty() && source_card_ >= 0 && (place < 0 || later)) {
+    // A bare name in a card made from another is of that card first: the same name means the same in every field.
+    if (card.empty() && source_card_ >= 0) {
       if (const int of_source = field_place(source_card_, field); of_source >= 0) {
         index = source_card_;
         place = of_source;

@@ -47,6 +47,15 @@ class SlipSearch {
     return fields[std::min(static_cast<std::size_t>(index - card_.first_value), fields.size() - 1)];
   }
 
+  // Computed fields stand between those that are read, and have no characters.
+  int end() const { return card_.first_value + card_.value_count; }
+  int next_read(int index) const {
+    do ++index;
+    while (index < end() && spec(index).computed);
+    return index;
+  }
+  int first_read() const { return next_read(card_.first_value - 1); }
+
   bool is_full(const Seam& seam) const {
     const std::string_view text = value(seam).text;
     return text.size() == seam.width && text.find(' ') == std::string_view::npos;
@@ -59,13 +68,13 @@ class SlipSearch {
   bool is_shared(std::size_t i) const {
     if (i + 1 == seams_.size()) return false;
     const Seam &left = seams_[i], &right = seams_[i + 1];
-    return right.value == left.value + 1 && right.start == left.start + left.width &&
+    return right.value == next_read(left.value) && right.start == left.start + left.width &&
            value(left).line == value(right).line;
   }
   // Some field of the card holds this column (tabs may go back).
   bool is_read(int line, std::size_t column) const {
-    for (std::int32_t i = 0; i < card_.value_count; ++i) {
-      const FieldValue& v = deck_.values[static_cast<std::size_t>(card_.first_value + i)];
+    for (int index = first_read(); index < end(); index = next_read(index)) {
+      const FieldValue& v = deck_.values[static_cast<std::size_t>(index)];
       if (v.line == line && v.first_column <= column && column <= v.last_column) return true;
     }
     return false;
@@ -87,8 +96,8 @@ class SlipSearch {
 
   // Every number of the card begins in the first column of its field.
   bool all_begin_fields(FieldKind kind) const {
-    for (std::int32_t i = 0; i < card_.value_count; ++i) {
-      const FieldValue& v = deck_.values[static_cast<std::size_t>(card_.first_value + i)];
+    for (int index = first_read(); index < end(); index = next_read(index)) {
+      const FieldValue& v = deck_.values[static_cast<std::size_t>(index)];
       if (!v.blank && v.kind == kind && v.text.front() == ' ') return false;
     }
     return true;
@@ -97,12 +106,11 @@ class SlipSearch {
   // more digits than one (a slip by one column leaves none of these in a right-justified card).
   bool is_left_justified(const Seam& slipped) const {
     const FieldKind kind = value(slipped).kind;
-    for (std::int32_t i = 0; i < card_.value_count; ++i) {
-      const int index = card_.first_value + i;
+    for (int index = first_read(); index < end(); index = next_read(index)) {
       const FieldValue& v = deck_.values[static_cast<std::size_t>(index)];
       if (index == slipped.value || v.blank || v.kind != kind || v.text.front() == ' ' || v.text.back() != ' ')
         continue;
-      if (index + 1 < slipped.value || v.text[1] != ' ') return true;
+      if (next_read(index) < slipped.value || v.text[1] != ' ') return true;
     }
     return false;
   }
@@ -115,7 +123,7 @@ class SlipSearch {
     if (is_of_number(seam.before) && is_of_number(v.text.front()) && v.kind != FieldKind::text &&
         !is_read(v.line, v.first_column - std::size_t{1}))
       return found(Slip::lost_head, seam, v.first_column - 1);
-    if (seam.lone && is_digit(v.text.front()) && seam.value > card_.first_value && is_moved(seam))
+    if (seam.lone && is_digit(v.text.front()) && seam.value > first_read() && is_moved(seam))
       return found(Slip::moved, seam, v.first_column);
     return std::nullopt;
   }
@@ -142,7 +150,9 @@ class SlipSearch {
   // A right-justified digit that came one column too far: the field that it left is blank.
   bool is_moved(const Seam& seam) const {
     const FieldValue& v = value(seam);
-    const FieldValue& before = deck_.values[static_cast<std::size_t>(seam.value) - 1];
+    int index = seam.value - 1;
+    while (spec(index).computed) --index;
+    const FieldValue& before = deck_.values[static_cast<std::size_t>(index)];
     const bool left_by_it = before.blank && before.kind != FieldKind::text && before.line == v.line &&
                             before.last_column + 1 == v.first_column;
     return left_by_it && !is_left_justified(seam);

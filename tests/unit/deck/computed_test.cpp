@@ -128,10 +128,12 @@ name = "material"
 made_from = "row"
 opens = true
 fields = [
-  { name = "number", kind = "integer", value = "number" },
+  { name = "number", kind = "integer", value = "100 + number" },
   { name = "law", kind = "integer", value = "if(mark == 'clay', 5, 6)" },
   { name = "name", value = "mark" },
   { name = "unit", value = "'kN'" },
+  { name = "tens", value = "10 * number" },
+  { name = "own", value = "number + material.tens" },
 ]
 
 [[card]]
@@ -156,6 +158,10 @@ fields = [{ name = "values", value = ["row.modulus", 0.2] }]
   EXPECT_EQ(materials[1].integer("law"), 6);
   EXPECT_EQ(materials[1].text("name"), "rock");
   EXPECT_EQ(materials[1].text("unit"), "kN");
+  // A bare name is of the row in every field, whatever the card itself has computed under it.
+  EXPECT_EQ(materials[1].integer("number"), 102);
+  EXPECT_EQ(materials[1].real("tens"), 20.0);
+  EXPECT_EQ(materials[1].real("own"), 22.0);
   EXPECT_EQ(materials[1].where().line, 2);
   const std::vector<CardView> parameters = deck.all("parameters", materials[1]);
   ASSERT_EQ(parameters.size(), 1u);
@@ -311,6 +317,49 @@ fields = [{ name = "number", value = "number" }]
   const std::string text = echo(deck);
   EXPECT_NE(text.find("cohesion := 173.2050807568877"), std::string::npos) << text;
   EXPECT_NE(text.find("    + material, made:\n        number := 2\n"), std::string::npos) << text;
+}
+
+// A computed field among those of a record has no characters that could touch its neighbours'.
+TEST(Computed, ShiftedCardsAreSeenBesideComputedFields) {
+  const std::string toml = R"toml([[card]]
+name = "row"
+format = "(3I5)"
+fields = [{ name = "a" }, { name = "x", value = "a" }, { name = "b" }, { name = "y", value = "'t'" }, { name = "c" },
+          { name = "z", value = "b" }]
+)toml";
+  const Deck shifted = read(toml, "   12   34   56   78\n");
+  const Deck cut = read(toml, "    1  1234567   56\n");
+  const Deck moved = read(toml, "    1     7    3\n");
+  EXPECT_EQ(shifted.diagnostics.warnings(), 0);
+  ASSERT_EQ(cut.diagnostics.warnings(), 1);
+  EXPECT_NE(cut.diagnostics.list().front().message.find("\"1234567\" is cut in two"), std::string::npos)
+      << cut.diagnostics.list().front().message;
+  ASSERT_EQ(moved.diagnostics.warnings(), 1);
+  EXPECT_NE(moved.diagnostics.list().front().message.find("stands alone"), std::string::npos);
+}
+
+TEST(Computed, ItemsBelongToTheirReadThoughCardsAreMadeFromIt) {
+  const Deck deck = read(R"toml([[card]]
+name = "head"
+format = "*"
+fields = [{ name = "n", kind = "integer" }]
+items = { name = "item", count = "head.n", fields = [{ name = "a", kind = "integer" }] }
+
+[[card]]
+name = "made"
+made_from = "head"
+fields = [{ name = "n", value = "n" }]
+
+[[card]]
+name = "twice"
+made_from = "item"
+fields = [{ name = "a", value = "2 * a" }]
+)toml",
+                         "2 5 6\n");
+  ASSERT_EQ(deck.cards.size(), 6u);
+  const CardView head(deck, 0);
+  EXPECT_EQ(deck.all("item", head).size(), 2u);
+  EXPECT_EQ(deck.all("twice")[1].real("a"), 12.0);
 }
 
 // Time grows with the cards: ten times the cards may take twenty times as long on a loaded machine, not a hundred.
