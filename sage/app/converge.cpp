@@ -413,7 +413,7 @@ Climb::Climb(const RunRequest& request, const ConvergeOptions& options, const Ca
 // Degrees and layers start from the coarsest mesh that means the same as the deck's.
 Ladder Climb::choose_ladder() {
   const Deck deck = read_input(request_.deck, request_.input);
-  deck_sum_ = checksum(*deck.source);
+  deck_sum_ = checksum(*deck.source.text());
   BuildOptions& build = request_.input.build;
   const Model first = build_model(deck, catalogue_, build);
   print_diagnostics(first.diagnostics);

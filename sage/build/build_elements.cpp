@@ -281,7 +281,7 @@ void read_material(Builder& b, const CardView& card, const std::vector<CardView>
   }
   m.law_name = entry->name;
   m.entry = b.catalogue.materials.share(m.code);
-  std::span<const FieldValue> given;
+  std::vector<FieldValue> given;
   SourcePosition where = card.where();
   if (!parameter_cards.empty()) {
     given = parameter_cards.front().list("values");

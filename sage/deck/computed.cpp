@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "sage/deck/deck_reader.hpp"
 #include "sage/deck/text.hpp"
@@ -22,19 +23,19 @@ bool is_list(const FieldRule& rule) {
 
 // ---- What expressions find
 
+// A card whose places are not kept is read again for them, once.
+const std::vector<FieldValue>& DeckReader::fields_of(std::vector<CardFields>& kept, int rule, int card) const {
+  CardFields& fields = kept[static_cast<std::size_t>(rule)];
+  if (fields.card != card) fields = {card, deck_.values(deck_.cards[static_cast<std::size_t>(card)])};
+  return fields.values;
+}
+
+// Of the card being read, or of the last of its kind.
 const FieldValue* DeckReader::field_value(int card, int field) const {
-  const int index = latest_[static_cast<std::size_t>(card)];
-  std::size_t first = 0, count = 0;
-  if (card == own_rule_ && own_card_ >= 0) {  // the card being read isn't closed yet
-    first = static_cast<std::size_t>(own_card_);
-    count = deck_.values.size() - first;
-  } else if (index >= 0) {
-    const Card& read = deck_.cards[static_cast<std::size_t>(index)];
-    first = static_cast<std::size_t>(read.first_value);
-    count = static_cast<std::size_t>(read.value_count);
-  }
-  return static_cast<std::size_t>(field) < count ? &deck_.values[first + static_cast<std::size_t>(field)]
-                                                 : nullptr;
+  const int latest = latest_[static_cast<std::size_t>(card)];
+  if (!is_own(card) && latest < 0) return nullptr;
+  const std::vector<FieldValue>& values = is_own(card) ? fields_ : fields_of(latest_fields_, card, latest);
+  return static_cast<std::size_t>(field) < values.size() ? &values[static_cast<std::size_t>(field)] : nullptr;
 }
 
 ExpressionValue DeckReader::value_of(int card, int field) const {
@@ -60,8 +61,7 @@ ExpressionValue DeckReader::value_of(const ExpressionNode& node, double operand)
     case Kind::count:
       return number(counts_[static_cast<std::size_t>(node.card)]);
     case Kind::order:
-      return number(counts_[static_cast<std::size_t>(node.card)] +
-                    (node.card == own_rule_ && own_card_ >= 0 ? 1 : 0));
+      return number(counts_[static_cast<std::size_t>(node.card)] + (is_own(node.card) ? 1 : 0));
     case Kind::index:
       return number(list_index_);
     case Kind::item:
@@ -75,11 +75,12 @@ ExpressionValue DeckReader::value_of(const ExpressionNode& node, double operand)
 ExpressionValue DeckReader::previous_value(const ExpressionNode& node) const {
   const int index = previous_[static_cast<std::size_t>(node.card)];
   const int latest = latest_[static_cast<std::size_t>(node.card)];
-  const int wanted = node.card == own_rule_ && own_card_ >= 0 ? latest : index;
+  const int wanted = is_own(node.card) ? latest : index;
   if (wanted < 0) return {};
-  const Card& card = deck_.cards[static_cast<std::size_t>(wanted)];
-  if (node.field >= card.value_count) return {};
-  const FieldValue& value = deck_.values[static_cast<std::size_t>(card.first_value + node.field)];
+  std::vector<CardFields>& kept = is_own(node.card) ? latest_fields_ : previous_fields_;
+  const std::vector<FieldValue>& values = fields_of(kept, node.card, wanted);
+  if (static_cast<std::size_t>(node.field) >= values.size()) return {};
+  const FieldValue& value = values[static_cast<std::size_t>(node.field)];
   return {number_in(value, rule_of(node.card).spec.fields[static_cast<std::size_t>(node.field)]),
           trimmed(value.text)};
 }
@@ -89,13 +90,9 @@ std::span<const FieldValue> DeckReader::list_of(int card, int field) const {
   const FieldValue* first = field_value(card, field);
   if (!first) return {};
   if (static_cast<std::size_t>(field) + 1 < rule_of(card).spec.fields.size()) return {first, 1};
-  const int index = latest_[static_cast<std::size_t>(card)];
-  std::size_t end = deck_.values.size();
-  if (card != own_rule_ || own_card_ < 0) {
-    const Card& read = deck_.cards[static_cast<std::size_t>(index)];
-    end = static_cast<std::size_t>(read.first_value + read.value_count);
-  }
-  return {first, end - static_cast<std::size_t>(first - deck_.values.data())};
+  const std::vector<FieldValue>& values =
+      is_own(card) ? fields_ : latest_fields_[static_cast<std::size_t>(card)].values;
+  return std::span(values).subspan(static_cast<std::size_t>(field));
 }
 
 // NaN where the list has no such place.
@@ -110,7 +107,7 @@ ExpressionValue DeckReader::item_of(const ExpressionNode& node, double place) co
 
 double DeckReader::sum_of(const ExpressionNode& node) const {
   double sum = sums_.at({node.card, node.field});
-  if (node.card == own_rule_ && own_card_ >= 0)
+  if (is_own(node.card))
     for (const FieldValue& value : list_of(node.card, node.field))
       sum += number_in(value, rule_of(node.card).spec.fields[static_cast<std::size_t>(node.field)]);
   return sum;
@@ -123,9 +120,11 @@ double DeckReader::sum_of_first(const ExpressionNode& node, double count) const 
     return std::numeric_limits<double>::quiet_NaN();
   if (list.empty()) return 0.0;
   ListSum& last = list_sums_[{node.card, node.field}];
-  const auto first_value = static_cast<int>(list.data() - deck_.values.data());
+  const std::size_t card = is_own(node.card)
+                               ? deck_.cards.size()
+                               : static_cast<std::size_t>(latest_[static_cast<std::size_t>(node.card)]);
   const auto wanted = static_cast<std::size_t>(count);
-  if (last.first_value != first_value || last.count > wanted) last = {first_value, 0, 0.0};
+  if (last.card != card || last.count > wanted) last = {card, 0, 0.0};
   const FieldSpec& spec = rule_of(node.card).spec.fields[static_cast<std::size_t>(node.field)];
   for (; last.count < wanted; ++last.count) last.sum += number_in(list[last.count], spec);
   return last.sum;
@@ -184,7 +183,7 @@ void DeckReader::set_number(const CardRule& rule, std::size_t field, const Expre
   log_.add(Severity::error, value.line > 0 ? log_.where(value) : log_.line(records_.line()),
            "the value " + number_text(number) + " is no integer " + field_text(rule, spec) + ": " +
                expression.source + " (" + layout_.file + ", line " + std::to_string(expression.line) + ")");
-  faulty_.push_back(static_cast<int>(&value - deck_.values.data()));
+  mark_faulty(static_cast<std::size_t>(&value - fields_.data()));
 }
 
 void DeckReader::compute(const CardRule& rule, std::size_t field, const Expression& expression,
@@ -194,13 +193,13 @@ void DeckReader::compute(const CardRule& rule, std::size_t field, const Expressi
   value.blank = false;
   take_place(expression, value);
   if (!faulty_.empty() && is_faulty(expression)) {  // which has been reported
-    faulty_.push_back(static_cast<int>(&value - deck_.values.data()));
+    mark_faulty(static_cast<std::size_t>(&value - fields_.data()));
     return;
   }
   const ExpressionResult result = evaluate(expression, *this);
   if (result.fault) {
     fault(log_.where(value), "the " + spec.label + " of the " + rule.spec.label + " card", expression, result);
-    faulty_.push_back(static_cast<int>(&value - deck_.values.data()));
+    mark_faulty(static_cast<std::size_t>(&value - fields_.data()));
     return;
   }
   if (spec.kind != FieldKind::text) return set_number(rule, field, expression, result.value.number, value);
@@ -215,40 +214,38 @@ void DeckReader::compute(const CardRule& rule, std::size_t field, const Expressi
 }
 
 // The values of a list that is computed stand behind all others of the card.
-void DeckReader::compute_list(const CardRule& rule, std::size_t field, const Card& card) {
+void DeckReader::compute_list(const CardRule& rule, std::size_t field, int line) {
   const FieldRule& one = rule.rules[field];
   auto count = static_cast<int>(one.values.size());
   if (!one.count.empty() && !count_of(one.count, rule.spec.fields[field].label, count)) return;
-  if (!may_make(static_cast<std::size_t>(count), card.line)) return;
+  if (!may_make(static_cast<std::size_t>(count), line)) return;
   for (int i = 0; i < count && !stopped_; ++i) {
     list_index_ = i + 1;
     FieldValue value;  // values may move where one is added
-    value.line = card.line;
-    deck_.values.push_back(value);
+    value.line = line;
+    fields_.push_back(value);
     const Expression& expression = one.values[one.count.empty() ? static_cast<std::size_t>(i) : 0];
-    compute(rule, field, expression, deck_.values.back());
-    if (!one.allowed.empty()) check_allowed(rule, field, static_cast<int>(deck_.values.size()) - 1);
+    compute(rule, field, expression, fields_.back());
+    if (!one.allowed.empty()) check_allowed(rule, field, fields_.size() - 1);
   }
 }
 
-void DeckReader::compute_fields(const CardRule& rule, Card& card) {
-  const auto first = static_cast<std::size_t>(card.first_value);
+void DeckReader::compute_fields(const CardRule& rule, int line) {
   const std::size_t fields = rule.rules.size() - (is_list(rule.rules.back()) ? 1 : 0);
-  for (std::size_t i = deck_.values.size() - first; i < fields; ++i) {  // a slash ended the READ early
-    FieldValue& value = deck_.values.emplace_back();
-    value.line = card.line;
+  for (std::size_t i = fields_.size(); i < fields; ++i) {  // a slash ended the READ early
+    FieldValue& value = fields_.emplace_back();
+    value.line = line;
     value.kind = rule.spec.fields[i].kind;
   }
   for (std::size_t i = 0; i < rule.rules.size() && !stopped_; ++i) {
     if (!rule.spec.fields[i].computed) continue;
     if (is_list(rule.rules[i])) {
-      compute_list(rule, i, card);
+      compute_list(rule, i, line);
       continue;
     }
-    compute(rule, i, rule.rules[i].values.front(), deck_.values[first + i]);
-    if (!rule.rules[i].allowed.empty()) check_allowed(rule, i, static_cast<int>(first + i));
+    compute(rule, i, rule.rules[i].values.front(), fields_[i]);
+    if (!rule.rules[i].allowed.empty()) check_allowed(rule, i, i);
   }
-  card.value_count = static_cast<std::int32_t>(deck_.values.size() - first);
 }
 
 // ---- Made cards
@@ -270,20 +267,20 @@ void DeckReader::make_card(const LayoutEntry& entry, int owner, int line) {
   card.spec = entry.card;
   card.owner = owner;
   card.line = line;
-  card.first_value = static_cast<std::int32_t>(deck_.values.size());
-  own_card_ = card.first_value;
   own_rule_ = entry.card;
   flaws_.clear();
   FieldValue value;
   value.line = line;
-  deck_.values.resize(deck_.values.size() + rule.rules.size() - (is_list(rule.rules.back()) ? 1 : 0), value);
+  const std::vector<FieldValue> outer = std::exchange(
+      fields_, std::vector<FieldValue>(rule.rules.size() - (is_list(rule.rules.back()) ? 1 : 0), value));
   const std::size_t index = deck_.cards.size();
   close_card(rule, card, true);
+  fields_ = outer;  // of the card that it follows
   if (entry.made_from >= 0) return;
   // The line of what it says; that of the card read last, where it says nothing of the deck.
   Card& made = deck_.cards[index];
   for (std::int32_t i = 0; i < made.value_count; ++i) {
-    const FieldValue& one = deck_.values[static_cast<std::size_t>(made.first_value + i)];
+    const ValuePlace& one = deck_.places[static_cast<std::size_t>(made.first_place + i)];
     if (one.first_column == 0) continue;
     made.line = one.line;
     return;
@@ -322,8 +319,12 @@ void DeckReader::count_card(const Card& card, int sign) {
     const FieldSpec& spec = rule_of(card.spec).spec.fields[static_cast<std::size_t>(field)];
     const bool list = static_cast<std::size_t>(field) + 1 == rule_of(card.spec).spec.fields.size();
     double& sum = sums_[{card.spec, field}];
-    for (std::int32_t i = field; i < (list ? card.value_count : std::min(field + 1, card.value_count)); ++i)
-      sum += sign * number_in(deck_.values[static_cast<std::size_t>(card.first_value + i)], spec);
+    // What stands behind the values of a card that can be read again is blank.
+    const int count = card.first_place < 0 ? std::max(field + 1, card.value_count) : card.value_count;
+    for (int i = field; i < (list ? count : std::min(field + 1, count)); ++i) {
+      const double number = deck_.number(card, i);
+      sum += sign * (!Deck::is_blank(number) ? number : spec.has_fallback ? spec.fallback : 0.0);
+    }
   }
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sage/deck/source.hpp"
+#include "sage/deck/card_formats.hpp"
 #include "sage/deck/text.hpp"
 
 namespace sage {
@@ -59,9 +59,51 @@ bool Deck::has(std::string_view name) const {
   return !all(name).empty();
 }
 
-std::string_view Deck::line_text(int line) const {
-  if (!source || line < 1 || line > static_cast<int>(line_starts.size())) return {};
-  return line_at(*source, line_starts[static_cast<std::size_t>(line) - 1]);
+void Deck::add(Card card, std::span<const FieldValue> fields, bool again) {
+  card.first_value = static_cast<std::int32_t>(numbers.size());
+  card.value_count = static_cast<std::int32_t>(fields.size());
+  card.first_place = again ? -1 : static_cast<std::int32_t>(places.size());
+  for (const FieldValue& value : fields) numbers.push_back(value.blank ? blank_number() : value.number);
+  if (!again)
+    for (const FieldValue& value : fields)
+      places.push_back({value.text, value.line, value.first_column, value.last_column, value.kind});
+  cards.push_back(card);
+}
+
+void Deck::cut_back(std::size_t card) {
+  if (card >= cards.size()) return;
+  numbers.resize(static_cast<std::size_t>(cards[card].first_value));
+  for (std::size_t i = card; i < cards.size(); ++i)
+    if (cards[i].first_place >= 0) {
+      places.resize(static_cast<std::size_t>(cards[i].first_place));
+      break;
+    }
+  cards.resize(card);
+}
+
+std::vector<FieldValue> Deck::values(const Card& card) const {
+  const auto count = static_cast<std::size_t>(card.value_count);
+  std::vector<FieldValue> fields;
+  if (card.first_place < 0) {
+    const auto spec = static_cast<std::size_t>(card.spec);
+    fields = read_again(*this, card, formats->lists[spec] ? count : specs[spec].fields.size());
+  } else {
+    fields.resize(count);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    FieldValue& value = fields[i];
+    const double number = numbers[static_cast<std::size_t>(card.first_value) + i];
+    value.blank = is_blank(number);
+    value.number = value.blank ? 0.0 : number;
+    if (card.first_place < 0) continue;
+    const ValuePlace& place = places[static_cast<std::size_t>(card.first_place) + i];
+    value.text = place.text;
+    value.line = place.line;
+    value.first_column = place.first_column;
+    value.last_column = place.last_column;
+    value.kind = place.kind;
+  }
+  return fields;
 }
 
 // A deck of n cards asks for some 20 n fields: names that end alike are compared whole, the others are not.
@@ -75,16 +117,19 @@ int CardView::place(std::string_view field) const {
   return -1;
 }
 
-const FieldValue* CardView::value_at(int place) const {
-  if (place < 0 || place >= card().value_count) return nullptr;
-  return &deck_->values[static_cast<std::size_t>(card().first_value + place)];
+std::optional<FieldValue> CardView::find(std::string_view field) const {
+  const int at = place(field);
+  if (at < 0) return std::nullopt;
+  const std::vector<FieldValue> values = deck_->values(card());
+  return static_cast<std::size_t>(at) < values.size() ? std::optional(values[static_cast<std::size_t>(at)])
+                                                      : std::nullopt;
 }
 
 double CardView::real(std::string_view field, double fallback) const {
   const int at = place(field);
-  const FieldValue* value = value_at(at);
-  if (!value) return fallback;
-  if (!value->blank) return value->number;
+  const double number = number_at(at);
+  if (!Deck::is_blank(number)) return number;
+  if (at < 0) return fallback;
   const FieldSpec& field_spec = spec().fields[static_cast<std::size_t>(at)];
   return field_spec.has_fallback ? field_spec.fallback : fallback;
 }
@@ -95,27 +140,26 @@ int CardView::integer(std::string_view field, int fallback) const {
 }
 
 std::string CardView::text(std::string_view field, std::string_view fallback) const {
-  const FieldValue* value = find(field);
-  return !value || value->blank ? std::string(fallback) : text_with_flaws(field).text;
+  return blank(field) ? std::string(fallback) : text_with_flaws(field).text;
 }
 
 WellFormed CardView::text_with_flaws(std::string_view field) const {
-  const FieldValue* value = find(field);
-  if (!value || value->blank) return {};
+  if (blank(field)) return {};
+  const std::optional<FieldValue> value = find(field);
   return well_formed(trimmed(value->text), behind(*deck_, *value));
 }
 
 bool CardView::blank(std::string_view field) const {
-  const FieldValue* value = find(field);
-  return !value || value->blank;
+  return Deck::is_blank(number_at(place(field)));
 }
 
-std::span<const FieldValue> CardView::list(std::string_view field) const {
-  const FieldValue* first = find(field);
-  if (!first) return {};
+std::vector<FieldValue> CardView::list(std::string_view field) const {
+  const int at = place(field);
+  if (at < 0 || at >= card().value_count) return {};
+  const std::vector<FieldValue> values = deck_->values(card());
+  const auto first = values.begin() + at;
   const bool last_field = spec().fields.back().name == field;
-  const FieldValue* end = deck_->values.data() + card().first_value + card().value_count;
-  return {first, last_field ? static_cast<std::size_t>(end - first) : 1};
+  return {first, last_field ? values.begin() + card().value_count : first + 1};
 }
 
 SourcePosition CardView::where() const {
@@ -123,7 +167,7 @@ SourcePosition CardView::where() const {
 }
 
 SourcePosition CardView::where(std::string_view field) const {
-  const FieldValue* value = find(field);
+  const std::optional<FieldValue> value = find(field);
   return value ? where(*value) : where();
 }
 
@@ -141,7 +185,7 @@ std::string CardView::label(std::string_view field) const {
 Diagnostic card_diagnostic(const Deck& deck, Severity severity, const SourcePosition& where,
                            std::string message) {
   Diagnostic diagnostic{severity, where, std::move(message), {}};
-  if (where.line < 1 || where.line > static_cast<int>(deck.line_starts.size())) return diagnostic;
+  if (where.line < 1 || where.line > deck.source.line_count()) return diagnostic;
   constexpr std::size_t widest = 200;
   const std::string_view line = deck.line_text(where.line);
   const std::size_t shown = std::min(widest, line.size());

@@ -1,18 +1,23 @@
 // What a deck file says, card by card, with positions and without meaning.  The model builder gives it meaning.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "sage/core/error.hpp"
+#include "sage/deck/source.hpp"
 #include "sage/deck/text.hpp"
 
 namespace sage {
+
+struct CardFormats;
 
 enum class FieldKind : std::uint8_t { integer, real, text, logical };
 
@@ -58,11 +63,21 @@ struct CardSpec {
 };
 
 struct Card {
-  int spec = 0;  // index into Deck::specs
-  int line = 0;  // first line of the card
-  std::int32_t first_value = 0;
-  std::int32_t value_count = 0;
-  int owner = -1;  // index of the card that opened the enclosing repeated block, -1 = none
+  int spec = 0;                   // index into Deck::specs
+  int line = 0;                   // first line of the card
+  std::int32_t first_value = 0;   // index into Deck::numbers
+  std::int32_t value_count = 0;   // without the blanks at the end of a card that can be read again
+  int owner = -1;                 // index of the card that opened the enclosing repeated block, -1 = none
+  std::int32_t first_place = -1;  // index into Deck::places; -1 = the card's line is read again for them
+};
+
+// Where a value stands, and its characters, for cards that can't be read again: list-directed ones, and those
+// that are made from other cards.
+struct ValuePlace {
+  std::string_view text;
+  int line = 0;
+  std::uint16_t first_column = 0, last_column = 0;
+  FieldKind kind = FieldKind::real;
 };
 
 // What a deck asks for and the model lacks.
@@ -78,14 +93,32 @@ class Deck {
  public:
   std::string file;                                      // as given, for messages
   std::string layout;                                    // name of the layout that read it
-  std::shared_ptr<const std::string> source;             // the file's characters; keeps FieldValue::text alive
-  std::vector<std::size_t> line_starts;                  // offset of each line in `source`
+  SourceText source;                                     // the file's characters; keeps FieldValue::text alive
   std::shared_ptr<const std::deque<std::string>> texts;  // free-format texts whose quotes had to be undoubled
+  std::shared_ptr<const CardFormats> formats;            // how cards without places are read again
   std::vector<CardSpec> specs;
-  std::vector<Card> cards;  // in file order
-  std::vector<FieldValue> values;
-  Diagnostics diagnostics;        // warnings and notes of reading (errors throw InputError)
-  std::vector<LeftOut> left_out;  // of a foreign deck, when it was given the meaning of this program's cards
+  std::vector<Card> cards;         // in file order
+  std::vector<double> numbers;     // of all cards; blank_number() where a field is blank
+  std::vector<ValuePlace> places;  // of the cards that have them
+  Diagnostics diagnostics;         // warnings and notes of reading (errors throw InputError)
+  std::vector<LeftOut> left_out;   // of a foreign deck, when it was given the meaning of this program's cards
+
+  // A number of no deck, which stands for a blank field.
+  static double blank_number() { return std::bit_cast<double>(blank_bits); }
+  static bool is_blank(double number) { return std::bit_cast<std::uint64_t>(number) == blank_bits; }
+
+  // Stores the card with its values.  `again`: reading its line again under its FORMAT gives the same values, so
+  // that their places need not be kept, nor blanks at its end.
+  void add(Card card, std::span<const FieldValue> fields, bool again = false);
+  // Takes the last cards away, those from `card` on.
+  void cut_back(std::size_t card);
+  // A value of a card by its place there; blank_number() where it is blank or there is none.
+  double number(const Card& card, int place) const {
+    if (place < 0 || place >= card.value_count) return blank_number();
+    return numbers[static_cast<std::size_t>(card.first_value + place)];
+  }
+  // The values of a card with their places; the line is read again where they are not kept.
+  std::vector<FieldValue> values(const Card& card) const;
 
   // All cards of a canonical name, in file order (several specs may share a name).
   std::vector<CardView> all(std::string_view name) const;
@@ -96,7 +129,10 @@ class Deck {
   bool has(std::string_view name) const;
 
   // The characters of a line (without its end), for showing a card under a message.
-  std::string_view line_text(int line) const;
+  std::string_view line_text(int line) const { return source.line(line); }
+
+ private:
+  static constexpr std::uint64_t blank_bits = 0x7ff8'0000'00b1'a7cd;  // a NaN: no card holds one
 };
 
 class CardView {
@@ -116,7 +152,7 @@ class CardView {
   WellFormed text_with_flaws(std::string_view field) const;
   bool blank(std::string_view field) const;  // absent or blank
   // The values of the last, repeating field.
-  std::span<const FieldValue> list(std::string_view field) const;
+  std::vector<FieldValue> list(std::string_view field) const;
 
   SourcePosition where() const;                        // the whole card
   SourcePosition where(std::string_view field) const;  // the field's columns; the card if absent
@@ -127,8 +163,8 @@ class CardView {
  private:
   // Index of the field in the spec; -1 = the layout has none of this name.
   int place(std::string_view field) const;
-  const FieldValue* value_at(int place) const;
-  const FieldValue* find(std::string_view field) const { return value_at(place(field)); }
+  double number_at(int place) const { return deck_->number(card(), place); }
+  std::optional<FieldValue> find(std::string_view field) const;
   const Deck* deck_;
   int card_;
 };

@@ -18,18 +18,21 @@ std::string DeckReader::a_card(const std::string& name) {
   return (vowel ? "an " : "a ") + name + " card";
 }
 
-bool DeckReader::is_faulty(int value) const {
-  return std::find(faulty_.begin(), faulty_.end(), value) != faulty_.end();
+bool DeckReader::is_faulty(std::size_t card, std::size_t value) const {
+  return std::find(faulty_.begin(), faulty_.end(), std::pair(card, value)) != faulty_.end();
 }
 
-// True where a value that it needs has an error, which has been reported.
+// True where the field has an error, which has been reported.
+bool DeckReader::is_faulty(const ExpressionNode& node) const {
+  if (node.field < 0 || faulty_.empty()) return false;
+  const auto field = static_cast<std::size_t>(node.field);
+  if (node.card == own_rule_) return is_faulty(deck_.cards.size(), field);
+  const int card = latest_[static_cast<std::size_t>(node.card)];
+  return card >= 0 && is_faulty(static_cast<std::size_t>(card), field);
+}
+
 bool DeckReader::is_faulty(const Expression& expression) const {
-  if (faulty_.empty()) return false;
-  return std::ranges::any_of(expression.nodes, [this](const ExpressionNode& node) {
-    if (node.field < 0) return false;
-    const FieldValue* value = field_value(node.card, node.field);
-    return value && is_faulty(static_cast<int>(value - deck_.values.data()));
-  });
+  return std::ranges::any_of(expression.nodes, [this](const ExpressionNode& node) { return is_faulty(node); });
 }
 
 // The value of a count; false, and reading stops, if it can't be one.
@@ -42,7 +45,7 @@ bool DeckReader::count_of(const Expression& expression, const std::string& what,
            records_.next_line());
       return false;
     }
-    if (value && is_faulty(static_cast<int>(value - deck_.values.data()))) {
+    if (value && is_faulty(node)) {
       stop("the number of " + what + " is not known: reading stops here", records_.line());
       return false;
     }
@@ -76,13 +79,12 @@ std::string DeckReader::count_source(const Expression& expression) const {
 }
 
 // Faults, blanks inside numbers, missing values or the wrong word: the card may be of another kind.
-bool DeckReader::is_doubtful(const CardRule& rule, const Card& card) const {
+bool DeckReader::is_doubtful(const CardRule& rule) const {
   for (const FieldFlaw& flaw : flaws_)
     if (flaw.fault != FieldFault::none || (flaw.hints & hint_inner_blank)) return true;
-  const auto first = static_cast<std::size_t>(card.first_value);
-  const std::size_t count = std::min(deck_.values.size() - first, rule.rules.size());
+  const std::size_t count = std::min(fields_.size(), rule.rules.size());
   for (std::size_t i = 0; i < count; ++i) {
-    const FieldValue& value = deck_.values[first + i];
+    const FieldValue& value = fields_[i];
     if (value.blank && rule.spec.fields[i].required) return true;
     const std::string& wanted = rule.rules[i].must_equal;
     if (!wanted.empty() && lower_case(trimmed(value.text)) != lower_case(wanted)) return true;
@@ -91,13 +93,12 @@ bool DeckReader::is_doubtful(const CardRule& rule, const Card& card) const {
 }
 
 // A required number that was left out before others that stand there: a slip on a card of the right kind.
-bool DeckReader::has_a_gap(const CardRule& rule, const Card& card) const {
+bool DeckReader::has_a_gap(const CardRule& rule) const {
   if (!flaws_.empty()) return false;
-  const auto first = static_cast<std::size_t>(card.first_value);
-  const std::size_t count = std::min(deck_.values.size() - first, rule.rules.size());
+  const std::size_t count = std::min(fields_.size(), rule.rules.size());
   bool missing = false;
   for (std::size_t i = 0; i < count; ++i) {
-    const FieldValue& value = deck_.values[first + i];
+    const FieldValue& value = fields_[i];
     missing = missing || (value.blank && rule.spec.fields[i].required);
     if (missing && !value.blank && value.kind != FieldKind::text) return true;
   }
@@ -135,7 +136,7 @@ DeckReader::Misplaced DeckReader::check_place(const CardRule& rule, const Card& 
     stopped_ = true;
     return Misplaced::belongs_later;
   }
-  if (has_a_gap(rule, card)) return Misplaced::no;
+  if (has_a_gap(rule)) return Misplaced::no;
   const int earliest = previous_rule_ >= 0 && previous_rule_ < own ? previous_rule_ : own - 1;
   const int latest = std::min(static_cast<int>(layout_.cards.size()) - 1, own + 3);
   for (int other = earliest; other <= latest; ++other) {
@@ -157,23 +158,21 @@ DeckReader::Misplaced DeckReader::check_place(const CardRule& rule, const Card& 
 
 // A list that runs into cards of another kind: it is cut before the first of them.
 bool DeckReader::cut_list(const CardRule& rule, const Card& card) {
-  const auto first = static_cast<std::size_t>(card.first_value);
   for (const FieldFlaw& flaw : flaws_) {
-    const int line = deck_.values[static_cast<std::size_t>(flaw.value)].line;
+    const int line = fields_[static_cast<std::size_t>(flaw.value)].line;
     if (line == card.line || (flaw.fault == FieldFault::none && !(flaw.hints & hint_inner_blank))) continue;
     for (int other = card.spec - 1; other <= card.spec + 3 && other < static_cast<int>(layout_.cards.size());
          ++other) {
       if (other < 0 || other == card.spec || !reads_well(rule_of(other), line)) continue;
-      const std::size_t wanted = deck_.values.size() - first;
+      const std::size_t wanted = fields_.size();
       std::size_t kept = 0;
-      while (deck_.values[first + kept].line < line) ++kept;
+      while (fields_[kept].line < line) ++kept;
       log_.add(Severity::error, log_.line(line),
                "this reads as " + a_card(rule_of(other).spec.label) + ", but the " + rule.spec.label +
                    " card goes on: " + std::to_string(kept) + " of " + std::to_string(wanted) +
                    " values read (" + count_source(rule.rules.back().count) + ")");
-      deck_.values.resize(first + kept);
-      std::erase_if(flaws_,
-                    [&](const FieldFlaw& f) { return static_cast<std::size_t>(f.value) >= first + kept; });
+      fields_.resize(kept);
+      std::erase_if(flaws_, [&](const FieldFlaw& f) { return static_cast<std::size_t>(f.value) >= kept; });
       records_.rewind_to(line);
       return true;
     }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "sage/deck/card_formats.hpp"
 #include "sage/deck/text.hpp"
 #include "sage/deck/unknown_deck.hpp"
 
@@ -23,6 +24,8 @@ DeckReader::DeckReader(const SourceText& source, const Layout& layout, const Rea
       texts_(std::make_shared<std::deque<std::string>>()),
       latest_(layout.cards.size(), -1),
       previous_(layout.cards.size(), -1),
+      latest_fields_(layout.cards.size()),
+      previous_fields_(layout.cards.size()),
       entry_of_(layout.cards.size(), nullptr),
       opens_(layout.cards.size(), 0),
       followers_(layout.cards.size()),
@@ -31,18 +34,23 @@ DeckReader::DeckReader(const SourceText& source, const Layout& layout, const Rea
       made_limit_(100'000 + 64 * source.text()->size()) {
   deck_.file = source.name();
   deck_.layout = layout.name;
-  deck_.source = source.text();
-  deck_.line_starts = source.starts();
+  deck_.source = source;
   deck_.cards.reserve(source.starts().size());
-  deck_.values.reserve(source.text()->size() / 2);  // for short cards; pages not used cost nothing
+  deck_.numbers.reserve(source.text()->size() / 2);  // for short cards; pages not used cost nothing
+  auto formats = std::make_shared<CardFormats>();
+  formats->records = layout.records;
   for (const CardRule& rule : layout.cards) {
     deck_.specs.push_back(rule.spec);
+    formats->formats.push_back(rule.format);
+    formats->lists.push_back(!rule.rules.empty() && !rule.rules.back().count.empty());
     const bool plain = std::all_of(rule.rules.begin(), rule.rules.end(), [](const FieldRule& r) {
       return r.map.empty() && r.allowed.empty() && r.must_equal.empty();
     });
     plain_.push_back(plain);
     computes_.push_back(std::ranges::any_of(rule.spec.fields, [](const FieldSpec& f) { return f.computed; }));
+    plain_cards_.push_back(plain_card(rule, layout.records));
   }
+  deck_.formats = std::move(formats);
   find_entries(layout.entries);
   for_each_expression(layout, [this](const Expression& expression) {
     for (const ExpressionNode& node : expression.nodes)
@@ -165,28 +173,28 @@ void DeckReader::read_until(const LayoutEntry& entry, int owner) {
   for (;;) {
     if (stopped_) return;
     if (records_.at_end()) return truncated(entry);
-    const std::size_t cards = deck_.cards.size(), values = deck_.values.size();
+    const std::size_t cards = deck_.cards.size();
     const Place before = place();
     read_one(entry, owner);
     ++run_.done;
     if (!stopped_ && place() == before)
       return fail_and_stop(log_.line(records_.next_line()), "no card of this block can be read here");
     if (stopped_ || !truth(entry.until)) continue;
-    if (entry.drop_last && deck_.cards.size() > cards) drop_cards(cards, values);
+    if (entry.drop_last && deck_.cards.size() > cards) drop_cards(cards);
     return;
   }
 }
 
 // As if the cards behind so many had not been read.
-void DeckReader::drop_cards(std::size_t cards, std::size_t values) {
+void DeckReader::drop_cards(std::size_t cards) {
   for (std::size_t i = cards; i < deck_.cards.size(); ++i) {
     count_card(deck_.cards[i], -1);
-    latest_[static_cast<std::size_t>(deck_.cards[i].spec)] = -1;
-    previous_[static_cast<std::size_t>(deck_.cards[i].spec)] = -1;
+    const auto rule = static_cast<std::size_t>(deck_.cards[i].spec);
+    latest_[rule] = previous_[rule] = -1;
+    latest_fields_[rule].card = previous_fields_[rule].card = -1;
   }
   list_sums_.clear();
-  deck_.cards.resize(cards);
-  deck_.values.resize(values);
+  deck_.cut_back(cards);
 }
 
 void DeckReader::read_one(const LayoutEntry& entry, int owner) {
@@ -230,12 +238,11 @@ void DeckReader::read_card(int index, int owner) {
   Card card;
   card.spec = index;
   card.owner = owner;
-  card.first_value = static_cast<std::int32_t>(deck_.values.size());
-  own_card_ = card.first_value;
   own_rule_ = index;
+  fields_.clear();
   flaws_.clear();
   const bool complete = rule.list_directed ? read_listed(rule, card) : read_formatted(rule, card);
-  own_card_ = own_rule_ = -1;
+  own_rule_ = -1;
   if (!complete && !stopped_ && run_.entry) truncated(*run_.entry);
 }
 
@@ -244,13 +251,13 @@ bool DeckReader::read_fields(Read& read, const CardRule& rule) {
   for (std::size_t i = 0; i < rule.rules.size(); ++i) {
     if (rule.spec.fields[i].computed) {  // its place; the value comes when the card is complete
       if (!rule.rules[i].count.empty() || rule.rules[i].values.size() > 1) return true;
-      FieldValue& value = deck_.values.emplace_back();
+      FieldValue& value = fields_.emplace_back();
       value.line = records_.line();
       value.kind = rule.spec.fields[i].kind;
       continue;
     }
     if (!rule.rules[i].count.empty()) return read_list(read, rule, i);
-    const ReadEnd end = read.read(rule.spec.fields[i].kind, deck_.values, flaws_);
+    const ReadEnd end = read.read(rule.spec.fields[i].kind, fields_, flaws_);
     if (end == ReadEnd::ended_by_slash) return true;
     if (end != ReadEnd::complete) return false;
   }
@@ -269,7 +276,7 @@ bool DeckReader::read_list(Read& read, const CardRule& rule, std::size_t field) 
     return true;
   }
   for (int i = 0; i < count; ++i) {
-    const ReadEnd end = read.read(rule.spec.fields[field].kind, deck_.values, flaws_);
+    const ReadEnd end = read.read(rule.spec.fields[field].kind, fields_, flaws_);
     if (end == ReadEnd::ended_by_slash) return true;
     if (end != ReadEnd::complete) return false;
     if (static_cast<int>(flaws_.size()) > most_errors) return true;
@@ -277,7 +284,38 @@ bool DeckReader::read_list(Read& read, const CardRule& rule, std::size_t field) 
   return true;
 }
 
+// Nothing behind the last field that a message would speak of (check_rest).
+bool DeckReader::ends_plainly(std::size_t last_field_end) const {
+  const std::string_view beyond = records_.beyond();
+  if (!beyond.empty() && (beyond.front() != ' ' || (!overlong_noted_ && !all_blank(beyond)))) return false;
+  std::string_view record = records_.record();
+  const auto first = static_cast<std::size_t>(layout_.first_sequence_column);
+  const auto last = static_cast<std::size_t>(layout_.last_sequence_column);
+  if (last > 0 && last_field_end >= first && record.size() >= last && !sequence_noted_) return false;
+  if (first > 0 && record.size() >= first) record = record.substr(0, first - 1);
+  return last_field_end >= record.size() || all_blank(record.substr(last_field_end));
+}
+
+// The short way, for a card of plain numbers; false, and nothing has happened, where the long one is needed.
+bool DeckReader::read_plainly(Card card) {
+  const std::optional<PlainCard>& plain = plain_cards_[static_cast<std::size_t>(card.spec)];
+  const auto rule = static_cast<std::size_t>(card.spec);
+  if (!plain || !followers_[rule].empty() || !records_.next()) return false;
+  card.line = records_.line();
+  card.first_value = static_cast<std::int32_t>(deck_.numbers.size());
+  if (!ends_plainly(plain->end) || !read_plain(*plain, records_.record(), deck_.numbers)) {
+    records_.rewind_to(card.line);
+    return false;
+  }
+  card.value_count = static_cast<std::int32_t>(deck_.numbers.size()) - card.first_value;
+  previous_[rule] = std::exchange(latest_[rule], static_cast<int>(deck_.cards.size()));
+  deck_.cards.push_back(card);
+  count_card(card, 1);
+  return true;
+}
+
 bool DeckReader::read_formatted(const CardRule& rule, Card& card) {
+  if (read_plainly(card)) return true;
   for (;;) {
     seams_.clear();
     FormattedRead read(records_, rule.format, &seams_);
@@ -289,17 +327,16 @@ bool DeckReader::read_formatted(const CardRule& rule, Card& card) {
     const bool list = records_.line() != card.line;
     const bool cut = complete && list && cut_list(rule, card);
     Misplaced misplaced = Misplaced::no;
-    if (complete && !stopped_ && !list && is_doubtful(rule, card)) misplaced = check_place(rule, card);
+    if (complete && !stopped_ && !list && is_doubtful(rule)) misplaced = check_place(rule, card);
     if (misplaced == Misplaced::no) {
       close_card(rule, card, complete);
       if (!complete || stopped_ || cut) return complete;
-      card = deck_.cards[static_cast<std::size_t>(latest_[static_cast<std::size_t>(card.spec)])];
-      const bool slip = !seams_.empty() && check_seams(rule, card);
-      check_rest(rule, card, last_field_end, slip);
+      const bool slip = !seams_.empty() && check_seams(rule);
+      check_rest(rule, last_field_end, slip);
       return complete;
     }
     // Another kind of card: it is reported and left out, so that the cards behind it can be read.
-    deck_.values.resize(static_cast<std::size_t>(card.first_value));
+    fields_.clear();
     flaws_.clear();
     if (misplaced == Misplaced::belongs_later) return true;
   }
@@ -314,8 +351,7 @@ bool DeckReader::read_listed(const CardRule& rule, Card& card) {
   ListRead& read = *list_read_;
   card.line = records_.line();
   const bool complete = read_fields(read, rule);
-  if (deck_.values.size() > static_cast<std::size_t>(card.first_value))
-    card.line = deck_.values[static_cast<std::size_t>(card.first_value)].line;
+  if (!fields_.empty()) card.line = fields_.front().line;
   close_card(rule, card, complete);
   if (!complete || stopped_) return complete;
   return rule.items_card < 0 || read_items(rule, read);
@@ -339,15 +375,13 @@ bool DeckReader::read_items(const CardRule& rule, ListRead& read) {
     Card card;
     card.spec = rule.items_card;
     card.owner = owner;
-    card.first_value = static_cast<std::int32_t>(deck_.values.size());
+    fields_.clear();
     flaws_.clear();
-    own_card_ = card.first_value;
     own_rule_ = rule.items_card;
     const bool complete = read_fields(read, item);
-    own_card_ = own_rule_ = -1;
-    const auto first = static_cast<std::size_t>(card.first_value);
-    if (read.ended_by_slash() && deck_.values.size() == first) return true;
-    card.line = deck_.values.size() > first ? deck_.values[first].line : records_.line();
+    own_rule_ = -1;
+    if (read.ended_by_slash() && fields_.empty()) return true;
+    card.line = fields_.empty() ? records_.line() : fields_.front().line;
     close_card(item, card, complete);
     if (!complete) {
       run_.wanted = count;

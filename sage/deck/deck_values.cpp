@@ -18,56 +18,64 @@ std::size_t last_read_field(const CardRule& rule) {
 
 }  // namespace
 
-void DeckReader::close_card(const CardRule& rule, Card card, bool complete) {
-  card.value_count = static_cast<std::int32_t>(deck_.values.size()) - card.first_value;
-  if (!flaws_.empty()) report_flaws(rule, card);
+void DeckReader::close_card(const CardRule& rule, const Card& card, bool complete) {
+  if (!flaws_.empty()) report_flaws(rule);
   if (complete) check_values(rule, card);  // else the deck ended in the card, which has been reported
   const bool ends = ends_run(card);
-  if (computes_[static_cast<std::size_t>(card.spec)] && complete && !ends) compute_fields(rule, card);
-  const auto index = static_cast<int>(deck_.cards.size());
-  previous_[static_cast<std::size_t>(card.spec)] = latest_[static_cast<std::size_t>(card.spec)];
-  latest_[static_cast<std::size_t>(card.spec)] = index;
-  deck_.cards.push_back(card);
-  own_card_ = own_rule_ = -1;
-  count_card(card, 1);
-  if (complete && !ends && !followers_[static_cast<std::size_t>(card.spec)].empty())
-    make_followers(card.spec, index);
+  const auto at = static_cast<std::size_t>(card.spec);
+  if (computes_[at] && complete && !ends) compute_fields(rule, card.line);
+  store_card(rule, card, complete);
+  own_rule_ = -1;
+  if (complete && !ends && !followers_[at].empty()) make_followers(card.spec, latest_[at]);
 }
 
-void DeckReader::report_flaws(const CardRule& rule, const Card& card) {
+// Without places where the card can be read again, and then without the blanks at its end.
+void DeckReader::store_card(const CardRule& rule, const Card& card, bool complete) {
+  const auto at = static_cast<std::size_t>(card.spec);
+  const bool again = !rule.list_directed && !rule.is_item && !rule.spec.made && !computes_[at];
+  std::size_t count = fields_.size();
+  if (again && complete && rule.rules.back().count.empty())
+    while (count > 0 && fields_[count - 1].blank) --count;
+  deck_.add(card, std::span(fields_).first(count), again);
+  count_card(deck_.cards.back(), 1);
+  previous_[at] = std::exchange(latest_[at], static_cast<int>(deck_.cards.size()) - 1);
+  std::swap(previous_fields_[at], latest_fields_[at]);
+  latest_fields_[at].card = latest_[at];
+  latest_fields_[at].values = fields_;
+}
+
+void DeckReader::report_flaws(const CardRule& rule) {
   bool comma_said = false;
   for (FieldFlaw& flaw : flaws_) {
     if (comma_said) flaw.hints = static_cast<std::uint16_t>(flaw.hints & ~hint_comma);
     comma_said = comma_said || (flaw.hints & hint_comma) != 0;
     const auto at = static_cast<std::size_t>(flaw.value);
-    const std::size_t field =
-        std::min(at - static_cast<std::size_t>(card.first_value), rule.spec.fields.size() - 1);
+    const std::size_t field = std::min(at, rule.spec.fields.size() - 1);
     const int errors = log_.errors();
-    FieldValue& value = deck_.values[at];
+    FieldValue& value = fields_[at];
     // A map may take what isn't a number.
     if (!rule.rules[field].map.empty() && flaw.fault != FieldFault::none) continue;
     log_.flaw(rule, rule.spec.fields[field], value, flaw);
     if (log_.errors() > errors) {
-      faulty_.push_back(flaw.value);
+      mark_faulty(at);
       value.number = 0.0;
     }
   }
 }
 
 void DeckReader::check_values(const CardRule& rule, const Card& card) {
-  const auto first = static_cast<std::size_t>(card.first_value);
-  const auto count = std::min(static_cast<std::size_t>(card.value_count), rule.rules.size());
+  const std::size_t count = std::min(fields_.size(), rule.rules.size());
   for (std::size_t i = 0; i < count; ++i) {
-    FieldValue& value = deck_.values[first + i];
+    FieldValue& value = fields_[i];
     const FieldSpec& spec = rule.spec.fields[i];
     if (value.blank && spec.required) {
       log_.add(Severity::error, value.first_column ? log_.where(value) : log_.line(card.line),
                "a value is missing " + field_text(rule, spec));
-      faulty_.push_back(static_cast<int>(first + i));
+      mark_faulty(i);
     }
     if (plain_[static_cast<std::size_t>(card.spec)] || spec.computed) continue;
     if (!rule.rules[i].map.empty()) apply_map(rule, i, value);
-    if (!rule.rules[i].allowed.empty()) check_allowed(rule, i, static_cast<int>(first + i));
+    if (!rule.rules[i].allowed.empty()) check_allowed(rule, i, i);
     const std::string& wanted = rule.rules[i].must_equal;
     if (!wanted.empty() && lower_case(trimmed(value.text)) != lower_case(wanted)) {
       log_.add(Severity::error, value.first_column ? log_.where(value) : log_.line(card.line),
@@ -87,6 +95,7 @@ void DeckReader::apply_map(const CardRule& rule, std::size_t field, FieldValue& 
   for (const auto& [code, number] : rule.rules[field].map)
     if (code == text) {
       value.number = number;
+      value.blank = false;  // of a text that means something left blank
       return;
     }
   std::string known;
@@ -97,17 +106,19 @@ void DeckReader::apply_map(const CardRule& rule, std::size_t field, FieldValue& 
 }
 
 // A blank that is wrong has its message already.
-void DeckReader::check_allowed(const CardRule& rule, std::size_t field, int index) {
-  const FieldValue& value = deck_.values[static_cast<std::size_t>(index)];
+void DeckReader::check_allowed(const CardRule& rule, std::size_t field, std::size_t at) {
+  const FieldValue& value = fields_[at];
   const std::vector<double>& allowed = rule.rules[field].allowed;
-  if (value.blank || is_faulty(index) || std::ranges::find(allowed, value.number) != allowed.end()) return;
+  if (value.blank || is_faulty(deck_.cards.size(), at) ||
+      std::ranges::find(allowed, value.number) != allowed.end())
+    return;
   const std::string& known = rule.rules[field].codes;
   std::string numbers;
   for (const double one : allowed) numbers += (numbers.empty() ? "" : ", ") + number_text(one);
   log_.add(Severity::error, log_.where(value),
            "the " + rule.spec.fields[field].label + " can't be " + number_text(value.number) + ": " +
                (known.empty() ? "allowed are " + numbers : known));
-  faulty_.push_back(index);
+  mark_faulty(at);
 }
 
 // A list-directed READ passes over what is left of its last record: a count that is too small loses values so.
@@ -139,11 +150,13 @@ void DeckReader::note_blanks() {
   for (const Card& card : deck_.cards) {
     std::vector<Blanks>& of_card = blanks[static_cast<std::size_t>(card.spec)];
     const auto& fields = deck_.specs[static_cast<std::size_t>(card.spec)].fields;
-    for (std::size_t i = 0; i < std::min(of_card.size(), static_cast<std::size_t>(card.value_count)); ++i) {
+    const auto count = static_cast<std::size_t>(card.value_count);
+    const std::size_t looked_at = card.first_place < 0 ? of_card.size() : std::min(of_card.size(), count);
+    for (std::size_t i = 0; i < looked_at; ++i) {
       if (fields[i].blank_note == BlankNote::never) continue;
-      const FieldValue& value = deck_.values[static_cast<std::size_t>(card.first_value) + i];
-      if (!value.blank)
-        of_card[i].others = of_card[i].others || value.number != fields[i].fallback;
+      const double number = deck_.number(card, static_cast<int>(i));
+      if (!Deck::is_blank(number))
+        of_card[i].others = of_card[i].others || number != fields[i].fallback;
       else if (++of_card[i].count == 1)
         of_card[i].first = &card;
     }
@@ -154,7 +167,7 @@ void DeckReader::note_blanks() {
       const FieldSpec& field = deck_.specs[s].fields[i];
       if (found.count == 0 || (field.blank_note == BlankNote::compared && !found.others)) continue;
       const CardRule& rule = rule_of(static_cast<int>(s));
-      const FieldValue& value = deck_.values[static_cast<std::size_t>(found.first->first_value) + i];
+      const FieldValue value = deck_.values(*found.first)[i];
       const auto number = static_cast<int>(field.fallback);
       log_.add(
           Severity::note, value.first_column ? log_.where(value) : log_.line(found.first->line),
@@ -167,12 +180,11 @@ void DeckReader::note_blanks() {
 // -----------------------------------------------------
 
 // Warns of the first slip of the card; false if it has none.
-bool DeckReader::check_seams(const CardRule& rule, const Card& card) {
+bool DeckReader::check_seams(const CardRule& rule) {
   const SequenceColumns sequence{layout_.first_sequence_column, layout_.last_sequence_column};
-  const std::optional<SlipFound> slip = find_slip(deck_, card, seams_, sequence);
+  const std::optional<SlipFound> slip = find_slip(source_, rule.spec, fields_, seams_, sequence);
   if (!slip) return false;
-  const std::size_t field =
-      std::min(static_cast<std::size_t>(slip->value - card.first_value), rule.spec.fields.size() - 1);
+  const std::size_t field = std::min(static_cast<std::size_t>(slip->value), rule.spec.fields.size() - 1);
   const std::string place = " " + field_text(rule, rule.spec.fields[field]);
   const std::string column = std::to_string(slip->end_column);
   const auto first = static_cast<std::size_t>(slip->first_column) - 1;
@@ -211,8 +223,7 @@ bool DeckReader::begins_with_number(std::string_view text) const {
   return number.fault == FieldFault::none && !(number.hints & hint_not_finite);
 }
 
-void DeckReader::check_rest(const CardRule& rule, const Card& card, std::size_t last_field_end,
-                            bool slip_found) {
+void DeckReader::check_rest(const CardRule& rule, std::size_t last_field_end, bool slip_found) {
   const std::string_view beyond = records_.beyond();
   if (!overlong_noted_ && !beyond.empty() && !all_blank(beyond)) {
     overlong_noted_ = true;
@@ -222,7 +233,7 @@ void DeckReader::check_rest(const CardRule& rule, const Card& card, std::size_t 
   }
   if (layout_.last_sequence_column > 0 &&
       last_field_end >= static_cast<std::size_t>(layout_.first_sequence_column))
-    check_sequence_number(rule, card, last_field_end);
+    check_sequence_number(rule);
   std::string_view record = records_.record();
   const auto sequence = static_cast<std::size_t>(layout_.first_sequence_column);
   if (sequence > 0 && record.size() >= sequence) record = record.substr(0, sequence - 1);
@@ -233,10 +244,9 @@ void DeckReader::check_rest(const CardRule& rule, const Card& card, std::size_t 
   const SourcePosition where{deck_.file, records_.line(), offset + static_cast<int>(first),
                              offset + static_cast<int>(record.find_last_not_of(" \t\x1a"))};
   const std::size_t field = last_read_field(rule);
-  if (card.value_count == 0) return;
-  const FieldValue& last = field + 1 == rule.rules.size() && !rule.rules[field].count.empty()
-                               ? deck_.values[static_cast<std::size_t>(card.first_value + card.value_count) - 1]
-                               : deck_.values[static_cast<std::size_t>(card.first_value) + field];
+  if (fields_.empty()) return;
+  const bool list = field + 1 == rule.rules.size() && !rule.rules[field].count.empty();
+  const FieldValue& last = list ? fields_.back() : fields_[field];
   if (last.blank && last.kind != FieldKind::text && begins_with_number(record.substr(first)))
     return log_.add(Severity::warning, where,
                     "a number stands behind the last field of the " + rule.spec.label +
@@ -247,7 +257,7 @@ void DeckReader::check_rest(const CardRule& rule, const Card& card, std::size_t 
 }
 
 // Eight digits in 73-80 with blanks before them, where fields reach that far: likely no data.
-void DeckReader::check_sequence_number(const CardRule& rule, const Card& card, std::size_t) {
+void DeckReader::check_sequence_number(const CardRule& rule) {
   if (sequence_noted_) return;
   const std::string_view record = records_.record();
   const auto first = static_cast<std::size_t>(layout_.first_sequence_column) - 1;
@@ -263,7 +273,6 @@ void DeckReader::check_sequence_number(const CardRule& rule, const Card& card, s
            quoted(number) + " looks like a sequence number, but the fields of the " + rule.spec.label +
                " card reach into columns " + std::to_string(layout_.first_sequence_column) + "-" +
                std::to_string(layout_.last_sequence_column) + " (reported once)");
-  static_cast<void>(card);
 }
 
 }  // namespace sage

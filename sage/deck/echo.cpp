@@ -16,16 +16,15 @@ std::string value_text(const FieldValue& value) {
   return number_text(value.number);
 }
 
-void echo_values(const Deck& deck, const Card& card, std::ostream& out) {
-  const CardSpec& spec = deck.specs[static_cast<std::size_t>(card.spec)];
+void echo_values(const CardSpec& spec, const std::vector<FieldValue>& values, std::ostream& out) {
   std::string line = "      ";
-  for (std::int32_t i = 0; i < card.value_count; ++i) {
-    const auto field = std::min(static_cast<std::size_t>(i), spec.fields.size() - 1);
-    const FieldValue& value = deck.values[static_cast<std::size_t>(card.first_value + i)];
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::size_t field = std::min(i, spec.fields.size() - 1);
+    const FieldValue& value = values[i];
     if (value.blank) continue;
     std::string item = "  " + spec.fields[field].name;
-    if (static_cast<std::size_t>(card.value_count) > spec.fields.size() && field + 1 == spec.fields.size())
-      item += "(" + std::to_string(static_cast<std::size_t>(i) - field + 1) + ")";
+    if (values.size() > spec.fields.size() && field + 1 == spec.fields.size())
+      item += "(" + std::to_string(i - field + 1) + ")";
     item += (spec.fields[field].computed ? " := " : " = ") + value_text(value);
     if (line.size() + item.size() > 110) {
       out << line << '\n';
@@ -49,10 +48,9 @@ std::string line_number(int line) {
 }
 
 // Lines of a card: from its own to that of its last value.
-int last_line(const Deck& deck, const Card& card) {
+int last_line(const Card& card, const std::vector<FieldValue>& values) {
   int line = card.line;
-  for (std::int32_t i = 0; i < card.value_count; ++i)
-    line = std::max(line, deck.values[static_cast<std::size_t>(card.first_value + i)].line);
+  for (const FieldValue& value : values) line = std::max(line, value.line);
   return line;
 }
 
@@ -67,7 +65,7 @@ void echo(const Deck& deck, std::ostream& out) {
     const CardSpec& spec = deck.specs[static_cast<std::size_t>(card.spec)];
     if (spec.made) {
       out << "    + " << spec.name << (spec.label != spec.name ? " [" + spec.label + "]" : "") << ", made:\n";
-      echo_values(deck, card, out);
+      echo_values(spec, deck.values(card), out);
       continue;
     }
     const bool first = card.spec != shown_spec;
@@ -78,11 +76,12 @@ void echo(const Deck& deck, std::ostream& out) {
           << "      | " << ruler << '\n';
       shown_spec = card.spec;
     }
-    for (int line = std::max(card.line, shown_line + 1); line <= last_line(deck, card); ++line) {
+    const std::vector<FieldValue> values = deck.values(card);
+    for (int line = std::max(card.line, shown_line + 1); line <= last_line(card, values); ++line) {
       out << line_number(line) << deck.line_text(line) << '\n';
       shown_line = line;
     }
-    echo_values(deck, card, out);
+    echo_values(spec, values, out);
     if (first) echo_uses(spec, out);
   }
 }

@@ -165,6 +165,48 @@ std::size_t scan_mantissa(std::string_view text, std::size_t i, BlankMode blanks
 
 }  // namespace
 
+const char* read_plain_integer(const char* at, const char* end, double& value) {
+  const bool negative = at < end && *at == '-';
+  if (at < end && (*at == '-' || *at == '+')) ++at;
+  const char* const last = end - at > 9 ? at + 9 : end;  // nine digits are within the range
+  const char* const first = at;
+  std::int32_t number = 0;
+  for (; at < last && is_digit(*at); ++at) number = 10 * number + (*at - '0');
+  if (at == first || (at < end && *at != ' ')) return nullptr;
+  value = negative ? -number : number;
+  return at;
+}
+
+// Digits and power of ten that are both exact doubles: their quotient is rounded once, and so correctly.
+const char* read_plain_real(const char* at, const char* end, int decimals, double& value) {
+  constexpr std::int64_t most_digits = std::int64_t{1} << 53;
+  static constexpr std::array<double, 19> powers{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8, 1e9,
+                                                 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18};
+  const bool negative = at < end && *at == '-';
+  if (at < end && (*at == '-' || *at == '+')) ++at;
+  const char* const last = end - at > 18 ? at + 18 : end;  // eighteen characters stay below 2^63
+  const char* const first = at;
+  const char* behind_point = nullptr;
+  std::int64_t digits = 0;
+  for (; at < last; ++at) {
+    if (is_digit(*at)) {
+      digits = 10 * digits + (*at - '0');
+    } else if (*at == '.' && behind_point == nullptr) {
+      behind_point = at + 1;
+    } else {
+      break;
+    }
+  }
+  const bool none = at == first || (behind_point != nullptr && at - first == 1);
+  if (none || digits > most_digits || (at < end && *at != ' ')) return nullptr;
+  if (behind_point == nullptr && decimals > 0) return nullptr;
+  const std::ptrdiff_t power = behind_point == nullptr ? 0 : at - behind_point;
+  const double number = static_cast<double>(digits);
+  const double magnitude = power == 0 ? number : number / powers[static_cast<std::size_t>(power)];
+  value = negative ? -magnitude : magnitude;
+  return at;
+}
+
 FieldResult read_integer_field(std::string_view text, BlankMode blanks) {
   FieldResult result;
   std::size_t i = skip_blanks(text, 0);
@@ -172,6 +214,8 @@ FieldResult read_integer_field(std::string_view text, BlankMode blanks) {
     result.blank = true;
     return result;
   }
+  if (read_plain_integer(text.data() + i, text.data() + text.size(), result.value) == text.data() + text.size())
+    return result;
   const bool negative = text[i] == '-';
   if (text[i] == '-' || text[i] == '+') {
     if (++i == text.size()) return fail(result, FieldFault::lone_sign, i - 1);
@@ -207,6 +251,9 @@ FieldResult read_real_field(std::string_view text, NumberForm form) {
     result.blank = true;
     return result;
   }
+  const char* const end = text.data() + text.size();
+  if (form.scale == 0 && read_plain_real(text.data() + i, end, form.decimals, result.value) == end)
+    return result;
   const bool negative = text[i] == '-';
   if (text[i] == '-' || text[i] == '+') i = skip_blanks(text, i + 1);
   if (i == text.size()) {  // gfortran: a lone sign is zero

@@ -51,6 +51,12 @@ struct NumberForm {
   bool free = false;  // list-directed: an exponent of any length gives zero or infinity instead of a fault
 };
 
+// A number without blanks inside, exponent and other oddities, as nearly all are: most of the time of reading a
+// deck goes here.  Return the place behind it; nullptr where [at, end) does not begin with one, or the general
+// functions below are needed.  The value is theirs to the last bit.
+const char* read_plain_integer(const char* at, const char* end, double& value);
+const char* read_plain_real(const char* at, const char* end, int decimals, double& value);
+
 // Iw.  Leading blanks never count, whatever the mode.
 FieldResult read_integer_field(std::string_view text, BlankMode blanks);
 

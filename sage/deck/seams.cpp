@@ -26,8 +26,9 @@ bool are_two_numbers(std::string_view left, std::string_view right, std::size_t 
 
 class SlipSearch {
  public:
-  SlipSearch(const Deck& deck, const Card& card, std::vector<Seam>& seams, SequenceColumns sequence)
-      : deck_(deck), card_(card), seams_(seams), sequence_(sequence) {}
+  SlipSearch(const SourceText& source, const CardSpec& spec, std::span<const FieldValue> values,
+             std::vector<Seam>& seams, SequenceColumns sequence)
+      : source_(source), spec_(spec), values_(values), seams_(seams), sequence_(sequence) {}
 
   std::optional<SlipFound> find() {
     for (std::size_t i = seams_.size(); i-- > 0;) {
@@ -40,21 +41,20 @@ class SlipSearch {
   }
 
  private:
-  const FieldValue& value(const Seam& seam) const { return deck_.values[static_cast<std::size_t>(seam.value)]; }
+  const FieldValue& value(const Seam& seam) const { return values_[static_cast<std::size_t>(seam.value)]; }
   const FieldSpec& spec(const Seam& seam) const { return spec(seam.value); }
   const FieldSpec& spec(int index) const {
-    const auto& fields = deck_.specs[static_cast<std::size_t>(card_.spec)].fields;
-    return fields[std::min(static_cast<std::size_t>(index - card_.first_value), fields.size() - 1)];
+    return spec_.fields[std::min(static_cast<std::size_t>(index), spec_.fields.size() - 1)];
   }
 
   // Computed fields stand between those that are read, and have no characters.
-  int end() const { return card_.first_value + card_.value_count; }
+  int end() const { return static_cast<int>(values_.size()); }
   int next_read(int index) const {
     do ++index;
     while (index < end() && spec(index).computed);
     return index;
   }
-  int first_read() const { return next_read(card_.first_value - 1); }
+  int first_read() const { return next_read(-1); }
 
   bool is_full(const Seam& seam) const {
     const std::string_view text = value(seam).text;
@@ -74,7 +74,7 @@ class SlipSearch {
   // Some field of the card holds this column (tabs may go back).
   bool is_read(int line, std::size_t column) const {
     for (int index = first_read(); index < end(); index = next_read(index)) {
-      const FieldValue& v = deck_.values[static_cast<std::size_t>(index)];
+      const FieldValue& v = values_[static_cast<std::size_t>(index)];
       if (v.line == line && v.first_column <= column && column <= v.last_column) return true;
     }
     return false;
@@ -82,7 +82,7 @@ class SlipSearch {
   // A sequence number fills its columns and touches what stands before it.
   bool is_sequence_number(int line, std::size_t column) const {
     if (sequence_.first == 0 || column != static_cast<std::size_t>(sequence_.first)) return false;
-    const std::string_view text = deck_.line_text(line);
+    const std::string_view text = source_.line(line);
     const auto last = static_cast<std::size_t>(sequence_.last);
     return text.size() >= last && text[last - 1] != ' ';
   }
@@ -97,7 +97,7 @@ class SlipSearch {
   // Every number of the card begins in the first column of its field.
   bool all_begin_fields(FieldKind kind) const {
     for (int index = first_read(); index < end(); index = next_read(index)) {
-      const FieldValue& v = deck_.values[static_cast<std::size_t>(index)];
+      const FieldValue& v = values_[static_cast<std::size_t>(index)];
       if (!v.blank && v.kind == kind && v.text.front() == ' ') return false;
     }
     return true;
@@ -107,7 +107,7 @@ class SlipSearch {
   bool is_left_justified(const Seam& slipped) const {
     const FieldKind kind = value(slipped).kind;
     for (int index = first_read(); index < end(); index = next_read(index)) {
-      const FieldValue& v = deck_.values[static_cast<std::size_t>(index)];
+      const FieldValue& v = values_[static_cast<std::size_t>(index)];
       if (index == slipped.value || v.blank || v.kind != kind || v.text.front() == ' ' || v.text.back() != ' ')
         continue;
       if (next_read(index) < slipped.value || v.text[1] != ' ') return true;
@@ -152,7 +152,7 @@ class SlipSearch {
     const FieldValue& v = value(seam);
     int index = seam.value - 1;
     while (spec(index).computed) --index;
-    const FieldValue& before = deck_.values[static_cast<std::size_t>(index)];
+    const FieldValue& before = values_[static_cast<std::size_t>(index)];
     const bool left_by_it = before.blank && before.kind != FieldKind::text && before.line == v.line &&
                             before.last_column + 1 == v.first_column;
     return left_by_it && !is_left_justified(seam);
@@ -160,7 +160,7 @@ class SlipSearch {
 
   std::optional<SlipFound> found(Slip slip, const Seam& seam, int end_column) const {
     const FieldValue& v = value(seam);
-    const std::string_view line = deck_.line_text(v.line);
+    const std::string_view line = source_.line(v.line);
     const auto at = static_cast<std::size_t>(slip == Slip::lost_end && v.blank ? end_column : end_column - 1);
     std::size_t first = at, last = at;
     while (first > 0 && line[first - 1] != ' ') --first;
@@ -169,17 +169,19 @@ class SlipSearch {
                      end_column};
   }
 
-  const Deck& deck_;
-  const Card& card_;
+  const SourceText& source_;
+  const CardSpec& spec_;
+  std::span<const FieldValue> values_;
   std::vector<Seam>& seams_;
   SequenceColumns sequence_;
 };
 
 }  // namespace
 
-std::optional<SlipFound> find_slip(const Deck& deck, const Card& card, std::vector<Seam>& seams,
+std::optional<SlipFound> find_slip(const SourceText& source, const CardSpec& spec,
+                                   std::span<const FieldValue> values, std::vector<Seam>& seams,
                                    SequenceColumns sequence) {
-  return SlipSearch(deck, card, seams, sequence).find();
+  return SlipSearch(source, spec, values, seams, sequence).find();
 }
 
 }  // namespace sage

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -21,7 +22,7 @@ enum class Slip : std::uint8_t {
 
 struct SlipFound {
   Slip slip = Slip::cut;
-  int value = 0;  // index into the deck's values: the field to blame
+  int value = 0;  // index into the card's values: the field to blame
   int line = 0;
   int first_column = 0, last_column = 0;  // 1-based, of the whole word
   int end_column = 0;                     // last column before the cut
@@ -31,9 +32,10 @@ struct SequenceColumns {
   int first = 0, last = 0;  // 1-based; 0 = the layout has none
 };
 
-// The first slip of a card; nothing if its fields are packed as programs write them: each full, or all of them
-// left-justified.  `seams` in the order of reading.
-std::optional<SlipFound> find_slip(const Deck& deck, const Card& card, std::vector<Seam>& seams,
+// The first slip of a card with these values; nothing if its fields are packed as programs write them: each
+// full, or all of them left-justified.  `seams` in the order of reading.
+std::optional<SlipFound> find_slip(const SourceText& source, const CardSpec& spec,
+                                   std::span<const FieldValue> values, std::vector<Seam>& seams,
                                    SequenceColumns sequence);
 
 }  // namespace sage

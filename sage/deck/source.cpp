@@ -21,13 +21,13 @@ struct FileCloser {
 };
 
 // Lines end with LF, CR LF or CR alone; the last may have no end.
-std::vector<std::size_t> find_lines(std::string_view text) {
-  std::vector<std::size_t> starts;
+std::vector<std::uint32_t> find_lines(std::string_view text) {
+  std::vector<std::uint32_t> starts;
   starts.reserve(text.size() / 40 + 1);
   const bool any_cr = text.find('\r') != std::string_view::npos;
   std::size_t at = 0;
   while (at < text.size()) {
-    starts.push_back(at);
+    starts.push_back(static_cast<std::uint32_t>(at));
     const std::size_t end = any_cr ? text.find_first_of("\r\n", at) : text.find('\n', at);
     if (end == std::string_view::npos) break;
     at = end + (text[end] == '\r' && end + 1 < text.size() && text[end + 1] == '\n' ? 2 : 1);
@@ -77,21 +77,16 @@ bool mostly_text(std::string_view text) {
 SourceText::SourceText(std::string text, std::string name)
     : name_(std::move(name)),
       text_(std::make_shared<const std::string>(std::move(text))),
-      starts_(find_lines(*text_)) {}
-
-std::string_view line_at(std::string_view text, std::size_t start) {
-  const char* begin = text.data() + start;
-  const std::size_t size = text.size() - start;
-  const void* feed = std::memchr(begin, '\n', size);
-  std::size_t length = feed ? static_cast<std::size_t>(static_cast<const char*>(feed) - begin) : size;
-  const void* ret = std::memchr(begin, '\r', length);
-  if (ret) length = static_cast<std::size_t>(static_cast<const char*>(ret) - begin);
-  return {begin, length};
-}
+      starts_(std::make_shared<const std::vector<std::uint32_t>>(find_lines(*text_))) {}
 
 std::string_view SourceText::line(int number) const {
   if (number < 1 || number > line_count()) return {};
-  return line_at(*text_, starts_[static_cast<std::size_t>(number) - 1]);
+  const auto index = static_cast<std::size_t>(number);
+  const char* begin = text_->data() + (*starts_)[index - 1];
+  const char* end = text_->data() + (index < starts_->size() ? (*starts_)[index] : text_->size());
+  if (end > begin && end[-1] == '\n') --end;
+  if (end > begin && end[-1] == '\r') --end;
+  return {begin, static_cast<std::size_t>(end - begin)};
 }
 
 namespace {

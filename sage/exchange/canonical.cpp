@@ -11,7 +11,6 @@ CardWriter::CardWriter(const Deck& from) : from_(&from), texts_(std::make_shared
   deck_.file = from.file;
   deck_.layout = from.layout;
   deck_.source = from.source;
-  deck_.line_starts = from.line_starts;
   deck_.diagnostics = from.diagnostics;
   deck_.left_out = from.left_out;
 }
@@ -43,9 +42,8 @@ int CardWriter::add(const std::string& name, const SourcePosition& where, const 
   Card card;
   card.spec = spec_of(name, fields);
   card.line = where.line;
-  card.first_value = static_cast<std::int32_t>(deck_.values.size());
-  card.value_count = static_cast<std::int32_t>(fields.size());
   card.owner = owner;
+  std::vector<FieldValue> values;
   for (const NewField& field : fields) {
     const SourcePosition& place = field.where.line > 0 ? field.where : where;
     FieldValue value;
@@ -58,9 +56,9 @@ int CardWriter::add(const std::string& name, const SourcePosition& where, const 
       value.text = keep(field.text);
       value.kind = FieldKind::text;
     }
-    deck_.values.push_back(value);
+    values.push_back(value);
   }
-  deck_.cards.push_back(card);
+  deck_.add(card, values);
   return static_cast<int>(deck_.cards.size()) - 1;
 }
 

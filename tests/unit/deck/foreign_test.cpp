@@ -53,8 +53,7 @@ void compare(const Deck& deck, const Card& card, const GoldenCard& expected) {
   SCOPED_TRACE(spec.label + ", line " + std::to_string(card.line));
   std::vector<std::string> texts;
   std::vector<double> integers, reals;
-  for (std::int32_t i = 0; i < card.value_count; ++i) {
-    const FieldValue& value = deck.values[static_cast<std::size_t>(card.first_value + i)];
+  for (const FieldValue& value : deck.values(card)) {
     if (value.kind == FieldKind::text) texts.emplace_back(trimmed(value.text));
     if (value.kind == FieldKind::integer) integers.push_back(value.number);
     if (value.kind == FieldKind::real) reals.push_back(value.number);
@@ -96,10 +95,14 @@ TEST(Cande, TrimmedBlanksReadTheSame) {
   const Layout layout = load_layout("cande_level3");
   const Deck padded = read_deck(kInputs + "cande_level3/candejar_input_test.cid", layout);
   const Deck cut = read_deck(kInputs + "cande_level3/candejar_input_test1.cid", layout);
-  ASSERT_EQ(padded.values.size(), cut.values.size());
+  ASSERT_EQ(padded.cards.size(), cut.cards.size());
   int different = 0;
-  for (std::size_t i = 0; i < padded.values.size(); ++i)
-    different += padded.values[i].number != cut.values[i].number ? 1 : 0;
+  for (std::size_t c = 0; c < padded.cards.size(); ++c) {
+    const std::vector<FieldValue> a = padded.values(padded.cards[c]), b = cut.values(cut.cards[c]);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i)
+      different += a[i].number != b[i].number || a[i].blank != b[i].blank ? 1 : 0;
+  }
   EXPECT_EQ(different, 1);  // C-2: 28 and 3 soil materials
   EXPECT_EQ(padded.one("control").integer("materials"), 28);
   EXPECT_EQ(cut.one("control").integer("materials"), 3);

@@ -134,16 +134,16 @@ std::string replaced(const std::string& text, std::size_t at, std::size_t size, 
 // A place to damage: one value of a card.
 struct Site {
   const FieldSpec* spec = nullptr;
-  const FieldValue* value = nullptr;
+  FieldValue value;
   std::string key;  // "node.x"
 };
 
 std::string damaged(const Sound& s, const Site& site, Damage damage) {
-  const std::string& text = *s.deck.source;
-  const FieldValue& value = *site.value;
+  const std::string& text = *s.deck.source.text();
+  const FieldValue& value = site.value;
   const auto at = static_cast<std::size_t>(value.text.data() - text.data());
   const std::size_t size = value.text.size();
-  std::size_t line = s.deck.line_starts[static_cast<std::size_t>(value.line) - 1];
+  std::size_t line = s.deck.source.starts()[static_cast<std::size_t>(value.line) - 1];
   if (!s.layout.card_separator.empty()) {  // the record begins behind the card's name
     const std::size_t name = text.find(s.layout.card_separator, line);
     if (name < at) line = name + s.layout.card_separator.size();
@@ -184,16 +184,18 @@ std::string damaged(const Sound& s, const Site& site, Damage damage) {
 
 std::vector<Site> sites(const Sound& s) {
   std::vector<Site> all;
-  const std::string& text = *s.deck.source;
-  for (const Card& card : s.deck.cards)
-    for (std::int32_t i = 0; i < card.value_count; ++i) {
-      const CardSpec& spec = s.deck.specs[static_cast<std::size_t>(card.spec)];
-      const std::size_t field = std::min(static_cast<std::size_t>(i), spec.fields.size() - 1);
-      const FieldValue& value = s.deck.values[static_cast<std::size_t>(card.first_value + i)];
+  const std::string& text = *s.deck.source.text();
+  for (const Card& card : s.deck.cards) {
+    const CardSpec& spec = s.deck.specs[static_cast<std::size_t>(card.spec)];
+    const std::vector<FieldValue> values = s.deck.values(card);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::size_t field = std::min(i, spec.fields.size() - 1);
+      const FieldValue& value = values[i];
       const char* begin = value.text.data();
       if (value.text.empty() || begin < text.data() || begin >= text.data() + text.size()) continue;
-      all.push_back({&spec.fields[field], &value, spec.name + "." + spec.fields[field].name});
+      all.push_back({&spec.fields[field], value, spec.name + "." + spec.fields[field].name});
     }
+  }
   return all;
 }
 
@@ -233,7 +235,7 @@ void mutate(const Sound& s, std::size_t most, std::size_t damages, unsigned seed
   for (auto& [key, list] : by_key) {
     std::shuffle(list.begin(), list.end(), random);
     // Fields with something in them first: a blank one is not spoilt by a blank.
-    std::stable_partition(list.begin(), list.end(), [](const Site& site) { return !site.value->blank; });
+    std::stable_partition(list.begin(), list.end(), [](const Site& site) { return !site.value.blank; });
     if (list.size() > most) list.resize(most);
     for (const Site& site : list) {
       ++tally.fields;
@@ -244,13 +246,13 @@ void mutate(const Sound& s, std::size_t most, std::size_t damages, unsigned seed
         const Answer got = answer(s, damaged(s, site, damage));
         ++tally.counts[damage][got];
         if (damage == Damage::letters && site.spec->kind != FieldKind::text) {
-          EXPECT_EQ(got, Answer::error) << s.name << ":" << site.value->line << " " << key;
+          EXPECT_EQ(got, Answer::error) << s.name << ":" << site.value.line << " " << key;
         }
         if (got != Answer::another) continue;
         const std::string kind = std::string(kDamageNames[static_cast<int>(damage)]) + " " + key;
         ++tally.others[kind];
         tally.example[kind] =
-            s.name + ":" + std::to_string(site.value->line) + " " + std::string(site.value->text);
+            s.name + ":" + std::to_string(site.value.line) + " " + std::string(site.value.text);
       }
     }
   }

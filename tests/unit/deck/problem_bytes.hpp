@@ -111,11 +111,13 @@ class ProblemBytes {
 // The values of a deck that isn't built into a model.
 inline std::string values_as_read(const Deck& deck) {
   std::string bytes;
-  for (const Card& card : deck.cards)
-    bytes += std::to_string(card.spec) + "," + std::to_string(card.value_count) + ";";
-  for (const FieldValue& value : deck.values)
-    if (value.kind != FieldKind::text)
-      bytes.append(reinterpret_cast<const char*>(&value.number), sizeof value.number);
+  for (const Card& card : deck.cards) {
+    const std::vector<FieldValue> values = deck.values(card);
+    bytes += std::to_string(card.spec) + "," + std::to_string(values.size()) + ";";
+    for (const FieldValue& value : values)
+      if (value.kind != FieldKind::text)
+        bytes.append(reinterpret_cast<const char*>(&value.number), sizeof value.number);
+  }
   return bytes;
 }
 

@@ -142,13 +142,12 @@ std::vector<CardLine> card_lines(const Sound& s) {
   for (const Card& card : s.deck.cards) {
     const CardSpec* spec = &s.deck.specs[static_cast<std::size_t>(card.spec)];
     spec_of.try_emplace(card.line, spec);
-    for (std::int32_t i = 0; i < card.value_count; ++i)
-      spec_of.try_emplace(s.deck.values[static_cast<std::size_t>(card.first_value + i)].line, spec);
+    for (const FieldValue& value : s.deck.values(card)) spec_of.try_emplace(value.line, spec);
   }
   std::vector<CardLine> lines;
   for (const auto& [number, spec] : spec_of) {
     const std::string_view line = s.deck.line_text(number);
-    CardLine one{number, s.deck.line_starts[static_cast<std::size_t>(number) - 1], 0, 0, spec};
+    CardLine one{number, s.deck.source.starts()[static_cast<std::size_t>(number) - 1], 0, 0, spec};
     one.end = one.begin + line.size();
     const std::size_t name =
         s.layout.card_separator.empty() ? std::string_view::npos : line.find(s.layout.card_separator);
