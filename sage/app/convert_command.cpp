@@ -22,6 +22,7 @@ struct ConvertOptions {
   std::string from, to;
   InputOptions input;
   MshOptions mesh;
+  bool wide = false;
 };
 
 std::string ending(const std::string& path) {
@@ -69,7 +70,8 @@ int convert(const ConvertOptions& options, const Catalogue& catalogue) {
     return kUsage;
   }
   Model model = read_model(options, catalogue);
-  write_file(options.to, to == ".dat"   ? sage1_text(model, model.diagnostics)
+  const FieldWidth width = options.wide ? FieldWidth::wide : FieldWidth::as_needed;
+  write_file(options.to, to == ".dat"   ? sage1_text(model, model.diagnostics, width)
                          : to == ".msh" ? msh_text(model, model.diagnostics)
                                         : inp_text(model, model.diagnostics));
   if (to == ".inp") warn_of_results(options.to, model.diagnostics);
@@ -90,6 +92,8 @@ Command convert_command(CLI::App& parser, const Catalogue& catalogue) {
       ->check(number_in(1e-99, 1e99, "a positive number below 1e99"));
   parser.add_option("--poisson", options->mesh.poissons_ratio, "from .msh: Poisson's ratio of all groups");
   parser.add_option("--weight", options->mesh.unit_weight, "from .msh: unit weight of all groups");
+  parser.add_flag("--wide", options->wide,
+                  "to .dat: fields of ten and twenty columns (layout sage1_wide) also where five and ten do");
   add_input_options(parser, options->input);
   add_build_options(parser, options->input.build, catalogue);
   return [options, &catalogue] { return convert(*options, catalogue); };

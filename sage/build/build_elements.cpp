@@ -235,7 +235,7 @@ void read_element_card(Builder& b, const CardView& card) {
 }
 
 // Every parameter of a law, from its card or its fallback.  `given` stands on the first of the cards, if any.
-void read_parameters(Builder& b, Material& m, const SourcePosition& where, std::span<const FieldValue> given,
+void read_parameters(Builder& b, Material& m, const SourcePosition& where, const ValueList& given,
                      const std::vector<CardView>& cards) {
   const std::string name = "material " + std::to_string(m.number);
   for (std::size_t i = 0; i < m.entry->parameters.size(); ++i) {
@@ -281,7 +281,7 @@ void read_material(Builder& b, const CardView& card, const std::vector<CardView>
   }
   m.law_name = entry->name;
   m.entry = b.catalogue.materials.share(m.code);
-  std::vector<FieldValue> given;
+  ValueList given;
   SourcePosition where = card.where();
   if (!parameter_cards.empty()) {
     given = parameter_cards.front().list("values");

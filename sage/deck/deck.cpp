@@ -153,7 +153,7 @@ bool CardView::blank(std::string_view field) const {
   return Deck::is_blank(number_at(place(field)));
 }
 
-std::vector<FieldValue> CardView::list(std::string_view field) const {
+ValueList CardView::list(std::string_view field) const {
   const int at = place(field);
   if (at < 0 || at >= card().value_count) return {};
   const std::vector<FieldValue> values = deck_->values(card());

@@ -86,6 +86,9 @@ struct LeftOut {
   Diagnostic message;  // an error: the deck is refused unless BuildOptions::partial; else it is only reported
 };
 
+// Values of a list.  No view of the deck: not contiguous, so that no span of it can outlive it by mistake.
+using ValueList = std::deque<FieldValue>;
+
 // Reads one card's values by canonical field name.
 class CardView;
 
@@ -152,7 +155,7 @@ class CardView {
   WellFormed text_with_flaws(std::string_view field) const;
   bool blank(std::string_view field) const;  // absent or blank
   // The values of the last, repeating field.
-  std::vector<FieldValue> list(std::string_view field) const;
+  ValueList list(std::string_view field) const;
 
   SourcePosition where() const;                        // the whole card
   SourcePosition where(std::string_view field) const;  // the field's columns; the card if absent

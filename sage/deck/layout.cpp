@@ -6,6 +6,7 @@
 #include "sage/deck/layout_bytes.hpp"
 #include "sage/deck/layout_names.hpp"
 #include "sage/deck/source.hpp"
+#include "sage/deck/wide_layout.hpp"
 
 namespace sage {
 
@@ -44,13 +45,17 @@ bool has_marks(const Layout& layout, const SourceText& deck) {
 
 std::vector<std::string> built_in_layouts() {
   std::vector<std::string> names;
-  for (const EmbeddedLayout& layout : embedded_layouts()) names.emplace_back(layout.name);
+  for (const EmbeddedLayout& layout : embedded_layouts()) {
+    names.emplace_back(layout.name);
+    if (layout.name == standard_layout) names.emplace_back(kWideLayout);
+  }
   return names;
 }
 
 Layout load_layout(const std::string& path_or_name, bool checked) {
   for (const EmbeddedLayout& embedded : embedded_layouts())
     if (embedded.name == path_or_name) return unpacked(embedded);
+  if (path_or_name == kWideLayout) return wide_layout(load_layout(std::string(standard_layout)));
   const bool path = path_or_name.find('/') != std::string::npos || path_or_name.find('.') != std::string::npos;
   if (path) return (checked ? load_checked_layout : load_layout_text)(read_file(path_or_name), path_or_name);
   std::string known;

@@ -89,7 +89,7 @@ void CardWriter::copy(std::string_view name) {
     if (!card.spec().fields.empty() && !fields.empty() &&
         fields.back().name == card.spec().fields.back().name) {
       const std::string field = fields.back().name;
-      const std::span<const FieldValue> list = card.list(field);
+      const ValueList list = card.list(field);
       for (std::size_t i = 1; i < list.size(); ++i)
         fields.push_back({field, list[i].number, card.where(list[i]), {}});
     }

@@ -44,10 +44,9 @@ void read_kind(Body& body) {
 }
 
 // Values of a list in a list's card, which must have so many.
-std::span<const FieldValue> whole_list(const Body& body, const char* card_name, const char* field,
-                                       std::int64_t wanted) {
+ValueList whole_list(const Body& body, const char* card_name, const char* field, std::int64_t wanted) {
   const CardView card = body.deck.one(card_name);
-  const std::span<const FieldValue> list = card.list(field);
+  ValueList list = card.list(field);
   if (static_cast<std::int64_t>(list.size()) != wanted)
     refuse(body, card, field,
            std::to_string(wanted) + " numbers are needed, and the card has " + std::to_string(list.size()));

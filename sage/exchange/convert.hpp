@@ -17,10 +17,16 @@ struct FieldText {
 };
 FieldText field_text(double value, int width);
 
-// A deck of layout sage1, every node and element on a card of its own.  Numbers that a field of ten columns
-// can't hold exactly are written as near as possible; a warning tells how many and the largest relative change.
-// Throws InputError for what no card can hold (elements with more than 8 nodes, numbers above 99999).
-std::string sage1_text(const Model& model, Diagnostics& diagnostics);
+enum class FieldWidth {
+  as_needed,  // narrow, and wide where a number of a node, element or count takes more than five columns
+  wide
+};
+
+// A deck of layout sage1, every node and element on a card of its own; of layout sage1_wide, which its first
+// line names, where fields are wide.  Numbers that a field of ten columns (twenty) can't hold exactly are written
+// as near as possible; a warning tells how many and the largest relative change.  Throws InputError for what no
+// card can hold (elements with more than 8 nodes).
+std::string sage1_text(const Model& model, Diagnostics& diagnostics, FieldWidth width = FieldWidth::as_needed);
 
 // Gmsh MSH 4.1 ASCII: nodes and elements with their numbers, groups as physical surfaces, held boundary edges
 // as physical curves fix_x, fix_y, fix_xy.

@@ -1,10 +1,11 @@
-// A model as a deck of layout sage1 (legacy_inputs/layouts/sage1.toml).
+// A model as a deck of layout sage1 (legacy_inputs/layouts/sage1.toml), or sage1_wide.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <set>
 
+#include "sage/deck/wide_layout.hpp"
 #include "sage/exchange/convert.hpp"
 
 namespace sage {
@@ -27,28 +28,41 @@ std::string shortened(const std::string& text) {
   return mantissa + exponent;
 }
 
+// A number that takes more columns than its field has.
+struct TooWide {
+  std::string digits;
+};
+
 class Sage1Writer {
  public:
-  Sage1Writer(const Model& model, Diagnostics& diagnostics) : model_(model), diagnostics_(diagnostics) {}
+  Sage1Writer(const Model& model, Diagnostics& diagnostics, bool wide)
+      : model_(model), diagnostics_(diagnostics), wide_(wide) {}
 
   std::string deck();
 
  private:
-  void integer(long value, int width = 5) {
+  std::size_t integer_width() const { return wide_ ? 10 : 5; }
+  std::size_t real_width() const { return 2 * integer_width(); }
+  void integer(long value) {
     std::string digits = std::to_string(value);
-    if (static_cast<int>(digits.size()) > width)
-      throw InputError({model_.file, 0, 0, 0}, "the number " + digits + " does not fit the " +
-                                                   std::to_string(width) + " columns of a sage1 card");
-    text_.append(static_cast<std::size_t>(width) - digits.size(), ' ') += digits;
+    if (digits.size() > integer_width()) throw TooWide{digits};
+    text_.append(integer_width() - digits.size(), ' ') += digits;
   }
   void real(double value) {
-    const FieldText field = field_text(value, 10);
+    const FieldText field = field_text(value, static_cast<int>(real_width()));
     if (!field.exact) {
       ++inexact_;
       largest_ = std::max(largest_, field.change);
     }
-    text_.append(10 - field.text.size(), ' ') += field.text;
+    text_.append(real_width() - field.text.size(), ' ') += field.text;
   }
+  void blank_real() { text_.append(real_width(), ' '); }
+  void two_zeros() {
+    integer(0);
+    integer(0);
+  }
+  // A comment with the names of fields, each above the end of its field: given for narrow ones.
+  void heading(std::string_view names);
   void name(std::string value, std::size_t width) {
     // Not in the middle of a character of UTF-8.
     const std::size_t columns = width;
@@ -86,9 +100,26 @@ class Sage1Writer {
   Diagnostics& diagnostics_;
   std::string text_;
   std::vector<int> group_numbers_;
+  bool wide_ = false;
   int inexact_ = 0;
   double largest_ = 0.0;
 };
+
+void Sage1Writer::heading(std::string_view names) {
+  if (!wide_) {
+    text_.append(names) += '\n';
+    return;
+  }
+  std::string line = "*";
+  for (std::size_t at = 1; at < names.size();) {
+    const std::size_t first = names.find_first_not_of(' ', at);
+    const std::size_t end = std::min(names.find(' ', first), names.size());
+    line.append(2 * (end - 1) + 1 - (end - first) - line.size(), ' ');
+    line += names.substr(first, end - first);
+    at = end;
+  }
+  text_ += line + '\n';
+}
 
 // Quadrilaterals and the triangles folded out of them share a number in the model; here each has its own.
 void Sage1Writer::number_groups() {
@@ -113,7 +144,7 @@ void Sage1Writer::control(std::size_t reports) {
                                 reports,
                                 model_.mesh.number.size(),
                                 elements};
-  text_ += "* geom solv node fill matl grup elem fixi init stag rept nnod nele\n";
+  heading("* geom solv node fill matl grup elem fixi init stag rept nnod nele");
   integer(model_.geometry == Geometry::axisymmetric ? 2 : 1);
   integer(model_.solver);
   for (std::size_t count : counts) integer(static_cast<long>(count));
@@ -121,10 +152,10 @@ void Sage1Writer::control(std::size_t reports) {
 }
 
 void Sage1Writer::nodes() {
-  text_ += "* node step syst         x         y\n";
+  heading("* node step syst         x         y");
   for (int node = 0; node < model_.mesh.nodes(); ++node) {
     integer(node_number(node));
-    text_ += "    0    0";
+    two_zeros();
     real(model_.mesh.x(0, node));
     real(model_.mesh.x(1, node));
     line();
@@ -133,7 +164,7 @@ void Sage1Writer::nodes() {
 
 void Sage1Writer::materials() {
   for (const Material& material : model_.materials) {
-    text_ += "* numb  law para    weight name\n";
+    heading("* numb  law para    weight name");
     integer(material.number);
     integer(material.code);
     integer(static_cast<long>(material.parameters.size()));
@@ -148,7 +179,7 @@ void Sage1Writer::materials() {
 }
 
 void Sage1Writer::groups() {
-  text_ += "* numb elem form matl name\n";
+  heading("* numb elem form matl name");
   for (std::size_t g = 0; g < model_.groups.size(); ++g) {
     const Group& group = model_.groups[g];
     integer(group_number(static_cast<int>(g)));
@@ -161,7 +192,7 @@ void Sage1Writer::groups() {
 }
 
 void Sage1Writer::elements() {
-  text_ += "* numb grup   n1   n2   n3   n4   n5   n6   n7   n8\n";
+  heading("* numb grup   n1   n2   n3   n4   n5   n6   n7   n8");
   for (std::size_t g = 0; g < model_.groups.size(); ++g) {
     const Group& group = model_.groups[g];
     if (group.elements() > 0 && group.node_count() > 8)
@@ -179,7 +210,7 @@ void Sage1Writer::elements() {
 
 void Sage1Writer::fixity(const Fixity& fixity, bool in_stage) {
   integer(node_number(fixity.node));
-  text_ += "    0    0";
+  two_zeros();
   for (FixityCode code : fixity.code)
     integer(code == FixityCode::fixed ? 1 : code == FixityCode::released ? -1 : 0);
   // The displacement of a held dof is written though it is zero: left blank it would get a note.
@@ -191,14 +222,14 @@ void Sage1Writer::fixity(const Fixity& fixity, bool in_stage) {
 // The columns of y stay blank.
 void Sage1Writer::fixity(const FieldFixity& fixity, bool in_stage) {
   integer(node_number(fixity.node));
-  text_ += "    0    0";
+  two_zeros();
   integer(fixity.code == FixityCode::fixed ? 1 : fixity.code == FixityCode::released ? -1 : 0);
   integer(0);
   if (in_stage && fixity.code == FixityCode::fixed)
     real(fixity.value);
   else
-    text_ += "          ";
-  text_ += "          ";
+    blank_real();
+  blank_real();
   unknown(fixity.field);
 }
 
@@ -212,7 +243,7 @@ void Sage1Writer::initial(const InitialStress& initial) {
   integer(static_cast<int>(initial.kind));
   for (double value : initial.value) {
     if (std::isnan(value))
-      text_ += "          ";  // left as it is
+      blank_real();  // left as it is
     else
       real(value);
   }
@@ -233,7 +264,7 @@ void Sage1Writer::stage(const Stage& stage) {
   // A '*' in column 1 would make the title a comment.
   name(stage.title.starts_with('*') ? " " + stage.title : stage.title, 80);
   line();
-  text_ += "* incr meth iter outp fixi load pres brth deth init    grav x    grav y tolerance\n";
+  heading("* incr meth iter outp fixi load pres brth deth init    grav x    grav y tolerance");
   const std::size_t counts[] = {stage.fixities.size() + stage.field_fixities.size(),
                                 stage.loads.size() + stage.field_loads.size(),
                                 stage.pressures.size(),
@@ -249,14 +280,14 @@ void Sage1Writer::stage(const Stage& stage) {
   for (const FieldFixity& f : stage.field_fixities) fixity(f, true);
   for (const NodalLoad& load : stage.loads) {
     integer(node_number(load.node));
-    text_ += "    0    0";
+    two_zeros();
     real(load.force.x());
     real(load.force.y());
     line();
   }
   for (const FieldLoad& load : stage.field_loads) {
     integer(node_number(load.node));
-    text_ += "    0    0";
+    two_zeros();
     real(load.value);
     real(0.0);
     unknown(load.field);
@@ -265,7 +296,7 @@ void Sage1Writer::stage(const Stage& stage) {
     const Group& group = model_.groups[static_cast<std::size_t>(load.group)];
     integer(group.element_numbers[static_cast<std::size_t>(load.element)]);
     integer(load.edge + 1);
-    text_ += "    0    0";
+    two_zeros();
     for (double value : {load.normal[0], load.normal[1], load.shear[0], load.shear[1]}) real(value);
     line();
   }
@@ -312,9 +343,11 @@ bool Sage1Writer::report(const Report& report, bool write) {
 
 std::string Sage1Writer::deck() {
   number_groups();
+  if (wide_) text_.append("* layout: ").append(kWideLayout) += '\n';
   name(model_.title.starts_with('*') ? " " + model_.title : model_.title, 80);
   line();
-  text_ += "* length force   stress         p_a   gamma_w\n";
+  text_ += wide_ ? "* length force   stress                   p_a             gamma_w\n"
+                 : "* length force   stress         p_a   gamma_w\n";
   for (const std::string& unit : {model_.units.length, model_.units.force, model_.units.stress}) name(unit, 8);
   real(model_.units.atmospheric_pressure);
   real(model_.units.water_unit_weight);
@@ -329,10 +362,10 @@ std::string Sage1Writer::deck() {
   materials();
   groups();
   elements();
-  if (!model_.fixities.empty()) text_ += "* first last step xcod ycod\n";
+  if (!model_.fixities.empty()) heading("* first last step xcod ycod");
   for (const Fixity& f : model_.fixities) fixity(f, false);
   for (const FieldFixity& f : model_.field_fixities) fixity(f, false);
-  if (!model_.initials.empty()) text_ += "* group kind      v1        v2        v3        v4\n";
+  if (!model_.initials.empty()) heading("* group kind      v1        v2        v3        v4");
   for (const InitialStress& i : model_.initials) initial(i);
   for (const Stage& s : model_.stages) stage(s);
   for (const Report& r : model_.reports) report(r, true);
@@ -340,8 +373,8 @@ std::string Sage1Writer::deck() {
   if (inexact_ > 0) {
     char change[32];
     std::snprintf(change, sizeof change, "%.2g", largest_);
-    warning(std::to_string(inexact_) +
-            " number(s) need more digits than ten columns hold; largest relative change " + change);
+    warning(std::to_string(inexact_) + " number(s) need more digits than " + (wide_ ? "twenty" : "ten") +
+            " columns hold; largest relative change " + change);
   }
   return std::move(text_);
 }
@@ -377,8 +410,19 @@ FieldText field_text(double value, int width) {
   return {nearest, false, nearest_error / std::abs(value)};
 }
 
-std::string sage1_text(const Model& model, Diagnostics& diagnostics) {
-  return Sage1Writer(model, diagnostics).deck();
+std::string sage1_text(const Model& model, Diagnostics& diagnostics, FieldWidth width) {
+  bool wide = width == FieldWidth::wide;
+  for (;; wide = true) {
+    Diagnostics words;
+    try {
+      std::string text = Sage1Writer(model, words, wide).deck();
+      for (const Diagnostic& one : words.list()) diagnostics.add(one);
+      return text;
+    } catch (const TooWide& number) {
+      if (wide)
+        throw InputError({model.file, 0, 0, 0}, "the number " + number.digits + " does not fit a sage1 card");
+    }
+  }
 }
 
 }  // namespace sage

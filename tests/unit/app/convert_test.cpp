@@ -138,6 +138,45 @@ TEST(Convert, DeckToDeckGivesTheSameResultsBitForBit) {
   EXPECT_EQ(sage1_text(again, again.diagnostics), text);
 }
 
+// Text to text: every number of the narrow deck stands in the wide one, and comes back.
+TEST(Convert, NarrowToWideToNarrowIsTheSameDeck) {
+  for (const std::string& deck :
+       {write("strip.dat", kDeck), kInputs + "chapter7/dp_285/deck.dat", kInputs + "quad4m/MDL.Q4I"}) {
+    SCOPED_TRACE(deck);
+    Model model = model_of(deck);
+    Model as_written = model_of(write("narrow.dat", sage1_text(model, model.diagnostics)));
+    const std::string narrow = sage1_text(as_written, as_written.diagnostics);  // its numbers fit ten columns
+    const std::string wide = sage1_text(as_written, as_written.diagnostics, FieldWidth::wide);
+    EXPECT_TRUE(wide.starts_with("* layout: sage1_wide\n"));
+    Model back = model_of(write("wide.dat", wide));
+    EXPECT_EQ(sage1_text(back, back.diagnostics), narrow);
+    EXPECT_EQ(sage1_text(back, back.diagnostics, FieldWidth::wide), wide);
+  }
+}
+
+// Five columns end at 99 999.
+TEST(Convert, WideFieldsWhereANumberNeedsThem) {
+  Model model = model_of(write("strip.dat", kDeck));
+  for (int& number : model.mesh.number) number += 99'999 - model.mesh.number.back();
+  EXPECT_FALSE(sage1_text(model, model.diagnostics).starts_with("*"));
+  for (int& number : model.mesh.number) number += 1;
+  const std::string text = sage1_text(model, model.diagnostics);
+  EXPECT_TRUE(text.starts_with("* layout: sage1_wide\n"));
+  Model back = model_of(write("wide.dat", text));
+  EXPECT_EQ(back.mesh.number, model.mesh.number);
+  EXPECT_EQ(back.mesh.x, model.mesh.x);
+  EXPECT_EQ(sage1_text(back, back.diagnostics), text);
+}
+
+// Ten columns lose digits of this deck's numbers (below); twenty don't.
+TEST(Convert, WideFieldsHoldEveryDigit) {
+  Model model = model_of(kInputs + "smith_griffiths/p51_5.dat");
+  const int before = model.diagnostics.warnings();
+  const std::string text = sage1_text(model, model.diagnostics, FieldWidth::wide);
+  EXPECT_EQ(model.diagnostics.warnings(), before);
+  EXPECT_EQ(model_of(write("wide.dat", text)).mesh.x, model.mesh.x);
+}
+
 TEST(Convert, TellsTheLargestChangeOfNumbersThatDoNotFit) {
   Model model = model_of(kInputs + "smith_griffiths/p51_5.dat");
   const std::string text = sage1_text(model, model.diagnostics);

@@ -73,7 +73,7 @@ TEST(Deck, ListsGoOnInTheNextCards) {
   const CardView material = deck.one("material");
   const std::vector<CardView> parameters = deck.all("parameters", material);
   ASSERT_EQ(parameters.size(), 1u);
-  const std::vector<FieldValue> values = parameters[0].list("values");
+  const ValueList values = parameters[0].list("values");
   ASSERT_EQ(values.size(), 10u);
   for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(values[i].number, static_cast<double>(i + 1));
   EXPECT_EQ(values[8].line, 10);  // behind a comment

@@ -156,7 +156,7 @@ Deck textbook(const std::string& name, const std::string& layout) {
   return read_deck(kInputs + "smith_griffiths/" + name + ".dat", load_layout(layout));
 }
 
-std::vector<double> numbers(std::span<const FieldValue> values) {
+std::vector<double> numbers(const ValueList& values) {
   std::vector<double> list;
   for (const FieldValue& value : values) list.push_back(value.number);
   return list;
