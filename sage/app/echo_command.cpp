@@ -21,6 +21,17 @@ struct EchoOptions {
   InputOptions input;
 };
 
+// A layout that is being written reads, and echoes, before it makes a model.
+void note_half_layout(const std::string& name) {
+  if (name.empty()) return;
+  if (const int missing = name_problems(load_layout(name, false)).errors(); missing > 0)
+    fmt::print(
+        stderr,
+        "{}: note: the layout makes no model yet: {} missing or used by nothing; sagefe echo --names lists "
+        "them\n",
+        name, missing == 1 ? "one name is" : std::to_string(missing) + " names are");
+}
+
 std::string names_of(const EchoOptions& options) {
   const std::string name =
       options.input.layout.empty() ? detect_layout(read_file(options.deck)) : options.input.layout;
@@ -44,9 +55,10 @@ Command echo_command(CLI::App& parser, const Catalogue&) {
       fmt::print("{}", names_of(*options));
       return kOk;
     }
-    const Deck deck = read_input(options->deck, options->input);
+    const Deck deck = read_input(options->deck, options->input, false);
     fmt::print("{}", echo(deck));
     print_diagnostics(deck.diagnostics);
+    note_half_layout(options->input.layout);
     return kOk;
   };
 }

@@ -253,12 +253,13 @@ void require_file(const std::string& path, const std::string& who) {
     throw InputError({path, 0, 0, 0}, who + " reads its deck more than once: a file is wanted, not a pipe");
 }
 
-Deck read_input(const std::string& path, const InputOptions& options) {
+Deck read_input(const std::string& path, const InputOptions& options, bool whole_layout) {
   ReadOptions read;
   read.strict = options.strict;
   keep_input(path);
   if (!options.layout.empty()) keep_input(options.layout);
-  return options.layout.empty() ? read_deck(path, read) : read_deck(path, load_layout(options.layout), read);
+  return options.layout.empty() ? read_deck(path, read)
+                                : read_deck(path, load_layout(options.layout, whole_layout), read);
 }
 
 void print_diagnostics(const Diagnostics& diagnostics) {

@@ -64,7 +64,8 @@ std::function<std::string(const std::string&)> number_in(double low, double high
 
 // Throws InputError if `path` is a pipe; `who` reads its deck more than once.
 void require_file(const std::string& path, const std::string& who);
-Deck read_input(const std::string& path, const InputOptions& options);
+// whole_layout: a layout file without what a model needs, or with names that nothing uses, is refused.
+Deck read_input(const std::string& path, const InputOptions& options, bool whole_layout = true);
 
 // To standard error; errors first are not reordered, at most 50 are shown.
 void print_diagnostics(const Diagnostics& diagnostics);

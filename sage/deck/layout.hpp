@@ -104,6 +104,8 @@ Layout load_layout(const std::string& path_or_name, bool checked = true);
 Layout load_layout_text(std::string_view toml, const std::string& file);
 std::vector<std::string> built_in_layouts();
 
+// An error for each name that nothing uses, and for each that a model needs and the layout has not.
+Diagnostics name_problems(const Layout& layout);
 // Every name of the layout and who uses it, and the names that the program also knows for its cards.
 std::string names_listing(const Layout& layout);
 

@@ -174,13 +174,13 @@ class NameCheck {
     find_owners(layout_.entries, -1);
   }
 
-  void run() {
+  Diagnostics problems() {
     for (std::size_t i = 0; i < layout_.cards.size(); ++i)
       if (!layout_.cards[i].ignored) check_card(static_cast<int>(i));
     for (const KnownCard& known : kKnown)
       if (belongs(known) && known.card_needed && !has_card(known.name) && !replaced(known))
         error(0, "the layout has no card \"" + std::string(known.name) + "\", which every model needs");
-    if (problems_.errors() > 0) throw InputError(problems_);
+    return problems_;
   }
 
   std::string listing() const {
@@ -219,8 +219,8 @@ class NameCheck {
                           : card.ignored || card.rules[f].ignored ? ignored
                                                                   : unused;
       list += (list.empty() ? "" : ", ") + name;
-      if (&list == &unused)
-        list += " (" + nearest(name, not_given(card, names)).substr(names.empty() ? 0 : 2) + ")";
+      const std::string hint = &list == &unused ? nearest(name, not_given(card, names)) : "";
+      if (!hint.empty()) list += " (" + hint.substr(2) + ")";
     }
     std::string others;
     if (!card.ignored)
@@ -371,7 +371,12 @@ class NameCheck {
 }  // namespace
 
 void check_names(const Layout& layout) {
-  NameCheck(layout).run();
+  Diagnostics problems = NameCheck(layout).problems();
+  if (problems.errors() > 0) throw InputError(std::move(problems));
+}
+
+Diagnostics name_problems(const Layout& layout) {
+  return NameCheck(layout).problems();
 }
 
 std::string names_listing(const Layout& layout) {

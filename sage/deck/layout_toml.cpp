@@ -399,8 +399,12 @@ class LayoutReader : private TomlFile {
       if (!is_data(step.edit)) continue;
       const FieldSpec& spec = *fields[std::min(field, fields.size() - 1)];
       if (!edit_fits(step.edit, spec.kind))
-        fail(*table.get("format"),
-             "FORMAT " + card.spec.format + " doesn't suit field \"" + spec.name + "\": its kind is another");
+        fail(*table.get("format"), "FORMAT " + card.spec.format + " doesn't suit field \"" + spec.name +
+                                       "\": its kind is another" +
+                                       (complete ? " where a longer list goes on (brackets of its own, as in "
+                                                   "(I5,(10F5.0)), let it go on with "
+                                                   "itself)"
+                                                 : ""));
       if (!complete) ++field;
     }
   }

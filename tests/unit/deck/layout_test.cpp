@@ -187,7 +187,8 @@ TEST(Layout, AListMustSuitTheWholeFormat) {
   const std::string fields = "fields = [{ name = 'n' }, { name = 'v', count = 'n' }]\n";
   EXPECT_EQ(complaint(head + "format = '(I5,(3F10.0))'\n" + fields), "");
   EXPECT_EQ(complaint(head + "format = '(I5,3F10.0)'\n" + fields),  // reversion meets I5 again
-            "4: FORMAT (I5,3F10.0) doesn't suit field \"v\": its kind is another");
+            "4: FORMAT (I5,3F10.0) doesn't suit field \"v\": its kind is another where a longer list goes on "
+            "(brackets of its own, as in (I5,(10F5.0)), let it go on with itself)");
   EXPECT_EQ(complaint(head + "format = '(I5,F10.0,A3)'\n" + fields).substr(0, 2), "4:");
 }
 
