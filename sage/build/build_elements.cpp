@@ -1,6 +1,7 @@
 // Materials, element groups and element cards (with block generation).
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "sage/build/builder.hpp"
 #include "sage/deck/text.hpp"
@@ -71,28 +72,23 @@ struct ElementCard {
   int folded = -1;         // as in ElementPlace
 };
 
-void add_element(Builder& b, const CardView& card, const ElementCard& element) {
-  Group& group = b.model.groups[static_cast<std::size_t>(element.group)];
+// Writes the indices of the card's nodes to `index`, which has a place for each node of the element; -1 stays where
+// a mid-side node is to be made.  False after an error.
+bool find_nodes(Builder& b, const CardView& card, const ElementCard& element, const Group& group,
+                std::span<int> index) {
   const ElementEntry& entry = *group.entry;
   const auto name = [&] { return "element " + std::to_string(element.number); };
-  if (!b.element_place
-           .try_emplace(element.number, ElementPlace{element.group, group.elements(), element.folded})
-           .second) {
-    b.error(card.where("number"), name() + " is defined twice");
-    return;
-  }
-  std::vector<int> index(static_cast<std::size_t>(entry.nodes), -1);
   for (std::size_t i = 0; i < element.nodes.size(); ++i) {
     const int number = element.nodes[i];
-    if (number == 0) continue;  // a mid-side node to be made
-    const auto it = b.node_index.find(number);
-    if (it == b.node_index.end()) {
+    if (number == 0) continue;
+    const int* node = b.node_index.find(number);
+    if (node == nullptr) {
       if (b.nodes_known)
         b.error(card.where("n" + std::to_string(i + 1)),
                 name() + ": node " + std::to_string(number) + " is not defined by any node or fill card");
-      return;
+      return false;
     }
-    if (std::find(index.begin(), index.end(), it->second) != index.end()) {
+    if (std::find(index.begin(), index.end(), *node) != index.end()) {
       b.error(card.where("n" + std::to_string(i + 1)),
               name() + ": node " + std::to_string(number) + " stands twice" +
                   (entry.interface() ? "; a pair of an interface is two nodes at one place, one of each body, "
@@ -100,13 +96,29 @@ void add_element(Builder& b, const CardView& card, const ElementCard& element) {
                    : entry.square() && entry.folded.empty()
                        ? "; only a 4-node quadrilateral becomes a triangle by that"
                        : ""));
-      return;
+      return false;
     }
-    index[local_node(group, entry, i, element.nodes.size())] = it->second;
+    index[local_node(group, entry, i, element.nodes.size())] = *node;
+  }
+  return true;
+}
+
+void add_element(Builder& b, const CardView& card, const ElementCard& element) {
+  Group& group = b.model.groups[static_cast<std::size_t>(element.group)];
+  if (!b.element_place
+           .try_emplace(element.number, ElementPlace{element.group, group.elements(), element.folded})
+           .second) {
+    b.error(card.where("number"), "element " + std::to_string(element.number) + " is defined twice");
+    return;
+  }
+  const std::size_t first = group.nodes.size();
+  group.nodes.resize(first + static_cast<std::size_t>(group.entry->nodes), -1);
+  if (!find_nodes(b, card, element, group, std::span(group.nodes).subspan(first))) {
+    group.nodes.resize(first);
+    return;
   }
   group.element_numbers.push_back(element.number);
   group.element_lines.push_back(card.card().line);
-  group.nodes.insert(group.nodes.end(), index.begin(), index.end());
 }
 
 // What a group's elements are where a corner repeats the next: its twin group is made on demand.
@@ -221,9 +233,13 @@ void read_element_card(Builder& b, const CardView& card) {
   if (!read_block(b, card, element, block)) return;
   const std::vector<int> first_nodes = element.nodes;
   const int target_group = group->second;  // folding triangles may add to the index
+  ElementCard next;
   for (int j = 0; j < block.rows; ++j) {
     for (int i = 0; i < block.columns; ++i) {
-      ElementCard next{element.number + j * block.columns + i, target_group, first_nodes};
+      next.number = element.number + j * block.columns + i;
+      next.group = target_group;
+      next.nodes = first_nodes;
+      next.folded = -1;
       for (int& n : next.nodes)
         if (n != 0) n += i * block.column_step + j * block.row_step;
       fold(b, next);

@@ -26,8 +26,7 @@ std::string Builder::text(const CardView& card, std::string_view field) {
 }
 
 int Builder::node(const CardView& card, std::string_view field, std::int64_t number) {
-  const auto it = node_index.find(static_cast<int>(number));
-  if (it != node_index.end()) return it->second;
+  if (const int* found = node_index.find(static_cast<int>(number))) return *found;
   if (nodes_known)
     error(card.where(field), "node " + std::to_string(number) + " is not defined by any node or fill card");
   return -1;

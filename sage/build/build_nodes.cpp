@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kMaxNodes = 20'000'000;
 
-using PlacedNodes = std::map<int, Vector2>;  // ordered by number, as listings are
+using PlacedNodes = ByNumber<Vector2>;
 
 // Fractions 0 .. 1 of `intervals` intervals whose last is `ratio` times the first (0 = equal).
 std::vector<double> graded_fractions(int intervals, double ratio) {
@@ -107,12 +107,12 @@ void read_node_cards(Builder& b, PlacedNodes& nodes) {
 std::vector<Vector2> side_points(const PlacedNodes& nodes, int first, int step, int intervals, double ratio) {
   std::vector<Vector2> points;
   for (int i = 0; i <= intervals; ++i) {
-    const auto it = nodes.find(first + i * step);
-    if (it == nodes.end()) break;
-    points.push_back(it->second);
+    const Vector2* point = nodes.find(first + i * step);
+    if (point == nullptr) break;
+    points.push_back(*point);
   }
   if (static_cast<int>(points.size()) == intervals + 1) return points;
-  const Vector2 &a = nodes.at(first), c = nodes.at(first + intervals * step);
+  const Vector2 &a = *nodes.find(first), c = *nodes.find(first + intervals * step);
   const std::vector<double> at = graded_fractions(intervals, ratio);
   points.clear();
   for (double t : at) points.push_back(a + t * (c - a));
@@ -143,7 +143,7 @@ void fill_block(Builder& b, PlacedNodes& nodes, const CardView& card, int errors
   }
   const std::int64_t across = std::int64_t{columns} * column_step, up = std::int64_t{rows} * row_step;
   for (const std::int64_t corner : {std::int64_t{first}, first + across, first + across + up, first + up}) {
-    if (corner <= kLargestNumber && nodes.count(static_cast<int>(corner))) continue;
+    if (corner <= kLargestNumber && nodes.contains(static_cast<int>(corner))) continue;
     if (b.problems.errors() == errors_before)  // else the card that should define it is what is wrong
       b.error(card.where("first"),
               "corner node " + std::to_string(corner) + " of the block is not defined before it");
@@ -182,10 +182,12 @@ void fill_block(Builder& b, PlacedNodes& nodes, const CardView& card, int errors
 void place_middle_nodes(const CardView& card, int corners, PlacedNodes& nodes) {
   for (int i = 0; i < corners; ++i) {
     const int middle = card.integer("n" + std::to_string(corners + i + 1));
-    if (middle < 1 || nodes.count(middle) > 0) continue;
-    const auto from = nodes.find(card.integer("n" + std::to_string(i + 1)));
-    const auto to = nodes.find(card.integer("n" + std::to_string((i + 1) % corners + 1)));
-    if (from != nodes.end() && to != nodes.end()) nodes.emplace(middle, 0.5 * (from->second + to->second));
+    if (middle < 1 || nodes.contains(middle)) continue;
+    const Vector2* from = nodes.find(card.integer("n" + std::to_string(i + 1)));
+    const Vector2* to = nodes.find(card.integer("n" + std::to_string((i + 1) % corners + 1)));
+    if (from == nullptr || to == nullptr) continue;
+    const Vector2 between = 0.5 * (*from + *to);
+    nodes.try_emplace(middle, between);
   }
 }
 
@@ -218,13 +220,12 @@ void build_nodes(Builder& b) {
   Mesh& mesh = b.model.mesh;
   mesh.x.resize(2, static_cast<Eigen::Index>(nodes.size()));
   mesh.number.reserve(nodes.size());
-  b.node_index.reserve(nodes.size());
-  for (const auto& [number, node] : nodes) {
+  nodes.for_each([&](int number, const Vector2& node) {  // ordered by number, as listings are
     const int index = mesh.nodes();
     mesh.x.col(index) = node;
     mesh.number.push_back(number);
-    b.node_index.emplace(number, index);
-  }
+    b.node_index.try_emplace(number, index);
+  });
   mesh.deck_nodes = mesh.nodes();
 }
 

@@ -139,15 +139,15 @@ void read_pressure(Builder& b, const CardView& card, std::vector<EdgeLoad>& out)
   load.line = card.card().line;
   const NumberRange range = b.range(card, "element");
   for (std::int64_t number = range.first; number <= range.last; number += range.step) {
-    const auto place = b.element_place.find(static_cast<int>(number));
-    if (place == b.element_place.end()) {
+    const ElementPlace* place = b.element_place.find(static_cast<int>(number));
+    if (place == nullptr) {
       if (b.elements_known)
         b.error(card.where(number == range.first ? "element" : "last"),
                 "element " + std::to_string(number) + " is not defined by any element card");
       return;
     }
-    const Group& group = b.model.groups[static_cast<std::size_t>(place->second.group)];
-    const int folded = place->second.folded;
+    const Group& group = b.model.groups[static_cast<std::size_t>(place->group)];
+    const int folded = place->folded;
     // Edges count as the element's card lists its nodes.
     const int edges = static_cast<int>(group.element->edges().size()) + (folded >= 0 ? 1 : 0);
     if (edge < 0 || edge >= edges || edge == folded) {
@@ -161,8 +161,8 @@ void read_pressure(Builder& b, const CardView& card, std::vector<EdgeLoad>& out)
       return;
     }
     load.edge = folded >= 0 && edge > folded ? edge - 1 : edge;
-    load.group = place->second.group;
-    load.element = place->second.element;
+    load.group = place->group;
+    load.element = place->element;
     out.push_back(load);
   }
 }

@@ -397,7 +397,7 @@ void split_removed(Builder& b) {
   for (std::size_t c = 0; c < cards.size(); ++c)
     for (const FieldValue& value : cards[c].list("elements")) {
       const int number = static_cast<int>(std::clamp(value.number, -2e9, 2e9));
-      if (b.element_place.count(number) == 0)
+      if (!b.element_place.contains(number))
         b.error(cards[c].where(value),
                 "element " + std::to_string(number) + " is to be removed, but no card defines it");
       else if (const auto [before, added] = card_of.try_emplace(number, c); !added)

@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <utility>
 
 #include "sage/build/build_model.hpp"
+#include "sage/build/solid_edges.hpp"
 #include "sage/deck/deck.hpp"
 #include "sage/mesh/work.hpp"
 #include "sage/model/dof_map.hpp"
@@ -39,8 +41,9 @@ struct Builder : mesh::Work {
   const BuildOptions& options;
   std::unordered_map<int, int> group_index = {};
   std::unordered_map<int, int> material_index = {};
-  std::unordered_map<int, ElementPlace> element_place = {};
-  DofMap dof_map = {};  // once the elements are known
+  ByNumber<ElementPlace> element_place = {};
+  std::optional<SolidEdges> solids = {};  // of the finished mesh: solid_edges()
+  DofMap dof_map = {};                    // once the elements are known
   // By indices of their end nodes; filled when first asked.
   std::map<std::pair<int, int>, DirectedEdge> edges = {};
   std::vector<int> blank_weights = {};  // materials whose unit weight is left blank
@@ -58,6 +61,8 @@ struct Builder : mesh::Work {
   // The fields `first_field`, last and step of a card.  A blank or zero last means the first only, step 0 is 1.
   // Empty, and an error, where they make no range.
   NumberRange range(const CardView& card, std::string_view first_field);
+  // Made once, where a check asks for it.
+  const SolidEdges& solid_edges() { return solids ? *solids : solids.emplace(model); }
   // Error at a place that names a group which no card defines.
   void group_missing(const SourcePosition& where, int number);
 };

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
+#include <span>
 #include <utility>
 
 #include "sage/build/builder.hpp"
@@ -36,9 +36,10 @@ struct Examples {
 std::vector<double> shortest_edges(const Model& model) {
   std::vector<double> shortest(static_cast<std::size_t>(model.mesh.nodes()),
                                std::numeric_limits<double>::infinity());
-  for (const Group& group : model.groups)
+  for (const Group& group : model.groups) {
+    const auto& edges = group.element->edges();
     for (int e = 0; e < group.elements(); ++e)
-      for (const std::vector<int>& edge : group.element->edges()) {
+      for (const std::vector<int>& edge : edges) {
         const int* nodes = group.nodes_of(e);
         const double length = (model.mesh.x.col(nodes[edge[0]]) - model.mesh.x.col(nodes[edge[1]])).norm() /
                               static_cast<double>(edge.size() - 1);
@@ -47,6 +48,7 @@ std::vector<double> shortest_edges(const Model& model) {
           s = std::min(s, length);
         }
       }
+  }
   return shortest;
 }
 
@@ -56,6 +58,25 @@ std::vector<char> interface_nodes(const Model& model) {
     if (group.interface())
       for (int node : group.nodes) flags[static_cast<std::size_t>(node)] = 1;
   return flags;
+}
+
+// Sorts numbers that are spread evenly, as places in a mesh mostly are: each has its bucket at once.
+void sort_spread(std::vector<std::pair<double, int>>& list) {
+  if (list.empty()) return;
+  const auto [low, high] = std::minmax_element(list.begin(), list.end());
+  const double from = low->first;
+  const double scale = static_cast<double>(list.size() - 1) / std::max(high->first - from, 1e-300);
+  if (!std::isfinite(scale * (high->first - from))) return std::sort(list.begin(), list.end());
+  const auto bucket = [&](double x) { return static_cast<std::size_t>((x - from) * scale); };
+  std::vector<std::size_t> end(list.size() + 2, 0);
+  for (const auto& one : list) ++end[bucket(one.first) + 2];
+  for (std::size_t i = 1; i < end.size(); ++i) end[i] += end[i - 1];
+  std::vector<std::pair<double, int>> sorted(list.size());
+  for (const auto& one : list) sorted[end[bucket(one.first) + 1]++] = one;
+  for (std::size_t i = 1; i < end.size(); ++i)
+    std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(end[i - 1]),
+              sorted.begin() + static_cast<std::ptrdiff_t>(end[i]));
+  list = std::move(sorted);
 }
 
 // Coincident nodes that no interface joins: often two parts that were meant to be one.  Neighbours are sought
@@ -71,7 +92,7 @@ void warn_coincident(Builder& b, const std::vector<double>& shortest) {
     order.emplace_back(slant.dot(mesh.x.col(n)), n);
     widest = std::max(widest, kTogether * s);
   }
-  std::sort(order.begin(), order.end());
+  sort_spread(order);
   const std::vector<char> joined = interface_nodes(b.model);
   Examples pairs;
   for (std::size_t i = 0; i < order.size(); ++i)
@@ -93,7 +114,6 @@ void warn_coincident(Builder& b, const std::vector<double>& shortest) {
 struct EdgeUse {
   int a = 0, b = 0;
   int group = 0, element = 0, local = 0;
-  bool operator<(const EdgeUse& other) const { return std::tie(a, b) < std::tie(other.a, other.b); }
 };
 
 const std::vector<int>& local_nodes(const Model& model, const EdgeUse& use) {
@@ -111,34 +131,27 @@ std::string ends_of(const Model& model, const EdgeUse& use) {
 }
 
 // Edges that one solid alone has.  Where two have the same corners and not the same number of nodes, one hangs.
-std::vector<EdgeUse> outline_edges(const Model& model, Examples& hanging) {
-  std::vector<EdgeUse> uses;
-  for (std::size_t g = 0; g < model.groups.size(); ++g) {
-    const Group& group = model.groups[g];
-    if (!group.solid()) continue;
-    const auto& edges = group.element->edges();
-    for (int e = 0; e < group.elements(); ++e)
-      for (std::size_t i = 0; i < edges.size(); ++i) {
-        const auto [a, c] = std::minmax(group.nodes_of(e)[edges[i][0]], group.nodes_of(e)[edges[i][1]]);
-        uses.push_back({a, c, static_cast<int>(g), e, static_cast<int>(i)});
-      }
-  }
-  std::stable_sort(uses.begin(), uses.end());
+std::vector<EdgeUse> outline_edges(Builder& b, Examples& hanging) {
+  const Model& model = b.model;
   std::vector<EdgeUse> alone;
-  for (std::size_t i = 0; i < uses.size();) {
-    std::size_t end = i + 1;
-    while (end < uses.size() && !(uses[i] < uses[end])) ++end;
-    if (end == i + 1) alone.push_back(uses[i]);
-    for (std::size_t k = i + 1; k < end; ++k) {
-      const bool more = local_nodes(model, uses[k]).size() > local_nodes(model, uses[i]).size();
-      const EdgeUse &longer = more ? uses[k] : uses[i], &shorter = more ? uses[i] : uses[k];
-      const std::vector<int>& nodes = local_nodes(model, longer);
-      if (nodes.size() == local_nodes(model, shorter).size()) continue;
-      const int* of_element = model.groups[static_cast<std::size_t>(longer.group)].nodes_of(longer.element);
-      hanging.add("node " + number_of(model, of_element[nodes[2]]) + " of " + element_of(model, longer) +
-                  " on an edge of " + element_of(model, shorter) + ends_of(model, shorter));
+  for (int node = 0; node < model.mesh.nodes(); ++node) {
+    const std::span<const SolidEdge> edges = b.solid_edges().at(node);
+    const auto use = [&](std::size_t i) {
+      return EdgeUse{node, edges[i].other, edges[i].group, edges[i].element, edges[i].local};
+    };
+    for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
+      for (end = i + 1; end < edges.size() && edges[end].other == edges[i].other;) ++end;
+      if (end == i + 1) alone.push_back(use(i));
+      for (std::size_t k = i + 1; k < end; ++k) {
+        const bool more = local_nodes(model, use(k)).size() > local_nodes(model, use(i)).size();
+        const EdgeUse longer = use(more ? k : i), shorter = use(more ? i : k);
+        const std::vector<int>& nodes = local_nodes(model, longer);
+        if (nodes.size() == local_nodes(model, shorter).size()) continue;
+        const int* of_element = model.groups[static_cast<std::size_t>(longer.group)].nodes_of(longer.element);
+        hanging.add("node " + number_of(model, of_element[nodes[2]]) + " of " + element_of(model, longer) +
+                    " on an edge of " + element_of(model, shorter) + ends_of(model, shorter));
+      }
     }
-    i = end;
   }
   return alone;
 }
@@ -147,7 +160,7 @@ std::vector<EdgeUse> outline_edges(const Model& model, Examples& hanging) {
 void warn_hanging(Builder& b, const std::vector<double>& shortest) {
   const Model& model = b.model;
   Examples hanging;
-  const std::vector<EdgeUse> edges = outline_edges(model, hanging);
+  const std::vector<EdgeUse> edges = outline_edges(b, hanging);
   std::vector<std::pair<double, int>> order;  // the outline's nodes by x
   for (const EdgeUse& edge : edges)
     for (int local : local_nodes(model, edge)) {

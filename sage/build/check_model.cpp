@@ -47,17 +47,17 @@ void check_shapes(Builder& b) {
     for (int e = 0; e < group.elements(); ++e) {
       element_coordinates(b.model.mesh, group, e, x);
       const auto eu = static_cast<std::size_t>(e);
-      const std::string name = "element " + std::to_string(group.element_numbers[eu]);
+      const auto name = [&] { return "element " + std::to_string(group.element_numbers[eu]); };
       try {
         group.element->geometry(x, geometry);
         const double quality = group.element->shape_quality(x);
         if (const std::string words = group.element->caution(x); !words.empty() && ++cautioned == 1)
-          caution = name + " (" + group.element_name + "): " + words;
+          caution = name() + " (" + group.element_name + "): " + words;
         if (quality < kPoorShape) ++poor;
         if (quality < worst) {
           worst = quality;
           worst_angle = largest_angle(x, *group.element);
-          worst_name = name;
+          worst_name = name();
           worst_where = b.at_line(group.element_lines[eu]);
         }
       } catch (const ElementShapeError& error) {
@@ -65,7 +65,7 @@ void check_shapes(Builder& b) {
         if (!refused.empty() && refused.back().line == line)
           ++refused.back().more;
         else
-          refused.push_back({line, name + " (" + group.element_name + "): " + error.what(), 0});
+          refused.push_back({line, name() + " (" + group.element_name + "): " + error.what(), 0});
       }
     }
     if (cautioned > 1) caution += " (and " + std::to_string(cautioned - 1) + " more)";

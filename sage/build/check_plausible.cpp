@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <map>
 #include <set>
-#include <unordered_map>
+#include <span>
+#include <tuple>
 
 #include "sage/build/builder.hpp"
 #include "sage/deck/text.hpp"
@@ -145,9 +145,10 @@ void check_slender(Builder& b) {
   int number = 0, line = 0, found = 0;
   for (const Group& group : b.model.groups) {
     if (!group.solid()) continue;
+    const auto& edges = group.element->edges();
     for (int e = 0; e < group.elements(); ++e) {
       double longest = 0.0, shortest = 1e300;
-      for (const std::vector<int>& edge : group.element->edges()) {
+      for (const std::vector<int>& edge : edges) {
         const int* n = group.nodes_of(e);
         const double length = (b.model.mesh.x.col(n[edge[0]]) - b.model.mesh.x.col(n[edge[1]])).norm();
         longest = std::max(longest, length);
@@ -184,29 +185,36 @@ void check_overlap(Builder& b) {
       if (active[g][s] && active[h][s]) return true;
     return false;
   };
-  std::unordered_map<std::uint64_t, std::pair<std::size_t, int>> owner;  // directed edge -> group, element
-  std::string first;
-  int found = 0, line = 0;
-  for (std::size_t g = 0; g < groups; ++g) {
-    const Group& group = b.model.groups[g];
-    if (!group.solid()) continue;
-    for (int e = 0; e < group.elements(); ++e)
-      for (const std::vector<int>& edge : group.element->edges()) {
-        const auto from = static_cast<std::uint64_t>(group.nodes_of(e)[edge[0]]);
-        const auto to = static_cast<std::uint64_t>(group.nodes_of(e)[edge[1]]);
-        const auto [it, added] = owner.try_emplace(from << 32U | to, g, e);
-        if (added || !together(g, it->second.first) || ++found > 1) continue;
-        const Group& other = b.model.groups[it->second.first];
-        line = group.element_lines[static_cast<std::size_t>(e)];
-        first = "elements " +
-                std::to_string(other.element_numbers[static_cast<std::size_t>(it->second.second)]) + " and " +
-                std::to_string(group.element_numbers[static_cast<std::size_t>(e)]);
-      }
+  const auto order = [](const SolidEdge& edge) { return std::tuple(edge.group, edge.element, edge.local); };
+  int found = 0;
+  const SolidEdge *first = nullptr, *owner_of_first = nullptr;  // the first that the deck's order has
+  for (int node = 0; node < b.model.mesh.nodes(); ++node) {
+    const std::span<const SolidEdge> edges = b.solid_edges().at(node);
+    for (std::size_t i = 1, begin = 0; i < edges.size(); ++i) {
+      const SolidEdge& edge = edges[i];
+      if (edge.other != edges[i - 1].other) begin = i;
+      const auto same = [&](const SolidEdge& other) { return other.reversed == edge.reversed; };
+      const SolidEdge& owner = *std::find_if(edges.begin() + static_cast<std::ptrdiff_t>(begin),
+                                             edges.begin() + static_cast<std::ptrdiff_t>(i), same);
+      const bool alone = &owner == &edge;
+      if (alone || !together(static_cast<std::size_t>(edge.group), static_cast<std::size_t>(owner.group)))
+        continue;
+      ++found;
+      if (first != nullptr && order(*first) < order(edge)) continue;
+      first = &edge;
+      owner_of_first = &owner;
+    }
   }
-  if (found > 0)
-    b.warning(b.at_line(line),
-              first + " lie on the same side of a common edge: they overlap" +
-                  (found > 1 ? " (and " + std::to_string(found - 1) + " more such edges)" : ""));
+  if (found == 0) return;
+  const auto number = [&](const SolidEdge& edge) {
+    return std::to_string(b.model.groups[static_cast<std::size_t>(edge.group)]
+                              .element_numbers[static_cast<std::size_t>(edge.element)]);
+  };
+  b.warning(b.at_line(b.model.groups[static_cast<std::size_t>(first->group)]
+                          .element_lines[static_cast<std::size_t>(first->element)]),
+            "elements " + number(*owner_of_first) + " and " + number(*first) +
+                " lie on the same side of a common edge: they overlap" +
+                (found > 1 ? " (and " + std::to_string(found - 1) + " more such edges)" : ""));
 }
 
 // Where elements come in blocks, a number that is left out may be a hole in the mesh.
@@ -216,8 +224,7 @@ void note_missing_numbers(Builder& b) {
     blocks = blocks || card.integer("columns") > 1 || card.integer("rows") > 1;
   if (!blocks) return;
   std::vector<int> numbers;
-  for (const auto& [number, place] : b.element_place) numbers.push_back(number);
-  std::sort(numbers.begin(), numbers.end());
+  b.element_place.for_each([&](int number, const ElementPlace&) { numbers.push_back(number); });
   for (std::size_t i = 1; i < numbers.size(); ++i) {
     if (numbers[i] == numbers[i - 1] + 1) continue;
     b.note(b.at_line(0), "the element numbers are not consecutive: after " + std::to_string(numbers[i - 1]) +

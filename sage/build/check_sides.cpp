@@ -1,6 +1,7 @@
 // Straight sides of the mesh that are held over a part of their length: half a line of
 // symmetry that was forgotten.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -14,27 +15,37 @@ namespace sage::build {
 
 namespace {
 
-// The outer edges of solids, whenever they are active, whose nodes all lie at a place of one coordinate.
-std::vector<std::vector<int>> edges_at(const Model& model, Eigen::Index row, double place, double reach) {
-  std::vector<char> there(static_cast<std::size_t>(model.mesh.nodes()), 0);
+constexpr std::size_t kSides = 4;  // lowest and highest x, lowest and highest y
+
+using Edges = std::vector<std::vector<int>>;
+
+// The outer edges of solids, whenever they are active, whose nodes all lie at one of these places.
+std::array<Edges, kSides> edges_at(const Model& model, const std::array<double, kSides>& places, double reach) {
+  std::vector<unsigned char> sides(static_cast<std::size_t>(model.mesh.nodes()), 0);  // a bit for each
   for (int n = 0; n < model.mesh.nodes(); ++n)
-    there[static_cast<std::size_t>(n)] = std::abs(model.mesh.x(row, n) - place) <= reach;
-  std::map<std::pair<int, int>, std::vector<int>> directed;
+    for (std::size_t s = 0; s < kSides; ++s)
+      if (std::abs(model.mesh.x(static_cast<Eigen::Index>(s / 2), n) - places[s]) <= reach)
+        sides[static_cast<std::size_t>(n)] |= static_cast<unsigned char>(1U << s);
+  std::array<std::map<std::pair<int, int>, std::vector<int>>, kSides> directed;
   for (const Group& group : model.groups) {
     if (!group.solid()) continue;
+    const auto& edges = group.element->edges();
     for (int e = 0; e < group.elements(); ++e)
-      for (const std::vector<int>& edge : group.element->edges()) {
+      for (const std::vector<int>& edge : edges) {
         const int* nodes = group.nodes_of(e);
-        if (!std::ranges::all_of(edge, [&](int i) { return there[static_cast<std::size_t>(nodes[i])] != 0; }))
-          continue;
+        unsigned common = (1U << kSides) - 1U;
+        for (const int local : edge) common &= sides[static_cast<std::size_t>(nodes[local])];
+        if (common == 0) continue;
         std::vector<int> list;
         for (const int local : edge) list.push_back(nodes[local]);
-        directed.try_emplace({list[0], list[1]}, std::move(list));
+        for (std::size_t s = 0; s < kSides; ++s)
+          if ((common >> s & 1U) != 0) directed[s].try_emplace({list[0], list[1]}, list);
       }
   }
-  std::vector<std::vector<int>> outer;
-  for (const auto& [ends, nodes] : directed)
-    if (directed.count({ends.second, ends.first}) == 0) outer.push_back(nodes);
+  std::array<Edges, kSides> outer;
+  for (std::size_t s = 0; s < kSides; ++s)
+    for (const auto& [ends, nodes] : directed[s])
+      if (directed[s].count({ends.second, ends.first}) == 0) outer[s].push_back(nodes);
   return outer;
 }
 
@@ -128,13 +139,12 @@ void check_sides(Builder& b) {
   if (model.mesh.nodes() == 0) return;
   const Vector2 low = model.mesh.x.rowwise().minCoeff(), high = model.mesh.x.rowwise().maxCoeff();
   const double reach = 1e-9 * (high - low).maxCoeff();
+  const std::array<double, kSides> places{low.x(), high.x(), low.y(), high.y()};
+  const std::array<Edges, kSides> edges = edges_at(model, places, reach);
   for (std::size_t c = 0; c < 2; ++c) {
-    const auto row = static_cast<Eigen::Index>(c);
     const Deeds deeds(model, c);
-    for (const double place : {low[row], high[row]}) {
-      const std::vector<std::vector<int>> side = edges_at(model, row, place, reach);
-      for (const auto& part : connected(side)) note_partly_held(b, part, c, place, deeds);
-    }
+    for (const std::size_t s : {2 * c, 2 * c + 1})
+      for (const auto& part : connected(edges[s])) note_partly_held(b, part, c, places[s], deeds);
   }
 }
 

@@ -331,7 +331,7 @@ void Coarsening::require_by_model() {
     for (const FieldLoad& load : stage.field_loads) require(load.node);
   }
   for (const Grading& grading : b_->meshing.gradings)
-    if (const auto it = b_->node_index.find(grading.node); it != b_->node_index.end()) require(it->second);
+    if (const int* node = b_->node_index.find(grading.node)) require(*node);
   for (const Report& report : model_->reports) require_report(report);
   for (Line& on : lines_) require_middle(on);
   for (int node = 0; node < model_->mesh.nodes(); ++node) {
@@ -601,8 +601,8 @@ void Coarsening::drop_nodes(std::vector<char> gone) {
   for (Group& group : model_->groups)
     for (int& node : group.nodes)
       if (node >= 0) node = to[at(node)];
-  std::erase_if(b_->node_index, [&](const auto& entry) { return gone[at(entry.second)] != 0; });
-  for (auto& [number, node] : b_->node_index) node = to[at(node)];
+  b_->node_index.erase_if([&](int node) { return gone[at(node)] != 0; });
+  b_->node_index.for_each([&](int, int& node) { node = to[at(node)]; });
 }
 
 bool Coarsening::run() {

@@ -109,8 +109,7 @@ std::vector<int> nodes_of(Work& b, const Grading& grading) {
     if (found.empty()) b.note(b.at_line(0), "no singular corner found: the mesh is not graded");
     return found;
   }
-  const auto it = b.node_index.find(grading.node);
-  if (it != b.node_index.end()) return {it->second};
+  if (const int* node = b.node_index.find(grading.node)) return {*node};
   b.error(b.deck.one("control").where(), "the mesh can't be graded towards node " +
                                              std::to_string(grading.node) +
                                              ": the deck has none of that number");

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <string>
-#include <unordered_map>
 
+#include "sage/core/by_number.hpp"
 #include "sage/deck/deck.hpp"
 #include "sage/mesh/mesh_options.hpp"
 #include "sage/model/model.hpp"
@@ -15,8 +15,8 @@ struct Work {
   const Catalogue& catalogue;
   const MeshOptions& meshing;
   Model model = {};
-  Diagnostics problems = {};                     // errors; warnings go to model.diagnostics at the end
-  std::unordered_map<int, int> node_index = {};  // deck number -> index
+  Diagnostics problems = {};      // errors; warnings go to model.diagnostics at the end
+  ByNumber<int> node_index = {};  // deck number -> index
 
   SourcePosition at_line(int line) const { return {deck.file, line, 0, 0}; }
   // Adds a message that shows the card.

@@ -1,0 +1,37 @@
+// The edges of all solids, each found at its smaller node.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sage/model/model.hpp"
+
+namespace sage::build {
+
+// An edge of one solid, by its corners; two solids side by side have two of them, one in each direction.
+struct SolidEdge {
+  int other = 0;  // its larger node
+  int group = 0, element = 0;
+  std::int16_t local = 0;  // edge of the element
+  bool reversed = false;   // the element goes from the larger node to the smaller one
+};
+
+// Of the mesh as it is when this is made.
+class SolidEdges {
+ public:
+  explicit SolidEdges(const Model& model);
+  // Those whose smaller node this is, in the order of their larger nodes; those of one pair in the order of groups
+  // and elements.
+  std::span<const SolidEdge> at(int node) const {
+    const auto i = static_cast<std::size_t>(node);
+    return std::span(edges_).subspan(first_[i], first_[i + 1] - first_[i]);
+  }
+
+ private:
+  std::vector<std::size_t> first_;  // of each node, and one behind the last
+  std::vector<SolidEdge> edges_;
+};
+
+}  // namespace sage::build
