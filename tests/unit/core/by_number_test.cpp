@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <map>
 #include <random>
+#include <utility>
+#include <vector>
 
 namespace sage {
 namespace {
@@ -20,7 +23,8 @@ std::vector<std::pair<int, int>> listed(ByNumber<int>& numbers) {
 TEST(ByNumber, FindsWhatWasPutThere) {
   ByNumber<int> numbers;
   EXPECT_TRUE(numbers.empty());
-  for (const int number : {7, kFarthest, -3, 1, 90'000'000}) EXPECT_TRUE(numbers.try_emplace(number, 2 * 7).second);
+  for (const int number : {7, kFarthest, -3, 1, 90'000'000})
+    EXPECT_TRUE(numbers.try_emplace(number, 2 * 7).second);
   EXPECT_EQ(numbers.size(), 5u);
   const auto [value, added] = numbers.try_emplace(kFarthest, 5);
   EXPECT_FALSE(added);
@@ -47,7 +51,8 @@ TEST(ByNumber, IsAMapForAnyOrder) {
     ByNumber<int> numbers;
     std::map<int, int> reference;
     for (int i = 0; i < 30'000; ++i) {
-      const int number = i % 3 == 0 ? 300'000 + i : 1 + static_cast<int>(random() % static_cast<unsigned>(range));
+      const int number =
+          i % 3 == 0 ? 300'000 + i : 1 + static_cast<int>(random() % static_cast<unsigned>(range));
       EXPECT_EQ(numbers.try_emplace(number, i).second, reference.try_emplace(number, i).second);
     }
     EXPECT_EQ(numbers.size(), reference.size());
