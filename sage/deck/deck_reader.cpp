@@ -419,8 +419,9 @@ Deck read_deck(const std::string& path, const ReadOptions& options) {
   try {
     return DeckReader(source, layout, options).read();
   } catch (const InputError& error) {
-    if (!recognised.empty()) throw;
-    std::optional<Diagnostics> unknown = no_layout_fits(source, layout, error.diagnostics());
+    // Marks may be those of several programs: 'plane' opens decks of seepage too.
+    std::optional<Diagnostics> unknown =
+        recognised.empty() ? no_layout_fits(source, layout, error.diagnostics()) : outside_of_scope(source);
     if (!unknown) throw;
     throw InputError(*std::move(unknown));
   }

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "sage/deck/deck_reader.hpp"
+#include "sage/deck/other_programs.hpp"
 #include "sage/deck/record.hpp"
 
 namespace sage {
@@ -56,6 +57,19 @@ std::string joined(const std::vector<std::string>& names) {
 
 }  // namespace
 
+std::optional<Diagnostics> outside_of_scope(const SourceText& source) {
+  const std::string program = other_program(source);
+  if (program.empty()) return std::nullopt;
+  Diagnostics alone;
+  alone.add({Severity::error,
+             {source.name(), 0, 0, 0},
+             "this looks like a deck of " + program +
+                 ": outside of what this program does, solids in plane strain and axisymmetry in equilibrium; "
+                 "if it is another kind of deck, name its layout with --layout",
+             {}});
+  return alone;
+}
+
 std::optional<Diagnostics> no_layout_fits(const SourceText& source, const Layout& standard,
                                           const Diagnostics& problems) {
   if (!looks_foreign(first_lines(source, standard), problems)) return std::nullopt;
@@ -65,9 +79,12 @@ std::optional<Diagnostics> no_layout_fits(const SourceText& source, const Layout
                        standard.name + "; name its layout with --layout, one of those built in (" +
                        joined(built_in_layouts()) + ") or the path of a layout file",
                    {}};
-  if (const std::vector<std::string> fitting = layouts_that_read(source, standard); !fitting.empty())
+  if (const std::vector<std::string> fitting = layouts_that_read(source, standard); fitting.empty()) {
+    if (std::optional<Diagnostics> outside = outside_of_scope(source)) return outside;
+  } else {
     first.detail.push_back("note: without a mistake it reads as " + joined(fitting) + ": --layout " +
                            fitting.front());
+  }
   Diagnostics all;
   all.add(std::move(first));
   std::size_t shown = 0;

@@ -15,4 +15,7 @@ namespace sage {
 std::optional<Diagnostics> no_layout_fits(const SourceText& source, const Layout& standard,
                                           const Diagnostics& problems);
 
+// An error that names what the deck computes, where it reads as one of those programs that do what this one does not.
+std::optional<Diagnostics> outside_of_scope(const SourceText& source);
+
 }  // namespace sage
