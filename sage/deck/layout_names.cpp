@@ -187,17 +187,21 @@ class NameCheck {
     std::string out;
     for (std::size_t i = 0; i < layout_.cards.size(); ++i) list_card(static_cast<int>(i), out);
     std::string missing;
-    for (const KnownCard& one : kKnown)
-      if (belongs(one) && !has_card(one.name))
-        missing += (missing.empty() ? "" : ", ") + std::string(one.name) + (one.card_needed ? " (needed)" : "");
-    if (!missing.empty()) out += "cards that the program knows too\n" + listed("", missing);
+    for (const KnownCard& one : kKnown) {
+      if (!belongs(one) || has_card(one.name)) continue;
+      const bool needed = one.card_needed && !replaced(one);
+      const std::string also = one.needed.empty() || one.others.empty() ? "" : "; also ";
+      missing += listed(std::string(one.name) + (needed ? " (needed)" : ""),
+                        std::string(one.needed) + also + std::string(one.others));
+    }
+    if (!missing.empty()) out += "cards that the program knows too, with their fields\n" + missing;
     return out;
   }
 
  private:
   static std::string listed(std::string title, const std::string& names) {
     if (names.empty()) return {};
-    title.resize(std::max<std::size_t>(title.size(), 22), ' ');
+    title.resize(std::max<std::size_t>(title.size() + 1, 22), ' ');
     return "  " + title + names + '\n';
   }
   // Names of one card by what becomes of them.
