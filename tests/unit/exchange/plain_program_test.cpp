@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "sage/app/commands.hpp"
+#include "sage/deck/layout_names.hpp"
 #include "sage/scenes/whole_run.hpp"
 #include "solvers/choose_solver.hpp"
 
@@ -234,42 +234,22 @@ TEST(Stap, WhatIsNotComputedIsNamed) {
             std::string::npos);
 }
 
-// The layout of a deck of legacy_inputs, by its folder and name.
-std::string own_layout(const std::filesystem::path& deck) {
-  const std::string folder = deck.lexically_relative(kInputs).begin()->string();
-  if (folder == "chapter7" || folder == "hyperbolic" || folder == "stages") return "sage1";
-  if (folder != "smith_griffiths") return folder;
-  const std::string stem = deck.stem().string();
-  return "sg_" + stem.substr(0, stem.find('_'));
-}
-
-bool accepted(const std::string& text, const Layout& layout) {
-  try {
-    build_model(read_deck_text(text, "deck", layout), bench().catalogue());
-  } catch (const InputError&) {
-    return false;
-  }
-  return true;
-}
-
-// No deck makes a model under the layout of another program.
-TEST(EveryDeck, IsAcceptedUnderNoLayoutButItsOwn) {
-  std::vector<Layout> layouts;
-  for (const std::string& name : built_in_layouts()) layouts.push_back(load_layout(name));
-  int decks = 0, own = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(kInputs)) {
-    const std::string ending = entry.path().extension().string();
-    if (ending != ".dat" && ending != ".cid" && ending != ".Q4I") continue;
-    ++decks;
-    const std::string text = text_of(entry.path().string());
-    for (const Layout& layout : layouts) {
-      if (!accepted(text, layout)) continue;
-      EXPECT_EQ(layout.name, own_layout(entry.path())) << entry.path();
-      ++own;
-    }
-  }
-  EXPECT_GE(decks, 60);
-  EXPECT_GE(own, decks - 8);  // some are refused under their own too: pipes, trusses, a harmonic load
+// What a layout leaves out with partial = 1 can be computed without it; the title says so.
+TEST(LeftOut, ThePartThatIsKnownIsComputedWhereItIsAskedFor) {
+  std::string toml = text_of(kInputs + "layouts/stap.toml");
+  toml = changed(toml, R"({ name = "of", value = "direction" }])",
+                 R"({ name = "of", value = "direction" }, { name = "partial", value = 1 }])");
+  const Layout layout = load_checked_layout(toml, "stap.toml");
+  const std::string deck =
+      changed(text_of(kInputs + "stap/plate.dat"), "   10    1    50.000", "   10    3    50.000");
+  const Deck read = read_deck_text(deck, "deck.dat", layout);
+  EXPECT_THROW(build_model(read, bench().catalogue()), InputError);
+  BuildOptions options;
+  options.partial = true;
+  const Model model = build_model(read, bench().catalogue(), options);
+  ASSERT_EQ(model.left_out.size(), 1u);
+  EXPECT_EQ(model.left_out[0], "a load across the plane");
+  EXPECT_EQ(model.title.substr(0, 9), "PARTIAL: ");
 }
 
 }  // namespace
