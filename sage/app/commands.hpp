@@ -32,6 +32,7 @@ Command run_command(CLI::App& parser, const Catalogue& catalogue);
 Command check_command(CLI::App& parser, const Catalogue& catalogue);
 Command echo_command(CLI::App& parser, const Catalogue& catalogue);
 Command list_command(CLI::App& parser, const Catalogue& catalogue);
+Command plot_command(CLI::App& parser, const Catalogue& catalogue);
 Command tables_command(CLI::App& parser, const Catalogue& catalogue);
 Command convert_command(CLI::App& parser, const Catalogue& catalogue);
 Command verify_command(CLI::App& parser, const Catalogue& catalogue);

@@ -40,6 +40,7 @@ constexpr Entry kCommands[] = {
     {"echo", "show each card of a deck as it was read, under a column ruler", echo_command},
     {"list", "show the elements, materials or solvers that a deck can ask for, or the fields of results",
      list_command},
+    {"plot", "pictures of the states in a result file, without running the deck again", plot_command},
     {"tables", "rerun the source chapter's Tables 7.3 and 7.4 beside its numbers", tables_command},
     {"convert", "write a deck or Gmsh mesh as sage1 deck (.dat), Gmsh mesh (.msh) or CalculiX input (.inp)",
      convert_command},

@@ -13,6 +13,7 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/interrupt.hpp"
+#include "sage/app/run_source.hpp"
 #include "sage/draw/picture.hpp"
 #include "sage/model/fingerprint.hpp"
 #include "sage/record/csv.hpp"
@@ -32,7 +33,7 @@ int csv_digits(const OutputOptions& options) {
 
 // The outputs that were asked for; the first is always the reports.
 std::vector<std::unique_ptr<Output>> make_outputs(const RunRequest& request, const Catalogue& catalogue,
-                                                  const Reports& reports) {
+                                                  const Reports& reports, const RunSource& source) {
   const OutputOptions& options = request.output;
   const std::string stem = stem_of(request);
   std::vector<std::unique_ptr<Output>> outputs;
@@ -44,7 +45,7 @@ std::vector<std::unique_ptr<Output>> make_outputs(const RunRequest& request, con
         options.folder, stem,
         CsvOptions{options.increments, options.nodes, options.points, csv_digits(options), options.fields}));
   if (options.vtu) outputs.push_back(std::make_unique<Vtu>(options.folder, stem));
-  if (options.result) outputs.push_back(std::make_unique<ResultOutput>(options.folder, stem));
+  if (options.result) outputs.push_back(std::make_unique<ResultOutput>(options.folder, stem, source));
   if (!options.pictures.empty())
     outputs.push_back(std::make_unique<Pictures>(options.folder, stem, options.pictures));
   return outputs;
@@ -167,12 +168,15 @@ void warn_of_fields(const OutputOptions& o, Model& model) {
 }
 
 // The deck as a model; its checksum becomes the owner's, and names of fields' components those of the fields.
-std::unique_ptr<Model> model_of(RunRequest& request, const Catalogue& catalogue, ResultOwner& owner) {
+std::unique_ptr<Model> model_of(RunRequest& request, const Catalogue& catalogue, ResultOwner& owner,
+                                RunSource& source) {
   const Deck deck = read_input(request.deck, request.input);
   BuildOptions build = request.input.build;
   if (!request.solver.empty()) build.solver = solver_code(catalogue, request.solver);
   auto model = std::make_unique<Model>(build_model(deck, catalogue, build));
   owner.deck_sum = checksum(*deck.source.text());
+  if (request.output.result)
+    source = source_of(*deck.source.text(), deck.layout, request.input.layout, build);
   if (request.output.vtu || request.output.result) warn_of_vtu(*model, model->diagnostics);
   request.output.fields = require_fields(request.output.pictures, request.output.fields, {fields_of(*model)});
   warn_of_fields(request.output, *model);
@@ -235,7 +239,8 @@ RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
   const auto start = std::chrono::steady_clock::now();
   RunOutcome outcome;
   ResultOwner owner{request.deck, 0, "run"};
-  outcome.model = model_of(request, catalogue, owner);
+  RunSource source;
+  outcome.model = model_of(request, catalogue, owner, source);
   const Model& model = *outcome.model;
   if (!request.quiet) print_diagnostics(model.diagnostics);
   if (!may_run(request, model, outcome)) return outcome;
@@ -253,7 +258,7 @@ RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
   if (request.restart) settings.resume_from = resume_from(checkpoint, request);
   outcome.reports =
       std::make_unique<Reports>(request.output.folder, stem_of(request), csv_digits(request.output));
-  std::vector<std::unique_ptr<Output>> outputs = make_outputs(request, catalogue, *outcome.reports);
+  std::vector<std::unique_ptr<Output>> outputs = make_outputs(request, catalogue, *outcome.reports, source);
   settings.save_checkpoint = [&](const std::string& state) {
     checkpoint.save(state);
     end.saved();

@@ -417,6 +417,12 @@ void Pictures::on_stage_end(const Model& model, int stage, const EquilibriumAudi
   draw(model, solution, fmt::format("stage{}", stage + 1), fmt::format("end of stage {}", stage + 1));
 }
 
+void Pictures::draw_increment(const Model& model, const StepReport& report, const Solution& solution) {
+  draw(model, solution, fmt::format("stage{}_increment{}", report.stage + 1, report.increment),
+       fmt::format("stage {}, increment {}, load factor {:.4g}", report.stage + 1, report.increment,
+                   report.load_factor));
+}
+
 void Pictures::on_failure(const Model& model, const StepReport& report, const std::string&,
                           const Solution& solution) {
   draw(model, solution, fmt::format("stage{}_failed", report.stage + 1),

@@ -49,6 +49,8 @@ class Pictures final : public Output {
 
   void on_stage_end(const Model&, int stage, const EquilibriumAudit&, const Solution&) override;
   void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
+  // STEM_stage1_increment5_stress_yy.svg, ...
+  void draw_increment(const Model&, const StepReport&, const Solution&);
   bool wants_states(const Model&, const StepReport& report) const override {
     return report.increment == report.increments;
   }

@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 
 #include "sage/core/error.hpp"
 
@@ -9,10 +10,10 @@ namespace sage {
 
 namespace {
 
-using MakeDataFile = DataFile* (*)(const char* path);
+using MakeDataFile = DataFile* (*)(const char* path, bool reading);
 
 Module data_module() {
-  return {"the module that writes result files (HDF5)",
+  return {"the module of result files (HDF5)",
           "SAGE_DATA_MODULE",
           SAGE_DATA_MODULE_RELATIVE,
           SAGE_DATA_MODULE_NAME,
@@ -44,9 +45,19 @@ void expect_data_module() {
 std::unique_ptr<DataFile> make_data_file(const std::string& path) {
   const MakeDataFile make = loaded();
   errno = 0;
-  std::unique_ptr<DataFile> file(make(path.c_str()));
+  std::unique_ptr<DataFile> file(make(path.c_str(), false));
   if (!file)
     throw OutputError("cannot write " + path + ": " + (errno != 0 ? std::strerror(errno) : "HDF5 refuses it"));
+  return file;
+}
+
+std::unique_ptr<DataFile> open_data_file(const std::string& path) {
+  const MakeDataFile make = loaded();
+  errno = 0;
+  if (!std::ifstream(path))
+    throw InputError({path, 0, 0, 0}, std::string("can't be opened: ") + std::strerror(errno));
+  std::unique_ptr<DataFile> file(make(path.c_str(), true));
+  if (!file) throw InputError({path, 0, 0, 0}, "is no whole file of HDF5");
   return file;
 }
 

@@ -1,4 +1,4 @@
-// The seam between the result file and the library that writes it, which is a module loaded on use.  Nothing of
+// The seam between the result file and the library that writes and reads it, which is a module loaded on use.  Nothing of
 // the library is seen here.
 #pragma once
 
@@ -12,12 +12,12 @@
 namespace sage {
 
 // Changes with DataFile.
-#define SAGE_DATA_MODULE_VERSION "sage-data-1"
+#define SAGE_DATA_MODULE_VERSION "sage-data-2"
 
 enum class DataType : std::uint8_t { float64, int64, int32, uint8 };
 
 // A file of named tables in folders, "/a/b/table"; folders are made as they are named.  Functions that give a
-// bool: false where the file could not be written, and error() says why.
+// bool: false where the file could not be written or read, and error() says why.
 class DataFile {
  public:
   virtual ~DataFile() = default;
@@ -29,6 +29,9 @@ class DataFile {
   // Of a folder or table.
   virtual bool text(const char* path, const char* name, const char* value) = 0;
   virtual bool numbers(const char* path, const char* name, const std::int64_t* values, std::uint64_t count) = 0;
+  // Of a file that was opened: a whole table of bytes, and the text of a folder or table.
+  virtual bool read(const char* path, std::string& bytes) = 0;
+  virtual bool read_text(const char* path, const char* name, std::string& value) = 0;
   virtual bool close() = 0;
   virtual const char* error() const = 0;
 };
@@ -36,6 +39,8 @@ class DataFile {
 // Takes the place of what the file holds.  Throws OutputError where the module can't be loaded or the file not be
 // opened.
 std::unique_ptr<DataFile> make_data_file(const std::string& path);
+// To be read.  Throws OutputError where the module can't be loaded, InputError where the file can't be opened.
+std::unique_ptr<DataFile> open_data_file(const std::string& path);
 // Throws OutputError that lists the places, as make_data_file would.
 void expect_data_module();
 std::vector<std::string> data_module_places();

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <fstream>
 
+#include "sage/model/fingerprint.hpp"
 #include "sage/record/data_file.hpp"
+#include "sage/record/stored_result.hpp"
 #include "sage/record/values.hpp"
 #include "sage/record/vtk_data.hpp"
 
@@ -340,30 +343,68 @@ class OwnPart {
   const FieldTable& fields_;
 };
 
+// What StoredResult reads: the model's sources, and every state whole.
+class SourcePart {
+ public:
+  SourcePart(TableFile& out, const RunSource& source, const Model& model, const std::string& failure)
+      : out_(out), kept_(!source.deck.empty()) {
+    if (!kept_) return;
+    bytes("deck", source.deck);
+    bytes("layout", source.layout_text);
+    out_.text(kStoredFolder, "name", model.file);
+    out_.text(kStoredFolder, "layout", source.layout);
+    out_.text(kStoredFolder, "options", source.options);
+    out_.text(kStoredFolder, "format", kStoredFormat);
+    out_.text(kStoredFolder, "model", fmt::format("{:016x}", fingerprint(model)));
+    out_.text(kStoredFolder, "failure", failure);
+    out_.table(stored_path("states"), DataType::int64, {kStoredColumns});
+  }
+
+  void add(const Frame& frame, const std::string& state) {
+    if (!kept_) return;
+    const StepReport& report = frame.report();
+    const std::vector<std::int64_t> row{report.stage, report.increment, report.increments,
+                                        std::bit_cast<std::int64_t>(checksum(state))};
+    out_.append(stored_path("states"), row, 1);
+    bytes(fmt::format("state{}", ++count_), state);
+  }
+
+ private:
+  void bytes(const std::string& name, const std::string& text) {
+    out_.whole(stored_path(name), std::vector<std::uint8_t>(text.begin(), text.end()));
+  }
+
+  TableFile& out_;
+  bool kept_;
+  int count_ = 0;
+};
+
 // States one after the other, so that one alone is in memory.
 class FrameReader {
  public:
   FrameReader(const Model& model, const std::filesystem::path& file)
       : model_(model), in_(file, std::ios::binary) {}
   Frame next(std::uint64_t size) {
-    std::string bytes(size, '\0');
-    if (!in_.read(bytes.data(), static_cast<std::streamsize>(size)))
+    bytes_.assign(size, '\0');
+    if (!in_.read(bytes_.data(), static_cast<std::streamsize>(size)))
       throw OutputError("the states of the run can't be read back for its result file");
     Frame frame(model_);
-    Archive archive(std::move(bytes));
+    Archive archive(bytes_);
     frame.exchange(archive);
     return frame;
   }
+  const std::string& bytes() const { return bytes_; }  // of the frame that next() gave
 
  private:
   const Model& model_;
   std::ifstream in_;
+  std::string bytes_;
 };
 
 }  // namespace
 
-ResultOutput::ResultOutput(std::filesystem::path folder, const std::string& stem)
-    : path_(folder / (stem + ".h5")) {
+ResultOutput::ResultOutput(std::filesystem::path folder, const std::string& stem, RunSource source)
+    : path_(folder / (stem + ".h5")), source_(std::move(source)) {
   expect_data_module();
   expect_no_input(path_);
   std::error_code ignored;
@@ -417,11 +458,13 @@ void ResultOutput::on_finish(const Model& model, const RunResult& result) {
     out.text("/sage", "geometry", model.geometry == Geometry::axisymmetric ? "axisymmetric" : "plane strain");
     VtkPart vtk(out, model, fields);
     OwnPart own(out, model, fields);
+    SourcePart source(out, source_, model, failure_);
     FrameReader reader(model, states_.partial());
     for (std::uint64_t size : frames_) {
       const Frame frame = reader.next(size);
       vtk.add(frame);
       own.add(frame);
+      source.add(frame, reader.bytes());
     }
     vtk.finish();
     out.close();

@@ -7,12 +7,20 @@
 
 namespace sage {
 
+// What a run was made of: with it the model can be built again, and its states be shown without a run.
+struct RunSource {
+  std::string deck;         // the file's characters; empty = not known, and nothing is kept to be shown again
+  std::string layout;       // name of a built-in layout, or empty
+  std::string layout_text;  // of a layout of the user's own
+  std::string options;      // how the model differs from the deck, as words of a command line
+};
+
 // While the run goes, its states wait in STEM.h5.states.partial, from which --restart goes on.  STEM.h5 is written
 // when the run has ended, whole, or not at all.
 class ResultOutput final : public Output {
  public:
   // Throws OutputError, also where the module that writes such files can't be loaded.
-  ResultOutput(std::filesystem::path folder, const std::string& stem);
+  ResultOutput(std::filesystem::path folder, const std::string& stem, RunSource source = {});
   // Once the file is written nobody needs the states; until then only a checkpoint may name them.
   ~ResultOutput() override;
   ResultOutput(const ResultOutput&) = delete;
@@ -32,6 +40,7 @@ class ResultOutput final : public Output {
   void add(const Model&, const StepReport&, const Solution&);
 
   std::filesystem::path path_;
+  RunSource source_;
   OutFile states_;
   bool in_checkpoint_ = false;         // --restart goes on from the states
   std::vector<std::uint64_t> frames_;  // bytes of each

@@ -53,8 +53,13 @@ herr_t first_message(unsigned, const H5E_error2_t* error, void* text) {
 
 class Hdf5File final : public DataFile {
  public:
-  explicit Hdf5File(const char* path) {
+  Hdf5File(const char* path, bool reading) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    errno = 0;
+    if (reading) {
+      file_ = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+      return;
+    }
     const Id properties(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
     H5Pset_obj_track_times(properties.get(), false);
     errno = 0;
@@ -129,6 +134,32 @@ class Hdf5File final : public DataFile {
     return attribute(path, name, H5T_STD_I64LE, H5T_NATIVE_INT64, space.get(), values);
   }
 
+  bool read(const char* path, std::string& bytes) override {
+    errno = 0;
+    const Id set(H5Dopen2(file_, path, H5P_DEFAULT), H5Dclose);
+    if (!set.ok()) return failed();
+    const Id space(H5Dget_space(set.get()), H5Sclose), type(H5Dget_type(set.get()), H5Tclose);
+    const hssize_t count = H5Sget_simple_extent_npoints(space.get());
+    if (count < 0) return failed();
+    bytes.resize(static_cast<std::size_t>(count) * H5Tget_size(type.get()));
+    return H5Dread(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) >= 0 || failed();
+  }
+
+  bool read_text(const char* path, const char* name, std::string& value) override {
+    errno = 0;
+    const Id attribute(H5Aopen_by_name(file_, path, name, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    if (!attribute.ok()) return failed();
+    const Id type(H5Aget_type(attribute.get()), H5Tclose);
+    if (H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) > 0) {
+      error_ = std::string(path) + " has no text " + name;
+      return false;
+    }
+    value.assign(H5Tget_size(type.get()), '\0');
+    if (H5Aread(attribute.get(), type.get(), value.data()) < 0) return failed();
+    value.resize(std::strlen(value.c_str()));
+    return true;
+  }
+
   bool close() override {
     bool done = true;
     errno = 0;
@@ -192,10 +223,10 @@ extern const char sage_data_module_version[];
     SAGE_DATA_MODULE_VERSION;
 
 // The caller owns the file.  nullptr: it can't be opened; errno says why, where the system knows.
-sage::DataFile* sage_make_data_file(const char* path) {
+sage::DataFile* sage_make_data_file(const char* path, bool reading) {
   // At the end of the program HDF5 would close a file once more that a full disk kept it from closing, and crash.
   H5dont_atexit();
-  auto file = std::make_unique<sage::Hdf5File>(path);
+  auto file = std::make_unique<sage::Hdf5File>(path, reading);
   return file->is_open() ? file.release() : nullptr;
 }
 

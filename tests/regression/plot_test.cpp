@@ -1,0 +1,121 @@
+// sagefe plot: the same pictures from a result file as from the run, and nothing but one error from files that are
+// none.  Skipped where the program is built without HDF5.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/regression/program.hpp"
+
+namespace sage::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kInputs = std::string(SAGE_SOURCE_DIR) + "/legacy_inputs/";
+
+std::map<std::string, std::string> pictures_in(const fs::path& folder) {
+  std::map<std::string, std::string> all;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".svg") all[entry.path().filename().string()] = read(entry.path().string());
+  return all;
+}
+
+bool without_module(const Finished& run) {
+  return run.err.find("can't be loaded") != std::string::npos;
+}
+
+void spoil(const fs::path& file, const std::string& before, const std::string& after) {
+  std::string bytes = read(file.string());
+  const std::size_t at = bytes.find(before);
+  ASSERT_NE(at, std::string::npos);
+  bytes.replace(at, before.size(), after);
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+// Deck and layout are gone when the pictures are drawn: all that they need is in the file.
+TEST(Plot, PicturesFromTheFileAreThoseOfTheRun) {
+  struct Case {
+    const char *deck, *layout, *options;
+    int exit_code = 0;
+  };
+  const Case cases[] = {
+      {"chapter7/friction_08_nu025/deck.dat", "sage1", ""},
+      {"chapter7/dp_08/deck.dat", "sage1", "--geometry 1 --element quad8 --solver skyline_lu"},
+      {"chapter7/pinned_ld1_nu0333/deck.dat", "sage1",
+       "--coarsen --refine 2 --grade auto:3:0.3 --formulation 2 \"--point=0.125,0.25:-a point:1\""},
+      {"smith_griffiths/p69.dat", "sg_p69", "", 3},  // the embankment fails
+  };
+  for (const Case& c : cases) {
+    const fs::path folder = empty_folder("plot");
+    fs::copy_file(kInputs + c.deck, folder / "deck.dat");
+    fs::copy_file(kInputs + "layouts/" + c.layout + ".toml", folder / "my.toml");
+    const std::string pictures = " --picture stress_yy --picture displacement";
+    const Finished run = sagefe(
+        folder, std::string("run deck.dat --layout my.toml -q --no-listing --result ") + c.options + pictures);
+    if (without_module(run)) GTEST_SKIP() << "built without HDF5";
+    ASSERT_EQ(run.exit_code, c.exit_code) << c.deck << "\n" << run.err;
+    const auto wanted = pictures_in(folder / "out");
+    ASSERT_GE(wanted.size(), 2u);
+    fs::remove(folder / "deck.dat");
+    fs::remove(folder / "my.toml");
+    const Finished plot = sagefe(folder, "plot out/deck.h5 -o drawn" + pictures);
+    ASSERT_EQ(plot.exit_code, 0) << c.deck << "\n" << plot.err;
+    EXPECT_EQ(plot.err.find("did not converge") != std::string::npos, c.exit_code == 3) << plot.err;
+    const auto drawn = pictures_in(folder / "drawn");
+    EXPECT_EQ(drawn.size(), wanted.size()) << c.deck;
+    for (const auto& [name, svg] : wanted)
+      EXPECT_TRUE(drawn.contains(name) && drawn.at(name) == svg) << c.deck << " " << name;
+  }
+}
+
+// In the middle of a linear stage the displacement of the top, which is held, is half of that at its end.
+TEST(Plot, AnyOutputIncrementCanBeDrawn) {
+  const fs::path folder = empty_folder("plot_increments");
+  std::string deck = read(kInputs + "chapter7/pinned_ld1_nu025/deck.dat");
+  const std::string every_tenth = "\n   10    0    0    0    1", every = "\n   10    0    0    1    1";
+  const std::size_t at = deck.find(every_tenth);
+  ASSERT_NE(at, std::string::npos);
+  std::ofstream(folder / "deck.dat") << deck.replace(at, every.size(), every);
+  const Finished run = sagefe(folder, "run deck.dat -q --result");
+  if (without_module(run)) GTEST_SKIP() << "built without HDF5";
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Finished plot = sagefe(folder, "plot out/deck.h5 --picture displacement_y --at 1:5 --at 1");
+  ASSERT_EQ(plot.exit_code, 0) << plot.err;
+  const std::string half = read((folder / "out/deck_stage1_increment5_displacement_y.svg").string());
+  EXPECT_NE(half.find("stage 1, increment 5, load factor 0.5"), std::string::npos);
+  EXPECT_NE(half.find("from -0.07 to 0"), std::string::npos) << half.substr(0, 900);
+  const std::string whole = read((folder / "out/deck_stage1_displacement_y.svg").string());
+  EXPECT_NE(whole.find("from -0.14 to 0"), std::string::npos) << whole.substr(0, 900);
+  const Finished none = sagefe(folder, "plot out/deck.h5 --picture displacement_y --at 1:11");
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_NE(none.err.find("it has 1:1 1:2 1:3"), std::string::npos) << none.err;
+}
+
+TEST(Plot, FilesThatAreNoneAreOneError) {
+  const fs::path folder = empty_folder("plot_bad");
+  const Finished run = sagefe(folder, "run " + kInputs + "chapter7/pinned_ld1_nu025/deck.dat -q --result -o .");
+  if (without_module(run)) GTEST_SKIP() << "built without HDF5";
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const fs::path whole = folder / "pinned_ld1_nu025.h5", spoilt = folder / "spoilt.h5";
+  const auto expect_refused = [&](const std::string& file, const std::string& words) {
+    const Finished plot = sagefe(folder, "plot " + file + " --picture stress_yy -o drawn");
+    EXPECT_EQ(plot.exit_code, 2) << plot.err;
+    EXPECT_NE(plot.err.find(words), std::string::npos) << plot.err;
+    EXPECT_TRUE(!fs::exists(folder / "drawn") || pictures_in(folder / "drawn").empty());
+  };
+  expect_refused("absent.h5", "can't be opened");
+  expect_refused(kInputs + "chapter7/pinned_ld1_nu025/deck.dat", "no whole file of HDF5");
+  fs::copy_file(whole, spoilt);
+  fs::resize_file(spoilt, fs::file_size(whole) / 2);
+  expect_refused("spoilt.h5", "no whole file of HDF5");
+  fs::copy_file(whole, spoilt, fs::copy_options::overwrite_existing);
+  spoil(spoilt, "frames-1", "frames-0");
+  expect_refused("spoilt.h5", "written as frames-0");
+  // Another Young's modulus is another model than the one that the states are of.
+  fs::copy_file(whole, spoilt, fs::copy_options::overwrite_existing);
+  spoil(spoilt, "     3000.", "     4000.");
+  expect_refused("spoilt.h5", "another model");
+}
+
+}  // namespace
+}  // namespace sage::test
