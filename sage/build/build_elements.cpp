@@ -1,7 +1,9 @@
 // Materials, element groups and element cards (with block generation).
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "sage/build/builder.hpp"
 #include "sage/deck/text.hpp"
@@ -46,13 +48,21 @@ int chosen_formulation(const Builder& b, const ElementEntry& entry, int deck_cod
 
 constexpr int kMaxElements = 50'000'000;
 
+// Fields of element cards.
+struct ElementFields {
+  FieldName number{"number"}, group{"group"}, columns{"columns"}, rows{"rows"}, column_step{"column_step"},
+      row_step{"row_step"};
+  std::array<FieldName, 15> nodes{FieldName("n1"),  FieldName("n2"),  FieldName("n3"),  FieldName("n4"),
+                                  FieldName("n5"),  FieldName("n6"),  FieldName("n7"),  FieldName("n8"),
+                                  FieldName("n9"),  FieldName("n10"), FieldName("n11"), FieldName("n12"),
+                                  FieldName("n13"), FieldName("n14"), FieldName("n15")};
+};
+
 // Node numbers of one element card; trailing blanks are mid-side nodes to be made later (0).
-std::vector<int> card_nodes(const CardView& card) {
-  static constexpr const char* kFields[] = {"n1", "n2",  "n3",  "n4",  "n5",  "n6",  "n7", "n8",
-                                            "n9", "n10", "n11", "n12", "n13", "n14", "n15"};
+std::vector<int> card_nodes(const CardView& card, ElementFields& fields) {
   std::vector<int> nodes;
-  nodes.reserve(std::size(kFields));
-  for (const char* field : kFields) nodes.push_back(card.integer(field));
+  nodes.reserve(fields.nodes.size());
+  for (FieldName& field : fields.nodes) nodes.push_back(card.integer(field));
   while (!nodes.empty() && nodes.back() == 0) nodes.pop_back();
   return nodes;
 }
@@ -158,13 +168,14 @@ struct Block {
 };
 
 // False, and an error, where the card's block can't be counted out.
-bool read_block(Builder& b, const CardView& card, const ElementCard& element, Block& block) {
-  block = {std::max(1, card.integer("columns")), std::max(1, card.integer("rows")),
-           card.integer("column_step", 1), card.integer("row_step")};
+bool read_block(Builder& b, const CardView& card, const ElementCard& element, ElementFields& fields,
+                Block& block) {
+  const int columns = card.integer(fields.columns), rows = card.integer(fields.rows);
+  block = {std::max(1, columns), std::max(1, rows), card.integer(fields.column_step, 1),
+           card.integer(fields.row_step)};
   const int before = b.problems.errors();
-  for (const char* field : {"columns", "rows"})
-    if (card.integer(field) < 0)
-      b.error(card.where(field), "the " + card.label(field) + " must not be negative");
+  for (const auto& [field, count] : {std::pair("columns", columns), std::pair("rows", rows)})
+    if (count < 0) b.error(card.where(field), "the " + card.label(field) + " must not be negative");
   const std::int64_t count = std::int64_t{block.columns} * block.rows;
   if (count > kMaxElements)
     b.error(card.where("columns"),
@@ -191,8 +202,8 @@ bool read_block(Builder& b, const CardView& card, const ElementCard& element, Bl
   return true;
 }
 
-void read_element_card(Builder& b, const CardView& card) {
-  const int group_number = card.integer("group", 1);
+void read_element_card(Builder& b, const CardView& card, ElementFields& fields) {
+  const int group_number = card.integer(fields.group, 1);
   const auto group = b.group_index.find(group_number);
   if (group == b.group_index.end() || group_number < 1) {
     b.group_missing(card.where("group"), group_number);
@@ -201,7 +212,7 @@ void read_element_card(Builder& b, const CardView& card) {
   const Group& target = b.model.groups[static_cast<std::size_t>(group->second)];
   if (!target.element) return;  // its own error was reported
   const ElementEntry& entry = *target.entry;
-  ElementCard element{card.integer("number"), group->second, card_nodes(card)};
+  ElementCard element{card.integer(fields.number), group->second, card_nodes(card, fields)};
   const int given = static_cast<int>(element.nodes.size());
   if (given < entry.corners || given > entry.card_nodes) {
     b.error(card.where("n1"),
@@ -230,7 +241,7 @@ void read_element_card(Builder& b, const CardView& card) {
     return;
   }
   Block block;
-  if (!read_block(b, card, element, block)) return;
+  if (!read_block(b, card, element, fields, block)) return;
   const std::vector<int> first_nodes = element.nodes;
   const int target_group = group->second;  // folding triangles may add to the index
   ElementCard next;
@@ -388,7 +399,8 @@ void build_groups(Builder& b) {
 
 void build_elements(Builder& b) {
   const int before = b.problems.errors();
-  for (const CardView& card : b.deck.all("element")) read_element_card(b, card);
+  ElementFields fields;
+  for (const CardView& card : b.deck.all("element")) read_element_card(b, card, fields);
   b.elements_known = b.nodes_known && b.groups_known && b.problems.errors() == before;
   if (b.element_place.empty() && b.problems.errors() == 0)
     b.error(b.deck.one("control").where(), "the deck defines no elements");

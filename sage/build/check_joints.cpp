@@ -80,10 +80,10 @@ void sort_spread(std::vector<std::pair<double, int>>& list) {
 }
 
 // Coincident nodes that no interface joins: often two parts that were meant to be one.  Neighbours are sought
-// along a slanting line, on which the columns and rows of a regular mesh do not fall together.
+// along a slanting line on which no two nodes of a regular mesh fall together, since its slope is irrational.
 void warn_coincident(Builder& b, const std::vector<double>& shortest) {
   const Mesh& mesh = b.model.mesh;
-  const Vector2 slant(0.8, 0.6);
+  const Vector2 slant(std::cos(1.0), std::sin(1.0));
   std::vector<std::pair<double, int>> order;
   double widest = 0.0;
   for (int n = 0; n < mesh.nodes(); ++n) {
@@ -94,7 +94,7 @@ void warn_coincident(Builder& b, const std::vector<double>& shortest) {
   }
   sort_spread(order);
   const std::vector<char> joined = interface_nodes(b.model);
-  Examples pairs;
+  std::vector<std::pair<int, int>> found;
   for (std::size_t i = 0; i < order.size(); ++i)
     for (std::size_t j = i + 1; j < order.size() && order[j].first - order[i].first <= widest; ++j) {
       const int first = std::min(order[i].second, order[j].second),
@@ -102,8 +102,19 @@ void warn_coincident(Builder& b, const std::vector<double>& shortest) {
       const auto a = static_cast<std::size_t>(first), c = static_cast<std::size_t>(second);
       const double tolerance = kTogether * std::min(shortest[a], shortest[c]);
       if ((mesh.x.col(first) - mesh.x.col(second)).norm() > tolerance || (joined[a] && joined[c])) continue;
-      pairs.add(number_of(b.model, first) + " and " + number_of(b.model, second));
+      found.emplace_back(first, second);
     }
+  // Named from the lower left to the upper right.
+  const auto place = [&](const std::pair<int, int>& pair) {
+    const Vector2 along(0.8, 0.6);
+    const std::pair a(along.dot(mesh.x.col(pair.first)), pair.first);
+    const std::pair c(along.dot(mesh.x.col(pair.second)), pair.second);
+    return std::pair(std::min(a, c), std::max(a, c));
+  };
+  std::sort(found.begin(), found.end(), [&](const auto& a, const auto& c) { return place(a) < place(c); });
+  Examples pairs;
+  for (const auto& [first, second] : found)
+    pairs.add(number_of(b.model, first) + " and " + number_of(b.model, second));
   if (pairs.count > 0)
     b.warning(b.at_line(0), std::to_string(pairs.count) +
                                 " pair(s) of nodes at one place are joined by no interface: " + pairs.text() +

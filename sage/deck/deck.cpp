@@ -32,6 +32,7 @@ std::vector<CardView> Deck::all(std::string_view name) const {
   std::vector<char> wanted(specs.size());
   for (std::size_t i = 0; i < specs.size(); ++i) wanted[i] = specs[i].name == name;
   std::vector<CardView> views;
+  if (std::find(wanted.begin(), wanted.end(), 1) == wanted.end()) return views;
   for (std::size_t i = 0; i < cards.size(); ++i)
     if (wanted[static_cast<std::size_t>(cards[i].spec)]) views.emplace_back(*this, static_cast<int>(i));
   return views;
@@ -50,13 +51,20 @@ std::vector<CardView> Deck::all(std::string_view name, const CardView& owner) co
 }
 
 CardView Deck::one(std::string_view name) const {
-  const std::vector<CardView> views = all(name);
-  if (views.empty()) throw InputError({file, 0, 0, 0}, "the deck has no " + std::string(name) + " card");
-  return views.front();
+  const int card = first_of(name);
+  if (card < 0) throw InputError({file, 0, 0, 0}, "the deck has no " + std::string(name) + " card");
+  return {*this, card};
 }
 
-bool Deck::has(std::string_view name) const {
-  return !all(name).empty();
+// Most cards of a large deck are nodes and elements, behind all that is asked for by name.
+int Deck::first_of(std::string_view name) const {
+  std::vector<char> wanted(specs.size());
+  for (std::size_t i = 0; i < specs.size(); ++i) wanted[i] = specs[i].name == name;
+  if (std::find(wanted.begin(), wanted.end(), 1) == wanted.end()) return -1;
+  const auto found = std::find_if(cards.begin(), cards.end(), [&](const Card& card) {
+    return wanted[static_cast<std::size_t>(card.spec)] != 0;
+  });
+  return found == cards.end() ? -1 : static_cast<int>(found - cards.begin());
 }
 
 void Deck::add(Card card, std::span<const FieldValue> fields, bool again) {
@@ -126,7 +134,10 @@ std::optional<FieldValue> CardView::find(std::string_view field) const {
 }
 
 double CardView::real(std::string_view field, double fallback) const {
-  const int at = place(field);
+  return real_at(place(field), fallback);
+}
+
+double CardView::real_at(int at, double fallback) const {
   const double number = number_at(at);
   if (!Deck::is_blank(number)) return number;
   if (at < 0) return fallback;
@@ -134,9 +145,24 @@ double CardView::real(std::string_view field, double fallback) const {
   return field_spec.has_fallback ? field_spec.fallback : fallback;
 }
 
-int CardView::integer(std::string_view field, int fallback) const {
-  const double number = real(field, fallback);
+namespace {
+
+int as_integer(double number) {
   return static_cast<int>(std::clamp(number, -2147483648.0, 2147483647.0));
+}
+
+}  // namespace
+
+int CardView::integer(std::string_view field, int fallback) const {
+  return as_integer(real(field, fallback));
+}
+
+int CardView::integer(FieldName& field, int fallback) const {
+  if (field.spec_ != &spec()) {
+    field.spec_ = &spec();
+    field.place_ = place(field.name_);
+  }
+  return as_integer(real_at(field.place_, fallback));
 }
 
 std::string CardView::text(std::string_view field, std::string_view fallback) const {

@@ -129,13 +129,26 @@ class Deck {
   std::vector<CardView> all(std::string_view name, const CardView& owner) const;
   // The only card of that name; throws InputError if there is none.
   CardView one(std::string_view name) const;
-  bool has(std::string_view name) const;
+  bool has(std::string_view name) const { return first_of(name) >= 0; }
 
   // The characters of a line (without its end), for showing a card under a message.
   std::string_view line_text(int line) const { return source.line(line); }
 
  private:
+  int first_of(std::string_view name) const;  // index of the first card of that name, -1 = none
   static constexpr std::uint64_t blank_bits = 0x7ff8'0000'00b1'a7cd;  // a NaN: no card holds one
+};
+
+// A field's name for loops over many cards: where it stands is found once for each kind of card.
+class FieldName {
+ public:
+  explicit FieldName(std::string_view name) : name_(name) {}
+
+ private:
+  friend class CardView;
+  std::string_view name_;
+  const CardSpec* spec_ = nullptr;
+  int place_ = -1;
 };
 
 class CardView {
@@ -149,6 +162,7 @@ class CardView {
   // The field's value; `fallback` where the layout has no such field or the card leaves it blank.
   double real(std::string_view field, double fallback = 0.0) const;
   int integer(std::string_view field, int fallback = 0) const;
+  int integer(FieldName& field, int fallback = 0) const;
   // Trimmed of blanks at both ends, well-formed.
   std::string text(std::string_view field, std::string_view fallback = "") const;
   // The same with what was changed to make it so; empty where blank.
@@ -166,6 +180,7 @@ class CardView {
  private:
   // Index of the field in the spec; -1 = the layout has none of this name.
   int place(std::string_view field) const;
+  double real_at(int place, double fallback) const;
   double number_at(int place) const { return deck_->number(card(), place); }
   std::optional<FieldValue> find(std::string_view field) const;
   const Deck* deck_;

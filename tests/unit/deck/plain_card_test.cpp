@@ -193,5 +193,22 @@ TEST(LargeDecks, StoreANumberAValue) {
   EXPECT_EQ(deck.values(nodes[1].card()).size(), 6u);
 }
 
+// Two kinds of card may bear one name and have the field at different places.
+TEST(FieldNames, AreSoughtAgainForEachKindOfCard) {
+  const Layout layout = load_layout_text(
+      "name = 'x'\n[[card]]\nname = 'a'\nformat = '(2I5)'\nfields = [{ name = 'n' }, { name = 'm' }]\n"
+      "[[card]]\nname = 'b'\nas = 'a'\nformat = '(2I5)'\nfields = [{ name = 'm' }, { name = 'n', default = 9 "
+      "}]\n"
+      "[[card]]\nname = 'c'\nas = 'a'\nformat = '(I5)'\nfields = [{ name = 'm' }]\n",
+      "my.toml");
+  const Deck deck = read_deck_text("    1    2\n    3     \n    4\n", "deck", layout);
+  FieldName n("n");
+  std::vector<int> found;
+  for (const CardView& card : deck.all("a")) found.push_back(card.integer(n, 7));
+  EXPECT_EQ(found, (std::vector<int>{1, 9, 7}));
+  EXPECT_TRUE(deck.has("a"));
+  EXPECT_FALSE(deck.has("n"));
+}
+
 }  // namespace
 }  // namespace sage
