@@ -38,5 +38,6 @@ Command convert_command(CLI::App& parser, const Catalogue& catalogue);
 Command verify_command(CLI::App& parser, const Catalogue& catalogue);
 Command compare_command(CLI::App& parser, const Catalogue& catalogue);
 Command stress_command(CLI::App& parser, const Catalogue& catalogue);
+Command layout_command(CLI::App& parser, const Catalogue& catalogue);
 
 }  // namespace sage::app

@@ -38,6 +38,8 @@ constexpr Entry kCommands[] = {
     {"run", "compute decks; listing, CSV and reports go to the output folder", run_command},
     {"check", "read and validate decks; compute nothing", check_command},
     {"echo", "show each card of a deck as it was read, under a column ruler", echo_command},
+    {"layout", "a first layout for a deck that nobody knows (guess); what a layout reads of a deck (check)",
+     layout_command},
     {"list", "show the elements, materials or solvers that a deck can ask for, or the fields of results",
      list_command},
     {"plot", "pictures of the states in a result file, without running the deck again", plot_command},

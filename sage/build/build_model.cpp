@@ -261,9 +261,20 @@ InputError refusal(const Deck& deck, const Diagnostics& problems) {
   return InputError(std::move(all));
 }
 
+// The names of a draft were not looked at: a field that nobody uses would be lost without a word.
+void refuse_draft(const Deck& deck) {
+  if (deck.draft)
+    throw InputError(
+        {deck.file, 0, 0, 0},
+        "the layout \"" + deck.layout +
+            "\" is a draft, under which decks can only be shown (sagefe echo, sagefe layout check): "
+            "finish it, then take out its line draft = true");
+}
+
 }  // namespace
 
 Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOptions& options) {
+  refuse_draft(as_read);
   const std::optional<Deck> rewritten = canonical_deck(as_read, catalogue);
   const Deck& deck = rewritten ? *rewritten : as_read;
   build::Builder b{{deck, catalogue, options}, options};

@@ -96,6 +96,7 @@ class Deck {
  public:
   std::string file;                                      // as given, for messages
   std::string layout;                                    // name of the layout that read it
+  bool draft = false;                                    // that layout is a draft: no model is made of this
   SourceText source;                                     // the file's characters; keeps FieldValue::text alive
   std::shared_ptr<const std::deque<std::string>> texts;  // free-format texts whose quotes had to be undoubled
   std::shared_ptr<const CardFormats> formats;            // how cards without places are read again

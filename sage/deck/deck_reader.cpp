@@ -34,6 +34,7 @@ DeckReader::DeckReader(const SourceText& source, const Layout& layout, const Rea
       made_limit_(100'000 + 64 * source.text()->size()) {
   deck_.file = source.name();
   deck_.layout = layout.name;
+  deck_.draft = layout.draft;
   deck_.source = source;
   deck_.cards.reserve(source.starts().size());
   deck_.numbers.reserve(source.text()->size() / 2);  // for short cards; pages not used cost nothing
@@ -75,13 +76,18 @@ void DeckReader::find_entries(const std::vector<LayoutEntry>& entries) {
   }
 }
 
-Deck DeckReader::read() {
+Deck DeckReader::read(Diagnostics* problems) {
   read_entries(layout_.entries, -1);
   if (!stopped_) note_list_rest();
   if (!stopped_) check_after_end();
   if (log_.errors() == 0) note_blanks();
   deck_.texts = texts_;
-  log_.finish();
+  try {
+    log_.finish();
+  } catch (const InputError& error) {
+    if (!problems) throw;
+    *problems = error.diagnostics();
+  }
   return std::move(deck_);
 }
 
@@ -410,6 +416,12 @@ Deck read_deck_text(std::string text, const std::string& name, const Layout& lay
                     const ReadOptions& options) {
   const SourceText source = source_of(std::move(text), name);
   return DeckReader(source, layout, options).read();
+}
+
+Deck read_what_can_be(std::string text, const std::string& name, const Layout& layout,
+                      const ReadOptions& options, Diagnostics& problems) {
+  const SourceText source = source_of(std::move(text), name);
+  return DeckReader(source, layout, options).read(&problems);
 }
 
 Deck read_deck(const std::string& path, const ReadOptions& options) {

@@ -21,8 +21,8 @@ class DeckReader : private ExpressionScope {
  public:
   DeckReader(const SourceText& source, const Layout& layout, const ReadOptions& options);
 
-  // Throws InputError with all errors.
-  Deck read();
+  // Throws InputError with all errors; with `problems` it goes there instead, and what could be read comes back.
+  Deck read(Diagnostics* problems = nullptr);
 
  private:
   // How a card comes to be read: for messages about counts.

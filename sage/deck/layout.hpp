@@ -67,6 +67,7 @@ struct LayoutMark {
 
 struct Layout {
   std::string name, title, file;
+  bool draft = false;  // names are not looked at yet: decks can be read under it, and no model made of them
   RecordRules records;
   int first_sequence_column = 0, last_sequence_column = 0;  // 0 = the layout has none
   std::string card_separator;  // "!!" between the card's name and the record; empty = cards have no names

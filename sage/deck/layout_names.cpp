@@ -198,6 +198,19 @@ class NameCheck {
     return out;
   }
 
+  NameUse use_of(int index, int field) const {
+    const CardRule& card = rule(index);
+    const auto f = static_cast<std::size_t>(field);
+    const KnownCard* meaning = known(card.spec.name);
+    const std::vector<std::string_view> names =
+        meaning ? known_fields(*meaning) : std::vector<std::string_view>();
+    if (!card.ignored && means_something(meaning, names, card.spec.fields[f].name)) return NameUse::program;
+    if (in_expressions_.contains({index, field}) || !card.rules[f].must_equal.empty() ||
+        card.rules[f].allowed.size() == 1)
+      return NameUse::layout;
+    return card.ignored || card.rules[f].ignored ? NameUse::ignored : NameUse::nothing;
+  }
+
  private:
   static std::string listed(std::string title, const std::string& names) {
     if (names.empty()) return {};
@@ -215,13 +228,11 @@ class NameCheck {
     std::string used, expressions, ignored, unused;
     for (std::size_t f = 0; f < card.spec.fields.size(); ++f) {
       const std::string& name = card.spec.fields[f].name;
-      const bool means = !card.ignored && means_something(meaning, names, name);
-      const bool needed = in_expressions_.contains({index, static_cast<int>(f)}) ||
-                          !card.rules[f].must_equal.empty() || card.rules[f].allowed.size() == 1;
-      std::string& list = means                                   ? used
-                          : needed                                ? expressions
-                          : card.ignored || card.rules[f].ignored ? ignored
-                                                                  : unused;
+      const NameUse use = use_of(index, static_cast<int>(f));
+      std::string& list = use == NameUse::program   ? used
+                          : use == NameUse::layout  ? expressions
+                          : use == NameUse::ignored ? ignored
+                                                    : unused;
       list += (list.empty() ? "" : ", ") + name;
       const std::string hint = &list == &unused ? nearest(name, not_given(card, names)) : "";
       if (!hint.empty()) list += " (" + hint.substr(2) + ")";
@@ -381,6 +392,17 @@ void check_names(const Layout& layout) {
 
 Diagnostics name_problems(const Layout& layout) {
   return NameCheck(layout).problems();
+}
+
+std::vector<std::vector<NameUse>> name_uses(const Layout& layout) {
+  const NameCheck check(layout);
+  std::vector<std::vector<NameUse>> uses;
+  for (std::size_t i = 0; i < layout.cards.size(); ++i) {
+    uses.emplace_back();
+    for (std::size_t f = 0; f < layout.cards[i].spec.fields.size(); ++f)
+      uses.back().push_back(check.use_of(static_cast<int>(i), static_cast<int>(f)));
+  }
+  return uses;
 }
 
 std::string names_listing(const Layout& layout) {

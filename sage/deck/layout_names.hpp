@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sage/deck/layout.hpp"
 
@@ -13,7 +14,12 @@ namespace sage {
 // that it is looked for under.
 void check_names(const Layout& layout);
 
-// The same, from the text of a layout file.
+enum class NameUse { program, layout, ignored, nothing };
+
+// What becomes of every field of every card, in the layout's order.
+std::vector<std::vector<NameUse>> name_uses(const Layout& layout);
+
+// The same as check_names, from the text of a layout file.  A draft's names are not checked.
 Layout load_checked_layout(std::string_view toml, const std::string& file);
 
 }  // namespace sage

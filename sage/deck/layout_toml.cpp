@@ -21,10 +21,11 @@ class LayoutReader : private TomlFile {
   Layout read() {
     layout_.file = file_;
     known_keys(root_,
-               {"name", "title", "blanks", "comment", "record_length", "sequence_columns", "card_separator",
-                "card_name_columns", "introduction", "closing", "example", "marks", "card"});
+               {"name", "title", "draft", "blanks", "comment", "record_length", "sequence_columns",
+                "card_separator", "card_name_columns", "introduction", "closing", "example", "marks", "card"});
     layout_.name = text(root_, "name", true);
     layout_.title = text(root_, "title");
+    layout_.draft = flag(root_, "draft");
     layout_.introduction = text(root_, "introduction");
     layout_.closing = text(root_, "closing");
     layout_.example = text(root_, "example");
@@ -559,7 +560,7 @@ Layout load_layout_text(std::string_view toml_text, const std::string& file) {
 Layout load_checked_layout(std::string_view toml_text, const std::string& file) {
   const toml::table root = parse(toml_text, file);
   Layout layout = LayoutReader(root, file).read();
-  check_names(layout);
+  if (!layout.draft) check_names(layout);
   return layout;
 }
 

@@ -21,6 +21,11 @@ Deck read_deck(const std::string& path, const Layout& layout, const ReadOptions&
 Deck read_deck_text(std::string text, const std::string& name, const Layout& layout,
                     const ReadOptions& options = {});
 
+// The cards that can be read of a deck with mistakes, which go into `problems`.  Throws InputError only for what
+// is no text.
+Deck read_what_can_be(std::string text, const std::string& name, const Layout& layout,
+                      const ReadOptions& options, Diagnostics& problems);
+
 // Every card as it was read: column ruler, the card, and its fields as name = value.
 void echo(const Deck& deck, std::ostream& out);
 std::string echo(const Deck& deck);

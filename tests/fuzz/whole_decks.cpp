@@ -270,6 +270,10 @@ std::vector<std::string> command_line(Random& random, const BaseDeck& base) {
     add_words(command, "convert deck.dat " + pick(random, kTargets));
   } else if (kind == 3) {
     add_words(command, "compare deck.dat --both -o out");
+  } else if (kind == 4) {
+    add_words(command,
+              draw(random, 2) == 0 ? "layout guess deck.dat -o out.toml" : "layout check sage1 deck.dat");
+    return command;
   } else {
     add_words(command, "run deck.dat -o out");
     for (std::size_t n = draw(random, 4); n > 1; --n) add_words(command, pick(random, kRunOptions));

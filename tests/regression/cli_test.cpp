@@ -41,6 +41,9 @@ TEST(CommandLine, HelpOfEverySubcommandNamesItsOptions) {
        {"DECK", "--layout", "--strict", "--formulation", "--element", "--geometry", "--refine", "--grade"}},
       {"echo", {"DECK", "--layout", "--strict"}},
       {"list", {"WHAT", "elements", "materials", "solvers"}},
+      {"layout", {"guess", "check"}},
+      {"layout guess", {"DECK", "--out", "Example"}},
+      {"layout check", {"LAYOUT", "DECK", "--strict", "Exit codes"}},
       {"tables", {"--cases", "--output", "--pinned"}},
       {"verify", {"--list", "--only", "--rows", "--csv", "--write"}},
       {"stress", {"--list", "--only", "--details", "--csv", "--write"}},
@@ -239,6 +242,45 @@ TEST(CommandLine, VerifyListsRunsAndWritesRows) {
   EXPECT_GE(row(read(folder / "rows.csv"), "\"Patch tests of interfaces\"").size(), 15u);
   EXPECT_EQ(sagefe(folder, "verify --only nothing").exit_code, 1);
   EXPECT_EQ(sagefe(folder, "verify --only interface.p5 --write").exit_code, 1);
+}
+
+// A deck under a layout that is guessed: echo and layout check take the draft, check and run refuse it.
+TEST(CommandLine, LayoutGuessWritesADraftThatReadsTheDeck) {
+  const fs::path folder = empty_folder("layout_guess");
+  write(folder / "old.dat", block_deck().text());
+  const Finished guess = sagefe(folder, "layout guess old.dat -o old.toml");
+  EXPECT_EQ(guess.exit_code, 0) << guess.err;
+  expect_words(guess.out, {"old.toml", "kinds of cards", "sagefe layout check old.toml old.dat"});
+  EXPECT_EQ(sagefe(folder, "layout guess old.dat").out.substr(0, 60), read(folder / "old.toml").substr(0, 60));
+  EXPECT_EQ(sagefe(folder, "echo old.dat --layout ./old.toml").exit_code, 0);
+  const Finished check = sagefe(folder, "layout check old.toml old.dat");
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+  expect_words(check.out, {"(a draft)", " 0 under no card", "used by nothing", "....+....1"});
+  for (const char* command : {"check old.dat --layout ./old.toml", "run old.dat --layout ./old.toml -o out"}) {
+    const Finished refused = sagefe(folder, command);
+    EXPECT_EQ(refused.exit_code, 2) << command;
+    expect_words(refused.err, {"is a draft", "draft = true"});
+  }
+}
+
+TEST(CommandLine, LayoutCheckEndsAsCheckDoes) {
+  const fs::path folder = empty_folder("layout_check");
+  write(folder / "deck.dat", block_deck().text());
+  write(folder / "cut.dat", block_deck().text().substr(0, 200));
+  write(folder / "binary.dat", std::string("1 2\0 3", 6));
+  const Finished good = sagefe(folder, "layout check sage1 deck.dat");
+  EXPECT_EQ(good.exit_code, 0) << good.err;
+  expect_words(good.out, {"layout sage1", "used by the program"});
+  const Finished cut = sagefe(folder, "layout check sage1 cut.dat");
+  EXPECT_EQ(cut.exit_code, 2);
+  expect_words(cut.err, {"error"});
+  expect_words(cut.out, {"title", "Cards of the layout that the deck doesn't have"});
+  EXPECT_EQ(sagefe(folder, "layout check no_layout deck.dat").exit_code, 2);
+  EXPECT_EQ(sagefe(folder, "layout guess binary.dat").exit_code, 2);
+  EXPECT_EQ(sagefe(folder, "layout guess no_file.dat").exit_code, 2);
+  EXPECT_EQ(sagefe(folder, "layout").exit_code, 1);
+  EXPECT_EQ(sagefe(folder, "layout guess deck.dat -o deck.dat/y.toml").exit_code, 4);
+  EXPECT_EQ(sagefe(folder, "layout guess deck.dat -o deck.dat").exit_code, 1);  // never over the deck
 }
 
 TEST(CommandLine, MistakesGiveExitCode1AndNameTheWord) {

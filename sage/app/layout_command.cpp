@@ -1,0 +1,92 @@
+// sagefe layout: a first layout for a deck that nobody knows, and what a layout reads of a deck.
+#include <fmt/format.h>
+
+#include <CLI/Option.hpp>
+#include <filesystem>
+#include <memory>
+#include <sstream>
+
+#include "sage/app/commands.hpp"
+#include "sage/app/exit_codes.hpp"
+#include "sage/app/input.hpp"
+#include "sage/deck/layout.hpp"
+#include "sage/deck/read_deck.hpp"
+#include "sage/deck/source.hpp"
+#include "sage/guess/coverage.hpp"
+#include "sage/guess/guess.hpp"
+#include "sage/record/out_file.hpp"
+
+namespace sage::app {
+
+namespace {
+
+struct GuessOptions {
+  std::string deck, out;
+};
+
+int guess(const GuessOptions& options) {
+  keep_input(options.deck);
+  const std::filesystem::path out(options.out);
+  const std::string name = options.out.empty() ? "guessed" : out.stem().string();
+  const GuessedLayout layout = guess_layout(read_file(options.deck), options.deck, name);
+  if (options.out.empty()) {
+    fmt::print("{}", layout.toml);
+  } else {
+    write_file(options.out, layout.toml);
+    fmt::print("{}: {} kinds of cards", options.out, layout.cards);
+    if (layout.not_understood > 0) fmt::print("; {} lines not understood, read as text", layout.not_understood);
+    fmt::print("\n  sagefe layout check {} {}    what it reads, under a column ruler\n", options.out,
+               options.deck);
+  }
+  return kOk;
+}
+
+struct CoverageOptions {
+  std::string layout, deck;
+  bool strict = false;
+};
+
+int check(const CoverageOptions& options) {
+  keep_input(options.layout);
+  keep_input(options.deck);
+  const Layout layout = load_layout(options.layout);
+  ReadOptions read;
+  read.strict = options.strict;
+  Diagnostics problems;
+  const Deck deck = read_what_can_be(read_file(options.deck), options.deck, layout, read, problems);
+  std::ostringstream report;
+  print_coverage(layout, deck, find_coverage(layout, deck), report);
+  fmt::print("{}", report.str());
+  print_diagnostics(problems.errors() > 0 ? problems : deck.diagnostics);
+  return problems.errors() > 0 ? kInput : kOk;
+}
+
+}  // namespace
+
+Command layout_command(CLI::App& parser, const Catalogue&) {
+  parser.require_subcommand(1);
+  CLI::App* guessing = parser.add_subcommand(
+      "guess",
+      "write a first layout for a deck that nobody knows, with the reason for every guess: a draft to finish");
+  auto guess_options = std::make_shared<GuessOptions>();
+  guessing->add_option("DECK", guess_options->deck, "deck file")->required();
+  guessing->add_option("-o,--out", guess_options->out, "layout file to write (otherwise it is printed)");
+  CLI::App* checking = parser.add_subcommand("check",
+                                             "show what a layout reads of a deck: each kind of card under a "
+                                             "column ruler, unread columns, lines under no card");
+  auto check_options = std::make_shared<CoverageOptions>();
+  checking->add_option("LAYOUT", check_options->layout, "layout file, or the name of a built-in layout")
+      ->required();
+  checking->add_option("DECK", check_options->deck, "deck file")->required();
+  checking->add_flag("--strict", check_options->strict, "warnings are errors");
+  guessing->footer(
+      "Example:\n  sagefe layout guess old.dat -o old.toml\n  sagefe layout check old.toml old.dat\n"
+      "  sagefe echo old.dat --layout old.toml\nThe draft says why it guesses what. "
+      "docs/manual/layout_guess.md\n");
+  checking->footer(
+      "Exit codes as for sagefe check: 0 the deck reads, 2 it doesn't (with --strict: not without "
+      "warnings).\n");
+  return [=] { return guessing->parsed() ? guess(*guess_options) : check(*check_options); };
+}
+
+}  // namespace sage::app
