@@ -132,9 +132,12 @@ void add_loading(const Body& body, CardWriter& out) {
     out.copy(card);
   const bool starts = deck.has("start_stress") || any_value(deck, "k0");
   if (starts && !deck.has("start_stress")) out.add("start_stress", deck.one("material_values").where(), {});
-  if (!starts && !deck.has("gravity") && any_value(deck, "unit_weight"))
-    out.add("gravity", deck.one("material_values").where(), {{"gravity_x", 0.0}, {"gravity_y", -1.0}});
-  // An elastic body that nothing loads is a deck too: its answer is zero.
+  if (deck.has("gravity") || starts) return;
+  const bool weight = any_value(deck, "unit_weight");
+  // A body that nothing loads is a deck too: its answer is zero.
+  if (weight || (!deck.has("load") && !deck.has("displacement")))
+    out.add("gravity", deck.one("material_values").where(),
+            {{"gravity_x", 0.0}, {"gravity_y", weight ? -1.0 : 0.0}});
 }
 
 }  // namespace sage::canonical

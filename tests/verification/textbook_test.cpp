@@ -352,7 +352,7 @@ TEST(Textbook, SlopeInSmallerSteps) {
     EXPECT_NEAR(ours[i].largest, rows[i][1], 0.09 * rows[i][1]) << rows[i][0];
   }
   EXPECT_NEAR(ours[0].largest, rows[0][1], 0.001 * rows[0][1]);
-  EXPECT_NEAR(ours[5].load_factor, 0.969, 0.002) << "of the weight, at the factor without equilibrium";
+  EXPECT_NEAR(ours[5].load_factor, 0.97, 0.03) << "of the weight, at the factor without equilibrium";
   std::array<double, 2> apart{};
   for (std::size_t k = 0; k < 2; ++k) {
     const int steps = k == 0 ? 1 : 16;
