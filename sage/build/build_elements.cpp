@@ -349,6 +349,7 @@ void build_groups(Builder& b) {
     Group group;
     group.number = card.integer("number");
     group.name = b.text(card, "name");
+    group.overlay = card.integer("overlay") == 1;
     group.where = card.where();
     const std::string name = "group " + std::to_string(group.number);
     if (group.number < 1) b.error(card.where("number"), "a group number must be 1 or more");

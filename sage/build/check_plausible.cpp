@@ -181,6 +181,7 @@ void check_overlap(Builder& b) {
     for (std::size_t g = 0; g < groups; ++g) active[g].push_back(activity.group[g]);
   }
   const auto together = [&](std::size_t g, std::size_t h) {
+    if (b.model.groups[g].overlay != b.model.groups[h].overlay) return false;
     for (std::size_t s = 0; s < active[g].size(); ++s)
       if (active[g][s] && active[h][s]) return true;
     return false;
@@ -345,7 +346,7 @@ void check_inner_edges(Builder& b, const Stage& stage, const Activity& activity)
   if (uses.empty()) return;
   for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
     const Group& group = b.model.groups[g];
-    if (!activity.group[g] || !group.solid()) continue;
+    if (!activity.group[g] || !group.solid() || group.overlay) continue;
     for (int e = 0; e < group.elements(); ++e)
       for (const std::vector<int>& edge : group.element->edges()) {
         const mesh::EdgeKey key = ends(group, e, edge);

@@ -10,7 +10,7 @@ std::vector<BoundaryEdge> boundary_edges(const Model& model) {
   std::vector<BoundaryEdge> all;
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     const Group& group = model.groups[g];
-    if (!group.solid()) continue;
+    if (!group.solid() || group.overlay) continue;
     for (int e = 0; e < group.elements(); ++e) {
       const auto& edges = group.element->edges();
       for (std::size_t i = 0; i < edges.size(); ++i) {

@@ -53,9 +53,8 @@ void add_materials(const Body& body, CardWriter& out) {
   for (const CardView& row : body.deck.all("material_values")) {
     std::vector<NewField> values{take(row, "youngs_modulus", "values"), take(row, "poissons_ratio", "values")};
     const std::string law = law_of(row, values);
-    if (row.real("bulk_modulus") != 0.0)
-      refuse(body, row, "bulk_modulus",
-             "pore water with a bulk modulus is not modelled; drained only (bulk modulus 0)");
+    if (row.real("bulk_modulus") < 0.0)
+      refuse(body, row, "bulk_modulus", "the bulk modulus of the water must not be negative (0: drained)");
     std::vector<NewField> fields{{"number", static_cast<double>(++number)},
                                  {"law", static_cast<double>(law_code(body.catalogue, law))},
                                  {"unit_weight", row.real("unit_weight"), row.where("unit_weight")},
@@ -63,6 +62,44 @@ void add_materials(const Body& body, CardWriter& out) {
     if (!row.blank("k0")) fields.push_back(take(row, "k0"));
     const int card = out.add("material", row.where(), fields);
     out.add("parameters", row.where(), values, card);
+  }
+}
+
+// Pore water that can't leave: elements of its own on the same nodes, with the water's bulk modulus and so little
+// shear stiffness (1e-9 of it) that its stress is a pressure.  It starts without excess pressure.
+void add_pore_water(const Body& body, const std::vector<int>& material, int element, int formulation,
+                    CardWriter& out) {
+  constexpr double kShear = 1e-9;
+  const std::vector<CardView> rows = body.deck.all("material_values");
+  const int soils = static_cast<int>(rows.size());
+  for (int m = 1; m <= soils; ++m) {
+    const CardView& row = rows[static_cast<std::size_t>(m) - 1];
+    const double bulk = row.real("bulk_modulus");
+    if (!(bulk > 0.0)) continue;
+    const std::string name = soils > 1 ? "pore water of material " + std::to_string(m) : "pore water";
+    const double number = soils + m;
+    const int card = out.add("material", row.where("bulk_modulus"),
+                             {{"number", number},
+                              {"law", static_cast<double>(law_code(body.catalogue, "linear_elastic_kg"))},
+                              {"unit_weight", 0.0},
+                              {"name", 0.0, {}, name}});
+    out.add("parameters", row.where("bulk_modulus"), {{"values", bulk}, {"values", kShear * bulk}}, card);
+    out.add("group", body.card.where(),
+            {{"number", number},
+             {"element", static_cast<double>(element)},
+             {"formulation", static_cast<double>(formulation)},
+             {"material", number},
+             {"overlay", 1.0},
+             {"name", 0.0, {}, name}});
+    for (std::size_t e = 0; e < body.elements.size(); ++e) {
+      if (material[e] != m) continue;
+      std::vector<NewField> fields{{"number", static_cast<double>(body.elements.size() + e) + 1.0},
+                                   {"group", number}};
+      int n = 0;
+      for (int node : body.elements[e].nodes)
+        fields.push_back({"n" + std::to_string(++n), static_cast<double>(node)});
+      out.add("element", body.elements[e].where, fields);
+    }
   }
 }
 
@@ -119,6 +156,7 @@ void add_body(const Body& body, const std::vector<int>& material, const std::str
       fields.push_back({"n" + std::to_string(++n), static_cast<double>(node)});
     out.add("element", body.elements[e].where, fields);
   }
+  add_pore_water(body, material, kind.element, kind.formulation, out);
 }
 
 void add_loading(const Body& body, CardWriter& out) {

@@ -144,6 +144,18 @@ void add_footing(const Source& s, CardWriter& out) {
   add_report(s, out, {{"kind", 2.0}, {"stage", 2.0}}, nodes);
 }
 
+// Undrained: the force of the moved nodes, and what soil and water bear in the middle of the first element.
+void add_undrained_reports(const Source& s, CardWriter& out, const std::vector<int>& nodes) {
+  add_report(s, out, {{"kind", 2.0}, {"stage", 2.0}}, nodes);
+  const double x = 0.5 * (s.mesh.x[0] + s.mesh.x[1]), y = 0.5 * (s.mesh.y[0] + s.mesh.y[1]);
+  const double soils = static_cast<double>(s.deck.all("material_values").size());
+  for (const double group : {1.0, soils + 1.0}) {
+    const int report = out.add("report", s.card.where(), {{"kind", 3.0}, {"group", group}, {"stage", 2.0}});
+    out.add("point", s.card.where(),
+            {{"x", x}, {"y", y}, {"name", 0.0, {}, group == 1.0 ? "soil" : "pore water"}}, report);
+  }
+}
+
 // Program 6.11: consolidated under the cell pressure, then the listed nodes are displaced.
 void add_triaxial(const Source& s, CardWriter& out) {
   const double cell = -s.deck.one("material_values").real("consolidation");
@@ -161,6 +173,7 @@ void add_triaxial(const Source& s, CardWriter& out) {
     add_displacement(out, take(card, "first"), card.integer("direction") == 1,
                      increments * steps.real("displacement"), stage);
   }
+  if (s.deck.one("material_values").real("bulk_modulus") > 0.0) return add_undrained_reports(s, out, nodes);
   const double height = std::abs(s.mesh.y.back() - s.mesh.y.front());
   add_report(s, out,
              {{"kind", 1.0}, {"group", 1.0}, {"stage", 2.0}, {"height", height}, {"cell_pressure", cell}},

@@ -51,6 +51,8 @@ struct Group {
   std::vector<int> element_numbers;
   std::vector<int> element_lines;  // deck line of each element
   std::vector<int> nodes;          // element->traits().nodes each
+  // Lies on the elements of other groups on purpose, as pore water does in soil.
+  bool overlay = false;
   SourcePosition where;
 
   int elements() const { return static_cast<int>(element_numbers.size()); }

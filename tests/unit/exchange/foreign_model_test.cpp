@@ -316,6 +316,27 @@ TEST(ForeignModel, EmbankmentInLifts) {
       << "p69.res: 452 freedoms";
 }
 
+// Program 6.11 with water of bulk modulus Kw = 60 K': p' = 100 + q / 3 / 61, and at yield q = 1.2 p' (phi = 30),
+// from which both follow; no plastic change of volume after it (psi = 0).
+TEST(ForeignModel, UndrainedTriaxialTest) {
+  std::ifstream file(kInputs + "smith_griffiths/p611_1.dat");
+  std::string deck{std::istreambuf_iterator<char>(file), {}};
+  const std::string drained = "0.25  0.0  -100.0";
+  const std::size_t at = deck.find(drained);
+  ASSERT_NE(at, std::string::npos);
+  deck.replace(at, drained.size(), "0.25  1.0e6  -100.0");
+  Model model = build_model(read_deck_text(deck, "p611_2.dat", load_layout("sg_p611")), full_catalogue());
+  for (const char* words : {"overlap", "inside the body"})
+    EXPECT_FALSE(mentions(model.diagnostics, Severity::warning, words)) << words;
+  const scenes::WholeRun run = make_workbench().run(std::move(model));
+  ASSERT_TRUE(run.completed());
+  const double q = 120.0 / (1.0 - 1.2 / 183.0), u = q / 3.0 * 60.0 / 61.0;
+  const Eigen::Vector4d soil = run.stress[0].col(0), water = run.stress[1].col(0);
+  EXPECT_NEAR(soil[0] - soil[1], q, 1e-3);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(-water[c], u, 1e-3) << c;
+  EXPECT_NEAR(-(soil[0] + water[0]), 100.0, 1e-6) << "the cell pressure is borne by both";
+}
+
 TEST(ForeignModel, WhatCanNotBecomeAModelIsRefused) {
   EXPECT_NE(refusal("smith_griffiths/p52.dat", "sg_p52").find("three displacements a node"), std::string::npos);
   EXPECT_NE(refusal("cande_level3/candejar_cidmock_standard_lines.cid", "").find("no nodes"),
