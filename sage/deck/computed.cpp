@@ -226,7 +226,7 @@ void DeckReader::compute_list(const CardRule& rule, std::size_t field, int line)
     fields_.push_back(value);
     const Expression& expression = one.values[one.count.empty() ? static_cast<std::size_t>(i) : 0];
     compute(rule, field, expression, fields_.back());
-    if (!one.allowed.empty()) check_allowed(rule, field, fields_.size() - 1);
+    if (one.restricted()) check_allowed(rule, field, fields_.size() - 1);
   }
 }
 
@@ -244,7 +244,7 @@ void DeckReader::compute_fields(const CardRule& rule, int line) {
       continue;
     }
     compute(rule, i, rule.rules[i].values.front(), fields_[i]);
-    if (!rule.rules[i].allowed.empty()) check_allowed(rule, i, i);
+    if (rule.rules[i].restricted()) check_allowed(rule, i, i);
   }
 }
 

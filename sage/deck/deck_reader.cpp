@@ -45,7 +45,7 @@ DeckReader::DeckReader(const SourceText& source, const Layout& layout, const Rea
     formats->formats.push_back(rule.format);
     formats->lists.push_back(!rule.rules.empty() && !rule.rules.back().count.empty());
     const bool plain = std::all_of(rule.rules.begin(), rule.rules.end(), [](const FieldRule& r) {
-      return r.map.empty() && r.allowed.empty() && r.must_equal.empty();
+      return r.map.empty() && !r.restricted() && r.must_equal.empty();
     });
     plain_.push_back(plain);
     computes_.push_back(std::ranges::any_of(rule.spec.fields, [](const FieldSpec& f) { return f.computed; }));

@@ -1,6 +1,7 @@
 // What a card that was read is held against: faults of its fields, what stands behind
 // them, required values, codes.
 #include <algorithm>
+#include <tuple>
 
 #include "sage/deck/deck_reader.hpp"
 #include "sage/deck/text.hpp"
@@ -75,7 +76,7 @@ void DeckReader::check_values(const CardRule& rule, const Card& card) {
     }
     if (plain_[static_cast<std::size_t>(card.spec)] || spec.computed) continue;
     if (!rule.rules[i].map.empty()) apply_map(rule, i, value);
-    if (!rule.rules[i].allowed.empty()) check_allowed(rule, i, i);
+    if (rule.rules[i].restricted()) check_allowed(rule, i, i);
     const std::string& wanted = rule.rules[i].must_equal;
     if (!wanted.empty() && lower_case(trimmed(value.text)) != lower_case(wanted)) {
       log_.add(Severity::error, value.first_column ? log_.where(value) : log_.line(card.line),
@@ -108,16 +109,20 @@ void DeckReader::apply_map(const CardRule& rule, std::size_t field, FieldValue& 
 // A blank that is wrong has its message already.
 void DeckReader::check_allowed(const CardRule& rule, std::size_t field, std::size_t at) {
   const FieldValue& value = fields_[at];
-  const std::vector<double>& allowed = rule.rules[field].allowed;
+  const auto& [numbers, texts] = std::tie(rule.rules[field].allowed, rule.rules[field].allowed_texts);
+  const std::string_view text = trimmed(value.text);
   if (value.blank || is_faulty(deck_.cards.size(), at) ||
-      std::ranges::find(allowed, value.number) != allowed.end())
+      std::ranges::find(numbers, value.number) != numbers.end() ||
+      std::ranges::find(texts, text) != texts.end())
     return;
   const std::string& known = rule.rules[field].codes;
-  std::string numbers;
-  for (const double one : allowed) numbers += (numbers.empty() ? "" : ", ") + number_text(one);
+  std::string all;
+  for (const double one : numbers) all += (all.empty() ? "" : ", ") + number_text(one);
+  for (const std::string& one : texts) all += (all.empty() ? "" : ", ") + one;
   log_.add(Severity::error, log_.where(value),
-           "the " + rule.spec.fields[field].label + " can't be " + number_text(value.number) + ": " +
-               (known.empty() ? "allowed are " + numbers : known));
+           "the " + rule.spec.fields[field].label + " can't be " +
+               (texts.empty() ? number_text(value.number) : quoted(text)) + ": " +
+               (known.empty() ? "allowed are " + all : known));
   mark_faulty(at);
 }
 

@@ -18,13 +18,15 @@ namespace sage {
 struct FieldRule {
   std::string codes;  // allowed codes, for the manual: "1 plane strain, 2 axisymmetric"
   std::vector<std::pair<std::string, double>>
-      map;                         // foreign code -> ours; keys are the field's trimmed characters
-  std::vector<double> allowed;     // the field reads one of these; empty = anything
-  std::string must_equal;          // the card is wrong unless the field reads this
-  Expression count;                // how many values the last field repeats; empty = one
-  std::vector<Expression> values;  // of a computed field: its value, or those of a list one by one
-  bool ignored = false;            // no meaning is wanted for it
-  int line = 0;                    // of the layout file
+      map;                                 // foreign code -> ours; keys are the field's trimmed characters
+  std::vector<double> allowed;             // the field reads one of these; empty = anything
+  std::vector<std::string> allowed_texts;  // the same of a text
+  std::string must_equal;                  // the card is wrong unless the field reads this
+  Expression count;                        // how many values the last field repeats; empty = one
+  std::vector<Expression> values;          // of a computed field: its value, or those of a list one by one
+  bool ignored = false;                    // no meaning is wanted for it
+  int line = 0;                            // of the layout file
+  bool restricted() const { return !allowed.empty() || !allowed_texts.empty(); }
 };
 
 struct CardRule {

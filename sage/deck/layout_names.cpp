@@ -206,7 +206,7 @@ class NameCheck {
         meaning ? known_fields(*meaning) : std::vector<std::string_view>();
     if (!card.ignored && means_something(meaning, names, card.spec.fields[f].name)) return NameUse::program;
     if (in_expressions_.contains({index, field}) || !card.rules[f].must_equal.empty() ||
-        card.rules[f].allowed.size() == 1)
+        card.rules[f].allowed.size() + card.rules[f].allowed_texts.size() == 1)
       return NameUse::layout;
     return card.ignored || card.rules[f].ignored ? NameUse::ignored : NameUse::nothing;
   }
@@ -317,7 +317,7 @@ class NameCheck {
   bool is_used(int card, int field) const {
     const FieldRule& one = rule(card).rules[static_cast<std::size_t>(field)];
     return one.ignored || in_expressions_.contains({card, field}) || !one.must_equal.empty() ||
-           one.allowed.size() == 1;  // checked, and then it says nothing more
+           one.allowed.size() + one.allowed_texts.size() == 1;  // checked, and then it says nothing more
   }
 
   // What the card could still mean.
@@ -335,7 +335,7 @@ class NameCheck {
       const int field = static_cast<int>(f);
       const std::string& name = card.spec.fields[f].name;
       if (is_used(index, field) || means_something(meaning, names, name)) continue;
-      if (!meaning) return unknown_card(card);
+      if (!meaning && !has_used_field(index)) return unknown_card(card);
       error(card.rules[f].line, "field \"" + name + "\" of card \"" + card.spec.name + "\" is used by nothing" +
                                     nearest(name, not_given(card, names)) + " (or mark it: ignored = true)");
     }
@@ -352,6 +352,12 @@ class NameCheck {
     check_owner(index, *meaning);
   }
 
+  // The layout itself makes use of the card: what is left of it is a matter of fields.
+  bool has_used_field(int index) const {
+    for (std::size_t f = 0; f < rule(index).spec.fields.size(); ++f)
+      if (in_expressions_.contains({index, static_cast<int>(f)})) return true;
+    return false;
+  }
   void unknown_card(const CardRule& card) {
     std::vector<std::string_view> names;
     for (const KnownCard& one : kKnown)

@@ -270,7 +270,7 @@ class LayoutReader : private TomlFile {
     rule.codes = text(table, "codes");
     rule.must_equal = text(table, "equals");
     read_map(table, rule);
-    read_allowed(table, rule);
+    read_allowed(table, spec.kind, rule);
     rule.line = static_cast<int>(table.source().begin.line);
     rule.ignored = flag(table, "ignored");
     card.spec.fields.push_back(spec);
@@ -364,11 +364,19 @@ class LayoutReader : private TomlFile {
     }
   }
 
-  void read_allowed(const toml::table& table, FieldRule& rule) const {
+  void read_allowed(const toml::table& table, FieldKind kind, FieldRule& rule) const {
     const toml::node* node = table.get("allowed");
     if (!node) return;
     const toml::array* allowed = node->as_array();
-    if (!allowed || allowed->empty()) fail(*node, "allowed must be [ number, ... ]");
+    if (!allowed || allowed->empty()) fail(*node, "allowed must be [ number, ... ], or texts for a text");
+    if (kind == FieldKind::text && rule.map.empty()) {
+      for (const toml::node& entry : *allowed) {
+        const auto one = entry.value_exact<std::string>();
+        if (!one) fail(entry, "allowed must be [ 'text', ... ] for a text");
+        rule.allowed_texts.push_back(*one);
+      }
+      return;
+    }
     for (const toml::node& entry : *allowed) {
       const auto number = entry.value<double>();
       if (!number) fail(entry, "allowed must be [ number, ... ]");

@@ -362,6 +362,40 @@ fields = [{ name = "a", value = "2 * a" }]
   EXPECT_EQ(deck.all("twice")[1].real("a"), 12.0);
 }
 
+// Sections below their names, in any order; a name that no section has is an error and not an end.
+TEST(Computed, SectionsStandInAnyOrder) {
+  const std::string toml = R"toml([[card]]
+block = "sections"
+until = "key.word == 'END'"
+  [[card.card]]
+  name = "key"
+  format = "(A4)"
+  fields = [{ name = "word", required = true, allowed = ["NODE", "LOAD", "END"] }]
+  [[card.card]]
+  name = "node"
+  when = "key.word == 'NODE'"
+  format = "(I5,F10.0)"
+  until_dropped = "number == 0"
+  fields = [{ name = "number" }, { name = "x" }]
+  [[card.card]]
+  name = "load"
+  when = "key.word == 'LOAD'"
+  format = "(I5,F10.0)"
+  until_dropped = "number == 0"
+  fields = [{ name = "number" }, { name = "f" }]
+)toml";
+  const std::string text =
+      "LOAD\n    2       1.0\n\nNODE\n    1       0.0\n    2       3.0\n\nLOAD\n    1       4.0\n\nEND\n";
+  const Deck deck = read(toml, text);
+  EXPECT_EQ(deck.all("node").size(), 2u);
+  EXPECT_EQ(deck.all("load").size(), 2u);
+  EXPECT_EQ(deck.all("load")[1].real("f"), 4.0);
+  EXPECT_EQ(complaints(toml, "NOED\n    1       0.0\n\nEND\n"),
+            "1:1-4 the word can't be \"NOED\": allowed are NODE, LOAD, END\n");
+  EXPECT_EQ(refusal("[[card]]\nname = 'a'\nformat = '(A4)'\nfields = [{ name = 'n', allowed = [1] }]\n"),
+            "5: allowed must be [ 'text', ... ] for a text");
+}
+
 // Time grows with the cards: ten times the cards may take twenty times as long on a loaded machine, not a hundred.
 TEST(Computed, ComputingIsLinearInTheCards) {
   const auto seconds = [](int nodes) {
