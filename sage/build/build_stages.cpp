@@ -96,7 +96,8 @@ void read_fixity(Builder& b, const CardView& card, bool in_stage, std::vector<Fi
                                         " is given but the code is not 1 (fixed)");
   }
   if (fixity.code[0] == FixityCode::unchanged && fixity.code[1] == FixityCode::unchanged)
-    b.note(card.where(), "this fixity card changes nothing: both its codes are 0 or blank");
+    b.note(card.where(), std::string("this fixity card changes nothing: ") +
+                             (field > 0 ? "its code is" : "both its codes are") + " 0 or blank");
   for (std::size_t c = 0; c < 2; ++c)
     if (!in_stage && fixity.code[c] == FixityCode::released)
       b.error(card.where(codes[c]), "only a stage can release a fixity (code -1)");
@@ -169,11 +170,31 @@ void read_pressure(Builder& b, const CardView& card, std::vector<EdgeLoad>& out)
 
 namespace {
 
+// Values of an initial card that mean something; those of a history stand apart.
+int values_of(InitialKind kind, const Group* group) {
+  const bool known = group != nullptr && group->element;
+  if (kind == InitialKind::uniform) return known ? group->entry->law_size : 4;
+  if (kind == InitialKind::geostatic) return 4;
+  return kind == InitialKind::traction ? 1 : kind == InitialKind::history ? 6 : 0;
+}
+
+// A value that nothing reads is mostly one that was meant for something.
+void note_unused_values(Builder& b, const CardView& card, InitialKind kind, const Group* group) {
+  std::string unused;
+  for (int i = values_of(kind, group) + 1; i <= 6; ++i)
+    if (card.real("v" + std::to_string(i)) != 0.0)
+      unused += (unused.empty() ? "" : ", ") + card.label("v" + std::to_string(i));
+  if (unused.empty()) return;
+  b.note(card.where(),
+         "not used of this initial stress card: " + unused +
+             (kind == InitialKind::uniform && group != nullptr && group->element
+                  ? "; a " + group->entry->name + " has " + std::to_string(values_of(kind, group)) +
+                        (values_of(kind, group) == 1 ? " component" : " components") + " of stress"
+                  : std::string()));
+}
+
 // Values that this kind of initial stress takes and the card leaves blank.
-void note_blank_stresses(Builder& b, const CardView& card, InitialKind kind, int group_number) {
-  const auto group = b.group_index.find(group_number);
-  const Group* known =
-      group == b.group_index.end() ? nullptr : &b.model.groups[static_cast<std::size_t>(group->second)];
+void note_blank_stresses(Builder& b, const CardView& card, InitialKind kind, const Group* known) {
   const bool line = known != nullptr && known->element && !known->solid();
   const int components = line ? known->entry->law_size : 3;  // of a solid xy is mostly zero
   const int values = kind == InitialKind::uniform ? components : kind == InitialKind::geostatic ? 3 : 0;
@@ -264,7 +285,11 @@ void read_initial(Builder& b, const CardView& card, std::vector<InitialStress>& 
     b.usable(card, field, initial.value[i]);
   }
   if (initial.kind == InitialKind::history && !read_history(b, card, initial)) return;
-  note_blank_stresses(b, card, initial.kind, number);
+  const auto first = b.group_index.find(number);
+  const Group* const group =
+      first == b.group_index.end() ? nullptr : &b.model.groups[static_cast<std::size_t>(first->second)];
+  note_blank_stresses(b, card, initial.kind, group);
+  note_unused_values(b, card, initial.kind, group);
   bool found = false;
   for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
     if (b.model.groups[g].number != number) continue;
@@ -345,6 +370,10 @@ Stage read_stage(Builder& b, const CardView& card, int number) {
   if (card.real("tolerance") != 0.0) stage.tolerance = card.real("tolerance");
   if (!(stage.tolerance > 0.0 && stage.tolerance < 1.0))
     b.error(card.where("tolerance"), "the tolerance must lie between 0 and 1 (blank = 1e-8)");
+  stage.strength_factor = card.real("strength_factor");
+  if (b.usable(card, "strength_factor", stage.strength_factor) && stage.strength_factor < 0.0)
+    b.error(card.where("strength_factor"),
+            "the strength factor of a stage must not be negative (blank = none)");
   for (const CardView& c : b.deck.all("fixity", card))
     read_fixity(b, c, true, stage.fixities, stage.field_fixities);
   for (const CardView& c : b.deck.all("load", card)) read_load(b, c, stage.loads, stage.field_loads);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <stdexcept>
 #include <variant>
 
 #include "elements/shapes.hpp"
@@ -114,6 +115,22 @@ Outcome ElementRun::evaluate(const Eigen::VectorXd& du, bool want_stiffness) {
   ElementOut out{
       want_stiffness ? K.data() : nullptr, f.data(), sigma1.data(), eps1.data(), h1.data(), status.data()};
   return element->evaluate(in, out);
+}
+
+double tangent_error(ElementRun& run, const Eigen::VectorXd& du, double step) {
+  const auto force = [&](const Eigen::VectorXd& at, bool want_stiffness) {
+    if (run.evaluate(at, want_stiffness) != Outcome::ok) throw std::runtime_error("the element refused a step");
+    return run.f;
+  };
+  force(du, true);
+  const Eigen::MatrixXd K = run.K;
+  double largest = 0.0;
+  for (Eigen::Index j = 0; j < du.size(); ++j) {
+    const Eigen::VectorXd along = step * Eigen::VectorXd::Unit(du.size(), j);
+    const Eigen::VectorXd difference = (force(du + along, false) - force(du - along, false)) / (2.0 * step);
+    largest = std::max(largest, (difference - K.col(j)).norm());
+  }
+  return largest / K.norm();
 }
 
 double ElementRun::weight(int point) const {

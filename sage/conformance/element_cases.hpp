@@ -58,4 +58,9 @@ struct ElementRun {
   Eigen::VectorXd f;
 };
 
+// K = df/du at `du` by central differences of width `step`: the largest difference of a column, relative to
+// |K|.  Exact but for rounding where f is of the second degree in du.  Throws std::runtime_error where the
+// element refuses a step.
+double tangent_error(ElementRun& run, const Eigen::VectorXd& du, double step = 1e-3);
+
 }  // namespace sage::conformance

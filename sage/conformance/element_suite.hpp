@@ -253,14 +253,7 @@ TEST_P(Elements, StiffnessIsTheDerivativeOfTheForce) {
     if (c.entry->law_size > 1) {
       EXPECT_GT((K - K.transpose()).norm(), 1e-3 * K.norm()) << "the law is unsymmetric and so must be K";
     }
-    for (int j = 0; j < u.size(); ++j) {
-      Eigen::VectorXd step = Eigen::VectorXd::Zero(u.size());
-      step(j) = 1e-3;
-      run.evaluate(u + step, false);
-      const Eigen::VectorXd plus = run.f;
-      run.evaluate(u - step, false);
-      EXPECT_LT(((plus - run.f) / 2e-3 - K.col(j)).norm(), 1e-10 * K.norm()) << "column " << j;
-    }
+    EXPECT_LT(tangent_error(run, u), 1e-10);
   }
 }
 

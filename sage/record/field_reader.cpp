@@ -85,7 +85,7 @@ std::vector<FieldEntry> unknown_fields(const Model& model) {
 FieldTable fields_of(const Model& model) {
   FieldTable table = model.fields;
   for (FieldEntry& row : unknown_fields(model))
-    if (table.find(row.name) == nullptr) table.add(std::move(row));
+    if (table.clash(row).empty()) table.add(std::move(row));
   for (FieldEntry& row : history_fields(model))
     if (table.clash(row).empty()) table.add(std::move(row));
   return table;

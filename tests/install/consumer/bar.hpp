@@ -46,6 +46,8 @@ class Bar2 final : public sage::PointElement<1, 4, 1> {
             {.name = "bar2", .geometry = geometry, .nodes = 2, .dofs = 4, .points = 1, .law_size = 1}) {}
 
   void geometry(const sage::NodeCoordinates& x, std::span<double> out) const override {
+    if (traits().geometry == sage::Geometry::axisymmetric && x.row(0).minCoeff() < 0.0)
+      throw sage::ElementShapeError("the bar has a node on negative radius; the axis of symmetry is r = 0");
     const sage::Vector2 along = x.col(1) - x.col(0);
     const double L = along.norm();
     if (!(L > 0.0)) throw sage::ElementShapeError("the bar has no length");

@@ -68,6 +68,36 @@ TEST(OutsideBar, ATrussHasTheForcesOfStatics) {
   EXPECT_NEAR(run.reaction(1).y(), 8.0, 1e-12);
 }
 
+// A bar has one component of stress: a second value on its initial card is one that was meant for another group.
+TEST(OutsideBar, ValuesThatABarHasNoUseForAreNoted) {
+  const auto notes_of = [](const std::string& card) {
+    DeckWriter deck = truss();
+    deck.initials.push_back(card);
+    deck.stage().load(3, 0.0, -16.0);
+    const WholeRun run = bench().run(deck.text());
+    std::string notes;
+    for (const Diagnostic& d : run.model->diagnostics.list()) notes += d.message + "\n";
+    return notes;
+  };
+  EXPECT_EQ(notes_of("    1    0      -10.").find("not used"), std::string::npos);
+  EXPECT_NE(
+      notes_of("    1    0      -10.       5.                 7.")
+          .find("not used of this initial stress card: value 2, value 4; a bar2 has 1 component of stress"),
+      std::string::npos);
+}
+
+TEST(OutsideBar, ANegativeRadiusIsRefused) {
+  DeckWriter deck = truss();
+  deck.geometry = 2;
+  deck.stage().load(3, 0.0, -16.0);
+  try {
+    bench().run(deck.text());
+    ADD_FAILURE() << "a bar at r = -3 was accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("negative radius"), std::string::npos) << error.what();
+  }
+}
+
 // A prestress of 10 in both bars balances a load of 16 from the start: nothing moves (kind 0, compression +).
 TEST(OutsideBar, AnInitialForceIsThere) {
   DeckWriter deck = truss();
