@@ -22,7 +22,7 @@ struct ConvertOptions {
   std::string from, to;
   InputOptions input;
   MshOptions mesh;
-  bool wide = false;
+  bool wide = false, narrow = false;
 };
 
 std::string ending(const std::string& path) {
@@ -70,7 +70,9 @@ int convert(const ConvertOptions& options, const Catalogue& catalogue) {
     return kUsage;
   }
   Model model = read_model(options, catalogue);
-  const FieldWidth width = options.wide ? FieldWidth::wide : FieldWidth::as_needed;
+  const FieldWidth width = options.wide     ? FieldWidth::wide
+                           : options.narrow ? FieldWidth::narrow
+                                            : FieldWidth::as_needed;
   write_file(options.to, to == ".dat"   ? sage1_text(model, model.diagnostics, width)
                          : to == ".msh" ? msh_text(model, model.diagnostics)
                                         : inp_text(model, model.diagnostics));
@@ -92,8 +94,12 @@ Command convert_command(CLI::App& parser, const Catalogue& catalogue) {
       ->check(number_in(1e-99, 1e99, "a positive number below 1e99"));
   parser.add_option("--poisson", options->mesh.poissons_ratio, "from .msh: Poisson's ratio of all groups");
   parser.add_option("--weight", options->mesh.unit_weight, "from .msh: unit weight of all groups");
-  parser.add_flag("--wide", options->wide,
-                  "to .dat: fields of ten and twenty columns (layout sage1_wide) also where five and ten do");
+  CLI::Option* const wide = parser.add_flag(
+      "--wide", options->wide, "to .dat: fields of ten and twenty columns (layout sage1_wide) in any case");
+  parser
+      .add_flag("--narrow", options->narrow,
+                "to .dat: real numbers in ten columns; those that have more digits are rounded, with a warning")
+      ->excludes(wide);
   add_input_options(parser, options->input);
   add_build_options(parser, options->input.build, catalogue);
   return [options, &catalogue] { return convert(*options, catalogue); };

@@ -4,7 +4,6 @@
 
 #include "sage/build/builder.hpp"
 #include "sage/core/types.hpp"
-#include "sage/mesh/edges.hpp"
 
 namespace sage::build {
 
@@ -114,7 +113,7 @@ void read_edge_load(Builder& b, const CardView& card, std::vector<EdgeLoad>& out
   load.shear = {card.real("shear1"), card.real(middle ? "shear3" : "shear2")};
   out.push_back(load);
   if (!middle) return;
-  const int local = mesh::middle_of(group_of(b, edge).element->edges()[static_cast<std::size_t>(edge.edge)]);
+  const int local = middle_of(group_of(b, edge).element->edges()[static_cast<std::size_t>(edge.edge)]);
   const int node = b.node(card, "n2", card.integer("n2"));
   if (node < 0) return;
   if (local < 0 || node_of(b, edge, local) != node)

@@ -7,7 +7,6 @@
 
 #include "sage/build/builder.hpp"
 #include "sage/deck/text.hpp"
-#include "sage/mesh/edges.hpp"
 
 namespace sage::build {
 
@@ -67,15 +66,6 @@ std::vector<int> card_nodes(const CardView& card, ElementFields& fields) {
   return nodes;
 }
 
-// Local node that the i-th node of a card is, which gives so many: corners and the middle nodes of the sides,
-// or more.
-std::size_t local_node(const Group& group, const ElementEntry& entry, std::size_t i, std::size_t given) {
-  const auto corners = static_cast<std::size_t>(entry.corners);
-  if (i < corners || entry.interface() || (!entry.makes_nodes() && given > 2 * corners)) return i;
-  const int middle = mesh::middle_of(group.element->edges()[i - corners]);
-  return middle < 0 ? i : static_cast<std::size_t>(middle);
-}
-
 struct ElementCard {
   int number = 0, group = 0;
   std::vector<int> nodes;  // deck numbers
@@ -108,7 +98,7 @@ bool find_nodes(Builder& b, const CardView& card, const ElementCard& element, co
                        : ""));
       return false;
     }
-    index[local_node(group, entry, i, element.nodes.size())] = *node;
+    index[node_of_card(group, i, element.nodes.size())] = *node;
   }
   return true;
 }

@@ -46,14 +46,16 @@ constexpr KnownCard kKnown[] = {
     {"sage1", "initial", false, "group v1", "kind v2 v3 v4 v5 v6", "?stage"},
     {"sage1", "stage_title", false, "title", "", ""},
     {"sage1", "stage", true, "",
-     "increments duration method max_iterations output_every gravity_x gravity_y tolerance", ""},
+     "increments duration method max_iterations output_every gravity_x gravity_y tolerance "
+     "strength_factor",
+     ""},
     {"sage1", "load", false, "first x_force|y_force", "last step x_force y_force unknown", "!stage"},
     {"sage1", "pressure", false, "element edge normal1 normal2", "last step shear1 shear2", "!stage"},
     {"sage1", "edge_load", false, "n1 n2 normal1 normal2", "n3 element normal3 shear1 shear2 shear3", "!stage"},
     {"sage1", "birth", false, "groups", "", "stage"},
     {"sage1", "death", false, "groups", "", "stage"},
     {"sage1", "report", false, "first|nodes",
-     "kind first last step nodes group stage height area cell_pressure", ""},
+     "kind first last step listed nodes group stage height area cell_pressure", ""},
     {"sage1", "point", false, "x y", "name", "report"},
 
     {"any", "left_out", false, "what", "of partial", ""},

@@ -20,18 +20,54 @@ std::string wide_format(std::string_view format) {
   return wide;
 }
 
+namespace {
+
+// Fields behind those of a card, for which the narrow one has no columns left.
+void lengthen(Layout& layout, std::string_view key, const std::string& format, std::vector<FieldSpec> fields) {
+  for (CardRule& card : layout.cards) {
+    if (card.key != key || card.spec.format.empty()) continue;
+    card.spec.format.insert(card.spec.format.rfind(')'), "," + format);
+    for (FieldSpec& field : fields) card.spec.fields.push_back(std::move(field));
+    card.rules.resize(card.spec.fields.size());
+  }
+}
+
+FieldSpec field(const std::string& name, const std::string& label, FieldKind kind) {
+  FieldSpec spec;
+  spec.name = name;
+  spec.label = label;
+  spec.kind = kind;
+  return spec;
+}
+
+void lengthen_cards(Layout& layout) {
+  std::vector<FieldSpec> nodes;
+  for (int i = 9; i <= kWideNodes; ++i)
+    nodes.push_back(field("n" + std::to_string(i), "node " + std::to_string(i), FieldKind::integer));
+  lengthen(layout, "element", std::to_string(nodes.size()) + "I10", nodes);
+  lengthen(
+      layout, "stage", "2F20.0",
+      {field("duration", "time that the stage lasts, for laws that depend on it; blank = 1", FieldKind::real),
+       field("strength_factor", "factor by which strengths were divided, for the table of results",
+             FieldKind::real)});
+}
+
+}  // namespace
+
 Layout wide_layout(Layout layout) {
   layout.title += ", with wide fields";
   layout.name += "_wide";
-  layout.records.record_length *= 2;
+  layout.records.record_length *= 3;
   layout.first_sequence_column = layout.last_sequence_column = 0;
   layout.marks.clear();
   layout.example.clear();  // its columns are those of the narrow fields
   for (CardRule& card : layout.cards) {
     if (card.spec.format.empty()) continue;
     card.spec.format = wide_format(card.spec.format);
-    card.format = compile_format(card.spec.format);
   }
+  lengthen_cards(layout);
+  for (CardRule& card : layout.cards)
+    if (!card.spec.format.empty()) card.format = compile_format(card.spec.format);
   return layout;
 }
 

@@ -12,7 +12,10 @@ namespace sage {
 // written in one place.
 inline constexpr std::string_view kWideLayout = "sage1_wide";
 
-// Number fields and cards have twice the columns, texts keep theirs; there are no sequence columns.
+inline constexpr int kWideNodes = 15;  // of an element card
+
+// Number fields have twice the columns, texts keep theirs; there are no sequence columns.  Behind what the narrow
+// cards have, an element has nodes 9 to 15, a stage its duration and its strength factor.
 Layout wide_layout(Layout layout);
 
 // "(3I5,F10.0,A20)" -> "(3I10,F20.0,A20)"

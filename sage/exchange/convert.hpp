@@ -18,14 +18,16 @@ struct FieldText {
 FieldText field_text(double value, int width);
 
 enum class FieldWidth {
-  as_needed,  // narrow, and wide where a number of a node, element or count takes more than five columns
+  as_needed,  // narrow, and wide where narrow cards can't hold the model as it is
+  narrow,     // real numbers are rounded to ten columns; wide only where anything else needs it
   wide
 };
 
 // A deck of layout sage1, every node and element on a card of its own; of layout sage1_wide, which its first
-// line names, where fields are wide.  Numbers that a field of ten columns (twenty) can't hold exactly are written
-// as near as possible; a warning tells how many and the largest relative change.  Throws InputError for what no
-// card can hold (elements with more than 8 nodes).
+// line names, where fields are wide.  Numbers that a field can't hold exactly are written as near as possible; a
+// warning tells how many and the largest relative change.  Nodes that the program made between those of an
+// element's card are left to be made again.  Throws InputError for what no card can hold (elements whose cards
+// would give more than 15 nodes).
 std::string sage1_text(const Model& model, Diagnostics& diagnostics, FieldWidth width = FieldWidth::as_needed);
 
 // Gmsh MSH 4.1 ASCII: nodes and elements with their numbers, groups as physical surfaces, held boundary edges

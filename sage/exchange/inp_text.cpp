@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "sage/exchange/convert.hpp"
@@ -36,6 +37,7 @@ class InpWriter {
     materials();
     supports();
     for (const Stage& stage : model_.stages) step(stage);
+    the_rest();
     return std::move(text_);
   }
 
@@ -43,10 +45,29 @@ class InpWriter {
   void warning(const std::string& message) {
     diagnostics_.add({Severity::warning, {model_.file, 0, 0, 0}, message, {}});
   }
+  // What is no part of the problem there.
+  void the_rest() {
+    if (!model_.reports.empty()) warning(std::to_string(model_.reports.size()) + " report(s) left out");
+    if (!control_.empty())
+      diagnostics_.add({Severity::note,
+                        {model_.file, 0, 0, 0},
+                        "stage(s) " + control_ +
+                            ": method, limit of iterations, tolerance and output interval are left to CalculiX",
+                        {}});
+    if (model_.solver != 0)
+      diagnostics_.add(
+          {Severity::note, {model_.file, 0, 0, 0}, "the choice of the solver is left to CalculiX", {}});
+  }
   int number(int node) const { return model_.mesh.number[static_cast<std::size_t>(node)]; }
 
   void heading() {
-    text_ += "*HEADING\n" + model_.title + "\n*NODE, NSET=NALL\n";
+    text_ += "*HEADING\n" + model_.title + "\n";
+    const UnitSystem& u = model_.units;
+    if (u.length != "-" || u.force != "-" || u.stress != "-")
+      text_ += "** units: " + u.length + ", " + u.force + ", " + u.stress + "\n";
+    if (u.atmospheric_pressure != 0.0 || u.water_unit_weight != 0.0)
+      text_ += fmt::format("** p_a {}, gamma_w {}\n", u.atmospheric_pressure, u.water_unit_weight);
+    text_ += "*NODE, NSET=NALL\n";
     for (int i = 0; i < model_.mesh.nodes(); ++i)
       text_ += fmt::format("{}, {}, {}, 0.\n", number(i), model_.mesh.x(0, i), model_.mesh.x(1, i));
   }
@@ -61,7 +82,10 @@ class InpWriter {
                 " element(s) left out: CalculiX has none");
       if (!written_.back()) continue;
       if (group.entry->calculix.type.empty()) warn_of_corners(group, "CalculiX", diagnostics_);
+      note_integration(group, type);
       const std::vector<int> order = foreign_nodes(*group.entry, group.entry->calculix);
+      if (group.overlay) text_ += "** on the elements of other groups\n";
+      if (!group.name.empty()) text_ += "** group " + std::to_string(group.number) + " " + group.name + "\n";
       text_ += fmt::format("*ELEMENT, TYPE={}, ELSET={}\n", type, set_name(group, g));
       for (int e = 0; e < group.elements(); ++e) {
         text_ += std::to_string(group.element_numbers[static_cast<std::size_t>(e)]);
@@ -69,6 +93,18 @@ class InpWriter {
         text_ += '\n';
       }
     }
+  }
+
+  // Formulations have no names there, but for the reduced integration.
+  void note_integration(const Group& group, const std::string& type) {
+    const bool reduced = type.ends_with('R');
+    if (reduced || group.entry->formulations.size() < 2 || !integrations_.insert(group.element_name).second)
+      return;
+    diagnostics_.add(
+        {Severity::note,
+         group.where,
+         group.element_name + " is written as " + type + ", which CalculiX integrates in its own way",
+         {}});
   }
 
   static bool has_more_than_elasticity(const Material& material) {
@@ -81,20 +117,25 @@ class InpWriter {
     for (std::size_t g = 0; g < model_.groups.size(); ++g) {
       if (!written_[g]) continue;
       const Material& material = model_.material_of(model_.groups[g]);
-      const double E = material.parameter(ParameterRole::youngs_modulus).value_or(-1.0),
-                   nu = material.parameter(ParameterRole::poissons_ratio).value_or(-1.0);
+      const std::optional<double> E = material.parameter(ParameterRole::youngs_modulus),
+                                  nu = material.parameter(ParameterRole::poissons_ratio);
+      const bool elastic = E && nu && *E > 0.0;
       const std::string set = set_name(model_.groups[g], g);
       // Density 1 x gravity in this program's units: unit weight.
+      text_ += "** material " + std::to_string(material.number) + " " + material.name + "\n";
       text_ += fmt::format("*MATERIAL, NAME=M_{}\n", set);
-      if (E > 0.0)
-        text_ += fmt::format("*ELASTIC\n{}, {}\n", E, nu);
+      if (elastic)
+        text_ += fmt::format("*ELASTIC\n{}, {}\n", *E, *nu);
       else
         warning("material " + std::to_string(material.number) + " (" + material.law_name +
-                ") has no Young's modulus: its *ELASTIC must be added by hand");
-      if (E > 0.0 && has_more_than_elasticity(material))
+                ") has no Young's modulus and Poisson's ratio: its *ELASTIC must be added by hand");
+      if (elastic && has_more_than_elasticity(material))
         warning("material " + std::to_string(material.number) + " (" + material.law_name +
                 "): only its elastic constants are written");
       if (material.unit_weight > 0.0) text_ += fmt::format("*DENSITY\n{}\n", material.unit_weight);
+      if (material.unit_weight < 0.0)
+        warning("material " + std::to_string(material.number) +
+                ": its unit weight is left out, CalculiX has no density below zero");
       text_ += fmt::format("*SOLID SECTION, ELSET={}, MATERIAL=M_{}\n", set, set);
       if (model_.geometry == Geometry::plane_strain) text_ += "1.\n";
     }
@@ -174,11 +215,20 @@ class InpWriter {
 
   // Loads here are added stage by stage, there the last value stands: totals are written.
   void step(const Stage& stage) {
-    text_ += fmt::format("*STEP, INC={}\n*STATIC\n{}, 1.\n", 100 * stage.increments, 1.0 / stage.increments);
+    if (!stage.title.empty()) text_ += "** " + stage.title + "\n";
+    text_ += fmt::format("*STEP, INC={}\n*STATIC\n{}, {}\n", 100 * stage.increments,
+                         stage.duration / stage.increments,
+                         stage.duration == 1.0 ? "1." : fmt::format("{}", stage.duration));
+    const Stage usual;
+    if (stage.method != usual.method || stage.max_iterations != usual.max_iterations ||
+        stage.tolerance != usual.tolerance || stage.output_every != usual.output_every)
+      control_ += (control_.empty() ? "" : ", ") + std::to_string(stage.number);
+    if (stage.strength_factor != 0.0)
+      warning("stage " + std::to_string(stage.number) + ": its strength factor is left out");
     if (!stage.births.empty() || !stage.deaths.empty())
       warning("stage " + std::to_string(stage.number) + ": births and deaths of groups are left out");
     if (!stage.initials.empty())
-      warning("stage " + std::to_string(stage.number) + ": initial stresses are left out");
+      warning("stage " + std::to_string(stage.number) + ": initial stresses and histories are left out");
     boundary(stage, &stage == &model_.stages.front());
     if (!stage.loads.empty()) text_ += "*CLOAD\n";
     for (const NodalLoad& load : stage.loads)
@@ -203,25 +253,31 @@ class InpWriter {
           text_ += fmt::format("{}, GRAV, {}, {}, {}, 0.\n", set_name(model_.groups[g], g), gravity_.norm(),
                                direction.x(), direction.y());
     }
-    int uneven = 0, shear = 0;
+    int uneven = 0, shear = 0, missing = 0;
     for (const EdgeLoad& load : stage.pressures) {
       const Group& group = model_.groups[static_cast<std::size_t>(load.group)];
+      if (!written_[static_cast<std::size_t>(load.group)]) {
+        ++missing;
+        continue;
+      }
       if (load.normal[0] != load.normal[1]) ++uneven;
       if (load.shear.norm() > 0.0) ++shear;
       const int element = group.element_numbers[static_cast<std::size_t>(load.element)];
       double& total = pressure_[{element, load.edge}];
       total += load.normal.mean();
-      if (written_[static_cast<std::size_t>(load.group)])
-        text_ += fmt::format("{}, P{}, {}\n", element, load.edge + 1, total);
+      text_ += fmt::format("{}, P{}, {}\n", element, load.edge + 1, total);
     }
     if (uneven > 0)
       warning(std::to_string(uneven) + " pressure(s) that vary along an edge are written as their mean");
     if (shear > 0) warning(std::to_string(shear) + " edge shear load(s) left out");
+    if (missing > 0) warning(std::to_string(missing) + " pressure(s) on elements that are left out");
   }
 
   const Model& model_;
   Diagnostics& diagnostics_;
   std::string text_;
+  std::string control_;                 // stages with an iteration control of their own
+  std::set<std::string> integrations_;  // noted
   std::vector<char> written_;
   std::map<std::pair<int, std::size_t>, double> displacement_;  // totals, of dofs whose place is known
   std::set<std::pair<int, std::size_t>> frozen_;                // held where they were
@@ -234,7 +290,8 @@ class InpWriter {
 std::string inp_text(const Model& model, Diagnostics& diagnostics) {
   warn_of_unknowns(model, "CalculiX", diagnostics);
   if (!model.initials.empty())
-    diagnostics.add({Severity::warning, {model.file, 0, 0, 0}, "initial stresses are left out", {}});
+    diagnostics.add(
+        {Severity::warning, {model.file, 0, 0, 0}, "initial stresses and histories are left out", {}});
   return InpWriter(model, diagnostics).text();
 }
 

@@ -1,7 +1,9 @@
 // A model's mesh as Gmsh MSH 4.1 ASCII.  Gmsh counts nodes of an element as this program does.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
+#include <set>
 
 #include "sage/exchange/boundary_edges.hpp"
 #include "sage/exchange/convert.hpp"
@@ -58,13 +60,29 @@ std::vector<Block> surfaces(const Model& model, Diagnostics& diagnostics, int& l
   return blocks;
 }
 
-std::vector<Block> supports(const Model& model, int first_number) {
+// Nodes that are held, with a direction of each, and that no held edge has.
+using HeldDofs = std::set<std::pair<int, std::size_t>>;
+
+HeldDofs held_dofs(const Model& model) {
+  HeldDofs held;
+  for (const Fixity& f : model.fixities)
+    for (std::size_t c = 0; c < 2; ++c)
+      if (f.code[c] == FixityCode::fixed) held.insert({f.node, c});
+  return held;
+}
+
+std::vector<Block> supports(const Model& model, int first_number, HeldDofs& beside) {
   const Activity before_stages(model);
+  beside = held_dofs(model);
   std::map<std::pair<std::string, std::size_t>, Block> by_name;
   std::map<std::string, int> tags;
   for (BoundaryEdge& edge : boundary_edges(model)) {
     const std::string name = support_name(before_stages, edge);
     if (name.empty()) continue;
+    for (int node : edge.nodes) {
+      if (name != "fix_y") beside.erase({node, 0});
+      if (name != "fix_x") beside.erase({node, 1});
+    }
     const bool corners = model.groups[static_cast<std::size_t>(edge.group)].entry->gmsh.type == 0;
     if (corners || msh::line_type(edge.nodes.size()) == 0) edge.nodes.resize(2);
     Block& block = by_name[{name, edge.nodes.size()}];
@@ -102,8 +120,14 @@ std::string entities(const Model& model, const std::vector<Block>& blocks) {
 }
 
 // A mesh file is a mesh: what else the deck says must be given anew.
-void warn_of_the_rest(const Model& model, Diagnostics& diagnostics) {
-  std::size_t loads = 0, lives = 0, displacements = 0, initials = model.initials.size();
+void warn_of_the_rest(const Model& model, const HeldDofs& beside, Diagnostics& diagnostics) {
+  std::size_t loads = 0, lives = 0, displacements = 0, initials = model.initials.size(), formulations = 0;
+  std::set<int> points;
+  for (const auto& [node, c] : beside) points.insert(node);
+  for (const Group& group : model.groups)
+    if (group.solid() && group.elements() > 0 && group.formulation > 0 &&
+        group.formulation != group.entry->formulations.front().code)
+      ++formulations;
   for (const Stage& stage : model.stages) {
     loads += stage.loads.size() + stage.pressures.size() + (stage.gravity.norm() > 0.0 ? 1u : 0u);
     lives += stage.births.size() + stage.deaths.size();
@@ -121,6 +145,20 @@ void warn_of_the_rest(const Model& model, Diagnostics& diagnostics) {
   add(lives, "birth(s) and death(s)");
   add(initials, "initial stress(es)");
   add(model.reports.size(), "report(s)");
+  add(points.size(), "held node(s) that are no whole edge of the outline");
+  add(formulations, "formulation(s) of groups");
+  const auto word = [&](bool wanted, const char* what) {
+    if (wanted) rest += (rest.empty() ? "" : ", ") + std::string(what);
+  };
+  word(model.geometry == Geometry::axisymmetric, "axisymmetry (--geometry 2)");
+  word(!model.title.empty(), "title");
+  const UnitSystem& units = model.units;
+  word(units.length != "-" || units.force != "-" || units.stress != "-" || units.atmospheric_pressure != 0.0 ||
+           units.water_unit_weight != 0.0,
+       "units");
+  word(model.solver != 0, "solver");
+  word(std::any_of(model.groups.begin(), model.groups.end(), [](const Group& group) { return group.overlay; }),
+       "that groups lie on others");
   if (!rest.empty())
     diagnostics.add({Severity::warning,
                      {model.file, 0, 0, 0},
@@ -133,14 +171,15 @@ void warn_of_the_rest(const Model& model, Diagnostics& diagnostics) {
 std::string msh_text(const Model& model, Diagnostics& diagnostics) {
   int left_out = 0, largest = 0;
   std::vector<Block> blocks = surfaces(model, diagnostics, left_out, largest);
-  for (Block& block : supports(model, largest + 1)) blocks.push_back(std::move(block));
+  HeldDofs beside;
+  for (Block& block : supports(model, largest + 1, beside)) blocks.push_back(std::move(block));
   if (left_out > 0)
     diagnostics.add({Severity::warning,
                      {model.file, 0, 0, 0},
                      std::to_string(left_out) + " interface element(s) left out: MSH has no type for them",
                      {}});
   warn_of_unknowns(model, "MSH", diagnostics);
-  warn_of_the_rest(model, diagnostics);
+  warn_of_the_rest(model, beside, diagnostics);
   std::map<std::pair<int, int>, std::string> names;
   std::size_t elements = 0;
   int lowest = largest;

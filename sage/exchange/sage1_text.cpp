@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <set>
+#include <map>
 
 #include "sage/deck/wide_layout.hpp"
 #include "sage/exchange/convert.hpp"
@@ -33,10 +33,22 @@ struct TooWide {
   std::string digits;
 };
 
+constexpr std::size_t kNodesOfCard = 8;  // beside the fields of a block
+
+// Upwards, as "first, last, step" counts them.
+bool in_equal_steps(const std::vector<int>& numbers) {
+  if (numbers.empty()) return false;
+  const int step = numbers.size() > 1 ? numbers[1] - numbers[0] : 1;
+  for (std::size_t i = 1; i < numbers.size(); ++i)
+    if (numbers[i] - numbers[i - 1] != step) return false;
+  return step > 0;
+}
+
 class Sage1Writer {
  public:
-  Sage1Writer(const Model& model, Diagnostics& diagnostics, bool wide)
-      : model_(model), diagnostics_(diagnostics), wide_(wide) {}
+  // exact: a narrow field that would change a number is one too narrow.
+  Sage1Writer(const Model& model, Diagnostics& diagnostics, bool wide, bool exact)
+      : model_(model), diagnostics_(diagnostics), wide_(wide), exact_(exact) {}
 
   std::string deck();
 
@@ -51,6 +63,7 @@ class Sage1Writer {
   void real(double value) {
     const FieldText field = field_text(value, static_cast<int>(real_width()));
     if (!field.exact) {
+      if (!wide_ && exact_) throw TooWide{field.text};
       ++inexact_;
       largest_ = std::max(largest_, field.change);
     }
@@ -64,6 +77,7 @@ class Sage1Writer {
   // A comment with the names of fields, each above the end of its field: given for narrow ones.
   void heading(std::string_view names);
   void name(std::string value, std::size_t width) {
+    if (value.size() > width) cut_.push_back(value);
     // Not in the middle of a character of UTF-8.
     const std::size_t columns = width;
     while (value.size() > width && (static_cast<unsigned char>(value[width]) & 0xc0u) == 0x80u) --width;
@@ -80,12 +94,29 @@ class Sage1Writer {
   }
 
   int group_number(int group) const { return group_numbers_[static_cast<std::size_t>(group)]; }
+  bool is_folded(int group) const { return folded_[static_cast<std::size_t>(group)] != 0; }
   int node_number(int node) const { return model_.mesh.number[static_cast<std::size_t>(node)]; }
+  // Other nodes are made again as they were, with what they took over from those beside them.
+  bool is_given(int node) const { return node < model_.mesh.given_nodes(); }
+  template <class Card>
+  std::size_t given(const std::vector<Card>& cards) const {
+    const auto of_given = [&](const Card& card) { return is_given(card.node); };
+    return static_cast<std::size_t>(std::count_if(cards.begin(), cards.end(), of_given));
+  }
   void number_groups();
   void control(std::size_t reports);
   void nodes();
   void materials();
   void groups();
+  // Entries of a list of groups or initial stresses that get a place of their own.
+  template <class Entry>
+  std::size_t of_groups(const std::vector<Entry>& list) const {
+    return static_cast<std::size_t>(
+        std::count_if(list.begin(), list.end(), [&](const Entry& e) { return !is_folded(group_of(e)); }));
+  }
+  static int group_of(int group) { return group; }
+  static int group_of(const InitialStress& initial) { return initial.group; }
+  std::vector<int> card_nodes(const Group& group, int element) const;
   void elements();
   void fixity(const Fixity& fixity, bool in_stage);
   void fixity(const FieldFixity& fixity, bool in_stage);
@@ -93,14 +124,18 @@ class Sage1Writer {
   void initial(const InitialStress& initial);
   void list(const std::vector<int>& groups);
   void stage(const Stage& stage);
-  bool report(const Report& report, bool write);
+  void write_list(const std::vector<int>& numbers);
+  bool is_written(const Report& report) const;
+  void report(const Report& report);
   void point(const Report& report);
 
   const Model& model_;
   Diagnostics& diagnostics_;
   std::string text_;
   std::vector<int> group_numbers_;
-  bool wide_ = false;
+  bool wide_ = false, exact_ = false;
+  std::vector<char> folded_;      // groups of triangles that stand on cards of quadrilaterals
+  std::vector<std::string> cut_;  // names that are longer than their columns
   int inexact_ = 0;
   double largest_ = 0.0;
 };
@@ -121,28 +156,64 @@ void Sage1Writer::heading(std::string_view names) {
   text_ += line + '\n';
 }
 
-// Quadrilaterals and the triangles folded out of them share a number in the model; here each has its own.
+bool same(const InitialStress& a, const InitialStress& b) {
+  const auto equal = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+  return a.kind == b.kind && std::equal(a.value.begin(), a.value.end(), b.value.begin(), equal);
+}
+
+// What lists of groups say of one they say of the other: one card for both is enough.
+bool go_together(const Model& model, int a, int b) {
+  const auto stated = [](const std::vector<InitialStress>& list, int group) {
+    std::vector<const InitialStress*> all;
+    for (const InitialStress& one : list)
+      if (one.group == group) all.push_back(&one);
+    return all;
+  };
+  const auto initials = [&](const std::vector<InitialStress>& list) {
+    const auto first = stated(list, a), second = stated(list, b);
+    return std::equal(first.begin(), first.end(), second.begin(), second.end(),
+                      [](const auto* x, const auto* y) { return same(*x, *y); });
+  };
+  const auto together = [&](const std::vector<int>& groups) {
+    return std::count(groups.begin(), groups.end(), a) == std::count(groups.begin(), groups.end(), b);
+  };
+  return initials(model.initials) &&
+         std::all_of(model.stages.begin(), model.stages.end(), [&](const Stage& stage) {
+           return initials(stage.initials) && together(stage.births) && together(stage.deaths);
+         });
+}
+
+// Triangles that were folded out of quadrilaterals share the number of their group; a group that can't be
+// written so gets a number of its own.
 void Sage1Writer::number_groups() {
-  std::set<int> used;
+  std::map<int, int> first_of;  // group of a number
   int largest = 0;
   for (const Group& group : model_.groups) largest = std::max(largest, group.number);
-  for (const Group& group : model_.groups)
-    group_numbers_.push_back(used.insert(group.number).second ? group.number : ++largest);
+  for (int g = 0; g < static_cast<int>(model_.groups.size()); ++g) {
+    const Group& group = model_.groups[static_cast<std::size_t>(g)];
+    const auto [first, is_new] = first_of.try_emplace(group.number, g);
+    const Group& other = model_.groups[static_cast<std::size_t>(first->second)];
+    const bool folded = !is_new && other.entry->folded == group.entry->name &&
+                        other.material == group.material && go_together(model_, first->second, g);
+    folded_.push_back(folded ? 1 : 0);
+    group_numbers_.push_back(is_new || folded ? group.number : ++largest);
+  }
 }
 
 void Sage1Writer::control(std::size_t reports) {
   std::size_t elements = 0;
   for (const Group& group : model_.groups) elements += static_cast<std::size_t>(group.elements());
-  const std::size_t counts[] = {model_.mesh.number.size(),
+  const auto nodes = static_cast<std::size_t>(model_.mesh.given_nodes());
+  const std::size_t counts[] = {nodes,
                                 0,
                                 model_.materials.size(),
-                                model_.groups.size(),
+                                static_cast<std::size_t>(std::count(folded_.begin(), folded_.end(), 0)),
                                 elements,
-                                model_.fixities.size() + model_.field_fixities.size(),
-                                model_.initials.size(),
+                                given(model_.fixities) + given(model_.field_fixities),
+                                of_groups(model_.initials),
                                 model_.stages.size(),
                                 reports,
-                                model_.mesh.number.size(),
+                                nodes,
                                 elements};
   heading("* geom solv node fill matl grup elem fixi init stag rept nnod nele");
   integer(model_.geometry == Geometry::axisymmetric ? 2 : 1);
@@ -153,7 +224,7 @@ void Sage1Writer::control(std::size_t reports) {
 
 void Sage1Writer::nodes() {
   heading("* node step syst         x         y");
-  for (int node = 0; node < model_.mesh.nodes(); ++node) {
+  for (int node = 0; is_given(node); ++node) {
     integer(node_number(node));
     two_zeros();
     real(model_.mesh.x(0, node));
@@ -169,7 +240,7 @@ void Sage1Writer::materials() {
     integer(material.code);
     integer(static_cast<long>(material.parameters.size()));
     real(material.unit_weight);
-    name(material.name, 20);
+    name(material.name, 40);
     line();
     for (std::size_t i = 0; i < material.parameters.size(); ++i) {
       real(material.parameters[i]);
@@ -181,34 +252,67 @@ void Sage1Writer::materials() {
 void Sage1Writer::groups() {
   heading("* numb elem form matl name");
   for (std::size_t g = 0; g < model_.groups.size(); ++g) {
+    if (folded_[g] != 0) continue;
     const Group& group = model_.groups[g];
     integer(group_number(static_cast<int>(g)));
     integer(group.element_code);
     integer(group.formulation);
     integer(model_.material_of(group).number);
-    name(group.name, 20);
+    name(group.name, 40);
+    if (group.overlay) integer(1);
     line();
   }
+}
+
+// Their numbers as a card lists them, 0 for one that is made.
+std::vector<int> Sage1Writer::card_nodes(const Group& group, int element) const {
+  const ElementEntry& entry = *group.entry;
+  const int* nodes = group.nodes_of(element);
+  const std::size_t usual =
+      std::min<std::size_t>(group.node_count(), 2 * static_cast<std::size_t>(entry.corners));
+  std::vector<char> listed(group.node_count(), 0);
+  std::vector<int> numbers;
+  for (std::size_t i = 0; i < usual; ++i) {
+    const std::size_t local = node_of_card(group, i, usual);
+    listed[local] = 1;
+    numbers.push_back(is_given(nodes[local]) ? node_number(nodes[local]) : 0);
+  }
+  for (std::size_t i = 0; i < group.node_count(); ++i)
+    if (listed[i] == 0 && is_given(nodes[i])) {  // the card gives all of them, in their own order
+      numbers.clear();
+      for (std::size_t k = 0; k < group.node_count(); ++k)
+        numbers.push_back(is_given(nodes[k]) ? node_number(nodes[k]) : 0);
+      break;
+    }
+  while (!numbers.empty() && numbers.back() == 0) numbers.pop_back();
+  return numbers;
 }
 
 void Sage1Writer::elements() {
   heading("* numb grup   n1   n2   n3   n4   n5   n6   n7   n8");
   for (std::size_t g = 0; g < model_.groups.size(); ++g) {
     const Group& group = model_.groups[g];
-    if (group.elements() > 0 && group.node_count() > 8)
-      throw InputError(group.where, "group " + std::to_string(group.number) + " (" + group.element_name +
-                                        "): an element card of sage1 holds 8 nodes, these have " +
-                                        std::to_string(group.node_count()));
     for (int e = 0; e < group.elements(); ++e) {
+      std::vector<int> numbers = card_nodes(group, e);
+      if (folded_[g] != 0) numbers.push_back(numbers.back());
+      if (numbers.size() > static_cast<std::size_t>(kWideNodes))
+        throw InputError(group.where, "group " + std::to_string(group.number) + " (" + group.element_name +
+                                          "): an element card holds up to " + std::to_string(kWideNodes) +
+                                          " nodes, these have " + std::to_string(numbers.size()));
+      if (numbers.size() > kNodesOfCard && !wide_) throw TooWide{std::to_string(numbers.size())};
       integer(group.element_numbers[static_cast<std::size_t>(e)]);
       integer(group_number(static_cast<int>(g)));
-      for (std::size_t i = 0; i < group.node_count(); ++i) integer(node_number(group.nodes_of(e)[i]));
+      for (std::size_t i = 0; i < numbers.size(); ++i) {
+        if (i == kNodesOfCard) text_.append(4 * integer_width(), ' ');  // no block
+        integer(numbers[i]);
+      }
       line();
     }
   }
 }
 
 void Sage1Writer::fixity(const Fixity& fixity, bool in_stage) {
+  if (!is_given(fixity.node)) return;
   integer(node_number(fixity.node));
   two_zeros();
   for (FixityCode code : fixity.code)
@@ -221,6 +325,7 @@ void Sage1Writer::fixity(const Fixity& fixity, bool in_stage) {
 
 // The columns of y stay blank.
 void Sage1Writer::fixity(const FieldFixity& fixity, bool in_stage) {
+  if (!is_given(fixity.node)) return;
   integer(node_number(fixity.node));
   two_zeros();
   integer(fixity.code == FixityCode::fixed ? 1 : fixity.code == FixityCode::released ? -1 : 0);
@@ -239,6 +344,7 @@ void Sage1Writer::unknown(int field) {
 }
 
 void Sage1Writer::initial(const InitialStress& initial) {
+  if (is_folded(initial.group)) return;
   integer(group_number(initial.group));
   integer(static_cast<int>(initial.kind));
   for (double value : initial.value) {
@@ -250,31 +356,39 @@ void Sage1Writer::initial(const InitialStress& initial) {
   line();
 }
 
-void Sage1Writer::list(const std::vector<int>& groups) {
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    integer(group_number(groups[i]));
-    if (i % 16 == 15 || i + 1 == groups.size()) line();
+void Sage1Writer::write_list(const std::vector<int>& numbers) {
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    integer(numbers[i]);
+    if (i % 16 == 15 || i + 1 == numbers.size()) line();
   }
 }
 
+void Sage1Writer::list(const std::vector<int>& groups) {
+  std::vector<int> numbers;
+  for (int group : groups)
+    if (!is_folded(group)) numbers.push_back(group_number(group));
+  write_list(numbers);
+}
+
 void Sage1Writer::stage(const Stage& stage) {
-  if (stage.duration != 1.0)
-    warning("stage " + std::to_string(stage.number) +
-            ": its duration is left out, a sage1 deck has no place for it");
+  const bool lasts = stage.duration != 1.0, factor = stage.strength_factor != 0.0;
+  if ((lasts || factor) && !wide_) throw TooWide{"of the stage's duration or strength factor"};
   // A '*' in column 1 would make the title a comment.
   name(stage.title.starts_with('*') ? " " + stage.title : stage.title, 80);
   line();
   heading("* incr meth iter outp fixi load pres brth deth init    grav x    grav y tolerance");
-  const std::size_t counts[] = {stage.fixities.size() + stage.field_fixities.size(),
+  const std::size_t counts[] = {given(stage.fixities) + given(stage.field_fixities),
                                 stage.loads.size() + stage.field_loads.size(),
                                 stage.pressures.size(),
-                                stage.births.size(),
-                                stage.deaths.size(),
-                                stage.initials.size()};
+                                of_groups(stage.births),
+                                of_groups(stage.deaths),
+                                of_groups(stage.initials)};
   for (int value : {stage.increments, static_cast<int>(stage.method), stage.max_iterations, stage.output_every})
     integer(value);
   for (std::size_t count : counts) integer(static_cast<long>(count));
   for (double value : {stage.gravity.x(), stage.gravity.y(), stage.tolerance}) real(value);
+  if (lasts || factor) real(stage.duration);
+  if (factor) real(stage.strength_factor);
   line();
   for (const Fixity& f : stage.fixities) fixity(f, true);
   for (const FieldFixity& f : stage.field_fixities) fixity(f, true);
@@ -295,7 +409,8 @@ void Sage1Writer::stage(const Stage& stage) {
   for (const EdgeLoad& load : stage.pressures) {
     const Group& group = model_.groups[static_cast<std::size_t>(load.group)];
     integer(group.element_numbers[static_cast<std::size_t>(load.element)]);
-    integer(load.edge + 1);
+    // A folded triangle a b c stands on its card as a b c c: side 3 is what vanished.
+    integer(load.edge + (is_folded(load.group) && load.edge == 2 ? 2 : 1));
     two_zeros();
     for (double value : {load.normal[0], load.normal[1], load.shear[0], load.shear[1]}) real(value);
     line();
@@ -316,29 +431,28 @@ void Sage1Writer::point(const Report& report) {
   line();
 }
 
-// Only nodes in equal steps fit a card.
-bool Sage1Writer::report(const Report& report, bool write) {
-  if (report.kind == ReportKind::point) {
-    if (write) point(report);
-    return true;
-  }
+bool Sage1Writer::is_written(const Report& report) const {
+  return report.kind == ReportKind::point ||
+         std::any_of(report.nodes.begin(), report.nodes.end(), [&](int node) { return is_given(node); });
+}
+
+void Sage1Writer::report(const Report& report) {
+  if (!is_written(report)) return;
+  if (report.kind == ReportKind::point) return point(report);
   std::vector<int> numbers;
-  for (int node : report.nodes) numbers.push_back(node_number(node));
-  std::sort(numbers.begin(), numbers.end());
-  const int step = numbers.size() > 1 ? numbers[1] - numbers[0] : 1;
-  for (std::size_t i = 1; i < numbers.size(); ++i)
-    if (numbers[i] - numbers[i - 1] != step) return false;
-  if (numbers.empty()) return false;
-  if (!write) return true;
+  for (int node : report.nodes)
+    if (is_given(node)) numbers.push_back(node_number(node));
+  const bool range = in_equal_steps(numbers);
   integer(static_cast<int>(report.kind));
   integer(report.group < 0 ? 0 : group_number(report.group));
-  integer(numbers.front());
-  integer(numbers.back());
-  integer(step);
+  integer(range ? numbers.front() : 0);
+  integer(range ? numbers.back() : 0);
+  integer(range && numbers.size() > 1 ? numbers[1] - numbers[0] : range ? 1 : 0);
   integer(report.stage + 1);
   for (double value : {report.height, report.area, report.cell_pressure}) real(value);
+  if (!range) integer(static_cast<int>(numbers.size()));
   line();
-  return true;
+  if (!range) write_list(numbers);
 }
 
 std::string Sage1Writer::deck() {
@@ -352,24 +466,31 @@ std::string Sage1Writer::deck() {
   real(model_.units.atmospheric_pressure);
   real(model_.units.water_unit_weight);
   line();
-  std::size_t reports = 0;
-  for (const Report& r : model_.reports) reports += report(r, false) ? 1 : 0;
+  const auto reports = static_cast<std::size_t>(std::count_if(
+      model_.reports.begin(), model_.reports.end(), [&](const Report& report) { return is_written(report); }));
   if (reports < model_.reports.size())
     warning(std::to_string(model_.reports.size() - reports) +
-            " report(s) left out: their nodes are not in equal steps");
+            " report(s) left out: they have no node of a card");
+  for (const Report& report : model_.reports)
+    if (!report.fields.empty())
+      warning("report " + (report.name.empty() ? std::string("of a point") : report.name) +
+              ": its further fields are left out (--field asks for them)");
   control(reports);
   nodes();
   materials();
   groups();
   elements();
-  if (!model_.fixities.empty()) heading("* first last step xcod ycod");
+  if (given(model_.fixities) > 0) heading("* first last step xcod ycod");
   for (const Fixity& f : model_.fixities) fixity(f, false);
   for (const FieldFixity& f : model_.field_fixities) fixity(f, false);
   if (!model_.initials.empty()) heading("* group kind      v1        v2        v3        v4");
   for (const InitialStress& i : model_.initials) initial(i);
   for (const Stage& s : model_.stages) stage(s);
-  for (const Report& r : model_.reports) report(r, true);
+  for (const Report& r : model_.reports) report(r);
   text_ += "END\n";
+  if (!cut_.empty())
+    warning(std::to_string(cut_.size()) + " name(s) or title(s) are longer than their columns and are cut: \"" +
+            cut_.front() + "\"" + (cut_.size() > 1 ? ", ..." : ""));
   if (inexact_ > 0) {
     char change[32];
     std::snprintf(change, sizeof change, "%.2g", largest_);
@@ -415,7 +536,7 @@ std::string sage1_text(const Model& model, Diagnostics& diagnostics, FieldWidth 
   for (;; wide = true) {
     Diagnostics words;
     try {
-      std::string text = Sage1Writer(model, words, wide).deck();
+      std::string text = Sage1Writer(model, words, wide, width != FieldWidth::narrow).deck();
       for (const Diagnostic& one : words.list()) diagnostics.add(one);
       return text;
     } catch (const TooWide& number) {

@@ -55,11 +55,4 @@ class NewNodes {
   std::vector<Vector2> made_;
 };
 
-// Local number of the node in the middle of an edge, a card's mid-side node; -1 where there is none (degrees 1
-// and 3).
-inline int middle_of(const std::vector<int>& edge) {
-  const std::size_t inner = edge.size() - 2;
-  return inner % 2 == 1 ? edge[2 + inner / 2] : -1;
-}
-
 }  // namespace sage::mesh

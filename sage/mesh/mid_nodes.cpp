@@ -128,6 +128,7 @@ void make_mid_nodes(Work& b) {
   for (const Group& group : b.model.groups) find_given(group, made.given);
   for (Group& group : b.model.groups) make_group(b, group, made);
   const int first_made = made.nodes.append();
+  b.model.mesh.made_between = b.model.mesh.nodes() - first_made;
   inherit_along_edges(b.model, made.edges, first_made);
 }
 

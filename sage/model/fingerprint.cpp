@@ -35,6 +35,7 @@ void add_stage(Archive& archive, const Stage& s) {
         load.shear.y());
   add(archive, s.births, s.deaths);
   add_initials(archive, s.initials);
+  if (s.strength_factor != 0.0) add(archive, s.strength_factor);
 }
 
 }  // namespace
@@ -49,6 +50,8 @@ std::uint64_t fingerprint(const Model& model) {
   for (const Material& m : model.materials) add(archive, m.number, m.name, m.code, m.parameters, m.unit_weight);
   for (const Group& g : model.groups)
     add(archive, g.number, g.name, g.element_code, g.element_name, g.material, g.element_numbers, g.nodes);
+  for (const Group& g : model.groups)
+    if (g.overlay) add(archive, g.number, g.overlay);
   add_fixities(archive, model.fixities);
   add_field_fixities(archive, model.field_fixities);
   add_initials(archive, model.initials);

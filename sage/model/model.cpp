@@ -42,6 +42,14 @@ double report_area(const Model& model, const Report& report) {
   return model.geometry == Geometry::axisymmetric ? kPi * high * high : high - low;
 }
 
+std::size_t node_of_card(const Group& group, std::size_t i, std::size_t given) {
+  const ElementEntry& entry = *group.entry;
+  const auto corners = static_cast<std::size_t>(entry.corners);
+  if (i < corners || entry.interface() || (!entry.makes_nodes() && given > 2 * corners)) return i;
+  const int middle = middle_of(group.element->edges()[i - corners]);
+  return middle < 0 ? i : static_cast<std::size_t>(middle);
+}
+
 void element_coordinates(const Mesh& mesh, const Group& group, int element, Eigen::Matrix2Xd& x) {
   const auto n = static_cast<Eigen::Index>(group.node_count());
   if (x.cols() != n) x.resize(2, n);

@@ -16,11 +16,13 @@ struct Mesh {
   Eigen::Matrix2Xd x;       // one column a node
   std::vector<int> number;  // the deck's node numbers; mid-side nodes made here get numbers above the deck's
   int deck_nodes = 0;       // nodes from here on were made by the program
+  int made_between = 0;     // how many of the last were made between those that the elements' cards give
   // Length: a place so close outside a solid counts as on its edge, however small the
   // elements there are (Locator).
   double reach = 0.0;
 
   int nodes() const { return static_cast<int>(number.size()); }
+  int given_nodes() const { return nodes() - made_between; }  // of cards, or made by refining
 };
 
 struct Material {
@@ -187,6 +189,17 @@ struct Model {
 // Area under a triaxial report's nodes: the deck's, or pi r_max^2, or the width in plane
 // strain.  NaN without nodes.
 double report_area(const Model& model, const Report& report);
+
+// Local number of the node in the middle of an element's edge, a card's mid-side node; -1 where there is none
+// (degrees 1 and 3).
+inline int middle_of(const std::vector<int>& edge) {
+  const std::size_t inner = edge.size() - 2;
+  return inner % 2 == 1 ? edge[2 + inner / 2] : -1;
+}
+
+// Local number of the i-th of so many nodes that an element's card gives: corners and the middle nodes of the
+// sides, or more.
+std::size_t node_of_card(const Group& group, std::size_t i, std::size_t given);
 
 // Coordinates of an element's nodes, in x (2 x nodes).
 void element_coordinates(const Mesh& mesh, const Group& group, int element, Eigen::Matrix2Xd& x);

@@ -149,13 +149,15 @@ TEST(CommandLine, ConvertNeverReplacesTheDeckThatItReads) {
   EXPECT_EQ(read(folder / "deck.dat"), deck);
 }
 
-// sage1 cards hold 8 nodes: 25 are refused, and no file stays behind, under any name.
+// No file stays behind, under any name.
 TEST(CommandLine, ConvertThatIsRefusedLeavesNoFile) {
   const fs::path folder = empty_folder("convert_refused");
-  const std::string deck = "\"" SAGE_SOURCE_DIR "/legacy_inputs/chapter7/pinned_ld2_nu0495_graded/deck.dat\"";
-  const Finished refused = sagefe(folder, "convert " + deck + " other.dat");
+  std::string deck = block_deck().text();
+  deck.replace(deck.rfind("END"), 3, "FIN");
+  write(folder / "deck.dat", deck);
+  const Finished refused = sagefe(folder, "convert deck.dat other.dat");
   EXPECT_EQ(refused.exit_code, 2);
-  expect_words(refused.err, {"holds 8 nodes"});
+  expect_words(refused.err, {"END"});
   for (const auto& entry : fs::directory_iterator(folder))
     EXPECT_EQ(entry.path().filename().string().find("other"), std::string::npos) << entry.path();
 }

@@ -47,7 +47,7 @@ TEST(ForeignDecks, CandeWithoutItsPipe) {
   expect_words(checked.out, {"ready to run, but PARTIAL: left out"});
   // The new deck can't be refused any more: its title tells.
   EXPECT_EQ(sagefe(folder, "convert --partial " + deck + " pipe.dat").exit_code, 0);
-  expect_words(first_line(read(folder / "pipe.dat")), {"PARTIAL: "});
+  expect_words(read(folder / "pipe.dat").substr(0, 60), {"PARTIAL: "});
 }
 
 // Decks of Smith and Griffiths bear no marks; as sage1 they are nonsense from the second line on.
