@@ -224,8 +224,8 @@ void ResultFiles::reached(const std::filesystem::path& file, const Checksum& sum
     append(line(*name, {std::string(owner_.kind), deck_sum_, false, sum.bytes(), sum.value()}));
 }
 
-void ResultFiles::restore(std::map<std::string, ResultFile> files) {
-  for (auto& [name, file] : files) files_[name] = file;
+void ResultFiles::restore(const std::map<std::string, ResultFile>& files) {
+  for (const auto& [name, file] : files) files_[name] = file;
 }
 
 void ResultFiles::sync() {

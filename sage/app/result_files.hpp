@@ -46,7 +46,7 @@ class ResultFiles final : public ResultLog {
   std::filesystem::path path_of(const std::string& name) const { return folder_ / name; }
   // Whether the list has a checksum of this complete file and the file is no longer that.
   bool changed_since(const std::string& name) const;
-  void restore(std::map<std::string, ResultFile> files);
+  void restore(const std::map<std::string, ResultFile>& files);
   // All complete files, and then their names, are on the disk.
   void sync();
 

@@ -88,7 +88,8 @@ double Locator::nearest(const Box& box, const Vector2& place, Location& found) c
   double least = std::numeric_limits<double>::infinity();
   const std::vector<Vector2> corners = parent_corners(group.entry->triangle());
   for (std::size_t side = 0; side < corners.size(); ++side) {
-    const Vector2 from = corners[side], along = corners[(side + 1) % corners.size()] - from;
+    const Vector2& from = corners[side];
+    const Vector2 along = corners[(side + 1) % corners.size()] - from;
     double t = 0.5;
     for (int step = 0; step < kSteps; ++step) {
       if (!group.element->shape_functions(from + t * along, N, dN)) return least;

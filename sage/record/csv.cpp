@@ -201,7 +201,7 @@ void Csv::choose_fields(const Model& model) {
   }
 }
 
-void Csv::open(Table& table, std::string header, const Model& model) {
+void Csv::open(Table& table, const std::string& header, const Model& model) {
   if (table.file.open()) table.file.text() = header + columns_of(table.fields, model.units);
 }
 

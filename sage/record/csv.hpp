@@ -41,7 +41,7 @@ class Csv final : public Output {
   };
   std::array<Table*, 5> all() { return {&increments_, &nodes_, &points_, &interfaces_, &structures_}; }
   Table& of(ElementKind kind);
-  void open(Table& table, std::string header, const Model& model);
+  void open(Table& table, const std::string& header, const Model& model);
   void choose_fields(const Model& model);
   void add_increment(const Model&, const StepReport&);
   void add_states(const Model&, const StepReport&, const Solution&);
