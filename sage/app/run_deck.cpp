@@ -175,8 +175,7 @@ std::unique_ptr<Model> model_of(RunRequest& request, const Catalogue& catalogue,
   if (!request.solver.empty()) build.solver = solver_code(catalogue, request.solver);
   auto model = std::make_unique<Model>(build_model(deck, catalogue, build));
   owner.deck_sum = checksum(*deck.source.text());
-  if (request.output.result)
-    source = source_of(*deck.source.text(), deck.layout, request.input.layout, build);
+  if (request.output.result) source = source_of(*deck.source.text(), deck.layout, request.input.layout, build);
   if (request.output.vtu || request.output.result) warn_of_vtu(*model, model->diagnostics);
   request.output.fields = require_fields(request.output.pictures, request.output.fields, {fields_of(*model)});
   warn_of_fields(request.output, *model);

@@ -47,11 +47,6 @@ Frame::Frame(const Model& model) : activity_(model) {
 
 void Frame::exchange(Archive& archive) {
   StepReport& r = report_;
-  archive(r.stage);
-  archive(r.increment);
-  archive(r.increments);
-  archive(r.load_factor);
-  archive(r.converged);
   archive(r.cuts);
   archive(r.substeps);
   archive(r.iterations);
@@ -60,6 +55,15 @@ void Frame::exchange(Archive& archive) {
   archive(r.worst);
   archive(r.smallest_pivot_ratio);
   archive(r.motion);
+  exchange_state(archive);
+}
+
+void Frame::exchange_state(Archive& archive) {
+  archive(report_.stage);
+  archive(report_.increment);
+  archive(report_.increments);
+  archive(report_.load_factor);
+  archive(report_.converged);
   archive(u_);
   archive(internal_);
   archive(external_);

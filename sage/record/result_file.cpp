@@ -360,9 +360,12 @@ class SourcePart {
     out_.table(stored_path("states"), DataType::int64, {kStoredColumns});
   }
 
-  void add(const Frame& frame, const std::string& state) {
+  void add(Frame& frame) {
     if (!kept_) return;
     const StepReport& report = frame.report();
+    Archive archive;
+    frame.exchange_state(archive);
+    const std::string& state = archive.bytes();
     const std::vector<std::int64_t> row{report.stage, report.increment, report.increments,
                                         std::bit_cast<std::int64_t>(checksum(state))};
     out_.append(stored_path("states"), row, 1);
@@ -385,20 +388,18 @@ class FrameReader {
   FrameReader(const Model& model, const std::filesystem::path& file)
       : model_(model), in_(file, std::ios::binary) {}
   Frame next(std::uint64_t size) {
-    bytes_.assign(size, '\0');
-    if (!in_.read(bytes_.data(), static_cast<std::streamsize>(size)))
+    std::string bytes(size, '\0');
+    if (!in_.read(bytes.data(), static_cast<std::streamsize>(size)))
       throw OutputError("the states of the run can't be read back for its result file");
     Frame frame(model_);
-    Archive archive(bytes_);
+    Archive archive(std::move(bytes));
     frame.exchange(archive);
     return frame;
   }
-  const std::string& bytes() const { return bytes_; }  // of the frame that next() gave
 
  private:
   const Model& model_;
   std::ifstream in_;
-  std::string bytes_;
 };
 
 }  // namespace
@@ -461,10 +462,10 @@ void ResultOutput::on_finish(const Model& model, const RunResult& result) {
     SourcePart source(out, source_, model, failure_);
     FrameReader reader(model, states_.partial());
     for (std::uint64_t size : frames_) {
-      const Frame frame = reader.next(size);
+      Frame frame = reader.next(size);
       vtk.add(frame);
       own.add(frame);
-      source.add(frame, reader.bytes());
+      source.add(frame);
     }
     vtk.finish();
     out.close();

@@ -59,7 +59,7 @@ Frame StoredResult::frame(const Model& model, std::size_t state) const {
   if (checksum(stored) != states_.at(state).checksum) fail(fmt::format("state {} is damaged", state + 1));
   Frame frame(model);
   Archive archive(stored);
-  frame.exchange(archive);
+  frame.exchange_state(archive);
   return frame;
 }
 

@@ -10,7 +10,7 @@
 
 namespace sage {
 
-// Where it lies in the file.  The states are bytes of Frame::exchange(): another format is another program's.
+// Where it lies in the file.  The states are bytes of Frame::exchange_state(): another format is another program's.
 inline constexpr const char* kStoredFolder = "/sage/run";
 inline constexpr const char* kStoredFormat = "frames-1";
 inline constexpr std::size_t kStoredColumns = 4;  // stage, increment, increments, checksum
