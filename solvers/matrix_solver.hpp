@@ -29,7 +29,7 @@ class MatrixSolver : public LinearSolver {
   double norm1() const final { return matrix_.norm1(); }
   FactorReport report() const final;
   void set_refinement(int steps) final { wanted_steps_ = steps; }
-  void set_stop(StopAsked asked) final { stop_asked_ = std::move(asked); }
+  void set_stop(const StopAsked& asked) final { stop_asked_ = asked; }
   // Where terms grew in an elimination without pivoting, answers are refined even if nobody asked.
   void factorise() final;
   // Throws AnalysisError where refinement cannot mend what growth has spoilt: no answer without digits.

@@ -63,7 +63,7 @@ class LinearSolver {
 
   // From now on long work asks it now and then and throws Stopped where it says so; the same call may be made
   // again then.  Libraries that nothing can interrupt ask before they begin.
-  virtual void set_stop(StopAsked /*asked*/) {}
+  virtual void set_stop(const StopAsked& /*asked*/) {}
 
   // One entry an equation, for those that want them; valid within the call.  A solver that is given a part of
   // the equations alone (the skip 'condensation') gets none.

@@ -40,6 +40,9 @@ step("run the consumer" ${SCRATCH}/consumer/consumer)
 # 100 kPa on a column 1 m high with E = 1000 kPa and nu = 0.
 expect("${output}" "settlement 0\\.100000 m")
 
+step("run the program within a shared object" ${SCRATCH}/consumer/host list materials)
+expect("${output}" "1  linear_elastic \\(solid\\)")
+
 # The program with a law of one's own: pressed by 100 kPa with E_h = 2000, E_v = 1000, nu_vh = 0.3 in plane strain, sigma_zz is
 # nu_vh E_h / E_v 100 = 60 kPa and the top sinks by (100 - nu_vh 60) / E_v = 0.082 m.
 step("list the materials of the own program" ${SCRATCH}/consumer/own_program list materials)
