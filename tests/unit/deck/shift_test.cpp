@@ -94,13 +94,18 @@ struct Sound {
   bool buildable = true;  // some shipped decks are read and refused: their answers are those of the reader
 };
 
+// Folders bear the names of their layouts; "p51_2" is a deck of program 5.1.
+std::string layout_of(const fs::path& path, const std::string& text) {
+  const std::string folder = path.parent_path().filename().string(), stem = path.stem().string();
+  if (folder == "smith_griffiths") return "sg_" + stem.substr(0, stem.find('_'));
+  return folder == "plast" || folder == "stap" ? folder : detect_layout(text);
+}
+
 Sound sound(const fs::path& path) {
   Sound s;
   s.name = path.lexically_relative(SAGE_SOURCE_DIR "/legacy_inputs").string();
   s.text = file_text(path);
-  const std::string stem = path.stem().string();
-  const bool listed = path.parent_path().filename() == "smith_griffiths";  // "p51_2" is a deck of program 5.1
-  s.layout = load_layout(listed ? "sg_" + stem.substr(0, stem.find('_')) : detect_layout(s.text));
+  s.layout = load_layout(layout_of(path, s.text));
   s.deck = read_deck_text(s.text, "deck", s.layout, all_shown());
   s.values = values_as_read(s.deck);
   s.warnings = warnings_of(s.deck.diagnostics);
