@@ -9,4 +9,4 @@ include(cmake/FindHdf5Serial.cmake)
 # libfmt from its headers, compiled once (cmake/fmt.cpp says why).
 add_library(sage_fmt STATIC cmake/fmt.cpp)
 target_include_directories(sage_fmt SYSTEM PUBLIC $<BUILD_INTERFACE:$<TARGET_PROPERTY:fmt::fmt,INTERFACE_INCLUDE_DIRECTORIES>>)
-set_target_properties(sage_fmt PROPERTIES EXPORT_NAME fmt)
+set_target_properties(sage_fmt PROPERTIES EXPORT_NAME fmt POSITION_INDEPENDENT_CODE ON)
