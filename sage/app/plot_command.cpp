@@ -93,7 +93,9 @@ int plot(const PlotOptions& options, const Catalogue& catalogue) {
   const std::vector<std::size_t> states = states_to_draw(stored, options.at);
   const std::filesystem::path file(options.file),
       folder = options.folder.empty() ? file.parent_path() : std::filesystem::path(options.folder);
-  if (!folder.empty()) std::filesystem::create_directories(folder);
+  std::error_code error;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  if (error) throw OutputError("the folder " + folder.string() + " can't be made: " + error.message());
   Pictures pictures(folder, file.stem().string(), options.pictures);
   for (std::size_t state : states) draw(pictures, model, stored, state);
   for (const std::filesystem::path& picture : pictures.files()) fmt::print("{}\n", picture.string());

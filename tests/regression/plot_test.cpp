@@ -111,6 +111,10 @@ TEST(Plot, FilesThatAreNoneAreOneError) {
   fs::copy_file(whole, spoilt, fs::copy_options::overwrite_existing);
   spoil(spoilt, "frames-1", "frames-0");
   expect_refused("spoilt.h5", "written as frames-0");
+  std::ofstream(folder / "file") << "none";
+  const Finished nowhere = sagefe(folder, "plot " + whole.string() + " --picture stress_yy -o file/drawn");
+  EXPECT_EQ(nowhere.exit_code, 4) << nowhere.err;
+  EXPECT_NE(nowhere.err.find("can't be made"), std::string::npos) << nowhere.err;
   // Another Young's modulus is another model than the one that the states are of.
   fs::copy_file(whole, spoilt, fs::copy_options::overwrite_existing);
   spoil(spoilt, "     3000.", "     4000.");
