@@ -196,7 +196,8 @@ class RunBuilder {
   }
 
   static bool shares_most(const Line& a, const Line& b) {
-    const auto [small, large] = std::minmax(a.tokens.size(), b.tokens.size());
+    const std::size_t small = std::min(a.tokens.size(), b.tokens.size()),
+                      large = std::max(a.tokens.size(), b.tokens.size());
     return 3 * small >= 2 * large;
   }
 
