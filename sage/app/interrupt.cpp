@@ -11,6 +11,7 @@ namespace {
 
 constexpr int kSignals[2] = {SIGINT, SIGTERM};
 std::atomic<bool> heard{false};
+std::atomic<bool> announce{true};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
 
 void on_signal(int number) {
@@ -19,6 +20,7 @@ void on_signal(int number) {
     raise(number);
     return;
   }
+  if (!announce) return;
   constexpr std::string_view kText =
       "\nsagefe: stops after the increment in hand, or in 10 s; once more ends at once, without a checkpoint\n";
   if (write(STDERR_FILENO, kText.data(), kText.size()) < 0) return;  // nobody reads it
@@ -41,6 +43,10 @@ InterruptWatch::InterruptWatch() {
 InterruptWatch::~InterruptWatch() {
   for (int i = 0; i < 2; ++i) sigaction(kSignals[i], &before_[i], nullptr);
   heard = false;
+}
+
+void interrupts_are_announced(bool announced) {
+  announce = announced;
 }
 
 bool interrupted() {

@@ -19,6 +19,9 @@ class InterruptWatch {
   struct sigaction before_[2];
 };
 
+// Whether the first signal writes to standard error how the run ends (it does unless this is called).
+void interrupts_are_announced(bool announced);
+
 // Whether a signal has come since the watch began; false where there is none.  From any thread.
 bool interrupted();
 

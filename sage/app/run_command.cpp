@@ -4,12 +4,14 @@
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
 #include <algorithm>
+#include <cstring>
 #include <set>
 
 #include "sage/app/commands.hpp"
 #include "sage/app/converge.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/interrupt.hpp"
+#include "sage/app/jobs.hpp"
 #include "sage/app/run_deck.hpp"
 #include "sage/record/out_file.hpp"
 
@@ -24,6 +26,7 @@ struct RunOptions {
   std::string tables = "auto";
   std::vector<std::string> without;
   bool quiet = false;
+  int jobs = 1;  // decks at a time; 0: as many as there are processors
 };
 
 Tables tables_of(const std::string& name) {
@@ -83,6 +86,48 @@ std::string skip_names() {
   return text;
 }
 
+void not_run(const std::string& deck) {
+  fmt::print(stderr, "{}: not run, interrupted before\n", deck);
+}
+
+// What --converge has is complete: a mesh that was cut short is no failure of the deck.
+int run_or_cut_short(const RunOptions& options, const std::string& deck, const Catalogue& catalogue) {
+  const int code = run_one(options, deck, catalogue);
+  return options.converge.asked() && code != kOk && interrupted() ? kInterrupted : code;
+}
+
+int run_in_turn(const RunOptions& options, const Catalogue& catalogue) {
+  int worst = kOk;
+  for (const std::string& deck : options.decks) {
+    if (interrupted()) not_run(deck);
+    worst = std::max(worst, interrupted() ? kInterrupted : run_or_cut_short(options, deck, catalogue));
+  }
+  return worst;
+}
+
+// Each deck as in run_in_turn(), `jobs` at a time; what they print stands in the order of the decks.
+int run_beside(RunOptions options, int jobs, const Catalogue& catalogue) {
+  if (options.request.threads == 0) options.request.threads = 1;  // the processors have their work
+  int worst = kOk;
+  JobList list;
+  list.count = options.decks.size();
+  list.run = [&](std::size_t i) { return run_or_cut_short(options, options.decks[i], catalogue); };
+  list.end = [&](std::size_t i, const JobEnd& end) {
+    fmt::print("{}", end.out);
+    fmt::print(stderr, "{}", end.err);
+    worst = std::max(worst, end.signal != 0 ? kNotConverged : end.exit_code);
+    if (end.signal != 0)
+      fmt::print(stderr, "{}: its process was ended by signal {} ({}); its results are not complete\n",
+                 options.decks[i], end.signal, strsignal(end.signal));
+  };
+  list.skip = [&](std::size_t i) {
+    not_run(options.decks[i]);
+    worst = std::max(worst, kInterrupted);
+  };
+  do_jobs(list, jobs);
+  return worst;
+}
+
 int run_all(const RunOptions& options, const Catalogue& catalogue) {
   std::set<std::string> names;
   for (const std::string& deck : options.decks)
@@ -93,19 +138,9 @@ int run_all(const RunOptions& options, const Catalogue& catalogue) {
     }
   for (const std::string& deck : options.decks) keep_input(deck);  // of those too that come later
   const InterruptWatch watch;
-  int worst = kOk;
-  for (const std::string& deck : options.decks) {
-    if (interrupted()) {
-      fmt::print(stderr, "{}: not run, interrupted before\n", deck);
-      worst = std::max(worst, kInterrupted);
-      continue;
-    }
-    const int code = run_one(options, deck, catalogue);
-    // What --converge has is complete: a mesh that was cut short is no failure of the deck.
-    const bool cut_short = options.converge.asked() && code != kOk && interrupted();
-    worst = std::max(worst, cut_short ? kInterrupted : code);
-  }
-  return worst;
+  const int jobs = threads_for(options.jobs);
+  return jobs > 1 && options.decks.size() > 1 ? run_beside(options, jobs, catalogue)
+                                              : run_in_turn(options, catalogue);
 }
 
 }  // namespace
@@ -118,6 +153,12 @@ Command run_command(CLI::App& parser, const Catalogue& catalogue) {
   parser.add_option("--solver", request.solver, "solver by name (see sagefe list solvers)")
       ->check(known_solver(catalogue));
   add_threads_option(parser, request.threads);
+  parser
+      .add_option(
+          "-j,--jobs", options->jobs,
+          "decks computed at a time, each in a process of its own and, without --threads, on one thread "
+          "(default: 1; 0 = as many as there are processors)")
+      ->check(CLI::Range(0, 256));
   parser
       .add_option("--refine-solves", request.refinement,
                   "steps of iterative refinement in every solution, with residuals in twice the precision")

@@ -378,6 +378,36 @@ TEST(CommandLine, ABadDeckDoesNotKeepTheNextFromRunning) {
   EXPECT_EQ(sagefe(folder, "check bad.dat good.dat").exit_code, 2);
 }
 
+// Files, messages and exit code of several decks are those of one after the other; a deck's summary holds times, so
+// that only its first line is compared.
+TEST(CommandLine, SeveralDecksAtATimeAreAsOneAfterTheOther) {
+  const fs::path folder = empty_folder("decks_beside");
+  write(folder / "bad.dat", block_deck().with("parameters", card({}, {"-1.", ".3"})).text());
+  write(folder / "good.dat", block_deck().text());
+  write(folder / "weak.dat", collapse_deck().text());
+  write(folder / "joint.dat", joint_deck().text());
+  const std::string decks = "run weak.dat bad.dat good.dat missing.dat joint.dat --nodes --points -o ";
+  const Finished one = sagefe(folder, decks + "one"), beside = sagefe(folder, decks + "beside --jobs 3");
+  EXPECT_EQ(one.exit_code, 3);
+  EXPECT_EQ(beside.exit_code, one.exit_code);
+  std::string err = beside.err;
+  for (std::size_t at = 0; (at = err.find("beside/")) != std::string::npos;) err.replace(at, 7, "one/");
+  EXPECT_EQ(err, one.err);
+  std::size_t last = 0;
+  for (const char* deck : {"weak", "good", "joint"}) {
+    for (const char* end : {".lst", ".nodes.csv", ".points.csv"}) {
+      const std::string file = std::string(deck) + end;
+      std::string a = read(folder / "one" / file), b = read(folder / "beside" / file);
+      EXPECT_FALSE(a.empty()) << file;
+      EXPECT_EQ(a, b) << file;
+    }
+    const std::size_t at = beside.out.find(std::string("beside/") + deck + ".lst");
+    ASSERT_NE(at, std::string::npos) << beside.out;
+    EXPECT_GT(at, last) << "in the order of the decks";
+    last = at;
+  }
+}
+
 TEST(CommandLine, ADeckMayComeThroughAPipe) {
   const auto folder = empty_folder("piped_deck");
   write(folder / "deck.dat", block_deck().text());

@@ -405,6 +405,41 @@ TEST(Fault, InterruptedAndRestarted) {
   }
 }
 
+// Both decks under way have checkpoints, the third is named; one signal reaches each once.
+TEST(Fault, SeveralDecksAtATimeAreInterruptedToo) {
+  const fs::path folder = empty_folder("interrupted_jobs");
+  for (const char* name : {"a.dat", "b.dat", "c.dat"}) write(folder / name, deck_text(99999));
+  const Finished run = sagefe(folder, "run a.dat b.dat c.dat --jobs 2",
+                              R"(timeout 120 bash -c 'set -m; "$0" "$@" & child=$!
+                                 while [ ! -e out/a.lst.partial -o ! -e out/b.lst.partial ]; do sleep 0.02; done
+                                 kill -INT $child; wait $child')");
+  EXPECT_EQ(run.exit_code, 5) << run.err;
+  for (const char* deck : {"a", "b"}) {
+    EXPECT_NE(run.err.find(fmt::format("the same command with --restart goes on from out/{}.restart", deck)),
+              std::string::npos)
+        << run.err;
+    EXPECT_TRUE(fs::exists(folder / fmt::format("out/{}.restart", deck)));
+  }
+  EXPECT_NE(run.err.find("c.dat: not run, interrupted before"), std::string::npos) << run.err;
+  EXPECT_FALSE(fs::exists(folder / "out/c.lst"));
+}
+
+// The decks under way end with it, with their checkpoints.
+TEST(Fault, SeveralDecksAtATimeEndWithAProcessThatIsKilled) {
+  const fs::path folder = empty_folder("killed_jobs");
+  for (const char* name : {"a.dat", "b.dat"}) write(folder / name, deck_text(99999));
+  sagefe(folder, "run a.dat b.dat --jobs 2",
+         R"(timeout 120 bash -c '"$0" "$@" & child=$!
+            while [ ! -e out/a.lst.partial -o ! -e out/b.lst.partial ]; do sleep 0.02; done
+            kill -KILL $child; wait $child
+            while [ -e out/a.lst.partial -o -e out/b.lst.partial ]; do sleep 0.02; done')");
+  for (const char* deck : {"a", "b"}) {
+    EXPECT_TRUE(fs::exists(folder / fmt::format("out/{}.restart", deck)));
+    EXPECT_NE(read(folder / fmt::format("out/{}.lst", deck)).find("RUN STOPPED, NOT COMPLETE"),
+              std::string::npos);
+  }
+}
+
 // What is complete is compared, and nothing stays behind under a temporary name, the deck's reports neither.
 TEST(Fault, ComparisonsAreInterruptedToo) {
   const fs::path folder = empty_folder("interrupted_comparison");
