@@ -256,6 +256,7 @@ void require_file(const std::string& path, const std::string& who) {
 Deck read_input(const std::string& path, const InputOptions& options, bool whole_layout) {
   ReadOptions read;
   read.strict = options.strict;
+  read.whole = whole_layout;
   keep_input(path);
   if (!options.layout.empty()) keep_input(options.layout);
   return options.layout.empty() ? read_deck(path, read)

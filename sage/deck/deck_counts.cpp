@@ -268,11 +268,22 @@ bool DeckReader::fits_the_file(int count, bool repeats) const {
 void DeckReader::check_after_end() {
   while (records_.next()) {
     if (all_blank(records_.record())) continue;
-    const bool separator = !layout_.card_separator.empty();
-    log_.add(separator ? Severity::error : Severity::warning, log_.line(records_.line()),
-             separator ? "this card has no place here"
-                       : "the deck is complete, but more lines follow: they are ignored");
-    return;
+    if (!layout_.card_separator.empty())
+      return log_.add(Severity::error, log_.line(records_.line()), "this card has no place here");
+    const auto closes = [this](const Card& last) {
+      const CardRule& rule = rule_of(last.spec);
+      return !rule.rules.empty() && !rule.rules[0].must_equal.empty();
+    };
+    const bool closed = !deck_.cards.empty() && closes(deck_.cards.back());
+    const std::string_view record = records_.record();
+    const std::size_t first = record.find_first_not_of(" \t,");
+    if (closed || first == std::string_view::npos || !begins_with_number(record.substr(first)))
+      return log_.add(Severity::warning, log_.line(records_.line()),
+                      "the deck is complete, but more lines follow: they are ignored");
+    return log_.add(unread_number(), log_.line(records_.line()),
+                    "the deck is complete, but numbers follow that nothing reads",
+                    "a count before them is too small, a line too many stands before them, or another program "
+                    "reads this deck");
   }
 }
 

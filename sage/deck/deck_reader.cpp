@@ -21,6 +21,7 @@ DeckReader::DeckReader(const SourceText& source, const Layout& layout, const Rea
       layout_(layout),
       records_(source, layout.records),
       log_(deck_, options),
+      whole_(options.whole),
       texts_(std::make_shared<std::deque<std::string>>()),
       latest_(layout.cards.size(), -1),
       previous_(layout.cards.size(), -1),
@@ -410,6 +411,13 @@ SourceText source_of(std::string text, const std::string& name) {
   return {std::move(text), name};
 }
 
+[[noreturn]] void throw_with_other_layouts(const SourceText& source, const std::string& layout,
+                                           const InputError& error) {
+  Diagnostics all = error.diagnostics();
+  if (std::optional<Diagnostic> others = other_layouts_that_read(source, layout)) all.add(*std::move(others));
+  throw InputError(std::move(all));
+}
+
 }  // namespace
 
 Deck read_deck_text(std::string text, const std::string& name, const Layout& layout,
@@ -434,13 +442,18 @@ Deck read_deck(const std::string& path, const ReadOptions& options) {
     // Marks may be those of several programs: 'plane' opens decks of seepage too.
     std::optional<Diagnostics> unknown =
         recognised.empty() ? no_layout_fits(source, layout, error.diagnostics()) : outside_of_scope(source);
-    if (!unknown) throw;
-    throw InputError(*std::move(unknown));
+    if (unknown) throw InputError(*std::move(unknown));
+    throw_with_other_layouts(source, layout.name, error);
   }
 }
 
 Deck read_deck(const std::string& path, const Layout& layout, const ReadOptions& options) {
-  return read_deck_text(read_file(path), path, layout, options);
+  const SourceText source = source_of(read_file(path), path);
+  try {
+    return DeckReader(source, layout, options).read();
+  } catch (const InputError& error) {
+    throw_with_other_layouts(source, layout.name, error);
+  }
 }
 
 }  // namespace sage

@@ -85,6 +85,7 @@ class DeckReader : private ExpressionScope {
   void check_values(const CardRule& rule, const Card& card);
   void note_blanks();
   void note_list_rest();
+  Severity unread_number() const { return whole_ && !layout_.draft ? Severity::error : Severity::warning; }
   void apply_map(const CardRule& rule, std::size_t field, FieldValue& value);
   void check_allowed(const CardRule& rule, std::size_t field, std::size_t value);
   void report_flaws(const CardRule& rule);
@@ -144,6 +145,7 @@ class DeckReader : private ExpressionScope {
   Deck deck_;
   RecordSource records_;
   ReadLog log_;
+  bool whole_ = true;
   std::shared_ptr<std::deque<std::string>> texts_;
   std::vector<FieldValue> fields_;  // of the card being read
   std::vector<FieldFlaw> flaws_;    // of these

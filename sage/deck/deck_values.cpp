@@ -109,14 +109,18 @@ void DeckReader::apply_map(const CardRule& rule, std::size_t field, FieldValue& 
 // A blank that is wrong has its message already.
 void DeckReader::check_allowed(const CardRule& rule, std::size_t field, std::size_t at) {
   const FieldValue& value = fields_[at];
-  const auto& [numbers, texts] = std::tie(rule.rules[field].allowed, rule.rules[field].allowed_texts);
+  const FieldRule& one_of = rule.rules[field];
+  const auto& [numbers, texts] = std::tie(one_of.allowed, one_of.allowed_texts);
   const std::string_view text = trimmed(value.text);
-  if (value.blank || is_faulty(deck_.cards.size(), at) ||
-      std::ranges::find(numbers, value.number) != numbers.end() ||
-      std::ranges::find(texts, text) != texts.end())
-    return;
-  const std::string& known = rule.rules[field].codes;
+  if (value.blank || is_faulty(deck_.cards.size(), at)) return;
+  const bool within = value.number >= one_of.least && value.number <= one_of.most;
+  const bool listed = (numbers.empty() && texts.empty()) ||
+                      std::ranges::find(numbers, value.number) != numbers.end() ||
+                      std::ranges::find(texts, text) != texts.end();
+  if (within && listed) return;
+  const std::string& known = one_of.codes;
   std::string all;
+  if (!within) all = "what lies between " + number_text(one_of.least) + " and " + number_text(one_of.most);
   for (const double one : numbers) all += (all.empty() ? "" : ", ") + number_text(one);
   for (const std::string& one : texts) all += (all.empty() ? "" : ", ") + one;
   log_.add(Severity::error, log_.where(value),
@@ -134,8 +138,13 @@ void DeckReader::note_list_rest() {
   if (first == std::string_view::npos) return;
   const int column = records_.skipped() + static_cast<int>(list_read_->position() + first) + 1;
   const int last = column + static_cast<int>(rest.find_last_not_of(" \t\r") - first);
-  log_.add(Severity::warning, {deck_.file, records_.line(), column, last},
-           "not read: the values before it are all that this READ takes");
+  const bool number = begins_with_number(rest.substr(first));
+  log_.add(number ? unread_number() : Severity::warning, {deck_.file, records_.line(), column, last},
+           "not read: the values before it are all that this READ takes",
+           number
+               ? "a count before it is too small, a value too many stands before it, or another program reads "
+                 "this deck; a slash (/) ends a READ where numbers are left over on purpose"
+               : "");
 }
 
 // Fields that old hands leave blank on purpose and others by mistake: one note for all cards of a kind.

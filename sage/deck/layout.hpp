@@ -2,6 +2,7 @@
 // legacy_inputs/layouts/README.md describes the file.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,6 +15,8 @@
 
 namespace sage {
 
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
 // What a layout says of a field beyond the FieldSpec.
 struct FieldRule {
   std::string codes;  // allowed codes, for the manual: "1 plane strain, 2 axisymmetric"
@@ -21,12 +24,14 @@ struct FieldRule {
       map;                                 // foreign code -> ours; keys are the field's trimmed characters
   std::vector<double> allowed;             // the field reads one of these; empty = anything
   std::vector<std::string> allowed_texts;  // the same of a text
-  std::string must_equal;                  // the card is wrong unless the field reads this
-  Expression count;                        // how many values the last field repeats; empty = one
-  std::vector<Expression> values;          // of a computed field: its value, or those of a list one by one
-  bool ignored = false;                    // no meaning is wanted for it
-  int line = 0;                            // of the layout file
-  bool restricted() const { return !allowed.empty() || !allowed_texts.empty(); }
+  double least = -kUnbounded, most = kUnbounded;  // the number lies between them
+  std::string must_equal;                         // the card is wrong unless the field reads this
+  Expression count;                               // how many values the last field repeats; empty = one
+  std::vector<Expression> values;  // of a computed field: its value, or those of a list one by one
+  bool ignored = false;            // no meaning is wanted for it
+  int line = 0;                    // of the layout file
+  bool bounded() const { return least > -kUnbounded || most < kUnbounded; }
+  bool restricted() const { return !allowed.empty() || !allowed_texts.empty() || bounded(); }
 };
 
 struct CardRule {

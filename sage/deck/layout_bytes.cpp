@@ -47,8 +47,8 @@ void exchange(Archive& archive, FieldSpec& field) {
 }
 
 void exchange(Archive& archive, FieldRule& rule) {
-  auto& [codes, map, allowed, allowed_texts, must_equal, count, values, ignored, line] = rule;
-  exchange_all(archive, codes, must_equal, ignored, line);
+  auto& [codes, map, allowed, allowed_texts, least, most, must_equal, count, values, ignored, line] = rule;
+  exchange_all(archive, codes, least, most, must_equal, ignored, line);
   exchange_list(archive, map, [](Archive& a, auto& code) { exchange_all(a, code.first, code.second); });
   exchange_list(archive, allowed, [](Archive& a, double& code) { a(code); });
   exchange_list(archive, allowed_texts, [](Archive& a, std::string& text) { a(text); });

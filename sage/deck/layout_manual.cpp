@@ -70,6 +70,7 @@ void add_field(const FieldSpec& spec, const FieldRule& rule, const std::string& 
   if (spec.blank_note == BlankNote::always) note("a blank is noted");
   if (spec.blank_note == BlankNote::compared) note("a blank is noted where other cards have a value");
   if (spec.has_fallback) note("blank gives " + number_text(spec.fallback));
+  if (rule.bounded()) note("between " + number_text(rule.least) + " and " + number_text(rule.most));
   if (!rule.must_equal.empty()) note("must read " + rule.must_equal);
   if (spec.computed) note("computed: " + values_text(rule));
   if (!rule.count.empty()) note("repeats: " + rule.count.source);

@@ -242,7 +242,7 @@ class LayoutReader : private TomlFile {
 
   void read_field(const toml::table& table, CardRule& card) {
     known_keys(table, {"name", "label", "unit", "kind", "required", "default", "codes", "map", "allowed",
-                       "equals", "count", "blank", "ignored", "use", "value"});
+                       "between", "equals", "count", "blank", "ignored", "use", "value"});
     FieldSpec spec;
     FieldRule rule;
     spec.name = text(table, "name", true);
@@ -271,6 +271,7 @@ class LayoutReader : private TomlFile {
     rule.must_equal = text(table, "equals");
     read_map(table, rule);
     read_allowed(table, spec.kind, rule);
+    read_between(table, spec.kind, rule);
     rule.line = static_cast<int>(table.source().begin.line);
     rule.ignored = flag(table, "ignored");
     card.spec.fields.push_back(spec);
@@ -382,6 +383,18 @@ class LayoutReader : private TomlFile {
       if (!number) fail(entry, "allowed must be [ number, ... ]");
       rule.allowed.push_back(*number);
     }
+  }
+
+  void read_between(const toml::table& table, FieldKind kind, FieldRule& rule) const {
+    const toml::node* node = table.get("between");
+    if (!node) return;
+    const toml::array* ends = node->as_array();
+    const auto low = ends && ends->size() == 2 ? (*ends)[0].value<double>() : std::nullopt;
+    const auto high = low ? (*ends)[1].value<double>() : std::nullopt;
+    if (!high || !(*low <= *high) || kind == FieldKind::text)
+      fail(*node, "between must be [ lowest, highest ], two numbers, for a number");
+    rule.least = *low;
+    rule.most = *high;
   }
 
   // Every field must meet an edit descriptor of its kind.

@@ -12,8 +12,7 @@ bool needs_more(const CardRule& rule) {
   return rule.list_directed || rule.is_item || rule.rules.empty() ||
          std::ranges::any_of(rule.spec.fields, [](const FieldSpec& field) { return field.computed; }) ||
          std::ranges::any_of(rule.rules, [](const FieldRule& field) {
-           return !field.map.empty() || !field.allowed.empty() || !field.must_equal.empty() ||
-                  !field.count.empty();
+           return !field.map.empty() || field.restricted() || !field.must_equal.empty() || !field.count.empty();
          });
 }
 

@@ -11,7 +11,8 @@ namespace sage {
 
 struct ReadOptions {
   bool strict = false;  // warnings become errors
-  int shown = 50;       // errors (and as many warnings, and notes) that are listed; the rest are counted
+  bool whole = true;  // numbers that no card reads are errors; false: warnings, while a layout is being written
+  int shown = 50;     // errors (and as many warnings, and notes) that are listed; the rest are counted
 };
 
 // Reads a whole deck, once: the file may be a pipe.  Throws InputError with every mistake found in one pass.

@@ -34,12 +34,12 @@ bool looks_foreign(const std::array<int, 2>& lines, const Diagnostics& problems)
   return errors[0] + errors[1] >= 3;
 }
 
-// Names of the other layouts that read the whole deck without an error or a warning.
-std::vector<std::string> layouts_that_read(const SourceText& source, const Layout& standard) {
+// Names of the layouts other than `tried` that read the whole deck without an error or a warning.
+std::vector<std::string> layouts_that_read(const SourceText& source, const std::string& tried) {
   std::vector<std::string> names;
   if (source.text()->size() > kTrialSize) return names;
   for (const std::string& name : built_in_layouts()) {
-    if (name == standard.name) continue;
+    if (name == tried) continue;
     try {
       const Layout layout = load_layout(name);
       if (DeckReader(source, layout, {}).read().diagnostics.warnings() == 0) names.push_back(name);
@@ -55,7 +55,24 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
+// Where several read it, only the deck's owner knows which program it was written for.
+std::string fitting_words(const std::vector<std::string>& names) {
+  if (names.size() == 1)
+    return "without a mistake it reads as " + names.front() + ": --layout " + names.front();
+  return "without a mistake it reads as each of " + joined(names) +
+         ", which are different programs: name the one that it was written for with --layout";
+}
+
 }  // namespace
+
+std::optional<Diagnostic> other_layouts_that_read(const SourceText& source, const std::string& layout) {
+  const std::vector<std::string> fitting = layouts_that_read(source, layout);
+  if (fitting.empty()) return std::nullopt;
+  return Diagnostic{Severity::note,
+                    {source.name(), 0, 0, 0},
+                    "the deck has mistakes as " + layout + ", but " + fitting_words(fitting),
+                    {}};
+}
 
 std::optional<Diagnostics> outside_of_scope(const SourceText& source) {
   const std::string program = other_program(source);
@@ -79,11 +96,10 @@ std::optional<Diagnostics> no_layout_fits(const SourceText& source, const Layout
                        standard.name + "; name its layout with --layout, one of those built in (" +
                        joined(built_in_layouts()) + ") or the path of a layout file",
                    {}};
-  if (const std::vector<std::string> fitting = layouts_that_read(source, standard); fitting.empty()) {
+  if (const std::vector<std::string> fitting = layouts_that_read(source, standard.name); fitting.empty()) {
     if (std::optional<Diagnostics> outside = outside_of_scope(source)) return outside;
   } else {
-    first.detail.push_back("note: without a mistake it reads as " + joined(fitting) + ": --layout " +
-                           fitting.front());
+    first.detail.push_back("note: " + fitting_words(fitting));
   }
   Diagnostics all;
   all.add(std::move(first));

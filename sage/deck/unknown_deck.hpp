@@ -15,6 +15,11 @@ namespace sage {
 std::optional<Diagnostics> no_layout_fits(const SourceText& source, const Layout& standard,
                                           const Diagnostics& problems);
 
+// A note that names the built-in layouts, others than `layout`, that read the deck without an error or a warning:
+// a deck with a mistake under its own layout, and with none under another, was perhaps written for that.  Empty
+// where there are none.
+std::optional<Diagnostic> other_layouts_that_read(const SourceText& source, const std::string& layout);
+
 // An error that names what the deck computes, where it reads as one of those programs that do what this one does not.
 std::optional<Diagnostics> outside_of_scope(const SourceText& source);
 
