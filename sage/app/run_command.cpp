@@ -41,6 +41,14 @@ std::string way_on(const RunOutcome& outcome) {
   return fmt::format("the same command with --restart goes on from {}", outcome.checkpoint.string());
 }
 
+// Notes of the run, a line each, where no summary shows them.
+std::string note_text(const std::string& deck, const std::string& notes) {
+  std::string text;
+  for (std::size_t at = 0, end = 0; (end = notes.find('\n', at)) != std::string::npos; at = end + 1)
+    text += deck + ": note: " + notes.substr(at, end - at) + '\n';
+  return text;
+}
+
 // One deck's failure does not keep the next from running.
 int run_one(const RunOptions& options, const std::string& deck, const Catalogue& catalogue) {
   RunRequest request = options.request;
@@ -66,7 +74,9 @@ int run_one(const RunOptions& options, const std::string& deck, const Catalogue&
       return outcome.exit_code;
     }
     if (outcome.record.stages.empty()) return outcome.exit_code;  // --strict stopped it
-    if (!options.quiet)
+    if (options.quiet)
+      fmt::print(stderr, "{}", note_text(deck, outcome.record.notes));
+    else
       fmt::print("{}\n", summary(*outcome.model, outcome.record, outcome.reports.get(), outcome.files,
                                  outcome.error.get(), request.output.digits));
     if (outcome.exit_code != kOk) fmt::print(stderr, "{}: {}\n", deck, outcome.record.result.reason);

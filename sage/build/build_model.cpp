@@ -102,7 +102,7 @@ void read_point(Builder& b, const CardView& card, Report& report) {
     const auto found = b.group_index.find(group);
     if (found == b.group_index.end())
       b.group_missing(card.where("group"), group);
-    else
+    else if (b.layer_pieces.empty())  // else parts of it may be groups of their own
       report.group = found->second;
   }
   std::string ignored;
@@ -288,6 +288,7 @@ Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOp
   build::build_groups(b);
   build::build_elements(b);
   build::split_removed(b);
+  build::split_layers(b);
   build::build_stages(b);
   build::build_reports(b);
   if (b.problems.errors() == 0) build::check_totals(b);

@@ -5,7 +5,6 @@
 
 #include "sage/build/builder.hpp"
 #include "sage/deck/text.hpp"
-#include "sage/exchange/boundary_edges.hpp"
 
 namespace sage::build {
 
@@ -233,104 +232,11 @@ void add_removals(Builder& b) {
   }
 }
 
-// Which directions each node is held in at the start.
-std::vector<std::array<char, 2>> held_nodes(const Builder& b, const Stage& stage) {
-  std::vector<std::array<char, 2>> held(static_cast<std::size_t>(b.model.mesh.nodes()));
-  for (const std::vector<Fixity>* list : {&b.model.fixities, &stage.fixities})
-    for (const Fixity& f : *list)
-      for (std::size_t c = 0; c < 2; ++c)
-        if (f.code[c] == FixityCode::fixed) held[static_cast<std::size_t>(f.node)][c] = 1;
-  return held;
-}
-
-// Faces that the start stress pulls or pushes and nothing holds get the pressure that balances it there: such
-// programs count from a state that they take to be in equilibrium.
-int hold_free_faces(Builder& b, const std::vector<const InitialStress*>& of_group, Stage& stage) {
-  const std::vector<std::array<char, 2>> held = held_nodes(b, stage);
-  double largest = 0.0;
-  std::vector<EdgeLoad> faces;
-  for (const BoundaryEdge& edge : boundary_edges(b.model)) {
-    const InitialStress* initial = of_group[static_cast<std::size_t>(edge.group)];
-    if (initial == nullptr) continue;
-    std::array<bool, 2> holds{true, true};
-    for (const int node : edge.nodes)
-      for (std::size_t c = 0; node >= 0 && c < 2; ++c)
-        holds[c] = holds[c] && held[static_cast<std::size_t>(node)][c] != 0;
-    const Vector2 ends[] = {b.model.mesh.x.col(edge.nodes[0]), b.model.mesh.x.col(edge.nodes[1])};
-    const Vector2 along = (ends[1] - ends[0]).normalized(), out(along.y(), -along.x());
-    EdgeLoad face{edge.group, edge.element, edge.edge, Vector2::Zero(), Vector2::Zero(), stage.where.line};
-    for (int i = 0; i < 2; ++i) {
-      const double vertical = initial->value[1] * (initial->value[0] - ends[i].y());
-      Vector2 traction(-initial->value[2] * vertical * out.x(), -vertical * out.y());
-      largest = std::max(largest, vertical);
-      for (int c = 0; c < 2; ++c)
-        if (holds[static_cast<std::size_t>(c)]) traction[c] = 0.0;
-      face.normal[i] = -traction.dot(out);
-      face.shear[i] = traction.dot(along);
-    }
-    faces.push_back(face);
-  }
-  std::erase_if(faces, [largest](const EdgeLoad& face) {
-    return std::max(face.normal.cwiseAbs().maxCoeff(), face.shear.cwiseAbs().maxCoeff()) <= 1e-12 * largest;
-  });
-  stage.pressures.insert(stage.pressures.end(), faces.begin(), faces.end());
-  return static_cast<int>(faces.size());
-}
-
-// k0 of the card, or that of the material's card; NaN and an error without either.
-double k0_of(Builder& b, const CardView& card, const Material& material) {
-  if (!card.blank("k0")) return card.real("k0");
-  for (const CardView& m : b.deck.all("material"))
-    if (m.integer("number") == material.number && !m.blank("k0")) return m.real("k0");
-  b.error(card.where(), "material " + std::to_string(material.number) +
-                            " has no k0: it stands on the start_stress card or on the material's");
-  return std::nan("");
-}
-
-// Vertical stress from the unit weight and the depth below a level, horizontal stress by k0; the first stage
-// puts the weight on, which balances it.
-void add_start_stress(Builder& b, const std::vector<Moved>& moved) {
-  const std::vector<CardView> cards = b.deck.all("start_stress");
-  if (cards.empty()) return;
-  const CardView& card = cards.front();
-  if (cards.size() > 1) b.error(cards[1].where(), "there is a start_stress card already");
-  std::vector<char> later(b.model.groups.size(), 0);
-  for (const Stage& stage : b.model.stages)
-    for (const int group : stage.births) later[static_cast<std::size_t>(group)] = 1;
-  const double level = card.real("level", b.model.mesh.x.row(1).maxCoeff());
-  std::vector<const InitialStress*> of_group(b.model.groups.size(), nullptr);
-  b.model.initials.reserve(b.model.initials.size() + b.model.groups.size());
-  for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
-    const Group& group = b.model.groups[g];
-    if (!group.element || !group.solid() || group.elements() == 0 || later[g] != 0) continue;
-    const Material& material = b.model.material_of(group);
-    InitialStress initial;
-    initial.group = static_cast<int>(g);
-    initial.kind = InitialKind::geostatic;
-    initial.value = {level, material.unit_weight, k0_of(b, card, material), 0.0, 0.0, 0.0};
-    initial.where = card.where();
-    b.model.initials.push_back(initial);
-    of_group[g] = &b.model.initials.back();
-  }
-  Stage stage = new_stage("start stress", card.where());
-  stage.gravity = {0.0, -1.0};
-  for (const Moved& one : moved)
-    for (const int node : one.nodes) stage.fixities.push_back(fixity_of(one, node, 0.0));
-  if (b.problems.errors() == 0) {
-    const int faces = hold_free_faces(b, of_group, stage);
-    if (faces > 0)
-      b.note(card.where(), std::to_string(faces) +
-                               " free edge(s) are under the start stress: pressures balance it there, "
-                               "so that the start is in equilibrium");
-  }
-  b.model.stages.insert(b.model.stages.begin(), std::move(stage));
-}
-
-// Elements of one group that a card removes: a group of their own, of the same number.
-int piece_of(Builder& b, int from, std::size_t ordinal) {
+// Elements of one group that are treated apart: a group of their own, of the same number.
+int piece_of(Builder& b, int from, const std::string& name) {
   const Group& whole = b.model.groups[static_cast<std::size_t>(from)];
   Group piece = whole;
-  piece.name = (whole.name.empty() ? "" : whole.name + ", ") + "removal " + std::to_string(ordinal);
+  piece.name = (whole.name.empty() ? "" : whole.name + ", ") + name;
   piece.element_numbers.clear();
   piece.element_lines.clear();
   piece.nodes.clear();
@@ -346,34 +252,15 @@ void copy_element(const Group& from, int element, Group& to) {
 }
 
 // card_of: element number -> place among the removal cards.
-void split_group(Builder& b, int group, const std::vector<CardView>& cards,
-                 const std::unordered_map<int, std::size_t>& card_of) {
-  const Group whole = b.model.groups[static_cast<std::size_t>(group)];
-  std::map<std::size_t, int> pieces;  // by card
-  std::vector<int> target(static_cast<std::size_t>(whole.elements()), group);
-  for (int e = 0; e < whole.elements(); ++e) {
-    const auto card = card_of.find(whole.element_numbers[static_cast<std::size_t>(e)]);
-    if (card == card_of.end()) continue;
-    const auto [piece, added] = pieces.try_emplace(card->second, -1);
-    if (added) {
-      piece->second = piece_of(b, group, card->second + 1);
-      b.removed[cards[card->second].index()].push_back(piece->second);
-    }
-    target[static_cast<std::size_t>(e)] = piece->second;
+void split_by_cards(Builder& b, int group, const std::vector<CardView>& cards,
+                    const std::unordered_map<int, std::size_t>& card_of) {
+  std::vector<int> keys;
+  for (const int number : b.model.groups[static_cast<std::size_t>(group)].element_numbers) {
+    const auto card = card_of.find(number);
+    keys.push_back(card == card_of.end() ? -1 : static_cast<int>(card->second));
   }
-  if (pieces.empty()) return;
-  Group& rest = b.model.groups[static_cast<std::size_t>(group)];
-  rest.element_numbers.clear();
-  rest.element_lines.clear();
-  rest.nodes.clear();
-  for (int e = 0; e < whole.elements(); ++e) {
-    const int to = target[static_cast<std::size_t>(e)];
-    Group& now = b.model.groups[static_cast<std::size_t>(to)];
-    ElementPlace& place = b.element_place.at(whole.element_numbers[static_cast<std::size_t>(e)]);
-    place.group = to;
-    place.element = now.elements();
-    copy_element(whole, e, now);
-  }
+  for (const auto& [key, piece] : split_group(b, group, keys, "removal"))
+    b.removed[cards[static_cast<std::size_t>(key)].index()].push_back(piece);
 }
 
 // Once all cards are read that name a group by its number: pieces get numbers of their own.
@@ -382,11 +269,36 @@ void number_pieces(Builder& b) {
   for (const Group& group : b.model.groups) largest = std::max(largest, group.number);
   std::vector<int> pieces;
   for (const auto& [card, groups] : b.removed) pieces.insert(pieces.end(), groups.begin(), groups.end());
+  pieces.insert(pieces.end(), b.layer_pieces.begin(), b.layer_pieces.end());
   std::sort(pieces.begin(), pieces.end());
+  pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
   for (const int piece : pieces) b.model.groups[static_cast<std::size_t>(piece)].number = ++largest;
 }
 
 }  // namespace
+
+std::map<int, int> split_group(Builder& b, int group, const std::vector<int>& keys, const std::string& name) {
+  const Group whole = b.model.groups[static_cast<std::size_t>(group)];
+  std::map<int, int> pieces;
+  for (const int key : keys)
+    if (key >= 0 && !pieces.contains(key))
+      pieces[key] = piece_of(b, group, name + " " + std::to_string(key + 1));
+  if (pieces.empty()) return pieces;
+  Group& rest = b.model.groups[static_cast<std::size_t>(group)];
+  rest.element_numbers.clear();
+  rest.element_lines.clear();
+  rest.nodes.clear();
+  for (int e = 0; e < whole.elements(); ++e) {
+    const int key = keys[static_cast<std::size_t>(e)];
+    const int to = key < 0 ? group : pieces.at(key);
+    Group& now = b.model.groups[static_cast<std::size_t>(to)];
+    ElementPlace& place = b.element_place.at(whole.element_numbers[static_cast<std::size_t>(e)]);
+    place.group = to;
+    place.element = now.elements();
+    copy_element(whole, e, now);
+  }
+  return pieces;
+}
 
 void split_removed(Builder& b) {
   const std::vector<CardView> cards = b.deck.all("removal");
@@ -404,7 +316,7 @@ void split_removed(Builder& b) {
     }
   if (b.problems.errors() > 0) return;
   const int groups = static_cast<int>(b.model.groups.size());
-  for (int g = 0; g < groups; ++g) split_group(b, g, cards, card_of);
+  for (int g = 0; g < groups; ++g) split_by_cards(b, g, cards, card_of);
 }
 
 void build_steps(Builder& b) {
@@ -413,7 +325,11 @@ void build_steps(Builder& b) {
   for (const CardView& card : on_their_own(b, "increments"))
     by_increments = by_increments || !card.blank("displacement");
   const Loads loads = read_loads(b, moves && !by_increments);
-  add_start_stress(b, loads.moved);
+  if (b.deck.has("start_stress")) {
+    Stage stage = new_stage("start stress", b.deck.all("start_stress").front().where());
+    move(loads.moved, 0.0, stage);
+    add_start_stress(b, std::move(stage));
+  }
   add_load_steps(b, loads);
   add_removals(b);
   number_pieces(b);

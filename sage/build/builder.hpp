@@ -36,6 +36,12 @@ struct DirectedEdge {
   int group = 0, element = 0, edge = 0;
 };
 
+// Ground of one unit weight over the whole width.
+struct GroundLayer {
+  double top = 0.0, bottom = 0.0, unit_weight = 0.0;
+  double stress = 0.0;  // vertical at its top, compression positive: the weight of all above
+};
+
 // Everything that the steps of building share; operations on the mesh see the part that is theirs.
 struct Builder : mesh::Work {
   const BuildOptions& options;
@@ -49,6 +55,9 @@ struct Builder : mesh::Work {
   std::vector<int> blank_weights = {};  // materials whose unit weight is left blank
   // Groups that a removal card takes away, by the card's index: its elements have groups of their own.
   std::unordered_map<int, std::vector<int>> removed = {};
+  // The ground at the start, from the top down, where a start_stress card asks for it.
+  std::vector<GroundLayer> layers = {};
+  std::vector<int> layer_pieces = {};  // groups whose elements had to be told apart by layers
   // False once a card of that kind was refused: what refers to it is then not reported as missing as well.
   bool nodes_known = true, materials_known = true, groups_known = true, elements_known = true;
 
@@ -82,6 +91,14 @@ void build_elements(Builder& b);
 // Gives the elements that removal cards name by number groups of their own.
 void split_removed(Builder& b);
 void build_stages(Builder& b);
+// Elements of a group whose key is not negative move to a group of their own, one a key; the groups by key.
+// Their names end with `name` and the key, from 1.
+std::map<int, int> split_group(Builder& b, int group, const std::vector<int>& keys, const std::string& name);
+// Finds the layers of the ground for a start_stress card and gives the parts of a group in different layers
+// groups of their own.  An error where layers of different unit weight lie side by side.
+void split_layers(Builder& b);
+// The start_stress card as the first stage; `stage` holds what else the stage does.
+void add_start_stress(Builder& b, Stage stage);
 // Stages that cards outside of stages ask for: start stress, loads by factors, displacements in equal
 // increments, removals.
 void build_steps(Builder& b);

@@ -186,6 +186,15 @@ void DeckReader::set_number(const CardRule& rule, std::size_t field, const Expre
   mark_faulty(static_cast<std::size_t>(&value - fields_.data()));
 }
 
+// A field that only bears another's name is left blank where that is, so that the program can ask for it.
+bool DeckReader::copies_blank(const Expression& expression) const {
+  if (expression.nodes.size() != 1 || expression.nodes[0].kind != ExpressionNode::Kind::field) return false;
+  const ExpressionNode& node = expression.nodes[0];
+  const FieldValue* value = field_value(node.card, node.field);
+  return value && value->blank &&
+         !rule_of(node.card).spec.fields[static_cast<std::size_t>(node.field)].has_fallback;
+}
+
 void DeckReader::compute(const CardRule& rule, std::size_t field, const Expression& expression,
                          FieldValue& value) {
   const FieldSpec& spec = rule.spec.fields[field];
@@ -202,7 +211,10 @@ void DeckReader::compute(const CardRule& rule, std::size_t field, const Expressi
     mark_faulty(static_cast<std::size_t>(&value - fields_.data()));
     return;
   }
-  if (spec.kind != FieldKind::text) return set_number(rule, field, expression, result.value.number, value);
+  if (spec.kind != FieldKind::text) {
+    value.blank = copies_blank(expression);
+    return set_number(rule, field, expression, result.value.number, value);
+  }
   value.text = result.value.text;
   value.blank = value.text.empty();
   for (const ExpressionNode& node : expression.nodes) {  // the layout's own text doesn't outlive it

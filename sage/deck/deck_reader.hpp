@@ -59,6 +59,7 @@ class DeckReader : private ExpressionScope {
   int owner_of_followers(int card) const;
   void compute_fields(const CardRule& rule, int line);
   void compute_list(const CardRule& rule, std::size_t field, int line);
+  bool copies_blank(const Expression& expression) const;
   void compute(const CardRule& rule, std::size_t field, const Expression& expression, FieldValue& value);
   void set_number(const CardRule& rule, std::size_t field, const Expression& expression, double number,
                   FieldValue& value);

@@ -361,6 +361,11 @@ TEST(CommandLine, InitialStressOutOfBalanceIsNamedByCheckAndRun) {
   const Finished run = sagefe(folder, "run deck.dat -o out");
   EXPECT_EQ(run.exit_code, 0) << run.err;
   expect_words(run.out, {kNote, "% of the largest force that it puts on a node) at node "});
+  // Without a summary it stands where the messages about the deck do.
+  const Finished quiet = sagefe(folder, "run -q deck.dat -o out");
+  EXPECT_EQ(quiet.out, "");
+  expect_words(quiet.err, {"deck.dat: note: ", kNote});
+  EXPECT_EQ(sagefe(folder, "run -q good.dat -o out").err.find(kNote), std::string::npos);
 }
 
 TEST(CommandLine, ABadDeckDoesNotKeepTheNextFromRunning) {

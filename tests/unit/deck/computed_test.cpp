@@ -88,6 +88,34 @@ fields = [
   }
 }
 
+// A copy of what is left blank is blank, not zero; a default of the copied field or a computation makes a number of it.
+TEST(Computed, ACopyOfABlankIsBlank) {
+  const std::string layout = R"toml(
+[[card]]
+name = "soil"
+format = "(3F10.0)"
+fields = [{ name = "weight" }, { name = "rest" }, { name = "share", default = 0.25 }, { name = "own", value = "rest" }]
+[[card]]
+name = "made"
+made_from = "soil"
+fields = [
+  { name = "k0", value = "rest" }, { name = "again", value = "soil.own" }, { name = "part", value = "share" },
+  { name = "half", value = "rest / 2" }, { name = "weight", value = "soil.weight" },
+]
+)toml";
+  const Deck deck = read(layout, "       20.\n");
+  const CardView soil(deck, 0), made(deck, 1);
+  for (const char* field : {"k0", "again"}) EXPECT_TRUE(made.blank(field)) << field;
+  EXPECT_TRUE(soil.blank("own"));
+  EXPECT_FALSE(made.blank("part"));
+  EXPECT_EQ(made.real("part"), 0.25);
+  EXPECT_FALSE(made.blank("half"));
+  EXPECT_EQ(made.real("half"), 0.0);
+  EXPECT_EQ(made.real("weight"), 20.0);
+  const Deck given = read(layout, "       20.        0.\n");
+  EXPECT_FALSE(CardView(given, 1).blank("k0"));
+}
+
 TEST(Computed, AListHasAValueAPlace) {
   const Deck deck = read(R"toml(
 [[card]]

@@ -2,10 +2,15 @@
 // squares, 1 wide, nu = 0.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <set>
 
+#include "sage/analysis/initial_balance.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/run_deck.hpp"
 #include "sage/deck/read_deck.hpp"
@@ -183,6 +188,186 @@ TEST(StageCards, StartStressIsInEquilibrium) {
     const double mean = run.stress[0].row(0).mean();
     EXPECT_NEAR(mean, -10.0, 1e-12) << "k0 x 20 x 1 at mid height, tension positive";
   }
+}
+
+// Squares of side 1 and layers of a material each, numbered from below, sides held in x: `columns` squares wide.
+struct Ground {
+  struct Layer {
+    double unit_weight, k0;  // k0 < 0: left blank
+  };
+  std::vector<std::vector<int>> materials;  // of each row of squares, from below; a number a column
+  std::vector<Layer> layers;
+  std::string start = "";  // level and k0, columns 1-10 and 11-20
+
+  std::string deck() const {
+    const std::size_t columns = materials[0].size(), rows = materials.size();
+    std::string text;
+    const auto add = [&](const char* format, auto... values) {
+      std::array<char, 96> line{};
+      std::snprintf(line.data(), line.size(), format, values...);
+      text += std::string(line.data()) + "\n";
+    };
+    add("%5zu%5zu%5zu%5zu", (columns + 1) * (rows + 1), layers.size(), columns * rows,
+        2 * (rows + 1) + columns - 1);
+    for (std::size_t i = 0; i <= rows; ++i)
+      for (std::size_t k = 0; k <= columns; ++k)
+        add("%10.1f%10.1f", static_cast<double>(k), static_cast<double>(i));
+    for (const Layer& one : layers)
+      if (one.k0 < 0.0)
+        add("%10.1f", one.unit_weight);
+      else
+        add("%10.1f%10.2f", one.unit_weight, one.k0);
+    for (std::size_t i = 0; i < rows; ++i)
+      for (std::size_t k = 0; k < columns; ++k) {
+        const std::size_t n = 1 + k + (columns + 1) * i;
+        add("%5d%5zu%5zu%5zu%5zu", materials[i][k], n, n + 1, n + columns + 2, n + columns + 1);
+      }
+    for (std::size_t i = 0; i <= rows; ++i)
+      for (const std::size_t k : {std::size_t{0}, columns})
+        add("%5zu%5d%5d", 1 + k + (columns + 1) * i, 1, i == 0 ? 1 : 0);
+    for (std::size_t k = 1; k < columns; ++k) add("%5zu%5d%5d", 1 + k, 1, 1);
+    return text + start + "\n";
+  }
+  Deck read() const;
+  Model model() const { return build_model(read(), full_catalogue()); }
+  scenes::WholeRun run() const { return make_workbench().run(model()); }
+  Diagnostics messages() const {
+    try {
+      return model().diagnostics;
+    } catch (const InputError& error) {
+      return error.diagnostics();
+    }
+  }
+};
+
+constexpr const char* kGround = R"toml(
+name = "ground"
+blanks = "null"
+[[card]]
+name = "control"
+format = "(4I5)"
+fields = [{ name = "total_nodes" }, { name = "soils" }, { name = "total_elements" }, { name = "held" }, { name = "geometry", kind = "integer", value = "1" }]
+[[card]]
+name = "node"
+format = "(2F10.0)"
+repeat = "control.total_nodes"
+fields = [{ name = "number", kind = "integer", value = "order" }, { name = "x" }, { name = "y" }]
+[[card]]
+name = "soil"
+format = "(2F10.0)"
+repeat = "control.soils"
+fields = [{ name = "weight" }, { name = "rest" }]
+[[card]]
+name = "material"
+made_from = "soil"
+opens = true
+fields = [{ name = "number", kind = "integer", value = "order" }, { name = "law", kind = "integer", value = "1" }, { name = "unit_weight", value = "weight" }, { name = "k0", value = "rest" }]
+[[card]]
+name = "parameters"
+made_from = "material"
+fields = [{ name = "values", value = ["1e4", ".3"] }]
+[[card]]
+name = "group"
+made_from = "soil"
+fields = [{ name = "number", kind = "integer", value = "order" }, { name = "element", kind = "integer", value = "1" }, { name = "material", kind = "integer", value = "order" }]
+[[card]]
+name = "element"
+format = "(5I5)"
+repeat = "control.total_elements"
+fields = [{ name = "number", kind = "integer", value = "order" }, { name = "group" }, { name = "n1" }, { name = "n2" }, { name = "n3" }, { name = "n4" }]
+[[card]]
+name = "fixity"
+format = "(3I5)"
+repeat = "control.held"
+fields = [{ name = "first" }, { name = "x_code" }, { name = "y_code" }]
+[[card]]
+name = "start_stress"
+format = "(2F10.0)"
+fields = [{ name = "level" }, { name = "k0" }]
+)toml";
+
+Deck Ground::read() const {
+  return read_deck_text(deck(), "ground.dat", load_layout_text(kGround, "ground.toml"));
+}
+
+// Closed form: sigma_v = sum of unit weight x thickness above, sigma_h = K0 sigma_v.  Points of the last state.
+void expect_stress_of_layers(const scenes::WholeRun& run,
+                             const std::function<Vector2(double)>& vertical_and_k0) {
+  const Model& model = *run.model;
+  int points = 0;
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const Group& group = model.groups[g];
+    Eigen::Matrix2Xd x;
+    for (int e = 0; e < group.elements(); ++e) {
+      element_coordinates(model.mesh, group, e, x);
+      for (int q = 0; q < 4; ++q, ++points) {
+        const Vector2 expected = vertical_and_k0(group.element->position(x, q).y());
+        const Eigen::Index p = 4 * e + q;
+        EXPECT_NEAR(-run.stress[g](1, p), expected[0], 1e-11);
+        EXPECT_NEAR(-run.stress[g](0, p), expected[0] * expected[1], 1e-11);
+        EXPECT_NEAR(-run.stress[g](2, p), expected[0] * expected[1], 1e-11);
+        EXPECT_NEAR(run.stress[g](3, p), 0.0, 1e-11);
+      }
+    }
+  }
+  EXPECT_GT(points, 0);
+}
+
+// Two below of weight 20, K0 .5, two above of weight 16, K0 .7: 32 + 20 (2 - y) below.  Nothing moves, and no force
+// is out of balance by more than rounding.
+TEST(StageCards, StartStressIsTheWeightOfTheLayersAbove) {
+  const Ground ground{{{1, 1}, {1, 1}, {2, 2}, {2, 2}}, {{20.0, 0.5}, {16.0, 0.7}}};
+  const scenes::WholeRun run = ground.run();
+  ASSERT_TRUE(run.completed());
+  EXPECT_LT(run.largest_u(), 1e-15);
+  const InitialImbalance imbalance = initial_imbalance(*run.model);
+  ASSERT_GE(imbalance.dof, 0);
+  EXPECT_LE(std::abs(imbalance.force), 1e-14 * imbalance.largest);
+  EXPECT_NEAR(run.reaction(run.last(), {1, 2, 3}, 1), 2.0 * (2 * 20.0 + 2 * 16.0), 1e-10);
+  expect_stress_of_layers(run, [](double y) {
+    return y > 2.0 ? Vector2(16.0 * (4.0 - y), 0.7) : Vector2(32.0 + 20.0 * (2.0 - y), 0.5);
+  });
+}
+
+// A soil that lies above and below another, and a level above the top, whose layer reaches up to it.
+TEST(StageCards, StartStressOfASoilInTwoLayers) {
+  const Ground ground{{{1}, {2}, {1}}, {{20.0, 0.5}, {10.0, 0.4}}, "        4."};
+  const scenes::WholeRun run = ground.run();
+  ASSERT_TRUE(run.completed());
+  EXPECT_LT(run.largest_u(), 1e-15);
+  expect_stress_of_layers(run, [](double y) {
+    if (y > 2.0) return Vector2(20.0 * (4.0 - y), 0.5);
+    return y > 1.0 ? Vector2(40.0 + 10.0 * (2.0 - y), 0.4) : Vector2(50.0 + 20.0 * (1.0 - y), 0.5);
+  });
+  std::set<int> numbers;
+  for (const Group& group : run.model->groups) numbers.insert(group.number);
+  EXPECT_EQ(numbers.size(), 3u);
+}
+
+TEST(StageCards, StartStressThatCannotBeIsRefused) {
+  const auto said = [](const Ground& ground, Severity severity, std::initializer_list<const char*> words) {
+    const Diagnostics messages = ground.messages();
+    for (const Diagnostic& d : messages.list()) {
+      bool all = d.severity == severity;
+      for (const char* word : words) all = all && d.message.find(word) != std::string::npos;
+      if (all) return true;
+    }
+    for (const Diagnostic& d : messages.list()) ADD_FAILURE() << to_string(d);
+    return false;
+  };
+  const std::vector<Ground::Layer> soils{{20.0, 0.5}, {16.0, 0.5}};
+  // Element 3 (20) beside element 4 (16).
+  EXPECT_TRUE(said({{{1, 1}, {1, 2}, {2, 2}}, soils}, Severity::error,
+                   {"horizontal layers", "element 3 (20)", "element 4 (16)", "y = 1 and y = 2"}));
+  EXPECT_TRUE(said({{{1}, {2}}, soils, "       1.5"}, Severity::error, {"level", "1.5", "node 5", "tension"}));
+  EXPECT_TRUE(said({{{1}, {2}}, {{20.0, 0.5}, {16.0, -1.0}}}, Severity::error, {"material 2", "k0", "blank"}));
+  // One weight, two coefficients side by side: a warning, and the run's first balance finds it.
+  const Ground sides{{{1, 2}}, {{20.0, 0.5}, {20.0, 0.8}}};
+  EXPECT_TRUE(said(sides, Severity::warning, {"not in balance", "element 1 (0.5)", "element 2 (0.8)"}));
+  EXPECT_TRUE(initial_imbalance(sides.model()).counts());
+  // K0 = 0 is a number; a card's own K0 stands for all.
+  EXPECT_EQ((Ground{{{1}, {2}}, {{20.0, 0.0}, {16.0, 0.5}}}.messages().errors()), 0);
+  EXPECT_EQ((Ground{{{1}, {2}}, {{20.0, 0.5}, {16.0, -1.0}}, "                  .6"}.messages().errors()), 0);
 }
 
 constexpr const char* kRemoval = R"toml([[card]]
