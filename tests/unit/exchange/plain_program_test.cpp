@@ -165,7 +165,7 @@ TEST(Plast, EdgesAreCheckedByTheirNodes) {
   const std::string deck = text_of(kInputs + "plast/cylinder_tresca.dat");
   const std::string edge = "    1    3    2    1\n";
   EXPECT_NE(errors_of(changed(deck, edge, "    1    1    2    3\n"), "plast")
-                .find("edge 1-3: the nodes run clockwise around element 1"),
+                .find("edge 1-2-3: its nodes, listed in this order, run clockwise around element 1"),
             std::string::npos);
   EXPECT_NE(
       errors_of(changed(deck, edge, "    1    5    2    1\n"), "plast").find("no solid element has an edge"),

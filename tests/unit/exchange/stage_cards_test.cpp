@@ -11,6 +11,7 @@
 #include <set>
 
 #include "sage/analysis/initial_balance.hpp"
+#include "sage/analysis/loads.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/run_deck.hpp"
 #include "sage/deck/read_deck.hpp"
@@ -458,6 +459,155 @@ TEST(StageCards, FrictionIsReducedByItsTangent) {
   EXPECT_NE(
       Column({kStart + std::string(kStrength), deck + "2.\n1. 1.25 1.4 1.6\n"}).complaint().find("one step"),
       std::string::npos);
+}
+
+// One element between (0, 0), (2, 0), (3, 2), (0, 2), nodes 1 to 4, and mid-side nodes 5 to 8 where it is quadratic; a
+// second one, 2-5-6-3, on its right side where `neighbour` is set.
+struct EdgeCase {
+  bool quadratic = false, neighbour = false;
+  std::string edge;   // n1, n2, n3, element, then three pressures and three shears
+  std::string sense;  // of the layout's edge_load card; empty: absent
+  Model model() const {
+    std::string text = neighbour ? "6 2\n" : quadratic ? "8 1\n" : "4 1\n";
+    text += "0. 0.\n2. 0.\n3. 2.\n0. 2.\n";
+    if (quadratic) text += "1. 0.\n2.5 1.\n1.5 2.\n0. 1.\n";
+    if (neighbour) text += "5. 0.\n5. 2.\n";
+    text += quadratic ? "1 2 3 4 5 6 7 8\n" : "1 2 3 4 0 0 0 0\n";
+    if (neighbour) text += "2 5 6 3 0 0 0 0\n";
+    text += edge + "\n";
+    const auto field = [&](const std::string& name) {
+      return "{ name = \"" + name + "\", kind = \"integer\" }, ";
+    };
+    const auto real = [&](const std::string& name) { return "{ name = \"" + name + "\", kind = \"real\" }, "; };
+    const auto fixed = [](const std::string& name, const std::string& value) {
+      return "{ name = \"" + name + "\", kind = \"integer\", value = \"" + value + "\" }, ";
+    };
+    const auto card = [](const std::string& name, const std::string& keys, const std::string& fields) {
+      return "[[card]]\nname = \"" + name + "\"\n" + keys + "\nfields = [" + fields + "]\n";
+    };
+    const std::string list = "format = \"*\"\n", made = "made = true\n";
+    const std::string layout =
+        "name = \"edges\"\n" +
+        card("control", list, field("nodes") + field("elements") + fixed("geometry", "1")) +
+        card("node", list + "repeat = \"control.nodes\"", fixed("number", "order") + real("x") + real("y")) +
+        card("material", made + "opens = true",
+             fixed("number", "1") + fixed("law", "1") + fixed("unit_weight", "0")) +
+        card("parameters", made, "{ name = \"values\", value = [\"1e4\", \".3\"] }") +
+        card("group", made,
+             fixed("number", "1") + fixed("element", quadratic ? "2" : "1") + fixed("material", "1")) +
+        card("element", list + "repeat = \"control.elements\"",
+             fixed("number", "order") + field("n1") + field("n2") + field("n3") + field("n4") + field("n5") +
+                 field("n6") + field("n7") + field("n8")) +
+        card("fixity", made, fixed("first", "1") + fixed("x_code", "1") + fixed("y_code", "1")) +
+        card("fixity4", made + "as = \"fixity\"",
+             fixed("first", "4") + fixed("x_code", "1") + fixed("y_code", "1")) +
+        card("edge_load", list,
+             field("n1") + field("n2") + field("n3") + field("element") + real("normal1") + real("normal2") +
+                 real("normal3") + real("shear1") + real("shear2") + real("shear3") +
+                 (sense.empty() ? "" : fixed("sense", sense)));
+    return build_model(read_deck_text(text, "edge.dat", load_layout_text(layout, "edges.toml")),
+                       full_catalogue());
+  }
+  // Force along x and y and moment about the origin, counter-clockwise.
+  Eigen::Vector3d resultant() const {
+    const Model m = model();
+    const Eigen::VectorXd force = external_force(m, 0);
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int node = 0; node < m.mesh.nodes(); ++node) {
+      const Vector2 f = force.segment<2>(2 * node), x = m.mesh.x.col(node);
+      sum += Eigen::Vector3d(f.x(), f.y(), x.x() * f.y() - x.y() * f.x());
+    }
+    return sum;
+  }
+  std::string complaint() const {
+    try {
+      model();
+    } catch (const InputError& error) {
+      return error.diagnostics().list().front().message;
+    }
+    return "";
+  }
+};
+
+// Of a pressure p and a shear q with the values a, m, b at the ends and in the middle of the straight edge from A to B
+// (parabolic between them): force integral (p n + q t) ds, by Simpson's rule, which is exact for it and for the moment.
+// n: to the left of the way from A to B.
+Eigen::Vector3d closed_form(const Vector2& from, const Vector2& to, const Eigen::Vector3d& p,
+                            const Eigen::Vector3d& q) {
+  const Vector2 along = to - from, left(-along.y(), along.x());
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const Vector2 x = from + 0.5 * i * along, f = (i == 1 ? 4.0 : 1.0) / 6.0 * (p[i] * left + q[i] * along);
+    sum += Eigen::Vector3d(f.x(), f.y(), x.x() * f.y() - x.y() * f.x());
+  }
+  return sum;
+}
+
+// Counter-clockwise around the element its right edge runs from node 2 to node 3, the body on the left.  Either order of
+// nodes, two or three of them, gives pressure x length into the body, and shear along the order of the card.
+TEST(StageCards, EdgeLoadsInEitherOrder) {
+  const Vector2 two(2.0, 0.0), three(3.0, 2.0);
+  const auto near = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return (a - b).cwiseAbs().maxCoeff() < 1e-13 * b.cwiseAbs().maxCoeff();
+  };
+  // p = 5: 5 sqrt(5) long along (-2, 1) / sqrt(5).
+  const Eigen::Vector3d uniform = EdgeCase{false, false, "3 2 0 0 5. 5. 0. 0. 0. 0.", "3"}.resultant();
+  EXPECT_LT((uniform.head<2>() - Vector2(-10.0, 5.0)).norm(), 1e-13);
+  const Eigen::Vector3d linear(3.0, 5.0, 7.0), shear(2.0, 1.0, 0.0), bulging(3.0, 8.0, 7.0);
+  const std::string ends = " 0 0 3. 7. 0. 2. 0. 0.", all = " 0 3. 8. 7. 2. 1. 0.";
+  struct Row {
+    bool quadratic;
+    const char* nodes;
+    Eigen::Vector3d p;
+    std::string values;
+    bool clockwise;
+  };
+  for (const Row& row : {Row{false, "2 3", linear, ends, false}, Row{false, "3 2", linear, ends, true},
+                         Row{true, "2 6 3", bulging, all, false}, Row{true, "3 6 2", bulging, all, true}}) {
+    const Vector2 from = row.clockwise ? three : two, to = row.clockwise ? two : three;
+    const auto load = [&](const char* sense) {
+      return EdgeCase{row.quadratic, false, row.nodes + row.values, sense};
+    };
+    // Into the body: to the right of a clockwise way.  Sense 4: always to the left of it.
+    const Eigen::Vector3d into = closed_form(from, to, row.clockwise ? Eigen::Vector3d(-row.p) : row.p, shear);
+    EXPECT_TRUE(near(load("3").resultant(), into)) << row.nodes;
+    EXPECT_TRUE(near(load("4").resultant(), closed_form(from, to, row.p, shear))) << row.nodes;
+    for (const char* sense : {"", "1", "2"}) {
+      const bool allowed = row.clockwise == (std::string(sense) == "2");
+      if (allowed) {
+        EXPECT_TRUE(near(load(sense).resultant(), into)) << row.nodes;
+        continue;
+      }
+      const std::string message = load(sense).complaint();
+      for (const std::string word :
+           {row.clockwise ? "run clockwise around element 1" : "run counter-clockwise around",
+            row.quadratic ? (row.clockwise ? "edge 3-6-2" : "edge 2-6-3")
+                          : (row.clockwise ? "edge 3-2" : "edge 2-3"),
+            "sense"})
+        EXPECT_NE(message.find(word), std::string::npos) << message;
+    }
+  }
+}
+
+// Edge 2-3 lies between elements 1 and 2: what pushes into one pulls at the other.
+TEST(StageCards, EdgeLoadsBetweenElements) {
+  const auto force = [](const std::string& edge, const char* sense) {
+    return Vector2(EdgeCase{false, true, edge + " 5. 5. 0. 0. 0. 0.", sense}.resultant().head<2>());
+  };
+  for (const char* nodes : {"2 3 0", "3 2 0"}) {
+    EXPECT_LT((force(nodes + std::string(" 1"), "3") - Vector2(-10.0, 5.0)).norm(), 1e-13);
+    EXPECT_LT((force(nodes + std::string(" 2"), "3") - Vector2(10.0, -5.0)).norm(), 1e-13);
+  }
+  EXPECT_LT((force("2 3 0 0", "4") - Vector2(-10.0, 5.0)).norm(), 1e-13);
+  EXPECT_LT((force("2 3 0 2", "4") - Vector2(-10.0, 5.0)).norm(), 1e-13);
+  EXPECT_LT((force("3 2 0 0", "4") - Vector2(10.0, -5.0)).norm(), 1e-13);
+  const auto complaint = [](const std::string& edge, const char* sense) {
+    return EdgeCase{false, true, edge + " 5. 5. 0. 0. 0. 0.", sense}.complaint();
+  };
+  EXPECT_NE(complaint("3 2 0 0", "3").find("lies between elements 2 and 1"), std::string::npos);
+  EXPECT_NE(complaint("3 2 0 1", "1").find("run clockwise around element 1"), std::string::npos);
+  EXPECT_NE(complaint("1 2 0 2", "3").find("belongs to element 1, not 2"), std::string::npos);
+  EXPECT_NE(complaint("2 3 0 1", "5").find("sense 5"), std::string::npos);
 }
 
 }  // namespace
