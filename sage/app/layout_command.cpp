@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/Option.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <sstream>
@@ -24,10 +25,21 @@ struct GuessOptions {
   std::string deck, out;
 };
 
+bool is_built_in(const std::string& name) {
+  const std::vector<std::string> names = built_in_layouts();
+  return std::ranges::find(names, name) != names.end();
+}
+
+// After the file that it is written to, or the deck; never the name of a layout that is built in.
+std::string name_of_guess(const GuessOptions& options) {
+  std::string name =
+      options.out.empty() ? case_name(options.deck) : std::filesystem::path(options.out).stem().string();
+  return is_built_in(name) || name.empty() ? name + "_guessed" : name;
+}
+
 int guess(const GuessOptions& options) {
   keep_input(options.deck);
-  const std::filesystem::path out(options.out);
-  const std::string name = options.out.empty() ? "guessed" : out.stem().string();
+  const std::string name = name_of_guess(options);
   const GuessedLayout layout = guess_layout(read_file(options.deck), options.deck, name);
   if (options.out.empty()) {
     fmt::print("{}", layout.toml);
@@ -46,10 +58,32 @@ struct CoverageOptions {
   bool strict = false;
 };
 
+bool is_layout_file(const std::string& path) {
+  return std::filesystem::path(path).extension() == ".toml";
+}
+
+// The layout; where it is none but the deck looks like one, an error that says so.
+Layout layout_of(const CoverageOptions& options) {
+  try {
+    return load_layout(options.layout);
+  } catch (const InputError& error) {
+    if (is_built_in(options.layout) || is_layout_file(options.layout)) throw;
+    if (is_built_in(options.deck) || is_layout_file(options.deck))
+      throw InputError({options.layout, 0, 0, 0}, "this is no layout, but " + options.deck +
+                                                      " is: the layout comes first, sagefe layout check " +
+                                                      options.deck + ' ' + options.layout);
+    Diagnostics problems = error.diagnostics();
+    problems.note({options.layout, 0, 0, 0},
+                  "it was read as the layout: sagefe layout check LAYOUT DECK takes the layout first, a file "
+                  "or the name of one that is built in");
+    throw InputError(std::move(problems));
+  }
+}
+
 int check(const CoverageOptions& options) {
   keep_input(options.layout);
   keep_input(options.deck);
-  const Layout layout = load_layout(options.layout);
+  const Layout layout = layout_of(options);
   ReadOptions read;
   read.strict = options.strict;
   Diagnostics problems;

@@ -17,6 +17,7 @@ struct FieldGuess {
   std::string label;  // a heading's word
   Kind kind = Kind::integer;
   int first = 0, last = 0;  // columns; 0 = list-directed, or to the end of the record
+  int record = 0;           // from 1, of a card of several; 0 = it has one
   int cluster = -1;         // of the run
   bool known = false;       // the name says what it seems to be
   std::string count;        // the field repeats so often: an expression

@@ -1,6 +1,7 @@
 // Cards of decks whose numbers stand in columns: blocks, what counts them, what ends them.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sage/deck/text.hpp"
 #include "sage/guess/cards.hpp"
@@ -21,6 +22,23 @@ std::size_t values_in(const Run& run) {
   std::size_t count = 0;
   for (const Cluster& cluster : run.clusters) count += cluster.count();
   return count;
+}
+
+constexpr std::size_t kMostRecords = 3;  // of a card of like lines
+
+// Every p-th line bears the next number, the lines between do not: cards of p lines each.
+bool numbers_every(const Run& run, const Scan& scan, std::size_t p, std::size_t cards) {
+  const auto first = [&](std::size_t i) -> const Token& { return scan.lines[run.lines[i]].tokens.front(); };
+  for (std::size_t i = 0; i < p * cards; ++i) {
+    if (scan.lines[run.lines[i]].tokens.empty() || first(i).kind != Kind::integer) return false;
+    if (i > 0 && i % p == 0 && first(i).value != first(i - p).value + 1.0) return false;
+  }
+  // Numbers that go on from line to line are those of cards of one line.
+  for (std::size_t i = 1; i < p * cards; ++i)
+    if (i % p != 0 && first(i).value == first(i - 1).value + 1.0 &&
+        (i + 1 == p * cards || first(i + 1).value == first(i).value + 1.0))
+      return false;
+  return true;
 }
 
 bool all_real(const Run& run) {
@@ -70,9 +88,47 @@ class CardBuilder {
       if (run.lines.size() == 1)
         for (const ColumnFacts& column : run.columns)
           if (column.count == 1 && column.integers) counts.add(0, 0, 0, column.low, "");
+      if (const std::size_t cards = set_records(run, counts);
+          cards * run.records < run.lines.size() && cards > 0)
+        joined.push_back(cut_behind(run, cards * run.records));
       joined.push_back(std::move(run));
     }
     runs_ = std::move(joined);
+  }
+
+  // Like lines that no count fits, but every second or third of which begins with the next number: how many such
+  // cards a count gives (0: none), and how many lines each takes.
+  std::size_t set_records(Run& run, const Counts& counts) const {
+    const std::size_t lines = run.lines.size();
+    if (run.words || !run.format.empty() || lines < 4 || counts.has(static_cast<double>(lines))) return 0;
+    for (std::size_t p = 2; p <= kMostRecords; ++p)
+      for (std::size_t cards = lines / p; cards >= 2; --cards) {
+        if (!counts.has(static_cast<double>(cards)) || !numbers_every(run, scan_, p, cards)) continue;
+        run.records = p;
+        return cards;
+      }
+    return 0;
+  }
+
+  // The run's first lines; the rest is left in it and is another card.
+  Run cut_behind(Run& run, std::size_t lines) const {
+    Run head = run;
+    const auto at = static_cast<std::ptrdiff_t>(lines);
+    head.lines.erase(head.lines.begin() + at, head.lines.end());
+    head.blanks_behind = 0;
+    run.lines.erase(run.lines.begin(), run.lines.begin() + at);
+    run.headings.clear();
+    run.comment = run.title = -1;
+    run.records = 1;
+    for (Run* part : {&head, &run}) find_clusters(*part);
+    return head;
+  }
+
+  void find_clusters(Run& run) const {
+    const std::vector<std::size_t> lines = std::exchange(run.lines, {});
+    run.clusters.clear();
+    for (const std::size_t line : lines) add_line(run, scan_, line);
+    find_column_facts(run, scan_);
   }
 
   bool may_join(const Run& a, const Run& b) const {
@@ -96,6 +152,7 @@ class CardBuilder {
     if (first + length * (times + 1) > runs_.size()) return false;
     for (std::size_t k = 0; k < length; ++k) {
       const Run &a = runs_[first + k], &b = runs_[first + length * times + k];
+      if (a.records != 1 || b.records != 1) return false;
       if (a.headings.size() != b.headings.size() || a.blanks_behind > 0 || b.blanks_behind > 0) return false;
       if (!alike(a, b)) return false;
       if (a.lines.size() != b.lines.size() && !(all_real(a) && k > 0)) return false;
@@ -121,7 +178,7 @@ class CardBuilder {
     for (std::size_t k = 0; k < period.length; ++k) {
       CardGuess card = card_of(inner, k, inner[k]);
       card.headings = static_cast<int>(inner[k].headings.size());
-      repeat_inner(first, period, inner, block, card);
+      if (!repeat_inner(first, period, inner, block, card)) join_lines(first, period, k, inner[k], card);
       block.inner.push_back(std::move(card));
     }
     block.name = names_.unique("block of " + block.inner[0].name);
@@ -138,7 +195,8 @@ class CardBuilder {
   }
 
   // Lines or values of an inner card that a field of a card before it in the block counts.
-  void repeat_inner(std::size_t first, const Period& period, const std::vector<Run>& inner,
+  // False where several lines come together and nothing counts them.
+  bool repeat_inner(std::size_t first, const Period& period, const std::vector<Run>& inner,
                     const CardGuess& block, CardGuess& card) {
     const std::size_t k = block.inner.size();
     std::vector<double> lines, values;
@@ -155,14 +213,38 @@ class CardBuilder {
         const Cluster& place = inner[j].clusters[static_cast<std::size_t>(field.cluster)];
         const std::vector<double> given = column_values(first, period, j, place);
         const std::string name = "\"" + block.inner[j].name + "." + field.name + "\"";
-        if (all_real(runs_[first + k]) && given == values && (several || uneven)) return make_list(card, name);
+        // A number that is the same in every block agrees in all as easily as in one.
+        const bool same = std::ranges::all_of(given, [&](double one) { return one == given[0]; });
+        const std::string chance = same ? "; it may be chance: it is the same in every block" : "";
+        if (all_real(runs_[first + k]) && given == values && (several || uneven)) {
+          make_list(card, name, chance);
+          return true;
+        }
         if (several && given == lines) {
           card.repeat = name;
-          card.reasons.push_back(name + " agrees with the number of these lines in every block");
-          return;
+          card.reasons.push_back(name + " agrees with the number of these lines in every block" + chance);
+          return true;
         }
       }
-    if (several) card.repeat = std::to_string(static_cast<int>(lines[0]));
+    return !several;
+  }
+
+  // Lines that come together in every block and that nothing counts: one card of as many records.
+  void join_lines(std::size_t first, const Period& period, std::size_t k, const Run& all, CardGuess& card) {
+    const std::size_t records = runs_[first + k].lines.size();
+    if (records > kMostRecords || all.words || !all.format.empty()) {
+      card.repeat = std::to_string(records);
+      card.reasons.push_back("no number of the block says how many of these lines come together");
+      return;
+    }
+    const std::string name = card.name;
+    card = card_of_records(all, records);
+    card.name = name;
+    card.headings = static_cast<int>(all.headings.size());
+    card.reasons.push_back("these " + std::to_string(records) + " lines of " + std::to_string(period.times) +
+                           " blocks come together: taken as one card; if each is a card, take one line of the "
+                           "FORMAT and repeat = " +
+                           std::to_string(records));
   }
 
   // The value of a column in every block; empty where one has none.
@@ -180,16 +262,45 @@ class CardBuilder {
     return values;
   }
 
-  static void make_list(CardGuess& card, const std::string& count) {
+  static void make_list(CardGuess& card, const std::string& count, const std::string& chance) {
     FieldGuess list = card.fields.front();
     list.name = "values";
     list.label.clear();
     list.count = count;
     card.fields = {list};
-    card.reasons.push_back(count + " agrees with the number of these values in every block");
+    card.reasons.push_back(count + " agrees with the number of these values in every block" + chance);
   }
 
   // ---- One card
+
+  // A card that takes several lines, which may be alike: each line has its own fields.
+  CardGuess card_of_records(const Run& run, std::size_t records) {
+    CardGuess card;
+    std::vector<Run> parts(records, run);
+    for (Run& part : parts) part.lines.clear();
+    for (std::size_t i = 0; i < run.lines.size(); ++i) parts[i % records].lines.push_back(run.lines[i]);
+    for (Run& part : parts) find_clusters(part);
+    NodeFacts nodes = nodes_;
+    nodes.run = -1;
+    for (std::size_t r = 0; r < records; ++r) {
+      CardGuess line;
+      find_format(parts[r], scan_, line);
+      if (r == 0) {
+        const Role role = find_role(parts, 0, nodes, scan_, line);
+        card.name = name_of(role, run);
+        card.reasons = line.reasons;
+      }
+      card.format += (r == 0 ? "(" : "/") + line.format.substr(1, line.format.size() - 2);
+      for (FieldGuess& field : line.fields) {
+        field.record = static_cast<int>(r) + 1;
+        field.cluster = -1;  // none of the whole run
+        if (!field.known) field.name = "field" + std::to_string(card.fields.size() + 1);
+        card.fields.push_back(std::move(field));
+      }
+    }
+    card.format += ')';
+    return card;
+  }
 
   CardGuess card_of(const std::vector<Run>& runs, std::size_t i, const Run& run) {
     CardGuess card;
@@ -215,7 +326,13 @@ class CardBuilder {
   CardGuess make_card(std::size_t i, bool counted) {
     const Run& run = runs_[i];
     const int index = static_cast<int>(cards_.size());
-    CardGuess card = card_of(runs_, i, run);
+    CardGuess card = run.records > 1 ? card_of_records(run, run.records) : card_of(runs_, i, run);
+    if (run.records > 1) {
+      card.name = names_.unique(card.name);
+      card.reasons.push_back("every " + std::string(run.records == 2 ? "second" : "third") +
+                             " line begins with the next number: cards of " + std::to_string(run.records) +
+                             " lines");
+    }
     card.headings = static_cast<int>(run.headings.size());
     span_lines(card, run, run);
     if (counted) end_run(i, card);
@@ -240,11 +357,12 @@ class CardBuilder {
 
   void end_run(std::size_t i, CardGuess& card) {
     const Run& run = runs_[i];
-    const auto lines = static_cast<double>(run.lines.size());
+    const auto lines = static_cast<double>(run.lines.size() / run.records);
     if (run.lines.size() == 1 && !run.words) count_one(card);
     if (run.lines.size() > 1) {
       if (static_cast<int>(i) == nodes_.run) end_by_number(run, card);
-      if (card.until.empty() && (!run.words || run.lines.size() >= 10)) count_by(card, lines, "lines");
+      if (card.until.empty() && (!run.words || run.lines.size() >= 10))
+        count_by(card, lines, run.records > 1 ? "cards" : "lines");
       if (card.repeat.empty() && card.until.empty()) end_by_mark(run, card);
       if (card.repeat.empty() && card.until.empty() && run.blanks_behind > 0) return end_by_blank(i, card);
       if (card.repeat.empty() && card.until.empty()) end_by_number(run, card);
@@ -260,13 +378,9 @@ class CardBuilder {
     const auto source = counts_.take(count, small ? control_ : -1);
     if (!source) return;
     card.repeat = "\"" + source->name + "\"";
-    std::string reason = source->name + " (line " + std::to_string(source->line) + ") is " +
-                         number_text(count) + " and agrees with these " + number_text(count) + " " + what;
-    if (small) reason += "; a small number, it may be chance";
-    const std::vector<std::string> also = counts_.also(*source);
-    for (std::size_t k = 0; k < std::min<std::size_t>(also.size(), 4); ++k)
-      reason += (k == 0 ? "; so does " : ", ") + also[k];
-    card.reasons.push_back(reason);
+    card.reasons.push_back(source->name + " (line " + std::to_string(source->line) + ") is " +
+                           number_text(count) + " and agrees with these " + number_text(count) + " " + what +
+                           counts_.chance(*source, control_));
   }
 
   // The counts of a control card come in the order of their blocks: the next one says 1, and here is one line.
@@ -311,7 +425,8 @@ class CardBuilder {
       if (!source) return;
       card.until = "\"" + field.name + " == " + source->name + "\"";
       card.reasons.push_back("the last of these lines bears the number of " + source->name + " (line " +
-                             std::to_string(source->line) + "): numbers between them are generated");
+                             std::to_string(source->line) + "): numbers between them are generated" +
+                             counts_.chance(*source, control_));
       return;
     }
   }
@@ -329,10 +444,11 @@ class CardBuilder {
         list.count = "\"" + source->name + "\"";
         card.fields = {list};
         card.reasons.push_back(source->name + " (line " + std::to_string(source->line) + ") agrees with the " +
-                               number_text(values) + " values of these lines");
+                               number_text(values) + " values of these lines" +
+                               counts_.chance(*source, control_));
         return;
       }
-    card.repeat = std::to_string(run.lines.size());
+    card.repeat = std::to_string(run.lines.size() / run.records);
     card.reasons.push_back(
         "no number of the deck and no mark was found that says how many: put the count here");
   }

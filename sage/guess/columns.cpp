@@ -111,8 +111,8 @@ void infer_format(const Run& run, const Facts& facts, CardGuess& card) {
     }
     const Kind kind = run.clusters[k].kind();
     format.add(edit_of(kind, place));
-    card.fields.push_back(
-        {"field" + std::to_string(k + 1), "", kind, place.first, place.last, static_cast<int>(k), false, ""});
+    card.fields.push_back({"field" + std::to_string(k + 1), "", kind, place.first, place.last, 0,
+                           static_cast<int>(k), false, ""});
     before = place.last;
   }
   card.format = format.finish();
@@ -207,7 +207,7 @@ void find_format(const Run& run, const Scan& scan, CardGuess& card) {
   }
   if (!printed && (run.words || run.clusters.empty())) {
     card.format = "(A)";
-    card.fields = {{"text", "", Kind::text, 1, 0, -1, true, ""}};
+    card.fields = {{"text", "", Kind::text, 1, 0, 0, -1, true, ""}};
     return;
   }
   if (!printed) infer_format(run, scan.facts, card);
@@ -220,7 +220,7 @@ CardGuess text_card(const std::string& name, std::size_t lines) {
   CardGuess card;
   card.name = name;
   card.format = "(A)";
-  card.fields = {{"text", "", Kind::text, 1, 0, -1, true, ""}};
+  card.fields = {{"text", "", Kind::text, 1, 0, 0, -1, true, ""}};
   if (lines != 1) card.repeat = std::to_string(lines);
   return card;
 }

@@ -17,6 +17,8 @@ class Counts {
     int value = 0;
     std::string name;  // "control.field3"
     bool used = false;
+    bool again = false;     // it counted other lines before
+    bool backward = false;  // counts behind it were used before it
   };
 
   void add(int card, int field, int line, double value, const std::string& name);
@@ -26,11 +28,14 @@ class Counts {
   // The one right behind the last one used, if it says `value` and stands on the same card.
   std::optional<Source> take_next(double value);
   bool has(double value) const;
-  // Others that say the same.
-  std::vector<std::string> also(const Source& source) const;
+  // Why the agreement may be chance: "; it may be chance: a small number, ..."; empty where nothing speaks for that.
+  // `control`: the card whose numbers are counts; -1 = not known.
+  std::string chance(const Source& source, int control) const;
   bool used(int card) const;
 
  private:
+  double share_around(int value) const;
+
   std::map<int, std::vector<std::size_t>> by_value_;  // into sources_
   std::vector<Source> sources_;
   std::size_t last_ = 0;

@@ -21,7 +21,7 @@ struct Value {
 std::vector<FieldGuess> plain_fields(const std::vector<Kind>& kinds) {
   std::vector<FieldGuess> fields;
   for (std::size_t k = 0; k < kinds.size(); ++k)
-    fields.push_back({"field" + std::to_string(k + 1), "", kinds[k], 0, 0, -1, false, ""});
+    fields.push_back({"field" + std::to_string(k + 1), "", kinds[k], 0, 0, 0, -1, false, ""});
   return fields;
 }
 
@@ -110,6 +110,10 @@ class ListedBuilder {
     return true;
   }
 
+  static std::string chance_of_items(std::size_t n) {
+    return n <= 3 ? "; it may be chance: a small number" : "";
+  }
+
   void add_item_card(const std::vector<Value>& values, std::size_t n, std::size_t k, std::size_t last) {
     CardGuess card = begin_card("count");
     card.fields = plain_fields({Kind::integer});
@@ -120,9 +124,9 @@ class ListedBuilder {
       for (const Value& value :
            std::vector<Value>(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(n)))
         kind = std::max(kind, value.kind);
-      card.fields.push_back({"values", "", kind, 0, 0, -1, false, "\"count\""});
+      card.fields.push_back({"values", "", kind, 0, 0, 0, -1, false, "\"count\""});
       card.reasons.push_back(std::to_string(n) + " values fill the lines up to line " +
-                             std::to_string(line(last).number) + " exactly");
+                             std::to_string(line(last).number) + " exactly" + chance_of_items(n));
       return finish(card, last);
     }
     CardGuess item;
@@ -135,7 +139,7 @@ class ListedBuilder {
     item.fields = plain_fields(kinds);
     item.reasons.push_back(number_text(static_cast<double>(n)) + " items of " + std::to_string(k) +
                            " values fill the lines up to line " + std::to_string(line(last).number) +
-                           " exactly");
+                           " exactly" + chance_of_items(n));
     name_item(item, kinds, codes && kinds.back() == Kind::integer);
     card.items_count = "\"count\"";
     card.items.push_back(std::move(item));
@@ -201,10 +205,10 @@ class ListedBuilder {
     CardGuess card = begin_card(!mesh ? "list" : lists_ == 1 ? "rectangle_x" : "rectangle_y");
     const std::string expression = source->name + (plus > 0.0 ? " + 1" : "");
     const char* name = !mesh ? "values" : lists_ == 1 ? "x" : "y";
-    card.fields = {{name, "", Kind::real, 0, 0, -1, mesh, "\"" + expression + "\""}};
+    card.fields = {{name, "", Kind::real, 0, 0, 0, -1, mesh, "\"" + expression + "\""}};
     if (mesh) card.reasons.push_back("looks like the edges of a rectangle whose mesh is numbered by rule");
     card.reasons.push_back(std::to_string(count) + " reals that go one way, as coordinates do: " + expression +
-                           ", line " + std::to_string(source->line));
+                           ", line " + std::to_string(source->line) + (mesh ? "" : counts_.chance(*source, 0)));
     finish(card, last);
     return true;
   }
@@ -250,7 +254,7 @@ class ListedBuilder {
   static void one_list(CardGuess& card, const std::vector<Kind>& kinds) {
     Kind kind = Kind::integer;
     for (const Kind one : kinds) kind = std::max(kind, one);
-    card.fields = {{"values", "", kind, 0, 0, -1, false, std::to_string(kinds.size())}};
+    card.fields = {{"values", "", kind, 0, 0, 0, -1, false, std::to_string(kinds.size())}};
     card.reasons.push_back(std::to_string(kinds.size()) + " values on one line: a list? Put its count here");
   }
 
@@ -259,7 +263,7 @@ class ListedBuilder {
     if (const auto source = counts_.take(n)) {
       card.repeat = "\"" + source->name + "\"";
       card.reasons.push_back(source->name + " (line " + std::to_string(source->line) + ") agrees with these " +
-                             std::to_string(lines) + " lines");
+                             std::to_string(lines) + " lines" + counts_.chance(*source, 0));
       return;
     }
     card.repeat = std::to_string(lines);

@@ -42,8 +42,9 @@ struct Run {
   int title = -1;                     // line of words right above, which is a card of its own; -1 = none
   std::vector<std::size_t> headings;  // lines above the first that are passed over: words, blanks
   std::size_t blanks_behind = 0;
-  std::string format;  // printed in the deck; empty = to be found
-  bool open = false;   // a builder's own: nothing ended it yet
+  std::string format;       // printed in the deck; empty = to be found
+  std::size_t records = 1;  // lines that one card takes
+  bool open = false;        // a builder's own: nothing ended it yet
 };
 
 // The runs of a deck whose numbers stand in columns.  Takes packed numbers of the scan apart.

@@ -52,11 +52,15 @@ std::string field_text(const FieldGuess& field, bool listed) {
   return text + " },";
 }
 
-std::string place_text(const FieldGuess& field) {
+std::string columns_text(const FieldGuess& field) {
   if (field.first == 0) return {};
   if (field.last == 0) return "columns " + std::to_string(field.first) + " to the end";
   if (field.first == field.last) return "column " + std::to_string(field.first);
   return "columns " + std::to_string(field.first) + "-" + std::to_string(field.last);
+}
+
+std::string place_text(const FieldGuess& field) {
+  return (field.record > 0 ? "line " + std::to_string(field.record) + ", " : "") + columns_text(field);
 }
 
 void add_fields(std::string& out, const std::string& indent, const std::vector<FieldGuess>& fields,

@@ -253,7 +253,10 @@ TEST(CommandLine, LayoutGuessWritesADraftThatReadsTheDeck) {
   const Finished guess = sagefe(folder, "layout guess old.dat -o old.toml");
   EXPECT_EQ(guess.exit_code, 0) << guess.err;
   expect_words(guess.out, {"old.toml", "kinds of cards", "sagefe layout check old.toml old.dat"});
-  EXPECT_EQ(sagefe(folder, "layout guess old.dat").out.substr(0, 60), read(folder / "old.toml").substr(0, 60));
+  // Printed, it is the same, named after the deck as the file is; a name that is built in is left to that layout.
+  EXPECT_EQ(sagefe(folder, "layout guess old.dat").out, read(folder / "old.toml"));
+  write(folder / "stap.dat", block_deck().text());
+  expect_words(sagefe(folder, "layout guess stap.dat").out, {"name = \"stap_guessed\""});
   EXPECT_EQ(sagefe(folder, "echo old.dat --layout ./old.toml").exit_code, 0);
   const Finished check = sagefe(folder, "layout check old.toml old.dat");
   EXPECT_EQ(check.exit_code, 0) << check.err;
@@ -278,6 +281,13 @@ TEST(CommandLine, LayoutCheckEndsAsCheckDoes) {
   expect_words(cut.err, {"error"});
   expect_words(cut.out, {"title", "Cards of the layout that the deck doesn't have"});
   EXPECT_EQ(sagefe(folder, "layout check no_layout deck.dat").exit_code, 2);
+  const Finished swapped = sagefe(folder, "layout check deck.dat sage1");
+  EXPECT_EQ(swapped.exit_code, 2);
+  expect_words(swapped.err, {"deck.dat: error: this is no layout, but sage1 is",
+                             "the layout comes first, sagefe layout check sage1 deck.dat"});
+  EXPECT_EQ(swapped.err.find("parsing"), std::string::npos) << swapped.err;
+  expect_words(sagefe(folder, "layout check deck.dat cut.dat").err,
+               {"it was read as the layout", "LAYOUT DECK"});
   EXPECT_EQ(sagefe(folder, "layout guess binary.dat").exit_code, 2);
   EXPECT_EQ(sagefe(folder, "layout guess no_file.dat").exit_code, 2);
   EXPECT_EQ(sagefe(folder, "layout").exit_code, 1);
