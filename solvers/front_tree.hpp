@@ -30,6 +30,13 @@ struct Front {
   std::int64_t border_at = 0;  // first term of its border matrix: in the workspace of its subtree, or
   bool shared = false;         // in the one that all share
 
+  // Floating-point operations of the elimination of its pivots.
+  double operations(bool symmetric_matrix) const {
+    double count = 0.0;
+    for (int left = border + pivots - 1; left >= border; --left)
+      count += symmetric_matrix ? left * (left + 3.0) : left * (2.0 * left + 1.0);
+    return count;
+  }
   // First term of panel J in an arm.
   std::int64_t panel(int J) const {
     return J < pivot_tiles ? std::int64_t{32} * J * (J + 1)

@@ -135,7 +135,9 @@ class Frontal final : public MatrixSolver {
     factors_ = AlignedArray(static_cast<std::size_t>(tree_.factor_terms));
     first_pivot_.assign(1, 0);
     int widest = 0;  // tiles of the widest front
+    report_.factor_operations = 0.0;
     for (const Front& front : tree_.fronts) {
+      report_.factor_operations += front.operations(traits().symmetric);
       first_pivot_.push_back(first_pivot_.back() + front.pivot_tiles * kTile);
       widest = std::max(widest, front.pivot_tiles + front.border_tiles);
     }
@@ -144,6 +146,7 @@ class Frontal final : public MatrixSolver {
     front_values_ = AlignedArray(at(widest) * kTile);
     make_workspace();
     report_.factor_entries = tree_.factor_terms;
+    report_.solve_operations = (traits().symmetric ? 4.0 : 2.0) * static_cast<double>(tree_.factor_terms);
     report_.memory_bytes =
         (factors_.size() + shared_.size() + reciprocal_.size() + position_values_.size()) * sizeof(double) +
         (2 * tree_.entry_source.size() + 2 * tree_.border.size() + 2 * tree_.order.size()) * sizeof(int);

@@ -69,6 +69,8 @@ class Skyline final : public MatrixSolver {
     reciprocal_.assign(at(profile_.tiles) * kTile, 1.0);
     work_ = AlignedArray(at(profile_.tiles) * kTile);
     report_.factor_entries = static_cast<std::int64_t>(tiles_.size());
+    report_.factor_operations = factor_operations(profile_, symmetric);
+    report_.solve_operations = (symmetric ? 4.0 : 2.0) * static_cast<double>(report_.factor_entries);
     report_.memory_bytes = (tiles_.size() + unit_tiles_.size() + column_.size()) * sizeof(double) +
                            2 * scatter_.source.size() * sizeof(int);
   }

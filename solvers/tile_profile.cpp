@@ -106,6 +106,17 @@ void tile_forward(const TileProfile& profile, const TileTriangle& T, double* x) 
   }
 }
 
+double factor_operations(const TileProfile& profile, bool symmetric) {
+  constexpr double kProduct = 2.0 * kTile * kTileTerms;  // of two tiles
+  double arm = 0.0, diagonal = 0.0;                      // products of tiles above the diagonal, and on it
+  for (int J = 0; J < profile.tiles; ++J) {
+    for (int K = profile.top[at(J)]; K < J; ++K)
+      arm += K - std::max(profile.top[at(K)], profile.top[at(J)]) + 0.5;
+    diagonal += profile.height(J) + 1.0 / 3.0;
+  }
+  return kProduct * ((symmetric ? 1.0 : 2.0) * arm + diagonal);
+}
+
 void tile_backward(const TileProfile& profile, const TileTriangle& T, double* x) {
   for (int K = profile.tiles - 1; K >= 0; --K) {
     Lanes row[kTile] = {};

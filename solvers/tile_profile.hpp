@@ -37,6 +37,9 @@ struct TileProfile {
 // Numbers the equations and lays out the tiles.
 TileProfile make_tile_profile(const EquationGraph& graph);
 
+// Floating-point operations of L U, or of L D L^T, by whole tiles.
+double factor_operations(const TileProfile& profile, bool symmetric);
+
 // Where the terms of an assembled matrix go, sorted by tile column, so that a column is filled just before use.
 struct TileScatter {
   std::vector<int> start{0};  // tile column J takes entries start[J] .. start[J + 1] - 1

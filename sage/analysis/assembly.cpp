@@ -92,6 +92,7 @@ void Assembly::enter_stage(const Activity& activity, const Eigen::VectorXd& rate
                            const SolverMaker& make) {
   enter_stage(activity, rate);
   if (!skips_.condensation || scene_->linear || !dof_map_.only_displacement()) return;
+  const Profile::Scope scope(work_->profile, phase::kCondensation);
   condensation_ = condense_if_it_pays(groups_, equations_.dofs(), dof_map_.dofs(), increments, make);
   if (!condensation_) return;
   work_->condensed = condensation_->condensed();
@@ -171,7 +172,7 @@ void Assembly::add_constant(const Eigen::VectorXd& du) {
 }
 
 Outcome Assembly::evaluate(const Eigen::VectorXd& du, Tangent* tangent) {
-  const Timer timer(work_->assembly_seconds);
+  const Profile::Scope scope(work_->profile, phase::kAssembly);
   Outcome outcome = evaluate_changing(du, tangent);
   if (outcome == Outcome::ok) {
     add_constant(du);
@@ -231,7 +232,7 @@ std::array<long, kStatuses> Assembly::count_points() const {
 IteratedStep::IteratedStep(Assembly& assembly, const Eigen::VectorXd& target, double rate_part)
     : assembly_(&assembly), region_(assembly.condensation_.get()) {
   if (region_ == nullptr) return;
-  const Timer timer(assembly.work_->solve_seconds);
+  const Profile::Scope scope(assembly.work_->profile, phase::kCondensation);
   assembly.constant_force_.setZero(assembly.dof_map_.dofs());
   assembly.constant_.add_committed_forces(assembly.constant_force_);
   assembly.prescribed_ = rate_part * assembly.rate_;
@@ -244,7 +245,7 @@ IteratedStep::IteratedStep(Assembly& assembly, const Eigen::VectorXd& target, do
 Outcome IteratedStep::iterate(const Eigen::VectorXd& du, Tangent* tangent) {
   Assembly& all = *assembly_;
   if (region_ == nullptr) return all.evaluate(du, tangent);
-  const Timer timer(all.work_->assembly_seconds);
+  const Profile::Scope scope(all.work_->profile, phase::kAssembly);
   const Outcome outcome = all.evaluate_changing(du, tangent);
   if (tangent != nullptr) tangent->settle(outcome);
   if (outcome == Outcome::cut_step) return outcome;
@@ -260,7 +261,7 @@ void IteratedStep::complete(Eigen::VectorXd& du) {
   constexpr int kSteps = 3;
   if (region_ == nullptr) return;
   Assembly& all = *assembly_;
-  const Timer timer(all.work_->assembly_seconds);
+  const Profile::Scope scope(all.work_->profile, phase::kCondensation);
   region_->complete(du);
   all.add_constant(du);
   double residual = region_->largest_residual(all.internal_);

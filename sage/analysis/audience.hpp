@@ -1,4 +1,4 @@
-// All observers of a run, and the seconds that they take.
+// All observers of a run, and the time that they take.
 #pragma once
 
 #include <span>
@@ -9,11 +9,12 @@ namespace sage {
 
 class Audience {
  public:
-  Audience(std::span<Observer* const> observers, double& seconds) : observers_(observers), seconds_(&seconds) {}
+  Audience(std::span<Observer* const> observers, Profile& profile)
+      : observers_(observers), profile_(&profile) {}
 
   template <class Call>
   void tell(Call call) {
-    const Timer timer(*seconds_);
+    const Profile::Scope scope(*profile_, phase::kOutput);
     outside([&] {
       for (Observer* observer : observers_) call(*observer);
     });
@@ -46,7 +47,7 @@ class Audience {
 
  private:
   std::span<Observer* const> observers_;
-  double* seconds_;
+  Profile* profile_;
   bool is_outside_ = false;
 };
 

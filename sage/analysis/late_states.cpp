@@ -8,7 +8,7 @@ namespace sage {
 void LateStates::recover(std::vector<GroupData>& groups, ElementWork& element, WorkCounters& work) {
   for (GroupData& data : groups) data.state.make_room();
   if (!is_behind_) return;
-  const Timer timer(work.assembly_seconds);
+  const Profile::Scope scope(work.profile, phase::kAssembly);
   for (GroupData& data : groups) {
     if (!data.active || !data.constant) continue;
     const auto size = static_cast<std::size_t>(data.group->element->traits().points * data.state.law_size());

@@ -2,18 +2,19 @@
 #pragma once
 
 #include <array>
-#include <chrono>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sage/core/law.hpp"
+#include "sage/core/profile.hpp"
 
 namespace sage {
 
 inline constexpr int kStatuses = 6;  // values of PointStatus
 
-// How often each kind of work ran, and the seconds in it.
-struct WorkCounters {
+// How often each kind of work ran.
+struct WorkCounts {
   long assemblies = 0;           // passes over the elements that built K
   long residuals = 0;            // passes over the elements for internal forces only
   long element_evaluations = 0;  // elements whose law was called
@@ -22,21 +23,21 @@ struct WorkCounters {
   long kept_factors = 0;  // corrections with factors that were there already
   long repeats = 0;       // increments that were the one before once more
   long condensed = 0;     // equations removed once for all from the iterations
-  double assembly_seconds = 0.0, analyse_seconds = 0.0, factor_seconds = 0.0, solve_seconds = 0.0;
-  double output_seconds = 0.0;
 };
 
-// Adds the time of a scope to a counter.
-class Timer {
- public:
-  explicit Timer(double& seconds) : seconds_(&seconds), start_(std::chrono::steady_clock::now()) {}
-  Timer(const Timer&) = delete;
-  Timer& operator=(const Timer&) = delete;
-  ~Timer() { *seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+// Names of the phases of a run, and of the analysis within it.
+namespace phase {
+inline constexpr std::string_view kReading = "reading the deck", kModel = "building the model",
+                                  kFiles = "opening and closing files", kAnalysis = "analysis";
+inline constexpr std::string_view kStart = "start of stages", kNumbering = "numbering", kAssembly = "assembly",
+                                  kCondensation = "condensation", kFactors = "factorisation",
+                                  kSolution = "solution", kIteration = "iteration", kChecks = "checks",
+                                  kOutput = "output", kCheckpoint = "checkpoint";
+}  // namespace phase
 
- private:
-  double* seconds_;
-  std::chrono::steady_clock::time_point start_;
+// The work of a run, and where its time went since the process began with it.
+struct WorkCounters : WorkCounts {
+  Profile profile;
 };
 
 struct IterationRecord {

@@ -25,10 +25,11 @@ class Run {
       std::span<Observer* const> observers)
       : model_(model),
         settings_(settings),
-        audience_(observers, result_.work.output_seconds),
+        audience_(observers, result_.work.profile),
         system_(model, catalogue, settings, result_.work),
         extent_(model) {
     const int dofs = assembly_.dof_map().dofs();
+    if (settings.profile_memory) result_.work.profile = Profile(true);
     state_.u.setZero(dofs);
     state_.du.setZero(dofs);
     state_.external.setZero(dofs);
@@ -69,6 +70,7 @@ class Run {
   void stop();
   void warn(const std::vector<Diagnostic>& list);
   Solution solution() const;
+  Profile& profile() { return result_.work.profile; }
   Resumable resumable() { return {model_, system_, state_, result_, audience_}; }
 
   const Model& model_;
@@ -137,6 +139,7 @@ void Run::evaluate_start() {
 // The states and the loads at both ends of a stage.  What the forces of removed parts, initial stress and
 // released supports leave out of balance is held at the start and let go in proportion over the stage.
 void Run::prepare_stage(int s) {
+  const Profile::Scope scope(profile(), phase::kStart);
   start_new_nodes();
   system_.open_stage(s);
   start_states(model_.stages[static_cast<std::size_t>(s)].initials);
@@ -175,6 +178,7 @@ NewtonStep Run::attempt(const Stage& stage, double from, double to) {
   newton.repeat = can_repeat(stage, to - from);
   newton.contract = contracts(stage);
   newton.committed = &state_.u;
+  const Profile::Scope scope(profile(), phase::kIteration);
   return newton_step(assembly_, tangent_, target_, system_.rate(), to - from, newton, result_.work, state_.du);
 }
 
@@ -361,7 +365,7 @@ void Run::start() {
 
 void Run::offer_checkpoint(Place place) {
   if (!settings_.checkpoint_due || !settings_.checkpoint_due()) return;
-  const Timer timer(result_.work.output_seconds);
+  const Profile::Scope scope(profile(), phase::kCheckpoint);
   const std::string bytes = checkpoint_bytes(resumable(), place);
   audience_.outside([&] { settings_.save_checkpoint(bytes); });
 }
@@ -400,11 +404,15 @@ void Run::end_increment(StepReport& report) {
 
 void Run::end_stage(int s, double last_force) {
   ++result_.stages_done;
-  const EquilibriumAudit sums = audit_equilibrium(model_, assembly_, state_.external, path_.force_start);
-  warn(stage_warnings(
-      model_.stages[static_cast<std::size_t>(s)],
-      {result_.motion, sums.out_of_balance, system_.digits(), path_.path_error, path_.loose_part, last_force},
-      assembly_));
+  EquilibriumAudit sums;
+  {
+    const Profile::Scope scope(profile(), phase::kChecks);
+    sums = audit_equilibrium(model_, assembly_, state_.external, path_.force_start);
+    warn(stage_warnings(
+        model_.stages[static_cast<std::size_t>(s)],
+        {result_.motion, sums.out_of_balance, system_.digits(), path_.path_error, path_.loose_part, last_force},
+        assembly_));
+  }
   audience_.tell([&](Observer& o) { o.on_stage_end(model_, s, sums, solution()); });
 }
 

@@ -20,6 +20,7 @@ struct RunSettings {
   int max_cuts = 12;       // a step is given up when 2^-max_cuts of its increment finds no equilibrium
   bool line_search = true;
   Skips skips;
+  bool profile_memory = false;  // the profile also says where the process grew
 
   // Checkpoints: after an increment for which `checkpoint_due` says yes, `save_checkpoint` gets the bytes from
   // which `resume_from` continues to the same results, bit for bit.  With initial stiffness (whose tangent

@@ -16,7 +16,7 @@ void exchange(const Resumable& run, Archive& archive, const Place& place, bool& 
   archive(run.result.stages_done);
   archive(run.result.increments_done);
   archive(run.result.motion);
-  archive(run.result.work);
+  archive(static_cast<WorkCounts&>(run.result.work));
   archive(factorised);
   if (within) run.state.exchange_path(archive);
   run.system.assembly().exchange(archive, within);
@@ -65,13 +65,13 @@ Place resume_from(const Resumable& run, const std::string& bytes) {
   system.open_stage(opened);
   bool factorised = false;
   exchange(run, archive, place, factorised);
-  const WorkCounters work = run.result.work;
+  const WorkCounts work = run.result.work;
   evaluate_again(run, place, factorised && (within || system.tangent().constant()));
   run.audience.tell(
       [&](Observer& o) { o.on_start(run.model, system.scene(), system.tangent().name(), system.equations()); });
   run.audience.exchange(archive);
   if (!archive.at_end()) throw InputError({}, "the checkpoint is longer than it should be");
-  run.result.work = work;
+  static_cast<WorkCounts&>(run.result.work) = work;
   return place;
 }
 

@@ -6,7 +6,7 @@ namespace sage {
 
 void Tangent::analyse(std::unique_ptr<LinearSolver> solver, const std::string& name, int equations,
                       ElementEquations elements, WorkCounters& work) {
-  const Timer timer(work.analyse_seconds);
+  const Profile::Scope scope(work.profile, phase::kNumbering);
   ++work.analyses;
   state_ = State::empty;
   solver_ = std::move(solver);
@@ -41,18 +41,20 @@ void Tangent::factorise(WorkCounters& work) {
     ++work.kept_factors;
     return;
   }
-  const Timer timer(work.factor_seconds);
+  Profile::Scope scope(work.profile, phase::kFactors);
   ++work.factorisations;
   solver_->factorise();
+  scope.add_operations(solver_->report().factor_operations);
   if (constant_) solver_->release_workspace();
   state_ = State::factorised;
 }
 
 void Tangent::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, WorkCounters& work) const {
-  const Timer timer(work.solve_seconds);
+  Profile::Scope scope(work.profile, phase::kSolution);
   ++work.solves;
   const auto n = static_cast<std::size_t>(b.size());
   solver_->solve({b.data(), n}, {x.data(), n});
+  scope.add_operations(solver_->report().solve_operations);
 }
 
 }  // namespace sage

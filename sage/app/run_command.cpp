@@ -14,6 +14,7 @@
 #include "sage/app/jobs.hpp"
 #include "sage/app/run_deck.hpp"
 #include "sage/record/out_file.hpp"
+#include "sage/record/profile_text.hpp"
 
 namespace sage::app {
 
@@ -79,6 +80,7 @@ int run_one(const RunOptions& options, const std::string& deck, const Catalogue&
     else
       fmt::print("{}\n", summary(*outcome.model, outcome.record, outcome.reports.get(), outcome.files,
                                  outcome.error.get(), request.output.digits));
+    if (request.profile) fmt::print("{}\n", profile_table(outcome.record.profile));
     if (outcome.exit_code != kOk) fmt::print(stderr, "{}: {}\n", deck, outcome.record.result.reason);
     return outcome.exit_code;
   });
@@ -203,6 +205,8 @@ Command run_command(CLI::App& parser, const Catalogue& catalogue) {
                   "seconds between checkpoints (default: 30; 0 = after every increment, negative = none)")
       ->check(number_in(-1e9, 1e9, "a number of seconds"));
   parser.add_flag("-q,--quiet", options->quiet, "print no summary");
+  parser.add_flag("--profile", request.profile,
+                  "print where time, memory and floating-point operations went, and write STEM.profile.json");
   add_input_options(parser, request.input);
   add_build_options(parser, request.input.build, catalogue);
   return [options, &catalogue] { return run_all(*options, catalogue); };

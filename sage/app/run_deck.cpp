@@ -18,6 +18,8 @@
 #include "sage/model/fingerprint.hpp"
 #include "sage/record/csv.hpp"
 #include "sage/record/data_file.hpp"
+#include "sage/record/out_file.hpp"
+#include "sage/record/profile_text.hpp"
 #include "sage/record/progress.hpp"
 #include "sage/record/result_file.hpp"
 #include "sage/record/vtu.hpp"
@@ -169,8 +171,12 @@ void warn_of_fields(const OutputOptions& o, Model& model) {
 
 // The deck as a model; its checksum becomes the owner's, and names of fields' components those of the fields.
 std::unique_ptr<Model> model_of(RunRequest& request, const Catalogue& catalogue, ResultOwner& owner,
-                                RunSource& source) {
-  const Deck deck = read_input(request.deck, request.input);
+                                RunSource& source, Profile& profile) {
+  const Deck deck = [&] {
+    const Profile::Scope scope(profile, phase::kReading);
+    return read_input(request.deck, request.input);
+  }();
+  const Profile::Scope scope(profile, phase::kModel);
   BuildOptions build = request.input.build;
   if (!request.solver.empty()) build.solver = solver_code(catalogue, request.solver);
   auto model = std::make_unique<Model>(build_model(deck, catalogue, build));
@@ -189,6 +195,7 @@ RunSettings settings_for(const RunRequest& request) {
   settings.threads = threads_for(request.threads);
   settings.refinement = request.refinement;
   settings.condition = request.condition;
+  settings.profile_memory = request.profile;
   settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
   return settings;
 }
@@ -231,20 +238,29 @@ std::vector<Observer*> observers_of(const RunRequest& request,
   return observers;
 }
 
+// After all others: only then is it known what they took.
+void write_profile(const RunRequest& request, int threads, RunOutcome& outcome) {
+  OutFile file(request.output.folder / (stem_of(request) + ".profile.json"));
+  file.text() = profile_json(outcome.record.profile, case_name(request.deck), threads);
+  file.finish();
+  outcome.files.push_back(file.path());
+}
+
 }  // namespace
 
 RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
   RunRequest request = asked;
-  const auto start = std::chrono::steady_clock::now();
+  Profile profile(request.profile);
   RunOutcome outcome;
   ResultOwner owner{request.deck, 0, "run"};
   RunSource source;
-  outcome.model = model_of(request, catalogue, owner, source);
+  outcome.model = model_of(request, catalogue, owner, source, profile);
   const Model& model = *outcome.model;
   if (!request.quiet) print_diagnostics(model.diagnostics);
   if (!may_run(request, model, outcome)) return outcome;
   if (request.output.result) expect_data_module();  // before any file is begun
   RunSettings settings = settings_for(request);
+  std::optional<Profile::Scope> opening(std::in_place, profile, phase::kFiles);
   std::optional<ResultFiles> own;
   if (request.results == nullptr) own.emplace(request.output.folder, stem_of(request), owner);
   ResultFiles& results = own ? *own : *request.results;
@@ -267,8 +283,15 @@ RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
   std::vector<Observer*> observers = observers_of(request, outputs, outcome);
   observers.push_back(&progress);
   observers.push_back(&end);
+  opening.reset();
   try {
-    const RunResult result = run(model, catalogue, settings, observers);
+    const RunResult result = [&] {
+      const Profile::Scope scope(profile, phase::kAnalysis);
+      RunResult done = run(model, catalogue, settings, observers);
+      profile.add(done.work.profile);
+      return done;
+    }();
+    outcome.record.result.work = result.work;
     if (result.status == RunStatus::failed) throw AnalysisError(result.reason);
     outcome.exit_code = result.status == RunStatus::completed ? kOk : kNotConverged;
     if (result.status == RunStatus::stopped) {
@@ -286,9 +309,15 @@ RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
     if (own) close(*own, request);
     throw;
   }
-  if (own) close(*own, request);
+  if (own) {
+    const Profile::Scope scope(profile, phase::kFiles);
+    close(*own, request);
+  }
   outcome.files = files_of(*outcome.reports, outputs);
-  outcome.record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  profile.stop();
+  outcome.record.seconds = profile.seconds_with_all(0);
+  outcome.record.profile = std::move(profile);
+  if (request.profile) write_profile(request, settings.threads, outcome);
   return outcome;
 }
 

@@ -45,6 +45,7 @@ struct RunRequest {
   double interrupt_patience = 10.0;  // s that an interrupted run gives the increment in hand to end
   StopAsked stop_asked;              // ends the run early, see RunSettings
   ResultFiles* results = nullptr;    // of the run that this one is a part of; null = it has its own
+  bool profile = false;              // STEM.profile.json, and memory in RunRecord::profile
   bool keep_result = false;          // RunOutcome::result is wanted
 };
 

@@ -46,6 +46,8 @@ struct FactorReport {
   int negative_pivots = -1;            // LDL^T only
   std::int64_t factor_entries = -1;    // stored terms of the factors
   std::size_t memory_bytes = 0;
+  double factor_operations = -1.0;  // floating-point, of one factorisation
+  double solve_operations = -1.0;   // and of one solution without refinement
 };
 
 class LinearSolver {

@@ -194,14 +194,23 @@ std::string skipped(const WorkCounters& w) {
 
 void work_lines(std::string& text, const RunRecord& record) {
   const WorkCounters& w = record.result.work;
+  const auto own = [&](std::string_view phase) { return w.profile.seconds(phase); };
   fmt::format_to(to(text),
                  "  work        {} assemblies and {} force passes {:.3g} s, {} factorisations {:.3g} s, {} "
                  "solves {:.3g} s\n",
-                 w.assemblies, w.residuals, w.assembly_seconds, w.factorisations, w.factor_seconds, w.solves,
-                 w.solve_seconds);
-  fmt::format_to(to(text), "              numbering {:.3g} s, output {:.3g} s", w.analyse_seconds,
-                 w.output_seconds);
-  text += record.seconds > 0.0 ? fmt::format(", whole run {:.3g} s\n", record.seconds) : "\n";
+                 w.assemblies, w.residuals, own(phase::kAssembly), w.factorisations, own(phase::kFactors),
+                 w.solves, own(phase::kSolution));
+  fmt::format_to(to(text), "              numbering {:.3g} s, ", own(phase::kNumbering));
+  if (w.condensed > 0) fmt::format_to(to(text), "condensation {:.3g} s, ", own(phase::kCondensation));
+  fmt::format_to(to(text), "iteration {:.3g} s, start and checks {:.3g} s, output {:.3g} s\n",
+                 own(phase::kIteration),
+                 own(phase::kStart) + own(phase::kChecks) + record.profile.seconds(phase::kAnalysis),
+                 own(phase::kOutput) + own(phase::kCheckpoint));
+  if (record.seconds > 0.0)
+    fmt::format_to(to(text),
+                   "              reading {:.3g} s, model {:.3g} s, files {:.3g} s, whole run {:.3g} s\n",
+                   record.profile.seconds(phase::kReading), record.profile.seconds(phase::kModel),
+                   record.profile.seconds(phase::kFiles), record.seconds);
   text += skipped(w);
 }
 

@@ -41,7 +41,9 @@ class RunRecord final : public Observer {
   StrengthRows strength;
   StepReport failed;  // of a run that did not converge
   RunResult result;
-  double seconds = 0.0;  // whole run, for the caller to fill in; 0 = not shown
+  // Of the whole run, for the caller to fill in; not shown before.
+  double seconds = 0.0;
+  Profile profile;
 };
 
 // About 30 lines.  A run that did not converge says so in its second line and in its last.  digits: of the

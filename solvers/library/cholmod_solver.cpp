@@ -37,6 +37,7 @@ class CholmodSolver final : public MatrixSolver {
     set_blas_threads(matrix().equations());
     cholmod_sparse K = view();
     if (!factor_->is_super || !factorise_definite(K)) factorise_indefinite(K);
+    report_.factor_operations = common_.fl;
     report_.factor_entries = static_cast<std::int64_t>(common_.lnz);
     report_.memory_bytes = columns_.memory_bytes() + common_.memory_inuse;
   }

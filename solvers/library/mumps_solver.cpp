@@ -47,6 +47,7 @@ class MumpsSolver final : public MatrixSolver {
     control(14) = 30;  // per cent of working space beyond the estimate
     while (!run(kFactorise)) control(14) *= 2;
     if (mumps_.infog[27] > 0) throw_singular(mumps_.pivnul_list[0] - 1, 0.0, traits().name);
+    report_.factor_operations = mumps_.rinfog[2];
     report_.factor_entries = mumps_.infog[28] >= 0 ? mumps_.infog[28] : -1000000LL * mumps_.infog[28];
     report_.memory_bytes =
         (row_.size() + column_.size()) * sizeof(int) + static_cast<std::size_t>(mumps_.infog[21]) * 1000000;

@@ -41,6 +41,7 @@ class UmfpackSolver final : public MatrixSolver {
     numeric_.reset(numeric);
     if (status != UMFPACK_WARNING_singular_matrix) throw_unless_ok(status);
     check_pivots(status == UMFPACK_WARNING_singular_matrix);
+    report_.factor_operations = info[UMFPACK_FLOPS];
     report_.factor_entries = static_cast<std::int64_t>(info[UMFPACK_LNZ] + info[UMFPACK_UNZ]);
     report_.memory_bytes = columns_.memory_bytes() +
                            static_cast<std::size_t>(info[UMFPACK_NUMERIC_SIZE] * info[UMFPACK_SIZE_OF_UNIT]);

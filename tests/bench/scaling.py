@@ -24,7 +24,13 @@ PARTS = {
     "numbering": r"numbering ([\d.e+-]+) s",
     "factor": r"factorisations? ([\d.e+-]+) s",
     "solve": r"solves? ([\d.e+-]+) s",
+    "condensation": r"condensation ([\d.e+-]+) s",
+    "iteration": r"iteration ([\d.e+-]+) s",
+    "checks": r"checks ([\d.e+-]+) s",
     "output": r"output ([\d.e+-]+) s",
+    "reading": r"reading ([\d.e+-]+) s",
+    "model": r"model ([\d.e+-]+) s",
+    "files": r"files ([\d.e+-]+) s",
     "whole run": r"whole run ([\d.e+-]+) s",
 }
 

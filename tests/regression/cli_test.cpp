@@ -423,6 +423,26 @@ TEST(CommandLine, SeveralDecksAtATimeAreAsOneAfterTheOther) {
   }
 }
 
+// Every phase of the tree is there; how long they take is nobody's business here.
+TEST(CommandLine, ProfileIsATableAndAFile) {
+  const fs::path folder = empty_folder("profile");
+  write(folder / "deck.dat", collapse_deck().text());
+  write(folder / "good.dat", block_deck().text());
+  const Finished run = sagefe(folder, "run good.dat --profile -q -o out");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  for (const char* phase : {"whole run", "reading the deck", "building the model", "opening and closing files",
+                            "analysis", "start of stages", "numbering", "iteration", "factorisation",
+                            "solution", "assembly", "output", "checks"}) {
+    EXPECT_NE(run.out.find(std::string(" ") + phase + " "), std::string::npos) << phase << "\n" << run.out;
+    EXPECT_NE(read(folder / "out/good.profile.json").find(std::string("\"phase\": \"") + phase + "\""),
+              std::string::npos)
+        << phase;
+  }
+  // A run that found no equilibrium has one too.
+  EXPECT_EQ(sagefe(folder, "run deck.dat --profile -o out").exit_code, 3);
+  EXPECT_NE(read(folder / "out/deck.profile.json").find("\"phase\": \"iteration\""), std::string::npos);
+}
+
 TEST(CommandLine, ADeckMayComeThroughAPipe) {
   const auto folder = empty_folder("piped_deck");
   write(folder / "deck.dat", block_deck().text());

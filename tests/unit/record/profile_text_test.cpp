@@ -1,0 +1,46 @@
+// The profile as table and JSON.
+#include "sage/record/profile_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace sage {
+namespace {
+
+Profile small_profile() {
+  Profile profile;
+  {
+    const Profile::Scope analysis(profile, "analysis");
+    Profile::Scope factors(profile, "factorisation");
+    factors.add_operations(3e9);
+  }
+  const Profile::Scope files(profile, "files");
+  profile.stop();
+  return profile;
+}
+
+TEST(ProfileText, TableShowsTheTree) {
+  const std::string table = profile_table(small_profile());
+  EXPECT_NE(table.find("\n  whole run "), std::string::npos) << table;
+  EXPECT_NE(table.find("\n    analysis "), std::string::npos) << table;
+  EXPECT_NE(table.find("\n      factorisation "), std::string::npos) << table;
+  EXPECT_NE(table.find("\n    files "), std::string::npos) << table;
+  const std::size_t row = table.find("factorisation");
+  EXPECT_NE(table.substr(row, table.find('\n', row) - row).find(" 3 "), std::string::npos) << "GF\n" << table;
+  EXPECT_EQ(table.find("MB\n"), std::string::npos) << "was not measured";
+  for (std::size_t at = 0, end = 0; (end = table.find('\n', at)) != std::string::npos; at = end + 1)
+    EXPECT_LE(end - at, 110u);
+}
+
+TEST(ProfileText, JsonQuotesAndNests) {
+  const std::string json = profile_json(small_profile(), "a \"b\"\\\n", 2);
+  EXPECT_NE(json.find(R"("case": "a \"b\"\\\u000a", "threads": 2)"), std::string::npos) << json;
+  EXPECT_NE(json.find(R"("phase": "factorisation")"), std::string::npos);
+  EXPECT_NE(json.find(R"("operations": 3000000000)"), std::string::npos) << json;
+  EXPECT_EQ(std::count(json.begin(), json.end(), '{'), std::count(json.begin(), json.end(), '}'));
+  EXPECT_EQ(std::count(json.begin(), json.end(), '['), std::count(json.begin(), json.end(), ']'));
+}
+
+}  // namespace
+}  // namespace sage
