@@ -88,10 +88,12 @@ InitialImbalance initial_imbalance(const Model& model) {
 std::string explain_imbalance(const Model& model, int stage, const InitialImbalance& imbalance) {
   if (!imbalance.counts()) return {};
   const Stage& now = model.stages[static_cast<std::size_t>(stage)];
+  const std::string share = imbalance.largest > 0.0
+                                ? short_number(100.0 * std::abs(imbalance.force) / imbalance.largest) +
+                                      " % of the largest force that it puts on a node"
+                                : "it puts no force on any node itself";
   return "the initial stress is out of balance by up to " + short_number(std::abs(imbalance.force)) + " " +
-         model.units.force + " (" + short_number(100.0 * std::abs(imbalance.force) / imbalance.largest) +
-         " % of the largest force that it puts on a node) at " +
-         unknown_name(model, DofMap(model).at(imbalance.dof)) +
+         model.units.force + " (" + share + ") at " + unknown_name(model, DofMap(model).at(imbalance.dof)) +
          "; what is not balanced is let go in proportion over the " +
          (now.increments == 1 ? "one increment" : std::to_string(now.increments) + " increments") +
          " of the stage";

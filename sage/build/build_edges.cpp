@@ -4,6 +4,7 @@
 
 #include "sage/build/builder.hpp"
 #include "sage/core/types.hpp"
+#include "sage/deck/text.hpp"
 
 namespace sage::build {
 
@@ -158,6 +159,12 @@ bool read_listed(Builder& b, const CardView& card, ListedEdge& listed) {
   }
   listed.sense = static_cast<Sense>(sense);
   const bool middle = card.integer("n3") != 0;
+  for (const char* field : {"normal3", "shear3"})
+    if (!middle && card.real(field) != 0.0) {
+      b.error(card.where(field), edge_name(card) + ": the " + card.label(field) + " is " +
+                                     rounded_text(card.real(field)) + ", but the card has no third node");
+      return false;
+    }
   listed.first = b.node(card, "n1", card.integer("n1"));
   const int second = b.node(card, "n2", card.integer("n2"));
   listed.last = middle ? b.node(card, "n3", card.integer("n3")) : second;

@@ -130,13 +130,15 @@ double DeckReader::sum_of_first(const ExpressionNode& node, double count) const 
   return last.sum;
 }
 
-// Of the first value that the expression takes from the deck; line 0 where it takes none.
+// Of a value that the expression takes from the deck: the first on the last line of them, that of the card's own
+// record where it takes one from there.  Line 0 where it takes none.
 SourcePosition DeckReader::where_of(const Expression& expression) const {
-  for (const ExpressionNode& node : expression.nodes)
-    if (node.field >= 0)
-      if (const FieldValue* value = field_value(node.card, node.field); value && value->line > 0)
-        return log_.where(*value);
-  return {deck_.file, 0, 0, 0};
+  const FieldValue* last = nullptr;
+  for (const ExpressionNode& node : expression.nodes) {
+    const FieldValue* value = node.field >= 0 ? field_value(node.card, node.field) : nullptr;
+    if (value && value->line > (last ? last->line : 0)) last = value;
+  }
+  return last ? log_.where(*last) : SourcePosition{deck_.file, 0, 0, 0};
 }
 
 void DeckReader::fault(const SourcePosition& where, const std::string& what, const Expression& expression,

@@ -411,10 +411,13 @@ SourceText source_of(std::string text, const std::string& name) {
   return {std::move(text), name};
 }
 
-[[noreturn]] void throw_with_other_layouts(const SourceText& source, const std::string& layout,
-                                           const InputError& error) {
+// by_itself: nobody named the layout, and the deck bears the marks of none.
+[[noreturn]] void throw_with_other_layouts(const SourceText& source, const Layout& layout,
+                                           const InputError& error, bool by_itself) {
   Diagnostics all = error.diagnostics();
-  if (std::optional<Diagnostic> others = other_layouts_that_read(source, layout)) all.add(*std::move(others));
+  std::optional<Diagnostic> others = other_layouts_that_read(source, layout.name);
+  if (!others && by_itself) others = read_as_standard(source, layout, all);
+  if (others) all.add(*std::move(others));
   throw InputError(std::move(all));
 }
 
@@ -443,7 +446,7 @@ Deck read_deck(const std::string& path, const ReadOptions& options) {
     std::optional<Diagnostics> unknown =
         recognised.empty() ? no_layout_fits(source, layout, error.diagnostics()) : outside_of_scope(source);
     if (unknown) throw InputError(*std::move(unknown));
-    throw_with_other_layouts(source, layout.name, error);
+    throw_with_other_layouts(source, layout, error, recognised.empty());
   }
 }
 
@@ -452,7 +455,7 @@ Deck read_deck(const std::string& path, const Layout& layout, const ReadOptions&
   try {
     return DeckReader(source, layout, options).read();
   } catch (const InputError& error) {
-    throw_with_other_layouts(source, layout.name, error);
+    throw_with_other_layouts(source, layout, error, false);
   }
 }
 

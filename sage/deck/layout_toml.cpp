@@ -1,5 +1,6 @@
 // Layout files: TOML -> Layout, with the layout file's own line in every complaint.
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 
@@ -257,7 +258,7 @@ class LayoutReader : private TomlFile {
     spec.kind = spec.computed ? named_kind(table).value_or(FieldKind::real) : field_kind(table, card);
     spec.required = flag(table, "required");
     if (const toml::node* node = table.get("default")) {
-      const auto value = node->value<double>();
+      const auto value = number(*node);
       if (!value) fail(*node, "default must be a number");
       spec.has_fallback = true;
       spec.fallback = *value;
@@ -305,7 +306,18 @@ class LayoutReader : private TomlFile {
         fail(*field.get("value"), words ? "the value is a text, the field's kind is another"
                                         : "the value is a number, the field's kind is text");
       spec.kind = kind;
+      if (!field.contains("label")) name_after_copied(card.rules[i].values, spec);
     }
+  }
+
+  // A field that only copies one of another card bears that one's label in messages.
+  void name_after_copied(const std::vector<Expression>& values, FieldSpec& spec) const {
+    if (values.size() != 1 || values[0].nodes.size() != 1) return;
+    const ExpressionNode& node = values[0].nodes[0];
+    if (node.kind != ExpressionNode::Kind::field || node.card == bare_card_) return;
+    spec.label = layout_.cards[static_cast<std::size_t>(node.card)]
+                     .spec.fields[static_cast<std::size_t>(node.field)]
+                     .label;
   }
 
   void read_value(const toml::table& field, CardRule& card, std::size_t i) {
@@ -353,15 +365,23 @@ class LayoutReader : private TomlFile {
     }
   }
 
+  // Of a node that holds one; TOML's inf and nan are values that no card can mean.
+  std::optional<double> number(const toml::node& node) const {
+    const std::optional<double> value = node.value<double>();
+    if (value && !std::isfinite(*value))
+      fail(node, number_text(*value) + " is no number that a layout can hold");
+    return value;
+  }
+
   void read_map(const toml::table& table, FieldRule& rule) const {
     const toml::node* node = table.get("map");
     if (!node) return;
     const toml::table* map = node->as_table();
     if (!map) fail(*node, "map must be { foreign = ours, ... }");
     for (const auto& [key, value] : *map) {
-      const auto number = value.value<double>();
-      if (!number) fail(value, "a map gives numbers");
-      rule.map.emplace_back(std::string(key.str()), *number);
+      const auto ours = number(value);
+      if (!ours) fail(value, "a map gives numbers");
+      rule.map.emplace_back(std::string(key.str()), *ours);
     }
   }
 
@@ -379,9 +399,9 @@ class LayoutReader : private TomlFile {
       return;
     }
     for (const toml::node& entry : *allowed) {
-      const auto number = entry.value<double>();
-      if (!number) fail(entry, "allowed must be [ number, ... ]");
-      rule.allowed.push_back(*number);
+      const auto one = number(entry);
+      if (!one) fail(entry, "allowed must be [ number, ... ]");
+      rule.allowed.push_back(*one);
     }
   }
 
@@ -389,8 +409,8 @@ class LayoutReader : private TomlFile {
     const toml::node* node = table.get("between");
     if (!node) return;
     const toml::array* ends = node->as_array();
-    const auto low = ends && ends->size() == 2 ? (*ends)[0].value<double>() : std::nullopt;
-    const auto high = low ? (*ends)[1].value<double>() : std::nullopt;
+    const auto low = ends && ends->size() == 2 ? number((*ends)[0]) : std::nullopt;
+    const auto high = low ? number((*ends)[1]) : std::nullopt;
     if (!high || !(*low <= *high) || kind == FieldKind::text)
       fail(*node, "between must be [ lowest, highest ], two numbers, for a number");
     rule.least = *low;
@@ -457,9 +477,9 @@ class LayoutReader : private TomlFile {
 
   Expression expression(const toml::node& node, std::string_view key, int own) const {
     Expression result;
-    if (const auto number = node.value<double>(); number && node.is_number()) {
-      result.source = number_text(*number);
-      result.nodes.emplace_back().number = *number;
+    if (const auto constant = node.is_number() ? number(node) : std::nullopt) {
+      result.source = number_text(*constant);
+      result.nodes.emplace_back().number = *constant;
     } else if (const auto source = node.value_exact<std::string>()) {
       const int bare = own >= 0 ? own : bare_card_;
       try {

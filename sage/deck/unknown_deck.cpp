@@ -34,6 +34,19 @@ bool looks_foreign(const std::array<int, 2>& lines, const Diagnostics& problems)
   return errors[0] + errors[1] >= 3;
 }
 
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+// What a deck's owner can do where it bears the marks of no layout.
+std::string ways_on(const SourceText& source) {
+  return "--layout NAME, one of those built in (" + joined(built_in_layouts()) +
+         ") or the path of a layout file; sagefe layout guess " + source.name() +
+         " makes a first layout for a program that has none";
+}
+
 // Names of the layouts other than `tried` that read the whole deck without an error or a warning.
 std::vector<std::string> layouts_that_read(const SourceText& source, const std::string& tried) {
   std::vector<std::string> names;
@@ -47,12 +60,6 @@ std::vector<std::string> layouts_that_read(const SourceText& source, const std::
     }
   }
   return names;
-}
-
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
 }
 
 // Where several read it, only the deck's owner knows which program it was written for.
@@ -74,6 +81,24 @@ std::optional<Diagnostic> other_layouts_that_read(const SourceText& source, cons
                     {}};
 }
 
+std::optional<Diagnostic> read_as_standard(const SourceText& source, const Layout& standard,
+                                           const Diagnostics& problems) {
+  const std::array<int, 2> lines = first_lines(source, standard);
+  const bool flawed = std::any_of(problems.list().begin(), problems.list().end(), [&](const Diagnostic& d) {
+    return d.severity == Severity::error && d.where.line > 0 &&
+           (lines[1] == 0 || d.where.line == lines[0] || d.where.line == lines[1]);
+  });
+  if (!flawed) return std::nullopt;
+  return Diagnostic{
+      Severity::note,
+      {source.name(), 0, 0, 0},
+      "the deck was read as " + standard.name +
+          ", since it has the marks of no other layout; if it was written for another program, name "
+          "its layout: " +
+          ways_on(source),
+      {}};
+}
+
 std::optional<Diagnostics> outside_of_scope(const SourceText& source) {
   const std::string program = other_program(source);
   if (program.empty()) return std::nullopt;
@@ -93,8 +118,7 @@ std::optional<Diagnostics> no_layout_fits(const SourceText& source, const Layout
   Diagnostic first{Severity::error,
                    {source.name(), 0, 0, 0},
                    "no layout fits this deck: it has the marks of none, and its first cards are not those of " +
-                       standard.name + "; name its layout with --layout, one of those built in (" +
-                       joined(built_in_layouts()) + ") or the path of a layout file",
+                       standard.name + "; name its layout: " + ways_on(source),
                    {}};
   if (const std::vector<std::string> fitting = layouts_that_read(source, standard.name); fitting.empty()) {
     if (std::optional<Diagnostics> outside = outside_of_scope(source)) return outside;

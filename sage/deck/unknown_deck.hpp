@@ -15,6 +15,11 @@ namespace sage {
 std::optional<Diagnostics> no_layout_fits(const SourceText& source, const Layout& standard,
                                           const Diagnostics& problems);
 
+// A note that says so where a deck without marks was read as `standard` and its first cards, units and control, have
+// mistakes: with the other layouts, and the way to a new one.
+std::optional<Diagnostic> read_as_standard(const SourceText& source, const Layout& standard,
+                                           const Diagnostics& problems);
+
 // A note that names the built-in layouts, others than `layout`, that read the deck without an error or a warning:
 // a deck with a mistake under its own layout, and with none under another, was perhaps written for that.  Empty
 // where there are none.

@@ -89,10 +89,12 @@ OutFile::OutFile(std::filesystem::path path) : path_(std::move(path)) {
 void OutFile::open_ordinary() {
   constexpr int kFlags = O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_NONBLOCK;
   int descriptor = open_waiting_for_signals(partial_, kFlags);
-  if (descriptor < 0 && errno == ENOENT) {
+  if (descriptor < 0 && (errno == ENOENT || errno == ENOTDIR || errno == ELOOP) &&
+      !path_.parent_path().empty()) {
     std::error_code error;
     std::filesystem::create_directories(path_.parent_path(), error);
-    if (error) fail(path_.parent_path(), error.value());
+    if (error)
+      throw OutputError("the folder " + path_.parent_path().string() + " can't be made: " + error.message());
     descriptor = open_waiting_for_signals(partial_, kFlags);
   }
   const int error = errno;

@@ -129,6 +129,27 @@ TEST(Files, ALinkLoopAsOutputFolder) {
       << run.err;
 }
 
+// Every command makes a folder that is missing, and says in the same words what keeps it from that.
+TEST(Files, FoldersAreMadeOrNamedByAllCommandsAlike) {
+  const fs::path folder = empty_folder("folders");
+  write(folder / "x.dat", block());
+  write(folder / "file", "");
+  fs::create_symlink("b", folder / "a");
+  fs::create_symlink("a", folder / "b");
+  const std::pair<std::string, std::string> commands[] = {
+      {"run x.dat -o ", ""}, {"convert x.dat ", "/y.dat"}, {"layout guess x.dat -o ", "/y.toml"}};
+  for (const auto& [command, file] : commands) {
+    const std::string made = "made" + std::to_string(command.size()) + "/inside";
+    EXPECT_EQ(sagefe(folder, command + made + file).exit_code, 0) << command;
+    EXPECT_TRUE(fs::is_directory(folder / made)) << command;
+    for (const std::string in_the_way : {"file/inside", "a/inside"}) {
+      const Finished run = sagefe(folder, command + in_the_way + file);
+      EXPECT_EQ(run.exit_code, 4) << command << run.err;
+      EXPECT_NE(run.err.find("the folder " + in_the_way + " can't be made: "), std::string::npos) << run.err;
+    }
+  }
+}
+
 // The folder goes while the run computes: it stops within the next increments, long before its end.
 TEST(Files, AnOutputFolderThatIsRemovedEndsTheRun) {
   for (const char* how : {"rm -rf out", "mv out elsewhere"}) {

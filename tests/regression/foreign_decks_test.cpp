@@ -77,7 +77,23 @@ TEST(ForeignDecks, ThatNoLayoutFitsAreToldSoFirst) {
     write(folder / name, text);
     const Finished run = sagefe(folder, std::string("check ") + name);
     EXPECT_EQ(run.exit_code, 2) << name;
-    expect_words(first_line(run.err), {name, "error: no layout fits this deck"});
+    expect_words(first_line(run.err),
+                 {name, "error: no layout fits this deck", "--layout NAME", "quad4m", "sagefe layout guess "});
+  }
+  // Whose first cards might be those of sage1, with a card missing: its mistakes, and the layouts behind them.
+  const std::pair<const char*, const char*> doubtful[] = {
+      {"numbers.dat", "A PLATE\n    4    1    1\n         0         0\n         1         0\n"},
+      {"sap.dat",
+       "SAP IV DAM\n    4    1    1    0    0    0    0\n    1    0    0    1    1    1    1       0.0\n"},
+      {"words.dat", "some words\nand more of them\n"},
+      {"word.dat", "word\n"},
+  };
+  for (const auto& [name, text] : doubtful) {
+    write(folder / name, text);
+    const Finished run = sagefe(folder, std::string("check ") + name);
+    EXPECT_EQ(run.exit_code, 2) << name;
+    expect_words(run.err, {"read as sage1", "--layout NAME", "quad4m",
+                           (std::string("sagefe layout guess ") + name).c_str()});
   }
 }
 
@@ -99,6 +115,8 @@ TEST(ForeignDecks, AStandardDeckWithMistakesIsStillOne) {
     const Finished run = sagefe(folder, std::string("check ") + name);
     EXPECT_EQ(run.exit_code, 2) << name;
     EXPECT_EQ(run.err.find("no layout fits"), std::string::npos) << run.err;
+    // The first cards of the second deck are those of sage1.
+    EXPECT_EQ(run.err.find("read as sage1") != std::string::npos, std::string(name) == "slip.dat") << run.err;
   }
 }
 

@@ -93,6 +93,17 @@ TEST(InitialBalance, NewtonCotesPairsAreOutOfBalanceAtBothEnds) {
   }
 }
 
+// Where the stress puts no force on any node there is no share of its largest one.
+TEST(InitialBalance, AStressWithoutForcesHasNoShare) {
+  const Model model = app::make_workbench().build(JointedSpecimen().text());
+  InitialImbalance imbalance;
+  imbalance.dof = 1;
+  imbalance.force = 7.5;
+  const std::string text = explain_imbalance(model, 0, imbalance);
+  EXPECT_NE(text.find("by up to 7.5"), std::string::npos) << text;
+  EXPECT_NE(text.find("(it puts no force on any node itself)"), std::string::npos) << text;
+}
+
 // The same histories, what is out of balance let go over the compression or in a stage of its own before it.
 // Only Newton-Cotes has anything to let go; with a joint whose stiffness follows its normal stress that leaves
 // 1e-5 in the force (docs/theory/elements.md), with constant stiffness nothing at the end.

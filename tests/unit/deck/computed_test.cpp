@@ -317,6 +317,32 @@ TEST(Computed, MistakesOfALayoutNameTheirLine) {
             "4: no card \"b\" stands before this");
   EXPECT_EQ(refusal("[[card]]\nname = 'a'\nformat = '(I5)'\nfields = [{ name = 'k', value = 1 }]\n"),
             "2: no field of the card is read: give made = true instead of a FORMAT");
+  for (const char* bad : {"nan", "inf", "-inf"})
+    for (const std::string field : {"value = ", "kind = 'integer', value = "})
+      EXPECT_EQ(refusal(made + "fields = [{ name = 'n', " + field + bad + " }]\n"),
+                "5: " + std::string(bad) + " is no number that a layout can hold");
+  EXPECT_EQ(refusal(made + "fields = [\n{ name = 'n', value = [\n1, nan] }]\n"),
+            "7: nan is no number that a layout can hold");
+  EXPECT_EQ(refusal("[[card]]\nname = 'a'\nformat = '(I5)'\nfields = [{ name = 'n', default = inf }]\n"),
+            "5: inf is no number that a layout can hold");
+}
+
+// What stands last on a card is what its values are about: an error is shown there, not at the number that an
+// earlier card adds to it.
+TEST(Computed, MistakesStandOnTheCardsOwnRecord) {
+  const std::string layout = R"toml(
+[[card]]
+name = "head"
+format = "(2I5)"
+fields = [{ name = "before" }, { name = "count" }]
+[[card]]
+name = "row"
+format = "(2I5)"
+repeat = "head.count"
+fields = [{ name = "number" }, { name = "soil" }, { name = "group", kind = "integer", value = "head.before + soil", allowed = [11, 12] }]
+)toml";
+  const std::string found = complaints(layout, "   10    2\n    1    1\n    2    3\n");
+  EXPECT_EQ(found.substr(0, 6), "3:6-10") << found;
 }
 
 // A count of the deck can't ask for more memory than a deck of its size may need.

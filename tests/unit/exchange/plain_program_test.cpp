@@ -178,6 +178,26 @@ TEST(Plast, EdgesAreCheckedByTheirNodes) {
       std::string::npos);
 }
 
+// A value at a third node that the edge has not: on its columns, and nothing is left out in silence.
+TEST(Plast, AThirdPressureNeedsAThirdNode) {
+  const std::string deck = text_of(kInputs + "plast/cylinder_tresca.dat");
+  const std::string edge = "    1    3    2    1\n", two = "    1    3    1\n";
+  const std::size_t at = deck.find(edge) + edge.size();
+  const std::string pressures = deck.substr(at, deck.find('\n', at) + 1 - at);
+  const auto errors = [&](const std::string& values) {
+    return errors_of(changed(deck, edge + pressures, two + values), "plast");
+  };
+  EXPECT_EQ(errors("       1.0       0.0       1.0       0.0\n"), "");
+  EXPECT_EQ(errors("       1.0       0.0       1.0       0.0       0.0       0.0\n"), "");
+  EXPECT_NE(errors("       1.0       0.0       1.0       0.0       2.0       0.0\n")
+                .find(":41 edge 3-1: the pressure at the third node is 2, but the card has no third node"),
+            std::string::npos)
+      << errors("       1.0       0.0       1.0       0.0       2.0       0.0\n");
+  EXPECT_NE(
+      errors("       1.0       0.0       1.0       0.0       0.0       3.0\n").find(":51 edge 3-1: the shear"),
+      std::string::npos);
+}
+
 // A pressure that is parabolic along an edge: its forces, against those of the shape functions by hand.  On a straight
 // edge of length 2 with 0, p, 0 at its nodes they are 2p/15, 16p/15, 2p/15 of the middle one's share.
 TEST(Plast, AParabolicPressureHasItsNodalForces) {
@@ -210,6 +230,18 @@ TEST(Stap, PlateInPlaneStrain) {
     EXPECT_NEAR(u.x(), 0.91 * 100.0 / 30000.0 * x.x(), 1e-12) << number;
     EXPECT_NEAR(u.y(), -0.39 * 100.0 / 30000.0 * x.y(), 1e-12) << number;
   }
+}
+
+// A material that its group has not, where another group has one of that number in the whole deck, and where none has:
+// both are shown on the element's card.
+TEST(Stap, AnUnknownMaterialIsShownOnItsElement) {
+  const std::string deck = text_of(kInputs + "stap/plate.dat");
+  EXPECT_EQ(
+      errors_of(changed(deck, "    3    3    4    9    8    1\n", "    3    3    4    9    8    2\n"), "stap"),
+      "20:26 the material can't be 2: the number of one of the group's materials, 1 to NPAR(3)\n");
+  EXPECT_EQ(
+      errors_of(changed(deck, "    3    8    9   14   13    1\n", "    3    8    9   14   13    2\n"), "stap"),
+      "26:26 the material can't be 2: the number of one of the group's materials, 1 to NPAR(3)\n");
 }
 
 // Uniform radial and hoop stress 100: u = (1 - nu) 100 r / E, w = -2 nu 100 z / E.
