@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <optional>
 
@@ -14,46 +15,31 @@ namespace sage {
 
 namespace {
 
-using Stress4 = Eigen::Matrix<double, Eigen::Dynamic, 4>;
-
-// What is known of one element: places and stress of its samples, and of the points where the error is
-// measured, with their weights.
-struct ElementStress {
+// The elements of a group, one after the other: places and stress of their samples, and of the points where the
+// error is measured, with their weights.
+struct GroupStress {
+  int degree = 1, corners = 4;           // of an element
+  Eigen::Index samples = 0, points = 0;  // of an element
   Eigen::Matrix2Xd sample_at, point_at;
-  Stress4 samples, points;
+  Eigen::Matrix4Xd sample, point;  // stress
   Eigen::VectorXd w;
-  int degree = 1, corners = 4;
+  Matrix4 C = Matrix4::Identity();  // D^-1 of a linear law
+
+  auto samples_of(int e) const { return sample.middleCols(e * samples, samples); }
+  auto sample_places_of(int e) const { return sample_at.middleCols(e * samples, samples); }
+  auto points_of(int e) const { return point.middleCols(e * points, points); }
 };
 
 // The stress of a patch of elements as a polynomial for each component.
-class Fit {
- public:
-  explicit Fit(const std::vector<const ElementStress*>& patch) : polynomial_(places(patch), degree(patch)) {
-    const Eigen::MatrixXd& V = polynomial_.matrix();
-    Stress4 values(V.rows(), 4);
-    Eigen::Index row = 0;
-    for (const ElementStress* e : patch)
-      for (Eigen::Index i = 0; i < e->samples.rows(); ++i) values.row(row++) = e->samples.row(i);
-    coefficients_ = dense_matrix::least_squares(V, values);
-  }
+struct Fit {
+  PolynomialTerms terms;
+  Eigen::Matrix4Xd coefficients;
 
-  Eigen::RowVector4d at(const Vector2& x) const { return polynomial_.terms(x) * coefficients_; }
-
- private:
-  static std::vector<const Eigen::Matrix2Xd*> places(const std::vector<const ElementStress*>& patch) {
-    std::vector<const Eigen::Matrix2Xd*> all;
-    all.reserve(patch.size());
-    for (const ElementStress* e : patch) all.push_back(&e->sample_at);
-    return all;
+  Vector4 at(const Vector2& x) const {
+    Vector4 sum = Vector4::Zero();
+    terms.at(x, [&](Eigen::Index k, double term) { sum += term * coefficients.col(k); });
+    return sum;
   }
-  static int degree(const std::vector<const ElementStress*>& patch) {
-    int lowest = patch.front()->degree;
-    for (const ElementStress* e : patch) lowest = std::min(lowest, e->degree);
-    return lowest;
-  }
-
-  PatchPolynomial polynomial_;
-  Eigen::MatrixXd coefficients_;
 };
 
 // What a field at n x n Gauss points (xi fastest) has above degree n - 3 in xi or eta: the identity less the
@@ -112,73 +98,48 @@ CornerRule corner_rule(const ElementEntry& entry) {
 
 // At the points of a reduced rule the error of a smooth solution vanishes: it is measured at others, where the
 // stress is the linear or bilinear one through those points.
-void measure_between_points(const Group& group, const Eigen::Matrix2Xd& x, ElementStress& s) {
-  const Element& element = *group.element;
-  const Eigen::Index points = s.points.rows(), corners = s.corners;
-  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> to_nodes(
-      element.point_to_node().data(), element.traits().nodes, points);
-  const CornerRule rule = corner_rule(*group.entry);
-  const Eigen::MatrixXd map = rule.shares * to_nodes.topRows(corners);
-  const double volume = s.w.sum();
-  const Eigen::VectorXd density = map * s.w;
-  s.w = (rule.w.array() * density.array()).matrix();
-  s.w *= volume / s.w.sum();
-  s.points = map * s.points;
-  CoarseShape shape;
-  shape.corners = s.corners;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(s.corners); ++k) {
-    shape.corner[k] = x.col(static_cast<Eigen::Index>(k));
-    const std::vector<int>& edge = element.edges()[k];
-    if (edge.size() > 2) shape.middle[k] = x.col(edge[2]);
+class PointsBetween {
+ public:
+  explicit PointsBetween(const Group& group) : element_(*group.element), rule_(corner_rule(*group.entry)) {
+    const Eigen::Index points = element_.traits().points;
+    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> to_nodes(
+        element_.point_to_node().data(), element_.traits().nodes, points);
+    map_ = rule_.shares * to_nodes.topRows(static_cast<Eigen::Index>(element_.edges().size()));
   }
-  s.point_at.resize(2, rule.w.size());
-  for (std::size_t i = 0; i < rule.at.size(); ++i)
-    s.point_at.col(static_cast<Eigen::Index>(i)) = shape.at(rule.at[i]);
-}
 
-ElementStress element_stress(const Model& model, const GroupData& data, int e,
-                             const std::vector<double>* start) {
-  const Group& group = *data.group;
-  const Element& element = *group.element;
-  const ElementTraits& traits = element.traits();
-  Eigen::Matrix2Xd x;
-  element_coordinates(model.mesh, group, e, x);
-  ElementStress s;
-  s.degree = element.degree();
-  s.corners = static_cast<int>(element.edges().size());
-  const Eigen::Index points = traits.points;
-  s.points.resize(points, 4);
-  s.point_at.resize(2, points);
-  s.w.resize(points);
-  std::vector<double> made;
-  const auto stride = static_cast<std::size_t>(1 + traits.law_size * traits.dofs);
-  const double* geometry = nullptr;
-  if (data.geometry.empty()) {
-    made.resize(static_cast<std::size_t>(traits.geometry_size()));
-    element.geometry(x, made);
-    geometry = made.data();
-  } else {
-    geometry =
-        data.geometry.data() + static_cast<std::size_t>(e) * static_cast<std::size_t>(traits.geometry_size());
+  static bool suit(const Group& group) {
+    const Element& element = *group.element;
+    const bool own_places = element.point_to_sample().empty();
+    return own_places && element.degree() <= 2 &&
+           (group.entry->square() || element.traits().points < 3 * element.degree());
   }
-  for (Eigen::Index p = 0; p < points; ++p) {
-    const auto at =
-        4 * (static_cast<std::size_t>(e) * static_cast<std::size_t>(points) + static_cast<std::size_t>(p));
-    for (Eigen::Index c = 0; c < 4; ++c) {
-      const std::size_t i = at + static_cast<std::size_t>(c);
-      s.points(p, c) = data.state.committed.sigma[i] - (start != nullptr ? (*start)[i] : 0.0);
+
+  Eigen::Index count() const { return rule_.w.size(); }
+
+  // Element e of `s` from the stress (4 x points) and weights at its own points; x: its nodes.
+  void put(const Eigen::Matrix2Xd& x, const Eigen::Matrix4Xd& stress, const Eigen::VectorXd& w, int e,
+           GroupStress& s) const {
+    const Eigen::VectorXd density = map_ * w;
+    auto weights = s.w.segment(e * s.points, s.points);
+    weights = (rule_.w.array() * density.array()).matrix();
+    weights *= w.sum() / weights.sum();
+    s.point.middleCols(e * s.points, s.points).noalias() = stress * map_.transpose();
+    CoarseShape shape;
+    shape.corners = s.corners;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(s.corners); ++k) {
+      shape.corner[k] = x.col(static_cast<Eigen::Index>(k));
+      const std::vector<int>& edge = element_.edges()[k];
+      if (edge.size() > 2) shape.middle[k] = x.col(edge[2]);
     }
-    s.point_at.col(p) = element.position(x, static_cast<int>(p));
-    s.w(p) = geometry[static_cast<std::size_t>(p) * stride];
+    for (std::size_t i = 0; i < rule_.at.size(); ++i)
+      s.point_at.col(e * s.points + static_cast<Eigen::Index>(i)) = shape.at(rule_.at[i]);
   }
-  const Eigen::MatrixXd to_samples = sample_map(element);
-  s.samples = to_samples.size() > 0 ? Stress4(to_samples * s.points) : s.points;
-  s.sample_at = to_samples.size() > 0 ? Eigen::Matrix2Xd(s.point_at * to_samples.transpose()) : s.point_at;
-  const bool own_places = element.point_to_sample().empty();
-  if (own_places && s.degree <= 2 && (group.entry->square() || points < 3 * s.degree))
-    measure_between_points(group, x, s);
-  return s;
-}
+
+ private:
+  const Element& element_;
+  CornerRule rule_;
+  Eigen::MatrixXd map_;  // from an element's points to these
+};
 
 // D^-1 of a linear law; the unit matrix for the others.
 Matrix4 compliance(const SolidLaw& law) {
@@ -189,87 +150,187 @@ Matrix4 compliance(const SolidLaw& law) {
   return out.D.inverse();
 }
 
+// Stress (4 x points), places and weights at an element's own points.
+class ElementPoints {
+ public:
+  ElementPoints(const Model& model, const GroupData& data, const std::vector<double>* start)
+      : model_(model), data_(data), start_(start), traits_(data.group->element->traits()) {
+    stress.resize(4, traits_.points);
+    at.resize(2, traits_.points);
+    w.resize(traits_.points);
+    if (data.geometry.empty()) made_.resize(static_cast<std::size_t>(traits_.geometry_size()));
+  }
+
+  void take(int e) {
+    const Element& element = *data_.group->element;
+    element_coordinates(model_.mesh, *data_.group, e, x);
+    if (data_.geometry.empty()) element.geometry(x, made_);
+    const auto size = static_cast<std::size_t>(traits_.geometry_size());
+    const double* geometry =
+        data_.geometry.empty() ? made_.data() : data_.geometry.data() + static_cast<std::size_t>(e) * size;
+    const auto stride = static_cast<std::size_t>(1 + traits_.law_size * traits_.dofs);
+    const auto first = 4 * static_cast<std::size_t>(e) * static_cast<std::size_t>(traits_.points);
+    stress = Eigen::Map<const Eigen::Matrix4Xd>(data_.state.committed.sigma.data() + first, 4, traits_.points);
+    if (start_ != nullptr)
+      stress -= Eigen::Map<const Eigen::Matrix4Xd>(start_->data() + first, 4, traits_.points);
+    for (int p = 0; p < traits_.points; ++p) {
+      at.col(p) = element.position(x, p);
+      w(p) = geometry[static_cast<std::size_t>(p) * stride];
+    }
+  }
+
+  Eigen::Matrix2Xd x, at;  // of its nodes, of its points
+  Eigen::Matrix4Xd stress;
+  Eigen::VectorXd w;
+
+ private:
+  const Model& model_;
+  const GroupData& data_;
+  const std::vector<double>* start_;
+  const ElementTraits& traits_;
+  std::vector<double> made_;
+};
+
+GroupStress group_stress(const Model& model, const GroupData& data, const std::vector<double>* start) {
+  const Group& group = *data.group;
+  const Element& element = *group.element;
+  const Eigen::MatrixXd to_samples = sample_map(element);
+  std::optional<PointsBetween> between;
+  if (PointsBetween::suit(group)) between.emplace(group);
+  GroupStress s;
+  s.degree = element.degree();
+  s.corners = static_cast<int>(element.edges().size());
+  s.samples = to_samples.size() > 0 ? to_samples.rows() : element.traits().points;
+  s.points = between ? between->count() : element.traits().points;
+  const Eigen::Index elements = group.elements();
+  s.sample_at.resize(2, elements * s.samples);
+  s.sample.resize(4, elements * s.samples);
+  s.point_at.resize(2, elements * s.points);
+  s.point.resize(4, elements * s.points);
+  s.w.resize(elements * s.points);
+  ElementPoints own(model, data, start);
+  for (int e = 0; e < group.elements(); ++e) {
+    own.take(e);
+    auto places = s.sample_at.middleCols(e * s.samples, s.samples);
+    auto values = s.sample.middleCols(e * s.samples, s.samples);
+    if (to_samples.size() > 0) {
+      places.noalias() = own.at * to_samples.transpose();
+      values.noalias() = own.stress * to_samples.transpose();
+    } else {
+      places = own.at;
+      values = own.stress;
+    }
+    if (between) {
+      between->put(own.x, own.stress, own.w, e, s);
+    } else {
+      s.point_at.middleCols(e * s.points, s.points) = own.at;
+      s.point.middleCols(e * s.points, s.points) = own.stress;
+      s.w.segment(e * s.points, s.points) = own.w;
+    }
+  }
+  return s;
+}
+
 const SolidLaw* solid_law(const GroupData& data) {
   const auto* law = std::get_if<const SolidLaw*>(&data.law);
   return data.active && law != nullptr ? *law : nullptr;
 }
 
-// The polynomials of all patches, each made when it is first asked for.
+// The polynomials of all patches of one material, each made when it is first asked for.
 class PatchFits {
  public:
-  PatchFits(const Model& model, const std::vector<ElementRef>& elements,
-            const std::vector<ElementStress>& stress)
-      : model_(model), elements_(elements), stress_(stress) {}
+  PatchFits(const Model& model, const std::vector<ElementRef>& elements, const std::vector<GroupStress>& stress,
+            int material)
+      : elements_(elements),
+        stress_(stress),
+        patches_(model, of_material(model, material), elements),
+        fit_of_(static_cast<std::size_t>(model.mesh.nodes()), -1) {}
 
   // Those around an element's corners inside its material; where it has none, one of all of its neighbours.
   // Valid until the next call.
-  std::vector<const Fit*> of(const Group& group, std::size_t k) {
-    const Patches& patches = of_material(group.material);
-    const int* nodes = group.nodes_of(elements_[k].element);
-    std::vector<const Fit*> use;
-    for (int c = 0; c < stress_[k].corners; ++c) {
-      if (!patches.inside(nodes[c])) continue;
-      auto it = fits_.find({group.material, nodes[c]});
-      if (it == fits_.end())
-        it = fits_.emplace(std::pair{group.material, nodes[c]}, fit(patches.around(nodes[c]))).first;
-      use.push_back(&it->second);
+  const std::vector<const Fit*>& of(const Group& group, const ElementRef& element) {
+    const int* nodes = group.nodes_of(element.element);
+    use_.clear();
+    for (int c = 0; c < stress_[element.group].corners; ++c) {
+      if (!patches_.inside(nodes[c])) continue;
+      int& known = fit_of_[static_cast<std::size_t>(nodes[c])];
+      if (known < 0) {
+        known = static_cast<int>(fits_.size());
+        fits_.push_back(fit(patches_.around(nodes[c])));
+      }
+      use_.push_back(&fits_[static_cast<std::size_t>(known)]);
     }
-    if (!use.empty()) return use;
-    own_.emplace(fit(patches.neighbours(*group.element, nodes)));
-    return {&*own_};
+    if (use_.empty()) {
+      own_ = fit(patches_.neighbours(*group.element, nodes));
+      use_.push_back(&own_);
+    }
+    return use_;
   }
 
  private:
-  const Patches& of_material(int material) {
-    auto known = patches_.find(material);
-    if (known == patches_.end()) {
-      std::vector<char> same;
-      for (const Group& other : model_.groups) same.push_back(other.material == material);
-      known = patches_.try_emplace(material, model_, same, elements_).first;
-    }
-    return known->second;
-  }
-  Fit fit(const std::vector<std::size_t>& patch) const {
-    std::vector<const ElementStress*> members;
-    members.reserve(patch.size());
-    for (std::size_t k : patch) members.push_back(&stress_[k]);
-    return Fit(members);
+  static std::vector<char> of_material(const Model& model, int material) {
+    std::vector<char> same;
+    for (const Group& group : model.groups) same.push_back(group.material == material);
+    return same;
   }
 
-  const Model& model_;
+  Fit fit(std::span<const std::size_t> patch) {
+    Eigen::Index count = 0;
+    int degree = PolynomialTerms::kMostDegree;
+    for (const std::size_t k : patch) {
+      count += stress_[elements_[k].group].samples;
+      degree = std::min(degree, stress_[elements_[k].group].degree);
+    }
+    places_.resize(2, count);
+    values_.resize(count, 4);
+    Eigen::Index row = 0;
+    for (const std::size_t k : patch) {
+      const auto& [group, element] = elements_[k];
+      const GroupStress& s = stress_[group];
+      places_.middleCols(row, s.samples) = s.sample_places_of(element);
+      values_.middleRows(row, s.samples) = s.samples_of(element).transpose();
+      row += s.samples;
+    }
+    fitter_.set_places(places_, degree);
+    return {fitter_.terms(), fitter_.fit(values_).transpose()};
+  }
+
   const std::vector<ElementRef>& elements_;
-  const std::vector<ElementStress>& stress_;
-  std::map<int, Patches> patches_;           // by material
-  std::map<std::pair<int, int>, Fit> fits_;  // by material and vertex
-  std::optional<Fit> own_;
+  const std::vector<GroupStress>& stress_;
+  Patches patches_;
+  std::vector<int> fit_of_;  // by node: in fits_, -1 = not made yet
+  std::deque<Fit> fits_;
+  Fit own_;
+  std::vector<const Fit*> use_;
+  PatchFitter fitter_;
+  Eigen::Matrix2Xd places_;
+  Eigen::MatrixXd values_;
 };
 
 // |sigma* - sigma|^2 over an element, sigma* the mean of the fits; |sigma|^2 is added to `size`.
-double fitted_error(const ElementStress& s, const std::vector<const Fit*>& fits, const Matrix4& C,
-                    double& size) {
+double fitted_error(const GroupStress& s, int e, const std::vector<const Fit*>& fits, double& size) {
   double error = 0.0;
-  for (Eigen::Index p = 0; p < s.points.rows(); ++p) {
-    Eigen::RowVector4d smooth = Eigen::RowVector4d::Zero();
+  for (Eigen::Index p = e * s.points; p < (e + 1) * s.points; ++p) {
+    Vector4 smooth = Vector4::Zero();
     for (const Fit* fit : fits) smooth += fit->at(s.point_at.col(p)) / static_cast<double>(fits.size());
-    const Vector4 own_stress = s.points.row(p), difference = smooth.transpose() - own_stress;
-    error += s.w(p) * difference.dot(C * difference);
-    size += s.w(p) * own_stress.dot(C * own_stress);
+    const Vector4 own_stress = s.point.col(p), difference = smooth - own_stress;
+    error += s.w(p) * difference.dot(s.C * difference);
+    size += s.w(p) * own_stress.dot(s.C * own_stress);
   }
   return error;
 }
 
 // Elements of high degree show their error themselves by their highest degrees; the polynomials of patches are
 // far too coarse for them where sizes jump from layer to layer.
-bool shows_its_own_error(const ElementStress& s) {
-  return s.degree >= 4 && s.points.rows() == (s.degree + 1) * (s.degree + 1);
+bool shows_its_own_error(const GroupStress& s) {
+  return s.degree >= 4 && s.points == (s.degree + 1) * (s.degree + 1);
 }
 
 // above: highest_degrees() of the element's points.
-double own_error(const ElementStress& s, const Eigen::MatrixXd& above, const Matrix4& C) {
-  const Stress4 top = above * s.points;
+double own_error(const GroupStress& s, int e, const Eigen::MatrixXd& above) {
+  const Eigen::Matrix4Xd top = s.points_of(e) * above.transpose();
   double error = 0.0;
-  for (Eigen::Index p = 0; p < s.points.rows(); ++p)
-    error += s.w(p) * top.row(p).dot((C * top.row(p).transpose()).transpose());
+  for (Eigen::Index p = 0; p < s.points; ++p) error += s.w(e * s.points + p) * top.col(p).dot(s.C * top.col(p));
   return error;
 }
 
@@ -302,30 +363,33 @@ ErrorEstimate estimate_error(const Model& model, const Solution& solution, const
   const std::vector<GroupData>& groups = solution.assembly->groups();
   result.element.resize(groups.size());
   std::vector<ElementRef> elements;
-  std::vector<ElementStress> stress;
+  std::vector<GroupStress> stress(groups.size());
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const SolidLaw* law = solid_law(groups[g]);
     if (law == nullptr) continue;
     result.energy = result.energy && law->linear();
-    for (int e = 0; e < groups[g].group->elements(); ++e) {
-      elements.push_back({g, e});
-      stress.push_back(element_stress(model, groups[g], e, start != nullptr ? &(*start)[g] : nullptr));
-    }
+    stress[g] = group_stress(model, groups[g], start != nullptr ? &(*start)[g] : nullptr);
+    for (int e = 0; e < groups[g].group->elements(); ++e) elements.push_back({g, e});
   }
+  if (result.energy)
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      if (const SolidLaw* law = solid_law(groups[g])) stress[g].C = compliance(*law);
 
-  PatchFits fits(model, elements, stress);
+  std::map<int, PatchFits> fits;           // by material
   std::map<int, Eigen::MatrixXd> highest;  // by points a line
-  for (std::size_t k = 0; k < elements.size(); ++k) {
-    const GroupData& data = groups[elements[k].group];
-    const Matrix4 C = result.energy ? compliance(*solid_law(data)) : Matrix4::Identity();
-    double error = fitted_error(stress[k], fits.of(*data.group, k), C, result.size);
-    if (shows_its_own_error(stress[k])) {
-      const int line = stress[k].degree + 1;
+  for (const ElementRef& element : elements) {
+    const GroupStress& s = stress[element.group];
+    const Group& group = *groups[element.group].group;
+    PatchFits& of_material =
+        fits.try_emplace(group.material, model, elements, stress, group.material).first->second;
+    double error = fitted_error(s, element.element, of_material.of(group, element), result.size);
+    if (shows_its_own_error(s)) {
+      const int line = s.degree + 1;
       auto& above = highest[line];
       if (above.size() == 0) above = highest_degrees(line);
-      error = std::min(error, own_error(stress[k], above, C));
+      error = std::min(error, own_error(s, element.element, above));
     }
-    add_element(result, elements[k], error);
+    add_element(result, element, error);
   }
   return result;
 }

@@ -1,19 +1,14 @@
 #include "sage/analysis/patch_fit.hpp"
 
 #include <algorithm>
-#include <cmath>
-
-#include "sage/core/dense.hpp"
+#include <numeric>
+#include <utility>
 
 namespace sage {
 
 namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-int terms_of(int degree) {
-  return (degree + 1) * (degree + 2) / 2;
-}
 
 }  // namespace
 
@@ -27,69 +22,65 @@ Eigen::MatrixXd sample_map(const Element& element) {
   return Eigen::MatrixXd::Constant(1, points, 1.0 / static_cast<double>(points));
 }
 
-PatchPolynomial::PatchPolynomial(const std::vector<const Eigen::Matrix2Xd*>& samples, int degree)
-    : degree_(degree) {
-  Eigen::Index count = 0;
-  Vector2 low = samples.front()->col(0), high = low;
-  for (const Eigen::Matrix2Xd* at : samples) {
-    count += at->cols();
-    low = low.cwiseMin(at->rowwise().minCoeff());
-    high = high.cwiseMax(at->rowwise().maxCoeff());
-  }
-  if (3 * terms_of(degree_ + 1) <= 2 * count) ++degree_;
-  while (degree_ > 0 && terms_of(degree_) > count) --degree_;
-  centre_ = 0.5 * (low + high);
-  scale_ = 0.5 * (high - low).cwiseMax(1e-300);
-  fill(samples, count);
-  // Two rows of places can't tell y^2 from 1, nor can six on a conic tell all of degree 2.
-  while (degree_ > 0 && !independent()) {
-    --degree_;
-    fill(samples, count);
-  }
-}
-
-void PatchPolynomial::fill(const std::vector<const Eigen::Matrix2Xd*>& samples, Eigen::Index count) {
-  V_.resize(count, terms_of(degree_));
-  Eigen::Index row = 0;
-  for (const Eigen::Matrix2Xd* at : samples)
-    for (Eigen::Index i = 0; i < at->cols(); ++i, ++row) V_.row(row) = terms(at->col(i));
-}
-
-// What is less certain by 1000 than the rest is none of the field: bent rows of places are nearly straight.
-bool PatchPolynomial::independent() const {
+void PatchFitter::set_places(const Eigen::Ref<const Eigen::Matrix2Xd>& places, int degree) {
+  // What is less certain by 1000 than the rest is none of the field: bent rows of places are nearly straight.
   constexpr double kLeast = 1e-3;
-  return dense_matrix::rank(V_, kLeast) == V_.cols();
+  const Vector2 low = places.rowwise().minCoeff(), high = places.rowwise().maxCoeff();
+  terms_.degree = std::min(degree, PolynomialTerms::kMostDegree - 1);
+  if (3 * PolynomialTerms{terms_.degree + 1, {}, {}}.count() <= 2 * places.cols()) ++terms_.degree;
+  while (terms_.degree > 0 && terms_.count() > places.cols()) --terms_.degree;
+  terms_.centre = 0.5 * (low + high);
+  terms_.scale = 0.5 * (high - low).cwiseMax(1e-300);
+  fill(places);
+  // Two rows of places can't tell y^2 from 1, nor can six on a conic tell all of degree 2.
+  while (terms_.degree > 0 && qr_.rank(kLeast) < V_.cols()) {
+    --terms_.degree;
+    fill(places);
+  }
 }
 
-Eigen::RowVectorXd PatchPolynomial::terms(const Vector2& x) const {
-  const double a = (x.x() - centre_.x()) / scale_.x(), b = (x.y() - centre_.y()) / scale_.y();
-  Eigen::RowVectorXd row(terms_of(degree_));
-  Eigen::Index k = 0;
-  for (int d = 0; d <= degree_; ++d)
-    for (int j = 0; j <= d; ++j) row(k++) = std::pow(a, d - j) * std::pow(b, j);
-  return row;
+void PatchFitter::fill(const Eigen::Ref<const Eigen::Matrix2Xd>& places) {
+  V_.resize(places.cols(), terms_.count());
+  for (Eigen::Index i = 0; i < places.cols(); ++i)
+    terms_.at(places.col(i), [&](Eigen::Index k, double term) { V_(i, k) = term; });
+  qr_.factorise(V_);
 }
 
 Patches::Patches(const Model& model, const std::vector<char>& of_these,
                  const std::vector<ElementRef>& elements) {
-  std::map<std::pair<int, int>, int> uses;
-  for (std::size_t k = 0; k < elements.size(); ++k) {
-    const Group& group = model.groups[elements[k].group];
-    if (!of_these[elements[k].group]) continue;
-    const int* nodes = group.nodes_of(elements[k].element);
-    for (const auto& edge : group.element->edges()) {
-      around_[nodes[edge[0]]].push_back(k);
-      ++uses[std::minmax(nodes[edge[0]], nodes[edge[1]])];
+  const auto nodes = static_cast<std::size_t>(model.mesh.nodes());
+  start_.assign(nodes + 1, 0);
+  on_boundary_.assign(nodes, 0);
+  std::vector<std::pair<int, int>> edges;
+  const auto for_edges = [&](auto visit) {
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      const Group& group = model.groups[elements[k].group];
+      if (!of_these[elements[k].group]) continue;
+      const int* node = group.nodes_of(elements[k].element);
+      for (const auto& edge : group.element->edges()) visit(k, node[edge[0]], node[edge[1]]);
     }
+  };
+  for_edges([&](std::size_t, int from, int to) {
+    ++start_[static_cast<std::size_t>(from) + 1];
+    edges.emplace_back(std::min(from, to), std::max(from, to));
+  });
+  std::partial_sum(start_.begin(), start_.end(), start_.begin());
+  items_.resize(start_.back());
+  std::vector<std::size_t> end(start_.begin(), start_.end() - 1);
+  for_edges([&](std::size_t k, int from, int) { items_[end[static_cast<std::size_t>(from)]++] = k; });
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t i = 0, next = 0; i < edges.size(); i = next) {
+    while (next < edges.size() && edges[next] == edges[i]) ++next;
+    if (next - i > 1) continue;  // inside
+    for (const int vertex : {edges[i].first, edges[i].second})
+      on_boundary_[static_cast<std::size_t>(vertex)] = 1;
   }
-  for (const auto& [ends, count] : uses)
-    if (count == 1) on_boundary_[ends.first] = on_boundary_[ends.second] = true;
 }
 
 std::vector<std::size_t> Patches::neighbours(const Element& element, const int* nodes) const {
   std::vector<std::size_t> all;
   for (const auto& edge : element.edges()) {
-    const std::vector<std::size_t>& patch = around(nodes[edge[0]]);
+    const std::span<const std::size_t> patch = around(nodes[edge[0]]);
     all.insert(all.end(), patch.begin(), patch.end());
   }
   std::sort(all.begin(), all.end());

@@ -1,11 +1,11 @@
 // A smooth field from the places where elements are most accurate: polynomials over patches of elements.
 #pragma once
 
-#include <map>
-#include <utility>
+#include <span>
 #include <vector>
 
 #include "sage/analysis/assembly.hpp"
+#include "sage/core/dense.hpp"
 
 namespace sage {
 
@@ -13,25 +13,36 @@ namespace sage {
 // points are those places.  (Element::point_to_sample, and the middle of a triangle of constant strain.)
 Eigen::MatrixXd sample_map(const Element& element);
 
-// The terms of a polynomial of full degree in x and y, scaled to the box of its samples.
-class PatchPolynomial {
+// The terms of a polynomial of full degree in x and y, scaled to a box.
+struct PolynomialTerms {
+  static constexpr int kMostDegree = 32;  // above that of any element, and one
+  int degree = 0;
+  Vector2 centre = Vector2::Zero(), scale = Vector2::Ones();  // middle and half sides of the box
+
+  Eigen::Index count() const { return (degree + 1) * (degree + 2) / 2; }
+  // Calls take(k, term k at x) for all k.
+  template <class Take>
+  void at(const Vector2& x, Take take) const;
+};
+
+// Fits polynomials to values at places, one patch after the other.
+class PatchFitter {
  public:
   // degree: the lowest of the patch's elements.  The stress wants that; one more takes less from the fit, and
   // is taken where there are samples enough for it.  Fewer samples than terms lower it, and so do places that
   // can't tell all terms apart (a body of one row of elements).
-  PatchPolynomial(const std::vector<const Eigen::Matrix2Xd*>& samples, int degree);
+  void set_places(const Eigen::Ref<const Eigen::Matrix2Xd>& places, int degree);
 
-  Eigen::RowVectorXd terms(const Vector2& x) const;
-  // samples x terms, in the order that they were given in
-  const Eigen::MatrixXd& matrix() const { return V_; }
+  const PolynomialTerms& terms() const { return terms_; }
+  // terms x columns: coefficients of least squares of values at the places (places x columns).
+  Eigen::MatrixXd fit(const Eigen::MatrixXd& values) const { return qr_.least_squares(values); }
 
  private:
-  void fill(const std::vector<const Eigen::Matrix2Xd*>& samples, Eigen::Index count);
-  bool independent() const;
+  void fill(const Eigen::Ref<const Eigen::Matrix2Xd>& places);
 
-  int degree_;
-  Vector2 centre_, scale_;
-  Eigen::MatrixXd V_;
+  PolynomialTerms terms_;
+  Eigen::MatrixXd V_;  // places x terms
+  dense_matrix::PivotedQr qr_;
 };
 
 struct ElementRef {
@@ -45,15 +56,32 @@ class Patches {
   // of_these: by group.
   Patches(const Model& model, const std::vector<char>& of_these, const std::vector<ElementRef>& elements);
 
-  // Places in `elements` that was given.
-  const std::vector<std::size_t>& around(int vertex) const { return around_.at(vertex); }
-  bool inside(int vertex) const { return on_boundary_.count(vertex) == 0; }
+  // Places in `elements` that was given, rising.
+  std::span<const std::size_t> around(int vertex) const {
+    const auto v = static_cast<std::size_t>(vertex);
+    return std::span(items_).subspan(start_[v], start_[v + 1] - start_[v]);
+  }
+  bool inside(int vertex) const { return !on_boundary_[static_cast<std::size_t>(vertex)]; }
   // Around all vertices of an element, each once, sorted.
   std::vector<std::size_t> neighbours(const Element& element, const int* nodes) const;
 
  private:
-  std::map<int, std::vector<std::size_t>> around_;
-  std::map<int, bool> on_boundary_;
+  std::vector<std::size_t> start_, items_;  // by node
+  std::vector<char> on_boundary_;           // by node
 };
+
+template <class Take>
+void PolynomialTerms::at(const Vector2& x, Take take) const {
+  const double a = (x.x() - centre.x()) / scale.x(), b = (x.y() - centre.y()) / scale.y();
+  double power_a[kMostDegree + 1], power_b[kMostDegree + 1];
+  power_a[0] = power_b[0] = 1.0;
+  for (int d = 1; d <= degree; ++d) {
+    power_a[d] = power_a[d - 1] * a;
+    power_b[d] = power_b[d - 1] * b;
+  }
+  Eigen::Index k = 0;
+  for (int d = 0; d <= degree; ++d)
+    for (int j = 0; j <= d; ++j) take(k++, power_a[d - j] * power_b[j]);
+}
 
 }  // namespace sage

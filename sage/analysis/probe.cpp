@@ -106,10 +106,9 @@ void ProbeMaker::add_own(Probe& probe, const Location& location, double part) co
 }
 
 // The value at a place of the polynomial that fits the samples best: linear in them, so a weight a point.
-void ProbeMaker::add_patch(Probe& probe, const std::vector<std::size_t>& patch, const Vector2& place,
+void ProbeMaker::add_patch(Probe& probe, std::span<const std::size_t> patch, const Vector2& place,
                            double part) const {
-  std::vector<Eigen::Matrix2Xd> at(patch.size());
-  std::vector<const Eigen::Matrix2Xd*> places;
+  Eigen::Matrix2Xd places, at;
   int degree = model_->groups[elements_[patch.front()].group].element->degree();
   Eigen::Matrix2Xd x;
   for (std::size_t k = 0; k < patch.size(); ++k) {
@@ -117,17 +116,21 @@ void ProbeMaker::add_patch(Probe& probe, const std::vector<std::size_t>& patch, 
     const Group& group = model_->groups[ref.group];
     const Element& element = *group.element;
     element_coordinates(model_->mesh, group, ref.element, x);
-    at[k].resize(2, element.traits().points);
-    for (int p = 0; p < element.traits().points; ++p) at[k].col(p) = element.position(x, p);
+    at.resize(2, element.traits().points);
+    for (int p = 0; p < element.traits().points; ++p) at.col(p) = element.position(x, p);
     const Eigen::MatrixXd map = sample_map(element);
-    if (map.size() > 0) at[k] = Eigen::Matrix2Xd(at[k] * map.transpose());
-    places.push_back(&at[k]);
+    if (map.size() > 0) at = Eigen::Matrix2Xd(at * map.transpose());
+    const Eigen::Index before = places.cols();
+    places.conservativeResize(2, before + at.cols());
+    places.rightCols(at.cols()) = at;
     degree = std::min(degree, element.degree());
   }
-  const PatchPolynomial polynomial(places, degree);
-  const Eigen::MatrixXd& V = polynomial.matrix();
-  const Eigen::MatrixXd fit = dense_matrix::least_squares(V, Eigen::MatrixXd::Identity(V.rows(), V.rows()));
-  const Eigen::RowVectorXd weights = part * polynomial.terms(place) * fit;
+  PatchFitter fitter;
+  fitter.set_places(places, degree);
+  const Eigen::MatrixXd fit = fitter.fit(Eigen::MatrixXd::Identity(places.cols(), places.cols()));
+  Eigen::RowVectorXd terms(fitter.terms().count());
+  fitter.terms().at(place, [&](Eigen::Index k, double term) { terms(k) = term; });
+  const Eigen::RowVectorXd weights = part * terms * fit;
   Eigen::Index row = 0;
   for (std::size_t k : patch) {
     const ElementRef& ref = elements_[k];

@@ -51,7 +51,7 @@ class ProbeMaker {
  private:
   void add_stress(Probe& probe, const Location& location, double part) const;
   void add_own(Probe& probe, const Location& location, double part) const;
-  void add_patch(Probe& probe, const std::vector<std::size_t>& patch, const Vector2& place, double part) const;
+  void add_patch(Probe& probe, std::span<const std::size_t> patch, const Vector2& place, double part) const;
   const Patches& patches(int zone) const;
 
   const Model* model_;

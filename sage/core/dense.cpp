@@ -5,18 +5,28 @@
 
 namespace sage::dense_matrix {
 
-Eigen::MatrixXd least_squares(const Eigen::MatrixXd& V, const Eigen::MatrixXd& B) {
-  return V.colPivHouseholderQr().solve(B);
+struct PivotedQr::Factors {
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+};
+
+PivotedQr::PivotedQr() : factors_(std::make_unique<Factors>()) {}
+PivotedQr::~PivotedQr() = default;
+
+void PivotedQr::factorise(const Eigen::MatrixXd& V) {
+  factors_->qr.compute(V);
+}
+
+Eigen::Index PivotedQr::rank(double threshold) {
+  factors_->qr.setThreshold(threshold);
+  return factors_->qr.rank();
+}
+
+Eigen::MatrixXd PivotedQr::least_squares(const Eigen::MatrixXd& B) const {
+  return factors_->qr.solve(B);
 }
 
 Eigen::VectorXd smallest_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
   return Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(A).solve(b);
-}
-
-Eigen::Index rank(const Eigen::MatrixXd& A, double threshold) {
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(A);
-  qr.setThreshold(threshold);
-  return qr.rank();
 }
 
 Eigensystem symmetric_eigensystem(const Eigen::MatrixXd& A) {

@@ -3,17 +3,29 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 
 namespace sage::dense_matrix {
 
-// X of the least |V X - B|, column by column; Householder QR with column pivoting.
-Eigen::MatrixXd least_squares(const Eigen::MatrixXd& V, const Eigen::MatrixXd& B);
+// Householder QR with column pivoting.
+class PivotedQr {
+ public:
+  PivotedQr();
+  ~PivotedQr();
+  // Takes the place of what was there; keeps its room where the size stays.
+  void factorise(const Eigen::MatrixXd& V);
+  // Of V.  What is less certain by `threshold` than the rest does not count.
+  Eigen::Index rank(double threshold);
+  // X of the least |V X - B|, column by column.
+  Eigen::MatrixXd least_squares(const Eigen::MatrixXd& B) const;
+
+ private:
+  struct Factors;
+  std::unique_ptr<Factors> factors_;
+};
 
 // The smallest of the x of the least |A x - b|; A of any rank (complete orthogonal decomposition).
 Eigen::VectorXd smallest_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
-
-// What is less certain by `threshold` than the rest does not count.
-Eigen::Index rank(const Eigen::MatrixXd& A, double threshold);
 
 struct Eigensystem {
   Eigen::VectorXd values;   // rising
