@@ -114,6 +114,8 @@ void check_points(Builder& b);
 void check_totals(Builder& b);
 // Numbers that are valid and yet unlikely: warnings and notes.
 void check_plausible(Builder& b);
+// Solids that cover the same ground: an error; on the same hand of a common edge: a warning.
+void check_overlap(Builder& b);
 // Interfaces whose sides belong to the wrong bodies.
 void check_interfaces(Builder& b);
 // Loads and displacements on inactive nodes and elements.

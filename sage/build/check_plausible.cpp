@@ -170,54 +170,6 @@ void check_slender(Builder& b) {
                                    " times: is a coordinate wrong?");
 }
 
-// Two solids on the same hand of one edge lie on each other.  Twins of which one goes
-// before the other comes may.
-void check_overlap(Builder& b) {
-  const std::size_t groups = b.model.groups.size();
-  std::vector<std::vector<char>> active(groups);  // by group, then by stage
-  Activity activity(b.model);
-  for (const Stage& stage : b.model.stages) {
-    activity.enter(stage);
-    for (std::size_t g = 0; g < groups; ++g) active[g].push_back(activity.group[g]);
-  }
-  const auto together = [&](std::size_t g, std::size_t h) {
-    if (b.model.groups[g].overlay != b.model.groups[h].overlay) return false;
-    for (std::size_t s = 0; s < active[g].size(); ++s)
-      if (active[g][s] && active[h][s]) return true;
-    return false;
-  };
-  const auto order = [](const SolidEdge& edge) { return std::tuple(edge.group, edge.element, edge.local); };
-  int found = 0;
-  const SolidEdge *first = nullptr, *owner_of_first = nullptr;  // the first that the deck's order has
-  for (int node = 0; node < b.model.mesh.nodes(); ++node) {
-    const std::span<const SolidEdge> edges = b.solid_edges().at(node);
-    for (std::size_t i = 1, begin = 0; i < edges.size(); ++i) {
-      const SolidEdge& edge = edges[i];
-      if (edge.other != edges[i - 1].other) begin = i;
-      const auto same = [&](const SolidEdge& other) { return other.reversed == edge.reversed; };
-      const SolidEdge& owner = *std::find_if(edges.begin() + static_cast<std::ptrdiff_t>(begin),
-                                             edges.begin() + static_cast<std::ptrdiff_t>(i), same);
-      const bool alone = &owner == &edge;
-      if (alone || !together(static_cast<std::size_t>(edge.group), static_cast<std::size_t>(owner.group)))
-        continue;
-      ++found;
-      if (first != nullptr && order(*first) < order(edge)) continue;
-      first = &edge;
-      owner_of_first = &owner;
-    }
-  }
-  if (found == 0) return;
-  const auto number = [&](const SolidEdge& edge) {
-    return std::to_string(b.model.groups[static_cast<std::size_t>(edge.group)]
-                              .element_numbers[static_cast<std::size_t>(edge.element)]);
-  };
-  b.warning(b.at_line(b.model.groups[static_cast<std::size_t>(first->group)]
-                          .element_lines[static_cast<std::size_t>(first->element)]),
-            "elements " + number(*owner_of_first) + " and " + number(*first) +
-                " lie on the same side of a common edge: they overlap" +
-                (found > 1 ? " (and " + std::to_string(found - 1) + " more such edges)" : ""));
-}
-
 // Where elements come in blocks, a number that is left out may be a hole in the mesh.
 void note_missing_numbers(Builder& b) {
   bool blocks = false;
