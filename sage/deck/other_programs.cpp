@@ -24,14 +24,15 @@ struct Program {
 #define SAGE_TYPES(elements) "?np>1{ / i*" elements " } "
 #define SAGE_FIXED "/ i:nf ?nf>0{ / { n i r }*nf } "
 #define SAGE_POTENTIALS "/ i:nl { n r }*nl / i:nf ?nf>0{ / { n r }*nf } "
+#define SAGE_HELD "/ i:nf ?nf>0{ / { n r }*nf } "
 #define SAGE_BRICKS       \
   "/ r*2*np " SAGE_TYPES( \
       "nxe*nye*nze") "/ r*nxe+nye+nze+3 / i:nr { n c c c }*nr / i:nl { n r r r }*nl " SAGE_FIXED
 #define SAGE_FRAME \
   "i:nels i:nn i:nd i:npr i:np / r*npr*np " SAGE_TYPES("nels") "?nd=3{ / r*nels } / r*nd*nn / i*2*nels "        \
   "/ i:nr { n c*(nd=1)*2+(nd>1)*(3*nd-3) }*nr "
-#define SAGE_VIBRATION(properties) \
-  "i:nxe i:nye i:np / r*" properties "*np " SAGE_TYPES("nxe*nye") "/ r*nxe+nye+2 "
+#define SAGE_RECTANGLE(properties, more) \
+  "i:nxe i:nye i:np / r*" properties "*np" more " " SAGE_TYPES("nxe*nye") "/ r*nxe+nye+2 "
 
 constexpr Program kPrograms[] = {
     {"4.1", "rods", "i:nels i:np / r*np " SAGE_TYPES("nels") "/ r*nels / i:nr { n c }*nr " SAGE_POTENTIALS},
@@ -44,6 +45,8 @@ constexpr Program kPrograms[] = {
     {"4.4", "rigid-jointed frames", SAGE_FRAME "/ i:nl { n r*3*nd-3 }*nl " SAGE_FIXED},
     {"4.5", "elastic-plastic beams and frames",
      SAGE_FRAME "/ i:nl / { n r*(nd=1)*2+(nd>1)*(3*nd-3) }*nl / i r i:incs / r*incs "},
+    {"4.6", "buckling of beams",
+     "i:nels i:npr i:np / r*npr*np " SAGE_TYPES("nels") "/ r*nels / i:nr { n c c }*nr i r "},
     {"4.7", "plates in bending",
      "i:nxe i:nye i:np r r r / r*2*np " SAGE_TYPES(
          "nxe*nye") "/ i:nr { n c c c c }*nr / i:nl { n r r r r }*nl " SAGE_FIXED},
@@ -65,15 +68,27 @@ constexpr Program kPrograms[] = {
     {"7.5", "steady seepage",
      "t i:nod i:nels i:nn i:nip i:nd r i i:np / r*nd*np " SAGE_TYPES(
          "nels") "/ r*nd*nn / i*nod*nels " SAGE_POTENTIALS "?(nd=2)*(nod=4){ / i } "},
+    {"8.1", "consolidation along a line",
+     "i:nels i:np / r*np " SAGE_TYPES("nels") "/ r*nels / r i r i i i / r*nels+1 " SAGE_HELD},
     {"8.2", "consolidation along a line",
-     "i:nels i:np / r*2*np r " SAGE_TYPES(
-         "nels") "/ r*nels r i r i i i / r*nels+1 / i:nf ?nf>0{ / { n r }*nf } "},
-    {"8.4 or 8.5", "heat or consolidation",
-     "t t i:nxe i:nye i:np / r*2*np " SAGE_TYPES("nxe*nye") "/ r*nxe+nye+2 / r i r i i i / r*(nxe+1)*(nye+1) "
-                                                            "/ i:nf ?nf>0{ / { n r }*nf } / i "},
+     "i:nels i:np / r*2*np r " SAGE_TYPES("nels") "/ r*nels r i r i i i / r*nels+1 " SAGE_HELD},
+    {"8.3", "consolidation along a line, explicit",
+     "i:nels i:np / r*np " SAGE_TYPES("nels") "/ r*nels r i i i i / r*nels+1 " SAGE_HELD},
+    {"8.4, 8.5 or 8.7", "heat or consolidation",
+     "t t i:nxe i:nye i:np / r*2*np " SAGE_TYPES(
+         "nxe*nye") "/ r*nxe+nye+2 / r i r i i i / r*(nxe+1)*(nye+1) " SAGE_HELD "/ i "},
     {"8.6", "consolidation, explicit",
-     "t t i:nxe i:nye i:np / r*2*np " SAGE_TYPES("nxe*nye") "/ r*nxe+nye+2 / r i i i i / r*(nxe+1)*(nye+1) "
-                                                            "/ i:nf ?nf>0{ / { n r }*nf } / i "},
+     "t t i:nxe i:nye i:np / r*2*np " SAGE_TYPES(
+         "nxe*nye") "/ r*nxe+nye+2 / r i i i i / r*(nxe+1)*(nye+1) " SAGE_HELD "/ i "},
+    {"8.8", "consolidation",
+     "t i:nels i:nn i:nip i:nod i:nd i:np / r*nd*np " SAGE_TYPES(
+         "nels") "/ r*nd*nn / i*nod*nels / r i r i i ?(nd=2)*(nod=4){ / i i } / r*nn " SAGE_HELD},
+    {"8.9", "diffusion and convection", SAGE_RECTANGLE("2", "") "/ r i r i i i r r i "},
+    {"8.10", "diffusion and convection", SAGE_RECTANGLE("2", "") "/ r i r i i i r r / i:nf / n*nf "},
+    {"8.11", "heat",
+     "t t i:nxe i:nye i:np / r*3*np " SAGE_TYPES(
+         "nxe*nye") "/ r*nxe+nye+2 / r i r i i i / i:nl { n r }*nl / i:nr ?nr>0{ / { n n r r }*nr } "
+                    "/ r*(nxe+1)*(nye+1) " SAGE_HELD "/ i "},
     {"9.1", "flow of a viscous fluid",
      "i:nxe i:nye r i r r / r*nxe+nye+2 / i:nr { n c c c }*nr / i:nf / { n i r }*nf "},
     {"9.2", "flow of a viscous fluid",
@@ -85,6 +100,8 @@ constexpr Program kPrograms[] = {
      "i:nxe i:nye i:np / r*4*np " SAGE_TYPES(
          "nxe*nye") "/ r*nxe+nye+2 / r i r i i / i:nr { n c c c }*nr / i:nl / { n r r }*nl "
                     "/ i:nt / r*2*nt "},
+    {"9.6", "coupled consolidation, elastic-plastic",
+     SAGE_RECTANGLE("7", " r") "r i r i i / i:nr { n c c c }*nr / i:nl / { n r r }*nl / r i i:nt / r*2*nt "},
     {"10.1", "natural frequencies of beams",
      "i:nels i:np / r*2*np " SAGE_TYPES("nels") "/ r*nels / i:nr { n c c }*nr / i "},
     {"10.2", "natural frequencies",
@@ -92,6 +109,9 @@ constexpr Program kPrograms[] = {
     {"10.3", "natural frequencies",
      "i:nxe i:nye i:nod i:np / r*3*np " SAGE_TYPES(
          "nxe*nye") "/ r*nxe+nye+2 / i:nr { n c c }*nr / i r r i i i i r "},
+    {"10.4", "natural frequencies",
+     "i:nxe i:nye i:nod i:np / r*3*np " SAGE_TYPES(
+         "nxe*nye") "/ r*nxe+nye+2 / i:nr { n c c }*nr / i i t t r i "},
     {"11.1", "vibration of beams",
      "i:nels i:np / r*2*np " SAGE_TYPES(
          "nels") "/ r*nels r r r r r / i:nr { n c c }*nr / i:nt { / n i i:np / r*2*np }*nt "
@@ -100,18 +120,23 @@ constexpr Program kPrograms[] = {
      "i:nxe i:nye i:nod i:np / r*3*np " SAGE_TYPES(
          "nxe*nye") "/ r*nxe+nye+2 r i i i r / i:nr { n c c }*nr / i r "},
     {"11.3 or 11.4", "forced vibration",
-     SAGE_VIBRATION("3") "r i r i i r r / i:nr { n c c }*nr / i:nl / { n r r }*nl "},
-    {"11.5", "forced vibration", SAGE_VIBRATION("4") "r i i i / i:nr { n c c }*nr "},
+     SAGE_RECTANGLE("3", "") "r i r i i r r / i:nr { n c c }*nr / i:nl / { n r r }*nl "},
+    {"11.5", "forced vibration", SAGE_RECTANGLE("4", "") "r i i i / i:nr { n c c }*nr "},
+    {"11.6", "forced vibration", SAGE_RECTANGLE("3", "") "r i r r i i / i:nr { n c c }*nr / t*nxe*nye "},
+    {"11.7", "forced vibration",
+     "i:nxe i:nye r i i:np / r*3*np " SAGE_TYPES(
+         "nxe*nye") "/ r*nxe+nye+2 r i r i i r r / i:nr { n c c }*nr / i:nl / { n r r }*nl "},
     {"11.8", "forced vibration, elastic-plastic",
-     SAGE_VIBRATION("4") "r i i i / i:nr { n c c }*nr / i:nl / { n r r }*nl "},
+     SAGE_RECTANGLE("4", "") "r i i i / i:nr { n c c }*nr / i:nl / { n r r }*nl "},
 };
 
 #undef SAGE_TYPES
 #undef SAGE_FIXED
 #undef SAGE_POTENTIALS
+#undef SAGE_HELD
 #undef SAGE_BRICKS
 #undef SAGE_FRAME
-#undef SAGE_VIBRATION
+#undef SAGE_RECTANGLE
 
 struct Token {
   std::string_view text;
