@@ -209,7 +209,7 @@ void DeckReader::compute(const CardRule& rule, std::size_t field, const Expressi
   }
   const ExpressionResult result = evaluate(expression, *this);
   if (result.fault) {
-    fault(log_.where(value), "the " + spec.label + " of the " + rule.spec.label + " card", expression, result);
+    fault(log_.where(value), "the " + spec.label + " of the " + card_text(rule.spec.label), expression, result);
     mark_faulty(static_cast<std::size_t>(&value - fields_.data()));
     return;
   }
@@ -304,7 +304,7 @@ void DeckReader::make_card(const LayoutEntry& entry, int owner, int line) {
 void DeckReader::make_cards(const LayoutEntry& entry, int owner, int line) {
   if (!entry.when.empty() && (is_faulty(entry.when) || !truth(entry.when))) return;
   int count = 1;
-  if (!entry.count.empty() && !count_of(entry.count, card_name(entry) + " cards", count)) return;
+  if (!entry.count.empty() && !count_of(entry.count, card_text(card_name(entry)) + "s", count)) return;
   for (int i = 0; i < count && !stopped_; ++i) make_card(entry, owner, line);
 }
 

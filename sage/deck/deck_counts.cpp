@@ -15,7 +15,7 @@ constexpr double largest_count = 1e9;
 
 std::string DeckReader::a_card(const std::string& name) {
   const bool vowel = !name.empty() && std::string_view("aeioAEIO").find(name[0]) != std::string_view::npos;
-  return (vowel ? "an " : "a ") + name + " card";
+  return (vowel ? "an " : "a ") + card_text(name);
 }
 
 bool DeckReader::is_faulty(std::size_t card, std::size_t value) const {
@@ -41,7 +41,7 @@ bool DeckReader::count_of(const Expression& expression, const std::string& what,
     if (node.kind != ExpressionNode::Kind::field) continue;
     const FieldValue* value = field_value(node.card, node.field);
     if (!value && log_.errors() > 0) {
-      stop("the " + rule_of(node.card).spec.label + " card is missing: reading stops here",
+      stop("the " + card_text(rule_of(node.card).spec.label) + " is missing: reading stops here",
            records_.next_line());
       return false;
     }
@@ -72,8 +72,8 @@ std::string DeckReader::count_source(const Expression& expression) const {
     if (node.kind == ExpressionNode::Kind::field)
       if (const FieldValue* value = field_value(node.card, node.field)) {
         const CardRule& rule = rule_of(node.card);
-        return rule.spec.fields[static_cast<std::size_t>(node.field)].label + " of the " + rule.spec.label +
-               " card, line " + std::to_string(value->line);
+        return rule.spec.fields[static_cast<std::size_t>(node.field)].label + " of the " +
+               card_text(rule.spec.label) + ", line " + std::to_string(value->line);
       }
   return expression.source;
 }
@@ -168,9 +168,9 @@ bool DeckReader::cut_list(const CardRule& rule, const Card& card) {
       std::size_t kept = 0;
       while (fields_[kept].line < line) ++kept;
       log_.add(Severity::error, log_.line(line),
-               "this reads as " + a_card(rule_of(other).spec.label) + ", but the " + rule.spec.label +
-                   " card goes on: " + std::to_string(kept) + " of " + std::to_string(wanted) +
-                   " values read (" + count_source(rule.rules.back().count) + ")");
+               "this reads as " + a_card(rule_of(other).spec.label) + ", but the " +
+                   card_text(rule.spec.label) + " goes on: " + std::to_string(kept) + " of " +
+                   std::to_string(wanted) + " values read (" + count_source(rule.rules.back().count) + ")");
       fields_.resize(kept);
       std::erase_if(flaws_, [&](const FieldFlaw& f) { return static_cast<std::size_t>(f.value) >= kept; });
       records_.rewind_to(line);

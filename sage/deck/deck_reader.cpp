@@ -138,7 +138,7 @@ void DeckReader::read_entry(const LayoutEntry& entry, int owner) {
 
 void DeckReader::read_counted(const LayoutEntry& entry, int owner) {
   int count = 0;
-  if (!count_of(entry.count, card_name(entry) + " cards", count)) return;
+  if (!count_of(entry.count, card_text(card_name(entry)) + "s", count)) return;
   run_.wanted = count;
   const bool reads = is_read(entry);
   for (int i = 0; i < count && !stopped_; ++i) {
@@ -172,7 +172,7 @@ void DeckReader::read_named(const LayoutEntry& entry, int owner) {
   }
   if (!flagged && run_.done > 0 && !stopped_)
     log_.add(Severity::warning, log_.line(records_.line()),
-             "this is the last " + card_name(entry) + " card, but it is not marked as such (" +
+             "this is the last " + card_text(card_name(entry)) + ", but it is not marked as such (" +
                  entry.until.source + ")");
 }
 

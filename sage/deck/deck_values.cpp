@@ -80,7 +80,8 @@ void DeckReader::check_values(const CardRule& rule, const Card& card) {
     const std::string& wanted = rule.rules[i].must_equal;
     if (!wanted.empty() && lower_case(trimmed(value.text)) != lower_case(wanted)) {
       log_.add(Severity::error, value.first_column ? log_.where(value) : log_.line(card.line),
-               "the " + rule.spec.label + " card must read " + wanted + ", not " + quoted(trimmed(value.text)));
+               "the " + card_text(rule.spec.label) + " must read " + wanted + ", not " +
+                   quoted(trimmed(value.text)));
     }
   }
   // A slash may end a list-directed card early.
@@ -263,11 +264,11 @@ void DeckReader::check_rest(const CardRule& rule, std::size_t last_field_end, bo
   const FieldValue& last = list ? fields_.back() : fields_[field];
   if (last.blank && last.kind != FieldKind::text && begins_with_number(record.substr(first)))
     return log_.add(Severity::warning, where,
-                    "a number stands behind the last field of the " + rule.spec.label +
-                        " card, which is blank: it is not read " + field_text(rule, rule.spec.fields[field]),
+                    "a number stands behind the last field of the " + card_text(rule.spec.label) +
+                        ", which is blank: it is not read " + field_text(rule, rule.spec.fields[field]),
                     "is the card shifted?");
   log_.add(Severity::note, where,
-           "characters behind the last field of the " + rule.spec.label + " card are ignored");
+           "characters behind the last field of the " + card_text(rule.spec.label) + " are ignored");
 }
 
 // Eight digits in 73-80 with blanks before them, where fields reach that far: likely no data.
@@ -284,8 +285,9 @@ void DeckReader::check_sequence_number(const CardRule& rule) {
   sequence_noted_ = true;
   log_.add(Severity::warning,
            {deck_.file, records_.line(), layout_.first_sequence_column, layout_.last_sequence_column},
-           quoted(number) + " looks like a sequence number, but the fields of the " + rule.spec.label +
-               " card reach into columns " + std::to_string(layout_.first_sequence_column) + "-" +
+           quoted(number) + " looks like a sequence number, but the fields of the " +
+               card_text(rule.spec.label) + " reach into columns " +
+               std::to_string(layout_.first_sequence_column) + "-" +
                std::to_string(layout_.last_sequence_column) + " (reported once)");
 }
 

@@ -55,7 +55,7 @@ constexpr KnownCard kKnown[] = {
      "!stage"},
     {"sage1", "birth", false, "groups", "", "stage"},
     {"sage1", "death", false, "groups", "", "stage"},
-    {"sage1", "report", false, "first|nodes",
+    {"sage1", "report", false, "first|nodes|kind",
      "kind first last step listed nodes group stage height area cell_pressure", ""},
     {"sage1", "point", false, "x y", "name", "report"},
 

@@ -36,8 +36,12 @@ std::string quoted(std::string_view text) {
   return '"' + shown + (text.size() > 40 ? "...\"" : "\"");
 }
 
+std::string card_text(const std::string& label) {
+  return label.ends_with("card") ? label : label + " card";
+}
+
 std::string field_text(const CardRule& card, const FieldSpec& field) {
-  std::string text = "(" + card.spec.label + " card, " + field.label;
+  std::string text = "(" + card_text(card.spec.label) + ", " + field.label;
   if (!field.unit.empty()) text += ", " + field.unit;
   return text + ")";
 }

@@ -39,6 +39,8 @@ class ReadLog {
   std::vector<Diagnostic> list_;
 };
 
+// "node card"; of a label that says so itself, "master card", no more than that.
+std::string card_text(const std::string& label);
 // "(material card, friction angle, degrees)".
 std::string field_text(const CardRule& card, const FieldSpec& field);
 // "\"1.2.3\"": at most 40 characters, control characters shown as "?".

@@ -79,7 +79,9 @@ TEST(OwnLayout, EveryStepOfThePageRuns) {
   std::string layout;
   int decks = 0, tomls = 0, runs = 0;
   for (const Block& block : blocks_of(read(std::string(SAGE_SOURCE_DIR) + "/docs/manual/own_layout.md"))) {
-    if (block.kind == "deck") {
+    if (const std::size_t blank = block.kind.find(' '); blank != std::string::npos) {
+      write(folder / block.kind.substr(blank + 1), block.text);  // of another program
+    } else if (block.kind == "deck") {
       write(folder / "deck.dat", block.text);
       ++decks;
     } else if (block.kind == "toml") {
@@ -103,6 +105,28 @@ TEST(OwnLayout, EveryStepOfThePageRuns) {
   EXPECT_EQ(tomls, 7);
   EXPECT_GE(runs, 7);
   EXPECT_EQ(sagefe(folder, "check deck.dat --layout bank.toml --strict").exit_code, 0);
+}
+
+// Section 7: 10 psi on 20 in, E = 1000 psi, nu = .3; in m and kPa by the definitions of the inch and the pound.
+TEST(OwnLayout, TheSecondProgramIsConverted) {
+  const std::filesystem::path folder = empty_folder("own_layout_units");
+  for (const Block& block : blocks_of(read(std::string(SAGE_SOURCE_DIR) + "/docs/manual/own_layout.md")))
+    if (const std::size_t blank = block.kind.find(' '); blank != std::string::npos)
+      write(folder / block.kind.substr(blank + 1), block.text);
+  const Finished run = sagefe(folder, "run strip.dat --layout strip.toml -o out");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const double inch = 0.0254, kpa_in_psi = 0.45359237 * 9.80665 / (inch * inch) / 1000.0;
+  const auto value = [&](const char* file, int column) {
+    const std::string report = read(folder / "out" / file);
+    std::size_t at = report.rfind("\n1,1,") + 1;
+    for (int i = 1; i < column; ++i) at = report.find(',', at) + 1;
+    return std::stod(report.substr(at));
+  };
+  const double top = 10.0 * 20.0 * (1.3 * 0.4 / 0.7) / 1000.0 * inch;
+  EXPECT_NEAR(value("strip.report1.csv", 4), -top, 1e-9 * top);  // the layout's factors have ten digits
+  EXPECT_NEAR(value("strip.report1.csv", 6), -200.0 * kpa_in_psi * inch, 1e-7);
+  EXPECT_NEAR(value("strip.report2.csv", 10), 10.0 * kpa_in_psi, 1e-7);
+  EXPECT_EQ(sagefe(folder, "check strip.dat --layout strip.toml --strict").exit_code, 0);
 }
 
 }  // namespace

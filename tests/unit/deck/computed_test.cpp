@@ -327,6 +327,51 @@ TEST(Computed, MistakesOfALayoutNameTheirLine) {
             "5: inf is no number that a layout can hold");
 }
 
+// "(master card, ...)": a label that ends with the word is not given it twice.
+TEST(Computed, ALabelMaySayThatItIsACard) {
+  const auto layout = [](const std::string& label) {
+    return "[[card]]\nname = 'a'\nlabel = '" + label +
+           "'\nformat = '(I5/F5.0)'\nrepeat = 2\nfields = [{ name = 'n', required = true }, { name = 'x' }]\n";
+  };
+  EXPECT_EQ(complaints(layout("master card"), "    x\n  1.0\n    1\n  2.0\n"),
+            "1:1-5 \"x\" is not an integer (master card, n)\n");
+  EXPECT_EQ(complaints(layout("master"), "    x\n  1.0\n    1\n  2.0\n"),
+            "1:1-5 \"x\" is not an integer (master card, n)\n");
+  EXPECT_NE(complaints(layout("master card"), "    1\n  1.0\n").find("a master card was expected"),
+            std::string::npos)
+      << complaints(layout("master card"), "    1\n  1.0\n");
+}
+
+// What README.md says of the first card, and of counts: the card that the expression stands on is not counted.
+TEST(Computed, ThePreviousOfTheFirstAndTheCountOfItself) {
+  const Deck deck = read(R"toml(
+[[card]]
+name = "row"
+format = "(I5,A3)"
+repeat = 2
+fields = [
+  { name = "number" }, { name = "word" }, { name = "before", value = "previous(number)" },
+  { name = "text", kind = "text", value = "previous(word)" }, { name = "so_far", value = "count(row)" },
+]
+[[card]]
+name = "made"
+made_from = "row"
+fields = [{ name = "seen", value = "count(row)" }, { name = "own", value = "count(made)" }]
+)toml",
+                         "    7 aa\n    8 bb\n");
+  ASSERT_EQ(deck.cards.size(), 4u);
+  const CardView first(deck, 0), made(deck, 1), second(deck, 2), last(deck, 3);
+  EXPECT_EQ(first.real("before"), 0.0);
+  EXPECT_EQ(first.text("text"), "");
+  EXPECT_EQ(second.real("before"), 7.0);
+  EXPECT_EQ(second.text("text"), "aa");
+  EXPECT_EQ(first.real("so_far"), 0.0);
+  EXPECT_EQ(second.real("so_far"), 1.0);
+  EXPECT_EQ(made.real("seen"), 1.0);
+  EXPECT_EQ(last.real("seen"), 2.0);
+  EXPECT_EQ(last.real("own"), 1.0);
+}
+
 // What stands last on a card is what its values are about: an error is shown there, not at the number that an
 // earlier card adds to it.
 TEST(Computed, MistakesStandOnTheCardsOwnRecord) {
