@@ -97,6 +97,11 @@ double height_of(const std::vector<Part>& parts) {
   return high - low;
 }
 
+// But for the rounding of a layout's factors.
+bool same_value(double a, double b) {
+  return std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b));
+}
+
 // Layers of one value from the top down; parts come in the order of their upper ends.
 std::vector<GroundLayer> layers_of(const std::vector<Part>& parts, std::optional<SideBySide>& uneven) {
   const double close = 1e-9 * height_of(parts);
@@ -104,12 +109,12 @@ std::vector<GroundLayer> layers_of(const std::vector<Part>& parts, std::optional
   Part lowest;  // of the last layer
   for (const Part& part : parts) {
     const bool below = layers.empty() || part.high <= layers.back().bottom + close;
-    if (!below && part.value != layers.back().unit_weight) {
+    if (!below && !same_value(part.value, layers.back().unit_weight)) {
       uneven = {lowest, part, std::max(lowest.low, part.low), std::min(lowest.high, part.high)};
       return layers;
     }
-    const bool goes_on =
-        !layers.empty() && part.value == layers.back().unit_weight && part.high >= layers.back().bottom - close;
+    const bool goes_on = !layers.empty() && same_value(part.value, layers.back().unit_weight) &&
+                         part.high >= layers.back().bottom - close;
     if (!goes_on) layers.push_back({part.high, part.low, part.value, 0.0});
     if (!goes_on || part.low < layers.back().bottom) lowest = part;
     layers.back().bottom = std::min(layers.back().bottom, part.low);

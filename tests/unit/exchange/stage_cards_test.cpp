@@ -229,6 +229,7 @@ struct Ground {
     for (std::size_t k = 1; k < columns; ++k) add("%5zu%5d%5d", 1 + k, 1, 1);
     return text + start + "\n";
   }
+  std::string more_layout = "";  // behind the cards of the ground
   Deck read() const;
   Model model() const { return build_model(read(), full_catalogue()); }
   scenes::WholeRun run() const { return make_workbench().run(model()); }
@@ -288,7 +289,7 @@ fields = [{ name = "level" }, { name = "k0" }]
 )toml";
 
 Deck Ground::read() const {
-  return read_deck_text(deck(), "ground.dat", load_layout_text(kGround, "ground.toml"));
+  return read_deck_text(deck(), "ground.dat", load_layout_text(kGround + more_layout, "ground.toml"));
 }
 
 // Closed form: sigma_v = sum of unit weight x thickness above, sigma_h = K0 sigma_v.  Points of the last state.
@@ -376,6 +377,19 @@ name = "removal"
 format = "*"
 fields = [{ name = "elements", kind = "integer", count = "COUNT" }]
 )toml";
+
+// Sand in two layers with clay between; of a pair of columns the right elements of both sand layers are taken away by
+// one card: the base carries the rest, 100 - 40.
+TEST(StageCards, ElementsOfTwoLayersAreRemovedTogether) {
+  std::string removal = kRemoval;
+  removal.replace(removal.find("COUNT"), 5, "2");
+  const Ground ground{{{1, 1}, {2, 2}, {1, 1}}, {{20.0, 0.5}, {10.0, 0.4}}, "\n2 6", removal};
+  const scenes::WholeRun run = ground.run();
+  ASSERT_TRUE(run.completed()) << run.failure;
+  EXPECT_NEAR(run.reaction(run.increments[0], {1, 2, 3}, 1), 100.0, 1e-10);
+  EXPECT_NEAR(run.reaction(run.last(), {1, 2, 3}, 1), 60.0, 1e-10);
+  EXPECT_EQ(run.model->stages.back().deaths.size(), 2u);
+}
 
 // The upper element of a group is taken away by its number: the base carries 20 less.
 TEST(StageCards, ElementsAreRemovedByNumber) {
