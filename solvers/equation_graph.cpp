@@ -11,7 +11,8 @@ std::size_t at(int i) {
 }
 
 // Finds equations with equal element lists.  Candidates share their first element, so chains stay short.
-void group_equations(const IndexLists& elements_of, int elements, EquationGraph& graph) {
+// inner: equations before the border.
+void group_equations(const IndexLists& elements_of, int elements, int inner, EquationGraph& graph) {
   const int equations = elements_of.count();
   std::vector<int> first_group(at(elements), -1);  // element -> latest group whose list begins with it
   std::vector<int> next_group, representative;
@@ -19,8 +20,10 @@ void group_equations(const IndexLists& elements_of, int elements, EquationGraph&
   for (int equation = 0; equation < equations; ++equation) {
     const auto list = elements_of.of(equation);
     int group = list.empty() ? -1 : first_group[at(list.front())];
-    while (group >= 0 && !std::ranges::equal(list, elements_of.of(representative[at(group)])))
-      group = next_group[at(group)];
+    const auto same = [&](int other) {
+      return (equation < inner) == (other < inner) && std::ranges::equal(list, elements_of.of(other));
+    };
+    while (group >= 0 && !same(representative[at(group)])) group = next_group[at(group)];
     if (group < 0) {
       group = static_cast<int>(representative.size());
       representative.push_back(equation);
@@ -80,10 +83,10 @@ IndexLists elements_of_equations(int equations, const ElementEquations& elements
   return lists;
 }
 
-EquationGraph make_equation_graph(int equations, const ElementEquations& elements) {
+EquationGraph make_equation_graph(int equations, const ElementEquations& elements, int border) {
   EquationGraph graph;
   const IndexLists elements_of = elements_of_equations(equations, elements);
-  group_equations(elements_of, elements.count(), graph);
+  group_equations(elements_of, elements.count(), equations - border, graph);
   const int groups = graph.members.count();
   const IndexLists groups_of = groups_of_elements(elements, graph.group_of, groups);
 

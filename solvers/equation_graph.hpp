@@ -27,7 +27,8 @@ struct EquationGraph {
   IndexLists neighbours;      // group -> groups that share an element with it, ascending, without itself
 };
 
-EquationGraph make_equation_graph(int equations, const ElementEquations& elements);
+// The last `border` equations share no group with others.
+EquationGraph make_equation_graph(int equations, const ElementEquations& elements, int border = 0);
 
 // Transposed lists: for every item, the rows that hold it, ascending and without repetition.
 IndexLists elements_of_equations(int equations, const ElementEquations& elements);

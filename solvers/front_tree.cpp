@@ -97,6 +97,10 @@ double work_of(const Front& front) {
   return p * (p * p / 3.0 + p * b + b * b);
 }
 
+double work_of(const FrontTree& tree, std::size_t f) {
+  return static_cast<int>(f) == tree.kept ? 0.0 : work_of(tree.fronts[f]);
+}
+
 // Cuts the tree below fronts of much work: small subtrees are balanced by taking them one after the other.
 void divide_work(FrontTree& tree) {
   constexpr double kParts = 8.0, kLeastWork = 2e7;
@@ -106,8 +110,8 @@ void divide_work(FrontTree& tree) {
   double all = 0.0;
   for (std::size_t f = 0; f < count; ++f) begin[f] = static_cast<int>(f);
   for (std::size_t f = 0; f < count; ++f) {
-    below[f] += work_of(tree.fronts[f]);
-    all += work_of(tree.fronts[f]);
+    below[f] += work_of(tree, f);
+    all += work_of(tree, f);
     const int parent = tree.fronts[f].parent;
     if (parent < 0) continue;
     below[at(parent)] += below[f];
@@ -197,14 +201,6 @@ void set_local(const FrontTree& tree, const Front& front, std::vector<int>& loca
     local[at(tree.border[at(front.border_begin + k)])] = front.pivot_tiles * kTile + k;
 }
 
-// Where entry (i, j), local indices, lies in the arms.
-std::int64_t arm_target(const Front& front, int i, int j) {
-  const int I = i / kTile, J = j / kTile;
-  const bool upper = I <= J;
-  const int column = upper ? J : I, k = upper ? i : j, v = (upper ? j : i) % kTile;
-  return (upper ? 0 : front.arm_terms()) + front.panel(column) + k * kTile + v;
-}
-
 void map_entries(const AssembledMatrix& matrix, FrontTree& tree) {
   std::vector<int> front_of(tree.order.size());
   for (std::size_t f = 0; f < tree.fronts.size(); ++f)
@@ -248,9 +244,18 @@ void map_entries(const AssembledMatrix& matrix, FrontTree& tree) {
 
 }  // namespace
 
-FrontTree make_front_tree(const EquationGraph& graph, const AssembledMatrix& matrix, int leaf_equations) {
+std::int64_t arm_target(const Front& front, int i, int j) {
+  const int I = i / kTile, J = j / kTile;
+  const bool upper = I <= J;
+  const int column = upper ? J : I, k = upper ? i : j, v = (upper ? j : i) % kTile;
+  return (upper ? 0 : front.arm_terms()) + front.panel(column) + k * kTile + v;
+}
+
+FrontTree make_front_tree(const EquationGraph& graph, const AssembledMatrix& matrix, int leaf_equations,
+                          int border) {
   FrontTree fronts;
-  const SeparatorTree tree = nested_dissection(graph, leaf_equations);
+  const SeparatorTree tree = nested_dissection(graph, leaf_equations, border);
+  if (border > 0) fronts.kept = tree.groups.count() - 1;
   number_equations(graph, tree, fronts);
   list_children(tree.parent, fronts.children);
   lay_out_fronts(graph, tree, matrix.symmetric(), fronts);

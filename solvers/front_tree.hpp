@@ -71,6 +71,7 @@ struct FrontTree {
   std::vector<int> border;           // positions of every front's border, ascending
   std::vector<int> in_parent;        // their local indices in the parent front
   std::int64_t factor_terms = 0;
+  int kept = -1;  // the front of a border that stays: the last one, whose pivots are not eliminated; -1 = none
 
   // Work that can be done side by side: subtrees first, each with a workspace, then the fronts above them in
   // turn.  The division depends on the tree alone, so that answers do not depend on the number of threads.
@@ -83,7 +84,13 @@ struct FrontTree {
   std::vector<int> entry_target;  // term within the arms of its front
 };
 
-// Throws std::length_error where a front has more than 2^31 - 1 terms.
-FrontTree make_front_tree(const EquationGraph& graph, const AssembledMatrix& matrix, int leaf_equations);
+// Of the pair of pivots i, j of a front, local indices: its term within the arms.  U holds whole tiles of the
+// diagonal; of symmetric matrices i <= j.
+std::int64_t arm_target(const Front& front, int i, int j);
+
+// border: so many equations, the last ones, stay.  Throws std::length_error where a front has more than 2^31 - 1
+// terms.
+FrontTree make_front_tree(const EquationGraph& graph, const AssembledMatrix& matrix, int leaf_equations,
+                          int border = 0);
 
 }  // namespace sage

@@ -111,13 +111,13 @@ class Frontal final : public MatrixSolver {
       const Subtree& subtree = tree_.subtrees[at(s)];
       for (int f = subtree.begin; f < subtree.end; ++f) {
         assemble(f, lanes_[at(thread)]);
-        eliminate(f, lanes_[at(thread)]);
+        if (f != tree_.kept) eliminate(f, lanes_[at(thread)]);
       }
     };
     pool_->run(static_cast<int>(tree_.subtrees.size()), eliminate_subtree);
     for (const int f : tree_.top) {
       assemble(f, lanes_[0]);
-      eliminate_together(f);
+      if (f != tree_.kept) eliminate_together(f);
     }
     take_report();
   }
@@ -129,21 +129,28 @@ class Frontal final : public MatrixSolver {
     solve_fronts(b, x, true);
   }
 
+  bool set_border(int equations) override { return take_border(equations); }
+  void border_matrix(double* S) const override;
+  void eliminate(std::span<const double> b, std::span<double> y) const override;
+  void fill_in(std::span<double> x) const override;
+
  protected:
   void analyse_matrix(const EquationGraph& graph) override {
-    tree_ = make_front_tree(graph, matrix(), kLeafEquations);
+    tree_ = make_front_tree(graph, matrix(), kLeafEquations, border_equations());
     factors_ = AlignedArray(static_cast<std::size_t>(tree_.factor_terms));
     first_pivot_.assign(1, 0);
     int widest = 0;  // tiles of the widest front
     report_.factor_operations = 0.0;
     for (const Front& front : tree_.fronts) {
-      report_.factor_operations += front.operations(traits().symmetric);
+      if (&front - tree_.fronts.data() != tree_.kept)
+        report_.factor_operations += front.operations(traits().symmetric);
       first_pivot_.push_back(first_pivot_.back() + front.pivot_tiles * kTile);
       widest = std::max(widest, front.pivot_tiles + front.border_tiles);
     }
     reciprocal_.assign(at(first_pivot_.back()), 1.0);
     position_values_ = AlignedArray(at(matrix().equations()));
     front_values_ = AlignedArray(at(widest) * kTile);
+    row_sums_ = AlignedArray(at(widest) * kTile * kLanes);
     make_workspace();
     report_.factor_entries = tree_.factor_terms;
     report_.solve_operations = (traits().symmetric ? 4.0 : 2.0) * static_cast<double>(tree_.factor_terms);
@@ -165,7 +172,8 @@ class Frontal final : public MatrixSolver {
     for (const Subtree& subtree : tree_.subtrees)
       for (int f = subtree.begin; f < subtree.end; ++f)
         largest_below = std::max(largest_below, tree_.fronts[at(f)].arm_terms());
-    for (const Front& front : tree_.fronts) largest_arm = std::max(largest_arm, front.arm_terms());
+    for (int f = 0; f < tree_.children.count(); ++f)
+      if (f != tree_.kept) largest_arm = std::max(largest_arm, tree_.fronts[at(f)].arm_terms());
     lanes_.clear();
     for (int t = 0; t < threads; ++t) {
       Lane lane;
@@ -177,7 +185,7 @@ class Frontal final : public MatrixSolver {
   }
 
   void take_report() {
-    const bool any = matrix().equations() > 0;
+    const bool any = matrix().equations() > border_equations();
     double ratio = any ? 1e300 : 1.0, size = 0.0;
     int negative = 0;
     for (const Lane& lane : lanes_) {
@@ -341,6 +349,8 @@ class Frontal final : public MatrixSolver {
   }
 
   void solve_fronts(std::span<const double> b, std::span<double> x, bool transposed) const;
+  void forward_fronts(bool transposed) const;
+  void backward_fronts(bool transposed) const;
   void forward(const Front& front, const double* arm, const double* reciprocal, double* w, double* y) const;
   void backward(const Front& front, const double* arm, const double* reciprocal, double* w, double* y) const;
 
@@ -351,7 +361,7 @@ class Frontal final : public MatrixSolver {
   std::unique_ptr<ThreadPool> pool_;
   std::vector<int> first_pivot_;  // of every front, in reciprocal_
   std::vector<double> reciprocal_;
-  mutable AlignedArray position_values_, front_values_;  // used by one solution at a time
+  mutable AlignedArray position_values_, front_values_, row_sums_;  // used by one solution at a time
 };
 
 // Pivots of one front by forward substitution; their share of the border goes to w.
@@ -372,7 +382,8 @@ void Frontal::forward(const Front& front, const double* arm, const double* recip
   for (int k = 0; k < front.border; ++k) w[border[k]] += y[P * kTile + k];
 }
 
-// Pivots of one front by back substitution; the border is known.
+// Pivots of one front by back substitution; the border is known.  Column by column, so that the arm is read as it
+// lies in memory.
 void Frontal::backward(const Front& front, const double* arm, const double* reciprocal, double* w,
                        double* y) const {
   const int* border = tree_.border.data() + front.border_begin;
@@ -380,24 +391,32 @@ void Frontal::backward(const Front& front, const double* arm, const double* reci
   std::fill(y, y + all * kTile, 0.0);
   std::copy_n(w + front.first, front.pivots, y);
   for (int k = 0; k < front.border; ++k) y[P * kTile + k] = w[border[k]];
-  for (int K = P - 1; K >= 0; --K) {
-    const int live = std::min(kTile, front.pivots - K * kTile);
-    Lanes row[kTile] = {};
-    for (int J = K + 1; J < all; ++J)
-      tile_multiply_rows(arm + front.panel(J) + K * kTileTerms, y + J * kTile, row, live);
-    tile_subtract_sums(row, y + K * kTile);
-    tile_backward_diagonal(arm + front.panel(K) + K * kTileTerms, reciprocal ? reciprocal + K * kTile : nullptr,
-                           y + K * kTile, live);
+  Lanes* const sums = reinterpret_cast<Lanes*>(row_sums_.data());
+  std::fill_n(row_sums_.data(), P * kTile * kLanes, 0.0);
+  constexpr int kTogether = 4;
+  const std::ptrdiff_t stride = std::ptrdiff_t{kTile} * front.pivots;
+  int border_panel = P;
+  for (; border_panel + kTogether <= all; border_panel += kTogether)
+    tile_multiply_panels<kTogether>(arm + front.panel(border_panel), stride, y + border_panel * kTile,
+                                    front.pivots, sums);
+  for (; border_panel < all; ++border_panel)
+    tile_multiply_panels<1>(arm + front.panel(border_panel), 0, y + border_panel * kTile, front.pivots, sums);
+  for (int J = P - 1; J >= 0; --J) {
+    const double* const panel = arm + front.panel(J);
+    tile_subtract_sums(sums + J * kTile, y + J * kTile);
+    tile_backward_diagonal(panel + J * kTileTerms, reciprocal ? reciprocal + J * kTile : nullptr, y + J * kTile,
+                           std::min(kTile, front.pivots - J * kTile));
+    tile_multiply_panels<1>(panel, 0, y + J * kTile, J * kTile, sums);
   }
   std::copy_n(y, front.pivots, w + front.first);
 }
 
-// L then U; transposed: U^T, then L^T.  For symmetric matrices L^T = D^-1 U.
-void Frontal::solve_fronts(std::span<const double> b, std::span<double> x, bool transposed) const {
+// L then U; transposed: U^T, then L^T.  For symmetric matrices L^T = D^-1 U.  Values stand by position.
+void Frontal::forward_fronts(bool transposed) const {
   double* const w = position_values_.data();
   double* const y = front_values_.data();
-  for (std::size_t p = 0; p < tree_.order.size(); ++p) w[p] = b[at(tree_.order[p])];
   for (std::size_t f = 0; f < tree_.fronts.size(); ++f) {
+    if (static_cast<int>(f) == tree_.kept) continue;
     const Front& front = tree_.fronts[f];
     const double* upper = factors_.data() + front.arms;
     const double* reciprocal = reciprocal_.data() + first_pivot_[f];
@@ -408,7 +427,13 @@ void Frontal::solve_fronts(std::span<const double> b, std::span<double> x, bool 
     if (traits().symmetric)
       for (int k = 0; k < front.pivots; ++k) w[front.first + k] /= reciprocal[k];
   }
+}
+
+void Frontal::backward_fronts(bool transposed) const {
+  double* const w = position_values_.data();
+  double* const y = front_values_.data();
   for (std::size_t f = tree_.fronts.size(); f-- > 0;) {
+    if (static_cast<int>(f) == tree_.kept) continue;
     const Front& front = tree_.fronts[f];
     const double* upper = factors_.data() + front.arms;
     const double* reciprocal = reciprocal_.data() + first_pivot_[f];
@@ -417,7 +442,45 @@ void Frontal::solve_fronts(std::span<const double> b, std::span<double> x, bool 
     else
       backward(front, upper, reciprocal, w, y);
   }
+}
+
+void Frontal::solve_fronts(std::span<const double> b, std::span<double> x, bool transposed) const {
+  double* const w = position_values_.data();
+  for (std::size_t p = 0; p < tree_.order.size(); ++p) w[p] = b[at(tree_.order[p])];
+  forward_fronts(transposed);
+  backward_fronts(transposed);
   for (std::size_t p = 0; p < tree_.order.size(); ++p) x[at(tree_.order[p])] = w[p];
+}
+
+void Frontal::eliminate(std::span<const double> b, std::span<double> y) const {
+  stop_here_if_asked();
+  double* const w = position_values_.data();
+  for (std::size_t p = 0; p < tree_.order.size(); ++p) w[p] = b[at(tree_.order[p])];
+  forward_fronts(traits().symmetric);
+  for (std::size_t p = 0; p < tree_.order.size(); ++p) y[at(tree_.order[p])] = w[p];
+}
+
+void Frontal::fill_in(std::span<double> x) const {
+  stop_here_if_asked();
+  double* const w = position_values_.data();
+  for (std::size_t p = 0; p < tree_.order.size(); ++p) w[p] = x[at(tree_.order[p])];
+  backward_fronts(traits().symmetric);
+  for (std::size_t p = 0; p < tree_.order.size(); ++p) x[at(tree_.order[p])] = w[p];
+}
+
+// The front that stays holds what is left of K_nn, by its own order of the border.
+void Frontal::border_matrix(double* S) const {
+  if (tree_.kept < 0) return;
+  const Front& front = tree_.fronts[at(tree_.kept)];
+  const double* const terms = factors_.data() + front.arms;
+  const int inner = matrix().equations() - border_equations();
+  const auto column = [&](int local) { return tree_.order[at(front.first + local)] - inner; };
+  for (int j = 0; j < front.pivots; ++j)
+    for (int i = 0; i < front.pivots; ++i) {
+      const bool mirrored = traits().symmetric && i > j;
+      S[std::ptrdiff_t{column(j)} * front.pivots + column(i)] =
+          terms[mirrored ? arm_target(front, j, i) : arm_target(front, i, j)];
+    }
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace sage {
 
 // Changes with LinearSolver and with what the module shares with the program; other modules are not accepted.
 // The module holds it in a section of its own, where it can be read before anything of the module runs.
-#define SAGE_SOLVER_MODULE_VERSION "sage-solvers-3"
+#define SAGE_SOLVER_MODULE_VERSION "sage-solvers-4"
 #define SAGE_SOLVER_MODULE_SECTION SAGE_MODULE_SECTION
 
 // Looks for the module where SAGE_SOLVER_MODULE says, beside the executable (../<lib>/sagefe), and on the

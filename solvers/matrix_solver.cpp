@@ -22,7 +22,7 @@ double largest_size(std::span<const double> x) {
 void MatrixSolver::analyse(int equations, ElementEquations elements) {
   report_ = {};
   stop_here_if_asked();
-  const EquationGraph graph = make_equation_graph(equations, elements);
+  const EquationGraph graph = make_equation_graph(equations, elements, border_);
   matrix_.analyse(graph, std::move(elements), traits_.symmetric);
   stop_here_if_asked();
   analyse_matrix(graph);

@@ -42,6 +42,12 @@ class MatrixSolver : public LinearSolver {
   virtual void solve_matrix(std::span<const double> b, std::span<double> x) const = 0;
 
   const AssembledMatrix& matrix() const { return matrix_; }
+  // For those that keep one: set_border() of the next analyse(), where answers are not refined.
+  bool take_border(int equations) {
+    border_ = wanted_steps_ == 0 ? equations : 0;
+    return wanted_steps_ == 0;
+  }
+  int border_equations() const { return border_; }
   // Throws Stopped.  To be called every thousand operations or so, from any thread.
   void stop_here_if_asked() const { stop_if_asked(stop_asked_); }
   // Largest |term| of every row of the matrix as it stands; the same array at every call.
@@ -59,6 +65,7 @@ class MatrixSolver : public LinearSolver {
   AssembledMatrix matrix_;
   std::vector<double> row_maxima_;
   int wanted_steps_ = 0, steps_ = 0;
+  int border_ = 0;
   double norm_ = 0.0;
   mutable std::vector<double> right_side_, residual_, low_;  // of the refinement
 };

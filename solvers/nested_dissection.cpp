@@ -39,10 +39,17 @@ class Dissection {
     mark_.assign(at(graph.members.count()), 0);
   }
 
-  SeparatorTree run() {
-    std::vector<int> all(at(graph_.members.count()));
-    for (std::size_t g = 0; g < all.size(); ++g) all[g] = static_cast<int>(g);
-    dissect(all, 0, {});
+  SeparatorTree run(int border) {
+    const int inner = static_cast<int>(graph_.group_of.size()) - border;
+    std::vector<int> all, last;
+    all.reserve(at(graph_.members.count()));
+    for (int g = 0; g < graph_.members.count(); ++g) {
+      const bool stays = graph_.members.of(g).front() >= inner;
+      if (stays) part_of_[at(g)] = -1;
+      (stays ? last : all).push_back(g);
+    }
+    const std::vector<int> tops = dissect(all, 0, {});
+    if (!last.empty()) add_node(last, tops);
     return std::move(tree_);
   }
 
@@ -179,8 +186,8 @@ class Dissection {
 
 }  // namespace
 
-SeparatorTree nested_dissection(const EquationGraph& graph, int leaf_equations) {
-  return Dissection(graph, leaf_equations).run();
+SeparatorTree nested_dissection(const EquationGraph& graph, int leaf_equations, int border) {
+  return Dissection(graph, leaf_equations).run(border);
 }
 
 }  // namespace sage

@@ -17,6 +17,8 @@ struct SeparatorTree {
 // Parts of at most `leaf_equations` equations are not divided further.  George & Liu (1981), chapter 8: a level
 // of the search separates what lies before it from what lies behind.  Two searches compete: from the end of a
 // pseudo-diameter, and from the separator above; the smaller balanced separator wins.
-SeparatorTree nested_dissection(const EquationGraph& graph, int leaf_equations);
+// The groups of the last `border` equations are the last part, and the parent of all that had none: what is before
+// them is divided as if they were not there.
+SeparatorTree nested_dissection(const EquationGraph& graph, int leaf_equations, int border = 0);
 
 }  // namespace sage

@@ -213,6 +213,27 @@ inline void tile_multiply_rows(const double* T, const double* y, Lanes* row, int
   }
 }
 
+// The same for `width` panels of many rows, one after the other at `stride`, each with eight values of y: terms are
+// read once, in the order in which they stand.
+template <int width>
+inline void tile_multiply_panels(const double* T, std::ptrdiff_t stride, const double* y, int rows,
+                                 Lanes* row) {
+  Lanes factor[width][kTile / kLanes];
+#pragma GCC unroll 4
+  for (int w = 0; w < width; ++w)
+#pragma GCC unroll 4
+    for (int part = 0; part < kTile / kLanes; ++part) factor[w][part] = lanes(y + w * kTile + part * kLanes);
+  for (int i = 0; i < rows; ++i) {
+    Lanes sum = row[i];
+#pragma GCC unroll 4
+    for (int w = 0; w < width; ++w)
+#pragma GCC unroll 4
+      for (int part = 0; part < kTile / kLanes; ++part)
+        sum += lanes(T + w * stride + i * kTile + part * kLanes) * factor[w][part];
+    row[i] = sum;
+  }
+}
+
 // z[i] -= sum of the lanes of row[i].
 inline void tile_subtract_sums(const Lanes* row, double* z) {
 #pragma GCC unroll 8

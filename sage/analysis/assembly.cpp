@@ -93,11 +93,17 @@ void Assembly::enter_stage(const Activity& activity, const Eigen::VectorXd& rate
   enter_stage(activity, rate);
   if (!skips_.condensation || scene_->linear || !dof_map_.only_displacement()) return;
   const Profile::Scope scope(work_->profile, phase::kCondensation);
-  condensation_ = condense_if_it_pays(groups_, equations_.dofs(), dof_map_.dofs(), increments, make);
+  condensation_ =
+      condense_if_it_pays(groups_, equations_.dofs(), dof_map_.dofs(), increments, scene_->symmetric, make);
   if (!condensation_) return;
   work_->condensed = condensation_->condensed();
   equations_.keep(condensation_->kept());
   number_elements();
+}
+
+void Assembly::set_stage_loads(const Eigen::VectorXd& loads) {
+  const Profile::Scope scope(work_->profile, phase::kCondensation);
+  if (condensation_) condensation_->begin_stage(loads, rate_);
 }
 
 void Assembly::make_room_for_matrices(std::size_t group) {
@@ -229,14 +235,21 @@ std::array<long, kStatuses> Assembly::count_points() const {
   return counts;
 }
 
-IteratedStep::IteratedStep(Assembly& assembly, const Eigen::VectorXd& target, double rate_part)
+namespace {
+
+// What one solution leaves of the forces is rounding, times the stiffness ratio within the region.
+constexpr double kRounding = 1e-14;
+
+}  // namespace
+
+IteratedStep::IteratedStep(Assembly& assembly, const Eigen::VectorXd& target, double rate_part,
+                           const StageSoFar& so_far)
     : assembly_(&assembly), region_(assembly.condensation_.get()) {
   if (region_ == nullptr) return;
   const Profile::Scope scope(assembly.work_->profile, phase::kCondensation);
   assembly.constant_force_.setZero(assembly.dof_map_.dofs());
   assembly.constant_.add_committed_forces(assembly.constant_force_);
-  assembly.prescribed_ = rate_part * assembly.rate_;
-  region_->begin_step(target, assembly.prescribed_, assembly.constant_force_);
+  region_->begin_step(rate_part, so_far, target, assembly.constant_force_, kRounding * assembly.force_scale(0));
   assembly.internal_ = assembly.changing_.forces();
   region_->add_start_forces(assembly.internal_);
 }
@@ -256,8 +269,6 @@ Outcome IteratedStep::iterate(const Eigen::VectorXd& du, Tangent* tangent) {
 }
 
 void IteratedStep::complete(Eigen::VectorXd& du) {
-  // What one solution leaves of the forces is rounding, times the stiffness ratio within the region.
-  constexpr double kRounding = 1e-14;
   constexpr int kSteps = 3;
   if (region_ == nullptr) return;
   Assembly& all = *assembly_;

@@ -39,6 +39,8 @@ class Assembly {
   // The same, and takes the constant region out of the iterations where that pays in so many increments.
   void enter_stage(const Activity& activity, const Eigen::VectorXd& rate, int increments,
                    const SolverMaker& make);
+  // Loads that the stage adds, every dof; before its first step, and only asked for with a condensed region.
+  void set_stage_loads(const Eigen::VectorXd& loads);
   // Birth of a group: free of stress, with its first history.
   void reset_group(std::size_t group);
   // Sets committed states from outside (initial stress): `set` gets all groups.
@@ -113,7 +115,7 @@ class Assembly {
   bool wants_moment_ = false;
   int elements_ = 0;  // of the system
   Eigen::VectorXd rate_, internal_;
-  Eigen::VectorXd prescribed_, constant_force_;  // of a condensed region, at the start of a step
+  Eigen::VectorXd constant_force_;  // of a condensed region, at the start of a step
   FieldSums force_scale_{};
 };
 
@@ -122,7 +124,7 @@ class IteratedStep {
  public:
   // target: loads at the step's end, every dof.  rate_part: its part of the prescribed displacements.  The
   // assembly must outlive it, and stay in its stage.
-  IteratedStep(Assembly& assembly, const Eigen::VectorXd& target, double rate_part);
+  IteratedStep(Assembly& assembly, const Eigen::VectorXd& target, double rate_part, const StageSoFar& so_far);
 
   // As Assembly::evaluate.
   Outcome iterate(const Eigen::VectorXd& du, Tangent* tangent);

@@ -15,54 +15,105 @@ bool symmetric(const LawRef& law) {
 
 Condensation::Condensation(const std::vector<GroupData>& groups, const std::vector<int>& dofs,
                            const std::vector<char>& keep, const SolverMaker& make)
-    : groups_(&groups) {
-  std::vector<int> equation(keep.size(), -1);
-  for (int dof : dofs) {
-    if (keep[static_cast<std::size_t>(dof)]) {
-      kept_.push_back(dof);
-    } else {
-      equation[static_cast<std::size_t>(dof)] = condensed();
-      condensed_.push_back(dof);
-    }
-  }
-  ElementEquations elements;
+    : groups_(&groups), dofs_(static_cast<int>(keep.size())) {
+  for (int dof : dofs) (keep[static_cast<std::size_t>(dof)] ? kept_ : condensed_).push_back(dof);
   bool all_symmetric = true;
-  for (const GroupData& data : groups) {
-    if (!data.active || !data.constant) continue;
-    all_symmetric = all_symmetric && symmetric(data.law);
-    append_equations(data, equation, elements);
-  }
+  for (const GroupData& data : groups)
+    if (data.active && data.constant) all_symmetric = all_symmetric && symmetric(data.law);
   solver_ = make(condensed(), all_symmetric);
-  solver_->analyse(condensed(), std::move(elements));
+  keeps_border_ = solver_->set_border(static_cast<int>(kept_.size()));
+}
+
+bool Condensation::analyse_if_it_pays(int increments, bool symmetric) {
+  if (!keeps_border_ && !solutions_pay(increments)) return false;
+  analyse();
+  return !keeps_border_ || border_pays(increments, symmetric);
+}
+
+void Condensation::analyse() {
+  const int equations = condensed() + (keeps_border_ ? static_cast<int>(kept_.size()) : 0);
+  std::vector<int> equation(static_cast<std::size_t>(dofs_), -1);
+  for (int i = 0; i < equations; ++i) equation[static_cast<std::size_t>(dof_of(i))] = i;
+  ElementEquations elements;
+  for (const GroupData& data : *groups_)
+    if (data.active && data.constant) append_equations(data, equation, elements);
+  solver_->analyse(equations, std::move(elements));
+}
+
+// Measured: S costs a solution for each of its dofs, an iteration saves about eight.
+bool Condensation::solutions_pay(int increments) const {
+  constexpr std::size_t kWidestBorder = 400;
+  constexpr int kBorderPerIncrement = 15;
+  if (kept_.size() > kWidestBorder) return false;
+  const int border = static_cast<int>(kept_.size());
+  return condensed() >= 4 * border && border <= kBorderPerIncrement * increments;
+}
+
+bool Condensation::border_pays(int increments, bool symmetric) const {
+  const double border = static_cast<double>(kept_.size());
+  // The whole matrix is factorised once an increment at least (large systems keep factors within a step), with twice
+  // the work of the region where it is unsymmetric; the border's once in each of two iterations.
+  const double region = solver_->report().factor_operations;
+  const double whole = (symmetric == solver_->traits().symmetric ? 1.0 : 2.0) * region;
+  const double dense = border * border * border / (symmetric ? 3.0 : 1.5);
+  return region + increments * 2.0 * dense < increments * whole;
+}
+
+void Condensation::factorise() {
   solver_->clear();
   int element = 0;
-  for (const GroupData& data : groups) {
+  for (const GroupData& data : *groups_) {
     if (!data.active || !data.constant) continue;
     for (int e = 0; e < data.group->elements(); ++e) solver_->add(element++, data.matrix_of(e));
   }
   solver_->factorise();
   solver_->release_workspace();
 
-  const auto n = static_cast<Eigen::Index>(kept_.size());
-  const auto all = static_cast<Eigen::Index>(keep.size());
-  rhs_.resize(condensed());
-  solution_.resize(condensed());
-  target_.setZero(condensed());
-  load_.setZero(condensed());
-  g_.setZero(n);
-  base_.setZero(n);
-  kept_du_.resize(n);
-  kept_f_.resize(n);
-  work_x_.setZero(all);
-  work_y_.setZero(all);
+  const auto n = static_cast<Eigen::Index>(kept_.size()), all = static_cast<Eigen::Index>(dofs_);
+  for (Eigen::VectorXd* x : {&g_, &base_, &kept_du_, &kept_f_}) x->setZero(n);
+  for (Eigen::VectorXd* x : {&target_, &stage_load_, &loads_, &solution_}) x->setZero(condensed());
+  for (Eigen::VectorXd* x : {&stage_, &step_, &from_, &whole_}) x->setZero(condensed() + n);
+  for (Eigen::VectorXd* x : {&stage_forces_, &all_dofs_, &all_forces_}) x->setZero(all);
   S_.resize(n, n);
+  if (keeps_border_)
+    solver_->border_matrix(S_.data());
+  else
+    solve_for_border();
+}
+
+void Condensation::solve_for_border() {
+  const auto n = static_cast<Eigen::Index>(kept_.size());
   for (Eigen::Index j = 0; j < n; ++j) {
-    work_x_.setZero();
-    work_x_[kept_[static_cast<std::size_t>(j)]] = 1.0;
-    solve_condensed(work_x_);
-    multiply(work_x_, work_y_);
-    for (Eigen::Index i = 0; i < n; ++i) S_(i, j) = work_y_[kept_[static_cast<std::size_t>(i)]];
+    whole_.setZero();
+    border(whole_)[j] = 1.0;
+    fill_in(whole_);
+    all_dofs_.setZero();
+    for (Eigen::Index i = 0; i < whole_.size(); ++i) all_dofs_[dof_of(i)] = whole_[i];
+    multiply(all_dofs_, all_forces_);
+    for (Eigen::Index i = 0; i < n; ++i) S_(i, j) = all_forces_[kept_[static_cast<std::size_t>(i)]];
   }
+}
+
+// As LinearSolver::eliminate and fill_in.  Of a solver without a border x_l is K_ll^-1 b_l in between.
+void Condensation::eliminate(Eigen::VectorXd& x) {
+  const auto n = static_cast<std::size_t>(condensed());
+  if (keeps_border_) return solver_->eliminate({x.data(), n + kept_.size()}, {x.data(), n + kept_.size()});
+  solver_->solve({x.data(), n}, {x.data(), n});
+  all_dofs_.setZero();
+  for (Eigen::Index i = 0; i < condensed(); ++i) all_dofs_[dof_of(i)] = x[i];
+  multiply(all_dofs_, all_forces_);
+  for (Eigen::Index i = condensed(); i < x.size(); ++i) x[i] -= all_forces_[dof_of(i)];
+}
+
+void Condensation::fill_in(Eigen::VectorXd& x) {
+  const auto n = static_cast<std::size_t>(condensed());
+  if (keeps_border_) return solver_->fill_in({x.data(), n + kept_.size()});
+  all_dofs_.setZero();
+  for (Eigen::Index i = condensed(); i < x.size(); ++i) all_dofs_[dof_of(i)] = x[i];
+  multiply(all_dofs_, all_forces_);
+  for (Eigen::Index i = 0; i < condensed(); ++i) solution_[i] = all_forces_[dof_of(i)];
+  solver_->solve({solution_.data(), n}, {solution_.data(), n});
+  inner(x) -= solution_;
 }
 
 // Displacements count from the element's first node, as in ConstantRegion.
@@ -97,34 +148,54 @@ void Condensation::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const 
   }
 }
 
-void Condensation::solve() {
-  const auto n = static_cast<std::size_t>(condensed());
-  solver_->solve({rhs_.data(), n}, {solution_.data(), n});
+void Condensation::begin_stage(const Eigen::VectorXd& loads, const Eigen::VectorXd& prescribed) {
+  stage_forces_.setZero();
+  if (!prescribed.isZero(0.0)) multiply(prescribed, stage_forces_);
+  for (Eigen::Index i = 0; i < condensed(); ++i) stage_load_[i] = loads[dof_of(i)] - stage_forces_[dof_of(i)];
+  stage_work_ = eliminate_loads(stage_load_, stage_);
 }
 
-// x: kept and prescribed dofs given, condensed ones 0 on entry and filled in.
-void Condensation::solve_condensed(Eigen::VectorXd& x) {
-  multiply(x, work_y_);
-  for (Eigen::Index i = 0; i < rhs_.size(); ++i)
-    rhs_[i] = load_[i] - work_y_[condensed_[static_cast<std::size_t>(i)]];
-  solve();
-  for (Eigen::Index i = 0; i < rhs_.size(); ++i) x[condensed_[static_cast<std::size_t>(i)]] = solution_[i];
+// Returns their work while the border is held.
+double Condensation::eliminate_loads(const Eigen::VectorXd& loads, Eigen::VectorXd& eliminated) {
+  inner(eliminated) = loads;
+  border(eliminated).setZero();
+  eliminate(eliminated);
+  inner(whole_) = inner(eliminated);
+  border(whole_).setZero();
+  fill_in(whole_);
+  return loads.dot(inner(whole_));
 }
 
-void Condensation::begin_step(const Eigen::VectorXd& target, const Eigen::VectorXd& prescribed,
-                              const Eigen::VectorXd& f0) {
-  for (Eigen::Index i = 0; i < load_.size(); ++i) {
-    const int dof = condensed_[static_cast<std::size_t>(i)];
+void Condensation::begin_step(double part, const StageSoFar& so_far, const Eigen::VectorXd& target,
+                              const Eigen::VectorXd& f0, double tolerance) {
+  double off = 0.0;  // the line on which the stage's loads grow
+  for (Eigen::Index i = 0; i < condensed(); ++i) {
+    const int dof = dof_of(i);
     target_[i] = target[dof];
-    load_[i] = target[dof] - f0[dof];
+    loads_[i] = target[dof] - f0[dof] - part * stage_forces_[dof];
+    off = std::max(off, std::abs(loads_[i] - part * stage_load_[i]));
   }
-  work_x_ = prescribed;
-  solve_condensed(work_x_);
-  held_work_ = rhs_.dot(solution_);
-  multiply(work_x_, work_y_);
+  from_.setZero();
+  from_has_loads_ = false;
+  if (off <= tolerance) {
+    border(step_) = part * border(stage_);
+    held_work_ = part * part * stage_work_;
+    if (so_far.share > 0.0) {
+      from_has_loads_ = true;
+      const double factor = part / so_far.share;
+      for (Eigen::Index i = 0; i < from_.size(); ++i) {
+        const int dof = dof_of(i);
+        from_[i] = factor * ((*so_far.now)[dof] - (*so_far.start)[dof]);
+      }
+    } else {
+      inner(step_) = part * inner(stage_);
+    }
+  } else {
+    held_work_ = eliminate_loads(loads_, step_);
+  }
   for (Eigen::Index i = 0; i < g_.size(); ++i) {
     const int dof = kept_[static_cast<std::size_t>(i)];
-    g_[i] = f0[dof] + work_y_[dof];
+    g_[i] = f0[dof] + part * stage_forces_[dof] - step_[condensed() + i];
   }
   base_.setZero();
 }
@@ -139,9 +210,15 @@ void Condensation::add_forces(const Eigen::VectorXd& du, Eigen::VectorXd& f) con
   for (Eigen::Index i = 0; i < g_.size(); ++i) f[kept_[static_cast<std::size_t>(i)]] += g_[i] + kept_f_[i];
 }
 
+// A border that moves by u leaves rounding of |K| |u| behind: what is solved for is the way from a place near by.
 void Condensation::complete(Eigen::VectorXd& du) {
-  for (int dof : condensed_) du[dof] = 0.0;
-  solve_condensed(du);
+  if (from_has_loads_)
+    inner(whole_).setZero();
+  else
+    inner(whole_) = inner(step_);
+  for (Eigen::Index i = condensed(); i < whole_.size(); ++i) whole_[i] = du[dof_of(i)] - from_[i];
+  fill_in(whole_);
+  for (Eigen::Index i = 0; i < condensed(); ++i) du[dof_of(i)] = from_[i] + whole_[i];
 }
 
 double Condensation::largest_residual(const Eigen::VectorXd& f) const {
@@ -152,10 +229,12 @@ double Condensation::largest_residual(const Eigen::VectorXd& f) const {
 }
 
 void Condensation::refine(const Eigen::VectorXd& f, Eigen::VectorXd& du) {
-  for (Eigen::Index i = 0; i < rhs_.size(); ++i)
-    rhs_[i] = target_[i] - f[condensed_[static_cast<std::size_t>(i)]];
-  solve();
-  for (Eigen::Index i = 0; i < rhs_.size(); ++i) du[condensed_[static_cast<std::size_t>(i)]] += solution_[i];
+  for (Eigen::Index i = 0; i < condensed(); ++i) whole_[i] = target_[i] - f[dof_of(i)];
+  border(whole_).setZero();
+  eliminate(whole_);
+  border(whole_).setZero();
+  fill_in(whole_);
+  for (Eigen::Index i = 0; i < condensed(); ++i) du[dof_of(i)] += whole_[i];
 }
 
 void Condensation::set_base(const Eigen::VectorXd& all, const Eigen::VectorXd& others,
@@ -165,16 +244,15 @@ void Condensation::set_base(const Eigen::VectorXd& all, const Eigen::VectorXd& o
     g_[i] = all[dof] - others[dof];
     base_[i] = du[dof];
   }
+  from_has_loads_ = true;
+  for (Eigen::Index i = 0; i < from_.size(); ++i) from_[i] = du[dof_of(i)];
 }
 
 double Condensation::whole_norm(const Eigen::VectorXd& correction) {
-  work_x_.setZero();
-  for (Eigen::Index i = 0; i < correction.size(); ++i)
-    work_x_[kept_[static_cast<std::size_t>(i)]] = correction[i];
-  multiply(work_x_, work_y_);
-  for (Eigen::Index i = 0; i < rhs_.size(); ++i) rhs_[i] = work_y_[condensed_[static_cast<std::size_t>(i)]];
-  solve();
-  return std::sqrt(correction.squaredNorm() + solution_.squaredNorm());
+  inner(whole_).setZero();
+  border(whole_) = correction;
+  fill_in(whole_);
+  return whole_.norm();
 }
 
 namespace {
@@ -192,24 +270,31 @@ std::vector<char> changing_dofs(const std::vector<GroupData>& groups, int dofs) 
   return flags;
 }
 
+// Elimination of a plane mesh takes up to about 200 multiplications times N^1.5 (quadratic elements, unsymmetric): a
+// border that costs more can't pay, and need not be analysed.
+bool too_wide(int kept, int condensed) {
+  return std::pow(kept, 3.0) / 3.0 > 200.0 * std::pow(condensed, 1.5);
+}
+
 }  // namespace
 
 std::unique_ptr<Condensation> condense_if_it_pays(const std::vector<GroupData>& groups,
                                                   const std::vector<int>& free_dofs, int dofs, int increments,
-                                                  const SolverMaker& make) {
-  // Measured: the matrix of the border costs a solution for each of its dofs, an iteration saves about eight.
-  constexpr int kWidestBorder = 400, kFewestCondensed = 100, kBorderPerIncrement = 15;
-  constexpr double kPoorPivot = 1e-6;  // of an ill-conditioned region: its elimination would cost digits
+                                                  bool symmetric, const SolverMaker& make) {
+  constexpr int kFewestCondensed = 100;
+  // Of an ill-conditioned region, and of terms that grow: elimination without refinement would cost digits.
+  constexpr double kPoorPivot = 1e-6, kLargeGrowth = 1e3;
   const std::vector<char> keep = changing_dofs(groups, dofs);
   const auto kept = static_cast<int>(std::count_if(
       free_dofs.begin(), free_dofs.end(), [&](int dof) { return keep[static_cast<std::size_t>(dof)] != 0; }));
   const int condensed = static_cast<int>(free_dofs.size()) - kept;
-  if (kept == 0 || kept > kWidestBorder || condensed < kFewestCondensed || condensed < 4 * kept ||
-      kept > kBorderPerIncrement * increments)
-    return nullptr;
+  if (kept == 0 || condensed < kFewestCondensed || too_wide(kept, condensed)) return nullptr;
   try {
     auto region = std::make_unique<Condensation>(groups, free_dofs, keep, make);
-    if (region->report().smallest_pivot_ratio < kPoorPivot) return nullptr;
+    if (!region->analyse_if_it_pays(increments, symmetric)) return nullptr;
+    region->factorise();
+    const FactorReport report = region->report();
+    if (report.smallest_pivot_ratio < kPoorPivot || report.growth > kLargeGrowth) return nullptr;
     return region;
   } catch (const SingularMatrix&) {
     return nullptr;  // a region that only its border holds: the whole system says what is wrong, or solves it

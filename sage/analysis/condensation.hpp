@@ -6,6 +6,8 @@
 //   K_ll du_l = F_l - f0_l - K_ln du_n - K_lp du_p
 //   f_n = g + S du_n,   S = K_nn - K_nl K_ll^-1 K_ln,
 //   g = f0_n + K_np du_p + K_nl K_ll^-1 (F_l - f0_l - K_lp du_p)
+// A solver that keeps a border has S when K_ll is factorised, and an increment then costs one back substitution: loads
+// grow along a line in a stage, so that they are eliminated once.  Of other solvers S takes a solution a kept dof.
 // Once the region's forces f are known at some du, f_n = f(du)_n + S (change of du_n): S then multiplies small
 // changes, and its rounding counts no more.
 #pragma once
@@ -22,12 +24,23 @@ namespace sage {
 // Makes a solver for so many equations; symmetric: the matrix is.
 using SolverMaker = std::function<std::unique_ptr<LinearSolver>(int equations, bool symmetric)>;
 
+// How far a stage has come: share of it that is behind, and unknowns of every dof at its start and now.
+struct StageSoFar {
+  double share = 0.0;
+  const Eigen::VectorXd *start = nullptr, *now = nullptr;
+};
+
 class Condensation {
  public:
-  // dofs: all free ones.  keep: a flag a dof, for those that belong to other elements too.  Throws
-  // SingularMatrix.
+  // dofs: all free ones.  keep: a flag a dof, for those that belong to other elements too.
   Condensation(const std::vector<GroupData>& groups, const std::vector<int>& dofs,
                const std::vector<char>& keep, const SolverMaker& make);
+
+  // The equations, if the iterations of so many increments cost less with it; false: they don't.  symmetric: the whole
+  // matrix is.
+  bool analyse_if_it_pays(int increments, bool symmetric);
+  // K_ll, its factors and S.  Throws SingularMatrix.
+  void factorise();
 
   const std::vector<int>& kept() const { return kept_; }  // dofs
   const std::vector<int>& condensed_dofs() const { return condensed_; }
@@ -35,9 +48,13 @@ class Condensation {
   const Eigen::MatrixXd& S() const { return S_; }
   FactorReport report() const { return solver_->report(); }
 
-  // target: loads at the end of the step; prescribed: its displacement of every prescribed dof (others 0); f0:
-  // internal forces of the linear region.  One entry a dof.
-  void begin_step(const Eigen::VectorXd& target, const Eigen::VectorXd& prescribed, const Eigen::VectorXd& f0);
+  // Over the whole stage, one entry a dof: the loads that are added, and the displacement of every prescribed dof
+  // (others 0).  Before the first step.
+  void begin_stage(const Eigen::VectorXd& loads, const Eigen::VectorXd& prescribed);
+  // part: the step's share of the stage; target: loads at its end; f0: internal forces of the linear region.  One
+  // entry a dof.  f0 may leave that much of a force out of balance.
+  void begin_step(double part, const StageSoFar& so_far, const Eigen::VectorXd& target,
+                  const Eigen::VectorXd& f0, double tolerance);
   // Work of the step's loads on the region while its border is held (twice that of a ramp).
   double held_work() const { return held_work_; }
   // f += forces of the linear region on the kept dofs: where the step begins (du = 0), and anywhere.
@@ -55,25 +72,47 @@ class Condensation {
   double whole_norm(const Eigen::VectorXd& correction);
 
  private:
+  // Vectors of condensed dofs with kept ones behind them, as in LinearSolver.
+  auto inner(Eigen::VectorXd& x) const { return x.head(condensed()); }
+  auto border(Eigen::VectorXd& x) const { return x.tail(static_cast<Eigen::Index>(kept_.size())); }
+  int dof_of(Eigen::Index i) const {
+    return i < condensed() ? condensed_[static_cast<std::size_t>(i)]
+                           : kept_[static_cast<std::size_t>(i - condensed())];
+  }
+  double eliminate_loads(const Eigen::VectorXd& loads, Eigen::VectorXd& eliminated);
+  void eliminate(Eigen::VectorXd& x);
+  void fill_in(Eigen::VectorXd& x);
+
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;  // y = K x of the linear region
-  void solve();                                                       // K_ll solution_ = rhs_
-  void solve_condensed(Eigen::VectorXd& x);
+  void solve_for_border();                                            // S, a solution a column
+  void analyse();
+  bool border_pays(int increments, bool symmetric) const;
+  bool solutions_pay(int increments) const;
 
   const std::vector<GroupData>* groups_;
+  int dofs_;  // of the model
   std::vector<int> kept_, condensed_;
   std::unique_ptr<LinearSolver> solver_;
+  bool keeps_border_ = false;  // the solver
   Eigen::MatrixXd S_;
-  Eigen::VectorXd g_, base_;       // forces at the place base_ of the kept dofs
-  Eigen::VectorXd target_, load_;  // F_l, F_l - f0_l; a condensed dof each
-  Eigen::VectorXd rhs_, solution_, work_x_, work_y_;
-  double held_work_ = 0.0;
+  Eigen::VectorXd g_, base_;               // forces at the place base_ of the kept dofs
+  Eigen::VectorXd target_;                 // F_l
+  Eigen::VectorXd stage_load_, stage_;     // of the whole stage: F_l - f0_l - K_lp du_p, and eliminated
+  Eigen::VectorXd stage_forces_;           // K du_p of the whole stage, every dof
+  Eigen::VectorXd loads_, step_;           // of the step, likewise; of loads that from_ has, the border alone
+  Eigen::VectorXd from_;                   // displacements from which those of the step are counted,
+  bool from_has_loads_ = false;            // and whether they balance its loads
+  Eigen::VectorXd whole_, solution_;       // work space
+  Eigen::VectorXd all_dofs_, all_forces_;  // work space
+  double stage_work_ = 0.0, held_work_ = 0.0;
   mutable Eigen::VectorXd kept_du_, kept_f_;
 };
 
 // The constant region of the active groups, where its elimination pays in so many increments; nullptr where it
-// does not, where K_ll is singular or nearly so.  free_dofs: those with an equation; dofs: of the model.
+// does not, where K_ll is singular or nearly so.  free_dofs: those with an equation; dofs: of the model; symmetric: the
+// whole matrix is.
 std::unique_ptr<Condensation> condense_if_it_pays(const std::vector<GroupData>& groups,
                                                   const std::vector<int>& free_dofs, int dofs, int increments,
-                                                  const SolverMaker& make);
+                                                  bool symmetric, const SolverMaker& make);
 
 }  // namespace sage

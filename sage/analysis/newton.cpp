@@ -19,7 +19,7 @@ class Step {
   Step(Assembly& assembly, Tangent& tangent, const Eigen::VectorXd& target, double rate_part,
        const NewtonSettings& settings, WorkCounters& work, Eigen::VectorXd& du)
       : assembly_(assembly),
-        pass_(assembly, target, rate_part),
+        pass_(assembly, target, rate_part, settings.so_far),
         rate_part_(rate_part),
         tangent_(tangent),
         target_(target),

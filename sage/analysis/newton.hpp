@@ -13,6 +13,7 @@ struct NewtonSettings {
   bool line_search = true;
   bool repeat = false;                         // du holds the step before, which was linear: it is tried first
   const Eigen::VectorXd* committed = nullptr;  // unknowns at the start of the step, every dof; null = zero
+  StageSoFar so_far{};                         // a condensed region moves on in its direction
   bool contract = false;  // factors are kept while they contract well; K may then be behind du at the end
 };
 

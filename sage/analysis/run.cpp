@@ -151,6 +151,11 @@ void Run::prepare_stage(int s) {
   path_.force_start = committed_force_ = assembly_.internal_force();
   path_.last_size = path_.stiffest = path_.last_stiffness = 0.0;
   path_.force_end = external_force(model_, s);
+  path_.u_start.resize(0);
+  if (assembly_.condensation() != nullptr) {
+    path_.u_start = state_.u;
+    assembly_.set_stage_loads(path_.force_end - path_.force_start);
+  }
   path_.external_start = state_.external;
   const InitialImbalance imbalance =
       initial_imbalance(model_, system_.activity(), s, path_.force_start, path_.force_end);
@@ -178,6 +183,7 @@ NewtonStep Run::attempt(const Stage& stage, double from, double to) {
   newton.repeat = can_repeat(stage, to - from);
   newton.contract = contracts(stage);
   newton.committed = &state_.u;
+  if (path_.u_start.size() > 0) newton.so_far = {from, &path_.u_start, &state_.u};
   const Profile::Scope scope(profile(), phase::kIteration);
   return newton_step(assembly_, tangent_, target_, system_.rate(), to - from, newton, result_.work, state_.du);
 }
@@ -374,6 +380,8 @@ Place Run::resume() {
   const Place place = resume_from(resumable(), settings_.resume_from);
   last_du_ = state_.du;
   committed_force_ = assembly_.internal_force();
+  if (place.increment > 0 && assembly_.condensation() != nullptr)
+    assembly_.set_stage_loads(path_.force_end - path_.force_start);
   return place;
 }
 

@@ -19,6 +19,7 @@ struct Place {
 struct StagePath {
   Eigen::VectorXd external_start, force_start;  // loads and internal forces at its start
   Eigen::VectorXd force_end;                    // loads at its end
+  Eigen::VectorXd u_start;                      // unknowns at its start, where a region is condensed
   Repeats repeats;
   double last_size = 0.0;                       // of the last step, as a share of the stage; 0 = there is none
   double stiffest = 0.0, last_stiffness = 0.0;  // along the motion: largest so far, of the last step
@@ -49,6 +50,7 @@ struct RunState {
     archive(path.external_start);
     archive(path.force_start);
     archive(path.force_end);
+    archive(path.u_start);
   }
 };
 

@@ -12,7 +12,7 @@ namespace sage::app {
 
 namespace {
 
-constexpr std::string_view kFirstLine = "sagefe restart 3\n";
+constexpr std::string_view kFirstLine = "sagefe restart 4\n";
 
 // What a checkpoint means depends on every line of the program: its build is identified by its own file.
 std::uint64_t build_identity() {

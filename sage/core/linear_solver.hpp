@@ -46,7 +46,7 @@ struct FactorReport {
   int negative_pivots = -1;            // LDL^T only
   std::int64_t factor_entries = -1;    // stored terms of the factors
   std::size_t memory_bytes = 0;
-  double factor_operations = -1.0;  // floating-point, of one factorisation
+  double factor_operations = -1.0;  // floating-point, of one factorisation; known from analyse() on
   double solve_operations = -1.0;   // and of one solution without refinement
 };
 
@@ -71,6 +71,11 @@ class LinearSolver {
   // the equations alone (the skip 'condensation') gets none.
   virtual void set_places(std::span<const EquationPlace> /*places*/) {}
 
+  // From the next analyse() on the last so many equations, the border n, stay: factorise() eliminates only those
+  // before them, l.  solve() is then of no use, and those for a border below serve.  False: this solver, or as it
+  // is set, can't do so, and has no border.
+  virtual bool set_border(int /*equations*/) { return false; }
+
   // Numbering, symbolic work and storage for a pattern.  Called once per pattern.
   virtual void analyse(int equations, ElementEquations elements) = 0;
 
@@ -89,6 +94,16 @@ class LinearSolver {
 
   // x = K^-1 b.  b and x may be the same vector.  Needs factorise() since the last add().
   virtual void solve(std::span<const double> b, std::span<double> x) const = 0;
+
+  // With a border.  S = K_nn - K_nl K_ll^-1 K_ln, what factorise() leaves of it: border x border, column-major,
+  // both triangles.
+  virtual void border_matrix(double* /*S*/) const { throw std::logic_error("this solver keeps no border"); }
+  // y_n = b_n - K_nl K_ll^-1 b_l; y_l is for fill_in().  Linear in b.  b and y may be the same vector.
+  virtual void eliminate(std::span<const double> /*b*/, std::span<double> /*y*/) const {
+    throw std::logic_error("this solver keeps no border");
+  }
+  // x_l = K_ll^-1 (b_l - K_ln x_n), from y_l of eliminate(b) and x_n, which stand in x and of which x_n stays.
+  virtual void fill_in(std::span<double> /*x*/) const { throw std::logic_error("this solver keeps no border"); }
 
   virtual FactorReport report() const { return {}; }
 

@@ -50,7 +50,7 @@ std::string SpecimenDeck::text() const {
   for (int i = 0; i <= columns; ++i)
     deck.node(node(across * (rows + 1) + i + 1), v.length * kRadius * i / columns, z(kHeight));
 
-  const double E = 3000.0 * v.stress, kn = 1e9 * v.stress / v.length;
+  const double E = 3000.0 * v.stress, kn = normal_stiffness * v.stress / v.length;
   if (drucker_prager)
     deck.material(1, 3, {E, 0.495, 0.0, 36.87, 0.0, 1.0, 1.0});
   else

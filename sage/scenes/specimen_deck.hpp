@@ -20,6 +20,7 @@ struct SpecimenDeck {
   int columns = 6, rows = 12, increments = 20, method = 0, max_iterations = 0, output_every = 0;
   bool drucker_prager = false;
   double axial_strain = 0.10;
+  double normal_stiffness = 1e9;  // of the interface, in stress / length; E of the specimen is 3000
   SpecimenVariant variant;
 
   std::string text() const;

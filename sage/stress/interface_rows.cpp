@@ -5,6 +5,7 @@
 
 #include "sage/scenes/lame.hpp"
 #include "sage/scenes/scenes.hpp"
+#include "sage/scenes/specimen_deck.hpp"
 #include "sage/stress/row.hpp"
 
 namespace sage::stress {
@@ -228,6 +229,44 @@ void open_and_close(Sweep& s) {
     }
 }
 
+// A specimen on a platen interface of any normal stiffness: its linear body condensed onto the border, and the whole
+// system.  Forces of the joint are k_n times differences of displacements in both.
+void condensed_border(Sweep& s) {
+  for (int power = -9; power <= 9; ++power) {
+    SpecimenDeck deck;
+    deck.columns = 30;  // from 3000 equations on the solver keeps the border
+    deck.rows = 60;
+    deck.increments = 4;
+    const double kn = std::pow(10.0, power);  // h / E
+    deck.normal_stiffness = 3000.0 * kn;
+    RunSettings whole;
+    whole.skips.condensation = false;
+    const Ran ran = s.run(deck.text()), reference = s.run(deck.text(), {}, whole);
+    const std::string label = fmt::format("kn h/E = 1e{}", power);
+    if (!ran.completed() || !reference.completed()) {
+      s.clean(label + ", condensed", kn, ran);
+      s.holds(label + ": both ways end alike", kUnknown, ran.completed() == reference.completed(),
+              "the whole system ends as the condensed one does",
+              reference.completed() ? "completed" : "stopped");
+      continue;
+    }
+    const auto difference = [](const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+      const double size = b.cwiseAbs().maxCoeff();
+      return size > 0.0 ? (a - b).cwiseAbs().maxCoeff() / size : 0.0;
+    };
+    const WholeRun &a = *ran.run, &b = *reference.run;
+    s.holds(label + ": condensed", kUnknown, a.result.work.condensed > 3000,
+            "more than 3000 equations condensed", fmt::format("{} condensed", a.result.work.condensed));
+    const double allowed = 1e-9 + 100.0 * kUnit * kn;
+    s.right(label + ", displacement", kn, ran, difference(a.last().u, b.last().u), allowed).series =
+        "displacement";
+    s.right(label + ", forces", kn, ran, difference(a.last().internal, b.last().internal), allowed).series =
+        "forces";
+    s.right(label + ", stress of the joint", kn, ran, difference(a.stress[1], b.stress[1]), allowed).series =
+        "stress of the joint";
+  }
+}
+
 }  // namespace
 
 std::vector<Row> interface_rows() {
@@ -247,6 +286,11 @@ std::vector<Row> interface_rows() {
       {"interface-axis", family, "a pair of nodes on the axis, the three rules, kn h/E = 50",
        "independent hp solution -0.91972; allowed 2e-3, the mesh's error. Newton-Cotes must be announced", "",
        false, axis_rules},
+      {"interface-condensed", family,
+       "kn h/E from 1e-9 to 1e9, the linear body condensed onto the joint's border",
+       "the whole system, without condensation. Allowed: 1e-9 (both end at an equilibrium of 1e-8 that "
+       "converges quadratically) + 100 u kn h/E; h = 1, the unit of length",
+       "kn h/E", true, condensed_border},
       {"sliding-block", family, "friction of an interface from 0 to 75 degrees", "W tan phi, closed form",
        "friction angle [degrees]", true, sliding_block},
       {"no-shear-resistance", family, "interfaces without shear stiffness or strength",

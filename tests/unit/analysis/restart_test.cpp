@@ -64,6 +64,22 @@ std::string specimen(int method, bool plastic = true) {
   return deck.text();
 }
 
+// An elastic specimen whose region is condensed: from 3000 equations on by a solver that keeps the border.
+std::string condensed(int columns, int rows, int increments) {
+  SpecimenDeck deck;
+  deck.columns = columns;
+  deck.rows = rows;
+  deck.increments = increments;
+  return deck.text();
+}
+
+TEST(Restart, CondensedRegionsAreResumedAnywhere) {
+  ASSERT_GT(run_text(condensed(8, 16, 8)).result.work.condensed, 200);
+  expect_same_from_every_checkpoint(condensed(8, 16, 8), 7);
+  ASSERT_GT(run_text(condensed(30, 60, 4)).result.work.condensed, 3000);
+  expect_same_from_every_checkpoint(condensed(30, 60, 4), 3);
+}
+
 TEST(Restart, NewtonStepsAreResumedAnywhere) {
   expect_same_from_every_checkpoint(specimen(0), 7);
 }

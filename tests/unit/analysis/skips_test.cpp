@@ -9,11 +9,11 @@ namespace {
 
 // An elastic specimen on a hyperbolic interface: a large linear region.  Increments are
 // many enough to condense it.
-std::string friction() {
+std::string friction(int columns = 8, int increments = 10) {
   SpecimenDeck deck;
-  deck.columns = 8;
-  deck.rows = 16;
-  deck.increments = 10;
+  deck.columns = columns;
+  deck.rows = 2 * columns;
+  deck.increments = increments;
   return deck.text();
 }
 
@@ -270,6 +270,47 @@ TEST(Skips, PlatenThatNothingPresses) {
   StageCards& stage = deck.stage(4);
   for (int j = 0; j < block.rows; ++j) stage.pressure(block.element(block.columns - 1, j), 2, 20.0, 20.0);
   expect_same_path(deck.text());
+}
+
+// Solvers that keep the border (5) and those that don't find the same matrix of it; loads and motions of three
+// stages, of which the third begins elsewhere than the second ended.
+TEST(Skips, RegionsAreCondensedByAnySolver) {
+  const std::string three_ways = layered({.upper = {3000.0, 0.25},
+                                          .lower = {3000.0, 0.3},
+                                          .joint = {0.0, 28.5, 5.0, 0.8, 5000.0, 0.9, 1e5, 1e5, 0.0, 0.0},
+                                          .pressure = 50.0,
+                                          .ways = {-0.03, 0.015, -0.03},
+                                          .increments = 4});
+  for (const std::string& deck : {friction(), free_of_stress_at_first(), three_ways}) {
+    RunSettings whole;
+    whole.skips.condensation = false;
+    const WholeRun reference = run_text(deck, {}, whole);
+    for (const int solver : {1, 4, 5}) {
+      SCOPED_TRACE(solver);
+      RunSettings settings;
+      settings.solver = solver;
+      const WholeRun condensed = run_text(deck, {}, settings);
+      EXPECT_GT(condensed.result.work.condensed, 100);
+      expect_same(condensed, reference, 1e-10);
+    }
+  }
+}
+
+// A border that two increments would not pay for, a solution a dof; and the same bits on any number of threads.
+TEST(Skips, ABorderOrderedLastPaysInFewIncrements) {
+  const std::string deck = friction(48, 2);
+  RunSettings whole;
+  whole.skips.condensation = false;
+  const WholeRun one = run_text(deck);
+  EXPECT_GT(one.result.work.condensed, 9000);
+  expect_same(one, run_text(deck, {}, whole), 1e-10);
+  for (const int threads : {2, 3}) {
+    RunSettings settings;
+    settings.threads = threads;
+    const WholeRun several = run_text(deck, {}, settings);
+    EXPECT_TRUE(several.last().u == one.last().u) << threads;
+    EXPECT_TRUE(several.last().internal == one.last().internal) << threads;
+  }
 }
 
 // Each skip does something where it should: counters, not clocks.
