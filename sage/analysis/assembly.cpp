@@ -92,10 +92,11 @@ void Assembly::enter_stage(const Activity& activity, const Eigen::VectorXd& rate
                            const SolverMaker& make) {
   enter_stage(activity, rate);
   if (!skips_.condensation || scene_->linear || !dof_map_.only_displacement()) return;
-  const Profile::Scope scope(work_->profile, phase::kCondensation);
+  Profile::Scope scope(work_->profile, phase::kCondensation);
   condensation_ =
       condense_if_it_pays(groups_, equations_.dofs(), dof_map_.dofs(), increments, scene_->symmetric, make);
   if (!condensation_) return;
+  scope.add_operations(condensation_->report().factor_operations);
   work_->condensed = condensation_->condensed();
   equations_.keep(condensation_->kept());
   number_elements();

@@ -199,7 +199,8 @@ TEST(ResultFile, RestartGivesTheSameBytes) {
     specimen.compress(0.01 * i / 3);
     result.on_increment(specimen.model, specimen.step(i, 3), specimen.solution());
   }
-  result.on_finish(specimen.model, {});
+  const RunResult finished;
+  result.on_finish(specimen.model, finished);
   EXPECT_TRUE(contents(folder / "a.h5") == contents(folder / "b.h5"));
 }
 
