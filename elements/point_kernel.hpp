@@ -6,7 +6,7 @@
 #include <cassert>
 #include <variant>
 
-#include "sage/core/element.hpp"
+#include "elements/four_kernel.hpp"
 
 namespace sage {
 
@@ -115,8 +115,8 @@ Outcome evaluate_points(const ElementIn& in, ElementOut& out) {
   return Outcome::ok;
 }
 
-// What all elements share: traits and the kernel.
-template <int LawSize, int Dofs, int Points>
+// What all elements share: traits and the kernel.  pointwise: as couples() in four_kernel.hpp says.
+template <int LawSize, int Dofs, int Points, bool pointwise = false>
 class PointElement : public Element {
  public:
   explicit PointElement(const ElementTraits& traits) : traits_(traits) {
@@ -125,6 +125,13 @@ class PointElement : public Element {
   const ElementTraits& traits() const final { return traits_; }
   Outcome evaluate(const ElementIn& in, ElementOut& out) const final {
     return evaluate_points<LawSize, Dofs, Points>(in, out);
+  }
+  bool takes_four() const final { return four_fit(LawSize, Dofs, Points); }
+  Outcome evaluate_four(const FourElementsIn& in, FourElementsOut& out) const final {
+    if constexpr (four_fit(LawSize, Dofs, Points))
+      return evaluate_points_of_four<Dofs, Points, pointwise>(in, out);
+    else
+      return Element::evaluate_four(in, out);
   }
 
  private:

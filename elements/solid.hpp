@@ -35,22 +35,23 @@ inline double determinant(const Matrix2& J) {
 }
 
 template <class Shape, class Kinematics, class Rule, Volumetric volumetric = Volumetric::pointwise>
-class Solid final : public PointElement<4, 2 * Shape::nodes, Rule::points> {
+class Solid final
+    : public PointElement<4, 2 * Shape::nodes, Rule::points, volumetric == Volumetric::pointwise> {
   static constexpr int kDofs = 2 * Shape::nodes;
   static constexpr int kStride = kPointStride<4, kDofs>;
   using Coordinates = Eigen::Matrix<double, 2, Shape::nodes>;
 
  public:
   Solid(std::string_view name, bool reduced, bool locks, bool loses_order)
-      : PointElement<4, kDofs, Rule::points>({.name = name,
-                                              .geometry = Kinematics::geometry,
-                                              .nodes = Shape::nodes,
-                                              .dofs = kDofs,
-                                              .points = Rule::points,
-                                              .law_size = 4,
-                                              .reduced = reduced,
-                                              .locks = locks,
-                                              .loses_order = loses_order}) {
+      : Solid::PointElement({.name = name,
+                             .geometry = Kinematics::geometry,
+                             .nodes = Shape::nodes,
+                             .dofs = kDofs,
+                             .points = Rule::points,
+                             .law_size = 4,
+                             .reduced = reduced,
+                             .locks = locks,
+                             .loses_order = loses_order}) {
     std::vector<ParentPoint> at;
     for (std::size_t p = 0; p < Rule::points; ++p) {
       const RulePoint& q = Rule::table[p];

@@ -57,6 +57,24 @@ LawPtr make(std::span<const double> values, const UnitSystem& units) {
   return std::make_unique<DruckerPrager>(law);
 }
 
+Eigen::Index at(std::size_t i) {
+  return static_cast<Eigen::Index>(i);
+}
+
+// unit_tensor() and deviatoric_projection(), as constants that loops over their terms fold.
+constexpr double kUnit[4] = {1.0, 1.0, 1.0, 0.0};
+constexpr double kThird = 1.0 / 3.0;
+constexpr double kProjection[4][4] = {{2.0 * kThird, -kThird, -kThird, 0.0},
+                                      {-kThird, 2.0 * kThird, -kThird, 0.0},
+                                      {-kThird, -kThird, 2.0 * kThird, 0.0},
+                                      {0.0, 0.0, 0.0, 0.5}};
+
+void set_status(const FourMask& here, PointStatus status, FourPointsOut<4>& out) {
+#pragma GCC unroll 4
+  for (std::size_t l = 0; l < kAbreast; ++l)
+    if (here[l] != 0) out.status[l] = status;
+}
+
 }  // namespace
 
 Cone match_cone(ConeMatch match, double phi, double c) {
@@ -95,14 +113,10 @@ std::string DruckerPrager::caution() const {
   return {};
 }
 
-double DruckerPrager::scale(double p, double q) const {
-  return p_.cone.k + 3.0 * p_.cone.alpha * std::abs(p) + q + 0.01 * std::abs(p);  // the last: rounding of s
-}
-
 double DruckerPrager::stress_level(const Vector4& sigma, std::span<const double> /*h*/) const {
   const double p = mean_stress(sigma), q = sqrt_j2(sigma);
   const double strength = p_.cone.k - 3.0 * p_.cone.alpha * p;
-  const double nothing = 1e-9 * scale(p, q);
+  const double nothing = 1e-9 * scale(std::abs(p), q);
   if (strength > nothing) return q / strength;
   const bool at_apex = q <= nothing && (strength >= -nothing || p_.free_mean);
   return at_apex ? 1.0 : std::numeric_limits<double>::infinity();
@@ -112,7 +126,7 @@ bool DruckerPrager::initialise(const Vector4& sigma, std::span<double> h) const 
   h[kShear] = h[kVolume] = 0.0;
   const double p = mean_stress(sigma), q = sqrt_j2(sigma);
   const double f = q + 3.0 * p_.cone.alpha * p - p_.cone.k;
-  return f <= 1e-8 * scale(p, q) && p <= p_max_ + 1e-8 * scale(p, q);
+  return f <= 1e-8 * scale(std::abs(p), q) && p <= p_max_ + 1e-8 * scale(std::abs(p), q);
 }
 
 bool DruckerPrager::accepts_history(const Vector4& /*sigma*/, std::span<const double> h) const {
@@ -120,80 +134,160 @@ bool DruckerPrager::accepts_history(const Vector4& /*sigma*/, std::span<const do
 }
 
 Outcome DruckerPrager::update(const PointIn<4>& in, PointOut<4>& out) const {
+  return update_as_four(*this, in, out);
+}
+
+Outcome DruckerPrager::update_four(const FourPointsIn<4>& in, FourPointsOut<4>& out) const {
   const auto [K, G] = p_.elastic;
   const auto [alpha, k] = p_.cone;
-  std::copy(in.h0.begin(), in.h0.end(), out.h1.begin());
 
   // Elastic predictor.  The initial stress is part of sigma0.
-  const Vector4 trial = in.sigma0 + D_elastic_ * in.deps;
-  const Vector4 s = deviator(trial);
-  const double p_trial = mean_stress(trial), q_trial = std::sqrt(0.5 * contract(s, s));
-  const double f = q_trial + 3.0 * alpha * p_trial - k;  // Equation 7.25
-  const double rounding = kRounding * scale(p_trial, q_trial);
-  if (f <= rounding && p_trial <= p_max_ + rounding) {  // elastic
-    out.sigma = trial;
-    out.D = D_elastic_;
-    out.status = PointStatus::elastic;
-    return Outcome::ok;
+  FourTensors stress;
+#pragma GCC unroll 4
+  for (std::size_t i = 0; i < 4; ++i) {
+    Four change = D_elastic_(at(i), 0) * in.deps[0];
+#pragma GCC unroll 4
+    for (std::size_t j = 1; j < 4; ++j)
+      change = multiply_add(all_four(D_elastic_(at(i), at(j))), in.deps[j], change);
+    stress[i] = in.sigma0[i] + change;
   }
+  const FourInvariants trial = invariants(stress);
+  const Four f = trial.q + 3.0 * alpha * trial.p - k;  // Equation 7.25
+  const Four rounding = kRounding * scale(abs_of_four(trial.p), trial.q);
+  const FourMask elastic = (f <= rounding) & (trial.p <= p_max_ + rounding);
+  stay_elastic(stress, out);
+#pragma GCC unroll 4
+  for (std::size_t l = 0; l < kAbreast; ++l) two_in_a_row(out.h1[l]) = two_in_a_row(in.h0[l]);
+  if (bits_of_four(elastic) == kAllOfFour) return Outcome::ok;
 
   // Return: to the cone, if that is in front of its tip and of the tension limit.
-  const double dlambda = f / (G + 9.0 * K * alpha * p_.beta);
-  const double p_cone = p_trial - 3.0 * K * p_.beta * dlambda;
-  const bool on_cone = f > rounding && p_cone <= p_max_ + rounding;  // in front of the tip: theta >= 0
-  if (!on_cone && p_.free_mean) {
-    drop_deviator(p_trial, out);
-  } else if (!on_cone) {
-    return_to_cap(s, q_trial, out);
-  } else if (!p_.exact || !integrate_exactly(in, out)) {
-    return_to_cone(s, q_trial, p_cone, out);
+  const Four dlambda = f / (G + 9.0 * K * alpha * p_.beta);
+  const Four p_cone = trial.p - 3.0 * K * p_.beta * dlambda;
+  const FourMask in_front = (f > rounding) & (p_cone <= p_max_ + rounding);  // of the tip: theta >= 0
+  const FourMask on_cone = in_front & ~elastic, beyond = ~(in_front | elastic);
+  if (bits_of_four(on_cone) != 0) {
+    return_to_cone(trial, p_cone, on_cone, out);
+    if (p_.exact) take_exact_answers(in, on_cone, out);
   }
-  out.h1[kShear] += sqrt_j2(trial - out.sigma) / G;
-  out.h1[kVolume] += mean_stress(trial - out.sigma) / K;
+  if (bits_of_four(beyond) != 0)
+    p_.free_mean ? drop_deviator(trial, beyond, out) : return_to_cap(trial, beyond, out);
+
+  FourTensors fall;
+#pragma GCC unroll 4
+  for (std::size_t i = 0; i < 4; ++i) fall[i] = stress[i] - out.sigma[i];
+  const FourInvariants plastic = invariants(fall);
+  const Four shear = plastic.q / G, volume = plastic.p / K;
+#pragma GCC unroll 4
+  for (std::size_t l = 0; l < kAbreast; ++l) {
+    if (elastic[l] != 0) continue;
+    out.h1[l][kShear] = in.h0[l][kShear] + shear[l];
+    out.h1[l][kVolume] = in.h0[l][kVolume] + volume[l];
+  }
   return Outcome::ok;
 }
 
+void DruckerPrager::stay_elastic(const FourTensors& trial, FourPointsOut<4>& out) const {
+  out.sigma = trial;
+#pragma GCC unroll 4
+  for (std::size_t i = 0; i < 4; ++i)
+#pragma GCC unroll 4
+    for (std::size_t j = 0; j < 4; ++j) out.D[i][j] = all_four(D_elastic_(at(i), at(j)));
+  out.status.fill(PointStatus::elastic);
+}
+
 // s = theta s_tr,  p = p_tr - 3 K beta dlambda; tangent: de Souza Neto, Peric & Owen (2008), ch. 8.
-void DruckerPrager::return_to_cone(const Vector4& s_trial, double q_trial, double p, PointOut<4>& out) const {
+void DruckerPrager::return_to_cone(const FourInvariants& trial, const Four& p, const FourMask& here,
+                                   FourPointsOut<4>& out) const {
   const auto [K, G] = p_.elastic;
   const auto [alpha, k] = p_.cone;
   const double beta = p_.beta, A = 1.0 / (G + 9.0 * K * alpha * beta);
-  const double q = std::max(k - 3.0 * alpha * p, 0.0);  // on the surface to the last digit
-  const double theta = q / q_trial;
-  const Vector4 one = unit_tensor();
-  const Vector4 n = s_trial / (std::sqrt(2.0) * q_trial);
-
-  out.sigma = theta * s_trial + p * one;
-  out.D = 2.0 * G * theta * deviatoric_projection();
-  out.D += 2.0 * G * (1.0 - theta - G * A) * n * n.transpose();
-  out.D -= 3.0 * std::sqrt(2.0) * G * K * A * (alpha * n * one.transpose() + beta * one * n.transpose());
-  out.D += K * (1.0 - 9.0 * K * alpha * beta * A) * one * one.transpose();
-  out.status = PointStatus::yielded;
+  const Four room = k - 3.0 * alpha * p, q = room > 0.0 ? room : Four{};  // on the surface to the last digit
+  const Four theta = q / trial.q, length = std::sqrt(2.0) * trial.q;
+  FourTensors n, turned;
+  const Four turning = 2.0 * G * multiply_add(all_four(-G), all_four(A), 1.0 - theta);
+#pragma GCC unroll 4
+  for (std::size_t i = 0; i < 4; ++i) {
+    n[i] = trial.s[i] / length;
+    turned[i] = turning * n[i];
+    const Four sigma = multiply_add(all_four(kUnit[i]), p, theta * trial.s[i]);
+    out.sigma[i] = here ? sigma : out.sigma[i];
+  }
+  const Four shear = 2.0 * G * theta;
+  const double coupling = 3.0 * std::sqrt(2.0) * G * K * A, volume = K * (1.0 - 9.0 * K * alpha * beta * A);
+#pragma GCC unroll 4
+  for (std::size_t i = 0; i < 4; ++i)
+#pragma GCC unroll 4
+    for (std::size_t j = 0; j < 4; ++j) {
+      Four D = multiply_add(shear, all_four(kProjection[i][j]), turned[i] * n[j]);
+      const Four mixed = multiply_add(n[j], all_four(beta * kUnit[i]), alpha * n[i] * kUnit[j]);
+      D = multiply_add(mixed, all_four(-coupling), D);
+      D += volume * kUnit[i] * kUnit[j];
+      out.D[i][j] = here ? D : out.D[i][j];
+    }
+  set_status(here, PointStatus::yielded, out);
 }
 
 // s = 0,  p = p_trial.
-void DruckerPrager::drop_deviator(double p_trial, PointOut<4>& out) const {
-  const Vector4 one = unit_tensor();
-  out.sigma = p_trial * one;
-  out.D = p_.elastic.K * one * one.transpose() + kApexStiffness * D_elastic_;
-  out.status = PointStatus::apex;
+void DruckerPrager::drop_deviator(const FourInvariants& trial, const FourMask& here,
+                                  FourPointsOut<4>& out) const {
+#pragma GCC unroll 4
+  for (std::size_t i = 0; i < 4; ++i) {
+    out.sigma[i] = here ? kUnit[i] * trial.p : out.sigma[i];
+#pragma GCC unroll 4
+    for (std::size_t j = 0; j < 4; ++j) {
+      const double D = p_.elastic.K * kUnit[i] * kUnit[j] + kApexStiffness * D_elastic_(at(i), at(j));
+      out.D[i][j] = here ? all_four(D) : out.D[i][j];
+    }
+  }
+  set_status(here, PointStatus::apex, out);
 }
 
 // p = p_max; the deviator is cut to what the cone leaves there, which is nothing at the apex.
-void DruckerPrager::return_to_cap(const Vector4& s_trial, double q_trial, PointOut<4>& out) const {
+void DruckerPrager::return_to_cap(const FourInvariants& trial, const FourMask& here,
+                                  FourPointsOut<4>& out) const {
   const double left = std::max(p_.cone.k - 3.0 * p_.cone.alpha * p_max_, 0.0);
   const bool at_apex = p_max_ < p_.mean_tension || left <= kRounding * p_.cone.k;
-  const bool corner = q_trial > left;
-  const double theta = at_apex ? 0.0 : corner ? left / q_trial : 1.0;
-
-  out.sigma = theta * s_trial + p_max_ * unit_tensor();
-  out.D = 2.0 * p_.elastic.G * theta * deviatoric_projection();
-  if (corner && theta > 0.0) {
-    const Vector4 n = s_trial / (std::sqrt(2.0) * q_trial);
-    out.D -= 2.0 * p_.elastic.G * theta * n * n.transpose();
+  const Four none{}, whole = all_four(1.0);
+  const FourMask corner = trial.q > left;
+  const Four theta = at_apex ? none : corner ? left / trial.q : whole;
+  const FourMask cut = corner & (theta > 0.0);
+  const Four shear = 2.0 * p_.elastic.G * theta, length = std::sqrt(2.0) * trial.q;
+  FourTensors n;
+#pragma GCC unroll 4
+  for (std::size_t i = 0; i < 4; ++i) n[i] = trial.s[i] / length;
+#pragma GCC unroll 4
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Four sigma = multiply_add(all_four(p_max_), all_four(kUnit[i]), theta * trial.s[i]);
+    const Four turned = -shear * n[i];
+    out.sigma[i] = here ? sigma : out.sigma[i];
+#pragma GCC unroll 4
+    for (std::size_t j = 0; j < 4; ++j) {
+      Four D = shear * kProjection[i][j];
+      D = cut ? multiply_add(turned, n[j], D) : D;
+      D = multiply_add(all_four(kApexStiffness), all_four(D_elastic_(at(i), at(j))), D);
+      out.D[i][j] = here ? D : out.D[i][j];
+    }
   }
-  out.D += kApexStiffness * D_elastic_;
-  out.status = PointStatus::apex;
+  set_status(here, PointStatus::apex, out);
+}
+
+// Point by point, in place of the return to the cone.
+void DruckerPrager::take_exact_answers(const FourPointsIn<4>& in, const FourMask& here,
+                                       FourPointsOut<4>& out) const {
+  for (std::size_t l = 0; l < kAbreast; ++l) {
+    if (here[l] == 0) continue;
+    PointIn<4> point;
+    PointOut<4> answer;
+    for (std::size_t i = 0; i < 4; ++i) {
+      point.sigma0[at(i)] = in.sigma0[i][l];
+      point.deps[at(i)] = in.deps[i][l];
+    }
+    if (!integrate_exactly(point, answer)) continue;
+    for (std::size_t i = 0; i < 4; ++i) {
+      out.sigma[i][l] = answer.sigma[at(i)];
+      for (std::size_t j = 0; j < 4; ++j) out.D[i][j][l] = answer.D(at(i), at(j));
+    }
+  }
 }
 
 // The increment taken at constant rate, beta = 0: elastic up to the cone, then R = |s| changes linearly

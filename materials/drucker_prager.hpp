@@ -6,6 +6,7 @@
 
 #include "materials/linear_elastic.hpp"
 #include "materials/parameters.hpp"
+#include "materials/stress_measures.hpp"
 #include "sage/core/law.hpp"
 
 namespace sage {
@@ -50,6 +51,8 @@ class DruckerPrager final : public SolidLaw {
   bool initialise(const Vector4& sigma, std::span<double> h) const override;
   bool accepts_history(const Vector4& sigma, std::span<const double> h) const override;
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override;
+  bool takes_four() const override { return true; }
+  Outcome update_four(const FourPointsIn<4>& in, FourPointsOut<4>& out) const override;
   // A cone that reaches beyond Mohr-Coulomb's tension limit in triaxial extension, or no strength at all.
   std::string caution() const override;
   // sqrt(J2D) / (alpha J1 + K) of the source chapter, J1 compression positive.
@@ -58,10 +61,18 @@ class DruckerPrager final : public SolidLaw {
  private:
   enum { kShear, kVolume };
 
-  double scale(double p, double q) const;  // the stress that tolerances are relative to
-  void return_to_cone(const Vector4& s_trial, double q_trial, double p, PointOut<4>& out) const;
-  void drop_deviator(double p_trial, PointOut<4>& out) const;
-  void return_to_cap(const Vector4& s_trial, double q_trial, PointOut<4>& out) const;
+  // The stress that tolerances are relative to, from |p| and q.
+  template <class Real>
+  Real scale(const Real& p, const Real& q) const {
+    return p_.cone.k + 3.0 * p_.cone.alpha * p + q + 0.01 * p;  // the last: rounding of s
+  }
+  // Where four trial states end.  here: the points that a branch is for; it leaves the others alone.
+  void stay_elastic(const FourTensors& trial, FourPointsOut<4>& out) const;
+  void return_to_cone(const FourInvariants& trial, const Four& p, const FourMask& here,
+                      FourPointsOut<4>& out) const;
+  void drop_deviator(const FourInvariants& trial, const FourMask& here, FourPointsOut<4>& out) const;
+  void return_to_cap(const FourInvariants& trial, const FourMask& here, FourPointsOut<4>& out) const;
+  void take_exact_answers(const FourPointsIn<4>& in, const FourMask& here, FourPointsOut<4>& out) const;
   bool integrate_exactly(const PointIn<4>& in, PointOut<4>& out) const;
 
   DruckerPragerParameters p_;

@@ -1,8 +1,10 @@
 // Invariants and principal values of [xx yy zz xy]; zz is always principal.  Tension positive.
 #pragma once
 
+#include <array>
 #include <cmath>
 
+#include "sage/core/four.hpp"
 #include "sage/core/types.hpp"
 
 namespace sage {
@@ -26,6 +28,21 @@ inline double contract(const Vector4& a, const Vector4& b) {
 inline double sqrt_j2(const Vector4& sigma) {
   const Vector4 s = deviator(sigma);
   return std::sqrt(0.5 * contract(s, s));
+}
+
+// The same of four stresses side by side.
+using FourTensors = std::array<Four, 4>;
+struct FourInvariants {
+  FourTensors s;  // deviator
+  Four p, q;      // mean stress, sqrt(J2D)
+};
+inline FourInvariants invariants(const FourTensors& sigma) {
+  FourInvariants of;
+  of.p = (sigma[0] + sigma[1] + sigma[2]) / 3.0;
+  of.s = {sigma[0] - of.p, sigma[1] - of.p, sigma[2] - of.p, sigma[3]};
+  const FourTensors& s = of.s;
+  of.q = sqrt_of_four(0.5 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + 2.0 * s[3] * s[3]));
+  return of;
 }
 
 // Unit tensor, and I_dev such that I_dev eps is the deviator of eps, engineering shear in, tensor shear out.

@@ -26,6 +26,23 @@ void list_dofs(GroupData& data, const DofMap& dof_map) {
   for (const int dof : dofs) data.field_of_dof.push_back(dof_map.at(dof).field);
 }
 
+// Which elements the prescribed motion of a stage reaches.
+void mark_moved(GroupData& data, const Eigen::VectorXd& rate) {
+  const auto elements = static_cast<std::size_t>(data.group->elements());
+  data.moved.assign(elements, 0);
+  for (std::size_t e = 0; e < elements; ++e) {
+    const ElementDofs dofs = data.dofs_of(static_cast<int>(e));
+    for (std::size_t i = 0; i < dofs.size(); ++i)
+      if (rate[dofs[i]] != 0.0) data.moved[e] = 1;
+  }
+}
+
+bool goes_by_four(const GroupData& data) {
+  const Element& element = *data.group->element;
+  return !data.constant && !data.wants_context && data.dof_list.empty() && element.takes_four() &&
+         !element.traits().sees_unknowns && takes_four(data.law);
+}
+
 bool all_finite(const FieldSums& values) {
   return std::ranges::all_of(values, [](double v) { return std::isfinite(v); });
 }
@@ -57,6 +74,7 @@ Assembly::Assembly(const Model& model, const Scene& scene, const Skips& skips, W
     data.constant =
         scene.group_linear[g] != 0 && skips.elements && ConstantRegion::suits(*data.group, data.law);
     list_dofs(data, dof_map_);
+    data.by_four = goes_by_four(data);
     groups_.push_back(std::move(data));
     reset_group(g);
   }
@@ -81,7 +99,9 @@ void Assembly::enter_stage(const Activity& activity, const Eigen::VectorXd& rate
   rate_ = rate;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     groups_[g].active = activity.group[g] != 0;
-    if (groups_[g].active) make_room_for_matrices(g);
+    if (!groups_[g].active) continue;
+    make_room_for_matrices(g);
+    mark_moved(groups_[g], rate);
   }
   equations_.number(*model_, activity);
   condensation_.reset();
@@ -147,7 +167,7 @@ void Assembly::fill(Tangent& tangent) const {
     if (!in_system(data) || !data.keeps_matrices()) continue;
     for (int e = 0; e < data.group->elements(); ++e) {
       element_.stop_if_asked_at(e);
-      tangent.add(data.first_element + e, data.dofs_of(e), data.matrix_of(e));
+      add_matrix(data, e, data.matrix_of(e), tangent);
     }
   }
   if (condensation_) tangent.add(elements_ - 1, condensation_->S().data());

@@ -11,7 +11,28 @@ namespace sage {
 ChangingRegion::ChangingRegion(std::vector<GroupData>& groups, ElementWork& element, WorkCounters& work)
     : groups_(&groups), element_(&element), work_(&work) {}
 
+Outcome ChangingRegion::evaluate_by_four(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent) {
+  const std::size_t dofs = data.dofs();
+  const bool add_now = tangent != nullptr && !data.keeps_matrices();
+  for (int first = 0; first < data.group->elements(); first += kAbreast) {
+    element_->stop_if_asked_at(first);
+    bool changed = false;
+    if (element_->evaluate_four(data, first, du, tangent != nullptr, changed) == Outcome::cut_step)
+      return Outcome::cut_step;
+    const int last = std::min(first + kAbreast, data.group->elements());
+    for (int e = first; e < last; ++e) {
+      const auto place = static_cast<std::size_t>(e - first);
+      add_force(data, e, element_->f() + place * dofs, forces_, sums_);
+      if (add_now) add_matrix(data, e, element_->K() + place * dofs * dofs, *tangent);
+    }
+    if (changed && tangent != nullptr && !add_now) tangent->differs();
+  }
+  work_->element_evaluations += data.group->elements();
+  return Outcome::ok;
+}
+
 Outcome ChangingRegion::evaluate_group(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent) {
+  if (data.by_four) return evaluate_by_four(data, du, tangent);
   double* const K = tangent != nullptr ? element_->K() : nullptr;
   for (int e = 0; e < data.group->elements(); ++e) {
     element_->stop_if_asked_at(e);
@@ -19,7 +40,7 @@ Outcome ChangingRegion::evaluate_group(GroupData& data, const Eigen::VectorXd& d
     add_force(data, e, element_->f(), forces_, sums_);
     if (tangent == nullptr) continue;
     if (!data.keeps_matrices())
-      tangent->add(data.first_element + e, data.dofs_of(e), K);
+      add_matrix(data, e, K, *tangent);
     else if (replace_matrix(data, e, K))
       tangent->differs();
   }

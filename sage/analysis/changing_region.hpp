@@ -25,6 +25,7 @@ class ChangingRegion {
   const FieldSums& sums() const { return sums_; }
 
  private:
+  Outcome evaluate_by_four(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent);
   Outcome evaluate_group(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent);
 
   std::vector<GroupData>* groups_;

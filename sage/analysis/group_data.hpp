@@ -16,13 +16,18 @@ struct GroupData {
   bool active = false;
   bool wants_context = false;  // its law does
   bool constant = false;       // of a linear law, and matrices and forces are kept: iterations call no law
+  bool by_four = false;        // not constant, and its elements are evaluated four at a time
   StateStore state;
   // Elements with unknowns of their own: the dofs of all of them, and the field of each dof of one.  Empty: the
   // displacements of the nodes.
   std::vector<int> dof_list, field_of_dof;
   std::vector<double> geometry;  // w and B of all elements; empty = made anew in each pass
-  int first_element = 0;         // in the solver's element order, while it is part of the system
-  std::vector<double> K;         // kept element matrices, column-major
+  // by_four: in place of it, of each four in turn, their values side by side; the last four are filled up with the
+  // last element.
+  std::vector<double> geometry_by_four;
+  std::vector<char> moved;  // of each element: the stage prescribes to some dof a displacement that is not zero
+  int first_element = 0;    // in the solver's element order, while it is part of the system
+  std::vector<double> K;    // kept element matrices, column-major
   std::vector<double>
       shift;  // constant: forces of a unit displacement of the whole element along x, one a matrix
   std::vector<int> matrix;  // of each element: its place in K, counted in matrices; empty = none are kept

@@ -10,12 +10,20 @@ struct WeightedMean {
   double sum = 0.0, weight = 0.0;
 };
 
+// w of a point of the group: the first of its doubles in the kept geometry.
+double weight_of(const GroupData& data, const ElementTraits& traits, std::size_t point) {
+  const auto size = static_cast<std::size_t>(traits.geometry_size()),
+             points = static_cast<std::size_t>(traits.points);
+  if (!data.by_four) return data.geometry[point * (size / points)];
+  const std::size_t element = point / points, place = element % kAbreast;
+  return data.geometry_by_four[(element - place) * size + point % points * (size / points) * kAbreast + place];
+}
+
 template <int N>
 void add_path_error(const Mesh& mesh, const GroupData& data, const Law<N>& law, const Moment& moment,
                     WeightedMean& mean) {
   const StateStore& state = data.state;
   const ElementTraits& traits = data.group->element->traits();
-  const auto stride = static_cast<std::size_t>(traits.geometry_size() / traits.points);
   const auto history = static_cast<std::size_t>(state.history_size());
   const std::size_t points = state.committed.status.size();
   Eigen::Matrix2Xd x;
@@ -27,7 +35,7 @@ void add_path_error(const Mesh& mesh, const GroupData& data, const Law<N>& law, 
     };
     const Vector<N> sigma0 = at(state.committed.sigma), sigma1 = at(state.trial.sigma);
     const Vector<N> eps0 = at(state.committed.eps), deps = at(state.trial.eps) - eps0;
-    const double work = data.geometry[p * stride] * std::abs((sigma1 - sigma0).dot(deps));
+    const double work = weight_of(data, traits, p) * std::abs((sigma1 - sigma0).dot(deps));
     mean.weight += work;
     PointIn<N> in{sigma0, eps0, deps, h(state.committed)};
     if (data.wants_context) {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "sage/analysis/element_dofs.hpp"
+#include "sage/analysis/group_data.hpp"
 #include "sage/analysis/records.hpp"
 #include "sage/core/linear_solver.hpp"
 
@@ -76,6 +76,15 @@ class Tangent {
   std::string name_;
   Eigen::VectorXd rate_, coupling_;
 };
+
+// An element of the system.
+inline void add_matrix(const GroupData& data, int element, const double* K, Tangent& tangent) {
+  const int place = data.first_element + element;
+  if (data.moved[static_cast<std::size_t>(element)])
+    tangent.add(place, data.dofs_of(element), K);
+  else
+    tangent.add(place, K);
+}
 
 template <class Elements, class Kept>
 Outcome Tangent::assemble(bool all_kept, Elements elements, Kept kept) {

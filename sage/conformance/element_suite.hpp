@@ -13,6 +13,7 @@
 #include <cmath>
 #include <ostream>
 #include <set>
+#include <utility>
 
 #include "materials/linear_elastic.hpp"
 #include "sage/conformance/element_cases.hpp"
@@ -286,6 +287,115 @@ TEST_P(Elements, EachPointGetsItsOwnState) {
            Eigen::Map<const Eigen::VectorXd>(run.sigma1.data() + first, t.law_size);
     }
     EXPECT_LT((f - run.f).norm(), 1e-12 * f.norm());
+  }
+}
+
+// Four elements and their arrays side by side.
+struct FourRuns {
+  std::vector<ElementRun> runs;
+  std::vector<double> geometry, du;
+  FourElementsIn in;
+  FourElementsOut out;
+
+  // The last place is the third element again, as at the end of a group.
+  FourRuns(std::vector<ElementRun> three, const std::vector<Eigen::VectorXd>& u) : runs(std::move(three)) {
+    const std::size_t size = runs[0].geometry.size(), dofs = static_cast<std::size_t>(u[0].size());
+    geometry.resize(kAbreast * size);
+    du.resize(kAbreast * dofs);
+    for (std::size_t l = 0; l < kAbreast; ++l) {
+      const std::size_t place = std::min(l, std::size_t{2});
+      ElementRun& run = runs[place];
+      run.K.setZero(u[0].size(), u[0].size());
+      run.f.setZero(u[0].size());
+      for (std::size_t i = 0; i < size; ++i) geometry[i * kAbreast + l] = run.geometry[i];
+      for (std::size_t i = 0; i < dofs; ++i) du[i * kAbreast + l] = u[place](static_cast<int>(i));
+      in.sigma0[l] = run.sigma0.data();
+      in.eps0[l] = run.eps0.data();
+      in.h0[l] = run.h0.data();
+      out.K[l] = run.K.data();
+      out.f[l] = run.f.data();
+      out.sigma1[l] = run.sigma1.data();
+      out.eps1[l] = run.eps1.data();
+      out.h1[l] = run.h1.data();
+      out.status[l] = run.status.data();
+    }
+    in.geometry = geometry.data();
+    in.du = du.data();
+    in.law = runs[0].law;
+  }
+};
+
+inline FourRuns four_runs(const ElementCase& c, const Element& element, const SolidLaw& law,
+                          std::vector<Eigen::VectorXd>& u) {
+  std::vector<ElementRun> three;
+  for (int l = 0; l < 3; ++l) {
+    ElementRun& run = three.emplace_back(element, (1.0 + 0.3 * l) * sample_shape(*c.entry), &law);
+    for (std::size_t i = 0; i < run.sigma0.size(); ++i) {
+      run.sigma0[i] = 10.0 * l + std::sin(static_cast<double>(i));
+      run.eps0[i] = 0.01 * (l - std::cos(static_cast<double>(i)));
+    }
+    for (std::size_t i = 0; i < run.h0.size(); ++i) run.h0[i] = 100.0 * l + static_cast<double>(i);
+    u.push_back((1.0 - 0.2 * l) * wavy(element.traits().dofs, 0.1));
+  }
+  return {std::move(three), u};
+}
+
+// Against one by one.  Compilers round sums of products once or twice as they like: fewer than a hundred terms,
+// 1e-13.
+TEST_P(Elements, FourAtOnceAreAsOneByOne) {
+  const InFours<SmoothLaw<4>> law;
+  for (const ElementCase& c : cases()) {
+    SCOPED_TRACE(c.name);
+    const auto element = c.make();
+    if (!element->takes_four()) continue;
+    std::vector<Eigen::VectorXd> u;
+    FourRuns four = four_runs(c, *element, law, u);
+    ASSERT_EQ(element->evaluate_four(four.in, four.out), Outcome::ok);
+    for (std::size_t l = 0; l < 3; ++l) {
+      const ElementRun& run = four.runs[l];
+      ElementRun one = run;
+      ASSERT_EQ(one.evaluate(u[l]), Outcome::ok);
+      EXPECT_LE((run.K - one.K).norm(), 1e-13 * one.K.norm());
+      EXPECT_LE((run.f - one.f).norm(), 1e-13 * one.f.norm());
+      EXPECT_EQ(run.status, one.status);
+      for (std::size_t i = 0; i < one.sigma1.size(); ++i) {
+        EXPECT_NEAR(run.sigma1[i], one.sigma1[i], 1e-13 * (100.0 + std::abs(one.sigma1[i])));
+        EXPECT_NEAR(run.eps1[i], one.eps1[i], 1e-13);
+      }
+      for (std::size_t i = 0; i < one.h1.size(); ++i)
+        EXPECT_NEAR(run.h1[i], one.h1[i], 1e-13 * (1.0 + std::abs(one.h1[i])));
+    }
+  }
+}
+
+// Whether a matrix changed is seen to the bit, in every term; matrices that nobody wants are left alone.
+TEST_P(Elements, FourAtOnceSeeWhatChanged) {
+  const InFours<SmoothLaw<4>> law, fussy(1e-9);
+  for (const ElementCase& c : cases()) {
+    SCOPED_TRACE(c.name);
+    const auto element = c.make();
+    if (!element->takes_four()) continue;
+    std::vector<Eigen::VectorXd> u;
+    FourRuns four = four_runs(c, *element, law, u);
+    element->evaluate_four(four.in, four.out);
+    EXPECT_TRUE(four.out.changed);
+    element->evaluate_four(four.in, four.out);
+    EXPECT_FALSE(four.out.changed) << "the same again";
+    const Eigen::MatrixXd K = four.runs[1].K;
+    for (int i = 0; i < K.size(); ++i) {
+      double& term = four.runs[1].K(i);
+      term = std::nextafter(term, 1e300);
+      element->evaluate_four(four.in, four.out);
+      EXPECT_TRUE(four.out.changed) << "term " << i;
+      EXPECT_EQ(term, K(i));
+    }
+    four.runs[1].K.setZero();
+    four.out.K.fill(nullptr);
+    EXPECT_EQ(element->evaluate_four(four.in, four.out), Outcome::ok);
+    EXPECT_FALSE(four.out.changed);
+    EXPECT_TRUE(four.runs[1].K.isZero(0.0));
+    four.in.law = static_cast<const SolidLaw*>(&fussy);
+    EXPECT_EQ(element->evaluate_four(four.in, four.out), Outcome::cut_step);
   }
 }
 

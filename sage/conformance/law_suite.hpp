@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <ostream>
 #include <random>
@@ -448,6 +449,53 @@ TEST_P(Laws, UpdateAllocatesNothing) {
       law.stress_level(out.sigma, h1);
     }
     EXPECT_EQ(allocations(), before);
+  });
+}
+
+// Four states in different branches at once, against one by one: to the last bit, since a law that takes four has
+// no other code.
+template <int N>
+void check_four(const Law<N>& law, double size) {
+  Walker walker(43);
+  for (int trial = 0; trial < 200; ++trial) {
+    FourPointsIn<N> in;
+    FourPointsOut<N> out;
+    std::array<State<N>, kAbreast> from;
+    std::array<std::vector<double>, kAbreast> h1;
+    std::array<Vector<N>, kAbreast> deps;
+    for (std::size_t l = 0; l < kAbreast; ++l) {
+      const int branch = trial + static_cast<int>(l);
+      from[l] = wander<N>(law, walker, size, branch % 5);
+      deps[l] = walker.strain(std::pow(10.0, 1 - branch % 4) * size, static_cast<Vector<N>*>(nullptr));
+      h1[l].assign(from[l].h.size(), -12345.0);
+      in.h0[l] = from[l].h.data();
+      out.h1[l] = h1[l].data();
+      for (std::size_t i = 0; i < N; ++i) {
+        in.sigma0[i][l] = from[l].sigma[static_cast<int>(i)];
+        in.eps0[i][l] = 0.0;
+        in.deps[i][l] = deps[l][static_cast<int>(i)];
+      }
+    }
+    const Outcome all = law.update_four(in, out);
+    bool refused = false;
+    for (std::size_t l = 0; l < kAbreast; ++l) {
+      const auto one = update<N>(law, from[l].sigma, deps[l], from[l].h);
+      refused = refused || one.outcome == Outcome::cut_step;
+      if (all == Outcome::cut_step) continue;
+      EXPECT_EQ(out.status[l], one.status);
+      EXPECT_EQ(h1[l], one.h);
+      for (std::size_t i = 0; i < N; ++i) {
+        EXPECT_EQ(out.sigma[i][l], one.sigma[static_cast<int>(i)]);
+        for (std::size_t j = 0; j < N; ++j)
+          EXPECT_EQ(out.D[i][j][l], one.D(static_cast<int>(i), static_cast<int>(j)));
+      }
+    }
+    EXPECT_EQ(all == Outcome::cut_step, refused);
+  }
+}
+TEST_P(Laws, FourAtOnceAreAsOneByOne) {
+  with_law([](const auto& law) {
+    if (law.takes_four()) check_four(law, sample().strain);
   });
 }
 

@@ -35,7 +35,7 @@ inline LinearLaw<2> interface_law(double k_s, double k_n) {
 // sigma = sigma0 + A deps + c (b . deps)^2, D = A + 2 c (b . deps) b^T: D is unsymmetric.
 // History: {sum of deps so far, number of updates}.  Refuses deps with a component beyond `limit`.
 template <int N>
-class SmoothLaw final : public Law<N> {
+class SmoothLaw : public Law<N> {
  public:
   explicit SmoothLaw(double limit = 1e9) : limit_(limit) {
     for (int i = 0; i < N; ++i) {
@@ -62,6 +62,37 @@ class SmoothLaw final : public Law<N> {
   double limit_;
   Matrix<N> A_;
   Vector<N> b_, c_;
+};
+
+// A law of solids, four points at once by asking it four times.
+template <class L>
+class InFours final : public L {
+ public:
+  using L::L;
+  bool takes_four() const override { return true; }
+  Outcome update_four(const FourPointsIn<4>& in, FourPointsOut<4>& out) const override {
+    const std::size_t history = this->history().size();
+    for (std::size_t l = 0; l < kAbreast; ++l) {
+      PointIn<4> point;
+      PointOut<4> result;
+      point.h0 = {in.h0[l], history};
+      result.h1 = {out.h1[l], history};
+      for (std::size_t i = 0; i < 4; ++i) {
+        const auto at = static_cast<Eigen::Index>(i);
+        point.sigma0[at] = in.sigma0[i][l];
+        point.eps0[at] = in.eps0[i][l];
+        point.deps[at] = in.deps[i][l];
+      }
+      if (this->update(point, result) != Outcome::ok) return Outcome::cut_step;
+      for (std::size_t i = 0; i < 4; ++i) {
+        const auto at = static_cast<Eigen::Index>(i);
+        out.sigma[i][l] = result.sigma[at];
+        for (std::size_t j = 0; j < 4; ++j) out.D[i][j][l] = result.D(at, static_cast<Eigen::Index>(j));
+      }
+      out.status[l] = result.status;
+    }
+    return Outcome::ok;
+  }
 };
 
 // Elastic with D = 1; writes the number of the point that its context names into its history, -1 without one.

@@ -58,6 +58,21 @@ struct ElementOut {
   PointStatus* status = nullptr;  // points
 };
 
+// Four elements of a group at once.  Some may be one and the same: results are written, never added to.
+struct FourElementsIn {
+  const double* geometry = nullptr;  // for each double of Element::geometry those of the four elements in a row
+  const double* du = nullptr;        // likewise
+  LawRef law;                        // takes four, without context
+  std::array<const double*, kAbreast> sigma0{}, eps0{}, h0{};  // of each element as in ElementIn
+};
+
+struct FourElementsOut {
+  std::array<double*, kAbreast> K{};  // nullptr = not wanted; the rest of each element as in ElementOut
+  std::array<double*, kAbreast> f{}, sigma1{}, eps1{}, h1{};
+  std::array<PointStatus*, kAbreast> status{};
+  bool changed = false;  // some K is not, to the bit, what stood there
+};
+
 class Element {
  public:
   virtual ~Element() = default;
@@ -70,6 +85,13 @@ class Element {
 
   // f, K and the trial state.  Allocates nothing.
   virtual Outcome evaluate(const ElementIn& in, ElementOut& out) const = 0;
+
+  // The same for four elements, to the same digits: where both the element and its law offer it.  Not for
+  // elements that see unknowns.
+  virtual bool takes_four() const { return false; }
+  virtual Outcome evaluate_four(const FourElementsIn& /*in*/, FourElementsOut& /*out*/) const {
+    throw std::logic_error("an element that takes four at once says how");
+  }
 
   // Position of an integration point.
   virtual Vector2 position(const NodeCoordinates& x, int point) const = 0;

@@ -1,13 +1,16 @@
 // The seam between elements and materials.  A law sees one point: committed state in, trial state out.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <variant>
 
+#include "sage/core/four.hpp"
 #include "sage/core/types.hpp"
 #include "sage/core/units.hpp"
 
@@ -89,6 +92,21 @@ struct PointOut {
   PointStatus status = PointStatus::elastic;
 };
 
+// The same for four points at once, side by side in every value; without context.  Some of the four may be one
+// and the same point: results are written, never added to.
+template <int N>
+struct FourPointsIn {
+  std::array<Four, N> sigma0, eps0, deps;
+  std::array<const double*, kAbreast> h0;  // of each point
+};
+template <int N>
+struct FourPointsOut {
+  std::array<Four, N> sigma;
+  std::array<std::array<Four, N>, N> D;  // D[i][j] = d(sigma_i)/d(deps_j)
+  std::array<double*, kAbreast> h1;
+  std::array<PointStatus, kAbreast> status;
+};
+
 // A constitutive law: immutable, shared by all points of a material; `update` is a pure function.
 template <int N>
 class Law {
@@ -117,6 +135,13 @@ class Law {
   // Allocates nothing.  deps = 0 must give back sigma0 and h0 when the state is admissible.
   virtual Outcome update(const PointIn<N>& in, PointOut<N>& out) const = 0;
 
+  // Laws of many points may take four of them at once, to the same digits as one by one: then true, and
+  // update_four() is called wherever there are many.
+  virtual bool takes_four() const { return false; }
+  virtual Outcome update_four(const FourPointsIn<N>& /*in*/, FourPointsOut<N>& /*out*/) const {
+    throw std::logic_error("a law that takes four points at once says how");
+  }
+
   // For an increment that is finished: about how much its stress would change, relatively, if it were taken in
   // many small ones.  An update follows the straight line of deps; at given stresses the strains bend as the
   // stiffness changes.  0 where that does not matter, or where there is no estimate.
@@ -132,6 +157,29 @@ class Law {
   // Mobilised fraction of strength at a state, 1 = at yield/slip; 0 for laws without strength.
   virtual double stress_level(const Vector<N>& /*sigma*/, std::span<const double> /*h*/) const { return 0.0; }
 };
+
+// update() of a law that takes four points at once: the same code serves one.
+template <int N>
+Outcome update_as_four(const Law<N>& law, const PointIn<N>& in, PointOut<N>& out) {
+  FourPointsIn<N> all;
+  FourPointsOut<N> results;
+  for (int i = 0; i < N; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    all.sigma0[at] = all_four(in.sigma0[i]);
+    all.eps0[at] = all_four(in.eps0[i]);
+    all.deps[at] = all_four(in.deps[i]);
+  }
+  all.h0.fill(in.h0.data());
+  results.h1.fill(out.h1.data());
+  const Outcome outcome = law.update_four(all, results);
+  for (int i = 0; i < N; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    out.sigma[i] = results.sigma[at][0];
+    for (int j = 0; j < N; ++j) out.D(i, j) = results.D[at][static_cast<std::size_t>(j)][0];
+  }
+  out.status = results.status[0];
+  return outcome;
+}
 
 // An increment with a larger path_error (mean of its points) is taken in parts: 1 increment or 100 then agree
 // within 1 %.
@@ -166,6 +214,9 @@ inline std::span<const Quantity> history_of(const LawRef& law) {
 }
 inline bool wants_context(const LawRef& law) {
   return std::visit([](const auto* held) { return held->wants_context(); }, law);
+}
+inline bool takes_four(const LawRef& law) {
+  return std::visit([](const auto* held) { return held->takes_four(); }, law);
 }
 inline bool has_constant_stiffness(const LawRef& law) {
   return std::visit([](const auto* held) { return has_constant_stiffness(*held); }, law);

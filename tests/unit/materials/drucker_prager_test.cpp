@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <limits>
 
 #include "materials/stress_measures.hpp"
 #include "sage/core/point_driver.hpp"
@@ -40,6 +41,39 @@ TEST(DruckerPrager, ConesOfEveryMatch) {
   const Cone deviatoric = match_cone(ConeMatch::plane_strain_deviatoric, phi, c);
   EXPECT_NEAR(deviatoric.alpha, 0.2, 1e-15);
   EXPECT_NEAR(deviatoric.k, 1.6, 1e-15);
+}
+
+// Four points, one in each branch: each ends where its closed form says.  K = 1e4, G = 2e3 kPa, alpha = k = 0.3
+// and 3, flow without volume change, the apex holds the mean stress: 3.3333 = k / 3 alpha.
+TEST(DruckerPrager, FourPointsEachInABranchOfItsOwn) {
+  const DruckerPragerParameters parameters{{1e4, 2e3}, {0.3, 3.0}, 0.0, std::numeric_limits<double>::infinity(),
+                                           false,      false};
+  const DruckerPrager law(parameters);
+  ASSERT_TRUE(law.takes_four());
+  FourPointsIn<4> in{};
+  FourPointsOut<4> out;
+  const double gamma[kAbreast] = {1e-3, 1e-1, 0.0, 1e-1}, volume[kAbreast] = {0.0, 0.0, 1e-2, 1e-2};
+  double h0[kAbreast][2] = {{1.0, 2.0}, {3.0, 4.0}, {5.0, 6.0}, {7.0, 8.0}}, h1[kAbreast][2];
+  for (std::size_t l = 0; l < kAbreast; ++l) {
+    for (std::size_t i = 0; i < 3; ++i) in.deps[i][l] = volume[l] / 3.0;
+    in.deps[3][l] = gamma[l];
+    in.h0[l] = h0[l];
+    out.h1[l] = h1[l];
+  }
+  ASSERT_EQ(law.update_four(in, out), Outcome::ok);
+  // Elastic: tau = G gamma = 2.  Cone at p = 0: tau = k = 3.  Apex: p = k / 3 alpha, tau = 0.
+  const double apex = 3.0 / 0.9, tau[kAbreast] = {2.0, 3.0, 0.0, 0.0}, p[kAbreast] = {0.0, 0.0, apex, apex};
+  const PointStatus status[kAbreast] = {PointStatus::elastic, PointStatus::yielded, PointStatus::apex,
+                                        PointStatus::apex};
+  for (std::size_t l = 0; l < kAbreast; ++l) {
+    EXPECT_EQ(out.status[l], status[l]) << l;
+    EXPECT_NEAR(out.sigma[3][l], tau[l], 1e-12) << l;
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(out.sigma[i][l], p[l], 1e-12) << l;
+    EXPECT_NEAR(h1[l][0], h0[l][0] + gamma[l] - tau[l] / 2e3, 1e-14) << l;
+    EXPECT_NEAR(h1[l][1], h0[l][1] + volume[l] - p[l] / 1e4, 1e-14) << l;
+  }
+  EXPECT_EQ(out.D[3][3][0], 2e3);
+  EXPECT_NEAR(out.D[3][3][1], 0.0, 1e-9);  // perfectly plastic along the shear
 }
 
 TEST(DruckerPrager, InitialStressStartsTheHistory) {

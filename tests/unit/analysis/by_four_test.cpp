@@ -1,0 +1,123 @@
+// Elements taken four at a time against the same elements one by one.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "sage/analysis/run.hpp"
+#include "sage/app/commands.hpp"
+#include "sage/build/build_model.hpp"
+#include "sage/conformance/sample_laws.hpp"
+#include "sage/deck/read_deck.hpp"
+#include "solvers/choose_solver.hpp"
+#include "tests/support/run_text.hpp"
+
+namespace sage {
+namespace {
+
+// The law without its own way to take four, and with an error of the path that differs from point to point.
+class OneByOne : public SolidLaw {
+ public:
+  explicit OneByOne(LawPtr law) : law_(std::move(std::get<std::unique_ptr<SolidLaw>>(law))) {}
+  std::span<const Quantity> history() const override { return law_->history(); }
+  bool initialise(const Vector4& sigma, std::span<double> h) const override {
+    return law_->initialise(sigma, h);
+  }
+  Outcome update(const PointIn<4>& in, PointOut<4>& out) const override { return law_->update(in, out); }
+  double path_error(const PointIn<4>& in, const Vector4&, std::span<const double>) const override {
+    return 1e-3 * in.deps.norm();
+  }
+
+ private:
+  std::unique_ptr<SolidLaw> law_;
+};
+
+enum class How { by_itself, one_by_one, in_fours };
+
+// A disc of columns x rows elements under a punch, in the plastic range.
+std::string punch(int columns, int rows, test::Cell cell, int element) {
+  test::DeckWriter deck(2);
+  test::Block block;
+  block.cell = cell;
+  block.columns = columns;
+  block.rows = rows;
+  block.place = test::rectangle(0.0, 2.0, 0.0, 2.0);
+  block.write_nodes(deck);
+  block.write_elements(deck, 1);
+  deck.material(1, 3, {1000.0, 0.3, 10.0, 20.0, 0.0, 1.0, 1.0});
+  deck.group(1, element, 1, 1);
+  for (int node : block.bottom()) deck.fix(node, 1, 1);
+  for (int node : block.left()) deck.fix(node, 1, 0);
+  for (int node : block.right()) deck.fix(node, 1, 0);
+  test::StageCards& stage = deck.stage(3);
+  stage.max_iterations = 400;
+  stage.tolerance = 1e-10;
+  stage.pressure(block.element(0, rows - 1), 3, 110.0, 110.0);
+  return deck.text();
+}
+
+struct LastState final : Observer {
+  Eigen::VectorXd u;
+  PointStates points;
+  int iterations = 0;
+  double path_error = 0.0;
+  void on_increment(const Model&, const StepReport& report, const Solution& solution) override {
+    iterations += report.total_iterations;
+    u = *solution.u;
+    points = solution.groups().front().state.committed;
+    path_error = solution.assembly->path_error();
+  }
+};
+
+LastState solve(const std::string& text, How how, bool keep_matrices) {
+  static const Catalogue catalogue = app::full_catalogue();
+  Model model = build_model(read_deck_text(text, "punch.dat", load_layout("sage1")), catalogue);
+  LawPtr& law = model.materials[0].law;
+  if (how == How::one_by_one) law = std::make_unique<OneByOne>(std::move(law));
+  if (how == How::in_fours) law = std::make_unique<conformance::InFours<OneByOne>>(std::move(law));
+  RunSettings settings;
+  settings.choose_solver = choose_solver;
+  settings.threads = 1;
+  settings.skips.factors = keep_matrices;
+  LastState last;
+  Observer* observers[] = {&last};
+  EXPECT_EQ(run(model, catalogue, settings, observers).status, RunStatus::completed);
+  return last;
+}
+
+// The same iterations to the same state, whatever the number of elements leaves for the last four.  Rounding of
+// sums is all that may differ, and iterations end at 1e-10: 1e-9 of the largest.
+TEST(ByFour, GivesTheStateOfOneByOne) {
+  struct Size {
+    int columns, rows;
+    test::Cell cell;
+    int element;
+  };
+  for (const Size& size : {Size{4, 4, test::Cell::quad4, 1}, Size{5, 5, test::Cell::quad4, 1},
+                           Size{3, 2, test::Cell::quad8, 2}, Size{3, 1, test::Cell::quad8, 2}})
+    for (const bool keep : {true, false}) {
+      SCOPED_TRACE(std::to_string(size.columns * size.rows) + " elements");
+      const std::string text = punch(size.columns, size.rows, size.cell, size.element);
+      const LastState one = solve(text, How::one_by_one, keep);
+      EXPECT_GT(std::ranges::count(one.points.status, PointStatus::yielded), 0);
+      ASSERT_GT(one.u.norm(), 0.0);
+      ASSERT_GT(one.path_error, 0.0);
+      for (const How how : {How::by_itself, How::in_fours}) {
+        const LastState four = solve(text, how, keep);
+        EXPECT_EQ(four.iterations, one.iterations);
+        EXPECT_EQ(four.points.status, one.points.status);
+        EXPECT_LE((four.u - one.u).norm(), 1e-9 * one.u.norm());
+        for (std::size_t i = 0; i < one.points.sigma.size(); ++i)
+          EXPECT_NEAR(four.points.sigma[i], one.points.sigma[i], 110.0 * 1e-9);
+        for (std::size_t i = 0; i < one.points.h.size(); ++i)
+          EXPECT_NEAR(four.points.h[i], one.points.h[i], 1e-10);
+        if (how == How::in_fours) {
+          EXPECT_NEAR(four.path_error, one.path_error, 1e-6 * one.path_error);
+        }
+      }
+    }
+}
+
+}  // namespace
+}  // namespace sage
