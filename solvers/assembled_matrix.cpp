@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "sage/core/four.hpp"
+
 namespace sage {
 
 namespace {
@@ -15,6 +17,14 @@ std::size_t at(int i) {
 }
 std::size_t at(std::int64_t i) {
   return static_cast<std::size_t>(i);
+}
+
+void raise_to(TwoInARow& maximum, const TwoInARow& x) {
+  using Bits = std::int64_t __attribute__((vector_size(sizeof x)));
+  constexpr std::int64_t kAllButSign = 0x7fffffffffffffff;
+  const TwoInARow size =
+      reinterpret_cast<TwoInARow>(reinterpret_cast<Bits>(x) & Bits{kAllButSign, kAllButSign});
+  maximum = maximum < size ? size : maximum;
 }
 
 // (high, low) -= a b: the rounding errors of the product and of the sum, both exact (Dekker 1971), go to `low`.
@@ -35,6 +45,8 @@ void AssembledMatrix::analyse(const EquationGraph& graph, ElementEquations eleme
   assembled_ = false;
   slot_start_.clear();
   slot_.clear();
+  paired_.clear();
+  twin_.clear();
   value_.assign(row_.size() + 1, 0.0);
   column_sum_.reserve(at(equations_));
 }
@@ -107,7 +119,26 @@ void AssembledMatrix::make_slots() {
     for (const int element : elements_of.of(column))
       fill_slots(elements_.of(element), element, column, position);
   }
+  find_pairs();
   std::ranges::sort(repeated_, {}, [](const Repeated& t) { return std::array{t.element, t.c, t.r}; });
+}
+
+void AssembledMatrix::find_pairs() {
+  if (symmetric_) return;
+  paired_.assign(at(elements_.count()), 1);
+  for (int element = 0; element < elements_.count(); ++element) {
+    const std::size_t begin = at(slot_start_[at(element)]), end = at(slot_start_[at(element) + 1]);
+    bool paired = elements_.of(element).size() % 2 == 0;
+    for (std::size_t k = begin; paired && k < end; k += 2) paired = slot_[k + 1] == slot_[k] + 1;
+    paired_[at(element)] = paired ? 1 : 0;
+  }
+  twin_.assign(at(equations_), 0);
+  for (int column = 0; column + 1 < equations_; ++column) {
+    const auto begin = row_.begin() + column_start_[at(column)],
+               end = row_.begin() + column_start_[at(column) + 1];
+    const auto next_end = row_.begin() + column_start_[at(column) + 2];
+    twin_[at(column)] = std::equal(begin, end, end, next_end) ? 1 : 0;
+  }
 }
 
 void AssembledMatrix::clear() {
@@ -136,16 +167,28 @@ void AssembledMatrix::add_by_search(int element, const double* K) {
   if (symmetric_) add_terms([&](int r, int c) { return r < c && equations[at(r)] == equations[at(c)]; });
 }
 
+namespace {
+
+// value[slot[k]] += K[k]; paired: two by two.
+void add_terms(const int* slot, const double* K, int count, bool paired, double* value) {
+  if (!paired) {
+#pragma GCC unroll 4
+    for (int k = 0; k < count; ++k) value[slot[k]] += K[k];
+    return;
+  }
+#pragma GCC unroll 4
+  for (int k = 0; k < count; k += 2) two_in_a_row(value + slot[k]) += two_in_a_row(K + k);
+}
+
+}  // namespace
+
 void AssembledMatrix::add(int element, const double* K) {
   assembled_ = true;
   if (slot_start_.empty()) return add_by_search(element, K);
   const int* slot = slot_.data() + slot_start_[at(element)];
   double* value = value_.data();
   const int dofs = static_cast<int>(elements_.of(element).size());
-  if (!symmetric_) {
-    for (int k = 0; k < dofs * dofs; ++k) value[slot[k]] += K[k];
-    return;
-  }
+  if (!symmetric_) return add_terms(slot, K, dofs * dofs, paired_[at(element)] != 0, value);
   for (int c = 0; c < dofs; ++c)
     for (int r = 0; r <= c; ++r) value[*slot++] += K[c * dofs + r];
   if (repeated_.empty()) return;
@@ -203,9 +246,30 @@ double AssembledMatrix::norm1() const {
   return sum.empty() ? 0.0 : *std::ranges::max_element(sum);
 }
 
+// The same for two columns of the same rows at once, and where two of those stand in a row, for both of these.
+void AssembledMatrix::raise_row_maxima(int column, std::vector<double>& maximum) const {
+  const int first = column_start_[at(column)], count = column_start_[at(column) + 1] - first;
+  const double *a = value_.data() + first, *b = a + count;
+  const int* row = row_.data() + first;
+  for (int k = 0; k < count; ++k) {
+    if (k + 1 < count && row[k + 1] == row[k] + 1) {
+      TwoInARow& of_rows = two_in_a_row(maximum.data() + row[k]);
+      raise_to(of_rows, two_in_a_row(a + k));
+      raise_to(of_rows, two_in_a_row(b + k++));
+      continue;
+    }
+    double& of_row = maximum[at(row[k])];
+    of_row = std::max(std::max(of_row, std::abs(a[k])), std::abs(b[k]));
+  }
+}
+
 void AssembledMatrix::row_maxima(std::vector<double>& maximum) const {
   maximum.assign(at(equations_), 0.0);
   for (int column = 0; column < equations_; ++column) {
+    if (!twin_.empty() && twin_[at(column)]) {
+      raise_row_maxima(column++, maximum);
+      continue;
+    }
     double of_column = 0.0;
     for (int k = column_start_[at(column)]; k < column_start_[at(column) + 1]; ++k) {
       const double term = std::abs(value_[at(k)]);

@@ -42,6 +42,8 @@ class AssembledMatrix {
  private:
   void make_pattern(const EquationGraph& graph);
   void make_slots();
+  void find_pairs();
+  void raise_row_maxima(int column, std::vector<double>& maximum) const;
   void fill_slots(std::span<const int> equations, int element, int column, const std::vector<int>& position);
   std::int64_t packed(std::int64_t r, std::int64_t c, std::int64_t dofs) const;
   void add_by_search(int element, const double* K);
@@ -56,6 +58,9 @@ class AssembledMatrix {
   // Slots of element e: slot_[slot_start_[e]] ..., all terms column by column, or the upper triangle only.
   std::vector<std::int64_t> slot_start_;
   std::vector<int> slot_;
+  std::vector<char>
+      paired_;  // unsymmetric: rows of the element's equations 2i and 2i + 1 stand in a row everywhere
+  std::vector<char> twin_;  // unsymmetric: the column has the same rows as the next one
   // A symmetric element matrix that has one equation twice (tied dofs) adds such a term once more.
   struct Repeated {
     int element, r, c, slot;

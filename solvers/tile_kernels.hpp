@@ -1,6 +1,8 @@
 // Kernels on 8 x 8 tiles.  They are inline because a call would cost as much as the work.
 #pragma once
 
+#include <cstdint>
+
 #include "solvers/tile_profile.hpp"
 
 namespace sage {
@@ -74,7 +76,9 @@ inline void tile_subtract_product(double* C, const double* A, const double* B, i
 }
 
 inline void tile_raise_maximum(Lanes& maximum, const Lanes& x) {
-  const Lanes positive = x < 0.0 ? -x : x;
+  using Bits = std::int64_t __attribute__((vector_size(kLanes * sizeof(double))));
+  constexpr std::int64_t kAllButSign = 0x7fffffffffffffff;
+  const Lanes positive = reinterpret_cast<Lanes>(reinterpret_cast<Bits>(x) & (Bits{} + kAllButSign));
   maximum = positive > maximum ? positive : maximum;
 }
 

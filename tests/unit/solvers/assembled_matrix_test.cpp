@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
 
 #include "sage/conformance/solver_systems.hpp"
 #include "solvers/assembled_matrix.hpp"
@@ -53,6 +56,37 @@ TEST(AssembledMatrix, SumsElementMatrices) {
       // Sums of some twenty terms of size 20 in another order: rounding of 1e-14.
       EXPECT_LE((dense(assemble(system, symmetric)) - expected).cwiseAbs().maxCoeff(), 1e-12);
     }
+}
+
+// Four-node elements on a grid, two equations a node in a row but for supports and a node whose two are swapped:
+// additions and row maxima then go by twos where they can.  The same numbers as one by one.
+TEST(AssembledMatrix, EquationsInPairsAreSummedAsOthers) {
+  constexpr int kColumns = 4, kRows = 3;
+  System system;
+  std::vector<int> first;
+  for (int node = 0; node < (kColumns + 1) * (kRows + 1); ++node) {
+    const bool held = node % (kColumns + 1) == 0;  // u of the left side
+    first.push_back(held ? -1 : system.equations++);
+    first.push_back(system.equations++);
+    if (node == 7) std::swap(first[first.size() - 1], first[first.size() - 2]);
+  }
+  for (int e = 0; e < kColumns * kRows; ++e) {
+    const int corner = e / kColumns * (kColumns + 1) + e % kColumns;
+    std::vector<int> equations;
+    for (const int node : {corner, corner + 1, corner + kColumns + 2, corner + kColumns + 1})
+      for (const int i : {0, 1}) equations.push_back(first[static_cast<std::size_t>(2 * node + i)]);
+    MatrixXd K(8, 8);
+    for (int i = 0; i < 64; ++i) K(i) = std::sin(1.0 + 3.7 * i * (e + 1)) * (i % 5 - 2);
+    system.add_element(equations, K);
+  }
+  const MatrixXd expected = test::dense(system);
+  const AssembledMatrix matrix = assemble(system, false);
+  EXPECT_LE((dense(matrix) - expected).cwiseAbs().maxCoeff(), 1e-14);
+  std::vector<double> maxima;
+  matrix.row_maxima(maxima);
+  const MatrixXd own = dense(matrix).cwiseAbs();
+  for (int i = 0; i < system.equations; ++i)
+    EXPECT_EQ(maxima[static_cast<std::size_t>(i)], own.row(i).maxCoeff());
 }
 
 TEST(AssembledMatrix, ASymmetricOneReadsTheUpperTriangleOnly) {
