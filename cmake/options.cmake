@@ -26,6 +26,11 @@ endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(sage_options INTERFACE -fno-tree-slp-vectorize)
 endif()
+if(NOT (SAGE_NATIVE AND SAGE_HAVE_AVX2))
+  # How others would pass vectors of four doubles (sage/core/four.hpp) is of no account: all is compiled alike.  A precompiled header
+  # forgets the pragma that says so.
+  target_compile_options(sage_options INTERFACE -Wno-psabi)
+endif()
 # Checked string calls, stack protector, relocations read-only before main(): docs/decisions/0009. Libraries whose loops decide
 # the run time have no stack protector; they define its macro all the same, or GCC would refuse the precompiled header.
 include(CheckLinkerFlag)

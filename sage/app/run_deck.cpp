@@ -14,6 +14,7 @@
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/interrupt.hpp"
 #include "sage/app/run_source.hpp"
+#include "sage/deck/text.hpp"
 #include "sage/draw/picture.hpp"
 #include "sage/model/fingerprint.hpp"
 #include "sage/record/csv.hpp"
@@ -241,7 +242,7 @@ std::vector<Observer*> observers_of(const RunRequest& request,
 // After all others: only then is it known what they took.
 void write_profile(const RunRequest& request, int threads, RunOutcome& outcome) {
   OutFile file(request.output.folder / (stem_of(request) + ".profile.json"));
-  file.text() = profile_json(outcome.record.profile, case_name(request.deck), threads);
+  file.text() = profile_json(outcome.record.profile, well_formed(case_name(request.deck)).text, threads);
   file.finish();
   outcome.files.push_back(file.path());
 }

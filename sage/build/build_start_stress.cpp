@@ -231,6 +231,16 @@ std::vector<std::array<char, 2>> held_nodes(const Builder& b, const Stage& stage
   return held;
 }
 
+// An interface would start without the pressure of the ground on both of its sides.
+void refuse_interfaces(Builder& b, const CardView& card) {
+  for (const Group& group : b.model.groups)
+    if (group.element && group.interface() && group.elements() > 0 && !is_born_later(b, group))
+      return b.error(card.where(),
+                     "group " + std::to_string(group.number) +
+                         " holds interfaces, to which start_stress gives no pressure of the ground; "
+                         "initial cards in its place do: kind 1 for the ground, kind 3 for interfaces");
+}
+
 // Faces that the start stress pulls or pushes and nothing holds get the pressure that balances it there: such
 // programs count from a state that they take to be in equilibrium.
 int hold_free_faces(Builder& b, const std::vector<const InitialStress*>& of_group, Stage& stage) {
@@ -312,6 +322,7 @@ void add_start_stress(Builder& b, Stage stage) {
     return;
   }
   const CardView card = b.deck.all("start_stress").front();
+  refuse_interfaces(b, card);
   std::vector<const InitialStress*> of_group(b.model.groups.size(), nullptr);
   b.model.initials.reserve(b.model.initials.size() + b.model.groups.size());
   for (std::size_t g = 0; g < b.model.groups.size(); ++g) {

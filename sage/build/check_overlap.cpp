@@ -14,6 +14,7 @@
 
 #include "sage/build/builder.hpp"
 #include "sage/model/activity.hpp"
+#include "sage/model/coarse_shape.hpp"
 
 namespace sage::build {
 
@@ -22,7 +23,7 @@ namespace {
 // Solids may reach into each other by so much of the thinner one's width.  Chords of a circle that two meshes
 // divide differently do: the arc over a chord of 22.5 degrees is 4.9 % of it high, and sides with and without
 // mid-side nodes differ by that.  Rounded coordinates differ by less, and slips by more.
-constexpr double kReach = 0.05;
+constexpr double kReach = 0.06;
 
 constexpr std::size_t kMostFound = 1000;  // pairs: then the search ends
 constexpr std::size_t kShown = 3;
@@ -122,30 +123,43 @@ class EdgeSearch {
 
 // ---- Two solids
 
-// The line around a solid through its nodes, drawn together towards its middle.
+// The line around a solid, drawn together towards the middle of its parent shape: that stays within the solid
+// where a thin one is curved.
 class Outline {
  public:
   Outline(const Model& model, const Solid& solid) {
     const Group& group = model.groups[static_cast<std::size_t>(solid.group)];
     const int* nodes = group.nodes_of(solid.element);
+    const std::vector<std::vector<int>>& edges = group.element->edges();
+    shape_.corners = static_cast<int>(edges.size());
     double longest = 0.0, twice_area = 0.0;
-    for (const std::vector<int>& edge : group.element->edges()) {
-      const auto place = [&](std::size_t i) -> Vector2 { return model.mesh.x.col(nodes[edge[i]]); };
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+      const auto place = [&](std::size_t i) -> Vector2 { return model.mesh.x.col(nodes[edges[k][i]]); };
       longest = std::max(longest, (place(1) - place(0)).norm());
-      middle_ += place(0);
-      points_.push_back(place(0));
-      for (std::size_t i = 2; i < edge.size(); ++i) points_.push_back(place(i));
+      shape_.corner[k] = place(0);
+      if (const std::size_t between = edges[k].size() - 2; between > 0)
+        shape_.middle[k] = place(2 + between / 2);
+      if (shape_.middle[k])
+        height_ = std::max(height_, (*shape_.middle[k] - 0.5 * (place(0) + place(1))).norm());
     }
-    middle_ /= static_cast<double>(group.element->edges().size());
+    for (int k = 0; k < shape_.corners; ++k)
+      for (std::size_t c = 0; c < 2; ++c)
+        centre_[c] += parent_corners(shape_.corners)[static_cast<std::size_t>(k)][c] / shape_.corners;
+    middle_ = shape_.at(centre_);
+    trace(1.0, height_ > 0.0 ? 2 : 1);
     for (std::size_t i = 0; i < points_.size(); ++i)
       twice_area += cross(points_[i] - middle_, next(i) - middle_);
     width_ = 0.5 * twice_area / longest;
   }
 
   // Every side comes in by kReach of its distance from the middle; that of a solid wider than the other by less.
+  // Chords of curved sides are short enough that their own height is a small part of that.
   void draw_in(double other_width) {
-    const double factor = 1.0 - kReach * std::min(1.0, other_width / width_);
-    for (Vector2& point : points_) point = middle_ + factor * (point - middle_);
+    constexpr double kFewest = 4.0, kMost = 64.0;
+    const double thinner = std::min(width_, other_width),
+                 chords = std::sqrt(8.0 * height_ / (kReach * thinner));
+    trace(1.0 - kReach * thinner / width_,
+          height_ > 0.0 ? static_cast<int>(std::clamp(chords, kFewest, kMost)) : 1);
   }
 
   double width() const { return width_; }  // area over the longest side
@@ -153,12 +167,28 @@ class Outline {
   bool overlaps(const Outline& other) const {
     const Vector2 between = other.middle_ - middle_;
     if (is_apart(other, between) || sides_part(other) || other.sides_part(*this)) return false;
-    return crosses(other) || holds(other.points_[0]) || other.holds(points_[0]);
+    return crosses(other) || holds_any(other) || other.holds_any(*this);
   }
 
  private:
   static double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
   const Vector2& next(std::size_t i) const { return points_[i + 1 < points_.size() ? i + 1 : 0]; }
+
+  // Through the sides of the parent shape, `scale` times as large about its centre; curved ones in chords.
+  void trace(double scale, int chords) {
+    const auto n = static_cast<std::size_t>(shape_.corners);
+    const std::array<Place, 4>& parent = parent_corners(shape_.corners);
+    points_.clear();
+    for (std::size_t k = 0; k < n; ++k)
+      for (int i = 0; i < chords; ++i) {
+        Place at{};
+        for (std::size_t c = 0; c < 2; ++c) {
+          const double on_side = parent[k][c] + (parent[(k + 1) % n][c] - parent[k][c]) * i / chords;
+          at[c] = centre_[c] + scale * (on_side - centre_[c]);
+        }
+        points_.push_back(shape_.at(at));
+      }
+  }
 
   // All points of the other lie farther along the axis than all of these.
   bool is_apart(const Outline& other, const Vector2& axis) const {
@@ -186,6 +216,19 @@ class Outline {
     return false;
   }
 
+  // Of places within the other: sides that lie on each other cross nowhere.
+  bool holds_any(const Outline& other) const {
+    constexpr double kWithin = 0.9;
+    if (holds(other.middle_)) return true;
+    for (int k = 0; k < other.shape_.corners; ++k) {
+      const Place& corner = parent_corners(other.shape_.corners)[static_cast<std::size_t>(k)];
+      Place at{};
+      for (std::size_t c = 0; c < 2; ++c) at[c] = other.centre_[c] + kWithin * (corner[c] - other.centre_[c]);
+      if (holds(other.shape_.at(at))) return true;
+    }
+    return false;
+  }
+
   // By the sides that a ray to the right meets.
   bool holds(const Vector2& place) const {
     bool inside = false;
@@ -197,9 +240,11 @@ class Outline {
     return inside;
   }
 
+  CoarseShape shape_;
+  Place centre_{};  // of the parent shape
   std::vector<Vector2> points_;
-  Vector2 middle_ = Vector2::Zero();
-  double width_ = 0.0;
+  Vector2 middle_;                     // a place within
+  double width_ = 0.0, height_ = 0.0;  // height: of the most curved side's middle over its chord
 };
 
 // ---- All of them
@@ -353,7 +398,7 @@ class OverlapSearch {
 
   void compare(const Entry& a, const Entry& b) {
     if (!(a.solid.bare || b.solid.bare) || !a.box.meets(b.box)) return;
-    if (!company_.together(a.solid.group, b.solid.group) || share_a_hand(a.solid, b.solid)) return;
+    if (!company_.together(a.solid.group, b.solid.group) || share_an_edge(a.solid, b.solid)) return;
     Outline one(model_, a.solid), two(model_, b.solid);
     const double first = one.width(), second = two.width();
     one.draw_in(second);
@@ -361,14 +406,14 @@ class OverlapSearch {
     if (one.overlaps(two)) found_.emplace_back(std::min(a.solid, b.solid), std::max(a.solid, b.solid));
   }
 
-  // Both lie on the same hand of a common edge, of which there is a message.
-  bool share_a_hand(const Solid& a, const Solid& b) const {
+  // Both lie on the same hand of a common edge, of which there is a message, or on either hand, as neighbours do.
+  bool share_an_edge(const Solid& a, const Solid& b) const {
     const Group &g = model_.groups[static_cast<std::size_t>(a.group)],
                 &h = model_.groups[static_cast<std::size_t>(b.group)];
     const int *n = g.nodes_of(a.element), *m = h.nodes_of(b.element);
     for (const std::vector<int>& edge : g.element->edges())
       for (const std::vector<int>& other : h.element->edges())
-        if (n[edge[0]] == m[other[0]] && n[edge[1]] == m[other[1]]) return true;
+        if (std::minmax({n[edge[0]], n[edge[1]]}) == std::minmax({m[other[0]], m[other[1]]})) return true;
     return false;
   }
 

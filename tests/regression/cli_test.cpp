@@ -438,9 +438,35 @@ TEST(CommandLine, ProfileIsATableAndAFile) {
               std::string::npos)
         << phase;
   }
+  // The name of a deck may be no UTF-8, which JSON is.
+  write(folder / "caf\xe9.dat", block_deck().text());
+  EXPECT_EQ(sagefe(folder, "run caf*.dat --profile -q -o out").exit_code, 0);
+  EXPECT_NE(read(folder / "out/caf\xe9.profile.json").find("\"case\": \"caf\xc3\xa9\""), std::string::npos);
   // A run that found no equilibrium has one too.
   EXPECT_EQ(sagefe(folder, "run deck.dat --profile -o out").exit_code, 3);
   EXPECT_NE(read(folder / "out/deck.profile.json").find("\"phase\": \"iteration\""), std::string::npos);
+}
+
+// Two elements of ground and the joint between them: the start stress has none for the joint, whose sides would part.
+TEST(CommandLine, StartStressOfInterfacesIsRefused) {
+  const fs::path folder = empty_folder("start_stress_of_interfaces");
+  std::string layout = read(fs::path(SAGE_SOURCE_DIR) / "legacy_inputs/layouts/sage1.toml");
+  const std::string start =
+      "[[card]]\nname = \"start_stress\"\nformat = \"(2F10.0)\"\n"
+      "fields = [{ name = \"level\" }, { name = \"k0\" }]\n\n";
+  layout.insert(layout.rfind("[[card]]", layout.find("block = \"stages\"")), start);
+  layout.replace(layout.find("name = \"sage1\""), 14, "name = \"own\"");
+  write(folder / "own.toml", layout);
+  const DeckText joint =
+      joint_deck()
+          .with("control", card({"1", "0", "8", "0", "2", "3", "3", "1", "0", "1", "0", "8", "3"}))
+          .with("material_soil", card({"1", "1", "2"}, {"20."}) + "soil")
+          .without("initial_bottom")
+          .with("initial_joint", card({}, {"2.", ".5"}));
+  write(folder / "joint.dat", joint.text());
+  const Finished check = sagefe(folder, "check --layout own.toml joint.dat");
+  EXPECT_EQ(check.exit_code, 2);
+  EXPECT_NE(check.err.find("group 2 holds interfaces"), std::string::npos) << check.err;
 }
 
 TEST(CommandLine, ADeckMayComeThroughAPipe) {

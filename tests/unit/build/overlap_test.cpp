@@ -178,6 +178,58 @@ TEST(Overlap, ArcsAndChordsOfOneCircle) {
   EXPECT_NE(rings(45.0, 0.2).find("overlap"), std::string::npos);
 }
 
+// Thin arcs, one around the other, each a hundredth of the radius thick and bent to the edge of what an element can be:
+// the middle of their corners lies outside them.
+TEST(Overlap, ThinArcsLieOnEachOther) {
+  for (const double step : {11.25, 22.5, 45.0})
+    for (const double inner : {0.5, 0.99})
+      for (const bool shared : {false, true}) {
+        Pieces pieces;
+        for (double a = 0.0; a < 89.0; a += step) {
+          const int first = pieces.nodes;
+          pieces.arch(inner, 1.0, a, a + step, true);
+          if (!shared) {
+            pieces.arch(1.0, 1.01, a, a + step, true);
+            continue;
+          }
+          // The outer side of the arch below is corners 2 and 3 and middle 6.
+          const auto at = [&](double r, double angle) {
+            const double radians = angle * std::acos(-1.0) / 180.0;
+            return pieces.node(r * std::cos(radians), r * std::sin(radians));
+          };
+          const int low = at(1.01, a), high = at(1.01, a + step), middle = at(1.01, a + 0.5 * step);
+          pieces.element(
+              3, {first + 2, low, high, first + 3, at(1.005, a), middle, at(1.005, a + step), first + 6});
+        }
+        EXPECT_EQ(refusal(pieces), "")
+            << step << " degrees, from " << inner << (shared ? ", common nodes" : "");
+      }
+  Pieces thinnest;
+  thinnest.arch(0.99, 1.0, 0.0, 22.5, true);
+  thinnest.arch(1.0, 1.002, 0.0, 22.5, true);
+  EXPECT_EQ(refusal(thinnest), "");
+  Pieces over;  // by half of the thin one's thickness
+  over.arch(0.5, 1.005, 0.0, 22.5, true);
+  over.arch(1.0, 1.01, 0.0, 22.5, true);
+  expect_overlap(over, "1", "2");
+}
+
+// With nodes of their own, whatever their shape.
+TEST(Overlap, TheSamePlaceTwice) {
+  for (const double turn : {0.0, 0.7}) {
+    Pieces skewed;
+    skewed.turn = turn;
+    for (int i = 0; i < 2; ++i)
+      skewed.element(
+          1, {skewed.node(0.0, 0.0), skewed.node(2.0, 0.3), skewed.node(2.4, 1.1), skewed.node(0.2, 0.9)});
+    expect_overlap(skewed, "1", "2");
+  }
+  Pieces arches;
+  arches.arch(0.99, 1.0, 0.0, 45.0, true);
+  arches.arch(0.99, 1.0, 0.0, 45.0, true);
+  expect_overlap(arches, "1", "2");
+}
+
 // A curved element that bulges into a straight one's place, by its mid-side node alone.
 TEST(Overlap, AMidSideNodeThatReachesIntoANeighbour) {
   const auto bulge = [](double height) {
