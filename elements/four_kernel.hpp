@@ -101,7 +101,8 @@ inline FourMask put_rows_of_four(Four a, Four b, Four c, Four d, int rows,
       continue;
     }
     Four old = of[l];
-    for (int i = 0; i < rows; ++i) old[i] = std::exchange(to[i], of[l][i]);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(rows); ++i)
+      one_of_four(old, i) = std::exchange(to[i], one_of_four(of[l], i));
     changed |= reinterpret_cast<FourMask>(old) ^ reinterpret_cast<FourMask>(of[l]);
   }
   return changed;

@@ -70,9 +70,10 @@ constexpr double kProjection[4][4] = {{2.0 * kThird, -kThird, -kThird, 0.0},
                                       {0.0, 0.0, 0.0, 0.5}};
 
 void set_status(const FourMask& here, PointStatus status, FourPointsOut<4>& out) {
+  const int places = bits_of_four(here);
 #pragma GCC unroll 4
   for (std::size_t l = 0; l < kAbreast; ++l)
-    if (here[l] != 0) out.status[l] = status;
+    if ((places >> l & 1) != 0) out.status[l] = status;
 }
 
 }  // namespace
@@ -158,7 +159,8 @@ Outcome DruckerPrager::update_four(const FourPointsIn<4>& in, FourPointsOut<4>& 
   stay_elastic(stress, out);
 #pragma GCC unroll 4
   for (std::size_t l = 0; l < kAbreast; ++l) two_in_a_row(out.h1[l]) = two_in_a_row(in.h0[l]);
-  if (bits_of_four(elastic) == kAllOfFour) return Outcome::ok;
+  const int elastic_places = bits_of_four(elastic);
+  if (elastic_places == kAllOfFour) return Outcome::ok;
 
   // Return: to the cone, if that is in front of its tip and of the tension limit.
   const Four dlambda = f / (G + 9.0 * K * alpha * p_.beta);
@@ -179,9 +181,9 @@ Outcome DruckerPrager::update_four(const FourPointsIn<4>& in, FourPointsOut<4>& 
   const Four shear = plastic.q / G, volume = plastic.p / K;
 #pragma GCC unroll 4
   for (std::size_t l = 0; l < kAbreast; ++l) {
-    if (elastic[l] != 0) continue;
-    out.h1[l][kShear] = in.h0[l][kShear] + shear[l];
-    out.h1[l][kVolume] = in.h0[l][kVolume] + volume[l];
+    if ((elastic_places >> l & 1) != 0) continue;
+    out.h1[l][kShear] = in.h0[l][kShear] + one_of_four(shear, l);
+    out.h1[l][kVolume] = in.h0[l][kVolume] + one_of_four(volume, l);
   }
   return Outcome::ok;
 }
@@ -274,18 +276,19 @@ void DruckerPrager::return_to_cap(const FourInvariants& trial, const FourMask& h
 // Point by point, in place of the return to the cone.
 void DruckerPrager::take_exact_answers(const FourPointsIn<4>& in, const FourMask& here,
                                        FourPointsOut<4>& out) const {
+  const int places = bits_of_four(here);
   for (std::size_t l = 0; l < kAbreast; ++l) {
-    if (here[l] == 0) continue;
+    if ((places >> l & 1) == 0) continue;
     PointIn<4> point;
     PointOut<4> answer;
     for (std::size_t i = 0; i < 4; ++i) {
-      point.sigma0[at(i)] = in.sigma0[i][l];
-      point.deps[at(i)] = in.deps[i][l];
+      point.sigma0[at(i)] = one_of_four(in.sigma0[i], l);
+      point.deps[at(i)] = one_of_four(in.deps[i], l);
     }
     if (!integrate_exactly(point, answer)) continue;
     for (std::size_t i = 0; i < 4; ++i) {
-      out.sigma[i][l] = answer.sigma[at(i)];
-      for (std::size_t j = 0; j < 4; ++j) out.D[i][j][l] = answer.D(at(i), at(j));
+      one_of_four(out.sigma[i], l) = answer.sigma[at(i)];
+      for (std::size_t j = 0; j < 4; ++j) one_of_four(out.D[i][j], l) = answer.D(at(i), at(j));
     }
   }
 }

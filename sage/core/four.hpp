@@ -29,14 +29,21 @@ inline void store_four(double* p, const Four& x) {
   *reinterpret_cast<FourInARow*>(p) = x;
 }
 
-// Of a comparison: a bit of each place where it holds, the first place lowest.
+// The place l, through memory: GCC 12.2 checks the bounds of a subscript that varies wrongly, and takes another place
+// (-fsanitize=bounds, without AVX).
+inline double one_of_four(const Four& x, std::size_t l) {
+  return reinterpret_cast<const double*>(&x)[l];
+}
+inline double& one_of_four(Four& x, std::size_t l) {
+  return reinterpret_cast<double*>(&x)[l];
+}
+
+// Of a comparison, in which a place holds all bits or none: a bit of each place where it holds, the first place lowest.
 inline int bits_of_four(const FourMask& mask) {
 #ifdef __AVX__
   return __builtin_ia32_movmskpd256(reinterpret_cast<Four>(mask));
 #else
-  int bits = 0;
-  for (int l = 0; l < kAbreast; ++l) bits |= (mask[l] != 0 ? 1 : 0) << l;
-  return bits;
+  return static_cast<int>((mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8));
 #endif
 }
 inline constexpr int kAllOfFour = (1 << kAbreast) - 1;
