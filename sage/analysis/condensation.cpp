@@ -87,11 +87,16 @@ void Condensation::solve_for_border() {
     whole_.setZero();
     border(whole_)[j] = 1.0;
     fill_in(whole_);
-    all_dofs_.setZero();
-    for (Eigen::Index i = 0; i < whole_.size(); ++i) all_dofs_[dof_of(i)] = whole_[i];
-    multiply(all_dofs_, all_forces_);
+    find_forces(whole_, 0, whole_.size());
     for (Eigen::Index i = 0; i < n; ++i) S_(i, j) = all_forces_[kept_[static_cast<std::size_t>(i)]];
   }
+}
+
+// Forces on all dofs where those from `begin` to `end` have moved by x, and no other.
+void Condensation::find_forces(const Eigen::VectorXd& x, Eigen::Index begin, Eigen::Index end) {
+  all_dofs_.setZero();
+  for (Eigen::Index i = begin; i < end; ++i) all_dofs_[dof_of(i)] = x[i];
+  multiply(all_dofs_, all_forces_);
 }
 
 // As LinearSolver::eliminate and fill_in.  Of a solver without a border x_l is K_ll^-1 b_l in between.
@@ -99,18 +104,14 @@ void Condensation::eliminate(Eigen::VectorXd& x) {
   const auto n = static_cast<std::size_t>(condensed());
   if (keeps_border_) return solver_->eliminate({x.data(), n + kept_.size()}, {x.data(), n + kept_.size()});
   solver_->solve({x.data(), n}, {x.data(), n});
-  all_dofs_.setZero();
-  for (Eigen::Index i = 0; i < condensed(); ++i) all_dofs_[dof_of(i)] = x[i];
-  multiply(all_dofs_, all_forces_);
+  find_forces(x, 0, condensed());
   for (Eigen::Index i = condensed(); i < x.size(); ++i) x[i] -= all_forces_[dof_of(i)];
 }
 
 void Condensation::fill_in(Eigen::VectorXd& x) {
   const auto n = static_cast<std::size_t>(condensed());
   if (keeps_border_) return solver_->fill_in({x.data(), n + kept_.size()});
-  all_dofs_.setZero();
-  for (Eigen::Index i = condensed(); i < x.size(); ++i) all_dofs_[dof_of(i)] = x[i];
-  multiply(all_dofs_, all_forces_);
+  find_forces(x, condensed(), x.size());
   for (Eigen::Index i = 0; i < condensed(); ++i) solution_[i] = all_forces_[dof_of(i)];
   solver_->solve({solution_.data(), n}, {solution_.data(), n});
   inner(x) -= solution_;

@@ -82,6 +82,7 @@ class Condensation {
   double eliminate_loads(const Eigen::VectorXd& loads, Eigen::VectorXd& eliminated);
   void eliminate(Eigen::VectorXd& x);
   void fill_in(Eigen::VectorXd& x);
+  void find_forces(const Eigen::VectorXd& x, Eigen::Index begin, Eigen::Index end);
 
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;  // y = K x of the linear region
   void solve_for_border();                                            // S, a solution a column

@@ -1,5 +1,6 @@
 // Stress of the ground before anything is done to it: weight of what lies above, and earth pressure at rest.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -38,30 +39,34 @@ bool is_ground(const Group& group) {
   return group.element && group.solid() && group.elements() > 0;
 }
 
-const CardView* card_of_k0(const std::vector<CardView>& materials, int number) {
-  for (const CardView& m : materials)
-    if (m.integer("number") == number) return &m;
-  return nullptr;
-}
-
-// k0 of the start_stress card, or that of the material's card; nothing without either.
-std::optional<double> find_k0(const Builder& b, const CardView& card, const Material& material) {
-  if (!card.blank("k0")) return card.real("k0");
-  const std::vector<CardView> materials = b.deck.all("material");
-  const CardView* m = card_of_k0(materials, material.number);
-  if (m == nullptr || m->blank("k0")) return std::nullopt;
-  return m->real("k0");
+// The card that has the k0 of a material: start_stress, or else the material's; start_stress too without that.
+CardView card_of_k0(const Builder& b, const CardView& card, const Material& material) {
+  if (!card.blank("k0")) return card;
+  for (const CardView& m : b.deck.all("material"))
+    if (m.integer("number") == material.number) return m;
+  return card;
 }
 
 double k0_of(Builder& b, const CardView& card, const Material& material) {
-  if (const std::optional<double> k0 = find_k0(b, card, material)) return *k0;
-  const std::vector<CardView> materials = b.deck.all("material");
-  const CardView* m = card_of_k0(materials, material.number);
-  b.error(m != nullptr ? m->where("k0") : card.where(),
+  const CardView with_k0 = card_of_k0(b, card, material);
+  if (!with_k0.blank("k0")) return with_k0.real("k0");
+  b.error(with_k0.where("k0"),
           "material " + std::to_string(material.number) +
               ": the coefficient of earth pressure at rest, field " +
               "k0, is blank: the start stress needs it on the material card or on the start_stress card");
   return 0.0;
+}
+
+// Lowest and highest level of an element's nodes.
+std::array<double, 2> levels_of(const Builder& b, const Group& group, int element) {
+  double low = 1e300, high = -1e300;
+  for (std::size_t i = 0; i < group.node_count(); ++i) {
+    const int node = group.nodes_of(element)[i];
+    if (node < 0) continue;  // a mid-side node that is still to be made
+    low = std::min(low, b.model.mesh.x(1, node));
+    high = std::max(high, b.model.mesh.x(1, node));
+  }
+  return {low, high};
 }
 
 // The elements of groups for which value(group) gives one.
@@ -74,14 +79,8 @@ std::vector<Part> parts_of(const Builder& b, const Value& value) {
     const std::optional<double> one = value(group);
     if (!one) continue;
     for (int e = 0; e < group.elements(); ++e) {
-      Part part{1e300, -1e300, *one, static_cast<int>(g), e};
-      for (std::size_t i = 0; i < group.node_count(); ++i) {
-        if (group.nodes_of(e)[i] < 0) continue;  // a mid-side node that is still to be made
-        const double y = b.model.mesh.x(1, group.nodes_of(e)[i]);
-        part.low = std::min(part.low, y);
-        part.high = std::max(part.high, y);
-      }
-      parts.push_back(part);
+      const auto [low, high] = levels_of(b, group, e);
+      parts.push_back({low, high, *one, static_cast<int>(g), e});
     }
   }
   std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& c) { return a.high > c.high; });
@@ -147,13 +146,7 @@ int layer_at(const std::vector<GroundLayer>& layers, double y) {
 }
 
 double middle_of_element(const Builder& b, const Group& group, int element) {
-  double low = 1e300, high = -1e300;
-  for (std::size_t i = 0; i < group.node_count(); ++i) {
-    if (group.nodes_of(element)[i] < 0) continue;
-    const double y = b.model.mesh.x(1, group.nodes_of(element)[i]);
-    low = std::min(low, y);
-    high = std::max(high, y);
-  }
+  const auto [low, high] = levels_of(b, group, element);
   return 0.5 * (low + high);
 }
 
@@ -209,8 +202,8 @@ void raise_to_level(Builder& b, const CardView& card) {
 // Neighbours of different k0 push each other with different stress.
 void warn_of_sides(Builder& b, const CardView& card) {
   const std::vector<Part> parts = parts_of(b, [&](const Group& group) {
-    const Material& material = b.model.material_of(group);
-    return find_k0(b, card, material);
+    const CardView with_k0 = card_of_k0(b, card, b.model.material_of(group));
+    return with_k0.blank("k0") ? std::optional<double>() : with_k0.real("k0");
   });
   std::optional<SideBySide> uneven;
   layers_of(parts, uneven);

@@ -325,6 +325,7 @@ struct FourRuns {
   }
 };
 
+// Three elements of a case under the increments u that are made for them.
 inline FourRuns four_runs(const ElementCase& c, const Element& element, const SolidLaw& law,
                           std::vector<Eigen::VectorXd>& u) {
   std::vector<ElementRun> three;
@@ -340,17 +341,25 @@ inline FourRuns four_runs(const ElementCase& c, const Element& element, const So
   return {std::move(three), u};
 }
 
-// Against one by one.  Compilers round sums of products once or twice as they like: fewer than a hundred terms,
-// 1e-13.
-TEST_P(Elements, FourAtOnceAreAsOneByOne) {
-  const InFours<SmoothLaw<4>> law;
-  for (const ElementCase& c : cases()) {
+// check(element, four, u) for every case that takes four.
+template <class Check>
+void check_fours(const std::vector<ElementCase>& cases, const SolidLaw& law, const Check& check) {
+  for (const ElementCase& c : cases) {
     SCOPED_TRACE(c.name);
     const auto element = c.make();
     if (!element->takes_four()) continue;
     std::vector<Eigen::VectorXd> u;
     FourRuns four = four_runs(c, *element, law, u);
-    ASSERT_EQ(element->evaluate_four(four.in, four.out), Outcome::ok);
+    check(*element, four, u);
+  }
+}
+
+// Against one by one.  Compilers round sums of products once or twice as they like: fewer than a hundred terms,
+// 1e-13.
+TEST_P(Elements, FourAtOnceAreAsOneByOne) {
+  const InFours<SmoothLaw<4>> law;
+  check_fours(cases(), law, [](const Element& element, FourRuns& four, const std::vector<Eigen::VectorXd>& u) {
+    ASSERT_EQ(element.evaluate_four(four.in, four.out), Outcome::ok);
     for (std::size_t l = 0; l < 3; ++l) {
       const ElementRun& run = four.runs[l];
       ElementRun one = run;
@@ -365,38 +374,33 @@ TEST_P(Elements, FourAtOnceAreAsOneByOne) {
       for (std::size_t i = 0; i < one.h1.size(); ++i)
         EXPECT_NEAR(run.h1[i], one.h1[i], 1e-13 * (1.0 + std::abs(one.h1[i])));
     }
-  }
+  });
 }
 
 // Whether a matrix changed is seen to the bit, in every term; matrices that nobody wants are left alone.
 TEST_P(Elements, FourAtOnceSeeWhatChanged) {
   const InFours<SmoothLaw<4>> law, fussy(1e-9);
-  for (const ElementCase& c : cases()) {
-    SCOPED_TRACE(c.name);
-    const auto element = c.make();
-    if (!element->takes_four()) continue;
-    std::vector<Eigen::VectorXd> u;
-    FourRuns four = four_runs(c, *element, law, u);
-    element->evaluate_four(four.in, four.out);
+  check_fours(cases(), law, [&](const Element& element, FourRuns& four, const auto& /*u*/) {
+    element.evaluate_four(four.in, four.out);
     EXPECT_TRUE(four.out.changed);
-    element->evaluate_four(four.in, four.out);
+    element.evaluate_four(four.in, four.out);
     EXPECT_FALSE(four.out.changed) << "the same again";
     const Eigen::MatrixXd K = four.runs[1].K;
     for (int i = 0; i < K.size(); ++i) {
       double& term = four.runs[1].K(i);
       term = std::nextafter(term, 1e300);
-      element->evaluate_four(four.in, four.out);
+      element.evaluate_four(four.in, four.out);
       EXPECT_TRUE(four.out.changed) << "term " << i;
       EXPECT_EQ(term, K(i));
     }
     four.runs[1].K.setZero();
     four.out.K.fill(nullptr);
-    EXPECT_EQ(element->evaluate_four(four.in, four.out), Outcome::ok);
+    EXPECT_EQ(element.evaluate_four(four.in, four.out), Outcome::ok);
     EXPECT_FALSE(four.out.changed);
     EXPECT_TRUE(four.runs[1].K.isZero(0.0));
     four.in.law = static_cast<const SolidLaw*>(&fussy);
-    EXPECT_EQ(element->evaluate_four(four.in, four.out), Outcome::cut_step);
-  }
+    EXPECT_EQ(element.evaluate_four(four.in, four.out), Outcome::cut_step);
+  });
 }
 
 TEST_P(Elements, NoIncrementGivesBackTheCommittedStress) {

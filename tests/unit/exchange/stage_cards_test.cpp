@@ -80,6 +80,16 @@ repeat = "2"
 fields = [{ name = "first", kind = "integer" }, { name = "y_force", kind = "real" }]
 )toml";
 
+// The first error of what refuses a deck; empty where it does not.
+std::string first_error(const std::function<void()>& make) {
+  try {
+    make();
+  } catch (const InputError& error) {
+    return error.diagnostics().list().front().message;
+  }
+  return "";
+}
+
 struct Column {
   std::string layout, deck;
   Model model() const {
@@ -88,12 +98,7 @@ struct Column {
   }
   scenes::WholeRun run() const { return make_workbench().run(model()); }
   std::string complaint() const {
-    try {
-      model();
-    } catch (const InputError& error) {
-      return error.diagnostics().list().front().message;
-    }
-    return "";
+    return first_error([this] { model(); });
   }
 };
 
@@ -534,12 +539,7 @@ struct EdgeCase {
     return sum;
   }
   std::string complaint() const {
-    try {
-      model();
-    } catch (const InputError& error) {
-      return error.diagnostics().list().front().message;
-    }
-    return "";
+    return first_error([this] { model(); });
   }
 };
 
