@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "sage/core/thread_pool.hpp"
 #include "solvers/front_tree.hpp"
 #include "solvers/matrix_solver.hpp"
-#include "solvers/thread_pool.hpp"
 #include "solvers/tile_kernels.hpp"
 
 namespace sage {

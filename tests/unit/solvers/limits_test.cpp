@@ -12,11 +12,11 @@
 
 #include "sage/conformance/solver_systems.hpp"
 #include "sage/core/error.hpp"
+#include "sage/core/thread_pool.hpp"
 #include "solvers/aligned_array.hpp"
 #include "solvers/front_tree.hpp"
 #include "solvers/matrix_solver.hpp"
 #include "solvers/register_solvers.hpp"
-#include "solvers/thread_pool.hpp"
 #include "solvers/tile_profile.hpp"
 
 namespace sage::test {

@@ -1,4 +1,4 @@
-// A few threads that wait for work, so that a factorisation neither starts threads nor allocates.
+// A few threads that wait for work, so that those who have some neither start threads nor allocate.
 #pragma once
 
 #include <condition_variable>

@@ -1,4 +1,4 @@
-#include "solvers/thread_pool.hpp"
+#include "sage/core/thread_pool.hpp"
 
 #include <atomic>
 #include <stdexcept>
