@@ -168,7 +168,7 @@ Command run_command(CLI::App& parser, const Catalogue& catalogue) {
   parser
       .add_option(
           "-j,--jobs", options->jobs,
-          "decks computed at a time, each in a process of its own and, without --threads, on one thread "
+          "decks computed at a time, in processes of their own and, without --threads, each on one thread "
           "(default: 1; 0 = as many as there are processors)")
       ->check(CLI::Range(0, 256));
   parser

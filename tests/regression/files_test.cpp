@@ -352,6 +352,26 @@ TEST(Files, OutOfMemoryIsOneLineAndACode) {
   EXPECT_GE(refused, 6);
 }
 
+// The deck that runs out of memory is named, those around it are complete: the limit is one on each.
+TEST(Files, ADeckWithoutMemoryHarmsNoOtherOfTheCall) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the address sanitizer reserves more than any limit";
+#endif
+  const fs::path folder = empty_folder("memory_of_jobs");
+  scenes::SpecimenDeck deck;
+  deck.increments = 1;
+  for (const char* name : {"a.dat", "c.dat", "d.dat"}) write(folder / name, deck.text());
+  deck.columns = 120;
+  deck.rows = 240;
+  write(folder / "b.dat", deck.text());
+  const Finished run = sagefe(folder, "run a.dat b.dat c.dat d.dat -q --solver skyline_lu --jobs 2",
+                              "bash -c 'ulimit -v 81920; exec timeout 60 \"$0\" \"$@\"'");
+  EXPECT_EQ(run.exit_code, 3) << run.err;
+  EXPECT_NE(run.err.find("b.dat: "), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("memory"), std::string::npos) << run.err;
+  for (const char* name : {"a.lst", "c.lst", "d.lst"}) EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
+}
+
 // A name of bytes that are no UTF-8: what XML names exists, and the XML is well formed.
 TEST(Files, AnyFileNameGivesAPvdThatReadersTake) {
   const fs::path folder = empty_folder("names");
