@@ -44,6 +44,8 @@ constexpr Entry kCommands[] = {
      list_command},
     {"plot", "pictures of the states in a result file, without running the deck again", plot_command},
     {"tables", "rerun the source chapter's Tables 7.3 and 7.4 beside its numbers", tables_command},
+    {"figures", "compute the source chapter's Figures 7.1 to 7.40 and judge its sentences about them",
+     figures_command},
     {"convert", "write a deck or Gmsh mesh as sage1 deck (.dat), Gmsh mesh (.msh) or CalculiX input (.inp)",
      convert_command},
     {"verify", "the verification book: cases against closed forms, converged references and published values",

@@ -108,4 +108,10 @@ WholeRun Workbench::run(const std::string& deck, const BuildOptions& options,
   return run(build(deck, options), settings);
 }
 
+RunResult Workbench::run(const Model& model, std::span<Observer* const> observers) const {
+  RunSettings settings;
+  settings.choose_solver = choose_solver_;
+  return sage::run(model, catalogue_, settings, observers);
+}
+
 }  // namespace sage::scenes

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,8 @@ class Workbench {
   WholeRun run(Model model, const RunSettings& settings = {}) const;
   WholeRun run(const std::string& deck, const BuildOptions& options = {},
                const RunSettings& settings = {}) const;
+  // With observers of one's own, and nothing kept besides.
+  RunResult run(const Model& model, std::span<Observer* const> observers) const;
 
  private:
   Catalogue catalogue_;
