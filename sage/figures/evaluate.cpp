@@ -28,7 +28,7 @@ Box box_of(Place place, double aspect) {
     case Place::near_rim:
       return {.r0 = 0.75};
     case Place::end:
-      return {.z0 = 1.0};
+      return {.z0 = 0.95};  // the last row of elements
     case Place::away_from_end:
       return {.z1 = 0.5};
     case Place::not_near_ends:
@@ -60,7 +60,7 @@ std::vector<Sample> samples(const SpecimenRun& run, const Source& source, Place 
   std::vector<Sample> list;
   const State& state = run.state(source.strain);
   const std::vector<double>& values = state.values(source.quantity);
-  const std::vector<Spot>& spots = source.quantity == Quantity::level ? run.points : run.nodes;
+  const std::vector<Spot>& spots = source.quantity == Quantity::level ? run.points : run.cells;
   const double c = run.scene->correct(source.quantity, source.strain), aspect = run.scene->slenderness;
   for (std::size_t i = 0; i < spots.size(); ++i)
     if (!(away && spots[i].corner) && contains(place, spots[i].r, spots[i].z, aspect))
@@ -103,7 +103,7 @@ const Sample& place_of(const std::vector<Sample>& list, Of of) {
   return *std::ranges::max_element(list, {}, of);
 }
 
-// Largest and smallest value of each row of nodes, and where along r the largest is.
+// Largest and smallest value of each row of elements, and where along r the largest is.
 struct Row {
   double z = 0.0, high = -kAny, low = kAny, r = 0.0;
 };
@@ -410,10 +410,10 @@ std::vector<double> altered_values(const std::vector<double>& values, Alteration
 void alter_state(State& state, const SpecimenRun& run, Alteration how) {
   const auto across = static_cast<std::size_t>(run.columns);
   const double q = run.scene->correct(state.strain);
-  for (std::size_t k = 0; k < state.at_nodes.size(); ++k) {
+  for (std::size_t k = 0; k < state.at_elements.size(); ++k) {
     const auto quantity = static_cast<Quantity>(static_cast<std::size_t>(Quantity::sigma_r) + k);
-    state.at_nodes[k] = altered_values(state.at_nodes[k], how, across + 1,
-                                       2.0 * run.scene->correct(quantity, state.strain), 0.1 * q);
+    state.at_elements[k] = altered_values(state.at_elements[k], how, across,
+                                          2.0 * run.scene->correct(quantity, state.strain), 0.1 * q);
   }
   state.level = altered_values(state.level, how, 4 * across, 1.0, 0.1);
   state.joint_level = altered_values(state.joint_level, how, 1, 1.0, 0.1);

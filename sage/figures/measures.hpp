@@ -1,9 +1,9 @@
 // What the source chapter's sentences about its figures 7.1 to 7.40 mean in numbers.  The table was written before
 // anything was computed with it: a limit that is changed later needs a commit of its own that says why.
 //
-// Where the numbers come from: stresses at nodes, averaged over the elements there as in every picture; stress levels
-// at integration points; interface stresses at its points. `away from the corner` leaves out the 2 x 2 elements at the
-// rim of the end, with all their nodes. Each check is made with 4-node elements of full integration, as published, and
+// Where the numbers come from: the mean stress of every element, which is what full integration of nearly
+// incompressible elements gets right (docs/manual/figures.md); stress levels at integration points; interface stresses
+// at its points. `away from the corner` leaves out the 2 x 2 elements at the rim of the end. Each check is made with 4-node elements of full integration, as published, and
 // with B-bar; those of the lubricated platen with three K_j: 120 (Table 7.2), 5, and the one for which the largest
 // |conf - 50 psi| of full elements away from the corner is 3 percent of 50 psi at 10 percent of strain (Figure 7.18).
 // Verdicts: holds (full and B-bar alike); holds away from the corner (both, there); artefact (only full elements,
@@ -48,7 +48,7 @@ enum class Place {
   near_ends,      // outer quarter of the half height: z >= .75 H
   near_axis,      // inner quarter of the radius: r <= .25 R
   near_rim,       // outer quarter of the radius: r >= .75 R
-  end,            // the end itself: z = H
+  end,            // the last row of elements
   away_from_end,  // the inner half of the half height: z <= .5 H
   not_near_ends,  // z < .75 H
   below_ends,     // z < .70 H: all but 15 percent of the length at each end
@@ -84,8 +84,8 @@ enum class Measure {
   least,         // smallest x / q
   distance_most,  // from `target` to the place of the largest x (tau: |x|), in radii
   distance_least,
-  rows_at_axis,       // share of the rows of nodes whose largest x is no further than .15 R from the axis
-  row_range,          // largest difference of x within a row of nodes / q
+  rows_at_axis,       // share of the rows of elements whose largest x is no further than .15 R from the axis
+  row_range,          // largest difference of x within a row of elements / q
   share_close,        // share with |x - c| <= p q
   share_below,        // share with x <= p
   share_above,        // share with x >= p

@@ -130,22 +130,19 @@ class Watcher final : public Observer {
 
   void keep_state(const Model& model, const Solution& now, double strain, State& state) {
     const FieldTable table = fields_of(model);
-    const FieldList fields = fields_named(table, {"stress", "stress_difference", "principal_stress"});
-    const NodalLayout layout = nodal_layout(model, *now.activity);
-    const std::vector<double> carried = nodal_average(model, now, layout, fields);
-    const std::size_t width = carried_size_of(fields);
+    const std::vector<double> means =
+        element_average(model.mesh, now.groups()[0], fields_named(table, {"stress"}));
+    const auto& difference = std::get<StressField>(table.find("stress_difference")->value);
+    const auto& principal = std::get<StressField>(table.find("principal_stress")->value);
     state.strain = strain;
-    state.at_nodes.assign(6, std::vector<double>(nodes()));
-    const std::vector<int>& entries = layout.of_group[0];
-    for (std::size_t k = 0; k < entries.size(); ++k) {
-      const auto node = static_cast<std::size_t>(model.groups[0].nodes[k]);
-      const double* at = carried.data() + static_cast<std::size_t>(entries[k]) * width;
-      double stress[4], difference = 0.0, principal[3];
-      value_of_carried(*fields[0], at, stress);
-      value_of_carried(*fields[1], at + carried_size(*fields[0]), &difference);
-      value_of_carried(*fields[2], at + carried_size(*fields[0]) + carried_size(*fields[1]), principal);
-      const double six[] = {stress[0], stress[2], stress[1], stress[3], difference, principal[2]};
-      for (std::size_t q = 0; q < 6; ++q) state.at_nodes[q][node] = six[q];
+    state.at_elements.assign(6, std::vector<double>(means.size() / 4));
+    for (std::size_t e = 0; e < means.size() / 4; ++e) {
+      const Vector4 mean = Vector4::Map(means.data() + 4 * e);
+      double dev = 0.0, sigma[3];
+      difference.of(mean, &dev);
+      principal.of(mean, sigma);
+      const double six[] = {mean[0], mean[2], mean[1], mean[3], dev, sigma[2]};
+      for (std::size_t q = 0; q < 6; ++q) state.at_elements[q][e] = six[q];
     }
     const FieldEntry& level = *table.find("stress_level");
     for (std::size_t p = 0; p < points(); ++p) {
@@ -159,24 +156,19 @@ class Watcher final : public Observer {
   std::size_t nodes() const { return static_cast<std::size_t>((deck_->columns + 1) * (deck_->rows + 1)); }
   std::size_t points() const { return static_cast<std::size_t>(deck_->columns * deck_->rows * 4); }
 
-  bool at_corner(double column, double row) const {
-    return column >= deck_->columns - 2 - 1e-9 && row >= deck_->rows - 2 - 1e-9;
-  }
+  bool at_corner(int column, int row) const { return column >= deck_->columns - 2 && row >= deck_->rows - 2; }
 
   void keep_mesh(const Model& model, const Solution& now) {
     const int columns = deck_->columns, rows = deck_->rows;
-    for (int j = 0; j <= rows; ++j)
-      for (int i = 0; i <= columns; ++i) {
-        const double sides = (i == 0 || i == columns ? 0.5 : 1.0) * (j == 0 || j == rows ? 0.5 : 1.0);
-        run_->nodes.push_back({static_cast<double>(i) / columns, static_cast<double>(j) / rows,
-                               sides / (columns * rows), at_corner(i, j)});
-      }
+    for (int j = 0; j < rows; ++j)
+      for (int i = 0; i < columns; ++i)
+        run_->cells.push_back({(i + 0.5) / columns, (j + 0.5) / rows, 1.0 / (columns * rows), at_corner(i, j)});
     const double gauss = 0.5 / std::sqrt(3.0), share = 0.25 / (columns * rows);
     const Group& group = model.groups[0];
     const Eigen::MatrixXd natural = point_places(group);
     for (int e = 0; e < group.elements(); ++e)
       for (int p = 0; p < 4; ++p) {
-        const double i = e % columns, j = e / columns;
+        const int i = e % columns, j = e / columns;
         run_->points.push_back({(i + 0.5 + gauss * natural(0, p)) / columns,
                                 (j + 0.5 + gauss * natural(1, p)) / rows, share, at_corner(i, j)});
       }
@@ -262,7 +254,7 @@ const std::vector<double>& State::values(Quantity quantity) const {
     case Quantity::joint_level:
       return joint_level;
     default:
-      return at_nodes.at(static_cast<std::size_t>(quantity) - static_cast<std::size_t>(Quantity::sigma_r));
+      return at_elements.at(static_cast<std::size_t>(quantity) - static_cast<std::size_t>(Quantity::sigma_r));
   }
 }
 

@@ -46,24 +46,24 @@ struct Spot {
 
 // What figures show at one strain.  Compression positive, psi.
 struct State {
-  double strain = 0.0;                        // percent
-  std::vector<std::vector<double>> at_nodes;  // by Quantity from sigma_r (first) to conf, of every node
-  std::vector<double> level;                  // of every point of the specimen; no more than 1
+  double strain = 0.0;                           // percent
+  std::vector<std::vector<double>> at_elements;  // by Quantity from sigma_r (first) to conf: of its mean stress
+  std::vector<double> level;                     // of every point of the specimen; no more than 1
   std::vector<double> joint_normal, joint_shear, joint_level;  // of every point of the interface
 
   const std::vector<double>& values(Quantity quantity) const;
 };
 
-// Everything that is kept of a run.  Nodes run along r first, from the axis, then up.
+// Everything that is kept of a run.  Elements run along r first, from the axis, then up.
 struct SpecimenRun {
   const Scene* scene = nullptr;
   Elements elements = Elements::full;
   double k_j = 0.0;  // of the lubricated platen
   int columns = 0, rows = 0;
-  std::vector<Spot> nodes, points;
-  std::vector<double> joint_r;   // in
-  std::vector<double> strain;    // percent, of every increment
-  std::vector<double> measured;  // deviator stress, force / area - cell pressure, psi
+  std::vector<Spot> cells, points;  // elements, integration points
+  std::vector<double> joint_r;      // in
+  std::vector<double> strain;       // percent, of every increment
+  std::vector<double> measured;     // deviator stress, force / area - cell pressure, psi
   std::vector<double> joint_most,
       yielded;  // largest stress level of the interface; share of the points that yield
   std::vector<State> states;

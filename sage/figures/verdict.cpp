@@ -69,7 +69,7 @@ bool fails_swapped(const Check& check, const Variant& variant, const std::string
   const bool joint = check.measure == Measure::joint_most || check.measure == Measure::joint_most_ever;
   if (joint && run.joint_r.empty()) return false;
   if (check.b.scene != nullptr && check.a.quantity != Quantity::none &&
-      run.nodes.size() != variant.run(check.b.scene).nodes.size())
+      run.cells.size() != variant.run(check.b.scene).cells.size())
     return false;
   return !passes(check, variant.number(check, run));
 }
