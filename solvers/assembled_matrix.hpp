@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "sage/core/large_pages.hpp"
 #include "sage/core/linear_solver.hpp"
 #include "solvers/equation_graph.hpp"
 
@@ -53,8 +54,9 @@ class AssembledMatrix {
   bool symmetric_ = false;
   bool assembled_ = false;  // something has been added
   ElementEquations elements_;
-  std::vector<int> column_start_{0}, row_;
-  std::vector<double> value_;  // one more than stored terms: the last takes what belongs to prescribed dofs
+  std::vector<int> column_start_{0};
+  LargeVector<int> row_;
+  LargeVector<double> value_;  // one more than stored terms: the last takes what belongs to prescribed dofs
   // Slots of element e: slot_[slot_start_[e]] ..., all terms column by column, or the upper triangle only.
   std::vector<std::int64_t> slot_start_;
   std::vector<int> slot_;

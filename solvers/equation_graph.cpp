@@ -46,6 +46,7 @@ void group_equations(const IndexLists& elements_of, int elements, int inner, Equ
 IndexLists groups_of_elements(const ElementEquations& elements, const std::vector<int>& group_of, int groups) {
   IndexLists lists;
   lists.start.reserve(at(elements.count()) + 1);
+  lists.item.reserve(elements.equations.size());
   std::vector<int> seen_in(at(groups), -1);
   for (int element = 0; element < elements.count(); ++element) {
     for (const int equation : elements.of(element)) {

@@ -201,36 +201,41 @@ void set_local(const FrontTree& tree, const Front& front, std::vector<int>& loca
     local[at(tree.border[at(front.border_begin + k)])] = front.pivot_tiles * kTile + k;
 }
 
-void map_entries(const AssembledMatrix& matrix, FrontTree& tree) {
-  std::vector<int> front_of(tree.order.size());
+// Lists the matrix's entries by the fronts that take them.  In the place of an entry's target stands its column.
+void list_entries(const AssembledMatrix& matrix, FrontTree& tree) {
+  std::vector<int> front_of(tree.order.size());  // of each equation
   for (std::size_t f = 0; f < tree.fronts.size(); ++f)
     for (int k = 0; k < tree.fronts[f].pivots; ++k)
-      front_of[at(tree.fronts[f].first + k)] = static_cast<int>(f);
+      front_of[at(tree.order[at(tree.fronts[f].first + k)])] = static_cast<int>(f);
   const auto visit = [&](auto&& use) {
-    for (int column = 0; column < matrix.equations(); ++column)
-      for (int k = matrix.column_start()[at(column)]; k < matrix.column_start()[at(column) + 1]; ++k) {
-        const int i = tree.position[at(matrix.row()[at(k)])], j = tree.position[at(column)];
-        use(front_of[at(std::min(i, j))], k, i, j);
-      }
+    for (int column = 0; column < matrix.equations(); ++column) {
+      const int own = front_of[at(column)];  // fronts stand in the order of elimination
+      for (int k = matrix.column_start()[at(column)]; k < matrix.column_start()[at(column) + 1]; ++k)
+        use(std::min(own, front_of[at(matrix.row()[at(k)])]), k, column);
+    }
   };
   tree.entry_start.assign(tree.fronts.size() + 1, 0);
-  visit([&](int f, int, int, int) { ++tree.entry_start[at(f) + 1]; });
+  visit([&](int f, int, int) { ++tree.entry_start[at(f) + 1]; });
   for (std::size_t f = 1; f < tree.entry_start.size(); ++f) tree.entry_start[f] += tree.entry_start[f - 1];
   tree.entry_source.resize(matrix.row().size());
   tree.entry_target.resize(matrix.row().size());
   std::vector<int> end(tree.entry_start.begin(), tree.entry_start.end() - 1);
-  std::vector<std::array<int, 2>> ends(matrix.row().size());
-  visit([&](int f, int k, int i, int j) {
+  visit([&](int f, int k, int column) {
     const auto slot = at(end[at(f)]++);
     tree.entry_source[slot] = k;
-    ends[slot] = {i, j};
+    tree.entry_target[slot] = column;
   });
+}
+
+void map_entries(const AssembledMatrix& matrix, FrontTree& tree) {
+  list_entries(matrix, tree);
   std::vector<int> local(tree.order.size());
   for (std::size_t f = 0; f < tree.fronts.size(); ++f) {
     const Front& front = tree.fronts[f];
     set_local(tree, front, local);
     for (auto s = at(tree.entry_start[f]); s < at(tree.entry_start[f + 1]); ++s) {
-      int i = local[at(ends[s][0])], j = local[at(ends[s][1])];
+      const int row = matrix.row()[at(tree.entry_source[s])], column = tree.entry_target[s];
+      int i = local[at(tree.position[at(row)])], j = local[at(tree.position[at(column)])];
       if (matrix.symmetric() && i > j) std::swap(i, j);
       tree.entry_target[s] = static_cast<int>(arm_target(front, i, j));
     }
@@ -252,9 +257,9 @@ std::int64_t arm_target(const Front& front, int i, int j) {
 }
 
 FrontTree make_front_tree(const EquationGraph& graph, const AssembledMatrix& matrix, int leaf_equations,
-                          int border) {
+                          int border, int threads) {
   FrontTree fronts;
-  const SeparatorTree tree = nested_dissection(graph, leaf_equations, border);
+  const SeparatorTree tree = nested_dissection(graph, leaf_equations, border, threads);
   if (border > 0) fronts.kept = tree.groups.count() - 1;
   number_equations(graph, tree, fronts);
   list_children(tree.parent, fronts.children);

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "sage/core/large_pages.hpp"
 #include "solvers/assembled_matrix.hpp"
 #include "solvers/nested_dissection.hpp"
 #include "solvers/tile_kernels.hpp"
@@ -80,8 +81,8 @@ struct FrontTree {
   std::int64_t subtree_terms = 0, shared_terms = 0;  // of the workspaces
 
   // Terms of the assembled matrix that front f takes: entries entry_start[f] .. entry_start[f + 1] - 1.
-  std::vector<int> entry_start, entry_source;
-  std::vector<int> entry_target;  // term within the arms of its front
+  std::vector<int> entry_start;
+  LargeVector<int> entry_source, entry_target;  // target: term within the arms of its front
 };
 
 // Of the pair of pivots i, j of a front, local indices: its term within the arms.  U holds whole tiles of the
@@ -91,6 +92,6 @@ std::int64_t arm_target(const Front& front, int i, int j);
 // border: so many equations, the last ones, stay.  Throws std::length_error where a front has more than 2^31 - 1
 // terms.
 FrontTree make_front_tree(const EquationGraph& graph, const AssembledMatrix& matrix, int leaf_equations,
-                          int border = 0);
+                          int border = 0, int threads = 1);
 
 }  // namespace sage

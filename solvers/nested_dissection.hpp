@@ -19,6 +19,8 @@ struct SeparatorTree {
 // pseudo-diameter, and from the separator above; the smaller balanced separator wins.
 // The groups of the last `border` equations are the last part, and the parent of all that had none: what is before
 // them is divided as if they were not there.
-SeparatorTree nested_dissection(const EquationGraph& graph, int leaf_equations, int border = 0);
+// The tree is the same for any number of threads.
+SeparatorTree nested_dissection(const EquationGraph& graph, int leaf_equations, int border = 0,
+                                int threads = 1);
 
 }  // namespace sage

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdlib>
+#include <new>
+#include <vector>
 
 #ifdef __linux__
 #include <sys/mman.h>
@@ -24,5 +26,25 @@ inline void* allocate_block(std::size_t bytes) {
 #endif
   return p;
 }
+
+// Gives a std::vector such blocks.
+template <class T>
+struct LargePageAllocator {
+  using value_type = T;
+  LargePageAllocator() = default;
+  template <class Other>
+  LargePageAllocator(const LargePageAllocator<Other>&) {}  // NOLINT: containers convert allocators
+  T* allocate(std::size_t count) {
+    void* p = allocate_block(count * sizeof(T));
+    if (p == nullptr) throw std::bad_alloc();
+    return static_cast<T*>(p);
+  }
+  void deallocate(T* p, std::size_t) { std::free(p); }
+  friend bool operator==(const LargePageAllocator&, const LargePageAllocator&) { return true; }
+};
+
+// For lists that grow with the matrix of a large system.
+template <class T>
+using LargeVector = std::vector<T, LargePageAllocator<T>>;
 
 }  // namespace sage

@@ -149,6 +149,29 @@ TEST(NestedDissection, CutsARectangleAcross) {
   EXPECT_LE(tree.groups.of(tree.groups.count() - 1).size(), 22u);
 }
 
+// Large enough that every side of the first two separators is work for a thread; also where two meshes have
+// nothing in common and where the last equations stay.
+TEST(NestedDissection, IsTheSameForAnyNumberOfThreads) {
+  System system = shuffled(q4_mesh({.columns = 150, .rows = 160, .supports = Supports::none}));
+  const int first = system.equations;
+  const System other = q4_mesh({.columns = 90, .rows = 100, .supports = Supports::none});
+  for (int e = 0; e < other.elements.count(); ++e) {
+    for (const int equation : other.elements.of(e)) system.elements.equations.push_back(first + equation);
+    system.elements.offset.push_back(static_cast<std::int64_t>(system.elements.equations.size()));
+  }
+  system.equations += other.equations;
+  for (const int border : {0, 40}) {
+    const EquationGraph graph = make_equation_graph(system.equations, system.elements, border);
+    const SeparatorTree one = nested_dissection(graph, 16, border);
+    for (const int threads : {2, 3, 7}) {
+      const SeparatorTree several = nested_dissection(graph, 16, border, threads);
+      EXPECT_EQ(several.parent, one.parent);
+      EXPECT_EQ(several.groups.start, one.groups.start);
+      EXPECT_EQ(several.groups.item, one.groups.item);
+    }
+  }
+}
+
 TEST(NestedDissection, TakesWhatAllTouchEachOtherAsOnePart) {
   System system;
   system.equations = 60;
