@@ -7,142 +7,23 @@
 #include <cmath>
 #include <iterator>
 #include <map>
-#include <tuple>
+#include <sstream>
 
 #include "sage/draw/colour_map.hpp"
 #include "sage/draw/contour.hpp"
-#include "sage/draw/picture_field.hpp"
+#include "sage/draw/marks.hpp"
 #include "sage/draw/plot.hpp"
-#include "sage/draw/sub_grid.hpp"
+#include "sage/draw/scenery.hpp"
 #include "sage/draw/svg.hpp"
-#include "sage/record/nodal_values.hpp"
 #include "sage/record/values.hpp"
 
 namespace sage {
 
 namespace {
 
-constexpr int kBands = 10, kMostElements = 6000;
-constexpr double kLeft = 70.0, kRight = 130.0, kTop = 108.0, kBottom = 54.0, kLegendText = 70.0;
-
-// Where the deformed mesh stands on the paper.
-struct View {
-  Vector2 low = Vector2::Zero(), high = Vector2::Zero();  // of the deformed and the undeformed mesh
-  double scale = 1.0;                                     // screen units a unit of length
-  double deformation = 0.0;
-  double height = 0.0;  // of the frame
-
-  Vector2 at(const Vector2& x) const {
-    return {kLeft + scale * (x.x() - low.x()), kTop + scale * (high.y() - x.y())};
-  }
-};
-
-double round_down(double value) {
-  const double power = std::pow(10.0, std::floor(std::log10(value)));
-  for (double factor : {5.0, 2.0})
-    if (factor * power <= value) return factor * power;
-  return power;
-}
-
-View make_view(const Model& model, const Solution& s, const NodalLayout& layout,
-               const PictureOptions& options) {
-  View view;
-  if (layout.node.empty()) return view;
-  view.low = view.high = model.mesh.x.col(layout.node.front());
-  double largest = 0.0;
-  for (int node : layout.node) {
-    view.low = view.low.cwiseMin(model.mesh.x.col(node));
-    view.high = view.high.cwiseMax(model.mesh.x.col(node));
-    largest = std::max(largest, s.u->segment<2>(DofMap::displacement(node)).norm());
-  }
-  const double size = (view.high - view.low).maxCoeff();
-  if (options.deformed && largest > 0.0)
-    view.deformation = options.scale > 0.0 ? options.scale : std::max(1.0, round_down(0.05 * size / largest));
-  for (int node : layout.node) {
-    const Vector2 x = model.mesh.x.col(node) + view.deformation * s.u->segment<2>(DofMap::displacement(node));
-    view.low = view.low.cwiseMin(x);
-    view.high = view.high.cwiseMax(x);
-  }
-  const Vector2 room = (view.high - view.low).cwiseMax(1e-6 * size);
-  view.scale = std::min((options.width - kLeft - kRight) / room.x(), 620.0 / room.y());
-  view.height = std::max(view.scale * room.y(), 60.0);
-  return view;
-}
-
-// Everything that a picture is drawn from.
-struct Scenery {
-  const Model& model;
-  const Solution& solution;
-  NodalLayout layout;
-  View view;
-  FieldTable table;  // that the field is of
-  FieldChoice field;
-  FieldParts parts;
-  std::map<std::tuple<const Element*, int, int>, SubGrid> grids = {};  // patches point into them
-
-  bool draws(std::size_t g, ElementKind kind) const {
-    return !layout.of_group[g].empty() && model.groups[g].entry->kind == kind;
-  }
-  Vector2 moved(int node, double deformation) const {
-    return view.at(model.mesh.x.col(node) + deformation * solution.u->segment<2>(DofMap::displacement(node)));
-  }
-  // On the paper: one column a node of the element.
-  Eigen::Matrix2Xd nodes_of(const Group& group, int e, double deformation) const {
-    Eigen::Matrix2Xd at(2, static_cast<Eigen::Index>(group.node_count()));
-    for (Eigen::Index i = 0; i < at.cols(); ++i) at.col(i) = moved(group.nodes_of(e)[i], deformation);
-    return at;
-  }
-};
-
-Scenery make_scenery(const Model& model, const Solution& solution, std::string_view field,
-                     const PictureOptions& options) {
-  Scenery scenery{model, solution, nodal_layout(model, *solution.activity), {}, fields_of(model), {}, {}};
-  scenery.field = picture_field(scenery.table, field);
-  scenery.view = make_view(model, solution, scenery.layout, options);
-  scenery.parts = field_parts(model, solution, scenery.layout, *scenery.field.entry);
-  return scenery;
-}
-
-// The grid that an element of this size on the paper is drawn on.
-const SubGrid& grid_for(Scenery& scenery, const Group& group, const Eigen::Matrix2Xd& nodes) {
-  const Element& element = *group.element;
-  std::array<double, 2> longest{};  // of the sides along xi and along eta
-  const bool triangle = group.entry->triangle();
-  const auto& parents = group.entry->parent_nodes;
-  for (const std::vector<int>& edge : element.edges()) {
-    const auto &a = parents[static_cast<std::size_t>(edge[0])], &b = parents[static_cast<std::size_t>(edge[1])];
-    double& side = longest[triangle || a[1] == b[1] ? 0 : 1];
-    side = std::max(side, (nodes.col(edge[0]) - nodes.col(edge[1])).norm());
-  }
-  const int degree = element.degree();
-  const int xi = sub_grid_cells(longest[0], degree), eta = triangle ? xi : sub_grid_cells(longest[1], degree);
-  const auto [at, added] = scenery.grids.try_emplace({&element, xi, eta});
-  if (added) at->second = sub_grid(group, xi, eta);
-  return at->second;
-}
-
-std::vector<Patch> patches(Scenery& scenery) {
-  std::vector<Patch> result;
-  Eigen::MatrixXd at_nodes;
-  for (std::size_t g = 0; g < scenery.model.groups.size(); ++g) {
-    if (!scenery.draws(g, ElementKind::solid)) continue;
-    const Group& group = scenery.model.groups[g];
-    const int* entry = scenery.layout.of_group[g].data();
-    at_nodes.resize(scenery.parts.components, static_cast<Eigen::Index>(group.node_count()));
-    for (int e = 0; e < group.elements(); ++e, entry += group.node_count()) {
-      for (Eigen::Index i = 0; i < at_nodes.cols(); ++i) at_nodes.col(i) = scenery.parts.at.col(entry[i]);
-      const Eigen::Matrix2Xd nodes = scenery.nodes_of(group, e, scenery.view.deformation);
-      const SubGrid& grid = grid_for(scenery, group, nodes);
-      const Eigen::Matrix2Xd places = nodes * grid.N.transpose();
-      const Eigen::MatrixXd parts = at_nodes * grid.N.transpose();
-      Patch& patch = result.emplace_back(Patch{&grid.cells, {}});
-      for (Eigen::Index p = 0; p < places.cols(); ++p)
-        patch.places.push_back(
-            {places.col(p), field_number(scenery.field, scenery.parts, parts.col(p).data())});
-    }
-  }
-  return result;
-}
+constexpr int kMostElements = 6000;
+constexpr double kBottom = 54.0, kLegendText = 70.0, kLine = 18.0;
+constexpr const char *kInterfaceColour = "#b2182b", *kStructureColour = "#1f4e9c";
 
 // One colour an element: the mean over its grid.
 void flatten(std::vector<Patch>& all) {
@@ -172,11 +53,6 @@ FieldRange range_of(const std::vector<Patch>& all) {
     }
   return range;
 }
-
-// The three lines above a picture.
-struct Heading {
-  std::string title, what, range;
-};
 
 double length(const std::string& text) {
   return static_cast<double>(text.size());
@@ -270,7 +146,8 @@ void draw_interfaces(std::string& out, const Scenery& scenery) {
   }
   if (!path.empty())
     fmt::format_to(std::back_inserter(out),
-                   "<path fill=\"none\" stroke=\"#b2182b\" stroke-width=\"1.8\" d=\"{}\"/>\n", path);
+                   "<path fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\" d=\"{}\"/>\n", kInterfaceColour,
+                   path);
 }
 
 // From end to end.
@@ -284,22 +161,27 @@ void draw_structures(std::string& out, const Scenery& scenery) {
   }
   if (!path.empty())
     fmt::format_to(std::back_inserter(out),
-                   "<path fill=\"none\" stroke=\"#1f4e9c\" stroke-width=\"2.4\" d=\"{}\"/>\n", path);
+                   "<path fill=\"none\" stroke=\"{}\" stroke-width=\"2.4\" d=\"{}\"/>\n", kStructureColour,
+                   path);
 }
 
 void draw_axes(std::string& out, const Scenery& scenery) {
   const View& view = scenery.view;
   const AxisNames names = axis_names(scenery.model.geometry);
   const std::string& unit = scenery.model.units.length;
-  const double bottom = kTop + view.height + 10.0, left = kLeft - 10.0;
+  const double bottom = kPictureTop + view.height + 10.0, left = kPictureLeft - 10.0;
   const double right = view.at(view.high).x();
-  const int across = std::max(2, static_cast<int>((right - kLeft) / 70.0));
+  const int across = std::max(2, static_cast<int>((right - kPictureLeft) / 70.0));
   const std::vector<double> xs = round_ticks(view.low.x(), view.high.x(), across);
   const std::vector<double> ys =
       round_ticks(view.low.y(), view.high.y(), std::max(2, static_cast<int>(view.height / 60.0)));
-  const std::vector<std::string> x_labels = tick_labels(xs), y_labels = tick_labels(ys);
-  svg::line(out, kLeft, bottom, right, bottom, "#666666", 1.0);
-  svg::line(out, left, kTop, left, kTop + view.height, "#666666", 1.0);
+  svg::line(out, kPictureLeft, bottom, right, bottom, "#666666", 1.0);
+  svg::line(out, left, kPictureTop, left, kPictureTop + view.height, "#666666", 1.0);
+  std::vector<std::string> x_labels = tick_labels(xs);
+  const std::vector<std::string> y_labels = tick_labels(ys);
+  if (scenery.model.geometry == Geometry::axisymmetric)  // the left half of a mirrored specimen
+    for (std::string& label : x_labels)
+      if (label.front() == '-') label.erase(0, 1);
   for (std::size_t i = 0; i < xs.size(); ++i) {
     const double x = view.at({xs[i], 0.0}).x();
     svg::line(out, x, bottom, x, bottom + 5.0, "#666666", 1.0);
@@ -310,15 +192,24 @@ void draw_axes(std::string& out, const Scenery& scenery) {
     svg::line(out, left - 5.0, y, left, y, "#666666", 1.0);
     svg::text(out, left - 8.0, y + 4.0, y_labels[i], svg::kFont - 1, "end");
   }
-  svg::text(out, right + 14.0, bottom + 19.0, fmt::format("{} [{}]", names.x, unit), svg::kFont, "start");
-  svg::text(out, 8.0, kTop - 12.0, fmt::format("{} [{}]", names.y, unit), svg::kFont, "start");
+  svg::text(out, 0.5 * (kPictureLeft + right), bottom + 38.0, fmt::format("{} [{}]", names.x, unit), svg::kFont,
+            "middle");
+  svg::text(out, 8.0, kPictureTop - 12.0, fmt::format("{} [{}]", names.y, unit), svg::kFont, "start");
 }
 
-void draw_legend(std::string& out, const std::vector<double>& limits, double left, double height) {
+// Beyond the ends of the scale lies something: a tip in the last colour.
+void draw_tip(std::string& out, double left, double y, double height, const Colour& colour) {
+  fmt::format_to(std::back_inserter(out), "<path fill=\"{}\" d=\"M{:.1f} {:.1f}h20l-10 {:.1f}z\"/>\n",
+                 hex(colour), left, y, height);
+}
+
+// Gives its lower end.
+double draw_legend(std::string& out, const std::vector<double>& limits, double left, double height,
+                   const FieldRange& range) {
   const std::size_t bands = limits.size() - 1;
   const double box = std::clamp(height / static_cast<double>(bands), 16.0, 30.0);
   const std::vector<std::string> labels = tick_labels(limits);
-  const double bottom = kTop + box * static_cast<double>(bands);
+  const double bottom = kPictureTop + box * static_cast<double>(bands);
   for (std::size_t k = 0; k < bands; ++k) {
     const std::string colour = hex(viridis((static_cast<double>(k) + 0.5) / static_cast<double>(bands)));
     fmt::format_to(std::back_inserter(out),
@@ -328,13 +219,294 @@ void draw_legend(std::string& out, const std::vector<double>& limits, double lef
   if (limits.front() == limits.back()) {
     svg::text(out, left + 27.0, bottom - 0.5 * box + 4.0, fmt::format("{:.4g}", limits.front()), svg::kFont,
               "start");
-    return;
+    return bottom;
   }
+  const double slack = 1e-4 * (limits[1] - limits[0]);
+  if (range.high > limits.back() + slack) draw_tip(out, left, kPictureTop, -14.0, viridis(1.0));
+  if (range.low < limits.front() - slack) draw_tip(out, left, bottom, 14.0, viridis(0.0));
   for (std::size_t k = 0; k <= bands; ++k) {
     const double y = bottom - box * static_cast<double>(k);
     svg::line(out, left + 20.0, y, left + 24.0, y, "#444444", 1.0);
     svg::text(out, left + 28.0, y + 4.5, labels[k], svg::kFont, "start");
   }
+  return bottom;
+}
+
+// What the lines of a picture are, where it has any that are no mesh.
+void draw_line_legend(std::string& out, const Scenery& scenery, double left, double top) {
+  struct Sample {
+    ElementKind kind;
+    const char *name, *colour;
+    double width;
+  };
+  static constexpr Sample kSamples[] = {{ElementKind::interface, "interface", kInterfaceColour, 1.8},
+                                        {ElementKind::structure, "structure", kStructureColour, 2.4}};
+  double y = top;
+  for (const Sample& sample : kSamples) {
+    bool drawn = false;
+    for (std::size_t g = 0; g < scenery.model.groups.size(); ++g)
+      drawn = drawn || scenery.draws(g, sample.kind);
+    if (!drawn) continue;
+    svg::line(out, left, y, left + 20.0, y, sample.colour, sample.width);
+    svg::text(out, left + 28.0, y + 4.5, sample.name, svg::kFont, "start");
+    y += kLine;
+  }
+}
+
+// A value with the area on the paper that has it.
+struct Weighted {
+  double value, area;
+};
+
+void append_values(std::vector<Weighted>& values, const std::vector<Patch>& all) {
+  for (const Patch& patch : all) {
+    double twice = 0.0;
+    const std::vector<Corner> outline = polygon_of(patch, patch.grid->outline);
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const Vector2 &a = outline[i].at, &b = outline[(i + 1) % outline.size()].at;
+      twice += a.x() * b.y() - a.y() * b.x();
+    }
+    const double area = 0.5 * std::abs(twice) / static_cast<double>(patch.places.size());
+    for (const Corner& c : patch.places)
+      if (!std::isnan(c.value)) values.push_back({c.value, area});
+  }
+}
+
+// The colours' range: an end moves in to what 99 % of the area has, where the rest would take a third of them.
+FieldRange colour_range(std::vector<Weighted> values, bool robust) {
+  constexpr double kRare = 0.01, kTakesMuch = 0.5, kOneValue = 1e-7;
+  if (values.empty()) return {0.0, 0.0};  // no solid, or known nowhere
+  std::ranges::sort(values, {}, &Weighted::value);
+  FieldRange range{values.front().value, values.back().value};
+  if (!robust || range.high - range.low <= kOneValue * std::max(std::abs(range.low), std::abs(range.high)))
+    return range;
+  double all = 0.0, below = 0.0;
+  for (const Weighted& v : values) all += v.area;
+  FieldRange usual{range.high, range.high};
+  for (const Weighted& v : values) {
+    below += v.area;
+    if (below >= kRare * all) usual.low = std::min(usual.low, v.value);
+    if (below < (1.0 - kRare) * all) continue;
+    usual.high = v.value;
+    break;
+  }
+  const double far = kTakesMuch * (usual.high - usual.low);
+  if (far <= kOneValue * (range.high - range.low)) return range;  // nothing to see but what is rare
+  if (range.high - usual.high > far) range.high = usual.high;
+  if (usual.low - range.low > far) range.low = usual.low;
+  return range;
+}
+
+// A picture without its colours.
+struct Draft {
+  PictureOptions options;
+  Scenery scenery;
+  std::vector<Patch> patches;
+  std::vector<Weighted> values = {};
+};
+
+Draft make_draft(const Model& model, const Solution& solution, std::string_view field,
+                 const PictureOptions& options) {
+  Draft draft{options, make_scenery(model, solution, field, options), {}};
+  draft.patches = patches(draft.scenery);
+  append_values(draft.values, draft.patches);
+  return draft;
+}
+
+std::vector<double> limits_of(const PictureOptions& options, const FieldRange& range) {
+  return band_limits(std::isnan(options.low) ? range.low : options.low,
+                     std::isnan(options.high) ? range.high : options.high, options.levels);
+}
+
+// "from 1 to 20; colours end at 8: 0.3 % of the area lies beyond".
+std::string range_text(const Draft& draft, const std::vector<double>& limits) {
+  const FieldRange range = range_of(draft.patches);
+  std::string text = range.low <= range.high ? fmt::format("from {:.4g} to {:.4g}", range.low, range.high)
+                                             : std::string("from 0 to 0");
+  const double slack = 1e-4 * (limits[1] - limits[0]);
+  const bool below = range.low<limits.front() - slack, above = range.high> limits.back() + slack;
+  double all = 0.0, beyond = 0.0;
+  for (const Weighted& v : draft.values) {
+    all += v.area;
+    if (v.value < limits.front() - slack || v.value > limits.back() + slack) beyond += v.area;
+  }
+  if (below || above)
+    text += fmt::format("; colours end at {}: {:.2g} % of the area lies beyond",
+                        below && above ? fmt::format("{:.4g} and {:.4g}", limits.front(), limits.back())
+                                       : fmt::format("{:.4g}", below ? limits.front() : limits.back()),
+                        100.0 * beyond / all);
+  if (draft.scenery.view.deformation > 0.0)
+    text += fmt::format("; deformation x {:g}", draft.scenery.view.deformation);
+  return text;
+}
+
+// Lines of words that are no wider than `room`, px.
+std::vector<std::string> wrapped(const std::string& words, double width_of_one, double room) {
+  std::vector<std::string> lines{""};
+  std::istringstream stream(words);
+  for (std::string word; stream >> word;) {
+    std::string& line = lines.back();
+    if (line.empty())
+      line = word;
+    else if (width_of_one * (length(line) + 1.0 + length(word)) <= room)
+      line += " " + word;
+    else
+      lines.push_back(word);
+  }
+  return lines;
+}
+
+// The words above a picture: the title in bold.
+struct Heading {
+  std::vector<std::string> title, text;
+  std::size_t lines() const { return title.size() + text.size(); }
+};
+
+constexpr double kBold = 0.64 * svg::kTitleFont, kPlain = 0.56 * svg::kFont;  // width of a letter
+
+Heading heading_of(const Draft& draft, const std::vector<double>& limits, double room) {
+  const Model& model = draft.scenery.model;
+  const PictureOptions& options = draft.options;
+  Heading heading{wrapped(options.title.empty() ? model.title : options.title, kBold, room), {}};
+  const std::string what =
+      (options.state.empty() ? "" : options.state + ": ") + describe(draft.scenery.field, model);
+  for (const std::string& words : {what, range_text(draft, limits)})
+    for (std::string& line : wrapped(words, kPlain, room)) heading.text.push_back(std::move(line));
+  return heading;
+}
+
+double width_of(const Heading& heading) {
+  double width = 0.0;
+  for (const std::string& line : heading.title) width = std::max(width, 16.0 + kBold * length(line));
+  for (const std::string& line : heading.text) width = std::max(width, 16.0 + kPlain * length(line));
+  return width;
+}
+
+// A part of a document, with its size.
+struct Drawing {
+  std::string svg;
+  double width = 0.0, height = 0.0;
+};
+
+double legend_left(const View& view) {
+  return std::max(view.at(view.high).x() + 36.0, kPictureLeft + 120.0);
+}
+
+// The mesh with all that lies on it; `notes` get what explains it.
+std::string draw_mesh_and_field(Draft& draft, const std::vector<double>& limits,
+                                std::vector<std::string>& notes) {
+  std::string out;
+  Scenery& scenery = draft.scenery;
+  const PictureOptions& options = draft.options;
+  draw_bands(out, draft.patches, limits);
+  if (options.mesh && draft.patches.size() <= kMostElements) draw_mesh(out, draft.patches);
+  if (scenery.view.deformation > 0.0) draw_outline(out, scenery);
+  draw_interfaces(out, scenery);
+  draw_structures(out, scenery);
+  if (options.yielded) notes.push_back(draw_yielded(out, scenery));
+  if (options.crosses) notes.push_back(draw_crosses(out, scenery));
+  if (options.arrows) notes.push_back(draw_arrows(out, scenery));
+  return out;
+}
+
+// The drawing once, and its reflections; `name` is the only one of the document.
+void append_mirrored(std::string& out, const std::string& drawing, const View& view,
+                     const PictureOptions& options, const std::string& name) {
+  if (!options.mirror_left && !options.mirror_down) {
+    out += drawing;
+    return;
+  }
+  const Vector2 at = view.at({view.left, view.bottom});
+  out += "<g id=\"" + name + "\">\n" + drawing + "</g>\n";
+  for (const auto& [left, down] : {std::pair{true, false}, {false, true}, {true, true}}) {
+    if ((left && !options.mirror_left) || (down && !options.mirror_down)) continue;
+    fmt::format_to(
+        std::back_inserter(out),
+        "<use href=\"#{0}\" xlink:href=\"#{0}\" transform=\"matrix({1} 0 0 {2} {3:.2f} {4:.2f})\"/>\n", name,
+        left ? -1 : 1, down ? -1 : 1, left ? 2.0 * at.x() : 0.0, down ? 2.0 * at.y() : 0.0);
+  }
+}
+
+// `heading_lines`: room for that many, so that panels beside one another stand at one height.
+Drawing draw_picture(Draft& draft, const std::vector<double>& limits, const Heading& heading,
+                     std::size_t heading_lines, const std::string& name) {
+  const View& view = draft.scenery.view;
+  if (!draft.options.smooth) flatten(draft.patches);
+  snap(draft.patches, limits);
+  std::vector<std::string> notes;
+  const std::string mesh = draw_mesh_and_field(draft, limits, notes);
+  Drawing drawing;
+  const double legend = legend_left(view),
+               down = kLine * (static_cast<double>(std::max<std::size_t>(heading_lines, 3)) - 3.0);
+  drawing.width = std::max(legend + 28.0 + kLegendText, width_of(heading));
+  std::string& out = drawing.svg;
+  double y = 24.0;
+  for (const std::string& line : heading.title) {
+    svg::text(out, 8.0, y, line, svg::kTitleFont, "start", "font-weight=\"bold\"");
+    y += kLine + 2.0;
+  }
+  for (const std::string& line : heading.text) {
+    svg::text(out, 8.0, y + 2.0, line, svg::kFont, "start");
+    y += kLine;
+  }
+  fmt::format_to(std::back_inserter(out), "<g transform=\"translate(0 {:.1f})\">\n", down);
+  append_mirrored(out, mesh, view, draft.options, name);
+  draw_axes(out, draft.scenery);
+  const double bar = draw_legend(out, limits, legend, view.height, range_of(draft.patches));
+  draw_line_legend(out, draft.scenery, legend, bar + 26.0);
+  double bottom = std::max(kPictureTop + view.height + kBottom, bar + 66.0);
+  for (const std::string& note : notes)
+    if (!note.empty()) {
+      svg::text(out, 8.0, bottom + 6.0, note, svg::kFont, "start");
+      drawing.width = std::max(drawing.width, 16.0 + kPlain * length(note));
+      bottom += kLine;
+    }
+  out += "</g>\n";
+  drawing.height = bottom + down;
+  return drawing;
+}
+
+// One range for all panels of a field, or one each.
+std::vector<std::vector<double>> limits_of_panels(const FieldSheet& sheet, const std::vector<Draft>& drafts) {
+  std::vector<std::vector<double>> limits;
+  for (std::size_t k = 0; k < drafts.size(); ++k) {
+    std::vector<Weighted> values;
+    for (std::size_t j = 0; j < drafts.size(); ++j)
+      if (j == k || (sheet.one_scale && sheet.panels[j].field == sheet.panels[k].field))
+        values.insert(values.end(), drafts[j].values.begin(), drafts[j].values.end());
+    limits.push_back(limits_of(sheet.look, colour_range(std::move(values), sheet.look.robust)));
+  }
+  return limits;
+}
+
+// Rows of at most `columns`, or of what stands side by side in `most` px.
+struct Grid {
+  std::vector<std::size_t> row;  // of each drawing
+  std::vector<Vector2> at;       // its upper left corner
+  double width = 0.0, height = 0.0;
+};
+
+Grid grid_of(const std::vector<Drawing>& drawings, int columns, double top) {
+  constexpr double kMostWidth = 1400.0, kGap = 12.0;
+  Grid grid;
+  double x = 0.0, y = top, row_height = 0.0;
+  int in_row = 0;
+  for (const Drawing& drawing : drawings) {
+    const bool full = columns > 0 ? in_row == columns : in_row > 0 && x + drawing.width > kMostWidth;
+    if (full) {
+      x = 0.0;
+      y += row_height;
+      row_height = 0.0;
+      in_row = 0;
+    }
+    grid.at.emplace_back(x, y);
+    x += drawing.width + kGap;
+    row_height = std::max(row_height, drawing.height);
+    grid.width = std::max(grid.width, x - kGap);
+    ++in_row;
+  }
+  grid.height = y + row_height;
+  return grid;
 }
 
 }  // namespace
@@ -347,40 +519,43 @@ FieldRange field_range(const Model& model, const Solution& solution, std::string
 
 std::string field_svg(const Model& model, const Solution& solution, std::string_view field,
                       const PictureOptions& options) {
-  Scenery scenery = make_scenery(model, solution, field, options);
-  std::vector<Patch> all = patches(scenery);
-  FieldRange range = range_of(all);
-  if (!(range.low <= range.high)) range = {0.0, 0.0};  // no solid, or known nowhere
-  const auto [lowest, highest] = range;
-  const std::vector<double> limits = band_limits(std::isnan(options.low) ? lowest : options.low,
-                                                 std::isnan(options.high) ? highest : options.high, kBands);
-  if (!options.smooth) flatten(all);
-  snap(all, limits);
+  Draft draft = make_draft(model, solution, field, options);
+  const std::vector<double> limits = limits_of(options, colour_range(draft.values, options.robust));
+  const Heading heading = heading_of(draft, limits, 2.0 * options.width);
+  const Drawing drawing = draw_picture(draft, limits, heading, heading.lines(), "half");
+  return svg::open(static_cast<int>(drawing.width), static_cast<int>(drawing.height)) + drawing.svg +
+         std::string(svg::kClose);
+}
 
-  const View& view = scenery.view;
-  const Heading words{
-      options.title.empty() ? model.title : options.title,
-      (options.state.empty() ? "" : options.state + ": ") + describe(scenery.field, model),
-      fmt::format("from {:.4g} to {:.4g}", lowest, highest) +
-          (view.deformation > 0.0 ? fmt::format("; deformation x {:g}", view.deformation) : "")};
-  const double legend = std::max(view.at(view.high).x() + 36.0, kLeft + 120.0);
-  const double width =
-      std::max({legend + 28.0 + kLegendText, 16.0 + 0.64 * svg::kTitleFont * length(words.title),
-                16.0 + 0.56 * svg::kFont * length(words.what)});
-  const double height = kTop + std::max(view.height, 16.0 * static_cast<double>(limits.size())) + kBottom;
-  std::string out = svg::open(static_cast<int>(width), static_cast<int>(height));
-  svg::text(out, 8.0, 24.0, words.title, svg::kTitleFont, "start", "font-weight=\"bold\"");
-  svg::text(out, 8.0, 46.0, words.what, svg::kFont, "start");
-  svg::text(out, 8.0, 64.0, words.range, svg::kFont, "start");
-  draw_bands(out, all, limits);
-  if (options.mesh && all.size() <= kMostElements) draw_mesh(out, all);
-  if (view.deformation > 0.0) draw_outline(out, scenery);
-  draw_interfaces(out, scenery);
-  draw_structures(out, scenery);
-  draw_axes(out, scenery);
-  draw_legend(out, limits, legend, view.height);
-  out += svg::kClose;
-  return out;
+std::string sheet_svg(const FieldSheet& sheet) {
+  std::vector<Draft> drafts;
+  drafts.reserve(sheet.panels.size());
+  for (const FieldPanel& panel : sheet.panels) {
+    PictureOptions options = sheet.look;
+    options.title = panel.title;
+    options.state = panel.state;
+    drafts.push_back(make_draft(*panel.model, panel.solution, panel.field, options));
+  }
+  const std::vector<std::vector<double>> limits = limits_of_panels(sheet, drafts);
+  constexpr double kLeastRoom = 300.0;
+  std::vector<Heading> headings;
+  std::size_t lines = 0;
+  for (std::size_t k = 0; k < drafts.size(); ++k) {
+    const double room = std::max(legend_left(drafts[k].scenery.view) + kLegendText, kLeastRoom);
+    lines = std::max(lines, headings.emplace_back(heading_of(drafts[k], limits[k], room)).lines());
+  }
+  std::vector<Drawing> drawings;
+  for (std::size_t k = 0; k < drafts.size(); ++k)
+    drawings.push_back(draw_picture(drafts[k], limits[k], headings[k], lines, fmt::format("half{}", k + 1)));
+  const double top = sheet.title.empty() ? 0.0 : 36.0;
+  const Grid grid = grid_of(drawings, sheet.columns, top);
+  const double width = std::max(grid.width, 16.0 + kBold * length(sheet.title));
+  std::string out = svg::open(static_cast<int>(width), static_cast<int>(grid.height));
+  if (top > 0.0) svg::text(out, 8.0, 26.0, sheet.title, svg::kTitleFont, "start", "font-weight=\"bold\"");
+  for (std::size_t k = 0; k < drawings.size(); ++k)
+    out += fmt::format("<g transform=\"translate({:.1f} {:.1f})\">\n{}</g>\n", grid.at[k].x(), grid.at[k].y(),
+                       drawings[k].svg);
+  return out + std::string(svg::kClose);
 }
 
 Pictures::Pictures(std::filesystem::path folder, std::string stem, std::vector<std::string> fields,

@@ -1,4 +1,4 @@
-// The mesh with a field as an SVG picture, without libraries.
+// The mesh with a field as an SVG picture, without libraries; several of them on one sheet.
 #pragma once
 
 #include <limits>
@@ -21,7 +21,16 @@ struct PictureOptions {
   double scale =
       0.0;           // of the displacements; 0 = such that the largest is about 5 % of the mesh, but at least 1
   bool mesh = true;  // element edges (never above 6000 elements)
-  bool smooth = true;                                     // contour bands; false = one colour an element
+  int levels = 10;   // bands of colour, about
+  // Colours leave out what is rare and far off (a singular corner); the picture then says so.  false = the whole
+  // range of the field.
+  bool robust = true;
+  // The other halves of a symmetric model: to the left of its left side, below its lower side.
+  bool mirror_left = false, mirror_down = false;
+  bool arrows = false;   // displacements of nodes
+  bool crosses = false;  // principal stresses in the plane, at integration points
+  bool yielded = false;  // integration points, those that yield (slip, are open) full
+  bool smooth = true;    // contour bands; false = one colour an element
   double low = std::numeric_limits<double>::quiet_NaN();  // range of the colours; NaN = that of the field
   double high = std::numeric_limits<double>::quiet_NaN();
 };
@@ -39,6 +48,26 @@ FieldRange field_range(const Model& model, const Solution& solution, std::string
 // Interfaces are dark red lines.
 std::string field_svg(const Model& model, const Solution& solution, std::string_view field,
                       const PictureOptions& options = {});
+
+// One of several pictures; model and what the solution refers to must outlive it.
+struct FieldPanel {
+  const Model* model = nullptr;
+  Solution solution;
+  std::string field;
+  std::string title = {};  // empty = the model's
+  std::string state = {};  // before the name of the field
+};
+
+struct FieldSheet {
+  std::string title;
+  std::vector<FieldPanel> panels;
+  int columns = 0;        // 0 = as many as stand side by side in about 1400 px
+  bool one_scale = true;  // of the colours of all panels that show the same field
+  PictureOptions look{};  // of each; title and state are those of the panels
+};
+
+// A whole SVG document.
+std::string sheet_svg(const FieldSheet& sheet);
 
 // STEM_stage1_stress_yy.svg, ... at the end of every stage and at a failure (STEM_stage1_failed_...).
 class Pictures final : public Output {

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 
 #include "sage/draw/colour_map.hpp"
 #include "sage/draw/svg.hpp"
@@ -47,13 +49,27 @@ struct Ticks {
   std::vector<std::string> labels;
 };
 
-Ticks ticks_of(const Axis& axis) {
+// About 0.56 of the font size a character: enough to keep labels apart.
+double text_width(std::string_view words, int size) {
+  return 0.56 * size * static_cast<double>(words.size());
+}
+
+// About `count` of them, less where their labels would touch along an axis that runs across the paper.
+Ticks linear_ticks(const Axis& axis, bool across) {
   Ticks ticks;
-  if (!axis.log) {
-    ticks.values = round_ticks(axis.low, axis.high, 6);
+  for (int count = 6; count > 0; --count) {
+    ticks.values = round_ticks(axis.low, axis.high, count);
     ticks.labels = tick_labels(ticks.values);
-    return ticks;
+    if (!across || ticks.values.size() < 2) break;
+    double widest = 0.0;
+    for (const std::string& label : ticks.labels) widest = std::max(widest, text_width(label, svg::kFont));
+    if (widest + 10.0 < axis.at(ticks.values[1]) - axis.at(ticks.values[0])) break;
   }
+  return ticks;
+}
+
+Ticks log_ticks(const Axis& axis) {
+  Ticks ticks;
   const bool narrow = axis.high - axis.low < 1.5;  // decades alone would be too few
   const bool plain = axis.low > -3.5 && axis.high < 4.5;
   const int step = std::max(1, static_cast<int>((axis.high - axis.low) / 8.0));
@@ -68,39 +84,102 @@ Ticks ticks_of(const Axis& axis) {
   return ticks;
 }
 
-// About 0.56 of the font size a character: enough to keep labels apart.
-double text_width(std::string_view words, int size) {
-  return 0.56 * size * static_cast<double>(words.size());
+Ticks ticks_of(const Axis& axis, bool across) {
+  return axis.log ? log_ticks(axis) : linear_ticks(axis, across);
 }
 
-void draw_axes(std::string& out, const Plot& plot, const Axis& x, const Axis& y, const Ticks& xs,
-               const Ticks& ys) {
+// A size at which the words take no more than `room`, but not below what can be read.
+int fitting(std::string_view words, int size, double room) {
+  constexpr int kLeast = 9;
+  while (size > kLeast && text_width(words, size) > room) --size;
+  return size;
+}
+
+// A plot with its place on the paper.
+struct Panel {
+  const Plot& plot;
+  Axis x, y;
+  Ticks xs, ys;
+  double label_left = 0.0;  // baseline of the words at the y axis
+};
+
+Panel make_panel(const Plot& plot, double left, double top, double width, double height) {
+  Panel panel{plot, {}, {}, {}, {}};
+  Axis &x = panel.x, &y = panel.y;
+  x.log = plot.log_x;
+  y.log = plot.log_y;
+  for (const PlotSeries& series : plot.series)
+    for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i)
+      if (x.shows(series.x[i]) && y.shows(series.y[i])) {
+        x.include(series.x[i]);
+        y.include(series.y[i]);
+      }
+  x.finish();
+  y.finish();
+  panel.ys = ticks_of(y, false);
+  double widest = 0.0;
+  for (const std::string& label : panel.ys.labels) widest = std::max(widest, text_width(label, svg::kFont));
+  panel.label_left = left + 22.0;
+  x.from = left + 46.0 + widest;
+  x.to = left + width - 20.0;
+  y.from = top + height - 58.0;
+  y.to = top + (plot.title.empty() ? 16.0 : 44.0);
+  panel.xs = ticks_of(x, true);
+  return panel;
+}
+
+void draw_axes(std::string& out, const Panel& panel) {
+  const auto& [plot, x, y, xs, ys, label_left] = panel;
   for (std::size_t i = 0; i < xs.values.size(); ++i) {
     const double at = x.at(xs.values[i]);
     svg::line(out, at, y.from, at, y.to, "#e3e3e3", 1.0);
     svg::line(out, at, y.from, at, y.from + 5.0, "#444444", 1.0);
     svg::text(out, at, y.from + 20.0, xs.labels[i], svg::kFont, "middle");
   }
-  double widest = 0.0;
   for (std::size_t i = 0; i < ys.values.size(); ++i) {
     const double at = y.at(ys.values[i]);
     svg::line(out, x.from, at, x.to, at, "#e3e3e3", 1.0);
     svg::line(out, x.from - 5.0, at, x.from, at, "#444444", 1.0);
     svg::text(out, x.from - 9.0, at + 4.5, ys.labels[i], svg::kFont, "end");
-    widest = std::max(widest, text_width(ys.labels[i], svg::kFont));
   }
   fmt::format_to(
       std::back_inserter(out),
       "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" stroke=\"#444444\"/>\n",
       x.from, y.to, x.to - x.from, y.from - y.to);
-  svg::text(out, 0.5 * (x.from + x.to), y.from + 42.0, plot.x_label, svg::kFont, "middle");
-  const double left = x.from - widest - 24.0, middle = 0.5 * (y.from + y.to);
-  svg::text(out, left, middle, plot.y_label, svg::kFont, "middle",
-            fmt::format("transform=\"rotate(-90 {:.1f} {:.1f})\"", left, middle));
-  svg::text(out, 0.5 * (x.from + x.to), 28.0, plot.title, svg::kTitleFont, "middle", "font-weight=\"bold\"");
+  const double across = x.to - x.from, centre = 0.5 * (x.from + x.to), middle = 0.5 * (y.from + y.to);
+  svg::text(out, centre, y.from + 42.0, plot.x_label, fitting(plot.x_label, svg::kFont, across), "middle");
+  svg::text(out, label_left, middle, plot.y_label, fitting(plot.y_label, svg::kFont, y.from - y.to + 60.0),
+            "middle", fmt::format("transform=\"rotate(-90 {:.1f} {:.1f})\"", label_left, middle));
+  svg::text(out, centre, y.to - 16.0, plot.title, fitting(plot.title, svg::kTitleFont, across), "middle",
+            "font-weight=\"bold\"");
 }
 
-void draw_series(std::string& out, const PlotSeries& series, const Axis& x, const Axis& y, const char* colour) {
+// About its middle, 4 px each way; every other one is hollow, so that they differ in grey.
+void draw_marker(std::string& out, double x, double y, const LineStyle& style) {
+  static constexpr std::array<const char*, 7> kShapes{
+      "M-3.5 0a3.5 3.5 0 1 0 7 0a3.5 3.5 0 1 0 -7 0z",
+      "M-3.3 -3.3H3.3V3.3H-3.3z",
+      "M0 -4.4L4.2 3.2H-4.2z",
+      "M0 -4.8L4.8 0L0 4.8L-4.8 0z",
+      "M-3.8 -3.8L3.8 3.8M-3.8 3.8L3.8 -3.8",
+      "M0 4.4L4.2 -3.2H-4.2z",
+      "M0 -4.6V4.6M-4.6 0H4.6",
+  };
+  const bool hollow = style.marker % 2 == 1;
+  fmt::format_to(std::back_inserter(out),
+                 "<path transform=\"translate({:.1f} {:.1f})\" d=\"{}\" fill=\"{}\" stroke=\"{}\" "
+                 "stroke-width=\"1.5\"/>\n",
+                 x, y, kShapes[static_cast<std::size_t>(style.marker)], hollow ? "#ffffff" : style.colour,
+                 style.colour);
+}
+
+std::string dashes_of(const PlotSeries& series, const LineStyle& style) {
+  const std::string dashes = series.dashed ? "7 5" : style.dashes;
+  return dashes.empty() ? "" : "stroke-dasharray=\"" + dashes + "\"";
+}
+
+void draw_series(std::string& out, const PlotSeries& series, const Axis& x, const Axis& y,
+                 const LineStyle& style) {
   const std::size_t count = std::min(series.x.size(), series.y.size());
   std::string path, marks;
   bool pen_down = false;
@@ -115,39 +194,98 @@ void draw_series(std::string& out, const PlotSeries& series, const Axis& x, cons
     path += ' ';
     svg::number(path, py);
     pen_down = true;
-    if (series.markers)
-      fmt::format_to(std::back_inserter(marks), "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"{}\"/>\n",
-                     px, py, colour);
+    if (series.markers) draw_marker(marks, px, py, style);
   }
   if (series.line && !path.empty())
     fmt::format_to(std::back_inserter(out),
-                   "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"{}/>\n", path, colour,
-                   series.dashed ? " stroke-dasharray=\"7 5\"" : "");
+                   "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\" {}/>\n", path, style.colour,
+                   dashes_of(series, style));
   out += marks;
 }
 
-// Right of the frame, so that it never covers a line.
-void draw_legend(std::string& out, const Plot& plot, double left, double top) {
+// The styles of all series of a sheet: one a name, in the order in which names come.
+class Styles {
+ public:
+  explicit Styles(const std::vector<Plot>& panels) {
+    for (const Plot& panel : panels)
+      for (std::size_t i = 0; i < panel.series.size(); ++i) {
+        const PlotSeries& series = panel.series[i];
+        if (series.style >= 0 || series.name.empty() || of_name_.contains(series.name)) continue;
+        of_name_[series.name] = static_cast<int>(of_name_.size());
+      }
+  }
+  LineStyle of(const Plot& panel, std::size_t i) const {
+    const PlotSeries& series = panel.series[i];
+    if (series.style >= 0) return line_style(series.style);
+    return line_style(series.name.empty() ? static_cast<int>(i) : of_name_.at(series.name));
+  }
+
+ private:
+  std::map<std::string, int> of_name_;
+};
+
+struct LegendRow {
+  const PlotSeries* series;
+  LineStyle style;
+};
+
+std::vector<LegendRow> legend_of(const std::vector<Plot>& panels, const Styles& styles) {
+  std::vector<LegendRow> rows;
+  for (const Plot& panel : panels)
+    for (std::size_t i = 0; i < panel.series.size(); ++i) {
+      const PlotSeries& series = panel.series[i];
+      const auto same = [&](const LegendRow& row) { return row.series->name == series.name; };
+      if (!series.name.empty() && std::ranges::none_of(rows, same))
+        rows.push_back({&series, styles.of(panel, i)});
+    }
+  return rows;
+}
+
+constexpr double kLegendRow = 21.0, kLegendSample = 40.0;
+
+// Beside or below the frames, so that it never covers a line.
+void draw_legend(std::string& out, const std::vector<LegendRow>& rows, double left, double top) {
   double y = top + 10.0;
-  for (std::size_t i = 0; i < plot.series.size(); ++i) {
-    const PlotSeries& series = plot.series[i];
-    if (series.name.empty()) continue;
-    if (series.line)
-      svg::line(out, left, y, left + 26.0, y, line_colour(i), 2.0,
-                series.dashed ? "stroke-dasharray=\"7 5\"" : "");
-    if (series.markers)
-      fmt::format_to(std::back_inserter(out), "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"{}\"/>\n",
-                     left + 13.0, y, line_colour(i));
-    svg::text(out, left + 33.0, y + 4.5, series.name, svg::kFont, "start");
-    y += 21.0;
+  for (const auto& [series, style] : rows) {
+    if (series->line)
+      svg::line(out, left, y, left + kLegendSample, y, style.colour, 2.0, dashes_of(*series, style));
+    if (series->markers) draw_marker(out, left + 0.5 * kLegendSample, y, style);
+    svg::text(out, left + kLegendSample + 7.0, y + 4.5, series->name, svg::kFont, "start");
+    y += kLegendRow;
   }
 }
 
-double legend_width(const Plot& plot) {
+double legend_width(const std::vector<LegendRow>& rows) {
   double width = 0.0;
-  for (const PlotSeries& series : plot.series)
-    if (!series.name.empty()) width = std::max(width, 62.0 + text_width(series.name, svg::kFont));
+  for (const LegendRow& row : rows)
+    width = std::max(width, kLegendSample + 36.0 + text_width(row.series->name, svg::kFont));
   return width;
+}
+
+// Where the frames and the legend stand.
+struct Layout {
+  double panel_width, panel_height, top;
+  double legend_left, legend_top;
+  double width, height;
+};
+
+// A single plot keeps its width, also with the legend beside it; long names go below.
+Layout layout_of(const PlotSheet& sheet, int columns, int rows, const std::vector<LegendRow>& legend) {
+  const Plot usual;
+  const Plot& first = sheet.panels.empty() ? usual : sheet.panels.front();
+  const double names = legend_width(legend);
+  const bool single = columns == 1 && rows == 1, below = names > 0.4 * first.width;
+  Layout layout{};
+  layout.panel_width = first.width - (single && !below ? std::max(0.0, names - 4.0) : 0.0);
+  layout.panel_height = first.height;
+  layout.top = sheet.title.empty() ? 0.0 : 36.0;
+  const double right = columns * layout.panel_width, bottom = layout.top + rows * layout.panel_height;
+  layout.legend_left = below ? 24.0 : right - 4.0;
+  layout.legend_top = below ? bottom : layout.top + (first.title.empty() ? 16.0 : 44.0);
+  const double legend_bottom = layout.legend_top + kLegendRow * static_cast<double>(legend.size()) + 8.0;
+  layout.width = std::max(right + (below ? 0.0 : std::max(0.0, names - 4.0)), below ? 24.0 + names : 0.0);
+  layout.height = legend.empty() ? bottom : std::max(bottom, legend_bottom);
+  return layout;
 }
 
 }  // namespace
@@ -189,31 +327,39 @@ std::vector<std::string> tick_labels(const std::vector<double>& ticks) {
   return labels;
 }
 
-std::string plot_svg(const Plot& plot) {
-  Axis x, y;
-  x.log = plot.log_x;
-  y.log = plot.log_y;
-  for (const PlotSeries& series : plot.series)
-    for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i)
-      if (x.shows(series.x[i]) && y.shows(series.y[i])) {
-        x.include(series.x[i]);
-        y.include(series.y[i]);
-      }
-  x.finish();
-  y.finish();
-  const Ticks xs = ticks_of(x), ys = ticks_of(y);
-  double widest = 0.0;
-  for (const std::string& label : ys.labels) widest = std::max(widest, text_width(label, svg::kFont));
-  x.from = 46.0 + widest;
-  x.to = plot.width - std::max(20.0, 16.0 + legend_width(plot));
-  y.from = plot.height - 58.0;
-  y.to = plot.title.empty() ? 16.0 : 44.0;
-  std::string out = svg::open(plot.width, plot.height);
-  draw_axes(out, plot, x, y, xs, ys);
-  for (std::size_t i = 0; i < plot.series.size(); ++i) draw_series(out, plot.series[i], x, y, line_colour(i));
-  draw_legend(out, plot, x.to + 16.0, y.to);
+LineStyle line_style(int index) {
+  static constexpr std::array<const char*, 6> kDashes{"",           "9 4",  "2.5 3",
+                                                      "10 3 2.5 3", "16 4", "10 3 2.5 3 2.5 3"};
+  const auto i = static_cast<std::size_t>(index % kLineStyles);
+  return {line_colour(i), kDashes[i % kDashes.size()], static_cast<int>(i % 7)};
+}
+
+std::string sheet_svg(const PlotSheet& sheet) {
+  const int count = static_cast<int>(sheet.panels.size());
+  const int columns = std::clamp(sheet.columns, 1, std::max(1, count)), rows = (count + columns - 1) / columns;
+  const Styles styles(sheet.panels);
+  const std::vector<LegendRow> legend = legend_of(sheet.panels, styles);
+  const Layout layout = layout_of(sheet, columns, rows, legend);
+  std::string out = svg::open(static_cast<int>(layout.width), static_cast<int>(layout.height));
+  if (!sheet.title.empty())
+    svg::text(out, 0.5 * layout.width, 26.0, sheet.title,
+              fitting(sheet.title, svg::kTitleFont, layout.width - 16.0), "middle", "font-weight=\"bold\"");
+  for (int k = 0; k < count; ++k) {
+    const Plot& plot = sheet.panels[static_cast<std::size_t>(k)];
+    const Panel panel =
+        make_panel(plot, k % columns * layout.panel_width, layout.top + k / columns * layout.panel_height,
+                   layout.panel_width, layout.panel_height);
+    draw_axes(out, panel);
+    for (std::size_t i = 0; i < plot.series.size(); ++i)
+      draw_series(out, plot.series[i], panel.x, panel.y, styles.of(plot, i));
+  }
+  draw_legend(out, legend, layout.legend_left, layout.legend_top);
   out += svg::kClose;
   return out;
+}
+
+std::string plot_svg(const Plot& plot) {
+  return sheet_svg({"", {plot}, 1});
 }
 
 }  // namespace sage

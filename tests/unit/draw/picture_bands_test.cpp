@@ -45,10 +45,9 @@ struct Sheet {
     none = Eigen::VectorXd::Zero(DofMap(model).dofs());
   }
 
-  std::string svg(std::string_view field, bool deformed = false) const {
+  std::string svg(std::string_view field, bool deformed = false, PictureOptions options = {}) const {
     Activity activity(model);
     activity.group[0] = 1;
-    PictureOptions options;
     options.deformed = deformed;
     return field_svg(model, {&u, &none, &none, nullptr, &activity}, field, options);
   }
@@ -197,6 +196,39 @@ TEST(PictureBands, RoundingAboutALimitIsOneColour) {
 }
 
 // |u| of u = (x, 0) is |x|: 0 in the middle and 1 at all corners of a four-node square.
+// Half a percent of the area is fifty times what the rest has: the colours are those of the rest, and the picture says so.
+TEST(PictureBands, ASingularCornerDoesNotTakeTheScale) {
+  const ElementCase element = test::element_case(1, 1, Geometry::plane_strain);
+  std::vector<Eigen::Matrix2Xd> squares;
+  for (int i = 0; i < 200; ++i) {
+    squares.push_back(test::parent_nodes(*element.entry));
+    squares.back().row(0).array() += 3.0 * i;
+  }
+  const Sheet sheet(element, squares,
+                    [](const Vector2& x) { return Vector2(0.0, x.x() > 595.5 ? 2000.0 : 0.1 * x.x()); });
+  const std::string svg = sheet.svg("displacement_y");
+  EXPECT_NE(svg.find("to 2000; colours end at 60: 0.5 % of the area lies beyond"), std::string::npos)
+      << svg.substr(0, 900);
+  PictureOptions whole;
+  whole.robust = false;
+  EXPECT_EQ(sheet.svg("displacement_y", false, whole).find("colours end"), std::string::npos);
+  whole.low = 0.0;
+  whole.high = 10.0;
+  EXPECT_NE(sheet.svg("displacement_y", false, whole).find("colours end at 0 and 10"), std::string::npos);
+}
+
+// What rises evenly has no corner: its colours are all of it.
+TEST(PictureBands, AnEvenFieldKeepsItsRange) {
+  const ElementCase element = test::element_case(1, 1, Geometry::plane_strain);
+  std::vector<Eigen::Matrix2Xd> squares;
+  for (int i = 0; i < 100; ++i) {
+    squares.push_back(test::parent_nodes(*element.entry));
+    squares.back().row(0).array() += 2.0 * i;
+  }
+  const Sheet sheet(element, squares, [](const Vector2& x) { return Vector2(0.0, 0.1 * x.x()); });
+  EXPECT_EQ(sheet.svg("displacement_y").find("colours end"), std::string::npos);
+}
+
 TEST(PictureBands, LengthOfAVectorIsFoundBetweenTheNodes) {
   for (const ElementCase& element : test::solid_cases()) {
     if (!element.entry->square()) continue;

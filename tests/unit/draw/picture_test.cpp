@@ -101,6 +101,55 @@ TEST(Contour, CutsAPolygonWhereTheValueIs) {
   EXPECT_EQ(above(square, -1.0).size(), 4u);
 }
 
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; ++at) ++found;
+  return found;
+}
+
+// sigma_z = 10 psi in one, 20 in the other: both scales reach from 10 to 20, or each has its own.
+TEST(FieldSheet, PanelsOfAFieldShareAScale) {
+  Specimen one, two;
+  one.compress(0.01);
+  two.compress(0.02);
+  FieldSheet sheet{
+      "both", {{&one.model, one.solution(), "stress_yy", "a"}, {&two.model, two.solution(), "stress_yy", "b"}}};
+  const std::string together = sheet_svg(sheet);
+  EXPECT_EQ(count(together, ">10</text>"), 2u);
+  EXPECT_EQ(count(together, ">20</text>"), 2u);
+  EXPECT_EQ(count(together, ">both</text>"), 1u);
+  sheet.one_scale = false;
+  const std::string apart = sheet_svg(sheet);
+  EXPECT_EQ(count(apart, ">10</text>"), 1u);
+  EXPECT_EQ(count(apart, ">20</text>"), 1u);
+}
+
+// The other three quarters are the first one reflected: about its left side, its lower side, both.
+TEST(FieldSheet, MirroredSpecimensAreReflections) {
+  Specimen specimen(Geometry::axisymmetric, false);
+  specimen.compress(0.01);
+  FieldSheet sheet{"", {{&specimen.model, specimen.solution(), "stress_yy"}}};
+  EXPECT_EQ(count(sheet_svg(sheet), "<use"), 0u);
+  sheet.look.mirror_left = sheet.look.mirror_down = true;
+  const std::string svg = sheet_svg(sheet);
+  EXPECT_EQ(count(svg, "<use"), 3u);
+  for (const char* matrix : {"matrix(-1 0 0 1 ", "matrix(1 0 0 -1 ", "matrix(-1 0 0 -1 "})
+    EXPECT_EQ(count(svg, matrix), 1u) << matrix;
+  EXPECT_EQ(count(svg, ">-1.0</text>"), 1u) << "z below the middle, but no negative radius";
+}
+
+// 8 integration points, none at strength; 10 psi is the larger principal stress everywhere.
+TEST(FieldSheet, MarksSayWhatTheyAre) {
+  Specimen specimen(Geometry::axisymmetric, false);
+  specimen.compress(0.01);
+  FieldSheet sheet{"", {{&specimen.model, specimen.solution(), "stress_yy"}}};
+  sheet.look.arrows = sheet.look.crosses = sheet.look.yielded = true;
+  const std::string svg = sheet_svg(sheet);
+  EXPECT_TRUE(has(svg, "full points: 0 of 8 integration points at strength"));
+  EXPECT_TRUE(has(svg, "the longest 10 psi; tension dashed"));
+  EXPECT_TRUE(has(svg, "arrows: displacement, the longest 0.02016 in"));  // |(0.0025, 0.02)|
+}
+
 TEST(Contour, LimitsAreRoundAndHoldTheRange) {
   const std::vector<double> limits = band_limits(-0.37, 9.2, 10);
   EXPECT_LE(limits.front(), -0.37);

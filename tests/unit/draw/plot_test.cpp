@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <regex>
+#include <set>
 
 namespace sage {
 namespace {
@@ -62,6 +63,68 @@ TEST(Plot, DrawsNothingWithoutData) {
   const std::string svg = plot_svg(Plot{});
   EXPECT_TRUE(svg.starts_with("<svg"));
   EXPECT_TRUE(svg.ends_with("</svg>\n"));
+}
+
+TEST(Plot, NoTwoStylesAreAlikeInGrey) {
+  std::set<std::string> all;
+  for (int i = 0; i < kLineStyles; ++i) {
+    const LineStyle style = line_style(i);
+    all.insert(style.dashes + std::string("/") + std::to_string(style.marker));
+  }
+  EXPECT_EQ(all.size(), static_cast<std::size_t>(kLineStyles));
+}
+
+// The stroke of the line with this many points, "colour dashes".
+std::vector<std::string> strokes(const std::string& svg) {
+  std::vector<std::string> all;
+  const std::regex path("<path d=\"[^\"]*\" fill=\"none\" stroke=\"([^\"]*)\" stroke-width=\"2\" ([^/]*)/>");
+  for (std::sregex_iterator it(svg.begin(), svg.end(), path), end; it != end; ++it)
+    all.push_back((*it)[1].str() + (*it)[2].str());
+  return all;
+}
+
+int count(const std::string& text, const std::string& part) {
+  int found = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; ++at) ++found;
+  return found;
+}
+
+// Panels name a series in different places: it looks the same, and the legend has it once.
+TEST(PlotSheet, ANameIsOneStyleAndOneRowOfTheLegend) {
+  Plot first = line_plot({0, 1}, {0, 1}), second = line_plot({0, 1}, {2, 3});
+  first.series.push_back({"two", {0, 1}, {1, 2}});
+  second.series.insert(second.series.begin(), {"two", {0, 1}, {5, 4}});
+  const std::string svg = sheet_svg({"all", {first, second}, 2});
+  const std::vector<std::string> looks = strokes(svg);
+  ASSERT_EQ(looks.size(), 4u);
+  EXPECT_EQ(looks[0], looks[3]);
+  EXPECT_EQ(looks[1], looks[2]);
+  EXPECT_NE(looks[0], looks[1]);
+  EXPECT_EQ(count(svg, ">one</text>"), 1);
+  EXPECT_EQ(count(svg, ">two</text>"), 1);
+}
+
+// Labels of a narrow plot are fewer, so that they stand apart; a long name goes below the frame, not over it.
+TEST(Plot, WordsKeepApart) {
+  Plot plot = line_plot({1000000.0, 9000000.0}, {0, 1});
+  plot.width = 260;
+  plot.series[0].name = std::string(80, 'n');
+  const std::string svg = plot_svg(plot);
+  double last = -1000.0;
+  const std::regex label(
+      "<text x=\"([0-9.]+)\" y=\"[0-9.]+\" font-size=\"13\" text-anchor=\"middle\" >([0-9.e+]+)<");
+  for (std::sregex_iterator it(svg.begin(), svg.end(), label), end; it != end; ++it) {
+    const double half = 0.5 * 0.56 * 13.0 * static_cast<double>((*it)[2].length()), x = std::stod((*it)[1]);
+    EXPECT_GT(x - half, last);
+    last = x + half;
+  }
+  EXPECT_GT(last, 0.0);
+  std::smatch frame, name;
+  ASSERT_TRUE(std::regex_search(
+      svg, frame, std::regex("y=\"([0-9.]+)\" width=\"[0-9.]+\" height=\"([0-9.]+)\" fill=\"none\"")));
+  ASSERT_TRUE(
+      std::regex_search(svg, name, std::regex("y=\"([0-9.]+)\" font-size=\"13\" text-anchor=\"start\" >nnn")));
+  EXPECT_GT(std::stod(name[1]), std::stod(frame[1]) + std::stod(frame[2]));
 }
 
 TEST(Ticks, AreRoundAndInside) {

@@ -1,0 +1,145 @@
+#include "sage/draw/marks.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <set>
+#include <vector>
+
+#include "sage/draw/svg.hpp"
+
+namespace sage {
+
+namespace {
+
+constexpr double kApart = 26.0;  // px: nearer to one another marks can't be told apart
+
+// Lets one place in each square of the paper through.
+class Thinning {
+ public:
+  bool lets(const Vector2& at) {
+    const auto cell = [](double v) { return static_cast<int>(std::floor(v / kApart)); };
+    return taken_.insert({cell(at.x()), cell(at.y())}).second;
+  }
+
+ private:
+  std::set<std::pair<int, int>> taken_;
+};
+
+using EachPoint = std::function<void(const Vector2& at, const PointState& point)>;
+
+// The integration points of all active elements, at their places on the paper.
+void for_each_point(const Scenery& scenery, const EachPoint& visit) {
+  const std::span<const GroupData> groups = scenery.solution.groups();
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const Group& group = scenery.model.groups[g];
+    if (scenery.layout.of_group[g].empty()) continue;
+    const int points = group.element->traits().points;
+    for (int e = 0; e < group.elements(); ++e) {
+      const Eigen::Matrix2Xd nodes = scenery.nodes_of(group, e, scenery.view.deformation);
+      for (int p = 0; p < points; ++p)
+        visit(group.element->position(nodes, p),
+              PointState(scenery.model.mesh, groups[g], static_cast<std::size_t>(e * points + p)));
+    }
+  }
+}
+
+struct Arrow {
+  Vector2 from, along;  // on the paper; along is the displacement, y down
+};
+
+void append_arrow(std::string& path, const Vector2& from, const Vector2& along) {
+  constexpr double kHead = 6.0;
+  const Vector2 to = from + along, back = -kHead * along.normalized(), side = {-0.5 * back.y(), 0.5 * back.x()};
+  const Vector2 one = to + back + side, other = to + back - side;
+  fmt::format_to(std::back_inserter(path),
+                 "M{:.1f} {:.1f}L{:.1f} {:.1f}M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}", from.x(), from.y(),
+                 to.x(), to.y(), one.x(), one.y(), to.x(), to.y(), other.x(), other.y());
+}
+
+struct Cross {
+  Vector2 at;
+  Eigen::Matrix2d along;  // columns: principal directions in the plane
+  Vector2 stress;         // compression positive
+};
+
+void append_cross(std::string (&paths)[2], const Cross& cross, double scale) {
+  for (int k = 0; k < 2; ++k) {
+    const double half = 0.5 * scale * std::abs(cross.stress[k]);
+    if (half < 0.25) continue;
+    const Vector2 arm = half * Vector2(cross.along(0, k), -cross.along(1, k));
+    const Vector2 a = cross.at - arm, b = cross.at + arm;
+    fmt::format_to(std::back_inserter(paths[cross.stress[k] < 0.0 ? 1 : 0]), "M{:.1f} {:.1f}L{:.1f} {:.1f}",
+                   a.x(), a.y(), b.x(), b.y());
+  }
+}
+
+}  // namespace
+
+std::string draw_arrows(std::string& out, const Scenery& scenery) {
+  constexpr double kLongest = 44.0, kShortest = 1.5;  // px
+  std::vector<Arrow> arrows;
+  Thinning thinning;
+  double largest = 0.0;
+  for (int node : scenery.layout.node) {
+    const Vector2 at = scenery.moved(node, scenery.view.deformation);
+    const Vector2 u = scenery.solution.u->segment<2>(DofMap::displacement(node));
+    largest = std::max(largest, u.norm());
+    if (thinning.lets(at)) arrows.push_back({at, {u.x(), -u.y()}});
+  }
+  if (largest == 0.0) return "";
+  std::string path;
+  for (const Arrow& arrow : arrows) {
+    const Vector2 along = kLongest / largest * arrow.along;
+    if (along.norm() >= kShortest) append_arrow(path, arrow.from, along);
+  }
+  fmt::format_to(std::back_inserter(out),
+                 "<path fill=\"none\" stroke=\"#000000\" stroke-width=\"1.2\" d=\"{}\"/>\n", path);
+  return fmt::format("arrows: displacement, the longest {:.4g} {}", largest, scenery.model.units.length);
+}
+
+std::string draw_crosses(std::string& out, const Scenery& scenery) {
+  std::vector<Cross> crosses;
+  Thinning thinning;
+  double largest = 0.0;
+  for_each_point(scenery, [&](const Vector2& at, const PointState& point) {
+    if (!point.solid || !thinning.lets(at)) return;
+    const Vector4& s = point.stress;  // xx yy zz xy
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(
+        (Eigen::Matrix2d() << s[0], s[3], s[3], s[1]).finished());
+    crosses.push_back({at, principal.eigenvectors(), principal.eigenvalues()});
+    largest = std::max(largest, crosses.back().stress.cwiseAbs().maxCoeff());
+  });
+  if (largest == 0.0) return "";
+  std::string paths[2];
+  for (const Cross& cross : crosses) append_cross(paths, cross, kApart / largest);
+  const char* looks[2] = {"stroke=\"#000000\"", "stroke=\"#b2182b\" stroke-dasharray=\"2 2\""};
+  for (int k = 0; k < 2; ++k)
+    fmt::format_to(std::back_inserter(out), "<path fill=\"none\" {} stroke-width=\"1.4\" d=\"{}\"/>\n",
+                   looks[k], paths[k]);
+  return fmt::format("crosses: principal stresses in the plane, the longest {:.4g} {}; tension dashed", largest,
+                     scenery.model.units.stress);
+}
+
+std::string draw_yielded(std::string& out, const Scenery& scenery) {
+  std::string full, dots;
+  long yielded = 0, all = 0;
+  for_each_point(scenery, [&](const Vector2& at, const PointState& point) {
+    const PointStatus status = point.view.status;
+    const bool yields = status != PointStatus::elastic && status != PointStatus::unloading;
+    ++all;
+    yielded += yields ? 1 : 0;
+    const double radius = yields ? 2.2 : 0.7;
+    fmt::format_to(std::back_inserter(yields ? full : dots), "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"/>\n",
+                   at.x(), at.y(), radius);
+  });
+  out += "<g fill=\"#555555\">\n" + dots +
+         "</g>\n<g fill=\"#d55e00\" stroke=\"#ffffff\" stroke-width=\"0.6\">\n" + full + "</g>\n";
+  return fmt::format("full points: {} of {} integration points at strength", yielded, all);
+}
+
+}  // namespace sage

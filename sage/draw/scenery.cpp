@@ -1,0 +1,100 @@
+#include "sage/draw/scenery.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace sage {
+
+namespace {
+
+constexpr double kRight = 130.0, kMostHeight = 620.0;  // beside the frame; of the frame
+
+double round_down(double value) {
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (double factor : {5.0, 2.0})
+    if (factor * power <= value) return factor * power;
+  return power;
+}
+
+View make_view(const Model& model, const Solution& s, const NodalLayout& layout,
+               const PictureOptions& options) {
+  View view;
+  if (layout.node.empty()) return view;
+  view.low = view.high = model.mesh.x.col(layout.node.front());
+  double largest = 0.0;
+  for (int node : layout.node) {
+    view.low = view.low.cwiseMin(model.mesh.x.col(node));
+    view.high = view.high.cwiseMax(model.mesh.x.col(node));
+    largest = std::max(largest, s.u->segment<2>(DofMap::displacement(node)).norm());
+  }
+  const double size = (view.high - view.low).maxCoeff();
+  view.left = view.low.x();
+  view.bottom = view.low.y();
+  if (options.deformed && largest > 0.0)
+    view.deformation = options.scale > 0.0 ? options.scale : std::max(1.0, round_down(0.05 * size / largest));
+  for (int node : layout.node) {
+    const Vector2 x = model.mesh.x.col(node) + view.deformation * s.u->segment<2>(DofMap::displacement(node));
+    view.low = view.low.cwiseMin(x);
+    view.high = view.high.cwiseMax(x);
+  }
+  if (options.mirror_left) view.low.x() = 2.0 * view.left - view.high.x();
+  if (options.mirror_down) view.low.y() = 2.0 * view.bottom - view.high.y();
+  const Vector2 room = (view.high - view.low).cwiseMax(1e-6 * size);
+  view.scale = std::min((options.width - kPictureLeft - kRight) / room.x(), kMostHeight / room.y());
+  view.height = std::max(view.scale * room.y(), 60.0);
+  return view;
+}
+
+}  // namespace
+
+Scenery make_scenery(const Model& model, const Solution& solution, std::string_view field,
+                     const PictureOptions& options) {
+  Scenery scenery{model, solution, nodal_layout(model, *solution.activity), {}, fields_of(model), {}, {}};
+  scenery.field = picture_field(scenery.table, field);
+  scenery.view = make_view(model, solution, scenery.layout, options);
+  scenery.parts = field_parts(model, solution, scenery.layout, *scenery.field.entry);
+  return scenery;
+}
+
+const SubGrid& grid_for(Scenery& scenery, const Group& group, const Eigen::Matrix2Xd& nodes) {
+  const Element& element = *group.element;
+  std::array<double, 2> longest{};  // of the sides along xi and along eta
+  const bool triangle = group.entry->triangle();
+  const auto& parents = group.entry->parent_nodes;
+  for (const std::vector<int>& edge : element.edges()) {
+    const auto &a = parents[static_cast<std::size_t>(edge[0])], &b = parents[static_cast<std::size_t>(edge[1])];
+    double& side = longest[triangle || a[1] == b[1] ? 0 : 1];
+    side = std::max(side, (nodes.col(edge[0]) - nodes.col(edge[1])).norm());
+  }
+  const int degree = element.degree();
+  const int xi = sub_grid_cells(longest[0], degree), eta = triangle ? xi : sub_grid_cells(longest[1], degree);
+  const auto [at, added] = scenery.grids.try_emplace({&element, xi, eta});
+  if (added) at->second = sub_grid(group, xi, eta);
+  return at->second;
+}
+
+std::vector<Patch> patches(Scenery& scenery) {
+  std::vector<Patch> result;
+  Eigen::MatrixXd at_nodes;
+  for (std::size_t g = 0; g < scenery.model.groups.size(); ++g) {
+    if (!scenery.draws(g, ElementKind::solid)) continue;
+    const Group& group = scenery.model.groups[g];
+    const int* entry = scenery.layout.of_group[g].data();
+    at_nodes.resize(scenery.parts.components, static_cast<Eigen::Index>(group.node_count()));
+    for (int e = 0; e < group.elements(); ++e, entry += group.node_count()) {
+      for (Eigen::Index i = 0; i < at_nodes.cols(); ++i) at_nodes.col(i) = scenery.parts.at.col(entry[i]);
+      const Eigen::Matrix2Xd nodes = scenery.nodes_of(group, e, scenery.view.deformation);
+      const SubGrid& grid = grid_for(scenery, group, nodes);
+      const Eigen::Matrix2Xd places = nodes * grid.N.transpose();
+      const Eigen::MatrixXd parts = at_nodes * grid.N.transpose();
+      Patch& patch = result.emplace_back(Patch{&grid.cells, {}});
+      for (Eigen::Index p = 0; p < places.cols(); ++p)
+        patch.places.push_back(
+            {places.col(p), field_number(scenery.field, scenery.parts, parts.col(p).data())});
+    }
+  }
+  return result;
+}
+
+}  // namespace sage
