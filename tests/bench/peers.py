@@ -1,17 +1,36 @@
-"""The benchmark's scenes in CalculiX (ccx) and FreeFEM (FreeFem++-nw), one job a file, as small as each allows."""
+"""The benchmark's scenes in CalculiX (ccx), FreeFEM (FreeFem++-nw) and dolfinx, one job a file, as small as each allows."""
+import dataclasses
+import json
 import math
+import pathlib
 import re
 import shutil
 import subprocess
+import sys
 
+from measure import Job
 import scenes
 
 CCX = shutil.which("ccx")
 FREEFEM = shutil.which("FreeFem++-nw") or shutil.which("FreeFem++")
 
 
+def python_with(module):
+    """An interpreter that has the module: this one, or Debian's."""
+    for python in (sys.executable, "/usr/bin/python3"):
+        if shutil.which(python) and subprocess.run([python, "-c", f"import {module}"], capture_output=True).returncode == 0:
+            return python
+    return None
+
+
+DOLFINX = python_with("dolfinx")
+
+
 def versions():
     found = {}
+    if DOLFINX:
+        text = "import dolfinx, petsc4py.PETSc as p; print(dolfinx.__version__, 'with PETSc', '.'.join(map(str, p.Sys.getVersion())))"
+        found["dolfinx"] = subprocess.run([DOLFINX, "-c", text], capture_output=True, text=True).stdout.strip()
     if CCX:
         text = subprocess.run([CCX, "-v"], capture_output=True, text=True).stdout
         found["CalculiX"] = re.search(r"Version\s+(\S+)", text).group(1)
@@ -104,16 +123,25 @@ def ccx_value(scene, text):
 
 
 def ccx_job(scene, n, element, quadratic, folder):
-    """The command, its folder, and what reads the answer."""
     name = f"{scene.name}_{element}_{n}"
     (folder / f"{name}.inp").write_text(ccx_deck(scene, n, element, quadratic))
-    
+
     def find(text):
         if "Job finished" not in text:
             raise ValueError("did not finish")
         return ccx_value(scene, (folder / f"{name}.dat").read_text())
 
-    return [CCX, name], find
+    return Job((scene.name, "CalculiX", element, str(n)), [CCX, name], find)
+
+
+def ccx_graded_job(scene, n, power, folder):
+    """CAX8R, n x n cells that get finer towards the corner of the end."""
+    height = scene.data["height"]
+    finer = lambda s: 1 - (1 - s) ** power
+    place = lambda s, t: (scenes.RADIUS * finer(s), height * finer(t))
+    graded = dataclasses.replace(scene, name=f"{scene.name}_power_{power}", block=lambda m, quadratic: scenes.Block(m, m, place, quadratic))
+    job = ccx_job(graded, n, "CAX8R", True, folder)
+    return Job((scene.name, "CalculiX", "CAX8R graded", f"{n} x {n}, power {power}"), job.command, job.find)
 
 
 # --------------------------------------------------------------------------------------------------- FreeFEM
@@ -146,32 +174,75 @@ def freefem_can(scene):
     return scene.data["family"] in TAILS  # no law of plasticity is built in
 
 
-def freefem_script(scene, n, space):
+def towards_end(variable, power):
+    """Of [0, 1] onto itself, finer towards 1."""
+    return f"(1-(1-{variable})^{power})"
+
+
+def towards_both_ends(variable, power):
+    return f"({variable}<0.5 ? 0.5*(2*{variable})^{power} : 1-0.5*(2-2*{variable})^{power})"
+
+
+def freefem_script(scene, columns, rows, space, power=1):
+    """power: 1 a uniform mesh; more, one that gets finer towards the singular corners as that power of the place."""
     family = scene.data["family"]
     young, nu = scene.law[1]
-    b = scene.block(n, False)
     head = AXISYMMETRIC if scene.geometry == 2 else PLANE
     if family == "pinned":
         height = scene.data["height"]
-        place = f"[{scenes.RADIUS!r}*x, {height!r}*y]"
+        x, y = towards_end("x", power), towards_end("y", power)
         load = f"+ on(1, v=0) + on(4, u=0) + on(3, u=0, v=-{scenes.STRAIN * height!r})"
+        place = f"[{scenes.RADIUS!r}*{x}, {height!r}*{y}]"
     elif family == "lame":
         place = "[1+x, 0.5*y]"
         load = "- int1d(Th, 4)(2*pi*r*uu) + on(1, 3, v=0)"
     else:
-        place = "[48*x, 44*x*(1-y)+(44+16*x)*y]"
+        x, y = towards_both_ends("x", power), towards_both_ends("y", power)
+        place = f"[48*{x}, 44*{x}*(1-{y})+(44+16*{x})*{y}]"
         load = "- int1d(Th, 2)(vv/16) + on(4, u=0, v=0)"
     tail = TAILS[family]
     if family == "pinned":
         scale = math.pi * scenes.RADIUS**2 * scenes.YOUNG * scenes.STRAIN
         tail = tail.replace("{moved}", repr(scenes.STRAIN * height)).replace("{scale}", repr(scale))
-    mesh = f"mesh Th = square({b.columns}, {b.rows}, {place});"
+    mesh = f"mesh Th = square({columns}, {rows}, {place});"
     text = COMMON.format(space=space, young=repr(young), nu=repr(nu), load=load)
     return mesh + head + text + tail + "\n"
 
 
+def freefem_answer(text):
+    found = re.search(r"ANSWER\s+(\S+)", text)
+    if not found:
+        raise ValueError("no answer")
+    return float(found.group(1))
+
+
 def freefem_job(scene, n, space, folder):
     path = folder / f"{scene.name}_{space}_{n}.edp"
-    path.write_text(freefem_script(scene, n, space))
-    find = lambda text: float(re.search(r"ANSWER\s+(\S+)", text).group(1))
-    return [FREEFEM, "-v", "0", "-nw", str(path)], find
+    b = scene.block(n, False)
+    path.write_text(freefem_script(scene, b.columns, b.rows, space))
+    return Job((scene.name, "FreeFEM", space, str(n)), [FREEFEM, "-v", "0", "-nw", str(path)], freefem_answer)
+
+
+def freefem_graded_job(scene, n, space, power, folder):
+    """n x n cells, each cut into two triangles: the corner's are as slender as the specimen."""
+    path = folder / f"{scene.name}_{space}_{n}_{power}.edp"
+    path.write_text(freefem_script(scene, n, n, space, power))
+    labels = (scene.name, "FreeFEM", f"{space} graded", f"{n} x {n}, power {power}")
+    return Job(labels, [FREEFEM, "-v", "0", "-nw", str(path)], freefem_answer)
+
+
+# --------------------------------------------------------------------------------------------------- dolfinx
+
+
+def dolfinx_job(scene, n, repeats, *options):
+    """The answer is what dolfinx_peer.py prints, a dict."""
+    script = pathlib.Path(__file__).with_name("dolfinx_peer.py")
+
+    def find(text):
+        lines = [line for line in text.splitlines() if line.startswith("{")]
+        if not lines:
+            raise ValueError("no answer")
+        return json.loads(lines[-1])
+
+    command = [DOLFINX, str(script), scene, str(n), "--repeats", str(repeats), *options]
+    return Job((scene, "dolfinx", " ".join(options), str(n)), command, find)

@@ -3,7 +3,6 @@
 
 Usage: scaling.py SAGEFE [-n RUNS] [--options "..."] [N ...]      (default: 14 56 112 224 448)
 The scene: quarter of an elastic specimen, L/D = 2, nu = .25, pinned ends, one increment of axial compression.
-Decks are written with ten-column integers (a layout made from sage1 by rule), because five columns end at 99999.
 Prints medians (with minimum and maximum: machines are noisy) as a Markdown table, and the exponent of every
 column between the last two sizes.  Nothing here passes or fails.
 """
@@ -18,7 +17,8 @@ import subprocess
 import tempfile
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+import specimen
+
 PARTS = {
     "assembly": r"passes ([\d.e+-]+) s",
     "numbering": r"numbering ([\d.e+-]+) s",
@@ -33,46 +33,6 @@ PARTS = {
     "files": r"files ([\d.e+-]+) s",
     "whole run": r"whole run ([\d.e+-]+) s",
 }
-
-
-def wide_layout():
-    """sage1 with ten columns for every integer."""
-    text = (ROOT / "legacy_inputs/layouts/sage1.toml").read_text()
-    text = re.sub(r'format = "([^"]*)"', lambda m: m.group(0).replace("I5", "I10"), text)
-    return text.replace('name = "sage1"', 'name = "wide"', 1).replace("record_length = 80", "record_length = 160")
-
-
-def card(*fields):
-    return "".join(f"{f:10d}" if isinstance(f, int) else f"{f:>10}" for f in fields)
-
-
-def deck(n):
-    across, rows = n + 1, 2 * n
-    top = across * rows + 1
-    return "\n".join(
-        [
-            f"Pinned ends, L/D = 2, nu = .25, {n} x {rows} Q4",
-            "in      lbf     psi         14.696  0.036111",
-            card(2, 0, 4, 1, 1, 1, 1, 2, 0, 1, 1, 0, 0),
-            card(1, 0, 0, "0.", "0."),
-            card(across, 0, 0, "1.4", "0."),
-            card(top, 0, 0, "0.", "2.8"),
-            card(top + n, 0, 0, "1.4", "2.8"),
-            card(1, n, 1, rows, across),
-            card(1, 1, 2) + "          elastic specimen",
-            "     3000.       .25",
-            card(1, 1, 1, 1) + "specimen",
-            card(1, 1, 1, 2, across + 2, across + 1, 0, 0, 0, 0, n, rows, 1, across),
-            card(1, across, 1, 0, 1),
-            card(1, top, across, 1, 0),
-            "Axial compression of 1 % with the end held radially",
-            card(1, 0, 0, 0, 1, 0, 0, 0, 0, 0),
-            card(top, top + n, 1, 1, 1, "0.", "-0.028"),
-            card(1, 1, top, top + n, 1, 1, "2.8", "", "0."),
-            "END",
-            "",
-        ]
-    )
 
 
 def run_once(command):
@@ -103,9 +63,9 @@ def main():
     medians = []
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        (folder / "wide.toml").write_text(wide_layout())
+        (folder / "wide.toml").write_text(specimen.wide_layout())
         for n in args.sizes or [14, 56, 112, 224, 448]:
-            (folder / f"cylinder_{n}.dat").write_text(deck(n))
+            (folder / f"cylinder_{n}.dat").write_text(specimen.elastic(n))
             command = [args.sagefe, "run", "--layout", str(folder / "wide.toml"), "-o", str(folder / "out")]
             command += [str(folder / f"cylinder_{n}.dat"), *shlex.split(args.options)]
             runs = [run_once(command) for _ in range(args.n)]

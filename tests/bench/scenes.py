@@ -95,6 +95,12 @@ class Block:
                 yield [n(0, 0), n(2, 0), n(2, 2), n(1, 0), n(2, 1), n(1, 1)]
                 yield [n(0, 0), n(2, 2), n(0, 2), n(1, 1), n(1, 2), n(0, 1)]
 
+    def corner_triangles(self):
+        """The same triangles by their corners, of a block without middle nodes."""
+        for a, b, c, d in self.elements():
+            yield [a, b, c]
+            yield [a, c, d]
+
     def element(self, i, j):
         """Number of a quadrilateral."""
         return j * self.columns + i + 1
@@ -115,6 +121,7 @@ class Scene:
     answer: object  # value of the column -> the quantity
     reference: float
     increments: int = 1
+    tolerance: float = 0.0  # of the iteration; 0 = the program's own
     sizes: tuple = (4, 8, 16, 32)
     data: dict = dataclasses.field(default_factory=dict)  # for the peers
 
@@ -122,7 +129,7 @@ class Scene:
 def deck(scene, n, kind="quad"):
     """Text of the deck and the layout it is in: the built-in one where its columns hold all digits, else the wide one.
 
-    kind: quad (replaced by --element), or tri6.
+    kind: quad (replaced by --element), tri6, or tri15 (whose other nodes the program makes).
     """
     try:
         return write_deck(scene, n, kind, Columns(5, 10)), "sage1"
@@ -132,9 +139,9 @@ def deck(scene, n, kind="quad"):
 
 def write_deck(scene, n, kind, columns):
     line = columns.line
-    tri = kind == "tri6"
-    b = scene.block(n, tri)
-    elements = list(b.elements())
+    tri = kind != "quad"
+    b = scene.block(n, kind == "tri6")
+    elements = list(b.corner_triangles() if kind == "tri15" else b.elements())
     fixed = [(node, x, y) for nodes, x, y in scene.fixities(b) for node in nodes]
     moved = [(node, *rest) for nodes, *rest in scene.moved(b) for node in nodes]
     pressed = scene.pressed(b)
@@ -149,10 +156,10 @@ def write_deck(scene, n, kind, columns):
     lines += [line(k, 0, 0, x, y) for k, (x, y) in enumerate(b.coordinates(), 1)]
     lines += [line(1, code, len(parameters), 0.0) + scene.name[:20]]
     lines += [line(*parameters[k : k + 8]) for k in range(0, len(parameters), 8)]
-    lines += [line(1, 4 if tri else 1, 1, 1) + scene.name[:20]]
+    lines += [line(1, {"quad": 1, "tri6": 4, "tri15": 6}[kind], 1, 1) + scene.name[:20]]
     lines += [line(k, 1, *e) for k, e in enumerate(elements, 1)]
     lines += [line(*f[:1], 0, 0, *f[1:]) for f in fixed]
-    lines += ["Loading", line(scene.increments, 0, 0, 0, len(moved), 0, len(pressed), 0, 0, 0)]
+    lines += ["Loading", line(scene.increments, 0, 0, 0, len(moved), 0, len(pressed), 0, 0, 0) + (line(0.0, 0.0, scene.tolerance) if scene.tolerance else "")]
     lines += [line(m[0], 0, 0, *m[1:]) for m in moved]
     for element, edge, pressure, shear in pressed:
         if tri:  # edges 1, 2 belong to the lower triangle, 3, 4 to the upper one
@@ -233,9 +240,12 @@ def cook():
     )
 
 
-def footing(geometry, rough, reference, law=(4, (298.0, 0.49, 1.0, 0.0, 0.0))):
-    """Rigid footing of half width or radius 1 on Tresca clay with c = 1: mean pressure at a settlement of .15."""
-    width, depth, power = (4.0, 3.0, 2.2) if geometry == 1 else (2.5, 2.0, 2.2)
+def footing(geometry, rough, reference, law=(4, (298.0, 0.49, 1.0, 0.0, 0.0)), power=2.2):
+    """Rigid footing of half width or radius 1 on Tresca clay with c = 1: mean pressure at a settlement of .15.
+
+    power: of the place, as which the cells get finer towards the edge of the footing; 1 = uniform.
+    """
+    width, depth = (4.0, 3.0) if geometry == 1 else (2.5, 2.0)
 
     def block(n, quadratic):
         out = n + n // 6 if geometry == 1 else n
@@ -273,10 +283,10 @@ def footing(geometry, rough, reference, law=(4, (298.0, 0.49, 1.0, 0.0, 0.0))):
 
 def scenes():
     return [
-        pinned(1, 0.25, 1.036223),
-        pinned(1, 0.495, 1.190558),
-        pinned(2, 0.25, 1.017629),
-        pinned(2, 0.495, 1.086254),
+        pinned(1, 0.25, 1.036223249),
+        pinned(1, 0.495, 1.190558066),
+        pinned(2, 0.25, 1.017628765),
+        pinned(2, 0.495, 1.086253987),
         lame(0.4999999),
         cook(),
         footing(1, False, 2 + math.pi),

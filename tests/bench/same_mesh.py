@@ -1,0 +1,127 @@
+"""The pinned specimen of n x 2n quad4 in sagefe and its peers, from small to large: linear, and with the Drucker-Prager law."""
+import csv
+import re
+import statistics
+
+import peers
+import scenes
+import specimen
+from measure import Job, Table, both, exponents
+
+AGREE = {"linear": 1e-7, "plastic": 1e-6}  # answers of the same mesh and law; the second ends where its iteration does
+
+
+def unknowns(text):
+    return int(re.search(r"(\d+) equations", text).group(1))
+
+
+def sage_job(bench, stem, variant, n, text, *options):
+    (bench.folder / "specimen.toml").write_text(specimen.wide_layout())
+    (bench.folder / f"{stem}.dat").write_text(text)
+
+    def find(_):
+        with open(bench.folder / "out" / f"{stem}.report1.csv") as table:
+            rows = list(csv.DictReader(line for line in table if not line.startswith("#")))
+        return float(rows[-1]["ratio[-]"])
+
+    command = [bench.sagefe, "run", "--layout", "specimen.toml", "-o", "out", f"{stem}.dat", *bench.threads(), *options]
+    return Job((stem, "sagefe", variant, str(n)), command, find)
+
+
+class Dolfinx:
+    """Seconds within its process, from the mesh to the answer: of the runs that took their turn."""
+
+    def __init__(self, record):
+        self.ratio, self.iterations = record.value["ratio"], record.value["iterations"]
+        self.wall, self.cpu = (statistics.median(t for value in record.values for t in value[key]) for key in ("wall", "processor"))
+
+
+def check(bench, key, n, ratio, own):
+    if not abs(ratio / own - 1) <= AGREE[key]:
+        bench.wrong.append(f"{key}, n = {n}: dolfinx {ratio:.10g}, sagefe {own:.10g}")
+
+
+def linear_jobs(bench, n, pinned, slow):
+    jobs = [sage_job(bench, f"linear_{n}", name, n, specimen.elastic(n), *more) for name, more in (("listing", []), ("no listing", ["--no-listing"]))]
+    if peers.CCX and "CalculiX" not in slow:
+        jobs.append(peers.ccx_job(pinned, n, "CAX4", False, bench.folder))
+    if peers.FREEFEM and "FreeFEM" not in slow:
+        jobs.append(peers.freefem_job(pinned, n, "P1", bench.folder))
+    if peers.DOLFINX:
+        jobs.append(peers.dolfinx_job("linear", n, 5 if n < 112 else 2))
+        jobs.append(peers.dolfinx_job("linear", n, 1, "--once"))
+    return jobs
+
+
+def linear_row(n, dofs, own, bare, whole, inside, exponent):
+    row = [str(n), str(dofs), both(own.wall, own.cpu), both(bare.wall, bare.cpu)]
+    row += [both(whole[name].wall, whole[name].cpu) if name in whole else "-" for name in ("CalculiX", "FreeFEM", "dolfinx")]
+    row.append(both(inside.wall, inside.cpu) if inside else "-")
+    name, best = min(whole.items(), key=lambda item: item[1].cpu, default=("-", None))
+    row += [name, *((f"{best.cpu / own.cpu:.1f}", f"{min(r.wall for r in whole.values()) / own.wall:.1f}") if best else ("-", "-"))]
+    row += [f"{inside.cpu / own.cpu:.1f}", f"{inside.cpu / bare.cpu:.1f}"] if inside else ["-", "-"]
+    return [*row, exponent]
+
+
+def linear(bench):
+    pinned = scenes.scenes()[2]
+    sizes, found, slow = [n for n in (14, 28, 56, 112, 224, 448) if n <= bench.args.largest], [], set()
+    for n in sizes:
+        records = {labels[1:3]: r for labels, r in bench.turns(linear_jobs(bench, n, pinned, slow)).items()}
+        own = records[("sagefe", "listing")]
+        if not abs(own.value / pinned.reference - 1) < 2e-3:
+            bench.wrong.append(f"linear, n = {n}: sagefe {own.value}")
+        whole = {program: records[key] for key in records for program in key[:1] if program != "sagefe" and key != ("dolfinx", "")}
+        slow |= {name for name, r in whole.items() if name != "dolfinx" and r.wall > 6}  # the next takes five times that
+        inside = Dolfinx(records[("dolfinx", "")]) if ("dolfinx", "") in records else None
+        if inside:
+            check(bench, "linear", n, inside.ratio, own.value)
+        found.append((n, unknowns(own.text), own, records[("sagefe", "no listing")], whole, inside))
+    growth = exponents([(dofs, own.cpu) for _, dofs, own, *_ in found])
+    rows = [linear_row(*line, exponent) for line, exponent in zip(found, growth)]
+    head = ["n", "unknowns", "sagefe", "without listing", "CalculiX CAX4", "FreeFEM P1", "dolfinx Q1", "dolfinx, mesh to answer"]
+    head += ["fastest whole process", "processor ratio", "wall ratio", "dolfinx, mesh to answer: processor ratio", "without listing", "exponent of sagefe"]
+    note = (
+        "Quarter of an elastic specimen between pinned ends, L/D = 2, nu = .25, n x 2n quad4 with full integration. Milliseconds, wall / processor. "
+        "Whole processes, the listing of sagefe included; dolfinx finds its forms compiled. Most of its process is the start of Python and imports: `mesh to answer` is what it takes within the process after them, "
+        "which the last ratios set against all of sagefe's process, start, deck and files included. MUMPS in its symmetric mode, with METIS. dolfinx has the same elements and points: its ratio agrees to 1e-7, or the bench fails. "
+        "FreeFEM cuts each cell in two triangles. Exponent: of the processor time over unknowns, since the line above."
+    )
+    options = "`sagefe run --threads N`; the second column of sagefe also `--no-listing`."
+    return {"linear": Table("The same mesh, linear, small to large", note, options, head, rows)}
+
+
+def plastic_jobs(bench, n):
+    jobs = [sage_job(bench, f"plastic_{n}", "listing", n, specimen.plastic(n))]
+    if peers.DOLFINX:
+        for solver in ("mumps", "petsc") if n <= 28 else ("mumps",):
+            jobs.append(peers.dolfinx_job("plastic", n, 1, "--solver", solver, "--steps", str(specimen.STEPS)))
+    return jobs
+
+
+def plastic(bench):
+    rows, found = [], []
+    for n in [n for n in (14, 28, 56, 112) if n <= max(14, bench.args.largest // 2)]:
+        records = bench.turns(plastic_jobs(bench, n), 0 if n > 56 else None)
+        own = next(r for labels, r in records.items() if labels[1] == "sagefe")
+        rivals = {labels[2].split()[1]: Dolfinx(r) for labels, r in records.items() if labels[1] == "dolfinx"}
+        for rival in rivals.values():
+            check(bench, "plastic", n, rival.ratio, own.value)
+        found.append((n, unknowns(own.text), own, rivals))
+    for (n, dofs, own, rivals), growth in zip(found, exponents([(dofs, own.cpu) for _, dofs, own, _ in found])):
+        iterations = int(re.search(r"(\d+) iterations", own.text).group(1))
+        row = [str(n), str(dofs), f"{own.value:.7f}", both(own.wall, own.cpu), str(iterations)]
+        if rivals:
+            name, best = min(rivals.items(), key=lambda item: item[1].cpu)
+            row += [f"{both(best.wall, best.cpu)} ({name})", str(best.iterations), f"{abs(best.ratio - own.value):.0e}"]
+            row += [f"{best.cpu / own.cpu:.1f}", f"{best.wall / own.wall:.1f}", f"{best.cpu / best.iterations / (own.cpu / iterations):.1f}"]
+        else:
+            row += ["-"] * 6
+        rows.append([*row, growth])
+    head = ["n", "unknowns", "ratio at 15 %", "sagefe", "iterations", "dolfinx", "iterations", "ratios differ by", "processor ratio", "wall ratio", "the same by iteration", "exponent of sagefe"]
+    note = (
+        "The specimen above with the Drucker-Prager law of `dp_285` (phi = 36.87, c = 0, flow without volume change, nu = .495) at a cell pressure of 50 psi, to 15 % in "
+        f"{specimen.STEPS} increments. Milliseconds, wall / processor. dolfinx has the same law, return and consistent tangent, in kernels compiled for this processor; its ratio agrees to 1e-6, or the bench fails. "
+        "sagefe: whole process with listing; dolfinx: as above, with MUMPS or PETSc's own LU, whichever is the faster. dolfinx begins an increment with the change of the one before, sagefe with the tangent at its start."
+    )
+    return {"plastic": Table("The same mesh, Drucker-Prager", note, "`sagefe run --threads N`.", head, rows)}
