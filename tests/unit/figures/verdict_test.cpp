@@ -1,0 +1,223 @@
+// Checks on the chapter's sentences: their measures on fields that are known, and that every one of them can fail.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "sage/app/commands.hpp"
+#include "sage/figures/verdict.hpp"
+
+namespace sage::figures {
+namespace {
+
+constexpr std::size_t at(Quantity quantity) {
+  return static_cast<std::size_t>(quantity) - static_cast<std::size_t>(Quantity::sigma_r);
+}
+
+// 4 x 4 elements of pinned1 (R = H, cell pressure 0), whose conf is 30 z / H psi at 10 percent of strain.
+SpecimenRun sloped() {
+  SpecimenRun run;
+  run.scene = &scene_named("pinned1");
+  run.columns = run.rows = 4;
+  State state;
+  state.strain = 10.0;
+  state.at_elements.assign(6, std::vector<double>(16, 0.0));
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 4; ++i) {
+      run.cells.push_back({(i + 0.5) / 4, (j + 0.5) / 4, 1.0 / 16, i >= 2 && j >= 2});
+      state.at_elements[at(Quantity::conf)][static_cast<std::size_t>(4 * j + i)] = 30.0 * (j + 0.5) / 4;
+      for (int p = 0; p < 4; ++p) {
+        const double r = (i + (p % 2 == 0 ? 0.25 : 0.75)) / 4, z = (j + (p < 2 ? 0.25 : 0.75)) / 4;
+        run.points.push_back({r, z, 1.0 / 64, false});
+        state.level.push_back(z < 0.6 && r < 0.5 ? 1.0 : 0.5);
+      }
+    }
+  run.states.push_back(state);
+  for (int i = 1; i <= 10; ++i) {
+    run.strain.push_back(i);
+    run.measured.push_back(run.scene->correct(i) * (1.0 + 0.01 * i));
+    run.yielded.push_back(0.0);
+    run.joint_most.push_back(0.0);
+  }
+  return run;
+}
+
+double number(Measure measure, Quantity quantity, Place place = Place::everywhere, double p = 0.0,
+              Place target = Place::everywhere, bool away = false) {
+  const SpecimenRun run = sloped();
+  const Check check{.measure = measure,
+                    .a = {"pinned1", quantity, 10},
+                    .b = {"pinned1", quantity, 10},
+                    .place = place,
+                    .target = target,
+                    .p = p};
+  return number_of(check, run, &run, away, {});
+}
+
+TEST(Measures, OfASlopedField) {  // values 3.75, 11.25, 18.75, 26.25 psi by row, q = 300 psi, c = 0
+  const Quantity conf = Quantity::conf;
+  EXPECT_NEAR(number(Measure::change_most, conf), 26.25 / 300, 1e-12);
+  EXPECT_NEAR(number(Measure::change_mean, conf), 15.0 / 300, 1e-12);
+  EXPECT_NEAR(number(Measure::change_mean, conf, Place::near_ends), 26.25 / 300, 1e-12);
+  EXPECT_NEAR(number(Measure::excess_least, conf), 3.75 / 300, 1e-12);
+  EXPECT_NEAR(number(Measure::nearness, conf), 26.25 / 300, 1e-12);
+  EXPECT_NEAR(number(Measure::share_close, conf, Place::everywhere, 0.05), 0.5, 1e-12);  // 11.25 <= 15 < 18.75
+  EXPECT_NEAR(number(Measure::share_below, conf, Place::everywhere, 20.0), 0.75, 1e-12);
+  EXPECT_NEAR(number(Measure::share_above, conf, Place::everywhere, 20.0), 0.25, 1e-12);
+  EXPECT_NEAR(number(Measure::row_range, conf), 0.0, 1e-12);
+  EXPECT_NEAR(number(Measure::mean_gap, conf, Place::near_ends), 26.25 - 11.25, 1e-12);
+  EXPECT_NEAR(number(Measure::correlation, conf), 1.0, 1e-12);
+  EXPECT_NEAR(number(Measure::range, conf), 22.5, 1e-12);
+  // Without the 2 x 2 elements of the corner the mean is that of the other twelve.
+  EXPECT_NEAR(number(Measure::change_mean, conf, Place::everywhere, 0.0, Place::everywhere, true),
+              (4 * 3.75 + 4 * 11.25 + 2 * 18.75 + 2 * 26.25) / 12 / 300, 1e-12);
+}
+
+TEST(Measures, OfPlaces) {
+  // The first element of the last row: r = .125 R is at the axis; z = .875 H is .025 R from the last .15 R ... and in.
+  EXPECT_NEAR(number(Measure::distance_most, Quantity::conf, Place::everywhere, 0.0, Place::at_end_axis), 0.0,
+              1e-12);
+  EXPECT_NEAR(number(Measure::distance_most, Quantity::conf, Place::everywhere, 0.0, Place::at_end_rim), 0.725,
+              1e-12);
+  EXPECT_NEAR(number(Measure::distance_least, Quantity::conf, Place::everywhere, 0.0, Place::at_end_axis),
+              0.725, 1e-12);
+  EXPECT_NEAR(distance(Place::at_end_axis, 0.5, 0.5, 2.0), 0.85, 1e-12);  // H = 2 R: along z 1 - .15
+  EXPECT_TRUE(contains(Place::below_ends, 1.0, 0.7, 2.0));
+  EXPECT_FALSE(contains(Place::below_ends, 1.0, 0.71, 2.0));
+}
+
+TEST(Measures, OfYieldedPoints) {  // level 1 at z < .6 H and r < .5 R: z up to .5625 H, half of each row
+  const Quantity level = Quantity::level;
+  EXPECT_NEAR(number(Measure::yielded, level), 5.0 / 8 / 2, 1e-12);
+  EXPECT_NEAR(number(Measure::unyielded, level), 1.0 - 5.0 / 16, 1e-12);
+  EXPECT_NEAR(number(Measure::yielded_r, level), 0.25, 1e-12);
+  EXPECT_NEAR(number(Measure::yielded_z, level), 0.3125, 1e-12);
+  EXPECT_NEAR(number(Measure::yielded_edge, level), 0.5625, 1e-6);
+  EXPECT_NEAR(number(Measure::yielded_ratio, level), 1.0, 1e-12);
+}
+
+TEST(Measures, OfCurves) {  // excess .01 a percent of strain
+  const Quantity none = Quantity::none;
+  EXPECT_NEAR(number(Measure::ratio, none), 1.1, 1e-12);
+  EXPECT_NEAR(number(Measure::excess_most, none), 0.1, 1e-12);
+  EXPECT_NEAR(number(Measure::excess_spread, none), 0.9, 1e-12);
+  EXPECT_NEAR(number(Measure::ratio_spread, none), 0.09, 1e-12);
+  EXPECT_NEAR(number(Measure::first_above, none, Place::everywhere, 1.055), 6.0, 1e-12);
+  EXPECT_TRUE(std::isnan(number(Measure::first_above, none, Place::everywhere, 1.2)));
+  EXPECT_NEAR(number(Measure::measured, none), 330.0, 1e-12);
+}
+
+TEST(Alterations, DoWhatTheyAreCalled) {
+  const SpecimenRun run = sloped();
+  const auto conf = [](const SpecimenRun& one) { return one.states[0].values(Quantity::conf); };
+  EXPECT_NEAR(conf(altered(run, Alteration::mirrored))[0], 26.25, 1e-12);
+  EXPECT_NEAR(conf(altered(run, Alteration::sign))[0], -3.75, 1e-12);
+  EXPECT_NEAR(conf(altered(run, Alteration::lifted))[0], 3.75 + 30.0, 1e-12);
+  std::vector<double> mixed = conf(altered(run, Alteration::shuffled)), plain = conf(run);
+  EXPECT_NE(mixed, plain);
+  std::ranges::sort(mixed);
+  std::ranges::sort(plain);
+  EXPECT_EQ(mixed, plain);
+  EXPECT_NEAR(altered(run, Alteration::sign).ratio(10), 0.9, 1e-12);
+  EXPECT_NEAR(altered(run, Alteration::mirrored).ratio(1), 1.1, 1e-12);
+}
+
+Outcome outcome(bool full, bool full_away, bool b_bar, bool b_bar_away) {
+  Outcome one;
+  one.pass = {{{full, full_away}, {b_bar, b_bar_away}}};
+  return one;
+}
+
+TEST(Verdicts, FollowFromTheNumbers) {
+  EXPECT_EQ(judge(outcome(true, true, true, true)), Verdict::holds);
+  EXPECT_EQ(judge(outcome(true, false, true, false)), Verdict::holds);
+  EXPECT_EQ(judge(outcome(false, true, false, true)), Verdict::away_from_corner);
+  EXPECT_EQ(judge(outcome(true, true, false, true)), Verdict::away_from_corner);
+  EXPECT_EQ(judge(outcome(true, true, false, false)), Verdict::artefact);
+  EXPECT_EQ(judge(outcome(false, true, false, false)), Verdict::artefact);
+  EXPECT_EQ(judge(outcome(false, false, true, true)), Verdict::does_not_hold);
+  const Outcome yes = outcome(true, true, true, true), no = outcome(false, false, false, false);
+  EXPECT_EQ(judge(std::vector{yes, yes, yes}), Verdict::holds);
+  EXPECT_EQ(judge(std::vector{no, yes, yes}), Verdict::depends_on_k_j);
+  EXPECT_EQ(judge(std::vector{no, no, no}), Verdict::does_not_hold);
+}
+
+TEST(Checks, NameWordsScenesAndLimits) {
+  std::set<std::string> known{""};
+  for (const Word& word : words()) known.insert(word.words);
+  std::set<int> figures;
+  for (const Check& check : checks()) {
+    EXPECT_TRUE(known.contains(check.word)) << check.word;
+    EXPECT_TRUE(std::isfinite(check.low) || std::isfinite(check.high)) << check.quote;
+    EXPECT_NO_THROW(scene_named(check.a.scene)) << check.quote;
+    figures.insert(check.figure);
+  }
+  EXPECT_EQ(figures.size(), 40u);
+  EXPECT_EQ(captions().size(), 40u);
+}
+
+// What the program finds about the chapter.
+class Chapter : public testing::Test {
+ protected:
+  static const std::vector<Result>& results() {
+    static const std::vector<Result> all = [] {
+      static const scenes::Workbench bench = app::make_workbench();
+      static Runs runs(bench);
+      fitted() = fitted_k_j(bench);
+      return evaluate(runs, checks(), {{"120", 120.0}, {"5", 5.0}, {"fitted", fitted()}});
+    }();
+    return all;
+  }
+  static double& fitted() {
+    static double k_j = 0.0;
+    return k_j;
+  }
+  static Verdict verdict(int figure, const std::string& words) {
+    for (const Result& result : results())
+      if (result.check->figure == figure && std::string(result.check->quote).find(words) != std::string::npos)
+        return result.verdict;
+    ADD_FAILURE() << "no check of 7." << figure << " has the words " << words;
+    return Verdict::does_not_hold;
+  }
+};
+
+// A check that passes must fail on a swapped scene or an altered field: else it says nothing.
+TEST_F(Chapter, EveryCheckCanFail) {
+  for (const Result& result : results())
+    EXPECT_NE(result.shown_to_fail, "") << "7." << result.check->figure << ": " << result.check->quote;
+}
+
+TEST_F(Chapter, AllVerdictsOccur) {
+  std::set<Verdict> seen;
+  for (const Result& result : results()) seen.insert(result.verdict);
+  EXPECT_EQ(seen.size(), 5u);
+}
+
+// From converged references (Table 7.3's pinned columns lock; the rim of the end is singular) and exact properties.
+TEST_F(Chapter, KnownVerdicts) {
+  EXPECT_EQ(verdict(2, "identical"), Verdict::holds);
+  EXPECT_EQ(verdict(3, "25 percent greater than the correct stress (nu = .495"), Verdict::artefact);
+  EXPECT_EQ(verdict(8, "12 percent greater than the correct stress (nu = .495"), Verdict::artefact);
+  EXPECT_EQ(verdict(8, "approximately half"), Verdict::holds);
+  EXPECT_EQ(verdict(11, "maximum value of confining stress"), Verdict::away_from_corner);
+  EXPECT_EQ(verdict(18, "3 percent"), Verdict::depends_on_k_j);
+  EXPECT_EQ(verdict(23, "12 percent"), Verdict::does_not_hold);
+  EXPECT_EQ(verdict(32, "none of the interface elements"), Verdict::holds);
+}
+
+// The K_j of 3 percent meets 7.18 with full elements by construction; 120 and 5 do not.
+TEST_F(Chapter, FittedStiffness) {
+  results();
+  EXPECT_GT(fitted(), 5.0);
+  EXPECT_LT(fitted(), 120.0);
+  for (const Result& result : results())
+    if (result.check->figure == 20 && result.check->measure == Measure::percent_most &&
+        result.check->a.quantity == Quantity::conf) {
+      ASSERT_EQ(result.outcomes.size(), 3u);
+      EXPECT_NEAR(result.outcomes[2].number[0][1], 0.03, 1e-4);  // 200 increments instead of 40: 0.2 percent
+      EXPECT_GT(result.outcomes[0].number[0][1], 0.033);
+      EXPECT_LT(result.outcomes[1].number[0][1], 0.027);
+    }
+}
+
+}  // namespace
+}  // namespace sage::figures
