@@ -1,38 +1,160 @@
-// sagefe figures: the source chapter's figures 7.1 to 7.40.
+// sagefe figures: the source chapter's figures 7.1 to 7.40, with verdicts on what it says about them.
 #include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
 
 #include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+#include <charconv>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
 
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
-#include "sage/figures/verdict.hpp"
+#include "sage/app/input.hpp"
+#include "sage/core/error.hpp"
+#include "sage/figures/page.hpp"
+#include "sage/figures/pictures.hpp"
+#include "sage/record/out_file.hpp"
+
+extern char** environ;
 
 namespace sage::app {
 
 namespace {
 
-int run_figures(const Catalogue& catalogue) {
-  const scenes::Workbench bench = make_workbench(catalogue);
-  figures::Runs runs(bench);
-  const double fit = figures::fitted_k_j(bench);
-  fmt::print("fitted {}\n", fit);
-  for (const figures::Result& r :
-       figures::evaluate(runs, figures::checks(), {{"120", 120}, {"5", 5}, {"fit", fit}})) {
-    fmt::print("7.{} | {} | {}{}\n", r.check->figure, r.check->quote, figures::name_of(r.verdict),
-               r.b_bar_only ? " (B-bar only)" : "");
-    for (const figures::Outcome& o : r.outcomes)
-      fmt::print("      [{} {}] kj {:.4g} {}: full {:.5g} {:.5g} bbar {:.5g} {:.5g}\n", r.check->low,
-                 r.check->high, o.k_j, figures::name_of(figures::judge(o)), o.number[0][0], o.number[0][1],
-                 o.number[1][0], o.number[1][1]);
-    fmt::print("      seen: {}\n", r.shown_to_fail);
+struct FiguresOptions {
+  std::filesystem::path folder = "figures";
+  std::vector<std::string> only, formats;
+  bool list = false;
+};
+
+// "7.16" or "16".  Throws std::invalid_argument that says what is wanted.
+int figure_from(const std::string& text) {
+  const std::string digits = text.starts_with("7.") ? text.substr(2) : text;
+  int figure = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), figure);
+  if (error != std::errc() || end != digits.data() + digits.size() || figure < 1 ||
+      figure > static_cast<int>(figures::captions().size()))
+    throw std::invalid_argument("--only " + text + ": wanted a figure from 7.1 to 7.40");
+  return figure;
+}
+
+std::vector<int> chosen_figures(const FiguresOptions& options) {
+  std::vector<int> chosen;
+  for (const std::string& text : options.only) chosen.push_back(figure_from(text));
+  if (chosen.empty())
+    for (const figures::Caption& caption : figures::captions()) chosen.push_back(caption.figure);
+  return chosen;
+}
+
+std::vector<figures::Check> checks_of(const std::vector<int>& chosen) {
+  std::vector<figures::Check> list;
+  for (const figures::Check& check : figures::checks())
+    if (std::ranges::find(chosen, check.figure) != chosen.end()) list.push_back(check);
+  return list;
+}
+
+int list_figures(const std::vector<int>& chosen) {
+  for (int figure : chosen) {
+    fmt::print("7.{}  {}\n", figure, figures::caption_of(figure).title);
+    for (const figures::Check& check : figures::checks())
+      if (check.figure == figure) fmt::print("      \"{}\": {}\n", check.quote, figures::limits_of(check));
   }
   return kOk;
 }
 
+// Throws OutputError where the program is not there or fails.
+void convert(const std::filesystem::path& svg, const std::string& format) {
+  std::filesystem::path to = svg;
+  to.replace_extension(format);
+  std::string program = "rsvg-convert", from = svg.string(), kind = "--format=" + format,
+              output = "--output=" + to.string();
+  char* arguments[] = {program.data(), kind.data(), output.data(), from.data(), nullptr};
+  pid_t child = 0;
+  int status = 0;
+  if (posix_spawnp(&child, program.c_str(), nullptr, nullptr, arguments, environ) != 0 ||
+      waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) == 127)
+    throw OutputError("--format " + format + " needs the program rsvg-convert (librsvg2-bin)");
+  if (WEXITSTATUS(status) != 0) throw OutputError("rsvg-convert could not make " + to.string());
+}
+
+// K_j of Table 7.2, the one that meets Table 7.3, and the one that meets Figure 7.18 if there is one.
+std::vector<figures::StiffnessChoice> stiffness_choices(const scenes::Workbench& bench) {
+  std::vector<figures::StiffnessChoice> choices{{"Table 7.2", 120.0}, {"meets Table 7.3", 5.0}};
+  if (const double fitted = figures::fitted_k_j(bench); fitted > 0.0)
+    choices.push_back({"3 percent in Figure 7.18", fitted});
+  return choices;
+}
+
+bool any_lubricated(const std::vector<figures::Check>& checks) {
+  return std::ranges::any_of(
+      checks, [](const figures::Check& check) { return figures::scene_named(check.a.scene).lubricated(); });
+}
+
+std::vector<std::string> picture_formats(const FiguresOptions& options) {
+  std::vector<std::string> formats;
+  for (const std::string& format : options.formats)
+    if (format != "svg") formats.push_back(format);
+  return formats;
+}
+
+int run_figures(const FiguresOptions& options, const Catalogue& catalogue) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<int> chosen = chosen_figures(options);
+  if (options.list) return list_figures(chosen);
+  std::error_code error;
+  std::filesystem::create_directories(options.folder, error);
+  if (error) throw OutputError("the folder " + options.folder.string() + " can't be made: " + error.message());
+
+  const scenes::Workbench bench = make_workbench(catalogue);
+  figures::Runs runs(bench);
+  const std::vector<figures::Check> checks = checks_of(chosen);
+  const std::vector<figures::StiffnessChoice> choices =
+      any_lubricated(checks) ? stiffness_choices(bench) : std::vector<figures::StiffnessChoice>{};
+  figures::Page page{chosen, figures::evaluate(runs, checks, choices), {}};
+  if (options.only.empty()) page.stiffness = figures::stiffness_rows(runs, choices);
+  for (int figure : chosen) {
+    const std::filesystem::path file = options.folder / figures::file_of(figure);
+    write_file(file, figures::figure_svg(figure, runs, choices));
+    for (const std::string& format : picture_formats(options)) convert(file, format);
+    fmt::print("{}  {}\n", file.string(), figures::tally(page.results, figure));
+  }
+  write_file(options.folder / "figures.md", figures::page_text(page, "svg"));
+  write_file(options.folder / "figures.csv", figures::csv_text(page.results));
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  fmt::print("{} checks: {}\n{} runs, {:.1f} s; {}\n", page.results.size(), figures::tally(page.results, 0),
+             runs.size(), seconds.count(), (options.folder / "figures.md").string());
+  return kOk;
+}
+
+std::string complaint_about_figure(const std::string& text) {
+  try {
+    figure_from(text);
+    return {};
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+}
+
 }  // namespace
 
-Command figures_command(CLI::App&, const Catalogue& catalogue) {
-  return [&catalogue] { return run_figures(catalogue); };
+Command figures_command(CLI::App& parser, const Catalogue& catalogue) {
+  auto options = std::make_shared<FiguresOptions>();
+  parser.add_option("--only", options->only, "a figure, 7.1 to 7.40; may be repeated (default: all)")
+      ->allow_extra_args(false)
+      ->check(complaint_about_figure);
+  parser.add_option("-o,--output", options->folder,
+                    "folder for pictures, figures.md and figures.csv (default: figures)");
+  parser
+      .add_option("--format", options->formats,
+                  "svg, and besides pdf or png (with rsvg-convert, where it is installed); may be repeated")
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember({"svg", "pdf", "png"}));
+  parser.add_flag("--list", options->list,
+                  "the figures and the chapter's sentences with their limits, computing nothing");
+  return [options, &catalogue] { return run_figures(*options, catalogue); };
 }
 
 }  // namespace sage::app

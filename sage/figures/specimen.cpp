@@ -74,7 +74,7 @@ class Watcher final : public Observer {
     State state;
     keep_joint(model, now, state);
     run_->joint_most.push_back(state.joint_level.empty() ? 0.0 : std::ranges::max(state.joint_level));
-    if (kept(strain)) keep_state(model, now, strain, state);
+    if (kept(strain)) keep_state(model, report, now, strain, state);
     if (report.increment == report.increments) keep_mesh(model, now);
   }
 
@@ -128,7 +128,8 @@ class Watcher final : public Observer {
     }
   }
 
-  void keep_state(const Model& model, const Solution& now, double strain, State& state) {
+  void keep_state(const Model& model, const StepReport& report, const Solution& now, double strain,
+                  State& state) {
     const FieldTable table = fields_of(model);
     const std::vector<double> means =
         element_average(model.mesh, now.groups()[0], fields_named(table, {"stress"}));
@@ -150,7 +151,29 @@ class Watcher final : public Observer {
       read_field(level, PointState(model.mesh, now.groups()[0], p), &value);
       state.level.push_back(std::isnan(value) ? 0.0 : std::min(value, 1.0));
     }
+    state.frame = frame_of_means(model, report, now);
     run_->states.push_back(std::move(state));
+  }
+
+  static std::shared_ptr<const Frame> frame_of_means(const Model& model, const StepReport& report,
+                                                     const Solution& now) {
+    std::vector<GroupData> groups(now.groups().size());
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      const GroupData& data = now.groups()[g];
+      groups[g].group = data.group;
+      groups[g].law = data.law;
+      groups[g].active = data.active;
+      groups[g].state = data.state;
+      if (!data.group->solid()) continue;
+      std::vector<double>& sigma = groups[g].state.committed.sigma;
+      for (std::size_t first = 0; first + 16 <= sigma.size(); first += 16) {  // 4 stresses of 4 points
+        Eigen::Map<Eigen::Matrix4d> points(sigma.data() + first);
+        const Vector4 mean = points.rowwise().mean();
+        points.colwise() = mean;
+      }
+    }
+    const Solution means{now.u, now.internal, now.external, nullptr, now.activity, groups};
+    return std::make_shared<const Frame>(model, report, means);
   }
 
   std::size_t nodes() const { return static_cast<std::size_t>((deck_->columns + 1) * (deck_->rows + 1)); }
@@ -310,6 +333,9 @@ SpecimenRun run_specimen(const scenes::Workbench& bench, const Scene& scene, Ele
   run.columns = deck.columns;
   run.rows = deck.rows;
   auto model = std::make_shared<Model>(bench.build(deck.text()));
+  model->units.length = "in";
+  model->units.force = "lbf";
+  model->units.stress = "psi";
   run.model = model;
   Watcher watcher(run, deck);
   Observer* observers[] = {&watcher};

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sage/figures/measures.hpp"
+#include "sage/record/result.hpp"
 #include "sage/scenes/specimen_deck.hpp"
 #include "sage/scenes/whole_run.hpp"
 
@@ -50,6 +51,8 @@ struct State {
   std::vector<std::vector<double>> at_elements;  // by Quantity from sigma_r (first) to conf: of its mean stress
   std::vector<double> level;                     // of every point of the specimen; no more than 1
   std::vector<double> joint_normal, joint_shear, joint_level;  // of every point of the interface
+  // For pictures: the stress of every point is the mean of its element, its status its own.
+  std::shared_ptr<const Frame> frame;
 
   const std::vector<double>& values(Quantity quantity) const;
 };
