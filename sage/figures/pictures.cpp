@@ -119,6 +119,7 @@ std::string field_figure(const FieldFigure& figure, Runs& runs, const std::vecto
   FieldSheet sheet;
   sheet.title = titled(figure.figure);
   sheet.columns = static_cast<int>(figure.quantities.size() * figure.strains.size());
+  sheet.one_scale = figure.figure != 37;  // patterns before and after yield, whose stresses differ
   sheet.look.deformed = false;
   sheet.look.width = scene_named(figure.scene).slenderness == 1.0 ? 430 : 390;  // with axis and colour bar
   sheet.look.yielded = figure.quantities[0] == Quantity::level;

@@ -46,6 +46,7 @@ TEST(CommandLine, HelpOfEverySubcommandNamesItsOptions) {
       {"layout check", {"LAYOUT", "DECK", "--strict", "Exit codes"}},
       {"tables", {"--cases", "--output", "--pinned"}},
       {"verify", {"--list", "--only", "--rows", "--csv", "--write"}},
+      {"figures", {"--only", "--output", "--format", "--list"}},
       {"stress", {"--list", "--only", "--details", "--csv", "--write"}},
       {"compare",
        {"DECK", "--both", "--formulation", "--element", "--geometry", "--solver", "--formulation-b",
@@ -244,6 +245,40 @@ TEST(CommandLine, VerifyListsRunsAndWritesRows) {
   EXPECT_GE(row(read(folder / "rows.csv"), "\"Patch tests of interfaces\"").size(), 15u);
   EXPECT_EQ(sagefe(folder, "verify --only nothing").exit_code, 1);
   EXPECT_EQ(sagefe(folder, "verify --only interface.p5 --write").exit_code, 1);
+}
+
+TEST(CommandLine, FiguresComputesOneWithItsPage) {
+  const fs::path folder = empty_folder("figures");
+  const Finished list = sagefe(folder, "figures --list --only 7.16");
+  EXPECT_EQ(list.exit_code, 0);
+  expect_words(list.out, {"7.16", "approximately half of those for the pinned end case", "0.4 to 0.6"});
+  const Finished run = sagefe(folder, "figures --only 7.16 -o out");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  expect_words(run.out, {"out/figure_7_16.svg", "4 checks", "4 runs"});  // two scenes, full and B-bar
+  expect_words(read(folder / "out/figure_7_16.svg"),
+               {"Figure 7.16", "Deviator stress, full 4-node", "B-bar", "psi"});
+  expect_words(read(folder / "out/figures.md"),
+               {"![Figure 7.16](figure_7_16.svg)", "E = 3000 psi", "What the words mean"});
+  EXPECT_EQ(row(read(folder / "out/figures.csv"), "7.16").size(), 12u);
+  const Finished wrong = sagefe(folder, "figures --only 7.41");
+  EXPECT_EQ(wrong.exit_code, 1);
+  expect_words(wrong.err, {"7.41", "from 7.1 to 7.40"});
+  write(folder / "file", "");
+  EXPECT_EQ(sagefe(folder, "figures --only 7.1 -o file/out").exit_code, 4);
+}
+
+// Without rsvg-convert: what is missing, after the SVG.
+TEST(CommandLine, FiguresSaysWhatAnotherFormatNeeds) {
+  const fs::path folder = empty_folder("figures_format");
+  const char* path = std::getenv("PATH");
+  const std::string before = path == nullptr ? "" : path;
+  setenv("PATH", folder.c_str(), 1);
+  const Finished run = sagefe(folder, "figures --only 7.1 -o out --format png");
+  setenv("PATH", before.c_str(), 1);
+  EXPECT_EQ(run.exit_code, 4);
+  expect_words(run.err, {"rsvg-convert"});
+  EXPECT_TRUE(fs::exists(folder / "out/figure_7_01.svg"));
 }
 
 // A deck under a layout that is guessed: echo and layout check take the draft, check and run refuse it.
