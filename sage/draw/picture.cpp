@@ -7,7 +7,6 @@
 #include <cmath>
 #include <iterator>
 #include <map>
-#include <sstream>
 
 #include "sage/draw/colour_map.hpp"
 #include "sage/draw/contour.hpp"
@@ -340,22 +339,6 @@ std::string range_text(const Draft& draft, const std::vector<double>& limits) {
   return text;
 }
 
-// Lines of words that are no wider than `room`, px.
-std::vector<std::string> wrapped(const std::string& words, double width_of_one, double room) {
-  std::vector<std::string> lines{""};
-  std::istringstream stream(words);
-  for (std::string word; stream >> word;) {
-    std::string& line = lines.back();
-    if (line.empty())
-      line = word;
-    else if (width_of_one * (length(line) + 1.0 + length(word)) <= room)
-      line += " " + word;
-    else
-      lines.push_back(word);
-  }
-  return lines;
-}
-
 // The words above a picture: the title in bold.
 struct Heading {
   std::vector<std::string> title, text;
@@ -367,11 +350,11 @@ constexpr double kBold = 0.64 * svg::kTitleFont, kPlain = 0.56 * svg::kFont;  //
 Heading heading_of(const Draft& draft, const std::vector<double>& limits, double room) {
   const Model& model = draft.scenery.model;
   const PictureOptions& options = draft.options;
-  Heading heading{wrapped(options.title.empty() ? model.title : options.title, kBold, room), {}};
+  Heading heading{svg::wrapped(options.title.empty() ? model.title : options.title, kBold, room), {}};
   const std::string what =
       (options.state.empty() ? "" : options.state + ": ") + describe(draft.scenery.field, model);
   for (const std::string& words : {what, range_text(draft, limits)})
-    for (std::string& line : wrapped(words, kPlain, room)) heading.text.push_back(std::move(line));
+    for (std::string& line : svg::wrapped(words, kPlain, room)) heading.text.push_back(std::move(line));
   return heading;
 }
 

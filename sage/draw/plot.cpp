@@ -183,6 +183,8 @@ void draw_series(std::string& out, const PlotSeries& series, const Axis& x, cons
   const std::size_t count = std::min(series.x.size(), series.y.size());
   std::string path, marks;
   bool pen_down = false;
+  constexpr double kApart = 26.0;  // px: of the markers along a line
+  double mark_x = -kApart, mark_y = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     if (!x.shows(series.x[i]) || !y.shows(series.y[i])) {
       pen_down = false;
@@ -194,7 +196,10 @@ void draw_series(std::string& out, const PlotSeries& series, const Axis& x, cons
     path += ' ';
     svg::number(path, py);
     pen_down = true;
-    if (series.markers) draw_marker(marks, px, py, style);
+    if (!series.markers || (series.line && std::hypot(px - mark_x, py - mark_y) < kApart)) continue;
+    draw_marker(marks, px, py, style);
+    mark_x = px;
+    mark_y = py;
   }
   if (series.line && !path.empty())
     fmt::format_to(std::back_inserter(out),
@@ -340,7 +345,10 @@ std::string sheet_svg(const PlotSheet& sheet) {
   const Styles styles(sheet.panels);
   const std::vector<LegendRow> legend = legend_of(sheet.panels, styles);
   const Layout layout = layout_of(sheet, columns, rows, legend);
-  std::string out = svg::open(static_cast<int>(layout.width), static_cast<int>(layout.height));
+  constexpr int kNoteFont = svg::kFont - 1;
+  const std::vector<std::string> note = svg::wrapped(sheet.note, 0.56 * kNoteFont, layout.width - 16.0);
+  const double note_height = sheet.note.empty() ? 0.0 : 6.0 + 16.0 * static_cast<double>(note.size());
+  std::string out = svg::open(static_cast<int>(layout.width), static_cast<int>(layout.height + note_height));
   if (!sheet.title.empty())
     svg::text(out, 0.5 * layout.width, 26.0, sheet.title,
               fitting(sheet.title, svg::kTitleFont, layout.width - 16.0), "middle", "font-weight=\"bold\"");
@@ -354,6 +362,8 @@ std::string sheet_svg(const PlotSheet& sheet) {
       draw_series(out, plot.series[i], panel.x, panel.y, styles.of(plot, i));
   }
   draw_legend(out, legend, layout.legend_left, layout.legend_top);
+  for (std::size_t i = 0; i < note.size() && !sheet.note.empty(); ++i)
+    svg::text(out, 8.0, layout.height + 12.0 + 16.0 * static_cast<double>(i), note[i], kNoteFont, "start");
   out += svg::kClose;
   return out;
 }

@@ -10,9 +10,9 @@ struct PlotSeries {
   std::string name;          // for the legend; empty = not in it
   std::vector<double> x, y;  // values that are no numbers (or <= 0 on a log axis) break the line
   bool line = true;
-  bool markers = false;
-  bool dashed = false;  // whatever its style
-  int style = -1;       // colour, dashes and marker; -1: that of its name, another for each name
+  bool markers = false;  // of a line no nearer than can be told apart
+  bool dashed = false;   // whatever its style
+  int style = -1;        // colour, dashes and marker; -1: that of its name, another for each name
 };
 
 // One frame with its axes.
@@ -29,6 +29,7 @@ struct PlotSheet {
   std::string title;
   std::vector<Plot> panels;
   int columns = 2;
+  std::string note = {};  // below all of it, small
 };
 
 // How a series looks: no two below kLineStyles are alike, in colour or in grey (dashes and markers tell them apart).

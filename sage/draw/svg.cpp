@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <sstream>
 
 #include "sage/record/number.hpp"
 #include "sage/record/values.hpp"
@@ -36,6 +37,21 @@ void line(std::string& out, double x1, double y1, double x2, double y2, std::str
 
 void number(std::string& out, double value) {
   append_plain(out, std::round(100.0 * value) / 100.0, 8);
+}
+
+std::vector<std::string> wrapped(const std::string& words, double width_of_one, double room) {
+  std::vector<std::string> lines{""};
+  std::istringstream stream(words);
+  for (std::string word; stream >> word;) {
+    std::string& line = lines.back();
+    if (line.empty())
+      line = word;
+    else if (width_of_one * (static_cast<double>(line.size() + 1 + word.size())) <= room)
+      line += " " + word;
+    else
+      lines.push_back(word);
+  }
+  return lines;
 }
 
 }  // namespace sage::svg

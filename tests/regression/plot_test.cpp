@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <regex>
 
 #include "tests/regression/program.hpp"
 
@@ -89,6 +90,64 @@ TEST(Plot, AnyOutputIncrementCanBeDrawn) {
   const Finished none = sagefe(folder, "plot out/deck.h5 --picture displacement_y --at 1:11");
   EXPECT_EQ(none.exit_code, 1);
   EXPECT_NE(none.err.find("it has 1:1 1:2 1:3"), std::string::npos) << none.err;
+}
+
+// y of the points of each line that was drawn, in px from above.
+std::vector<std::vector<double>> lines_of(const std::string& svg) {
+  std::vector<std::vector<double>> lines;
+  const std::regex path("<path d=\"([^\"]*)\" fill=\"none\" stroke=\"#[0-9a-f]*\" stroke-width=\"2\""),
+      point("[ML][-0-9.]+ ([-0-9.]+)");
+  for (std::sregex_iterator it(svg.begin(), svg.end(), path), end; it != end; ++it) {
+    const std::string points = (*it)[1];
+    std::vector<double>& line = lines.emplace_back();
+    for (std::sregex_iterator p(points.begin(), points.end(), point); p != end; ++p)
+      line.push_back(std::stod((*p)[1]));
+  }
+  return lines;
+}
+
+// An elastic body with pinned ends: measured and correct deviator grow with the strain, their ratio stays.
+TEST(Plot, ColumnsOfReportsAreCurves) {
+  const fs::path folder = empty_folder("plot_columns");
+  for (const char* name : {"pinned_ld1_nu025", "pinned_ld2_nu025"})
+    ASSERT_EQ(sagefe(folder, "run " + kInputs + "chapter7/" + name + "/deck.dat -q").exit_code, 0);
+  const Finished plot = sagefe(folder, "plot out/pinned_ld1_nu025.report1.csv");
+  ASSERT_EQ(plot.exit_code, 0) << plot.err;
+  EXPECT_EQ(plot.out, "out/pinned_ld1_nu025_curves.svg\n");
+  const std::string svg = read((folder / "out/pinned_ld1_nu025_curves.svg").string());
+  const auto lines = lines_of(svg);
+  ASSERT_EQ(lines.size(), 3u);
+  const std::vector<double>&measured = lines[0], &correct = lines[1], &ratio = lines[2];
+  ASSERT_GE(measured.size(), 5u);
+  EXPECT_LT(measured.back(), correct.back()) << "pinned ends measure more";
+  EXPECT_LT(measured.back(), measured.front());
+  for (double y : ratio) EXPECT_NEAR(y, ratio.front(), 1.0);
+  EXPECT_NE(svg.find("axial strain [-], compression positive"), std::string::npos);
+  const Finished two =
+      sagefe(folder,
+             "plot out/pinned_ld1_nu025.report1.csv out/pinned_ld2_nu025.report1.csv --xy axial_strain:ratio "
+             "--label stout --label slender --name both -o drawn");
+  ASSERT_EQ(two.exit_code, 0) << two.err;
+  const std::string both = read((folder / "drawn/both.svg").string());
+  EXPECT_EQ(lines_of(both).size(), 2u);
+  EXPECT_NE(both.find(">slender<"), std::string::npos);
+  EXPECT_NE(both.find(">stout<"), std::string::npos);
+}
+
+TEST(Plot, ColumnsThatAreNoneAreNamed) {
+  const fs::path folder = empty_folder("plot_columns_bad");
+  ASSERT_EQ(sagefe(folder, "run " + kInputs + "chapter7/pinned_ld1_nu025/deck.dat -q").exit_code, 0);
+  const auto expect_refused = [&](const std::string& words, int code, const std::string& message) {
+    const Finished plot = sagefe(folder, "plot " + words);
+    EXPECT_EQ(plot.exit_code, code) << words;
+    EXPECT_NE(plot.err.find(message), std::string::npos) << plot.err;
+  };
+  const std::string report = "out/pinned_ld1_nu025.report1.csv";
+  expect_refused(report + " --xy axial_strain:rato", 1,
+                 "no column rato; it has stage, increment, axial_strain");
+  expect_refused(report + " --xy axial_strain", 1, "wanted X:Y[,Y...]");
+  expect_refused("out/pinned_ld1_nu025.increments.csv", 1, "which columns?");
+  expect_refused("out/absent.csv", 2, "can't be opened");
 }
 
 TEST(Plot, FilesThatAreNoneAreOneError) {

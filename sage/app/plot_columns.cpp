@@ -1,0 +1,209 @@
+// sagefe plot TABLE...: columns of reports against each other.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sage/app/input.hpp"
+#include "sage/app/plot_command.hpp"
+#include "sage/draw/plot.hpp"
+#include "sage/record/csv_table.hpp"
+#include "sage/record/out_file.hpp"
+
+namespace sage::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Source {
+  fs::path file;
+  std::string label;
+  CsvTable table;
+};
+
+// A column, or its negative: "-uy" is the settlement of a footing.
+struct Variable {
+  std::string name;
+  bool negative = false;
+};
+
+struct Panel {
+  Variable x;
+  std::vector<Variable> y;
+};
+
+Variable variable_from(std::string_view text) {
+  const bool negative = text.starts_with('-');
+  return {std::string(text.substr(negative ? 1 : 0)), negative};
+}
+
+Panel panel_from(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos || colon == 0 || colon + 1 == text.size())
+    throw UsageError("--xy " + text + ": wanted X:Y[,Y...], names of columns");
+  Panel panel{variable_from(std::string_view(text).substr(0, colon)), {}};
+  for (std::size_t at = colon + 1, end = 0; at <= text.size(); at = end + 1) {
+    end = std::min(text.find(',', at), text.size());
+    panel.y.push_back(variable_from(std::string_view(text).substr(at, end - at)));
+  }
+  return panel;
+}
+
+const CsvTable::Column& column_of(const Source& source, const Variable& variable) {
+  const CsvTable::Column* column = source.table.find(variable.name);
+  if (column == nullptr)
+    throw UsageError(
+        fmt::format("{}: no column {}; it has {}", source.file.string(), variable.name, source.table.names()));
+  return *column;
+}
+
+std::vector<double> values_of(const Source& source, const Variable& variable) {
+  std::vector<double> values = column_of(source, variable).values;
+  if (variable.negative)
+    for (double& value : values) value = -value;
+  return values;
+}
+
+std::string words_of(const Variable& variable) {
+  std::string words = (variable.negative ? "-" : "") + variable.name;
+  std::ranges::replace(words, '_', ' ');
+  return words;
+}
+
+// Columns of a table that says so; sizes of displacements and forces along the axes are none of them.
+bool compression_positive(const Source& source, const Variable& variable) {
+  const auto has = [&](std::string_view word) { return variable.name.find(word) != std::string::npos; };
+  const bool says = std::ranges::any_of(source.table.comments, [](const std::string& line) {
+    return line.find("compression positive") != std::string::npos;
+  });
+  return says && !variable.negative && (has("strain") || has("stress") || has("axial") || has("deviator"));
+}
+
+std::string label_of(const Source& source, const std::vector<Variable>& variables) {
+  std::string label;
+  for (const Variable& variable : variables) label += (label.empty() ? "" : ", ") + words_of(variable);
+  const std::string& unit = column_of(source, variables.front()).unit;
+  if (!unit.empty()) label += " [" + unit + "]";
+  if (std::ranges::all_of(variables, [&](const Variable& v) { return compression_positive(source, v); }))
+    label += ", compression positive";
+  return label;
+}
+
+bool same_numbers(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::ranges::equal(a, b,
+                            [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
+}
+
+// Such as the correct deviator of decks of one material.
+bool same_in_all(const std::vector<Source>& sources, const Variable& x, const Variable& y) {
+  return std::ranges::all_of(sources, [&](const Source& source) {
+    return same_numbers(values_of(source, x), values_of(sources.front(), x)) &&
+           same_numbers(values_of(source, y), values_of(sources.front(), y));
+  });
+}
+
+// One series a file and y column, but one alone where all files say the same.
+Plot plot_of(const std::vector<Source>& sources, const Panel& panel) {
+  Plot plot;
+  plot.x_label = label_of(sources.front(), {panel.x});
+  plot.y_label = label_of(sources.front(), panel.y);
+  const bool several = panel.y.size() > 1;
+  for (const Source& source : sources)
+    for (const Variable& y : panel.y) {
+      const bool shared = several && sources.size() > 1 && same_in_all(sources, panel.x, y);
+      if (shared && &source != &sources.front()) continue;
+      std::string name = shared || sources.size() == 1 ? words_of(y) : source.label;
+      if (several && sources.size() > 1 && !shared) name += ": " + words_of(y);
+      if (!several && sources.size() == 1) name.clear();  // the axis says it
+      plot.series.push_back({name, values_of(source, panel.x), values_of(source, y), true, true});
+    }
+  return plot;
+}
+
+double span(const CsvTable::Column* column) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (double value : column->values)
+    if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
+  return high - low;
+}
+
+// What a table is about, where nobody says: stress against strain and its ratio; load against displacement.
+std::vector<std::string> usual_panels(const Source& source) {
+  const CsvTable& table = source.table;
+  if (table.find("ratio") != nullptr)
+    return {"axial_strain:measured_deviator,correct_deviator", "axial_strain:ratio"};
+  if (table.find("fx") != nullptr && table.find("ux") != nullptr) {
+    const std::string axis = span(table.find("ux")) > span(table.find("uy")) ? "x" : "y";
+    const auto sign = [&](const std::string& name) {
+      return (table.find(name)->values.empty() || table.find(name)->values.back() >= 0.0 ? "" : "-") + name;
+    };
+    return {sign("u" + axis) + ":" + sign("f" + axis)};
+  }
+  throw UsageError(
+      fmt::format("{}: which columns? --xy X:Y[,Y...]; it has {}", source.file.string(), source.table.names()));
+}
+
+// "dp_285" of dp_285.report1.csv.
+std::string stem_of_table(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return name.substr(0, name.find('.'));
+}
+
+// The first report of a result file's run lies beside it.
+fs::path table_of(const fs::path& file) {
+  if (file.extension() != ".h5") return file;
+  fs::path table = file;
+  return table.replace_extension(".report1.csv");
+}
+
+// Files are told apart by their decks' titles, or by their names where titles are the same.
+std::vector<Source> read_sources(const PlotOptions& options) {
+  std::vector<Source> sources;
+  for (const std::string& file : options.files) {
+    const fs::path table = table_of(file);
+    keep_input(table);
+    sources.push_back({table, "", read_csv_table(table)});
+  }
+  std::vector<std::string> titles;
+  for (const Source& source : sources) titles.push_back(source.table.title());
+  std::ranges::sort(titles);
+  const bool alike = std::ranges::adjacent_find(titles) != titles.end() || titles.front().empty();
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    Source& source = sources[i];
+    source.label = alike ? (source.file.parent_path().filename() / stem_of_table(source.file)).string()
+                         : source.table.title();
+    if (i < options.labels.size()) source.label = options.labels[i];
+  }
+  return sources;
+}
+
+// What the table says about its columns, where all say the same.
+std::string note_of(const std::vector<Source>& sources) {
+  const auto second = [](const Source& source) {
+    return source.table.comments.size() > 1 ? source.table.comments[1] : std::string();
+  };
+  const bool same =
+      std::ranges::all_of(sources, [&](const Source& s) { return second(s) == second(sources.front()); });
+  return same ? second(sources.front()) : "";
+}
+
+}  // namespace
+
+void plot_columns(const PlotOptions& options) {
+  const std::vector<Source> sources = read_sources(options);
+  const std::vector<std::string> asked = options.xy.empty() ? usual_panels(sources.front()) : options.xy;
+  PlotSheet sheet;
+  sheet.title = options.title.empty() && sources.size() == 1 ? sources.front().table.title() : options.title;
+  sheet.note = note_of(sources);
+  std::string name = stem_of_table(sources.front().file);
+  for (const std::string& text : asked) {
+    const Panel panel = panel_from(text);
+    sheet.panels.push_back(plot_of(sources, panel));
+  }
+  const Panel first = panel_from(asked.front());
+  name += options.xy.empty() ? "_curves" : "_" + first.y.front().name + "_" + first.x.name;
+  write_plot(plot_path(options, name), sheet_svg(sheet));
+}
+
+}  // namespace sage::app

@@ -1,0 +1,86 @@
+#include "sage/record/csv_table.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <fstream>
+#include <limits>
+
+#include "sage/core/error.hpp"
+
+namespace sage {
+
+namespace {
+
+// Cells between commas; one in double quotes may hold commas.
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (char c : line) {
+    if (c == '"')
+      quoted = !quoted;
+    else if (c == ',' && !quoted)
+      cells.emplace_back();
+    else if (c != '\r')
+      cells.back() += c;
+  }
+  return cells;
+}
+
+// "force[lbf]"
+CsvTable::Column column_of(const std::string& cell) {
+  const std::size_t bracket = cell.find('[');
+  if (bracket == std::string::npos || cell.back() != ']') return {cell, "", {}};
+  return {cell.substr(0, bracket), cell.substr(bracket + 1, cell.size() - bracket - 2), {}};
+}
+
+double number_of(const std::string& cell) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  const bool whole = error == std::errc() && end == cell.data() + cell.size();
+  return whole ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+const CsvTable::Column* CsvTable::find(const std::string& name) const {
+  for (const Column& column : columns)
+    if (column.name == name) return &column;
+  return nullptr;
+}
+
+std::string CsvTable::names() const {
+  std::string all;
+  for (const Column& column : columns) all += (all.empty() ? "" : ", ") + column.name;
+  return all;
+}
+
+CsvTable read_csv_table(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  if (!stream || std::filesystem::is_directory(file))
+    throw InputError({file.string(), 0, 0, 0}, "can't be opened");
+  CsvTable table;
+  int number = 0;
+  for (std::string line; std::getline(stream, line);) {
+    ++number;
+    if (line.empty()) continue;
+    if (line.front() == '#') {
+      table.comments.push_back(line.substr(line.size() > 1 && line[1] == ' ' ? 2 : 1));
+      continue;
+    }
+    const std::vector<std::string> cells = cells_of(line);
+    if (table.columns.empty()) {
+      for (const std::string& cell : cells) table.columns.push_back(column_of(cell));
+      continue;
+    }
+    if (cells.size() != table.columns.size())
+      throw InputError({file.string(), number, 0, 0}, fmt::format("{} cells, where the line of names has {}",
+                                                                  cells.size(), table.columns.size()));
+    for (std::size_t i = 0; i < cells.size(); ++i) table.columns[i].values.push_back(number_of(cells[i]));
+  }
+  if (table.columns.empty())
+    throw InputError({file.string(), 0, 0, 0}, "has no line with the names of columns");
+  return table;
+}
+
+}  // namespace sage
