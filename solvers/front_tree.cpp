@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "solvers/profile_numbering.hpp"
-#include "solvers/tile_profile.hpp"
 
 namespace sage {
 
@@ -64,7 +63,8 @@ IndexLists border_groups(const EquationGraph& graph, const SeparatorTree& tree, 
   return borders;
 }
 
-void lay_out_fronts(const EquationGraph& graph, const SeparatorTree& tree, bool symmetric, FrontTree& fronts) {
+void lay_out_fronts(const EquationGraph& graph, const SeparatorTree& tree, bool symmetric, int width,
+                    FrontTree& fronts) {
   std::vector<int> rank(at(graph.members.count()));
   for (std::size_t r = 0; r < rank.size(); ++r) rank[at(tree.groups.item[r])] = static_cast<int>(r);
   const IndexLists borders = border_groups(graph, tree, fronts.children, rank);
@@ -83,6 +83,7 @@ void lay_out_fronts(const EquationGraph& graph, const SeparatorTree& tree, bool 
     front.pivot_tiles = whole_tiles(front.pivots);
     front.border_tiles = whole_tiles(front.border);
     front.symmetric = symmetric;
+    front.width = width;
     if (2 * front.arm_terms() > std::numeric_limits<int>::max())
       throw std::length_error("a front of the matrix has more than 2^31 terms");
     front.arms = fronts.factor_terms;
@@ -249,6 +250,13 @@ void map_entries(const AssembledMatrix& matrix, FrontTree& tree) {
 
 }  // namespace
 
+double elimination_operations(const Front& front, bool symmetric_matrix) {
+  double count = 0.0;
+  for (int left = front.border + front.pivots - 1; left >= front.border; --left)
+    count += symmetric_matrix ? left * (left + 3.0) : left * (2.0 * left + 1.0);
+  return count;
+}
+
 std::int64_t arm_target(const Front& front, int i, int j) {
   const int I = i / kTile, J = j / kTile;
   const bool upper = I <= J;
@@ -257,13 +265,13 @@ std::int64_t arm_target(const Front& front, int i, int j) {
 }
 
 FrontTree make_front_tree(const EquationGraph& graph, const AssembledMatrix& matrix, int leaf_equations,
-                          int border, int threads) {
+                          int width, int border, int threads) {
   FrontTree fronts;
   const SeparatorTree tree = nested_dissection(graph, leaf_equations, border, threads);
   if (border > 0) fronts.kept = tree.groups.count() - 1;
   number_equations(graph, tree, fronts);
   list_children(tree.parent, fronts.children);
-  lay_out_fronts(graph, tree, matrix.symmetric(), fronts);
+  lay_out_fronts(graph, tree, matrix.symmetric(), width, fronts);
   divide_work(fronts);
   place_borders(fronts);
   fronts.in_parent.resize(fronts.border.size());

@@ -3,9 +3,10 @@
 #include <algorithm>
 
 #include "sage/core/thread_pool.hpp"
+#include "solvers/aligned_array.hpp"
+#include "solvers/choose_kernels.hpp"
 #include "solvers/front_tree.hpp"
 #include "solvers/matrix_solver.hpp"
-#include "solvers/tile_kernels.hpp"
 
 namespace sage {
 
@@ -18,23 +19,11 @@ std::size_t at(int i) {
 // Largest part of the mesh that becomes one dense front.
 constexpr int kLeafEquations = 16;
 
-// A front while it is in work.  K counts tiles of pivots; J counts tiles of pivots, then of the border.
-struct Arms {
-  const Front& front;
-  double* upper;       // U; for symmetric matrices D L^T
-  double* lower;       // L, transposed; for symmetric matrices in a scratch array
-  double* reciprocal;  // of the pivots
-  double* u(int K, int J) const { return upper + front.panel(J) + K * kTileTerms; }
-  double* l(int K, int I) const { return lower + front.panel(I) + K * kTileTerms; }
-  std::ptrdiff_t stride() const { return std::ptrdiff_t{kTile} * front.pivots; }  // between border panels
-  int live(int K) const { return std::min(kTile, front.pivots - K * kTile); }     // rows of tile row K
-};
-
 // What one thread has of its own.
 struct Lane {
   AlignedArray workspace, scratch;
   PivotCheck check{"", {}};
-  Lanes maximum{};
+  alignas(64) double maximum[kTile] = {};  // largest terms, see TileKernels
 };
 
 // Neighbouring columns of a child that stay neighbours within one tile of the parent.
@@ -94,6 +83,8 @@ class Frontal final : public MatrixSolver {
   explicit Frontal(SolverTraits solver_traits) : MatrixSolver(solver_traits) {}
 
   void set_threads(int threads) override { wanted_threads_ = std::max(1, threads); }
+  void set_kernels(Kernels wanted) override { wanted_kernels_ = &choose_kernels(wanted); }
+  std::string_view kernels() const override { return wanted_kernels_->name; }
 
   void release_workspace() override {
     shared_ = {};
@@ -105,7 +96,7 @@ class Frontal final : public MatrixSolver {
     const std::span<const double> maxima = row_maxima();
     for (Lane& lane : lanes_) {
       lane.check = PivotCheck(traits().name, maxima);
-      lane.maximum = Lanes{};
+      std::ranges::fill(lane.maximum, 0.0);
     }
     const auto eliminate_subtree = [this](int s, int thread) {
       const Subtree& subtree = tree_.subtrees[at(s)];
@@ -136,21 +127,22 @@ class Frontal final : public MatrixSolver {
 
  protected:
   void analyse_matrix(const EquationGraph& graph) override {
-    tree_ = make_front_tree(graph, matrix(), kLeafEquations, border_equations());
+    kernels_ = wanted_kernels_;
+    tree_ = make_front_tree(graph, matrix(), kLeafEquations, kernels_->width, border_equations());
     factors_ = AlignedArray(static_cast<std::size_t>(tree_.factor_terms));
     first_pivot_.assign(1, 0);
     int widest = 0;  // tiles of the widest front
     report_.factor_operations = 0.0;
     for (const Front& front : tree_.fronts) {
       if (&front - tree_.fronts.data() != tree_.kept)
-        report_.factor_operations += front.operations(traits().symmetric);
+        report_.factor_operations += elimination_operations(front, traits().symmetric);
       first_pivot_.push_back(first_pivot_.back() + front.pivot_tiles * kTile);
       widest = std::max(widest, front.pivot_tiles + front.border_tiles);
     }
     reciprocal_.assign(at(first_pivot_.back()), 1.0);
     position_values_ = AlignedArray(at(matrix().equations()));
     front_values_ = AlignedArray(at(widest) * kTile);
-    row_sums_ = AlignedArray(at(widest) * kTile * kLanes);
+    row_sums_ = AlignedArray(at(widest) * kTile * kMostSums);
     make_workspace();
     report_.factor_entries = tree_.factor_terms;
     report_.solve_operations = (traits().symmetric ? 4.0 : 2.0) * static_cast<double>(tree_.factor_terms);
@@ -190,7 +182,7 @@ class Frontal final : public MatrixSolver {
     int negative = 0;
     for (const Lane& lane : lanes_) {
       ratio = std::min(ratio, any ? lane.check.smallest_ratio() : 1.0);
-      size = std::max(size, largest(lane.maximum));
+      size = std::max(size, *std::ranges::max_element(lane.maximum));
       negative += lane.check.negative();
     }
     report_.smallest_pivot_ratio = ratio;
@@ -262,7 +254,7 @@ class Frontal final : public MatrixSolver {
 
   // The same with the columns of the border divided among all threads.
   void eliminate_together(int f) {
-    constexpr int kReduced = 24, kUpdated = 6;  // columns of tiles taken at a time: multiples of kWidth
+    constexpr int kReduced = 24, kUpdated = 6;  // columns of tiles taken at a time: multiples of any width
     const Arms a = arms(f, lanes_[0]);
     const int Q = a.front.border_tiles;
     eliminate_pivots(a, lanes_[0]);
@@ -280,47 +272,15 @@ class Frontal final : public MatrixSolver {
   void eliminate_pivots(const Arms& a, Lane& lane) const {
     for (int J = 0; J < a.front.pivot_tiles; ++J) {
       stop_here_if_asked();
-      reduce_columns<1>(a, J, J, lane.maximum);
-      reduce_diagonal(a, J, lane);
+      kernels_->reduce_pivot_column(a, J, lane.maximum);
+      const int* equation = tree_.order.data() + a.front.first + J * kTile;
+      for (int k = 0; k < a.front.live(J); ++k) lane.check.take(equation[k], a.u(J, J)[k * kTile + k]);
     }
   }
 
   void reduce_border_columns(const Arms& a, int begin, int end, Lane& lane) const {
     stop_here_if_asked();
-    const int P = a.front.pivot_tiles;
-    int J = begin;
-    for (; J + kWidth <= end; J += kWidth) reduce_columns<kWidth>(a, P, P + J, lane.maximum);
-    for (; J < end; ++J) reduce_columns<1>(a, P, P + J, lane.maximum);
-  }
-
-  // Tile rows 0 .. rows - 1 of U in `width` tile columns beginning at J, and the same of L.
-  template <int width>
-  void reduce_columns(const Arms& a, int rows, int J, Lanes& maximum) const {
-    for (int K = 0; K < rows; ++K) {
-      const int live = a.live(K);
-      tile_subtract_products<width>(a.u(K, J), a.stride(), a.l(0, K), a.u(0, J), a.stride(), K * kTile, live);
-      if (!traits().symmetric)
-        tile_subtract_products<width>(a.l(K, J), a.stride(), a.u(0, K), a.l(0, J), a.stride(), K * kTile, live);
-      const double* reciprocal = a.reciprocal + K * kTile;
-      for (int w = J; w < J + width; ++w) {
-        tile_solve_rows<true>(live, a.u(K, w), a.l(K, K), nullptr, maximum);
-        if (!traits().symmetric)
-          tile_solve_rows<false>(live, a.l(K, w), a.u(K, K), reciprocal, maximum);
-        else
-          tile_scale_rows(a.l(K, w), a.u(K, w), reciprocal, live);
-      }
-    }
-  }
-
-  void reduce_diagonal(const Arms& a, int J, Lane& lane) const {
-    double* A = a.u(J, J);
-    const int live = a.live(J);
-    if (traits().symmetric) tile_mirror(A, live);
-    tile_subtract_products<1>(A, 0, a.l(0, J), a.u(0, J), 0, J * kTile, live);
-    const int* equation = tree_.order.data() + a.front.first + J * kTile;
-    tile_factorise(
-        A, a.l(J, J), a.reciprocal + J * kTile, lane.maximum,
-        [&](int k, double pivot) { lane.check.take(equation[k], pivot); }, live);
+    kernels_->reduce_border_columns(a, begin, end, lane.maximum);
   }
 
   // Border columns begin .. end - 1 take the product of all pivots, in blocks of pivots whose arms stay in the
@@ -330,22 +290,8 @@ class Frontal final : public MatrixSolver {
     for (int K = 0; K < a.front.pivot_tiles; K += kBlock) {
       stop_here_if_asked();
       const int count = std::min(kBlock * kTile, a.front.pivots - K * kTile);
-      int J = begin;
-      for (; J + kWidth <= end; J += kWidth) update_columns<kWidth>(a, border_matrix, K, count, J);
-      for (; J < end; ++J) update_columns<1>(a, border_matrix, K, count, J);
+      kernels_->update_border(a, border_matrix, K, count, begin, end);
     }
-  }
-
-  // Border columns J .. J + width - 1 take the product of `count` pivots from tile K on.
-  template <int width>
-  void update_columns(const Arms& a, double* border_matrix, int K, int count, int J) const {
-    const int P = a.front.pivot_tiles;
-    const int rows = traits().symmetric ? J + width : a.front.border_tiles;
-    const std::ptrdiff_t stride = std::ptrdiff_t{a.front.border_rows(J)} * kTileTerms;
-    double* const panel = border_matrix + a.front.border_panel(J);
-    for (int I = 0; I < rows; ++I)
-      tile_subtract_products<width>(panel + I * kTileTerms, stride, a.l(K, P + I), a.u(K, P + J), a.stride(),
-                                    count);
   }
 
   void solve_fronts(std::span<const double> b, std::span<double> x, bool transposed) const;
@@ -355,6 +301,8 @@ class Frontal final : public MatrixSolver {
   void backward(const Front& front, const double* arm, const double* reciprocal, double* w, double* y) const;
 
   int wanted_threads_ = 1;
+  const TileKernels* wanted_kernels_ = &choose_kernels(Kernels::automatic);
+  const TileKernels* kernels_ = wanted_kernels_;  // since analyse(): the tree is laid out for them
   FrontTree tree_;
   AlignedArray factors_, shared_;
   std::vector<Lane> lanes_;
@@ -371,43 +319,20 @@ void Frontal::forward(const Front& front, const double* arm, const double* recip
   const int P = front.pivot_tiles;
   std::copy_n(w + front.first, front.pivots, y);
   std::fill(y + front.pivots, y + (P + front.border_tiles) * kTile, 0.0);
-  for (int J = 0; J < P + front.border_tiles; ++J) {
-    const double* panel = arm + front.panel(J);
-    tile_forward_rows(panel, y, std::min(J * kTile, front.pivots), y + J * kTile);
-    if (J < P)
-      tile_forward_diagonal(panel + J * kTileTerms, reciprocal ? reciprocal + J * kTile : nullptr,
-                            y + J * kTile, std::min(kTile, front.pivots - J * kTile));
-  }
+  kernels_->forward_front(front, arm, reciprocal, y);
   std::copy_n(y, front.pivots, w + front.first);
   for (int k = 0; k < front.border; ++k) w[border[k]] += y[P * kTile + k];
 }
 
-// Pivots of one front by back substitution; the border is known.  Column by column, so that the arm is read as it
-// lies in memory.
+// Pivots of one front by back substitution; the border is known.
 void Frontal::backward(const Front& front, const double* arm, const double* reciprocal, double* w,
                        double* y) const {
   const int* border = tree_.border.data() + front.border_begin;
-  const int P = front.pivot_tiles, all = P + front.border_tiles;
-  std::fill(y, y + all * kTile, 0.0);
+  const int P = front.pivot_tiles;
+  std::fill(y, y + (P + front.border_tiles) * kTile, 0.0);
   std::copy_n(w + front.first, front.pivots, y);
   for (int k = 0; k < front.border; ++k) y[P * kTile + k] = w[border[k]];
-  Lanes* const sums = reinterpret_cast<Lanes*>(row_sums_.data());
-  std::fill_n(row_sums_.data(), P * kTile * kLanes, 0.0);
-  constexpr int kTogether = 4;
-  const std::ptrdiff_t stride = std::ptrdiff_t{kTile} * front.pivots;
-  int border_panel = P;
-  for (; border_panel + kTogether <= all; border_panel += kTogether)
-    tile_multiply_panels<kTogether>(arm + front.panel(border_panel), stride, y + border_panel * kTile,
-                                    front.pivots, sums);
-  for (; border_panel < all; ++border_panel)
-    tile_multiply_panels<1>(arm + front.panel(border_panel), 0, y + border_panel * kTile, front.pivots, sums);
-  for (int J = P - 1; J >= 0; --J) {
-    const double* const panel = arm + front.panel(J);
-    tile_subtract_sums(sums + J * kTile, y + J * kTile);
-    tile_backward_diagonal(panel + J * kTileTerms, reciprocal ? reciprocal + J * kTile : nullptr, y + J * kTile,
-                           std::min(kTile, front.pivots - J * kTile));
-    tile_multiply_panels<1>(panel, 0, y + J * kTile, J * kTile, sums);
-  }
+  kernels_->backward_front(front, arm, reciprocal, y, row_sums_.data());
   std::copy_n(y, front.pivots, w + front.first);
 }
 

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
+#include "solvers/choose_kernels.hpp"
 #include "solvers/matrix_solver.hpp"
-#include "solvers/tile_kernels.hpp"
+#include "solvers/tile_profile.hpp"
 
 namespace sage {
 
@@ -17,25 +18,28 @@ std::size_t at(int i) {
 //   U(K,J) = L(K,K)^-1 (A(K,J) - sum L(K,M) U(M,J)),   L(J,K) = (A(J,K) - sum L(J,M) U(M,K)) U(K,K)^-1,
 // M from the lower of the two tops to K - 1, and then L(J,J) U(J,J) = A(J,J) - sum L(J,M) U(M,J).
 // Where K is symmetric, U = D L^T and L(J,K) = U(K,J)^T D(K)^-1: L is kept, and of U the column in work.
-// Which of the two it is the compiler must know, and have all of a factorisation in one function: else pointers
-// into tiles go through memory (4 % of a plastic run of 800 equations).
 template <bool symmetric>
 class Skyline final : public MatrixSolver {
  public:
   Skyline() : MatrixSolver({symmetric ? "skyline_ldlt" : "skyline_lu", symmetric}) {}
 
-  [[gnu::flatten]] void factorise_matrix() override {
+  void set_kernels(Kernels wanted) override { kernels_ = &choose_kernels(wanted); }
+  std::string_view kernels() const override { return kernels_->name; }
+
+  void factorise_matrix() override {
     PivotCheck check(traits().name, row_maxima());
-    Lanes maximum{};
+    const ProfileFactors factors = factors_in_place();
+    alignas(64) double maximum[kTile] = {};
     for (int J = 0; J < profile_.tiles; ++J) {
       stop_here_if_asked();
       fill_column(J);
-      double* const upper = symmetric ? column_.data() : upper_ + profile_.offset[at(J)];
-      for (int K = profile_.top[at(J)]; K < J; ++K) reduce_tile(K, J, upper, maximum);
-      reduce_diagonal(J, upper, check, maximum);
+      kernels_->reduce_profile_column(factors, J, maximum);
+      const int live = std::min(kTile, profile_.equations - J * kTile);
+      for (int k = 0; k < live; ++k)
+        check.take(profile_.order[at(J * kTile + k)], diagonal_[J * kTileTerms + k * kTile + k]);
     }
     report_.smallest_pivot_ratio = profile_.equations > 0 ? check.smallest_ratio() : 1.0;
-    report_.growth = profile_.equations > 0 ? largest(maximum) / check.largest_term() : 1.0;
+    report_.growth = profile_.equations > 0 ? *std::ranges::max_element(maximum) / check.largest_term() : 1.0;
     if constexpr (symmetric) report_.negative_pivots = check.negative();
   }
 
@@ -96,36 +100,8 @@ class Skyline final : public MatrixSolver {
       diagonal[i * kTile + i] = 1.0;
   }
 
-  // upper: column J of U.
-  void reduce_tile(int K, int J, double* upper, Lanes& maximum) {
-    const int top = profile_.top[at(J)], first = std::max(profile_.top[at(K)], top);
-    const std::int64_t mk = profile_.tile(first, K);
-    const double* const reciprocal = reciprocal_.data() + K * kTile;
-    double* const U = upper + (K - top) * kTileTerms;
-    double* const L = lower_ + profile_.tile(K, J);
-    tile_subtract_product(U, lower_ + mk, upper + (first - top) * kTileTerms, K - first);
-    if constexpr (!symmetric)
-      tile_subtract_product(L, upper_ + mk, lower_ + profile_.tile(first, J), K - first);
-    tile_solve<true>(U, unit_ + K * kTileTerms, nullptr, maximum);
-    if constexpr (symmetric)
-      tile_scale_rows(L, U, reciprocal);
-    else
-      tile_solve<false>(L, diagonal_ + K * kTileTerms, reciprocal, maximum);
-  }
-
-  void reduce_diagonal(int J, const double* upper, PivotCheck& check, Lanes& maximum) {
-    double* const A = diagonal_ + J * kTileTerms;
-    double* const reciprocal = reciprocal_.data() + J * kTile;
-    tile_subtract_product(A, lower_ + profile_.offset[at(J)], upper, profile_.height(J));
-    const int live = std::min(kTile, profile_.equations - J * kTile);
-    const int* equation = profile_.order.data() + J * kTile;
-    const auto take = [&](int k, double pivot) {
-      if (k < live) check.take(equation[k], pivot);
-    };
-    if constexpr (symmetric)
-      tile_factorise_symmetric(A, reciprocal, maximum, take);
-    else
-      tile_factorise(A, unit_ + J * kTileTerms, reciprocal, maximum, take);
+  ProfileFactors factors_in_place() {
+    return {profile_.shape(), symmetric, upper_, lower_, diagonal_, unit_, reciprocal_.data(), column_.data()};
   }
 
   void solve_triangles(std::span<const double> b, std::span<double> x, const TileTriangle& first,
@@ -133,13 +109,14 @@ class Skyline final : public MatrixSolver {
     double* const w = work_.data();
     for (int p = 0; p < profile_.equations; ++p) w[p] = b[at(profile_.order[at(p)])];
     for (int p = profile_.equations; p < profile_.tiles * kTile; ++p) w[p] = 0.0;
-    tile_forward(profile_, first, w);
+    kernels_->profile_forward(profile_.shape(), first, w);
     if constexpr (symmetric)
       for (int p = 0; p < profile_.equations; ++p) w[p] *= reciprocal_[at(p)];
-    tile_backward(profile_, second, w);
+    kernels_->profile_backward(profile_.shape(), second, w);
     for (int p = 0; p < profile_.equations; ++p) x[at(profile_.order[at(p)])] = w[p];
   }
 
+  const TileKernels* kernels_ = &choose_kernels(Kernels::automatic);
   TileProfile profile_;
   TileScatter scatter_;
   AlignedArray tiles_;          // U, diagonal and L; for symmetric matrices L and diagonal.  L is transposed

@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "solvers/profile_numbering.hpp"
-#include "solvers/tile_kernels.hpp"
 
 namespace sage {
 
@@ -98,14 +97,6 @@ TileScatter make_tile_scatter(const TileProfile& profile, const AssembledMatrix&
   return scatter;
 }
 
-void tile_forward(const TileProfile& profile, const TileTriangle& T, double* x) {
-  for (int J = 0; J < profile.tiles; ++J) {
-    double* z = x + J * kTile;
-    tile_forward_panel(T.tiles + profile.offset[at(J)], x + profile.top[at(J)] * kTile, profile.height(J), z);
-    tile_forward_diagonal(T.diagonal + J * kTileTerms, T.reciprocal ? T.reciprocal + J * kTile : nullptr, z);
-  }
-}
-
 double factor_operations(const TileProfile& profile, bool symmetric) {
   constexpr double kProduct = 2.0 * kTile * kTileTerms;  // of two tiles
   double arm = 0.0, diagonal = 0.0;                      // products of tiles above the diagonal, and on it
@@ -115,17 +106,6 @@ double factor_operations(const TileProfile& profile, bool symmetric) {
     diagonal += profile.height(J) + 1.0 / 3.0;
   }
   return kProduct * ((symmetric ? 1.0 : 2.0) * arm + diagonal);
-}
-
-void tile_backward(const TileProfile& profile, const TileTriangle& T, double* x) {
-  for (int K = profile.tiles - 1; K >= 0; --K) {
-    Lanes row[kTile] = {};
-    for (const int J : profile.right.of(K))
-      tile_multiply_rows(T.tiles + profile.tile(K, J), x + J * kTile, row);
-    double* z = x + K * kTile;
-    tile_subtract_sums(row, z);
-    tile_backward_diagonal(T.diagonal + K * kTileTerms, T.reciprocal ? T.reciprocal + K * kTile : nullptr, z);
-  }
 }
 
 }  // namespace sage

@@ -11,11 +11,9 @@
 #include "solvers/aligned_array.hpp"
 #include "solvers/assembled_matrix.hpp"
 #include "solvers/equation_graph.hpp"
+#include "solvers/tile_kernels.hpp"
 
 namespace sage {
-
-inline constexpr int kTile = 8;
-inline constexpr int kTileTerms = kTile * kTile;
 
 struct TileProfile {
   int equations = 0;
@@ -28,9 +26,9 @@ struct TileProfile {
   std::int64_t terms() const { return offset.back(); }  // off-diagonal terms of one triangle
 
   int height(int J) const { return J - top[static_cast<std::size_t>(J)]; }
-  std::int64_t tile(int K, int J) const {
-    const auto j = static_cast<std::size_t>(J);
-    return offset[j] + static_cast<std::int64_t>(K - top[j]) * kTileTerms;
+  std::int64_t tile(int K, int J) const { return shape().tile(K, J); }
+  ProfileShape shape() const {
+    return {tiles, top.data(), offset.data(), right.start.data(), right.item.data()};
   }
 };
 
@@ -51,18 +49,5 @@ struct TileScatter {
 // Targets are: upper tiles at 0, diagonal tiles at terms(), lower tiles behind them (unsymmetric matrices
 // only). Throws std::length_error where a target exceeds 2^31 - 1.
 TileScatter make_tile_scatter(const TileProfile& profile, const AssembledMatrix& matrix);
-
-// Diagonal blocks of a triangular factor: term [k * 8 + i], k < i, couples i to k; reciprocal holds
-// 1 / diagonal.
-struct TileTriangle {
-  const double* tiles = nullptr;       // off-diagonal tiles
-  const double* diagonal = nullptr;    // diagonal tiles
-  const double* reciprocal = nullptr;  // 8 a tile column; nullptr = unit diagonal
-};
-
-// x = T^-1 x with T lower triangular; x is in elimination order, padded to whole tiles.
-void tile_forward(const TileProfile& profile, const TileTriangle& T, double* x);
-// x = T^-T x.
-void tile_backward(const TileProfile& profile, const TileTriangle& T, double* x);
 
 }  // namespace sage

@@ -103,6 +103,7 @@ struct RunResult {
   int stages_done = 0;
   int increments_done = 0;
   double motion = 0.0;  // largest difference of displacements along an axis over the model's extent along it
+  std::string kernels;  // that the linear solver worked with (LinearSolver::kernels()); empty: it has no choice
   WorkCounters work;
 };
 

@@ -482,6 +482,7 @@ RunResult Run::execute() {
     result_.reason = error.what();
     return result_;
   }
+  result_.kernels = tangent_.solver().kernels();
   audience_.tell([&](Observer& o) { o.on_finish(model_, result_); });
   return result_;
 }

@@ -14,10 +14,11 @@ struct RunSettings {
   int solver = -1;  // catalogue code; -1 = the model's, 0 = automatic
   // Picks a catalogue code from the scene when automatic: (equations, symmetric) -> code.
   std::function<int(int, bool)> choose_solver;
-  int threads = 1;         // of the linear solver; results do not depend on it
-  int refinement = 0;      // steps of iterative refinement in every solution
-  bool condition = false;  // say the condition number of the equations at the end of each stage
-  int max_cuts = 12;       // a step is given up when 2^-max_cuts of its increment finds no equilibrium
+  int threads = 1;                       // of the linear solver; results do not depend on it
+  Kernels kernels = Kernels::automatic;  // of the linear solver, likewise
+  int refinement = 0;                    // steps of iterative refinement in every solution
+  bool condition = false;                // say the condition number of the equations at the end of each stage
+  int max_cuts = 12;  // a step is given up when 2^-max_cuts of its increment finds no equilibrium
   bool line_search = true;
   Skips skips;
   bool profile_memory = false;  // the profile also says where the process grew

@@ -34,6 +34,7 @@ const SolverEntry* System::choose_solver(int equations, bool symmetric) const {
 std::unique_ptr<LinearSolver> System::make(const SolverEntry& entry) const {
   auto solver = entry.make();
   solver->set_threads(settings_.threads);
+  solver->set_kernels(settings_.kernels);
   solver->set_refinement(settings_.refinement);
   solver->set_stop(settings_.stop_asked);
   return solver;

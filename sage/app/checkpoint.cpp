@@ -12,7 +12,7 @@ namespace sage::app {
 
 namespace {
 
-constexpr std::string_view kFirstLine = "sagefe restart 4\n";
+constexpr std::string_view kFirstLine = "sagefe restart 5\n";
 
 // What a checkpoint means depends on every line of the program: its build is identified by its own file.
 std::uint64_t build_identity() {
@@ -63,8 +63,14 @@ void expect_results(const std::filesystem::path& checkpoint, const ResultFiles& 
 
 }  // namespace
 
-Checkpoint::Checkpoint(std::filesystem::path file, double seconds, std::string belongs_to, ResultFiles& results)
-    : file_(std::move(file)), seconds_(seconds), belongs_to_(std::move(belongs_to)), results_(&results) {
+Checkpoint::Checkpoint(std::filesystem::path file, double seconds, std::string belongs_to, std::string kernels,
+                       ResultFiles& results)
+    : file_(std::move(file)),
+      seconds_(seconds),
+      belongs_to_(std::move(belongs_to)),
+      kernels_(std::move(kernels)),
+      earlier_kernels_(kernels_),
+      results_(&results) {
   expect_no_input(file_);
   std::error_code ignored;
   if (std::filesystem::is_directory(file_, ignored))
@@ -81,10 +87,11 @@ void Checkpoint::save(const std::string& state) {
   results_->sync();
   Archive archive;
   std::uint64_t build = build_identity();
-  std::string belongs_to = belongs_to_, body = state;
+  std::string belongs_to = belongs_to_, kernels = kernels_, body = state;
   std::map<std::string, ResultFile> files = results_->files();
   archive(build);
   archive(belongs_to);
+  archive(kernels);
   exchange(archive, files);
   archive(body);
   std::uint64_t sum = checksum(archive.bytes());
@@ -113,6 +120,7 @@ std::optional<std::string> Checkpoint::load() {
   try {
     archive(build);
     archive(belongs_to);
+    archive(earlier_kernels_);
     exchange(archive, files);
     archive(state);
     archive(sum);

@@ -14,9 +14,11 @@ namespace sage::app {
 class Checkpoint {
  public:
   // A checkpoint is due after `seconds` since the last; 0 = after every increment, negative = never.
-  // `belongs_to` names the run: model, solver and outputs; the build of the program is added.  `results`, of
-  // the same run, outlive the checkpoint.  Throws OutputError where its name is taken by a folder or an input.
-  Checkpoint(std::filesystem::path file, double seconds, std::string belongs_to, ResultFiles& results);
+  // `belongs_to` names the run: model, solver and outputs; the build of the program is added.  `kernels`, of its
+  // solvers, stand on record only: their answers are the same.  `results`, of the same run, outlive the checkpoint.
+  // Throws OutputError where its name is taken by a folder or an input.
+  Checkpoint(std::filesystem::path file, double seconds, std::string belongs_to, std::string kernels,
+             ResultFiles& results);
 
   bool due() const;
   const std::filesystem::path& file() const { return file_; }
@@ -33,13 +35,15 @@ class Checkpoint {
     std::uintmax_t bytes = 0;
   };
   const std::vector<Cut>& cut() const { return cut_; }
+  // Those that computed what stands before the checkpoint that load() has read.
+  const std::string& earlier_kernels() const { return earlier_kernels_; }
   // The run has ended: if it ever had a checkpoint, its results are brought to the disk before that is removed.
   void remove();
 
  private:
   std::filesystem::path file_;
   double seconds_;
-  std::string belongs_to_;
+  std::string belongs_to_, kernels_, earlier_kernels_;
   ResultFiles* results_;
   std::vector<Cut> cut_;
   bool used_ = false;

@@ -26,6 +26,7 @@ struct SideOptions {
   InputOptions input;
   std::string solver;
   int threads = 0;
+  Kernels kernels = Kernels::automatic;
   std::vector<std::string> fields = {};  // of reports of points
 };
 
@@ -35,6 +36,7 @@ struct CompareOptions {
   InputOptions input;  // of both sides, where B has none of its own
   std::string solver;
   int threads = 0;
+  Kernels kernels = Kernels::automatic;
   ConvergeOptions converge;
   std::optional<int> formulation_b, element_b, geometry_b;
   std::optional<std::string> solver_b, layout_b;
@@ -46,13 +48,13 @@ struct CompareOptions {
 };
 
 SideOptions side_a(const CompareOptions& o) {
-  SideOptions side{o.decks.front(), o.input, o.solver, o.threads, o.fields};
+  SideOptions side{o.decks.front(), o.input, o.solver, o.threads, o.kernels, o.fields};
   if (o.both) side.input.build.geometry = 1;
   return side;
 }
 
 SideOptions side_b(const CompareOptions& o) {
-  SideOptions side{o.decks.back(), o.input, o.solver_b.value_or(o.solver), o.threads, o.fields};
+  SideOptions side{o.decks.back(), o.input, o.solver_b.value_or(o.solver), o.threads, o.kernels, o.fields};
   BuildOptions& build = side.input.build;
   build.formulation = o.formulation_b.value_or(build.formulation);
   build.element = o.element_b.value_or(build.element);
@@ -110,6 +112,7 @@ RunRequest climb_request(const SideOptions& options, const Place& place, const s
   request.input = options.input;
   request.solver = options.solver;
   request.threads = options.threads;
+  request.kernels = options.kernels;
   request.output.folder = place.folder;
   request.output.fields = options.fields;
   request.results = &place.results;
@@ -129,6 +132,7 @@ compare::Side run_model(Model model, const std::string& label, const SideOptions
                         const std::string& stem) {
   RunSettings settings;
   settings.threads = threads_for(options.threads);
+  settings.kernels = options.kernels;
   settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
   settings.stop_asked = interrupted;
   compare::Side side(label, std::move(model), place.folder, stem);
@@ -331,6 +335,7 @@ Command compare_command(CLI::App& parser, const Catalogue& catalogue) {
   parser.add_option("--solver", o->solver, "solver by name (see sagefe list solvers)")
       ->check(known_solver(catalogue));
   add_threads_option(parser, o->threads);
+  add_kernels_option(parser, o->kernels);
   CompareOptions& options = *o;
   add_formulation_option(parser, "--formulation-b", "formulation code of B, where it differs from A",
                          [&options](int code) { options.formulation_b = code; });

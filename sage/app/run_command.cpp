@@ -165,6 +165,7 @@ Command run_command(CLI::App& parser, const Catalogue& catalogue) {
   parser.add_option("--solver", request.solver, "solver by name (see sagefe list solvers)")
       ->check(known_solver(catalogue));
   add_threads_option(parser, request.threads);
+  add_kernels_option(parser, request.kernels);
   parser
       .add_option(
           "-j,--jobs", options->jobs,

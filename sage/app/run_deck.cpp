@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <map>
 #include <thread>
 
 #include "sage/app/checkpoint.hpp"
@@ -24,6 +25,7 @@
 #include "sage/record/progress.hpp"
 #include "sage/record/result_file.hpp"
 #include "sage/record/vtu.hpp"
+#include "solvers/choose_kernels.hpp"
 #include "solvers/choose_solver.hpp"
 
 namespace sage::app {
@@ -66,7 +68,8 @@ Checkpoint checkpoint_of(const RunRequest& request, const Model& model, ResultFi
   if (o.result) run += " result";
   for (const std::string& picture : o.pictures) run += " " + picture;
   for (const std::string& field : o.fields) run += " field " + field;
-  return {o.folder / (stem_of(request) + ".restart"), request.checkpoint_seconds, run, results};
+  return {o.folder / (stem_of(request) + ".restart"), request.checkpoint_seconds, run,
+          choose_kernels(request.kernels).name, results};
 }
 
 // The bytes to go on from; empty, with a note, where there are none.
@@ -75,6 +78,12 @@ std::string resume_from(Checkpoint& checkpoint, const RunRequest& request) {
   if (!state && !request.quiet)
     fmt::print(stderr, "{}: no checkpoint in {}: from the start\n", request.deck,
                request.output.folder.string());
+  const std::string kernels = choose_kernels(request.kernels).name;
+  if (!request.quiet && checkpoint.earlier_kernels() != kernels)
+    fmt::print(
+        stderr,
+        "{}: note: what stands before the checkpoint was computed with kernels {}; the digits are the same\n",
+        request.deck, checkpoint.earlier_kernels());
   for (const Checkpoint::Cut& cut : checkpoint.cut())
     if (!request.quiet)
       fmt::print(
@@ -139,6 +148,22 @@ void add_threads_option(CLI::App& parser, int& threads) {
       ->check(CLI::Range(0, 256));
 }
 
+void add_kernels_option(CLI::App& parser, Kernels& kernels) {
+  static const std::map<std::string, Kernels> names{
+      {"auto", Kernels::automatic}, {"avx2", Kernels::avx2}, {"avx512", Kernels::avx512}};
+  const auto suits = [](const std::string& name) {
+    const auto found = names.find(name);
+    return found == names.end() ? "expected auto, avx2 or avx512" : why_no_kernels(found->second);
+  };
+  parser
+      .add_option_function<std::string>(
+          "--kernels", [&kernels](const std::string& name) { kernels = names.at(name); },
+          "instructions of the processor that the solvers use: auto (default, the fastest it has), avx2, "
+          "avx512; "
+          "results are the same to the last bit")
+      ->check(suits);
+}
+
 int threads_for(int asked) {
   return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
@@ -194,6 +219,7 @@ RunSettings settings_for(const RunRequest& request) {
   RunSettings settings;
   settings.skips = request.skips;
   settings.threads = threads_for(request.threads);
+  settings.kernels = request.kernels;
   settings.refinement = request.refinement;
   settings.condition = request.condition;
   settings.profile_memory = request.profile;
@@ -242,7 +268,8 @@ std::vector<Observer*> observers_of(const RunRequest& request,
 // After all others: only then is it known what they took.
 void write_profile(const RunRequest& request, int threads, RunOutcome& outcome) {
   OutFile file(request.output.folder / (stem_of(request) + ".profile.json"));
-  file.text() = profile_json(outcome.record.profile, well_formed(case_name(request.deck)).text, threads);
+  file.text() = profile_json(outcome.record.profile, well_formed(case_name(request.deck)).text, threads,
+                             outcome.record.result.kernels);
   file.finish();
   outcome.files.push_back(file.path());
 }

@@ -32,9 +32,10 @@ struct RunRequest {
   std::string deck;
   InputOptions input;
   OutputOptions output;
-  std::string stem;                  // of the names of result files; empty = the deck's name
-  std::string solver;                // a name of the catalogue; empty = the deck's choice
-  int threads = 0;                   // of the linear solver; 0 = one for each processor
+  std::string stem;    // of the names of result files; empty = the deck's name
+  std::string solver;  // a name of the catalogue; empty = the deck's choice
+  int threads = 0;     // of the linear solver; 0 = one for each processor
+  Kernels kernels = Kernels::automatic;
   int refinement = 0;                // steps of iterative refinement in every solution
   bool condition = false;            // say the condition number at the end of each stage
   bool quiet = false;                // no messages about the deck
@@ -67,6 +68,7 @@ struct RunOutcome {
 std::string stem_of(const RunRequest& request);
 
 void add_threads_option(CLI::App& parser, int& threads);
+void add_kernels_option(CLI::App& parser, Kernels& kernels);
 // Those of the linear solver: what was asked for, or one for each processor where that is 0.
 int threads_for(int asked);
 

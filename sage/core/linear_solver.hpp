@@ -50,6 +50,9 @@ struct FactorReport {
   double solve_operations = -1.0;   // and of one solution without refinement
 };
 
+// Instructions of the processor that a solver's loops are made of, for those that have several sets of them.
+enum class Kernels { automatic, avx2, avx512 };
+
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
@@ -58,6 +61,13 @@ class LinearSolver {
   // How many threads factorise() may use from the next analyse() on.  Answers do not depend on it, to the last
   // bit.  Solvers without threads of their own do nothing.
   virtual void set_threads(int /*threads*/) {}
+
+  // Which kernels serve from the next analyse() on; automatic: the fastest that this machine has.  Answers do not
+  // depend on it, to the last bit.  Throws AnalysisError where the machine or the build lacks them.  Solvers without
+  // kernels of their own do nothing.
+  virtual void set_kernels(Kernels /*wanted*/) {}
+  // Name of those in use; empty: it has no choice.
+  virtual std::string_view kernels() const { return {}; }
 
   // At most so many steps of iterative refinement in every solve() from the next factorise() on, with residuals
   // in twice the working precision: an answer then has all digits that the matrix determines.

@@ -96,12 +96,14 @@ std::string profile_table(const Profile& profile) {
   return text;
 }
 
-std::string profile_json(const Profile& profile, const std::string& case_name, int threads) {
+std::string profile_json(const Profile& profile, const std::string& case_name, int threads,
+                         const std::string& kernels) {
   return fmt::format(
-      "{{\"sagefe\": {}, \"case\": {}, \"threads\": {}, \"seconds\": {}, \"accounted\": {:.4f},\n  \"run\": "
-      "{}}}\n",
-      quoted(SAGE_VERSION), quoted(case_name), threads, profile.seconds_with_all(0), accounted(profile),
-      json_of(profile, 0));
+      "{{\"sagefe\": {}, \"case\": {}, \"threads\": {}, \"kernels\": {}, \"seconds\": {}, \"accounted\": "
+      "{:.4f},\n"
+      "  \"run\": {}}}\n",
+      quoted(SAGE_VERSION), quoted(case_name), threads, quoted(kernels), profile.seconds_with_all(0),
+      accounted(profile), json_of(profile, 0));
 }
 
 }  // namespace sage

@@ -15,6 +15,7 @@ std::string profile_table(const Profile& profile);
 // "operations", "memory_bytes", "phases": [...]}}.  Times in s, with all phases below but for own_seconds;
 // operations (floating-point) and memory_bytes (growth of the process) stand only where they are known.
 // accounted: share of the time that named phases have.
-std::string profile_json(const Profile& profile, const std::string& case_name, int threads);
+std::string profile_json(const Profile& profile, const std::string& case_name, int threads,
+                         const std::string& kernels);
 
 }  // namespace sage

@@ -172,7 +172,9 @@ void counts(std::string& text, const Model& model, const RunRecord& record) {
   fmt::format_to(to(text), "  scene       {}, {}; {} elements, {} points, {} equations\n",
                  model.geometry == Geometry::axisymmetric ? "axisymmetric" : "plane strain",
                  describe(record.scene), record.scene.elements, record.scene.points, record.equations);
-  fmt::format_to(to(text), "  solver      {}\n", record.solver);
+  const std::string& kernels = record.result.kernels;
+  fmt::format_to(to(text), "  solver      {}{}\n", record.solver,
+                 kernels.empty() ? "" : ", kernels " + kernels);
   fmt::format_to(to(text), "  path        {} of {} stages, {} increments, {} iterations, {} cuts\n",
                  record.result.stages_done, model.stages.size(), record.result.increments_done, sum.iterations,
                  sum.cuts);

@@ -1,6 +1,6 @@
 // Prints what every solver of the catalogue takes for an n x 2n mesh of Q4 elements:
 // milliseconds, best of some runs.
-//   solver_bench [n ...] [--cpu] [--unsymmetric-only] [--solver name] [--threads n]
+//   solver_bench [n ...] [--cpu] [--unsymmetric-only] [--solver name] [--threads n] [--kernels avx2]
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -20,6 +20,7 @@ using sage::conformance::System;
 using Clock = std::chrono::steady_clock;
 
 int threads = 1;
+sage::Kernels kernels = sage::Kernels::automatic;
 bool processor_time = false;  // of all threads; for machines that are busy otherwise
 
 double now_ms() {
@@ -68,6 +69,7 @@ void bench(const sage::SolverEntry& entry, int n) {
       sage::conformance::q4_mesh({.columns = n, .rows = 2 * n, .unsymmetric = entry.symmetric ? 0.0 : 0.5});
   const auto solver = entry.make();
   solver->set_threads(threads);
+  solver->set_kernels(kernels);
   Times times;
   std::vector<double> x(static_cast<std::size_t>(system.equations));
   const int analyses = n <= 28 ? 20 : 1;
@@ -105,6 +107,8 @@ int main(int argc, char** argv) {
       only = argv[++i];
     else if (std::strcmp(argv[i], "--threads") == 0 && i + 1 < argc)
       threads = std::atoi(argv[++i]);
+    else if (std::strcmp(argv[i], "--kernels") == 0 && i + 1 < argc)
+      kernels = std::strcmp(argv[++i], "avx2") == 0 ? sage::Kernels::avx2 : sage::Kernels::avx512;
     else
       sizes.push_back(std::atoi(argv[i]));
   }

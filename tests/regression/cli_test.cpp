@@ -33,10 +33,10 @@ TEST(CommandLine, HelpOfEverySubcommandNamesItsOptions) {
   const std::vector<std::pair<std::string, std::vector<const char*>>> commands = {
       {"", {"run", "check", "echo", "list", "tables", "--help", "--version", "Exit codes"}},
       {"run",
-       {"DECK",          "--output",      "--solver",   "--tables", "--nodes", "--points", "--no-listing",
-        "--vtu",         "--picture",     "--field",    "--result", "--quiet", "--layout", "--strict",
-        "--formulation", "--element",     "--geometry", "--refine", "--grade", "--error",  "--converge",
-        "--max-dofs",    "--max-seconds", "--follow",   "--coarsen"}},
+       {"DECK",          "--output",      "--solver",   "--tables",  "--nodes",   "--points", "--no-listing",
+        "--vtu",         "--picture",     "--field",    "--result",  "--quiet",   "--layout", "--strict",
+        "--formulation", "--element",     "--geometry", "--refine",  "--grade",   "--error",  "--converge",
+        "--max-dofs",    "--max-seconds", "--follow",   "--coarsen", "--threads", "--kernels"}},
       {"check",
        {"DECK", "--layout", "--strict", "--formulation", "--element", "--geometry", "--refine", "--grade"}},
       {"echo", {"DECK", "--layout", "--strict"}},
@@ -51,7 +51,7 @@ TEST(CommandLine, HelpOfEverySubcommandNamesItsOptions) {
       {"compare",
        {"DECK", "--both", "--formulation", "--element", "--geometry", "--solver", "--formulation-b",
         "--element-b", "--geometry-b", "--solver-b", "--layout-b", "--line", "--point", "--picture", "--output",
-        "--strict", "--threads"}},
+        "--strict", "--threads", "--kernels"}},
   };
   for (const auto& [command, words] : commands) {
     const Finished help = sagefe(folder, command + " --help");

@@ -215,6 +215,24 @@ TEST(Fault, ACheckpointOfAnotherRunIsRefused) {
   }
 }
 
+// A checkpoint of one machine's kernels goes on with another's, to the same bytes.
+TEST(Fault, RestartGoesOnWithOtherKernels) {
+  const fs::path folder = folder_with_deck("kernels");
+  if (const Finished wide = sagefe(folder, "run --kernels avx512 none");
+      wide.err.find("--kernels") != wide.err.npos)
+    GTEST_SKIP() << wide.err;
+  const std::map<std::string, std::string> whole = undisturbed(folder);
+  const std::string killed = "bash -c 'trap \"\" XFSZ; ulimit -f 256; exec \"$@\"' -";
+  sagefe(folder, std::string("run deck.dat -q --kernels avx2 ") + kOptions, killed);
+  ASSERT_TRUE(fs::exists(folder / "out/deck.restart"));
+  const Finished run = sagefe(folder, std::string("run deck.dat --restart --kernels avx512 ") + kOptions);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.err.find("was computed with kernels avx2; the digits are the same"), std::string::npos)
+      << run.err;
+  EXPECT_NE(run.out.find(", kernels avx512"), std::string::npos) << run.out;
+  expect_equal(results(folder / "out"), whole);
+}
+
 // Nothing is touched by a restart that is refused: the right one still ends as if nothing had happened.
 TEST(Fault, ARefusedRestartLeavesTheResultsAlone) {
   const fs::path folder = folder_with_deck("refused");

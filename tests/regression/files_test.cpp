@@ -372,6 +372,26 @@ TEST(Files, ADeckWithoutMemoryHarmsNoOtherOfTheCall) {
   for (const char* name : {"a.lst", "c.lst", "d.lst"}) EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
 }
 
+// Every kernel writes the same files, byte for byte: of a linear, a plastic and a condensed scene, small and large.
+TEST(Files, KernelsChangeNoByte) {
+  const fs::path folder = empty_folder("kernels");
+  if (const Finished wide = sagefe(folder, "run --kernels avx512 none");
+      wide.err.find("--kernels") != wide.err.npos)
+    GTEST_SKIP() << wide.err;
+  const fs::path decks = fs::path(SAGE_SOURCE_DIR) / "legacy_inputs/chapter7";
+  for (const char* run :
+       {"pinned_ld2_nu0333/deck.dat", "pinned_ld2_nu0333/deck.dat --refine 2", "dp_285/deck.dat",
+        "dp_285/deck.dat --solver frontal", "friction_285_nu0495/deck.dat --refine 2"}) {
+    const std::string command =
+        "run " + (decks / run).string() + " --nodes --points --digits 17 --tables all -o ";
+    for (const char* kernels : {"avx2", "avx512"})
+      ASSERT_EQ(sagefe(folder, command + kernels + " --kernels " + kernels).exit_code, 0) << run;
+    for (const fs::directory_entry& file : fs::directory_iterator(folder / "avx2"))
+      EXPECT_TRUE(read(file.path()) == read(folder / "avx512" / file.path().filename()))
+          << run << ": " << file.path().filename();
+  }
+}
+
 // A name of bytes that are no UTF-8: what XML names exists, and the XML is well formed.
 TEST(Files, AnyFileNameGivesAPvdThatReadersTake) {
   const fs::path folder = empty_folder("names");

@@ -34,8 +34,9 @@ TEST(ProfileText, TableShowsTheTree) {
 }
 
 TEST(ProfileText, JsonQuotesAndNests) {
-  const std::string json = profile_json(small_profile(), "a \"b\"\\\n", 2);
-  EXPECT_NE(json.find(R"("case": "a \"b\"\\\u000a", "threads": 2)"), std::string::npos) << json;
+  const std::string json = profile_json(small_profile(), "a \"b\"\\\n", 2, "avx2");
+  EXPECT_NE(json.find(R"("case": "a \"b\"\\\u000a", "threads": 2, "kernels": "avx2")"), std::string::npos)
+      << json;
   EXPECT_NE(json.find(R"("phase": "factorisation")"), std::string::npos);
   EXPECT_NE(json.find(R"("operations": 3000000000)"), std::string::npos) << json;
   EXPECT_EQ(std::count(json.begin(), json.end(), '{'), std::count(json.begin(), json.end(), '}'));

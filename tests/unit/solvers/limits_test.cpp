@@ -55,7 +55,7 @@ TEST(SolverLimits, AnArrayLargerThanTheAddressSpaceIsBadAlloc) {
 
 TEST(SolverLimits, AFrontOfMoreThan2To31TermsIsRefused) {
   const AssembledMatrix matrix;
-  EXPECT_EQ(length_error_of([&] { make_front_tree(dense_graph(60000), matrix, 16); }),
+  EXPECT_EQ(length_error_of([&] { make_front_tree(dense_graph(60000), matrix, 16, 1); }),
             "a front of the matrix has more than 2^31 terms");
 }
 
