@@ -440,9 +440,9 @@ Drawing draw_picture(Draft& draft, const std::vector<double>& limits, const Head
   double bottom = std::max(kPictureTop + view.height + kBottom, bar + 66.0);
   for (const std::string& note : notes)
     if (!note.empty()) {
-      svg::text(out, 8.0, bottom + 6.0, note, svg::kFont, "start");
+      bottom += kLine;  // below the words of the axis
+      svg::text(out, 8.0, bottom - 4.0, note, svg::kFont, "start");
       drawing.width = std::max(drawing.width, 16.0 + kPlain * length(note));
-      bottom += kLine;
     }
   out += "</g>\n";
   drawing.height = bottom + down;

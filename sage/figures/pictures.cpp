@@ -122,6 +122,7 @@ std::string field_figure(const FieldFigure& figure, Runs& runs, const std::vecto
   sheet.one_scale = figure.figure != 37;  // patterns before and after yield, whose stresses differ
   sheet.look.deformed = false;
   sheet.look.width = scene_named(figure.scene).slenderness == 1.0 ? 430 : 390;  // with axis and colour bar
+  sheet.look.levels = 14;
   sheet.look.yielded = figure.quantities[0] == Quantity::level;
   for (const PanelRow& row : panel_rows(figure.scene, choices))
     for (Quantity quantity : figure.quantities)
@@ -129,7 +130,8 @@ std::string field_figure(const FieldFigure& figure, Runs& runs, const std::vecto
         const SpecimenRun& run = runs.get(figure.scene, row.elements, row.k_j);
         FieldPanel& panel = sheet.panels.emplace_back();
         panel.model = run.model.get();
-        panel.solution = run.state(strain).frame->view();
+        const State& state = run.state(strain);
+        panel.solution = (quantity == Quantity::level ? state.level_frame : state.frame)->view();
         panel.field = field_of(quantity);
         panel.title = fmt::format("{}, {}", title_of(quantity), row.name);
         panel.state = fmt::format("{:g} %", strain);
