@@ -35,6 +35,8 @@ Box box_of(Place place, double aspect) {
       return {.z1 = 0.75};
     case Place::below_ends:
       return {.z1 = 0.70};
+    case Place::halfway:
+      return {.z0 = 0.25, .z1 = 0.75};
     case Place::mid_axis:
       return {.r1 = 0.25, .z1 = 0.25};
     case Place::end_axis:
@@ -150,10 +152,14 @@ double largest_difference(const std::vector<Sample>& x, const std::vector<Sample
   return most;
 }
 
-std::vector<Sample> yielded(const std::vector<Sample>& list) {
+std::vector<Sample> above(const std::vector<Sample>& list, double limit) {
   std::vector<Sample> some;
-  std::ranges::copy_if(list, std::back_inserter(some), [](const Sample& s) { return s.x >= kYields; });
+  std::ranges::copy_if(list, std::back_inserter(some), [&](const Sample& s) { return s.x >= limit; });
   return some;
+}
+
+std::vector<Sample> yielded(const std::vector<Sample>& list) {
+  return above(list, kYields);
 }
 
 // z / H below which 95 percent of the yielded area lies.
@@ -223,6 +229,10 @@ double of_fields(const Check& check, const SpecimenRun& a, const SpecimenRun* b,
       return share(x, [&](const Sample& s) { return s.x <= p; });
     case Measure::share_above:
       return share(x, [&](const Sample& s) { return s.x >= p; });
+    case Measure::above_r:
+      return mean(above(x, p), r_of);
+    case Measure::above_in:
+      return share(above(x, p), [&](const Sample& s) { return contains(check.target, s.r, s.z, aspect); });
     case Measure::difference:
       return largest_difference(x, y) / q;
     case Measure::correlation:

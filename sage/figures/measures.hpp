@@ -52,6 +52,7 @@ enum class Place {
   away_from_end,  // the inner half of the half height: z <= .5 H
   not_near_ends,  // z < .75 H
   below_ends,     // z < .70 H: all but 15 percent of the length at each end
+  halfway,        // between mid-height and end: .25 H <= z <= .75 H
   mid_axis,       // z <= .25 H and r <= .25 R
   end_axis,       // z >= .75 H and r <= .25 R
   at_end_axis,    // points of the section: no further than .15 R from them along r and along z
@@ -89,6 +90,8 @@ enum class Measure {
   share_close,        // share with |x - c| <= p q
   share_below,        // share with x <= p
   share_above,        // share with x >= p
+  above_r,            // mean r / R of where x >= p
+  above_in,           // share of where x >= p that lies at `target`
   difference,         // largest |x - y| / q, both at one place
   correlation,        // of x - c with y - c
   change_ratio,       // largest |x - c| over largest |y - c|

@@ -43,6 +43,8 @@ const char* name_of(Place place) {
       return "z < .75 H";
     case Place::below_ends:
       return "z < .70 H";
+    case Place::halfway:
+      return ".25 H <= z <= .75 H";
     case Place::mid_axis:
       return "z <= .25 H, r <= .25 R";
     case Place::end_axis:
@@ -96,6 +98,10 @@ const char* words_of(Measure measure) {
       return "share with x <= p";
     case Measure::share_above:
       return "share with x >= p";
+    case Measure::above_r:
+      return "mean r / R of where x >= p";
+    case Measure::above_in:
+      return "share of where x >= p that lies there";
     case Measure::difference:
       return "largest \\|x - y\\| / q";
     case Measure::correlation:
