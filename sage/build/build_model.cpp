@@ -302,6 +302,7 @@ Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOp
   build::check_stages(b);
   build::check_points(b);
   if (b.problems.errors() == 0) build::check_plausible(b);
+  if (b.problems.errors() == 0) build::check_coarse(b);
   if (b.problems.errors() > 0) throw refusal(deck, b.problems);
   return std::move(b.model);
 }
