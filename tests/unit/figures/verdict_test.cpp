@@ -155,45 +155,37 @@ TEST(Checks, NameWordsScenesAndLimits) {
   EXPECT_EQ(captions().size(), 40u);
 }
 
-// What the program finds about the chapter.
-class Chapter : public testing::Test {
- protected:
-  static const std::vector<Result>& results() {
-    static const std::vector<Result> all = [] {
-      static const scenes::Workbench bench = app::make_workbench();
-      static Runs runs(bench);
-      fitted() = fitted_k_j(bench);
-      return evaluate(runs, checks(), {{"120", 120.0}, {"5", 5.0}, {"fitted", fitted()}});
-    }();
-    return all;
-  }
-  static double& fitted() {
-    static double k_j = 0.0;
-    return k_j;
-  }
-  static Verdict verdict(int figure, const std::string& words) {
-    for (const Result& result : results())
+// What the program finds about the chapter, from one evaluation of all checks.
+struct Findings {
+  std::vector<Result> results;
+  double fitted = 0.0;
+
+  const Result& find(int figure, const std::string& words) const {
+    for (const Result& result : results)
       if (result.check->figure == figure && std::string(result.check->quote).find(words) != std::string::npos)
-        return result.verdict;
-    ADD_FAILURE() << "no check of 7." << figure << " has the words " << words;
-    return Verdict::does_not_hold;
+        return result;
+    throw std::out_of_range("no check of 7." + std::to_string(figure) + " has the words " + words);
   }
 };
 
+Findings findings() {
+  const scenes::Workbench bench = app::make_workbench();
+  Runs runs(bench);
+  Findings found;
+  found.fitted = fitted_k_j(bench);
+  found.results = evaluate(runs, checks(), {{"120", 120.0}, {"5", 5.0}, {"fitted", found.fitted}});
+  return found;
+}
+
 // A check that passes must fail on a swapped scene or an altered field: else it says nothing.
-TEST_F(Chapter, EveryCheckCanFail) {
-  for (const Result& result : results())
+void expect_that_all_can_fail(const Findings& found) {
+  for (const Result& result : found.results)
     EXPECT_NE(result.shown_to_fail, "") << "7." << result.check->figure << ": " << result.check->quote;
 }
 
-TEST_F(Chapter, AllVerdictsOccur) {
-  std::set<Verdict> seen;
-  for (const Result& result : results()) seen.insert(result.verdict);
-  EXPECT_EQ(seen.size(), 5u);
-}
-
 // From converged references (Table 7.3's pinned columns lock; the rim of the end is singular) and exact properties.
-TEST_F(Chapter, KnownVerdicts) {
+void expect_known_verdicts(const Findings& found) {
+  const auto verdict = [&](int figure, const char* words) { return found.find(figure, words).verdict; };
   EXPECT_EQ(verdict(2, "identical"), Verdict::holds);
   EXPECT_EQ(verdict(3, "25 percent greater than the correct stress (nu = .495"), Verdict::artefact);
   EXPECT_EQ(verdict(8, "12 percent greater than the correct stress (nu = .495"), Verdict::artefact);
@@ -205,18 +197,24 @@ TEST_F(Chapter, KnownVerdicts) {
 }
 
 // The K_j of 3 percent meets 7.18 with full elements by construction; 120 and 5 do not.
-TEST_F(Chapter, FittedStiffness) {
-  results();
-  EXPECT_GT(fitted(), 5.0);
-  EXPECT_LT(fitted(), 120.0);
-  for (const Result& result : results())
-    if (result.check->figure == 20 && result.check->measure == Measure::percent_most &&
-        result.check->a.quantity == Quantity::conf) {
-      ASSERT_EQ(result.outcomes.size(), 3u);
-      EXPECT_NEAR(result.outcomes[2].number[0][1], 0.03, 1e-4);  // 200 increments instead of 40: 0.2 percent
-      EXPECT_GT(result.outcomes[0].number[0][1], 0.033);
-      EXPECT_LT(result.outcomes[1].number[0][1], 0.027);
-    }
+void expect_fitted_stiffness(const Findings& found) {
+  EXPECT_GT(found.fitted, 5.0);
+  EXPECT_LT(found.fitted, 120.0);
+  const Result& conf = found.find(20, "3 percent at an axial strain level of 10 percent (conf)");
+  ASSERT_EQ(conf.outcomes.size(), 3u);
+  EXPECT_NEAR(conf.outcomes[2].number[0][1], 0.03, 1e-4);  // 200 increments instead of 40: 0.2 percent
+  EXPECT_GT(conf.outcomes[0].number[0][1], 0.033);
+  EXPECT_LT(conf.outcomes[1].number[0][1], 0.027);
+}
+
+TEST(Chapter, VerdictsOfAllChecks) {
+  const Findings found = findings();
+  expect_that_all_can_fail(found);
+  std::set<Verdict> seen;
+  for (const Result& result : found.results) seen.insert(result.verdict);
+  EXPECT_EQ(seen.size(), 5u);
+  expect_known_verdicts(found);
+  expect_fitted_stiffness(found);
 }
 
 }  // namespace
