@@ -26,6 +26,11 @@ struct Lane {
   alignas(64) double maximum[kTile] = {};  // largest terms, see TileKernels
 };
 
+// What one thread needs for substitutions: values of a front, and sums of its rows.
+struct Sweep {
+  AlignedArray values, sums;
+};
+
 // Neighbouring columns of a child that stay neighbours within one tile of the parent.
 struct Run {
   int source_lane, target_lane, count;
@@ -131,18 +136,18 @@ class Frontal final : public MatrixSolver {
     tree_ = make_front_tree(graph, matrix(), kLeafEquations, kernels_->width, border_equations());
     factors_ = AlignedArray(static_cast<std::size_t>(tree_.factor_terms));
     first_pivot_.assign(1, 0);
-    int widest = 0;  // tiles of the widest front
+    widest_ = 0;
     report_.factor_operations = 0.0;
     for (const Front& front : tree_.fronts) {
       if (&front - tree_.fronts.data() != tree_.kept)
         report_.factor_operations += elimination_operations(front, traits().symmetric);
       first_pivot_.push_back(first_pivot_.back() + front.pivot_tiles * kTile);
-      widest = std::max(widest, front.pivot_tiles + front.border_tiles);
+      widest_ = std::max(widest_, front.pivot_tiles + front.border_tiles);
     }
     reciprocal_.assign(at(first_pivot_.back()), 1.0);
     position_values_ = AlignedArray(at(matrix().equations()));
-    front_values_ = AlignedArray(at(widest) * kTile);
-    row_sums_ = AlignedArray(at(widest) * kTile * kMostSums);
+    list_outside();
+    sweeps_.clear();
     make_workspace();
     report_.factor_entries = tree_.factor_terms;
     report_.solve_operations = (traits().symmetric ? 4.0 : 2.0) * static_cast<double>(tree_.factor_terms);
@@ -174,6 +179,26 @@ class Frontal final : public MatrixSolver {
         lane.scratch = AlignedArray(static_cast<std::size_t>(t == 0 ? largest_arm : largest_below));
       lanes_.push_back(std::move(lane));
     }
+    while (sweeps_.size() < at(threads))
+      sweeps_.push_back({AlignedArray(at(widest_) * kTile), AlignedArray(at(widest_) * kTile * kMostSums)});
+  }
+
+  // Of every front of a subtree the part of the border that lies outside of it, the last so many.
+  void list_outside() {
+    outside_begin_.assign(tree_.fronts.size() + 1, 0);
+    for (const Subtree& subtree : tree_.subtrees) {
+      const Front& root = tree_.fronts[at(subtree.end - 1)];
+      const int end = root.first + root.pivots;
+      for (int f = subtree.begin; f < subtree.end; ++f) {
+        const std::span<const int> border = border_of(tree_.fronts[at(f)]);
+        outside_begin_[at(f) + 1] = static_cast<int>(border.end() - std::ranges::lower_bound(border, end));
+      }
+    }
+    for (std::size_t f = 1; f < outside_begin_.size(); ++f) outside_begin_[f] += outside_begin_[f - 1];
+    outside_values_ = AlignedArray(at(outside_begin_.back()));
+  }
+  std::span<const int> border_of(const Front& front) const {
+    return {tree_.border.data() + front.border_begin, at(front.border)};
   }
 
   void take_report() {
@@ -297,8 +322,9 @@ class Frontal final : public MatrixSolver {
   void solve_fronts(std::span<const double> b, std::span<double> x, bool transposed) const;
   void forward_fronts(bool transposed) const;
   void backward_fronts(bool transposed) const;
-  void forward(const Front& front, const double* arm, const double* reciprocal, double* w, double* y) const;
-  void backward(const Front& front, const double* arm, const double* reciprocal, double* w, double* y) const;
+  void forward(int f, bool transposed, Sweep& sweep) const;
+  void backward(int f, bool transposed, Sweep& sweep) const;
+  void take_outside(int f) const;
 
   int wanted_threads_ = 1;
   const TileKernels* wanted_kernels_ = &choose_kernels(Kernels::automatic);
@@ -309,64 +335,90 @@ class Frontal final : public MatrixSolver {
   std::unique_ptr<ThreadPool> pool_;
   std::vector<int> first_pivot_;  // of every front, in reciprocal_
   std::vector<double> reciprocal_;
-  mutable AlignedArray position_values_, front_values_, row_sums_;  // used by one solution at a time
+  int widest_ = 0;                  // tiles of the widest front
+  std::vector<int> outside_begin_;  // of every front, in outside_values_
+  // Used by one solution at a time:
+  mutable AlignedArray position_values_, outside_values_;
+  mutable std::vector<Sweep> sweeps_;
 };
 
-// Pivots of one front by forward substitution; their share of the border goes to w.
-void Frontal::forward(const Front& front, const double* arm, const double* reciprocal, double* w,
-                      double* y) const {
-  const int* border = tree_.border.data() + front.border_begin;
+// Pivots of one front by forward substitution.  Their share of the border goes to where it belongs, but what lies
+// outside of the front's subtree, where other threads work, is left in outside_values_.
+void Frontal::forward(int f, bool transposed, Sweep& sweep) const {
+  const Front& front = tree_.fronts[at(f)];
+  double* const w = position_values_.data();
+  double* const y = sweep.values.data();
+  const double* const upper = factors_.data() + front.arms;
+  const double* const reciprocal = reciprocal_.data() + first_pivot_[at(f)];
   const int P = front.pivot_tiles;
   std::copy_n(w + front.first, front.pivots, y);
   std::fill(y + front.pivots, y + (P + front.border_tiles) * kTile, 0.0);
-  kernels_->forward_front(front, arm, reciprocal, y);
+  if (transposed)
+    kernels_->forward_front(front, upper, reciprocal, y);
+  else
+    kernels_->forward_front(front, upper + front.arm_terms(), nullptr, y);
   std::copy_n(y, front.pivots, w + front.first);
-  for (int k = 0; k < front.border; ++k) w[border[k]] += y[P * kTile + k];
+  const std::span<const int> border = border_of(front);
+  const int outside = outside_begin_[at(f) + 1] - outside_begin_[at(f)], inside = front.border - outside;
+  for (int k = 0; k < inside; ++k) w[border[at(k)]] += y[P * kTile + k];
+  std::copy_n(y + P * kTile + inside, outside, outside_values_.data() + outside_begin_[at(f)]);
+  if (traits().symmetric)
+    for (int k = 0; k < front.pivots; ++k) w[front.first + k] /= reciprocal[k];
+}
+
+void Frontal::take_outside(int f) const {
+  const std::span<const int> border = border_of(tree_.fronts[at(f)]);
+  const int begin = outside_begin_[at(f)], count = outside_begin_[at(f) + 1] - begin;
+  double* const w = position_values_.data();
+  for (int k = 0; k < count; ++k)
+    w[border[border.size() - at(count) + at(k)]] += outside_values_.data()[begin + k];
 }
 
 // Pivots of one front by back substitution; the border is known.
-void Frontal::backward(const Front& front, const double* arm, const double* reciprocal, double* w,
-                       double* y) const {
-  const int* border = tree_.border.data() + front.border_begin;
+void Frontal::backward(int f, bool transposed, Sweep& sweep) const {
+  const Front& front = tree_.fronts[at(f)];
+  double* const w = position_values_.data();
+  double* const y = sweep.values.data();
+  const double* const upper = factors_.data() + front.arms;
+  const std::span<const int> border = border_of(front);
   const int P = front.pivot_tiles;
   std::fill(y, y + (P + front.border_tiles) * kTile, 0.0);
   std::copy_n(w + front.first, front.pivots, y);
-  for (int k = 0; k < front.border; ++k) y[P * kTile + k] = w[border[k]];
-  kernels_->backward_front(front, arm, reciprocal, y, row_sums_.data());
+  for (int k = 0; k < front.border; ++k) y[P * kTile + k] = w[border[at(k)]];
+  if (transposed && !traits().symmetric)
+    kernels_->backward_front(front, upper + front.arm_terms(), nullptr, y, sweep.sums.data());
+  else
+    kernels_->backward_front(front, upper, reciprocal_.data() + first_pivot_[at(f)], y, sweep.sums.data());
   std::copy_n(y, front.pivots, w + front.first);
 }
 
-// L then U; transposed: U^T, then L^T.  For symmetric matrices L^T = D^-1 U.  Values stand by position.
+// L then U; transposed: U^T, then L^T.  For symmetric matrices L^T = D^-1 U.  Values stand by position.  Subtrees go
+// side by side; then all sums beyond them are taken in the order of the fronts, on any number of threads.
 void Frontal::forward_fronts(bool transposed) const {
-  double* const w = position_values_.data();
-  double* const y = front_values_.data();
-  for (std::size_t f = 0; f < tree_.fronts.size(); ++f) {
-    if (static_cast<int>(f) == tree_.kept) continue;
-    const Front& front = tree_.fronts[f];
-    const double* upper = factors_.data() + front.arms;
-    const double* reciprocal = reciprocal_.data() + first_pivot_[f];
-    if (transposed)
-      forward(front, upper, reciprocal, w, y);
-    else
-      forward(front, upper + front.arm_terms(), nullptr, w, y);
-    if (traits().symmetric)
-      for (int k = 0; k < front.pivots; ++k) w[front.first + k] /= reciprocal[k];
+  pool_->run(static_cast<int>(tree_.subtrees.size()), [&](int s, int thread) {
+    const Subtree& subtree = tree_.subtrees[at(s)];
+    for (int f = subtree.begin; f < subtree.end; ++f)
+      if (f != tree_.kept) forward(f, transposed, sweeps_[at(thread)]);
+  });
+  auto subtree = tree_.subtrees.begin();
+  for (int f = 0; f < static_cast<int>(tree_.fronts.size()); ++f) {
+    if (subtree != tree_.subtrees.end() && f == subtree->end) ++subtree;
+    if (subtree != tree_.subtrees.end() && f >= subtree->begin)
+      take_outside(f);
+    else if (f != tree_.kept)
+      forward(f, transposed, sweeps_[0]);
   }
 }
 
+// A front needs the unknowns of its border and no others: those above all subtrees come first.
 void Frontal::backward_fronts(bool transposed) const {
-  double* const w = position_values_.data();
-  double* const y = front_values_.data();
-  for (std::size_t f = tree_.fronts.size(); f-- > 0;) {
-    if (static_cast<int>(f) == tree_.kept) continue;
-    const Front& front = tree_.fronts[f];
-    const double* upper = factors_.data() + front.arms;
-    const double* reciprocal = reciprocal_.data() + first_pivot_[f];
-    if (transposed && !traits().symmetric)
-      backward(front, upper + front.arm_terms(), nullptr, w, y);
-    else
-      backward(front, upper, reciprocal, w, y);
-  }
+  for (auto f = tree_.top.rbegin(); f != tree_.top.rend(); ++f)
+    if (*f != tree_.kept) backward(*f, transposed, sweeps_[0]);
+  pool_->run(static_cast<int>(tree_.subtrees.size()), [&](int s, int thread) {
+    const Subtree& subtree = tree_.subtrees[at(s)];
+    for (int f = subtree.end; f-- > subtree.begin;)
+      if (f != tree_.kept) backward(f, transposed, sweeps_[at(thread)]);
+  });
 }
 
 void Frontal::solve_fronts(std::span<const double> b, std::span<double> x, bool transposed) const {

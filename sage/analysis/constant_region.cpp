@@ -82,15 +82,34 @@ void ConstantRegion::add_forces(const Eigen::VectorXd& du, Eigen::VectorXd& to) 
     if (data.active && data.constant) add_group(data, du, to);
 }
 
+namespace {
+
+// f = start + K u but for its first two columns + shift times the motion of the first node along x.  count: terms of f;
+// 0 = only `terms` says.  Where the compiler knows it, sums stay in registers; their order is the same.
+template <std::size_t count>
+void multiply(const double* K, const double* shift, double x, const double* u, std::size_t terms,
+              const double* start, double* f) {
+  constexpr std::size_t kRoom = count > 0 ? count : 1;
+  const std::size_t n = count > 0 ? count : terms;
+  double in_registers[kRoom];
+  double* const sum = count > 0 ? in_registers : f;
+  for (std::size_t i = 0; i < n; ++i) sum[i] = (start != nullptr ? start[i] : 0.0) + shift[i] * x;
+  for (std::size_t j = 2; j < n; ++j)
+    for (std::size_t i = 0; i < n; ++i) sum[i] += K[j * n + i] * u[j];
+  if constexpr (count > 0) std::copy_n(sum, n, f);
+}
+
+}  // namespace
+
 // K times displacements relative to the first node: differences of neighbours are exact where they are small,
 // and stiff joints and nu near 1/2 make much of every rounding.  A shift along y costs nothing, one along x
 // only in a ring.
 void ConstantRegion::add_group(GroupData& data, const Eigen::VectorXd& du, Eigen::VectorXd& to) {
   const std::size_t n = data.dofs();
   const bool from_zero = data.force.empty();
-  data.trial_force.clear();
-  if (from_zero && du.isZero(0.0)) return;
+  if (from_zero && du.isZero(0.0)) return data.trial_force.clear();
   data.trial_force.resize(static_cast<std::size_t>(data.group->elements()) * n);
+  const auto product = n == 8 ? multiply<8> : n == 16 ? multiply<16> : multiply<0>;
   double* const u = element_->du();
   for (int e = 0; e < data.group->elements(); ++e) {
     element_->stop_if_asked_at(e);
@@ -100,13 +119,9 @@ void ConstantRegion::add_group(GroupData& data, const Eigen::VectorXd& du, Eigen
       u[i] -= x;
       u[i + 1] -= y;
     }
-    const double* K = data.matrix_of(e);
-    const double* shift = data.shift_of(e);
-    double* f = data.trial_force.data() + static_cast<std::size_t>(e) * n;
-    if (!from_zero) std::copy_n(data.force.data() + static_cast<std::size_t>(e) * n, n, f);
-    for (std::size_t i = 0; i < n; ++i) f[i] += shift[i] * x;
-    for (std::size_t j = 2; j < n; ++j)
-      for (std::size_t i = 0; i < n; ++i) f[i] += K[j * n + i] * u[j];
+    const std::size_t begin = static_cast<std::size_t>(e) * n;
+    double* const f = data.trial_force.data() + begin;
+    product(data.matrix_of(e), data.shift_of(e), x, u, n, from_zero ? nullptr : data.force.data() + begin, f);
     add_force(data, e, f, to, sums_);
   }
   work_->linear_products += data.group->elements();
