@@ -99,6 +99,19 @@ const FieldEntry* FieldTable::find(std::string_view name) const {
   return it == all.end() ? nullptr : &*it;
 }
 
+namespace {
+
+// By the source chapter's names too: sigma_3, sigma_1 - sigma_3, stress level.
+std::string_view full_name(std::string_view name) {
+  static constexpr std::pair<std::string_view, std::string_view> kShort[] = {
+      {"conf", "principal_stress_3"}, {"dev", "stress_difference"}, {"SL", "stress_level"}};
+  for (const auto& [one, full] : kShort)
+    if (name == one) return full;
+  return name;
+}
+
+}  // namespace
+
 std::optional<FieldChoice> FieldTable::choose(std::string_view name) const {
   for (const FieldEntry& row : rows()) {
     if (row.form == FieldForm::word) continue;
@@ -110,6 +123,8 @@ std::optional<FieldChoice> FieldTable::choose(std::string_view name) const {
           name[row.name.size()] == '_' && name.ends_with(row.components[c].name))
         return FieldChoice{&row, static_cast<int>(c)};
   }
+  const std::string_view full = full_name(name);  // last: a row of that name comes first
+  if (full != name) return choose(full);
   return std::nullopt;
 }
 

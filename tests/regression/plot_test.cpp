@@ -2,6 +2,7 @@
 // none.  Skipped where the program is built without HDF5.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <regex>
 
@@ -148,6 +149,98 @@ TEST(Plot, ColumnsThatAreNoneAreNamed) {
   expect_refused(report + " --xy axial_strain", 1, "wanted X:Y[,Y...]");
   expect_refused("out/pinned_ld1_nu025.increments.csv", 1, "which columns?");
   expect_refused("out/absent.csv", 2, "can't be opened");
+}
+
+// The deck pinned_ld1_nu025 with a state at each of its ten increments, to an axial strain of 10 %, in out/deck.h5.
+Finished run_with_all_states(const fs::path& folder) {
+  std::string deck = read(kInputs + "chapter7/pinned_ld1_nu025/deck.dat");
+  const std::string at_end = "\n   10    0    0    0    1", each = "\n   10    0    0    1    1";
+  const std::size_t at = deck.find(at_end);
+  if (at == std::string::npos) throw std::runtime_error("the deck has changed");
+  std::ofstream(folder / "deck.dat") << deck.replace(at, each.size(), each);
+  return sagefe(folder, "run deck.dat -q --result");
+}
+
+// The numbers behind "from" and "to" above each picture.
+std::vector<std::pair<double, double>> ranges_of(const std::string& svg) {
+  std::vector<std::pair<double, double>> ranges;
+  const std::regex range("from ([-+.0-9e]+) to ([-+.0-9e]+)");
+  for (std::sregex_iterator it(svg.begin(), svg.end(), range), end; it != end; ++it)
+    ranges.emplace_back(std::stod((*it)[1]), std::stod((*it)[2]));
+  return ranges;
+}
+
+// Linear, and without a cell pressure: at twice the strain every stress is twice as large.
+TEST(Plot, StatesAreChosenByStrainAndShareASheet) {
+  const fs::path folder = empty_folder("plot_sheet");
+  const Finished run = run_with_all_states(folder);
+  if (without_module(run)) GTEST_SKIP() << "built without HDF5";
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Finished plot = sagefe(folder,
+                               "plot out/deck.h5 --picture dev --picture conf --at strain=.05 --at strain=.1 "
+                               "--sheet --mirror both --range full --crosses --yielded --levels 6 --name s");
+  ASSERT_EQ(plot.exit_code, 0) << plot.err;
+  const std::string svg = read((folder / "out/s.svg").string());
+  const auto ranges = ranges_of(svg);
+  ASSERT_EQ(ranges.size(), 4u);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double size = std::max(std::abs(ranges[k].first), std::abs(ranges[k].second));
+    EXPECT_NEAR(ranges[k + 2].first, 2.0 * ranges[k].first, 2e-3 * size) << "four digits are shown";
+    EXPECT_NEAR(ranges[k + 2].second, 2.0 * ranges[k].second, 2e-3 * size);
+  }
+  EXPECT_NE(svg.find("axial strain 0.05<"), std::string::npos) << svg.substr(0, 900);
+  const Finished named =
+      sagefe(folder, "plot out/deck.h5 --picture conf --picture principal_stress_3 -o drawn");
+  ASSERT_EQ(named.exit_code, 0) << named.err;
+  EXPECT_EQ(read((folder / "drawn/deck_stage1_conf.svg").string()),
+            read((folder / "drawn/deck_stage1_principal_stress_3.svg").string()));
+}
+
+TEST(Plot, WrongWishesAreNamed) {
+  const fs::path folder = empty_folder("plot_wishes");
+  const Finished run = run_with_all_states(folder);
+  if (without_module(run)) GTEST_SKIP() << "built without HDF5";
+  const auto expect_refused = [&](const std::string& words, const std::string& message) {
+    const Finished plot = sagefe(folder, "plot out/deck.h5 " + words);
+    EXPECT_EQ(plot.exit_code, 1) << words;
+    EXPECT_NE(plot.err.find(message), std::string::npos) << plot.err;
+  };
+  expect_refused("--picture dev --at strain=.033", "its strains are 0.01 0.02 0.03");
+  expect_refused("--picture dev --at strain=x", "wanted STAGE[:INCREMENT], both from 1, or strain=VALUE");
+  expect_refused("--picture dev --range 5:1", "wanted LOW:HIGH, full or auto");
+  expect_refused("--picture devi", "unknown field devi");
+  expect_refused("--picture dev --line 0,0", "wanted X,Y:X,Y");
+  expect_refused("--line 0,0:1,1", "of which fields?");
+  expect_refused("--interface", "the model has no interface");
+}
+
+// Along the axis u_z falls from nothing at mid-height to that of the end.
+TEST(Plot, FieldsAlongALineAreCurves) {
+  const fs::path folder = empty_folder("plot_line");
+  const Finished run = run_with_all_states(folder);
+  if (without_module(run)) GTEST_SKIP() << "built without HDF5";
+  const Finished plot =
+      sagefe(folder, "plot out/deck.h5 --picture displacement_y --line 0,0:0,1.4 --at 1:5 --at 1");
+  ASSERT_EQ(plot.exit_code, 0) << plot.err;
+  const std::string svg = read((folder / "out/deck_line.svg").string());
+  const auto lines = lines_of(svg);
+  ASSERT_EQ(lines.size(), 2u);
+  for (const std::vector<double>& line : lines) EXPECT_TRUE(std::ranges::is_sorted(line)) << "down";
+  EXPECT_NEAR(lines[1].back() - lines[1].front(), 2.0 * (lines[0].back() - lines[0].front()), 0.05) << "px";
+  EXPECT_NE(svg.find("z [in]"), std::string::npos);
+}
+
+// A place for each integration point of the interface.
+TEST(Plot, StressesOfInterfacesAreCurves) {
+  const fs::path folder = empty_folder("plot_interface");
+  const Finished run = sagefe(folder, "run " + kInputs + "chapter7/friction_08_nu025/deck.dat -q --result");
+  if (without_module(run)) GTEST_SKIP() << "built without HDF5";
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Finished plot = sagefe(folder, "plot out/friction_08_nu025.h5 --interface --at 1");
+  ASSERT_EQ(plot.exit_code, 0) << plot.err;
+  const auto lines = lines_of(read((folder / "out/friction_08_nu025_interface.svg").string()));
+  ASSERT_EQ(lines.size(), 3u);
+  for (const std::vector<double>& line : lines) EXPECT_EQ(line.size(), 28u) << "14 elements of 2 points";
 }
 
 TEST(Plot, FilesThatAreNoneAreOneError) {

@@ -1,0 +1,206 @@
+// sagefe plot RESULT... --line or --interface: curves of fields over a place.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "sage/app/input.hpp"
+#include "sage/app/plot_command.hpp"
+#include "sage/app/plot_states.hpp"
+#include "sage/draw/plot.hpp"
+#include "sage/record/sampler.hpp"
+#include "sage/record/values.hpp"
+
+namespace sage::app {
+
+namespace {
+
+constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
+
+struct Line {
+  Vector2 from = Vector2::Zero(), to = Vector2::Zero();
+};
+
+// X,Y:X,Y.  Throws std::invalid_argument that says so.
+Line line_from(const std::string& text) {
+  double numbers[4] = {};
+  const char *at = text.data(), *end = text.data() + text.size();
+  for (int i = 0; i < 4; ++i) {
+    const auto [stop, error] = std::from_chars(at, end, numbers[i]);
+    const bool last = i == 3;
+    const bool good =
+        error == std::errc() && (last ? stop == end : stop < end && *stop == (i == 1 ? ':' : ','));
+    if (!good || !std::isfinite(numbers[i])) throw std::invalid_argument("--line " + text + ": wanted X,Y:X,Y");
+    at = stop + (last ? 0 : 1);
+  }
+  const Line line{{numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
+  if (line.from == line.to) throw std::invalid_argument("--line " + text + ": its ends are one point");
+  return line;
+}
+
+// The coordinate that places along a line are told apart by.
+struct Abscissa {
+  int axis = -1;  // 0 or 1; -1: the distance from the first place
+  std::string label;
+};
+
+Abscissa abscissa_of(const Model& model, const Vector2& along) {
+  const AxisNames names = axis_names(model.geometry);
+  const std::string& unit = model.units.length;
+  if (along.y() == 0.0) return {0, fmt::format("{} [{}]", names.x, unit)};
+  if (along.x() == 0.0) return {1, fmt::format("{} [{}]", names.y, unit)};
+  return {-1, fmt::format("distance along the line [{}]", unit)};
+}
+
+FieldChoice choice_of(const Model& model, const FieldTable& table, const std::string& name) {
+  const std::optional<FieldChoice> choice = table.choose(name);
+  if (!choice || (choice->entry->place() != FieldPlace::node && choice->entry->place() != FieldPlace::point))
+    throw UsageError("--picture: unknown field " + name + "; known: " + fields_of(model).known());
+  return *choice;
+}
+
+// What the solids have along a line; a gap where there are none.
+PlotSeries along_line(const Model& model, const Solution& solution, const FieldChoice& field,
+                      const Line& line) {
+  constexpr int kPlaces = 200;
+  PlotSeries series;
+  const Sampler sampler(model, solution, {field.entry});
+  const Vector2 along = line.to - line.from;
+  const int axis = abscissa_of(model, along).axis;
+  for (int i = 0; i <= kPlaces; ++i) {
+    const double part = static_cast<double>(i) / kPlaces;
+    const Vector2 at = line.from + part * along;
+    const Sample sample = sampler.at(at);
+    series.x.push_back(axis < 0 ? part * along.norm() : at[axis]);
+    series.y.push_back(sample.element == 0 ? kGap : chosen(field, sample.values.data()));
+  }
+  return series;
+}
+
+// From the first to the last integration point of the active interfaces of the model.
+Vector2 extent_of_interfaces(const Model& model) {
+  Vector2 low = Vector2::Constant(HUGE_VAL), high = -low;
+  for (const Group& group : model.groups)
+    if (group.entry->kind == ElementKind::interface)
+      for (int node : group.nodes) {
+        low = low.cwiseMin(model.mesh.x.col(node));
+        high = high.cwiseMax(model.mesh.x.col(node));
+      }
+  return high - low;
+}
+
+// At the integration points of the interfaces, group after group with a gap between, along x or y.
+PlotSeries along_interfaces(const Model& model, const Solution& solution, const FieldChoice& field, int axis) {
+  PlotSeries series;
+  const std::span<const GroupData> groups = solution.groups();
+  Eigen::Matrix2Xd nodes;
+  std::vector<double> values(field.entry->size());
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const Group& group = model.groups[g];
+    if (group.entry->kind != ElementKind::interface || solution.activity->group[g] == 0) continue;
+    std::vector<std::pair<double, double>> row;
+    const int points = group.element->traits().points;
+    for (int e = 0; e < group.elements(); ++e) {
+      element_coordinates(model.mesh, group, e, nodes);
+      for (int p = 0; p < points; ++p) {
+        read_field(*field.entry, PointState(model.mesh, groups[g], static_cast<std::size_t>(e * points + p)),
+                   values.data());
+        row.emplace_back(group.element->position(nodes, p)[axis], chosen(field, values.data()));
+      }
+    }
+    std::ranges::sort(row, {}, &std::pair<double, double>::first);
+    if (!series.x.empty()) row.insert(row.begin(), {row.front().first, kGap});
+    for (const auto& [x, y] : row) series.x.push_back(x), series.y.push_back(y);
+  }
+  return series;
+}
+
+// A run in one state.
+struct Shown {
+  const StoredRun* run;
+  Frame frame;
+  std::string label;
+};
+
+std::vector<Shown> states_to_show(const PlotOptions& options,
+                                  const std::vector<std::unique_ptr<StoredRun>>& runs) {
+  std::vector<Shown> shown;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const StoredRun& run = *runs[i];
+    const std::string label = i < options.labels.size() ? options.labels[i] : run.label;
+    for (std::size_t state : states_of(run, options.at)) {
+      Frame frame = run.stored.frame(run.model, state);
+      const std::string words = words_of_state(run, state, frame);
+      shown.push_back({&run, std::move(frame), runs.size() == 1 ? words : label + ": " + words});
+    }
+  }
+  return shown;
+}
+
+std::vector<std::unique_ptr<StoredRun>> open_runs(const PlotOptions& options, const Catalogue& catalogue) {
+  std::vector<std::unique_ptr<StoredRun>> runs;
+  for (const std::string& file : options.files) runs.push_back(std::make_unique<StoredRun>(file, catalogue));
+  return runs;
+}
+
+// A panel a field, a curve a state.
+void plot_over_places(const PlotOptions& options, const Catalogue& catalogue,
+                      const std::vector<std::string>& fields, const char* what) {
+  const auto runs = open_runs(options, catalogue);
+  const std::vector<Shown> shown = states_to_show(options, runs);
+  const Model& first = runs.front()->model;
+  const bool interfaces = options.line.empty();
+  const Line line = interfaces ? Line{} : line_from(options.line);
+  Vector2 along = line.to - line.from;
+  if (interfaces) {
+    along = extent_of_interfaces(first);
+    if (!(along.x() >= 0.0))
+      throw UsageError(options.files.front() + ": --interface: the model has no interface");
+    along[along.x() >= along.y() ? 1 : 0] = 0.0;
+  }
+  PlotSheet sheet;
+  sheet.title = options.title.empty() && runs.size() == 1 ? first.title : options.title;
+  for (const std::string& name : fields) {
+    Plot& plot = sheet.panels.emplace_back();
+    plot.x_label = abscissa_of(first, along).label;
+    plot.y_label = (interfaces ? "interface " : "") + describe(choice_of(first, fields_of(first), name), first);
+    for (const Shown& state : shown) {
+      const Model& model = state.run->model;
+      const FieldTable table = fields_of(model);
+      const FieldChoice field = choice_of(model, table, name);
+      PlotSeries series = interfaces
+                              ? along_interfaces(model, state.frame.view(), field, along.x() != 0.0 ? 0 : 1)
+                              : along_line(model, state.frame.view(), field, line);
+      series.name = state.label;
+      series.markers = true;
+      plot.series.push_back(std::move(series));
+    }
+  }
+  const std::string stem = std::filesystem::path(options.files.front()).stem().string();
+  write_plot(plot_path(options, fmt::format("{}_{}", stem, what)), sheet_svg(sheet));
+}
+
+}  // namespace
+
+std::string line_error(const std::string& text) {
+  try {
+    line_from(text);
+    return "";
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+}
+
+void plot_line(const PlotOptions& options, const Catalogue& catalogue) {
+  if (options.pictures.empty()) throw UsageError("--line: of which fields? --picture FIELD");
+  plot_over_places(options, catalogue, options.pictures, "line");
+}
+
+void plot_interface(const PlotOptions& options, const Catalogue& catalogue) {
+  const std::vector<std::string> usual = {"traction_normal", "traction_shear", "stress_level"};
+  plot_over_places(options, catalogue, options.pictures.empty() ? usual : options.pictures, "interface");
+}
+
+}  // namespace sage::app
