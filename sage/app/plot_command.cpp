@@ -156,6 +156,15 @@ Command plot_command(CLI::App& parser, const Catalogue& catalogue) {
       "--interface", options->interface,
       "the fields as curves along the interfaces instead (default: traction_normal, traction_shear, "
       "stress_level)");
+  parser
+      .add_option_function<std::vector<int>>(
+          "--increment",
+          [options = options.get()](const std::vector<int>& numbers) {
+            for (int number : numbers) options->at.push_back(":" + std::to_string(number));
+          },
+          "an output increment of the last stage; may be repeated")
+      ->allow_extra_args(false)
+      ->check(CLI::PositiveNumber);
   add_look_options(parser, *options);
   parser.add_option("-o,--output", options->folder, "folder of the pictures (default: that of the first file)");
   parser.add_option("--name", options->name,

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view kStrain = "strain=";
 
-// An increment of a stage, from 1 (increment 0 = the stage's last), or a strain.
+// An increment of a stage, from 1 (increment 0 = the stage's last, stage 0 = the file's last), or a strain.
 struct Moment {
   int stage = 0, increment = 0;
   std::optional<double> strain;
@@ -40,7 +40,7 @@ Moment moment_from(std::string_view text) {
     return moment;
   }
   const std::size_t colon = text.find(':');
-  if (!whole_number(text.substr(0, colon), moment.stage) || moment.stage < 1) wrong();
+  if (colon != 0 && (!whole_number(text.substr(0, colon), moment.stage) || moment.stage < 1)) wrong();
   if (colon != std::string_view::npos &&
       (!whole_number(text.substr(colon + 1), moment.increment) || moment.increment < 1))
     wrong();
@@ -77,10 +77,11 @@ std::size_t state_at(const StoredRun& run, const std::string& text) {
   const Moment moment = moment_from(text);
   if (moment.strain) return state_at_strain(run, text, *moment.strain);
   const auto& states = run.stored.states();
+  const int stage = moment.stage > 0 || states.empty() ? moment.stage : states.back().stage + 1;
   std::string known;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const auto& state = states[i];
-    if (state.stage + 1 == moment.stage &&
+    if (state.stage + 1 == stage &&
         (moment.increment == 0 ? run.ends_its_stage(i) : state.increment == moment.increment))
       return i;
     known += fmt::format(" {}:{}", state.stage + 1, state.increment);

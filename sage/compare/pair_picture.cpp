@@ -52,7 +52,7 @@ std::string pair_svg(const Side& a, const Side& b, std::string_view field) {
   for (std::size_t k = 0; k < 2; ++k) {
     if (!shows(*sides[k], field)) continue;
     options.state = sides[k]->error().empty() ? "end of the run" : "NOT COMPLETE, last equilibrium";
-    options.title = k == 0 ? "A" : "B";
+    options.title = (k == 0 ? "A: " : "B: ") + sides[k]->model().title;
     drawings[k] = field_svg(sides[k]->model(), sides[k]->last(), field, options);
     sizes[k] = size_of(drawings[k]);
   }

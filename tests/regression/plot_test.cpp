@@ -88,6 +88,9 @@ TEST(Plot, AnyOutputIncrementCanBeDrawn) {
   EXPECT_NE(half.find("from -0.07 to 0"), std::string::npos) << half.substr(0, 900);
   const std::string whole = read((folder / "out/deck_stage1_displacement_y.svg").string());
   EXPECT_NE(whole.find("from -0.14 to 0"), std::string::npos) << whole.substr(0, 900);
+  const Finished last = sagefe(folder, "plot out/deck.h5 --picture displacement_y --increment 5 -o last");
+  ASSERT_EQ(last.exit_code, 0) << last.err;
+  EXPECT_EQ(read((folder / "last/deck_stage1_increment5_displacement_y.svg").string()), half);
   const Finished none = sagefe(folder, "plot out/deck.h5 --picture displacement_y --at 1:11");
   EXPECT_EQ(none.exit_code, 1);
   EXPECT_NE(none.err.find("it has 1:1 1:2 1:3"), std::string::npos) << none.err;
