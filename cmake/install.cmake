@@ -12,7 +12,7 @@ install(DIRECTORY legacy_inputs DESTINATION ${CMAKE_INSTALL_DATADIR}/sagefe)
 # Headers keep their paths: #include "sage/core/law.hpp".  Those whose library is in the package, no others.
 # The module of library solvers is installed by solvers/.
 set(SAGE_PACKAGE_ROOMS core deck guess model exchange mesh build analysis record draw scenes judge verify compare
-                       stress conformance)
+                       stress figures conformance)
 list(TRANSFORM SAGE_PACKAGE_ROOMS PREPEND sage/)
 foreach(folder ${SAGE_PACKAGE_ROOMS} elements materials solvers)
   install(DIRECTORY ${folder}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sagefe/${folder} FILES_MATCHING PATTERN "*.hpp")

@@ -189,50 +189,35 @@ double edge_of_yield(const std::vector<Sample>& list) {
   return edge;
 }
 
-double of_fields(const Check& check, const SpecimenRun& a, const SpecimenRun* b, bool away) {
-  const std::vector<Sample> x = samples(a, check.a, check.place, away);
-  std::vector<Sample> y;
-  if (b != nullptr) y = samples(*b, check.b, check.place, away);
-  if (x.empty()) return kNone;
-  const Scene& scene = *a.scene;
-  const double q = scene.correct(check.a.strain), p = check.p, aspect = scene.slenderness;
-  const bool shear = check.a.quantity == Quantity::tau;
-  const auto size = [&](const Sample& s) { return shear ? std::abs(s.x) : s.x; };
-  const auto from = [&](const Sample& s) { return distance(check.target, s.r, s.z, aspect); };
+double of_yielding(const Check& check, const std::vector<Sample>& x, const std::vector<Sample>& y) {
   const auto yields = [](const Sample& s) { return s.x >= kYields; };
-  const auto r_of = [](const Sample& s) { return s.r; };
-  const auto z_of = [](const Sample& s) { return s.z; };
+  const auto mean_r = [](const std::vector<Sample>& list) {
+    return mean(yielded(list), [](const Sample& s) { return s.r; });
+  };
   switch (check.measure) {
-    case Measure::change_most:
-      return largest(x, change) / q;
-    case Measure::percent_most:
-      return largest(x, change) / x[0].c;
-    case Measure::change_mean:
-      return mean(x, [](const Sample& s) { return s.x - s.c; }) / q;
-    case Measure::excess_least:
-      return -largest(x, [](const Sample& s) { return s.c - s.x; }) / q;
-    case Measure::nearness:
-      return (largest(x, value) - scene.cell()) / (q - scene.cell());
-    case Measure::least:
-      return -largest(x, [](const Sample& s) { return -s.x; }) / q;
-    case Measure::distance_most:
-      return from(place_of(x, size));
-    case Measure::distance_least:
-      return from(place_of(x, [](const Sample& s) { return -s.x; }));
-    case Measure::rows_at_axis:
-      return rows_at_axis(x);
-    case Measure::row_range:
-      return row_range(x) / q;
-    case Measure::share_close:
-      return share(x, [&](const Sample& s) { return change(s) <= p * q; });
-    case Measure::share_below:
-      return share(x, [&](const Sample& s) { return s.x <= p; });
-    case Measure::share_above:
-      return share(x, [&](const Sample& s) { return s.x >= p; });
-    case Measure::above_r:
-      return mean(above(x, p), r_of);
-    case Measure::above_in:
-      return share(above(x, p), [&](const Sample& s) { return contains(check.target, s.r, s.z, aspect); });
+    case Measure::yielded:
+      return share(x, yields);
+    case Measure::unyielded:
+      return 1.0 - share(x, yields);
+    case Measure::yielded_ratio:
+      return share(x, yields) / share(y, yields);
+    case Measure::yielded_r:
+      return mean_r(x);
+    case Measure::yielded_z:
+      return mean(yielded(x), [](const Sample& s) { return s.z; });
+    case Measure::yielded_r_step:
+      return mean_r(x) - mean_r(y);
+    case Measure::yielded_z_step:
+      return reach(x) - reach(y);
+    case Measure::yielded_edge:
+      return edge_of_yield(x);
+    default:
+      return kNone;
+  }
+}
+
+double of_two_fields(const Check& check, const std::vector<Sample>& x, const std::vector<Sample>& y, double q) {
+  switch (check.measure) {
     case Measure::difference:
       return largest_difference(x, y) / q;
     case Measure::correlation:
@@ -241,38 +226,82 @@ double of_fields(const Check& check, const SpecimenRun& a, const SpecimenRun* b,
       return largest(x, change) / largest(y, change);
     case Measure::change_ratio_mean:
       return mean(x, change) / mean(y, change);
-    case Measure::mean_gap: {
-      double rest = 0.0, area = 0.0;
-      for (const Sample& s : samples(a, check.a, Place::everywhere, away))
-        if (!contains(check.place, s.r, s.z, aspect)) {
-          rest += s.area * s.x;
-          area += s.area;
-        }
-      return mean(x, value) - rest / area;
-    }
     case Measure::mean_step:
       return std::abs(mean(x, value) - mean(y, value));
-    case Measure::range:
-      return largest(x, value) + largest(x, [](const Sample& s) { return -s.x; });
-    case Measure::yielded:
-      return share(x, yields);
-    case Measure::unyielded:
-      return 1.0 - share(x, yields);
-    case Measure::yielded_ratio:
-      return share(x, yields) / share(y, yields);
-    case Measure::yielded_r:
-      return mean(yielded(x), r_of);
-    case Measure::yielded_z:
-      return mean(yielded(x), z_of);
-    case Measure::yielded_r_step:
-      return mean(yielded(x), r_of) - mean(yielded(y), r_of);
-    case Measure::yielded_z_step:
-      return reach(x) - reach(y);
-    case Measure::yielded_edge:
-      return edge_of_yield(x);
+    default:
+      return of_yielding(check, x, y);
+  }
+}
+
+// Of places: where the largest is, what part lies where.
+double of_places(const Check& check, const std::vector<Sample>& x, double aspect, double q) {
+  const double p = check.p;
+  const bool shear = check.a.quantity == Quantity::tau;
+  const auto from = [&](const Sample& s) { return distance(check.target, s.r, s.z, aspect); };
+  switch (check.measure) {
+    case Measure::distance_most:
+      return from(place_of(x, [&](const Sample& s) { return shear ? std::abs(s.x) : s.x; }));
+    case Measure::distance_least:
+      return from(place_of(x, [](const Sample& s) { return -s.x; }));
+    case Measure::rows_at_axis:
+      return rows_at_axis(x);
+    case Measure::share_close:
+      return share(x, [&](const Sample& s) { return change(s) <= p * q; });
+    case Measure::share_below:
+      return share(x, [&](const Sample& s) { return s.x <= p; });
+    case Measure::share_above:
+      return share(x, [&](const Sample& s) { return s.x >= p; });
+    case Measure::above_r:
+      return mean(above(x, p), [](const Sample& s) { return s.r; });
+    case Measure::above_in:
+      return share(above(x, p), [&](const Sample& s) { return from(s) <= 1e-9; });
     default:
       return kNone;
   }
+}
+
+// Of sizes.
+double of_values(const Check& check, const std::vector<Sample>& x, const Scene& scene, double q) {
+  const auto least = [&](auto of) { return -largest(x, [&](const Sample& s) { return -of(s); }); };
+  switch (check.measure) {
+    case Measure::change_most:
+      return largest(x, change) / q;
+    case Measure::percent_most:
+      return largest(x, change) / x[0].c;
+    case Measure::change_mean:
+      return mean(x, [](const Sample& s) { return s.x - s.c; }) / q;
+    case Measure::excess_least:
+      return least([](const Sample& s) { return s.x - s.c; }) / q;
+    case Measure::nearness:
+      return (largest(x, value) - scene.cell()) / (q - scene.cell());
+    case Measure::least:
+      return least(value) / q;
+    case Measure::row_range:
+      return row_range(x) / q;
+    case Measure::range:
+      return largest(x, value) - least(value);
+    default:
+      return kNone;
+  }
+}
+
+double mean_gap(const Check& check, const SpecimenRun& run, bool away) {
+  std::vector<Sample> there, rest;
+  for (const Sample& s : samples(run, check.a, Place::everywhere, away))
+    (contains(check.place, s.r, s.z, run.scene->slenderness) ? there : rest).push_back(s);
+  return mean(there, value) - mean(rest, value);
+}
+
+double of_fields(const Check& check, const SpecimenRun& a, const SpecimenRun* b, bool away) {
+  if (check.measure == Measure::mean_gap) return mean_gap(check, a, away);
+  const std::vector<Sample> x = samples(a, check.a, check.place, away);
+  if (x.empty()) return kNone;
+  const double q = a.scene->correct(check.a.strain);
+  for (double number : {of_values(check, x, *a.scene, q), of_places(check, x, a.scene->slenderness, q)})
+    if (!std::isnan(number)) return number;
+  std::vector<Sample> y;
+  if (b != nullptr) y = samples(*b, check.b, check.place, away);
+  return of_two_fields(check, x, y, q);
 }
 
 double spread(const std::vector<double>& values) {
