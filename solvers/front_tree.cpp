@@ -68,6 +68,10 @@ void lay_out_fronts(const EquationGraph& graph, const SeparatorTree& tree, bool 
   std::vector<int> rank(at(graph.members.count()));
   for (std::size_t r = 0; r < rank.size(); ++r) rank[at(tree.groups.item[r])] = static_cast<int>(r);
   const IndexLists borders = border_groups(graph, tree, fronts.children, rank);
+  std::size_t border = 0;  // equations of all borders
+  for (const int r : borders.item) border += graph.members.of(tree.groups.item[at(r)]).size();
+  fronts.border.reserve(border);
+  fronts.fronts.reserve(at(tree.groups.count()));
   int first = 0;
   for (int f = 0; f < tree.groups.count(); ++f) {
     Front front;

@@ -96,7 +96,6 @@ void Assembly::reset_group(std::size_t group) {
 
 void Assembly::enter_stage(const Activity& activity, const Eigen::VectorXd& rate) {
   if (late_.behind()) recover_states();
-  rate_ = rate;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     groups_[g].active = activity.group[g] != 0;
     if (!groups_[g].active) continue;
@@ -116,6 +115,7 @@ void Assembly::enter_stage(const Activity& activity, const Eigen::VectorXd& rate
   condensation_ =
       condense_if_it_pays(groups_, equations_.dofs(), dof_map_.dofs(), increments, scene_->symmetric, make);
   if (!condensation_) return;
+  rate_ = rate;
   scope.add_operations(condensation_->report().factor_operations);
   work_->condensed = condensation_->condensed();
   equations_.keep(condensation_->kept());

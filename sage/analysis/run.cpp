@@ -87,7 +87,7 @@ class Run {
   Eigen::VectorXd target_;
   Eigen::VectorXd last_du_;          // the last step of the stage, if path_.last_size > 0
   bool on_last_way_ = false;         // the next attempt starts with the tangent of that step
-  Eigen::VectorXd committed_force_;  // internal, at the committed state
+  Eigen::VectorXd committed_force_;  // internal, at the committed state; of scenes that are not linear
 };
 
 Solution Run::solution() const {
@@ -148,7 +148,8 @@ void Run::prepare_stage(int s) {
   place_ = {s, 0};
   evaluate_start();
   assembly_.commit(state_.du);
-  path_.force_start = committed_force_ = assembly_.internal_force();
+  path_.force_start = assembly_.internal_force();
+  if (!tangent_.constant()) committed_force_ = path_.force_start;
   path_.last_size = path_.stiffest = path_.last_stiffness = 0.0;
   path_.force_end = external_force(model_, s);
   path_.u_start.resize(0);

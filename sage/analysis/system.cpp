@@ -3,8 +3,15 @@
 #include <algorithm>
 
 #include "sage/analysis/loads.hpp"
+#include "sage/core/large_pages.hpp"
 
 namespace sage {
+
+namespace {
+
+constexpr int kManyEquations = 100'000;  // their factors are the bulk of the memory
+
+}  // namespace
 
 System::System(const Model& model, const Catalogue& catalogue, const RunSettings& settings, WorkCounters& work)
     : model_(model),
@@ -54,6 +61,7 @@ void System::analyse() {
   std::unique_ptr<LinearSolver> solver = make(*entry);
   if (solver->traits().wants_places) solver->set_places(places());
   tangent_.analyse(std::move(solver), entry->name, assembly_.equations(), assembly_.element_equations(), work_);
+  if (assembly_.equations() >= kManyEquations) return_freed_memory();
   held_before_ = activity_.held;
   groups_before_ = activity_.group;
 }

@@ -16,14 +16,14 @@ void Tangent::analyse(std::unique_ptr<LinearSolver> solver, const std::string& n
 
 void Tangent::clear() {
   solver_->clear();
-  coupling_.setZero(rate_.size());
+  coupling_.setZero(rate_->size());
 }
 
 void Tangent::add(int element, const ElementDofs& dofs, const double* K) {
   solver_->add(element, K);
   const std::size_t n = dofs.size();
   for (std::size_t j = 0; j < n; ++j) {
-    const double rate = rate_[dofs[j]];
+    const double rate = (*rate_)[dofs[j]];
     if (rate == 0.0) continue;
     for (std::size_t i = 0; i < n; ++i) coupling_[dofs[i]] += K[j * n + i] * rate;
   }

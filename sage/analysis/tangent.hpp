@@ -25,10 +25,10 @@ class Tangent {
   // A new pattern of equations, and a solver for it.
   void analyse(std::unique_ptr<LinearSolver> solver, const std::string& name, int equations,
                ElementEquations elements, WorkCounters& work);
-  // rate: displacement of every prescribed dof over the stage, for coupling().
+  // rate: displacement of every prescribed dof over the stage, for coupling().  It must stay where it is.
   void set_rate(const Eigen::VectorXd& rate) {
-    rate_ = rate;
-    if (rate_.isZero(0.0)) coupling_.setZero(rate_.size());  // factors may go on to serve
+    rate_ = &rate;
+    if (rate.isZero(0.0)) coupling_.setZero(rate.size());  // factors may go on to serve
   }
 
   State state() const { return state_; }
@@ -74,7 +74,8 @@ class Tangent {
   bool changed_ = true;
   std::unique_ptr<LinearSolver> solver_;
   std::string name_;
-  Eigen::VectorXd rate_, coupling_;
+  const Eigen::VectorXd* rate_ = nullptr;
+  Eigen::VectorXd coupling_;
 };
 
 // An element of the system.

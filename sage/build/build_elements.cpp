@@ -142,9 +142,10 @@ void fold(Builder& b, ElementCard& element) {
   const ElementEntry& entry = *b.model.groups[static_cast<std::size_t>(element.group)].entry;
   const std::size_t corners = element.nodes.size();
   if (entry.folded.empty() || corners != static_cast<std::size_t>(entry.corners)) return;
-  const int code = b.catalogue.elements.code_of(entry.folded);
-  for (std::size_t i = 0; code != 0 && i < corners; ++i) {
+  for (std::size_t i = 0; i < corners; ++i) {
     if (element.nodes[i] != element.nodes[(i + 1) % corners]) continue;
+    const int code = b.catalogue.elements.code_of(entry.folded);
+    if (code == 0) return;
     element.nodes.erase(element.nodes.begin() + static_cast<std::ptrdiff_t>(i));
     element.folded = static_cast<int>(i);
     element.group = folded_group(b, element.group, code);
@@ -217,11 +218,11 @@ void read_element_card(Builder& b, const CardView& card, ElementFields& fields) 
     b.note(card.where(), "element " + std::to_string(element.number) +
                              ": some of its mid-side nodes are left blank "
                              "and will be made, though others are given");
-  for (const char* field : {"column_step", "row_step"}) {
-    const bool column = field[0] == 'c';
-    if (card.blank(field) || card.integer(field) == 0 || !card.blank(column ? "columns" : "rows")) continue;
-    b.note(card.where(field), "the " + card.label(field) + " is given but the number of " +
-                                  (column ? "columns" : "rows") + " is left blank, which reads as 1");
+  for (const auto& [step, count] :
+       {std::pair(&fields.column_step, &fields.columns), std::pair(&fields.row_step, &fields.rows)}) {
+    if (card.blank(*step) || card.integer(*step) == 0 || !card.blank(*count)) continue;
+    b.note(card.where(step->name()), "the " + card.label(step->name()) + " is given but the number of " +
+                                         count->name() + " is left blank, which reads as 1");
   }
   for (int c = 0; c < entry.corners; ++c) {
     if (element.nodes[static_cast<std::size_t>(c)] != 0) continue;
@@ -232,14 +233,13 @@ void read_element_card(Builder& b, const CardView& card, ElementFields& fields) 
   }
   Block block;
   if (!read_block(b, card, element, fields, block)) return;
-  const std::vector<int> first_nodes = element.nodes;
   const int target_group = group->second;  // folding triangles may add to the index
   ElementCard next;
   for (int j = 0; j < block.rows; ++j) {
     for (int i = 0; i < block.columns; ++i) {
       next.number = element.number + j * block.columns + i;
       next.group = target_group;
-      next.nodes = first_nodes;
+      next.nodes = element.nodes;
       next.folded = -1;
       for (int& n : next.nodes)
         if (n != 0) n += i * block.column_step + j * block.row_step;

@@ -82,17 +82,19 @@ void fill_line(Builder& b, PlacedNodes& nodes, const CardView& card, const NodeC
 
 void read_node_cards(Builder& b, PlacedNodes& nodes) {
   NodeCard previous;
+  FieldName number("number"), coordinate_system("system"), x("x"), y("y"), spacing("ratio"),
+      number_step("step");
   for (const CardView& card : b.deck.all("node")) {
-    NodeCard now{card.integer("number"), card.integer("system") == 1, {card.real("x"), card.real("y")}};
-    const int system = card.integer("system");
+    const int system = card.integer(coordinate_system);
+    NodeCard now{card.integer(number), system == 1, {card.real(x), card.real(y)}};
     if (system != 0 && system != 1)
       b.error(card.where("system"),
               "coordinate system " + std::to_string(system) + " is unknown; 0 cartesian, 1 polar");
     if (!b.usable(card, "x", now.given.x()) || !b.usable(card, "y", now.given.y())) now.given.setZero();
-    const double ratio = card.real("ratio");
+    const double ratio = card.real(spacing);
     if (b.usable(card, "ratio", ratio) && ratio < 0.0)
       b.error(card.where("ratio"), "the spacing ratio must not be negative");
-    const int step = card.integer("step");
+    const int step = card.integer(number_step);
     if (step < 0) b.error(card.where("step"), "the step must not be negative");
     if (step > 0 && previous.number == 0)
       b.error(card.where("step"), "the first node card cannot generate: there is no node before it");

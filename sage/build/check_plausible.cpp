@@ -172,10 +172,11 @@ void check_slender(Builder& b) {
 
 // Where elements come in blocks, a number that is left out may be a hole in the mesh.
 void note_missing_numbers(Builder& b) {
-  bool blocks = false;
-  for (const CardView& card : b.deck.all("element"))
-    blocks = blocks || card.integer("columns") > 1 || card.integer("rows") > 1;
-  if (!blocks) return;
+  FieldName columns("columns"), rows("rows");
+  const auto is_block = [&](const CardView& card) {
+    return card.integer(columns) > 1 || card.integer(rows) > 1;
+  };
+  if (std::ranges::none_of(b.deck.all("element"), is_block)) return;
   std::vector<int> numbers;
   b.element_place.for_each([&](int number, const ElementPlace&) { numbers.push_back(number); });
   for (std::size_t i = 1; i < numbers.size(); ++i) {

@@ -21,9 +21,21 @@ class Archive {
  public:
   Archive() = default;                                                               // collects
   explicit Archive(std::string bytes) : bytes_(std::move(bytes)), reading_(true) {}  // gives back
+  // Keeps few bytes: only the sum of all is wanted.
+  static Archive for_sum() {
+    Archive archive;
+    archive.only_sum_ = true;
+    return archive;
+  }
 
   bool reading() const { return reading_; }
   const std::string& bytes() const { return bytes_; }
+  // for_sum(): of all that was written.
+  std::uint64_t sum() const {
+    Checksum all = sum_;
+    all.add(bytes_);
+    return all.value();
+  }
   bool at_end() const { return at_ == bytes_.size(); }
 
   // Writes the value, or replaces it by what was written.  Throws InputError where nothing is left to read.
@@ -67,14 +79,21 @@ class Archive {
       expect(count);
       if (count > 0) std::memcpy(value, bytes_.data() + at_, count);
       at_ += count;
+    } else if (only_sum_ && bytes_.size() + count > kSummedAtOnce) {
+      sum_.add(bytes_);
+      bytes_.clear();
+      sum_.add({static_cast<const char*>(value), count});
     } else {
       bytes_.append(static_cast<const char*>(value), count);
     }
   }
 
+  static constexpr std::size_t kSummedAtOnce = 1 << 16;
+
   std::string bytes_;
   std::size_t at_ = 0;
-  bool reading_ = false;
+  bool reading_ = false, only_sum_ = false;
+  Checksum sum_;
 };
 
 }  // namespace sage

@@ -9,6 +9,9 @@
 #ifdef __linux__
 #include <sys/mman.h>
 #endif
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace sage {
 
@@ -25,6 +28,13 @@ inline void* allocate_block(std::size_t bytes) {
   if (large) madvise(p, bytes / kLargePage * kLargePage, MADV_HUGEPAGE);  // a wish: failure costs only time
 #endif
   return p;
+}
+
+// Gives the system what was freed and is kept for later: before a phase that needs far more than that.
+inline void return_freed_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 // Gives a std::vector such blocks.

@@ -33,8 +33,10 @@ std::vector<CardView> Deck::all(std::string_view name) const {
   for (std::size_t i = 0; i < specs.size(); ++i) wanted[i] = specs[i].name == name;
   std::vector<CardView> views;
   if (std::find(wanted.begin(), wanted.end(), 1) == wanted.end()) return views;
+  const auto is_wanted = [&](const Card& card) { return wanted[static_cast<std::size_t>(card.spec)] != 0; };
+  views.reserve(static_cast<std::size_t>(std::count_if(cards.begin(), cards.end(), is_wanted)));
   for (std::size_t i = 0; i < cards.size(); ++i)
-    if (wanted[static_cast<std::size_t>(cards[i].spec)]) views.emplace_back(*this, static_cast<int>(i));
+    if (is_wanted(cards[i])) views.emplace_back(*this, static_cast<int>(i));
   return views;
 }
 
@@ -158,11 +160,15 @@ int CardView::integer(std::string_view field, int fallback) const {
 }
 
 int CardView::integer(FieldName& field, int fallback) const {
+  return as_integer(real(field, fallback));
+}
+
+int CardView::place(FieldName& field) const {
   if (field.spec_ != &spec()) {
     field.spec_ = &spec();
     field.place_ = place(field.name_);
   }
-  return as_integer(real_at(field.place_, fallback));
+  return field.place_;
 }
 
 std::string CardView::text(std::string_view field, std::string_view fallback) const {

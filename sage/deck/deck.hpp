@@ -143,11 +143,12 @@ class Deck {
 // A field's name for loops over many cards: where it stands is found once for each kind of card.
 class FieldName {
  public:
-  explicit FieldName(std::string_view name) : name_(name) {}
+  explicit FieldName(const char* name) : name_(name) {}
+  const char* name() const { return name_; }
 
  private:
   friend class CardView;
-  std::string_view name_;
+  const char* name_;  // a literal
   const CardSpec* spec_ = nullptr;
   int place_ = -1;
 };
@@ -163,12 +164,14 @@ class CardView {
   // The field's value; `fallback` where the layout has no such field or the card leaves it blank.
   double real(std::string_view field, double fallback = 0.0) const;
   int integer(std::string_view field, int fallback = 0) const;
+  double real(FieldName& field, double fallback = 0.0) const { return real_at(place(field), fallback); }
   int integer(FieldName& field, int fallback = 0) const;
   // Trimmed of blanks at both ends, well-formed.
   std::string text(std::string_view field, std::string_view fallback = "") const;
   // The same with what was changed to make it so; empty where blank.
   WellFormed text_with_flaws(std::string_view field) const;
   bool blank(std::string_view field) const;  // absent or blank
+  bool blank(FieldName& field) const { return Deck::is_blank(number_at(place(field))); }
   // The values of the last, repeating field.
   ValueList list(std::string_view field) const;
 
@@ -181,6 +184,7 @@ class CardView {
  private:
   // Index of the field in the spec; -1 = the layout has none of this name.
   int place(std::string_view field) const;
+  int place(FieldName& field) const;
   double real_at(int place, double fallback) const;
   double number_at(int place) const { return deck_->number(card(), place); }
   std::optional<FieldValue> find(std::string_view field) const;

@@ -41,7 +41,7 @@ void add_stage(Archive& archive, const Stage& s) {
 }  // namespace
 
 std::uint64_t fingerprint(const Model& model) {
-  Archive archive;
+  Archive archive = Archive::for_sum();
   const UnitSystem& u = model.units;
   add(archive, model.title, u.length, u.force, u.stress, u.atmospheric_pressure, u.water_unit_weight);
   add(archive, model.geometry, model.solver);
@@ -59,7 +59,7 @@ std::uint64_t fingerprint(const Model& model) {
   for (const Report& r : model.reports)
     add(archive, r.kind, r.group, r.nodes, r.height, r.area, r.cell_pressure, r.place.x(), r.place.y(), r.name,
         r.stage);
-  return checksum(archive.bytes());
+  return archive.sum();
 }
 
 }  // namespace sage

@@ -206,6 +206,14 @@ TEST(FieldNames, AreSoughtAgainForEachKindOfCard) {
   std::vector<int> found;
   for (const CardView& card : deck.all("a")) found.push_back(card.integer(n, 7));
   EXPECT_EQ(found, (std::vector<int>{1, 9, 7}));
+  std::vector<double> real;
+  std::vector<bool> blank;
+  for (const CardView& card : deck.all("a")) {
+    real.push_back(card.real(n, 7.5));
+    blank.push_back(card.blank(n));
+  }
+  EXPECT_EQ(real, (std::vector<double>{1.0, 9.0, 7.5}));
+  EXPECT_EQ(blank, (std::vector<bool>{false, true, true}));
   EXPECT_TRUE(deck.has("a"));
   EXPECT_FALSE(deck.has("n"));
 }

@@ -11,6 +11,7 @@
 #include <set>
 #include <thread>
 
+#include "sage/core/archive.hpp"
 #include "sage/core/error.hpp"
 #include "sage/record/values.hpp"
 #include "tests/unit/record/specimen.hpp"
@@ -193,6 +194,22 @@ TEST(OutFile, GoesOnOnlyFromWhatWasWritten) {
   std::ofstream(folder / "a.txt.partial") << "something else and longer\n";
   resume();
   EXPECT_EQ(contents(folder / "a.txt"), "first line\nsecond line\n");
+}
+
+// Small and large values, past the length of which an archive sums at once.
+TEST(Archive, SumsWhatItWouldKeep) {
+  Archive bytes, sum = Archive::for_sum();
+  for (int i = 0; i < 40; ++i) {
+    std::vector<double> list(static_cast<std::size_t>(i % 7 == 0 ? 9000 : 5 * i), 0.5 * i);
+    std::string text(static_cast<std::size_t>(i), 'a');
+    for (Archive* archive : {&bytes, &sum}) {
+      (*archive)(i);
+      (*archive)(list);
+      (*archive)(text);
+    }
+    EXPECT_EQ(sum.sum(), checksum(bytes.bytes())) << i;
+  }
+  EXPECT_LT(sum.bytes().size(), bytes.bytes().size() / 4);
 }
 
 TEST(Checksum, DoesNotDependOnThePieces) {
