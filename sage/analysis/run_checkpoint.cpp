@@ -50,7 +50,7 @@ std::string checkpoint_bytes(const Resumable& run, Place place) {
   bool factorised = run.system.tangent().factorised();
   exchange(run, archive, place, factorised);
   run.audience.exchange(archive);
-  return archive.bytes();
+  return archive.take();
 }
 
 Place resume_from(const Resumable& run, const std::string& bytes) {

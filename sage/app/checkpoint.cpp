@@ -83,22 +83,34 @@ bool Checkpoint::due() const {
   return std::chrono::steady_clock::now() - last_ >= std::chrono::duration<double>(seconds_);
 }
 
+// The state of a large scene is hundreds of megabytes: it is written in pieces, not put together with the rest.
 void Checkpoint::save(const std::string& state) {
+  constexpr std::size_t kPiece = std::size_t{1} << 20;
   results_->sync();
-  Archive archive;
+  Archive archive;  // what stands before the state
   std::uint64_t build = build_identity();
-  std::string belongs_to = belongs_to_, kernels = kernels_, body = state;
+  std::string belongs_to = belongs_to_, kernels = kernels_;
   std::map<std::string, ResultFile> files = results_->files();
+  std::size_t size = state.size();
   archive(build);
   archive(belongs_to);
   archive(kernels);
   exchange(archive, files);
-  archive(body);
-  std::uint64_t sum = checksum(archive.bytes());
-  archive(sum);
+  archive(size);  // and the state's bytes: as an archive keeps a text
+  Checksum sum;
+  sum.add(archive.bytes());
+  sum.add(state);
+  Archive end;
+  std::uint64_t value = sum.value();
+  end(value);
   OutFile file(file_);
   file.sync_when_finished();
   file.text() = std::string(kFirstLine) + archive.bytes();
+  for (std::size_t at = 0; at < size; at += kPiece) {
+    file.text().append(state, at, kPiece);
+    file.flush();
+  }
+  file.text() += end.bytes();
   file.finish();
   used_ = true;
   last_ = std::chrono::steady_clock::now();

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -30,6 +31,7 @@ class Archive {
 
   bool reading() const { return reading_; }
   const std::string& bytes() const { return bytes_; }
+  std::string take() { return std::move(bytes_); }  // the end of it
   // for_sum(): of all that was written.
   std::uint64_t sum() const {
     Checksum all = sum_;
