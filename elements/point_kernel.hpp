@@ -115,7 +115,7 @@ Outcome evaluate_points(const ElementIn& in, ElementOut& out) {
   return Outcome::ok;
 }
 
-// What all elements share: traits and the kernel.  pointwise: as couples() in four_kernel.hpp says.
+// What all elements share: traits and the kernel.  pointwise: as OperatorOfFour says.
 template <int LawSize, int Dofs, int Points, bool pointwise = false>
 class PointElement : public Element {
  public:
@@ -127,6 +127,18 @@ class PointElement : public Element {
     return evaluate_points<LawSize, Dofs, Points>(in, out);
   }
   bool takes_four() const final { return four_fit(LawSize, Dofs, Points); }
+  int four_geometry_size() const final {
+    if constexpr (four_fit(LawSize, Dofs, Points))
+      return Points * OperatorOfFour<Dofs, pointwise>::kStride / kAbreast;
+    else
+      return Element::four_geometry_size();
+  }
+  void place_among_four(std::span<const double> geometry, double* among_four) const final {
+    if constexpr (four_fit(LawSize, Dofs, Points))
+      place_geometry_among_four<Dofs, Points, pointwise>(geometry.data(), among_four);
+    else
+      Element::place_among_four(geometry, among_four);
+  }
   Outcome evaluate_four(const FourElementsIn& in, FourElementsOut& out) const final {
     if constexpr (four_fit(LawSize, Dofs, Points))
       return evaluate_points_of_four<Dofs, Points, pointwise>(in, out);

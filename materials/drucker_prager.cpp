@@ -69,11 +69,15 @@ constexpr double kProjection[4][4] = {{2.0 * kThird, -kThird, -kThird, 0.0},
                                       {-kThird, -kThird, 2.0 * kThird, 0.0},
                                       {0.0, 0.0, 0.0, 0.5}};
 
+// Whether the elastic D has a term there.
+constexpr bool couples(std::size_t i, std::size_t j) {
+  return (i < 3) == (j < 3);
+}
+
 void set_status(const FourMask& here, PointStatus status, FourPointsOut<4>& out) {
   const int places = bits_of_four(here);
 #pragma GCC unroll 4
-  for (std::size_t l = 0; l < kAbreast; ++l)
-    if ((places >> l & 1) != 0) out.status[l] = status;
+  for (std::size_t l = 0; l < kAbreast; ++l) out.status[l] = (places >> l & 1) != 0 ? status : out.status[l];
 }
 
 }  // namespace
@@ -138,95 +142,99 @@ Outcome DruckerPrager::update(const PointIn<4>& in, PointOut<4>& out) const {
   return update_as_four(*this, in, out);
 }
 
-Outcome DruckerPrager::update_four(const FourPointsIn<4>& in, FourPointsOut<4>& out) const {
-  const auto [K, G] = p_.elastic;
-  const auto [alpha, k] = p_.cone;
-
-  // Elastic predictor.  The initial stress is part of sigma0.
-  FourTensors stress;
-#pragma GCC unroll 4
-  for (std::size_t i = 0; i < 4; ++i) {
-    Four change = D_elastic_(at(i), 0) * in.deps[0];
-#pragma GCC unroll 4
-    for (std::size_t j = 1; j < 4; ++j)
-      change = multiply_add(all_four(D_elastic_(at(i), at(j))), in.deps[j], change);
-    stress[i] = in.sigma0[i] + change;
-  }
-  const FourInvariants trial = invariants(stress);
-  const Four f = trial.q + 3.0 * alpha * trial.p - k;  // Equation 7.25
-  const Four rounding = kRounding * scale(abs_of_four(trial.p), trial.q);
-  const FourMask elastic = (f <= rounding) & (trial.p <= p_max_ + rounding);
-  stay_elastic(stress, out);
-#pragma GCC unroll 4
-  for (std::size_t l = 0; l < kAbreast; ++l) two_in_a_row(out.h1[l]) = two_in_a_row(in.h0[l]);
-  const int elastic_places = bits_of_four(elastic);
-  if (elastic_places == kAllOfFour) return Outcome::ok;
-
-  // Return: to the cone, if that is in front of its tip and of the tension limit.
-  const Four dlambda = f / (G + 9.0 * K * alpha * p_.beta);
-  const Four p_cone = trial.p - 3.0 * K * p_.beta * dlambda;
-  const FourMask in_front = (f > rounding) & (p_cone <= p_max_ + rounding);  // of the tip: theta >= 0
-  const FourMask on_cone = in_front & ~elastic, beyond = ~(in_front | elastic);
-  if (bits_of_four(on_cone) != 0) {
-    return_to_cone(trial, p_cone, on_cone, out);
-    if (p_.exact) take_exact_answers(in, on_cone, out);
-  }
-  if (bits_of_four(beyond) != 0)
-    p_.free_mean ? drop_deviator(trial, beyond, out) : return_to_cap(trial, beyond, out);
-
-  FourTensors fall;
-#pragma GCC unroll 4
-  for (std::size_t i = 0; i < 4; ++i) fall[i] = stress[i] - out.sigma[i];
-  const FourInvariants plastic = invariants(fall);
-  const Four shear = plastic.q / G, volume = plastic.p / K;
-#pragma GCC unroll 4
-  for (std::size_t l = 0; l < kAbreast; ++l) {
-    if ((elastic_places >> l & 1) != 0) continue;
-    out.h1[l][kShear] = in.h0[l][kShear] + one_of_four(shear, l);
-    out.h1[l][kVolume] = in.h0[l][kVolume] + one_of_four(volume, l);
-  }
+// Roots and quotients make a chain of each of the two halves: chains of several points go side by side.
+Outcome DruckerPrager::update_four(std::span<const FourPointsIn<4>> in, std::span<FourPointsOut<4>> out) const {
+  std::array<Trial, kMostFours> trial;
+  for (std::size_t p = 0; p < in.size(); ++p) predict(in[p], trial[p]);
+  for (std::size_t p = 0; p < in.size(); ++p) finish(in[p], trial[p], out[p]);
   return Outcome::ok;
 }
 
-void DruckerPrager::stay_elastic(const FourTensors& trial, FourPointsOut<4>& out) const {
-  out.sigma = trial;
+// The initial stress is part of sigma0.
+void DruckerPrager::predict(const FourPointsIn<4>& in, Trial& trial) const {
 #pragma GCC unroll 4
-  for (std::size_t i = 0; i < 4; ++i)
+  for (std::size_t i = 0; i < 4; ++i) {
+    Four change{};
 #pragma GCC unroll 4
-    for (std::size_t j = 0; j < 4; ++j) out.D[i][j] = all_four(D_elastic_(at(i), at(j)));
-  out.status.fill(PointStatus::elastic);
+    for (std::size_t j = 0; j < 4; ++j)
+      if (couples(i, j)) change = multiply_add(all_four(D_elastic_(at(i), at(j))), in.deps[j], change);
+    trial.stress[i] = in.sigma0[i] + change;
+  }
+  trial.of = invariants(trial.stress);
+  const auto& [s, p, q] = trial.of;
+  trial.f = q + 3.0 * p_.cone.alpha * p - p_.cone.k;  // Equation 7.25
+  trial.rounding = kRounding * scale(abs_of_four(p), q);
+  trial.elastic = (trial.f <= trial.rounding) & (p <= p_max_ + trial.rounding);
+}
+
+void DruckerPrager::finish(const FourPointsIn<4>& in, const Trial& trial, FourPointsOut<4>& out) const {
+  const auto [K, G] = p_.elastic;
+  const FourMask elastic = trial.elastic;
+  out.constant_D = bits_of_four(elastic) == kAllOfFour;
+  Four shear, volume;
+  load_pairs_of_four(in.h0[0], in.h0[1], in.h0[2], in.h0[3], shear, volume);
+  if (!out.constant_D) {
+    // Return: to the cone, if that is in front of its tip and of the tension limit.
+    const Four dlambda = trial.f / (G + 9.0 * K * p_.cone.alpha * p_.beta);
+    const Four p_cone = trial.of.p - 3.0 * K * p_.beta * dlambda;
+    const FourMask in_front = (trial.f > trial.rounding) & (p_cone <= p_max_ + trial.rounding);  // theta >= 0
+    const FourMask on_cone = in_front & ~elastic, beyond = ~(in_front | elastic);
+    return_to_cone(trial.of, p_cone, out);
+    if (p_.exact) take_exact_answers(in, on_cone, out);
+    if (bits_of_four(beyond) != 0)
+      p_.free_mean ? drop_deviator(trial.of, beyond, out) : return_to_cap(trial.of, beyond, out);
+
+    FourTensors fall;
+#pragma GCC unroll 4
+    for (std::size_t i = 0; i < 4; ++i) fall[i] = trial.stress[i] - out.sigma[i];
+    const FourInvariants plastic = invariants(fall);
+    shear += elastic ? Four{} : plastic.q / G;
+    volume += elastic ? Four{} : plastic.p / K;
+  }
+  if (bits_of_four(elastic) != 0) stay_elastic(trial.stress, elastic, out);
+  static_assert(kShear == 0 && kVolume == 1);
+  store_pairs_of_four(shear, volume, out.h1[0], out.h1[1], out.h1[2], out.h1[3]);
+}
+
+void DruckerPrager::stay_elastic(const FourTensors& trial, const FourMask& here, FourPointsOut<4>& out) const {
+#pragma GCC unroll 4
+  for (std::size_t i = 0; i < 4; ++i) {
+    out.sigma[i] = here ? trial[i] : out.sigma[i];
+#pragma GCC unroll 4
+    for (std::size_t j = 0; j < 4; ++j) out.D[i][j] = here ? all_four(D_elastic_(at(i), at(j))) : out.D[i][j];
+  }
+  set_status(here, PointStatus::elastic, out);
 }
 
 // s = theta s_tr,  p = p_tr - 3 K beta dlambda; tangent: de Souza Neto, Peric & Owen (2008), ch. 8.
-void DruckerPrager::return_to_cone(const FourInvariants& trial, const Four& p, const FourMask& here,
-                                   FourPointsOut<4>& out) const {
+void DruckerPrager::return_to_cone(const FourInvariants& trial, const Four& p, FourPointsOut<4>& out) const {
   const auto [K, G] = p_.elastic;
   const auto [alpha, k] = p_.cone;
   const double beta = p_.beta, A = 1.0 / (G + 9.0 * K * alpha * beta);
   const Four room = k - 3.0 * alpha * p, q = room > 0.0 ? room : Four{};  // on the surface to the last digit
   const Four theta = q / trial.q, length = std::sqrt(2.0) * trial.q;
-  FourTensors n, turned;
-  const Four turning = 2.0 * G * multiply_add(all_four(-G), all_four(A), 1.0 - theta);
+  const Four shear = 2.0 * G * theta, turning = 2.0 * G * multiply_add(all_four(-G), all_four(A), 1.0 - theta);
+  FourTensors n;
 #pragma GCC unroll 4
   for (std::size_t i = 0; i < 4; ++i) {
     n[i] = trial.s[i] / length;
-    turned[i] = turning * n[i];
-    const Four sigma = multiply_add(all_four(kUnit[i]), p, theta * trial.s[i]);
-    out.sigma[i] = here ? sigma : out.sigma[i];
+    out.sigma[i] = multiply_add(all_four(kUnit[i]), p, theta * trial.s[i]);
   }
-  const Four shear = 2.0 * G * theta;
   const double coupling = 3.0 * std::sqrt(2.0) * G * K * A, volume = K * (1.0 - 9.0 * K * alpha * beta * A);
 #pragma GCC unroll 4
-  for (std::size_t i = 0; i < 4; ++i)
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Four turned = turning * n[i], pushed = alpha * n[i];
 #pragma GCC unroll 4
     for (std::size_t j = 0; j < 4; ++j) {
-      Four D = multiply_add(shear, all_four(kProjection[i][j]), turned[i] * n[j]);
-      const Four mixed = multiply_add(n[j], all_four(beta * kUnit[i]), alpha * n[i] * kUnit[j]);
+      Four D = turned * n[j];
+      if (couples(i, j)) D = multiply_add(shear, all_four(kProjection[i][j]), D);
+      Four mixed = j < 3 ? pushed : Four{};  // beta n_j 1_i + alpha n_i 1_j
+      if (i < 3) mixed = multiply_add(n[j], all_four(beta), mixed);
       D = multiply_add(mixed, all_four(-coupling), D);
-      D += volume * kUnit[i] * kUnit[j];
-      out.D[i][j] = here ? D : out.D[i][j];
+      out.D[i][j] = i < 3 && j < 3 ? D + volume : D;
     }
-  set_status(here, PointStatus::yielded, out);
+  }
+  out.status.fill(PointStatus::yielded);
 }
 
 // s = 0,  p = p_trial.

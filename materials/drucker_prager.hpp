@@ -52,7 +52,7 @@ class DruckerPrager final : public SolidLaw {
   bool accepts_history(const Vector4& sigma, std::span<const double> h) const override;
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override;
   bool takes_four() const override { return true; }
-  Outcome update_four(const FourPointsIn<4>& in, FourPointsOut<4>& out) const override;
+  Outcome update_four(std::span<const FourPointsIn<4>> in, std::span<FourPointsOut<4>> out) const override;
   // A cone that reaches beyond Mohr-Coulomb's tension limit in triaxial extension, or no strength at all.
   std::string caution() const override;
   // sqrt(J2D) / (alpha J1 + K) of the source chapter, J1 compression positive.
@@ -66,10 +66,19 @@ class DruckerPrager final : public SolidLaw {
   Real scale(const Real& p, const Real& q) const {
     return p_.cone.k + 3.0 * p_.cone.alpha * p + q + 0.01 * p;  // the last: rounding of s
   }
-  // Where four trial states end.  here: the points that a branch is for; it leaves the others alone.
-  void stay_elastic(const FourTensors& trial, FourPointsOut<4>& out) const;
-  void return_to_cone(const FourInvariants& trial, const Four& p, const FourMask& here,
-                      FourPointsOut<4>& out) const;
+  // Elastic predictor of four points.
+  struct Trial {
+    FourTensors stress;
+    FourInvariants of;
+    Four f, rounding;  // of the yield function
+    FourMask elastic;  // points that stay inside
+  };
+  void predict(const FourPointsIn<4>& in, Trial& trial) const;
+  void finish(const FourPointsIn<4>& in, const Trial& trial, FourPointsOut<4>& out) const;
+  // Where the trial states end: on the cone all four, whether they should or not; then what is right for others.
+  // here: the points that a branch is for; it leaves the others alone.
+  void return_to_cone(const FourInvariants& trial, const Four& p, FourPointsOut<4>& out) const;
+  void stay_elastic(const FourTensors& trial, const FourMask& here, FourPointsOut<4>& out) const;
   void drop_deviator(const FourInvariants& trial, const FourMask& here, FourPointsOut<4>& out) const;
   void return_to_cap(const FourInvariants& trial, const FourMask& here, FourPointsOut<4>& out) const;
   void take_exact_answers(const FourPointsIn<4>& in, const FourMask& here, FourPointsOut<4>& out) const;

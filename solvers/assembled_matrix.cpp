@@ -176,8 +176,11 @@ void add_terms(const int* slot, const double* K, int count, bool paired, double*
     for (int k = 0; k < count; ++k) value[slot[k]] += K[k];
     return;
   }
+  const int eights = count / 8 * 8;
+  for (int k = 0; k < eights; k += 8)
 #pragma GCC unroll 4
-  for (int k = 0; k < count; k += 2) two_in_a_row(value + slot[k]) += two_in_a_row(K + k);
+    for (int pair = k; pair < k + 8; pair += 2) two_in_a_row(value + slot[pair]) += two_in_a_row(K + pair);
+  for (int k = eights; k < count; k += 2) two_in_a_row(value + slot[k]) += two_in_a_row(K + k);
 }
 
 }  // namespace
@@ -195,6 +198,39 @@ void AssembledMatrix::add(int element, const double* K) {
   for (auto it = std::ranges::lower_bound(repeated_, element, {}, &Repeated::element);
        it != repeated_.end() && it->element == element; ++it)
     value[it->slot] += K[it->c * dofs + it->r];
+}
+
+// Unsymmetric: of an element's matrix the columns of these equations.  The place for terms of prescribed dofs
+// is left alone: it would be written by several at once.
+void AssembledMatrix::add_columns(int element, const double* K, int first_column, int end_column) {
+  const std::span<const int> equations = elements_.of(element);
+  const int dofs = static_cast<int>(equations.size()), nowhere = static_cast<int>(row_.size());
+  const int* slot = slot_.data() + slot_start_[at(element)];
+  const bool paired = paired_[at(element)] != 0;
+  for (int c = 0; c < dofs; ++c, slot += dofs, K += dofs) {
+    if (equations[at(c)] < first_column || equations[at(c)] >= end_column) continue;
+    if (paired) {
+      add_terms(slot, K, dofs, true, value_.data());
+      continue;
+    }
+    for (int r = 0; r < dofs; ++r)
+      if (slot[r] != nowhere) value_[at(slot[r])] += K[r];
+  }
+}
+
+// The first column of a part: parts have about the same number of terms.
+int AssembledMatrix::column_of_part(int part, int parts) const {
+  const std::int64_t before = static_cast<std::int64_t>(row_.size()) * part / parts;
+  return static_cast<int>(std::ranges::lower_bound(column_start_, before) - column_start_.begin());
+}
+
+void AssembledMatrix::add_part(const ElementMatrices& some, int part, int parts) {
+  const bool whole = parts == 1 || symmetric_ || slot_start_.empty();
+  if (whole && part != 0) return;
+  const int first = whole ? 0 : column_of_part(part, parts), end = whole ? 0 : column_of_part(part + 1, parts);
+  const double* K = some.K;
+  for (int element = some.first; element < some.first + some.count; ++element, K += some.size)
+    whole ? add(element, K) : add_columns(element, K, first, end);
 }
 
 void AssembledMatrix::multiply(std::span<const double> x, std::span<double> y) const {

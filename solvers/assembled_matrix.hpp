@@ -20,6 +20,8 @@ class AssembledMatrix {
   void analyse(const EquationGraph& graph, ElementEquations elements, bool symmetric);
   void clear();
   void add(int element, const double* K);
+  // As LinearSolver::add_part.  A part is some columns, if there are slots.
+  void add_part(const ElementMatrices& some, int part, int parts);
 
   int equations() const { return equations_; }
   bool symmetric() const { return symmetric_; }
@@ -48,6 +50,8 @@ class AssembledMatrix {
   void fill_slots(std::span<const int> equations, int element, int column, const std::vector<int>& position);
   std::int64_t packed(std::int64_t r, std::int64_t c, std::int64_t dofs) const;
   void add_by_search(int element, const double* K);
+  void add_columns(int element, const double* K, int first_column, int end_column);
+  int column_of_part(int part, int parts) const;
   double& term(int row, int column);
 
   int equations_ = 0;

@@ -22,6 +22,7 @@ class MatrixSolver : public LinearSolver {
   void analyse(int equations, ElementEquations elements) final;
   void clear() final { matrix_.clear(); }
   void add(int element, const double* K) final { matrix_.add(element, K); }
+  void add_part(const ElementMatrices& some, int part, int parts) final { matrix_.add_part(some, part, parts); }
   void multiply(std::span<const double> x, std::span<double> y) const final { matrix_.multiply(x, y); }
   void multiply_transposed(std::span<const double> x, std::span<double> y) const final {
     matrix_.multiply_transposed(x, y);

@@ -37,12 +37,6 @@ void mark_moved(GroupData& data, const Eigen::VectorXd& rate) {
   }
 }
 
-bool goes_by_four(const GroupData& data) {
-  const Element& element = *data.group->element;
-  return !data.constant && !data.wants_context && data.dof_list.empty() && element.takes_four() &&
-         !element.traits().sees_unknowns && takes_four(data.law);
-}
-
 bool all_finite(const FieldSums& values) {
   return std::ranges::all_of(values, [](double v) { return std::isfinite(v); });
 }
@@ -165,6 +159,10 @@ ElementEquations Assembly::element_equations() const {
 void Assembly::fill(Tangent& tangent) const {
   for (const GroupData& data : groups_) {
     if (!in_system(data) || !data.keeps_matrices()) continue;
+    if (!data.constant) {
+      changing_.add_kept(data, tangent);
+      continue;
+    }
     for (int e = 0; e < data.group->elements(); ++e) {
       element_.stop_if_asked_at(e);
       add_matrix(data, e, data.matrix_of(e), tangent);

@@ -34,6 +34,9 @@ class Assembly {
   // Passes over the elements ask it now and then and throw Stopped.
   void set_stop(StopAsked asked) { element_.set_stop(std::move(asked)); }
 
+  // Passes over many elements may use so many threads; answers do not depend on it.
+  void set_threads(int threads) { changing_.set_threads(threads); }
+
   // Equations and element order of a stage.  rate: displacement of every prescribed dof over the stage.
   void enter_stage(const Activity& activity, const Eigen::VectorXd& rate);
   // The same, and takes the constant region out of the iterations where that pays in so many increments.

@@ -1,6 +1,7 @@
 #include "sage/analysis/changing_region.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "sage/analysis/kept_matrices.hpp"
@@ -8,31 +9,104 @@
 
 namespace sage {
 
+namespace {
+
+constexpr int kUnit = 16 * kAbreast;  // elements that a thread takes at a time
+// Elements from which on threads gain: waking one takes as long as some tens of elements.
+constexpr int kWorthThreads = 600;
+
+}  // namespace
+
 ChangingRegion::ChangingRegion(std::vector<GroupData>& groups, ElementWork& element, WorkCounters& work)
     : groups_(&groups), element_(&element), work_(&work) {}
 
-Outcome ChangingRegion::evaluate_by_four(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent) {
+void ChangingRegion::set_threads(int threads) {
+  const bool useful = std::ranges::any_of(
+      *groups_, [](const GroupData& data) { return data.by_four && data.group->elements() >= kWorthThreads; });
+  pool_ = useful && threads > 1 ? std::make_unique<ThreadPool>(threads) : nullptr;
+}
+
+bool ChangingRegion::divides(const GroupData& data) const {
+  return pool_ != nullptr && data.group->elements() >= kWorthThreads;
+}
+
+// f: forces of elements first, first + 1 ..., one after the other.
+void ChangingRegion::add_forces(const GroupData& data, int first, int last, const double* f) {
+  for (int e = first; e < last; ++e, f += data.dofs()) add_force(data, e, f, forces_, sums_);
+}
+
+// One unit, of elements first, first + 1 ...; f as in add_forces.  Matrices go where the group keeps them.
+Outcome ChangingRegion::evaluate_unit(GroupData& data, const PassByFour& pass, int first, double* f,
+                                      bool with_K, bool& changed) const {
+  element_->stop_if_asked_at(first);
   const std::size_t dofs = data.dofs();
-  const bool add_now = tangent != nullptr && !data.keeps_matrices();
-  for (int first = 0; first < data.group->elements(); first += kAbreast) {
-    element_->stop_if_asked_at(first);
-    bool changed = false;
-    if (element_->evaluate_four(data, first, du, tangent != nullptr, changed) == Outcome::cut_step)
-      return Outcome::cut_step;
-    const int last = std::min(first + kAbreast, data.group->elements());
-    for (int e = first; e < last; ++e) {
-      const auto place = static_cast<std::size_t>(e - first);
-      add_force(data, e, element_->f() + place * dofs, forces_, sums_);
-      if (add_now) add_matrix(data, e, element_->K() + place * dofs * dofs, *tangent);
-    }
-    if (changed && tangent != nullptr && !add_now) tangent->differs();
+  const int last = std::min(first + kUnit, data.group->elements());
+  for (int e = first; e < last; e += kAbreast, f += kAbreast * dofs) {
+    double* K = with_K ? data.K.data() + static_cast<std::size_t>(e) * dofs * dofs : nullptr;
+    if (pass.evaluate(e, f, K, changed) == Outcome::cut_step) return Outcome::cut_step;
   }
-  work_->element_evaluations += data.group->elements();
   return Outcome::ok;
 }
 
-Outcome ChangingRegion::evaluate_group(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent) {
-  if (data.by_four) return evaluate_by_four(data, du, tangent);
+Outcome ChangingRegion::evaluate_in_units(GroupData& data, const PassByFour& pass, Tangent* tangent) {
+  bool changed = false;
+  element_forces_.resize(std::max(element_forces_.size(), std::size_t{kUnit} * data.dofs()));
+  double* const f = element_forces_.data();
+  for (int first = 0; first < data.group->elements(); first += kUnit) {
+    if (evaluate_unit(data, pass, first, f, tangent != nullptr, changed) == Outcome::cut_step)
+      return Outcome::cut_step;
+    add_forces(data, first, std::min(first + kUnit, data.group->elements()), f);
+  }
+  if (changed && tangent != nullptr) tangent->differs();
+  return Outcome::ok;
+}
+
+// Threads make what belongs to one element alone; sums over elements have the order that they have on one thread.
+Outcome ChangingRegion::evaluate_on_threads(GroupData& data, const PassByFour& pass, Tangent* tangent) {
+  const int elements = data.group->elements();
+  const std::size_t dofs = data.dofs();
+  element_forces_.resize(std::max(element_forces_.size(), static_cast<std::size_t>(elements) * dofs));
+  std::atomic<bool> changed = false, cut = false;
+  pool_->run((elements + kUnit - 1) / kUnit, [&](int unit, int /*thread*/) {
+    const int first = unit * kUnit;
+    double* const f = element_forces_.data() + static_cast<std::size_t>(first) * dofs;
+    bool differs = changed;
+    if (evaluate_unit(data, pass, first, f, tangent != nullptr, differs) == Outcome::cut_step) cut = true;
+    if (differs) changed = true;
+  });
+  if (cut) return Outcome::cut_step;
+  add_forces(data, 0, elements, element_forces_.data());
+  if (changed && tangent != nullptr) tangent->differs();
+  return Outcome::ok;
+}
+
+// Of a group that keeps no matrices.
+Outcome ChangingRegion::evaluate_and_add(GroupData& data, const PassByFour& pass, Tangent& tangent) {
+  const std::size_t dofs = data.dofs();
+  element_forces_.resize(std::max(element_forces_.size(), kAbreast * dofs));
+  element_matrices_.resize(std::max(element_matrices_.size(), kAbreast * dofs * dofs));
+  for (int first = 0; first < data.group->elements(); first += kAbreast) {
+    element_->stop_if_asked_at(first);
+    bool changed = true;
+    if (pass.evaluate(first, element_forces_.data(), element_matrices_.data(), changed) == Outcome::cut_step)
+      return Outcome::cut_step;
+    const int last = std::min(first + kAbreast, data.group->elements());
+    add_forces(data, first, last, element_forces_.data());
+    for (int e = first; e < last; ++e)
+      add_matrix(data, e, element_matrices_.data() + static_cast<std::size_t>(e - first) * dofs * dofs,
+                 tangent);
+  }
+  return Outcome::ok;
+}
+
+Outcome ChangingRegion::evaluate_by_four(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent) {
+  prepare_by_four(element_->model().mesh, data);
+  const PassByFour pass(data, du);
+  if (tangent != nullptr && !data.keeps_matrices()) return evaluate_and_add(data, pass, *tangent);
+  return divides(data) ? evaluate_on_threads(data, pass, tangent) : evaluate_in_units(data, pass, tangent);
+}
+
+Outcome ChangingRegion::evaluate_one_by_one(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent) {
   double* const K = tangent != nullptr ? element_->K() : nullptr;
   for (int e = 0; e < data.group->elements(); ++e) {
     element_->stop_if_asked_at(e);
@@ -44,17 +118,33 @@ Outcome ChangingRegion::evaluate_group(GroupData& data, const Eigen::VectorXd& d
     else if (replace_matrix(data, e, K))
       tangent->differs();
   }
-  work_->element_evaluations += data.group->elements();
   return Outcome::ok;
 }
 
 Outcome ChangingRegion::evaluate(const Eigen::VectorXd& du, Tangent* tangent) {
   forces_.setZero();
   sums_.fill(0.0);
-  for (GroupData& data : *groups_)
-    if (data.active && !data.constant && evaluate_group(data, du, tangent) == Outcome::cut_step)
-      return Outcome::cut_step;
+  for (GroupData& data : *groups_) {
+    if (!data.active || data.constant) continue;
+    const Outcome outcome =
+        data.by_four ? evaluate_by_four(data, du, tangent) : evaluate_one_by_one(data, du, tangent);
+    if (outcome == Outcome::cut_step) return Outcome::cut_step;
+    work_->element_evaluations += data.group->elements();
+  }
   return Outcome::ok;
+}
+
+void ChangingRegion::add_kept(const GroupData& data, Tangent& tangent) const {
+  const int elements = data.group->elements();
+  const ElementMatrices matrices{data.first_element, elements, data.K.data(), data.matrix_size()};
+  if (divides(data)) {
+    const int parts = pool_->threads();
+    pool_->run(parts, [&](int part, int /*thread*/) { tangent.add_part(matrices, part, parts); });
+  } else {
+    tangent.add_part(matrices, 0, 1);
+  }
+  for (int e = 0; e < elements; ++e)
+    if (data.moved[static_cast<std::size_t>(e)]) tangent.couple(data.dofs_of(e), data.matrix_of(e));
 }
 
 }  // namespace sage

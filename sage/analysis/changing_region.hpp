@@ -1,10 +1,13 @@
 // The active elements whose law is asked in every pass.
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "sage/analysis/by_four.hpp"
 #include "sage/analysis/element_work.hpp"
 #include "sage/analysis/records.hpp"
+#include "sage/core/thread_pool.hpp"
 
 namespace sage {
 
@@ -16,23 +19,36 @@ class ChangingRegion {
   ChangingRegion(std::vector<GroupData>& groups, ElementWork& element, WorkCounters& work);
 
   void size_forces(int dofs) { forces_.setZero(dofs); }
+  // How many threads passes over large groups may use.  Answers do not depend on it, to the last bit.
+  void set_threads(int threads);
 
   // Internal forces at committed state + du.  With a tangent, within Tangent::assemble, matrices too.
   Outcome evaluate(const Eigen::VectorXd& du, Tangent* tangent);
+  // Adds the matrices that a group keeps of its elements.
+  void add_kept(const GroupData& data, Tangent& tangent) const;
 
   // Every dof; no size where no group is of this kind.
   const Eigen::VectorXd& forces() const { return forces_; }
   const FieldSums& sums() const { return sums_; }
 
  private:
+  bool divides(const GroupData& data) const;
   Outcome evaluate_by_four(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent);
-  Outcome evaluate_group(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent);
+  Outcome evaluate_in_units(GroupData& data, const PassByFour& pass, Tangent* tangent);
+  Outcome evaluate_on_threads(GroupData& data, const PassByFour& pass, Tangent* tangent);
+  Outcome evaluate_and_add(GroupData& data, const PassByFour& pass, Tangent& tangent);
+  Outcome evaluate_unit(GroupData& data, const PassByFour& pass, int first, double* f, bool with_K,
+                        bool& changed) const;
+  Outcome evaluate_one_by_one(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent);
+  void add_forces(const GroupData& data, int first, int last, const double* f);
 
   std::vector<GroupData>* groups_;
   ElementWork* element_;
   WorkCounters* work_;
+  std::unique_ptr<ThreadPool> pool_;  // none: one thread
   Eigen::VectorXd forces_;
   FieldSums sums_{};
+  std::vector<double> element_forces_, element_matrices_;  // work space of groups that go by four
 };
 
 }  // namespace sage

@@ -20,9 +20,9 @@ ElementWork::ElementWork(const Model& model, bool keep_geometry)
   sigma_.resize(stresses);
   eps_.resize(stresses);
   no_stress_.assign(stresses, 0.0);
-  K_.resize(kAbreast * dofs * dofs);
-  f_.resize(kAbreast * dofs);
-  du_.resize(kAbreast * dofs);
+  K_.resize(dofs * dofs);
+  f_.resize(dofs);
+  du_.resize(dofs);
   u0_.resize(dofs);
 }
 
@@ -92,65 +92,6 @@ Outcome ElementWork::evaluate(GroupData& data, int element, const Eigen::VectorX
   return data.group->element->evaluate(in, out);
 }
 
-const double* ElementWork::geometry_of_four(GroupData& data, int first) {
-  const Group& group = *data.group;
-  const auto size = static_cast<std::size_t>(group.element->traits().geometry_size());
-  if (data.geometry_by_four.empty()) {
-    const int fours = (group.elements() + kAbreast - 1) / kAbreast;
-    data.geometry_by_four.resize(size * static_cast<std::size_t>(fours * kAbreast));
-    for (int e = 0; e < fours * kAbreast; ++e) {
-      element_coordinates(model_->mesh, group, std::min(e, group.elements() - 1), x_);
-      group.element->geometry(x_, {geometry_.data(), size});
-      double* const to =
-          data.geometry_by_four.data() + static_cast<std::size_t>(e / kAbreast * kAbreast) * size;
-      for (std::size_t i = 0; i < size; ++i)
-        to[i * kAbreast + static_cast<std::size_t>(e % kAbreast)] = geometry_[i];
-    }
-  }
-  return data.geometry_by_four.data() + static_cast<std::size_t>(first) * size;
-}
-
-Outcome ElementWork::evaluate_four(GroupData& data, int first, const Eigen::VectorXd& du, bool with_K,
-                                   bool& changed) {
-  const ElementTraits& traits = data.group->element->traits();
-  const auto points = static_cast<std::size_t>(traits.points), dofs = static_cast<std::size_t>(traits.dofs);
-  const auto stresses = points * static_cast<std::size_t>(traits.law_size);
-  const std::size_t history = points * static_cast<std::size_t>(data.state.history_size());
-  const PointStates& committed = data.state.committed;
-  PointStates& trial = data.state.trial;
-  std::array<const int*, kAbreast> nodes;
-  FourElementsIn in;
-  FourElementsOut out;
-  in.geometry = geometry_of_four(data, first);
-  in.du = du_.data();
-  in.law = data.law;
-  for (std::size_t l = 0; l < kAbreast; ++l) {
-    const int element = std::min(first + static_cast<int>(l), data.group->elements() - 1);
-    const auto e = static_cast<std::size_t>(element), place = e - static_cast<std::size_t>(first);
-    nodes[l] = data.group->nodes_of(element);
-    in.sigma0[l] = committed.sigma.data() + e * stresses;
-    in.eps0[l] = committed.eps.data() + e * stresses;
-    in.h0[l] = committed.h.data() + e * history;
-    out.f[l] = f_.data() + place * dofs;
-    out.sigma1[l] = trial.sigma.data() + e * stresses;
-    out.eps1[l] = trial.eps.data() + e * stresses;
-    out.h1[l] = trial.h.data() + e * history;
-    out.status[l] = trial.status.data() + e * points;
-    if (with_K)
-      out.K[l] = data.keeps_matrices() ? data.K.data() + e * dofs * dofs : K_.data() + place * dofs * dofs;
-  }
-  for (std::size_t i = 0; i < dofs; i += 2) {
-    const auto at = [&](std::size_t l) { return du.data() + DofMap::displacement(nodes[l][i / 2]); };
-    Four u, v;
-    load_pairs_of_four(at(0), at(1), at(2), at(3), u, v);
-    store_four(du_.data() + i * kAbreast, u);
-    store_four(du_.data() + (i + 1) * kAbreast, v);
-  }
-  const Outcome outcome = data.group->element->evaluate_four(in, out);
-  changed = out.changed;
-  return outcome;
-}
-
 // Elements of a model that stands by itself have not moved yet.
 const double* ElementWork::committed_of(const ElementDofs& dofs) {
   u0_.assign(u0_.size(), 0.0);
@@ -163,6 +104,7 @@ void add_force(const GroupData& data, int element, const double* f, Eigen::Vecto
     const int* nodes = data.group->nodes_of(element);
     const int n = static_cast<int>(data.group->node_count());
     double sum = 0.0;
+#pragma GCC unroll 4
     for (int i = 0; i < n; ++i) {
       const int dof = DofMap::displacement(nodes[i]);
       two_in_a_row(to.data() + dof) += two_in_a_row(f + 2 * i);

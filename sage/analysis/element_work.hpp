@@ -31,10 +31,7 @@ class ElementWork {
   // Internal forces at committed state + du (nullptr: none) into f(), K where it is not nullptr.  Stress and
   // strain of constant groups go into sigma() and eps(), all other states into the trial side.
   Outcome evaluate(GroupData& data, int element, const Eigen::VectorXd* du, double* K);
-  // The same for elements first, first + 1 ... of a group that is evaluated by four, at most to its last one;
-  // with_K: into the matrices that the group keeps, or else one after the other into K().  Forces one after the
-  // other into f().  changed: some matrix is another than before.
-  Outcome evaluate_four(GroupData& data, int first, const Eigen::VectorXd& du, bool with_K, bool& changed);
+  const Model& model() const { return *model_; }
   double* du() { return du_.data(); }
   double* K() { return K_.data(); }
   const double* f() const { return f_.data(); }
@@ -44,7 +41,6 @@ class ElementWork {
  private:
   const double* committed_of(const ElementDofs& dofs);
   const double* geometry_of(GroupData& data, int element);
-  const double* geometry_of_four(GroupData& data, int first);
   const PointContext* contexts_of(const GroupData& data, int element);
 
   const Model* model_;

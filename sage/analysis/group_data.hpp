@@ -25,6 +25,7 @@ struct GroupData {
   // by_four: in place of it, of each four in turn, their values side by side; the last four are filled up with the
   // last element.
   std::vector<double> geometry_by_four;
+  std::vector<char> constant_by_four;  // of each four: FourElementsOut::constant of the matrices that are kept
   std::vector<char> moved;  // of each element: the stage prescribes to some dof a displacement that is not zero
   int first_element = 0;    // in the solver's element order, while it is part of the system
   std::vector<double> K;    // kept element matrices, column-major

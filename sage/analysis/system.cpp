@@ -24,6 +24,7 @@ System::System(const Model& model, const Catalogue& catalogue, const RunSettings
       tangent_(scene_.linear && settings.skips.factors),
       lived_(model.groups.size(), 0) {
   assembly_.set_stop(settings.stop_asked);
+  assembly_.set_threads(settings.threads);
 }
 
 const SolverEntry* System::choose_solver(int equations, bool symmetric) const {

@@ -21,6 +21,10 @@ void Tangent::clear() {
 
 void Tangent::add(int element, const ElementDofs& dofs, const double* K) {
   solver_->add(element, K);
+  couple(dofs, K);
+}
+
+void Tangent::couple(const ElementDofs& dofs, const double* K) {
   const std::size_t n = dofs.size();
   for (std::size_t j = 0; j < n; ++j) {
     const double rate = (*rate_)[dofs[j]];

@@ -55,6 +55,9 @@ class Tangent {
   void add(int element, const ElementDofs& dofs, const double* K);
   // The same where none of its dofs is prescribed.
   void add(int element, const double* K) { solver_->add(element, K); }
+  // LinearSolver::add_part of many; couple() is then for those with prescribed dofs.
+  void add_part(const ElementMatrices& some, int part, int parts) { solver_->add_part(some, part, parts); }
+  void couple(const ElementDofs& dofs, const double* K);
   void differs() { changed_ = true; }
   // After it: whether the forces of the same pass are numbers.  K of a pass that failed serves nobody.
   void settle(Outcome pass);

@@ -141,10 +141,10 @@ std::string stem_of(const RunRequest& request) {
 
 void add_threads_option(CLI::App& parser, int& threads) {
   parser
-      .add_option(
-          "--threads", threads,
-          "threads of the linear solver (default: one for each processor, in systems that gain); results "
-          "are the same to the last bit")
+      .add_option("--threads", threads,
+                  "threads of the linear solver and of large nonlinear groups (default: one for each "
+                  "processor, where that gains); results "
+                  "are the same to the last bit")
       ->check(CLI::Range(0, 256));
 }
 

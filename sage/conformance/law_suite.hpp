@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <ostream>
 #include <random>
 #include <string>
@@ -457,9 +458,12 @@ TEST_P(Laws, UpdateAllocatesNothing) {
 template <int N>
 void check_four(const Law<N>& law, double size) {
   Walker walker(43);
+  std::optional<Matrix<N>> constant_D;
   for (int trial = 0; trial < 200; ++trial) {
-    FourPointsIn<N> in;
-    FourPointsOut<N> out;
+    std::array<FourPointsIn<N>, 1> points;
+    std::array<FourPointsOut<N>, 1> answers;
+    FourPointsIn<N>& in = points[0];
+    FourPointsOut<N>& out = answers[0];
     std::array<State<N>, kAbreast> from;
     std::array<std::vector<double>, kAbreast> h1;
     std::array<Vector<N>, kAbreast> deps;
@@ -471,12 +475,12 @@ void check_four(const Law<N>& law, double size) {
       in.h0[l] = from[l].h.data();
       out.h1[l] = h1[l].data();
       for (std::size_t i = 0; i < N; ++i) {
-        in.sigma0[i][l] = from[l].sigma[static_cast<int>(i)];
-        in.eps0[i][l] = 0.0;
-        in.deps[i][l] = deps[l][static_cast<int>(i)];
+        one_of_four(in.sigma0[i], l) = from[l].sigma[static_cast<int>(i)];
+        one_of_four(in.eps0[i], l) = 0.0;
+        one_of_four(in.deps[i], l) = deps[l][static_cast<int>(i)];
       }
     }
-    const Outcome all = law.update_four(in, out);
+    const Outcome all = law.update_four(points, answers);
     bool refused = false;
     for (std::size_t l = 0; l < kAbreast; ++l) {
       const auto one = update<N>(law, from[l].sigma, deps[l], from[l].h);
@@ -484,10 +488,14 @@ void check_four(const Law<N>& law, double size) {
       if (all == Outcome::cut_step) continue;
       EXPECT_EQ(out.status[l], one.status);
       EXPECT_EQ(h1[l], one.h);
+      if (out.constant_D) {
+        if (!constant_D) constant_D = one.D;
+        EXPECT_EQ(one.D, *constant_D) << "said to be constant";
+      }
       for (std::size_t i = 0; i < N; ++i) {
-        EXPECT_EQ(out.sigma[i][l], one.sigma[static_cast<int>(i)]);
+        EXPECT_EQ(one_of_four(out.sigma[i], l), one.sigma[static_cast<int>(i)]);
         for (std::size_t j = 0; j < N; ++j)
-          EXPECT_EQ(out.D[i][j][l], one.D(static_cast<int>(i), static_cast<int>(j)));
+          EXPECT_EQ(one_of_four(out.D[i][j], l), one.D(static_cast<int>(i), static_cast<int>(j)));
       }
     }
     EXPECT_EQ(all == Outcome::cut_step, refused);

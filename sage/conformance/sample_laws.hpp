@@ -64,35 +64,46 @@ class SmoothLaw : public Law<N> {
   Vector<N> b_, c_;
 };
 
-// A law of solids, four points at once by asking it four times.
+// A law of solids, four points at once by asking it four times; what it says of its D is up to the test.
 template <class L>
 class InFours final : public L {
  public:
   using L::L;
+  InFours(double first, bool constant_D) : L(first), constant_D_(constant_D) {}
   bool takes_four() const override { return true; }
-  Outcome update_four(const FourPointsIn<4>& in, FourPointsOut<4>& out) const override {
-    const std::size_t history = this->history().size();
-    for (std::size_t l = 0; l < kAbreast; ++l) {
-      PointIn<4> point;
-      PointOut<4> result;
-      point.h0 = {in.h0[l], history};
-      result.h1 = {out.h1[l], history};
-      for (std::size_t i = 0; i < 4; ++i) {
-        const auto at = static_cast<Eigen::Index>(i);
-        point.sigma0[at] = in.sigma0[i][l];
-        point.eps0[at] = in.eps0[i][l];
-        point.deps[at] = in.deps[i][l];
-      }
-      if (this->update(point, result) != Outcome::ok) return Outcome::cut_step;
-      for (std::size_t i = 0; i < 4; ++i) {
-        const auto at = static_cast<Eigen::Index>(i);
-        out.sigma[i][l] = result.sigma[at];
-        for (std::size_t j = 0; j < 4; ++j) out.D[i][j][l] = result.D(at, static_cast<Eigen::Index>(j));
-      }
-      out.status[l] = result.status;
-    }
+  Outcome update_four(std::span<const FourPointsIn<4>> in, std::span<FourPointsOut<4>> out) const override {
+    for (std::size_t p = 0; p < in.size(); ++p)
+      for (std::size_t l = 0; l < kAbreast; ++l)
+        if (update_one(in[p], l, out[p]) != Outcome::ok) return Outcome::cut_step;
+    for (FourPointsOut<4>& answer : out) answer.constant_D = constant_D_;
     return Outcome::ok;
   }
+
+ private:
+  Outcome update_one(const FourPointsIn<4>& in, std::size_t l, FourPointsOut<4>& out) const {
+    const std::size_t history = this->history().size();
+    PointIn<4> point;
+    PointOut<4> result;
+    point.h0 = {in.h0[l], history};
+    result.h1 = {out.h1[l], history};
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      point.sigma0[at] = one_of_four(in.sigma0[i], l);
+      point.eps0[at] = one_of_four(in.eps0[i], l);
+      point.deps[at] = one_of_four(in.deps[i], l);
+    }
+    if (this->update(point, result) != Outcome::ok) return Outcome::cut_step;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      one_of_four(out.sigma[i], l) = result.sigma[at];
+      for (std::size_t j = 0; j < 4; ++j)
+        one_of_four(out.D[i][j], l) = result.D(at, static_cast<Eigen::Index>(j));
+    }
+    out.status[l] = result.status;
+    return Outcome::ok;
+  }
+
+  bool constant_D_ = false;
 };
 
 // Elastic with D = 1; writes the number of the point that its context names into its history, -1 without one.

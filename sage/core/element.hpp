@@ -60,8 +60,8 @@ struct ElementOut {
 
 // Four elements of a group at once.  Some may be one and the same: results are written, never added to.
 struct FourElementsIn {
-  const double* geometry = nullptr;  // for each double of Element::geometry those of the four elements in a row
-  const double* du = nullptr;        // likewise
+  const double* geometry = nullptr;  // from Element::place_among_four of each
+  const double* du = nullptr;        // for each dof those of the four elements in a row
   LawRef law;                        // takes four, without context
   std::array<const double*, kAbreast> sigma0{}, eps0{}, h0{};  // of each element as in ElementIn
 };
@@ -70,7 +70,11 @@ struct FourElementsOut {
   std::array<double*, kAbreast> K{};  // nullptr = not wanted; the rest of each element as in ElementOut
   std::array<double*, kAbreast> f{}, sigma1{}, eps1{}, h1{};
   std::array<PointStatus*, kAbreast> status{};
-  bool changed = false;  // some K is not, to the bit, what stood there
+  // Some K is not, to the bit, what stood there.  True before: nobody asks any more.
+  bool changed = false;
+  // K is that of a law's constant D (FourPointsOut::constant_D).  True before: so is what stands there, and it is
+  // left alone where it would be the same again.
+  bool constant = false;
 };
 
 class Element {
@@ -89,6 +93,12 @@ class Element {
   // The same for four elements, to the same digits: where both the element and its law offer it.  Not for
   // elements that see unknowns.
   virtual bool takes_four() const { return false; }
+  // Of w and B what it then wants, doubles an element: those of a point together, w first.
+  virtual int four_geometry_size() const { return traits().geometry_size(); }
+  // They go from geometry() into every fourth double of among_four, which has room for four elements.
+  virtual void place_among_four(std::span<const double> /*geometry*/, double* /*among_four*/) const {
+    throw std::logic_error("an element that takes four at once says how");
+  }
   virtual Outcome evaluate_four(const FourElementsIn& /*in*/, FourElementsOut& /*out*/) const {
     throw std::logic_error("an element that takes four at once says how");
   }

@@ -96,6 +96,17 @@ inline TwoInARow& two_in_a_row(double* p) {
   return *reinterpret_cast<TwoInARow*>(p);
 }
 
+inline TwoInARow first_half_of_four(const Four& x) {
+  return __builtin_shufflevector(x, x, 0, 1);
+}
+inline TwoInARow second_half_of_four(const Four& x) {
+#ifdef __AVX__
+  return __builtin_ia32_vextractf128_pd256(x, 1);  // GCC 12 makes two instructions of the other form
+#else
+  return __builtin_shufflevector(x, x, 2, 3);
+#endif
+}
+
 // Four pairs (x, y) from four places: first = the x, second = the y.
 inline void load_pairs_of_four(const double* a, const double* b, const double* c, const double* d, Four& first,
                                Four& second) {
@@ -103,6 +114,15 @@ inline void load_pairs_of_four(const double* a, const double* b, const double* c
              bd = __builtin_shufflevector(two_in_a_row(b), two_in_a_row(d), 0, 1, 2, 3);
   first = __builtin_shufflevector(ac, bd, 0, 4, 2, 6);
   second = __builtin_shufflevector(ac, bd, 1, 5, 3, 7);
+}
+inline void store_pairs_of_four(const Four& first, const Four& second, double* a, double* b, double* c,
+                                double* d) {
+  const Four ac = __builtin_shufflevector(first, second, 0, 4, 2, 6),
+             bd = __builtin_shufflevector(first, second, 1, 5, 3, 7);
+  two_in_a_row(a) = first_half_of_four(ac);
+  two_in_a_row(b) = first_half_of_four(bd);
+  two_in_a_row(c) = second_half_of_four(ac);
+  two_in_a_row(d) = second_half_of_four(bd);
 }
 
 }  // namespace sage

@@ -94,6 +94,7 @@ struct PointOut {
 
 // The same for four points at once, side by side in every value; without context.  Some of the four may be one
 // and the same point: results are written, never added to.
+inline constexpr std::size_t kMostFours = 9;
 template <int N>
 struct FourPointsIn {
   std::array<Four, N> sigma0, eps0, deps;
@@ -105,6 +106,8 @@ struct FourPointsOut {
   std::array<std::array<Four, N>, N> D;  // D[i][j] = d(sigma_i)/d(deps_j)
   std::array<double*, kAbreast> h1;
   std::array<PointStatus, kAbreast> status;
+  bool constant_D =
+      false;  // D of all four is the one that this law has wherever it says so: matrices may be kept
 };
 
 // A constitutive law: immutable, shared by all points of a material; `update` is a pure function.
@@ -136,9 +139,10 @@ class Law {
   virtual Outcome update(const PointIn<N>& in, PointOut<N>& out) const = 0;
 
   // Laws of many points may take four of them at once, to the same digits as one by one: then true, and
-  // update_four() is called wherever there are many.
+  // update_four() is called wherever there are many, with up to kMostFours fours a time, an answer each.
   virtual bool takes_four() const { return false; }
-  virtual Outcome update_four(const FourPointsIn<N>& /*in*/, FourPointsOut<N>& /*out*/) const {
+  virtual Outcome update_four(std::span<const FourPointsIn<N>> /*in*/,
+                              std::span<FourPointsOut<N>> /*out*/) const {
     throw std::logic_error("a law that takes four points at once says how");
   }
 
@@ -161,8 +165,10 @@ class Law {
 // update() of a law that takes four points at once: the same code serves one.
 template <int N>
 Outcome update_as_four(const Law<N>& law, const PointIn<N>& in, PointOut<N>& out) {
-  FourPointsIn<N> all;
-  FourPointsOut<N> results;
+  std::array<FourPointsIn<N>, 1> alike;
+  std::array<FourPointsOut<N>, 1> answers;
+  FourPointsIn<N>& all = alike[0];
+  FourPointsOut<N>& results = answers[0];
   for (int i = 0; i < N; ++i) {
     const auto at = static_cast<std::size_t>(i);
     all.sigma0[at] = all_four(in.sigma0[i]);
@@ -171,7 +177,7 @@ Outcome update_as_four(const Law<N>& law, const PointIn<N>& in, PointOut<N>& out
   }
   all.h0.fill(in.h0.data());
   results.h1.fill(out.h1.data());
-  const Outcome outcome = law.update_four(all, results);
+  const Outcome outcome = law.update_four(alike, answers);
   for (int i = 0; i < N; ++i) {
     const auto at = static_cast<std::size_t>(i);
     out.sigma[i] = results.sigma[at][0];

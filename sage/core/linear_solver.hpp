@@ -53,6 +53,13 @@ struct FactorReport {
 // Instructions of the processor that a solver's loops are made of, for those that have several sets of them.
 enum class Kernels { automatic, avx2, avx512 };
 
+// Matrices of elements with consecutive numbers, one after the other, each as LinearSolver::add takes it.
+struct ElementMatrices {
+  int first = 0, count = 0;
+  const double* K = nullptr;
+  std::size_t size = 0;  // doubles from one matrix to the next
+};
+
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
@@ -95,6 +102,13 @@ class LinearSolver {
   // Adds an element matrix: dofs x dofs, column-major, in the order of the element's equations as given to
   // analyse; rows and columns of equation -1 are left out.  Symmetric solvers read the upper triangle.
   virtual void add(int element, const double* K) = 0;
+
+  // A part of adding some: the calls for part 0, 1 ... parts - 1, in any order and from several threads at once, do
+  // what add() does for one after the other, to the last bit.
+  virtual void add_part(const ElementMatrices& some, int part, int /*parts*/) {
+    if (part != 0) return;
+    for (int e = 0; e < some.count; ++e) add(some.first + e, some.K + static_cast<std::size_t>(e) * some.size);
+  }
 
   // Throws SingularMatrix.
   virtual void factorise() = 0;

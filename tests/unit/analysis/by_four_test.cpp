@@ -70,7 +70,7 @@ struct LastState final : Observer {
   }
 };
 
-LastState solve(const std::string& text, How how, bool keep_matrices) {
+LastState solve(const std::string& text, How how, bool keep_matrices, int threads = 1) {
   static const Catalogue catalogue = app::full_catalogue();
   Model model = build_model(read_deck_text(text, "punch.dat", load_layout("sage1")), catalogue);
   LawPtr& law = model.materials[0].law;
@@ -78,7 +78,7 @@ LastState solve(const std::string& text, How how, bool keep_matrices) {
   if (how == How::in_fours) law = std::make_unique<conformance::InFours<OneByOne>>(std::move(law));
   RunSettings settings;
   settings.choose_solver = choose_solver;
-  settings.threads = 1;
+  settings.threads = threads;
   settings.skips.factors = keep_matrices;
   LastState last;
   Observer* observers[] = {&last};
@@ -117,6 +117,27 @@ TEST(ByFour, GivesTheStateOfOneByOne) {
         }
       }
     }
+}
+
+// More elements than one thread takes, and a last four that is not full: the same bits, matrices kept or not.
+TEST(ByFour, GivesTheSameBitsOnAnyNumberOfThreads) {
+  const std::string text = punch(31, 27, test::Cell::quad4, 1);
+  for (const bool keep : {true, false}) {
+    const LastState one = solve(text, How::by_itself, keep);
+    ASSERT_GT(one.iterations, 6);
+    EXPECT_GT(std::ranges::count(one.points.status, PointStatus::yielded), 0);
+    EXPECT_GT(std::ranges::count(one.points.status, PointStatus::elastic), 0);
+    for (const int threads : {2, 3, 4}) {
+      SCOPED_TRACE(std::to_string(threads) + " threads");
+      const LastState several = solve(text, How::by_itself, keep, threads);
+      EXPECT_EQ(several.iterations, one.iterations);
+      EXPECT_EQ(several.u, one.u);
+      EXPECT_EQ(several.points.sigma, one.points.sigma);
+      EXPECT_EQ(several.points.eps, one.points.eps);
+      EXPECT_EQ(several.points.h, one.points.h);
+      EXPECT_EQ(several.points.status, one.points.status);
+    }
+  }
 }
 
 }  // namespace

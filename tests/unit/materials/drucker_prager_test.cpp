@@ -50,8 +50,10 @@ TEST(DruckerPrager, FourPointsEachInABranchOfItsOwn) {
                                            false,      false};
   const DruckerPrager law(parameters);
   ASSERT_TRUE(law.takes_four());
-  FourPointsIn<4> in{};
-  FourPointsOut<4> out;
+  std::array<FourPointsIn<4>, 1> points{};
+  std::array<FourPointsOut<4>, 1> answers;
+  FourPointsIn<4>& in = points[0];
+  FourPointsOut<4>& out = answers[0];
   const double gamma[kAbreast] = {1e-3, 1e-1, 0.0, 1e-1}, volume[kAbreast] = {0.0, 0.0, 1e-2, 1e-2};
   double h0[kAbreast][2] = {{1.0, 2.0}, {3.0, 4.0}, {5.0, 6.0}, {7.0, 8.0}}, h1[kAbreast][2];
   for (std::size_t l = 0; l < kAbreast; ++l) {
@@ -60,7 +62,7 @@ TEST(DruckerPrager, FourPointsEachInABranchOfItsOwn) {
     in.h0[l] = h0[l];
     out.h1[l] = h1[l];
   }
-  ASSERT_EQ(law.update_four(in, out), Outcome::ok);
+  ASSERT_EQ(law.update_four(points, answers), Outcome::ok);
   // Elastic: tau = G gamma = 2.  Cone at p = 0: tau = k = 3.  Apex: p = k / 3 alpha, tau = 0.
   const double apex = 3.0 / 0.9, tau[kAbreast] = {2.0, 3.0, 0.0, 0.0}, p[kAbreast] = {0.0, 0.0, apex, apex};
   const PointStatus status[kAbreast] = {PointStatus::elastic, PointStatus::yielded, PointStatus::apex,

@@ -21,7 +21,16 @@ void add_all(AssembledMatrix& matrix, const System& system) {
   for (int e = 0; e < system.elements.count(); ++e) matrix.add(e, system.K[static_cast<std::size_t>(e)].data());
 }
 
-// The first assembly looks places up, later ones know them: the same sums to the last bit.
+void add_in_parts(AssembledMatrix& matrix, const System& system, int parts) {
+  for (int part = parts - 1; part >= 0; --part)
+    for (int e = 0; e < system.elements.count(); ++e) {
+      const auto& K = system.K[static_cast<std::size_t>(e)];
+      matrix.add_part({e, 1, K.data(), static_cast<std::size_t>(K.size())}, part, parts);
+    }
+}
+
+// The first assembly looks places up, later ones know them, and parts may be added in any order: the same sums to
+// the last bit.
 AssembledMatrix assemble(const System& system, bool symmetric) {
   AssembledMatrix matrix;
   matrix.analyse(make_equation_graph(system.equations, system.elements), system.elements, symmetric);
@@ -31,6 +40,11 @@ AssembledMatrix assemble(const System& system, bool symmetric) {
     matrix.clear();
     add_all(matrix, system);
     EXPECT_TRUE(std::ranges::equal(matrix.value(), first));
+  }
+  for (const int parts : {1, 2, 3, 7}) {
+    matrix.clear();
+    add_in_parts(matrix, system, parts);
+    EXPECT_TRUE(std::ranges::equal(matrix.value(), first)) << parts << " parts";
   }
   return matrix;
 }
