@@ -133,7 +133,8 @@ class Frontal final : public MatrixSolver {
  protected:
   void analyse_matrix(const EquationGraph& graph) override {
     kernels_ = wanted_kernels_;
-    tree_ = make_front_tree(graph, matrix(), kLeafEquations, kernels_->width, border_equations());
+    tree_ =
+        make_front_tree(graph, matrix(), kLeafEquations, kernels_->width, border_equations(), wanted_threads_);
     factors_ = AlignedArray(static_cast<std::size_t>(tree_.factor_terms));
     first_pivot_.assign(1, 0);
     widest_ = 0;
