@@ -51,8 +51,13 @@ Cut best_cut(const Levels& levels) {
 class Dissection {
  public:
   // mark: of every group, 0 at first.  Several may share them that work on parts which a separator divides.
-  Dissection(const EquationGraph& graph, int leaf_equations, std::span<int> mark, int stamp = 0)
-      : graph_(graph), leaf_equations_(leaf_equations), mark_(mark), stamp_(stamp) {}
+  Dissection(const EquationGraph& graph, int leaf_equations, std::size_t worth_a_thread, std::span<int> mark,
+             int stamp = 0)
+      : graph_(graph),
+        leaf_equations_(leaf_equations),
+        worth_a_thread_(worth_a_thread),
+        mark_(mark),
+        stamp_(stamp) {}
 
   SeparatorTree run(int border, int threads) {
     const int inner = static_cast<int>(graph_.group_of.size()) - border;
@@ -72,7 +77,6 @@ class Dissection {
 
  private:
   static constexpr int kOutside = std::numeric_limits<int>::max();
-  static constexpr std::size_t kWorthAThread = 5000;  // groups: some milliseconds
 
   void make_room(std::size_t groups) {
     levels_.room.resize(groups);
@@ -128,10 +132,10 @@ class Dissection {
   std::vector<int> dissect_both(const Side& first, const Side& second, int threads) {
     std::future<Dissection> other;
     const int with_other = threads / 2;
-    if (threads > 1 && second.groups.size() >= kWorthAThread) {
+    if (threads > 1 && second.groups.size() >= worth_a_thread_) {
       try {
         other = std::async(std::launch::async, [this, &second, with_other, stamp = stamp_] {
-          Dissection part(graph_, leaf_equations_, mark_, stamp);
+          Dissection part(graph_, leaf_equations_, worth_a_thread_, mark_, stamp);
           part.make_room(second.groups.size());
           part.tops_ = part.dissect(second.groups, second.near, with_other);
           return part;
@@ -156,6 +160,8 @@ class Dissection {
     tree_.groups.item.insert(tree_.groups.item.end(), list.item.begin(), list.item.end());
     for (std::size_t i = 1; i < list.start.size(); ++i) tree_.groups.start.push_back(groups + list.start[i]);
     for (int& top : part.tops_) top += nodes;
+    stamp_ =
+        std::max(stamp_, part.stamp_);  // the next search must not find the part's marks under its own number
     return std::move(part.tops_);
   }
 
@@ -251,6 +257,7 @@ class Dissection {
 
   const EquationGraph& graph_;
   int leaf_equations_;
+  std::size_t worth_a_thread_;
   SeparatorTree tree_;
   std::vector<int> tops_;  // nodes of a part that have no parent
   std::span<int> mark_;
@@ -260,9 +267,10 @@ class Dissection {
 
 }  // namespace
 
-SeparatorTree nested_dissection(const EquationGraph& graph, int leaf_equations, int border, int threads) {
+SeparatorTree nested_dissection(const EquationGraph& graph, int leaf_equations, int border, int threads,
+                                std::size_t worth_a_thread) {
   std::vector<int> mark(at(graph.members.count()), 0);
-  return Dissection(graph, leaf_equations, mark).run(border, threads);
+  return Dissection(graph, leaf_equations, worth_a_thread, mark).run(border, threads);
 }
 
 }  // namespace sage

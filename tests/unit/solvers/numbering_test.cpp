@@ -172,6 +172,49 @@ TEST(NestedDissection, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
+// Nodes of a comb: a back of `height` rows of cells, and teeth of random width and length that stand on it.
+System comb(std::mt19937& random) {
+  const auto some = [&](unsigned from, unsigned to) { return static_cast<int>(from + random() % (to - from)); };
+  constexpr int kRows = 90;
+  const int height = some(4, 25), teeth = some(6, 60);
+  std::vector<int> columns;  // rows of cells of each
+  for (int t = 0; t < teeth; ++t) {
+    const bool wide = random() % 12 == 0;
+    columns.insert(columns.end(), static_cast<std::size_t>(wide ? some(20, 50) : some(2, 8)),
+                   height + some(3, kRows - 30));
+    columns.push_back(height);
+  }
+  System system;
+  std::vector<int> number((columns.size() + 1) * (kRows + 1), -1);
+  const auto equation = [&](std::size_t column, int row) {
+    int& n = number[column * (kRows + 1) + at(row)];
+    if (n < 0) n = system.equations++;
+    return n;
+  };
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    for (int r = 0; r < columns[c]; ++r) {
+      for (const int n : {equation(c, r), equation(c + 1, r), equation(c + 1, r + 1), equation(c, r + 1)})
+        system.elements.equations.push_back(n);
+      system.elements.offset.push_back(static_cast<std::int64_t>(system.elements.equations.size()));
+    }
+  return system;
+}
+
+// A side that a separator leaves in several pieces, of which one went to another thread before the next was searched.
+TEST(NestedDissection, PiecesOfASideShareNoMarks) {
+  std::mt19937 random(3);
+  for (int c = 0; c < 300; ++c) {
+    const EquationGraph graph = graph_of(comb(random));
+    const SeparatorTree one = nested_dissection(graph, 16);
+    for (const int threads : {4, 8, 16}) {
+      const SeparatorTree several = nested_dissection(graph, 16, 0, threads, 40);
+      ASSERT_EQ(several.groups.item, one.groups.item) << "comb " << c << ", " << threads << " threads";
+      ASSERT_EQ(several.groups.start, one.groups.start);
+      ASSERT_EQ(several.parent, one.parent);
+    }
+  }
+}
+
 TEST(NestedDissection, TakesWhatAllTouchEachOtherAsOnePart) {
   System system;
   system.equations = 60;
