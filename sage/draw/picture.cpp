@@ -392,6 +392,15 @@ std::string draw_mesh_and_field(Draft& draft, const std::vector<double>& limits,
   return out;
 }
 
+// Whether a component turns its sign in a reflection: one that points across the line, and shear.
+bool turns_sign(const FieldChoice& field, const PictureOptions& options) {
+  const FieldEntry& entry = *field.entry;
+  if (!options.mirror_left && !options.mirror_down) return false;
+  if (field.component < 0 || entry.shape == FieldShape::numbers) return entry.of_mean;  // directions
+  const std::string& name = entry.components[static_cast<std::size_t>(field.component)].name;
+  return name == "xy" || (name == "x" && options.mirror_left) || (name == "y" && options.mirror_down);
+}
+
 // The drawing once, and its reflections; `name` is the only one of the document.
 void append_mirrored(std::string& out, const std::string& drawing, const View& view,
                      const PictureOptions& options, const std::string& name) {
@@ -418,6 +427,9 @@ Drawing draw_picture(Draft& draft, const std::vector<double>& limits, const Head
   snap(draft.patches, limits);
   std::vector<std::string> notes;
   const std::string mesh = draw_mesh_and_field(draft, limits, notes);
+  if (turns_sign(draft.scenery.field, draft.options))
+    notes.push_back(
+        "values are those of the half that was computed: this one turns its sign across the line of symmetry");
   Drawing drawing;
   const double legend = legend_left(view),
                down = kLine * (static_cast<double>(std::max<std::size_t>(heading_lines, 3)) - 3.0);

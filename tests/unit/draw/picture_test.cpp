@@ -138,6 +138,28 @@ TEST(FieldSheet, MirroredSpecimensAreReflections) {
   EXPECT_EQ(count(svg, ">-1.0</text>"), 1u) << "z below the middle, but no negative radius";
 }
 
+// Reflections are copies: a component that is odd across the line has the other sign there.
+TEST(FieldSheet, MirroredPicturesSayWhatTurnsItsSign) {
+  Specimen specimen(Geometry::axisymmetric, false);
+  specimen.compress(0.01);
+  const auto says_so = [&](const char* field, bool left, bool down) {
+    PictureOptions look;
+    look.mirror_left = left;
+    look.mirror_down = down;
+    return has(field_svg(specimen.model, specimen.solution(), field, look), "turns its sign");
+  };
+  EXPECT_TRUE(says_so("stress_xy", true, false));
+  EXPECT_TRUE(says_so("strain_xy", false, true));
+  EXPECT_TRUE(says_so("displacement_x", true, false));
+  EXPECT_TRUE(says_so("displacement_y", true, true));
+  EXPECT_TRUE(says_so("principal_angle", true, false));
+  EXPECT_FALSE(says_so("displacement_x", false, true));
+  EXPECT_FALSE(says_so("displacement_y", true, false));
+  EXPECT_FALSE(says_so("displacement", true, true)) << "a length";
+  EXPECT_FALSE(says_so("stress_yy", true, true));
+  EXPECT_FALSE(says_so("stress_xy", false, false));
+}
+
 // 8 integration points, none at strength; 10 psi is the larger principal stress everywhere.
 TEST(FieldSheet, MarksSayWhatTheyAre) {
   Specimen specimen(Geometry::axisymmetric, false);
