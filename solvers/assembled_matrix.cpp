@@ -225,12 +225,15 @@ int AssembledMatrix::column_of_part(int part, int parts) const {
 }
 
 void AssembledMatrix::add_part(const ElementMatrices& some, int part, int parts) {
-  const bool whole = parts == 1 || symmetric_ || slot_start_.empty();
-  if (whole && part != 0) return;
-  const int first = whole ? 0 : column_of_part(part, parts), end = whole ? 0 : column_of_part(part + 1, parts);
-  const double* K = some.K;
-  for (int element = some.first; element < some.first + some.count; ++element, K += some.size)
-    whole ? add(element, K) : add_columns(element, K, first, end);
+  const auto each = [&](const auto& use) {
+    for (int e = 0; e < some.count; ++e) use(some.first + e, some.K + at(e) * some.size);
+  };
+  if (parts == 1 || symmetric_ || slot_start_.empty()) {
+    if (part == 0) each([&](int element, const double* K) { add(element, K); });
+    return;
+  }
+  const int first = column_of_part(part, parts), end = column_of_part(part + 1, parts);
+  each([&](int element, const double* K) { add_columns(element, K, first, end); });
 }
 
 void AssembledMatrix::multiply(std::span<const double> x, std::span<double> y) const {

@@ -160,8 +160,8 @@ class Dissection {
     tree_.groups.item.insert(tree_.groups.item.end(), list.item.begin(), list.item.end());
     for (std::size_t i = 1; i < list.start.size(); ++i) tree_.groups.start.push_back(groups + list.start[i]);
     for (int& top : part.tops_) top += nodes;
-    stamp_ =
-        std::max(stamp_, part.stamp_);  // the next search must not find the part's marks under its own number
+    // The next search must not find the part's marks under its own number.
+    stamp_ = std::max(stamp_, part.stamp_);
     return std::move(part.tops_);
   }
 

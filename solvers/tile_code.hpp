@@ -268,16 +268,6 @@ inline void tile_backward_diagonal(const double* T, const double* reciprocal, do
   }
 }
 
-// The largest terms so far, in registers and back.
-template <class R>
-inline typename R::Lanes load_maximum(const double* maximum) {
-  return lanes<R>(maximum);
-}
-template <class R>
-inline void store_maximum(const typename R::Lanes& x, double* maximum) {
-  lanes<R>(maximum) = x;
-}
-
 // Profile: one tile of column J above its diagonal.  upper: column J of U.
 template <class R, bool symmetric>
 inline void reduce_tile(const ProfileFactors& f, int K, int J, double* upper, typename R::Lanes& maximum) {
@@ -301,7 +291,7 @@ inline void reduce_tile(const ProfileFactors& f, int K, int J, double* upper, ty
 // equations).
 template <class R, bool symmetric>
 [[gnu::flatten]] void reduce_profile_column_of(const ProfileFactors& f, int J, double* largest) {
-  typename R::Lanes maximum = load_maximum<R>(largest);
+  typename R::Lanes maximum = lanes<R>(largest);
   double* const upper = symmetric ? f.column : f.upper + f.shape.offset[J];
   for (int K = f.shape.top[J]; K < J; ++K) reduce_tile<R, symmetric>(f, K, J, upper, maximum);
   double* const A = f.diagonal + J * kTileTerms;
@@ -311,7 +301,7 @@ template <class R, bool symmetric>
     tile_factorise_symmetric<R>(A, reciprocal, maximum);
   else
     tile_factorise<R>(A, f.unit + J * kTileTerms, reciprocal, maximum);
-  store_maximum<R>(maximum, largest);
+  lanes<R>(largest) = maximum;
 }
 
 template <class R>
@@ -367,24 +357,24 @@ inline void reduce_columns(const Arms& a, int rows, int J, typename R::Lanes& ma
 
 template <class R>
 void reduce_pivot_column(const Arms& a, int J, double* largest) {
-  typename R::Lanes maximum = load_maximum<R>(largest);
+  typename R::Lanes maximum = lanes<R>(largest);
   reduce_columns<R, 1>(a, J, J, maximum);
   double* A = a.u(J, J);
   const int live = a.front.live(J);
   if (a.front.symmetric) tile_mirror<R>(A, live);
   tile_subtract_products<R, 1>(A, 0, a.l(0, J), a.u(0, J), 0, J * kTile, live);
   tile_factorise<R>(A, a.l(J, J), a.reciprocal + J * kTile, maximum, live);
-  store_maximum<R>(maximum, largest);
+  lanes<R>(largest) = maximum;
 }
 
 template <class R>
 void reduce_border_columns(const Arms& a, int begin, int end, double* largest) {
-  typename R::Lanes maximum = load_maximum<R>(largest);
+  typename R::Lanes maximum = lanes<R>(largest);
   const int P = a.front.pivot_tiles;
   int J = begin;
   for (; J + R::kWidth <= end; J += R::kWidth) reduce_columns<R, R::kWidth>(a, P, P + J, maximum);
   for (; J < end; ++J) reduce_columns<R, 1>(a, P, P + J, maximum);
-  store_maximum<R>(maximum, largest);
+  lanes<R>(largest) = maximum;
 }
 
 // Border columns J .. J + width - 1 take the product of `count` pivots from tile K on.

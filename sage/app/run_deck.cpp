@@ -143,8 +143,7 @@ void add_threads_option(CLI::App& parser, int& threads) {
   parser
       .add_option("--threads", threads,
                   "threads of the linear solver and of large nonlinear groups (default: one for each "
-                  "processor, where that gains); results "
-                  "are the same to the last bit")
+                  "processor, where that gains); results are the same to the last bit")
       ->check(CLI::Range(0, 256));
 }
 
@@ -159,8 +158,7 @@ void add_kernels_option(CLI::App& parser, Kernels& kernels) {
       .add_option_function<std::string>(
           "--kernels", [&kernels](const std::string& name) { kernels = names.at(name); },
           "instructions of the processor that the solvers use: auto (default, the fastest it has), avx2, "
-          "avx512; "
-          "results are the same to the last bit")
+          "avx512; results are the same to the last bit")
       ->check(suits);
 }
 

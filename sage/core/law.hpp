@@ -106,8 +106,8 @@ struct FourPointsOut {
   std::array<std::array<Four, N>, N> D;  // D[i][j] = d(sigma_i)/d(deps_j)
   std::array<double*, kAbreast> h1;
   std::array<PointStatus, kAbreast> status;
-  bool constant_D =
-      false;  // D of all four is the one that this law has wherever it says so: matrices may be kept
+  // D of all four is the one that this law has wherever it says so: matrices may be kept.
+  bool constant_D = false;
 };
 
 // A constitutive law: immutable, shared by all points of a material; `update` is a pure function.

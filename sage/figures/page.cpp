@@ -239,9 +239,8 @@ void append_stiffness(std::string& out, const std::vector<StiffnessRow>& rows,
   out += "## K_j of the lubricated platen\n\n";
   if (rows.size() < 3) out += "No K_j meets the 3 percent of Figure 7.18.\n\n";
   out +=
-      "Ratios of Tables 7.3 (10 %) and 7.4 as printed, and with three K_j (full 4-node elements, increments of "
-      "0.05 "
-      "%); **bold**: rounds to the printed number.\n\n| | printed |";
+      "Ratios of Tables 7.3 (10 %) and 7.4 as printed, and with three K_j (full 4-node elements, "
+      "increments of 0.05 %); **bold**: rounds to the printed number.\n\n| | printed |";
   for (const StiffnessRow& row : rows)
     out += fmt::format(" K_j = {:.3g} ({}) |", row.choice.k_j, row.choice.name);
   out += "\n|---|---|";
@@ -363,17 +362,13 @@ std::vector<StiffnessRow> stiffness_rows(Runs& runs, const std::vector<Stiffness
 
 std::string page_text(const Page& page, const std::string& ending) {
   std::string out =
-      "# The source chapter's figures\n\nComputed by `sagefe figures`. Compression positive; psi, inches; conf "
-      "= "
-      "sigma_3, dev = sigma_1 - sigma_3; R = radius, H = half height, z from the mid-height; c = the correct "
-      "value, q = "
-      "the correct deviator stress (frictionless ends). Stresses are the means of elements, stress levels "
-      "those of "
-      "integration points. In brackets: away from the corner (without the 2 x 2 elements at the rim of the "
-      "end). `seen "
-      "to fail`: the scenes that were put in its place and the alterations of its field with which the check "
-      "fails; "
-      "`itself`: it holds nowhere.\n\n";
+      "# The source chapter's figures\n\nComputed by `sagefe figures`. Compression positive; psi, "
+      "inches; conf = sigma_3, dev = sigma_1 - sigma_3; R = radius, H = half height, z from the "
+      "mid-height; c = the correct value, q = the correct deviator stress (frictionless ends). Stresses "
+      "are the means of elements, stress levels those of integration points. In brackets: away from the "
+      "corner (without the 2 x 2 elements at the rim of the end). `seen to fail`: the scenes that were "
+      "put in its place and the alterations of its field with which the check fails; `itself`: it holds "
+      "nowhere.\n\n";
   out += tally(page.results, 0) + ".\n\n";
   append_stiffness(out, page.stiffness, page.results);
   for (int figure : page.figures) append_figure(out, page, figure, ending);

@@ -14,9 +14,8 @@ constexpr Word kWords[] = {
     {"much less", "at most one third", "less than 'approximately half' by a clear step"},
     {"much less than 1 percent", "at most 0.33 percent", "'much less' of 1 percent"},
     {"negligible (measured stress)", "at most 0.5 percent",
-     "smaller than the least increase that the chapter calls an effect (0.6 percent, Table 7.3) and than a "
-     "line's "
-     "width in its figures"},
+     "smaller than the least increase that the chapter calls an effect (0.6 percent, Table 7.3) and than "
+     "a line's width in its figures"},
     {"negligible (stress in the specimen)", "at most 3.3 percent",
      "the chapter calls 'approximately only 3 percent' negligible; 'approximately' adds a tenth"},
     {"affected", "changed by more than 5 percent of the correct deviator stress",
