@@ -24,6 +24,7 @@ import growth
 import measure
 import nonlinear
 import peers
+import pictures
 import precision
 import same_mesh
 import shipped
@@ -44,6 +45,8 @@ PARTS = {
     "footing": growth.footing,
     "skips": shipped.skips,
 }
+# The table behind which charts stand that are drawn from another file.
+BESIDE = {"equal_error": "precision"}
 ORDER = ["goals", "linear", "plastic", "equal_mesh", "equal_error", *list(PARTS)[4:]]
 
 
@@ -55,7 +58,6 @@ class Bench:
         self.sagefe = str(pathlib.Path(args.sagefe).resolve())
         self.notes = []  # what was not computed
         self.wrong = []  # answers that can't be
-        self.charts = []  # (title, file)
         self.points = []  # of time against error
 
     def turns(self, jobs, runs=None, strict=False):
@@ -78,13 +80,12 @@ def run_parts(bench, names):
     bench.dgemm = peak
     for name in names:
         start = time.perf_counter()
-        bench.notes, bench.charts = [], []
+        bench.notes = []
         tables = PARTS[name](bench)
         for key, table in tables.items():
             found[key] = dataclasses.asdict(table)
             found[key].update(part=name, options=with_threads(bench, table), notes=[], charts=[], machine=measure.machine(), dgemm=peak)
-        last = found[list(tables)[-1]]
-        last["notes"], last["charts"] = bench.notes, bench.charts
+        found[list(tables)[-1]]["notes"] = bench.notes
         print(f"  {name}: {time.perf_counter() - start:.0f} s", file=sys.stderr, flush=True)
     return found
 
@@ -125,10 +126,13 @@ def write(out, found, versions):
     kept = json.loads(file.read_text()) if file.exists() else {}
     kept.setdefault("tables", {}).update(found)
     kept["versions"] = {**kept.get("versions", {}), **versions}
-    file.write_text(json.dumps(kept, indent=1) + "\n")
     for key, table in found.items():
         with open(folder / f"{key}.csv", "w", newline="") as stream:
             csv.writer(stream).writerows([table["head"], *table["rows"]])
+    drawn = pictures.draw(folder, folder)
+    for key, table in kept["tables"].items():
+        table["charts"] = drawn.get(BESIDE.get(key, key), [])
+    file.write_text(json.dumps(kept, indent=1) + "\n")
     (out / "benchmarks.md").write_text(page(kept["tables"], kept["versions"]))
 
 

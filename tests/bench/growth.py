@@ -3,7 +3,6 @@ import json
 import math
 import os
 
-import chart
 import scenes
 import specimen
 from measure import Job, Table, exponents, fitted_exponent
@@ -47,7 +46,7 @@ def profile(bench, job):
     return flat(json.loads(file.read_text())["run"], {})
 
 
-def measured(bench, title, sizes, make, beside=None):
+def measured(bench, sizes, make, beside=None):
     """[(size, unknowns, Record, phases, Record on all threads or None, Record beside or None)]; make: size -> Job on
     the threads of the bench; beside: size -> Job of another scene that takes turns with it."""
     found = []
@@ -65,11 +64,6 @@ def measured(bench, title, sizes, make, beside=None):
         found.append((size, unknowns(of["own"].text), of["own"], profile(bench, job), of.get("all"), of.get("beside")))
         if of["own"].wall > TOO_LONG:
             break
-    name = title + ".svg"
-    series = [("wall", [(dofs, r.wall) for _, dofs, r, _, _, _ in found], False)]
-    series += [(c, [(dofs, seconds(p, c)) for _, dofs, _, p, _, _ in found], True) for c in PHASES]
-    if len(found) > 1 and chart.loglog(bench.out / name, title, "unknowns", "s", series):
-        bench.charts.append((f"Growth: {title}", name))
     return found
 
 
@@ -104,7 +98,7 @@ def table(bench, title, note, options, size_name, found, beside=None):
 
 def scaling(bench):
     sizes = [n for n in (14, 28, 56, 112, 224, 448, 700) if n <= bench.args.largest]
-    found = measured(bench, "scaling", sizes, lambda n: sage_job(bench, f"scaling_{n}", "", n, specimen.elastic(n)))
+    found = measured(bench, sizes, lambda n: sage_job(bench, f"scaling_{n}", "", n, specimen.elastic(n)))
     note = "Elastic specimen between pinned ends, n x 2n quad4, one increment, listing included."
     return {"scaling": table(bench, "Growth: linear", note, "`sagefe run --threads N`.", "n", found)}
 
@@ -116,7 +110,7 @@ def interface(bench):
 
     beside = lambda k: sage_job(bench, f"beside_{k}", "", 14 * 2**k, specimen.elastic(14 * 2**k))
     refinements = [k for k in range(6) if 14 * 2**k <= bench.args.largest // 2]
-    found = measured(bench, "interface", refinements, job, beside)
+    found = measured(bench, refinements, job, beside)
     note = "`friction_285_nu0495`, refined k times: elastic specimen of n x 2n quad4, n = 14 2^k, under a rigid platen on a hyperbolic interface, 40 increments, listing included. Last column: wall time over that of the linear specimen of the same mesh."
     return {"interface": table(bench, "Growth: elastic body on an interface", note, "`sagefe run --refine k --threads N`.", "k", found, "over linear")}
 
@@ -131,7 +125,7 @@ def mohr_coulomb_footing():
 def footing(bench):
     scene = mohr_coulomb_footing()
     sizes = [n for n in (4, 8, 16, 32) if n <= max(4, bench.args.largest // 14)]
-    found = measured(bench, "footing", sizes, lambda n: scene_job(bench, scene, "quad4 b-bar", str(n), scenes.deck(scene, n), ["--formulation", "2"]))
+    found = measured(bench, sizes, lambda n: scene_job(bench, scene, "quad4 b-bar", str(n), scenes.deck(scene, n), ["--formulation", "2"]))
     far = [abs(f[2].value / scene.reference - 1) for f in found]
     if not far[-1] < 0.6:
         bench.wrong.append(f"footing: {far[-1]:.0%} from {scene.reference:.6g}")

@@ -5,7 +5,6 @@ import csv
 import dataclasses
 import re
 
-import chart
 import scenes
 from measure import Job, Table, ms
 from precision import sage_job
@@ -72,17 +71,6 @@ def table(bench, key, title, note, options, rows):
         tolerance = f"{c.tolerance:g}" if c.tolerance else "own"
         cells = [c.varied, c.scene, c.element, c.mesh, str(c.increments), tolerance, f"{row.value:.6g}", f"{row.error:.1e}"]
         lines.append([*cells, ms(row.record.wall), ms(row.record.cpu), iterations, "*" if id(row) in best else ""])
-    by_scene = {}
-    for row in rows:
-        if row.case.varied == "mesh":
-            by_scene.setdefault(row.case.scene, {}).setdefault(row.case.element, []).append((row.record.cpu, row.error))
-        else:
-            by_scene.setdefault(row.case.scene, {}).setdefault(f"{row.case.varied}: {row.case.element}, {row.case.mesh}", []).append((row.record.cpu, row.error))
-    for scene, lines_of in by_scene.items():
-        name = f"nonlinear_{key}_{re.sub(r'[^a-z]+', '_', scene.lower())}.svg"
-        series = [(label[:30], points, not label.startswith(("quad", "tri"))) for label, points in lines_of.items()]
-        if chart.loglog(bench.out / name, f"{title}: {scene}", "processor, s", "relative error", series):
-            bench.charts.append((f"{title}: {scene}", name))
     note += " Best: no other line of the scene is both faster (processor) and nearer."
     return {key: Table(title, note, options, HEAD, lines)}
 

@@ -4,7 +4,6 @@ import dataclasses
 import re
 import subprocess
 
-import chart
 import peers
 import scenes
 from measure import Job, Table, ms
@@ -116,7 +115,6 @@ def precision(bench):
     with open(bench.out / "precision.csv", "w", newline="") as stream:
         fields = [f.name for f in dataclasses.fields(Point)]
         csv.writer(stream).writerows([fields, *(dataclasses.astuple(p) for p in points)])
-    plots(bench, points)
     return {"equal_mesh": equal_mesh(points), "equal_error": equal_error(points)}
 
 
@@ -185,18 +183,6 @@ def wrong(points):
         if not errors or not min(errors) <= bound:
             found.append(f"{scene.name}: the best is {min(errors, default=float('nan')):.1e} off, expected {bound:g}")
     return found
-
-
-def plots(bench, points):
-    for scene in scenes.scenes():
-        lines = {}
-        for p in points:
-            if p.scene == scene.name:
-                lines.setdefault((p.program, p.variant), []).append((p.seconds, p.error))
-        series = [(v if program == "sagefe" else f"{program} {v}", sorted(line), program != "sagefe") for (program, v), line in lines.items()]
-        name = f"{scene.name}.svg"
-        if chart.loglog(bench.out / name, f"{scene.title}: reference {scene.reference:.7g}", "whole process, s", "relative error", series):
-            bench.charts.append((scene.title, name))
 
 
 # ------------------------------------------------------------------------------------------------- graded against graded

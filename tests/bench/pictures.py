@@ -1,0 +1,103 @@
+"""The charts of docs/benchmarks, from the tables that were recorded there: no time is measured again.
+
+Usage: pictures.py FOLDER [-o FOLDER]     FOLDER holds the tables (CSV); charts go beside them, or into another folder
+"""
+import argparse
+import csv
+import pathlib
+import re
+
+import chart
+import scenes
+
+# Tables of accuracy for time, and those of growth, by the name of their CSV file.
+NONLINEAR = {
+    "collapse": "Accuracy for time: collapse load of a strip footing",
+    "ratio": "Accuracy for time: Drucker-Prager specimen to 15 %",
+    "history": "Accuracy for time: history on an interface",
+}
+GROWTH = {
+    "scaling": "Growth: linear",
+    "interface": "Growth: elastic body on an interface",
+    "footing": "Growth: Mohr-Coulomb footing",
+}
+
+
+def rows_of(file):
+    """[{column: text}]; of columns of one name the first."""
+    with open(file, newline="") as stream:
+        head, *lines = csv.reader(stream)
+    first = {column: head.index(column) for column in head}
+    return [{column: line[at] for column, at in first.items()} for line in lines]
+
+
+def precision(rows):
+    for scene in scenes.scenes():
+        lines = {}
+        for row in rows:
+            if row["scene"] == scene.name:
+                lines.setdefault((row["program"], row["variant"]), []).append((float(row["seconds"]), float(row["error"])))
+        series = [(v if program == "sagefe" else f"{program} {v}", sorted(line), program != "sagefe") for (program, v), line in lines.items()]
+        yield scene.title, f"{scene.name}.svg", f"{scene.title}: reference {scene.reference:.7g}", "whole process, s", "relative error", series
+
+
+def nonlinear(key, rows):
+    by_scene = {}
+    for row in rows:
+        beside = row["varied"] != "mesh"
+        name = f"{row['varied']}: {row['element']}, {row['mesh']}" if beside else row["element"]
+        point = (1e-3 * float(row["processor ms"]), float(row["error"]))
+        by_scene.setdefault(row["scene"], {}).setdefault((name, beside), []).append(point)
+    for scene, lines in by_scene.items():
+        title = f"{NONLINEAR[key]}: {scene}"
+        file = f"nonlinear_{key}_{re.sub(r'[^a-z]+', '_', scene.lower())}.svg"
+        yield title, file, title, "processor, s", "relative error", [(name, points, beside) for (name, beside), points in lines.items()]
+
+
+def growth(key, rows):
+    """Columns in seconds over the unknowns; the last line of the table holds exponents."""
+    rows = [row for row in rows if "exponent" not in row.values()]
+    dofs = "unknowns" if rows and "unknowns" in rows[0] else "dofs"
+    columns = [column for column in (rows[0] if rows else {}) if column.endswith(" s")]
+    series = []
+    for column in columns:
+        points = [(float(row[dofs]), float(row[column])) for row in rows if row[column] not in ("", "-")]
+        series.append((column[:-2], points, not column.startswith("wall")))
+    yield GROWTH[key], f"{key}.svg", GROWTH[key], "unknowns", "s", sorted(series, key=lambda s: s[2])
+
+
+def charts(folder):
+    """(table, title, file, heading, x label, y label, series) of every table that the folder has."""
+    makers = {"precision": precision}
+    makers |= {key: lambda rows, key=key: nonlinear(key, rows) for key in NONLINEAR}
+    makers |= {key: lambda rows, key=key: growth(key, rows) for key in GROWTH}
+    for key, make in makers.items():
+        file = folder / f"{key}.csv"
+        if file.exists():
+            for found in make(rows_of(file)):
+                yield (key, *found)
+
+
+def draw(folder, out):
+    """{table: [(title, file)]} of the charts that it has drawn."""
+    drawn = {}
+    for key, title, name, heading, x_label, y_label, series in charts(folder):
+        if chart.loglog(out / name, heading, x_label, y_label, series):
+            drawn.setdefault(key, []).append((title, name))
+    return drawn
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("-o", "--output", type=pathlib.Path)
+    args = parser.parse_args()
+    out = args.output or args.folder
+    out.mkdir(parents=True, exist_ok=True)
+    for found in draw(args.folder, out).values():
+        for _, name in found:
+            print(out / name)
+
+
+if __name__ == "__main__":
+    main()
