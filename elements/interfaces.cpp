@@ -29,8 +29,9 @@ ElementEntry with_line(ElementEntry entry) {
   entry.corners = 4;
   entry.law_size = 2;
   entry.parent_nodes.assign(kNodes.begin(), kNodes.begin() + entry.nodes);
-  // By its corners: VTK's six-node quadrilateral (30) is unknown to common readers.
-  entry.vtk = {9, {0, 1, 2, 3}};
+  // As the line of its bottom side: an area of zero thickness is invisible.
+  static const ForeignElement<int> kLines[]{{3, {0, 1}}, {21, {0, 1, 4}}};
+  entry.vtk = kLines[Line::nodes - 2];
   return entry;
 }
 

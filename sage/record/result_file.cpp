@@ -9,6 +9,7 @@
 
 #include "sage/model/fingerprint.hpp"
 #include "sage/record/data_file.hpp"
+#include "sage/record/state_time.hpp"
 #include "sage/record/stored_result.hpp"
 #include "sage/record/values.hpp"
 #include "sage/record/vtk_data.hpp"
@@ -88,7 +89,7 @@ void describe_table(TableFile& out, const std::string& path, const FieldEntry& f
 class VtkPart {
  public:
   VtkPart(TableFile& out, const Model& model, const FieldTable& fields)
-      : out_(out), model_(model), fields_(fields) {
+      : out_(out), model_(model), fields_(fields), time_(model) {
     out_.numbers(kRoot, "Version", {2, 0});
     out_.text(kRoot, "Type", "UnstructuredGrid");
     out_.table(root("Points"), DataType::float64, {3}, kChunk);
@@ -97,6 +98,7 @@ class VtkPart {
     for (const char* name : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"})
       out_.table(root(name), DataType::int64);
     out_.table(steps("Values"), DataType::float64);
+    out_.text(steps("Values"), "meaning", time_.meaning());
     for (const char* name : {"PartOffsets", "NumberOfParts", "PointOffsets"})
       out_.table(steps(name), DataType::int64);
     for (const char* name : {"CellOffsets", "ConnectivityIdOffsets"})
@@ -109,7 +111,7 @@ class VtkPart {
     const auto one = [&](const char* name, std::int64_t value) {
       out_.append(steps(name), std::vector{value}, 1);
     };
-    out_.append(steps("Values"), std::vector{frame.report().stage + frame.report().load_factor}, 1);
+    out_.append(steps("Values"), std::vector{time_.at(frame.report().stage, frame.report().load_factor)}, 1);
     one("PartOffsets", parts_ - 1);
     one("NumberOfParts", 1);
     one("PointOffsets", here_.points);
@@ -179,6 +181,7 @@ class VtkPart {
   TableFile& out_;
   const Model& model_;
   const FieldTable& fields_;
+  const StateTime time_;
   std::int64_t count_ = 0, parts_ = 0, point_rows_ = 0, cell_rows_ = 0;
   std::vector<char> active_;
   NodalLayout layout_;

@@ -12,7 +12,9 @@
 #include <optional>
 #include <utility>
 
+#include "sage/core/units.hpp"
 #include "sage/model/foreign_element.hpp"
+#include "sage/record/state_time.hpp"
 #include "sage/record/values.hpp"
 #include "sage/record/vtk_data.hpp"
 
@@ -39,14 +41,15 @@ class VtuText {
     xml_.back() += '\n';
   }
 
+  // inside: what stands between the tags of the array.
   template <class T>
   void array(std::string_view name, int components, const std::vector<T>& values,
-             std::string_view attributes = "") {
+             std::string_view attributes = "", std::string_view inside = "") {
     fmt::format_to(std::back_inserter(xml_.back()),
                    "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{} format=\"appended\" "
                    "offset=\"",
                    vtk_type<T>(), name, components, attributes);
-    xml_.emplace_back("\"/>\n");
+    xml_.push_back(inside.empty() ? "\"/>\n" : fmt::format("\">{}</DataArray>\n", inside));
     const std::uint64_t bytes = values.size() * sizeof(T);
     std::string& block = blocks_.emplace_back();
     block.reserve(sizeof bytes + bytes);
@@ -106,14 +109,38 @@ class VtuText {
   std::vector<std::string> xml_{1}, blocks_;  // between two pieces of XML stands the offset of a block
 };
 
-void add_arrays(VtuText& vtu, const std::vector<VtkArray>& arrays) {
+// "psi, compression positive" where VTK keeps the unit of an array: vtkDataArray::UNITS_LABEL.
+std::string unit_label(const FieldEntry& field, const UnitSystem& units) {
+  constexpr std::string_view kSigns[] = {"", "compression positive", "positive along the axes"};
+  std::string text = field.dimension == Dimension::none ? "" : unit_text(field.dimension, units);
+  const std::string_view sign = kSigns[static_cast<std::size_t>(field.sign)];
+  if (!text.empty() && !sign.empty()) text += ", ";
+  text += sign;
+  if (text.empty()) return text;
+  return fmt::format(R"(<InformationKey name="UNITS_LABEL" location="vtkDataArray">{}</InformationKey>)",
+                     xml_text(text));
+}
+
+void add_arrays(VtuText& vtu, const std::vector<VtkArray>& arrays, const UnitSystem& units) {
   for (const VtkArray& array : arrays) {
     std::string names;
     for (std::size_t c = 0; c < array.components.size(); ++c)
       names += fmt::format(" ComponentName{}=\"{}\"", c, array.components[c]);
     const int width = static_cast<int>(array.width);
-    std::visit([&](const auto& values) { vtu.array(array.name, width, values, names); }, array.values);
+    const std::string label = unit_label(*array.field, units);
+    std::visit([&](const auto& values) { vtu.array(array.name, width, values, names, label); }, array.values);
   }
+}
+
+// Numbers alone: meshio refuses a file with words among them.  VTK takes TimeValue for the file's time.
+void add_step(VtuText& vtu, const Model& model, const StepReport& step) {
+  constexpr std::string_view kOne = " NumberOfTuples=\"1\"";
+  vtu.tag("    <FieldData>");
+  vtu.array("TimeValue", 1, std::vector{StateTime(model).at(step.stage, step.load_factor)}, kOne);
+  vtu.array("stage", 1, std::vector{std::int32_t{step.stage + 1}}, kOne);
+  vtu.array("increment", 1, std::vector{std::int32_t{step.increment}}, kOne);
+  vtu.array("load_factor", 1, std::vector{step.load_factor}, kOne);
+  vtu.tag("    </FieldData>");
 }
 
 void add_grid(VtuText& vtu, const VtkGrid& grid) {
@@ -149,7 +176,8 @@ void warn_of_vtu(const Model& model, Diagnostics& diagnostics) {
     if (group.elements() > 0 && group.entry->vtk.type == 0) warn_of_corners(group, "VTU", diagnostics);
 }
 
-std::string vtu_text(const Model& model, const Solution& solution, std::string_view comment) {
+std::string vtu_text(const Model& model, const Solution& solution, std::string_view comment,
+                     const StepReport* step) {
   const NodalLayout layout = nodal_layout(model, *solution.activity);
   const VtkGrid grid = vtk_grid(model, layout);
   const FieldTable table = fields_of(model);
@@ -158,14 +186,15 @@ std::string vtu_text(const Model& model, const Solution& solution, std::string_v
       "<?xml version=\"1.0\"?>\n" + head(model, comment) +
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">");
   vtu.tag("  <UnstructuredGrid>");
+  if (step != nullptr) add_step(vtu, model, *step);
   vtu.tag(fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">", layout.entries(),
                       grid.types.size()));
   add_grid(vtu, grid);
   vtu.tag("      <PointData Vectors=\"displacement\">");
-  add_arrays(vtu, vtk_point_data(model, solution, layout, table));
+  add_arrays(vtu, vtk_point_data(model, solution, layout, table), model.units);
   vtu.tag("      </PointData>");
   vtu.tag("      <CellData>");
-  add_arrays(vtu, vtk_cell_data(model, solution, table));
+  add_arrays(vtu, vtk_cell_data(model, solution, table), model.units);
   vtu.tag("      </CellData>");
   vtu.tag("    </Piece>");
   vtu.tag("  </UnstructuredGrid>");
@@ -188,9 +217,11 @@ void Vtu::add(const Model& model, const StepReport& report, const Solution& solu
               std::string_view comment) {
   files_.push_back(file(++count_));
   const std::string name = files_.back().filename().string();
-  write_file(files_.back(), vtu_text(model, solution, comment));
+  write_file(files_.back(), vtu_text(model, solution, comment, &report));
+  const StateTime time(model);
+  if (count_ == 1) pvd_.text() += fmt::format("    <!-- timestep: {} -->\n", time.meaning());
   pvd_.text() += fmt::format("    <DataSet timestep=\"{:.9g}\" part=\"0\" file=\"{}\"/>\n",
-                             report.stage + report.load_factor, xml_text(name));
+                             time.at(report.stage, report.load_factor), xml_text(name));
   pvd_.checkpoint();
 }
 

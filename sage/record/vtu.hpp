@@ -2,7 +2,7 @@
 // file that lists them.
 //
 // Points: one for each node and material that meet there, so that stress may jump between materials.  Cells:
-// solids as VTK's own shapes, interfaces as quadrilaterals of zero thickness; active groups only.
+// solids as VTK's own shapes, interfaces as lines along their bottom sides; active groups only.
 //   point data  fields of nodes; stress and strain [xx yy zz xy yz xz], averaged over the elements of the same
 //               material
 //   cell data   fields of elements, and those of integration points: plain means over the points.  What does not
@@ -15,7 +15,7 @@
 namespace sage {
 
 // STEM_0001.vtu, STEM_0002.vtu, ..., STEM.pvd.  In the names of the VTU files stands %XX for bytes that are no
-// UTF-8.  Time in the PVD: stage - 1 + load factor of the stage.
+// UTF-8.  Times as StateTime has them.
 class Vtu final : public Output {
  public:
   // Throws OutputError.
@@ -46,7 +46,9 @@ class Vtu final : public Output {
 // A warning for each group whose elements VTK has not: their corners are written.
 void warn_of_vtu(const Model& model, Diagnostics& diagnostics);
 
-// One state as the text of a VTU file.  The comment stands at its top, where a person sees it.
-std::string vtu_text(const Model& model, const Solution& solution, std::string_view comment = "");
+// One state as the text of a VTU file.  The comment stands at its top, where a person sees it.  With a step, its
+// time, stage, increment and load factor are the file's field data.
+std::string vtu_text(const Model& model, const Solution& solution, std::string_view comment = "",
+                     const StepReport* step = nullptr);
 
 }  // namespace sage

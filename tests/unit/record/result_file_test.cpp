@@ -116,8 +116,8 @@ TEST(ResultFile, HasTheLayoutOfVtkHdf) {
   EXPECT_EQ(file.numbers("/VTKHDF/Steps/Values").size(), 3u);
   EXPECT_EQ(file.numbers("/VTKHDF/NumberOfPoints"), std::vector<double>{10});  // one grid for all steps
   EXPECT_EQ(file.numbers("/VTKHDF/NumberOfCells"), std::vector<double>{3});
-  EXPECT_EQ(file.numbers("/VTKHDF/Offsets"), (std::vector<double>{0, 4, 8, 12}));
-  EXPECT_EQ(file.numbers("/VTKHDF/Types"), (std::vector<double>{9, 9, 9}));
+  EXPECT_EQ(file.numbers("/VTKHDF/Offsets"), (std::vector<double>{0, 4, 8, 10}));
+  EXPECT_EQ(file.numbers("/VTKHDF/Types"), (std::vector<double>{9, 9, 3}));
   EXPECT_EQ(file.numbers("/VTKHDF/Steps/PartOffsets"), (std::vector<double>{0, 0, 0}));
   EXPECT_EQ(file.shape("/VTKHDF/Steps/CellOffsets"), (Shape{3, 1}));
   EXPECT_EQ(file.numbers("/VTKHDF/Steps/PointDataOffsets/stress"), (std::vector<double>{0, 10, 20}));

@@ -82,7 +82,8 @@ TEST_F(VtuReadBack, AxisymmetricSpecimenWithInterface) {
   ASSERT_FALSE(lines.empty());
   // 6 specimen nodes and 4 interface nodes: nodes 50 and 60 stand in both.
   EXPECT_EQ(lines[0], "points 10");
-  EXPECT_EQ(lines[1], "cells quad 3");
+  EXPECT_EQ(lines[1], "cells quad 2");
+  EXPECT_EQ(lines[2], "cells line 1");
   const auto displacement = facts(lines, "displacement");
   ASSERT_EQ(displacement.size(), 10u);
   for (const auto& d : displacement) {
@@ -148,8 +149,10 @@ TEST_F(VtuReadBack, LeavesOutGroupsThatAreNotActive) {
 // One element of every solid shape and interface: VTK's types by meshio's names.
 TEST_F(VtuReadBack, KnowsEveryShape) {
   const auto folder = fresh_folder("vtu_shapes");
-  const std::map<int, const char*> names{{5, "triangle"},
+  const std::map<int, const char*> names{{3, "line"},
+                                         {5, "triangle"},
                                          {9, "quad"},
+                                         {21, "line3"},
                                          {22, "triangle6"},
                                          {23, "quad8"},
                                          {28, "quad9"},
@@ -204,6 +207,20 @@ TEST(Vtu, PvdListsEveryOutputIncrementWithItsTime) {
   EXPECT_NE(pvd.find("timestep=\"1\" part=\"0\" file=\"t_0003.vtu\""), std::string::npos) << pvd;
   EXPECT_EQ(vtu.files().size(), 4u);
   EXPECT_EQ(pvd.find("NOT CONVERGED"), std::string::npos);
+}
+
+TEST(Vtu, FilesSayTheirStepAndUnits) {
+  Specimen specimen;
+  specimen.compress(0.01);
+  const StepReport step = specimen.step(3, 4);
+  const std::string text = vtu_text(specimen.model, specimen.solution(), "", &step);
+  for (const char* name : {"TimeValue", "stage", "increment", "load_factor"})
+    EXPECT_NE(text.find("Name=\"" + std::string(name) + "\" NumberOfComponents=\"1\" NumberOfTuples=\"1\""),
+              std::string::npos)
+        << name;
+  EXPECT_NE(text.find("location=\"vtkDataArray\">psi, compression positive</InformationKey>"),
+            std::string::npos);
+  EXPECT_EQ(vtu_text(specimen.model, specimen.solution()).find("FieldData"), std::string::npos);
 }
 
 TEST(Vtu, FailedRunKeepsTheLastConvergedStateAndSaysSo) {
