@@ -37,6 +37,7 @@ Command tables_command(CLI::App& parser, const Catalogue& catalogue);
 Command convert_command(CLI::App& parser, const Catalogue& catalogue);
 Command verify_command(CLI::App& parser, const Catalogue& catalogue);
 Command compare_command(CLI::App& parser, const Catalogue& catalogue);
+Command drive_command(CLI::App& parser, const Catalogue& catalogue);
 Command figures_command(CLI::App& parser, const Catalogue& catalogue);
 Command stress_command(CLI::App& parser, const Catalogue& catalogue);
 Command layout_command(CLI::App& parser, const Catalogue& catalogue);

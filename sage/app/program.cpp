@@ -52,6 +52,8 @@ constexpr Entry kCommands[] = {
      verify_command},
     {"compare", "two decks, or one deck in two ways, side by side: forces, stresses, lines, theory, pictures",
      compare_command},
+    {"drive", "a law along a laboratory's path (triaxial, oedometer, shear, ...) without a mesh; CSV and plots",
+     drive_command},
     {"stress", "stability stress test: everything swept to the edge must be right or say what is wrong",
      stress_command},
 };

@@ -37,7 +37,7 @@ PointIn<N> PointDriver<N>::input(const Vector<N>& deps) const {
 
 namespace {
 
-// What the stress-controlled components still lack; zero for the others.
+// What the stress-controlled components still lack; zero for the others.  sigma: with that of the springs.
 template <int N>
 Vector<N> lack(const std::array<Control, N>& control, const Vector<N>& target, const Vector<N>& sigma) {
   Vector<N> r = Vector<N>::Zero();
@@ -63,7 +63,8 @@ Vector<N> correction_for(const std::array<Control, N>& control, const Vector<N>&
 // Newton; unknowns are the strain increments of the stress-controlled components.  A correction that makes
 // things worse is halved, seven times at most.
 template <int N>
-bool PointDriver<N>::attempt(const std::array<Control, N>& control, const Vector<N>& target, bool may_divide) {
+bool PointDriver<N>::attempt(const std::array<Control, N>& control, const Vector<N>& target,
+                             const Vector<N>& springs, bool may_divide) {
   PointOut<N> out;
   out.h1 = h_trial_;
   Vector<N> deps = Vector<N>::Zero();
@@ -73,7 +74,7 @@ bool PointDriver<N>::attempt(const std::array<Control, N>& control, const Vector
 
   double scale = sigma_.cwiseAbs().maxCoeff();  // largest stress met on the way
   for (int iteration = 0; iteration < kIterations; ++iteration) {
-    const Vector<N> r = lack<N>(control, target, out.sigma);
+    const Vector<N> r = lack<N>(control, target, out.sigma + springs.cwiseProduct(deps));
     scale = std::max(scale, out.sigma.cwiseAbs().maxCoeff());
     if (!r.allFinite()) return false;
     if (r.cwiseAbs().maxCoeff() <= kTolerance * scale) {
@@ -85,31 +86,36 @@ bool PointDriver<N>::attempt(const std::array<Control, N>& control, const Vector
       ++steps_;
       return true;
     }
-    const Vector<N> base = deps, correction = correction_for<N>(control, r, out.D);
+    const Matrix<N> stiffness = out.D + Matrix<N>(springs.asDiagonal());
+    const Vector<N> base = deps, correction = correction_for<N>(control, r, stiffness);
     for (int cut = 0; cut < 8; ++cut) {
       deps = base + std::ldexp(1.0, -cut) * correction;
-      if (call(deps, out) == Outcome::ok && lack<N>(control, target, out.sigma).norm() < r.norm()) break;
+      if (call(deps, out) == Outcome::ok &&
+          lack<N>(control, target, out.sigma + springs.cwiseProduct(deps)).norm() < r.norm())
+        break;
     }
   }
   return false;
 }
 
 template <int N>
-void PointDriver<N>::advance(const std::array<Control, N>& control, const Vector<N>& target, double duration) {
+void PointDriver<N>::advance(const std::array<Control, N>& control, const Vector<N>& target, double duration,
+                             const Vector<N>& springs) {
   double done = 0.0, share = 1.0;  // of the step
   const double start = context_.time;
   ++context_.increment;
-  const Vector<N> sigma_start = sigma_;
+  const Vector<N> sigma_start = sigma_, eps_start = eps_;
   const double smallest = std::ldexp(1.0, -kHalvings);
   while (done < 1.0) {
     Vector<N> part;
     for (int i = 0; i < N; ++i)
       part[i] = control[static_cast<std::size_t>(i)] == Control::strain
                     ? share * target[i]
-                    : sigma_start[i] + (done + share) * (target[i] - sigma_start[i]);
+                    : sigma_start[i] + (done + share) * (target[i] - sigma_start[i]) -
+                          springs[i] * (eps_[i] - eps_start[i]);
     context_.dt = share * duration;
     context_.time = start + (done + share) * duration;
-    if (attempt(control, part, share > kSmallestPart)) {
+    if (attempt(control, part, springs, share > kSmallestPart)) {
       done += share;
     } else {
       share *= 0.5;

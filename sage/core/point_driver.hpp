@@ -24,7 +24,10 @@ class PointDriver {
   // stress-controlled one has at the end.  Newton on the law's tangent; a step that fails is halved, up to
   // 2^12 parts.  Throws AnalysisError when that fails too (the path can't be followed: collapse, lost contact);
   // the state is then the last one that was reached.  duration: time of the step, for laws that want it.
-  void advance(const std::array<Control, N>& control, const Vector<N>& target, double duration = 1.0);
+  // springs [stress per strain, >= 0]: a stress-controlled component ends at target[i] - springs[i] times its own
+  // strain increment, as a joint between rocks that give way does (constant normal stiffness).
+  void advance(const std::array<Control, N>& control, const Vector<N>& target, double duration = 1.0,
+               const Vector<N>& springs = Vector<N>::Zero());
 
   const Vector<N>& sigma() const { return sigma_; }
   const Vector<N>& eps() const { return eps_; }
@@ -37,7 +40,8 @@ class PointDriver {
   int steps() const { return steps_; }  // accepted parts so far
 
  private:
-  bool attempt(const std::array<Control, N>& control, const Vector<N>& target, bool may_divide);
+  bool attempt(const std::array<Control, N>& control, const Vector<N>& target, const Vector<N>& springs,
+               bool may_divide);
   Outcome call(const Vector<N>& deps, PointOut<N>& out);
   PointIn<N> input(const Vector<N>& deps) const;
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <limits>
 
@@ -27,6 +28,12 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
+std::string trimmed(const std::string& cell) {
+  const std::size_t first = cell.find_first_not_of(" \t");
+  if (first == std::string::npos) return "";
+  return cell.substr(first, cell.find_last_not_of(" \t") - first + 1);
+}
+
 // "force[lbf]"
 CsvTable::Column column_of(const std::string& cell) {
   const std::size_t bracket = cell.find('[');
@@ -36,7 +43,8 @@ CsvTable::Column column_of(const std::string& cell) {
 
 double number_of(const std::string& cell) {
   double value = 0.0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  const char* const start = cell.data() + (cell.starts_with('+') ? 1 : 0);
+  const auto [end, error] = std::from_chars(start, cell.data() + cell.size(), value);
   const bool whole = error == std::errc() && end == cell.data() + cell.size();
   return whole ? value : std::numeric_limits<double>::quiet_NaN();
 }
@@ -68,7 +76,8 @@ CsvTable read_csv_table(const std::filesystem::path& file) {
       table.comments.push_back(line.substr(line.size() > 1 && line[1] == ' ' ? 2 : 1));
       continue;
     }
-    const std::vector<std::string> cells = cells_of(line);
+    std::vector<std::string> cells = cells_of(line);
+    for (std::string& cell : cells) cell = trimmed(cell);
     if (table.columns.empty()) {
       for (const std::string& cell : cells) table.columns.push_back(column_of(cell));
       continue;
@@ -76,7 +85,12 @@ CsvTable read_csv_table(const std::filesystem::path& file) {
     if (cells.size() != table.columns.size())
       throw InputError({file.string(), number, 0, 0}, fmt::format("{} cells, where the line of names has {}",
                                                                   cells.size(), table.columns.size()));
-    for (std::size_t i = 0; i < cells.size(); ++i) table.columns[i].values.push_back(number_of(cells[i]));
+    table.lines.push_back(number);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const double value = number_of(cells[i]);
+      table.columns[i].values.push_back(value);
+      if (!cells[i].empty() && std::isnan(value)) table.words.push_back({number, i, cells[i]});
+    }
   }
   if (table.columns.empty())
     throw InputError({file.string(), 0, 0, 0}, "has no line with the names of columns");

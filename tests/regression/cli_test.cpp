@@ -48,6 +48,9 @@ TEST(CommandLine, HelpOfEverySubcommandNamesItsOptions) {
       {"verify", {"--list", "--only", "--rows", "--csv", "--write"}},
       {"figures", {"--only", "--output", "--format", "--list"}},
       {"stress", {"--list", "--only", "--details", "--csv", "--write"}},
+      {"drive",
+       {"--law", "--set", "--deck", "--material", "--case", "--cases", "--test", "--path", "--pressure", "--to",
+        "--cycles", "--undrained", "--normal-stiffness", "--csv", "--plot", "Exit code 3"}},
       {"compare",
        {"DECK", "--both", "--formulation", "--element", "--geometry", "--solver", "--formulation-b",
         "--element-b", "--geometry-b", "--solver-b", "--layout-b", "--line", "--point", "--picture", "--output",
@@ -60,6 +63,44 @@ TEST(CommandLine, HelpOfEverySubcommandNamesItsOptions) {
     for (const char* word : words) expect_words(help.out, {word});
     EXPECT_EQ(sagefe(folder, "--help " + command).out, help.out);
   }
+}
+
+// Curves of two laws in a table and a plot; a stress beyond the strength ends in exit code 3 with the curve written;
+// mistakes of the command line in 1, of a file in 2.
+TEST(CommandLine, DriveTakesLawsAlongPaths) {
+  const fs::path folder = empty_folder("drive");
+  const std::string law = "drive --law mohr_coulomb --set E=2e4 --set nu=.3 --set c=0 --set phi=30 ";
+  const Finished run =
+      sagefe(folder, law +
+                         "--case a: --case b:,phi=35 --test triaxial_compression --pressure 100 "
+                         "--to .1 --csv out/c.csv --plot out/c.svg");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  expect_words(run.out, {"a: 101 rows", "end      axial_deviator = 200 at strain_yy = 0.1, yielded"});
+  expect_words(read(folder / "out/c.csv"), {"compression positive", ",axial_deviator[-],", "\nb,1,100,"});
+  expect_words(read(folder / "out/c.svg"), {"axial deviator", "volume strain"});
+  write(folder / "path.csv", "stress_xx,stress_yy,stress_zz\n100,400,100\n");
+  const Finished beyond = sagefe(folder, law + "--path path.csv --pressure 100 --csv -");
+  EXPECT_EQ(beyond.exit_code, 3);
+  expect_words(beyond.out, {"ends in leg 1, step 67 of 100", "\nmohr_coulomb,1,67,"});
+  EXPECT_EQ(sagefe(folder, law + "--test oedometer").exit_code, 1);
+  EXPECT_EQ(sagefe(folder, law + "--test oedometer --to .1 --undrained").exit_code, 1);
+  EXPECT_EQ(sagefe(folder, law + "--path nothing.csv").exit_code, 2);
+  EXPECT_EQ(sagefe(folder, law + "--path path.csv --csv path.csv").exit_code, 1);
+  write(folder / "cases.txt", "# two\na:linear_elastic,E=1,nu=.2\nb:linear_elastic,E=1\n");
+  const Finished wrong = sagefe(folder, "drive --cases cases.txt --test oedometer --to .1");
+  EXPECT_EQ(wrong.exit_code, 2);
+  expect_words(wrong.err, {"cases.txt:3: error: b (linear_elastic): not set: poissons_ratio"});
+  expect_words(sagefe(folder, "drive --list").out, {"simple_shear", "closure"});
+}
+
+// The chapter's specimen: its law from the deck gives q = 150 psi at the strength of sin phi = .6, sigma_3 = 50.
+TEST(CommandLine, DriveTakesADecksMaterial) {
+  const fs::path folder = empty_folder("drive_deck");
+  const Finished run =
+      sagefe(folder, std::string("drive --deck " SAGE_SOURCE_DIR "/legacy_inputs/chapter7/dp_285/deck.dat") +
+                         " --material 1 --test triaxial_compression --pressure 50 --to .15");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  expect_words(run.out, {"Drucker-Prager: 101 rows", "end      axial_deviator = 150"});
 }
 
 // What follows a value are decks, the first of several too.

@@ -53,6 +53,20 @@ TEST(PointDriver, StressTargetsAreReachedLinearly) {
   EXPECT_NEAR(point.eps()[3], 0.01, 1e-14);
 }
 
+// Lateral springs k on an elastic point: s_x = -k e_x, so e_x = -nu e_y/(1 + k (1 + nu)(1 - 2 nu)/E).
+// In one step, and where the law refuses and the step is divided.
+TEST(PointDriver, SpringsPushBack) {
+  const double E = 3000, nu = 0.25, k = 500, e_y = -0.01;
+  const double e_x = -nu * e_y / (1 + k * (1 + nu) * (1 - 2 * nu) / E);
+  for (const double largest : {1e9, 0.003}) {
+    const Elastic law(largest);
+    PointDriver<4> point(law, {-50, -50, -50, 0});
+    point.advance(kTriaxial, {-50, e_y, -50, 0}, 1.0, {k, 0, k, 0});
+    EXPECT_NEAR(point.eps()[0], e_x, 1e-14);
+    EXPECT_NEAR(point.sigma()[0], -50 - k * e_x, 1e-11);
+  }
+}
+
 TEST(PointDriver, SaysWhenItCannot) {
   const Elastic law(1e-9);
   PointDriver<4> point(law, {-50, -50, -50, 0});

@@ -1,0 +1,319 @@
+// sagefe drive: a law along a laboratory's path, without a mesh.
+#include <fmt/format.h>
+
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+#include <cmath>
+#include <memory>
+
+#include "sage/app/commands.hpp"
+#include "sage/app/exit_codes.hpp"
+#include "sage/app/input.hpp"
+#include "sage/drive/curve_files.hpp"
+#include "sage/drive/path_file.hpp"
+#include "sage/drive/subject.hpp"
+#include "sage/record/out_file.hpp"
+
+namespace sage::app {
+
+namespace {
+
+using namespace drive;
+
+struct DriveOptions {
+  std::string law, deck, layout, cases_file;
+  int material = 0;
+  std::vector<std::string> settings, cases;
+  std::vector<std::string> unit_names;
+  UnitSystem units;
+
+  std::string test, path;
+  double pressure = 0.0, normal_stiffness = 0.0;
+  std::vector<double> start, turns{};
+  bool undrained = false, list = false;
+  int steps = 100, cycles = 1;
+
+  std::string csv, plot;
+  std::vector<std::string> panels;
+  int digits = 10;
+};
+
+// Mistakes of a text of the command line are the command line's, those of a file the file's.
+template <class Work>
+auto of_command_line(const std::string& option, const Work& work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    if (!error.diagnostics().list().front().where.file.empty()) throw;
+    throw UsageError(option + error.diagnostics().list().front().message);
+  }
+}
+
+// A material of a deck, with its parameters and units.
+Subject subject_of_deck(const DriveOptions& options, const Catalogue& catalogue) {
+  InputOptions input;
+  input.layout = options.layout;
+  const Deck deck = read_input(options.deck, input);
+  const Model model = build_model(deck, catalogue, input.build);
+  std::string known;
+  for (const Material& material : model.materials) {
+    known += fmt::format("{}{} {}", known.empty() ? "" : ", ", material.number, material.name);
+    if (material.number != options.material && !(options.material == 0 && model.materials.size() == 1))
+      continue;
+    Subject subject = subject_of(catalogue, material.law_name, model.units);
+    std::ranges::copy(material.parameters, subject.values.begin());
+    if (!material.name.empty()) subject.name = material.name;
+    return subject;
+  }
+  throw UsageError(fmt::format("which material? --material NUMBER; the deck has {}", known));
+}
+
+UnitSystem units_of(const DriveOptions& options) {
+  UnitSystem units = options.units;
+  if (!options.unit_names.empty()) {
+    units.length = options.unit_names[0];
+    units.force = options.unit_names[1];
+    units.stress = options.unit_names[2];
+  }
+  return units;
+}
+
+std::vector<Subject> subjects_of(const DriveOptions& options, const Catalogue& catalogue) {
+  if (options.law.empty() == options.deck.empty() && options.cases.empty() && options.cases_file.empty())
+    throw UsageError("which law? --law LAW, --deck DECK, --case NAME:LAW,... or --cases FILE");
+  if (!options.law.empty() && !options.deck.empty()) throw UsageError("--law and --deck exclude each other");
+  UnitSystem units = units_of(options);
+  std::vector<Subject> subjects;
+  std::unique_ptr<Subject> base;
+  if (!options.deck.empty()) base = std::make_unique<Subject>(subject_of_deck(options, catalogue));
+  if (!options.law.empty())
+    base = of_command_line(
+        "--law: ", [&] { return std::make_unique<Subject>(subject_of(catalogue, options.law, units)); });
+  if (base) {
+    base->pressure = options.pressure;
+    units = base->units;
+    for (const std::string& text : options.settings)
+      of_command_line("--set ", [&] { apply(*base, setting_from(text)); });
+  } else if (!options.settings.empty()) {
+    throw UsageError("--set goes with --law or --deck; a case has its own settings");
+  }
+  if (base && options.cases.empty() && options.cases_file.empty()) {
+    of_command_line("", [&] { expect_whole(*base); });
+    subjects.push_back(*base);
+  }
+  for (const std::string& text : options.cases)
+    subjects.push_back(of_command_line("--case " + text + ": ", [&] {
+      return subject_from(catalogue, text, units, options.pressure, base.get());
+    }));
+  if (!options.cases_file.empty()) {
+    keep_input(options.cases_file);
+    for (Subject& subject : read_subjects(catalogue, options.cases_file, units, options.pressure, base.get()))
+      subjects.push_back(std::move(subject));
+  }
+  return subjects;
+}
+
+// Start, legs and what holds, for one of the cases.
+Path path_of(const DriveOptions& options, const Subject& subject, const LabTest* test) {
+  const int size = subject.entry->law_size;
+  Path path;
+  path.start.assign(static_cast<std::size_t>(size), 0.0);
+  if (!options.start.empty()) {
+    if (options.start.size() > path.start.size())
+      throw UsageError(fmt::format("--start: the law has {} components of stress", size));
+    std::ranges::copy(options.start, path.start.begin());
+  } else if (size == 4) {
+    std::fill_n(path.start.begin(), 3, subject.pressure);
+  } else {
+    path.start[1] = subject.pressure;
+  }
+  path.normal_stiffness = options.normal_stiffness;
+  if (test == nullptr) {
+    path.legs = read_path(options.path, size, options.undrained, options.steps);
+    return path;
+  }
+  std::vector<double> turns;
+  for (int cycle = 0; cycle < options.cycles; ++cycle)
+    turns.insert(turns.end(), options.turns.begin(), options.turns.end());
+  path.legs = legs_of(*test, options.undrained, path.start, turns, options.steps);
+  if (options.undrained && size == 4) path.total_stress_stays = test->total_stress_stays;
+  return path;
+}
+
+// nullptr: a path from a file.
+const LabTest* test_for(const DriveOptions& options, int size) {
+  if (options.test.empty() == options.path.empty())
+    throw UsageError("what is to be done with the law? --test NAME or --path FILE (sagefe drive --list)");
+  if (options.normal_stiffness > 0.0 && (size != 2 || options.undrained))
+    throw UsageError("--normal-stiffness is for joints whose volume may change");
+  if (!options.path.empty()) {
+    if (!options.turns.empty() || options.cycles != 1) throw UsageError("--to and --cycles go with --test");
+    keep_input(options.path);
+    return nullptr;
+  }
+  const LabTest* test = find_lab_test(options.test, size);
+  if (test == nullptr)
+    throw UsageError(fmt::format("--test {}: none for laws of {}s; there are {}", options.test, law_words(size),
+                                 known_lab_tests(size)));
+  if (options.undrained && test->undrained.empty())
+    throw UsageError(fmt::format("--undrained: nothing moves in {} without change of volume", test->name));
+  if (options.turns.empty())
+    throw UsageError(fmt::format("--to: how far? {} at the end", driven_column(*test)));
+  return test;
+}
+
+Heading heading_of(const DriveOptions& options, const std::vector<Subject>& subjects) {
+  Heading heading;
+  heading.title = options.path.empty() ? options.test : "path of " + options.path;
+  if (options.undrained) heading.title += ", constant volume";
+  if (options.normal_stiffness > 0.0)
+    heading.title += fmt::format(", normal stiffness {:g}", options.normal_stiffness);
+  heading.units = subjects.front().units;
+  for (const Subject& subject : subjects)
+    heading.notes.push_back(
+        fmt::format("{}: {}; pressure at the start {:g}", subject.name, words_of(subject), subject.pressure));
+  return heading;
+}
+
+void list_tests() {
+  for (const int size : {4, 2}) {
+    fmt::print("of {}s:\n", law_words(size));
+    for (const LabTest& test : lab_tests())
+      if (test.law_size == size)
+        fmt::print("  {:<22} {}; --to is {}{}\n", test.name, test.about, driven_column(test),
+                   test.undrained.empty() ? "" : "; --undrained");
+  }
+}
+
+int drive_laws(const DriveOptions& options, const Catalogue& catalogue) {
+  if (options.list) {
+    list_tests();
+    return kOk;
+  }
+  const std::vector<Subject> subjects = subjects_of(options, catalogue);
+  const int size = subjects.front().entry->law_size;
+  for (const Subject& subject : subjects) {
+    if (subject.entry->law_size != size)
+      throw UsageError("all cases must be of solids, or all of joints: one test drives them");
+    for (const Subject& other : subjects)
+      if (&other != &subject && other.name == subject.name)
+        throw UsageError(fmt::format("two cases are called {}; NAME:LAW,... gives names", subject.name));
+  }
+  const LabTest* test = test_for(options, size);
+  OutFile csv, plot;  // opened first: an unwritable folder shows before anything is computed
+  const bool to_screen = options.csv == "-";
+  if (!options.csv.empty() && !to_screen) csv = OutFile(options.csv);
+  if (!options.plot.empty()) plot = OutFile(options.plot);
+
+  std::vector<Curve> curves;
+  for (const Subject& subject : subjects) {
+    const LawPtr law = make_law(subject);
+    curves.push_back(of_command_line(subject.name + ": ", [&] {
+      return follow(reference(law), subject.units, path_of(options, subject, test));
+    }));
+    curves.back().name = subject.name;
+  }
+  const std::vector<std::string> panels =
+      options.panels.empty() ? usual_panels(test, size, options.undrained) : options.panels;
+  for (const std::string& panel : panels) of_command_line("--xy ", [&] { expect_columns(panel, curves); });
+
+  const Heading heading = heading_of(options, subjects);
+  fmt::print("{}",
+             to_screen ? csv_text(heading, curves, options.digits) : summary_text(curves, panels.front()));
+  if (csv.open()) {
+    csv.text() = csv_text(heading, curves, options.digits);
+    csv.finish();
+  }
+  if (plot.open()) {
+    plot.text() = plot_text(heading, curves, panels);
+    plot.finish();
+  }
+  const bool whole = std::ranges::all_of(curves, [](const Curve& curve) { return curve.failure.empty(); });
+  return whole ? kOk : kNotConverged;
+}
+
+std::string finite_number(const std::string& text) {
+  return number_in(-1e300, 1e300, "a finite number")(text);
+}
+
+void add_law_options(CLI::App& parser, DriveOptions& options) {
+  parser.add_option("--law", options.law, "a law by name or code (sagefe list materials)");
+  parser.add_option("--deck", options.deck, "the law, parameters and units of a deck's material");
+  parser.add_option("--material", options.material, "its number in the deck (default: the only one)")
+      ->needs("--deck");
+  parser.add_option("--layout", options.layout, "card layout of the deck: a name or a TOML file")
+      ->needs("--deck");
+  parser
+      .add_option(
+          "--set", options.settings,
+          "NAME=VALUE of a parameter, as decks give it: degrees, compression positive; E, nu, c, phi and "
+          "psi for short; may be repeated")
+      ->allow_extra_args(false);
+  parser
+      .add_option(
+          "--case", options.cases,
+          "NAME:LAW,KEY=VALUE,... one curve of several; without LAW that of --law or --deck with changes; "
+          "KEY pressure is its own start; may be repeated")
+      ->allow_extra_args(false);
+  parser.add_option("--cases", options.cases_file, "a file with such a text a line");
+  parser.add_option("--units", options.unit_names, "names of length, force and stress, e.g. m,kN,kPa")
+      ->delimiter(',')
+      ->expected(3);
+  parser
+      .add_option("--p-a", options.units.atmospheric_pressure, "atmospheric pressure, for laws that ask for it")
+      ->check(finite_number);
+  parser.add_option("--gamma-w", options.units.water_unit_weight, "unit weight of water, likewise")
+      ->check(finite_number);
+}
+
+void add_test_options(CLI::App& parser, DriveOptions& options) {
+  parser.add_flag("--list", options.list, "the tests that there are");
+  parser.add_option("--test", options.test,
+                    "solids: " + known_lab_tests(4) + "; joints: " + known_lab_tests(2));
+  parser.add_option("--path", options.path,
+                    "CSV of stresses and strains instead, a leg a row: columns stress_xx ... strain_xy, steps, "
+                    "duration (docs/manual/drive.md)");
+  parser
+      .add_option("--pressure", options.pressure,
+                  "stress at the start: all round, or across a joint (default 0)")
+      ->check(finite_number);
+  parser.add_option("--start", options.start, "XX,YY,ZZ,XY or SHEAR,NORMAL: an uneven start")
+      ->delimiter(',')
+      ->check(finite_number);
+  parser
+      .add_option(
+          "--to", options.turns,
+          "strain, displacement or stress that is driven, at the end; several are turning points in turn")
+      ->delimiter(',')
+      ->check(finite_number);
+  parser.add_option("--cycles", options.cycles, "how often the turning points are gone through (default 1)")
+      ->check(CLI::Range(1, 10000));
+  parser.add_option("--steps", options.steps, "of a leg (default 100)")->check(CLI::Range(1, 1000000));
+  parser.add_flag("--undrained", options.undrained, "no change of volume (of joints: no normal displacement)");
+  parser
+      .add_option("--normal-stiffness", options.normal_stiffness,
+                  "stress/length of the ground that a shearing joint pushes when it dilates")
+      ->check(number_in(0.0, 1e300, "a finite number that is not negative"));
+}
+
+}  // namespace
+
+Command drive_command(CLI::App& parser, const Catalogue& catalogue) {
+  auto options = std::make_shared<DriveOptions>();
+  parser.footer(
+      "sagefe drive --law mohr_coulomb --set E=2e4 --set nu=.3 --set c=5 --set phi=30 --test "
+      "triaxial_compression\n"
+      "             --pressure 100 --to .05 --csv mc.csv --plot mc.svg\n"
+      "Compression positive; strains as fractions. Exit code 3 where a curve ends before its end.");
+  add_law_options(parser, *options);
+  add_test_options(parser, *options);
+  parser.add_option("--csv", options->csv,
+                    "the curves as a table; - is standard output, in place of the summary");
+  parser.add_option("--plot", options->plot, "the curves as SVG");
+  parser.add_option("--xy", options->panels, "X:Y columns of a panel of the plot; may be repeated")
+      ->allow_extra_args(false);
+  add_digits_option(parser, options->digits);
+  return [options, &catalogue] { return drive_laws(*options, catalogue); };
+}
+
+}  // namespace sage::app

@@ -1,0 +1,160 @@
+#include "sage/drive/subject.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+namespace sage::drive {
+
+namespace {
+
+constexpr double kUnset = std::numeric_limits<double>::quiet_NaN();
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+double number_from(const Setting& setting, const SourcePosition& where) {
+  const std::string& text = setting.value;
+  const char* const start = text.data() + (text.starts_with('+') ? 1 : 0);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(start, text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+    throw InputError(where, fmt::format("{}={}: wanted a finite number", setting.key, text));
+  return value;
+}
+
+// What people call them; the names are those of parameters without a role of their own.
+struct ShortName {
+  std::string_view key;
+  ParameterRole role;
+  std::string_view name;
+};
+constexpr ShortName kShortNames[] = {
+    {"E", ParameterRole::youngs_modulus, ""},  {"nu", ParameterRole::poissons_ratio, ""},
+    {"c", ParameterRole::strength, ""},        {"phi", ParameterRole::friction_angle, ""},
+    {"gamma", ParameterRole::unit_weight, ""}, {"psi", ParameterRole::none, "dilation_angle"},
+};
+
+std::string parameter_names(const MaterialEntry& entry) {
+  std::string names;
+  for (const Parameter& parameter : entry.parameters) names += (names.empty() ? "" : ", ") + parameter.name;
+  return names;
+}
+
+}  // namespace
+
+Setting setting_from(std::string_view text, const SourcePosition& where) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string_view::npos || trimmed(text.substr(0, equals)).empty())
+    throw InputError(where, fmt::format("{}: wanted NAME=VALUE", text));
+  return {std::string(trimmed(text.substr(0, equals))), std::string(trimmed(text.substr(equals + 1)))};
+}
+
+int parameter_place(const MaterialEntry& entry, std::string_view key) {
+  if (const int place = entry.find(key); place >= 0) return place;
+  for (const ShortName& known : kShortNames)
+    if (known.key == key) return known.name.empty() ? entry.find(known.role) : entry.find(known.name);
+  return -1;
+}
+
+Subject subject_of(const Catalogue& catalogue, std::string_view law, const UnitSystem& units,
+                   const SourcePosition& where) {
+  for (const auto& [code, entry] : catalogue.materials.entries())
+    if (entry.name == law || std::to_string(code) == law) {
+      Subject subject;
+      subject.name = entry.name;
+      subject.code = code;
+      subject.entry = catalogue.materials.share(code);
+      subject.units = units;
+      for (const Parameter& row : entry.parameters)
+        subject.values.push_back(row.required ? kUnset : row.fallback);
+      return subject;
+    }
+  throw InputError(where, fmt::format("there is no law {}; known: {}", law, catalogue.materials.known()));
+}
+
+void apply(Subject& subject, const Setting& setting, const SourcePosition& where) {
+  const double value = number_from(setting, where);
+  if (setting.key == "pressure") {
+    subject.pressure = value;
+    return;
+  }
+  const int place = parameter_place(*subject.entry, setting.key);
+  if (place < 0)
+    throw InputError(where, fmt::format("{} has no parameter {}; it has {} (and E, nu, c, phi, psi for short; "
+                                        "pressure is that of the start)",
+                                        subject.entry->name, setting.key, parameter_names(*subject.entry)));
+  subject.values[static_cast<std::size_t>(place)] = value;
+}
+
+void expect_whole(const Subject& subject, const SourcePosition& where) {
+  std::string missing;
+  for (std::size_t i = 0; i < subject.values.size(); ++i)
+    if (std::isnan(subject.values[i]))
+      missing += (missing.empty() ? "" : ", ") + subject.entry->parameters[i].name;
+  if (!missing.empty())
+    throw InputError(where, fmt::format("{} ({}): not set: {}", subject.name, subject.entry->name, missing));
+  try {
+    make_law(subject);
+  } catch (const ParameterError& error) {
+    throw InputError(where, fmt::format("{} ({}): {}", subject.name, subject.entry->name, error.what()));
+  }
+}
+
+Subject subject_from(const Catalogue& catalogue, std::string_view text, const UnitSystem& units,
+                     double pressure, const Subject* base, const SourcePosition& where) {
+  const std::size_t comma = std::min(text.find(','), text.size());
+  const std::string_view head = trimmed(text.substr(0, comma));
+  const std::size_t colon = head.find(':');
+  const bool named = colon != std::string_view::npos;
+  const std::string_view law = named ? trimmed(head.substr(colon + 1)) : head;
+  if (law.empty() && base == nullptr)
+    throw InputError(where, fmt::format("{}: wanted NAME:LAW,KEY=VALUE,...", text));
+  Subject subject = law.empty() ? *base : subject_of(catalogue, law, units, where);
+  if (!law.empty()) subject.pressure = pressure;
+  if (named) subject.name = std::string(trimmed(head.substr(0, colon)));
+  if (subject.name.empty() || subject.name.find('"') != std::string::npos)
+    throw InputError(where, fmt::format("{}: wanted a name without quotes before the colon", text));
+  for (std::size_t at = comma + 1, end = 0; at < text.size(); at = end + 1) {
+    end = std::min(text.find(',', at), text.size());
+    apply(subject, setting_from(text.substr(at, end - at), where), where);
+  }
+  expect_whole(subject, where);
+  return subject;
+}
+
+std::vector<Subject> read_subjects(const Catalogue& catalogue, const std::filesystem::path& file,
+                                   const UnitSystem& units, double pressure, const Subject* base) {
+  std::ifstream stream(file);
+  if (!stream || std::filesystem::is_directory(file)) throw InputError({file.string()}, "can't be opened");
+  std::vector<Subject> subjects;
+  int number = 0;
+  for (std::string line; std::getline(stream, line);) {
+    ++number;
+    const std::string_view text = trimmed(std::string_view(line).substr(0, line.find('#')));
+    if (!text.empty())
+      subjects.push_back(subject_from(catalogue, text, units, pressure, base, {file.string(), number, 0, 0}));
+  }
+  if (subjects.empty()) throw InputError({file.string()}, "holds no case; wanted lines NAME:LAW,KEY=VALUE,...");
+  return subjects;
+}
+
+std::string words_of(const Subject& subject) {
+  std::string words = subject.entry->name;
+  for (std::size_t i = 0; i < subject.values.size(); ++i) {
+    const Parameter& row = subject.entry->parameters[i];
+    const std::string unit = unit_text(row.dimension, subject.units);
+    words += fmt::format("{} {} = {:.10g}{}", i == 0 ? ":" : ",", row.name, subject.values[i],
+                         unit == "-" ? "" : " " + unit);
+  }
+  return words;
+}
+
+}  // namespace sage::drive
