@@ -17,7 +17,8 @@ ElementEntry element_entry(ElementEntry entry, std::vector<Choice> choices) {
       known +=
           (known.empty() ? "" : ", ") + std::to_string(choice.formulation.code) + " " + choice.formulation.name;
     }
-    throw ParameterError(-1, name + ": formulation " + std::to_string(code) + " unknown; known: " + known);
+    throw ParameterError("S210", -1,
+                         name + ": formulation " + std::to_string(code) + " unknown; known: " + known);
   };
   return entry;
 }

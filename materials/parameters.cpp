@@ -23,12 +23,13 @@ Parameters::Parameters(const std::vector<Parameter>& table, std::span<const doub
                        const UnitSystem& units)
     : table_(table), units_(units) {
   if (values.size() > table.size())
-    throw ParameterError(-1, "takes at most " + std::to_string(table.size()) + " parameters, " +
-                                 std::to_string(values.size()) + " given");
+    throw ParameterError("S223", -1,
+                         "takes at most " + std::to_string(table.size()) + " parameters, " +
+                             std::to_string(values.size()) + " given");
   for (std::size_t i = 0; i < table.size(); ++i) {
     const bool given = i < values.size();
     if (!given && table[i].required)
-      throw ParameterError(static_cast<int>(i), table[i].name + " is missing: " + table[i].meaning);
+      throw ParameterError("S221", static_cast<int>(i), table[i].name + " is missing: " + table[i].meaning);
     values_.push_back(given ? values[i] : table[i].fallback);
     if (!std::isfinite(values_.back())) refuse(table[i].name, "must be a finite number");
   }
@@ -84,15 +85,17 @@ int Parameters::code(std::string_view name, std::initializer_list<int> known) co
 
 double Parameters::atmospheric_pressure() const {
   if (!(units_.atmospheric_pressure > 0.0))
-    throw ParameterError(-1, "needs the atmospheric pressure p_a of the deck's unit system, in " +
-                                 units_.stress + "; none is given");
+    throw ParameterError("S247", -1,
+                         "needs the atmospheric pressure p_a of the deck's unit system, in " + units_.stress +
+                             "; none is given");
   return units_.atmospheric_pressure;
 }
 
 double Parameters::water_unit_weight() const {
   if (!(units_.water_unit_weight > 0.0))
-    throw ParameterError(-1, "needs the unit weight of water gamma_w of the deck's unit system, in " +
-                                 unit_text(Dimension::unit_weight, units_) + "; none is given");
+    throw ParameterError("S247", -1,
+                         "needs the unit weight of water gamma_w of the deck's unit system, in " +
+                             unit_text(Dimension::unit_weight, units_) + "; none is given");
   return units_.water_unit_weight;
 }
 

@@ -43,7 +43,8 @@ std::string why_no_kernels(Kernels wanted) {
 }
 
 const TileKernels& choose_kernels(Kernels wanted) {
-  if (const std::string why = why_no_kernels(wanted); !why.empty()) throw AnalysisError("kernels: " + why);
+  if (const std::string why = why_no_kernels(wanted); !why.empty())
+    throw AnalysisError("S506", "kernels: " + why);
   const bool wide = kBuildHasAvx512 && wanted != Kernels::avx2 && machine_has_avx512();
   return wide ? avx512_kernels() : kBuildKernels;
 }

@@ -33,7 +33,7 @@ std::unique_ptr<LinearSolver> make_library_solver(std::string_view name) {
     return load_solver_module(solver_module_places());
   }();
   std::unique_ptr<LinearSolver> solver(make(std::string(name).c_str()));
-  if (!solver) throw AnalysisError("the module of library solvers has no " + std::string(name));
+  if (!solver) throw AnalysisError("S505", "the module of library solvers has no " + std::string(name));
   return solver;
 }
 

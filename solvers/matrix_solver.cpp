@@ -81,7 +81,7 @@ void MatrixSolver::refine(std::span<double> x) const {
       "the answer of the equations is wrong by %.1e of the forces after refinement (terms grew by %.1e "
       "in the elimination): choose a solver that pivots (umfpack, mumps)",
       error, report_.growth);
-  throw AnalysisError(text);
+  throw AnalysisError("S504", text);
 }
 
 double singular_pivot_ratio(int equations) {

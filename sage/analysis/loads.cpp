@@ -200,7 +200,7 @@ void apply_initial_stress(const Model& model, const InitialStress& initial, Grou
                                        ? initial_of_group(model, static_cast<int>(initial.value[0]))
                                        : nullptr;
   if (initial.kind == InitialKind::traction && neighbour == nullptr)
-    throw InputError(initial.where,
+    throw InputError("S236", initial.where,
                      "group " + std::to_string(static_cast<int>(initial.value[0])) +
                          ", whose traction the interface should take, has no initial stress card");
   data.state.make_room();
@@ -219,10 +219,10 @@ void apply_initial_stress(const Model& model, const InitialStress& initial, Grou
     }
   }
   if (refused > 0)
-    diagnostics.warning(initial.where, "the initial stress of group " + std::to_string(group.number) +
-                                           " lies outside the yield surface of its law at " +
-                                           std::to_string(refused) +
-                                           " point(s); the first increment will shed it");
+    diagnostics.warning("S520", initial.where,
+                        "the initial stress of group " + std::to_string(group.number) +
+                            " lies outside the yield surface of its law at " + std::to_string(refused) +
+                            " point(s); the first increment will shed it");
 }
 
 void apply_initial_history(const Model& model, const InitialStress& initial, GroupData& data) {
@@ -235,11 +235,11 @@ void apply_initial_history(const Model& model, const InitialStress& initial, Gro
       const bool accepted = std::visit(
           [&](const auto* law) { return start_point_with(*law, initial, point, data.state); }, data.law);
       if (accepted) continue;
-      throw InputError(initial.where, "group " + std::to_string(group.number) + ": " +
-                                          model.material_of(group).law_name +
-                                          " can't go on from this history at its initial stress, at point " +
-                                          std::to_string(p + 1) + " of element " +
-                                          std::to_string(group.element_numbers[static_cast<std::size_t>(e)]));
+      throw InputError("S236", initial.where,
+                       "group " + std::to_string(group.number) + ": " + model.material_of(group).law_name +
+                           " can't go on from this history at its initial stress, at point " +
+                           std::to_string(p + 1) + " of element " +
+                           std::to_string(group.element_numbers[static_cast<std::size_t>(e)]));
     }
 }
 

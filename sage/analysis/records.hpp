@@ -99,7 +99,8 @@ enum class RunStatus { completed, not_converged, singular, failed, stopped };
 
 struct RunResult {
   RunStatus status = RunStatus::completed;
-  std::string reason;  // one page for a person, empty when completed
+  std::string reason;  // one page for a person, with the code; empty when completed
+  Code code;           // of the reason; none when completed or stopped
   int stages_done = 0;
   int increments_done = 0;
   double motion = 0.0;  // largest difference of displacements along an axis over the model's extent along it

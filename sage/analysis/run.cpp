@@ -133,7 +133,8 @@ void Run::evaluate_start() {
   }
   set_moment(0.0, 0.0);
   if (assembly_.evaluate(state_.du, tangent) == Outcome::cut_step)
-    throw AnalysisError("stage " + std::to_string(s + 1) + ": a law cannot start from the state it is given");
+    throw AnalysisError("S503",
+                        "stage " + std::to_string(s + 1) + ": a law cannot start from the state it is given");
 }
 
 // The states and the loads at both ends of a stage.  What the forces of removed parts, initial stress and
@@ -161,7 +162,7 @@ void Run::prepare_stage(int s) {
   const InitialImbalance imbalance =
       initial_imbalance(model_, system_.activity(), s, path_.force_start, path_.force_end);
   if (imbalance.counts())
-    audience_.warn(stage_message(model_.stages[static_cast<std::size_t>(s)],
+    audience_.warn(stage_message(model_.stages[static_cast<std::size_t>(s)], "S528",
                                  explain_imbalance(model_, s, imbalance), Severity::note));
   path_.path_error = 0.0;
   path_.loose_part.clear();
@@ -344,11 +345,14 @@ bool Run::fail(StepReport& report, const NewtonStep& step) {
   warn(motion_warnings(model_.stages[static_cast<std::size_t>(report.stage)], result_.motion));
   if (step.outcome == StepOutcome::singular) {
     result_.status = RunStatus::singular;
+    result_.code = "S502";
     result_.reason = explain_singular(model_, system_.activity(), assembly_, report, step);
   } else {
     result_.status = RunStatus::not_converged;
+    result_.code = "S501";
     result_.reason = explain_failure(model_, assembly_, report, step);
   }
+  result_.reason = with_code(result_.reason, result_.code);
   state_.du.setZero();
   set_moment(report.load_factor, 0.0);
   assembly_.evaluate(state_.du, nullptr);
@@ -480,7 +484,9 @@ RunResult Run::execute() {
   } catch (const std::runtime_error& error) {
     if (audience_.is_outside()) throw;
     result_.status = RunStatus::failed;
-    result_.reason = error.what();
+    const auto* coded = dynamic_cast<const CodedError*>(&error);
+    result_.code = coded != nullptr ? coded->code() : Code("S510");
+    result_.reason = with_code(error.what(), result_.code);
     return result_;
   }
   result_.kernels = tangent_.solver().kernels();

@@ -5,7 +5,7 @@ namespace sage {
 namespace {
 
 [[noreturn]] void refuse() {
-  throw InputError({}, "the checkpoint does not belong to this model");
+  throw InputError("S630", {}, "the checkpoint does not belong to this model");
 }
 
 // Within a stage the states before the last step are kept beside that step, because the tangent that the next
@@ -70,7 +70,7 @@ Place resume_from(const Resumable& run, const std::string& bytes) {
   run.audience.tell(
       [&](Observer& o) { o.on_start(run.model, system.scene(), system.tangent().name(), system.equations()); });
   run.audience.exchange(archive);
-  if (!archive.at_end()) throw InputError({}, "the checkpoint is longer than it should be");
+  if (!archive.at_end()) throw InputError("S630", {}, "the checkpoint is longer than it should be");
   static_cast<WorkCounts&>(run.result.work) = work;
   return place;
 }

@@ -11,8 +11,8 @@ namespace {
 class Messages {
  public:
   explicit Messages(const Stage& stage) : stage_(stage) {}
-  void add(const std::string& message, Severity severity = Severity::warning) {
-    list_.push_back(stage_message(stage_, message, severity));
+  void add(Code code, const std::string& message, Severity severity = Severity::warning) {
+    list_.push_back(stage_message(stage_, code, message, severity));
   }
   std::vector<Diagnostic> list() && { return std::move(list_); }
 
@@ -24,9 +24,9 @@ class Messages {
 // Beyond it the results are those of small strains, which describe something else.
 void add_motion(Messages& messages, double motion) {
   if (!(motion > kLargeMotion)) return;
-  messages.add("displacements reach " + short_number(motion) +
-               " times the model's size: results that suppose small strains (to about " +
-               short_number(kLargeMotion) + " times) do not describe this");
+  messages.add("S521", "displacements reach " + short_number(motion) +
+                           " times the model's size: results that suppose small strains (to about " +
+                           short_number(kLargeMotion) + " times) do not describe this");
 }
 
 void add_points(Messages& messages, const Assembly& assembly) {
@@ -34,19 +34,21 @@ void add_points(Messages& messages, const Assembly& assembly) {
   const long apex = points[static_cast<std::size_t>(PointStatus::apex)];
   if (apex > 0)
     messages.add(
+        "S522",
         std::to_string(apex) +
-        " point(s) at the apex or cut off in tension: results there depend on how the law treats tension");
+            " point(s) at the apex or cut off in tension: results there depend on how the law treats tension");
   const UniquenessCount unique = count_loss_of_uniqueness(assembly);
   if (unique.lost > 0)
-    messages.add("loss of uniqueness: the determinant of the acoustic tensor is negative at " +
-                 std::to_string(unique.lost) + " of " + std::to_string(unique.plastic) +
-                 " yielding points (flow is not associated): the answer can depend on mesh and steps");
+    messages.add("S523",
+                 "loss of uniqueness: the determinant of the acoustic tensor is negative at " +
+                     std::to_string(unique.lost) + " of " + std::to_string(unique.plastic) +
+                     " yielding points (flow is not associated): the answer can depend on mesh and steps");
 }
 
 }  // namespace
 
-Diagnostic stage_message(const Stage& stage, const std::string& message, Severity severity) {
-  return {severity, stage.where, "stage " + std::to_string(stage.number) + ": " + message, {}};
+Diagnostic stage_message(const Stage& stage, Code code, const std::string& message, Severity severity) {
+  return {severity, code, stage.where, "stage " + std::to_string(stage.number) + ": " + message, {}};
 }
 
 std::vector<Diagnostic> motion_warnings(const Stage& stage, double motion) {
@@ -61,21 +63,24 @@ std::vector<Diagnostic> stage_warnings(const Stage& stage, const StageFindings& 
   Messages messages(stage);
   add_motion(messages, findings.motion);
   if (findings.out_of_balance > kPoorAudit)
-    messages.add("loads and reactions of the whole model are out of balance by " +
-                 short_number(findings.out_of_balance) + " of the largest force");
+    messages.add("S524", "loads and reactions of the whole model are out of balance by " +
+                             short_number(findings.out_of_balance) + " of the largest force");
   if (!findings.digits.words.empty())
-    messages.add(findings.digits.words, findings.digits.poor ? Severity::warning : Severity::note);
+    messages.add("S525", findings.digits.words, findings.digits.poor ? Severity::warning : Severity::note);
   if (findings.path_error > kPathTolerance)
     messages.add(
+        "S526",
         "the stiffness of a hyperbolic law changes so much that an increment in 64 parts is still too long; "
         "with more increments the results would change by more than 1 %");
-  if (!findings.loose_part.empty()) messages.add(findings.loose_part);
+  if (!findings.loose_part.empty()) messages.add("S527", findings.loose_part);
   add_points(messages, assembly);
   if (findings.last_force > stage.tolerance)
-    messages.add("equilibrium to " + short_number(findings.last_force) +
-                 " of the forces only, the tolerance is " + short_number(stage.tolerance) +
-                 ": no correction improves it further, what is left is rounding (very stiff beside very soft "
-                 "parts, or nu close to 1/2)");
+    messages.add(
+        "S525",
+        "equilibrium to " + short_number(findings.last_force) + " of the forces only, the tolerance is " +
+            short_number(stage.tolerance) +
+            ": no correction improves it further, what is left is rounding (very stiff beside very soft "
+            "parts, or nu close to 1/2)");
   return std::move(messages).list();
 }
 

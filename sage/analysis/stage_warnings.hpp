@@ -10,7 +10,8 @@
 
 namespace sage {
 
-Diagnostic stage_message(const Stage& stage, const std::string& message, Severity severity = Severity::warning);
+Diagnostic stage_message(const Stage& stage, Code code, const std::string& message,
+                         Severity severity = Severity::warning);
 
 // Displacements beyond those that small strains describe; motion: RunResult::motion.
 std::vector<Diagnostic> motion_warnings(const Stage& stage, double motion);

@@ -32,10 +32,11 @@ const SolverEntry* System::choose_solver(int equations, bool symmetric) const {
   if (code == 0 && settings_.choose_solver) code = settings_.choose_solver(equations, symmetric);
   const SolverEntry* entry = catalogue_.solvers.find(code);
   if (entry == nullptr)
-    throw AnalysisError("solver " + std::to_string(code) + " is unknown; " + catalogue_.solvers.known());
+    throw AnalysisError("S213",
+                        "solver " + std::to_string(code) + " is unknown; " + catalogue_.solvers.known());
   if (entry->symmetric && !symmetric)
-    throw AnalysisError("solver " + entry->name +
-                        " is for symmetric matrices only; this scene has an unsymmetric law");
+    throw AnalysisError(
+        "S324", "solver " + entry->name + " is for symmetric matrices only; this scene has an unsymmetric law");
   return entry;
 }
 

@@ -26,7 +26,7 @@ Diagnostics balance_note(const Model& model) {
   Diagnostics notes;
   const InitialImbalance imbalance = initial_imbalance(model);
   if (imbalance.counts())
-    notes.note(model.stages.front().where, "stage 1: " + explain_imbalance(model, 0, imbalance));
+    notes.note("S528", model.stages.front().where, "stage 1: " + explain_imbalance(model, 0, imbalance));
   return notes;
 }
 

@@ -50,6 +50,7 @@ void warn_of_results(const std::filesystem::path& to, Diagnostics& diagnostics) 
   std::error_code ignored;
   if (!std::filesystem::exists(results, ignored)) return;
   diagnostics.add({Severity::warning,
+                   "S723",
                    {to.string(), 0, 0, 0},
                    "CalculiX would write its results over " + results.string() + ": convert to another name, " +
                        (to.parent_path() / (to.stem().string() + "_ccx.inp")).string(),

@@ -17,19 +17,19 @@ int guarded(const std::string& name, const std::function<int()>& work) {
     print_diagnostics(error.diagnostics());
     return kInput;
   } catch (const UsageError& error) {
-    fmt::print(stderr, "{}: {}\n", name, error.what());
+    fmt::print(stderr, "{}: {}\n", name, message_of(error));
     return kUsage;
   } catch (const OverInput& error) {
-    fmt::print(stderr, "{}: {}\n", name, error.what());
+    fmt::print(stderr, "{}: {}\n", name, message_of(error));
     return kUsage;
   } catch (const OutputError& error) {
-    fmt::print(stderr, "{}: {}\n", name, error.what());
+    fmt::print(stderr, "{}: {}\n", name, message_of(error));
     return kOutput;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "{}: not enough memory for this model\n", name);
     return kNotConverged;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}: {}\n", name, error.what());
+    fmt::print(stderr, "{}: {}\n", name, message_of(error));
     return kNotConverged;
   }
 }

@@ -73,7 +73,7 @@ Layout layout_of(const CoverageOptions& options) {
                                                       " is: the layout comes first, sagefe layout check " +
                                                       options.deck + ' ' + options.layout);
     Diagnostics problems = error.diagnostics();
-    problems.note({options.layout, 0, 0, 0},
+    problems.note("S149", {options.layout, 0, 0, 0},
                   "it was read as the layout: sagefe layout check LAYOUT DECK takes the layout first, a file "
                   "or the name of one that is built in");
     throw InputError(std::move(problems));

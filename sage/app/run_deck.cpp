@@ -190,7 +190,7 @@ void warn_of_fields(const OutputOptions& o, Model& model) {
   const std::string text = fields_without_column(
       o.fields, fields_of(model), has_column,
       "ask for --nodes (fields of nodes), --points (of integration points) or --result (all)");
-  if (!text.empty()) model.diagnostics.add({Severity::warning, {model.file, 0, 0, 0}, text, {}});
+  if (!text.empty()) model.diagnostics.add({Severity::warning, "S610", {model.file, 0, 0, 0}, text, {}});
 }
 
 // The deck as a model; its checksum becomes the owner's, and names of fields' components those of the fields.
@@ -318,7 +318,7 @@ RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
       return done;
     }();
     outcome.record.result.work = result.work;
-    if (result.status == RunStatus::failed) throw AnalysisError(result.reason);
+    if (result.status == RunStatus::failed) throw AnalysisError(Code(), result.reason);
     outcome.exit_code = result.status == RunStatus::completed ? kOk : kNotConverged;
     if (result.status == RunStatus::stopped) {
       outcome.record.result = result;

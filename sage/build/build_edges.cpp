@@ -68,7 +68,7 @@ void turn(ListedEdge& listed) {
 }
 
 void refuse_order(Builder& b, const CardView& card, const DirectedEdge& edge, bool clockwise) {
-  b.error(card.where("n1"),
+  b.error("S231", card.where("n1"),
           edge_name(card) + ": its nodes, listed in this order, run " +
               (clockwise ? "clockwise" : "counter-clockwise") + " around element " +
               std::to_string(number_of(b, edge)) + ", whose edge it is; list them " +
@@ -96,21 +96,22 @@ bool find_edge(Builder& b, const CardView& card, const ListedEdge& listed, Direc
       if (one != nullptr && number_of(b, *one) == wanted) best = one;
   if (best == nullptr) {
     if (b.elements_known)
-      b.error(card.where("n1"), edge_name(card) + ": no solid element has an edge between these nodes");
+      b.error("S230", card.where("n1"), edge_name(card) + ": no solid element has an edge between these nodes");
     return false;
   }
   edge = *best;
   clockwise = best == back;
   if (wanted != 0 && wanted != number_of(b, edge)) {
-    b.error(card.where("element"), edge_name(card) + " belongs to element " +
-                                       std::to_string(number_of(b, edge)) + ", not " + std::to_string(wanted));
+    b.error("S230", card.where("element"),
+            edge_name(card) + " belongs to element " + std::to_string(number_of(b, edge)) + ", not " +
+                std::to_string(wanted));
     return false;
   }
   if (listed.sense == Sense::either && wanted == 0 && along != nullptr && back != nullptr) {
-    b.error(card.where("n1"), edge_name(card) + " lies between elements " +
-                                  std::to_string(number_of(b, *along)) + " and " +
-                                  std::to_string(number_of(b, *back)) +
-                                  ": field element must say which of them the pressure pushes into");
+    b.error("S230", card.where("n1"),
+            edge_name(card) + " lies between elements " + std::to_string(number_of(b, *along)) + " and " +
+                std::to_string(number_of(b, *back)) +
+                ": field element must say which of them the pressure pushes into");
     return false;
   }
   if (either || clockwise == (listed.sense == Sense::clockwise)) return true;
@@ -151,7 +152,7 @@ bool read_listed(Builder& b, const CardView& card, ListedEdge& listed) {
     if (!b.usable(card, field, card.real(field))) return false;
   const int sense = card.integer("sense", 1);
   if (sense < 1 || sense > 4) {
-    b.error(card.where("sense"),
+    b.error("S210", card.where("sense"),
             "sense " + std::to_string(sense) +
                 " of an edge is unknown; 1 counter-clockwise around its element, 2 clockwise, "
                 "3 either, 4 either with the pressure to the left of the way");
@@ -161,8 +162,9 @@ bool read_listed(Builder& b, const CardView& card, ListedEdge& listed) {
   const bool middle = card.integer("n3") != 0;
   for (const char* field : {"normal3", "shear3"})
     if (!middle && card.real(field) != 0.0) {
-      b.error(card.where(field), edge_name(card) + ": the " + card.label(field) + " is " +
-                                     rounded_text(card.real(field)) + ", but the card has no third node");
+      b.error("S232", card.where(field),
+              edge_name(card) + ": the " + card.label(field) + " is " + rounded_text(card.real(field)) +
+                  ", but the card has no third node");
       return false;
     }
   listed.first = b.node(card, "n1", card.integer("n1"));
@@ -200,7 +202,7 @@ void read_edge_load(Builder& b, const CardView& card, std::vector<EdgeLoad>& out
   if (listed.middle < 0) return;
   const int local = middle_of(group_of(b, edge).element->edges()[static_cast<std::size_t>(edge.edge)]);
   if (local < 0 || node_of(b, edge, local) != listed.middle)
-    return b.error(card.where("n2"),
+    return b.error("S232", card.where("n2"),
                    "node " + std::to_string(card.integer("n2")) + " is not the middle node of edge " +
                        std::to_string(card.integer("n1")) + "-" + std::to_string(card.integer("n3")) +
                        " of element " + std::to_string(number_of(b, edge)));

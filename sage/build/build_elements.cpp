@@ -84,12 +84,12 @@ bool find_nodes(Builder& b, const CardView& card, const ElementCard& element, co
     const int* node = b.node_index.find(number);
     if (node == nullptr) {
       if (b.nodes_known)
-        b.error(card.where("n" + std::to_string(i + 1)),
+        b.error("S201", card.where("n" + std::to_string(i + 1)),
                 name() + ": node " + std::to_string(number) + " is not defined by any node or fill card");
       return false;
     }
     if (std::find(index.begin(), index.end(), *node) != index.end()) {
-      b.error(card.where("n" + std::to_string(i + 1)),
+      b.error("S216", card.where("n" + std::to_string(i + 1)),
               name() + ": node " + std::to_string(number) + " stands twice" +
                   (entry.interface() ? "; a pair of an interface is two nodes at one place, one of each body, "
                                        "also where the interface ends"
@@ -108,7 +108,7 @@ void add_element(Builder& b, const CardView& card, const ElementCard& element) {
   if (!b.element_place
            .try_emplace(element.number, ElementPlace{element.group, group.elements(), element.folded})
            .second) {
-    b.error(card.where("number"), "element " + std::to_string(element.number) + " is defined twice");
+    b.error("S205", card.where("number"), "element " + std::to_string(element.number) + " is defined twice");
     return;
   }
   const std::size_t first = group.nodes.size();
@@ -166,17 +166,19 @@ bool read_block(Builder& b, const CardView& card, const ElementCard& element, El
            card.integer(fields.row_step)};
   const int before = b.problems.errors();
   for (const auto& [field, count] : {std::pair("columns", columns), std::pair("rows", rows)})
-    if (count < 0) b.error(card.where(field), "the " + card.label(field) + " must not be negative");
+    if (count < 0) b.error("S207", card.where(field), "the " + card.label(field) + " must not be negative");
   const std::int64_t count = std::int64_t{block.columns} * block.rows;
   if (count > kMaxElements)
-    b.error(card.where("columns"),
+    b.error("S218", card.where("columns"),
             "the block would have more than " + std::to_string(kMaxElements) + " elements");
   if (block.columns > 1 && block.column_step == 0)
-    b.error(card.where("column_step"), "more than one column of elements needs the node step along a row");
+    b.error("S218", card.where("column_step"),
+            "more than one column of elements needs the node step along a row");
   if (block.rows > 1 && block.row_step == 0)
-    b.error(card.where("row_step"), "more than one row of elements needs the node step from row to row");
+    b.error("S218", card.where("row_step"),
+            "more than one row of elements needs the node step from row to row");
   if (element.number < 1 || (count <= kMaxElements && element.number + count - 1 > kLargestNumber))
-    b.error(card.where("number"),
+    b.error("S206", card.where("number"),
             "element number " + std::to_string(element.number) +
                 (element.number < 1 ? " must be 1 or more" : " is too large for the block"));
   if (b.problems.errors() > before) return false;
@@ -186,8 +188,9 @@ bool read_block(Builder& b, const CardView& card, const ElementCard& element, El
       for (const int n : element.nodes) {
         const std::int64_t number = n + i * block.column_step + j * block.row_step;
         if (n == 0 || (number >= 1 && number <= kLargestNumber)) continue;
-        b.error(card.where("n1"), "element " + std::to_string(element.number) + ": its block leads to node " +
-                                      std::to_string(number) + ", which can't exist");
+        b.error("S218", card.where("n1"),
+                "element " + std::to_string(element.number) + ": its block leads to node " +
+                    std::to_string(number) + ", which can't exist");
         return false;
       }
   return true;
@@ -206,7 +209,7 @@ void read_element_card(Builder& b, const CardView& card, ElementFields& fields) 
   ElementCard element{card.integer(fields.number), group->second, card_nodes(card, fields)};
   const int given = static_cast<int>(element.nodes.size());
   if (given < entry.corners || given > entry.card_nodes) {
-    b.error(card.where("n1"),
+    b.error("S217", card.where("n1"),
             "element " + std::to_string(element.number) + ": a " + entry.name + " has " +
                 std::to_string(entry.corners) +
                 (entry.nodes > entry.corners ? " to " + std::to_string(entry.card_nodes) : "") +
@@ -215,20 +218,23 @@ void read_element_card(Builder& b, const CardView& card, ElementFields& fields) 
   }
   if (std::find(element.nodes.begin() + entry.corners, element.nodes.end(), 0) != element.nodes.end() ||
       (given > entry.corners && given < std::min(entry.nodes, 2 * entry.corners)))
-    b.note(card.where(), "element " + std::to_string(element.number) +
-                             ": some of its mid-side nodes are left blank "
-                             "and will be made, though others are given");
+    b.note("S217", card.where(),
+           "element " + std::to_string(element.number) +
+               ": some of its mid-side nodes are left blank "
+               "and will be made, though others are given");
   for (const auto& [step, count] :
        {std::pair(&fields.column_step, &fields.columns), std::pair(&fields.row_step, &fields.rows)}) {
     if (card.blank(*step) || card.integer(*step) == 0 || !card.blank(*count)) continue;
-    b.note(card.where(step->name()), "the " + card.label(step->name()) + " is given but the number of " +
-                                         count->name() + " is left blank, which reads as 1");
+    b.note("S219", card.where(step->name()),
+           "the " + card.label(step->name()) + " is given but the number of " + count->name() +
+               " is left blank, which reads as 1");
   }
   for (int c = 0; c < entry.corners; ++c) {
     if (element.nodes[static_cast<std::size_t>(c)] != 0) continue;
     const std::string field = "n" + std::to_string(c + 1);
-    b.error(card.where(field), "element " + std::to_string(element.number) + ": corner node " +
-                                   std::to_string(c + 1) + " of the " + entry.name + " is missing");
+    b.error("S217", card.where(field),
+            "element " + std::to_string(element.number) + ": corner node " + std::to_string(c + 1) +
+                " of the " + entry.name + " is missing");
     return;
   }
   Block block;
@@ -259,17 +265,17 @@ void read_parameters(Builder& b, Material& m, const SourcePosition& where, const
     const Parameter& p = m.entry->parameters[i];
     const bool present = i < given.size() && !given[i].blank;
     if (!present && p.required)
-      b.error(i < given.size() ? cards.front().where(given[i]) : where,
+      b.error("S221", i < given.size() ? cards.front().where(given[i]) : where,
               name + ": parameter " + std::to_string(i + 1) + " of " + m.entry->name + ", " + p.name + " (" +
                   unit_text(p.dimension, b.model.units) + "), is missing");
     const double value = present ? given[i].number : p.fallback;
     if (!present && i < given.size() && !p.required) {
-      b.note(cards.front().where(given[i]), name + ": parameter " + std::to_string(i + 1) + " of " +
-                                                m.entry->name + ", " + p.name +
-                                                ", is left blank: " + rounded_text(p.fallback, 6) + " is used");
+      b.note("S222", cards.front().where(given[i]),
+             name + ": parameter " + std::to_string(i + 1) + " of " + m.entry->name + ", " + p.name +
+                 ", is left blank: " + rounded_text(p.fallback, 6) + " is used");
     }
     if (!(std::abs(value) < 1e100))
-      b.error(cards.front().where(given[i]),
+      b.error("S208", cards.front().where(given[i]),
               name + ": " + p.name + " is too large to compute with (beyond 1e100)");
     m.parameters.push_back(value);
   }
@@ -284,15 +290,15 @@ void read_material(Builder& b, const CardView& card, const std::vector<CardView>
   material.where = card.where();
   const MaterialEntry* entry = b.catalogue.materials.find(material.code);
   const std::string name = "material " + std::to_string(material.number);
-  if (material.number < 1) b.error(card.where("number"), "a material number must be 1 or more");
+  if (material.number < 1) b.error("S206", card.where("number"), "a material number must be 1 or more");
   if (!b.material_index.try_emplace(material.number, static_cast<int>(b.model.materials.size())).second)
-    b.error(card.where("number"), name + " is defined twice");
+    b.error("S205", card.where("number"), name + " is defined twice");
   b.usable(card, "unit_weight", material.unit_weight);
   if (card.blank("unit_weight")) b.blank_weights.push_back(material.number);
   b.model.materials.push_back(std::move(material));
   Material& m = b.model.materials.back();
   if (entry == nullptr) {
-    b.error(card.where("law"),
+    b.error("S212", card.where("law"),
             name + ": law " + std::to_string(m.code) + " is unknown; known: " + b.catalogue.materials.known());
     return;
   }
@@ -305,8 +311,9 @@ void read_material(Builder& b, const CardView& card, const std::vector<CardView>
     where = parameter_cards.front().where();
   }
   if (given.size() > entry->parameters.size()) {
-    b.error(where, name + ": law " + entry->name + " has " + std::to_string(entry->parameters.size()) +
-                       " parameters, the card gives " + std::to_string(given.size()));
+    b.error("S223", where,
+            name + ": law " + entry->name + " has " + std::to_string(entry->parameters.size()) +
+                " parameters, the card gives " + std::to_string(given.size()));
     return;
   }
   const int before = b.problems.errors();
@@ -317,7 +324,7 @@ void read_material(Builder& b, const CardView& card, const std::vector<CardView>
   } catch (const ParameterError& e) {
     const auto i = static_cast<std::size_t>(std::max(0, e.parameter()));
     const bool known = e.parameter() >= 0 && i < given.size();
-    b.error(known ? parameter_cards.front().where(given[i]) : where,
+    b.error(e.code(), known ? parameter_cards.front().where(given[i]) : where,
             name + " (" + entry->name + "): " + e.what() +
                 (e.parameter() >= 0 ? " [" + entry->parameters[i].name + ", " +
                                           unit_text(entry->parameters[i].dimension, b.model.units) + "]"
@@ -342,21 +349,23 @@ void build_groups(Builder& b) {
     group.overlay = card.integer("overlay") == 1;
     group.where = card.where();
     const std::string name = "group " + std::to_string(group.number);
-    if (group.number < 1) b.error(card.where("number"), "a group number must be 1 or more");
+    if (group.number < 1) b.error("S206", card.where("number"), "a group number must be 1 or more");
     if (!b.group_index.try_emplace(group.number, static_cast<int>(b.model.groups.size())).second)
-      b.error(card.where("number"), name + " is defined twice");
+      b.error("S205", card.where("number"), name + " is defined twice");
     const int deck_code = card.integer("element");
     group.element_code = chosen_element(b, deck_code);
     const ElementEntry* entry = b.catalogue.elements.find(group.element_code);
     const auto material = b.material_index.find(card.integer("material"));
     if (entry == nullptr)
-      b.error(card.where("element"), name + ": element type " + std::to_string(group.element_code) +
-                                         " is unknown; known: " + b.catalogue.elements.known());
+      b.error("S211", card.where("element"),
+              name + ": element type " + std::to_string(group.element_code) +
+                  " is unknown; known: " + b.catalogue.elements.known());
     if (material != b.material_index.end())
       group.material = material->second;
     else if (b.materials_known)
-      b.error(card.where("material"), name + ": material " + std::to_string(card.integer("material")) +
-                                          " is not defined by any material card");
+      b.error("S204", card.where("material"),
+              name + ": material " + std::to_string(card.integer("material")) +
+                  " is not defined by any material card");
     if (entry != nullptr) {
       const int formulation =
           chosen_formulation(b, *entry, card.integer("formulation"), group.element_code != deck_code);
@@ -364,27 +373,29 @@ void build_groups(Builder& b) {
           std::find_if(entry->formulations.begin(), entry->formulations.end(),
                        [&](const Formulation& f) { return f.code == formulation || formulation == 0; });
       if (found == entry->formulations.end()) {
-        b.error(card.where("formulation"), name + ": formulation " + std::to_string(formulation) + " of " +
-                                               entry->name + " is unknown; 0 default, " +
-                                               formulations_of(*entry));
+        b.error("S210", card.where("formulation"),
+                name + ": formulation " + std::to_string(formulation) + " of " + entry->name +
+                    " is unknown; 0 default, " + formulations_of(*entry));
       } else {
         try {
           set_element(group, b.catalogue, group.element_code, found->code, b.model.geometry);
         } catch (const ParameterError& error) {
-          b.error(card.where("element"), name + ": " + error.what());
+          b.error(error.code(), card.where("element"), name + ": " + error.what());
         }
       }
       if (material != b.material_index.end()) {
         const Material& m = b.model.materials[static_cast<std::size_t>(material->second)];
         const MaterialEntry* law = b.catalogue.materials.find(m.code);
         if (law != nullptr && law->law_size != entry->law_size)
-          b.error(card.where("material"), name + ": a " + entry->name + " needs a law for " + laws_for(*entry) +
-                                              ", material " + std::to_string(m.number) + " is " + law->name);
+          b.error("S225", card.where("material"),
+                  name + ": a " + entry->name + " needs a law for " + laws_for(*entry) + ", material " +
+                      std::to_string(m.number) + " is " + law->name);
       }
     }
     b.model.groups.push_back(std::move(group));
   }
-  if (b.model.groups.empty()) b.error(b.deck.one("control").where(), "the deck defines no element groups");
+  if (b.model.groups.empty())
+    b.error("S214", b.deck.one("control").where(), "the deck defines no element groups");
   b.groups_known = b.problems.errors() == before;
 }
 
@@ -394,7 +405,7 @@ void build_elements(Builder& b) {
   for (const CardView& card : b.deck.all("element")) read_element_card(b, card, fields);
   b.elements_known = b.nodes_known && b.groups_known && b.problems.errors() == before;
   if (b.element_place.empty() && b.problems.errors() == 0)
-    b.error(b.deck.one("control").where(), "the deck defines no elements");
+    b.error("S214", b.deck.one("control").where(), "the deck defines no elements");
 }
 
 }  // namespace sage::build

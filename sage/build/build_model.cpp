@@ -12,7 +12,7 @@ namespace build {
 
 bool Builder::usable(const CardView& card, std::string_view field, double value) {
   if (std::isfinite(value) && std::abs(value) < 1e100) return true;
-  error(card.where(field), "the " + card.label(field) + " is too large to compute with (beyond 1e100)");
+  error("S208", card.where(field), "the " + card.label(field) + " is too large to compute with (beyond 1e100)");
   return false;
 }
 
@@ -20,15 +20,18 @@ std::string Builder::text(const CardView& card, std::string_view field) {
   WellFormed words = card.text_with_flaws(field);
   const std::string label = "the " + card.label(field);
   if (words.latin1)
-    warning(card.where(field), label + " is not UTF-8 text: it is read as Latin-1, '?' for what that has not");
-  if (words.controls) warning(card.where(field), label + " holds control characters: '?' stands for them");
+    warning("S228", card.where(field),
+            label + " is not UTF-8 text: it is read as Latin-1, '?' for what that has not");
+  if (words.controls)
+    warning("S228", card.where(field), label + " holds control characters: '?' stands for them");
   return std::move(words.text);
 }
 
 int Builder::node(const CardView& card, std::string_view field, std::int64_t number) {
   if (const int* found = node_index.find(static_cast<int>(number))) return *found;
   if (nodes_known)
-    error(card.where(field), "node " + std::to_string(number) + " is not defined by any node or fill card");
+    error("S201", card.where(field),
+          "node " + std::to_string(number) + " is not defined by any node or fill card");
   return -1;
 }
 
@@ -37,26 +40,30 @@ NumberRange Builder::range(const CardView& card, std::string_view first_field) {
   const int last = card.integer("last") == 0 ? first : card.integer("last");
   const int step = card.integer("step") == 0 ? 1 : card.integer("step");
   if (step < 0)
-    error(card.where("step"), "the " + card.label("step") + " must not be negative");
+    error("S207", card.where("step"), "the " + card.label("step") + " must not be negative");
   else if (last < first)
-    error(card.where("last"),
+    error("S209", card.where("last"),
           "the range runs backwards, from " + std::to_string(first) + " to " + std::to_string(last));
   else if ((std::int64_t{last} - first) % step != 0)
-    error(card.where("step"), "steps of " + std::to_string(step) + " from " + std::to_string(first) +
-                                  " do not meet the last, " + std::to_string(last));
+    error("S209", card.where("step"),
+          "steps of " + std::to_string(step) + " from " + std::to_string(first) + " do not meet the last, " +
+              std::to_string(last));
   else {
     if (card.blank("last") && !card.blank("step") && card.integer("step") != 0)
-      note(card.where("step"), "a step is given but no last: only " + std::to_string(first) + " is meant");
+      note("S219", card.where("step"),
+           "a step is given but no last: only " + std::to_string(first) + " is meant");
     if (card.blank("step") && last > first)
-      note(card.where(), "the step is left blank, which reads as 1: all from " + std::to_string(first) +
-                             " to " + std::to_string(last));
+      note("S219", card.where(),
+           "the step is left blank, which reads as 1: all from " + std::to_string(first) + " to " +
+               std::to_string(last));
     return {first, last, step};
   }
   return {};
 }
 
 void Builder::group_missing(const SourcePosition& where, int number) {
-  if (groups_known) error(where, "group " + std::to_string(number) + " is not defined by any group card");
+  if (groups_known)
+    error("S203", where, "group " + std::to_string(number) + " is not defined by any group card");
 }
 
 void build_control(Builder& b) {
@@ -69,19 +76,20 @@ void build_control(Builder& b) {
                    card.real("atmospheric_pressure"), card.real("water_unit_weight")};
     for (const char* field : {"atmospheric_pressure", "water_unit_weight"}) {
       if (b.usable(card, field, card.real(field)) && card.real(field) < 0.0)
-        b.error(card.where(field), "the " + card.label(field) + " must not be negative");
+        b.error("S207", card.where(field), "the " + card.label(field) + " must not be negative");
     }
   }
   const CardView card = b.deck.one("control");
   const int code = b.options.geometry != 0 ? b.options.geometry : card.integer("geometry", 1);
   if (code != 1 && code != 2)
-    b.error(card.where("geometry"),
+    b.error("S210", card.where("geometry"),
             "geometry " + std::to_string(code) + " is unknown; 1 plane strain, 2 axisymmetric");
   model.geometry = code == 2 ? Geometry::axisymmetric : Geometry::plane_strain;
   model.solver = b.options.solver >= 0 ? b.options.solver : card.integer("solver", 0);
   if (model.solver != 0 && b.catalogue.solvers.find(model.solver) == nullptr)
-    b.error(card.where("solver"), "solver " + std::to_string(model.solver) + " is unknown; 0 automatic, " +
-                                      b.catalogue.solvers.known());
+    b.error(
+        "S213", card.where("solver"),
+        "solver " + std::to_string(model.solver) + " is unknown; 0 automatic, " + b.catalogue.solvers.known());
 }
 
 namespace {
@@ -90,8 +98,9 @@ void read_stage(Builder& b, const CardView& card, Report& report) {
   const int stage = card.integer("stage") == 0 ? 1 : card.integer("stage");
   report.stage = stage - 1;
   if (stage < 1 || stage > static_cast<int>(b.model.stages.size()))
-    b.error(card.where("stage"), "the report starts at stage " + std::to_string(stage) + "; the deck has " +
-                                     std::to_string(b.model.stages.size()));
+    b.error("S242", card.where("stage"),
+            "the report starts at stage " + std::to_string(stage) + "; the deck has " +
+                std::to_string(b.model.stages.size()));
 }
 
 // From the point card behind the report card.
@@ -110,12 +119,12 @@ void read_point(Builder& b, const CardView& card, Report& report) {
     if (!card.blank(field) && card.real(field) != 0.0)
       ignored += (ignored.empty() ? "" : ", ") + card.label(field);
   if (!ignored.empty())
-    b.note(card.where(),
+    b.note("S242", card.where(),
            "a point report takes its place from the point card behind it; of this card it does not use: " +
                ignored + " (kind 2 reports nodes)");
   const std::vector<CardView> places = b.deck.all("point", card);
   if (places.empty()) {
-    b.error(card.where(), "a point report needs a point card with its place, x and y, behind it");
+    b.error("S242", card.where(), "a point report needs a point card with its place, x and y, behind it");
     return;
   }
   const CardView& place = places.front();
@@ -152,7 +161,7 @@ void build_reports(Builder& b) {
     report.where = card.where();
     const int kind = card.integer("kind", 1);
     if (kind < 1 || kind > 3) {
-      b.error(card.where("kind"),
+      b.error("S210", card.where("kind"),
               "report kind " + std::to_string(kind) + " is unknown; 1 triaxial, 2 nodes, 3 a point");
       continue;
     }
@@ -183,13 +192,14 @@ void build_reports(Builder& b) {
       else
         report.group = group->second;
       if (!(report.height > 0.0))
-        b.error(card.where("height"), "a triaxial report needs the specimen height (> 0)");
-      if (report.area < 0.0) b.error(card.where("area"), "the area must not be negative");
+        b.error("S242", card.where("height"), "a triaxial report needs the specimen height (> 0)");
+      if (report.area < 0.0) b.error("S207", card.where("area"), "the area must not be negative");
       if (card.blank("cell_pressure"))
-        b.note(card.where(), "the cell pressure of this triaxial report is left blank, which reads as 0");
+        b.note("S242", card.where(),
+               "the cell pressure of this triaxial report is left blank, which reads as 0");
       for (const char* field : {"height", "area", "cell_pressure"}) b.usable(card, field, card.real(field));
       if (b.nodes_known && !report.nodes.empty() && report.area == 0.0 && !(report_area(b.model, report) > 0.0))
-        b.error(card.where("area"),
+        b.error("S242", card.where("area"),
                 std::string("give the area: it is left blank and can't be found from the report's nodes, ") +
                     (b.model.geometry == Geometry::axisymmetric ? "all of which lie on the axis"
                                                                 : "which have no width along x"));
@@ -206,8 +216,9 @@ void check_totals(Builder& b) {
   const auto compare = [&](const char* field, const char* what, int made) {
     const int total = control.integer(field);
     if (total != 0 && total != made)
-      b.error(control.where(field), "the deck says " + std::to_string(total) + " " + what +
-                                        ", the cards make " + std::to_string(made));
+      b.error(
+          "S215", control.where(field),
+          "the deck says " + std::to_string(total) + " " + what + ", the cards make " + std::to_string(made));
   };
   compare("total_nodes", "nodes", b.model.mesh.nodes());
   compare("total_elements", "elements", elements);
@@ -221,9 +232,9 @@ std::vector<LeftOut> left_out_cards(Builder& b, const Deck& as_read) {
     const SourcePosition where = card.blank("of") ? card.where() : card.where("of");
     const std::string message = "the deck asks for " + what + ", which this program does not compute";
     if (card.integer("partial") == 0)
-      b.problems.add(card_diagnostic(as_read, Severity::error, where, message));
+      b.problems.add(card_diagnostic(as_read, Severity::error, "S229", where, message));
     else
-      all.push_back({what, card_diagnostic(as_read, Severity::error, where, message)});
+      all.push_back({what, card_diagnostic(as_read, Severity::error, "S229", where, message)});
   }
   return all;
 }
@@ -265,7 +276,7 @@ InputError refusal(const Deck& deck, const Diagnostics& problems) {
 void refuse_draft(const Deck& deck) {
   if (deck.draft)
     throw InputError(
-        {deck.file, 0, 0, 0},
+        "S148", {deck.file, 0, 0, 0},
         "the layout \"" + deck.layout +
             "\" is a draft, under which decks can only be shown (sagefe echo, sagefe layout check): "
             "finish it, then take out its line draft = true");

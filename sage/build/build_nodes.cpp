@@ -47,11 +47,11 @@ Vector2 cartesian(const NodeCard& card) {
 // False after an error.
 bool place(Builder& b, PlacedNodes& nodes, const CardView& card, int number, const Vector2& x) {
   if (number < 1) {
-    b.error(card.where("number"), "node number " + std::to_string(number) + " must be 1 or more");
+    b.error("S206", card.where("number"), "node number " + std::to_string(number) + " must be 1 or more");
     return false;
   }
   if (nodes.try_emplace(number, x).second) return true;
-  b.error(card.where("number"), "node " + std::to_string(number) + " is defined twice");
+  b.error("S205", card.where("number"), "node " + std::to_string(number) + " is defined twice");
   return false;
 }
 
@@ -59,16 +59,18 @@ void fill_line(Builder& b, PlacedNodes& nodes, const CardView& card, const NodeC
                int step, double ratio) {
   const std::int64_t span = std::int64_t{to.number} - from.number;
   if (span <= 0 || span % step != 0) {
-    b.error(card.where("step"), "the step " + std::to_string(step) + " does not lead from node " +
-                                    std::to_string(from.number) + " to node " + std::to_string(to.number));
+    b.error("S218", card.where("step"),
+            "the step " + std::to_string(step) + " does not lead from node " + std::to_string(from.number) +
+                " to node " + std::to_string(to.number));
     return;
   }
   if (from.polar != to.polar) {
-    b.error(card.where("system"), "both ends of a generated line must use the same coordinate system");
+    b.error("S218", card.where("system"), "both ends of a generated line must use the same coordinate system");
     return;
   }
   if (span / step > kMaxNodes) {
-    b.error(card.where("step"), "the line would have more than " + std::to_string(kMaxNodes) + " nodes");
+    b.error("S218", card.where("step"),
+            "the line would have more than " + std::to_string(kMaxNodes) + " nodes");
     return;
   }
   const int intervals = static_cast<int>(span / step);
@@ -88,16 +90,16 @@ void read_node_cards(Builder& b, PlacedNodes& nodes) {
     const int system = card.integer(coordinate_system);
     NodeCard now{card.integer(number), system == 1, {card.real(x), card.real(y)}};
     if (system != 0 && system != 1)
-      b.error(card.where("system"),
+      b.error("S210", card.where("system"),
               "coordinate system " + std::to_string(system) + " is unknown; 0 cartesian, 1 polar");
     if (!b.usable(card, "x", now.given.x()) || !b.usable(card, "y", now.given.y())) now.given.setZero();
     const double ratio = card.real(spacing);
     if (b.usable(card, "ratio", ratio) && ratio < 0.0)
-      b.error(card.where("ratio"), "the spacing ratio must not be negative");
+      b.error("S207", card.where("ratio"), "the spacing ratio must not be negative");
     const int step = card.integer(number_step);
-    if (step < 0) b.error(card.where("step"), "the step must not be negative");
+    if (step < 0) b.error("S207", card.where("step"), "the step must not be negative");
     if (step > 0 && previous.number == 0)
-      b.error(card.where("step"), "the first node card cannot generate: there is no node before it");
+      b.error("S218", card.where("step"), "the first node card cannot generate: there is no node before it");
     else if (step > 0)
       fill_line(b, nodes, card, previous, now, step, ratio);
     place(b, nodes, card, now.number, cartesian(now));
@@ -128,16 +130,17 @@ void fill_block(Builder& b, PlacedNodes& nodes, const CardView& card, int errors
       {"columns", columns}, {"rows", rows}, {"column_step", column_step}, {"row_step", row_step}};
   for (const auto& [field, count] : counts)
     if (count < 1)
-      return b.error(card.where(field),
+      return b.error("S218", card.where(field),
                      "the " + card.label(field) + " must be 1 or more, not " + std::to_string(count));
   if (static_cast<std::int64_t>(columns) * rows > kMaxNodes) {
-    b.error(card.where("columns"), "the block would have more than " + std::to_string(kMaxNodes) + " nodes");
+    b.error("S218", card.where("columns"),
+            "the block would have more than " + std::to_string(kMaxNodes) + " nodes");
     return;
   }
   // i columns and j rows further is the same number where i * column_step = j * row_step.
   const int common = std::gcd(column_step, row_step);
   if (row_step / common <= columns && column_step / common <= rows) {
-    b.error(card.where("row_step"),
+    b.error("S218", card.where("row_step"),
             "the block would number two of its nodes alike: the step from row to row, " +
                 std::to_string(row_step) + ", does not clear " + std::to_string(columns) +
                 " columns in steps of " + std::to_string(column_step));
@@ -147,7 +150,7 @@ void fill_block(Builder& b, PlacedNodes& nodes, const CardView& card, int errors
   for (const std::int64_t corner : {std::int64_t{first}, first + across, first + across + up, first + up}) {
     if (corner <= kLargestNumber && nodes.contains(static_cast<int>(corner))) continue;
     if (b.problems.errors() == errors_before)  // else the card that should define it is what is wrong
-      b.error(card.where("first"),
+      b.error("S218", card.where("first"),
               "corner node " + std::to_string(corner) + " of the block is not defined before it");
     return;
   }
@@ -156,12 +159,13 @@ void fill_block(Builder& b, PlacedNodes& nodes, const CardView& card, int errors
   const double cr = card.real("column_ratio"), rr = card.real("row_ratio");
   if (!b.usable(card, "column_ratio", cr) || !b.usable(card, "row_ratio", rr)) return;
   if (cr < 0.0 || rr < 0.0) {
-    b.error(card.where(cr < 0.0 ? "column_ratio" : "row_ratio"), "a spacing ratio must not be negative");
+    b.error("S207", card.where(cr < 0.0 ? "column_ratio" : "row_ratio"),
+            "a spacing ratio must not be negative");
     return;
   }
   for (const char* field : {"column_ratio", "row_ratio"})
     if (const double ratio = card.real(field); ratio != 0.0 && !(ratio > 1e-3 && ratio < 1e3))
-      b.warning(card.where(field), "the " + card.label(field) + " is extreme");
+      b.warning("S220", card.where(field), "the " + card.label(field) + " is extreme");
   const auto bottom = side_points(nodes, first, column_step, columns, cr);
   const auto top = side_points(nodes, corners[3], column_step, columns, cr);
   const auto left = side_points(nodes, first, row_step, rows, rr);
@@ -217,7 +221,7 @@ void build_nodes(Builder& b) {
   add_middle_nodes(b, nodes);
   b.nodes_known = b.problems.errors() == before;
   if (nodes.empty() && b.problems.errors() == 0)
-    b.error(b.deck.one("control").where(), "the deck defines no nodes");
+    b.error("S214", b.deck.one("control").where(), "the deck defines no nodes");
 
   Mesh& mesh = b.model.mesh;
   mesh.x.resize(2, static_cast<Eigen::Index>(nodes.size()));

@@ -14,7 +14,8 @@ FixityCode fixity_code(Builder& b, const CardView& card, std::string_view field)
   if (code == 0) return FixityCode::unchanged;
   if (code == 1) return FixityCode::fixed;
   if (code == -1) return FixityCode::released;
-  b.error(card.where(field), "code " + std::to_string(code) + " is unknown; 0 unchanged, 1 fixed, -1 released");
+  b.error("S210", card.where(field),
+          "code " + std::to_string(code) + " is unknown; 0 unchanged, 1 fixed, -1 released");
   return FixityCode::unchanged;
 }
 
@@ -42,7 +43,7 @@ int read_unknown(Builder& b, const CardView& card) {
   if (field >= 0 || !b.groups_known) return field;
   std::string known;
   for (const UnknownField& unknown : b.model.unknowns) known += (known.empty() ? "" : ", ") + unknown.name;
-  b.error(card.where("unknown"), "no element of the deck solves for " + name + "; it has: " + known);
+  b.error("S235", card.where("unknown"), "no element of the deck solves for " + name + "; it has: " + known);
   return field;
 }
 
@@ -50,16 +51,17 @@ int read_unknown(Builder& b, const CardView& card) {
 void require_one_component(Builder& b, const CardView& card, std::initializer_list<const char*> fields) {
   for (const char* field : fields)
     if (card.real(field) != 0.0)
-      b.error(card.where(field), "the " + card.label(field) + " must be blank: " + b.text(card, "unknown") +
-                                     " is one number a node, in the columns of x");
+      b.error("S235", card.where(field),
+              "the " + card.label(field) + " must be blank: " + b.text(card, "unknown") +
+                  " is one number a node, in the columns of x");
 }
 
 // False: no element gives the node that field, which is an error.
 bool has_unknown(Builder& b, const CardView& card, int node, int field) {
   if (b.dof_map.of(node, field) >= 0) return true;
-  b.error(card.where("unknown"), "node " + std::to_string(b.model.mesh.number[static_cast<std::size_t>(node)]) +
-                                     " has no " + b.model.unknowns[static_cast<std::size_t>(field)].name +
-                                     ": no element there solves for it");
+  b.error("S235", card.where("unknown"),
+          "node " + std::to_string(b.model.mesh.number[static_cast<std::size_t>(node)]) + " has no " +
+              b.model.unknowns[static_cast<std::size_t>(field)].name + ": no element there solves for it");
   return false;
 }
 
@@ -85,22 +87,26 @@ void read_fixity(Builder& b, const CardView& card, bool in_stage, std::vector<Fi
   for (std::size_t c = 0; c < 2; ++c) {
     b.usable(card, values[c], fixity.value[c]);
     if (in_stage && fixity.code[c] == FixityCode::fixed && card.blank(values[c]))
-      b.note(card.where(values[c]), "the " + card.label(values[c]) + " is left blank: held where it is" +
-                                        (field > 0 ? "" : ", displacement 0"));
+      b.note("S234", card.where(values[c]),
+             "the " + card.label(values[c]) + " is left blank: held where it is" +
+                 (field > 0 ? "" : ", displacement 0"));
     if (fixity.value[c] == 0.0) continue;
     if (!in_stage)
-      b.error(card.where(values[c]), std::string(field > 0 ? "a value" : "a displacement") +
-                                         " other than zero belongs on a fixity card of a stage");
+      b.error("S233", card.where(values[c]),
+              std::string(field > 0 ? "a value" : "a displacement") +
+                  " other than zero belongs on a fixity card of a stage");
     else if (const int code = card.integer(codes[c]); code == 0 || code == -1)
-      b.error(card.where(codes[c]), std::string(field > 0 ? "a value" : "a displacement") +
-                                        " is given but the code is not 1 (fixed)");
+      b.error(
+          "S233", card.where(codes[c]),
+          std::string(field > 0 ? "a value" : "a displacement") + " is given but the code is not 1 (fixed)");
   }
   if (fixity.code[0] == FixityCode::unchanged && fixity.code[1] == FixityCode::unchanged)
-    b.note(card.where(), std::string("this fixity card changes nothing: ") +
-                             (field > 0 ? "its code is" : "both its codes are") + " 0 or blank");
+    b.note("S234", card.where(),
+           std::string("this fixity card changes nothing: ") +
+               (field > 0 ? "its code is" : "both its codes are") + " 0 or blank");
   for (std::size_t c = 0; c < 2; ++c)
     if (!in_stage && fixity.code[c] == FixityCode::released)
-      b.error(card.where(codes[c]), "only a stage can release a fixity (code -1)");
+      b.error("S233", card.where(codes[c]), "only a stage can release a fixity (code -1)");
   if (field > 0) return read_field_fixity(b, card, field, fixity, out_fields);
   for (int node : node_range(b, card)) {
     fixity.node = node;
@@ -143,7 +149,7 @@ void read_pressure(Builder& b, const CardView& card, std::vector<EdgeLoad>& out)
     const ElementPlace* place = b.element_place.find(static_cast<int>(number));
     if (place == nullptr) {
       if (b.elements_known)
-        b.error(card.where(number == range.first ? "element" : "last"),
+        b.error("S202", card.where(number == range.first ? "element" : "last"),
                 "element " + std::to_string(number) + " is not defined by any element card");
       return;
     }
@@ -157,8 +163,9 @@ void read_pressure(Builder& b, const CardView& card, std::vector<EdgeLoad>& out)
               ? " has no such edge: both of its nodes are the same, the quadrilateral is a triangle"
           : edges == 0 ? std::string(" has no edges")
                        : " has edges 1 to " + std::to_string(edges);
-      b.error(card.where("edge"), "edge " + std::to_string(edge + 1) + ": element " + std::to_string(number) +
-                                      " (" + group.element_name + ")" + numbers);
+      b.error("S230", card.where("edge"),
+              "edge " + std::to_string(edge + 1) + ": element " + std::to_string(number) + " (" +
+                  group.element_name + ")" + numbers);
       return;
     }
     load.edge = folded >= 0 && edge > folded ? edge - 1 : edge;
@@ -185,7 +192,7 @@ void note_unused_values(Builder& b, const CardView& card, InitialKind kind, cons
     if (card.real("v" + std::to_string(i)) != 0.0)
       unused += (unused.empty() ? "" : ", ") + card.label("v" + std::to_string(i));
   if (unused.empty()) return;
-  b.note(card.where(),
+  b.note("S237", card.where(),
          "not used of this initial stress card: " + unused +
              (kind == InitialKind::uniform && group != nullptr && group->element
                   ? "; a " + group->entry->name + " has " + std::to_string(values_of(kind, group)) +
@@ -204,7 +211,7 @@ void note_blank_stresses(Builder& b, const CardView& card, InitialKind kind, con
     if (card.blank("v" + std::to_string(i)))
       blank += (blank.empty() ? "" : ", ") + std::string("value ") + std::to_string(i);
   if (!blank.empty())
-    b.note(card.where(), "left blank on this initial stress card, which reads as 0: " + blank);
+    b.note("S237", card.where(), "left blank on this initial stress card, which reads as 0: " + blank);
 }
 
 // Quantities that a card of InitialKind::history states, by their places in the law's history.
@@ -233,16 +240,18 @@ bool fits_history(Builder& b, const CardView& card, const InitialStress& initial
   for (const std::size_t place : stated_quantities(initial)) {
     const std::string field = "v" + std::to_string(place - first + 2);
     if (place >= quantities.size()) {
-      b.error(card.where(field), name + ": " + material.law_name + " " + known_quantities(quantities) +
-                                     ": there is no quantity " + std::to_string(place + 1));
+      b.error("S236", card.where(field),
+              name + ": " + material.law_name + " " + known_quantities(quantities) + ": there is no quantity " +
+                  std::to_string(place + 1));
       return false;
     }
     for (const InitialStress& other : before) {
       if (other.group != initial.group || other.kind != InitialKind::history) continue;
       const std::vector<std::size_t> stated = stated_quantities(other);
       if (std::find(stated.begin(), stated.end(), place) == stated.end()) continue;
-      b.error(card.where(field), name + ": the card in line " + std::to_string(other.where.line) +
-                                     " states its " + std::string(quantities[place].name) + " already");
+      b.error("S236", card.where(field),
+              name + ": the card in line " + std::to_string(other.where.line) + " states its " +
+                  std::string(quantities[place].name) + " already");
       return false;
     }
   }
@@ -254,7 +263,7 @@ bool read_history(Builder& b, const CardView& card, InitialStress& initial) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const double first = initial.value[0];
   if (!(first >= 1.0 && first <= 1e6 && first == std::floor(first))) {
-    b.error(card.where("v1"),
+    b.error("S236", card.where("v1"),
             "value 1 of a history card (kind 4) is the number of the first quantity that it states, 1 or more; "
             "`sagefe list materials` counts them");
     return false;
@@ -262,7 +271,7 @@ bool read_history(Builder& b, const CardView& card, InitialStress& initial) {
   for (std::size_t i = 1; i < initial.value.size(); ++i)
     if (card.blank("v" + std::to_string(i + 1))) initial.value[i] = kNone;
   if (!stated_quantities(initial).empty()) return true;
-  b.error(card.where("v2"), "a history card (kind 4) states at least one value, from value 2 on");
+  b.error("S236", card.where("v2"), "a history card (kind 4) states at least one value, from value 2 on");
   return false;
 }
 
@@ -273,7 +282,7 @@ void read_initial(Builder& b, const CardView& card, std::vector<InitialStress>& 
   const int number = card.integer("group");
   if (kind < 0 || kind > 4) {
     b.error(
-        card.where("kind"),
+        "S210", card.where("kind"),
         "initial stress kind " + std::to_string(kind) +
             " is unknown; 0 uniform, 1 geostatic, 2 zero, 3 traction of the neighbours, 4 history of the law");
     return;
@@ -295,9 +304,9 @@ void read_initial(Builder& b, const CardView& card, std::vector<InitialStress>& 
     if (b.model.groups[g].number != number) continue;
     found = true;
     if (initial.kind == InitialKind::traction && b.model.groups[g].element && !b.model.groups[g].interface())
-      b.error(card.where("kind"), "kind 3 (traction of the neighbours) is for interface groups");
+      b.error("S236", card.where("kind"), "kind 3 (traction of the neighbours) is for interface groups");
     if (initial.kind == InitialKind::geostatic && b.model.groups[g].element && b.model.groups[g].structure())
-      b.error(card.where("kind"), "kind 1 (geostatic) is for solids; structures take kind 0 or 2");
+      b.error("S236", card.where("kind"), "kind 1 (geostatic) is for solids; structures take kind 0 or 2");
     initial.group = static_cast<int>(g);
     if (initial.kind == InitialKind::history && b.materials_known && b.model.groups[g].element &&
         !fits_history(b, card, initial, out))
@@ -317,9 +326,10 @@ void check_traction(Builder& b, const CardView& card) {
       return;
   }
   if (b.groups_known)
-    b.error(card.where("v1"), "group " + std::to_string(wanted) +
-                                  ", whose traction the interface should take, has no initial card of its own "
-                                  "or is no solid");
+    b.error("S236", card.where("v1"),
+            "group " + std::to_string(wanted) +
+                ", whose traction the interface should take, has no initial card of its own "
+                "or is no solid");
 }
 
 void read_groups(Builder& b, const CardView& card, bool death, std::vector<int>& out) {
@@ -329,8 +339,9 @@ void read_groups(Builder& b, const CardView& card, bool death, std::vector<int>&
       return static_cast<double>(b.model.groups[static_cast<std::size_t>(g)].number) == value.number;
     };
     if (death && std::any_of(out.begin(), out.end(), same)) {
-      b.note(card.where(value), "group " + std::to_string(static_cast<int>(value.number)) +
-                                    " is listed twice among the deaths of this stage");
+      b.note("S239", card.where(value),
+             "group " + std::to_string(static_cast<int>(value.number)) +
+                 " is listed twice among the deaths of this stage");
       continue;
     }
     for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
@@ -348,31 +359,32 @@ Stage read_stage(Builder& b, const CardView& card, int number) {
   stage.where = card.where();
   stage.increments = card.integer("increments", 1) == 0 ? 1 : card.integer("increments", 1);
   if (stage.increments < 0 || stage.increments > 10'000'000)
-    b.error(card.where("increments"), "the number of increments must be between 1 and 10000000");
+    b.error("S238", card.where("increments"), "the number of increments must be between 1 and 10000000");
   if (card.real("duration") != 0.0) stage.duration = card.real("duration");
   if (b.usable(card, "duration", stage.duration) && !(stage.duration > 0.0))
-    b.error(card.where("duration"), "the duration of a stage must not be negative (blank = 1)");
+    b.error("S238", card.where("duration"), "the duration of a stage must not be negative (blank = 1)");
   const int method = card.integer("method");
   if (method < 0 || method > 3)
-    b.error(card.where("method"),
+    b.error("S210", card.where("method"),
             "method " + std::to_string(method) +
                 " is unknown; 0 Newton, 1 modified Newton, 2 initial stiffness, 3 dogleg");
   else
     stage.method = static_cast<Method>(method);
   if (card.integer("max_iterations") != 0) stage.max_iterations = card.integer("max_iterations");
   if (stage.max_iterations < 1)
-    b.error(card.where("max_iterations"), "the number of iterations must not be negative");
+    b.error("S207", card.where("max_iterations"), "the number of iterations must not be negative");
   stage.output_every = card.integer("output_every");
-  if (stage.output_every < 0) b.error(card.where("output_every"), "the output interval must not be negative");
+  if (stage.output_every < 0)
+    b.error("S207", card.where("output_every"), "the output interval must not be negative");
   stage.gravity = {card.real("gravity_x"), card.real("gravity_y")};
   b.usable(card, "gravity_x", stage.gravity.x());
   b.usable(card, "gravity_y", stage.gravity.y());
   if (card.real("tolerance") != 0.0) stage.tolerance = card.real("tolerance");
   if (!(stage.tolerance > 0.0 && stage.tolerance < 1.0))
-    b.error(card.where("tolerance"), "the tolerance must lie between 0 and 1 (blank = 1e-8)");
+    b.error("S238", card.where("tolerance"), "the tolerance must lie between 0 and 1 (blank = 1e-8)");
   stage.strength_factor = card.real("strength_factor");
   if (b.usable(card, "strength_factor", stage.strength_factor) && stage.strength_factor < 0.0)
-    b.error(card.where("strength_factor"),
+    b.error("S207", card.where("strength_factor"),
             "the strength factor of a stage must not be negative (blank = none)");
   for (const CardView& c : b.deck.all("fixity", card))
     read_fixity(b, c, true, stage.fixities, stage.field_fixities);
@@ -412,20 +424,22 @@ void check_births(Builder& b) {
     for (int g : stage.births) {
       Life& life = lives[static_cast<std::size_t>(g)];
       if (life.born > 0)
-        b.error(stage.where,
+        b.error("S239", stage.where,
                 name(g) + " is born twice; a group that was removed needs a twin to be born again");
       else if (life.dead > 0)
-        b.error(stage.where, name(g) + " is born in stage " + std::to_string(stage.number) +
-                                 " but removed in stage " + std::to_string(life.dead) +
-                                 ", before it exists; a group that was removed needs a twin to be born again");
+        b.error("S239", stage.where,
+                name(g) + " is born in stage " + std::to_string(stage.number) + " but removed in stage " +
+                    std::to_string(life.dead) +
+                    ", before it exists; a group that was removed needs a twin to be born again");
       life.born = stage.number;
     }
     for (int g : stage.deaths) {
       Life& life = lives[static_cast<std::size_t>(g)];
       if (life.born == stage.number)
-        b.error(stage.where, name(g) + " is born and removed in the same stage");
+        b.error("S239", stage.where, name(g) + " is born and removed in the same stage");
       else if (life.dead > 0)
-        b.note(stage.where, name(g) + " is removed again: it is gone since stage " + std::to_string(life.dead));
+        b.note("S239", stage.where,
+               name(g) + " is removed again: it is gone since stage " + std::to_string(life.dead));
       if (life.dead == 0) life.dead = stage.number;
     }
   }
@@ -452,7 +466,7 @@ void build_stages(Builder& b) {
   build_steps(b);
   build_strength_stages(b);
   if (b.model.stages.empty())
-    b.error(b.deck.one("control").where(), "the deck has no stages: nothing to compute");
+    b.error("S214", b.deck.one("control").where(), "the deck has no stages: nothing to compute");
   check_births(b);
 }
 

@@ -50,7 +50,7 @@ CardView card_of_k0(const Builder& b, const CardView& card, const Material& mate
 double k0_of(Builder& b, const CardView& card, const Material& material) {
   const CardView with_k0 = card_of_k0(b, card, material);
   if (!with_k0.blank("k0")) return with_k0.real("k0");
-  b.error(with_k0.where("k0"),
+  b.error("S245", with_k0.where("k0"),
           "material " + std::to_string(material.number) +
               ": the coefficient of earth pressure at rest, field " +
               "k0, is blank: the start stress needs it on the material card or on the start_stress card");
@@ -190,10 +190,10 @@ void raise_to_level(Builder& b, const CardView& card) {
   if (!b.usable(card, "level", level)) return;
   const double close = 1e-9 * std::max({top.top - b.layers.back().bottom, std::abs(level), std::abs(top.top)});
   if (level < top.top - close)
-    return b.error(card.where("level"), "the level of the ground, " + rounded_text(level) + ", is below node " +
-                                            std::to_string(node_at(b, top.top)) +
-                                            ", the highest of the ground, y = " + rounded_text(top.top) +
-                                            ": the start stress between them would be tension");
+    return b.error("S245", card.where("level"),
+                   "the level of the ground, " + rounded_text(level) + ", is below node " +
+                       std::to_string(node_at(b, top.top)) + ", the highest of the ground, y = " +
+                       rounded_text(top.top) + ": the start stress between them would be tension");
   const double lift = level - top.top;
   top.top = level;
   for (std::size_t i = 1; i < b.layers.size(); ++i) b.layers[i].stress += lift * top.unit_weight;
@@ -208,7 +208,7 @@ void warn_of_sides(Builder& b, const CardView& card) {
   std::optional<SideBySide> uneven;
   layers_of(parts, uneven);
   if (uneven)
-    b.warning(card.where(),
+    b.warning("S246", card.where(),
               "the start stress is not in balance: coefficients of earth pressure at rest differ "
               "on one level: " +
                   place_of(b, *uneven));
@@ -228,7 +228,7 @@ std::vector<std::array<char, 2>> held_nodes(const Builder& b, const Stage& stage
 void refuse_interfaces(Builder& b, const CardView& card) {
   for (const Group& group : b.model.groups)
     if (group.element && group.interface() && group.elements() > 0 && !is_born_later(b, group))
-      return b.error(card.where(),
+      return b.error("S245", card.where(),
                      "group " + std::to_string(group.number) +
                          " holds interfaces, to which start_stress gives no pressure of the ground; "
                          "initial cards in its place do: kind 1 for the ground, kind 3 for interfaces");
@@ -289,13 +289,13 @@ void split_layers(Builder& b) {
   const std::vector<CardView> cards = b.deck.all("start_stress");
   if (cards.empty() || b.problems.errors() > 0) return;
   const CardView& card = cards.front();
-  if (cards.size() > 1) return b.error(cards[1].where(), "there is a start_stress card already");
+  if (cards.size() > 1) return b.error("S245", cards[1].where(), "there is a start_stress card already");
   std::optional<SideBySide> uneven;
   b.layers = layers_of(
       parts_of(b, [&](const Group& group) { return std::optional(b.model.material_of(group).unit_weight); }),
       uneven);
   if (uneven)
-    return b.error(card.where(),
+    return b.error("S245", card.where(),
                    "the start stress needs horizontal layers, each of one unit weight over the "
                    "whole width; here unit weights differ on one level: " +
                        place_of(b, *uneven) +
@@ -329,9 +329,10 @@ void add_start_stress(Builder& b, Stage stage) {
     warn_of_sides(b, card);
     const int faces = hold_free_faces(b, of_group, stage);
     if (faces > 0)
-      b.note(card.where(), std::to_string(faces) +
-                               " free edge(s) are under the start stress: pressures balance it there, "
-                               "so that the start is in equilibrium");
+      b.note("S246", card.where(),
+             std::to_string(faces) +
+                 " free edge(s) are under the start stress: pressures balance it there, "
+                 "so that the start is in equilibrium");
   }
   b.model.stages.insert(b.model.stages.begin(), std::move(stage));
 }

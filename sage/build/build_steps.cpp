@@ -32,13 +32,14 @@ std::vector<Moved> read_displacements(Builder& b, bool values_needed) {
     Moved moved{node_range(b, card), 0, card.real("value", 1.0), card};
     const int direction = card.integer("direction");
     if (direction != 1 && direction != 2)
-      b.error(card.where("direction"),
+      b.error("S210", card.where("direction"),
               "direction " + std::to_string(direction) + " of a displacement is unknown; 1 x, 2 y");
     else
       moved.direction = static_cast<std::size_t>(direction - 1);
     b.usable(card, "value", moved.value);
     if (values_needed && card.blank("value"))
-      b.error(card.where("value"), "the displacement is missing; it stands here or on the increments card");
+      b.error("S240", card.where("value"),
+              "the displacement is missing; it stands here or on the increments card");
     all.push_back(std::move(moved));
   }
   return all;
@@ -123,7 +124,8 @@ struct Step {
 // A factor that is added, or the one that is reached.
 void add_factor(Builder& b, const SourcePosition& where, double value, bool total, double& sum,
                 std::vector<Step>& steps) {
-  if (!(std::abs(value) < 1e100)) b.error(where, "the load factor is too large to compute with (beyond 1e100)");
+  if (!(std::abs(value) < 1e100))
+    b.error("S208", where, "the load factor is too large to compute with (beyond 1e100)");
   steps.push_back({total ? value - sum : value, where});
   sum = total ? value : sum + value;
 }
@@ -157,7 +159,7 @@ int number_of_increments(Builder& b) {
     if (card.blank("increments")) continue;
     const int n = card.integer("increments");
     if (n >= 1 && n <= kMostIncrements) return n;
-    b.error(card.where("increments"), "the number of increments must be between 1 and 10000000");
+    b.error("S238", card.where("increments"), "the number of increments must be between 1 and 10000000");
   }
   return 1;
 }
@@ -185,17 +187,18 @@ void add_load_steps(Builder& b, const Loads& loads) {
     }
   const std::vector<Step> steps = read_factors(b);
   if (each != 0.0 && !steps.empty())
-    b.error(where,
+    b.error("S240", where,
             "load factors and a displacement of each increment stand on one card: only one of them can be");
   if (!loads.any()) {
     if (!steps.empty())
-      b.error(steps.front().where,
+      b.error("S240", steps.front().where,
               "there are load factors, but no load, pressure, displacement or gravity card");
     return;
   }
   if (each != 0.0) {
     if (loads.moved.empty())
-      b.error(where, "a displacement of each increment is given, but no displacement card says of which nodes");
+      b.error("S240", where,
+              "a displacement of each increment is given, but no displacement card says of which nodes");
     const int increments = number_of_increments(b);
     Stage stage = new_stage("displacement", where, increments);
     stage.output_every = 1;
@@ -308,11 +311,12 @@ void split_removed(Builder& b) {
     for (const FieldValue& value : cards[c].list("elements")) {
       const int number = static_cast<int>(std::clamp(value.number, -2e9, 2e9));
       if (!b.element_place.contains(number))
-        b.error(cards[c].where(value),
+        b.error("S202", cards[c].where(value),
                 "element " + std::to_string(number) + " is to be removed, but no card defines it");
       else if (const auto [before, added] = card_of.try_emplace(number, c); !added)
-        b.error(cards[c].where(value), "element " + std::to_string(number) + " is removed already by line " +
-                                           std::to_string(cards[before->second].card().line));
+        b.error("S239", cards[c].where(value),
+                "element " + std::to_string(number) + " is removed already by line " +
+                    std::to_string(cards[before->second].card().line));
     }
   if (b.problems.errors() > 0) return;
   const int groups = static_cast<int>(b.model.groups.size());

@@ -60,7 +60,7 @@ std::vector<Factor> read_strength_factors(Builder& b) {
       if (value.number > 0.0 && value.number < 1e6)
         factors.push_back({value.number, card.where(value)});
       else
-        b.error(card.where(value),
+        b.error("S241", card.where(value),
                 "a strength factor must be above 0 and below 1000000, not " + rounded_text(value.number, 6));
     }
   return factors;
@@ -97,7 +97,7 @@ bool fits(Builder& b) {
   if (model.stages.size() == 1 && model.initials.empty() && model.stages[0].births.empty() &&
       model.stages[0].deaths.empty())
     return true;
-  b.error(b.deck.all("strength_factors").front().where(),
+  b.error("S241", b.deck.all("strength_factors").front().where(),
           "strength factors need a deck whose loads come in one step on bodies without start stress; this one "
           "has " +
               std::to_string(model.stages.size()) + " stage(s)" +
@@ -142,11 +142,11 @@ void build_strength_stages(Builder& b) {
   const std::size_t materials = model.materials.size(), groups = model.groups.size();
   const Numbers stride = strides(model);
   if (static_cast<std::int64_t>(stride.element) * static_cast<std::int64_t>(factors.size()) > kLargestNumber) {
-    b.error(factors.back().where, "there are too many strength factors for so large element numbers");
+    b.error("S241", factors.back().where, "there are too many strength factors for so large element numbers");
     return;
   }
   if (std::none_of(model.materials.begin(), model.materials.end(), has_strength))
-    b.warning(factors.front().where,
+    b.warning("S241", factors.front().where,
               "strength factors are given, but no material has a strength: every factor gives the same answer");
   for (std::size_t k = 1; k < factors.size(); ++k) {
     const int first_material = static_cast<int>(model.materials.size());

@@ -204,7 +204,7 @@ void warn_coarse(Builder& b, const Stage& stage, bool moved, const NodeSpacing& 
   else
     message += moved ? ": loads are 5 to 20 % too large; 0.005 leaves about 2 %"
                      : ": loads are 10 % and more too large";
-  b.warning(b.at_line(spacing.line),
+  b.warning("S334", b.at_line(spacing.line),
             message + (moved ? "; smaller elements towards that node, or --refine, and docs/manual/accuracy.md"
                              : "; --refine, and docs/manual/accuracy.md"));
 }

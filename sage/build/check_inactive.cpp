@@ -27,7 +27,8 @@ void tell(Builder& b, const IdleCards& idle, const Stage& stage, const std::stri
   for (const auto& [line, card] : idle) {
     std::string text = what + " " + std::to_string(card.first);
     if (card.count > 1) text += " (and " + std::to_string(card.count - 1) + " more)";
-    b.warning(b.at_line(line), text + " of stage " + std::to_string(stage.number) + " does nothing: " + why);
+    b.warning("S332", b.at_line(line),
+              text + " of stage " + std::to_string(stage.number) + " does nothing: " + why);
   }
 }
 
@@ -82,9 +83,10 @@ void check_inactive(Builder& b) {
       if (report.kind == ReportKind::point || stage.number <= report.stage ||
           !std::all_of(report.nodes.begin(), report.nodes.end(), idle_node) || !reported.insert(i).second)
         continue;
-      b.warning(report.where, "stage " + std::to_string(stage.number) +
-                                  ": no element that is active then has a node "
-                                  "of this report: it shows the displacements of before and no force");
+      b.warning("S332", report.where,
+                "stage " + std::to_string(stage.number) +
+                    ": no element that is active then has a node "
+                    "of this report: it shows the displacements of before and no force");
     }
     check_unknowns(b, stage, activity);
     tell(b, loads, stage, "the load of node", "no element that is active then has the node");

@@ -91,13 +91,14 @@ class SideCheck {
       const std::string wrong = trouble(bottom, top, *group.entry);
       if (wrong.empty() || line == error_line) continue;  // one message a card
       error_line = line;
-      b_.error(node_fields(b_, line, nodes),
+      b_.error("S327", node_fields(b_, line, nodes),
                "element " + std::to_string(number) + " (" + group.element_name + "): " + wrong);
     }
     if (alone > 0)
-      b_.note(group.where, "group " + std::to_string(group.number) + ": " + std::to_string(alone) +
-                               " interface element(s) touch no solid on either side, the first is element " +
-                               std::to_string(first_alone) + "; which side is which can't be checked there");
+      b_.note("S335", group.where,
+              "group " + std::to_string(group.number) + ": " + std::to_string(alone) +
+                  " interface element(s) touch no solid on either side, the first is element " +
+                  std::to_string(first_alone) + "; which side is which can't be checked there");
   }
 
  private:

@@ -116,9 +116,9 @@ void warn_coincident(Builder& b, const std::vector<double>& shortest) {
   for (const auto& [first, second] : found)
     pairs.add(number_of(b.model, first) + " and " + number_of(b.model, second));
   if (pairs.count > 0)
-    b.warning(b.at_line(0), std::to_string(pairs.count) +
-                                " pair(s) of nodes at one place are joined by no interface: " + pairs.text() +
-                                "; the parts are not connected there");
+    b.warning("S336", b.at_line(0),
+              std::to_string(pairs.count) + " pair(s) of nodes at one place are joined by no interface: " +
+                  pairs.text() + "; the parts are not connected there");
 }
 
 // An edge of a solid, by its corners (the smaller node first).
@@ -201,7 +201,7 @@ void warn_hanging(Builder& b, const std::vector<double>& shortest) {
     }
   }
   if (hanging.count > 0)
-    b.warning(b.at_line(0),
+    b.warning("S337", b.at_line(0),
               std::to_string(hanging.count) + " hanging node(s): " + hanging.text() +
                   "; the element does not have that node, and the mesh can gape or overlap there");
 }
@@ -249,7 +249,7 @@ void warn_bare_joints(Builder& b) {
       std::sort(bare.begin(), bare.end());
       bare.erase(std::unique(bare.begin(), bare.end()), bare.end());
       for (const int node : bare) nodes.add(number_of(model, node));
-      b.warning(stage.where,
+      b.warning("S338", stage.where,
                 "stage " + std::to_string(stage.number) + ": no solid is active on one side of joint group " +
                     std::to_string(group.number) + ", element(s) " + elements.text() + ": node(s) " +
                     nodes.text() +

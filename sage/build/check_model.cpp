@@ -69,20 +69,21 @@ void check_shapes(Builder& b) {
       }
     }
     if (cautioned > 1) caution += " (and " + std::to_string(cautioned - 1) + " more)";
-    if (cautioned > 0) b.warning(group.where, caution);
+    if (cautioned > 0) b.warning("S227", group.where, caution);
   }
   for (std::size_t i = 0; i < std::min(kShown, refused.size()); ++i) {
     const Refused& card = refused[i];
-    b.error(b.at_line(card.line),
+    b.error("S226", b.at_line(card.line),
             card.message + (card.more > 0 ? " (and " + std::to_string(card.more) + " more of this card)" : ""));
   }
   if (refused.size() > kShown)
-    b.error(b.deck.one("control").where(),
+    b.error("S226", b.deck.one("control").where(),
             "and " + std::to_string(refused.size() - kShown) + " more cards of elements with unusable shapes");
   if (poor > 0)
-    b.warning(worst_where, std::to_string(poor) + " element(s) badly distorted; worst " + worst_name +
-                               ", smallest over mean Jacobian " + rounded_text(worst, 3) +
-                               ", largest inner angle " + rounded_text(worst_angle, 3) + " degrees");
+    b.warning("S227", worst_where,
+              std::to_string(poor) + " element(s) badly distorted; worst " + worst_name +
+                  ", smallest over mean Jacobian " + rounded_text(worst, 3) + ", largest inner angle " +
+                  rounded_text(worst_angle, 3) + " degrees");
 }
 
 // In axisymmetry a point on the axis can't move radially.
@@ -105,7 +106,7 @@ void fix_axis(Builder& b) {
     ++added;
   }
   if (added > 0)
-    b.note(b.at_line(0),
+    b.note("S328", b.at_line(0),
            std::to_string(added) + " node(s) on the axis r = 0 held radially (u_r = 0 by symmetry)");
 }
 
@@ -117,20 +118,21 @@ void note_unused_nodes(Builder& b) {
   const auto unused = std::count(used.begin(), used.end(), 0);
   if (unused == 0) return;
   const auto first = std::find(used.begin(), used.end(), 0) - used.begin();
-  b.note(b.at_line(0), std::to_string(unused) +
-                           " node(s) belong to no element and are ignored, the first is node " +
-                           std::to_string(model.mesh.number[static_cast<std::size_t>(first)]));
+  b.note("S329", b.at_line(0),
+         std::to_string(unused) + " node(s) belong to no element and are ignored, the first is node " +
+             std::to_string(model.mesh.number[static_cast<std::size_t>(first)]));
   const auto refuse = [&](const Fixity& f) {
     const bool moved = f.value[0] != 0.0 || f.value[1] != 0.0;
     if (moved && !used[static_cast<std::size_t>(f.node)])
-      b.error(b.at_line(f.line), "node " + std::to_string(model.mesh.number[static_cast<std::size_t>(f.node)]) +
-                                     " is displaced but belongs to no element");
+      b.error("S330", b.at_line(f.line),
+              "node " + std::to_string(model.mesh.number[static_cast<std::size_t>(f.node)]) +
+                  " is displaced but belongs to no element");
   };
   for (const Stage& stage : model.stages) {
     for (const Fixity& f : stage.fixities) refuse(f);
     for (const NodalLoad& load : stage.loads)
       if (!used[static_cast<std::size_t>(load.node)])
-        b.error(b.at_line(load.line),
+        b.error("S330", b.at_line(load.line),
                 "node " + std::to_string(model.mesh.number[static_cast<std::size_t>(load.node)]) +
                     " is loaded but belongs to no element");
   }
@@ -142,7 +144,7 @@ void note_unused_materials(Builder& b) {
   for (const Group& group : b.model.groups) used[static_cast<std::size_t>(group.material)] = 1;
   for (std::size_t m = 0; m < used.size(); ++m)
     if (!used[m])
-      b.note(b.model.materials[m].where,
+      b.note("S329", b.model.materials[m].where,
              "material " + std::to_string(b.model.materials[m].number) + " is used by no group and is ignored");
 }
 
@@ -153,9 +155,9 @@ void warn_materials(Builder& b) {
     const std::string words = std::visit([](const auto* law) { return law->caution(); }, material.law_ref());
     if (words.empty()) continue;
     const bool interface = group.interface();
-    b.warning(group.where, (interface ? "interface set " : "group ") + std::to_string(group.number) +
-                               ", material " + std::to_string(material.number) + " (" + material.law_name +
-                               "): " + words);
+    b.warning("S331", group.where,
+              (interface ? "interface set " : "group ") + std::to_string(group.number) + ", material " +
+                  std::to_string(material.number) + " (" + material.law_name + "): " + words);
   }
 }
 
@@ -166,9 +168,10 @@ void check_supports_of(Builder& b, const Stage& stage, const Activity& activity)
   const bool several = !part.empty() && *std::max_element(part.begin(), part.end()) > 0;
   const std::vector<LoosePart> loose = loose_parts(b.model, activity, part);
   for (std::size_t i = 0; i < std::min(kShown, loose.size()); ++i)
-    b.error(stage.where, "stage " + std::to_string(stage.number) + ": nothing holds the " +
-                             (several ? part_name(b.model, part, loose[i].part) : "mesh") + " against " +
-                             loose[i].motion + "; add fixities");
+    b.error("S323", stage.where,
+            "stage " + std::to_string(stage.number) + ": nothing holds the " +
+                (several ? part_name(b.model, part, loose[i].part) : "mesh") + " against " + loose[i].motion +
+                "; add fixities");
 }
 
 void check_supports(Builder& b) {
@@ -196,7 +199,7 @@ void check_solver(Builder& b) {
     const Material& material = b.model.material_of(group);
     if (std::visit([](const auto* law) { return law->symmetric(); }, material.law_ref())) continue;
     const bool from_deck = b.options.solver < 0;
-    b.error(from_deck ? b.deck.one("control").where("solver") : b.at_line(0),
+    b.error("S324", from_deck ? b.deck.one("control").where("solver") : b.at_line(0),
             std::string(from_deck ? "solver " + std::to_string(b.model.solver) : "the option --solver") + ": " +
                 solver->name + " is for symmetric matrices only, but material " +
                 std::to_string(material.number) + " (" + material.law_name + ") of group " +
@@ -221,12 +224,14 @@ void warn_locking(Builder& b) {
                   (remedy.empty() ? "8-node quadrilaterals (reduced) or quad4 b-bar do not" : remedy)
             : ": near nu = 1/2 its error is several times that at nu = 0.3 and falls more slowly with the "
               "mesh; 8-node quadrilaterals (reduced) or quad4 b-bar keep theirs";
-    b.warning(group.where, "group " + std::to_string(group.number) + " (" + group.element_name +
-                               ") has nu = " + rounded_text(nu, 7) + what);
+    b.warning("S325", group.where,
+              "group " + std::to_string(group.number) + " (" + group.element_name +
+                  ") has nu = " + rounded_text(nu, 7) + what);
   }
   if (found > kShown)
-    b.warning(b.at_line(0), "and " + std::to_string(found - kShown) +
-                                " more groups whose elements lock or lose accuracy near nu = 1/2");
+    b.warning("S325", b.at_line(0),
+              "and " + std::to_string(found - kShown) +
+                  " more groups whose elements lock or lose accuracy near nu = 1/2");
 }
 
 }  // namespace

@@ -455,7 +455,7 @@ void refuse_overlaps(Builder& b, const std::vector<std::pair<Solid, Solid>>& fou
   if (found.size() > kShown)
     text += ", and " + std::string(found.size() >= kMostFound ? "at least " : "") +
             std::to_string(found.size() - kShown) + " more pairs";
-  b.error(b.at_line(line_of(model, second.group, second.element)),
+  b.error("S326", b.at_line(line_of(model, second.group, second.element)),
           text + " (a group that lies on others on purpose says so: overlay 1)");
 }
 
@@ -467,7 +467,7 @@ void check_overlap(Builder& b) {
   if (edges.first) {
     const auto& [owner, edge] = *edges.first;
     b.warning(
-        b.at_line(line_of(b.model, edge.group, edge.element)),
+        "S326", b.at_line(line_of(b.model, edge.group, edge.element)),
         "elements " + number_of(b.model, owner.group, owner.element) + " and " +
             number_of(b.model, edge.group, edge.element) +
             " lie on the same side of a common edge: they overlap" +

@@ -53,8 +53,9 @@ void check_units(Builder& b) {
   const double stress = si(kStresses, units.stress);
   const auto check = [&](const char* field, double given, double unit, double right, const std::string& name) {
     if (given == 0.0 || unit == 0.0 || std::abs(given * unit / right - 1.0) < 0.1) return;
-    b.warning(card.where(field), "the " + card.label(field) + " is " + rounded_text(given) +
-                                     "; in these units it is about " + rounded_text(right / unit) + " " + name);
+    b.warning("S301", card.where(field),
+              "the " + card.label(field) + " is " + rounded_text(given) + "; in these units it is about " +
+                  rounded_text(right / unit) + " " + name);
   };
   check("atmospheric_pressure", units.atmospheric_pressure, stress, kAtmosphere, units.stress);
   check("water_unit_weight", units.water_unit_weight, length > 0.0 ? force / (length * length * length) : 0.0,
@@ -62,9 +63,9 @@ void check_units(Builder& b) {
   if (stress > 0.0 && force > 0.0 && length > 0.0) {
     const double ratio = stress / (force / (length * length));
     if (std::abs(ratio - 1.0) > 0.01)
-      b.warning(card.where("stress"), "1 " + units.stress + " is " + rounded_text(ratio) + " " + units.force +
-                                          "/" + units.length +
-                                          "^2: forces, lengths and stresses of a deck must belong together");
+      b.warning("S302", card.where("stress"),
+                "1 " + units.stress + " is " + rounded_text(ratio) + " " + units.force + "/" + units.length +
+                    "^2: forces, lengths and stresses of a deck must belong together");
   }
 }
 
@@ -110,16 +111,18 @@ void check_initial(Builder& b, const InitialStress& initial) {
   if (initial.kind == InitialKind::geostatic) {
     const double k0 = initial.value[2], weight = initial.value[1];
     if (k0 < 0.0 || k0 > 10.0)
-      b.warning(initial.where, name + "the coefficient of earth pressure at rest is " + rounded_text(k0) +
-                                   "; soils have about 0.3 to 3");
-    if (weight < 0.0) b.warning(initial.where, name + "the unit weight of the initial stress is negative");
+      b.warning("S303", initial.where,
+                name + "the coefficient of earth pressure at rest is " + rounded_text(k0) +
+                    "; soils have about 0.3 to 3");
+    if (weight < 0.0)
+      b.warning("S303", initial.where, name + "the unit weight of the initial stress is negative");
     const auto [low, high] = std::pair(b.model.mesh.x.row(1).minCoeff(), b.model.mesh.x.row(1).maxCoeff());
     if (initial.value[0] > high + 2.0 * (high - low) || initial.value[0] < low)
-      b.warning(initial.where, name + "the ground level of the initial stress, " +
-                                   rounded_text(initial.value[0]) + ", is far from the mesh, " +
-                                   rounded_text(low) + " to " + rounded_text(high));
+      b.warning("S303", initial.where,
+                name + "the ground level of the initial stress, " + rounded_text(initial.value[0]) +
+                    ", is far from the mesh, " + rounded_text(low) + " to " + rounded_text(high));
     if (modulus > 0.0 && std::abs(weight) * (high - low) + std::abs(initial.value[3]) > modulus)
-      b.warning(initial.where,
+      b.warning("S303", initial.where,
                 name + "the initial stress exceeds the material's modulus, " + rounded_text(modulus));
   }
   if (initial.kind != InitialKind::uniform) return;
@@ -127,15 +130,17 @@ void check_initial(Builder& b, const InitialStress& initial) {
   const std::size_t normals = solid ? 3 : 2;
   for (std::size_t i = solid ? 0 : 1; i < normals; ++i) {
     if (initial.value[i] >= 0.0) continue;
-    b.note(initial.where, name + "value " + std::to_string(i + 1) +
-                              " of the initial stress is tension (decks write compression positive)");
+    b.note("S303", initial.where,
+           name + "value " + std::to_string(i + 1) +
+               " of the initial stress is tension (decks write compression positive)");
     break;
   }
   double largest = 0.0;
   for (std::size_t i = 0; i < 4; ++i) largest = std::max(largest, std::abs(initial.value[i]));
   if (modulus > 0.0 && largest > modulus)
-    b.warning(initial.where, name + "the initial stress, " + rounded_text(largest) +
-                                 ", exceeds the material's modulus, " + rounded_text(modulus));
+    b.warning("S303", initial.where,
+              name + "the initial stress, " + rounded_text(largest) + ", exceeds the material's modulus, " +
+                  rounded_text(modulus));
 }
 
 // Elements that are needles: a coordinate with a digit too many stretches its elements long before they fold.
@@ -163,11 +168,11 @@ void check_slender(Builder& b) {
     }
   }
   if (found > 0)
-    b.warning(b.at_line(line), std::to_string(found) +
-                                   " element(s) are more than 10000 times as long as wide, the worst is "
-                                   "element " +
-                                   std::to_string(number) + ", " + rounded_text(worst) +
-                                   " times: is a coordinate wrong?");
+    b.warning("S304", b.at_line(line),
+              std::to_string(found) +
+                  " element(s) are more than 10000 times as long as wide, the worst is "
+                  "element " +
+                  std::to_string(number) + ", " + rounded_text(worst) + " times: is a coordinate wrong?");
 }
 
 // Where elements come in blocks, a number that is left out may be a hole in the mesh.
@@ -181,8 +186,9 @@ void note_missing_numbers(Builder& b) {
   b.element_place.for_each([&](int number, const ElementPlace&) { numbers.push_back(number); });
   for (std::size_t i = 1; i < numbers.size(); ++i) {
     if (numbers[i] == numbers[i - 1] + 1) continue;
-    b.note(b.at_line(0), "the element numbers are not consecutive: after " + std::to_string(numbers[i - 1]) +
-                             " comes " + std::to_string(numbers[i]) + "; is a block of elements cut short?");
+    b.note("S305", b.at_line(0),
+           "the element numbers are not consecutive: after " + std::to_string(numbers[i - 1]) + " comes " +
+               std::to_string(numbers[i]) + "; is a block of elements cut short?");
     return;
   }
 }
@@ -192,8 +198,9 @@ void check_poisson(Builder& b) {
   for (const Material& material : b.model.materials)
     for_parameters(material, [&](const Parameter& p, double value) {
       if (p.role == ParameterRole::poissons_ratio && value < 0.0)
-        b.warning(material.where, "material " + std::to_string(material.number) +
-                                      ": Poisson's ratio is negative, " + rounded_text(value));
+        b.warning("S306", material.where,
+                  "material " + std::to_string(material.number) + ": Poisson's ratio is negative, " +
+                      rounded_text(value));
     });
 }
 
@@ -204,10 +211,10 @@ void check_strengths_and_weights(Builder& b) {
     for_parameters(material, [&](const Parameter& p, double value) {
       const std::string name = "material " + std::to_string(material.number) + ": " + p.name + ", ";
       if (p.role == ParameterRole::strength && modulus > 0.0 && value > modulus)
-        b.warning(material.where,
+        b.warning("S306", material.where,
                   name + rounded_text(value) + ", exceeds the material's modulus, " + rounded_text(modulus));
       if (p.role == ParameterRole::unit_weight && value < 0.0)
-        b.warning(material.where, name + rounded_text(value) + ", is a negative unit weight");
+        b.warning("S306", material.where, name + rounded_text(value) + ", is a negative unit weight");
     });
   }
 }
@@ -218,9 +225,10 @@ void check_angles(Builder& b) {
   for (const Material& material : b.model.materials)
     for_parameters(material, [&](const Parameter& p, double angle) {
       if (p.role != ParameterRole::friction_angle || angle < kLeast || angle > kPi / 2.0) return;
-      b.warning(material.where, "material " + std::to_string(material.number) + ": the friction angle is " +
-                                    rounded_text(angle) + " degrees; was it meant in radians, " +
-                                    rounded_text(angle / kRadiansPerDegree) + " degrees?");
+      b.warning("S306", material.where,
+                "material " + std::to_string(material.number) + ": the friction angle is " +
+                    rounded_text(angle) + " degrees; was it meant in radians, " +
+                    rounded_text(angle / kRadiansPerDegree) + " degrees?");
     });
 }
 
@@ -234,17 +242,18 @@ void check_fixities(Builder& b, const Stage& stage, const Activity& before, cons
     for (std::size_t c = 0; c < 2; ++c) {
       if (std::abs(f.value[c]) > size.length) {
         last_line = f.line;
-        b.warning(b.at_line(f.line), "the displacement " + rounded_text(f.value[c]) +
-                                         " is larger than the mesh, " + rounded_text(size.length) +
-                                         "; strains are taken as small");
+        b.warning("S307", b.at_line(f.line),
+                  "the displacement " + rounded_text(f.value[c]) + " is larger than the mesh, " +
+                      rounded_text(size.length) + "; strains are taken as small");
       }
       const auto component = static_cast<int>(c);
       if (f.code[c] == FixityCode::released && !before.holds(f.node, component) &&
           held_here.count(DofMap::displacement(f.node, component)) == 0) {
         last_line = f.line;
-        b.note(b.at_line(f.line), "code -1 releases node " +
-                                      std::to_string(b.model.mesh.number[static_cast<std::size_t>(f.node)]) +
-                                      (c == 0 ? " in x" : " in y") + ", which nothing held");
+        b.note("S309", b.at_line(f.line),
+               "code -1 releases node " +
+                   std::to_string(b.model.mesh.number[static_cast<std::size_t>(f.node)]) +
+                   (c == 0 ? " in x" : " in y") + ", which nothing held");
       }
     }
   }
@@ -257,21 +266,24 @@ void check_loads(Builder& b, const Stage& stage, const Size& size) {
     if (load.line == last_line || size.stiffness == 0.0) continue;
     if (load.force.cwiseAbs().maxCoeff() <= size.stiffness * size.length * reach) continue;
     last_line = load.line;
-    b.warning(b.at_line(load.line), "the force " + rounded_text(load.force.cwiseAbs().maxCoeff()) +
-                                        " would strain the whole mesh by more than 1 (largest modulus " +
-                                        rounded_text(size.stiffness) + ")");
+    b.warning("S308", b.at_line(load.line),
+              "the force " + rounded_text(load.force.cwiseAbs().maxCoeff()) +
+                  " would strain the whole mesh by more than 1 (largest modulus " +
+                  rounded_text(size.stiffness) + ")");
   }
   for (const EdgeLoad& load : stage.pressures) {
     if (load.line == last_line) continue;
     const Group& group = b.model.groups[static_cast<std::size_t>(load.group)];
     const double largest = std::max(load.normal.cwiseAbs().maxCoeff(), load.shear.cwiseAbs().maxCoeff());
     if (size.stiffness > 0.0 && largest > size.stiffness) {
-      b.warning(b.at_line(load.line), "the pressure or shear " + rounded_text(largest) +
-                                          " exceeds the largest modulus, " + rounded_text(size.stiffness));
+      b.warning("S308", b.at_line(load.line),
+                "the pressure or shear " + rounded_text(largest) + " exceeds the largest modulus, " +
+                    rounded_text(size.stiffness));
     } else if (load.normal.minCoeff() < 0.0) {
-      b.note(b.at_line(load.line), "a negative pressure pulls at the edge");
+      b.note("S310", b.at_line(load.line), "a negative pressure pulls at the edge");
     } else if (group.interface()) {
-      b.note(b.at_line(load.line), "the pressure acts on one side of an interface alone, towards the joint");
+      b.note("S310", b.at_line(load.line),
+             "the pressure acts on one side of an interface alone, towards the joint");
     } else {
       continue;
     }
@@ -312,7 +324,8 @@ void check_inner_edges(Builder& b, const Stage& stage, const Activity& activity)
   for (const EdgeLoad& load : stage.pressures) {
     if (uses[edge_of(load)] < 2 || load.line == last_line) continue;
     last_line = load.line;
-    b.warning(b.at_line(load.line), "the pressure acts on an edge inside the body, which two elements share");
+    b.warning("S310", b.at_line(load.line),
+              "the pressure acts on an edge inside the body, which two elements share");
   }
 }
 
@@ -326,34 +339,37 @@ void check_gravity(Builder& b) {
     total += stage.gravity;
     const std::string name = "stage " + std::to_string(stage.number) + ": ";
     if (stage.gravity.norm() > 1000.0)
-      b.warning(stage.where,
+      b.warning("S311", stage.where,
                 name + "gravity is " + rounded_text(stage.gravity.norm()) + " times the unit weights");
     if (stage.gravity.x() != 0.0 && b.model.geometry == Geometry::axisymmetric)
-      b.warning(stage.where, name + "gravity_x is " + rounded_text(stage.gravity.x()) +
-                                 ": in axisymmetry it acts along the radius, all around; the axis is y");
+      b.warning("S311", stage.where,
+                name + "gravity_x is " + rounded_text(stage.gravity.x()) +
+                    ": in axisymmetry it acts along the radius, all around; the axis is y");
     if (stage.gravity.norm() > 0.0 && before.norm() > 0.0 && total.norm() > 1.0 + 1e-9 &&
         std::max(stage.gravity.norm(), before.norm()) < 1.0 + 1e-9)
-      b.note(stage.where, name + "gravity is added to that of earlier stages: it is now " +
-                              rounded_text(total.norm()) + " times the unit weights");
-    if (total.y() > 1e-9) b.note(stage.where, name + "gravity acts upwards (gravity_y > 0 in sum)");
+      b.note("S311", stage.where,
+             name + "gravity is added to that of earlier stages: it is now " + rounded_text(total.norm()) +
+                 " times the unit weights");
+    if (total.y() > 1e-9) b.note("S311", stage.where, name + "gravity acts upwards (gravity_y > 0 in sum)");
     if (stage.increments > 10000)
-      b.note(stage.where,
+      b.note("S313", stage.where,
              name + std::to_string(stage.increments) + " increments: each is a solution of its own");
   }
   bool weight = false;
   for (const Group& group : b.model.groups) weight = weight || b.model.material_of(group).unit_weight != 0.0;
   if (first != nullptr && !weight)
-    b.warning(first->where,
+    b.warning("S312", first->where,
               "stage " + std::to_string(first->number) + ": gravity acts, but no material has a unit weight");
   for (const Material& material : b.model.materials) {
     if (material.unit_weight < 0.0)
-      b.warning(material.where,
+      b.warning("S306", material.where,
                 "material " + std::to_string(material.number) + ": the unit weight is negative");
     if (first == nullptr || !weight || !std::holds_alternative<std::unique_ptr<SolidLaw>>(material.law))
       continue;
     if (std::find(b.blank_weights.begin(), b.blank_weights.end(), material.number) != b.blank_weights.end())
-      b.note(material.where, "material " + std::to_string(material.number) +
-                                 ": its unit weight is left blank, which reads as 0, though gravity acts");
+      b.note("S312", material.where,
+             "material " + std::to_string(material.number) +
+                 ": its unit weight is left blank, which reads as 0, though gravity acts");
   }
   if (first == nullptr) return;
   const double height = b.model.mesh.x.row(1).maxCoeff() - b.model.mesh.x.row(1).minCoeff();
@@ -361,10 +377,10 @@ void check_gravity(Builder& b) {
     const Material& material = b.model.material_of(group);
     const double modulus = stiffness(b, material);
     if (modulus == 0.0 || std::abs(material.unit_weight) * height <= modulus) continue;
-    b.warning(material.where, "material " + std::to_string(material.number) +
-                                  ": the weight of a column as high as the mesh, " +
-                                  rounded_text(material.unit_weight * height) + ", exceeds its modulus, " +
-                                  rounded_text(modulus));
+    b.warning("S312", material.where,
+              "material " + std::to_string(material.number) + ": the weight of a column as high as the mesh, " +
+                  rounded_text(material.unit_weight * height) + ", exceeds its modulus, " +
+                  rounded_text(modulus));
     break;
   }
 }
@@ -373,9 +389,10 @@ void check_gravity(Builder& b) {
 void check_tolerance(Builder& b, const Stage& stage) {
   constexpr double kLoose = 1e-3;
   if (stage.tolerance <= kLoose) return;
-  b.warning(stage.where, "stage " + std::to_string(stage.number) + ": its tolerance lets " +
-                             rounded_text(100.0 * stage.tolerance) +
-                             " % of the forces be out of balance: what it calls equilibrium may be none");
+  b.warning("S314", stage.where,
+            "stage " + std::to_string(stage.number) + ": its tolerance lets " +
+                rounded_text(100.0 * stage.tolerance) +
+                " % of the forces be out of balance: what it calls equilibrium may be none");
 }
 
 // Of two cards for one group the later one stands.
@@ -385,7 +402,7 @@ void check_twice_initial(Builder& b, const std::vector<InitialStress>& initials)
     if (initial.kind == InitialKind::history) continue;
     const auto [first, added] = lines.try_emplace(initial.group, initial.where.line);
     if (added || first->second == initial.where.line) continue;
-    b.warning(initial.where,
+    b.warning("S315", initial.where,
               "group " + std::to_string(b.model.groups[static_cast<std::size_t>(initial.group)].number) +
                   " got an initial stress in line " + std::to_string(first->second) +
                   " already: this card replaces it");
@@ -402,7 +419,7 @@ void note_null_stage(Builder& b, const Stage& stage) {
     any = any || f.value != 0.0 || f.code == FixityCode::released;
   any = any || !stage.field_loads.empty();
   if (any) return;
-  b.note(stage.where,
+  b.note("S316", stage.where,
          "stage " + std::to_string(stage.number) +
              " adds nothing (no load, displacement, gravity, birth or death): a null step, which only "
              "brings what is out of balance into equilibrium");
@@ -412,14 +429,16 @@ void check_reports(Builder& b, const Size& size) {
   for (const Report& report : b.model.reports) {
     if (report.kind != ReportKind::triaxial) continue;
     if (report.height > 10.0 * size.length || report.height < 0.01 * size.length)
-      b.warning(report.where, "the report's height, " + rounded_text(report.height) +
-                                  ", does not fit the mesh, " + rounded_text(size.length));
+      b.warning("S317", report.where,
+                "the report's height, " + rounded_text(report.height) + ", does not fit the mesh, " +
+                    rounded_text(size.length));
     if (report.area > 100.0 * size.length * std::max(size.length, 1.0))
-      b.warning(report.where, "the report's area, " + rounded_text(report.area) + ", does not fit the mesh, " +
-                                  rounded_text(size.length) + " long");
-    if (report.cell_pressure < 0.0) b.note(report.where, "the report's cell pressure is negative");
+      b.warning("S317", report.where,
+                "the report's area, " + rounded_text(report.area) + ", does not fit the mesh, " +
+                    rounded_text(size.length) + " long");
+    if (report.cell_pressure < 0.0) b.note("S317", report.where, "the report's cell pressure is negative");
     if (size.stiffness > 0.0 && report.cell_pressure > size.stiffness)
-      b.warning(report.where,
+      b.warning("S317", report.where,
                 "the report's cell pressure exceeds the largest modulus, " + rounded_text(size.stiffness));
   }
 }

@@ -28,10 +28,10 @@ void note_boundary(Builder& b, const Report& report, const std::vector<Location>
   std::string others;
   for (const Location& l : found)
     if (!answers(l) && others.empty()) others = number_of(b.model, l.group);
-  b.note(report.where, "the point " + place_text(report.place) + " lies where bodies meet: group " +
-                           number_of(b.model, answering.front().group) +
-                           " answers while it is active, not group " + others +
-                           "; give the point's group to choose");
+  b.note("S318", report.where,
+         "the point " + place_text(report.place) + " lies where bodies meet: group " +
+             number_of(b.model, answering.front().group) + " answers while it is active, not group " + others +
+             "; give the point's group to choose");
 }
 
 bool placed_from(const Model& model, const Report& report, const std::vector<Location>& found) {
@@ -59,14 +59,16 @@ void check_points(Builder& b) {
     const bool requested = i + b.options.points.size() >= model.reports.size();
     if (!held && requested && b.options.points_outside) continue;
     if (!held)
-      b.error(report.where, "the point " + place_text(report.place) +
-                                (found.empty() ? " lies outside the mesh: no solid element holds it"
-                                               : " does not lie in group " +
-                                                     number_of(model, static_cast<std::size_t>(report.group)) +
-                                                     " but in group " + number_of(model, found.front().group)));
+      b.error("S243", report.where,
+              "the point " + place_text(report.place) +
+                  (found.empty()
+                       ? " lies outside the mesh: no solid element holds it"
+                       : " does not lie in group " + number_of(model, static_cast<std::size_t>(report.group)) +
+                             " but in group " + number_of(model, found.front().group)));
     else if (!placed_from(model, report, found))
-      b.warning(report.where, "no element that holds the point " + place_text(report.place) +
-                                  " is active from the report's stage on: it shows nothing");
+      b.warning("S318", report.where,
+                "no element that holds the point " + place_text(report.place) +
+                    " is active from the report's stage on: it shows nothing");
     else
       note_boundary(b, report, found);
   }

@@ -125,11 +125,12 @@ void note_partly_held(Builder& b, const std::vector<std::vector<int>>& part, std
     if (line == 0 && f.code[c] == FixityCode::fixed && held.count(f.node) != 0) line = f.line;
   const std::string axis =
       b.model.geometry == Geometry::axisymmetric ? (c == 0 ? "r" : "z") : (c == 0 ? "x" : "y");
-  b.note(b.at_line(line), "the straight side " + axis + " = " + rounded_text(place) +
-                              " is held in part: " + std::to_string(held.size()) + " nodes held along " + axis +
-                              ", " + std::to_string(left.size()) + " free, the first is node " +
-                              std::to_string(b.model.mesh.number[static_cast<std::size_t>(*left.begin())]) +
-                              "; a line of symmetry is held all along");
+  b.note("S319", b.at_line(line),
+         "the straight side " + axis + " = " + rounded_text(place) +
+             " is held in part: " + std::to_string(held.size()) + " nodes held along " + axis + ", " +
+             std::to_string(left.size()) + " free, the first is node " +
+             std::to_string(b.model.mesh.number[static_cast<std::size_t>(*left.begin())]) +
+             "; a line of symmetry is held all along");
 }
 
 }  // namespace

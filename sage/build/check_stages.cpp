@@ -51,14 +51,15 @@ void warn_contradictions(Builder& b, const Stage& stage) {
     const std::string other = "line " + std::to_string(before.line);
     const std::string name = "stage " + std::to_string(stage.number) + ": " + node_name(b, f.node);
     if (before.code == f.code)
-      b.warning(b.at_line(f.line), name + " is given two " + (moved ? "displacements" : "values") + direction +
-                                       ": " + rounded_text(before.value) + " by " + other + ", " +
-                                       rounded_text(f.value) + " here; the last card stands");
+      b.warning("S320", b.at_line(f.line),
+                name + " is given two " + (moved ? "displacements" : "values") + direction + ": " +
+                    rounded_text(before.value) + " by " + other + ", " + rounded_text(f.value) +
+                    " here; the last card stands");
     else
-      b.warning(b.at_line(f.line), name + " is " + (f.code == FixityCode::released ? "released" : "held") +
-                                       direction + " here but " +
-                                       (f.code == FixityCode::released ? "held" : "released") + " by " + other +
-                                       " of the same stage; the last card stands");
+      b.warning("S320", b.at_line(f.line),
+                name + " is " + (f.code == FixityCode::released ? "released" : "held") + direction +
+                    " here but " + (f.code == FixityCode::released ? "held" : "released") + " by " + other +
+                    " of the same stage; the last card stands");
   }
 }
 
@@ -87,21 +88,22 @@ void check_axis(Builder& b, const Stage& stage) {
     const bool released = f.code[0] == FixityCode::released;
     if (f.line == last_line || !(moved || released) || !axis.holds(f.node)) continue;
     last_line = f.line;
-    b.error(b.at_line(f.line), node_name(b, f.node) +
-                                   " lies on the axis r = 0, where u_r = 0 by symmetry: it can't be " +
-                                   (moved ? "displaced radially" : "released radially"));
+    b.error("S244", b.at_line(f.line),
+            node_name(b, f.node) + " lies on the axis r = 0, where u_r = 0 by symmetry: it can't be " +
+                (moved ? "displaced radially" : "released radially"));
   }
   for (const NodalLoad& load : stage.loads) {
     if (load.line == last_line || load.force.x() == 0.0 || !axis.holds(load.node)) continue;
     last_line = load.line;
-    b.warning(b.at_line(load.line), "the radial force on " + node_name(b, load.node) +
-                                        " has no effect: it acts on the axis r = 0, where u_r = 0");
+    b.warning("S321", b.at_line(load.line),
+              "the radial force on " + node_name(b, load.node) +
+                  " has no effect: it acts on the axis r = 0, where u_r = 0");
   }
   for (const EdgeLoad& load : stage.pressures) {
     const Group& group = b.model.groups[static_cast<std::size_t>(load.group)];
     if (load.line == last_line || !axis.holds(group, load)) continue;
     last_line = load.line;
-    b.warning(b.at_line(load.line),
+    b.warning("S321", b.at_line(load.line),
               "the pressure has no effect: its edge lies on the axis r = 0 and has no area");
   }
 }
@@ -117,8 +119,9 @@ void check_left(Builder& b) {
   for (const Stage& stage : b.model.stages) {
     activity.enter(stage);
     if (any_element(b.model, activity)) continue;
-    b.error(stage.where, "stage " + std::to_string(stage.number) +
-                             ": no element takes part: every group is removed or not yet born");
+    b.error("S322", stage.where,
+            "stage " + std::to_string(stage.number) +
+                ": no element takes part: every group is removed or not yet born");
     return;
   }
 }

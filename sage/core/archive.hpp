@@ -74,7 +74,8 @@ class Archive {
     raw(values.data(), size * sizeof(values[0]));
   }
   void expect(std::size_t count) const {
-    if (count > bytes_.size() - at_) throw InputError({}, "the checkpoint is shorter than it should be");
+    if (count > bytes_.size() - at_)
+      throw InputError("S630", {}, "the checkpoint is shorter than it should be");
   }
   void raw(void* value, std::size_t count) {
     if (reading_) {

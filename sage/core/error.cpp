@@ -1,5 +1,6 @@
 #include "sage/core/error.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace sage {
@@ -12,9 +13,9 @@ std::string first_message(const Diagnostics& diagnostics) {
   return "input error";
 }
 
-Diagnostics single(SourcePosition where, const std::string& message) {
+Diagnostics single(Code code, SourcePosition where, const std::string& message) {
   Diagnostics diagnostics;
-  diagnostics.error(std::move(where), message);
+  diagnostics.error(code, std::move(where), message);
   return diagnostics;
 }
 
@@ -32,6 +33,16 @@ const char* severity_text(Severity severity) {
 
 }  // namespace
 
+std::string to_string(Code code) {
+  return code.given() ? "S" + std::to_string(code.number()) : std::string();
+}
+
+std::string with_code(const std::string& message, Code code) {
+  if (!code.given()) return message;
+  const std::size_t end = std::min(message.find('\n'), message.size());
+  return message.substr(0, end) + " [" + to_string(code) + "]" + message.substr(end);
+}
+
 std::string to_string(const SourcePosition& where) {
   std::string text = where.file;
   if (where.line > 0) text += ":" + std::to_string(where.line);
@@ -46,7 +57,7 @@ std::string to_string(const Diagnostic& diagnostic) {
   std::string text = to_string(diagnostic.where);
   if (!text.empty()) text += ": ";
   text += severity_text(diagnostic.severity);
-  text += ": " + diagnostic.message;
+  text += ": " + with_code(diagnostic.message, diagnostic.code);
   for (const std::string& line : diagnostic.detail) text += "\n" + line;
   return text;
 }
@@ -57,22 +68,30 @@ void Diagnostics::add(Diagnostic diagnostic) {
   list_.push_back(std::move(diagnostic));
 }
 
-void Diagnostics::error(SourcePosition where, std::string message) {
-  add({Severity::error, std::move(where), std::move(message), {}});
+void Diagnostics::error(Code code, SourcePosition where, std::string message) {
+  add({Severity::error, code, std::move(where), std::move(message), {}});
 }
 
-void Diagnostics::warning(SourcePosition where, std::string message) {
-  add({Severity::warning, std::move(where), std::move(message), {}});
+void Diagnostics::warning(Code code, SourcePosition where, std::string message) {
+  add({Severity::warning, code, std::move(where), std::move(message), {}});
 }
 
-void Diagnostics::note(SourcePosition where, std::string message) {
-  add({Severity::note, std::move(where), std::move(message), {}});
+void Diagnostics::note(Code code, SourcePosition where, std::string message) {
+  add({Severity::note, code, std::move(where), std::move(message), {}});
 }
 
 InputError::InputError(Diagnostics diagnostics)
     : std::runtime_error(first_message(diagnostics)), diagnostics_(std::move(diagnostics)) {}
 
+InputError::InputError(Code code, SourcePosition where, const std::string& message)
+    : InputError(single(code, std::move(where), message)) {}
+
 InputError::InputError(SourcePosition where, const std::string& message)
-    : InputError(single(std::move(where), message)) {}
+    : InputError(Code(), std::move(where), message) {}
+
+std::string message_of(const std::exception& error) {
+  const auto* coded = dynamic_cast<const CodedError*>(&error);
+  return with_code(error.what(), coded != nullptr ? coded->code() : Code());
+}
 
 }  // namespace sage

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "sage/core/code.hpp"
+
 namespace sage {
 
 // A place in an input file.  line and columns count from 1; 0 = unknown.  Columns are inclusive.
@@ -22,21 +24,22 @@ enum class Severity { note, warning, error };
 
 struct Diagnostic {
   Severity severity = Severity::error;
+  Code code;  // what `sagefe explain` says more about
   SourcePosition where;
   std::string message;              // what is wrong and what was expected
   std::vector<std::string> detail;  // lines shown below: the card, carets, notes
 };
 
-// "deck.dat:41:11-20: error: message" and the detail lines below it.
+// "deck.dat:41:11-20: error: message [S104]" and the detail lines below it.
 std::string to_string(const Diagnostic& diagnostic);
 
 // Collects diagnostics so that one pass shows every mistake.
 class Diagnostics {
  public:
   void add(Diagnostic diagnostic);
-  void error(SourcePosition where, std::string message);
-  void warning(SourcePosition where, std::string message);
-  void note(SourcePosition where, std::string message);
+  void error(Code code, SourcePosition where, std::string message);
+  void warning(Code code, SourcePosition where, std::string message);
+  void note(Code code, SourcePosition where, std::string message);
 
   int errors() const { return errors_; }
   int warnings() const { return warnings_; }
@@ -52,6 +55,8 @@ class Diagnostics {
 class InputError : public std::runtime_error {
  public:
   explicit InputError(Diagnostics diagnostics);
+  InputError(Code code, SourcePosition where, const std::string& message);
+  // Without a code: places that have none yet.
   InputError(SourcePosition where, const std::string& message);
   const Diagnostics& diagnostics() const { return diagnostics_; }
 
@@ -59,11 +64,25 @@ class InputError : public std::runtime_error {
   Diagnostics diagnostics_;
 };
 
-// A law, element or solver refuses one of its parameters; the model builder adds the place in the deck.
-class ParameterError : public std::runtime_error {
+// A message that names no place in a file.  what() is the message without its code.
+class CodedError : public std::runtime_error {
  public:
-  ParameterError(int parameter, const std::string& message)
-      : std::runtime_error(message), parameter_(parameter) {}
+  CodedError(Code code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  Code code() const { return code_; }
+
+ private:
+  Code code_;
+};
+
+// What is printed of an exception: its message, with the code where it has one.
+std::string message_of(const std::exception& error);
+
+// A law, element or solver refuses one of its parameters; the model builder adds the place in the deck.
+class ParameterError : public CodedError {
+ public:
+  ParameterError(int parameter, const std::string& message) : ParameterError("S224", parameter, message) {}
+  ParameterError(Code code, int parameter, const std::string& message)
+      : CodedError(code, message), parameter_(parameter) {}
   int parameter() const { return parameter_; }  // index into the catalogue entry's parameters, -1 = as a whole
 
  private:
@@ -71,16 +90,16 @@ class ParameterError : public std::runtime_error {
 };
 
 // An element whose shape can't be integrated; the model builder adds element number and deck place.
-class ElementShapeError : public std::runtime_error {
+class ElementShapeError : public CodedError {
  public:
-  using std::runtime_error::runtime_error;
+  explicit ElementShapeError(const std::string& message) : CodedError("S226", message) {}
 };
 
 // Thrown by LinearSolver::factorise.  `equation` is the one whose pivot vanished, -1 where the solver can't tell.
-class SingularMatrix : public std::runtime_error {
+class SingularMatrix : public CodedError {
  public:
   SingularMatrix(int equation, double pivot_ratio, const std::string& message)
-      : std::runtime_error(message), equation_(equation), pivot_ratio_(pivot_ratio) {}
+      : CodedError("S502", message), equation_(equation), pivot_ratio_(pivot_ratio) {}
   int equation() const { return equation_; }
   double pivot_ratio() const { return pivot_ratio_; }  // |pivot| / largest term of its row before elimination
 
@@ -90,16 +109,20 @@ class SingularMatrix : public std::runtime_error {
 };
 
 // The analysis could not go on (exit code 3).  What was computed before stays written.
-class AnalysisError : public std::runtime_error {
+class AnalysisError : public CodedError {
  public:
-  using std::runtime_error::runtime_error;
+  using CodedError::CodedError;
+  // Of a piece from outside of this program, such as a solver of one's own.
+  explicit AnalysisError(const std::string& message) : CodedError("S510", message) {}
 };
 
 // A result file can't be written: full disk, missing rights, a folder that is a file.  The message names the
 // file and the system's reason (exit code 4).
-class OutputError : public std::runtime_error {
+class OutputError : public CodedError {
  public:
-  using std::runtime_error::runtime_error;
+  using CodedError::CodedError;
+  // Without a code: places that have none yet.
+  explicit OutputError(const std::string& message) : CodedError(Code(), message) {}
 };
 
 }  // namespace sage

@@ -108,7 +108,7 @@ void* load_module(const Module& module, const std::vector<std::string>& places) 
     tried += ": has no " + module.function;
     dlclose(handle);
   }
-  throw AnalysisError(module.what + " can't be loaded; tried:" + tried);
+  throw AnalysisError("S505", module.what + " can't be loaded; tried:" + tried);
 }
 
 }  // namespace sage

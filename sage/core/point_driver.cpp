@@ -21,7 +21,8 @@ PointDriver<N>::PointDriver(const Law<N>& law, const Vector<N>& sigma)
     : law_(law), sigma_(sigma), eps_(Vector<N>::Zero()) {
   for (const Quantity& quantity : law.history()) h_.push_back(quantity.initial);
   h_trial_ = h_;
-  if (!law_.initialise(sigma_, h_)) throw AnalysisError("point driver: the law can't carry the initial stress");
+  if (!law_.initialise(sigma_, h_))
+    throw AnalysisError("S503", "point driver: the law can't carry the initial stress");
 }
 
 template <int N>
@@ -120,7 +121,7 @@ void PointDriver<N>::advance(const std::array<Control, N>& control, const Vector
     } else {
       share *= 0.5;
       context_.time = start + done * duration;
-      if (share < smallest) throw AnalysisError("point driver: the path can't be followed further");
+      if (share < smallest) throw AnalysisError("S501", "point driver: the path can't be followed further");
     }
   }
 }

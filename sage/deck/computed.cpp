@@ -147,7 +147,7 @@ void DeckReader::fault(const SourcePosition& where, const std::string& what, con
       std::string_view(result.fault).find("number") != std::string_view::npos && result.fault_number != 0.0
           ? ", " + number_text(result.fault_number) + ","
           : "";
-  log_.add(Severity::error, where.line > 0 ? where : log_.line(records_.line()),
+  log_.add(Severity::error, "S131", where.line > 0 ? where : log_.line(records_.line()),
            what + " can't be computed: " + result.fault + number + " in \"" + expression.source + "\" (" +
                layout_.file + ", line " + std::to_string(expression.line) + ")");
 }
@@ -182,7 +182,7 @@ void DeckReader::set_number(const CardRule& rule, std::size_t field, const Expre
     value.number = whole;
     return;
   }
-  log_.add(Severity::error, value.line > 0 ? log_.where(value) : log_.line(records_.line()),
+  log_.add(Severity::error, "S131", value.line > 0 ? log_.where(value) : log_.line(records_.line()),
            "the value " + number_text(number) + " is no integer " + field_text(rule, spec) + ": " +
                expression.source + " (" + layout_.file + ", line " + std::to_string(expression.line) + ")");
   mark_faulty(static_cast<std::size_t>(&value - fields_.data()));

@@ -54,7 +54,7 @@ std::vector<CardView> Deck::all(std::string_view name, const CardView& owner) co
 
 CardView Deck::one(std::string_view name) const {
   const int card = first_of(name);
-  if (card < 0) throw InputError({file, 0, 0, 0}, "the deck has no " + std::string(name) + " card");
+  if (card < 0) throw InputError("S110", {file, 0, 0, 0}, "the deck has no " + std::string(name) + " card");
   return {*this, card};
 }
 
@@ -214,9 +214,9 @@ std::string CardView::label(std::string_view field) const {
   return field_spec.unit.empty() ? field_spec.label : field_spec.label + ", " + field_spec.unit;
 }
 
-Diagnostic card_diagnostic(const Deck& deck, Severity severity, const SourcePosition& where,
+Diagnostic card_diagnostic(const Deck& deck, Severity severity, Code code, const SourcePosition& where,
                            std::string message) {
-  Diagnostic diagnostic{severity, where, std::move(message), {}};
+  Diagnostic diagnostic{severity, code, where, std::move(message), {}};
   if (where.line < 1 || where.line > deck.source.line_count()) return diagnostic;
   constexpr std::size_t widest = 200;
   const std::string_view line = deck.line_text(where.line);

@@ -193,7 +193,7 @@ class CardView {
 };
 
 // An error at a field, shown with the card and a caret line below it and the column ruler above it.
-Diagnostic card_diagnostic(const Deck& deck, Severity severity, const SourcePosition& where,
+Diagnostic card_diagnostic(const Deck& deck, Severity severity, Code code, const SourcePosition& where,
                            std::string message);
 
 }  // namespace sage

@@ -130,7 +130,7 @@ std::string DeckReader::expected_card(const CardRule& rule) const {
 DeckReader::Misplaced DeckReader::check_place(const CardRule& rule, const Card& card) {
   const int own = card.spec;
   if (closing_card(card.line) > own) {
-    log_.add(Severity::error, log_.line(card.line),
+    log_.add(Severity::error, "S110", log_.line(card.line),
              quoted(trimmed(source_.line(card.line))) + " closes the deck, but " + expected_card(rule),
              "cards are missing, or a count further up is too large");
     stopped_ = true;
@@ -143,11 +143,11 @@ DeckReader::Misplaced DeckReader::check_place(const CardRule& rule, const Card& 
     if (other < 0 || other == own || !reads_well(rule_of(other), card.line)) continue;
     const std::string reads = "this reads as " + a_card(rule_of(other).spec.label);
     if (other < own) {
-      log_.add(Severity::error, log_.line(card.line), reads + ", but " + announced(other));
+      log_.add(Severity::error, "S111", log_.line(card.line), reads + ", but " + announced(other));
       return Misplaced::left_over;
     }
     if (run_.wanted == 0 && run_.entry && run_.entry->run != LayoutEntry::Run::once) return Misplaced::no;
-    log_.add(Severity::error, log_.line(card.line), reads + ", but " + expected_card(rule),
+    log_.add(Severity::error, "S111", log_.line(card.line), reads + ", but " + expected_card(rule),
              run_.wanted > 0 ? "where that count is right, one further up is too large" : "");
     records_.rewind_to(card.line);
     end_run_ = run_.wanted > 0;
@@ -167,7 +167,7 @@ bool DeckReader::cut_list(const CardRule& rule, const Card& card) {
       const std::size_t wanted = fields_.size();
       std::size_t kept = 0;
       while (fields_[kept].line < line) ++kept;
-      log_.add(Severity::error, log_.line(line),
+      log_.add(Severity::error, "S111", log_.line(line),
                "this reads as " + a_card(rule_of(other).spec.label) + ", but the " +
                    card_text(rule.spec.label) + " goes on: " + std::to_string(kept) + " of " +
                    std::to_string(wanted) + " values read (" + count_source(rule.rules.back().count) + ")");
@@ -244,17 +244,17 @@ void DeckReader::truncated(const LayoutEntry& entry) {
     if (!entry.count.empty()) message += "; " + count_source(entry.count);
     message += ")";
   }
-  log_.add(Severity::error, log_.line(source_.line_count()), message);
+  log_.add(Severity::error, "S110", log_.line(source_.line_count()), message);
   stopped_ = true;
 }
 
 void DeckReader::stop(const std::string& why, int line) {
-  log_.add(Severity::note, log_.line(line), why);
+  log_.add(Severity::note, "S132", log_.line(line), why);
   stopped_ = true;
 }
 
 void DeckReader::fail_and_stop(const SourcePosition& where, const std::string& message) {
-  log_.add(Severity::error, where, message);
+  log_.add(Severity::error, "S111", where, message);
   stopped_ = true;
 }
 
@@ -269,7 +269,7 @@ void DeckReader::check_after_end() {
   while (records_.next()) {
     if (all_blank(records_.record())) continue;
     if (!layout_.card_separator.empty())
-      return log_.add(Severity::error, log_.line(records_.line()), "this card has no place here");
+      return log_.add(Severity::error, "S112", log_.line(records_.line()), "this card has no place here");
     const auto closes = [this](const Card& last) {
       const CardRule& rule = rule_of(last.spec);
       return !rule.rules.empty() && !rule.rules[0].must_equal.empty();
@@ -278,9 +278,9 @@ void DeckReader::check_after_end() {
     const std::string_view record = records_.record();
     const std::size_t first = record.find_first_not_of(" \t,");
     if (closed || first == std::string_view::npos || !begins_with_number(record.substr(first)))
-      return log_.add(Severity::warning, log_.line(records_.line()),
+      return log_.add(Severity::warning, "S113", log_.line(records_.line()),
                       "the deck is complete, but more lines follow: they are ignored");
-    return log_.add(unread_number(), log_.line(records_.line()),
+    return log_.add(unread_number(), "S119", log_.line(records_.line()),
                     "the deck is complete, but numbers follow that nothing reads",
                     "a count before them is too small, a line too many stands before them, or another program "
                     "reads this deck");

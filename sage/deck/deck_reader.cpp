@@ -171,7 +171,7 @@ void DeckReader::read_named(const LayoutEntry& entry, int owner) {
     if (flagged) return;
   }
   if (!flagged && run_.done > 0 && !stopped_)
-    log_.add(Severity::warning, log_.line(records_.line()),
+    log_.add(Severity::warning, "S114", log_.line(records_.line()),
              "this is the last " + card_text(card_name(entry)) + ", but it is not marked as such (" +
                  entry.until.source + ")");
 }
@@ -211,7 +211,7 @@ void DeckReader::read_one(const LayoutEntry& entry, int owner) {
   const CardRule& rule = rule_of(entry.card);
   if (!layout_.card_separator.empty() && !name_matches(rule)) {
     const std::string_view line = trimmed(records_.peek_line());
-    log_.add(Severity::error, log_.line(records_.next_line()),
+    log_.add(Severity::error, "S110", log_.line(records_.next_line()),
              "card " + rule.spec.label + " is missing: " + quoted(line.substr(0, 30)) + " stands here");
     return stop("reading stops here", records_.next_line());
   }

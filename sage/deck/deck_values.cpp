@@ -70,7 +70,7 @@ void DeckReader::check_values(const CardRule& rule, const Card& card) {
     FieldValue& value = fields_[i];
     const FieldSpec& spec = rule.spec.fields[i];
     if (value.blank && spec.required) {
-      log_.add(Severity::error, value.first_column ? log_.where(value) : log_.line(card.line),
+      log_.add(Severity::error, "S115", value.first_column ? log_.where(value) : log_.line(card.line),
                "a value is missing " + field_text(rule, spec));
       mark_faulty(i);
     }
@@ -79,7 +79,7 @@ void DeckReader::check_values(const CardRule& rule, const Card& card) {
     if (rule.rules[i].restricted()) check_allowed(rule, i, i);
     const std::string& wanted = rule.rules[i].must_equal;
     if (!wanted.empty() && lower_case(trimmed(value.text)) != lower_case(wanted)) {
-      log_.add(Severity::error, value.first_column ? log_.where(value) : log_.line(card.line),
+      log_.add(Severity::error, "S116", value.first_column ? log_.where(value) : log_.line(card.line),
                "the " + card_text(rule.spec.label) + " must read " + wanted + ", not " +
                    quoted(trimmed(value.text)));
     }
@@ -87,7 +87,7 @@ void DeckReader::check_values(const CardRule& rule, const Card& card) {
   // A slash may end a list-directed card early.
   for (std::size_t i = count; i < rule.rules.size(); ++i)
     if (rule.spec.fields[i].required && rule.rules[i].count.empty())
-      log_.add(Severity::error, log_.line(card.line),
+      log_.add(Severity::error, "S115", log_.line(card.line),
                "a value is missing " + field_text(rule, rule.spec.fields[i]));
 }
 
@@ -103,7 +103,7 @@ void DeckReader::apply_map(const CardRule& rule, std::size_t field, FieldValue& 
   std::string known;
   for (const auto& [code, number] : rule.rules[field].map) known += (known.empty() ? "" : ", ") + code;
   log_.add(
-      Severity::error, log_.where(value),
+      Severity::error, "S117", log_.where(value),
       quoted(text) + " is not a known code " + field_text(rule, rule.spec.fields[field]) + "; known: " + known);
 }
 
@@ -124,7 +124,7 @@ void DeckReader::check_allowed(const CardRule& rule, std::size_t field, std::siz
   if (!within) all = "what lies between " + number_text(one_of.least) + " and " + number_text(one_of.most);
   for (const double one : numbers) all += (all.empty() ? "" : ", ") + number_text(one);
   for (const std::string& one : texts) all += (all.empty() ? "" : ", ") + one;
-  log_.add(Severity::error, log_.where(value),
+  log_.add(Severity::error, "S118", log_.where(value),
            "the " + rule.spec.fields[field].label + " can't be " +
                (texts.empty() ? number_text(value.number) : quoted(text)) + ": " +
                (known.empty() ? "allowed are " + all : known));
@@ -140,7 +140,7 @@ void DeckReader::note_list_rest() {
   const int column = records_.skipped() + static_cast<int>(list_read_->position() + first) + 1;
   const int last = column + static_cast<int>(rest.find_last_not_of(" \t\r") - first);
   const bool number = begins_with_number(rest.substr(first));
-  log_.add(number ? unread_number() : Severity::warning, {deck_.file, records_.line(), column, last},
+  log_.add(number ? unread_number() : Severity::warning, "S119", {deck_.file, records_.line(), column, last},
            "not read: the values before it are all that this READ takes",
            number
                ? "a count before it is too small, a value too many stands before it, or another program reads "
@@ -185,7 +185,7 @@ void DeckReader::note_blanks() {
       const FieldValue value = deck_.values(*found.first)[i];
       const auto number = static_cast<int>(field.fallback);
       log_.add(
-          Severity::note, value.first_column ? log_.where(value) : log_.line(found.first->line),
+          Severity::note, "S127", value.first_column ? log_.where(value) : log_.line(found.first->line),
           "left blank, which reads as " + std::to_string(number) + " " + field_text(rule, field) +
               (found.count > 1 ? "; and on " + std::to_string(found.count - 1) + " more of these cards" : "") +
               (field.blank_note == BlankNote::compared ? "; other cards of this kind have a value there" : ""));
@@ -227,7 +227,8 @@ bool DeckReader::check_seams(const CardRule& rule) {
           word + " stands alone in the field's first column, " + column + ", and the field before it is blank";
       break;
   }
-  log_.add(Severity::warning, {deck_.file, slip->line, slip->first_column, slip->last_column}, message + place,
+  log_.add(Severity::warning, "S128", {deck_.file, slip->line, slip->first_column, slip->last_column},
+           message + place,
            "is the card shifted by a column? Fields may stand side by side where each is full");
   return true;
 }
@@ -243,7 +244,8 @@ void DeckReader::check_rest(const CardRule& rule, std::size_t last_field_end, bo
   if (!overlong_noted_ && !beyond.empty() && !all_blank(beyond)) {
     overlong_noted_ = true;
     const int first = layout_.records.record_length + 1;
-    log_.add(Severity::note, {deck_.file, records_.line(), first, first + static_cast<int>(beyond.size()) - 1},
+    log_.add(Severity::note, "S129",
+             {deck_.file, records_.line(), first, first + static_cast<int>(beyond.size()) - 1},
              "characters beyond column " + std::to_string(first - 1) + " are ignored (reported once)");
   }
   if (layout_.last_sequence_column > 0 &&
@@ -263,11 +265,11 @@ void DeckReader::check_rest(const CardRule& rule, std::size_t last_field_end, bo
   const bool list = field + 1 == rule.rules.size() && !rule.rules[field].count.empty();
   const FieldValue& last = list ? fields_.back() : fields_[field];
   if (last.blank && last.kind != FieldKind::text && begins_with_number(record.substr(first)))
-    return log_.add(Severity::warning, where,
+    return log_.add(Severity::warning, "S128", where,
                     "a number stands behind the last field of the " + card_text(rule.spec.label) +
                         ", which is blank: it is not read " + field_text(rule, rule.spec.fields[field]),
                     "is the card shifted?");
-  log_.add(Severity::note, where,
+  log_.add(Severity::note, "S129", where,
            "characters behind the last field of the " + card_text(rule.spec.label) + " are ignored");
 }
 
@@ -283,7 +285,7 @@ void DeckReader::check_sequence_number(const CardRule& rule) {
   const bool digits = std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
   if (!digits || last.kind == FieldKind::text || !all_blank(record.substr(first - 2, 2))) return;
   sequence_noted_ = true;
-  log_.add(Severity::warning,
+  log_.add(Severity::warning, "S130",
            {deck_.file, records_.line(), layout_.first_sequence_column, layout_.last_sequence_column},
            quoted(number) + " looks like a sequence number, but the fields of the " +
                card_text(rule.spec.label) + " reach into columns " +

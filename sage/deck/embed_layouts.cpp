@@ -11,7 +11,7 @@ namespace {
 
 void write_layout(std::ofstream& out, const std::string& name, const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw sage::InputError({path, 0, 0, 0}, "can't be read");
+  if (!file) throw sage::InputError("S101", {path, 0, 0, 0}, "can't be read");
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   sage::Layout layout = sage::load_layout_text(text, name + ".toml");
   sage::Archive archive;

@@ -60,7 +60,7 @@ Layout load_layout(const std::string& path_or_name, bool checked) {
   if (path) return (checked ? load_checked_layout : load_layout_text)(read_file(path_or_name), path_or_name);
   std::string known;
   for (const std::string& name : built_in_layouts()) known += (known.empty() ? "" : ", ") + name;
-  throw InputError({path_or_name, 0, 0, 0},
+  throw InputError("S140", {path_or_name, 0, 0, 0},
                    "no layout of this name is built in (known: " + known + "); give the path of a layout file");
 }
 

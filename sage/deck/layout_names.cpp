@@ -314,7 +314,7 @@ class NameCheck {
   }
 
   void error(int line, const std::string& message) {
-    problems_.add({Severity::error, {layout_.file, line, 0, 0}, message, {}});
+    problems_.add({Severity::error, "S147", {layout_.file, line, 0, 0}, message, {}});
   }
 
   bool is_used(int card, int field) const {

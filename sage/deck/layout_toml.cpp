@@ -218,7 +218,7 @@ class LayoutReader : private TomlFile {
     try {
       card.format = compile_format(format);
     } catch (const FormatError& error) {
-      fail(*table.get("format"),
+      fail("S142", *table.get("format"),
            "FORMAT " + format + ", character " + std::to_string(error.column()) + ": " + error.what());
     }
   }
@@ -353,7 +353,7 @@ class LayoutReader : private TomlFile {
       const FormatStep& step = walker.next();
       if (step.edit == Edit::end) {
         if (!card.format.reversion_has_data || ++passes > 10000)
-          fail(table, "the FORMAT has no field for this");
+          fail("S142", table, "the FORMAT has no field for this");
         walker.revert();
       }
       if (!is_data(step.edit)) continue;
@@ -435,18 +435,18 @@ class LayoutReader : private TomlFile {
       if (step.edit == Edit::end) {
         ++passes;
         if (!card.format.reversion_has_data && !(complete && !list))
-          fail(table, "the FORMAT has fewer fields than the card");
+          fail("S142", table, "the FORMAT has fewer fields than the card");
         walker.revert();
       }
       if (!is_data(step.edit)) continue;
       const FieldSpec& spec = *fields[std::min(field, fields.size() - 1)];
       if (!edit_fits(step.edit, spec.kind))
-        fail(*table.get("format"), "FORMAT " + card.spec.format + " doesn't suit field \"" + spec.name +
-                                       "\": its kind is another" +
-                                       (complete ? " where a longer list goes on (brackets of its own, as in "
-                                                   "(I5,(10F5.0)), let it go on with "
-                                                   "itself)"
-                                                 : ""));
+        fail("S142", *table.get("format"),
+             "FORMAT " + card.spec.format + " doesn't suit field \"" + spec.name + "\": its kind is another" +
+                 (complete ? " where a longer list goes on (brackets of its own, as in "
+                             "(I5,(10F5.0)), let it go on with "
+                             "itself)"
+                           : ""));
       if (!complete) ++field;
     }
   }
@@ -486,12 +486,12 @@ class LayoutReader : private TomlFile {
         result = compile_expression(*source, [&](std::string_view card, std::string_view field,
                                                  ExpressionNode& found) { resolve(card, field, bare, found); });
       } catch (const ExpressionError& error) {
-        fail(node, error.what());
+        fail("S146", node, error.what());
       }
       if (result.words && key != "value")
-        fail(node, "\"" + std::string(key) + "\" must give a number, not a text");
+        fail("S146", node, "\"" + std::string(key) + "\" must give a number, not a text");
     } else {
-      fail(node, "\"" + std::string(key) + "\" must be a number or an expression in quotes");
+      fail("S146", node, "\"" + std::string(key) + "\" must be a number or an expression in quotes");
     }
     result.line = static_cast<int>(node.source().begin.line);
     return result;
@@ -571,8 +571,9 @@ void check_key_parts(std::string_view text, const std::string& file) {
     }
     if (i < text.size() && text[i] == '\n') ++line;
     if (c == '.' && ++parts > most_key_parts)
-      throw InputError({file, line, 0, 0}, "a key of more than " + std::to_string(most_key_parts) +
-                                               " parts with points between them");
+      throw InputError(
+          "S141", {file, line, 0, 0},
+          "a key of more than " + std::to_string(most_key_parts) + " parts with points between them");
     const bool ends =
         c == '=' || c == ',' || c == '[' || c == ']' || c == '{' || c == '}' || c == '\n' || c == '#';
     if (ends) parts = 1;
@@ -580,13 +581,14 @@ void check_key_parts(std::string_view text, const std::string& file) {
 }
 
 toml::table parse(std::string_view text, const std::string& file) {
-  if (text.size() > most_characters) throw InputError({file, 0, 0, 0}, "the layout file is larger than 16 MiB");
+  if (text.size() > most_characters)
+    throw InputError("S102", {file, 0, 0, 0}, "the layout file is larger than 16 MiB");
   check_key_parts(text, file);
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& error) {
     const toml::source_position at = error.source().begin;
-    throw InputError({file, static_cast<int>(at.line), static_cast<int>(at.column), 0},
+    throw InputError("S141", {file, static_cast<int>(at.line), static_cast<int>(at.column), 0},
                      std::string(error.description()));
   }
 }

@@ -46,13 +46,13 @@ std::string field_text(const CardRule& card, const FieldSpec& field) {
   return text + ")";
 }
 
-void ReadLog::add(Severity severity, const SourcePosition& where, const std::string& message,
+void ReadLog::add(Severity severity, Code code, const SourcePosition& where, const std::string& message,
                   const std::string& hint) {
   if (options_.strict && severity == Severity::warning) severity = Severity::error;
   int& count = severity == Severity::error ? errors_ : severity == Severity::warning ? warnings_ : notes_;
   last_shown_ = ++count <= options_.shown;
   if (!last_shown_) return;
-  Diagnostic diagnostic = card_diagnostic(deck_, severity, where, message);
+  Diagnostic diagnostic = card_diagnostic(deck_, severity, code, where, message);
   if (!hint.empty()) diagnostic.detail.push_back("note: " + hint);
   list_.push_back(std::move(diagnostic));
 }
@@ -69,7 +69,8 @@ void ReadLog::flaw(const CardRule& card, const FieldSpec& field, const FieldValu
       what = "is not an integer";
     if (field.kind == FieldKind::logical) what = "is not T or F";
     if (field.kind == FieldKind::text) what = "is not a text in quotes";
-    add(Severity::error, where(value), quoted(trimmed(value.text)) + " " + what + " " + field_text(card, field),
+    add(Severity::error, "S120", where(value),
+        quoted(trimmed(value.text)) + " " + what + " " + field_text(card, field),
         flaw.fault == FieldFault::bad_character ? character_hint(value.text, flaw.at, field.kind, value) : "");
     return;
   }
@@ -80,24 +81,27 @@ void ReadLog::hints(const CardRule& card, const FieldSpec& field, const FieldVal
   const std::string text = quoted(trimmed(value.text));
   const std::string place = " " + field_text(card, field);
   const SourcePosition at = where(value);
-  if (hints & hint_not_finite) return add(Severity::error, at, text + " is not a finite number" + place);
-  if (hints & hint_overflow) return add(Severity::error, at, text + " is too large for a number" + place);
+  if (hints & hint_not_finite)
+    return add(Severity::error, "S121", at, text + " is not a finite number" + place);
+  if (hints & hint_overflow)
+    return add(Severity::error, "S121", at, text + " is too large for a number" + place);
   if (hints & hint_inner_blank)
-    add(Severity::warning, at, text + " has a blank inside the number" + place,
+    add(Severity::warning, "S122", at, text + " has a blank inside the number" + place,
         "blanks are skipped or count as zeros: is the card shifted by a column?");
   if (hints & hint_comma)
-    add(Severity::warning, at, "a comma ended the field after " + text + place,
+    add(Severity::warning, "S123", at, "a comma ended the field after " + text + place,
         "the fields behind it start right after the comma, not at their columns");
   if (hints & hint_q_exponent)
-    add(Severity::warning, at, text + " has the exponent letter Q and reads as if it were E" + place,
+    add(Severity::warning, "S124", at, text + " has the exponent letter Q and reads as if it were E" + place,
         "gfortran reads it so, the Fortran standard and other compilers know only E and D");
-  if (hints & hint_lone_mark) add(Severity::warning, at, text + " has no digit and reads as 0" + place);
+  if (hints & hint_lone_mark) add(Severity::warning, "S124", at, text + " has no digit and reads as 0" + place);
   if (hints & hint_cut)
-    add(Severity::warning, at, "the card ends inside the field of " + text + place,
+    add(Severity::warning, "S125", at, "the card ends inside the field of " + text + place,
         "blanks count as zeros in this layout; were blanks at the card's end cut off by an editor?");
-  if (hints & hint_trailing_blank) add(Severity::note, at, "blanks behind " + text + " count as zeros" + place);
+  if (hints & hint_trailing_blank)
+    add(Severity::note, "S125", at, "blanks behind " + text + " count as zeros" + place);
   if (hints & hint_implied_point)
-    add(Severity::note, at,
+    add(Severity::note, "S126", at,
         text + " has no point: its last digits are taken as decimals, " + card.spec.format + place);
 }
 
@@ -105,6 +109,7 @@ void ReadLog::finish() {
   const auto more = [&](int count, Severity severity, const char* what) {
     if (count <= options_.shown) return;
     list_.push_back({severity,
+                     "S109",
                      {deck_.file, 0, 0, 0},
                      "and " + std::to_string(count - options_.shown) + " more " + what,
                      {}});

@@ -12,7 +12,7 @@ class ReadLog {
  public:
   ReadLog(Deck& deck, const ReadOptions& options) : deck_(deck), options_(options) {}
 
-  void add(Severity severity, const SourcePosition& where, const std::string& message,
+  void add(Severity severity, Code code, const SourcePosition& where, const std::string& message,
            const std::string& hint = {});
   // Attaches "note: ..." to the last diagnostic shown; nothing if that one was only counted.
   void add_hint(const std::string& hint);

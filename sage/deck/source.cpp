@@ -102,7 +102,7 @@ std::size_t readable_bytes(const std::string& path, std::size_t& stated) {
   if (!std::filesystem::is_regular_file(path, error)) return most_of_a_stream;
   const auto size = std::filesystem::file_size(path, error);
   if (error) return most_of_a_stream;
-  if (size > most_of_a_file) throw InputError({path, 0, 0, 0}, "the file is larger than 2 GiB");
+  if (size > most_of_a_file) throw InputError("S102", {path, 0, 0, 0}, "the file is larger than 2 GiB");
   stated = static_cast<std::size_t>(size);
   return std::max(stated, most_of_a_stream);
 }
@@ -112,9 +112,9 @@ std::size_t readable_bytes(const std::string& path, std::size_t& stated) {
 std::string read_file(const std::string& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
-    throw InputError({path, 0, 0, 0}, "is a directory, not a file");
+    throw InputError("S101", {path, 0, 0, 0}, "is a directory, not a file");
   const std::unique_ptr<std::FILE, FileCloser> file(std::fopen(path.c_str(), "rb"));
-  if (!file) throw InputError({path, 0, 0, 0}, std::string("can't be opened: ") + std::strerror(errno));
+  if (!file) throw InputError("S101", {path, 0, 0, 0}, std::string("can't be opened: ") + std::strerror(errno));
   std::string text;
   std::size_t stated = 0;
   const std::size_t most = readable_bytes(path, stated);
@@ -126,34 +126,37 @@ std::string read_file(const std::string& path) {
     text.resize(have + got);
     if (got < room) break;
     if (text.size() > most)
-      throw InputError({path, 0, 0, 0}, "gives more than " + std::to_string(most >> 20) +
-                                            " MiB without an end: a deck or a layout is a file");
+      throw InputError("S102", {path, 0, 0, 0},
+                       "gives more than " + std::to_string(most >> 20) +
+                           " MiB without an end: a deck or a layout is a file");
     room = text.size();
   }
   if (std::ferror(file.get()))
-    throw InputError({path, 0, 0, 0}, std::string("can't be read: ") + std::strerror(errno));
+    throw InputError("S101", {path, 0, 0, 0}, std::string("can't be read: ") + std::strerror(errno));
   return text;
 }
 
 void check_is_text(std::string_view text, const std::string& name) {
-  if (text.empty()) throw InputError({name, 0, 0, 0}, "the file is empty");
+  if (text.empty()) throw InputError("S103", {name, 0, 0, 0}, "the file is empty");
   if (text.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-    throw InputError({name, 0, 0, 0}, "the file is larger than 2 GiB");
+    throw InputError("S102", {name, 0, 0, 0}, "the file is larger than 2 GiB");
   if (text.find_first_not_of(" \t\r\n\x1a") == std::string_view::npos)
-    throw InputError({name, 0, 0, 0}, "the file holds nothing but blanks");
+    throw InputError("S103", {name, 0, 0, 0}, "the file holds nothing but blanks");
   if (const char* kind = known_kind(text))
-    throw InputError({name, 0, 0, 0},
+    throw InputError("S104", {name, 0, 0, 0},
                      "the file is " + std::string(kind) + ", not a deck of cards: a deck is plain text");
   const std::size_t nul = text.find('\0');
   if (nul == std::string_view::npos) {
     if (!mostly_text(text.substr(0, 65536)))
-      throw InputError({name, 0, 0, 0}, "the file is binary (full of control characters), not a deck of cards");
+      throw InputError("S104", {name, 0, 0, 0},
+                       "the file is binary (full of control characters), not a deck of cards");
     return;
   }
   const bool wide = text.size() > 1 && (text.substr(0, 2) == "\xff\xfe" || text.substr(0, 2) == "\xfe\xff");
-  throw InputError({name, 0, 0, 0}, wide ? "the file is UTF-16 text: save it as plain ASCII or UTF-8"
-                                         : "the file is binary (a NUL character at byte " +
-                                               std::to_string(nul + 1) + "), not a deck of cards");
+  throw InputError("S104", {name, 0, 0, 0},
+                   wide ? "the file is UTF-16 text: save it as plain ASCII or UTF-8"
+                        : "the file is binary (a NUL character at byte " + std::to_string(nul + 1) +
+                              "), not a deck of cards");
 }
 
 }  // namespace sage

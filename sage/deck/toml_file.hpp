@@ -27,8 +27,11 @@ class TomlFile {
   explicit TomlFile(std::string file) : file_(std::move(file)) {}
 
   [[noreturn]] void fail(const toml::node& node, const std::string& message) const {
+    fail("S143", node, message);
+  }
+  [[noreturn]] void fail(Code code, const toml::node& node, const std::string& message) const {
     const toml::source_position at = node.source().begin;
-    throw InputError({file_, static_cast<int>(at.line), 0, 0}, message);
+    throw InputError(code, {file_, static_cast<int>(at.line), 0, 0}, message);
   }
 
   void known_keys(const toml::table& table, std::initializer_list<std::string_view> keys) const {

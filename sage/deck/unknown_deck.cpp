@@ -76,6 +76,7 @@ std::optional<Diagnostic> other_layouts_that_read(const SourceText& source, cons
   const std::vector<std::string> fitting = layouts_that_read(source, layout);
   if (fitting.empty()) return std::nullopt;
   return Diagnostic{Severity::note,
+                    "S107",
                     {source.name(), 0, 0, 0},
                     "the deck has mistakes as " + layout + ", but " + fitting_words(fitting),
                     {}};
@@ -91,6 +92,7 @@ std::optional<Diagnostic> read_as_standard(const SourceText& source, const Layou
   if (!flawed) return std::nullopt;
   return Diagnostic{
       Severity::note,
+      "S108",
       {source.name(), 0, 0, 0},
       "the deck was read as " + standard.name +
           ", since it has the marks of no other layout; if it was written for another program, name "
@@ -104,6 +106,7 @@ std::optional<Diagnostics> outside_of_scope(const SourceText& source) {
   if (program.empty()) return std::nullopt;
   Diagnostics alone;
   alone.add({Severity::error,
+             "S106",
              {source.name(), 0, 0, 0},
              "this looks like a deck of " + program +
                  ": outside of what this program does, solids in plane strain and axisymmetry in equilibrium; "
@@ -116,6 +119,7 @@ std::optional<Diagnostics> no_layout_fits(const SourceText& source, const Layout
                                           const Diagnostics& problems) {
   if (!looks_foreign(first_lines(source, standard), problems)) return std::nullopt;
   Diagnostic first{Severity::error,
+                   "S105",
                    {source.name(), 0, 0, 0},
                    "no layout fits this deck: it has the marks of none, and its first cards are not those of " +
                        standard.name + "; name its layout: " + ways_on(source),
@@ -136,7 +140,7 @@ std::optional<Diagnostics> no_layout_fits(const SourceText& source, const Layout
     all.add(std::move(one));
   }
   if (shown > kShown)
-    all.add({Severity::note, {source.name(), 0, 0, 0}, "and more mistakes as " + standard.name, {}});
+    all.add({Severity::note, "S109", {source.name(), 0, 0, 0}, "and more mistakes as " + standard.name, {}});
   return all;
 }
 

@@ -62,18 +62,18 @@ int CardWriter::add(const std::string& name, const SourcePosition& where, const 
   return static_cast<int>(deck_.cards.size()) - 1;
 }
 
-void CardWriter::warning(const SourcePosition& where, const std::string& message) {
-  deck_.diagnostics.add(card_diagnostic(*from_, Severity::warning, where, message));
+void CardWriter::warning(Code code, const SourcePosition& where, const std::string& message) {
+  deck_.diagnostics.add(card_diagnostic(*from_, Severity::warning, code, where, message));
 }
 
-void CardWriter::note(const SourcePosition& where, const std::string& message) {
-  deck_.diagnostics.add(card_diagnostic(*from_, Severity::note, where, message));
+void CardWriter::note(Code code, const SourcePosition& where, const std::string& message) {
+  deck_.diagnostics.add(card_diagnostic(*from_, Severity::note, code, where, message));
 }
 
 void CardWriter::left_out(const SourcePosition& where, const std::string& what, const std::string& message,
                           bool needs_partial) {
   const Severity severity = needs_partial ? Severity::error : Severity::note;
-  deck_.left_out.push_back({what, card_diagnostic(*from_, severity, where, message)});
+  deck_.left_out.push_back({what, card_diagnostic(*from_, severity, "S229", where, message)});
 }
 
 void CardWriter::copy(std::string_view name) {

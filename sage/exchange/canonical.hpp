@@ -35,8 +35,8 @@ class CardWriter {
   int add(const std::string& name, const SourcePosition& where, const std::vector<NewField>& fields,
           int owner = -1);
   // A message that shows the foreign card.
-  void warning(const SourcePosition& where, const std::string& message);
-  void note(const SourcePosition& where, const std::string& message);
+  void warning(Code code, const SourcePosition& where, const std::string& message);
+  void note(Code code, const SourcePosition& where, const std::string& message);
   // Something that the deck asks for and the model won't have.  `needs_partial`: the answer is another one
   // without it, so that it takes BuildOptions::partial; otherwise the message is a note.
   void left_out(const SourcePosition& where, const std::string& what, const std::string& message,

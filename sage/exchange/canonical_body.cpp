@@ -7,7 +7,7 @@ namespace sage::canonical {
 
 void refuse(const Body& body, const CardView& card, std::string_view field, const std::string& message) {
   Diagnostics problems;
-  problems.add(card_diagnostic(body.deck, Severity::error, card.where(field), message));
+  problems.add(card_diagnostic(body.deck, Severity::error, "S701", card.where(field), message));
   throw InputError(problems);
 }
 
@@ -123,7 +123,7 @@ std::vector<int> element_materials(const Body& body) {
     if (!(list[e].number >= 1.0 && list[e].number <= known)) {
       Diagnostics problems;
       problems.add(card_diagnostic(
-          body.deck, Severity::error, card.where(list[e]),
+          body.deck, Severity::error, "S701", card.where(list[e]),
           "element " + std::to_string(e + 1) + " is of a material that no row of values gives"));
       throw InputError(problems);
     }

@@ -17,7 +17,7 @@ constexpr double kCubicInches = 1728.0;  // lengths in inches, densities in lbf/
 
 void fail(const Deck& deck, const SourcePosition& where, const std::string& message) {
   Diagnostics problems;
-  problems.add(card_diagnostic(deck, Severity::error, where, message));
+  problems.add(card_diagnostic(deck, Severity::error, "S702", where, message));
   throw InputError(problems);
 }
 
@@ -44,18 +44,18 @@ int birth_of(const CardView& element) {
 std::vector<NewField> duncan_parameters(const CardView& model, const CardView& strength, const CardView& bulk,
                                         CardWriter& out) {
   if (model.integer("model") != 0) {
-    out.warning(model.where("model"), "this soil's bulk modulus is that of Selig (code " +
-                                          model.text("model", "1") +
-                                          "), which is not known here; only code 0, that of Duncan, is");
+    out.warning("S703", model.where("model"),
+                "this soil's bulk modulus is that of Selig (code " + model.text("model", "1") +
+                    "), which is not known here; only code 0, that of Duncan, is");
     return {};
   }
   if (!(bulk.real("bulk_number") > 0.0)) {
-    out.warning(bulk.where("bulk_number"),
+    out.warning("S703", bulk.where("bulk_number"),
                 "without a bulk modulus number this soil has a constant Poisson's ratio, which "
                 "is not known here");
     return {};
   }
-  out.warning(strength.where("modulus_number"),
+  out.warning("S703", strength.where("modulus_number"),
               "computed as duncan_chang_eb; the deck has no modulus for unloading: the modulus number K serves "
               "for both");
   return {take(strength, "modulus_number", "values"), take(strength, "modulus_exponent", "values"),
@@ -319,7 +319,7 @@ Groups add_groups(const Deck& deck, const Catalogue& catalogue, const LoadFactor
     out.add("element", element.where(), fields);
   }
   if (turner.turned() > 0)
-    out.note({deck.file, 0, 0, 0},
+    out.note("S704", {deck.file, 0, 0, 0},
              std::to_string(turner.turned()) + " element(s) listed clockwise were turned round");
   return groups;
 }
@@ -348,7 +348,7 @@ void add_boundary(const Deck& deck, const LoadFactors& factors, CardWriter& out,
               stage);
     const double factor = stage < 0 ? 1.0 : factors.at(step);
     if (factor != 1.0 && ((x && vx != 0.0) || (y && vy != 0.0)))
-      out.warning(card.where(x && vx != 0.0 ? "x_value" : "y_value"),
+      out.warning("S705", card.where(x && vx != 0.0 ? "x_value" : "y_value"),
                   "a prescribed displacement is no load: it is not multiplied by the load factor of its step");
     if ((!x && vx != 0.0) || (!y && vy != 0.0))
       out.add("load", card.where(),
@@ -395,14 +395,14 @@ void explain_factors(const Deck& deck, const LoadFactors& factors, CardWriter& o
   const int step = factors.first_in_use();
   if (step == 0) return;
   const CardView first = deck.all("load_factor").front();
-  out.note(first.where("factor"),
+  out.note("S705", first.where("factor"),
            "the load factors multiply what is added in their load steps: the weight of the elements born there "
            "and the forces on nodes");
   for (const CardView& title : deck.all("title"))
     if (title.integer("method") == 0)
-      out.warning(title.where("method"), "this card asks for working stress (method 0), yet load step " +
-                                             std::to_string(step) +
-                                             " has a load factor other than 1; the factors are applied");
+      out.warning("S705", title.where("method"),
+                  "this card asks for working stress (method 0), yet load step " + std::to_string(step) +
+                      " has a load factor other than 1; the factors are applied");
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ constexpr int kMostElements = 1'000'000;
 [[noreturn]] void refuse(const Deck& deck, const CardView& card, std::string_view field,
                          const std::string& message) {
   Diagnostics problems;
-  problems.add(card_diagnostic(deck, Severity::error, card.where(field), message));
+  problems.add(card_diagnostic(deck, Severity::error, "S701", card.where(field), message));
   throw InputError(problems);
 }
 
@@ -224,7 +224,7 @@ Deck embankment_deck(const Deck& deck, const Catalogue& catalogue) {
   out.copy("fixity");
   add_stages(deck, mesh, out);
   if (deck.one("embankment").integer("lifts") > 1)
-    out.note(foundation.where(),
+    out.note("S704", foundation.where(),
              "the elements under the slope become 6-node triangles: five of their eight nodes lie on "
              "one straight line");
   return out.take();

@@ -14,7 +14,7 @@ constexpr int kMostListed = 5'000'000;  // nodes, elements
 
 [[noreturn]] void refuse_at(const Body& body, const SourcePosition& where, const std::string& message) {
   Diagnostics problems;
-  problems.add(card_diagnostic(body.deck, Severity::error, where, message));
+  problems.add(card_diagnostic(body.deck, Severity::error, "S701", where, message));
   throw InputError(problems);
 }
 

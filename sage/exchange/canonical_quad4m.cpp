@@ -75,9 +75,10 @@ void add_nodes_and_supports(const Deck& deck, CardWriter& out) {
             {take(node, "number", "first"), {"x_code", x ? 1.0 : 0.0}, {"y_code", y ? 1.0 : 0.0}});
   }
   if (transmitting > 0)
-    out.note({deck.file, 0, 0, 0}, std::to_string(transmitting) +
-                                       " node(s) of a transmitting base are held in x and y: a static analysis "
-                                       "has no waves to transmit");
+    out.note("S704", {deck.file, 0, 0, 0},
+             std::to_string(transmitting) +
+                 " node(s) of a transmitting base are held in x and y: a static analysis "
+                 "has no waves to transmit");
 }
 
 }  // namespace

@@ -43,20 +43,21 @@ class InpWriter {
 
  private:
   void warning(const std::string& message) {
-    diagnostics_.add({Severity::warning, {model_.file, 0, 0, 0}, message, {}});
+    diagnostics_.add({Severity::warning, "S720", {model_.file, 0, 0, 0}, message, {}});
   }
   // What is no part of the problem there.
   void the_rest() {
     if (!model_.reports.empty()) warning(std::to_string(model_.reports.size()) + " report(s) left out");
     if (!control_.empty())
       diagnostics_.add({Severity::note,
+                        "S721",
                         {model_.file, 0, 0, 0},
                         "stage(s) " + control_ +
                             ": method, limit of iterations, tolerance and output interval are left to CalculiX",
                         {}});
     if (model_.solver != 0)
       diagnostics_.add(
-          {Severity::note, {model_.file, 0, 0, 0}, "the choice of the solver is left to CalculiX", {}});
+          {Severity::note, "S721", {model_.file, 0, 0, 0}, "the choice of the solver is left to CalculiX", {}});
   }
   int number(int node) const { return model_.mesh.number[static_cast<std::size_t>(node)]; }
 
@@ -102,6 +103,7 @@ class InpWriter {
       return;
     diagnostics_.add(
         {Severity::note,
+         "S721",
          group.where,
          group.element_name + " is written as " + type + ", which CalculiX integrates in its own way",
          {}});
@@ -165,6 +167,7 @@ class InpWriter {
       const char* const more = end != nodes.end() ? ", ..." : "";
       diagnostics_.add(
           {Severity::warning,
+           "S720",
            {model_.file, line, 0, 0},
            fmt::format("{}node(s) {}{}{}", before, fmt::join(nodes.begin(), end, ", "), more, after),
            {}});
@@ -291,7 +294,7 @@ std::string inp_text(const Model& model, Diagnostics& diagnostics) {
   warn_of_unknowns(model, "CalculiX", diagnostics);
   if (!model.initials.empty())
     diagnostics.add(
-        {Severity::warning, {model.file, 0, 0, 0}, "initial stresses and histories are left out", {}});
+        {Severity::warning, "S720", {model.file, 0, 0, 0}, "initial stresses and histories are left out", {}});
   return InpWriter(model, diagnostics).text();
 }
 

@@ -85,7 +85,9 @@ class Scanner {
     while (at_ < found) line_ += text_[at_++] == '\n' ? 1 : 0;
     at_ += mark.size();
   }
-  [[noreturn]] void fail(const std::string& message) const { throw InputError({file_, line_, 0, 0}, message); }
+  [[noreturn]] void fail(const std::string& message) const {
+    throw InputError("S710", {file_, line_, 0, 0}, message);
+  }
 
  private:
   void skip() {

@@ -58,17 +58,19 @@ class Skeleton {
     for (const MshBlock& block : msh_.blocks)
       if (block.shape.dimension == 2) surface(block);
     collect_unknowns(model_);
-    if (model_.groups.empty()) throw InputError({model_.file, 0, 0, 0}, "the mesh holds no surface elements");
+    if (model_.groups.empty())
+      throw InputError("S711", {model_.file, 0, 0, 0}, "the mesh holds no surface elements");
     for (const MshBlock& block : msh_.blocks)
       if (block.shape.dimension == 1) curve(block);
     if (turned_ > 0)
-      message(Severity::note, std::to_string(turned_) + " element(s) listed clockwise were turned round");
+      message(Severity::note, "S704",
+              std::to_string(turned_) + " element(s) listed clockwise were turned round");
     return std::move(model_);
   }
 
  private:
-  void message(Severity severity, const std::string& text) {
-    model_.diagnostics.add({severity, {model_.file, 0, 0, 0}, text, {}});
+  void message(Severity severity, Code code, const std::string& text) {
+    model_.diagnostics.add({severity, code, {model_.file, 0, 0, 0}, text, {}});
   }
   std::string name_of(const MshBlock& block) const {
     const auto physical = msh_.physical.find(block.entity);
@@ -144,7 +146,7 @@ class Skeleton {
     const double value = pressure ? std::strtod(name.c_str() + 9, &end) : 0.0;
     if (pressure && *end == '\0') return load(block, value);
     if (!name.empty() && warned_.insert(name).second)
-      message(Severity::warning,
+      message(Severity::warning, "S713",
               "curve '" + name + "' is left out; known are fix_x, fix_y, fix_xy, pressure=VALUE");
   }
 
@@ -164,7 +166,7 @@ class Skeleton {
     for (const MshElement& line : block.elements) {
       const auto it = edge_of_.find(std::minmax(line.nodes[0], line.nodes[1]));
       if (it == edge_of_.end()) {
-        message(Severity::warning,
+        message(Severity::warning, "S713",
                 "line " + std::to_string(line.number) + " lies on no element: its pressure is left out");
         continue;
       }
@@ -197,7 +199,7 @@ class Skeleton {
 // Written so that NaN is refused too.  Zero stands for what is not known yet.
 void check_constants(const MshOptions& options, const std::string& file) {
   constexpr double kTooLarge = 1e100;  // as in decks
-  const auto refuse = [&](const std::string& message) { throw InputError({file, 0, 0, 0}, message); };
+  const auto refuse = [&](const std::string& message) { throw InputError("S712", {file, 0, 0, 0}, message); };
   if (!(options.youngs_modulus >= 0.0 && options.youngs_modulus < kTooLarge))
     refuse("Young's modulus must be positive and below 1e100; it is " + number_text(options.youngs_modulus));
   if (!(options.poissons_ratio > -1.0 && options.poissons_ratio < 0.5))

@@ -32,6 +32,7 @@ std::vector<Block> surfaces(const Model& model, Diagnostics& diagnostics, int& l
     if (group.interface()) left_out += group.elements();
     if (group.structure() && group.elements() > 0)
       diagnostics.add({Severity::warning,
+                       "S720",
                        group.where,
                        std::to_string(group.elements()) + " " + group.element_name +
                            " element(s) left out: mesh files are written with solids alone",
@@ -161,6 +162,7 @@ void warn_of_the_rest(const Model& model, const HeldDofs& beside, Diagnostics& d
        "that groups lie on others");
   if (!rest.empty())
     diagnostics.add({Severity::warning,
+                     "S720",
                      {model.file, 0, 0, 0},
                      "a mesh file holds nodes, elements, groups and supports alone; left out: " + rest,
                      {}});
@@ -175,6 +177,7 @@ std::string msh_text(const Model& model, Diagnostics& diagnostics) {
   for (Block& block : supports(model, largest + 1, beside)) blocks.push_back(std::move(block));
   if (left_out > 0)
     diagnostics.add({Severity::warning,
+                     "S720",
                      {model.file, 0, 0, 0},
                      std::to_string(left_out) + " interface element(s) left out: MSH has no type for them",
                      {}});

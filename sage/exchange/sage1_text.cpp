@@ -90,7 +90,7 @@ class Sage1Writer {
     text_ += '\n';
   }
   void warning(const std::string& message) {
-    diagnostics_.add({Severity::warning, {model_.file, 0, 0, 0}, message, {}});
+    diagnostics_.add({Severity::warning, "S720", {model_.file, 0, 0, 0}, message, {}});
   }
 
   int group_number(int group) const { return group_numbers_[static_cast<std::size_t>(group)]; }
@@ -296,9 +296,10 @@ void Sage1Writer::elements() {
       std::vector<int> numbers = card_nodes(group, e);
       if (folded_[g] != 0) numbers.push_back(numbers.back());
       if (numbers.size() > static_cast<std::size_t>(kWideNodes))
-        throw InputError(group.where, "group " + std::to_string(group.number) + " (" + group.element_name +
-                                          "): an element card holds up to " + std::to_string(kWideNodes) +
-                                          " nodes, these have " + std::to_string(numbers.size()));
+        throw InputError("S722", group.where,
+                         "group " + std::to_string(group.number) + " (" + group.element_name +
+                             "): an element card holds up to " + std::to_string(kWideNodes) +
+                             " nodes, these have " + std::to_string(numbers.size()));
       if (numbers.size() > kNodesOfCard && !wide_) throw TooWide{std::to_string(numbers.size())};
       integer(group.element_numbers[static_cast<std::size_t>(e)]);
       integer(group_number(static_cast<int>(g)));
@@ -541,7 +542,8 @@ std::string sage1_text(const Model& model, Diagnostics& diagnostics, FieldWidth 
       return text;
     } catch (const TooWide& number) {
       if (wide)
-        throw InputError({model.file, 0, 0, 0}, "the number " + number.digits + " does not fit a sage1 card");
+        throw InputError("S722", {model.file, 0, 0, 0},
+                         "the number " + number.digits + " does not fit a sage1 card");
     }
   }
 }

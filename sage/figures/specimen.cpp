@@ -79,7 +79,7 @@ class Watcher final : public Observer {
   }
 
   void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override {
-    throw AnalysisError("figures: " + std::string(run_->scene->name) + ": " + reason);
+    throw AnalysisError("S501", "figures: " + std::string(run_->scene->name) + ": " + reason);
   }
 
  private:
@@ -352,7 +352,7 @@ SpecimenRun run_specimen(const scenes::Workbench& bench, const Scene& scene, Ele
   Observer* observers[] = {&watcher};
   const RunResult result = bench.run(*model, observers);
   if (result.status != RunStatus::completed)
-    throw AnalysisError("figures: " + std::string(scene.name) + ": " + result.reason);
+    throw AnalysisError("S501", "figures: " + std::string(scene.name) + ": " + result.reason);
   return run;
 }
 

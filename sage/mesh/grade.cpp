@@ -78,7 +78,7 @@ void grade(Work& b, int node, int layers, double ratio) {
   const std::vector<int> centre = with_partners(b.model, node);
   for (int i = 0; i < layers; ++i)
     if (!add_layer(b, centre, ratio)) {
-      b.error(b.deck.one("control").where(),
+      b.error("S403", b.deck.one("control").where(),
               "the mesh can't be graded towards node " +
                   std::to_string(b.model.mesh.number[static_cast<std::size_t>(node)]) +
                   ": it is not the corner of an element");

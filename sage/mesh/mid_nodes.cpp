@@ -35,7 +35,7 @@ bool fits(Work& b, const Group& group, int e, Making& made, const EdgeKey& key, 
   const auto number = [&](int node) {
     return std::to_string(b.model.mesh.number[static_cast<std::size_t>(node)]);
   };
-  b.error({b.deck.file, group.element_lines[eu], 0, 0},
+  b.error("S401", {b.deck.file, group.element_lines[eu], 0, 0},
           name + " has " + std::to_string(inner) + " node(s) inside its edge from node " + number(key.first) +
               " to " + number(key.second) + ", its neighbour " + it->second.second + " has " +
               std::to_string(it->second.first) + ": elements of different degree don't fit together");

@@ -40,7 +40,7 @@ void refuse_lost_supports(Work& b, const std::map<int, EdgeKey>& middles, const 
         const auto is_held = [&](int node) { return activity.holds(node, static_cast<int>(c)); };
         if (f.code[c] != FixityCode::fixed || (is_held(it->second.first) && is_held(it->second.second)))
           continue;
-        b.error({b.deck.file, f.line, 0, 0},
+        b.error("S404", {b.deck.file, f.line, 0, 0},
                 "node " + std::to_string(b.model.mesh.number[static_cast<std::size_t>(f.node)]) +
                     " is held along " + (c == 0 ? "x" : "y") +
                     " but is no node of the graded mesh, and the ends of its edge are not both held; --refine "
@@ -69,7 +69,7 @@ void drop_lost_nodes(Work& b, std::vector<char> lost) {
   const auto refuse_lost = [&](const auto& loads) {
     for (const auto& load : loads)
       if (is_lost(load.node))
-        b.error({b.deck.file, load.line, 0, 0},
+        b.error("S404", {b.deck.file, load.line, 0, 0},
                 "node " + std::to_string(model.mesh.number[static_cast<std::size_t>(load.node)]) +
                     " is loaded but is no node of the graded mesh; load its edge by a pressure card");
   };
@@ -85,7 +85,7 @@ void drop_lost_nodes(Work& b, std::vector<char> lost) {
     const auto of_deck = std::count_if(report.nodes.begin(), report.nodes.end(),
                                        [&](int node) { return node < model.mesh.deck_nodes && is_lost(node); });
     if (of_deck > 0)
-      b.note(report.where,
+      b.note("S405", report.where,
              std::to_string(of_deck) +
                  " node(s) of this report are no nodes of the graded mesh: they don't count in its mean "
                  "displacement");
@@ -97,6 +97,7 @@ void warn_point_loads(Work& b) {
   for (const Stage& stage : b.model.stages)
     if (!stage.loads.empty() || !stage.field_loads.empty()) {
       b.warning(
+          "S406",
           {b.deck.file, stage.loads.empty() ? stage.field_loads.front().line : stage.loads.front().line, 0, 0},
           "loads on nodes stay point loads in a refined mesh: the displacement under them does not converge");
       return;
@@ -106,13 +107,13 @@ void warn_point_loads(Work& b) {
 std::vector<int> nodes_of(Work& b, const Grading& grading) {
   if (grading.node == 0) {
     const std::vector<int> found = singular_corners(b.model);
-    if (found.empty()) b.note(b.at_line(0), "no singular corner found: the mesh is not graded");
+    if (found.empty()) b.note("S403", b.at_line(0), "no singular corner found: the mesh is not graded");
     return found;
   }
   if (const int* node = b.node_index.find(grading.node)) return {*node};
-  b.error(b.deck.one("control").where(), "the mesh can't be graded towards node " +
-                                             std::to_string(grading.node) +
-                                             ": the deck has none of that number");
+  b.error("S403", b.deck.one("control").where(),
+          "the mesh can't be graded towards node " + std::to_string(grading.node) +
+              ": the deck has none of that number");
   return {};
 }
 
@@ -121,7 +122,7 @@ std::vector<int> nodes_of(Work& b, const Grading& grading) {
 void refine_as_asked(Work& b) {
   const MeshOptions& options = b.meshing;
   if (options.coarsen && !coarsen(b))
-    b.note(b.at_line(0), "the mesh stays as it is: no coarser one of quadrilaterals means the same");
+    b.note("S407", b.at_line(0), "the mesh stays as it is: no coarser one of quadrilaterals means the same");
   if (options.refine <= 0 && options.gradings.empty()) return;
   const std::vector<char> before = used_nodes(b.model);
   const std::map<int, EdgeKey> middles = given_middles(b.model);
@@ -131,7 +132,7 @@ void refine_as_asked(Work& b) {
     for (const int node : nodes_of(b, grading)) {
       grade(b, node, grading.layers, grading.ratio);
       b.warning(
-          b.at_line(0),
+          "S406", b.at_line(0),
           "mesh graded towards node " + std::to_string(b.model.mesh.number[static_cast<std::size_t>(node)]) +
               ": where the corner is singular the stress at it does not converge, it grows with every layer");
     }

@@ -43,7 +43,7 @@ void check_nodes(Work& b, const Group& group, int corners) {
   for (int e = 0; e < group.elements(); ++e)
     for (std::size_t i = 0; i < known.size(); ++i)
       if (!known[i] && group.nodes_of(e)[i] >= 0) {
-        b.error({b.deck.file, group.element_lines[static_cast<std::size_t>(e)], 0, 0},
+        b.error("S402", {b.deck.file, group.element_lines[static_cast<std::size_t>(e)], 0, 0},
                 "element " + std::to_string(group.element_numbers[static_cast<std::size_t>(e)]) + " (" +
                     group.element_name +
                     ") can't be refined: its card gives more nodes than corners and mid-side nodes");
@@ -87,7 +87,7 @@ void check_size(Work& b, int times) {
   if (size.elements > kMaxElements) {
     int most = times;
     while (most > 0 && refined(b.model, most).elements > kMaxElements) --most;
-    b.error(b.at_line(0),
+    b.error("S402", b.at_line(0),
             option + " would make " + whole(size.elements) + " elements, more than " + whole(kMaxElements) +
                 "; --refine " + std::to_string(most) + " makes " + whole(refined(b.model, most).elements) +
                 ". Layers at corners (--grade) and elements of high degree (--element) need far fewer");

@@ -20,14 +20,14 @@ struct Work {
 
   SourcePosition at_line(int line) const { return {deck.file, line, 0, 0}; }
   // Adds a message that shows the card.
-  void error(const SourcePosition& where, const std::string& message) {
-    problems.add(card_diagnostic(deck, Severity::error, where, message));
+  void error(Code code, const SourcePosition& where, const std::string& message) {
+    problems.add(card_diagnostic(deck, Severity::error, code, where, message));
   }
-  void warning(const SourcePosition& where, const std::string& message) {
-    model.diagnostics.add(card_diagnostic(deck, Severity::warning, where, message));
+  void warning(Code code, const SourcePosition& where, const std::string& message) {
+    model.diagnostics.add(card_diagnostic(deck, Severity::warning, code, where, message));
   }
-  void note(const SourcePosition& where, const std::string& message) {
-    model.diagnostics.add(card_diagnostic(deck, Severity::note, where, message));
+  void note(Code code, const SourcePosition& where, const std::string& message) {
+    model.diagnostics.add(card_diagnostic(deck, Severity::note, code, where, message));
   }
 };
 

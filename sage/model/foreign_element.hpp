@@ -24,7 +24,7 @@ inline void warn_of_corners(const Group& group, std::string_view format, Diagnos
   const std::string text = "group " + std::to_string(group.number) + " (" + group.element_name +
                            "): " + std::string(format) + " has no element like " + group.entry->name +
                            ": its elements are written by their corners, and their other nodes belong to none";
-  diagnostics.add({Severity::warning, group.where, text, {}});
+  diagnostics.add({Severity::warning, "S720", group.where, text, {}});
 }
 
 // Unknowns besides displacement, with their supports and loads, which only our own decks can say.
@@ -32,6 +32,7 @@ inline void warn_of_unknowns(const Model& model, std::string_view format, Diagno
   for (std::size_t i = 1; i < model.unknowns.size(); ++i) {
     const std::string& name = model.unknowns[i].name;
     diagnostics.add({Severity::warning,
+                     "S720",
                      {model.file, 0, 0, 0},
                      "the " + name + " of nodes is left out, with its supports, values and loads: " +
                          std::string(format) + " as it is written here knows displacements alone",

@@ -66,7 +66,7 @@ std::string CsvTable::names() const {
 CsvTable read_csv_table(const std::filesystem::path& file) {
   std::ifstream stream(file);
   if (!stream || std::filesystem::is_directory(file))
-    throw InputError({file.string(), 0, 0, 0}, "can't be opened");
+    throw InputError("S101", {file.string(), 0, 0, 0}, "can't be opened");
   CsvTable table;
   int number = 0;
   for (std::string line; std::getline(stream, line);) {
@@ -83,8 +83,9 @@ CsvTable read_csv_table(const std::filesystem::path& file) {
       continue;
     }
     if (cells.size() != table.columns.size())
-      throw InputError({file.string(), number, 0, 0}, fmt::format("{} cells, where the line of names has {}",
-                                                                  cells.size(), table.columns.size()));
+      throw InputError(
+          "S641", {file.string(), number, 0, 0},
+          fmt::format("{} cells, where the line of names has {}", cells.size(), table.columns.size()));
     table.lines.push_back(number);
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const double value = number_of(cells[i]);
@@ -93,7 +94,7 @@ CsvTable read_csv_table(const std::filesystem::path& file) {
     }
   }
   if (table.columns.empty())
-    throw InputError({file.string(), 0, 0, 0}, "has no line with the names of columns");
+    throw InputError("S641", {file.string(), 0, 0, 0}, "has no line with the names of columns");
   return table;
 }
 

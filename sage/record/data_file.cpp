@@ -26,7 +26,7 @@ MakeDataFile loaded() {
     try {
       return reinterpret_cast<MakeDataFile>(load_module(data_module(), data_module_places()));
     } catch (const AnalysisError& error) {
-      throw OutputError(error.what());
+      throw OutputError("S505", error.what());
     }
   }();
   return make;
@@ -47,7 +47,8 @@ std::unique_ptr<DataFile> make_data_file(const std::string& path) {
   errno = 0;
   std::unique_ptr<DataFile> file(make(path.c_str(), false));
   if (!file)
-    throw OutputError("cannot write " + path + ": " + (errno != 0 ? std::strerror(errno) : "HDF5 refuses it"));
+    throw OutputError("S601",
+                      "cannot write " + path + ": " + (errno != 0 ? std::strerror(errno) : "HDF5 refuses it"));
   return file;
 }
 
@@ -55,9 +56,9 @@ std::unique_ptr<DataFile> open_data_file(const std::string& path) {
   const MakeDataFile make = loaded();
   errno = 0;
   if (!std::ifstream(path))
-    throw InputError({path, 0, 0, 0}, std::string("can't be opened: ") + std::strerror(errno));
+    throw InputError("S101", {path, 0, 0, 0}, std::string("can't be opened: ") + std::strerror(errno));
   std::unique_ptr<DataFile> file(make(path.c_str(), true));
-  if (!file) throw InputError({path, 0, 0, 0}, "is no whole file of HDF5");
+  if (!file) throw InputError("S640", {path, 0, 0, 0}, "is no whole file of HDF5");
   return file;
 }
 

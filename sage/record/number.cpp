@@ -175,9 +175,9 @@ void append_plain(std::string& text, double value, int digits) {
 void append_result_cell(std::string& text, double value, int digits) {
   if (!std::isfinite(value))
     throw AnalysisError(
-        fmt::format("a result is {}, no finite number: the model's numbers are too large or too "
-                    "small to compute with",
-                    std::isnan(value) ? "undefined" : "infinite"));
+        "S507", fmt::format("a result is {}, no finite number: the model's numbers are too large or too "
+                            "small to compute with",
+                            std::isnan(value) ? "undefined" : "infinite"));
   text += ',';
   append_plain(text, value, digits);
 }

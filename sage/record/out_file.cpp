@@ -54,7 +54,8 @@ void expect_no_input(const std::filesystem::path& file) {
     return std::filesystem::equivalent(input, file, absent);
   };
   if (std::none_of(inputs().begin(), inputs().end(), same)) return;
-  throw OverInput("the result " + file.string() +
+  throw OverInput(
+      "S602", "the result " + file.string() +
                   " would take the place of a file that is read: another folder (-o) or another name for the "
                   "input is wanted");
 }
@@ -94,7 +95,8 @@ void OutFile::open_ordinary() {
     std::error_code error;
     std::filesystem::create_directories(path_.parent_path(), error);
     if (error)
-      throw OutputError("the folder " + path_.parent_path().string() + " can't be made: " + error.message());
+      throw OutputError("S601",
+                        "the folder " + path_.parent_path().string() + " can't be made: " + error.message());
     descriptor = open_waiting_for_signals(partial_, kFlags);
   }
   const int error = errno;
@@ -128,7 +130,7 @@ void OutFile::fail(const std::filesystem::path& path, int error) {
 void OutFile::fail(const std::filesystem::path& path, const std::string& reason) {
   file_.reset();
   text_.clear();
-  throw OutputError("cannot write " + path.string() + ": " + reason);
+  throw OutputError("S601", "cannot write " + path.string() + ": " + reason);
 }
 
 void OutFile::write() {
@@ -164,7 +166,7 @@ void OutFile::sync() {
 void OutFile::exchange(Archive& archive) {
   bool in_use = open();
   archive(in_use);
-  if (in_use != open()) throw InputError({}, "the checkpoint was made with other outputs");
+  if (in_use != open()) throw InputError("S630", {}, "the checkpoint was made with other outputs");
   if (!in_use) return;
   sync_ = true;
   if (!archive.reading()) {
@@ -185,7 +187,7 @@ void OutFile::exchange(Archive& archive) {
 void OutFile::take_over(const Checksum& sum) {
   if (partial_ != path_ && !begins_with(partial_, sum)) {
     if (!begins_with(path_, sum))
-      throw InputError({}, partial_.string() + " is not what it was at the time of the checkpoint");
+      throw InputError("S630", {}, partial_.string() + " is not what it was at the time of the checkpoint");
     const std::unique_ptr<std::FILE, Close> whole(std::fopen(path_.c_str(), "rb"));
     std::vector<char> piece(kMuch);
     cut_to(0);
@@ -274,7 +276,7 @@ void sync_path(const std::filesystem::path& path) {
   const int error = result == 0 ? 0 : errno;
   ::close(descriptor);
   if (error != 0 && error != EINVAL && error != EROFS)
-    throw OutputError("cannot write " + path.string() + ": " + reason_of(error));
+    throw OutputError("S601", "cannot write " + path.string() + ": " + reason_of(error));
 }
 
 void expect_no_folders(const std::filesystem::path& folder, std::string_view begin, std::string_view end) {
@@ -283,7 +285,7 @@ void expect_no_folders(const std::filesystem::path& folder, std::string_view beg
     const std::string name = at->path().filename().string();
     std::error_code ignored;
     if (name.starts_with(begin) && name.ends_with(end) && at->is_directory(ignored))
-      throw OutputError("cannot write " + at->path().string() + ": " + reason_of(EISDIR));
+      throw OutputError("S601", "cannot write " + at->path().string() + ": " + reason_of(EISDIR));
   }
 }
 

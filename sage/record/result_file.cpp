@@ -60,7 +60,7 @@ class TableFile {
 
  private:
   void expect(bool done) const {
-    if (!done) throw OutputError("cannot write " + path_.string() + ": " + file_->error());
+    if (!done) throw OutputError("S601", "cannot write " + path_.string() + ": " + file_->error());
   }
 
   std::filesystem::path path_;
@@ -393,7 +393,7 @@ class FrameReader {
   Frame next(std::uint64_t size) {
     std::string bytes(size, '\0');
     if (!in_.read(bytes.data(), static_cast<std::streamsize>(size)))
-      throw OutputError("the states of the run can't be read back for its result file");
+      throw OutputError("S601", "the states of the run can't be read back for its result file");
     Frame frame(model_);
     Archive archive(std::move(bytes));
     frame.exchange(archive);
@@ -413,7 +413,8 @@ ResultOutput::ResultOutput(std::filesystem::path folder, const std::string& stem
   expect_no_input(path_);
   std::error_code ignored;
   if (std::filesystem::is_directory(path_, ignored))
-    throw OutputError("cannot write " + path_.string() + ": " + std::generic_category().message(EISDIR));
+    throw OutputError("S601",
+                      "cannot write " + path_.string() + ": " + std::generic_category().message(EISDIR));
   states_ = OutFile(path_.string() + ".states");
 }
 

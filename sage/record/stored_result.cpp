@@ -34,7 +34,7 @@ StoredResult::StoredResult(const std::filesystem::path& file)
 }
 
 void StoredResult::fail(const std::string& what) const {
-  throw InputError({path_.string(), 0, 0, 0}, what);
+  throw InputError("S640", {path_.string(), 0, 0, 0}, what);
 }
 
 std::string StoredResult::bytes(const std::string& name) const {

@@ -37,7 +37,7 @@ struct WholeRun {
   bool completed() const { return result.status == RunStatus::completed; }
   // Throws AnalysisError where there is none.
   const Snapshot& last() const {
-    if (increments.empty()) throw AnalysisError("no increment was computed: " + failure);
+    if (increments.empty()) throw AnalysisError("S501", "no increment was computed: " + failure);
     return increments.back();
   }
   int index(int number) const;  // of a deck node

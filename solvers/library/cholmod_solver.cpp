@@ -151,7 +151,7 @@ class CholmodSolver final : public MatrixSolver {
     if (common_.status >= CHOLMOD_OK) return;
     if (common_.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
     if (common_.status == CHOLMOD_TOO_LARGE) throw std::length_error("CHOLMOD: the factors are too large");
-    throw AnalysisError("CHOLMOD failed with status " + std::to_string(common_.status));
+    throw AnalysisError("S504", "CHOLMOD failed with status " + std::to_string(common_.status));
   }
 
   void release() {

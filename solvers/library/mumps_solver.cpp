@@ -37,7 +37,7 @@ class MumpsSolver final : public MatrixSolver {
     const int n = matrix().equations();
     if (n == 0) return;
     for (const double term : matrix().value())
-      if (!std::isfinite(term)) throw AnalysisError("the matrix holds a term that is not a number");
+      if (!std::isfinite(term)) throw AnalysisError("S504", "the matrix holds a term that is not a number");
     // MUMPS compares with the norm of the scaled matrix; a zero matrix has none.
     const std::span<const double> maxima = row_maxima();
     for (int i = 0; i < n; ++i)
@@ -92,7 +92,7 @@ class MumpsSolver final : public MatrixSolver {
     if (status >= 0) return true;
     if (status == -8 || status == -9) return false;
     if (status == -7 || status == -13 || status == -19) throw std::bad_alloc();
-    throw AnalysisError("MUMPS failed with status " + std::to_string(status));
+    throw AnalysisError("S504", "MUMPS failed with status " + std::to_string(status));
   }
 
   void solve_system(int original, std::span<const double> b, std::span<double> x) const {

@@ -69,14 +69,14 @@ class UmfpackSolver final : public MatrixSolver {
     throw_unless_ok(status);
     // Its other strategy has cost seven digits: it must not come back by a default of another version.
     if (info[UMFPACK_STRATEGY_USED] != UMFPACK_STRATEGY_SYMMETRIC)
-      throw AnalysisError("UMFPACK did not take its symmetric strategy");
+      throw AnalysisError("S504", "UMFPACK did not take its symmetric strategy");
   }
 
  private:
   static void throw_unless_ok(SuiteSparse_long status) {
     if (status == UMFPACK_OK) return;
     if (status == UMFPACK_ERROR_out_of_memory) throw std::bad_alloc();
-    throw AnalysisError("UMFPACK failed with status " + std::to_string(status));
+    throw AnalysisError("S504", "UMFPACK failed with status " + std::to_string(status));
   }
 
   // UMFPACK factorises P R K Q with R = 1 / row sums; pivots go back to the scale of K.
@@ -92,7 +92,8 @@ class UmfpackSolver final : public MatrixSolver {
       const double scale = row_scale[static_cast<std::size_t>(row[k])];
       check.take(static_cast<int>(row[k]), multiply ? pivot[k] / scale : pivot[k] * scale);
     }
-    if (known_singular) throw AnalysisError("UMFPACK calls the matrix singular but shows no small pivot");
+    if (known_singular)
+      throw AnalysisError("S504", "UMFPACK calls the matrix singular but shows no small pivot");
     report_.smallest_pivot_ratio = check.smallest_ratio();
   }
 

@@ -14,9 +14,9 @@ TEST(SourcePosition, PrintsAsCompilersDo) {
 
 TEST(Diagnostics, CountsBySeverity) {
   Diagnostics d;
-  d.error({"a.dat", 1, 0, 0}, "one");
-  d.warning({"a.dat", 2, 0, 0}, "two");
-  d.note({"a.dat", 3, 0, 0}, "three");
+  d.error("S117", {"a.dat", 1, 0, 0}, "one");
+  d.warning("S122", {"a.dat", 2, 0, 0}, "two");
+  d.note("S127", {"a.dat", 3, 0, 0}, "three");
   EXPECT_EQ(d.errors(), 1);
   EXPECT_EQ(d.warnings(), 1);
   EXPECT_EQ(d.list().size(), 3u);
@@ -24,9 +24,27 @@ TEST(Diagnostics, CountsBySeverity) {
 
 TEST(InputError, ShowsTheFirstError) {
   Diagnostics d;
-  d.warning({"a.dat", 2, 0, 0}, "two");
-  d.error({"a.dat", 3, 1, 5}, "three");
-  EXPECT_STREQ(InputError(d).what(), "a.dat:3:1-5: error: three");
+  d.warning("S122", {"a.dat", 2, 0, 0}, "two");
+  d.error("S117", {"a.dat", 3, 1, 5}, "three");
+  EXPECT_STREQ(InputError(d).what(), "a.dat:3:1-5: error: three [S117]");
+}
+
+TEST(Code, StandsAtTheEndOfTheFirstLine) {
+  EXPECT_EQ(to_string(Code("S104")), "S104");
+  EXPECT_EQ(to_string(Code()), "");
+  EXPECT_EQ(with_code("no digit left", "S502"), "no digit left [S502]");
+  EXPECT_EQ(with_code("not in equilibrium.\n  likely: a collapse", "S501"),
+            "not in equilibrium. [S501]\n  likely: a collapse");
+  EXPECT_EQ(with_code("as it is", Code()), "as it is");
+}
+
+TEST(CodedError, KeepsMessageAndCodeApart) {
+  const AnalysisError error("S504", "no digit left");
+  EXPECT_STREQ(error.what(), "no digit left");
+  EXPECT_EQ(message_of(error), "no digit left [S504]");
+  EXPECT_EQ(message_of(std::runtime_error("of a library")), "of a library");
+  EXPECT_EQ(to_string(SingularMatrix(3, 0.0, "no pivot").code()), "S502");
+  EXPECT_EQ(to_string(ParameterError(0, "E must be greater than 0").code()), "S224");
 }
 
 }  // namespace

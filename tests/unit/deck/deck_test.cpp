@@ -122,9 +122,9 @@ TEST(Deck, KnowsWhereFieldsStand) {
   EXPECT_EQ(node.label("x"), "x or radius, length");
   EXPECT_EQ(deck.line_text(1), "A small deck");
   EXPECT_EQ(deck.line_text(99), "");
-  const Diagnostic d = card_diagnostic(deck, Severity::error, node.where("y"), "too large");
+  const Diagnostic d = card_diagnostic(deck, Severity::error, "S208", node.where("y"), "too large");
   EXPECT_EQ(to_string(d),
-            "deck.dat:6:26-35: error: too large\n"
+            "deck.dat:6:26-35: error: too large [S208]\n"
             "      | ....+....1....+....2....+....3....+....4...\n"
             "    6 |     2    1    1    1.D1    .5E+02        2.\n"
             "      |                          ^^^^^^^^^^");

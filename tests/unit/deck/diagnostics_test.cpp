@@ -77,7 +77,7 @@ TEST(Diagnostics, ShowTheFieldUnderARuler) {
   const Diagnostics all = diagnostics(joined(with_line(10, "   25    1    0     0.0.5      0.05       0.5")));
   ASSERT_EQ(all.list().size(), 1u);
   EXPECT_EQ(to_string(all.list()[0]),
-            "deck.dat:10:16-25: error: \"0.0.5\" is not a number (node card, x or radius, length)\n"
+            "deck.dat:10:16-25: error: \"0.0.5\" is not a number (node card, x or radius, length) [S120]\n"
             "      | ....+....1....+....2....+....3....+....4....+\n"
             "   10 |    25    1    0     0.0.5      0.05       0.5\n"
             "      |                ^^^^^^^^^^");
@@ -105,27 +105,29 @@ TEST(Diagnostics, SequenceNumbersThatRunIntoAField) {
   EXPECT_EQ(printed[0],
             "deck.dat:28:73-80: warning: \"00000280\" looks like a sequence number, but the fields of the "
             "stage card reach "
-            "into columns 73-80 (reported once)");
+            "into columns 73-80 (reported once) [S130]");
 }
 
 TEST(Diagnostics, NearMissesAreWarnings) {
   EXPECT_EQ(messages(with_line(10, "   25    1    0   0.0 5      0.05        0.5")),
             (Lines{"deck.dat:10:16-25: warning: \"0.0 5\" has a blank inside the number (node card, x or "
-                   "radius, length)"}));
-  EXPECT_EQ(messages(with_line(10, "25,1,0,0.05,0.05,0.5")),
-            (Lines{"deck.dat:10:1-2: warning: a comma ended the field after \"25\" (node card, node number)"}));
+                   "radius, length) [S122]"}));
   EXPECT_EQ(
-      messages(with_line(10, "   25    1    0         -      0.05       0.5")),
+      messages(with_line(10, "25,1,0,0.05,0.05,0.5")),
       (Lines{
-          "deck.dat:10:16-25: warning: \"-\" has no digit and reads as 0 (node card, x or radius, length)"}));
+          "deck.dat:10:1-2: warning: a comma ended the field after \"25\" (node card, node number) [S123]"}));
+  EXPECT_EQ(messages(with_line(10, "   25    1    0         -      0.05       0.5")),
+            (Lines{"deck.dat:10:16-25: warning: \"-\" has no digit and reads as 0 (node card, x or radius, "
+                   "length) [S124]"}));
   EXPECT_EQ(
       messages(with_line(10, "   25    1    0    0.5Q-1      0.05       0.5")),
       (Lines{"deck.dat:10:16-25: warning: \"0.5Q-1\" has the exponent letter Q and reads as if it were E (node "
-             "card, x or radius, length)"}));
-  EXPECT_EQ(messages(with_line(10, lines()[9] + "      oops")),
-            (Lines{"deck.dat:10:52-55: note: characters behind the last field of the node card are ignored"}));
+             "card, x or radius, length) [S124]"}));
+  EXPECT_EQ(
+      messages(with_line(10, lines()[9] + "      oops")),
+      (Lines{"deck.dat:10:52-55: note: characters behind the last field of the node card are ignored [S129]"}));
   EXPECT_EQ(messages(with_line(10, lines()[9] + std::string(40, ' ') + "oops")),
-            (Lines{"deck.dat:10:81-89: note: characters beyond column 80 are ignored (reported once)"}));
+            (Lines{"deck.dat:10:81-89: note: characters beyond column 80 are ignored (reported once) [S129]"}));
 }
 
 TEST(Diagnostics, StrictTurnsWarningsIntoErrors) {
@@ -138,24 +140,26 @@ TEST(Diagnostics, StrictTurnsWarningsIntoErrors) {
 }
 
 TEST(Diagnostics, NumbersThatAreNone) {
-  EXPECT_EQ(messages(with_line(10, "   25    1    0       NaN     1e400 Infinity")),
-            (Lines{"deck.dat:10:16-25: error: \"NaN\" is not a finite number (node card, x or radius, length)",
-                   "deck.dat:10:26-35: error: \"1e400\" is too large for a number (node card, y or angle, "
-                   "length or degrees)",
-                   "deck.dat:10:36-44: error: \"Infinity\" is not a finite number (node card, last interval / "
-                   "first interval)"}));
+  EXPECT_EQ(
+      messages(with_line(10, "   25    1    0       NaN     1e400 Infinity")),
+      (Lines{"deck.dat:10:16-25: error: \"NaN\" is not a finite number (node card, x or radius, length) [S121]",
+             "deck.dat:10:26-35: error: \"1e400\" is too large for a number (node card, y or angle, "
+             "length or degrees) [S121]",
+             "deck.dat:10:36-44: error: \"Infinity\" is not a finite number (node card, last interval / "
+             "first interval) [S121]"}));
   EXPECT_EQ(messages(with_line(10, "   25    1    0     1e308      0.05       0.5")), Lines{});
   EXPECT_EQ(messages(with_line(10, "   25    1    0     1.5E         5       0.5")),
             (Lines{"deck.dat:10:16-25: error: \"1.5E\" has an exponent letter without an exponent (node card, "
-                   "x or radius, length)"}));
+                   "x or radius, length) [S120]"}));
 }
 
 TEST(Diagnostics, MissingValues) {
   EXPECT_EQ(messages(with_line(10, "         1    0      0.05      0.05       0.5")),
-            (Lines{"deck.dat:10:1-5: error: a value is missing (node card, node number)"}));
-  EXPECT_EQ(messages(with_line(12, "    1    4")),
-            (Lines{"deck.dat:12: error: a value is missing (fill card, rows)",
-                   "deck.dat:12: error: a value is missing (fill card, number increment from row to row)"}));
+            (Lines{"deck.dat:10:1-5: error: a value is missing (node card, node number) [S115]"}));
+  EXPECT_EQ(
+      messages(with_line(12, "    1    4")),
+      (Lines{"deck.dat:12: error: a value is missing (fill card, rows) [S115]",
+             "deck.dat:12: error: a value is missing (fill card, number increment from row to row) [S115]"}));
 }
 
 TEST(Diagnostics, AllMistakesInOnePass) {
@@ -170,12 +174,12 @@ TEST(Diagnostics, ACardTooFew) {
   deck.erase(deck.begin() + 9);
   EXPECT_EQ(messages(deck),
             (Lines{"deck.dat:11: error: this reads as a fill card, but a node card was expected: 3 of 4 read "
-                   "(number of node cards of the control card, line 5)"}));
+                   "(number of node cards of the control card, line 5) [S111]"}));
   deck = lines();
   deck.erase(deck.begin() + 4);
   EXPECT_EQ(messages(deck),
-            (Lines{"deck.dat:6: error: this reads as a node card, but a control card was expected",
-                   "deck.dat:6: note: the control card is missing: reading stops here"}));
+            (Lines{"deck.dat:6: error: this reads as a node card, but a control card was expected [S111]",
+                   "deck.dat:6: note: the control card is missing: reading stops here [S132]"}));
 }
 
 TEST(Diagnostics, ACardTooMany) {
@@ -183,19 +187,19 @@ TEST(Diagnostics, ACardTooMany) {
   deck.insert(deck.begin() + 10, "   26    0    0       0.1      0.05");
   EXPECT_EQ(messages(deck),
             (Lines{"deck.dat:11: error: this reads as a node card, but the 4 that were announced (number of "
-                   "node cards of the control card, line 5) have been read"}));
+                   "node cards of the control card, line 5) have been read [S111]"}));
   EXPECT_EQ(
       messages(with_line(5, "    2    0    4    0    1    1    1    2    1    1    1   25   16")),
       (Lines{
           "deck.dat:12: error: this reads as a fill card, but none was announced (number of fill cards of the "
-          "control card, line 5)"}));
+          "control card, line 5) [S111]"}));
 }
 
 TEST(Diagnostics, ABlockTooFew) {
   EXPECT_EQ(messages(with_line(5, "    2    0    4    1    2    1    1    2    1    1    1   25   16")),
             (Lines{"deck.dat:18: error: this reads as a group card, but a material card was expected: 1 of 2 "
                    "read (number of "
-                   "material cards of the control card, line 5)"}));
+                   "material cards of the control card, line 5) [S111]"}));
 }
 
 TEST(Diagnostics, AListThatRunsIntoTheNextCards) {
@@ -203,7 +207,7 @@ TEST(Diagnostics, AListThatRunsIntoTheNextCards) {
       messages(with_line(14, "    1    1    9       0.0 clay")),
       (Lines{
           "deck.dat:18: error: this reads as a group card, but the parameters card goes on: 8 of 9 values read "
-          "(number of parameters of the material card, line 14)"}));
+          "(number of parameters of the material card, line 14) [S111]"}));
 }
 
 TEST(Diagnostics, TruncatedDecks) {
@@ -212,10 +216,11 @@ TEST(Diagnostics, TruncatedDecks) {
   EXPECT_EQ(
       messages(deck),
       (Lines{"deck.dat:9: error: the deck ends here, but a node card was expected (3 of 4 read, 1 missing; "
-             "number of node cards of the control card, line 5)"}));
+             "number of node cards of the control card, line 5) [S110]"}));
   deck = lines();
   deck.pop_back();
-  EXPECT_EQ(messages(deck), (Lines{"deck.dat:34: error: the deck ends here, but an end card was expected"}));
+  EXPECT_EQ(messages(deck),
+            (Lines{"deck.dat:34: error: the deck ends here, but an end card was expected [S110]"}));
   // Wherever the deck is cut, there is an error and it is the last.
   for (std::size_t n = 1; n + 1 < lines().size(); ++n) {
     deck = lines();
@@ -229,14 +234,15 @@ TEST(Diagnostics, TruncatedDecks) {
 TEST(Diagnostics, CountsThatCannotBe) {
   EXPECT_EQ(messages(with_line(5, "    2    0   -4    1    1    1    1    2    1    1    1   25   16")),
             (Lines{"deck.dat:5:11-15: error: the number of node cards can't be -4 (number of node cards of the "
-                   "control card, line 5)"}));
-  EXPECT_EQ(messages(with_line(5, "    2    0    x    1    1    1    1    2    1    1    1   25   16")),
-            (Lines{"deck.dat:5:11-15: error: \"x\" is not an integer (control card, number of node cards)",
-                   "deck.dat:5: note: the number of node cards is not known: reading stops here"}));
+                   "control card, line 5) [S111]"}));
+  EXPECT_EQ(
+      messages(with_line(5, "    2    0    x    1    1    1    1    2    1    1    1   25   16")),
+      (Lines{"deck.dat:5:11-15: error: \"x\" is not an integer (control card, number of node cards) [S120]",
+             "deck.dat:5: note: the number of node cards is not known: reading stops here [S132]"}));
   EXPECT_EQ(messages(with_line(14, "    1    199999       0.0 clay")),
             (Lines{"deck.dat:16: error: 99999 values of parameter can't be in a deck of 1619 characters "
                    "(number of parameters "
-                   "of the material card, line 14)"}));
+                   "of the material card, line 14) [S111]"}));
 }
 
 // "200000000*1" would be eight gigabytes of values.
@@ -246,22 +252,24 @@ TEST(Diagnostics, RepeatsDoNotFillTheMemory) {
   EXPECT_EQ(messages(head + "200000000*1\n", layout)[0],
             "deck.dat:5: error: 200000000 values of material of the element can't be in a deck of 69 "
             "characters (columns of "
-            "elements nxe of the rectangle card, line 3)");
+            "elements nxe of the rectangle card, line 3) [S111]");
   EXPECT_EQ(
       messages("'plane'\n'quadrilateral' 4 'x'\n10 20 1 2\n2*1e6 2*.3\n200*1\n11*0 21*0\n0\n0\n0\n", layout),
       Lines{});
 }
 
 TEST(Diagnostics, TheEnd) {
-  EXPECT_EQ(messages(with_line(35, "STOP")),
-            (Lines{"deck.dat:35:1-3: error: the end card must read END, not \"STO\"",
-                   "deck.dat:35:4: note: characters behind the last field of the end card are ignored"}));
+  EXPECT_EQ(
+      messages(with_line(35, "STOP")),
+      (Lines{"deck.dat:35:1-3: error: the end card must read END, not \"STO\" [S116]",
+             "deck.dat:35:4: note: characters behind the last field of the end card are ignored [S129]"}));
   EXPECT_EQ(messages(with_line(35, "end")), Lines{});
   Lines deck = lines();
   deck.push_back("");
   deck.push_back("more");
-  EXPECT_EQ(messages(deck),
-            (Lines{"deck.dat:37: warning: the deck is complete, but more lines follow: they are ignored"}));
+  EXPECT_EQ(
+      messages(deck),
+      (Lines{"deck.dat:37: warning: the deck is complete, but more lines follow: they are ignored [S113]"}));
 }
 
 TEST(Diagnostics, OnlySoManyAreShown) {
@@ -269,14 +277,14 @@ TEST(Diagnostics, OnlySoManyAreShown) {
   for (int i = 0; i < 200; ++i) text += "    x    0    0       1.0       2.0\n";
   const Lines printed = messages(text + "END\n");
   ASSERT_EQ(printed.size(), 51u);
-  EXPECT_EQ(printed[50], "deck.dat: error: and 150 more errors");
+  EXPECT_EQ(printed[50], "deck.dat: error: and 150 more errors [S109]");
 }
 
 TEST(Diagnostics, ReadingStopsAtAThousandErrors) {
   std::string text = "title\nm       kN      kPa\n    1    0 9999    0    0    0    0\n";
   for (int i = 0; i < 9999; ++i) text += "    x    0    0       1.0       2.0\n";
   const Lines printed = messages(text + "END\n");
-  EXPECT_EQ(printed[50], "deck.dat:1004: note: too many errors: reading stops here");
+  EXPECT_EQ(printed[50], "deck.dat:1004: note: too many errors: reading stops here [S132]");
 }
 
 TEST(Diagnostics, ZeroModeWarnsOfTrimmedCards) {
@@ -286,11 +294,11 @@ TEST(Diagnostics, ZeroModeWarnsOfTrimmedCards) {
       "z.toml");
   // A Fortran runtime takes the blanks of a short record as absent: 15 instead of 15000.
   EXPECT_EQ(messages("    1  15\n", layout),
-            (Lines{"deck.dat:1:6-9: warning: the card ends inside the field of \"15\" (a card, length)",
+            (Lines{"deck.dat:1:6-9: warning: the card ends inside the field of \"15\" (a card, length) [S125]",
                    "deck.dat:1:6-9: note: \"15\" has no point: its last digits are taken as decimals, "
-                   "(I5,F10.3) (a card, length)"}));
+                   "(I5,F10.3) (a card, length) [S126]"}));
   EXPECT_EQ(messages("    1  15.      \n", layout),
-            (Lines{"deck.dat:1:6-15: note: blanks behind \"15.\" count as zeros (a card, length)"}));
+            (Lines{"deck.dat:1:6-15: note: blanks behind \"15.\" count as zeros (a card, length) [S125]"}));
   EXPECT_EQ(messages("    1     15.0\n", layout).size(), 1u);
   EXPECT_EQ(messages("    1      15.0\n", layout), Lines{});
 }
@@ -301,24 +309,24 @@ TEST(Diagnostics, ImpliedDecimalsAreNoted) {
       "z.toml");
   EXPECT_EQ(messages("    1        10\n", layout),
             (Lines{"deck.dat:1:6-15: note: \"10\" has no point: its last digits are taken as decimals, "
-                   "(I5,F10.5) (a card, x)"}));
+                   "(I5,F10.5) (a card, x) [S126]"}));
 }
 
 TEST(Diagnostics, FreeFormat) {
   const Layout layout = load_layout("sg_p51");
   const std::string head = "'plane'\n'triangle' 3 'x'\n";
   EXPECT_EQ(messages(head + "2 2 1 x\n", layout)[0],
-            "deck.dat:3:7: error: \"x\" is not an integer (rectangle card, number of materials)");
+            "deck.dat:3:7: error: \"x\" is not an integer (rectangle card, number of materials) [S120]");
   EXPECT_EQ(messages("'plain'\n", layout)[0],
-            "deck.dat:1: error: the deck ends here, but a rectangle card was expected");
+            "deck.dat:1: error: the deck ends here, but a rectangle card was expected [S110]");
   EXPECT_EQ(messages("'plain'\n'triangle' 3 'x' 1 1 1 1\n", layout)[0],
             "deck.dat:1:1-7: error: \"plain\" is not a known code (rectangle card, type of analysis); known: "
-            "axisymmetric, plane");
-  EXPECT_EQ(
-      messages(head + "2 2 1 1\n1e6 .3\n0 1 2 0 1 2\n2\n1 0 1\n", layout)[0],
-      "deck.dat:7: error: the deck ends here, but a restraints card was expected (1 of 2 read, 1 missing)");
+            "axisymmetric, plane [S117]");
+  EXPECT_EQ(messages(head + "2 2 1 1\n1e6 .3\n0 1 2 0 1 2\n2\n1 0 1\n", layout)[0],
+            "deck.dat:7: error: the deck ends here, but a restraints card was expected (1 of 2 read, 1 "
+            "missing) [S110]");
   EXPECT_EQ(messages(head + "2 / \n", layout)[0],
-            "deck.dat:1: error: a value is missing (rectangle card, rows of elements nye)");
+            "deck.dat:1: error: a value is missing (rectangle card, rows of elements nye) [S115]");
 }
 
 // ---- Files ----
@@ -339,18 +347,21 @@ TEST(Files, OneClearErrorEach) {
     std::ofstream(folder + "/" + name, std::ios::binary) << text;
     return folder + "/" + name;
   };
-  EXPECT_EQ(open_error(folder), folder + ": error: is a directory, not a file");
-  EXPECT_EQ(open_error(folder + "/none"), folder + "/none: error: can't be opened: No such file or directory");
-  EXPECT_EQ(open_error(write("empty", "")), folder + "/empty: error: the file is empty");
-  EXPECT_EQ(open_error(write("binary", std::string("\x7f"
-                                                   "ELF\0\0\0",
-                                                   7))),
-            folder + "/binary: error: the file is binary (a NUL character at byte 5), not a deck of cards");
+  EXPECT_EQ(open_error(folder), folder + ": error: is a directory, not a file [S101]");
+  EXPECT_EQ(open_error(folder + "/none"),
+            folder + "/none: error: can't be opened: No such file or directory [S101]");
+  EXPECT_EQ(open_error(write("empty", "")), folder + "/empty: error: the file is empty [S103]");
+  EXPECT_EQ(
+      open_error(write("binary", std::string("\x7f"
+                                             "ELF\0\0\0",
+                                             7))),
+      folder + "/binary: error: the file is binary (a NUL character at byte 5), not a deck of cards [S104]");
   EXPECT_EQ(open_error(write("wide", std::string("\xff\xfe"
                                                  "t\0i\0",
                                                  6))),
-            folder + "/wide: error: the file is UTF-16 text: save it as plain ASCII or UTF-8");
-  EXPECT_EQ(open_error(write("blank", "  \n\n")), folder + "/blank: error: the file holds nothing but blanks");
+            folder + "/wide: error: the file is UTF-16 text: save it as plain ASCII or UTF-8 [S104]");
+  EXPECT_EQ(open_error(write("blank", "  \n\n")),
+            folder + "/blank: error: the file holds nothing but blanks [S103]");
   EXPECT_THROW(read_deck(folder + "/none"), InputError);
   std::filesystem::remove_all(folder);
 }

@@ -131,7 +131,7 @@ TEST(Cande, MisplacedCardsAreNamed) {
     FAIL();
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "x.cid:1: error: card A-1 is missing: \"C-3.L3!!    1  00      0.00   \" stands here\n"
+                 "x.cid:1: error: card A-1 is missing: \"C-3.L3!!    1  00      0.00   \" stands here [S110]\n"
                  "      | ....+....1....+....2....+....3....+....4....+....5....+.\n"
                  "    1 |                    C-3.L3!!    1  00      0.00      0.00");
   }

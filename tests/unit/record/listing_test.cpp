@@ -145,10 +145,10 @@ TEST(Listing, FailedRunShowsReasonAndLastConvergedState) {
 
 TEST(Listing, ShowsWarningsOfReadingAndOfTheRun) {
   Specimen specimen;
-  specimen.model.diagnostics.warning({"specimen.dat", 12, 0, 0}, "something odd");
+  specimen.model.diagnostics.warning("S331", {"specimen.dat", 12, 0, 0}, "something odd");
   const auto folder = fresh_folder("listing_warn");
   Listing listing(folder, "t", specimen.catalogue);
-  listing.on_warning({Severity::warning, {"specimen.dat", 13, 0, 0}, "outside the yield surface", {}});
+  listing.on_warning({Severity::warning, "S520", {"specimen.dat", 13, 0, 0}, "outside the yield surface", {}});
   specimen.run(listing, 0.01, 1);
   const std::string text = contents(folder / "t.lst");
   EXPECT_TRUE(has(text, "specimen.dat:12: warning: something odd"));
