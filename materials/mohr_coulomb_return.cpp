@@ -61,6 +61,8 @@ struct Candidate {
   Matrix3 R;
   double smallest_multiplier;
   bool vertex;  // three planes: the stress can't move
+  ActiveSet set{none, none, none};
+  Vector3 lambda = Vector3::Zero();
 };
 
 // Koiter: s = s_tr - D B lambda,  lambda = (A^T D B)^-1 (A^T s_tr - y).  Unused columns are kept as identity.
@@ -80,6 +82,8 @@ Candidate return_to_set(const MohrCoulombPlanes& planes, const Matrix3& D, const
   Vector3 lambda = S.solve(A.transpose() * trial - y);
   Candidate c;
   c.vertex = set[2] != none;
+  c.set = set;
+  c.lambda = lambda;
   c.smallest_multiplier = lambda.minCoeff();
   c.sigma = trial - DB * lambda;
   // A trial stress far away leaves its rounding on the planes: take it off again.
@@ -108,6 +112,33 @@ bool find_set(const MohrCoulombPlanes& planes, const Matrix3& D, const std::arra
   return false;
 }
 
+// d sigma of an answer while the planes move: S d(lambda) = dA^T sigma - dy - A^T D dB lambda,
+// d sigma = -D (dB lambda + B d(lambda)).  The apex, which is no set of planes, moves by itself.
+Vector3 rate_of(const MovingPlanes& moving, const Matrix3& D, const Candidate& c) {
+  const auto& [planes, rates] = moving;
+  if (c.set[0] == none) {
+    const double above = planes.N - 1.0;
+    return Vector3::Constant(planes.T < planes.apex() ? rates.T
+                                                      : rates.Y / above - planes.Y * rates.N / (above * above));
+  }
+  Matrix3 A, B, unused = Matrix3::Zero();
+  Vector3 right, flow = Vector3::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const Plane plane = c.set[static_cast<std::size_t>(i)];
+    A.col(i) = normal(plane, planes.N);
+    B.col(i) = normal(plane, planes.M);
+    if (plane == none) unused(i, i) = 1.0;
+    // d(normal)/d(slope): the slope stands with the larger of the two principals.
+    const Vector3 turn = plane < t1 ? Vector3(normal(plane, 1.0) - normal(plane, 0.0)) : Vector3::Zero();
+    flow += rates.M * c.lambda[i] * turn;
+    right[i] = rates.N * turn.dot(c.sigma) - (plane < t1 ? rates.Y : plane < none ? rates.T : 0.0);
+  }
+  const Matrix3 DB = D * B;
+  const Eigen::PartialPivLU<Matrix3> S(A.transpose() * DB + unused);
+  const Vector3 change = S.solve(right - A.transpose() * (D * flow));
+  return -(D * flow + DB * change);
+}
+
 // Sorted trial stress to sorted answer.
 Candidate return_sorted(const MohrCoulombPlanes& planes, const Matrix3& D, const Vector3& trial) {
   const double apex = planes.apex();
@@ -116,7 +147,53 @@ Candidate return_sorted(const MohrCoulombPlanes& planes, const Matrix3& D, const
                                      : find_set(planes, D, kMohrCoulombSets, trial, apex, c);
   const double tip = std::min(planes.T, apex);
   if (found || !std::isfinite(tip)) return c;  // without a tip the last edge differs by rounding only
-  return {Vector3::Constant(tip), Matrix3::Zero(), 0.0, true};
+  return {Vector3::Constant(tip), Matrix3::Zero(), 0.0, true, {none, none, none}, Vector3::Zero()};
+}
+
+// A trial stress in its principal axes, and what it comes back to there.
+struct InAxes {
+  explicit InAxes(const Vector4& trial) : axes(principal(trial)), value{axes.a, axes.b, axes.zz} {
+    order = axes.zz >= axes.a   ? std::array<int, 3>{2, 0, 1}
+            : axes.zz >= axes.b ? std::array<int, 3>{0, 2, 1}
+                                : std::array<int, 3>{0, 1, 2};
+    for (int i = 0; i < 3; ++i) sorted[i] = value[order[static_cast<std::size_t>(i)]];
+  }
+  // [a b zz ab] of values in the order from largest to smallest.
+  Vector4 unsorted(const Vector3& from_largest) const {
+    Vector4 all = Vector4::Zero();
+    for (int i = 0; i < 3; ++i) all[order[static_cast<std::size_t>(i)]] = from_largest[i];
+    return all;
+  }
+
+  Principal axes;
+  Vector3 value;             // [a b zz]
+  std::array<int, 3> order;  // of the largest first
+  Vector3 sorted;
+};
+
+// Back to [xx yy zz xy].
+MohrCoulombReturn in_place(const MohrCoulombPlanes& planes, const InAxes& trial, const Candidate& answer) {
+  // The shear ab turns with the axes: (sa - sb)/(sa_tr - sb_tr).   [Clausen et al. 2006]
+  const Principal& axes = trial.axes;
+  const Vector4 sigma = trial.unsorted(answer.sigma);
+  Matrix4 R = Matrix4::Zero();
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      R(trial.order[static_cast<std::size_t>(i)], trial.order[static_cast<std::size_t>(j)]) = answer.R(i, j);
+  const double apart = axes.a - axes.b;
+  const bool distinct = apart > 1e-9 * trial.value.cwiseAbs().maxCoeff();
+  R(3, 3) = distinct ? (sigma[0] - sigma[1]) / apart : 0.5 * (R(0, 0) - R(0, 1) - R(1, 0) + R(1, 1));
+
+  const Matrix4 T = stress_from_principal_axes(axes.cos, axes.sin);
+  const Matrix4 T_back = stress_from_principal_axes(axes.cos, -axes.sin);
+  MohrCoulombReturn result;
+  result.sigma = T * sigma;
+  result.R = T * R * T_back;
+  if (answer.vertex) result.R += kApexStiffness * Matrix4::Identity();
+  const double tip = std::min(planes.T, planes.apex());
+  const bool cut_off = answer.sigma[0] >= tip - kRounding * trial.value.cwiseAbs().maxCoeff();
+  result.status = answer.vertex || cut_off ? PointStatus::apex : PointStatus::yielded;
+  return result;
 }
 
 }  // namespace
@@ -135,40 +212,20 @@ bool outside(const MohrCoulombPlanes& planes, const Vector4& sigma) {
 
 MohrCoulombReturn return_to_planes(const MohrCoulombPlanes& planes, const ElasticModuli& elastic,
                                    const Vector4& trial) {
-  // Trial principals [a b zz], and their order from largest to smallest.
-  const Principal axes = principal(trial);
-  const Vector3 value{axes.a, axes.b, axes.zz};
-  const std::array<int, 3> order = axes.zz >= axes.a   ? std::array<int, 3>{2, 0, 1}
-                                   : axes.zz >= axes.b ? std::array<int, 3>{0, 2, 1}
-                                                       : std::array<int, 3>{0, 1, 2};
-  Vector3 sorted;
-  for (int i = 0; i < 3; ++i) sorted[i] = value[order[static_cast<std::size_t>(i)]];
-
+  const InAxes axes(trial);
   const Matrix3 D = elastic_matrix(elastic).topLeftCorner<3, 3>();
-  const Candidate answer = return_sorted(planes, D, sorted);
+  return in_place(planes, axes, return_sorted(planes, D, axes.sorted));
+}
 
-  // Back to [a b zz ab].  The shear ab turns with the axes: (sa - sb)/(sa_tr - sb_tr).   [Clausen et al. 2006]
-  Vector4 sigma = Vector4::Zero();
-  Matrix4 R = Matrix4::Zero();
-  for (int i = 0; i < 3; ++i) {
-    const int row = order[static_cast<std::size_t>(i)];
-    sigma[row] = answer.sigma[i];
-    for (int j = 0; j < 3; ++j) R(row, order[static_cast<std::size_t>(j)]) = answer.R(i, j);
-  }
-  const double apart = axes.a - axes.b;
-  const bool distinct = apart > 1e-9 * value.cwiseAbs().maxCoeff();
-  R(3, 3) = distinct ? (sigma[0] - sigma[1]) / apart : 0.5 * (R(0, 0) - R(0, 1) - R(1, 0) + R(1, 1));
-
-  const Matrix4 T = stress_from_principal_axes(axes.cos, axes.sin);
-  const Matrix4 T_back = stress_from_principal_axes(axes.cos, -axes.sin);
-  MohrCoulombReturn result;
-  result.sigma = T * sigma;
-  result.R = T * R * T_back;
-  if (answer.vertex) result.R += kApexStiffness * Matrix4::Identity();
-  const double tip = std::min(planes.T, planes.apex());
-  const bool cut_off = answer.sigma[0] >= tip - kRounding * value.cwiseAbs().maxCoeff();
-  result.status = answer.vertex || cut_off ? PointStatus::apex : PointStatus::yielded;
-  return result;
+MovedReturn return_to_moving_planes(const MovingPlanes& moving, const ElasticModuli& elastic,
+                                    const Vector4& trial) {
+  const InAxes axes(trial);
+  const Matrix3 D = elastic_matrix(elastic).topLeftCorner<3, 3>();
+  const Candidate answer = return_sorted(moving.planes, D, axes.sorted);
+  const Matrix4 T = stress_from_principal_axes(axes.axes.cos, axes.axes.sin);
+  const Matrix4 T_back = stress_from_principal_axes(axes.axes.cos, -axes.axes.sin);
+  return {in_place(moving.planes, axes, answer), T * axes.unsorted(rate_of(moving, D, answer)),
+          T_back.transpose() * axes.unsorted(Vector3::UnitX())};
 }
 
 }  // namespace sage

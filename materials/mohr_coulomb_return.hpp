@@ -31,4 +31,20 @@ bool outside(const MohrCoulombPlanes& planes, const Vector4& sigma);
 MohrCoulombReturn return_to_planes(const MohrCoulombPlanes& planes, const ElasticModuli& elastic,
                                    const Vector4& trial);
 
+// Planes that move with one number, such as a plastic strain, and how fast.
+struct MovingPlanes {
+  MohrCoulombPlanes planes;
+  MohrCoulombPlanes rates;  // d/d(number) of N, Y, M and T
+};
+
+struct MovedReturn {
+  MohrCoulombReturn back;
+  Vector4 rate;   // d(back.sigma)/d(number) at a constant trial stress
+  Vector4 first;  // d(largest principal stress)/d(back.sigma), while the axes are those of the trial stress
+};
+
+// The return to planes where they are, with what it needs to find the number that a law wants.
+MovedReturn return_to_moving_planes(const MovingPlanes& moving, const ElasticModuli& elastic,
+                                    const Vector4& trial);
+
 }  // namespace sage

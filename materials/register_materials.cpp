@@ -5,9 +5,11 @@
 #include "materials/drucker_prager.hpp"
 #include "materials/duncan_chang.hpp"
 #include "materials/goodman.hpp"
+#include "materials/hoek_brown.hpp"
 #include "materials/hyperbolic_mohr_coulomb.hpp"
 #include "materials/linear_elastic.hpp"
 #include "materials/mohr_coulomb.hpp"
+#include "materials/mohr_coulomb_softening.hpp"
 
 namespace sage {
 
@@ -20,6 +22,8 @@ void register_materials(Catalogue& catalogue) {
   catalogue.materials.add(5, duncan_chang_1970_entry());
   catalogue.materials.add(6, duncan_chang_eb_entry());
   catalogue.materials.add(7, hyperbolic_mohr_coulomb_entry());
+  catalogue.materials.add(8, mohr_coulomb_softening_entry());
+  catalogue.materials.add(9, hoek_brown_entry());
   // Interfaces
   catalogue.materials.add(21, goodman_entry());
   catalogue.materials.add(22, clough_duncan_entry());
