@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "sage/model/model.hpp"
 
@@ -30,9 +31,16 @@ enum class FieldWidth {
 // would give more than 15 nodes).
 std::string sage1_text(const Model& model, Diagnostics& diagnostics, FieldWidth width = FieldWidth::as_needed);
 
-// Gmsh MSH 4.1 ASCII: nodes and elements with their numbers, groups as physical surfaces, held boundary edges
-// as physical curves fix_x, fix_y, fix_xy.
+// Gmsh MSH 4.1 ASCII: nodes and elements with their numbers, groups as physical surfaces, interfaces as the
+// physical curves of their two sides, held boundary edges as physical curves fix_x, fix_y, fix_xy.
 std::string msh_text(const Model& model, Diagnostics& diagnostics);
+
+// The same for files that hold more than a mesh: without a word about what a mesh can't say.
+struct MshMesh {
+  std::string text;
+  std::vector<int> elements;  // numbers in the order of the file, with those of lines
+};
+MshMesh msh_mesh(const Model& model, Diagnostics& diagnostics);
 
 // Abaqus-style input for CalculiX: mesh, sets, elastic constants, supports and loads step by step.
 std::string inp_text(const Model& model, Diagnostics& diagnostics);

@@ -9,6 +9,7 @@
 
 #include "sage/deck/text.hpp"
 #include "sage/exchange/msh_file.hpp"
+#include "sage/exchange/msh_interfaces.hpp"
 
 namespace sage {
 
@@ -57,11 +58,12 @@ class Skeleton {
     stage.gravity = {0.0, -1.0};
     for (const MshBlock& block : msh_.blocks)
       if (block.shape.dimension == 2) surface(block);
-    collect_unknowns(model_);
     if (model_.groups.empty())
       throw InputError("S711", {model_.file, 0, 0, 0}, "the mesh holds no surface elements");
     for (const MshBlock& block : msh_.blocks)
       if (block.shape.dimension == 1) curve(block);
+    for (const auto& [name, sides] : joints_) join(name, sides);
+    collect_unknowns(model_);
     if (turned_ > 0)
       message(Severity::note, "S704",
               std::to_string(turned_) + " element(s) listed clockwise were turned round");
@@ -89,17 +91,21 @@ class Skeleton {
     mesh.deck_nodes = mesh.nodes();
   }
 
-  int material(const std::string& name) {
+  int material(const std::string& name, bool of_interface) {
+    const std::string law = of_interface ? "goodman" : "linear_elastic";
     for (std::size_t m = 0; m < model_.materials.size(); ++m)
-      if (model_.materials[m].name == name) return static_cast<int>(m);
+      if (model_.materials[m].name == name && model_.materials[m].law_name == law) return static_cast<int>(m);
     Material material;
     material.number = static_cast<int>(model_.materials.size()) + 1;
     material.name = name;
-    material.code = catalogue_.materials.code_of("linear_elastic");
+    material.code = catalogue_.materials.code_of(law);
     material.entry = catalogue_.materials.share(material.code);
-    material.law_name = "linear_elastic";
-    material.parameters = {options_.youngs_modulus, options_.poissons_ratio};
-    material.unit_weight = options_.unit_weight;
+    material.law_name = law;
+    material.parameters = {0.0, 0.0, 0.0};
+    if (!of_interface) {
+      material.parameters = {options_.youngs_modulus, options_.poissons_ratio};
+      material.unit_weight = options_.unit_weight;
+    }
     model_.materials.push_back(std::move(material));
     return static_cast<int>(model_.materials.size()) - 1;
   }
@@ -110,7 +116,7 @@ class Skeleton {
     Group group;
     group.number = static_cast<int>(model_.groups.size()) + 1;
     group.name = name;
-    group.material = material(name);
+    group.material = material(name, catalogue_.elements.find(element)->interface());
     set_element(group, catalogue_, element, 0, model_.geometry);
     model_.groups.push_back(std::move(group));
     return model_.groups.back();
@@ -140,14 +146,23 @@ class Skeleton {
 
   void curve(const MshBlock& block) {
     const std::string name = name_of(block);
+    for (const bool top : {false, true}) {
+      const std::string_view mark = top ? msh::kInterfaceTop : msh::kInterfaceBottom;
+      if (!name.starts_with(mark)) continue;
+      Joint& joint = joints_[name.substr(mark.size())];
+      std::vector<MshElement>& side = top ? joint.top : joint.bottom;
+      side.insert(side.end(), block.elements.begin(), block.elements.end());
+      return;
+    }
     if (name == "fix_x" || name == "fix_y" || name == "fix_xy") return hold(block, name);
     const bool pressure = name.starts_with("pressure") && name.size() > 9;
     char* end = nullptr;
     const double value = pressure ? std::strtod(name.c_str() + 9, &end) : 0.0;
     if (pressure && *end == '\0') return load(block, value);
     if (!name.empty() && warned_.insert(name).second)
-      message(Severity::warning, "S713",
-              "curve '" + name + "' is left out; known are fix_x, fix_y, fix_xy, pressure=VALUE");
+      message(Severity::warning, "S713", "curve '" + name +
+                                     "' is left out; known are fix_x, fix_y, fix_xy, pressure=VALUE, "
+                                     "interface_bottom=NAME and interface_top=NAME");
   }
 
   void hold(const MshBlock& block, const std::string& name) {
@@ -160,6 +175,66 @@ class Skeleton {
         if (name != "fix_x") fixity.code[1] = FixityCode::fixed;
         model_.fixities.push_back(fixity);
       }
+  }
+
+  // Lines of both sides of a group of interfaces.
+  struct Joint {
+    std::vector<MshElement> bottom, top;
+  };
+
+  bool at_one_place(int a, int b, double length) const {
+    constexpr double kSame = 1e-6;  // of the line's length
+    return (model_.mesh.x.col(a) - model_.mesh.x.col(b)).norm() <= kSame * length;
+  }
+  // The nodes of a top line in the order of the bottom's; nothing where it lies elsewhere.
+  std::vector<int> on(const MshElement& bottom, const MshElement& top) const {
+    const auto &b = bottom.nodes, &t = top.nodes;
+    if (b.size() != t.size()) return {};
+    const double length = (model_.mesh.x.col(b[0]) - model_.mesh.x.col(b[1])).norm();
+    if (at_one_place(b[0], t[0], length) && at_one_place(b[1], t[1], length)) return t;
+    if (!at_one_place(b[0], t[1], length) || !at_one_place(b[1], t[0], length)) return {};
+    std::vector<int> turned = t;
+    std::swap(turned[0], turned[1]);
+    std::reverse(turned.begin() + 2, turned.end());
+    return turned;
+  }
+  // As files of this program have them the lines of both sides come in one order; those of a mesher need not.
+  std::vector<int> top_of(const std::string& name, const Joint& joint, std::size_t line) const {
+    const MshElement& bottom = joint.bottom[line];
+    std::vector<int> found;
+    if (line < joint.top.size()) found = on(bottom, joint.top[line]);
+    for (std::size_t i = 0; found.empty() && i < joint.top.size(); ++i) found = on(bottom, joint.top[i]);
+    if (found.empty())
+      throw InputError("S711", {model_.file, 0, 0, 0},
+                       "line " + std::to_string(bottom.number) + " of interface_bottom=" + name +
+                           " has no line with as many nodes at the same place in interface_top=" + name);
+    return found;
+  }
+
+  void join(const std::string& name, const Joint& joint) {
+    if (joint.bottom.size() != joint.top.size())
+      throw InputError("S711", {model_.file, 0, 0, 0},
+                       "interface_bottom=" + name + " has " + std::to_string(joint.bottom.size()) +
+                           " line(s), interface_top=" + name + " " + std::to_string(joint.top.size()));
+    for (std::size_t i = 0; i < joint.bottom.size(); ++i) {
+      const std::vector<int>& bottom = joint.bottom[i].nodes;
+      const std::vector<int> top = top_of(name, joint, i);
+      int code = 0;
+      const ElementEntry* entry = msh::interface_of(catalogue_.elements, bottom.size(), code);
+      if (entry == nullptr)
+        throw InputError({model_.file, 0, 0, 0}, "no interface has " + std::to_string(bottom.size()) +
+                                                     " nodes on a side, as " + name + " has");
+      const msh::InterfaceSides sides = msh::interface_sides(*entry);
+      std::vector<int> nodes(static_cast<std::size_t>(entry->nodes));
+      for (std::size_t n = 0; n < bottom.size(); ++n) {
+        nodes[static_cast<std::size_t>(sides.bottom[n])] = bottom[n];
+        nodes[static_cast<std::size_t>(sides.top[n])] = top[n];
+      }
+      Group& target = group(name, code);
+      target.element_numbers.push_back(joint.bottom[i].number);
+      target.element_lines.push_back(0);
+      target.nodes.insert(target.nodes.end(), nodes.begin(), nodes.end());
+    }
   }
 
   void load(const MshBlock& block, double value) {
@@ -193,6 +268,7 @@ class Skeleton {
   std::map<std::pair<int, int>, Edge> edge_of_;
   std::set<std::pair<std::string, int>> held_;
   std::set<std::string> warned_;
+  std::map<std::string, Joint> joints_;
   int turned_ = 0;
 };
 

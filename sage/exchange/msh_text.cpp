@@ -8,6 +8,7 @@
 #include "sage/exchange/boundary_edges.hpp"
 #include "sage/exchange/convert.hpp"
 #include "sage/exchange/msh_file.hpp"
+#include "sage/exchange/msh_interfaces.hpp"
 #include "sage/model/foreign_element.hpp"
 
 namespace sage {
@@ -26,10 +27,18 @@ struct Block {
   std::vector<std::vector<int>> elements;  // number, then node numbers
 };
 
-std::vector<Block> surfaces(const Model& model, Diagnostics& diagnostics, int& left_out, int& largest) {
+// A group's name, or its number; another one where a group before it bears the name.
+std::string unlike(const Group& group, const std::vector<Block>& blocks, std::string_view before = "") {
+  std::string name =
+      std::string(before) + (group.name.empty() ? "group " + std::to_string(group.number) : group.name);
+  if (std::ranges::find(blocks, name, &Block::name) != blocks.end()) name += " " + std::to_string(group.number);
+  return name;
+}
+
+std::vector<Block> surfaces(const Model& model, Diagnostics& diagnostics, int& largest) {
   std::vector<Block> blocks;
   for (const Group& group : model.groups) {
-    if (group.interface()) left_out += group.elements();
+    for (int number : group.element_numbers) largest = std::max(largest, number);
     if (group.structure() && group.elements() > 0)
       diagnostics.add({Severity::warning,
                        "S720",
@@ -40,24 +49,53 @@ std::vector<Block> surfaces(const Model& model, Diagnostics& diagnostics, int& l
     if (!group.solid() || group.elements() == 0) continue;
     if (group.entry->gmsh.type == 0) warn_of_corners(group, "MSH", diagnostics);
     const std::vector<int> order = foreign_nodes(*group.entry, group.entry->gmsh);
-    Block block{2,
-                solid_type(*group.entry),
-                static_cast<int>(blocks.size()) + 1,
-                group.name.empty() ? "group " + std::to_string(group.number) : group.name,
-                {}};
-    for (const Block& other : blocks)
-      if (other.name == block.name) {
-        block.name += " " + std::to_string(group.number) + "/" + std::to_string(block.tag);
-        break;
-      }
+    Block block{2, solid_type(*group.entry), static_cast<int>(blocks.size()) + 1, unlike(group, blocks), {}};
     for (int e = 0; e < group.elements(); ++e) {
       std::vector<int> row{group.element_numbers[static_cast<std::size_t>(e)]};
-      largest = std::max(largest, row[0]);
       for (int i : order) row.push_back(model.mesh.number[static_cast<std::size_t>(group.nodes_of(e)[i])]);
       block.elements.push_back(std::move(row));
     }
     blocks.push_back(std::move(block));
   }
+  return blocks;
+}
+
+// A curve of lines for one side of a group's interfaces.  numbers: of the lines.
+Block side_lines(const Model& model, const Group& group, const std::vector<int>& side,
+                 const std::vector<int>& numbers) {
+  Block block{1, msh::line_type(side.size()), 0, "", {}};
+  for (int e = 0; e < group.elements(); ++e) {
+    std::vector<int> row{numbers[static_cast<std::size_t>(e)]};
+    for (int i : side) row.push_back(model.mesh.number[static_cast<std::size_t>(group.nodes_of(e)[i])]);
+    block.elements.push_back(std::move(row));
+  }
+  return block;
+}
+
+// Both sides of all interfaces; the lines of bottoms bear the elements' numbers.
+std::vector<Block> interfaces(const Model& model, Diagnostics& diagnostics, int& largest) {
+  std::vector<Block> blocks;
+  for (const Group& group : model.groups) {
+    if (!group.interface() || group.elements() == 0) continue;
+    const msh::InterfaceSides sides = msh::interface_sides(*group.entry);
+    if (msh::line_type(sides.bottom.size()) == 0) {
+      diagnostics.add({Severity::warning,
+                       "S720",
+                       group.where,
+                       std::to_string(group.elements()) + " " + group.element_name +
+                           " element(s) left out: MSH has no line for their sides",
+                       {}});
+      continue;
+    }
+    const std::string name = unlike(group, blocks, msh::kInterfaceBottom);
+    std::vector<int> of_top(group.element_numbers.size());
+    for (int& number : of_top) number = ++largest;
+    blocks.push_back(side_lines(model, group, sides.bottom, group.element_numbers));
+    blocks.back().name = name;
+    blocks.push_back(side_lines(model, group, sides.top, of_top));
+    blocks.back().name = std::string(msh::kInterfaceTop) + name.substr(msh::kInterfaceBottom.size());
+  }
+  for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i].tag = static_cast<int>(i) + 1;
   return blocks;
 }
 
@@ -72,7 +110,7 @@ HeldDofs held_dofs(const Model& model) {
   return held;
 }
 
-std::vector<Block> supports(const Model& model, int first_number, HeldDofs& beside) {
+std::vector<Block> supports(const Model& model, int first_number, int tags_before, HeldDofs& beside) {
   const Activity before_stages(model);
   beside = held_dofs(model);
   std::map<std::pair<std::string, std::size_t>, Block> by_name;
@@ -90,7 +128,7 @@ std::vector<Block> supports(const Model& model, int first_number, HeldDofs& besi
     block.dimension = 1;
     block.type = msh::line_type(edge.nodes.size());
     block.name = name;
-    block.tag = tags.try_emplace(name, static_cast<int>(tags.size()) + 1).first->second;
+    block.tag = tags.try_emplace(name, tags_before + static_cast<int>(tags.size()) + 1).first->second;
     std::vector<int> row{first_number++};
     for (int node : edge.nodes) row.push_back(model.mesh.number[static_cast<std::size_t>(node)]);
     block.elements.push_back(std::move(row));
@@ -168,48 +206,64 @@ void warn_of_the_rest(const Model& model, const HeldDofs& beside, Diagnostics& d
                      {}});
 }
 
-}  // namespace
+// All blocks of a file; `beside`: what is held besides whole edges.
+std::vector<Block> blocks_of(const Model& model, Diagnostics& diagnostics, HeldDofs& beside) {
+  int largest = 0;
+  std::vector<Block> blocks = surfaces(model, diagnostics, largest);
+  const std::vector<Block> joints = interfaces(model, diagnostics, largest);
+  const std::vector<Block> held = supports(model, largest + 1, static_cast<int>(joints.size()), beside);
+  blocks.insert(blocks.end(), joints.begin(), joints.end());
+  blocks.insert(blocks.end(), held.begin(), held.end());
+  return blocks;
+}
 
-std::string msh_text(const Model& model, Diagnostics& diagnostics) {
-  int left_out = 0, largest = 0;
-  std::vector<Block> blocks = surfaces(model, diagnostics, left_out, largest);
-  HeldDofs beside;
-  for (Block& block : supports(model, largest + 1, beside)) blocks.push_back(std::move(block));
-  if (left_out > 0)
-    diagnostics.add({Severity::warning,
-                     "S720",
-                     {model.file, 0, 0, 0},
-                     std::to_string(left_out) + " interface element(s) left out: MSH has no type for them",
-                     {}});
-  warn_of_unknowns(model, "MSH", diagnostics);
-  warn_of_the_rest(model, beside, diagnostics);
-  std::map<std::pair<int, int>, std::string> names;
-  std::size_t elements = 0;
-  int lowest = largest;
-  for (const Block& block : blocks) {
-    names.try_emplace({block.dimension, block.tag}, clean(block.name));
-    elements += block.elements.size();
-    for (const auto& row : block.elements) {
-      lowest = std::min(lowest, row[0]);
-      largest = std::max(largest, row[0]);
-    }
-  }
-  std::string text =
-      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n" + std::to_string(names.size()) + "\n";
-  for (const auto& [key, name] : names) text += fmt::format("{} {} \"{}\"\n", key.first, key.second, name);
-  text += "$EndPhysicalNames\n" + entities(model, blocks);
-  const auto& number = model.mesh.number;
+void add_nodes(const Mesh& mesh, std::string& text) {
+  const auto& number = mesh.number;
   text += fmt::format("$Nodes\n1 {} {} {}\n2 1 0 {}\n", number.size(), number.empty() ? 0 : number.front(),
                       number.empty() ? 0 : *std::max_element(number.begin(), number.end()), number.size());
   for (int n : number) text += fmt::format("{}\n", n);
-  for (int i = 0; i < model.mesh.nodes(); ++i)
-    text += fmt::format("{} {} 0\n", model.mesh.x(0, i) + 0.0, model.mesh.x(1, i) + 0.0);
-  text += fmt::format("$EndNodes\n$Elements\n{} {} {} {}\n", blocks.size(), elements, lowest, largest);
+  for (int i = 0; i < mesh.nodes(); ++i)
+    text += fmt::format("{} {} 0\n", mesh.x(0, i) + 0.0, mesh.x(1, i) + 0.0);
+  text += "$EndNodes\n";
+}
+
+MshMesh mesh_of(const Model& model, const std::vector<Block>& blocks) {
+  std::map<std::pair<int, int>, std::string> names;
+  MshMesh mesh;
+  for (const Block& block : blocks) {
+    names.try_emplace({block.dimension, block.tag}, clean(block.name));
+    for (const auto& row : block.elements) mesh.elements.push_back(row[0]);
+  }
+  std::string& text = mesh.text;
+  text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n" + std::to_string(names.size()) + "\n";
+  for (const auto& [key, name] : names) text += fmt::format("{} {} \"{}\"\n", key.first, key.second, name);
+  text += "$EndPhysicalNames\n" + entities(model, blocks);
+  add_nodes(model.mesh, text);
+  const auto [lowest, largest] = std::ranges::minmax_element(mesh.elements);
+  const bool none = mesh.elements.empty();
+  text += fmt::format("$Elements\n{} {} {} {}\n", blocks.size(), mesh.elements.size(), none ? 0 : *lowest,
+                      none ? 0 : *largest);
   for (const Block& block : blocks) {
     text += fmt::format("{} {} {} {}\n", block.dimension, block.tag, block.type, block.elements.size());
     for (const auto& row : block.elements) text += fmt::format("{}\n", fmt::join(row, " "));
   }
-  return text + "$EndElements\n";
+  text += "$EndElements\n";
+  return mesh;
+}
+
+}  // namespace
+
+std::string msh_text(const Model& model, Diagnostics& diagnostics) {
+  HeldDofs beside;
+  const std::vector<Block> blocks = blocks_of(model, diagnostics, beside);
+  warn_of_unknowns(model, "MSH", diagnostics);
+  warn_of_the_rest(model, beside, diagnostics);
+  return mesh_of(model, blocks).text;
+}
+
+MshMesh msh_mesh(const Model& model, Diagnostics& diagnostics) {
+  HeldDofs beside;
+  return mesh_of(model, blocks_of(model, diagnostics, beside));
 }
 
 }  // namespace sage

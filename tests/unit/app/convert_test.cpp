@@ -211,6 +211,50 @@ TEST(Convert, DeckToGmshToDeckKeepsTheMesh) {
   }
 }
 
+// Both sides of interfaces, their numbers and order of nodes; groups and places as they were.
+TEST(Convert, DeckToGmshToDeckKeepsInterfaces) {
+  for (const char* element : {"", "quad8"}) {
+    SCOPED_TRACE(element);
+    const std::string deck = kInputs + "chapter7/friction_285_nu0495/deck.dat";
+    BuildOptions options;
+    if (*element != '\0') options.element = full_catalogue().elements.code_of(element);
+    Model model = build_model(read_input(deck, {}), full_catalogue(), options);
+    const Model back = model_from_msh(msh_text(model, model.diagnostics), "mesh.msh", full_catalogue(), {});
+    EXPECT_EQ(back.mesh.number, model.mesh.number);
+    EXPECT_EQ(back.mesh.x, model.mesh.x);
+    ASSERT_EQ(back.groups.size(), model.groups.size());
+    for (std::size_t g = 0; g < model.groups.size(); ++g) {
+      EXPECT_EQ(back.groups[g].name, model.groups[g].name);
+      EXPECT_EQ(back.groups[g].nodes, model.groups[g].nodes);
+      EXPECT_EQ(back.groups[g].element_numbers, model.groups[g].element_numbers);
+      EXPECT_EQ(back.groups[g].element_code, model.groups[g].element_code);
+    }
+  }
+}
+
+// A mesher need not list the lines of both sides in one order, nor in one direction.
+TEST(Convert, InterfacesOfAMesherAreFoundByPlace) {
+  const Model deck = model_of(kInputs + "chapter7/friction_285_nu0495/deck.dat");
+  Diagnostics ignored;
+  std::string msh = msh_text(deck, ignored);
+  const auto change = [&](const std::string& from, const std::string& to) {
+    ASSERT_NE(msh.find(from), std::string::npos) << from;
+    msh.replace(msh.find(from), from.size(), to);
+  };
+  change("407 436 437\n408 437 438\n", "408 438 437\n407 436 437\n");
+  const Model back = model_from_msh(msh, "mesh.msh", full_catalogue(), {});
+  EXPECT_EQ(back.groups[1].nodes, deck.groups[1].nodes);
+  change("407 436 437\n", "407 436 438\n");
+  try {
+    model_from_msh(msh, "mesh.msh", full_catalogue(), {});
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("line 393 of interface_bottom=end interface has no line"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 // A square of two triangles as Gmsh writes one, the second clockwise.
 const char* const kMesh = R"($MeshFormat
 4.1 0 8
