@@ -61,7 +61,7 @@ int run_one(const RunOptions& options, const std::string& deck, const Catalogue&
   return guarded(deck, [&] {
     if (options.converge.asked()) {
       const OutputOptions& output = request.output;
-      if (output.nodes || output.points || output.vtu || output.result || output.error ||
+      if (output.nodes || output.points || output.vtu || output.msh || output.result || output.error ||
           !output.pictures.empty() || request.restart)
         fmt::print(stderr,
                    "{}: note: --converge writes its table only; the options of its last line give that mesh "
@@ -185,6 +185,7 @@ Command run_command(CLI::App& parser, const Catalogue& catalogue) {
   parser.add_flag("--points", request.output.points, "write STEM.points.csv: stress and state of all points");
   add_digits_option(parser, request.output.digits);
   parser.add_flag("--vtu", request.output.vtu, "write VTU files and a PVD for ParaView");
+  parser.add_flag("--msh", request.output.msh, "write STEM.msh: mesh and fields for Gmsh (MSH 4.1)");
   parser.add_flag("--result", request.output.result,
                   "write STEM.h5: all fields at all output increments in one HDF5 file (also for ParaView)");
   add_field_options(parser, catalogue, request.output.pictures, request.output.fields,

@@ -17,9 +17,11 @@
 #include "sage/app/run_source.hpp"
 #include "sage/deck/text.hpp"
 #include "sage/draw/picture.hpp"
+#include "sage/exchange/convert.hpp"
 #include "sage/model/fingerprint.hpp"
 #include "sage/record/csv.hpp"
 #include "sage/record/data_file.hpp"
+#include "sage/record/msh_results.hpp"
 #include "sage/record/out_file.hpp"
 #include "sage/record/profile_text.hpp"
 #include "sage/record/progress.hpp"
@@ -38,7 +40,8 @@ int csv_digits(const OutputOptions& options) {
 
 // The outputs that were asked for; the first is always the reports.
 std::vector<std::unique_ptr<Output>> make_outputs(const RunRequest& request, const Catalogue& catalogue,
-                                                  const Reports& reports, const RunSource& source) {
+                                                  const Reports& reports, const RunSource& source,
+                                                  const Model& model) {
   const OutputOptions& options = request.output;
   const std::string stem = stem_of(request);
   std::vector<std::unique_ptr<Output>> outputs;
@@ -50,6 +53,11 @@ std::vector<std::unique_ptr<Output>> make_outputs(const RunRequest& request, con
         options.folder, stem,
         CsvOptions{options.increments, options.nodes, options.points, csv_digits(options), options.fields}));
   if (options.vtu) outputs.push_back(std::make_unique<Vtu>(options.folder, stem));
+  if (options.msh) {
+    Diagnostics said_before;
+    MshMesh mesh = msh_mesh(model, said_before);
+    outputs.push_back(std::make_unique<MshResults>(options.folder, stem, mesh.text, std::move(mesh.elements)));
+  }
   if (options.result) outputs.push_back(std::make_unique<ResultOutput>(options.folder, stem, source));
   if (!options.pictures.empty())
     outputs.push_back(std::make_unique<Pictures>(options.folder, stem, options.pictures));
@@ -66,6 +74,7 @@ Checkpoint checkpoint_of(const RunRequest& request, const Model& model, ResultFi
   if (request.refinement > 0) run += fmt::format(" refined {}", request.refinement);
   if (o.digits > 0) run += fmt::format(" digits {}", o.digits);
   if (o.result) run += " result";
+  if (o.msh) run += " msh";
   for (const std::string& picture : o.pictures) run += " " + picture;
   for (const std::string& field : o.fields) run += " field " + field;
   return {o.folder / (stem_of(request) + ".restart"), request.checkpoint_seconds, run,
@@ -170,7 +179,7 @@ namespace {
 
 // A warning about the fields that were asked for in vain.
 void warn_of_fields(const OutputOptions& o, Model& model) {
-  const bool tables = o.listing && o.tables != Tables::none, all = o.vtu || o.result;
+  const bool tables = o.listing && o.tables != Tables::none, all = o.vtu || o.msh || o.result;
   const bool reports =
       std::ranges::any_of(model.reports, [](const Report& r) { return r.kind == ReportKind::point; });
   const auto has_column = [&](const FieldEntry& row) {
@@ -207,6 +216,7 @@ std::unique_ptr<Model> model_of(RunRequest& request, const Catalogue& catalogue,
   owner.deck_sum = checksum(*deck.source.text());
   if (request.output.result) source = source_of(*deck.source.text(), deck.layout, request.input.layout, build);
   if (request.output.vtu || request.output.result) warn_of_vtu(*model, model->diagnostics);
+  if (request.output.msh) msh_mesh(*model, model->diagnostics);
   request.output.fields = require_fields(request.output.pictures, request.output.fields, {fields_of(*model)});
   warn_of_fields(request.output, *model);
   for (Report& report : model->reports) report.fields = request.output.fields;
@@ -299,7 +309,8 @@ RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
   if (request.restart) settings.resume_from = resume_from(checkpoint, request);
   outcome.reports =
       std::make_unique<Reports>(request.output.folder, stem_of(request), csv_digits(request.output));
-  std::vector<std::unique_ptr<Output>> outputs = make_outputs(request, catalogue, *outcome.reports, source);
+  std::vector<std::unique_ptr<Output>> outputs =
+      make_outputs(request, catalogue, *outcome.reports, source, model);
   settings.save_checkpoint = [&](const std::string& state) {
     checkpoint.save(state);
     end.saved();

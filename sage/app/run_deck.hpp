@@ -23,6 +23,7 @@ struct OutputOptions {
   int digits = 0;                     // of numbers in CSV files and in the summary's reports; 0 = the usual
   bool error = false;                 // estimate of the discretisation error
   bool vtu = false;                   // STEM_0001.vtu ... and STEM.pvd
+  bool msh = false;                   // STEM.msh
   bool result = false;                // STEM.h5
   std::vector<std::string> pictures;  // fields, as SVG at the end of each stage
   std::vector<std::string> fields;    // more columns of tables and of reports of points, by name

@@ -3,7 +3,6 @@
 
 Usage: vtk_read_back.py SAGEFE SOURCE_FOLDER       exit code 77: a package is missing
 """
-import csv
 import math
 import pathlib
 import subprocess
@@ -19,6 +18,8 @@ except ImportError as missing:
     print(f"skipped: {missing} (apt-get install python3-vtk9 python3-meshio)")
     sys.exit(77)
 
+from csv_tables import expect, last_step, means, near, number, rows
+
 SPECIMEN, SLENDER = 1.4 * 1.4, 1.4 * 2.8  # areas of the chapter's meshes, in^2
 FRICTION = ("chapter7/friction_285_nu0495/deck.dat", SLENDER)
 PINNED = ("chapter7/pinned_ld1_nu025/deck.dat", SPECIMEN)
@@ -30,34 +31,7 @@ CASES = [  # deck and its area, options, types of solids and of interfaces
     ("smith_griffiths/p51_1.dat", None, ["--layout", "sg_p51"], {5}, set()),
     ("chapter7/dp_285/deck.dat", SLENDER, [], {9}, {3}),
 ]
-# Ten digits are printed; means over points lose one.
-DIGITS = 2e-9
 MESHIO = {3: "line", 21: "line3", 5: "triangle", 22: "triangle6", 9: "quad", 23: "quad8", 28: "quad9"}
-
-
-def rows(file):
-    with open(file, newline="") as stream:
-        lines = csv.DictReader(line for line in stream if not line.startswith("#"))
-        return [{name.split("[")[0]: value for name, value in line.items()} for line in lines]
-
-
-def expect(condition, text):
-    if not condition:
-        raise AssertionError(text)
-
-
-def near(found, wanted, what, scale=0.0):
-    found, wanted = numpy.asarray(found, float), numpy.asarray(wanted, float)
-    expect(found.shape == wanted.shape, f"{what}: shapes {found.shape} and {wanted.shape}")
-    both = numpy.isfinite(wanted)
-    expect((numpy.isfinite(found) == both).all(), f"{what}: not known in different places")
-    bound = DIGITS * max(scale, numpy.abs(wanted[both]).max(initial=0.0))
-    off = numpy.abs(found[both] - wanted[both]).max(initial=0.0)
-    expect(off <= bound, f"{what}: {off:g} apart, allowed {bound:g}")
-
-
-def number(text):
-    return float(text) if text else math.nan
 
 
 class State:
@@ -120,11 +94,6 @@ def check_cells(state, area, solids, lines):
         near([length, of_vtk["Length"].sum()], [1.4, 1.4], "sum of the lengths of the interfaces")
 
 
-def last_step(table):
-    last = table[-1]["stage"], table[-1]["increment"]
-    return [row for row in table if (row["stage"], row["increment"]) == last]
-
-
 def check_nodes(state, out, stem):
     by_number = {int(row["node"]): row for row in last_step(rows(out / f"{stem}.nodes.csv"))}
     of = [by_number[int(n)] for n in state.points["node"].ravel()]
@@ -132,14 +101,6 @@ def check_nodes(state, out, stem):
         wanted = [[number(row[c] or "0") for c in columns] + [0.0] for row in of]  # blank: nothing is held
         near(state.points[name], wanted, name)
     near(state.at, [[number(row["x"]), number(row["y"]), 0.0] for row in of], "place")
-
-
-def means(table, columns):
-    """{element: mean over its points}"""
-    of = {}
-    for row in table:
-        of.setdefault(int(row["element"]), []).append([number(row[c]) for c in columns])
-    return {element: numpy.mean(values, axis=0) for element, values in of.items()}
 
 
 def check_points(state, out, stem, lines):

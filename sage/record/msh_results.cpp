@@ -1,0 +1,181 @@
+#include "sage/record/msh_results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <utility>
+
+#include "sage/model/foreign_element.hpp"
+#include "sage/record/state_time.hpp"
+#include "sage/record/vtk_data.hpp"
+
+namespace sage {
+
+namespace {
+
+struct Step {
+  double time = 0.0;
+  int index = 0;
+};
+
+// What stands in front of a view's numbers.  kind: "NodeData".
+void open_view(std::string& out, std::string_view kind, const std::string& name, const Step& step, int numbers,
+               std::size_t rows) {
+  fmt::format_to(std::back_inserter(out), "${}\n1\n\"{}\"\n1\n{}\n3\n{}\n{}\n{}\n", kind, name, step.time,
+                 step.index, numbers, rows);
+}
+
+void close_view(std::string& out, std::string_view kind) {
+  fmt::format_to(std::back_inserter(out), "$End{}\n", kind);
+}
+
+void add_number(std::string& out, double value) {
+  out += ' ';
+  fmt::format_to(std::back_inserter(out), "{}", value);
+}
+
+std::string view_name(const FieldEntry& field, const std::string& name, const UnitSystem& units) {
+  std::string text = name + field_unit(field, units);
+  std::ranges::replace(text, '"', '\'');
+  return text;
+}
+
+void add_node_views(std::string& out, const Model& model, const Solution& now, const FieldTable& table,
+                    const Step& step) {
+  for (const FieldEntry& field : table.rows()) {
+    if (field.place() != FieldPlace::node || field.form != FieldForm::number) continue;
+    const bool vector = field.shape == FieldShape::vector;
+    const auto nodes = static_cast<std::size_t>(model.mesh.nodes());
+    open_view(out, "NodeData", view_name(field, field.name, model.units), step, vector ? 3 : 1, nodes);
+    std::vector<double> value(std::max<std::size_t>(field.size(), 3), 0.0);
+    for (int node = 0; node < model.mesh.nodes(); ++node) {
+      read_field(field, node_view(model, now, node), value.data());
+      fmt::format_to(std::back_inserter(out), "{}", model.mesh.number[static_cast<std::size_t>(node)]);
+      // A support that is not there gives no reaction.
+      for (std::size_t c = 0; c < (vector ? 3u : 1u); ++c)
+        add_number(out, vector && std::isnan(value[c]) ? 0.0 : value[c]);
+      out += '\n';
+    }
+    close_view(out, "NodeData");
+  }
+}
+
+// From [xx yy zz xy yz xz] to rows of the matrix.
+constexpr std::array<std::size_t, 9> kMatrix{0, 3, 5, 3, 1, 4, 5, 4, 2};
+
+void add_tensor_view(std::string& out, const Model& model, const NodalLayout& layout, const VtkArray& array,
+                     const Step& step) {
+  const auto& values = std::get<std::vector<double>>(array.values);
+  std::size_t rows = 0;
+  for (std::size_t g = 0; g < model.groups.size(); ++g)
+    if (model.groups[g].solid() && !layout.of_group[g].empty())
+      rows += static_cast<std::size_t>(model.groups[g].elements());
+  open_view(out, "ElementNodeData", view_name(*array.field, array.name, model.units), step, 9, rows);
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const Group& group = model.groups[g];
+    if (!group.solid() || layout.of_group[g].empty()) continue;
+    const std::vector<int> order = foreign_nodes(*group.entry, group.entry->gmsh);
+    for (int e = 0; e < group.elements(); ++e) {
+      fmt::format_to(std::back_inserter(out), "{} {}", group.element_numbers[static_cast<std::size_t>(e)],
+                     order.size());
+      for (int i : order) {
+        const std::size_t at = static_cast<std::size_t>(e) * group.node_count() + static_cast<std::size_t>(i);
+        const auto entry = static_cast<std::size_t>(layout.of_group[g][at]);
+        for (std::size_t c : kMatrix) add_number(out, values[entry * 6 + c]);
+      }
+      out += '\n';
+    }
+  }
+  close_view(out, "ElementNodeData");
+}
+
+// A vector of three, or one component after the other.
+void add_element_views(std::string& out, const VtkArray& array, const std::vector<int>& elements,
+                       const std::map<int, std::size_t>& row_of, const Step& step, const UnitSystem& units) {
+  const auto* values = std::get_if<std::vector<double>>(&array.values);
+  if (values == nullptr) return;  // numbers of groups, materials, elements: the mesh says them
+  const std::size_t together = array.field->shape == FieldShape::vector ? array.width : 1;
+  for (std::size_t first = 0; first < array.width; first += together) {
+    std::string name = array.name;
+    if (together < array.width) name += "_" + array.components[first];
+    open_view(out, "ElementData", view_name(*array.field, name, units), step, static_cast<int>(together),
+              elements.size());
+    for (int number : elements) {
+      const auto row = row_of.find(number);
+      fmt::format_to(std::back_inserter(out), "{}", number);
+      for (std::size_t c = first; c < first + together; ++c)
+        if (row == row_of.end())
+          out += " nan";
+        else
+          add_number(out, (*values)[row->second * array.width + c]);
+      out += '\n';
+    }
+    close_view(out, "ElementData");
+  }
+}
+
+}  // namespace
+
+MshResults::MshResults(const std::filesystem::path& folder, const std::string& stem, const std::string& mesh,
+                       std::vector<int> elements)
+    : file_(folder / (stem + ".msh")), elements_(std::move(elements)) {
+  file_.text() = mesh;
+}
+
+void MshResults::add(const Model& model, const StepReport& report, const Solution& now) {
+  const FieldTable table = fields_of(model);
+  const Step step{StateTime(model).at(report.stage, report.load_factor), count_++};
+  const NodalLayout layout = nodal_layout(model, *now.activity);
+  std::string& out = file_.text();
+  add_node_views(out, model, now, table, step);
+  for (const VtkArray& array : vtk_point_data(model, now, layout, table))
+    if (array.field->shape == FieldShape::tensor) add_tensor_view(out, model, layout, array, step);
+  std::map<int, std::size_t> row_of;
+  for (const GroupData& data : now.groups())
+    if (data.active)
+      for (int number : data.group->element_numbers) row_of.try_emplace(number, row_of.size());
+  for (const VtkArray& array : vtk_cell_data(model, now, table))
+    add_element_views(out, array, elements_, row_of, step, model.units);
+  file_.checkpoint();
+}
+
+void MshResults::on_increment(const Model& model, const StepReport& report, const Solution& now) {
+  if (is_output_increment(stage_of(model, report.stage), report)) add(model, report, now);
+}
+
+void MshResults::on_failure(const Model& model, const StepReport& report, const std::string& reason,
+                            const Solution& now) {
+  add(model, report, now);
+  comment("NOT CONVERGED: " + reason);
+}
+
+// Readers pass over sections that they don't know.
+void MshResults::comment(const std::string& text) {
+  file_.text() += "$Comments\n" + text + "\n$EndComments\n";
+}
+
+void MshResults::finish() {
+  if (!file_.open()) return;
+  file_.finish();
+  files_.push_back(file_.path());
+}
+
+void MshResults::on_finish(const Model&, const RunResult&) {
+  finish();
+}
+
+void MshResults::exchange(Archive& archive) {
+  file_.exchange(archive);
+  archive(count_);
+}
+
+void MshResults::stop(const std::string&) {
+  if (file_.open()) comment("RUN STOPPED, NOT COMPLETE");
+  finish();
+}
+
+}  // namespace sage

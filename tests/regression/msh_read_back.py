@@ -1,0 +1,129 @@
+#!/usr/bin/env python3
+"""Has Gmsh (Debian's python3-gmsh) and meshio (python3-meshio) read what `sagefe run --msh` writes, and compares with the CSV files.
+
+Usage: msh_read_back.py SAGEFE SOURCE_FOLDER       exit code 77: a package is missing
+"""
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+try:
+    import gmsh
+    import meshio
+    import numpy
+except ImportError as missing:
+    print(f"skipped: {missing} (apt-get install python3-gmsh python3-meshio)")
+    sys.exit(77)
+
+from csv_tables import expect, last_step, means, near, number, rows
+
+FRICTION = "chapter7/friction_285_nu0495/deck.dat"
+# Deck, options, Gmsh's types of solids and of lines, names of physical groups
+NAMES = {"specimen", "interface_bottom=end interface", "interface_top=end interface", "fix_x", "fix_y"}
+CASES = [
+    (FRICTION, [], {3, 1}, NAMES),
+    (FRICTION, ["--element", "quad8"], {16, 8}, NAMES),
+    ("smith_griffiths/p51_1.dat", ["--layout", "sg_p51"], {2, 1}, set()),
+]
+
+
+class Views:
+    """What Gmsh finds: {name: (kind, {tag: numbers}, time)} of the last step."""
+
+    def __init__(self, file):
+        gmsh.initialize()
+        try:
+            gmsh.option.setNumber("General.Terminal", 0)
+            gmsh.open(str(file))
+            tags, places, _ = gmsh.model.mesh.getNodes()
+            self.places = dict(zip(tags.tolist(), numpy.reshape(places, (-1, 3))))
+            self.types = set(gmsh.model.mesh.getElementTypes())
+            self.names = {gmsh.model.getPhysicalName(*group) for group in gmsh.model.getPhysicalGroups()}
+            self.views = dict(self.view(tag) for tag in gmsh.view.getTags())
+        finally:
+            gmsh.finalize()
+
+    @staticmethod
+    def view(tag):
+        index = gmsh.view.getIndex(tag)
+        name = gmsh.option.getString(f"View[{index}].Name")
+        last = int(gmsh.option.getNumber(f"View[{index}].NbTimeStep")) - 1
+        kind, tags, data, time, _ = gmsh.view.getModelData(tag, last)
+        return name, (kind, {t: numpy.array(d) for t, d in zip(tags.tolist(), data)}, time)
+
+
+def check_against_csv(found, out, stem):
+    nodes = {int(row["node"]): row for row in last_step(rows(out / f"{stem}.nodes.csv"))}
+    expect(set(found.places) == set(nodes), "other nodes than the deck's")
+    near([found.places[n] for n in nodes], [[number(r["x"]), number(r["y"]), 0.0] for r in nodes.values()], "places")
+    for name, columns in (("displacement", ("ux", "uy")), ("reaction", ("reaction_x", "reaction_y"))):
+        view = next(v for key, v in found.views.items() if key.startswith(name))
+        wanted = [[number(r[c] or "0") for c in columns] + [0.0] for r in nodes.values()]
+        near([view[1][n] for n in nodes], wanted, name)
+    points = last_step(rows(out / f"{stem}.points.csv"))
+    mean = means(points, ("stress_xx", "stress_yy", "stress_zz"))
+    kind, values, _ = next(v for key, v in found.views.items() if key.startswith("mean_stress"))
+    scale = max(abs(number(r[c])) for r in points for c in ("stress_xx", "stress_yy", "stress_zz"))
+    expect(kind == "ElementData", f"mean stress is {kind}")
+    near([values[e][0] for e in mean], [mean[e].mean() for e in mean], "mean_stress", scale)
+    expect(all(math.isnan(v[0]) for e, v in values.items() if e not in mean), "a line has a mean stress")
+    kind, values, _ = next(v for key, v in found.views.items() if key.startswith("stress ["))
+    expect(kind == "ElementNodeData" and set(values) == set(mean), "stress is not at the nodes of the solids")
+    tables = out / f"{stem}.interfaces.csv"
+    if not tables.exists():
+        return
+    columns = ("shear", "normal", "relative_shear", "relative_normal")
+    of = means(last_step(rows(tables)), columns)
+    for k, column in enumerate(columns):
+        values = next(v for key, v in found.views.items() if key.split(" ")[0] == f"interface_{column}")[1]
+        near([values[e][0] for e in of], [of[e][k] for e in of], column, scale if k < 2 else 0.0)
+
+
+def check_meshio(found, file):
+    mesh = meshio.read(file)
+    expect(len(mesh.points) == len(found.places), "meshio finds other nodes")
+    for name, (kind, values, _) in found.views.items():
+        if kind == "NodeData":
+            wanted = numpy.array([values[n] for n in sorted(values)])
+            near(numpy.reshape(mesh.point_data[name], wanted.shape), wanted, f"{name} of meshio")
+        elif kind == "ElementData":
+            data = numpy.concatenate([numpy.ravel(d) for d in mesh.cell_data[name]])
+            wanted = numpy.concatenate(list(values.values()))
+            near(numpy.sort(data), numpy.sort(wanted), f"{name} of meshio")
+
+
+def check(program, source, out, case):
+    deck, options, types, names = case
+    path = source / "legacy_inputs" / deck
+    command = [program, "run", path, "-o", out, "--msh", "--nodes", "--points", "-q", *options]
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    expect(done.returncode == 0, f"{command}: exit code {done.returncode}\n{done.stderr}")
+    stem = path.parent.name if path.stem == "deck" else path.stem
+    found = Views(out / f"{stem}.msh")
+    expect(found.types == types, f"types {found.types}")
+    expect(names <= found.names, f"physical groups {found.names}")
+    check_against_csv(found, out, stem)
+    check_meshio(found, out / f"{stem}.msh")
+    if deck == FRICTION:
+        strain = number(last_step(rows(out / f"{stem}.report1.csv"))[0]["axial_strain"])
+        near([time for _, _, time in found.views.values()], [strain] * len(found.views), "time")
+
+
+def main():
+    program, source = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+    failed = 0
+    for case in CASES:
+        with tempfile.TemporaryDirectory() as folder:
+            try:
+                check(program, source, pathlib.Path(folder), case)
+                print(f"passed: {case[0]} {' '.join(case[1])}")
+            except AssertionError as error:
+                failed += 1
+                print(f"FAILED: {case[0]} {' '.join(case[1])}: {error}")
+    sys.exit(1 if failed else 0)
+
+
+if __name__ == "__main__":
+    main()
