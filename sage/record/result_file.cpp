@@ -42,6 +42,10 @@ class TableFile {
     table(name, type_of<T>(), row, rows);
     append(name, values, rows);
   }
+  void bytes(const std::string& name, std::string_view text) {
+    table(name, DataType::uint8, {}, text.size());
+    expect(file_->append(name.c_str(), text.data(), text.size()));
+  }
   void text(const std::string& path, const char* name, const std::string& value) {
     expect(file_->text(path.c_str(), name, value.c_str()));
   }
@@ -333,17 +337,19 @@ class OwnPart {
     const Group& group = *data.group;
     out_.append(in(group, "active"), std::vector<std::uint8_t>{static_cast<std::uint8_t>(data.active)}, 1);
     for (const FieldEntry* field : point_fields(group)) {
-      std::vector<double> values(points_of(group) * field->size(), std::nan(""));
+      values_.resize(points_of(group) * field->size());
+      if (!data.active) std::ranges::fill(values_, std::nan(""));
       if (data.active)
         for (std::size_t p = 0; p < points_of(group); ++p)
-          read_field(*field, {model_.mesh, data, p}, values.data() + p * field->size());
-      append(in(group, field->name), *field, values);
+          read_field(*field, {model_.mesh, data, p}, values_.data() + p * field->size());
+      append(in(group, field->name), *field, values_);
     }
   }
 
   TableFile& out_;
   const Model& model_;
   const FieldTable& fields_;
+  std::vector<double> values_;  // of one field at the points of a group: room that is kept
 };
 
 // What StoredResult reads: the model's sources, and every state whole.
@@ -376,9 +382,7 @@ class SourcePart {
   }
 
  private:
-  void bytes(const std::string& name, const std::string& text) {
-    out_.whole(stored_path(name), std::vector<std::uint8_t>(text.begin(), text.end()));
-  }
+  void bytes(const std::string& name, const std::string& text) { out_.bytes(stored_path(name), text); }
 
   TableFile& out_;
   bool kept_;

@@ -1,7 +1,9 @@
 // Result files by HDF5.  What the program looks for in this module: its version, which it reads in the file before
 // it loads it, and one function.
 #include <hdf5.h>
+#include <zlib.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <map>
@@ -28,6 +30,19 @@ hid_t hdf5_type(DataType type) {
   return H5I_INVALID_HID;
 }
 
+std::size_t size_of(DataType type) {
+  switch (type) {
+    case DataType::float64:
+    case DataType::int64:
+      return 8;
+    case DataType::int32:
+      return 4;
+    case DataType::uint8:
+      break;
+  }
+  return 1;
+}
+
 // Closes what it holds.
 class Id {
  public:
@@ -50,6 +65,38 @@ herr_t first_message(unsigned, const H5E_error2_t* error, void* text) {
   if (error->desc != nullptr) *static_cast<std::string*>(text) = error->desc;
   return 0;
 }
+
+struct Table {
+  hid_t id = H5I_INVALID_HID;
+  std::size_t packed_row = 0;  // bytes of a row that is compressed by itself; 0: there are none such
+  std::size_t width = 0;       // of a number
+};
+
+// Bytes of one place in the numbers behind one another, as HDF5's filter of that name has them.
+std::vector<unsigned char> shuffled(const unsigned char* numbers, std::size_t bytes, std::size_t width) {
+  std::vector<unsigned char> turned(bytes);
+  const std::size_t count = bytes / width;
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t b = 0; b < width; ++b) turned[b * count + i] = numbers[i * width + b];
+  return turned;
+}
+
+// A long row whose middle hardly becomes smaller.  Compressing stress and strain of 200 000 elements took as long
+// as computing them, for half of their size; tables of zeros, directions and states pay a hundred times more.
+bool left_as_it_is(const Table& table, const void* row) {
+  constexpr std::size_t kLong = std::size_t{1} << 20, kSample = std::size_t{1} << 16;
+  constexpr uLongf kWorth = 4;  // times smaller
+  if (table.packed_row < kLong) return false;
+  const std::size_t middle = table.packed_row / table.width / 2 * table.width;
+  const auto sample = shuffled(static_cast<const unsigned char*>(row) + middle, kSample, table.width);
+  uLongf size = compressBound(kSample);
+  std::vector<unsigned char> packed(size);
+  if (compress2(packed.data(), &size, sample.data(), kSample, 1) != Z_OK) return false;
+  return size * kWorth > kSample;
+}
+
+// A bit for each filter that a stored row has not passed: shuffle and deflate.
+constexpr std::uint32_t kNoFilters = 3;
 
 class Hdf5File final : public DataFile {
  public:
@@ -89,7 +136,8 @@ class Hdf5File final : public DataFile {
     const hid_t set =
         H5Dcreate2(file_, path, hdf5_type(type), space.get(), links.get(), how.get(), H5P_DEFAULT);
     if (set < 0) return failed();
-    sets_[path] = set;
+    const std::size_t width = size_of(type);
+    sets_[path] = {set, numbers > 16 && chunk == 1 ? numbers * width : 0, width};
     return true;
   }
 
@@ -100,7 +148,8 @@ class Hdf5File final : public DataFile {
       return false;
     }
     if (count == 0) return true;
-    const Id before(H5Dget_space(set->second), H5Sclose), type(H5Dget_type(set->second), H5Tclose);
+    const hid_t id = set->second.id;
+    const Id before(H5Dget_space(id), H5Sclose), type(H5Dget_type(id), H5Tclose);
     std::vector<hsize_t> size(static_cast<std::size_t>(H5Sget_simple_extent_ndims(before.get())));
     H5Sget_simple_extent_dims(before.get(), size.data(), nullptr);
     std::vector<hsize_t> start(size.size(), 0), more = size;
@@ -108,12 +157,14 @@ class Hdf5File final : public DataFile {
     more[0] = count;
     size[0] += count;
     errno = 0;
-    if (H5Dset_extent(set->second, size.data()) < 0) return failed();
-    const Id file_space(H5Dget_space(set->second), H5Sclose);
+    if (H5Dset_extent(id, size.data()) < 0) return failed();
+    if (count == 1 && left_as_it_is(set->second, rows))
+      return H5Dwrite_chunk(id, H5P_DEFAULT, kNoFilters, start.data(), set->second.packed_row, rows) >= 0 ||
+             failed();
+    const Id file_space(H5Dget_space(id), H5Sclose);
     const Id memory(H5Screate_simple(static_cast<int>(more.size()), more.data(), nullptr), H5Sclose);
     H5Sselect_hyperslab(file_space.get(), H5S_SELECT_SET, start.data(), nullptr, more.data(), nullptr);
-    return H5Dwrite(set->second, type.get(), memory.get(), file_space.get(), H5P_DEFAULT, rows) >= 0 ||
-           failed();
+    return H5Dwrite(id, type.get(), memory.get(), file_space.get(), H5P_DEFAULT, rows) >= 0 || failed();
   }
 
   // Of a fixed length: VTK reads no other.
@@ -163,7 +214,7 @@ class Hdf5File final : public DataFile {
   bool close() override {
     bool done = true;
     errno = 0;
-    for (const auto& [path, set] : sets_) done = H5Dclose(set) >= 0 && done;
+    for (const auto& [path, set] : sets_) done = H5Dclose(set.id) >= 0 && done;
     sets_.clear();
     if (file_ >= 0) done = H5Fclose(file_) >= 0 && done;
     file_ = H5I_INVALID_HID;
@@ -208,7 +259,7 @@ class Hdf5File final : public DataFile {
   }
 
   hid_t file_ = H5I_INVALID_HID;
-  std::map<std::string, hid_t> sets_;
+  std::map<std::string, Table> sets_;
   std::string error_;
 };
 
