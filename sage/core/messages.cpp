@@ -744,7 +744,12 @@ constexpr MessageEntry kMessages[] = {
     {"S713", "a curve of the mesh is left out",
      "Physical curves become supports and pressures by their names, and this name says neither, or the "
      "curve lies on no element.",
-     "Name curves fix_x, fix_y, fix_xy or pressure=VALUE, or add the cards to the deck by hand."},
+     "Name curves fix_x, fix_y, fix_xy, pressure=VALUE, interface_bottom=NAME and interface_top=NAME, or add "
+     "the cards to the deck by hand."},
+    {"S714", "the two sides of an interface don't fit",
+     "The lines of interface_bottom=NAME and interface_top=NAME are no pairs at the same places with equally "
+     "many nodes, or no interface element has so many.",
+     "Give both curves the same mesh: Gmsh's plugin Crack doubles the nodes of one curve."},
     {"S720", "something is left out of the written file",
      "The format written to has no place for it, or less digits. The new file describes another problem, "
      "or the same one with less accuracy.",

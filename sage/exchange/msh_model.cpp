@@ -160,9 +160,10 @@ class Skeleton {
     const double value = pressure ? std::strtod(name.c_str() + 9, &end) : 0.0;
     if (pressure && *end == '\0') return load(block, value);
     if (!name.empty() && warned_.insert(name).second)
-      message(Severity::warning, "S713", "curve '" + name +
-                                     "' is left out; known are fix_x, fix_y, fix_xy, pressure=VALUE, "
-                                     "interface_bottom=NAME and interface_top=NAME");
+      message(Severity::warning, "S713",
+              "curve '" + name +
+                  "' is left out; known are fix_x, fix_y, fix_xy, pressure=VALUE, "
+                  "interface_bottom=NAME and interface_top=NAME");
   }
 
   void hold(const MshBlock& block, const std::string& name) {
@@ -205,7 +206,7 @@ class Skeleton {
     if (line < joint.top.size()) found = on(bottom, joint.top[line]);
     for (std::size_t i = 0; found.empty() && i < joint.top.size(); ++i) found = on(bottom, joint.top[i]);
     if (found.empty())
-      throw InputError("S711", {model_.file, 0, 0, 0},
+      throw InputError("S714", {model_.file, 0, 0, 0},
                        "line " + std::to_string(bottom.number) + " of interface_bottom=" + name +
                            " has no line with as many nodes at the same place in interface_top=" + name);
     return found;
@@ -213,7 +214,7 @@ class Skeleton {
 
   void join(const std::string& name, const Joint& joint) {
     if (joint.bottom.size() != joint.top.size())
-      throw InputError("S711", {model_.file, 0, 0, 0},
+      throw InputError("S714", {model_.file, 0, 0, 0},
                        "interface_bottom=" + name + " has " + std::to_string(joint.bottom.size()) +
                            " line(s), interface_top=" + name + " " + std::to_string(joint.top.size()));
     for (std::size_t i = 0; i < joint.bottom.size(); ++i) {
@@ -222,8 +223,9 @@ class Skeleton {
       int code = 0;
       const ElementEntry* entry = msh::interface_of(catalogue_.elements, bottom.size(), code);
       if (entry == nullptr)
-        throw InputError({model_.file, 0, 0, 0}, "no interface has " + std::to_string(bottom.size()) +
-                                                     " nodes on a side, as " + name + " has");
+        throw InputError(
+            "S714", {model_.file, 0, 0, 0},
+            "no interface has " + std::to_string(bottom.size()) + " nodes on a side, as " + name + " has");
       const msh::InterfaceSides sides = msh::interface_sides(*entry);
       std::vector<int> nodes(static_cast<std::size_t>(entry->nodes));
       for (std::size_t n = 0; n < bottom.size(); ++n) {
