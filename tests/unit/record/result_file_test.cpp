@@ -5,7 +5,9 @@
 #include <hdf5.h>
 
 #include <cmath>
+#include <cstring>
 
+#include "sage/record/data_file.hpp"
 #include "tests/unit/record/specimen.hpp"
 
 namespace sage {
@@ -103,6 +105,34 @@ TEST(ResultFile, HoldsTheFieldsOfTheCompressedSpecimen) {
   EXPECT_EQ(file.text("/sage", "title"), specimen.model.title);
   EXPECT_FALSE(file.has("/sage/groups/1/traction"));
   EXPECT_FALSE(file.has("/sage/groups/2/stress"));
+}
+
+// Rows above 1 MB are stored as they are where compressing them gains little; readers see no difference.
+TEST(ResultFile, LongRowsComeBackCompressedOrNot) {
+  const auto path = fresh_folder("result_long") / "t.h5";
+  constexpr std::size_t kNumbers = 200000;
+  std::vector<double> alike(kNumbers, 0.25), mixed(kNumbers);
+  for (std::size_t i = 0; i < kNumbers; ++i) mixed[i] = std::sin(1e4 * static_cast<double>(i));
+  const auto file = make_data_file(path.string());
+  for (const char* name : {"/alike", "/mixed"})
+    ASSERT_TRUE(file->table(name, DataType::float64, {kNumbers}, 1));
+  for (int step = 0; step < 2; ++step) {
+    ASSERT_TRUE(file->append("/alike", alike.data(), 1)) << file->error();
+    ASSERT_TRUE(file->append("/mixed", mixed.data(), 1)) << file->error();
+  }
+  ASSERT_TRUE(file->close());
+  const auto back = open_data_file(path.string());
+  for (const auto& [name, numbers] : {std::pair{"/alike", &alike}, std::pair{"/mixed", &mixed}}) {
+    std::string bytes;
+    ASSERT_TRUE(back->read(name, bytes)) << back->error();
+    const std::size_t row = kNumbers * sizeof(double);
+    ASSERT_EQ(bytes.size(), 2 * row);
+    EXPECT_EQ(std::memcmp(bytes.data(), numbers->data(), row), 0) << name;
+    EXPECT_EQ(std::memcmp(bytes.data() + row, numbers->data(), row), 0) << name;
+  }
+  const auto size = std::filesystem::file_size(path);
+  EXPECT_LT(size, 2 * kNumbers * sizeof(double) + 100000u);  // the row of one number takes next to nothing
+  EXPECT_GT(size, 2 * kNumbers * sizeof(double));            // the other is not compressed
 }
 
 // What ParaView's reader asks for: parts, steps and where each array of a step begins.
