@@ -21,9 +21,9 @@ namespace fs = std::filesystem;
 
 #ifdef SAGE_HAVE_HDF5
 constexpr const char* kOptions =
-    "--nodes --points --vtu --result --picture stress_yy --tables all --checkpoint 0";
+    "--nodes --points --vtu --msh --result --picture stress_yy --tables all --checkpoint 0";
 #else
-constexpr const char* kOptions = "--nodes --points --vtu --picture stress_yy --tables all --checkpoint 0";
+constexpr const char* kOptions = "--nodes --points --vtu --msh --picture stress_yy --tables all --checkpoint 0";
 #endif
 
 // A plastic specimen on a sliding interface, with a report.
