@@ -2,6 +2,7 @@
 #include "materials/register_materials.hpp"
 
 #include "materials/clough_duncan.hpp"
+#include "materials/dilating_joint.hpp"
 #include "materials/drucker_prager.hpp"
 #include "materials/duncan_chang.hpp"
 #include "materials/goodman.hpp"
@@ -27,6 +28,7 @@ void register_materials(Catalogue& catalogue) {
   // Interfaces
   catalogue.materials.add(21, goodman_entry());
   catalogue.materials.add(22, clough_duncan_entry());
+  catalogue.materials.add(23, dilating_joint_entry());
 }
 
 }  // namespace sage

@@ -10,6 +10,7 @@
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
 #include "sage/drive/curve_files.hpp"
+#include "sage/drive/fit.hpp"
 #include "sage/drive/path_file.hpp"
 #include "sage/drive/subject.hpp"
 #include "sage/record/out_file.hpp"
@@ -32,6 +33,8 @@ struct DriveOptions {
   std::vector<double> start, turns{};
   bool undrained = false, list = false;
   int steps = 100, cycles = 1;
+
+  std::vector<std::string> fits, free;
 
   std::string csv, plot;
   std::vector<std::string> panels;
@@ -157,8 +160,12 @@ const LabTest* test_for(const DriveOptions& options, int size) {
                                  known_lab_tests(size)));
   if (options.undrained && test->undrained.empty())
     throw UsageError(fmt::format("--undrained: nothing moves in {} without change of volume", test->name));
-  if (options.turns.empty())
+  if (!options.fits.empty()) {
+    if (!options.turns.empty() || !options.start.empty() || options.cycles != 1)
+      throw UsageError("--fit goes where its curves go: without --to, --cycles and --start");
+  } else if (options.turns.empty()) {
     throw UsageError(fmt::format("--to: how far? {} at the end", driven_column(*test)));
+  }
   return test;
 }
 
@@ -185,6 +192,55 @@ void list_tests() {
   }
 }
 
+// FILE or FILE@PRESSURE.
+Measured measured_from(const std::string& text, const LabTest& test, double pressure) {
+  const std::size_t at = text.rfind('@');
+  if (at != std::string::npos) {
+    char* end = nullptr;
+    pressure = std::strtod(text.c_str() + at + 1, &end);
+    if (at + 1 == text.size() || *end != '\0' || !std::isfinite(pressure))
+      throw UsageError("--fit " + text + ": wanted FILE or FILE@PRESSURE");
+  }
+  const std::string file = text.substr(0, at);
+  keep_input(file);
+  return read_measured(file, test, pressure);
+}
+
+// The fitted curves go where driven ones go.
+int fit_law(const DriveOptions& options, const Subject& subject, const LabTest* test) {
+  if (test == nullptr) throw UsageError("--fit goes with --test, not with --path");
+  if (!options.panels.empty()) throw UsageError("--fit has its own panels: --xy goes without it");
+  FitProblem problem;
+  problem.subject = subject;
+  problem.test = test;
+  problem.undrained = options.undrained;
+  problem.normal_stiffness = options.normal_stiffness;
+  problem.steps = options.steps;
+  for (const std::string& text : options.fits)
+    problem.curves.push_back(measured_from(text, *test, subject.pressure));
+  OutFile csv, plot;
+  if (!options.csv.empty() && options.csv != "-") csv = OutFile(options.csv);
+  if (!options.plot.empty()) plot = OutFile(options.plot);
+  const FitResult result = of_command_line("--free: ", [&] {
+    for (const std::string& text : options.free) problem.free.push_back(free_parameter_from(subject, text));
+    return fit(problem);
+  });
+  const Heading heading = heading_of(options, {result.fitted});
+  fmt::print("{}",
+             options.csv == "-" ? csv_text(heading, result.curves, options.digits) : fit_text(problem, result));
+  if (csv.open()) {
+    csv.text() = csv_text(heading, result.curves, options.digits);
+    csv.finish();
+  }
+  if (plot.open()) {
+    plot.text() = fit_plot(problem, result);
+    plot.finish();
+  }
+  const bool whole =
+      std::ranges::all_of(result.curves, [](const Curve& curve) { return curve.failure.empty(); });
+  return result.converged && whole ? kOk : kNotConverged;
+}
+
 int drive_laws(const DriveOptions& options, const Catalogue& catalogue) {
   if (options.list) {
     list_tests();
@@ -200,6 +256,11 @@ int drive_laws(const DriveOptions& options, const Catalogue& catalogue) {
         throw UsageError(fmt::format("two cases are called {}; NAME:LAW,... gives names", subject.name));
   }
   const LabTest* test = test_for(options, size);
+  if (options.fits.empty() != options.free.empty()) throw UsageError("--fit and --free go together");
+  if (!options.fits.empty()) {
+    if (subjects.size() > 1) throw UsageError("--fit is for one law");
+    return fit_law(options, subjects.front(), test);
+  }
   OutFile csv, plot;  // opened first: an unwritable folder shows before anything is computed
   const bool to_screen = options.csv == "-";
   if (!options.csv.empty() && !to_screen) csv = OutFile(options.csv);
@@ -307,6 +368,16 @@ Command drive_command(CLI::App& parser, const Catalogue& catalogue) {
       "Compression positive; strains as fractions. Exit code 3 where a curve ends before its end.");
   add_law_options(parser, *options);
   add_test_options(parser, *options);
+  parser
+      .add_option(
+          "--fit", options->fits,
+          "FILE or FILE@PRESSURE: a measured curve (CSV: what the test drives, then columns of --csv); finds "
+          "the parameters of --free by least squares; may be repeated")
+      ->allow_extra_args(false);
+  parser
+      .add_option("--free", options->free,
+                  "NAME or NAME=LOW:HIGH,...: parameters that --fit looks for, from their values of --set on")
+      ->delimiter(',');
   parser.add_option("--csv", options->csv,
                     "the curves as a table; - is standard output, in place of the summary");
   parser.add_option("--plot", options->plot, "the curves as SVG");

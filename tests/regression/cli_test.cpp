@@ -50,7 +50,7 @@ TEST(CommandLine, HelpOfEverySubcommandNamesItsOptions) {
       {"stress", {"--list", "--only", "--details", "--csv", "--write"}},
       {"drive",
        {"--law", "--set", "--deck", "--material", "--case", "--cases", "--test", "--path", "--pressure", "--to",
-        "--cycles", "--undrained", "--normal-stiffness", "--csv", "--plot", "Exit code 3"}},
+        "--cycles", "--undrained", "--normal-stiffness", "--fit", "--free", "--csv", "--plot", "Exit code 3"}},
       {"compare",
        {"DECK", "--both", "--formulation", "--element", "--geometry", "--solver", "--formulation-b",
         "--element-b", "--geometry-b", "--solver-b", "--layout-b", "--line", "--point", "--picture", "--output",
@@ -91,6 +91,31 @@ TEST(CommandLine, DriveTakesLawsAlongPaths) {
   EXPECT_EQ(wrong.exit_code, 2);
   expect_words(wrong.err, {"cases.txt:3: error: b (linear_elastic): not set: poissons_ratio"});
   expect_words(sagefe(folder, "drive --list").out, {"simple_shear", "closure"});
+}
+
+// Parameters from a curve of known ones, and what one pressure can't tell apart.
+TEST(CommandLine, DriveFitsMeasuredCurves) {
+  const fs::path folder = empty_folder("drive_fit");
+  // E = 2e4; q_f = 200 for c = 0, phi = 30 at 100.
+  write(folder / "cd.csv", "strain_yy,axial_deviator\n.002,40\n.004,80\n.008,160\n.012,200\n.02,200\n");
+  const std::string law =
+      "drive --law mohr_coulomb --set E=1e4 --set nu=.3 --set c=0 --set phi=25 "
+      "--test triaxial_compression --pressure 100 --fit cd.csv ";
+  const Finished run = sagefe(folder, law + "--free E,phi --plot fit.svg --csv fit.csv");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  expect_words(run.out, {"youngs_modulus                  10000          20000", "friction_angle",
+                         "             30 ", "5 values, 2 parameters"});
+  expect_words(read(folder / "fit.svg"), {"fitted less measured"});
+  expect_words(read(folder / "fit.csv"), {"\ncd,5,"});
+  expect_words(sagefe(folder, law + "--free c,phi").out, {"can't tell apart: cohesion", "friction_angle"});
+  EXPECT_EQ(sagefe(folder, law).exit_code, 1);
+  EXPECT_EQ(sagefe(folder, law + "--free nothing").exit_code, 1);
+  EXPECT_EQ(sagefe(folder, law + "--free E --to .1").exit_code, 1);
+  EXPECT_EQ(sagefe(folder, law + "--free E,nu,c,phi,psi").exit_code, 1);
+  write(folder / "cd.csv", "strain_yy,axial_deviator\n.002,much\n");
+  const Finished wrong = sagefe(folder, law + "--free E");
+  EXPECT_EQ(wrong.exit_code, 2);
+  expect_words(wrong.err, {"cd.csv:2: error: column axial_deviator: much is no number"});
 }
 
 // The chapter's specimen: its law from the deck gives q = 150 psi at the strength of sin phi = .6, sigma_3 = 50.

@@ -1,0 +1,188 @@
+// Parameters from curves of known ones.
+#include "sage/drive/fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "materials/register_materials.hpp"
+#include "sage/core/error.hpp"
+#include "sage/drive/subject.hpp"
+
+namespace sage::drive {
+namespace {
+
+const UnitSystem kKilopascal{"m", "kN", "kPa", 101.325, 9.81};
+
+const Catalogue& catalogue() {
+  static const Catalogue all = [] {
+    Catalogue made;
+    register_materials(made);
+    return made;
+  }();
+  return all;
+}
+
+Subject subject(const std::string& text) {
+  return subject_from(catalogue(), text, kKilopascal, 0.0, nullptr);
+}
+
+// The start of a problem: curves of `truth` at these pressures, as measured at `points` equal strains.
+FitProblem problem_of(const Subject& truth, const Subject& start, const std::vector<double>& pressures,
+                      const std::vector<std::string>& columns, int points = 12, double strain = 0.03) {
+  FitProblem problem;
+  problem.subject = start;
+  problem.test = find_lab_test("triaxial_compression", 4);
+  problem.steps = points;
+  for (const double pressure : pressures) {
+    Measured measured{"at " + std::to_string(static_cast<int>(pressure)), pressure, {}, {}};
+    for (int i = 1; i <= points; ++i) measured.driven.push_back(strain * i / points);
+    Path path{{pressure, pressure, pressure, 0.0}, {}};
+    path.legs = legs_of(*problem.test, false, path.start, measured.driven, 1);
+    const Curve curve = follow(reference(make_law(truth)), kKilopascal, path);
+    for (const std::string& column : columns) {
+      std::vector<double> values = curve.find(column)->values;
+      values.erase(values.begin());
+      measured.responses.push_back({column, values});
+    }
+    problem.curves.push_back(measured);
+  }
+  return problem;
+}
+
+void set_free(FitProblem& problem, const std::vector<std::string>& names) {
+  for (const std::string& name : names) problem.free.push_back(free_parameter_from(problem.subject, name));
+}
+
+// Two pressures, stress and volume: all five parameters of Mohr-Coulomb come back.
+TEST(Fit, ExactCurvesGiveTheirParametersBack) {
+  const Subject truth = subject("mohr_coulomb,E=2e4,nu=.3,c=5,phi=32,psi=6");
+  FitProblem problem = problem_of(truth, subject("mohr_coulomb,E=1.5e4,nu=.2,c=8,phi=28,psi=3"), {50.0, 200.0},
+                                  {"axial_deviator", "volume_strain"});
+  set_free(problem, {"E", "nu", "c", "phi", "psi"});
+  const FitResult result = fit(problem);
+  EXPECT_TRUE(result.converged);
+  for (std::size_t k = 0; k < 5; ++k)
+    EXPECT_NEAR(result.values[k], truth.values[k], 1e-8 * truth.values[k]) << problem.free[k].name;
+  EXPECT_LT(result.rms, 1e-9);
+  EXPECT_TRUE(result.undetermined.empty());
+  EXPECT_EQ(result.points, 48);
+}
+
+TEST(Fit, AHyperbolaGivesItsParametersBack) {
+  const std::string fixed =
+      "unload_number=600,poisson_G=.3,poisson_F=0,poisson_d=0,c=5,phi=33,modulus_exponent=.5";
+  const Subject truth = subject("duncan_chang_1970,modulus_number=400,failure_ratio=.8," + fixed);
+  FitProblem problem =
+      problem_of(truth, subject("duncan_chang_1970,modulus_number=250,failure_ratio=.7," + fixed), {100.0},
+                 {"axial_deviator"});
+  set_free(problem, {"modulus_number=50:2000", "failure_ratio=.3:1"});
+  const FitResult result = fit(problem);
+  // The law divides its steps by their errors, and where it does so its answers jump by a part of their
+  // tolerance: 1e-5.
+  EXPECT_NEAR(result.values[0], 400.0, 400 * 1e-5);
+  EXPECT_NEAR(result.values[1], 0.8, 0.8 * 1e-5);
+}
+
+// 1 % of noise with a fixed seed.  Of 30 such data sets 95 % should cover the truth; fewer than 80 % would be a wrong
+// error, and errors ten times too large would cover it too, so that their size is compared with the scatter.
+TEST(Fit, NoisyCurvesCoverTheTruthWithinTheirErrors) {
+  const Subject truth = subject("mohr_coulomb,E=2e4,nu=.3,c=5,phi=32");
+  std::mt19937 random(12);
+  std::normal_distribution<double> noise(0.0, 1.0);
+  const FitProblem clean =
+      problem_of(truth, subject("mohr_coulomb,E=1.5e4,nu=.3,c=8,phi=28"), {50.0, 200.0}, {"axial_deviator"});
+  double largest = 0.0;
+  for (const double value : clean.curves[1].responses[0].values) largest = std::max(largest, value);
+  constexpr int kSets = 30;
+  std::array<int, 3> covered{};
+  std::array<double, 3> scatter{}, stated{};
+  for (int set = 0; set < kSets; ++set) {
+    FitProblem problem = clean;
+    for (Measured& curve : problem.curves)
+      for (double& value : curve.responses[0].values) value += 0.01 * largest * noise(random);
+    set_free(problem, {"E", "c", "phi"});
+    const FitResult result = fit(problem);
+    const double expected[] = {2e4, 5.0, 32.0};
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (result.low[k] <= expected[k] && expected[k] <= result.high[k]) ++covered[k];
+      scatter[k] += std::pow(result.values[k] - expected[k], 2) / kSets;
+      stated[k] += std::pow(result.standard_errors[k], 2) / kSets;
+    }
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_GE(covered[k], kSets * 8 / 10) << k;
+    EXPECT_GT(std::sqrt(stated[k] / scatter[k]), 0.6) << k;
+    EXPECT_LT(std::sqrt(stated[k] / scatter[k]), 1.7) << k;
+  }
+}
+
+// One confining pressure gives one strength, from which c and phi can't both come.
+TEST(Fit, CohesionAndFrictionFromOnePressureAreNamed) {
+  FitProblem problem =
+      problem_of(subject("mohr_coulomb,E=2e4,nu=.3,c=5,phi=32"),
+                 subject("mohr_coulomb,E=1.5e4,nu=.3,c=8,phi=28"), {100.0}, {"axial_deviator"});
+  set_free(problem, {"E", "c", "phi"});
+  const FitResult result = fit(problem);
+  ASSERT_EQ(result.undetermined.size(), 1u);
+  EXPECT_EQ(result.undetermined[0].names, (std::vector<std::string>{"cohesion", "friction_angle"}));
+  // In opposite directions.
+  EXPECT_LT(result.undetermined[0].shares[0] * result.undetermined[0].shares[1], 0.0);
+  EXPECT_TRUE(std::isnan(result.standard_errors[1]));
+  EXPECT_TRUE(std::isnan(result.standard_errors[2]));
+  EXPECT_NEAR(result.values[0], 2e4, 2e4 * 1e-8);
+  EXPECT_FALSE(std::isnan(result.standard_errors[0]));
+  EXPECT_NE(fit_text(problem, result).find("can't tell apart: cohesion"), std::string::npos)
+      << fit_text(problem, result);
+  EXPECT_NE(fit_plot(problem, result).find("fitted less measured"), std::string::npos);
+}
+
+// Poisson's ratio says nothing about the deviator.
+TEST(Fit, AParameterWithoutInfluenceIsNamed) {
+  FitProblem problem = problem_of(subject("linear_elastic,E=2e4,nu=.3"),
+                                  subject("linear_elastic,E=1.5e4,nu=.2"), {100.0}, {"axial_deviator"});
+  set_free(problem, {"E", "nu"});
+  const FitResult result = fit(problem);
+  ASSERT_EQ(result.undetermined.size(), 1u);
+  EXPECT_EQ(result.undetermined[0].names, (std::vector<std::string>{"poissons_ratio"}));
+}
+
+TEST(Fit, AValueAtItsBoundIsSaid) {
+  FitProblem problem = problem_of(subject("linear_elastic,E=2e4,nu=.3"), subject("linear_elastic,E=1e4,nu=.3"),
+                                  {100.0}, {"axial_deviator"});
+  set_free(problem, {"E=5e3:1.5e4"});
+  const FitResult result = fit(problem);
+  EXPECT_TRUE(result.at_bound[0]);
+  EXPECT_NEAR(result.values[0], 1.5e4, 1.0);
+  EXPECT_NE(fit_text(problem, result).find("at its bound"), std::string::npos);
+}
+
+TEST(Fit, RefusesWhatHasNoAnswer) {
+  const auto refusal = [](FitProblem& problem) -> std::string {
+    try {
+      fit(problem);
+    } catch (const InputError& error) {
+      return error.diagnostics().list().front().message;
+    }
+    return "";
+  };
+  const Subject elastic = subject("linear_elastic,E=2e4,nu=.3");
+  FitProblem few = problem_of(elastic, elastic, {100.0}, {"axial_deviator"}, 2);
+  EXPECT_NE(refusal(few).find("which parameters"), std::string::npos);
+  set_free(few, {"E", "nu"});
+  EXPECT_NE(refusal(few).find("2 measured values can't give 2 parameters"), std::string::npos);
+  set_free(few, {"E"});
+  EXPECT_NE(refusal(few).find("youngs_modulus is free twice"), std::string::npos);
+  FitProblem wrong = problem_of(elastic, elastic, {100.0}, {"axial_deviator"});
+  wrong.curves[0].responses[0].column = "q";
+  set_free(wrong, {"E"});
+  EXPECT_NE(refusal(wrong).find("column q: the law's curve has leg, step"), std::string::npos);
+  EXPECT_THROW(free_parameter_from(elastic, "G"), InputError);
+  EXPECT_THROW(free_parameter_from(elastic, "E=1"), InputError);
+  EXPECT_THROW(free_parameter_from(elastic, "E=2:1"), InputError);
+  EXPECT_THROW(free_parameter_from(elastic, "E=1:2"), InputError);
+}
+
+}  // namespace
+}  // namespace sage::drive
