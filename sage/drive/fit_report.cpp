@@ -73,11 +73,15 @@ std::string fit_plot(const FitProblem& problem, const FitResult& result) {
       if (std::find(columns.begin(), columns.end(), response.column) == columns.end())
         columns.push_back(response.column);
   const std::string over(driven_column(*problem.test));
+  const auto label = [&](const std::string& column) {
+    const std::string& unit = result.curves.front().find(column)->unit;
+    return unit == "-" ? column : column + " [" + unit + "]";
+  };
   for (const std::string& column : columns) {
     Plot curves, rest;
-    curves.x_label = rest.x_label = over;
-    curves.y_label = column;
-    rest.y_label = column + ", fitted less measured";
+    curves.x_label = rest.x_label = label(over);
+    curves.y_label = label(column);
+    rest.y_label = label(column) + ", fitted less measured";
     for (std::size_t c = 0; c < problem.curves.size(); ++c) {
       const Measured& measured = problem.curves[c];
       for (std::size_t r = 0; r < measured.responses.size(); ++r) {

@@ -118,6 +118,23 @@ TEST(CommandLine, DriveFitsMeasuredCurves) {
   expect_words(wrong.err, {"cd.csv:2: error: column axial_deviator: much is no number"});
 }
 
+// Strength that falls makes results depend on the mesh: check and run say so, and the deck runs.
+TEST(CommandLine, SofteningIsWarnedOf) {
+  const fs::path folder = empty_folder("softening");
+  const DeckText deck =
+      block_deck()
+          .with("material", card({"1", "8", "9"}, {""}) + "clay")
+          .with("parameters", card({}, {"3000.", ".25", "50.", "30.", "0.", ".01", "20.", "30."}) + "\n" +
+                                  card({}, {"0."}));
+  write(folder / "deck.dat", deck.text());
+  const Finished check = sagefe(folder, "check deck.dat");
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+  expect_words(check.err, {"warning", "loads after the peak depend on the mesh"});
+  const Finished run = sagefe(folder, "run deck.dat -o out");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  expect_words(read(folder / "out/deck.lst"), {"loads after the peak depend on the mesh"});
+}
+
 // The chapter's specimen: its law from the deck gives q = 150 psi at the strength of sin phi = .6, sigma_3 = 50.
 TEST(CommandLine, DriveTakesADecksMaterial) {
   const fs::path folder = empty_folder("drive_deck");
