@@ -124,8 +124,8 @@ TEST(CommandLine, SofteningIsWarnedOf) {
   const DeckText deck =
       block_deck()
           .with("material", card({"1", "8", "9"}, {""}) + "clay")
-          .with("parameters", card({}, {"3000.", ".25", "50.", "30.", "0.", ".01", "20.", "30."}) + "\n" +
-                                  card({}, {"0."}));
+          .with("parameters",
+                card({}, {"3000.", ".25", "50.", "30.", "0.", ".01", "20.", "30."}) + "\n" + card({}, {"0."}));
   write(folder / "deck.dat", deck.text());
   const Finished check = sagefe(folder, "check deck.dat");
   EXPECT_EQ(check.exit_code, 0) << check.err;
