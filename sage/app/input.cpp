@@ -98,9 +98,9 @@ void add_field_options(CLI::App& parser, const Catalogue& catalogue, std::vector
                        std::vector<std::string>& fields, const std::string& picture_words,
                        const std::string& field_words) {
   parser
-      .add_option(
-          "--picture", pictures,
-          picture_words + ": " + catalogue.fields.known() + ", or a history variable of a law; may be repeated")
+      .add_option("--picture", pictures,
+                  picture_words + ": conf (sigma_3), dev (sigma_1 - sigma_3), SL (stress level), " +
+                      catalogue.fields.known() + ", or a history variable of a law; may be repeated")
       ->allow_extra_args(false);
   parser
       .add_option("--field", fields,

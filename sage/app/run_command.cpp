@@ -13,6 +13,7 @@
 #include "sage/app/interrupt.hpp"
 #include "sage/app/jobs.hpp"
 #include "sage/app/run_deck.hpp"
+#include "sage/app/state_choice.hpp"
 #include "sage/record/out_file.hpp"
 #include "sage/record/profile_text.hpp"
 
@@ -62,7 +63,7 @@ int run_one(const RunOptions& options, const std::string& deck, const Catalogue&
     if (options.converge.asked()) {
       const OutputOptions& output = request.output;
       if (output.nodes || output.points || output.vtu || output.msh || output.result || output.error ||
-          !output.pictures.empty() || request.restart)
+          !output.states.empty() || !output.pictures.empty() || request.restart)
         fmt::print(stderr,
                    "{}: note: --converge writes its table only; the options of its last line give that mesh "
                    "again, with all outputs\n",
@@ -141,6 +142,14 @@ int run_beside(RunOptions options, int jobs, const Catalogue& catalogue) {
 }
 
 int run_all(const RunOptions& options, const Catalogue& catalogue) {
+  const OutputOptions& output = options.request.output;
+  if (!output.states.empty() && !output.result && !output.vtu && !output.msh && !output.nodes && !output.points &&
+      output.pictures.empty() && options.tables != "all") {
+    fmt::print(
+        stderr,
+        "sagefe: --states: into which files? --result, --picture, --vtu, --msh, --nodes, --points or --tables all\n");
+    return kUsage;
+  }
   std::set<std::string> names;
   for (const std::string& deck : options.decks)
     if (!names.insert(case_name(deck)).second) {
@@ -155,9 +164,20 @@ int run_all(const RunOptions& options, const Catalogue& catalogue) {
                                               : run_in_turn(options, catalogue);
 }
 
+constexpr const char* kRunExamples =
+    "Examples:\n"
+    "  sagefe run deck.dat -o results\n"
+    "  sagefe run a.dat b.dat c.dat d.dat && sagefe plot out/*.report1.csv --xy axial_strain:ratio\n"
+    "      curves of four runs in one plot (sagefe plot --help)\n"
+    "  sagefe run deck.dat --picture conf --picture dev --states strain=.05,.1\n"
+    "      contours of sigma_3 and sigma_1 - sigma_3 at 5 and 10 % of axial strain\n"
+    "  sagefe run deck.dat --result --states strain=.05,.1\n"
+    "      the same states kept in out/deck.h5, for sagefe plot";
+
 }  // namespace
 
 Command run_command(CLI::App& parser, const Catalogue& catalogue) {
+  parser.footer(std::string(kRunExamples) + "\n\n" + parser.get_footer());
   auto options = std::make_shared<RunOptions>();
   RunRequest& request = options->request;
   parser.add_option("DECK", options->decks, "deck files")->required();
@@ -188,8 +208,18 @@ Command run_command(CLI::App& parser, const Catalogue& catalogue) {
   parser.add_flag("--msh", request.output.msh, "write STEM.msh: mesh and fields for Gmsh (MSH 4.1)");
   parser.add_flag("--result", request.output.result,
                   "write STEM.h5: all fields at all output increments in one HDF5 file (also for ParaView)");
+  parser
+      .add_option(
+          "--states", request.output.states,
+          "increments at which states are written too, besides those that the deck chooses: strain=VALUE,... "
+          "(axial, of the specimen; the nearest increment of the last stage), load=VALUE,... (load factor of "
+          "the last stage), or STAGE:INCREMENT,...; may be repeated.  For --result, --picture, --vtu, --msh, "
+          "--nodes, --points")
+      ->allow_extra_args(false)
+      ->check([](const std::string& text) { return state_error("--states", text); });
   add_field_options(parser, catalogue, request.output.pictures, request.output.fields,
-                    "SVG pictures at the end of each stage", "listing, CSV and reports of points");
+                    "SVG pictures at the end of each stage, and at --states",
+                    "listing, CSV and reports of points");
   parser.add_flag("--error", request.output.error, "estimate the error of the mesh (Zienkiewicz-Zhu)");
   add_converge_options(parser, options->converge);
   parser.add_flag("!--no-listing", request.output.listing, "write no listing");

@@ -15,6 +15,7 @@
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/interrupt.hpp"
 #include "sage/app/run_source.hpp"
+#include "sage/app/state_choice.hpp"
 #include "sage/deck/text.hpp"
 #include "sage/draw/picture.hpp"
 #include "sage/exchange/convert.hpp"
@@ -77,6 +78,7 @@ Checkpoint checkpoint_of(const RunRequest& request, const Model& model, ResultFi
   if (o.msh) run += " msh";
   for (const std::string& picture : o.pictures) run += " " + picture;
   for (const std::string& field : o.fields) run += " field " + field;
+  for (const std::string& state : o.states) run += " state " + state;
   return {o.folder / (stem_of(request) + ".restart"), request.checkpoint_seconds, run,
           choose_kernels(request.kernels).name, results};
 }
@@ -220,6 +222,12 @@ std::unique_ptr<Model> model_of(RunRequest& request, const Catalogue& catalogue,
   request.output.fields = require_fields(request.output.pictures, request.output.fields, {fields_of(*model)});
   warn_of_fields(request.output, *model);
   for (Report& report : model->reports) report.fields = request.output.fields;
+  try {
+    for (const std::string& note : ask_for_states(*model, request.output.states))
+      if (!request.quiet) fmt::print(stderr, "{}: note: {}\n", request.deck, note);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("--states: ") + error.what());
+  }
   return model;
 }
 

@@ -25,7 +25,8 @@ struct OutputOptions {
   bool vtu = false;                   // STEM_0001.vtu ... and STEM.pvd
   bool msh = false;                   // STEM.msh
   bool result = false;                // STEM.h5
-  std::vector<std::string> pictures;  // fields, as SVG at the end of each stage
+  std::vector<std::string> pictures;  // fields, as SVG at the end of each stage and at `states`
+  std::vector<std::string> states;    // more output increments than the deck's (state_choices)
   std::vector<std::string> fields;    // more columns of tables and of reports of points, by name
 };
 

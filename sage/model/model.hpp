@@ -133,6 +133,7 @@ struct Stage {
   Method method = Method::newton;
   int max_iterations = 25;
   int output_every = 1;
+  std::vector<int> output_at;         // increments asked for besides, when the deck was run; ascending
   double tolerance = 1e-8;            // relative out-of-balance force at the end of an increment
   Vector2 gravity = Vector2::Zero();  // added over the stage, in multiples of the materials' unit weight
   std::vector<Fixity> fixities;

@@ -1,6 +1,7 @@
 // What all outputs to files have in common.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <vector>
 
@@ -16,9 +17,14 @@ class Output : public Observer {
   virtual void stop(const std::string& reason) = 0;
 };
 
-// The deck's choice (every n-th increment), and always the last of a stage.
+// Asked for by `run --states`, whatever the deck chooses.
+inline bool is_asked_increment(const Stage& stage, const StepReport& report) {
+  return std::ranges::binary_search(stage.output_at, report.increment);
+}
+
+// The deck's choice (every n-th increment), what was asked for besides, and always the last of a stage.
 inline bool is_output_increment(const Stage& stage, const StepReport& report) {
-  return report.increment == report.increments ||
+  return report.increment == report.increments || is_asked_increment(stage, report) ||
          (stage.output_every > 0 && report.increment > 0 && report.increment % stage.output_every == 0);
 }
 

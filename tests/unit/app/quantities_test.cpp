@@ -382,8 +382,8 @@ TEST(Quantities, InterfacesAndStructuresAreNamed) {
 }
 [[maybe_unused]] void known(const Stage& one) {
   [[maybe_unused]] const auto& [number, title, increments, duration, method, max_iterations, output_every,
-                                tolerance, gravity, fixities, loads, field_fixities, field_loads, pressures,
-                                births, deaths, initials, strength_factor, where] = one;
+                                output_at, tolerance, gravity, fixities, loads, field_fixities, field_loads,
+                                pressures, births, deaths, initials, strength_factor, where] = one;
 }
 [[maybe_unused]] void known(const NodalLoad& one) {
   [[maybe_unused]] const auto& [node, force, line] = one;
