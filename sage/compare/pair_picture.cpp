@@ -56,12 +56,11 @@ std::string pair_svg(const Side& a, const Side& b, std::string_view field) {
     drawings[k] = field_svg(sides[k]->model(), sides[k]->last(), field, options);
     sizes[k] = size_of(drawings[k]);
   }
-  std::size_t longest = std::max(a.label().size(), b.label().size());
-  const int width = std::max(sizes[0].width + kGap + sizes[1].width, 16 + static_cast<int>(8 * longest));
+  const int width = sizes[0].width + kGap + sizes[1].width;
   const int height = kTop + std::max(sizes[0].height, sizes[1].height) + kBottom;
   std::string out = svg::open(width, height);
-  svg::text(out, 8.0, 18.0, a.label(), 14, "start");
-  svg::text(out, 8.0, 38.0, b.label(), 14, "start");
+  svg::text_within(out, 8.0, 18.0, a.label(), svg::kFont, width - 16.0, "start");
+  svg::text_within(out, 8.0, 38.0, b.label(), svg::kFont, width - 16.0, "start");
   for (std::size_t k = 0; k < 2; ++k) {
     const int left = k == 0 ? 0 : sizes[0].width + kGap;
     if (drawings[k].empty()) {

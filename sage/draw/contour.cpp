@@ -8,9 +8,12 @@
 
 namespace sage {
 
+bool one_value(double low, double high) {
+  return !(high - low > 1e-5 * std::max(std::abs(low), std::abs(high)));
+}
+
 std::vector<double> band_limits(double low, double high, int bands) {
-  const double size = std::max(std::abs(low), std::abs(high));
-  if (!(high - low > 1e-7 * size)) return {low, high};  // one value everywhere
+  if (one_value(low, high)) return {low, high};
   std::vector<double> limits = round_ticks(low, high, bands);
   if (limits.size() < 2) return {low, high};
   const double step = limits[1] - limits[0], slack = 1e-6 * step;

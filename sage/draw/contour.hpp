@@ -31,6 +31,9 @@ struct Patch {
   std::vector<Corner> places;
 };
 
+// Whether values from `low` to `high` are one to the eye: what differs is rounding, or what an iteration left.
+bool one_value(double low, double high);
+
 // Round limits of the bands: the first at or below `low`, the last at or above `high`; at least two.
 std::vector<double> band_limits(double low, double high, int bands);
 

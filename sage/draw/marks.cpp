@@ -18,15 +18,24 @@ namespace {
 
 constexpr double kApart = 26.0;  // px: nearer to one another marks can't be told apart
 
-// Lets one place in each square of the paper through.
+// Lets one place in each square of the paper through, and none so near to a line of symmetry that its reflection
+// would crowd it; one on that line is its own reflection.
 class Thinning {
  public:
+  explicit Thinning(const View& view)
+      : seam_(view.at({view.left, view.bottom})), left_(view.mirror_left), down_(view.mirror_down) {}
+
   bool lets(const Vector2& at) {
+    const auto crowds = [](double away) { return std::abs(away) > 0.5 && std::abs(away) < 0.5 * kApart; };
+    const Vector2 away = at - seam_;
+    if ((left_ && crowds(away.x())) || (down_ && crowds(away.y()))) return false;
     const auto cell = [](double v) { return static_cast<int>(std::floor(v / kApart)); };
-    return taken_.insert({cell(at.x()), cell(at.y())}).second;
+    return taken_.insert({cell(away.x()), cell(away.y())}).second;
   }
 
  private:
+  Vector2 seam_;
+  bool left_, down_;
   std::set<std::pair<int, int>> taken_;
 };
 
@@ -83,7 +92,7 @@ void append_cross(std::string (&paths)[2], const Cross& cross, double scale) {
 std::string draw_arrows(std::string& out, const Scenery& scenery) {
   constexpr double kLongest = 44.0, kShortest = 1.5;  // px
   std::vector<Arrow> arrows;
-  Thinning thinning;
+  Thinning thinning(scenery.view);
   double largest = 0.0;
   for (int node : scenery.layout.node) {
     const Vector2 at = scenery.moved(node, scenery.view.deformation);
@@ -91,7 +100,7 @@ std::string draw_arrows(std::string& out, const Scenery& scenery) {
     largest = std::max(largest, u.norm());
     if (thinning.lets(at)) arrows.push_back({at, {u.x(), -u.y()}});
   }
-  if (largest == 0.0) return "";
+  if (largest == 0.0 || scenery.view.rounding) return "arrows: none, nothing has moved";
   std::string path;
   for (const Arrow& arrow : arrows) {
     const Vector2 along = kLongest / largest * arrow.along;
@@ -104,7 +113,7 @@ std::string draw_arrows(std::string& out, const Scenery& scenery) {
 
 std::string draw_crosses(std::string& out, const Scenery& scenery) {
   std::vector<Cross> crosses;
-  Thinning thinning;
+  Thinning thinning(scenery.view);
   double largest = 0.0;
   for_each_point(scenery, [&](const Vector2& at, const PointState& point) {
     if (!point.solid || !thinning.lets(at)) return;
@@ -114,7 +123,7 @@ std::string draw_crosses(std::string& out, const Scenery& scenery) {
     crosses.push_back({at, principal.eigenvectors(), principal.eigenvalues()});
     largest = std::max(largest, crosses.back().stress.cwiseAbs().maxCoeff());
   });
-  if (largest == 0.0) return "";
+  if (largest == 0.0) return "crosses: none, there is no stress";
   std::string paths[2];
   for (const Cross& cross : crosses) append_cross(paths, cross, kApart / largest);
   const char* looks[2] = {"stroke=\"#000000\"", "stroke=\"#b2182b\" stroke-dasharray=\"2 2\""};

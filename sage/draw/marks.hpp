@@ -5,7 +5,7 @@
 
 namespace sage {
 
-// Each appends to a picture what was asked for, and gives the line that explains it; empty = nothing was drawn.
+// Each appends to a picture what was asked for, and gives the line that explains it.
 
 // From the nodes as they are drawn, thinned out to what can be told apart.
 std::string draw_arrows(std::string& out, const Scenery& scenery);

@@ -21,7 +21,7 @@ namespace sage {
 namespace {
 
 constexpr int kMostElements = 6000;
-constexpr double kBottom = 54.0, kLegendText = 70.0, kLine = 18.0;
+constexpr double kBottom = 54.0, kLine = 18.0;
 constexpr const char *kInterfaceColour = "#b2182b", *kStructureColour = "#1f4e9c";
 
 // One colour an element: the mean over its grid.
@@ -51,10 +51,6 @@ FieldRange range_of(const std::vector<Patch>& all) {
       range.high = std::max(range.high, c.value);
     }
   return range;
-}
-
-double length(const std::string& text) {
-  return static_cast<double>(text.size());
 }
 
 // A patch of a field that is not known there stays white.
@@ -89,7 +85,7 @@ void append_line(std::string& path, const Eigen::Matrix2Xd& places) {
     fmt::format_to(std::back_inserter(path), "{}{:.2f} {:.2f}", i == 0 ? 'M' : 'L', places(0, i), places(1, i));
 }
 
-// Edges of solids that only one element has, undeformed.
+// Edges of solids that only one element has, undeformed; not those along a line of symmetry.
 void draw_outline(std::string& out, Scenery& scenery) {
   struct Edge {
     std::size_t group;
@@ -112,7 +108,9 @@ void draw_outline(std::string& out, Scenery& scenery) {
   }
   out += "<g fill=\"none\" stroke=\"#666666\" stroke-width=\"1\" stroke-dasharray=\"5 4\">\n";
   for (const auto& [ends, edge] : edges) {
-    if (edge.uses != 1) continue;
+    const Eigen::Matrix2Xd& x = scenery.model.mesh.x;
+    if (edge.uses != 1 || (scenery.view.on_seam(x.col(ends.first)) && scenery.view.on_seam(x.col(ends.second))))
+      continue;
     const Group& group = scenery.model.groups[edge.group];
     const Eigen::Matrix2Xd nodes = scenery.nodes_of(group, edge.element, 0.0);
     const SubGrid& grid = grid_for(scenery, group, nodes);
@@ -202,6 +200,13 @@ void draw_tip(std::string& out, double left, double y, double height, const Colo
                  hex(colour), left, y, height);
 }
 
+double legend_text_width(const std::vector<double>& limits) {
+  double width = svg::text_width("interface", svg::kFont);
+  for (const std::string& label : tick_labels(limits))
+    width = std::max(width, svg::text_width(label, svg::kFont));
+  return width + 8.0;
+}
+
 // Gives its lower end.
 double draw_legend(std::string& out, const std::vector<double>& limits, double left, double height,
                    const FieldRange& range) {
@@ -215,7 +220,7 @@ double draw_legend(std::string& out, const std::vector<double>& limits, double l
                    "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"20\" height=\"{:.1f}\" fill=\"{}\"/>\n", left,
                    bottom - box * static_cast<double>(k + 1), box, colour);
   }
-  if (limits.front() == limits.back()) {
+  if (one_value(limits.front(), limits.back())) {
     svg::text(out, left + 27.0, bottom - 0.5 * box + 4.0, fmt::format("{:.4g}", limits.front()), svg::kFont,
               "start");
     return bottom;
@@ -273,12 +278,11 @@ void append_values(std::vector<Weighted>& values, const std::vector<Patch>& all)
 
 // The colours' range: an end moves in to what 99 % of the area has, where the rest would take a third of them.
 FieldRange colour_range(std::vector<Weighted> values, bool robust) {
-  constexpr double kRare = 0.01, kTakesMuch = 0.5, kOneValue = 1e-7;
+  constexpr double kRare = 0.01, kTakesMuch = 0.5, kNothing = 1e-7;
   if (values.empty()) return {0.0, 0.0};  // no solid, or known nowhere
   std::ranges::sort(values, {}, &Weighted::value);
   FieldRange range{values.front().value, values.back().value};
-  if (!robust || range.high - range.low <= kOneValue * std::max(std::abs(range.low), std::abs(range.high)))
-    return range;
+  if (!robust || one_value(range.low, range.high)) return range;
   double all = 0.0, below = 0.0;
   for (const Weighted& v : values) all += v.area;
   FieldRange usual{range.high, range.high};
@@ -290,7 +294,7 @@ FieldRange colour_range(std::vector<Weighted> values, bool robust) {
     break;
   }
   const double far = kTakesMuch * (usual.high - usual.low);
-  if (far <= kOneValue * (range.high - range.low)) return range;  // nothing to see but what is rare
+  if (far <= kNothing * (range.high - range.low)) return range;  // nothing to see but what is rare
   if (range.high - usual.high > far) range.high = usual.high;
   if (usual.low - range.low > far) range.low = usual.low;
   return range;
@@ -317,23 +321,28 @@ std::vector<double> limits_of(const PictureOptions& options, const FieldRange& r
                      std::isnan(options.high) ? range.high : options.high, options.levels);
 }
 
+std::string percent(double share) {
+  return share < 0.1 ? fmt::format("{:.2g} %", 100.0 * share) : fmt::format("{:.0f} %", 100.0 * share);
+}
+
 // "from 1 to 20; colours end at 8: 0.3 % of the area lies beyond".
 std::string range_text(const Draft& draft, const std::vector<double>& limits) {
   const FieldRange range = range_of(draft.patches);
-  std::string text = range.low <= range.high ? fmt::format("from {:.4g} to {:.4g}", range.low, range.high)
-                                             : std::string("from 0 to 0");
+  if (!(range.low <= range.high)) return "no value anywhere in this state";
+  std::string text = fmt::format("from {:.4g} to {:.4g}", range.low, range.high);
   const double slack = 1e-4 * (limits[1] - limits[0]);
-  const bool below = range.low<limits.front() - slack, above = range.high> limits.back() + slack;
+  const bool below = range.low < limits.front() - slack;
+  const bool above = range.high > limits.back() + slack;
   double all = 0.0, beyond = 0.0;
   for (const Weighted& v : draft.values) {
     all += v.area;
     if (v.value < limits.front() - slack || v.value > limits.back() + slack) beyond += v.area;
   }
   if (below || above)
-    text += fmt::format("; colours end at {}: {:.2g} % of the area lies beyond",
+    text += fmt::format("; colours end at {}: {} of the area lies beyond",
                         below && above ? fmt::format("{:.4g} and {:.4g}", limits.front(), limits.back())
                                        : fmt::format("{:.4g}", below ? limits.front() : limits.back()),
-                        100.0 * beyond / all);
+                        percent(beyond / all));
   if (draft.scenery.view.deformation > 0.0)
     text += fmt::format("; deformation x {:g}", draft.scenery.view.deformation);
   return text;
@@ -342,27 +351,38 @@ std::string range_text(const Draft& draft, const std::vector<double>& limits) {
 // The words above a picture: the title in bold.
 struct Heading {
   std::vector<std::string> title, text;
+  std::string whole = {};  // title that had to be shortened, for viewers to show
   std::size_t lines() const { return title.size() + text.size(); }
 };
-
-constexpr double kBold = 0.64 * svg::kTitleFont, kPlain = 0.56 * svg::kFont;  // width of a letter
 
 Heading heading_of(const Draft& draft, const std::vector<double>& limits, double room) {
   const Model& model = draft.scenery.model;
   const PictureOptions& options = draft.options;
-  Heading heading{svg::wrapped(options.title.empty() ? model.title : options.title, kBold, room), {}};
+  const std::string& whole = options.title.empty() ? model.title : options.title;
+  const std::string title = svg::shortened(whole, svg::kTitleFont, 2.5 * room);  // three lines
+  Heading heading{svg::wrapped(title, svg::kTitleFont, room, true), {}, title == whole ? "" : whole};
   const std::string what =
       (options.state.empty() ? "" : options.state + ": ") + describe(draft.scenery.field, model);
   for (const std::string& words : {what, range_text(draft, limits)})
-    for (std::string& line : svg::wrapped(words, kPlain, room)) heading.text.push_back(std::move(line));
+    for (std::string& line : svg::wrapped(words, svg::kFont, room)) heading.text.push_back(std::move(line));
   return heading;
 }
 
 double width_of(const Heading& heading) {
   double width = 0.0;
-  for (const std::string& line : heading.title) width = std::max(width, 16.0 + kBold * length(line));
-  for (const std::string& line : heading.text) width = std::max(width, 16.0 + kPlain * length(line));
+  for (const std::string& line : heading.title)
+    width = std::max(width, 16.0 + svg::text_width(line, svg::kTitleFont, true));
+  for (const std::string& line : heading.text)
+    width = std::max(width, 16.0 + svg::text_width(line, svg::kFont));
   return width;
+}
+
+// How values came from the integration points to where they are drawn; empty for what nodes have themselves.
+std::string rule_text(const FieldEntry& entry, NodalRule rule) {
+  if (entry.place() != FieldPlace::point) return "";
+  if (entry.of_mean) return "values: a colour an element, of its mean stress or strain";
+  return rule == NodalRule::element_means ? "values: means of elements, averaged at nodes"
+                                          : "values: extrapolated from points to nodes, averaged there";
 }
 
 // A part of a document, with its size.
@@ -425,19 +445,24 @@ Drawing draw_picture(Draft& draft, const std::vector<double>& limits, const Head
   const View& view = draft.scenery.view;
   if (!draft.options.smooth) flatten(draft.patches);
   snap(draft.patches, limits);
-  std::vector<std::string> notes;
+  const FieldEntry& entry = *draft.scenery.field.entry;
+  std::vector<std::string> notes{rule_text(entry, draft.options.rule)};
+  if (view.rounding && draft.options.deformed)
+    notes.push_back(fmt::format("displacements are rounding ({:.1g} of the mesh's size): drawn undeformed",
+                                view.largest / (view.high - view.low).maxCoeff()));
   const std::string mesh = draw_mesh_and_field(draft, limits, notes);
   if (turns_sign(draft.scenery.field, draft.options))
     notes.push_back(
-        "values are those of the half that was computed: this one turns its sign across the line of symmetry");
+        "this one turns its sign across the line of symmetry: values are those of the half that was computed");
   Drawing drawing;
   const double legend = legend_left(view),
                down = kLine * (static_cast<double>(std::max<std::size_t>(heading_lines, 3)) - 3.0);
-  drawing.width = std::max(legend + 28.0 + kLegendText, width_of(heading));
+  drawing.width = std::max({legend + 28.0 + legend_text_width(limits), width_of(heading), 300.0});
   std::string& out = drawing.svg;
+  if (!heading.whole.empty()) out += "<title>" + xml_text(heading.whole) + "</title>\n";
   double y = 24.0;
   for (const std::string& line : heading.title) {
-    svg::text(out, 8.0, y, line, svg::kTitleFont, "start", "font-weight=\"bold\"");
+    svg::text(out, 8.0, y, line, svg::kTitleFont, "start", svg::kBold);
     y += kLine + 2.0;
   }
   for (const std::string& line : heading.text) {
@@ -451,10 +476,10 @@ Drawing draw_picture(Draft& draft, const std::vector<double>& limits, const Head
   draw_line_legend(out, draft.scenery, legend, bar + 26.0);
   double bottom = std::max(kPictureTop + view.height + kBottom, bar + 66.0);
   for (const std::string& note : notes)
-    if (!note.empty()) {
+    for (const std::string& line : svg::wrapped(note, svg::kFont, drawing.width - 16.0)) {
+      if (line.empty()) continue;
       bottom += kLine;  // below the words of the axis
-      svg::text(out, 8.0, bottom - 4.0, note, svg::kFont, "start");
-      drawing.width = std::max(drawing.width, 16.0 + kPlain * length(note));
+      svg::text(out, 8.0, bottom - 4.0, line, svg::kFont, "start");
     }
   out += "</g>\n";
   drawing.height = bottom + down;
@@ -474,33 +499,33 @@ std::vector<std::vector<double>> limits_of_panels(const FieldSheet& sheet, const
   return limits;
 }
 
-// Rows of at most `columns`, or of what stands side by side in `most` px.
+// Rows of at most `columns`, or of what stands side by side in about 1400 px; panels stand below one another.
 struct Grid {
-  std::vector<std::size_t> row;  // of each drawing
-  std::vector<Vector2> at;       // its upper left corner
+  std::vector<Vector2> at;  // the upper left corner of each drawing
   double width = 0.0, height = 0.0;
 };
 
 Grid grid_of(const std::vector<Drawing>& drawings, int columns, double top) {
   constexpr double kMostWidth = 1400.0, kGap = 12.0;
-  Grid grid;
-  double x = 0.0, y = top, row_height = 0.0;
-  int in_row = 0;
-  for (const Drawing& drawing : drawings) {
-    const bool full = columns > 0 ? in_row == columns : in_row > 0 && x + drawing.width > kMostWidth;
-    if (full) {
-      x = 0.0;
-      y += row_height;
-      row_height = 0.0;
-      in_row = 0;
-    }
-    grid.at.emplace_back(x, y);
-    x += drawing.width + kGap;
-    row_height = std::max(row_height, drawing.height);
-    grid.width = std::max(grid.width, x - kGap);
-    ++in_row;
+  double widest = 1.0;
+  for (const Drawing& drawing : drawings) widest = std::max(widest, drawing.width + kGap);
+  const auto per_row = static_cast<std::size_t>(columns > 0 ? columns : std::max(1.0, kMostWidth / widest));
+  std::vector<double> left(per_row + 1, 0.0);
+  for (std::size_t c = 0; c < per_row; ++c) {
+    double width = 0.0;
+    for (std::size_t k = c; k < drawings.size(); k += per_row)
+      width = std::max(width, drawings[k].width + kGap);
+    left[c + 1] = left[c] + width;
   }
-  grid.height = y + row_height;
+  Grid grid{{}, left[per_row] - kGap, top};
+  for (std::size_t k = 0; k < drawings.size(); k += per_row) {
+    double row_height = 0.0;
+    for (std::size_t c = 0; c < std::min(per_row, drawings.size() - k); ++c) {
+      grid.at.emplace_back(left[c], grid.height);
+      row_height = std::max(row_height, drawings[k + c].height);
+    }
+    grid.height += row_height;
+  }
   return grid;
 }
 
@@ -508,15 +533,15 @@ Grid grid_of(const std::vector<Drawing>& drawings, int columns, double top) {
 
 FieldRange field_range(const Model& model, const Solution& solution, std::string_view field,
                        const PictureOptions& options) {
-  Scenery scenery = make_scenery(model, solution, field, options);
-  return range_of(patches(scenery));
+  std::vector<Weighted> values = make_draft(model, solution, field, options).values;
+  return values.empty() ? FieldRange{} : colour_range(std::move(values), options.robust);
 }
 
 std::string field_svg(const Model& model, const Solution& solution, std::string_view field,
                       const PictureOptions& options) {
   Draft draft = make_draft(model, solution, field, options);
   const std::vector<double> limits = limits_of(options, colour_range(draft.values, options.robust));
-  const Heading heading = heading_of(draft, limits, 2.0 * options.width);
+  const Heading heading = heading_of(draft, limits, options.width);
   const Drawing drawing = draw_picture(draft, limits, heading, heading.lines(), "half");
   return svg::open(static_cast<int>(drawing.width), static_cast<int>(drawing.height)) + drawing.svg +
          std::string(svg::kClose);
@@ -536,7 +561,8 @@ std::string sheet_svg(const FieldSheet& sheet) {
   std::vector<Heading> headings;
   std::size_t lines = 0;
   for (std::size_t k = 0; k < drafts.size(); ++k) {
-    const double room = std::max(legend_left(drafts[k].scenery.view) + kLegendText, kLeastRoom);
+    const double room =
+        std::max(legend_left(drafts[k].scenery.view) + legend_text_width(limits[k]), kLeastRoom);
     lines = std::max(lines, headings.emplace_back(heading_of(drafts[k], limits[k], room)).lines());
   }
   std::vector<Drawing> drawings;
@@ -544,9 +570,10 @@ std::string sheet_svg(const FieldSheet& sheet) {
     drawings.push_back(draw_picture(drafts[k], limits[k], headings[k], lines, fmt::format("half{}", k + 1)));
   const double top = sheet.title.empty() ? 0.0 : 36.0;
   const Grid grid = grid_of(drawings, sheet.columns, top);
-  const double width = std::max(grid.width, 16.0 + kBold * length(sheet.title));
+  const double width = grid.width;
   std::string out = svg::open(static_cast<int>(width), static_cast<int>(grid.height));
-  if (top > 0.0) svg::text(out, 8.0, 26.0, sheet.title, svg::kTitleFont, "start", "font-weight=\"bold\"");
+  if (top > 0.0)
+    svg::text_within(out, 8.0, 26.0, sheet.title, svg::kTitleFont, 0.88 * (width - 16.0), "start", svg::kBold);
   for (std::size_t k = 0; k < drawings.size(); ++k)
     out += fmt::format("<g transform=\"translate({:.1f} {:.1f})\">\n{}</g>\n", grid.at[k].x(), grid.at[k].y(),
                        drawings[k].svg);
@@ -585,6 +612,12 @@ void Pictures::exchange(Archive& archive) {
 
 void Pictures::on_stage_end(const Model& model, int stage, const EquilibriumAudit&, const Solution& solution) {
   draw(model, solution, fmt::format("stage{}", stage + 1), fmt::format("end of stage {}", stage + 1));
+}
+
+void Pictures::on_increment(const Model& model, const StepReport& report, const Solution& solution) {
+  const bool last = report.increment == report.increments;  // drawn at the end of the stage
+  if (!last && is_asked_increment(stage_of(model, report.stage), report))
+    draw_increment(model, report, solution);
 }
 
 void Pictures::draw_increment(const Model& model, const StepReport& report, const Solution& solution) {

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "sage/record/field_reader.hpp"
+#include "sage/record/nodal_values.hpp"
 #include "sage/record/out_file.hpp"
 #include "sage/record/output.hpp"
 
@@ -27,10 +28,11 @@ struct PictureOptions {
   bool robust = true;
   // The other halves of a symmetric model: to the left of its left side, below its lower side.
   bool mirror_left = false, mirror_down = false;
-  bool arrows = false;   // displacements of nodes
-  bool crosses = false;  // principal stresses in the plane, at integration points
-  bool yielded = false;  // integration points, those that yield (slip, are open) full
-  bool smooth = true;    // contour bands; false = one colour an element
+  bool arrows = false;                        // displacements of nodes
+  bool crosses = false;                       // principal stresses in the plane, at integration points
+  bool yielded = false;                       // integration points, those that yield (slip, are open) full
+  bool smooth = true;                         // contour bands; false = one colour an element
+  NodalRule rule = NodalRule::element_means;  // of fields that live at integration points
   double low = std::numeric_limits<double>::quiet_NaN();  // range of the colours; NaN = that of the field
   double high = std::numeric_limits<double>::quiet_NaN();
 };
@@ -39,13 +41,14 @@ struct FieldRange {
   double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
 };
 
-// Of all places at which a picture with these options computes the field; low > high where no solid is active.
+// What the colours of a picture with these options show (PictureOptions::robust); low > high where no solid is active.
 FieldRange field_range(const Model& model, const Solution& solution, std::string_view field,
                        const PictureOptions& options = {});
 
 // A whole SVG document of the active groups.  Stress at nodes is averaged over the elements of the same
-// material; between the nodes both stress and displacement are what the element's shape functions make of them.
-// Interfaces are dark red lines.
+// material, by options.rule; between the nodes both stress and displacement are what the element's shape functions
+// make of them.  A direction, which is no mean of directions, has one colour an element.  Displacements that are
+// rounding beside the size of the mesh are not magnified.  Interfaces are dark red lines.
 std::string field_svg(const Model& model, const Solution& solution, std::string_view field,
                       const PictureOptions& options = {});
 
@@ -78,10 +81,11 @@ class Pictures final : public Output {
 
   void on_stage_end(const Model&, int stage, const EquilibriumAudit&, const Solution&) override;
   void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
-  // STEM_stage1_increment5_stress_yy.svg, ...
+  // At increments that `run --states` asks for: STEM_stage1_increment5_stress_yy.svg, ...
+  void on_increment(const Model&, const StepReport&, const Solution&) override;
   void draw_increment(const Model&, const StepReport&, const Solution&);
-  bool wants_states(const Model&, const StepReport& report) const override {
-    return report.increment == report.increments;
+  bool wants_states(const Model& model, const StepReport& report) const override {
+    return report.increment == report.increments || is_asked_increment(stage_of(model, report.stage), report);
   }
   void exchange(Archive& archive) override;
   void stop(const std::string&) override {}

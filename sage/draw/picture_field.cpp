@@ -34,8 +34,17 @@ FieldChoice picture_field(const FieldTable& table, std::string_view name) {
   throw std::invalid_argument("unknown field " + std::string(name) + "; known: " + table.known());
 }
 
+void unfold_angles(const FieldEntry& field, std::vector<double*> values) {
+  if (field.dimension != Dimension::angle || !field.of_mean) return;
+  const auto steep = std::ranges::count_if(values, [](const double* v) { return std::abs(*v) > 45.0; });
+  const auto flat = std::ranges::count_if(values, [](const double* v) { return std::abs(*v) <= 45.0; });
+  if (steep <= flat) return;
+  for (double* value : values)
+    if (*value < 0.0) *value += 180.0;
+}
+
 FieldParts field_parts(const Model& model, const Solution& s, const NodalLayout& layout,
-                       const FieldEntry& field) {
+                       const FieldEntry& field, NodalRule rule) {
   FieldParts parts;
   const auto entries = static_cast<Eigen::Index>(layout.node.size());
   parts.components = static_cast<int>(carried_size(field));
@@ -44,7 +53,7 @@ FieldParts field_parts(const Model& model, const Solution& s, const NodalLayout&
     for (Eigen::Index e = 0; e < entries; ++e)
       carry(field, node_view(model, s, layout.node[static_cast<std::size_t>(e)]), parts.at.col(e).data());
   } else {
-    const std::vector<double> values = nodal_average(model, s, layout, {&field});
+    const std::vector<double> values = nodal_average(model, s, layout, {&field}, rule);
     parts.at = Eigen::Map<const Eigen::MatrixXd>(values.data(), parts.components, entries);
   }
   parts.largest = largest_of(field, parts.at);

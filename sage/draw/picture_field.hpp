@@ -6,6 +6,11 @@
 
 namespace sage {
 
+// A direction has two angles, 180 degrees apart.  Where most of these angles (degrees, -90 to 90) are nearer to 90
+// than to 0, they are turned to 0 to 180, so that directions which are nearly alike do not lie at both ends.
+// Nothing happens to fields that are no angles.
+void unfold_angles(const FieldEntry& field, std::vector<double*> values);
+
 // What is carried of a field (carry()), at the entries of a layout: that is what shape functions take to places
 // between the nodes, not the field itself; the length of a vector and the second invariant of a stress are no
 // polynomials.
@@ -15,7 +20,7 @@ struct FieldParts {
   double largest = 0.0;  // displacement or stress: what is rounding beside it is zero
 };
 FieldParts field_parts(const Model& model, const Solution& solution, const NodalLayout& layout,
-                       const FieldEntry& field);
+                       const FieldEntry& field, NodalRule rule);
 
 // The number that a picture shows, from its parts at one place; what is rounding beside the largest is zero.
 double field_number(const FieldChoice& field, const FieldParts& parts, const double* at);

@@ -49,11 +49,6 @@ struct Ticks {
   std::vector<std::string> labels;
 };
 
-// About 0.56 of the font size a character: enough to keep labels apart.
-double text_width(std::string_view words, int size) {
-  return 0.56 * size * static_cast<double>(words.size());
-}
-
 // About `count` of them, less where their labels would touch along an axis that runs across the paper.
 Ticks linear_ticks(const Axis& axis, bool across) {
   Ticks ticks;
@@ -62,7 +57,7 @@ Ticks linear_ticks(const Axis& axis, bool across) {
     ticks.labels = tick_labels(ticks.values);
     if (!across || ticks.values.size() < 2) break;
     double widest = 0.0;
-    for (const std::string& label : ticks.labels) widest = std::max(widest, text_width(label, svg::kFont));
+    for (const std::string& label : ticks.labels) widest = std::max(widest, svg::text_width(label, svg::kFont));
     if (widest + 10.0 < axis.at(ticks.values[1]) - axis.at(ticks.values[0])) break;
   }
   return ticks;
@@ -88,11 +83,12 @@ Ticks ticks_of(const Axis& axis, bool across) {
   return axis.log ? log_ticks(axis) : linear_ticks(axis, across);
 }
 
-// A size at which the words take no more than `room`, but not below what can be read.
-int fitting(std::string_view words, int size, double room) {
-  constexpr int kLeast = 9;
-  while (size > kLeast && text_width(words, size) > room) --size;
-  return size;
+// In the size that they fit in, if that can still be read; else shortened.
+void fitted_text(std::string& out, double x, double y, const std::string& words, int size, double room,
+                 std::string_view more = "") {
+  constexpr int kLeast = 11;
+  while (size > kLeast && svg::text_width(words, size) > room) --size;
+  svg::text_within(out, x, y, words, size, room, "middle", more);
 }
 
 // A plot with its place on the paper.
@@ -118,7 +114,8 @@ Panel make_panel(const Plot& plot, double left, double top, double width, double
   y.finish();
   panel.ys = ticks_of(y, false);
   double widest = 0.0;
-  for (const std::string& label : panel.ys.labels) widest = std::max(widest, text_width(label, svg::kFont));
+  for (const std::string& label : panel.ys.labels)
+    widest = std::max(widest, svg::text_width(label, svg::kFont));
   panel.label_left = left + 22.0;
   x.from = left + 46.0 + widest;
   x.to = left + width - 20.0;
@@ -147,11 +144,10 @@ void draw_axes(std::string& out, const Panel& panel) {
       "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" stroke=\"#444444\"/>\n",
       x.from, y.to, x.to - x.from, y.from - y.to);
   const double across = x.to - x.from, centre = 0.5 * (x.from + x.to), middle = 0.5 * (y.from + y.to);
-  svg::text(out, centre, y.from + 42.0, plot.x_label, fitting(plot.x_label, svg::kFont, across), "middle");
-  svg::text(out, label_left, middle, plot.y_label, fitting(plot.y_label, svg::kFont, y.from - y.to + 60.0),
-            "middle", fmt::format("transform=\"rotate(-90 {:.1f} {:.1f})\"", label_left, middle));
-  svg::text(out, centre, y.to - 16.0, plot.title, fitting(plot.title, svg::kTitleFont, across), "middle",
-            "font-weight=\"bold\"");
+  fitted_text(out, centre, y.from + 42.0, plot.x_label, svg::kFont, across);
+  fitted_text(out, label_left, middle, plot.y_label, svg::kFont, y.from - y.to + 60.0,
+              fmt::format("transform=\"rotate(-90 {:.1f} {:.1f})\"", label_left, middle));
+  fitted_text(out, centre, y.to - 16.0, plot.title, svg::kTitleFont, across / 1.12, svg::kBold);
 }
 
 // About its middle, 4 px each way; every other one is hollow, so that they differ in grey.
@@ -249,13 +245,14 @@ std::vector<LegendRow> legend_of(const std::vector<Plot>& panels, const Styles& 
 constexpr double kLegendRow = 21.0, kLegendSample = 40.0;
 
 // Beside or below the frames, so that it never covers a line.
-void draw_legend(std::string& out, const std::vector<LegendRow>& rows, double left, double top) {
+void draw_legend(std::string& out, const std::vector<LegendRow>& rows, double left, double top, double room) {
   double y = top + 10.0;
   for (const auto& [series, style] : rows) {
     if (series->line)
       svg::line(out, left, y, left + kLegendSample, y, style.colour, 2.0, dashes_of(*series, style));
     if (series->markers) draw_marker(out, left + 0.5 * kLegendSample, y, style);
-    svg::text(out, left + kLegendSample + 7.0, y + 4.5, series->name, svg::kFont, "start");
+    svg::text_within(out, left + kLegendSample + 7.0, y + 4.5, series->name, svg::kFont,
+                     room - kLegendSample - 7.0, "start");
     y += kLegendRow;
   }
 }
@@ -263,7 +260,7 @@ void draw_legend(std::string& out, const std::vector<LegendRow>& rows, double le
 double legend_width(const std::vector<LegendRow>& rows) {
   double width = 0.0;
   for (const LegendRow& row : rows)
-    width = std::max(width, kLegendSample + 36.0 + text_width(row.series->name, svg::kFont));
+    width = std::max(width, kLegendSample + 24.0 + svg::text_width(row.series->name, svg::kFont));
   return width;
 }
 
@@ -288,7 +285,7 @@ Layout layout_of(const PlotSheet& sheet, int columns, int rows, const std::vecto
   layout.legend_left = below ? 24.0 : right - 4.0;
   layout.legend_top = below ? bottom : layout.top + (first.title.empty() ? 16.0 : 44.0);
   const double legend_bottom = layout.legend_top + kLegendRow * static_cast<double>(legend.size()) + 8.0;
-  layout.width = std::max(right + (below ? 0.0 : std::max(0.0, names - 4.0)), below ? 24.0 + names : 0.0);
+  layout.width = right + (below ? 0.0 : std::max(0.0, names - 4.0));
   layout.height = legend.empty() ? bottom : std::max(bottom, legend_bottom);
   return layout;
 }
@@ -346,12 +343,12 @@ std::string sheet_svg(const PlotSheet& sheet) {
   const std::vector<LegendRow> legend = legend_of(sheet.panels, styles);
   const Layout layout = layout_of(sheet, columns, rows, legend);
   constexpr int kNoteFont = svg::kFont - 1;
-  const std::vector<std::string> note = svg::wrapped(sheet.note, 0.56 * kNoteFont, layout.width - 16.0);
+  const std::vector<std::string> note = svg::wrapped(sheet.note, kNoteFont, layout.width - 16.0);
   const double note_height = sheet.note.empty() ? 0.0 : 6.0 + 16.0 * static_cast<double>(note.size());
   std::string out = svg::open(static_cast<int>(layout.width), static_cast<int>(layout.height + note_height));
   if (!sheet.title.empty())
-    svg::text(out, 0.5 * layout.width, 26.0, sheet.title,
-              fitting(sheet.title, svg::kTitleFont, layout.width - 16.0), "middle", "font-weight=\"bold\"");
+    fitted_text(out, 0.5 * layout.width, 26.0, sheet.title, svg::kTitleFont, (layout.width - 16.0) / 1.12,
+                svg::kBold);
   for (int k = 0; k < count; ++k) {
     const Plot& plot = sheet.panels[static_cast<std::size_t>(k)];
     const Panel panel =
@@ -361,7 +358,7 @@ std::string sheet_svg(const PlotSheet& sheet) {
     for (std::size_t i = 0; i < plot.series.size(); ++i)
       draw_series(out, plot.series[i], panel.x, panel.y, styles.of(plot, i));
   }
-  draw_legend(out, legend, layout.legend_left, layout.legend_top);
+  draw_legend(out, legend, layout.legend_left, layout.legend_top, layout.width - layout.legend_left - 8.0);
   for (std::size_t i = 0; i < note.size() && !sheet.note.empty(); ++i)
     svg::text(out, 8.0, layout.height + 12.0 + 16.0 * static_cast<double>(i), note[i], kNoteFont, "start");
   out += svg::kClose;

@@ -21,8 +21,9 @@ View make_view(const Model& model, const Solution& s, const NodalLayout& layout,
                const PictureOptions& options) {
   View view;
   if (layout.node.empty()) return view;
+  constexpr double kRounding = 1e-10;  // of the mesh's size
   view.low = view.high = model.mesh.x.col(layout.node.front());
-  double largest = 0.0;
+  double& largest = view.largest;
   for (int node : layout.node) {
     view.low = view.low.cwiseMin(model.mesh.x.col(node));
     view.high = view.high.cwiseMax(model.mesh.x.col(node));
@@ -31,7 +32,10 @@ View make_view(const Model& model, const Solution& s, const NodalLayout& layout,
   const double size = (view.high - view.low).maxCoeff();
   view.left = view.low.x();
   view.bottom = view.low.y();
-  if (options.deformed && largest > 0.0)
+  view.mirror_left = options.mirror_left;
+  view.mirror_down = options.mirror_down;
+  view.rounding = largest > 0.0 && largest < kRounding * size;
+  if (options.deformed && largest > 0.0 && !view.rounding)
     view.deformation = options.scale > 0.0 ? options.scale : std::max(1.0, round_down(0.05 * size / largest));
   for (int node : layout.node) {
     const Vector2 x = model.mesh.x.col(node) + view.deformation * s.u->segment<2>(DofMap::displacement(node));
@@ -53,7 +57,9 @@ Scenery make_scenery(const Model& model, const Solution& solution, std::string_v
   Scenery scenery{model, solution, nodal_layout(model, *solution.activity), {}, fields_of(model), {}, {}};
   scenery.field = picture_field(scenery.table, field);
   scenery.view = make_view(model, solution, scenery.layout, options);
-  scenery.parts = field_parts(model, solution, scenery.layout, *scenery.field.entry);
+  scenery.parts = field_parts(model, solution, scenery.layout, *scenery.field.entry, options.rule);
+  if (scenery.view.rounding && std::holds_alternative<DisplacementField>(scenery.field.entry->value))
+    scenery.parts.at.setZero();
   return scenery;
 }
 
@@ -74,6 +80,21 @@ const SubGrid& grid_for(Scenery& scenery, const Group& group, const Eigen::Matri
   return at->second;
 }
 
+namespace {
+
+// A mean of directions is none: an element has the one of its mean stress or strain.
+void set_directions(const Scenery& scenery, std::size_t g, std::vector<Patch>& all) {
+  const FieldEntry& entry = *scenery.field.entry;
+  const std::vector<double> values =
+      element_average(scenery.model.mesh, scenery.solution.groups()[g], {&entry});
+  const auto elements = static_cast<std::size_t>(scenery.model.groups[g].elements());
+  for (std::size_t e = 0; e < elements; ++e)
+    for (Corner& corner : all[all.size() - elements + e].places)
+      corner.value = chosen(scenery.field, values.data() + e * entry.size());
+}
+
+}  // namespace
+
 std::vector<Patch> patches(Scenery& scenery) {
   std::vector<Patch> result;
   Eigen::MatrixXd at_nodes;
@@ -93,7 +114,13 @@ std::vector<Patch> patches(Scenery& scenery) {
         patch.places.push_back(
             {places.col(p), field_number(scenery.field, scenery.parts, parts.col(p).data())});
     }
+    if (scenery.field.entry->of_mean) set_directions(scenery, g, result);
   }
+  std::vector<double*> values;
+  if (scenery.field.entry->of_mean)
+    for (Patch& patch : result)
+      for (Corner& corner : patch.places) values.push_back(&corner.value);
+  unfold_angles(*scenery.field.entry, std::move(values));
   return result;
 }
 

@@ -1,6 +1,7 @@
 // A model's state laid out on the paper: what pictures are drawn from.
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -19,9 +20,17 @@ struct View {
   Vector2 low = Vector2::Zero(), high = Vector2::Zero();  // of the deformed and the undeformed mesh
   double scale = 1.0;                                     // screen units a unit of length
   double deformation = 0.0;
+  double largest = 0.0;   // displacement
+  bool rounding = false;  // displacements are nothing but that: neither the mesh nor arrows show them
+  bool mirror_left = false, mirror_down = false;
   double height = 0.0;              // of the frame
   double left = 0.0, bottom = 0.0;  // sides of the mesh: low, but for the other halves of a symmetric model
 
+  // On a line of symmetry that the picture is reflected about.
+  bool on_seam(const Vector2& x) const {
+    const double near = 1e-6 * (high - low).maxCoeff();
+    return (mirror_left && std::abs(x.x() - left) < near) || (mirror_down && std::abs(x.y() - bottom) < near);
+  }
   Vector2 at(const Vector2& x) const {
     return {kPictureLeft + scale * (x.x() - low.x()), kPictureTop + scale * (high.y() - x.y())};
   }

@@ -131,7 +131,7 @@ std::string field_figure(const FieldFigure& figure, Runs& runs, const std::vecto
         FieldPanel& panel = sheet.panels.emplace_back();
         panel.model = run.model.get();
         const State& state = run.state(strain);
-        panel.solution = (quantity == Quantity::level ? state.level_frame : state.frame)->view();
+        panel.solution = state.frame->view();
         panel.field = field_of(quantity);
         panel.title = fmt::format("{}, {}", title_of(quantity), row.name);
         panel.state = fmt::format("{:g} %", strain);
@@ -146,6 +146,7 @@ PlotSeries series(const std::string& name, const std::vector<double>& x, const s
   one.name = name;
   one.x = x;
   one.y = y;
+  one.markers = true;  // dashes alone are too few to tell eight curves apart in grey
   return one;
 }
 

@@ -151,40 +151,8 @@ class Watcher final : public Observer {
       read_field(level, PointState(model.mesh, now.groups()[0], p), &value);
       state.level.push_back(std::isnan(value) ? 0.0 : std::min(value, 1.0));
     }
-    state.frame = frame_of_means(model, report, now, {});
-    if (run_->scene->plastic) state.level_frame = frame_of_means(model, report, now, state.level);
+    state.frame = std::make_shared<const Frame>(model, report, now);
     run_->states.push_back(std::move(state));
-  }
-
-  // levels: of the points, or empty.
-  static std::shared_ptr<const Frame> frame_of_means(const Model& model, const StepReport& report,
-                                                     const Solution& now, const std::vector<double>& levels) {
-    const FieldTable table = fields_of(model);
-    const FieldEntry& level = *table.find("stress_level");
-    std::vector<GroupData> groups(now.groups().size());
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-      const GroupData& data = now.groups()[g];
-      groups[g].group = data.group;
-      groups[g].law = data.law;
-      groups[g].active = data.active;
-      groups[g].state = data.state;
-      if (!data.group->solid()) continue;
-      std::vector<double>& sigma = groups[g].state.committed.sigma;
-      for (std::size_t point = 0; point < sigma.size() / 4; point += 4) {
-        Eigen::Map<Eigen::Matrix4d> points(sigma.data() + 4 * point);
-        const Vector4 mean = points.rowwise().mean();
-        points.colwise() = mean;
-        if (levels.empty()) continue;
-        double of_mean = 0.0;
-        read_field(level, PointState(model.mesh, groups[g], point), &of_mean);
-        const double wanted = Eigen::Map<const Vector4>(levels.data() + point).mean();
-        const Vector4 middle = Vector4(1, 1, 1, 0) * mean.head<3>().mean();
-        const double scale = std::isfinite(of_mean) && of_mean > 0.0 ? wanted / of_mean : 0.0;
-        points.colwise() = Vector4(middle + scale * (mean - middle));
-      }
-    }
-    const Solution means{now.u, now.internal, now.external, nullptr, now.activity, groups};
-    return std::make_shared<const Frame>(model, report, means);
   }
 
   std::size_t nodes() const { return static_cast<std::size_t>((deck_->columns + 1) * (deck_->rows + 1)); }

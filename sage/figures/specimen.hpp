@@ -51,10 +51,7 @@ struct State {
   std::vector<std::vector<double>> at_elements;  // by Quantity from sigma_r (first) to conf: of its mean stress
   std::vector<double> level;                     // of every point of the specimen; no more than 1
   std::vector<double> joint_normal, joint_shear, joint_level;  // of every point of the interface
-  // For pictures: the stress of every point is the mean of its element, its status its own.  Where the law has a
-  // strength, `level_frame` has that mean with its deviator scaled to the mean of the points' levels: the level of a
-  // mean stress can be above 1.
-  std::shared_ptr<const Frame> frame, level_frame;
+  std::shared_ptr<const Frame> frame;  // for pictures, which take means of elements (NodalRule)
 
   const std::vector<double>& values(Quantity quantity) const;
 };

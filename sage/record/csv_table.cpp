@@ -22,7 +22,7 @@ std::vector<std::string> cells_of(const std::string& line) {
       quoted = !quoted;
     else if (c == ',' && !quoted)
       cells.emplace_back();
-    else if (c != '\r')
+    else
       cells.back() += c;
   }
   return cells;
@@ -71,6 +71,8 @@ CsvTable read_csv_table(const std::filesystem::path& file) {
   int number = 0;
   for (std::string line; std::getline(stream, line);) {
     ++number;
+    if (number == 1 && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);  // the mark that spreadsheets write
+    if (!line.empty() && line.back() == '\r') line.pop_back();
     if (line.empty()) continue;
     if (line.front() == '#') {
       table.comments.push_back(line.substr(line.size() > 1 && line[1] == ' ' ? 2 : 1));

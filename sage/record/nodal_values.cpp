@@ -38,11 +38,11 @@ std::size_t carried_size_of(const FieldList& fields) {
 }
 
 std::vector<double> nodal_average(const Model& model, const Solution& solution, const NodalLayout& layout,
-                                  const FieldList& fields) {
+                                  const FieldList& fields, NodalRule rule) {
   const std::size_t n = carried_size_of(fields);
   std::vector<double> sum(static_cast<std::size_t>(layout.entries()) * n, 0.0);
   std::vector<int> uses(static_cast<std::size_t>(layout.entries()), 0);
-  std::vector<double> at_points;
+  std::vector<double> at_points, equal;
   Eigen::Matrix2Xd x;
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     const GroupData& data = solution.groups()[g];
@@ -50,6 +50,7 @@ std::vector<double> nodal_average(const Model& model, const Solution& solution, 
     const Group& group = *data.group;
     const auto points = static_cast<std::size_t>(group.element->traits().points);
     at_points.resize(points * n);
+    equal.assign(points * group.node_count(), 1.0 / static_cast<double>(points));
     for (int e = 0; e < group.elements(); ++e) {
       const auto eu = static_cast<std::size_t>(e);
       for (std::size_t p = 0; p < points; ++p) {
@@ -61,7 +62,8 @@ std::vector<double> nodal_average(const Model& model, const Solution& solution, 
         }
       }
       element_coordinates(model.mesh, group, e, x);
-      const std::span<const double> map = group.element->point_to_node_at(x);
+      const std::span<const double> map = rule == NodalRule::element_means ? std::span<const double>(equal)
+                                                                           : group.element->point_to_node_at(x);
       for (std::size_t i = 0; i < group.node_count(); ++i) {
         const auto entry = static_cast<std::size_t>(layout.of_group[g][eu * group.node_count() + i]);
         ++uses[entry];

@@ -18,11 +18,15 @@ struct NodalLayout {
 
 NodalLayout nodal_layout(const Model& model, const Activity& activity);
 
-// What is carried (carry()) of fields that live at points, one field behind the other.  entries x numbers:
-// extrapolated from the points (Element::point_to_node), then the plain mean over the elements that share the
-// entry.
+// How an element's points give values at its nodes: extrapolated (Element::point_to_node), or their plain mean at
+// all of them, as the source chapter's figures are drawn.  Extrapolation shows what varies within an element; where
+// the points of neighbours disagree, as in nearly incompressible 4-node elements, it makes more of that.
+enum class NodalRule { extrapolated, element_means };
+
+// What is carried (carry()) of fields that live at points, one field behind the other.  entries x numbers: the
+// plain mean over the elements that share the entry of what each gives there.
 std::vector<double> nodal_average(const Model& model, const Solution& solution, const NodalLayout& layout,
-                                  const FieldList& fields);
+                                  const FieldList& fields, NodalRule rule = NodalRule::extrapolated);
 
 // Values of fields that live at points, one field behind the other.  elements x numbers of a group: the plain
 // mean over an element's points; of a field of_mean, the value of the mean of what is carried.

@@ -50,29 +50,6 @@ std::string one_line(const std::string& text) {
   return text.substr(0, text.find('\n'));
 }
 
-std::string xml_text(std::string_view text) {
-  std::string result;
-  for (char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
 // Bytes of the character at the beginning; 0 where they are no UTF-8 (too long forms, halves of pairs and what
 // lies beyond U+10FFFF included) or a character that XML does not allow.
 static std::size_t utf8_length(std::string_view text) {
@@ -88,6 +65,28 @@ static std::size_t utf8_length(std::string_view text) {
   constexpr unsigned kLeast[] = {0, 0, 0xa0, 0x800, 0x10000};
   const bool pair = code >= 0xd800 && code < 0xe000, none = code == 0xfffe || code == 0xffff;
   return first < 0xc2 || first > 0xf4 || code < kLeast[length] || code > 0x10ffff || pair || none ? 0 : length;
+}
+
+std::string xml_text(std::string_view text) {
+  std::string result;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = utf8_length(text.substr(at));
+    const std::string_view one = text.substr(at, std::max<std::size_t>(length, 1));
+    at += one.size();
+    if (length == 0)
+      result += ' ';
+    else if (one == "&")
+      result += "&amp;";
+    else if (one == "<")
+      result += "&lt;";
+    else if (one == ">")
+      result += "&gt;";
+    else if (one == "\"")
+      result += "&quot;";
+    else
+      result += one;
+  }
+  return result;
 }
 
 std::string plain_name(std::string_view name, std::string_view also) {

@@ -43,7 +43,7 @@ std::string left_out_words(const Model& model);
 // The first line of a text, for comments in files.
 std::string one_line(const std::string& text);
 
-// With & < > " replaced, for XML and SVG.
+// With & < > " replaced, for XML and SVG; what XML does not allow, such as control characters, becomes a blank.
 std::string xml_text(std::string_view text);
 
 // A file's name as text that every reader takes: bytes that are no UTF-8, control characters and those of

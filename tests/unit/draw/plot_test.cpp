@@ -122,9 +122,25 @@ TEST(Plot, WordsKeepApart) {
   std::smatch frame, name;
   ASSERT_TRUE(std::regex_search(
       svg, frame, std::regex("y=\"([0-9.]+)\" width=\"[0-9.]+\" height=\"([0-9.]+)\" fill=\"none\"")));
-  ASSERT_TRUE(
-      std::regex_search(svg, name, std::regex("y=\"([0-9.]+)\" font-size=\"13\" text-anchor=\"start\" >nnn")));
+  ASSERT_TRUE(std::regex_search(
+      svg, name,
+      std::regex("y=\"([0-9.]+)\" font-size=\"13\" text-anchor=\"start\" >(<title>n+</title>)?nnn")));
   EXPECT_GT(std::stod(name[1]), std::stod(frame[1]) + std::stod(frame[2]));
+}
+
+// Names of legends and titles are shortened to the paper; what a viewer shows is the whole.
+TEST(Plot, LongNamesStayOnThePaper) {
+  Plot plot = line_plot({0, 1}, {0, 1});
+  const std::string name = std::string(200, 'n') + "end", title = std::string(300, 't');
+  plot.series[0].name = name;
+  plot.title = title;
+  const std::string svg = plot_svg(plot);
+  EXPECT_EQ(count(svg, "<title>" + name + "</title>"), 1);
+  EXPECT_EQ(count(svg, "<title>" + title + "</title>"), 1);
+  EXPECT_EQ(count(svg, "nend</text>"), 1) << "the end tells names apart";
+  std::smatch width;
+  ASSERT_TRUE(std::regex_search(svg, width, std::regex("width=\"([0-9]+)\"")));
+  EXPECT_EQ(std::stoi(width[1]), plot.width);
 }
 
 TEST(Ticks, AreRoundAndInside) {
