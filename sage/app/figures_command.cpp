@@ -1,24 +1,20 @@
 // sagefe figures: the source chapter's figures 7.1 to 7.40, with verdicts on what it says about them.
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
 
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
 #include <charconv>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
+#include "sage/app/picture_formats.hpp"
 #include "sage/core/error.hpp"
 #include "sage/figures/page.hpp"
 #include "sage/figures/pictures.hpp"
 #include "sage/record/out_file.hpp"
-
-extern char** environ;
 
 namespace sage::app {
 
@@ -65,21 +61,6 @@ int list_figures(const std::vector<int>& chosen) {
   return kOk;
 }
 
-// Throws OutputError where the program is not there or fails.
-void convert(const std::filesystem::path& svg, const std::string& format) {
-  std::filesystem::path to = svg;
-  to.replace_extension(format);
-  std::string program = "rsvg-convert", from = svg.string(), kind = "--format=" + format,
-              output = "--output=" + to.string();
-  char* arguments[] = {program.data(), kind.data(), output.data(), from.data(), nullptr};
-  pid_t child = 0;
-  int status = 0;
-  if (posix_spawnp(&child, program.c_str(), nullptr, nullptr, arguments, environ) != 0 ||
-      waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) == 127)
-    throw OutputError("--format " + format + " needs the program rsvg-convert (librsvg2-bin)");
-  if (WEXITSTATUS(status) != 0) throw OutputError("rsvg-convert could not make " + to.string());
-}
-
 // K_j of Table 7.2, about the one that Table 7.3 needs, and the one that meets Figure 7.18 if there is one.
 std::vector<figures::StiffnessChoice> stiffness_choices(const scenes::Workbench& bench) {
   std::vector<figures::StiffnessChoice> choices{{"Table 7.2", 120.0}, {"about that of Table 7.3", 5.0}};
@@ -93,17 +74,11 @@ bool any_lubricated(const std::vector<figures::Check>& checks) {
       checks, [](const figures::Check& check) { return figures::scene_named(check.a.scene).lubricated(); });
 }
 
-std::vector<std::string> picture_formats(const FiguresOptions& options) {
-  std::vector<std::string> formats;
-  for (const std::string& format : options.formats)
-    if (format != "svg") formats.push_back(format);
-  return formats;
-}
-
 int run_figures(const FiguresOptions& options, const Catalogue& catalogue) {
   const auto start = std::chrono::steady_clock::now();
   const std::vector<int> chosen = chosen_figures(options);
   if (options.list) return list_figures(chosen);
+  require_converter(options.formats);
   std::error_code error;
   std::filesystem::create_directories(options.folder, error);
   if (error) throw OutputError("the folder " + options.folder.string() + " can't be made: " + error.message());
@@ -118,7 +93,7 @@ int run_figures(const FiguresOptions& options, const Catalogue& catalogue) {
   for (int figure : chosen) {
     const std::filesystem::path file = options.folder / figures::file_of(figure);
     write_file(file, figures::figure_svg(figure, runs, choices));
-    for (const std::string& format : picture_formats(options)) convert(file, format);
+    convert_picture(file, options.formats);
     fmt::print("{}  {}\n", file.string(), figures::tally(page.results, figure));
   }
   write_file(options.folder / "figures.md", figures::page_text(page, "svg"));
@@ -147,11 +122,7 @@ Command figures_command(CLI::App& parser, const Catalogue& catalogue) {
       ->check(complaint_about_figure);
   parser.add_option("-o,--output", options->folder,
                     "folder for pictures, figures.md and figures.csv (default: figures)");
-  parser
-      .add_option("--format", options->formats,
-                  "svg, and besides pdf or png (with rsvg-convert, where it is installed); may be repeated")
-      ->allow_extra_args(false)
-      ->check(CLI::IsMember({"svg", "pdf", "png"}));
+  add_format_option(parser, options->formats);
   parser.add_flag("--list", options->list,
                   "the figures and the chapter's sentences with their limits, computing nothing");
   return [options, &catalogue] { return run_figures(*options, catalogue); };

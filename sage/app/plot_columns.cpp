@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "sage/app/input.hpp"
@@ -103,19 +104,47 @@ bool same_in_all(const std::vector<Source>& sources, const Variable& x, const Va
   });
 }
 
+// Throws UsageError where no row has a number of both columns.
+void expect_numbers(const Source& source, const Variable& x, const Variable& y) {
+  const std::vector<double> xs = values_of(source, x), ys = values_of(source, y);
+  for (std::size_t i = 0; i < xs.size(); ++i)
+    if (std::isfinite(xs[i]) && std::isfinite(ys[i])) return;
+  throw UsageError(fmt::format("{}: no row has a number of both {} and {}: nothing to draw",
+                               source.file.string(), x.name, y.name));
+}
+
+// Throws UsageError where the columns of two files, or of one axis, have different units.
+void expect_one_unit(const std::vector<Source>& sources, const std::vector<Variable>& variables) {
+  const auto unit_of = [](const Source& source, const Variable& variable) {
+    const std::string& unit = column_of(source, variable).unit;
+    return unit.empty() ? std::string("-") : unit;
+  };
+  const Source& first = sources.front();
+  const std::string unit = unit_of(first, variables.front());
+  for (const Source& source : sources)
+    for (const Variable& variable : variables)
+      if (const std::string other = unit_of(source, variable); other != unit)
+        throw UsageError(fmt::format("{} of {} is in {}, {} of {} in {}: they can't be drawn on one axis",
+                                     variables.front().name, first.file.string(), unit, variable.name,
+                                     source.file.string(), other));
+}
+
 // One series a file and y column, but one alone where all files say the same.
-Plot plot_of(const std::vector<Source>& sources, const Panel& panel) {
+Plot plot_of(const std::vector<Source>& sources, const Panel& panel, bool labelled) {
   Plot plot;
+  expect_one_unit(sources, {panel.x});
+  expect_one_unit(sources, panel.y);
   plot.x_label = label_of(sources.front(), {panel.x});
   plot.y_label = label_of(sources.front(), panel.y);
   const bool several = panel.y.size() > 1;
   for (const Source& source : sources)
     for (const Variable& y : panel.y) {
+      expect_numbers(source, panel.x, y);
       const bool shared = several && sources.size() > 1 && same_in_all(sources, panel.x, y);
       if (shared && &source != &sources.front()) continue;
-      std::string name = shared || sources.size() == 1 ? words_of(y) : source.label;
-      if (several && sources.size() > 1 && !shared) name += ": " + words_of(y);
-      if (!several && sources.size() == 1) name.clear();  // the axis says it
+      std::string name = shared || !labelled ? words_of(y) : source.label;
+      if (several && labelled && !shared) name += ": " + words_of(y);
+      if (!several && !labelled) name.clear();  // the axis says it
       plot.series.push_back({name, values_of(source, panel.x), values_of(source, y), true, true});
     }
   return plot;
@@ -178,14 +207,46 @@ std::vector<Source> read_sources(const PlotOptions& options) {
   return sources;
 }
 
-// What the table says about its columns, where all say the same.
+// The parts between semicolons of what a table says about its columns.
+std::vector<std::string> remarks_of(const Source& source) {
+  std::vector<std::string> parts;
+  if (source.table.comments.size() < 2) return parts;
+  std::string_view rest = source.table.comments[1];
+  for (std::size_t end = 0; end != std::string_view::npos; rest.remove_prefix(std::min(end + 2, rest.size()))) {
+    end = rest.find("; ");
+    parts.emplace_back(rest.substr(0, end));
+    if (end == std::string_view::npos) break;
+  }
+  return parts;
+}
+
+// What the tables say about their columns: once, with the files' labels where not all say it (plane strain beside
+// axisymmetry, reports of several kinds).
 std::string note_of(const std::vector<Source>& sources) {
-  const auto second = [](const Source& source) {
-    return source.table.comments.size() > 1 ? source.table.comments[1] : std::string();
+  std::vector<std::pair<std::string, std::vector<std::string>>>
+      remarks;  // with the labels of those who make it
+  for (const Source& source : sources)
+    for (const std::string& part : remarks_of(source)) {
+      auto at = std::ranges::find(remarks, part, &std::pair<std::string, std::vector<std::string>>::first);
+      if (at == remarks.end()) at = remarks.insert(at, {part, {}});
+      at->second.push_back(source.label);
+    }
+  std::string note;
+  for (const auto& [part, labels] : remarks) {
+    note += (note.empty() ? "" : "; ") + part;
+    if (labels.size() < sources.size()) note += fmt::format(" ({})", fmt::join(labels, "; "));
+  }
+  return note;
+}
+
+// Of columns, as part of a file's name.
+std::string name_part(std::string text) {
+  const auto plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
   };
-  const bool same =
-      std::ranges::all_of(sources, [&](const Source& s) { return second(s) == second(sources.front()); });
-  return same ? second(sources.front()) : "";
+  for (char& c : text)
+    if (!plain(c)) c = '_';
+  return text;
 }
 
 }  // namespace
@@ -196,14 +257,15 @@ void plot_columns(const PlotOptions& options) {
   PlotSheet sheet;
   sheet.title = options.title.empty() && sources.size() == 1 ? sources.front().table.title() : options.title;
   sheet.note = note_of(sources);
+  const bool labelled = sources.size() > 1 || !options.labels.empty();
   std::string name = stem_of_table(sources.front().file);
   for (const std::string& text : asked) {
     const Panel panel = panel_from(text);
-    sheet.panels.push_back(plot_of(sources, panel));
+    sheet.panels.push_back(plot_of(sources, panel, labelled));
   }
   const Panel first = panel_from(asked.front());
-  name += options.xy.empty() ? "_curves" : "_" + first.y.front().name + "_" + first.x.name;
-  write_plot(plot_path(options, name), sheet_svg(sheet));
+  name += options.xy.empty() ? "_curves" : "_" + name_part(first.y.front().name + "_" + first.x.name);
+  write_plot(options, plot_path(options, name), sheet_svg(sheet));
 }
 
 }  // namespace sage::app

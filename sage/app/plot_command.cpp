@@ -10,8 +10,9 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
+#include "sage/app/picture_formats.hpp"
 #include "sage/app/plot_command.hpp"
-#include "sage/app/plot_states.hpp"
+#include "sage/app/state_choice.hpp"
 #include "sage/record/out_file.hpp"
 
 namespace sage::app {
@@ -44,26 +45,162 @@ void set_mirror(PictureOptions& look, const std::string& text) {
   look.mirror_down = text != "left";
 }
 
-int plot(const PlotOptions& options, const Catalogue& catalogue) {
-  if (options.interface)
-    plot_interface(options, catalogue);
-  else if (!options.line.empty())
-    plot_line(options, catalogue);
-  else if (options.pictures.empty())
-    plot_columns(options);
-  else if (options.sheet)
-    plot_sheet(options, catalogue);
-  else
-    plot_pictures(options, catalogue);
+// What a command line asks for.
+enum Mode : unsigned { kCurves = 1, kPictures = 2, kSheet = 4, kLine = 8, kInterface = 16 };
+constexpr unsigned kDrawn = kPictures | kSheet, kStates = kDrawn | kLine | kInterface;
+
+Mode mode_of(const PlotOptions& options) {
+  if (options.interface) return kInterface;
+  if (!options.line.empty()) return kLine;
+  if (options.pictures.empty()) return kCurves;
+  return options.sheet ? kSheet : kPictures;
+}
+
+// Where an option means something; elsewhere it is refused, so that none is passed over in silence.
+struct OptionPlace {
+  const char* option;
+  unsigned modes;
+  const char* words;
+};
+constexpr const char *kOfPictures = "pictures (--picture)", *kOfStates = "--picture, --line or --interface";
+constexpr OptionPlace kPlaces[] = {
+    {"--xy", kCurves, "curves of tables, without --picture, --line and --interface"},
+    {"--at", kStates, kOfStates},
+    {"--increment", kStates, kOfStates},
+    {"--sheet", kSheet, kOfPictures},
+    {"--own-scales", kSheet, "--picture with --sheet"},
+    {"--line", kLine, "a line, without --interface"},
+    {"--range", kDrawn, kOfPictures},
+    {"--levels", kDrawn, kOfPictures},
+    {"--extrapolate", kDrawn, kOfPictures},
+    {"--no-mesh", kDrawn, kOfPictures},
+    {"--undeformed", kDrawn, kOfPictures},
+    {"--mirror", kDrawn, kOfPictures},
+    {"--yielded", kDrawn, kOfPictures},
+    {"--crosses", kDrawn, kOfPictures},
+    {"--arrows", kDrawn, kOfPictures},
+    {"--name", kCurves | kSheet | kLine | kInterface,
+     "what is one file (curves, --sheet, --line, --interface)"},
+};
+
+// Throws UsageError for options that do not go together.
+void expect_options_fit(const CLI::App& parser, const PlotOptions& options) {
+  const Mode mode = mode_of(options);
+  for (const OptionPlace& place : kPlaces)
+    if (parser.count(place.option) > 0 && (place.modes & mode) == 0)
+      throw UsageError(fmt::format("{} is for {}", place.option, place.words));
+  if (!options.labels.empty() && options.labels.size() != options.files.size())
+    throw UsageError(
+        fmt::format("--label: {} of them for {} files", options.labels.size(), options.files.size()));
+  if (options.own_scales && std::isfinite(options.look.low))
+    throw UsageError("--own-scales does not go with --range LOW:HIGH, which is one scale for all panels");
+  for (const std::string& file : options.files)
+    if (mode != kCurves && std::filesystem::path(file).extension() == ".csv")
+      throw UsageError(file +
+                       " is a table: --picture, --line and --interface show result files (STEM.h5 of sagefe "
+                       "run DECK --result)");
+}
+
+// "x.png" is "x" in that format.
+void take_format_of_name(PlotOptions& options) {
+  const std::filesystem::path name = options.name;
+  const std::string ending = name.extension().string();
+  if (ending != ".svg" && ending != ".pdf" && ending != ".png") return;
+  options.name = name.stem().string();
+  options.formats.push_back(ending.substr(1));
+}
+
+// A file's name in the folder of -o.
+std::string name_error(const std::string& name) {
+  if (!name.empty() && name != "." && name != ".." && name.find('/') == std::string::npos) return "";
+  return "--name " + name + ": wanted a file's name; its folder is that of -o";
+}
+
+int plot(const CLI::App& parser, PlotOptions options, const Catalogue& catalogue) {
+  expect_options_fit(parser, options);
+  take_format_of_name(options);
+  require_converter(options.formats);
+  switch (mode_of(options)) {
+    case kInterface:
+      plot_interface(options, catalogue);
+      break;
+    case kLine:
+      plot_line(options, catalogue);
+      break;
+    case kCurves:
+      plot_columns(options);
+      break;
+    case kSheet:
+      plot_sheet(options, catalogue);
+      break;
+    case kPictures:
+      plot_pictures(options, catalogue);
+      break;
+  }
   return kOk;
 }
 
-// How pictures of fields look.
+constexpr const char *kGroupCurves = "Curves of tables", *kGroupStates = "Fields of result files",
+                     *kGroupLook = "Look of pictures";
+
+void add_curve_options(CLI::App& parser, PlotOptions& options) {
+  parser
+      .add_option(
+          "--xy", options.xy,
+          "X:Y[,Y...]: columns Y against column X, a curve a file and Y; -NAME turns the sign; a panel each "
+          "time it is given.  Default: of a triaxial report stress and ratio against strain, of a node "
+          "report (a footing) load against displacement.  An unknown name is answered by those that there are")
+      ->allow_extra_args(false)
+      ->group(kGroupCurves);
+}
+
+// Which fields, of which states, where.
+void add_state_options(CLI::App& parser, PlotOptions& options) {
+  parser
+      .add_option(
+          "--picture", options.pictures,
+          "a field to draw: conf (sigma_3), dev (sigma_1 - sigma_3), SL (stress level), stress_yy, "
+          "displacement, any other number of `sagefe list fields`, or a history variable of a law; may be "
+          "repeated")
+      ->allow_extra_args(false)
+      ->group(kGroupStates);
+  parser
+      .add_option(
+          "--at", options.at,
+          "states: strain=VALUE[,VALUE...], the axial strain of the specimen (0.05 is 5 %); "
+          "load=VALUE[,VALUE...], the load factor of the last stage; or STAGE[:INCREMENT].  May be repeated; "
+          "default: the end of every stage.  The file has those that the deck, or sagefe run --states, asks "
+          "for")
+      ->allow_extra_args(false)
+      ->check([](const std::string& text) { return state_error("--at", text); })
+      ->group(kGroupStates);
+  parser
+      .add_option_function<std::vector<int>>(
+          "--increment",
+          [&options](const std::vector<int>& numbers) {
+            for (int number : numbers) options.at.push_back(":" + std::to_string(number));
+          },
+          "a state: an increment of the last stage; may be repeated")
+      ->allow_extra_args(false)
+      ->check(CLI::PositiveNumber)
+      ->group(kGroupStates);
+  parser
+      .add_flag("--sheet", options.sheet, "one file with a panel each picture, those of a field on one scale")
+      ->group(kGroupStates);
+  parser
+      .add_option("--line", options.line,
+                  "X,Y:X,Y: the fields as curves along this line instead, a curve a state and file")
+      ->check(line_error)
+      ->group(kGroupStates);
+  parser
+      .add_flag("--interface", options.interface,
+                "the fields as curves along the interfaces instead (default: traction_normal, traction_shear, "
+                "stress_level)")
+      ->group(kGroupStates);
+}
+
 void add_look_options(CLI::App& parser, PlotOptions& options) {
   PictureOptions& look = options.look;
-  parser.add_flag("--sheet", options.sheet,
-                  "all pictures as panels of one file, those of a field on one scale of colours");
-  parser.add_flag("--own-scales", options.own_scales, "a scale for each panel of the sheet");
   parser
       .add_option_function<std::string>(
           "--range", [&look](const std::string& text) { set_range(look, text); },
@@ -76,20 +213,56 @@ void add_look_options(CLI::App& parser, PlotOptions& options) {
         } catch (const std::invalid_argument& error) {
           return std::string(error.what());
         }
-      });
-  parser.add_option("--levels", look.levels, "bands of colour, about (default: 10)")->check(CLI::Range(2, 100));
-  parser.add_flag("!--no-mesh", look.mesh, "no edges of elements");
-  parser.add_flag("!--undeformed", look.deformed, "the mesh as it was at the start");
+      })
+      ->group(kGroupLook);
+  parser.add_flag("--own-scales", options.own_scales, "a scale for each panel of the sheet")->group(kGroupLook);
+  parser.add_option("--levels", look.levels, "bands of colour, about (default: 10)")
+      ->check(CLI::Range(2, 100))
+      ->group(kGroupLook);
+  parser
+      .add_flag_callback(
+          "--extrapolate", [&look] { look.rule = NodalRule::extrapolated; },
+          "stresses extrapolated from the integration points to the nodes; else means of elements, as the "
+          "source "
+          "chapter's figures are drawn")
+      ->group(kGroupLook);
+  parser
+      .add_flag_callback(
+          "--no-mesh", [&look] { look.mesh = false; }, "no edges of elements")
+      ->group(kGroupLook);
+  parser
+      .add_flag_callback(
+          "--undeformed", [&look] { look.deformed = false; }, "the mesh as it was at the start")
+      ->group(kGroupLook);
   parser
       .add_option_function<std::string>(
           "--mirror", [&look](const std::string& text) { set_mirror(look, text); },
           "the other halves of a symmetric model: left (of its left side), down (below its lower side), both")
-      ->check(CLI::IsMember({"left", "down", "both"}));
-  parser.add_flag("--yielded", look.yielded,
-                  "integration points, those at strength full: a stress level between them is extrapolated");
-  parser.add_flag("--crosses", look.crosses, "principal stresses in the plane");
-  parser.add_flag("--arrows", look.arrows, "displacements");
+      ->check(CLI::IsMember({"left", "down", "both"}))
+      ->group(kGroupLook);
+  parser
+      .add_flag("--yielded", look.yielded,
+                "integration points, those at strength full: a mean between them hides which have reached it")
+      ->group(kGroupLook);
+  parser.add_flag("--crosses", look.crosses, "principal stresses in the plane")->group(kGroupLook);
+  parser.add_flag("--arrows", look.arrows, "displacements")->group(kGroupLook);
 }
+
+constexpr const char* kPlotExamples =
+    "Curves, from the tables that every run writes:\n"
+    "  sagefe plot out/footing.report1.csv\n"
+    "      load against displacement\n"
+    "  sagefe plot out/a.report1.csv out/b.report1.csv out/c.report1.csv --xy axial_strain:ratio\n"
+    "      measured / correct stress against strain of three runs\n"
+    "Pictures, from the file out/a.h5 that `sagefe run a.dat --result --states strain=.05,.1` writes:\n"
+    "  sagefe plot out/a.h5 --picture conf --picture dev --at strain=.05,.1 --sheet\n"
+    "      contours of sigma_3 and of sigma_1 - sigma_3 at 5 and 10 % of strain, on one sheet\n"
+    "  sagefe plot out/a.h5 --picture stress_yy --at 1:5 --mirror both --format png\n"
+    "      the whole specimen at increment 5 of stage 1, as SVG and PNG\n"
+    "  sagefe plot out/a.h5 --interface --at strain=.1\n"
+    "      stresses along the interface\n"
+    "  sagefe plot out/a.h5 out/b.h5 --line 0,0:0,2.8 --picture stress_yy\n"
+    "      a stress along the axis, of two runs";
 
 }  // namespace
 
@@ -106,70 +279,38 @@ std::filesystem::path plot_path(const PlotOptions& options, const std::string& n
   return plot_folder(options, options.files.front()) / ((options.name.empty() ? name : options.name) + ".svg");
 }
 
-void write_plot(const std::filesystem::path& path, const std::string& svg) {
+void write_plot(const PlotOptions& options, const std::filesystem::path& path, const std::string& svg) {
   write_file(path, svg);
   fmt::print("{}\n", path.string());
+  for (const std::filesystem::path& other : convert_picture(path, options.formats))
+    fmt::print("{}\n", other.string());
 }
 
 Command plot_command(CLI::App& parser, const Catalogue& catalogue) {
   auto options = std::make_shared<PlotOptions>();
-  parser.footer(
-      "sagefe plot out/a.report1.csv out/b.report1.csv --xy axial_strain:ratio\n"
-      "sagefe plot out/footing.report1.csv                      load against displacement\n"
-      "sagefe plot out/a.h5 --picture stress_yy --at 1:5\n"
-      "sagefe plot out/a.h5 --picture dev --picture conf --at strain=.05 --at strain=.1 --sheet --mirror both\n"
-      "sagefe plot out/a.h5 --interface --at strain=.1\n"
-      "sagefe plot out/a.h5 out/b.h5 --line 0,0:0,2.8 --picture stress_yy");
-  parser
-      .add_option("FILE", options->files,
-                  "STEM.reportN.csv and other tables of `sagefe run`, for curves; STEM.h5 of `sagefe run DECK "
-                  "--result`, for --picture (for curves it stands for STEM.report1.csv beside it)")
-      ->required();
-  parser
-      .add_option("--xy", options->xy,
-                  "X:Y[,Y...]: columns to draw against column X, one curve a file and Y; -NAME turns the sign; "
-                  "a panel each time it is given (default: stress and ratio against strain, or load against "
-                  "displacement)")
-      ->allow_extra_args(false);
-  parser
-      .add_option("--label", options->labels,
-                  "name of a file's curves, in the order of the files (default: the deck's title)")
-      ->allow_extra_args(false);
-  parser.add_option("--title", options->title, "title (default: the deck's, of one file)");
-  parser
-      .add_option("--picture", options->pictures,
-                  "fields to draw: conf (sigma_3), dev (sigma_1 - sigma_3), SL (stress level), " +
-                      catalogue.fields.known() + ", or a history variable of a law; may be repeated")
-      ->allow_extra_args(false);
+  parser.footer(kPlotExamples);
   parser
       .add_option(
-          "--at", options->at,
-          "STAGE[:INCREMENT] of an output increment, or strain=VALUE, the axial strain of the specimen; may "
-          "be repeated (default: the end of every stage)")
-      ->allow_extra_args(false)
-      ->check(moment_error);
-  parser
-      .add_option("--line", options->line,
-                  "X,Y:X,Y: the fields as curves along this line instead, a curve a state and file")
-      ->check(line_error);
-  parser.add_flag(
-      "--interface", options->interface,
-      "the fields as curves along the interfaces instead (default: traction_normal, traction_shear, "
-      "stress_level)");
-  parser
-      .add_option_function<std::vector<int>>(
-          "--increment",
-          [options = options.get()](const std::vector<int>& numbers) {
-            for (int number : numbers) options->at.push_back(":" + std::to_string(number));
-          },
-          "an output increment of the last stage; may be repeated")
-      ->allow_extra_args(false)
-      ->check(CLI::PositiveNumber);
-  add_look_options(parser, *options);
+          "FILE", options->files,
+          "STEM.reportN.csv and other tables of sagefe run, for curves; STEM.h5 of sagefe run DECK --result, "
+          "for --picture, --line and --interface (for curves it stands for STEM.report1.csv beside it)")
+      ->required();
   parser.add_option("-o,--output", options->folder, "folder of the pictures (default: that of the first file)");
-  parser.add_option("--name", options->name,
-                    "name of the file of curves, without .svg (default: after its columns)");
-  return [options, &catalogue] { return plot(*options, catalogue); };
+  parser
+      .add_option("--name", options->name,
+                  "name of the file (default: after what it shows); with .png or .pdf, in that format too")
+      ->check(name_error);
+  add_format_option(parser, options->formats);
+  parser.add_option("--title", options->title, "title (default: the deck's, of one file)");
+  parser
+      .add_option(
+          "--label", options->labels,
+          "name of a file in legends and panels, one for each file in their order (default: the deck's title)")
+      ->allow_extra_args(false);
+  add_curve_options(parser, *options);
+  add_state_options(parser, *options);
+  add_look_options(parser, *options);
+  return [options, &parser, &catalogue] { return plot(parser, *options, catalogue); };
 }
 
 }  // namespace sage::app

@@ -22,12 +22,13 @@ struct PlotOptions {
   bool interface = false;
   PictureOptions look;
   bool sheet = false, own_scales = false;
+  std::vector<std::string> formats;  // besides SVG
 };
 
-// Where the file NAME.svg goes; its folder is made.  Throws OutputError.
+// Where the file NAME.svg goes, or that which --name says; its folder is made.  Throws OutputError.
 std::filesystem::path plot_path(const PlotOptions& options, const std::string& name);
-// The file, said on standard output.
-void write_plot(const std::filesystem::path& path, const std::string& svg);
+// The file and its other formats, said on standard output.
+void write_plot(const PlotOptions& options, const std::filesystem::path& path, const std::string& svg);
 
 // Of the pictures of a file; made.  Throws OutputError.
 std::filesystem::path plot_folder(const PlotOptions& options, const std::string& file);

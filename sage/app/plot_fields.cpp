@@ -1,7 +1,10 @@
 // sagefe plot RESULT... --picture FIELD: a picture each, or panels of one sheet.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "sage/app/input.hpp"
+#include "sage/app/picture_formats.hpp"
 #include "sage/app/plot_command.hpp"
 #include "sage/app/plot_states.hpp"
 #include "sage/record/field_reader.hpp"
@@ -25,51 +28,99 @@ void say_failure(const StoredRun& run) {
     fmt::print(stderr, "{}: the run did not converge: {}\n", run.file, run.stored.failure());
 }
 
+// Names of the files' pictures before the state: that of the file, and of its folder where others in the same
+// folder of pictures bear the same.  Throws UsageError where that is not enough.
+std::vector<std::string> stems_of(const PlotOptions& options) {
+  namespace fs = std::filesystem;
+  const auto same_folder = [&](const std::string& a, const std::string& b) {
+    return !options.folder.empty() || fs::weakly_canonical(fs::path(a).parent_path() / ".") ==
+                                          fs::weakly_canonical(fs::path(b).parent_path() / ".");
+  };
+  const auto stem = [](const std::string& file) { return fs::path(file).stem().string(); };
+  std::vector<std::string> stems;
+  for (std::size_t i = 0; i < options.files.size(); ++i) {
+    const std::string& file = options.files[i];
+    const bool alike = std::ranges::any_of(options.files, [&](const std::string& other) {
+      return &other != &file && stem(other) == stem(file) && same_folder(other, file);
+    });
+    const std::string folder = fs::weakly_canonical(file).parent_path().filename().string();
+    stems.push_back(alike ? folder + "_" + stem(file) : stem(file));
+    for (std::size_t j = 0; j < i; ++j)
+      if (stems[j] == stems[i] && same_folder(options.files[j], file))
+        throw UsageError(
+            fmt::format("the pictures of {} and {} would bear the same names: draw them into "
+                        "different folders (-o)",
+                        options.files[j], file));
+  }
+  return stems;
+}
+
+// The fields that are drawn, each once.
+std::vector<std::string> fields_to_draw(const PlotOptions& options, const StoredRun& run,
+                                        const std::vector<std::size_t>& states) {
+  const FieldTable table = fields_of(run.model);
+  require_fields(options.pictures, {}, {table});
+  std::vector<std::string> names;
+  for (const std::string& name : options.pictures) {
+    if (std::ranges::find(names, name) != names.end()) continue;
+    expect_numbers(run, states, picture_field(table, name), name, ElementKind::solid);
+    names.push_back(name);
+  }
+  return names;
+}
+
 }  // namespace
 
 void plot_pictures(const PlotOptions& options, const Catalogue& catalogue) {
-  for (const std::string& file : options.files) {
+  const std::vector<std::string> stems = stems_of(options);
+  for (std::size_t i = 0; i < options.files.size(); ++i) {
+    const std::string& file = options.files[i];
     const StoredRun run(file, catalogue);
-    require_fields(options.pictures, {}, {fields_of(run.model)});
     const std::vector<std::size_t> states = states_of(run, options.at);
+    const std::vector<std::string> fields = fields_to_draw(options, run, states);
     PictureOptions look = options.look;
     look.title = options.title;
-    Pictures pictures(plot_folder(options, file), std::filesystem::path(file).stem().string(), options.pictures,
-                      look);
+    if (i < options.labels.size()) look.title += (look.title.empty() ? "" : ": ") + options.labels[i];
+    Pictures pictures(plot_folder(options, file), stems[i], fields, look);
     for (std::size_t state : states) draw(pictures, run, state);
-    for (const std::filesystem::path& picture : pictures.files()) fmt::print("{}\n", picture.string());
+    for (const std::filesystem::path& picture : pictures.files()) {
+      fmt::print("{}\n", picture.string());
+      for (const auto& other : convert_picture(picture, options.formats)) fmt::print("{}\n", other.string());
+    }
     say_failure(run);
   }
 }
 
 void plot_sheet(const PlotOptions& options, const Catalogue& catalogue) {
-  std::vector<std::unique_ptr<StoredRun>> runs;
+  StoredRuns runs;
+  for (const std::string& file : options.files) runs.push_back(std::make_unique<StoredRun>(file, catalogue));
+  const std::vector<std::string> labels = labels_of(runs, options.labels);
   std::vector<std::unique_ptr<Frame>> frames;
   FieldSheet sheet;
-  sheet.title = options.title;
   sheet.look = options.look;
   sheet.one_scale = !options.own_scales;
-  // Side by side: the fields of a state, or the states of a field.
-  if (options.pictures.size() > 1) sheet.columns = static_cast<int>(options.pictures.size());
-  const bool several = options.files.size() > 1;
-  for (std::size_t i = 0; i < options.files.size(); ++i) {
-    const StoredRun& run = *runs.emplace_back(std::make_unique<StoredRun>(options.files[i], catalogue));
-    require_fields(options.pictures, {}, {fields_of(run.model)});
-    const std::string label = i < options.labels.size() ? options.labels[i] : run.label;
-    if (!several && sheet.title.empty()) sheet.title = label;
-    for (std::size_t state : states_of(run, options.at)) {
+  const bool several = runs.size() > 1;
+  sheet.title = several || !options.title.empty() ? options.title : labels.front();
+  const bool label_panels = several || (!options.title.empty() && !options.labels.empty());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const StoredRun& run = *runs[i];
+    const std::vector<std::size_t> states = states_of(run, options.at);
+    const std::vector<std::string> fields = fields_to_draw(options, run, states);
+    // Side by side: the fields of a state, or the states of a field.
+    if (fields.size() > 1) sheet.columns = static_cast<int>(fields.size());
+    for (std::size_t state : states) {
       const Frame& frame = *frames.emplace_back(std::make_unique<Frame>(run.stored.frame(run.model, state)));
       const std::string words = words_of_state(run, state, frame);
-      for (const std::string& field : options.pictures) {
+      for (const std::string& field : fields) {
         FieldPanel& panel = sheet.panels.emplace_back(FieldPanel{&run.model, frame.view(), field});
-        panel.title = several ? label : words;
-        panel.state = several ? words : "";
+        panel.title = label_panels ? labels[i] : words;
+        panel.state = label_panels ? words : "";
       }
     }
     say_failure(run);
   }
   const std::string stem = std::filesystem::path(options.files.front()).stem().string();
-  write_plot(plot_path(options, stem + "_" + fmt::format("{}", fmt::join(options.pictures, "_"))),
+  write_plot(options, plot_path(options, stem + "_" + fmt::format("{}", fmt::join(options.pictures, "_"))),
              sheet_svg(sheet));
 }
 

@@ -9,6 +9,7 @@
 #include "sage/app/input.hpp"
 #include "sage/app/plot_command.hpp"
 #include "sage/app/plot_states.hpp"
+#include "sage/draw/picture_field.hpp"
 #include "sage/draw/plot.hpp"
 #include "sage/record/sampler.hpp"
 #include "sage/record/values.hpp"
@@ -54,10 +55,10 @@ Abscissa abscissa_of(const Model& model, const Vector2& along) {
   return {-1, fmt::format("distance along the line [{}]", unit)};
 }
 
-FieldChoice choice_of(const Model& model, const FieldTable& table, const std::string& name) {
+FieldChoice choice_of(const FieldTable& table, const std::string& name) {
   const std::optional<FieldChoice> choice = table.choose(name);
   if (!choice || (choice->entry->place() != FieldPlace::node && choice->entry->place() != FieldPlace::point))
-    throw UsageError("--picture: unknown field " + name + "; known: " + fields_of(model).known());
+    throw UsageError("--picture: unknown field " + name + "; known: " + table.known());
   return *choice;
 }
 
@@ -124,23 +125,45 @@ struct Shown {
   std::string label;
 };
 
-std::vector<Shown> states_to_show(const PlotOptions& options,
-                                  const std::vector<std::unique_ptr<StoredRun>>& runs) {
+std::vector<Shown> states_to_show(const PlotOptions& options, const StoredRuns& runs) {
   std::vector<Shown> shown;
+  const std::vector<std::string> labels = labels_of(runs, options.labels);
+  const bool labelled = runs.size() > 1 || !options.labels.empty();
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const StoredRun& run = *runs[i];
-    const std::string label = i < options.labels.size() ? options.labels[i] : run.label;
     for (std::size_t state : states_of(run, options.at)) {
       Frame frame = run.stored.frame(run.model, state);
       const std::string words = words_of_state(run, state, frame);
-      shown.push_back({&run, std::move(frame), runs.size() == 1 ? words : label + ": " + words});
+      shown.push_back({&run, std::move(frame), labelled ? labels[i] + ": " + words : words});
     }
   }
   return shown;
 }
 
-std::vector<std::unique_ptr<StoredRun>> open_runs(const PlotOptions& options, const Catalogue& catalogue) {
-  std::vector<std::unique_ptr<StoredRun>> runs;
+// That some state of every run has the fields at all.
+void expect_fields(const PlotOptions& options, const StoredRuns& runs, const std::vector<std::string>& fields,
+                   ElementKind kind) {
+  for (const auto& run : runs) {
+    const FieldTable table = fields_of(run->model);
+    const std::vector<std::size_t> states = states_of(*run, options.at);
+    for (const std::string& name : fields) expect_numbers(*run, states, choice_of(table, name), name, kind);
+  }
+}
+
+// Throws UsageError where all of a line lies outside the solids.
+void expect_on_line(const std::string& line, const StoredRun& run, const std::vector<PlotSeries>& curves) {
+  const auto known = [](const PlotSeries& curve) {
+    return std::ranges::any_of(curve.y, [](double y) { return std::isfinite(y); });
+  };
+  if (std::ranges::any_of(curves, known)) return;
+  const Eigen::Matrix2Xd& x = run.model.mesh.x;
+  throw UsageError(fmt::format(
+      "--line {}: no solid of {} lies on it; its mesh goes from {:.6g},{:.6g} to {:.6g},{:.6g}", line, run.file,
+      x.row(0).minCoeff(), x.row(1).minCoeff(), x.row(0).maxCoeff(), x.row(1).maxCoeff()));
+}
+
+StoredRuns open_runs(const PlotOptions& options, const Catalogue& catalogue) {
+  StoredRuns runs;
   for (const std::string& file : options.files) runs.push_back(std::make_unique<StoredRun>(file, catalogue));
   return runs;
 }
@@ -148,7 +171,7 @@ std::vector<std::unique_ptr<StoredRun>> open_runs(const PlotOptions& options, co
 // A panel a field, a curve a state.
 void plot_over_places(const PlotOptions& options, const Catalogue& catalogue,
                       const std::vector<std::string>& fields, const char* what) {
-  const auto runs = open_runs(options, catalogue);
+  const StoredRuns runs = open_runs(options, catalogue);
   const std::vector<Shown> shown = states_to_show(options, runs);
   const Model& first = runs.front()->model;
   const bool interfaces = options.line.empty();
@@ -160,16 +183,21 @@ void plot_over_places(const PlotOptions& options, const Catalogue& catalogue,
       throw UsageError(options.files.front() + ": --interface: the model has no interface");
     along[along.x() >= along.y() ? 1 : 0] = 0.0;
   }
+  expect_fields(options, runs, fields, interfaces ? ElementKind::interface : ElementKind::solid);
+  const FieldTable first_table = fields_of(first);
   PlotSheet sheet;
   sheet.title = options.title.empty() && runs.size() == 1 ? first.title : options.title;
+  sheet.note = interfaces
+                   ? "at the integration points of the interfaces"
+                   : "along the undeformed mesh; stresses as those of point reports (docs/theory/accuracy.md)";
   for (const std::string& name : fields) {
     Plot& plot = sheet.panels.emplace_back();
     plot.x_label = abscissa_of(first, along).label;
-    plot.y_label = (interfaces ? "interface " : "") + describe(choice_of(first, fields_of(first), name), first);
+    plot.y_label = (interfaces ? "interface " : "") + describe(choice_of(first_table, name), first);
     for (const Shown& state : shown) {
       const Model& model = state.run->model;
       const FieldTable table = fields_of(model);
-      const FieldChoice field = choice_of(model, table, name);
+      const FieldChoice field = choice_of(table, name);
       PlotSeries series = interfaces
                               ? along_interfaces(model, state.frame.view(), field, along.x() != 0.0 ? 0 : 1)
                               : along_line(model, state.frame.view(), field, line);
@@ -177,9 +205,14 @@ void plot_over_places(const PlotOptions& options, const Catalogue& catalogue,
       series.markers = true;
       plot.series.push_back(std::move(series));
     }
+    std::vector<double*> values;
+    for (PlotSeries& series : plot.series)
+      for (double& y : series.y) values.push_back(&y);
+    unfold_angles(*choice_of(first_table, name).entry, std::move(values));
+    if (!interfaces) expect_on_line(options.line, *runs.front(), plot.series);
   }
   const std::string stem = std::filesystem::path(options.files.front()).stem().string();
-  write_plot(plot_path(options, fmt::format("{}_{}", stem, what)), sheet_svg(sheet));
+  write_plot(options, plot_path(options, fmt::format("{}_{}", stem, what)), sheet_svg(sheet));
 }
 
 }  // namespace

@@ -2,91 +2,70 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "sage/app/input.hpp"
 #include "sage/app/run_source.hpp"
+#include "sage/app/state_choice.hpp"
 
 namespace sage::app {
 
 namespace {
 
-constexpr std::string_view kStrain = "strain=";
-
-// An increment of a stage, from 1 (increment 0 = the stage's last, stage 0 = the file's last), or a strain.
-struct Moment {
-  int stage = 0, increment = 0;
-  std::optional<double> strain;
-};
-
-template <class Number>
-bool whole_number(std::string_view digits, Number& value) {
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  return error == std::errc() && end == digits.data() + digits.size();
-}
-
-// Throws std::invalid_argument that says what is wanted.
-Moment moment_from(std::string_view text) {
-  Moment moment;
-  const auto wrong = [&] {
-    throw std::invalid_argument("--at " + std::string(text) +
-                                ": wanted STAGE[:INCREMENT], both from 1, or strain=VALUE");
-  };
-  if (text.starts_with(kStrain)) {
-    double strain = 0.0;
-    if (!whole_number(text.substr(kStrain.size()), strain) || !std::isfinite(strain)) wrong();
-    moment.strain = strain;
-    return moment;
-  }
-  const std::size_t colon = text.find(':');
-  if (colon != 0 && (!whole_number(text.substr(0, colon), moment.stage) || moment.stage < 1)) wrong();
-  if (colon != std::string_view::npos &&
-      (!whole_number(text.substr(colon + 1), moment.increment) || moment.increment < 1))
-    wrong();
-  return moment;
-}
-
 // Mean displacement along y of the deck's nodes of a report.
 double mean_uy(const Model& model, const Report& report, const Solution& solution) {
+  const std::vector<int> nodes = report_nodes(model, report);
   double sum = 0.0;
-  int count = 0;
-  for (int node : report.nodes) {
-    if (node >= model.mesh.deck_nodes) continue;
-    sum += (*solution.u)[DofMap::displacement(node) + 1];
-    ++count;
-  }
-  return count > 0 ? sum / count : NAN;
+  for (int node : nodes) sum += (*solution.u)[DofMap::displacement(node) + 1];
+  return nodes.empty() ? NAN : sum / static_cast<double>(nodes.size());
 }
 
-std::size_t state_at_strain(const StoredRun& run, const std::string& text, double strain) {
-  constexpr double kSame = 1e-6;  // strains on a command line have fewer digits
+constexpr double kSame = 1e-6;  // strains and load factors on a command line have fewer digits
+
+// value: of a state, nothing where it has none.
+template <class Value>
+std::size_t state_with(const StoredRun& run, const StateChoice& choice, double wanted, const char* what,
+                       const Value& value) {
   std::string known;
   for (std::size_t i = 0; i < run.stored.states().size(); ++i) {
-    const std::optional<double> here = run.axial_strain(run.stored.frame(run.model, i));
+    const std::optional<double> here = value(run.stored.frame(run.model, i));
     if (!here) continue;
-    if (std::abs(*here - strain) <= kSame) return i;
+    if (std::abs(*here - wanted) <= kSame) return i;
     known += fmt::format(" {:.6g}", *here);
   }
-  throw UsageError(run.file + ": --at " + text +
-                   (known.empty() ? ": the deck has no triaxial report, whose strain it could be"
-                                  : ": the file has no such state; its strains are" + known));
+  throw UsageError(fmt::format("{}: --at {}: {}", run.file, choice.words,
+                               known.empty()
+                                   ? fmt::format("no state has {}", what)
+                                   : fmt::format("the file has no such state; its {} are{}; sagefe run "
+                                                 "--result --states {} writes it",
+                                                 what, known, choice.words)));
 }
 
-std::size_t state_at(const StoredRun& run, const std::string& text) {
-  const Moment moment = moment_from(text);
-  if (moment.strain) return state_at_strain(run, text, *moment.strain);
+std::size_t state_at(const StoredRun& run, const StateChoice& choice) {
   const auto& states = run.stored.states();
-  const int stage = moment.stage > 0 || states.empty() ? moment.stage : states.back().stage + 1;
+  const int last = states.empty() ? 0 : states.back().stage + 1;
+  if (choice.strain)
+    return state_with(run, choice, *choice.strain, "strains",
+                      [&](const Frame& frame) { return run.axial_strain(frame); });
+  if (choice.load)
+    return state_with(run, choice, *choice.load, "load factors of the last stage", [&](const Frame& frame) {
+      return frame.report().stage + 1 == last ? std::optional(frame.report().load_factor) : std::nullopt;
+    });
+  const int stage = choice.stage > 0 ? choice.stage : last;
   std::string known;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const auto& state = states[i];
     if (state.stage + 1 == stage &&
-        (moment.increment == 0 ? run.ends_its_stage(i) : state.increment == moment.increment))
+        (choice.increment == 0 ? run.ends_its_stage(i) : state.increment == choice.increment))
       return i;
     known += fmt::format(" {}:{}", state.stage + 1, state.increment);
   }
-  throw UsageError("--at " + text + ": the file has no such state; it has" + known);
+  throw UsageError(
+      fmt::format("{}: --at {}: the file has no such state; it has{}; sagefe run --result --states "
+                  "STAGE:INCREMENT writes more",
+                  run.file, choice.words, known));
 }
 
 }  // namespace
@@ -116,22 +95,91 @@ std::optional<double> StoredRun::axial_strain(const Frame& frame) const {
   return std::nullopt;
 }
 
-std::string moment_error(const std::string& text) {
-  try {
-    moment_from(text);
-    return "";
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-}
-
 std::vector<std::size_t> states_of(const StoredRun& run, const std::vector<std::string>& at) {
   std::vector<std::size_t> chosen;
-  for (const std::string& text : at) chosen.push_back(state_at(run, text));
+  for (const std::string& text : at)
+    for (const StateChoice& choice : state_choices(text)) {
+      const std::size_t state = state_at(run, choice);
+      if (std::ranges::find(chosen, state) == chosen.end()) chosen.push_back(state);
+    }
   if (at.empty())
     for (std::size_t i = 0; i < run.stored.states().size(); ++i)
       if (run.ends_its_stage(i)) chosen.push_back(i);
   return chosen;
+}
+
+namespace {
+
+// Whether an active element of the kind has one at any of its points.
+bool has_number(const Model& model, const Frame& frame, const FieldChoice& field, ElementKind kind) {
+  const Solution now = frame.view();
+  std::vector<double> value(field.entry->size());
+  for (std::size_t g = 0; g < now.groups().size(); ++g) {
+    const GroupData& data = now.groups()[g];
+    if (data.group->entry->kind != kind || now.activity->group[g] == 0 || !applies(*field.entry, data))
+      continue;
+    const std::size_t points =
+        static_cast<std::size_t>(data.group->elements() * data.group->element->traits().points);
+    for (std::size_t p = 0; p < points; ++p) {
+      read_field(*field.entry, PointState(model.mesh, data, p), value.data());
+      if (std::isfinite(chosen(field, value.data()))) return true;
+    }
+  }
+  return false;
+}
+
+void expect_same_units(const StoredRun& a, const StoredRun& b) {
+  const auto words = [](const UnitSystem& units) {
+    return fmt::format("{}, {}, {}", units.length, units.force, units.stress);
+  };
+  const std::string of_a = words(a.model.units), of_b = words(b.model.units);
+  if (of_a != of_b)
+    throw UsageError(
+        fmt::format("{} is in {}, {} in {}: they can't be drawn on one axis or scale; draw them in "
+                    "separate files",
+                    a.file, of_a, b.file, of_b));
+}
+
+}  // namespace
+
+void expect_numbers(const StoredRun& run, const std::vector<std::size_t>& states, const FieldChoice& field,
+                    const std::string& name, ElementKind kind) {
+  const bool solid = kind == ElementKind::solid;
+  if (solid && field.entry->place() == FieldPlace::node) return;
+  const auto in_any = [&](ElementKind asked) {
+    return std::ranges::any_of(states, [&](std::size_t state) {
+      return has_number(run.model, run.stored.frame(run.model, state), field, asked);
+    });
+  };
+  if (field.entry->place() == FieldPlace::point && in_any(kind)) return;
+  std::string text = fmt::format("{}: no {} has a number of {} in these states", run.file,
+                                 solid ? "solid" : "interface", name);
+  if (field.entry->place() == FieldPlace::node)
+    text += ": it is of nodes; --picture and --line show it";
+  else if (in_any(solid ? ElementKind::interface : ElementKind::solid))
+    text += solid ? ": it is of interfaces; --interface shows it"
+                  : ": it is of solids; --picture and --line show it";
+  throw UsageError(text);
+}
+
+std::vector<std::string> labels_of(const StoredRuns& runs, const std::vector<std::string>& asked) {
+  std::vector<std::string> labels;
+  for (const auto& run : runs) {
+    expect_same_units(*runs.front(), *run);
+    const auto alike = [&](const auto& other) {
+      return other != run && other->model.title == run->model.title;
+    };
+    const bool title = !run->model.title.empty() && std::ranges::none_of(runs, alike);
+    labels.push_back(title ? run->model.title : std::filesystem::path(run->file).replace_extension().string());
+  }
+  std::ranges::copy(asked, labels.begin());
+  const auto other_geometry = [&](const auto& run) {
+    return run->model.geometry != runs.front()->model.geometry;
+  };
+  if (std::ranges::any_of(runs, other_geometry))
+    for (std::size_t i = 0; i < runs.size(); ++i)
+      labels[i] += runs[i]->model.geometry == Geometry::axisymmetric ? " (axisymmetric)" : " (plane strain)";
+  return labels;
 }
 
 std::string words_of_state(const StoredRun& run, std::size_t state, const Frame& frame) {

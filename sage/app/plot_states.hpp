@@ -30,12 +30,21 @@ struct StoredRun {
   std::optional<double> axial_strain(const Frame& frame) const;
 };
 
-// An empty text where `text` says one: STAGE[:INCREMENT] or strain=VALUE; else what is wanted.
-std::string moment_error(const std::string& text);
-
-// Places in run.stored.states() of what is asked for; without that the ends of all stages.  Throws UsageError that
-// says which states the file has.
+// Places in run.stored.states() of what is asked for (state_choices), each once; without that the ends of all
+// stages.  Throws UsageError that says which states the file has.
 std::vector<std::size_t> states_of(const StoredRun& run, const std::vector<std::string>& at);
+
+using StoredRuns = std::vector<std::unique_ptr<StoredRun>>;
+
+// Labels of runs that are drawn together: those asked for, else the titles; files where titles are alike, and the
+// geometry behind them where it is not the same in all.  Throws UsageError where units differ, which no common axis
+// or scale can show.
+std::vector<std::string> labels_of(const StoredRuns& runs, const std::vector<std::string>& asked);
+
+// Throws UsageError where no element of the kind has a number of the field in any of these states.  Fields of nodes
+// have one wherever there is a mesh.
+void expect_numbers(const StoredRun& run, const std::vector<std::size_t>& states, const FieldChoice& field,
+                    const std::string& name, ElementKind kind);
 
 // "end of stage 2, axial strain 0.05"
 std::string words_of_state(const StoredRun& run, std::size_t state, const Frame& frame);

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <regex>
 
+#include "sage/record/csv_table.hpp"
 #include "tests/regression/program.hpp"
 
 namespace sage::test {
@@ -209,7 +211,7 @@ TEST(Plot, WrongWishesAreNamed) {
     EXPECT_NE(plot.err.find(message), std::string::npos) << plot.err;
   };
   expect_refused("--picture dev --at strain=.033", "its strains are 0.01 0.02 0.03");
-  expect_refused("--picture dev --at strain=x", "wanted STAGE[:INCREMENT], both from 1, or strain=VALUE");
+  expect_refused("--picture dev --at strain=x", "wanted STAGE[:INCREMENT], both from 1, strain=VALUE");
   expect_refused("--picture dev --range 5:1", "wanted LOW:HIGH, full or auto");
   expect_refused("--picture devi", "unknown field devi");
   expect_refused("--picture dev --line 0,0", "wanted X,Y:X,Y");
@@ -274,6 +276,232 @@ TEST(Plot, FilesThatAreNoneAreOneError) {
   fs::copy_file(whole, spoilt, fs::copy_options::overwrite_existing);
   spoil(spoilt, "     3000.", "     4000.");
   expect_refused("spoilt.h5", "another model");
+}
+
+// Stresses as the source chapter's figures show them.  sigma_3 of each element's mean stress is computed here from
+// the table of points; what a picture has are means of those, so that it can't pass them.
+TEST(Plot, StressesAreMeansOfElements) {
+  const fs::path folder = empty_folder("plot_means");
+  const Finished run =
+      sagefe(folder, "run " + kInputs + "chapter7/friction_285_nu0495/deck.dat -q --result --points");
+  if (without_module(run)) GTEST_SKIP() << "built without HDF5";
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const CsvTable points = read_csv_table(folder / "out/friction_285_nu0495.points.csv");
+  const auto column = [&](const char* name) { return points.find(name)->values; };
+  const std::vector<double> group = column("group"), element = column("element"), xx = column("stress_xx"),
+                            yy = column("stress_yy"), zz = column("stress_zz"), xy = column("stress_xy");
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (std::size_t i = 0; i + 3 < element.size();) {
+    if (group[i] != 1.0) {
+      ++i;
+      continue;
+    }
+    double s[4] = {};
+    for (std::size_t p = i; p < i + 4; ++p) {
+      ASSERT_EQ(element[p], element[i]);
+      s[0] += 0.25 * xx[p], s[1] += 0.25 * yy[p], s[2] += 0.25 * zz[p], s[3] += 0.25 * xy[p];
+    }
+    const double least = 0.5 * (s[0] + s[1]) - std::hypot(0.5 * (s[0] - s[1]), s[3]);
+    low = std::min({low, least, s[2]});
+    high = std::max(high, std::min(least, s[2]));
+    i += 4;
+  }
+  const auto range = [&](const std::string& more) {
+    const Finished plot = sagefe(folder, "plot out/friction_285_nu0495.h5 --picture conf --range full" + more);
+    EXPECT_EQ(plot.exit_code, 0) << plot.err;
+    const std::string svg = read((folder / "out/friction_285_nu0495_stage1_conf.svg").string());
+    EXPECT_NE(svg.find(more.empty() ? "values: means of elements" : "values: extrapolated"), std::string::npos);
+    return ranges_of(svg).at(0);
+  };
+  const auto [from, to] = range("");
+  EXPECT_GE(from, low - 1e-3 * high) << "four digits are shown";
+  EXPECT_LE(to, high * (1.0 + 1e-3));
+  EXPECT_GT(to, 0.5 * high) << "but it comes near to them";
+  const auto [out_from, out_to] = range(" --extrapolate");
+  EXPECT_LT(out_from, low);
+  EXPECT_GT(out_to, 2.0 * high) << "points of neighbours disagree";
+}
+
+// A mean of stress levels is none above 1.
+TEST(Plot, StressLevelsDoNotPassOne) {
+  const fs::path folder = empty_folder("plot_level");
+  const Finished run = sagefe(folder, "run " + kInputs + "chapter7/dp_285/deck.dat -q --result");
+  if (without_module(run)) GTEST_SKIP() << "built without HDF5";
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  ASSERT_EQ(sagefe(folder, "plot out/dp_285.h5 --picture SL").exit_code, 0);
+  for (const auto& [name, svg] : pictures_in(folder / "out"))
+    for (const auto& [low, high] : ranges_of(svg)) EXPECT_LE(high, 1.0) << name;
+}
+
+std::map<std::string, std::string> files_in(const fs::path& folder) {
+  std::map<std::string, std::string> all;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    all[entry.path().filename().string()] = read(entry.path().string());
+  return all;
+}
+
+// The deck writes the last of its 40 increments only; listing and tables stay as they were, to the byte.
+TEST(RunStates, AddWhatTheDeckDoesNotChoose) {
+  const fs::path folder = empty_folder("run_states");
+  const std::string deck = "run " + kInputs + "chapter7/friction_285_nu0495/deck.dat -q ";
+  ASSERT_EQ(sagefe(folder, deck + "-o plain").exit_code, 0);
+  const Finished run =
+      sagefe(folder, deck + "--picture conf --states strain=.05,.1 --states load=.25 --states 1:30 -o out");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.err.find("--states"), std::string::npos) << "increments end at all of them";
+  const auto before = files_in(folder / "plain");
+  auto after = files_in(folder / "out");
+  for (const char* name : {"friction_285_nu0495.report1.csv", "friction_285_nu0495.increments.csv"})
+    EXPECT_TRUE(before.at(name) == after.at(name)) << name;
+  for (int increment : {10, 20, 30})
+    EXPECT_TRUE(
+        after.contains("friction_285_nu0495_stage1_increment" + std::to_string(increment) + "_conf.svg"));
+  EXPECT_TRUE(after.contains("friction_285_nu0495_stage1_conf.svg")) << "10 % is the end of the stage";
+  EXPECT_EQ(pictures_in(folder / "out").size(), 4u);
+
+  const Finished stored = sagefe(folder, deck + "--result --states strain=.05 -o stored");
+  if (without_module(stored)) GTEST_SKIP() << "built without HDF5";
+  ASSERT_EQ(stored.exit_code, 0) << stored.err;
+  const Finished plot = sagefe(folder, "plot stored/friction_285_nu0495.h5 --picture conf --at strain=.05,.1");
+  ASSERT_EQ(plot.exit_code, 0) << plot.err;
+  const char* half = "friction_285_nu0495_stage1_increment20_conf.svg";
+  EXPECT_TRUE(pictures_in(folder / "stored").at(half) == after.at(half));
+}
+
+TEST(RunStates, SayWhichIncrementIsNearestAndWhatThereIsNot) {
+  const fs::path folder = empty_folder("run_states_bad");
+  const auto expect = [&](const std::string& options, int code, const std::string& words) {
+    const Finished run = sagefe(folder, "run " + kInputs + "chapter7/pinned_ld1_nu025/deck.dat " + options);
+    EXPECT_EQ(run.exit_code, code) << options << "\n" << run.err;
+    EXPECT_NE(run.err.find(words), std::string::npos) << options << "\n" << run.err;
+  };
+  expect("--points --states strain=.033", 0,
+         "--states strain=.033: no increment ends there; the nearest is increment 3, axial strain 0.03");
+  expect("--points --states load=.5,.7", 0, "");
+  expect("--points --states strain=.5", 1, "the axial strain of the last stage goes from 0.01 to 0.1");
+  expect("--points --states 1:11", 1, "stage 1 has 10 increments");
+  expect("--points --states 3", 1, "the deck has 1 stages");
+  expect("--points --states half", 1, "--states half: wanted STAGE[:INCREMENT]");
+  expect("--states 1:5", 1, "into which files?");
+}
+
+// Each is refused by its name, and nothing is drawn.
+TEST(Plot, OptionsThatWouldMeanNothingAreRefused) {
+  const fs::path folder = empty_folder("plot_options");
+  const Finished run = run_with_all_states(folder);
+  if (without_module(run)) GTEST_SKIP() << "built without HDF5";
+  const auto expect_refused = [&](const std::string& words, const std::string& message) {
+    const Finished plot = sagefe(folder, "plot " + words + " -o drawn");
+    EXPECT_EQ(plot.exit_code, 1) << words;
+    EXPECT_NE(plot.err.find(message), std::string::npos) << words << "\n" << plot.err;
+    EXPECT_FALSE(fs::exists(folder / "drawn")) << words;
+  };
+  for (const char* option :
+       {"--at 1", "--increment 5", "--sheet", "--own-scales", "--range full", "--levels 5", "--extrapolate",
+        "--no-mesh", "--undeformed", "--mirror left", "--yielded", "--crosses", "--arrows"}) {
+    const std::string name = std::string(option).substr(0, std::string(option).find(' '));
+    expect_refused("out/deck.report1.csv " + std::string(option), name + " is for");
+  }
+  for (const char* option : {"--range 0:1", "--levels 5", "--extrapolate", "--no-mesh", "--undeformed",
+                             "--mirror both", "--yielded", "--crosses", "--arrows", "--sheet", "--own-scales"})
+    for (const char* mode : {"--interface ", "--line 0,0:1,1 --picture dev "}) {
+      const std::string name = std::string(option).substr(0, std::string(option).find(' '));
+      expect_refused(std::string("out/deck.h5 ") + mode + option, name + " is for");
+    }
+  const std::string h5 = "out/deck.h5 ", dev = h5 + "--picture dev ";
+  expect_refused(h5 + "--line 0,0:1,1 --interface", "--line is for");
+  expect_refused(dev + "--xy axial_strain:ratio", "--xy is for");
+  expect_refused(dev + "--own-scales", "--own-scales is for");
+  expect_refused(dev + "--name x", "--name is for");
+  expect_refused(dev + "--sheet --own-scales --range 0:5", "--own-scales does not go with");
+  expect_refused(h5 + "--label a --label b", "--label: 2 of them for 1 files");
+  expect_refused(h5 + h5 + "--label a", "--label: 1 of them for 2 files");
+  expect_refused("out/deck.report1.csv --picture dev", "is a table");
+  expect_refused(h5 + "--name ../x", "wanted a file's name");
+  expect_refused(h5 + h5 + "--picture dev", "would bear the same names");
+}
+
+TEST(Plot, WhatWouldBeEmptyIsAnError) {
+  const fs::path folder = empty_folder("plot_empty");
+  const Finished run = run_with_all_states(folder);
+  if (without_module(run)) GTEST_SKIP() << "built without HDF5";
+  const Finished with_interface =
+      sagefe(folder, "run " + kInputs + "chapter7/friction_08_nu025/deck.dat -q --result");
+  ASSERT_EQ(with_interface.exit_code, 0);
+  write(folder / "nan.csv", "# t\na,b,c\n1,nan,1\n2,nan,2\n");
+  const auto expect_refused = [&](const std::string& words, const std::string& message) {
+    const Finished plot = sagefe(folder, "plot " + words);
+    EXPECT_EQ(plot.exit_code, 1) << words;
+    EXPECT_NE(plot.err.find(message), std::string::npos) << words << "\n" << plot.err;
+  };
+  const std::string joint = "out/friction_08_nu025.h5 ";
+  expect_refused("out/deck.h5 --line 5,5:6,6 --picture dev", "its mesh goes from 0,0 to 1.4,1.4");
+  expect_refused("out/deck.h5 --line 0,0:1,1 --picture traction_normal",
+                 "no solid has a number of traction_normal");
+  expect_refused(joint + "--picture traction_normal", "it is of interfaces; --interface shows it");
+  expect_refused(joint + "--line 0,0:1,1 --picture traction_shear", "--interface shows it");
+  expect_refused(joint + "--interface --picture dev", "it is of solids; --picture and --line show it");
+  expect_refused(joint + "--interface --picture displacement_y", "it is of nodes");
+  expect_refused("nan.csv --xy a:b", "no row has a number of both a and b");
+  EXPECT_EQ(sagefe(folder, "plot nan.csv --xy a:c").exit_code, 0);
+}
+
+TEST(Plot, SeveralFilesAgreeInUnitsAndSayTheirGeometry) {
+  const fs::path folder = empty_folder("plot_units");
+  write(folder / "a.dat", block_deck().text());
+  write(folder / "b.dat", block_deck().with("units", "m       kN      kPa        101.325      9.81").text());
+  ASSERT_EQ(sagefe(folder, "run a.dat -q -o ax --geometry 2").exit_code, 0);
+  ASSERT_EQ(sagefe(folder, "run a.dat b.dat -q -o out").exit_code, 0);
+  const Finished tables = sagefe(folder, "plot out/a.report1.csv out/b.report1.csv --xy axial_strain:force");
+  EXPECT_EQ(tables.exit_code, 1);
+  EXPECT_NE(tables.err.find("force of out/a.report1.csv is in lbf, force of out/b.report1.csv in kN"),
+            std::string::npos)
+      << tables.err;
+  const Finished mixed =
+      sagefe(folder, "plot out/a.report1.csv ax/a.report1.csv --xy axial_strain:force --name mixed");
+  ASSERT_EQ(mixed.exit_code, 0) << mixed.err;
+  const std::string note = read((folder / "out/mixed.svg").string());
+  EXPECT_NE(note.find("full circle"), std::string::npos) << "forces of a ring";
+  EXPECT_NE(note.find("unit thickness"), std::string::npos) << "and of a slice";
+  const Finished run = sagefe(folder, "run a.dat b.dat -q -o out --result");
+  if (without_module(run)) GTEST_SKIP() << "built without HDF5";
+  ASSERT_EQ(sagefe(folder, "run a.dat -q -o ax --geometry 2 --result").exit_code, 0);
+  for (const char* mode : {"--sheet", "--line 0,0:0,1"}) {
+    const std::string field = std::string(" --picture stress_yy --name two ") + mode;
+    const Finished units = sagefe(folder, "plot out/a.h5 out/b.h5" + field);
+    EXPECT_EQ(units.exit_code, 1);
+    EXPECT_NE(units.err.find("out/a.h5 is in in, lbf, psi, out/b.h5 in m, kN, kPa"), std::string::npos)
+        << units.err;
+    ASSERT_EQ(sagefe(folder, "plot out/a.h5 ax/a.h5" + field).exit_code, 0);
+    const std::string svg = read((folder / "out/two.svg").string());
+    EXPECT_NE(svg.find("out/a (plane"), std::string::npos);
+    EXPECT_NE(svg.find("ax/a"), std::string::npos);
+    EXPECT_NE(svg.find("(axisymmetric)"), std::string::npos);
+  }
+  // Pictures of files of one name get those of their folders.
+  const Finished both = sagefe(folder, "plot out/a.h5 ax/a.h5 --picture stress_yy -o drawn");
+  ASSERT_EQ(both.exit_code, 0) << both.err;
+  EXPECT_TRUE(fs::exists(folder / "drawn/out_a_stage1_stress_yy.svg"));
+  EXPECT_TRUE(fs::exists(folder / "drawn/ax_a_stage1_stress_yy.svg"));
+}
+
+// The mark of spreadsheets, line ends of another system, a control character and a title without end.
+TEST(Plot, TablesOfOtherProgramsAreDrawn) {
+  const fs::path folder = empty_folder("plot_foreign");
+  const std::string title(400, 'w');
+  write(folder / "t.csv", "\xef\xbb\xbf# a\x01" + title + "\r\nx[m],y/z[kN]\r\n0,0\r\n1,2\r\n");
+  const Finished plot = sagefe(folder, "plot t.csv --xy x:y/z");
+  ASSERT_EQ(plot.exit_code, 0) << plot.err;
+  EXPECT_EQ(plot.out, "t_y_z_x.svg\n");
+  const std::string svg = read((folder / "t_y_z_x.svg").string());
+  EXPECT_EQ(svg.find('\x01'), std::string::npos) << "XML has no control characters";
+  EXPECT_NE(svg.find("<title>a " + title + "</title>"), std::string::npos);
+  EXPECT_NE(svg.find("w...w"), std::string::npos) << "shortened to the width of the paper";
+  EXPECT_EQ(sagefe(folder, "plot t.csv --xy x:y/z --name s.svg").out, "s.svg\n");
+  const Finished png = sagefe(folder, "plot t.csv --xy x:y/z --name p.png");
+  if (png.exit_code == 4) GTEST_SKIP() << "no rsvg-convert here";
+  EXPECT_EQ(png.out, "p.svg\np.png\n");
+  EXPECT_EQ(read((folder / "p.png").string()).substr(1, 3), "PNG");
 }
 
 }  // namespace
