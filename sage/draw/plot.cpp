@@ -332,8 +332,9 @@ std::vector<std::string> tick_labels(const std::vector<double>& ticks) {
 LineStyle line_style(int index) {
   static constexpr std::array<const char*, 6> kDashes{"",           "9 4",  "2.5 3",
                                                       "10 3 2.5 3", "16 4", "10 3 2.5 3 2.5 3"};
-  const auto i = static_cast<std::size_t>(index % kLineStyles);
-  return {line_colour(i), kDashes[i % kDashes.size()], static_cast<int>(i % 7)};
+  // Each round of seven colours moves the markers on, and the dashes further: each pair of the three comes once.
+  const auto i = static_cast<std::size_t>(index % kLineStyles), round = i / 7, marker = (i + round) % 7;
+  return {line_colour(i), kDashes[(marker + round) % kDashes.size()], static_cast<int>(marker)};
 }
 
 std::string sheet_svg(const PlotSheet& sheet) {

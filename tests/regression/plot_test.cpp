@@ -175,6 +175,21 @@ std::vector<std::pair<double, double>> ranges_of(const std::string& svg) {
   return ranges;
 }
 
+// Of the middles of all crosses, px.
+std::vector<double> from_line_of_symmetry(const std::string& svg) {
+  std::smatch seam;
+  if (!std::regex_search(svg, seam, std::regex("matrix\\(-1 0 0 1 ([0-9.]+) 0"))) return {};
+  std::vector<double> away;
+  const std::regex crosses("stroke-width=\"1.4\" d=\"([^\"]*)\""), one("M([-0-9.]+) [-0-9.]+L([-0-9.]+)");
+  for (std::sregex_iterator it(svg.begin(), svg.end(), crosses), end; it != end; ++it) {
+    const std::string path = (*it)[1];
+    for (std::sregex_iterator c(path.begin(), path.end(), one); c != end; ++c)
+      away.push_back(0.5 * std::abs(std::stod((*c)[1]) + std::stod((*c)[2]) - std::stod(seam[1])));
+  }
+  EXPECT_FALSE(away.empty());
+  return away;
+}
+
 // Linear, and without a cell pressure: at twice the strain every stress is twice as large.
 TEST(Plot, StatesAreChosenByStrainAndShareASheet) {
   const fs::path folder = empty_folder("plot_sheet");
@@ -194,6 +209,8 @@ TEST(Plot, StatesAreChosenByStrainAndShareASheet) {
     EXPECT_NEAR(ranges[k + 2].second, 2.0 * ranges[k].second, 2e-3 * size);
   }
   EXPECT_NE(svg.find("axial strain 0.05<"), std::string::npos) << svg.substr(0, 900);
+  for (double away : from_line_of_symmetry(svg))
+    EXPECT_TRUE(away < 0.6 || away > 12.8) << away << " px: its reflection would lie on it";
   const Finished named =
       sagefe(folder, "plot out/deck.h5 --picture conf --picture principal_stress_3 -o drawn");
   ASSERT_EQ(named.exit_code, 0) << named.err;

@@ -6,6 +6,7 @@
 
 #include "sage/draw/colour_map.hpp"
 #include "sage/draw/contour.hpp"
+#include "sage/draw/picture_field.hpp"
 #include "tests/support/text.hpp"
 #include "tests/unit/record/specimen.hpp"
 
@@ -198,6 +199,20 @@ TEST(FieldSheet, MirroredPicturesSayWhatTurnsItsSign) {
   EXPECT_FALSE(says_so("displacement", true, true)) << "a length";
   EXPECT_FALSE(says_so("stress_yy", true, true));
   EXPECT_FALSE(says_so("stress_xy", false, false));
+}
+
+// 89 and -89 degrees are 2 degrees apart, and 91 says so; angles about the first axis are best as they are.
+TEST(PictureField, AnglesNearTheVerticalAreOnOneSide) {
+  const FieldTable table;
+  const auto unfolded = [&](const char* field, std::vector<double> values) {
+    std::vector<double*> places;
+    for (double& value : values) places.push_back(&value);
+    unfold_angles(*table.find(field), places);
+    return values;
+  };
+  EXPECT_EQ(unfolded("principal_angle", {-89, 89, 88, -10}), (std::vector<double>{91, 89, 88, 170}));
+  EXPECT_EQ(unfolded("principal_angle", {-10, 10, 89, 5}), (std::vector<double>{-10, 10, 89, 5}));
+  EXPECT_EQ(unfolded("deviator", {-89, 89, 88}), (std::vector<double>{-89, 89, 88}));
 }
 
 // 8 integration points, none at strength; 10 psi is the larger principal stress everywhere.

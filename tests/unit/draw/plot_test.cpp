@@ -66,11 +66,13 @@ TEST(Plot, DrawsNothingWithoutData) {
 }
 
 TEST(Plot, NoTwoStylesAreAlikeInGrey) {
-  std::set<std::string> all;
+  std::set<std::string> all, without_dashes;
   for (int i = 0; i < kLineStyles; ++i) {
     const LineStyle style = line_style(i);
     all.insert(style.dashes + std::string("/") + std::to_string(style.marker));
+    without_dashes.insert(style.colour + std::string("/") + std::to_string(style.marker));
   }
+  EXPECT_EQ(without_dashes.size(), static_cast<std::size_t>(kLineStyles)) << "where markers hide the dashes";
   EXPECT_EQ(all.size(), static_cast<std::size_t>(kLineStyles));
 }
 
