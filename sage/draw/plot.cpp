@@ -204,24 +204,34 @@ void draw_series(std::string& out, const PlotSeries& series, const Axis& x, cons
   out += marks;
 }
 
-// The styles of all series of a sheet: one a name, in the order in which names come.
+// The styles of all series of a sheet: one a name, in the order in which names come, behind those of series without
+// a name, which are told apart within a panel only.
 class Styles {
  public:
   explicit Styles(const std::vector<Plot>& panels) {
+    const auto nameless = [](const PlotSeries& series) { return series.style < 0 && series.name.empty(); };
+    for (const Plot& panel : panels)
+      first_ = std::max(first_, static_cast<int>(std::ranges::count_if(panel.series, nameless)));
     for (const Plot& panel : panels)
       for (std::size_t i = 0; i < panel.series.size(); ++i) {
         const PlotSeries& series = panel.series[i];
         if (series.style >= 0 || series.name.empty() || of_name_.contains(series.name)) continue;
-        of_name_[series.name] = static_cast<int>(of_name_.size());
+        const int next = first_ + static_cast<int>(of_name_.size());
+        of_name_[series.name] = next;
       }
   }
   LineStyle of(const Plot& panel, std::size_t i) const {
     const PlotSeries& series = panel.series[i];
     if (series.style >= 0) return line_style(series.style);
-    return line_style(series.name.empty() ? static_cast<int>(i) : of_name_.at(series.name));
+    if (!series.name.empty()) return line_style(of_name_.at(series.name));
+    int before = 0;
+    for (std::size_t k = 0; k < i; ++k)
+      before += panel.series[k].style < 0 && panel.series[k].name.empty() ? 1 : 0;
+    return line_style(before);
   }
 
  private:
+  int first_ = 0;
   std::map<std::string, int> of_name_;
 };
 

@@ -106,6 +106,16 @@ TEST(PlotSheet, ANameIsOneStyleAndOneRowOfTheLegend) {
   EXPECT_EQ(count(svg, ">two</text>"), 1);
 }
 
+// A series without a name is no other than itself either.
+TEST(PlotSheet, SeriesWithoutANameHaveAStyleOfTheirOwn) {
+  Plot plot = line_plot({0, 1}, {0, 1});
+  plot.series.insert(plot.series.begin(), {"", {0, 1}, {2, 3}});
+  plot.series.push_back({"", {0, 1}, {4, 5}});
+  const std::vector<std::string> looks = strokes(plot_svg(plot));
+  ASSERT_EQ(looks.size(), 3u);
+  EXPECT_EQ(std::set<std::string>(looks.begin(), looks.end()).size(), 3u);
+}
+
 // Labels of a narrow plot are fewer, so that they stand apart; a long name goes below the frame, not over it.
 TEST(Plot, WordsKeepApart) {
   Plot plot = line_plot({1000000.0, 9000000.0}, {0, 1});
