@@ -143,11 +143,11 @@ int run_beside(RunOptions options, int jobs, const Catalogue& catalogue) {
 
 int run_all(const RunOptions& options, const Catalogue& catalogue) {
   const OutputOptions& output = options.request.output;
-  if (!output.states.empty() && !output.result && !output.vtu && !output.msh && !output.nodes && !output.points &&
-      output.pictures.empty() && options.tables != "all") {
-    fmt::print(
-        stderr,
-        "sagefe: --states: into which files? --result, --picture, --vtu, --msh, --nodes, --points or --tables all\n");
+  if (!output.states.empty() && !output.result && !output.vtu && !output.msh && !output.nodes &&
+      !output.points && output.pictures.empty() && options.tables != "all") {
+    fmt::print(stderr,
+               "sagefe: --states: into which files? --result, --picture, --vtu, --msh, --nodes, --points or "
+               "--tables all\n");
     return kUsage;
   }
   std::set<std::string> names;
