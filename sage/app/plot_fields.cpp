@@ -106,8 +106,11 @@ void plot_sheet(const PlotOptions& options, const Catalogue& catalogue) {
     const StoredRun& run = *runs[i];
     const std::vector<std::size_t> states = states_of(run, options.at);
     const std::vector<std::string> fields = fields_to_draw(options, run, states);
-    // Side by side: the fields of a state, or the states of a field.
-    if (fields.size() > 1) sheet.columns = static_cast<int>(fields.size());
+    // Side by side: the fields of a state, or the states of a field; all of a run where there are several.
+    constexpr std::size_t kMostBeside = 4;
+    const std::size_t of_run = fields.size() * states.size();
+    const bool row_each = several && of_run > 1 && of_run <= kMostBeside;
+    if (row_each || fields.size() > 1) sheet.columns = static_cast<int>(row_each ? of_run : fields.size());
     for (std::size_t state : states) {
       const Frame& frame = *frames.emplace_back(std::make_unique<Frame>(run.stored.frame(run.model, state)));
       const std::string words = words_of_state(run, state, frame);
