@@ -206,8 +206,27 @@ void set_local(const FrontTree& tree, const Front& front, std::vector<int>& loca
     local[at(tree.border[at(front.border_begin + k)])] = front.pivot_tiles * kTile + k;
 }
 
+// Room for all entries.  Ranges are empty still.
+void make_lists(const std::vector<int>& entries, FrontTree& tree) {
+  tree.entries.assign(tree.subtrees.size() + 1, {});
+  tree.entries_of.assign(entries.size(), {static_cast<int>(tree.subtrees.size()), 0, 0});
+  for (std::size_t s = 0; s < tree.subtrees.size(); ++s)
+    for (int f = tree.subtrees[s].begin; f < tree.subtrees[s].end; ++f)
+      tree.entries_of[at(f)].list = static_cast<int>(s);
+  std::vector<int> size(tree.entries.size(), 0);
+  for (std::size_t f = 0; f < entries.size(); ++f) {
+    EntryRange& range = tree.entries_of[f];
+    range.begin = range.end = size[at(range.list)];
+    size[at(range.list)] += entries[f];
+  }
+  for (std::size_t list = 0; list < size.size(); ++list) {
+    tree.entries[list].source.resize(at(size[list]));
+    tree.entries[list].target.resize(at(size[list]));
+  }
+}
+
 // Lists the matrix's entries by the fronts that take them.  In the place of an entry's target stands its column.
-void list_entries(const AssembledMatrix& matrix, FrontTree& tree) {
+void sort_entries(const AssembledMatrix& matrix, FrontTree& tree) {
   std::vector<int> front_of(tree.order.size());  // of each equation
   for (std::size_t f = 0; f < tree.fronts.size(); ++f)
     for (int k = 0; k < tree.fronts[f].pivots; ++k)
@@ -219,30 +238,33 @@ void list_entries(const AssembledMatrix& matrix, FrontTree& tree) {
         use(std::min(own, front_of[at(matrix.row()[at(k)])]), k, column);
     }
   };
-  tree.entry_start.assign(tree.fronts.size() + 1, 0);
-  visit([&](int f, int, int) { ++tree.entry_start[at(f) + 1]; });
-  for (std::size_t f = 1; f < tree.entry_start.size(); ++f) tree.entry_start[f] += tree.entry_start[f - 1];
-  tree.entry_source.resize(matrix.row().size());
-  tree.entry_target.resize(matrix.row().size());
-  std::vector<int> end(tree.entry_start.begin(), tree.entry_start.end() - 1);
+  std::vector<int> entries(tree.fronts.size(), 0);
+  visit([&](int f, int, int) { ++entries[at(f)]; });
+  make_lists(entries, tree);
   visit([&](int f, int k, int column) {
-    const auto slot = at(end[at(f)]++);
-    tree.entry_source[slot] = k;
-    tree.entry_target[slot] = column;
+    EntryRange& range = tree.entries_of[at(f)];
+    Entries& list = tree.entries[at(range.list)];
+    const auto slot = at(range.end++);
+    list.source[slot] = k;
+    list.target[slot] = column;
   });
 }
 
-void map_entries(const AssembledMatrix& matrix, FrontTree& tree) {
-  list_entries(matrix, tree);
+}  // namespace
+
+void list_entries(const AssembledMatrix& matrix, FrontTree& tree) {
+  sort_entries(matrix, tree);
   std::vector<int> local(tree.order.size());
   for (std::size_t f = 0; f < tree.fronts.size(); ++f) {
     const Front& front = tree.fronts[f];
     set_local(tree, front, local);
-    for (auto s = at(tree.entry_start[f]); s < at(tree.entry_start[f + 1]); ++s) {
-      const int row = matrix.row()[at(tree.entry_source[s])], column = tree.entry_target[s];
+    const EntryRange& range = tree.entries_of[f];
+    Entries& list = tree.entries[at(range.list)];
+    for (auto s = at(range.begin); s < at(range.end); ++s) {
+      const int row = matrix.row()[at(list.source[s])], column = list.target[s];
       int i = local[at(tree.position[at(row)])], j = local[at(tree.position[at(column)])];
       if (matrix.symmetric() && i > j) std::swap(i, j);
-      tree.entry_target[s] = static_cast<int>(arm_target(front, i, j));
+      list.target[s] = static_cast<int>(arm_target(front, i, j));
     }
     for (const int child : tree.children.of(static_cast<int>(f))) {
       const Front& c = tree.fronts[at(child)];
@@ -251,8 +273,6 @@ void map_entries(const AssembledMatrix& matrix, FrontTree& tree) {
     }
   }
 }
-
-}  // namespace
 
 double elimination_operations(const Front& front, bool symmetric_matrix) {
   double count = 0.0;
@@ -279,7 +299,7 @@ FrontTree make_front_tree(const EquationGraph& graph, const AssembledMatrix& mat
   divide_work(fronts);
   place_borders(fronts);
   fronts.in_parent.resize(fronts.border.size());
-  map_entries(matrix, fronts);
+  list_entries(matrix, fronts);
   return fronts;
 }
 

@@ -22,6 +22,16 @@ struct Subtree {
   int begin = 0, end = 0;
 };
 
+// source: term of the matrix; target: term within the arms of its front.
+struct Entries {
+  LargeVector<int> source, target;
+};
+
+// Entries begin .. end - 1 of a list.
+struct EntryRange {
+  int list = 0, begin = 0, end = 0;
+};
+
 struct FrontTree {
   std::vector<int> order, position;  // position in the elimination -> equation, and back
   std::vector<Front> fronts;         // in the order of elimination
@@ -37,9 +47,10 @@ struct FrontTree {
   std::vector<int> top;
   std::int64_t subtree_terms = 0, shared_terms = 0;  // of the workspaces
 
-  // Terms of the assembled matrix that front f takes: entries entry_start[f] .. entry_start[f + 1] - 1.
-  std::vector<int> entry_start;
-  LargeVector<int> entry_source, entry_target;  // target: term within the arms of its front
+  // Terms of the assembled matrix, by the fronts that take them: a list for each subtree, so that it can go when its
+  // subtree is done, and the last one for the fronts above them.
+  std::vector<Entries> entries;
+  std::vector<EntryRange> entries_of;  // front
 };
 
 // Of the pair of pivots i, j of a front, local indices: its term within the arms.  U holds whole tiles of the
@@ -50,5 +61,8 @@ std::int64_t arm_target(const Front& front, int i, int j);
 // a front has more than 2^31 - 1 terms.
 FrontTree make_front_tree(const EquationGraph& graph, const AssembledMatrix& matrix, int leaf_equations,
                           int width, int border = 0, int threads = 1);
+
+// Makes the lists of entries of a tree that has given them away.
+void list_entries(const AssembledMatrix& matrix, FrontTree& tree);
 
 }  // namespace sage

@@ -91,13 +91,10 @@ class Frontal final : public MatrixSolver {
   void set_kernels(Kernels wanted) override { wanted_kernels_ = &choose_kernels(wanted); }
   std::string_view kernels() const override { return wanted_kernels_->name; }
 
-  void release_workspace() override {
-    shared_ = {};
-    lanes_.clear();
-  }
+  void expect_one_factorisation() override { once_ = true; }
 
   void factorise_matrix() override {
-    if (lanes_.empty()) make_workspace();
+    if (given_back_) take_room();
     const std::span<const double> maxima = row_maxima();
     for (Lane& lane : lanes_) {
       lane.check = PivotCheck(traits().name, maxima);
@@ -111,11 +108,13 @@ class Frontal final : public MatrixSolver {
       }
     };
     pool_->run(static_cast<int>(tree_.subtrees.size()), eliminate_subtree);
+    if (once_) give_back_subtrees();
     for (const int f : tree_.top) {
       assemble(f, lanes_[0]);
       if (f != tree_.kept) eliminate_together(f);
     }
     take_report();
+    if (once_) give_back_rest();
   }
 
   void solve_matrix(std::span<const double> b, std::span<double> x) const override {
@@ -150,11 +149,12 @@ class Frontal final : public MatrixSolver {
     list_outside();
     sweeps_.clear();
     make_workspace();
+    given_back_ = false;
     report_.factor_entries = tree_.factor_terms;
     report_.solve_operations = (traits().symmetric ? 4.0 : 2.0) * static_cast<double>(tree_.factor_terms);
     report_.memory_bytes =
         (factors_.size() + shared_.size() + reciprocal_.size() + position_values_.size()) * sizeof(double) +
-        (2 * tree_.entry_source.size() + 2 * tree_.border.size() + 2 * tree_.order.size()) * sizeof(int);
+        (2 * matrix().row().size() + 2 * tree_.border.size() + 2 * tree_.order.size()) * sizeof(int);
     for (const Lane& lane : lanes_)
       report_.memory_bytes += (lane.workspace.size() + lane.scratch.size()) * sizeof(double);
   }
@@ -182,6 +182,25 @@ class Frontal final : public MatrixSolver {
     }
     while (sweeps_.size() < at(threads))
       sweeps_.push_back({AlignedArray(at(widest_) * kTile), AlignedArray(at(widest_) * kTile * kMostSums)});
+  }
+
+  // What only the subtrees needed goes before the largest fronts come: the run is largest at its last front.
+  void give_back_subtrees() {
+    constexpr std::size_t kMuch = std::size_t{1} << 20;  // terms of the matrix
+    given_back_ = true;
+    for (Lane& lane : lanes_) lane.workspace = {};
+    for (std::size_t s = 0; s < tree_.subtrees.size(); ++s) tree_.entries[s] = {};
+    if (matrix().row().size() > kMuch) return_freed_memory();
+  }
+  void give_back_rest() {
+    shared_ = {};
+    lanes_.clear();
+    tree_.entries.clear();
+  }
+  void take_room() {
+    list_entries(matrix(), tree_);
+    make_workspace();
+    given_back_ = false;
   }
 
   // Of every front of a subtree the part of the border that lies outside of it, the last so many.
@@ -234,8 +253,9 @@ class Frontal final : public MatrixSolver {
     std::fill_n(terms, (traits().symmetric ? 1 : 2) * front.arm_terms(), 0.0);
     std::fill_n(border(front, lane), front.border_terms(), 0.0);
     const double* value = matrix().value().data();
-    for (auto s = at(tree_.entry_start[at(f)]); s < at(tree_.entry_start[at(f) + 1]); ++s)
-      terms[tree_.entry_target[s]] = value[tree_.entry_source[s]];
+    const EntryRange& range = tree_.entries_of[at(f)];
+    const Entries& list = tree_.entries[at(range.list)];
+    for (auto s = at(range.begin); s < at(range.end); ++s) terms[list.target[s]] = value[list.source[s]];
     const Arms a = arms(f, lane);
     for (const int child : tree_.children.of(f))
       add_border(tree_.fronts[at(child)], border(tree_.fronts[at(child)], lane), a, border(front, lane));
@@ -336,6 +356,7 @@ class Frontal final : public MatrixSolver {
   std::unique_ptr<ThreadPool> pool_;
   std::vector<int> first_pivot_;  // of every front, in reciprocal_
   std::vector<double> reciprocal_;
+  bool once_ = false, given_back_ = false;
   int widest_ = 0;                  // tiles of the widest front
   std::vector<int> outside_begin_;  // of every front, in outside_values_
   // Used by one solution at a time:

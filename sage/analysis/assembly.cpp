@@ -88,8 +88,15 @@ void Assembly::reset_group(std::size_t group) {
                           history_of(data.law), !data.constant);
 }
 
+// What moved so far concerns the groups that were active then.
+bool Assembly::constant_groups_change(const Activity& activity) const {
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    if (groups_[g].constant && groups_[g].active != (activity.group[g] != 0)) return true;
+  return false;
+}
+
 void Assembly::enter_stage(const Activity& activity, const Eigen::VectorXd& rate) {
-  if (late_.behind()) recover_states();
+  if (late_.behind() && constant_groups_change(activity)) recover_states();
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     groups_[g].active = activity.group[g] != 0;
     if (!groups_[g].active) continue;

@@ -46,9 +46,13 @@ class Assembly {
   void set_stage_loads(const Eigen::VectorXd& loads);
   // Birth of a group: free of stress, with its first history.
   void reset_group(std::size_t group);
-  // Sets committed states from outside (initial stress): `set` gets all groups.
+  // Sets committed states from outside (initial stress): `set` gets all groups.  any: it is going to set some.
   template <class Set>
-  void start_states(Set set) {
+  void start_states(bool any, Set set) {
+    if (late_.behind()) {
+      if (!any) return;  // the forces of constant groups stand
+      recover_states();
+    }
     set(groups_);
     constant_.take_states();
   }
@@ -98,6 +102,7 @@ class Assembly {
 
   bool in_system(const GroupData& data) const { return data.active && !(condensation_ && data.constant); }
   void number_elements();
+  bool constant_groups_change(const Activity& activity) const;
   void make_room_for_matrices(std::size_t group);
   Outcome evaluate_changing(const Eigen::VectorXd& du, Tangent* tangent);
   void add_constant(const Eigen::VectorXd& du);

@@ -37,6 +37,7 @@ void Condensation::analyse() {
   ElementEquations elements;
   for (const GroupData& data : *groups_)
     if (data.active && data.constant) append_equations(data, equation, elements);
+  solver_->expect_one_factorisation();
   solver_->analyse(equations, std::move(elements));
 }
 
@@ -67,7 +68,6 @@ void Condensation::factorise() {
     for (int e = 0; e < data.group->elements(); ++e) solver_->add(element++, data.matrix_of(e));
   }
   solver_->factorise();
-  solver_->release_workspace();
 
   const auto n = static_cast<Eigen::Index>(kept_.size()), all = static_cast<Eigen::Index>(dofs_);
   for (Eigen::VectorXd* x : {&g_, &base_, &kept_du_, &kept_f_}) x->setZero(n);

@@ -76,7 +76,7 @@ InitialImbalance initial_imbalance(const Model& model) {
   activity.enter(first);
   assembly.enter_stage(activity, prescribed_rate(first, activity.dof_map));
   Diagnostics refused;  // the run tells of it
-  assembly.start_states([&](std::vector<GroupData>& groups) {
+  assembly.start_states(true, [&](std::vector<GroupData>& groups) {
     for (const std::vector<InitialStress>* list : {&model.initials, &first.initials})
       apply_initials(model, *list, groups, refused);
   });

@@ -96,8 +96,9 @@ Solution Run::solution() const {
 
 void Run::start_states(const std::vector<InitialStress>& initials) {
   Diagnostics warnings;
-  assembly_.start_states(
-      [&](std::vector<GroupData>& groups) { apply_initials(model_, initials, groups, warnings); });
+  assembly_.start_states(!initials.empty(), [&](std::vector<GroupData>& groups) {
+    apply_initials(model_, initials, groups, warnings);
+  });
   warn(warnings.list());
 }
 

@@ -11,6 +11,7 @@ void Tangent::analyse(std::unique_ptr<LinearSolver> solver, const std::string& n
   state_ = State::empty;
   solver_ = std::move(solver);
   name_ = name;
+  if (constant_) solver_->expect_one_factorisation();
   solver_->analyse(equations, std::move(elements));
 }
 
@@ -49,7 +50,6 @@ void Tangent::factorise(WorkCounters& work) {
   ++work.factorisations;
   solver_->factorise();
   scope.add_operations(solver_->report().factor_operations);
-  if (constant_) solver_->release_workspace();
   state_ = State::factorised;
 }
 

@@ -206,10 +206,12 @@ TEST_P(Solvers, GivesItsWorkspaceBackAndTakesItAgain) {
   load(*solver, system);
   solver->factorise();
   const Eigen::VectorXd x = solve(*solver, b);
-  solver->release_workspace();
-  EXPECT_EQ(solve(*solver, b), x);
-  solver->factorise();
-  EXPECT_EQ(solve(*solver, b), x);
+  solver->expect_one_factorisation();
+  load(*solver, system);
+  for (int again = 0; again < 2; ++again) {
+    solver->factorise();
+    EXPECT_EQ(solve(*solver, b), x);
+  }
 }
 
 TEST_P(Solvers, OneEquation) {

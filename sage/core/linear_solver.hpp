@@ -93,6 +93,10 @@ class LinearSolver {
   // is set, can't do so, and has no border.
   virtual bool set_border(int /*equations*/) { return false; }
 
+  // From the next analyse() on one factorise() is expected, no more: room that only factorise() needs may be given
+  // back as soon as it has served.  Another one takes it again.
+  virtual void expect_one_factorisation() {}
+
   // Numbering, symbolic work and storage for a pattern.  Called once per pattern.
   virtual void analyse(int equations, ElementEquations elements) = 0;
 
@@ -112,9 +116,6 @@ class LinearSolver {
 
   // Throws SingularMatrix.
   virtual void factorise() = 0;
-
-  // No other factorise() is expected: room that nothing else needs may be given back until there is one.
-  virtual void release_workspace() {}
 
   // x = K^-1 b.  b and x may be the same vector.  Needs factorise() since the last add().
   virtual void solve(std::span<const double> b, std::span<double> x) const = 0;

@@ -277,11 +277,12 @@ TEST_P(OwnSolvers, GrowthIsRefined) {
 }
 
 // A wish to stop is heard before every long call, and within the factorisations that are this program's own;
-// the answer afterwards is the same to the last bit.
+// the answer afterwards is the same to the last bit, also where room has been given back meanwhile.
 TEST_P(OwnSolvers, StopsAsAskedAndWorksAgain) {
   const System system = q4_mesh({.columns = 12, .rows = 20});
-  for (const int threads : {1, 3}) {
+  for (const auto& [threads, once] : {std::pair{1, false}, {3, false}, {1, true}, {3, true}}) {
     const auto solver = make();
+    if (once) solver->expect_one_factorisation();
     std::atomic<long> asked{0}, yes{1L << 60};
     solver->set_threads(threads);
     solver->set_stop([&] { return ++asked > yes; });
