@@ -280,9 +280,9 @@ constexpr MessageEntry kMessages[] = {
      "names."},
     {"S222", "a parameter takes its default", "The parameter was left blank and has a default, which is used.",
      "Write the value if the default is not meant."},
-    {"S223", "there are too many parameters",
-     "The card gives more values than the law has parameters: the law code is another one than meant, or "
-     "a parameter was put in twice.",
+    {"S223", "a law has not so many parameters, or none of this name",
+     "The card gives more values than the law has parameters, or a program names one that it lacks: the law "
+     "is another one than meant, or a parameter was put in twice.",
      "Compare with sagefe list materials."},
     {"S224", "a law or element refuses a parameter",
      "The value is outside of what the law can compute with: a modulus of zero, Poisson's ratio of 0.5, "

@@ -40,6 +40,21 @@ step("run the consumer" ${SCRATCH}/consumer/consumer)
 # 100 kPa on a column 1 m high with E = 1000 kPa and nu = 0.
 expect("${output}" "settlement 0\\.100000 m")
 
+# The example of the manual: a model from arrays, and the deck that it writes, run by the installed program.
+step("run a model from arrays" ${SCRATCH}/consumer/footing)
+string(REGEX MATCH "settlement (0\\.[0-9]+) m" found "${output}")
+set(settlement "${CMAKE_MATCH_1}")
+expect("${settlement}" "^0\\.00[0-9]+$")
+step("run the deck of that model" ${prefix}/bin/sagefe run footing.dat -o ${SCRATCH}/footing)
+file(STRINGS ${SCRATCH}/footing/footing.report1.csv rows)
+list(GET rows -1 last)
+string(REGEX MATCH "^1,10,[^,]*,-(0\\.[0-9]+)," found "${last}")
+string(SUBSTRING "${CMAKE_MATCH_1}" 0 8 from_deck)
+string(SUBSTRING "${settlement}" 0 8 from_arrays)
+if(NOT from_deck STREQUAL from_arrays)
+  message(FATAL_ERROR "the model from arrays settles ${settlement}, its deck ${last}")
+endif()
+
 step("run the program within a shared object" ${SCRATCH}/consumer/host list materials)
 expect("${output}" "1  linear_elastic \\(solid\\)")
 
