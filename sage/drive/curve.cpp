@@ -11,6 +11,8 @@ namespace sage::drive {
 
 namespace {
 
+constexpr double kRounding = 1e-13;  // of the largest stress: such a difference of stresses is none
+
 // Compression + to tension +, and back; 0.0 - : no -0.
 double turned(double value) {
   return 0.0 - value;
@@ -53,8 +55,10 @@ void put_measures(Rows& rows, const PointDriver<4>& point, const Vector4& start,
   rows.put("deviator", Dimension::stress, deviator(sigma));
   rows.put("axial_deviator", Dimension::stress, sigma[0] - sigma[1]);
   rows.put("stress_difference", Dimension::stress, stress_difference(sigma));
-  if (const int i = path.total_stress_stays; i >= 0)
-    rows.put("pore_pressure", Dimension::stress, sigma[i] - start[i]);
+  if (const int i = path.total_stress_stays; i >= 0) {
+    const double change = sigma[i] - start[i], rounding = kRounding * sigma.cwiseAbs().maxCoeff();
+    rows.put("pore_pressure", Dimension::stress, std::abs(change) <= rounding ? 0.0 : change);
+  }
 }
 void put_measures(Rows&, const PointDriver<2>&, const Vector2&, const Path&) {}
 
