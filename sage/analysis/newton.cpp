@@ -393,6 +393,8 @@ bool Step::record_iteration() {
   IterationRecord record = measure();
   if (record.force <= kNear * settings_.tolerance || converged(record)) record = measure_whole();
   result_.iterations.push_back(record);
+  if (settings_.pulse != nullptr)
+    settings_.pulse->iterated(static_cast<int>(result_.iterations.size()), record.force);
   const double size = residual_size();
   const bool done = converged(record);
   if (done || size <= best_) find_worst();

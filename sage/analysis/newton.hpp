@@ -14,6 +14,7 @@ struct NewtonSettings {
   bool repeat = false;                         // du holds the step before, which was linear: it is tried first
   const Eigen::VectorXd* committed = nullptr;  // unknowns at the start of the step, every dof; null = zero
   StageSoFar so_far{};                         // a condensed region moves on in its direction
+  Pulse* pulse = nullptr;                      // hears of every iteration; null = nobody looks
   bool contract = false;  // factors are kept while they contract well; K may then be behind du at the end
 };
 

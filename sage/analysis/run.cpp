@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "sage/analysis/audit.hpp"
@@ -30,6 +31,7 @@ class Run {
         extent_(model) {
     const int dofs = assembly_.dof_map().dofs();
     if (settings.profile_memory) result_.work.profile = Profile(true);
+    profile().show_in(settings.pulse);
     state_.u.setZero(dofs);
     state_.du.setZero(dofs);
     state_.external.setZero(dofs);
@@ -48,6 +50,7 @@ class Run {
   void end_stage(int s, double last_force);
   void end_increment(StepReport& report);
   void set_moment(double load_factor, double share);
+  void show(const StepReport& report, double reached) const;
   bool run_increment(const Stage& stage, StepReport& report, double& reached);
   NewtonStep attempt(const Stage& stage, double from, double to);
   void renew_tangent();
@@ -185,6 +188,7 @@ NewtonStep Run::attempt(const Stage& stage, double from, double to) {
   NewtonSettings newton{stage.method, stage.max_iterations, stage.tolerance, settings_.line_search};
   newton.repeat = can_repeat(stage, to - from);
   newton.contract = contracts(stage);
+  newton.pulse = settings_.pulse;
   newton.committed = &state_.u;
   if (path_.u_start.size() > 0) newton.so_far = {from, &path_.u_start, &state_.u};
   const Profile::Scope scope(profile(), phase::kIteration);
@@ -285,6 +289,24 @@ double Run::refused_motion(double from, double to, const NewtonStep& step) const
   return share >= 0.0 && share < kSoft ? motion / extent_.size() : 0.0;
 }
 
+// reached: load factor of the stage.
+void Run::show(const StepReport& report, double reached) const {
+  Pulse* const pulse = settings_.pulse;
+  if (pulse == nullptr) return;
+  double all = 0.0, before = 0.0;
+  for (int s = 0; s < static_cast<int>(model_.stages.size()); ++s) {
+    const int increments = model_.stages[static_cast<std::size_t>(s)].increments;
+    all += increments;
+    if (s < report.stage) before += increments;
+  }
+  pulse->share = (before + reached * report.increments) / all;
+  pulse->stage = report.stage + 1;
+  pulse->stages = static_cast<int>(model_.stages.size());
+  pulse->increment = report.increment;
+  pulse->increments = report.increments;
+  pulse->iterated(0, std::numeric_limits<double>::quiet_NaN());
+}
+
 bool Run::run_increment(const Stage& stage, StepReport& report, double& reached) {
   const double end = static_cast<double>(report.increment) / report.increments;
   const double whole = 1.0 / report.increments;
@@ -293,6 +315,7 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
   place_ = {report.stage, report.increment};
   while (reached < end) {
     const double to = size >= end - reached - 1e-12 * whole ? end : reached + size;
+    show(report, reached);
     const NewtonStep step = attempt(stage, reached, to);
     report.iterations = step.iterations;
     report.total_iterations += static_cast<int>(step.iterations.size());
@@ -397,11 +420,12 @@ void Run::recover_for(const StepReport& report) {
 }
 
 void Run::begin_stage(int s) {
-  prepare_stage(s);
-  if (s == 0) start();
   StepReport report;
   report.stage = s;
   report.increments = model_.stages[static_cast<std::size_t>(s)].increments;
+  show(report, 0.0);
+  prepare_stage(s);
+  if (s == 0) start();
   recover_for(report);
   audience_.tell([&](Observer& o) { o.on_stage_start(model_, s, solution()); });
 }
@@ -499,7 +523,9 @@ RunResult Run::execute() {
 
 RunResult run(const Model& model, const Catalogue& catalogue, const RunSettings& settings,
               std::span<Observer* const> observers) {
-  return Run(model, catalogue, settings, observers).execute();
+  RunResult result = Run(model, catalogue, settings, observers).execute();
+  result.work.profile.show_in(nullptr);
+  return result;
 }
 
 }  // namespace sage

@@ -22,6 +22,7 @@ struct RunSettings {
   bool line_search = true;
   Skips skips;
   bool profile_memory = false;  // the profile also says where the process grew
+  Pulse* pulse = nullptr;       // shows what the run is doing; null = nobody looks
 
   // Checkpoints: after an increment for which `checkpoint_due` says yes, `save_checkpoint` gets the bytes from
   // which `resume_from` continues to the same results, bit for bit.  With initial stiffness (whose tangent

@@ -48,6 +48,7 @@ void Profile::switch_to(int phase) {
     largest_ = size;
   }
   at_ = phase;
+  if (pulse_ != nullptr) pulse_->enter(phases_[at(phase)].name.data(), now);
 }
 
 void Profile::add(const Profile& part) {

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "sage/core/pulse.hpp"
+
 namespace sage {
 
 class Profile {
@@ -43,6 +45,9 @@ class Profile {
   // The whole run begins.  with_memory: asks the system for the process's size at every change of phase.
   explicit Profile(bool with_memory = false);
 
+  // Every phase is shown there as it begins, from now on; null: no more.
+  void show_in(Pulse* pulse) { pulse_ = pulse; }
+
   // The phases of a part that kept a profile of its own, below the phase under way, which then owns that much less
   // time.  What the part charged to no phase of its own stays there.
   void add(const Profile& part);
@@ -73,6 +78,7 @@ class Profile {
   Clock::time_point since_;
   bool with_memory_;
   std::int64_t largest_ = 0;  // size of the process so far, bytes
+  Pulse* pulse_ = nullptr;
 };
 
 }  // namespace sage
