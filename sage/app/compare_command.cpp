@@ -2,14 +2,18 @@
 #include <fmt/format.h>
 
 #include <CLI/Option.hpp>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 
+#include "sage/app/answer_run.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/converge.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/interrupt.hpp"
+#include "sage/app/progress.hpp"
 #include "sage/app/run_deck.hpp"
+#include "sage/app/screen.hpp"
 #include "sage/compare/comparison.hpp"
 #include "sage/compare/pair_picture.hpp"
 #include "sage/model/locate.hpp"
@@ -135,9 +139,11 @@ compare::Side run_model(Model model, const std::string& label, const SideOptions
   settings.kernels = options.kernels;
   settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
   settings.stop_asked = interrupted;
+  Task task("compare " + stem);
+  settings.pulse = task.pulse();
   compare::Side side(label, std::move(model), place.folder, stem);
   side.run(place.catalogue, settings);
-  if (!side.error().empty()) fmt::print(stderr, "{}: {}\n", options.deck, side.error());
+  if (!side.error().empty()) say_error(options.deck, side.error());
   return side;
 }
 
@@ -150,7 +156,7 @@ FinishedSide run_side(const char* letter, const SideOptions& options, const Plac
     print_diagnostics(error.diagnostics());
     return {{label_of(letter, options, nullptr), error.what()}};
   }
-  fmt::print(stderr, "{}: {}\n", letter, options.deck);
+  print_stderr(fmt::format("{}: {}\n", letter, options.deck));
   print_diagnostics(model->diagnostics);
   const std::string label = label_of(letter, options, &*model);
   if (options.input.strict && model->diagnostics.warnings() > 0)
@@ -161,7 +167,7 @@ FinishedSide run_side(const char* letter, const SideOptions& options, const Plac
 // Finer and finer meshes; the best of them is the side.
 FinishedSide climb_side(const char* letter, const SideOptions& options, const ConvergeOptions& converge,
                         const Place& place, const std::string& stem) {
-  fmt::print(stderr, "{}: {}\n", letter, options.deck);
+  print_stderr(fmt::format("{}: {}\n", letter, options.deck));
   Convergence found;
   const std::string label = label_of(letter, options, nullptr);
   try {
@@ -170,7 +176,7 @@ FinishedSide climb_side(const char* letter, const SideOptions& options, const Co
     print_diagnostics(error.diagnostics());
     return {{label, error.what()}};
   } catch (const AnalysisError& error) {
-    fmt::print(stderr, "{}: {}\n", options.deck, error.what());
+    say_error(options.deck, error.what());
     found.not_reached = error.what();
     return {{label, error.what()}, found};
   }
@@ -245,8 +251,61 @@ void warn_of_fields(const CompareOptions& o, const compare::Side& a, const compa
     const std::string text =
         fields_without_column(o.fields, fields_of(model), has_column,
                               "--line and --point have those of nodes and integration points");
-    if (!text.empty()) return fmt::print(stderr, "sagefe compare: warning: {}\n", text);
+    if (!text.empty()) return say_warning("sagefe compare", text);
   }
+}
+
+Json side_json(const FinishedSide& one) {
+  const compare::Side& side = one.side;
+  Json json = {{"label", json_text(side.label())},
+               {"error", json_text(side.error())},
+               {"not_reached", json_text(side.not_reached())}};
+  if (side.has_model()) {
+    json["model"] = model_json(side.model(), side.record().scene);
+    json["status"] = status_word(side.record().result.status);
+    json["reports"] = reports_json(side.model(), side.reports());
+  }
+  if (one.convergence) json["convergence"] = convergence_json(*one.convergence);
+  return json;
+}
+
+Json rows_json(const std::vector<compare::Row>& rows) {
+  Json list = Json::array();
+  for (const compare::Row& row : rows)
+    list.push_back({{"section", json_text(row.section)},
+                    {"name", json_text(row.name)},
+                    {"unit", json_text(row.unit)},
+                    {"a", row.a},
+                    {"b", row.b},
+                    {"difference", row.difference()},
+                    {"relative", row.relative()},
+                    {"expected_ratio", row.expected}});
+  return list;
+}
+
+// NaN where a side does not have a number, or theory expects none.
+Json comparison_json(const compare::Comparison& comparison) {
+  Json answers = Json::array(), theory = Json::array();
+  for (const compare::Answer& one : comparison.answers)
+    answers.push_back({{"name", json_text(one.name)},
+                       {"unit", json_text(one.unit)},
+                       {"a", one.a},
+                       {"b", one.b},
+                       {"error_a", one.error_a},
+                       {"error_b", one.error_b},
+                       {"expected_ratio", one.expected},
+                       {"why", json_text(one.why)}});
+  for (const compare::Expectation& one : comparison.theory)
+    theory.push_back({{"what", json_text(one.what)},
+                      {"expected", one.expected},
+                      {"found", one.found},
+                      {"unit", json_text(one.unit)},
+                      {"why", json_text(one.why)}});
+  return {{"answers", std::move(answers)},
+          {"rows", rows_json(comparison.rows)},
+          {"details", rows_json(comparison.details)},
+          {"theory", std::move(theory)},
+          {"notes", json_list(comparison.notes)}};
 }
 
 int exit_code_of(const FinishedSide& a, const FinishedSide& b) {
@@ -262,11 +321,11 @@ int exit_code_of(const FinishedSide& a, const FinishedSide& b) {
 int compare_decks(const CompareOptions& asked, const Catalogue& catalogue) {
   CompareOptions o = asked;
   if (o.decks.size() == 1 && !o.both && !o.changes_b()) {
-    fmt::print(stderr, "sagefe compare: one deck needs --both or an option that ends in -b\n");
+    say_error("sagefe compare", "one deck needs --both or an option that ends in -b");
     return kUsage;
   }
   if (o.both && o.geometry_b) {
-    fmt::print(stderr, "sagefe compare: --both sets the geometries itself, --geometry-b does not go with it\n");
+    say_error("sagefe compare", "--both sets the geometries itself, --geometry-b does not go with it");
     return kUsage;
   }
   if (o.decks.size() == 1) require_file(o.decks.front(), "compare of one deck in two ways");
@@ -274,7 +333,7 @@ int compare_decks(const CompareOptions& asked, const Catalogue& catalogue) {
   try {
     for (const std::string& text : o.lines) lines.push_back(compare::line_from_text(text));
   } catch (const std::invalid_argument& error) {
-    fmt::print(stderr, "sagefe compare: {}\n", error.what());
+    say_error("sagefe compare", error.what());
     return kUsage;
   }
   SideOptions options[2] = {side_a(o), side_b(o)};
@@ -308,16 +367,21 @@ int compare_decks(const CompareOptions& asked, const Catalogue& catalogue) {
     write_file(files.back(), compare::pair_svg(a, b, name));
   }
   results.close();
+  const ProgressPause pause;
   fmt::print("{}", compare::to_text(comparison, a, b));
   for (const FinishedSide* one : {&side_a, &side_b}) {
     if (one->convergence && !one->convergence->table.empty()) files.push_back(one->convergence->table);
     if (one->side.has_model())
       for (const std::filesystem::path& file : one->side.reports().files()) files.push_back(file);
   }
+  if (Json* json = answer()) {
+    *json = {{"a", side_json(side_a)}, {"b", side_json(side_b)}};
+    (*json)["comparison"] = comparison_json(comparison);
+    (*json)["files"] = files_json(files);
+  }
   for (std::size_t i = 0; i < files.size(); ++i)
     fmt::print("{:<7}{}\n", i == 0 ? "files:" : "", files[i].string());
-  if (interrupted())
-    fmt::print(stderr, "sagefe compare: interrupted: what is missing above was not computed\n");
+  if (interrupted()) say_error("sagefe compare", "interrupted: what is missing above was not computed");
   return interrupted() ? kInterrupted : exit_code_of(side_a, side_b);
 }
 

@@ -11,9 +11,13 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <optional>
 
+#include "sage/app/answer_run.hpp"
 #include "sage/app/exit_codes.hpp"
+#include "sage/app/progress.hpp"
+#include "sage/app/screen.hpp"
 #include "sage/judge/convergence.hpp"
 #include "sage/record/discretisation.hpp"
 #include "sage/record/out_file.hpp"
@@ -317,6 +321,7 @@ class Table {
   Table(std::FILE* screen, const std::string& title, const std::string& quantity,
         const std::filesystem::path& path)
       : screen_(screen), file_(path) {
+    const ProgressPause pause;
     fmt::print(screen_, "{}\n  {:>4} {:>9} {:>9} {:>18} {:>12} {:>9}  {}\n", title, "mesh", "elements", "dofs",
                quantity, "error", "seconds", "options");
     file_.text() = "# " + title +
@@ -324,6 +329,7 @@ class Table {
                    "mesh,elements,dofs,value,error,seconds,options\n";
   }
   void row(std::size_t mesh, const Row& row, const Limit& limit, double value, const std::string& options) {
+    const ProgressPause pause;
     fmt::print(screen_, "  {:>4} {:>9} {:>9} {:>18.10g} {:>12} {:>9.3f}  {}\n", mesh, row.elements, row.dofs,
                value, std::isfinite(limit.error) ? fmt::format("{:.1e}", limit.error) : "-", row.seconds,
                options);
@@ -435,11 +441,9 @@ Ladder Climb::choose_ladder() {
                                    name, fmt::join(known, ", ")));
   const Ladder ladder = ladder_for(first, catalogue_);
   if (ladder.kind == Ladder::spectral && (build.element > 0 || build.formulation >= 0))
-    fmt::print(
-        stderr,
-        "{}: note: where the scene allows it --converge chooses elements and formulation itself: --element and "
-        "--formulation are not used\n",
-        request_.deck);
+    say_note(request_.deck,
+             "where the scene allows it --converge chooses elements and formulation itself: --element and "
+             "--formulation are not used");
   if (ladder.kind == Ladder::halving) return ladder;
   const bool coarsen = build.coarsen;
   if (!coarsen) {
@@ -450,9 +454,7 @@ Ladder Climb::choose_ladder() {
   }
   if (const std::string why = why_not_graded(deck); !why.empty()) {
     build.coarsen = coarsen;
-    fmt::print(stderr,
-               "{}: note: the deck's own elements are halved, for layers at its corners do not fit: {}\n",
-               request_.deck, why);
+    say_note(request_.deck, "the deck's own elements are halved, for layers at its corners do not fit: " + why);
     return halving(first);
   }
   return ladder;
@@ -527,7 +529,7 @@ std::string Climb::why_unusable(const RunOutcome& outcome, const Rung& rung) {
   if (outcome.exit_code != kOk) {
     // Of a finer mesh it is no news of the deck; of the first one it is the answer.
     if (rows_.empty()) {
-      fmt::print(stderr, "{}: {}\n", request_.deck, result.reason);
+      say_error(request_.deck, result.reason);
       without_equilibrium_ = rung;
     }
     return "no equilibrium with " + rung.options + ": " + result.reason.substr(0, result.reason.find('\n'));
@@ -589,6 +591,7 @@ void Climb::keep_best_files() const {
 
 // True if the tolerance was reached.
 bool Climb::climb() {
+  Task task("converge " + case_name(request_.deck));
   for (int level = 0; !out_of_time() && add_mesh(level); ++level) {
     if (follower_.certain(follower_.best())) return true;
     if (follower_.exhausted()) {
@@ -674,9 +677,25 @@ Convergence climb(const RunRequest& request, const ConvergeOptions& options, con
   return Climb(request, options, catalogue).run();
 }
 
-int converge(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue) {
+Json convergence_json(const Convergence& found) {
+  Json values = Json::array();
+  for (const ConvergedValue& value : found.values)
+    values.push_back({{"name", json_text(value.name)},
+                      {"value", value.value},
+                      {"error", value.error},
+                      {"reached", value.reached}});
+  return {{"reached", found.not_reached.empty()},
+          {"not_reached", json_text(found.not_reached)},
+          {"options", json_text(found.options)},
+          {"values", std::move(values)}};
+}
+
+int converge(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue,
+             Json* answer_of_deck) {
   const Convergence found = climb(request, options, catalogue);
-  if (!found.not_reached.empty()) fmt::print(stderr, "{}: NOT REACHED: {}\n", request.deck, found.not_reached);
+  if (answer_of_deck != nullptr)
+    *answer_of_deck = {{"convergence", convergence_json(found)}, {"files", files_json({found.table})}};
+  if (!found.not_reached.empty()) say_error(request.deck, "NOT REACHED: " + found.not_reached);
   return found.exit_code;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "sage/app/answer.hpp"
 #include "sage/app/run_deck.hpp"
 
 namespace sage::app {
@@ -49,7 +50,9 @@ struct Convergence {
 // request.results where that is given).  Throws InputError (also for a deck without reports or with none of a
 // name that is to be followed), AnalysisError (of the first mesh), OutputError.
 Convergence climb(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue);
-// The exit code alone.
-int converge(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue);
+// The exit code alone.  found: what --json says of it; null = nobody asks.
+int converge(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue,
+             Json* found = nullptr);
+Json convergence_json(const Convergence& found);
 
 }  // namespace sage::app

@@ -5,10 +5,13 @@
 #include <CLI/Validators.hpp>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
+#include "sage/app/answer_run.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
+#include "sage/app/screen.hpp"
 #include "sage/exchange/convert.hpp"
 #include "sage/exchange/msh_model.hpp"
 #include "sage/record/out_file.hpp"
@@ -60,14 +63,12 @@ void warn_of_results(const std::filesystem::path& to, Diagnostics& diagnostics) 
 int convert(const ConvertOptions& options, const Catalogue& catalogue) {
   const std::string to = ending(options.to);
   if (to != ".dat" && to != ".msh" && to != ".inp") {
-    fmt::print(stderr, "sagefe: {}: the ending tells the format: .dat deck, .msh Gmsh, .inp CalculiX\n",
-               options.to);
+    say_error("sagefe", options.to + ": the ending tells the format: .dat deck, .msh Gmsh, .inp CalculiX");
     return kUsage;
   }
   std::error_code absent;
   if (std::filesystem::equivalent(options.from, options.to, absent)) {
-    fmt::print(stderr, "sagefe: {}: is the file to be read; the converted one needs another name\n",
-               options.to);
+    say_error("sagefe", options.to + ": is the file to be read; the converted one needs another name");
     return kUsage;
   }
   Model model = read_model(options, catalogue);
@@ -79,6 +80,10 @@ int convert(const ConvertOptions& options, const Catalogue& catalogue) {
                                         : inp_text(model, model.diagnostics));
   if (to == ".inp") warn_of_results(options.to, model.diagnostics);
   print_diagnostics(model.diagnostics);
+  if (Json* json = answer())
+    *json = {{"from", json_text(options.from)},
+             {"to", json_text(options.to)},
+             {"model", model_json(model, analyse_scene(model))}};
   fmt::print("{}: {} nodes, {} groups{}{}\n", options.to, model.mesh.nodes(), model.groups.size(),
              to == ".msh" ? "" : fmt::format(", {} stages", model.stages.size()),
              model.left_out.empty() ? "" : "; PARTIAL: " + left_out_words(model));

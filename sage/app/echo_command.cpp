@@ -2,14 +2,19 @@
 #include <fmt/format.h>
 
 #include <CLI/Option.hpp>
+#include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 
+#include "sage/app/answer.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
+#include "sage/app/screen.hpp"
 #include "sage/deck/layout.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "sage/deck/source.hpp"
+#include "sage/deck/text.hpp"
 
 namespace sage::app {
 
@@ -25,11 +30,9 @@ struct EchoOptions {
 void note_half_layout(const std::string& name) {
   if (name.empty()) return;
   if (const int missing = name_problems(load_layout(name, false)).errors(); missing > 0)
-    fmt::print(
-        stderr,
-        "{}: note: the layout makes no model yet: {} missing or used by nothing; sagefe echo --names lists "
-        "them\n",
-        name, missing == 1 ? "one name is" : std::to_string(missing) + " names are");
+    say_note(name, fmt::format("the layout makes no model yet: {} missing or used by nothing; sagefe echo "
+                               "--names lists them",
+                               missing == 1 ? "one name is" : std::to_string(missing) + " names are"));
 }
 
 std::string names_of(const EchoOptions& options) {
@@ -38,6 +41,40 @@ std::string names_of(const EchoOptions& options) {
   const Layout layout = load_layout(name, false);
   return "names of layout " + layout.name + (layout.title.empty() ? "" : ", " + layout.title) + '\n' +
          names_listing(layout);
+}
+
+// A number as a number, a text as it stands; null where blank.
+Json value_json(const FieldValue& value) {
+  if (value.blank) return nullptr;
+  if (value.kind == FieldKind::text) return json_text(trimmed(value.text));
+  if (value.kind == FieldKind::logical) return value.number != 0.0;
+  if (value.kind == FieldKind::integer) return static_cast<std::int64_t>(value.number);
+  return value.number;
+}
+
+Json card_json(const Deck& deck, const Card& card) {
+  const CardSpec& spec = deck.specs[static_cast<std::size_t>(card.spec)];
+  const std::vector<FieldValue> values = deck.values(card);
+  Json fields = Json::array();
+  for (std::size_t i = 0; i < values.size() && !spec.fields.empty(); ++i)
+    fields.push_back({{"name", json_text(spec.fields[std::min(i, spec.fields.size() - 1)].name)},
+                      {"value", value_json(values[i])},
+                      {"line", values[i].line},
+                      {"first_column", values[i].first_column},
+                      {"last_column", values[i].last_column}});
+  return {{"card", json_text(spec.name)},
+          {"label", json_text(spec.label)},
+          {"line", card.line},
+          {"fields", std::move(fields)}};
+}
+
+void answer_cards(const Deck& deck) {
+  Json* const json = answer();
+  if (json == nullptr) return;
+  (*json)["deck"] = json_text(deck.file);
+  (*json)["layout"] = json_text(deck.layout);
+  Json& cards = (*json)["cards"] = Json::array();
+  for (const Card& card : deck.cards) cards.push_back(card_json(deck, card));
 }
 
 }  // namespace
@@ -52,10 +89,13 @@ Command echo_command(CLI::App& parser, const Catalogue&) {
       "which are ignored or used by nothing, and which could be given too");
   return [options] {
     if (options->names) {
-      fmt::print("{}", names_of(*options));
+      const std::string names = names_of(*options);
+      if (Json* json = answer()) (*json)["names"] = json_text(names);
+      fmt::print("{}", names);
       return kOk;
     }
     const Deck deck = read_input(options->deck, options->input, false);
+    answer_cards(deck);
     fmt::print("{}", echo(deck));
     print_diagnostics(deck.diagnostics);
     note_half_layout(options->input.layout);

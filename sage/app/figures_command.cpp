@@ -6,11 +6,14 @@
 #include <charconv>
 #include <chrono>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
+#include "sage/app/answer.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
 #include "sage/app/picture_formats.hpp"
+#include "sage/app/progress.hpp"
 #include "sage/core/error.hpp"
 #include "sage/figures/page.hpp"
 #include "sage/figures/pictures.hpp"
@@ -52,11 +55,41 @@ std::vector<figures::Check> checks_of(const std::vector<int>& chosen) {
   return list;
 }
 
+Json check_json(const figures::Check& check) {
+  return {{"figure", fmt::format("7.{}", check.figure)},
+          {"quote", json_text(check.quote)},
+          {"limits", json_text(figures::limits_of(check))}};
+}
+
+Json result_json(const figures::Result& result) {
+  Json outcomes = Json::array();
+  for (const figures::Outcome& outcome : result.outcomes) {
+    const auto side = [&](std::size_t elements) {
+      return Json{{"everywhere", outcome.number[elements][0]},
+                  {"everywhere_passes", outcome.pass[elements][0]},
+                  {"away_from_corner", outcome.number[elements][1]},
+                  {"away_from_corner_passes", outcome.pass[elements][1]}};
+    };
+    outcomes.push_back({{"k_j", outcome.k_j > 0.0 ? Json(outcome.k_j) : Json(nullptr)},
+                        {"full", side(0)},
+                        {"b_bar", side(1)}});
+  }
+  Json json = check_json(*result.check);
+  json["what"] = json_text(figures::what_of(*result.check));
+  json["verdict"] = figures::name_of(result.verdict);
+  json["b_bar_only"] = result.b_bar_only;
+  json["outcomes"] = std::move(outcomes);
+  return json;
+}
+
 int list_figures(const std::vector<int>& chosen) {
   for (int figure : chosen) {
     fmt::print("7.{}  {}\n", figure, figures::caption_of(figure).title);
     for (const figures::Check& check : figures::checks())
-      if (check.figure == figure) fmt::print("      \"{}\": {}\n", check.quote, figures::limits_of(check));
+      if (check.figure == figure) {
+        if (Json* json = answer()) (*json)["checks"].push_back(check_json(check));
+        fmt::print("      \"{}\": {}\n", check.quote, figures::limits_of(check));
+      }
   }
   return kOk;
 }
@@ -83,6 +116,7 @@ int run_figures(const FiguresOptions& options, const Catalogue& catalogue) {
   std::filesystem::create_directories(options.folder, error);
   if (error) throw OutputError("the folder " + options.folder.string() + " can't be made: " + error.message());
 
+  Task task("figures");
   const scenes::Workbench bench = make_workbench(catalogue);
   figures::Runs runs(bench);
   const std::vector<figures::Check> checks = checks_of(chosen);
@@ -90,15 +124,25 @@ int run_figures(const FiguresOptions& options, const Catalogue& catalogue) {
       any_lubricated(checks) ? stiffness_choices(bench) : std::vector<figures::StiffnessChoice>{};
   figures::Page page{chosen, figures::evaluate(runs, checks, choices), {}};
   if (options.only.empty()) page.stiffness = figures::stiffness_rows(runs, choices);
+  int number = 0;
   for (int figure : chosen) {
+    task.part(fmt::format("figure 7.{}", figure), ++number, static_cast<int>(chosen.size()));
     const std::filesystem::path file = options.folder / figures::file_of(figure);
     write_file(file, figures::figure_svg(figure, runs, choices));
-    convert_picture(file, options.formats);
+    const ProgressPause pause;
+    answer_file(file);
+    for (const std::filesystem::path& other : convert_picture(file, options.formats)) answer_file(other);
     fmt::print("{}  {}\n", file.string(), figures::tally(page.results, figure));
   }
   write_file(options.folder / "figures.md", figures::page_text(page, "svg"));
   write_file(options.folder / "figures.csv", figures::csv_text(page.results));
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  if (Json* json = answer()) {
+    for (const figures::Result& result : page.results) (*json)["checks"].push_back(result_json(result));
+    (*json)["runs"] = runs.size();
+    (*json)["page"] = json_text((options.folder / "figures.md").string());
+  }
+  const ProgressPause pause;
   fmt::print("{} checks: {}\n{} runs, {:.1f} s; {}\n", page.results.size(), figures::tally(page.results, 0),
              runs.size(), seconds.count(), (options.folder / "figures.md").string());
   return kOk;

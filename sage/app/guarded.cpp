@@ -1,10 +1,9 @@
-#include <fmt/format.h>
-
 #include <new>
 
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
+#include "sage/app/screen.hpp"
 #include "sage/core/error.hpp"
 #include "sage/record/out_file.hpp"
 
@@ -17,19 +16,19 @@ int guarded(const std::string& name, const std::function<int()>& work) {
     print_diagnostics(error.diagnostics());
     return kInput;
   } catch (const UsageError& error) {
-    fmt::print(stderr, "{}: {}\n", name, message_of(error));
+    say_error(name, error);
     return kUsage;
   } catch (const OverInput& error) {
-    fmt::print(stderr, "{}: {}\n", name, message_of(error));
+    say_error(name, error);
     return kUsage;
   } catch (const OutputError& error) {
-    fmt::print(stderr, "{}: {}\n", name, message_of(error));
+    say_error(name, error);
     return kOutput;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "{}: not enough memory for this model\n", name);
+    say_error(name, "not enough memory for this model");
     return kNotConverged;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}: {}\n", name, message_of(error));
+    say_error(name, error);
     return kNotConverged;
   }
 }

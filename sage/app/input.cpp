@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "sage/app/commands.hpp"
+#include "sage/app/screen.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "sage/draw/picture.hpp"
 #include "sage/record/out_file.hpp"
@@ -183,7 +184,7 @@ void add_formulation_option(CLI::App& parser, const std::string& flag, const std
 }
 
 void add_build_options(CLI::App& parser, BuildOptions& options, const Catalogue& catalogue) {
-  options.say = [](const std::string& text) { fmt::print(stderr, "sagefe: {}\n", text); };
+  options.say = [](const std::string& text) { say_note("sagefe", text); };
   add_formulation_option(parser, "--formulation", "replace the formulation code of all solid elements",
                          [&options](int code) { options.formulation = code; });
   add_element_option(parser, catalogue, "--element",
@@ -261,19 +262,6 @@ Deck read_input(const std::string& path, const InputOptions& options, bool whole
   if (!options.layout.empty()) keep_input(options.layout);
   return options.layout.empty() ? read_deck(path, read)
                                 : read_deck(path, load_layout(options.layout, whole_layout), read);
-}
-
-void print_diagnostics(const Diagnostics& diagnostics) {
-  constexpr int kShown = 50;
-  int shown = 0;
-  for (const Diagnostic& diagnostic : diagnostics.list()) {
-    if (++shown > kShown) break;
-    fmt::print(stderr, "{}\n", to_string(diagnostic));
-  }
-  if (shown > kShown) fmt::print(stderr, "and {} more messages\n", diagnostics.list().size() - kShown);
-  if (diagnostics.errors() > 0)
-    fmt::print(stderr, "{} error{}, {} warning{}\n", diagnostics.errors(), diagnostics.errors() == 1 ? "" : "s",
-               diagnostics.warnings(), diagnostics.warnings() == 1 ? "" : "s");
 }
 
 std::string case_name(const std::string& path) {

@@ -67,9 +67,6 @@ void require_file(const std::string& path, const std::string& who);
 // whole_layout: a layout file without what a model needs, or with names that nothing uses, is refused.
 Deck read_input(const std::string& path, const InputOptions& options, bool whole_layout = true);
 
-// To standard error; errors first are not reordered, at most 50 are shown.
-void print_diagnostics(const Diagnostics& diagnostics);
-
 // "case" for .../case/deck.dat, otherwise the file's name without its ending.
 std::string case_name(const std::string& path);
 

@@ -5,6 +5,8 @@
 #include <atomic>
 #include <string_view>
 
+#include "sage/app/progress.hpp"
+
 namespace sage::app {
 
 namespace {
@@ -16,11 +18,13 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it"
 
 void on_signal(int number) {
   if (heard.exchange(true)) {
+    clear_progress_at_signal();
     signal(number, SIG_DFL);
     raise(number);
     return;
   }
   if (!announce) return;
+  clear_progress_at_signal();
   constexpr std::string_view kText =
       "\nsagefe: stops after the increment in hand, or in 10 s; once more ends at once, without a checkpoint\n";
   if (write(STDERR_FILENO, kText.data(), kText.size()) < 0) return;  // nobody reads it

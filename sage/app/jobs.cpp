@@ -211,6 +211,7 @@ class Queue {
   void wait() {
     std::vector<pollfd> channels;
     for (const auto& worker : crew_) channels.push_back({worker->channel(), POLLIN, 0});
+    if (jobs_.wait) jobs_.wait(ended_ + ends_.size(), crew_.size());
     constexpr int kMilliseconds = 200;  // a signal that comes between the test of it and the wait
     if (poll(channels.data(), channels.size(), kMilliseconds) <= 0) return;
     for (std::size_t i = 0; i < channels.size(); ++i)

@@ -20,6 +20,8 @@ struct JobList {
   std::function<int(std::size_t job)> run;                      // in another process; gives the exit code
   std::function<void(std::size_t job, const JobEnd& end)> end;  // here, in order of the jobs
   std::function<void(std::size_t job)> skip;                    // here, instead of both, after an interrupt
+  // Here, several times a second: how many jobs have ended and how many are under way.  May be empty.
+  std::function<void(std::size_t ended, std::size_t under_way)> wait = {};
 };
 
 /// Does the jobs, at most `at_a_time` at once.  A process does one after the other while they end with 0, leave no

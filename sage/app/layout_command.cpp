@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "sage/app/answer.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
+#include "sage/app/screen.hpp"
 #include "sage/deck/layout.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "sage/deck/source.hpp"
@@ -41,6 +44,12 @@ int guess(const GuessOptions& options) {
   keep_input(options.deck);
   const std::string name = name_of_guess(options);
   const GuessedLayout layout = guess_layout(read_file(options.deck), options.deck, name);
+  if (Json* json = answer()) {
+    *json = {
+        {"layout", json_text(name)}, {"cards", layout.cards}, {"lines_not_understood", layout.not_understood}};
+    (*json)["file"] = options.out.empty() ? Json(nullptr) : Json(json_text(options.out));
+    if (options.out.empty()) (*json)["toml"] = json_text(layout.toml);
+  }
   if (options.out.empty()) {
     fmt::print("{}", layout.toml);
   } else {
@@ -80,6 +89,23 @@ Layout layout_of(const CoverageOptions& options) {
   }
 }
 
+void answer_coverage(const Layout& layout, const Coverage& coverage) {
+  Json* const json = answer();
+  if (json == nullptr) return;
+  Json cards = Json::array();
+  for (std::size_t i = 0; i < coverage.cards.size(); ++i) {
+    const CardCoverage& card = coverage.cards[i];
+    cards.push_back({{"card", json_text(layout.cards[i].key)},
+                     {"cards", card.cards},
+                     {"lines", card.lines},
+                     {"unread_lines", card.unread_lines}});
+  }
+  *json = {{"layout", json_text(layout.name)}, {"card_lines", coverage.card_lines},
+           {"headings", coverage.headings},    {"comments", coverage.comments},
+           {"blank_lines", coverage.blanks},   {"lines_under_no_card", coverage.no_card},
+           {"cards", std::move(cards)}};
+}
+
 int check(const CoverageOptions& options) {
   keep_input(options.layout);
   keep_input(options.deck);
@@ -89,7 +115,9 @@ int check(const CoverageOptions& options) {
   Diagnostics problems;
   const Deck deck = read_what_can_be(read_file(options.deck), options.deck, layout, read, problems);
   std::ostringstream report;
-  print_coverage(layout, deck, find_coverage(layout, deck), report);
+  const Coverage coverage = find_coverage(layout, deck);
+  answer_coverage(layout, coverage);
+  print_coverage(layout, deck, coverage, report);
   fmt::print("{}", report.str());
   print_diagnostics(problems.errors() > 0 ? problems : deck.diagnostics);
   return problems.errors() > 0 ? kInput : kOk;

@@ -4,7 +4,9 @@
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
 #include <memory>
+#include <nlohmann/json.hpp>
 
+#include "sage/app/answer.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 
@@ -62,6 +64,82 @@ void list_fields(const Catalogue& catalogue) {
   fmt::print("and at integration points the history variables of the deck's laws, by their names\n");
 }
 
+Json parameters_json(const MaterialEntry& entry, const UnitSystem& units) {
+  Json list = Json::array();
+  for (const Parameter& p : entry.parameters)
+    list.push_back({{"name", p.name},
+                    {"unit", unit_text(p.dimension, units)},
+                    {"meaning", json_text(p.meaning)},
+                    {"required", p.required},
+                    {"fallback", p.required ? Json(nullptr) : Json(p.fallback)}});
+  return list;
+}
+
+Json elements_json(const Catalogue& catalogue) {
+  Json list = Json::array();
+  for (const auto& [code, entry] : catalogue.elements.entries()) {
+    Json formulations = Json::array();
+    for (const Formulation& f : entry.formulations)
+      formulations.push_back({{"code", f.code}, {"name", f.name}, {"summary", json_text(f.summary)}});
+    list.push_back({{"code", code},
+                    {"name", entry.name},
+                    {"summary", json_text(entry.summary)},
+                    {"nodes", entry.nodes},
+                    {"formulations", std::move(formulations)}});
+  }
+  return list;
+}
+
+Json materials_json(const Catalogue& catalogue, const UnitSystem& units) {
+  Json list = Json::array();
+  for (const auto& [code, entry] : catalogue.materials.entries()) {
+    Json history = Json::array();
+    for (const Quantity& q : entry.history)
+      history.push_back({{"name", std::string(q.name)}, {"unit", unit_text(q.dimension, units)}});
+    list.push_back({{"code", code},
+                    {"name", entry.name},
+                    {"kind", law_words(entry.law_size)},
+                    {"summary", json_text(entry.summary)},
+                    {"parameters", parameters_json(entry, units)},
+                    {"history", std::move(history)}});
+  }
+  return list;
+}
+
+Json solvers_json(const Catalogue& catalogue) {
+  Json list = Json::array();
+  for (const auto& [code, entry] : catalogue.solvers.entries())
+    list.push_back({{"code", code},
+                    {"name", entry.name},
+                    {"symmetric", entry.symmetric},
+                    {"summary", json_text(entry.summary)}});
+  return list;
+}
+
+Json fields_json(const Catalogue& catalogue, const UnitSystem& units) {
+  constexpr const char* kPlaces[] = {"nodes", "integration points", "elements", "increments"};
+  Json list = Json::array();
+  for (const FieldEntry& row : catalogue.fields.rows()) {
+    Json components = Json::array();
+    for (const FieldComponent& c : row.components) components.push_back(c.name);
+    list.push_back({{"name", row.name},
+                    {"at", kPlaces[static_cast<int>(row.place())]},
+                    {"unit", unit_text(row.dimension, units)},
+                    {"components", std::move(components)},
+                    {"meaning", json_text(row.meaning)},
+                    {"compression_positive", row.sign == FieldSign::compression_positive}});
+  }
+  return list;
+}
+
+Json list_json(const std::string& what, const Catalogue& catalogue) {
+  const UnitSystem generic{"length", "force", "stress", 0.0, 0.0};
+  if (what == "elements") return elements_json(catalogue);
+  if (what == "materials") return materials_json(catalogue, generic);
+  if (what == "solvers") return solvers_json(catalogue);
+  return fields_json(catalogue, generic);
+}
+
 }  // namespace
 
 Command list_command(CLI::App& parser, const Catalogue& catalogue) {
@@ -70,6 +148,7 @@ Command list_command(CLI::App& parser, const Catalogue& catalogue) {
       ->required()
       ->check(CLI::IsMember({"elements", "materials", "solvers", "fields"}));
   return [what, &catalogue] {
+    if (Json* json = answer()) (*json)[*what] = list_json(*what, catalogue);
     if (*what == "elements") list_elements(catalogue);
     if (*what == "materials") list_materials(catalogue);
     if (*what == "solvers") list_solvers(catalogue);

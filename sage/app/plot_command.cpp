@@ -6,7 +6,9 @@
 #include <charconv>
 #include <cmath>
 #include <memory>
+#include <nlohmann/json.hpp>
 
+#include "sage/app/answer.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
@@ -281,9 +283,12 @@ std::filesystem::path plot_path(const PlotOptions& options, const std::string& n
 
 void write_plot(const PlotOptions& options, const std::filesystem::path& path, const std::string& svg) {
   write_file(path, svg);
+  answer_file(path);
   fmt::print("{}\n", path.string());
-  for (const std::filesystem::path& other : convert_picture(path, options.formats))
+  for (const std::filesystem::path& other : convert_picture(path, options.formats)) {
+    answer_file(other);
     fmt::print("{}\n", other.string());
+  }
 }
 
 Command plot_command(CLI::App& parser, const Catalogue& catalogue) {

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 
+#include "sage/app/answer.hpp"
 #include "sage/app/input.hpp"
 #include "sage/app/picture_formats.hpp"
 #include "sage/app/plot_command.hpp"
 #include "sage/app/plot_states.hpp"
+#include "sage/app/screen.hpp"
 #include "sage/record/field_reader.hpp"
 
 namespace sage::app {
@@ -24,8 +26,7 @@ void draw(Pictures& pictures, const StoredRun& run, std::size_t state) {
 }
 
 void say_failure(const StoredRun& run) {
-  if (!run.stored.failure().empty())
-    fmt::print(stderr, "{}: the run did not converge: {}\n", run.file, run.stored.failure());
+  if (!run.stored.failure().empty()) say_error(run.file, "the run did not converge: " + run.stored.failure());
 }
 
 // Names of the files' pictures before the state: that of the file, and of its folder where others in the same
@@ -84,8 +85,12 @@ void plot_pictures(const PlotOptions& options, const Catalogue& catalogue) {
     Pictures pictures(plot_folder(options, file), stems[i], fields, look);
     for (std::size_t state : states) draw(pictures, run, state);
     for (const std::filesystem::path& picture : pictures.files()) {
+      answer_file(picture);
       fmt::print("{}\n", picture.string());
-      for (const auto& other : convert_picture(picture, options.formats)) fmt::print("{}\n", other.string());
+      for (const auto& other : convert_picture(picture, options.formats)) {
+        answer_file(other);
+        fmt::print("{}\n", other.string());
+      }
     }
     say_failure(run);
   }

@@ -4,14 +4,19 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <new>
+#include <sstream>
 #include <string>
 #include <system_error>
 
+#include "sage/app/answer.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
+#include "sage/app/screen.hpp"
 
 namespace sage {
 namespace app {
@@ -68,8 +73,43 @@ const Entry* find_command(const std::string& word) {
     known += std::string(" ") + entry.name;
   }
   // The parser itself would only ask for one.
-  fmt::print(stderr, "sagefe: unknown command {}; known:{}\n", word, known);
+  say_error("sagefe", fmt::format("unknown command {}; known:{}", word, known));
   return nullptr;
+}
+
+// Also of a command line that can't be parsed.
+bool asks_for_json(int argc, char** argv) {
+  return std::any_of(argv, argv + argc, [](const char* word) { return std::strcmp(word, "--json") == 0; });
+}
+
+// The parser's message, as its exit() prints it.
+int say_parse_error(const CLI::App& root, const CLI::ParseError& error) {
+  std::ostringstream out, err;
+  const int code = root.exit(error, out, err);
+  std::fputs(out.str().c_str(), stdout);  // what could not be written shows at the end
+  print_stderr(err.str());
+  if (code != 0) keep_message({Severity::error, {"sagefe", 0, 0, 0}, error.what(), {}});
+  return code == 0 ? kOk : kUsage;
+}
+
+// The document of --json; an answer that can't be written is none.
+int with_answer(const std::string& command, int code, const MutedOutput& output) {
+  if (output.write(answer_text(command, code))) return code;
+  fmt::print(stderr, "sagefe: standard output could not be written\n");
+  return kOutput;
+}
+
+int execute_chosen(const std::string& name, const Command& execute, const ScreenOptions& options) {
+  set_screen(options);
+  if (!options.quiet && !options.json) return guarded("sagefe", execute);
+  const MutedOutput output;
+  const int code = guarded("sagefe", execute);
+  return options.json ? with_answer(name, code, output) : code;
+}
+
+int refuse(const std::string& name, const std::function<int()>& say) {
+  const int code = say();
+  return screen().json && code != kOk ? with_answer(name, code, MutedOutput()) : code;
 }
 
 int run_command_line(int argc, char** argv, const AddToCatalogue& add) {
@@ -80,24 +120,28 @@ int run_command_line(int argc, char** argv, const AddToCatalogue& add) {
   int word = 1;
   while (word < argc && argv[word][0] == '-') ++word;  // sagefe --help run
   const bool named = word < argc;
+  set_screen({.json = asks_for_json(argc, argv)});
   const Entry* chosen = named ? find_command(argv[word]) : nullptr;
-  if (named && chosen == nullptr) return kUsage;
+  if (named && chosen == nullptr) return refuse(argv[word], [] { return kUsage; });
   Catalogue catalogue;
   if (chosen != nullptr) {
     catalogue = full_catalogue();
     if (add) add(catalogue);
   }
   Command execute;
+  ScreenOptions options;
   for (const Entry& entry : kCommands) {
     CLI::App* parser = root.add_subcommand(entry.name, entry.about);
-    if (&entry == chosen) execute = entry.add_options(*parser, catalogue);
+    if (&entry != chosen) continue;
+    execute = entry.add_options(*parser, catalogue);
+    add_screen_options(*parser, options);
   }
   try {
     root.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return root.exit(error) == 0 ? kOk : kUsage;
+    return refuse(named ? argv[word] : "", [&] { return say_parse_error(root, error); });
   }
-  return execute ? guarded("sagefe", execute) : kUsage;
+  return execute ? execute_chosen(chosen->name, execute, options) : kUsage;
 }
 
 // Where the caller closed a standard stream, a file of results would take its number,
@@ -129,7 +173,7 @@ int sagefe(int argc, char** argv, const AddToCatalogue& add) {
     std::fputs("sagefe: not enough memory\n", stderr);
     return kNotConverged;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "sagefe: {}\n", error.what());  // of `add`, such as a code that is taken
+    say_error("sagefe", error.what());  // of `add`, such as a code that is taken
     return kUsage;
   }
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;

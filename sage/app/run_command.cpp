@@ -5,17 +5,22 @@
 #include <CLI/Validators.hpp>
 #include <algorithm>
 #include <cstring>
+#include <nlohmann/json.hpp>
 #include <set>
 
+#include "sage/app/answer_run.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/converge.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/interrupt.hpp"
 #include "sage/app/jobs.hpp"
+#include "sage/app/progress.hpp"
 #include "sage/app/run_deck.hpp"
+#include "sage/app/screen.hpp"
 #include "sage/app/state_choice.hpp"
 #include "sage/record/out_file.hpp"
 #include "sage/record/profile_text.hpp"
+#include "sage/record/sketch.hpp"
 
 namespace sage::app {
 
@@ -27,7 +32,6 @@ struct RunOptions {
   ConvergeOptions converge;
   std::string tables = "auto";
   std::vector<std::string> without;
-  bool quiet = false;
   int jobs = 1;  // decks at a time; 0: as many as there are processors
 };
 
@@ -44,15 +48,32 @@ std::string way_on(const RunOutcome& outcome) {
 }
 
 // Notes of the run, a line each, where no summary shows them.
-std::string note_text(const std::string& deck, const std::string& notes) {
-  std::string text;
+void say_notes(const std::string& deck, const std::string& notes) {
   for (std::size_t at = 0, end = 0; (end = notes.find('\n', at)) != std::string::npos; at = end + 1)
-    text += deck + ": note: " + notes.substr(at, end - at) + '\n';
-  return text;
+    say_note(deck, notes.substr(at, end - at));
 }
 
-// One deck's failure does not keep the next from running.
-int run_one(const RunOptions& options, const std::string& deck, const Catalogue& catalogue) {
+// Where the results go to a terminal with room for it.
+std::string sketch_for_screen(const RunOutcome& outcome) {
+  constexpr int kNarrow = 64;
+  const int columns = is_screen(stdout) ? columns_of(stdout) : 0;
+  if (columns < kNarrow) return {};
+  const std::optional<Sketch> sketch = sketch_of(*outcome.model, *outcome.reports);
+  return sketch ? sketch_text(*sketch, columns, unicode_locale()) : std::string();
+}
+
+// The member of the answer about a deck.  What is not known of a deck that was refused, or whose process died, is left out.
+Json deck_json(const std::string& deck, int exit_code, Json found) {
+  Json json = {{"deck", json_text(deck)}, {"exit_code", exit_code}};
+  json["status"] = exit_code == kInterrupted ? "interrupted" : exit_word(exit_code);
+  if (found.is_object())
+    for (auto& [key, value] : found.items())
+      if (key != "status" || exit_code != kInterrupted) json[key] = std::move(value);
+  return json;
+}
+
+// One deck's failure does not keep the next from running.  found: what the answer says of it, with --json.
+int compute_deck(const RunOptions& options, const std::string& deck, const Catalogue& catalogue, Json& found) {
   RunRequest request = options.request;
   request.deck = deck;
   request.output.tables = tables_of(options.tables);
@@ -64,27 +85,34 @@ int run_one(const RunOptions& options, const std::string& deck, const Catalogue&
       const OutputOptions& output = request.output;
       if (output.nodes || output.points || output.vtu || output.msh || output.result || output.error ||
           !output.states.empty() || !output.pictures.empty() || request.restart)
-        fmt::print(stderr,
-                   "{}: note: --converge writes its table only; the options of its last line give that mesh "
-                   "again, with all outputs\n",
-                   deck);
-      return converge(request, options.converge, catalogue);
+        say_note(deck,
+                 "--converge writes its table only; the options of its last line give that mesh again, with "
+                 "all outputs");
+      return converge(request, options.converge, catalogue, screen().json ? &found : nullptr);
     }
     const RunOutcome outcome = run_deck(request, catalogue);
+    if (screen().json && !outcome.record.stages.empty()) found = outcome_json(outcome);
     if (outcome.exit_code == kInterrupted) {
-      fmt::print(stderr, "{}: interrupted: {}; {}\n", deck, outcome.record.result.reason, way_on(outcome));
+      say_error(deck, "interrupted: " + outcome.record.result.reason + "; " + way_on(outcome));
       return outcome.exit_code;
     }
     if (outcome.record.stages.empty()) return outcome.exit_code;  // --strict stopped it
-    if (options.quiet)
-      fmt::print(stderr, "{}", note_text(deck, outcome.record.notes));
+    if (screen().quiet || screen().json)
+      say_notes(deck, outcome.record.notes);
     else
       fmt::print("{}\n", summary(*outcome.model, outcome.record, outcome.reports.get(), outcome.files,
-                                 outcome.error.get(), request.output.digits));
+                                 outcome.error.get(), request.output.digits, sketch_for_screen(outcome)));
     if (request.profile) fmt::print("{}\n", profile_table(outcome.record.profile));
-    if (outcome.exit_code != kOk) fmt::print(stderr, "{}: {}\n", deck, outcome.record.result.reason);
+    if (outcome.exit_code != kOk) say_error(deck, outcome.record.result.reason);
     return outcome.exit_code;
   });
+}
+
+int run_one(const RunOptions& options, const std::string& deck, const Catalogue& catalogue) {
+  Json found;
+  const int code = compute_deck(options, deck, catalogue, found);
+  if (Json* json = answer()) (*json)["decks"].push_back(deck_json(deck, code, std::move(found)));
+  return code;
 }
 
 std::vector<std::string> skip_list() {
@@ -100,7 +128,8 @@ std::string skip_names() {
 }
 
 void not_run(const std::string& deck) {
-  fmt::print(stderr, "{}: not run, interrupted before\n", deck);
+  say_error(deck, "not run, interrupted before");
+  if (Json* json = answer()) (*json)["decks"].push_back(deck_json(deck, kInterrupted, {}));
 }
 
 // What --converge has is complete: a mesh that was cut short is no failure of the deck.
@@ -118,20 +147,49 @@ int run_in_turn(const RunOptions& options, const Catalogue& catalogue) {
   return worst;
 }
 
+// What a worker has gathered for the answer about its deck.
+void take_part(const std::string& deck, const JobEnd& end) {
+  Json& decks = (*answer())["decks"];
+  const Json part = take_answer_part(end.out);
+  if (part.is_object() && part.contains("decks"))
+    for (const Json& one : part["decks"]) decks.push_back(one);
+  else
+    decks.push_back(deck_json(deck, end.signal != 0 ? kNotConverged : end.exit_code, {{"signal", end.signal}}));
+}
+
 // Each deck as in run_in_turn(), `jobs` at a time; what they print stands in the order of the decks.
 int run_beside(RunOptions options, int jobs, const Catalogue& catalogue) {
   if (options.request.threads == 0) options.request.threads = 1;  // the processors have their work
   int worst = kOk;
   JobList list;
   list.count = options.decks.size();
-  list.run = [&](std::size_t i) { return run_or_cut_short(options, options.decks[i], catalogue); };
+  Task task("run", true);
+  const int count = static_cast<int>(list.count);
+  list.run = [&](std::size_t i) {
+    no_progress_here();
+    if (!screen().json) return run_or_cut_short(options, options.decks[i], catalogue);
+    const MutedOutput output;  // the answer's part takes the place of the text
+    begin_answer_part();
+    const int code = run_or_cut_short(options, options.decks[i], catalogue);
+    output.write(answer_part_text());
+    return code;
+  };
+  list.wait = [&](std::size_t ended, std::size_t under_way) {
+    task.part(fmt::format("{} under way", under_way), static_cast<int>(ended) + 1, count);
+    show_progress();
+  };
   list.end = [&](std::size_t i, const JobEnd& end) {
-    fmt::print("{}", end.out);
-    fmt::print(stderr, "{}", end.err);
+    const ProgressPause pause;
+    if (screen().json)
+      take_part(options.decks[i], end);
+    else
+      fmt::print("{}", end.out);
+    print_stderr(end.err);
     worst = std::max(worst, end.signal != 0 ? kNotConverged : end.exit_code);
     if (end.signal != 0)
-      fmt::print(stderr, "{}: its process was ended by signal {} ({}); its results are not complete\n",
-                 options.decks[i], end.signal, strsignal(end.signal));
+      say_error(options.decks[i],
+                fmt::format("its process was ended by signal {} ({}); its results are not complete", end.signal,
+                            strsignal(end.signal)));
   };
   list.skip = [&](std::size_t i) {
     not_run(options.decks[i]);
@@ -145,16 +203,15 @@ int run_all(const RunOptions& options, const Catalogue& catalogue) {
   const OutputOptions& output = options.request.output;
   if (!output.states.empty() && !output.result && !output.vtu && !output.msh && !output.nodes &&
       !output.points && output.pictures.empty() && options.tables != "all") {
-    fmt::print(stderr,
-               "sagefe: --states: into which files? --result, --picture, --vtu, --msh, --nodes, --points or "
-               "--tables all\n");
+    say_error("sagefe",
+              "--states: into which files? --result, --picture, --vtu, --msh, --nodes, --points or --tables all");
     return kUsage;
   }
   std::set<std::string> names;
   for (const std::string& deck : options.decks)
     if (!names.insert(case_name(deck)).second) {
-      fmt::print(stderr, "sagefe: two decks would both write {}.*; run them into different folders (-o)\n",
-                 case_name(deck));
+      say_error("sagefe",
+                "two decks would both write " + case_name(deck) + ".*; run them into different folders (-o)");
       return kUsage;
     }
   for (const std::string& deck : options.decks) keep_input(deck);  // of those too that come later
@@ -236,7 +293,6 @@ Command run_command(CLI::App& parser, const Catalogue& catalogue) {
       .add_option("--checkpoint", request.checkpoint_seconds,
                   "seconds between checkpoints (default: 30; 0 = after every increment, negative = none)")
       ->check(number_in(-1e9, 1e9, "a number of seconds"));
-  parser.add_flag("-q,--quiet", options->quiet, "print no summary");
   parser.add_flag("--profile", request.profile,
                   "print where time, memory and floating-point operations went, and write STEM.profile.json");
   add_input_options(parser, request.input);

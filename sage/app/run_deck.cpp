@@ -14,8 +14,11 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/interrupt.hpp"
+#include "sage/app/progress.hpp"
 #include "sage/app/run_source.hpp"
+#include "sage/app/screen.hpp"
 #include "sage/app/state_choice.hpp"
+#include "sage/app/verbose.hpp"
 #include "sage/deck/text.hpp"
 #include "sage/draw/picture.hpp"
 #include "sage/exchange/convert.hpp"
@@ -25,7 +28,6 @@
 #include "sage/record/msh_results.hpp"
 #include "sage/record/out_file.hpp"
 #include "sage/record/profile_text.hpp"
-#include "sage/record/progress.hpp"
 #include "sage/record/result_file.hpp"
 #include "sage/record/vtu.hpp"
 #include "solvers/choose_kernels.hpp"
@@ -87,20 +89,17 @@ Checkpoint checkpoint_of(const RunRequest& request, const Model& model, ResultFi
 std::string resume_from(Checkpoint& checkpoint, const RunRequest& request) {
   std::optional<std::string> state = checkpoint.load();
   if (!state && !request.quiet)
-    fmt::print(stderr, "{}: no checkpoint in {}: from the start\n", request.deck,
-               request.output.folder.string());
+    say_note(request.deck, "no checkpoint in " + request.output.folder.string() + ": from the start");
   const std::string kernels = choose_kernels(request.kernels).name;
   if (!request.quiet && checkpoint.earlier_kernels() != kernels)
-    fmt::print(
-        stderr,
-        "{}: note: what stands before the checkpoint was computed with kernels {}; the digits are the same\n",
-        request.deck, checkpoint.earlier_kernels());
+    say_note(request.deck, "what stands before the checkpoint was computed with kernels " +
+                               checkpoint.earlier_kernels() + "; the digits are the same");
   for (const Checkpoint::Cut& cut : checkpoint.cut())
     if (!request.quiet)
-      fmt::print(
-          stderr,
-          "{}: note: {} goes on from its checkpoint: the {} bytes behind that are cut off and written anew\n",
-          request.deck, cut.file.string(), cut.bytes);
+      say_note(request.deck,
+               fmt::format("{} goes on from its checkpoint: the {} bytes behind that are cut off and written "
+                           "anew",
+                           cut.file.string(), cut.bytes));
   return state.value_or("");
 }
 
@@ -108,8 +107,7 @@ std::string resume_from(Checkpoint& checkpoint, const RunRequest& request) {
 void close(ResultFiles& results, const RunRequest& request) {
   for (const std::filesystem::path& file : results.close())
     if (!request.quiet)
-      fmt::print(stderr, "{}: note: {} is of an earlier run, but has been changed since: it stays\n",
-                 request.deck, file.string());
+      say_note(request.deck, file.string() + " is of an earlier run, but has been changed since: it stays");
 }
 
 // When an interrupted run ends: behind the checkpoint of the increment in hand, if there can be one and the
@@ -224,7 +222,7 @@ std::unique_ptr<Model> model_of(RunRequest& request, const Catalogue& catalogue,
   for (Report& report : model->reports) report.fields = request.output.fields;
   try {
     for (const std::string& note : ask_for_states(*model, request.output.states))
-      if (!request.quiet) fmt::print(stderr, "{}: note: {}\n", request.deck, note);
+      say_note(request.deck, note);
   } catch (const std::invalid_argument& error) {
     throw UsageError(std::string("--states: ") + error.what());
   }
@@ -244,8 +242,8 @@ RunSettings settings_for(const RunRequest& request) {
 }
 
 void note_missing_locks(const RunRequest& request) {
-  fmt::print(stderr, "{}: note: {} lies on a file system without locks: nothing keeps a second run out of it\n",
-             request.deck, request.output.folder.string());
+  say_note(request.deck, request.output.folder.string() +
+                             " lies on a file system without locks: nothing keeps a second run out of it");
 }
 
 std::vector<std::filesystem::path> files_of(const Reports& reports,
@@ -294,7 +292,9 @@ void write_profile(const RunRequest& request, int threads, RunOutcome& outcome) 
 
 RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
   RunRequest request = asked;
+  Task task(case_name(request.deck));
   Profile profile(request.profile);
+  profile.show_in(task.pulse());
   RunOutcome outcome;
   ResultOwner owner{request.deck, 0, "run"};
   RunSource source;
@@ -304,6 +304,7 @@ RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
   if (!may_run(request, model, outcome)) return outcome;
   if (request.output.result) expect_data_module();  // before any file is begun
   RunSettings settings = settings_for(request);
+  settings.pulse = task.pulse();
   std::optional<Profile::Scope> opening(std::in_place, profile, phase::kFiles);
   std::optional<ResultFiles> own;
   if (request.results == nullptr) own.emplace(request.output.folder, stem_of(request), owner);
@@ -324,9 +325,9 @@ RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
     end.saved();
     has_checkpoint = true;
   };
-  Progress progress;
   std::vector<Observer*> observers = observers_of(request, outputs, outcome);
-  observers.push_back(&progress);
+  Verbose verbose(request);
+  if (screen().verbose) observers.push_back(&verbose);
   observers.push_back(&end);
   opening.reset();
   try {
@@ -361,7 +362,9 @@ RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
   outcome.files = files_of(*outcome.reports, outputs);
   profile.stop();
   outcome.record.seconds = profile.seconds_with_all(0);
+  profile.show_in(nullptr);
   outcome.record.profile = std::move(profile);
+  if (screen().verbose) verbose.say_times(outcome.record.profile);
   if (request.profile) write_profile(request, settings.threads, outcome);
   return outcome;
 }

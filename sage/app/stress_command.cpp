@@ -4,9 +4,13 @@
 #include <CLI/Option.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
+#include "sage/app/answer.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
+#include "sage/app/progress.hpp"
+#include "sage/app/screen.hpp"
 #include "sage/record/out_file.hpp"
 #include "sage/stress/report.hpp"
 
@@ -20,9 +24,42 @@ struct StressOptions {
   std::string csv, page;
 };
 
+Json row_json(const stress::Row& row) {
+  return {{"name", row.name},
+          {"family", json_text(row.family)},
+          {"title", json_text(row.title)},
+          {"reference", json_text(row.reference)}};
+}
+
+// NaN where a trial has no such number.
+Json result_json(const stress::Row& row, const stress::RowResult& result) {
+  Json trials = Json::array();
+  for (const stress::Trial& trial : result.trials)
+    trials.push_back({{"label", json_text(trial.label)},
+                      {"parameter", trial.parameter},
+                      {"expected", json_text(trial.expected)},
+                      {"outcome", json_text(trial.outcome)},
+                      {"error", trial.error},
+                      {"allowed", trial.allowed},
+                      {"digits_lost", trial.digits_lost()},
+                      {"ok", trial.ok}});
+  Json json = row_json(row);
+  json["ok"] = result.ok();
+  json["thrown"] = json_text(result.thrown);
+  json["seconds"] = result.seconds;
+  json["trials"] = std::move(trials);
+  return json;
+}
+
+void answer_row(Json row) {
+  if (Json* json = answer()) (*json)["rows"].push_back(std::move(row));
+}
+
 int list_rows(const std::vector<stress::Row>& rows) {
-  for (const stress::Row& row : rows)
+  for (const stress::Row& row : rows) {
+    if (screen().json) answer_row(row_json(row));
     fmt::print("{:<22} {}\n{:<22}   reference: {}\n", row.name, row.title, "", row.reference);
+  }
   return kOk;
 }
 
@@ -30,7 +67,7 @@ int run_rows(const StressOptions& options, const Catalogue& catalogue) {
   std::vector<stress::Row> rows = stress::all_rows();
   for (const std::string& name : options.only)
     if (std::none_of(rows.begin(), rows.end(), [&](const stress::Row& row) { return row.name == name; })) {
-      fmt::print(stderr, "sagefe stress: no row is called {}; see --list\n", name);
+      say_error("sagefe stress", "no row is called " + name + "; see --list");
       return kUsage;
     }
   if (!options.only.empty())
@@ -42,12 +79,17 @@ int run_rows(const StressOptions& options, const Catalogue& catalogue) {
   std::vector<stress::RowResult> results;
   int failed = 0;
   fmt::print("{}", stress::heading());
+  Task task("stress");
   for (const stress::Row& row : rows) {
+    task.part(row.name, static_cast<int>(results.size()) + 1, static_cast<int>(rows.size()));
     results.push_back(stress::evaluate(row, bench));
     failed += results.back().ok() ? 0 : 1;
+    if (screen().json) answer_row(result_json(row, results.back()));
+    const ProgressPause pause;
     fmt::print("{}", stress::row_text(row, results.back(), options.details));
     std::fflush(stdout);
   }
+  if (Json* json = answer()) json->update({{"row_count", rows.size()}, {"failed", failed}});
   fmt::print(
       "{} rows, {} failed. Digits lost = log10(error / 1.1e-16) of 16. Not part of the program, so not tested: "
       "consolidation.\n",

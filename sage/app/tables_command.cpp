@@ -4,11 +4,15 @@
 #include <CLI/Option.hpp>
 #include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "sage/app/answer.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
+#include "sage/app/progress.hpp"
 #include "sage/app/run_deck.hpp"
+#include "sage/app/screen.hpp"
 
 namespace sage::app {
 
@@ -55,6 +59,13 @@ std::vector<ChapterEntry> read_entries(const std::filesystem::path& path) {
   return entries;
 }
 
+std::vector<ChapterEntry> chosen_entries(const TableOptions& options) {
+  std::vector<ChapterEntry> entries = read_entries(options.cases / "tables.csv");
+  if (options.pinned)
+    std::erase_if(entries, [](const ChapterEntry& entry) { return !entry.column.starts_with("pinned"); });
+  return entries;
+}
+
 double ratio_of(const RunOutcome& outcome, const ChapterEntry& entry) {
   for (const TriaxialRow& row : outcome.reports->triaxial(0))
     if (row.stage == entry.stage && row.increment == entry.increment) return row.ratio;
@@ -75,12 +86,27 @@ void print_entry(const ChapterEntry& entry, double ratio) {
   fmt::print("\n");
 }
 
+Json entry_json(const ChapterEntry& entry, double ratio) {
+  return {{"table", entry.table},
+          {"row", entry.row},
+          {"column", entry.column},
+          {"deck", entry.deck},
+          {"stage", entry.stage},
+          {"increment", entry.increment},
+          {"chapter", entry.chapter},
+          {"computed", ratio},
+          {"converged", entry.converged > 0.0 ? Json(entry.converged) : Json(nullptr)}};
+}
+
 int print_tables(const TableOptions& options, const Catalogue& catalogue) {
   std::map<std::string, RunOutcome> runs;
   std::string table;
   int worst = kOk;
-  for (const ChapterEntry& entry : read_entries(options.cases / "tables.csv")) {
-    if (options.pinned && !entry.column.starts_with("pinned")) continue;
+  const std::vector<ChapterEntry> entries = chosen_entries(options);
+  Task task("tables");
+  int number = 0;
+  for (const ChapterEntry& entry : entries) {
+    task.part(entry.deck, ++number, static_cast<int>(entries.size()));
     if (!runs.count(entry.deck)) {
       RunRequest request;
       request.deck = (options.cases / entry.deck / "deck.dat").string();
@@ -89,8 +115,11 @@ int print_tables(const TableOptions& options, const Catalogue& catalogue) {
       runs.emplace(entry.deck, run_deck(request, catalogue));
       const RunOutcome& outcome = runs.at(entry.deck);
       worst = std::max(worst, outcome.exit_code);
-      if (outcome.exit_code != kOk) fmt::print(stderr, "{}: {}\n", request.deck, outcome.record.result.reason);
+      if (outcome.exit_code != kOk) say_error(request.deck, outcome.record.result.reason);
     }
+    if (Json* json = answer())
+      (*json)["entries"].push_back(entry_json(entry, ratio_of(runs.at(entry.deck), entry)));
+    const ProgressPause pause;
     if (entry.table != table) print_header(table = entry.table);
     print_entry(entry, ratio_of(runs.at(entry.deck), entry));
   }
@@ -100,6 +129,7 @@ int print_tables(const TableOptions& options, const Catalogue& catalogue) {
       "Full integration locks near nu = 1/2; the converged answer needs b-bar or 8-node elements.\n"
       "Results of all decks: {}\n",
       options.folder.string());
+  if (Json* json = answer()) (*json)["folder"] = json_text(options.folder.string());
   return worst;
 }
 

@@ -1,13 +1,16 @@
 // sagefe verify: the verification book.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/Option.hpp>
 #include <cstdio>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
+#include "sage/app/answer.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
+#include "sage/app/progress.hpp"
+#include "sage/app/screen.hpp"
 #include "sage/core/error.hpp"
 #include "sage/record/out_file.hpp"
 #include "sage/verify/book.hpp"
@@ -28,21 +31,56 @@ bool chosen(const VerifyOptions& options, const Section& section, const Case& on
          section.title.find(options.only) != std::string::npos;
 }
 
+int count_chosen(const VerifyOptions& options, const std::vector<Section>& sections) {
+  int count = 0;
+  for (const Section& section : sections)
+    for (const Case& one : section.cases) count += chosen(options, section, one) ? 1 : 0;
+  return count;
+}
+
+Json case_json(const Section& section, const Case& one) {
+  return {{"section", json_text(section.title)},
+          {"name", one.name},
+          {"title", json_text(one.title)},
+          {"source", json_text(one.source)},
+          {"grade", name_of(one.grade)}};
+}
+
+// NaN where a row has no such number.
+Json result_json(const Section& section, const CaseResult& result) {
+  Json rows = Json::array();
+  for (const Row& row : result.rows)
+    rows.push_back({{"what", json_text(row.what)},
+                    {"where", name_of(row.where)},
+                    {"computed", row.computed},
+                    {"reference", row.reference},
+                    {"error", row.error},
+                    {"gate", row.gate},
+                    {"order", row.order},
+                    {"theory", row.theory},
+                    {"relative", row.relative},
+                    {"pass", row.pass}});
+  Json json = case_json(section, *result.of);
+  json["pass"] = result.pass();
+  json["seconds"] = result.seconds;
+  json["rows"] = std::move(rows);
+  return json;
+}
+
+void answer_case(Json one) {
+  if (Json* json = answer()) (*json)["cases"].push_back(std::move(one));
+}
+
 int list_cases(const VerifyOptions& options, const std::vector<Section>& sections) {
   for (const Section& section : sections) {
     fmt::print("{}\n", section.title);
     for (const Case& one : section.cases)
-      if (chosen(options, section, one))
+      if (chosen(options, section, one)) {
+        if (screen().json) answer_case(case_json(section, one));
         fmt::print("  {:<26} {}; {} ({})\n", one.name, one.title, one.source, name_of(one.grade));
+      }
   }
   return kOk;
-}
-
-// The case that runs, on a terminal only.
-void show_progress(const std::string& name) {
-  if (isatty(STDERR_FILENO) == 0) return;
-  fmt::print(stderr, "\r\033[K{}", name);
-  std::fflush(stderr);
 }
 
 void write_book(OutFile& book, const std::vector<Chapter>& chapters) {
@@ -57,7 +95,7 @@ int run_book(const VerifyOptions& options, const Catalogue& catalogue) {
   const std::vector<Section> sections = book();
   if (options.list) return list_cases(options, sections);
   if (!options.write.empty() && !options.only.empty()) {
-    fmt::print(stderr, "sagefe verify: --write writes the whole book; leave --only away\n");
+    say_error("sagefe verify", "--write writes the whole book; leave --only away");
     return kUsage;
   }
   OutFile csv, written;  // opened first: an unwritable folder shows before anything is computed
@@ -67,27 +105,32 @@ int run_book(const VerifyOptions& options, const Catalogue& catalogue) {
   std::vector<Chapter> chapters;
   int cases = 0, rows = 0, failing = 0;
   double seconds = 0.0;
+  Task task("verify");
+  const int count = count_chosen(options, sections);
   for (const Section& section : sections) {
     Chapter& chapter = chapters.emplace_back();
     chapter.title = section.title;
     for (const Case& one : section.cases) {
       if (!chosen(options, section, one)) continue;
-      show_progress(one.name);
+      task.part(one.name, cases + 1, count);
       chapter.outcomes.push_back(run_case(one, bench));
       const CaseResult& outcome = chapter.outcomes.back();
+      if (screen().json) answer_case(result_json(section, outcome));
       if (cases++ == 0) fmt::print("{}", table_header());
       rows += static_cast<int>(outcome.rows.size());
       failing += outcome.pass() ? 0 : 1;
       seconds += outcome.seconds;
-      show_progress("");
+      const ProgressPause pause;
       fmt::print("{}", table_text({section.title, {outcome}}, options.rows));
       std::fflush(stdout);
     }
   }
   if (cases == 0) {
-    fmt::print(stderr, "sagefe verify: no case matches {}; see sagefe verify --list\n", options.only);
+    say_error("sagefe verify", "no case matches " + options.only + "; see sagefe verify --list");
     return kUsage;
   }
+  if (Json* json = answer())
+    json->update({{"case_count", cases}, {"row_count", rows}, {"failing", failing}, {"seconds", seconds}});
   fmt::print(
       "{} cases, {} rows, {} failing; {:.1f} s. Signs: pressures and loads compression positive; forces per "
       "unit "

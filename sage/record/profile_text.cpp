@@ -2,11 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstdint>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 namespace sage {
 
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 constexpr double kGiga = 1e9, kMega = 1e6;
 
@@ -47,34 +52,19 @@ void add_rows(std::string& text, const Profile& profile, int i) {
   for_children(profile, i, [&](int child) { add_rows(text, profile, child); });
 }
 
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\')
-      (out += '\\') += c;
-    else if (static_cast<unsigned char>(c) < 0x20)
-      out += fmt::format("\\u{:04x}", static_cast<int>(c));
-    else
-      out += c;
-  }
-  return out + '"';
-}
-
-std::string json_of(const Profile& profile, int i) {
+Json tree_of(const Profile& profile, int i) {
   const Profile::Phase& phase = phase_at(profile, i);
-  std::string text =
-      fmt::format(R"({{"phase": {}, "calls": {}, "seconds": {}, "own_seconds": {})",
-                  quoted(std::string(phase.name)), phase.calls, profile.seconds_with_all(i), phase.seconds);
-  const double operations = profile.operations_with_all(i);
-  if (operations > 0.0) text += fmt::format(R"(, "operations": {:.12g})", operations);
-  if (profile.with_memory()) text += fmt::format(R"(, "memory_bytes": {})", profile.memory_with_all(i));
-  std::string children;
-  const std::string indent = "\n" + std::string(static_cast<std::size_t>(2 * depth_of(profile, i) + 4), ' ');
-  for_children(profile, i, [&](int child) {
-    children += (children.empty() ? "" : ",") + indent + json_of(profile, child);
-  });
-  if (!children.empty()) text += ", \"phases\": [" + children + "]";
-  return text + "}";
+  Json json = {{"phase", phase.name},
+               {"calls", phase.calls},
+               {"seconds", profile.seconds_with_all(i)},
+               {"own_seconds", phase.seconds}};
+  if (const double operations = profile.operations_with_all(i); operations > 0.0)
+    json["operations"] = static_cast<std::uint64_t>(operations);
+  if (profile.with_memory()) json["memory_bytes"] = profile.memory_with_all(i);
+  Json below = Json::array();
+  for_children(profile, i, [&](int child) { below.push_back(tree_of(profile, child)); });
+  if (!below.empty()) json["phases"] = std::move(below);
+  return json;
 }
 
 double accounted(const Profile& profile) {
@@ -98,12 +88,14 @@ std::string profile_table(const Profile& profile) {
 
 std::string profile_json(const Profile& profile, const std::string& case_name, int threads,
                          const std::string& kernels) {
-  return fmt::format(
-      "{{\"sagefe\": {}, \"case\": {}, \"threads\": {}, \"kernels\": {}, \"seconds\": {}, \"accounted\": "
-      "{:.4f},\n"
-      "  \"run\": {}}}\n",
-      quoted(SAGE_VERSION), quoted(case_name), threads, quoted(kernels), profile.seconds_with_all(0),
-      accounted(profile), json_of(profile, 0));
+  const Json json = {{"sagefe", SAGE_VERSION},
+                     {"case", case_name},
+                     {"threads", threads},
+                     {"kernels", kernels},
+                     {"seconds", profile.seconds_with_all(0)},
+                     {"accounted", std::round(1e4 * accounted(profile)) / 1e4},
+                     {"run", tree_of(profile, 0)}};
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 }  // namespace sage

@@ -291,7 +291,7 @@ void RunRecord::on_finish(const Model&, const RunResult& run_result) {
 
 std::string summary(const Model& model, const RunRecord& record, const Reports* reports,
                     const std::vector<std::filesystem::path>& files, const DiscretisationError* error,
-                    int digits) {
+                    int digits, const std::string& sketch) {
   const bool ring = model.geometry == Geometry::axisymmetric;
   const UnitSystem& u = model.units;
   std::string text = model.title + "\n";
@@ -300,6 +300,7 @@ std::string summary(const Model& model, const RunRecord& record, const Reports* 
   if (const auto& rows = record.strength.rows(); !rows.empty())
     text += "  strength divided by factors, each an analysis of its own\n" + strength_table(model, rows);
   if (reports != nullptr) report_tables(text, model, *reports, digits);
+  text += sketch;
   if (error != nullptr) text += error->text(model);
   if (record.audited > 0)
     fmt::format_to(to(text), "  equilibrium whole model out of balance by {:.1e} of its largest force\n",

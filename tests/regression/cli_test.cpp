@@ -553,7 +553,7 @@ TEST(CommandLine, ProfileIsATableAndAFile) {
   const fs::path folder = empty_folder("profile");
   write(folder / "deck.dat", collapse_deck().text());
   write(folder / "good.dat", block_deck().text());
-  const Finished run = sagefe(folder, "run good.dat --profile -q -o out");
+  const Finished run = sagefe(folder, "run good.dat --profile -o out");
   EXPECT_EQ(run.exit_code, 0) << run.err;
   for (const char* phase : {"whole run", "reading the deck", "building the model", "opening and closing files",
                             "analysis", "start of stages", "numbering", "iteration", "factorisation",
