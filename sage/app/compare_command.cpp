@@ -176,7 +176,7 @@ FinishedSide climb_side(const char* letter, const SideOptions& options, const Co
     print_diagnostics(error.diagnostics());
     return {{label, error.what()}};
   } catch (const AnalysisError& error) {
-    say_error(options.deck, error.what());
+    say_error(options.deck, error);
     found.not_reached = error.what();
     return {{label, error.what()}, found};
   }

@@ -529,7 +529,7 @@ std::string Climb::why_unusable(const RunOutcome& outcome, const Rung& rung) {
   if (outcome.exit_code != kOk) {
     // Of a finer mesh it is no news of the deck; of the first one it is the answer.
     if (rows_.empty()) {
-      say_error(request_.deck, result.reason);
+      say_error(request_.deck, result.reason, result.code);
       without_equilibrium_ = rung;
     }
     return "no equilibrium with " + rung.options + ": " + result.reason.substr(0, result.reason.find('\n'));

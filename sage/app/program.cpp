@@ -88,7 +88,7 @@ int say_parse_error(const CLI::App& root, const CLI::ParseError& error) {
   const int code = root.exit(error, out, err);
   std::fputs(out.str().c_str(), stdout);  // what could not be written shows at the end
   print_stderr(err.str());
-  if (code != 0) keep_message({Severity::error, {"sagefe", 0, 0, 0}, error.what(), {}});
+  if (code != 0) keep_message({Severity::error, {}, {"sagefe", 0, 0, 0}, error.what(), {}});
   return code == 0 ? kOk : kUsage;
 }
 

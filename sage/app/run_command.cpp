@@ -103,7 +103,7 @@ int compute_deck(const RunOptions& options, const std::string& deck, const Catal
       fmt::print("{}\n", summary(*outcome.model, outcome.record, outcome.reports.get(), outcome.files,
                                  outcome.error.get(), request.output.digits, sketch_for_screen(outcome)));
     if (request.profile) fmt::print("{}\n", profile_table(outcome.record.profile));
-    if (outcome.exit_code != kOk) say_error(deck, outcome.record.result.reason);
+    if (outcome.exit_code != kOk) say_error(deck, outcome.record.result.reason, outcome.record.result.code);
     return outcome.exit_code;
   });
 }

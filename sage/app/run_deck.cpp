@@ -222,7 +222,7 @@ std::unique_ptr<Model> model_of(RunRequest& request, const Catalogue& catalogue,
   for (Report& report : model->reports) report.fields = request.output.fields;
   try {
     for (const std::string& note : ask_for_states(*model, request.output.states))
-      say_note(request.deck, note);
+      if (!request.quiet) say_note(request.deck, note);
   } catch (const std::invalid_argument& error) {
     throw UsageError(std::string("--states: ") + error.what());
   }

@@ -115,7 +115,7 @@ int print_tables(const TableOptions& options, const Catalogue& catalogue) {
       runs.emplace(entry.deck, run_deck(request, catalogue));
       const RunOutcome& outcome = runs.at(entry.deck);
       worst = std::max(worst, outcome.exit_code);
-      if (outcome.exit_code != kOk) say_error(request.deck, outcome.record.result.reason);
+      if (outcome.exit_code != kOk) say_error(request.deck, outcome.record.result.reason, outcome.record.result.code);
     }
     if (Json* json = answer())
       (*json)["entries"].push_back(entry_json(entry, ratio_of(runs.at(entry.deck), entry)));

@@ -1,0 +1,167 @@
+"""Answers of sagefe --json: every command's document against docs/schema/sagefe.schema.json, and its numbers against
+those of the files that the same run wrote.  usage: json_answers.py SAGEFE SOURCE_FOLDER.  Exit code 77: no jsonschema."""
+import csv
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+try:
+    from jsonschema import Draft202012Validator
+except ImportError:
+    print("python3-jsonschema is not installed")
+    sys.exit(77)
+
+SAGEFE, SOURCE = str(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(sys.argv[2]).resolve()
+CASES = SOURCE / "legacy_inputs/chapter7"
+DECK = str(CASES / "pinned_ld2_nu0333/deck.dat")
+OTHER = str(CASES / "pinned_ld2_nu025/deck.dat")
+failures = []
+
+
+def expect(condition, *words):
+    if not condition:
+        failures.append(" ".join(str(word) for word in words))
+        print("FAILED:", failures[-1])
+
+
+def strict(schema):
+    """Members that the schema doesn't name are errors of the test, though not of the schema."""
+    if isinstance(schema, list):
+        return [strict(one) for one in schema]
+    if not isinstance(schema, dict):
+        return schema
+    tight = {key: strict(value) for key, value in schema.items()}
+    if tight.get("type") == "object" and "properties" in tight and "required" in tight:
+        tight.setdefault("additionalProperties", False)
+    return tight
+
+
+SCHEMA = json.loads((SOURCE / "docs/schema/sagefe.schema.json").read_text())
+Draft202012Validator.check_schema(SCHEMA)
+STRICT = Draft202012Validator(strict(SCHEMA))
+
+
+def answer(folder, *arguments, code=0):
+    """The document of a command; its exit code is that of the command without --json."""
+    plain = subprocess.run([SAGEFE, *arguments], cwd=folder, capture_output=True)
+    run = subprocess.run([SAGEFE, *arguments, "--json"], cwd=folder, capture_output=True)
+    name = " ".join(arguments)
+    expect(run.returncode == plain.returncode == code, name, "exit code", run.returncode, plain.returncode)
+    expect(b"\033" not in run.stdout + run.stderr, name, "control characters")
+    document = json.loads(run.stdout)
+    for error in STRICT.iter_errors(document):
+        expect(False, name, error.json_path, error.message[:300])
+    expect(document["exit_code"] == code, name, "says", document["exit_code"])
+    expect(document["command"] == arguments[0], name, "says", document["command"])
+    for missing in document["not_finite"]:
+        value = document
+        for part in missing["at"].split("/")[1:]:
+            value = value[int(part) if isinstance(value, list) else part.replace("~1", "/").replace("~0", "~")]
+        expect(value is None, name, missing)
+    return document
+
+
+def same_as_csv(folder, report, file):
+    """Values of a report, at the digits that its file has."""
+    rows = [row for row in csv.reader(line for line in open(folder / file) if not line.startswith("#"))][1:]
+    expect(len(rows) == len(report["rows"]) > 0, file, "rows", len(rows), len(report["rows"]))
+    for cells, row in zip(rows, report["rows"]):
+        expect([int(cells[0]), int(cells[1])] == [row["stage"], row["increment"]], file, cells[:2])
+        for cell, value in zip(cells[2:], row["values"]):
+            same = value is None if cell == "" else math.isclose(float(cell), value, rel_tol=6e-10, abs_tol=1e-300)
+            expect(same, file, cell, value)
+
+
+def check_run(folder):
+    document = answer(folder, "run", DECK, "-o", "out")
+    deck = document["result"]["decks"][0]
+    expect(deck["status"] == "completed" and document["status"] == "ok", "status", deck["status"])
+    same_as_csv(folder, deck["reports"][0], "out/pinned_ld2_nu0333.report1.csv")
+    expect(abs(deck["reports"][0]["rows"][-1]["values"][-1] - 1.03440) < 5e-6, "ratio of the chapter")
+    listing = (folder / "out/pinned_ld2_nu0333.lst").read_text()
+    for number in (deck["model"]["elements"], deck["equations"]):
+        expect(f" {number} " in listing, "the listing has no", number)
+    for file in deck["files"]:
+        expect((folder / file).exists(), file)
+    beside = answer(folder, "run", DECK, OTHER, "-j", "2", "-o", "out")["result"]["decks"]
+    expect([one["deck"] for one in beside] == [DECK, OTHER], "order of decks")
+    expect(beside[0]["reports"] == deck["reports"], "in a process of its own the same numbers")
+    climbed = answer(folder, "run", DECK, "--converge", "1e-4", "-o", "out")["result"]["decks"][0]
+    expect(climbed["convergence"]["reached"], "convergence")
+
+
+def check_failures(folder):
+    text = pathlib.Path(DECK).read_text().splitlines()
+    (folder / "cut.dat").write_text("\n".join(text[:12]) + "\n")
+    refused = answer(folder, "check", "cut.dat", code=2)
+    message = next(one for one in refused["messages"] if one["severity"] == "error")
+    expect(message["where"] == "cut.dat" and message["line"] == 12, message)
+    expect(refused["result"]["decks"][0]["ready"] is False, "a deck that was refused")
+    answer(folder, "run", "cut.dat", "none.dat", "-o", "out", code=2)
+    weak = answer(folder, "run", "weak.dat", "-o", "out", code=3)
+    deck = weak["result"]["decks"][0]
+    expect(weak["status"] == "not_converged" and deck["status"] == "singular", deck["status"])
+    expect(abs(deck["failed_at"]["load_factor"] - 2 / 3) < 1e-3, "load factor", deck["failed_at"])
+    expect(any(deck["reason"] == one["message"] for one in weak["messages"]), "the reason is a message")
+    expect(answer(folder, "run", "--nonsense", code=1)["messages"], "a message about the command line")
+    answer(folder, "nonsense", code=1)
+    with open("/dev/full", "w") as full:
+        run = subprocess.run([SAGEFE, "list", "solvers", "--json"], stdout=full, stderr=subprocess.PIPE)
+    expect(run.returncode == 4, "standard output that can't be written", run.returncode)
+
+
+def check_others(folder):
+    for what in ("elements", "materials", "solvers", "fields"):
+        expect(len(answer(folder, "list", what)["result"][what]) >= 3, what)
+    cards = answer(folder, "echo", DECK)["result"]["cards"]
+    line = pathlib.Path(DECK).read_text().splitlines()
+    for card in cards:
+        for field in card["fields"]:
+            if isinstance(field["value"], (int, float)) and field["last_column"] <= len(line[field["line"] - 1]):
+                text = line[field["line"] - 1][field["first_column"] - 1:field["last_column"]].strip()
+                expect(float(text.upper().replace("D", "E")) == field["value"], "echo", card["card"], text, field)
+    answer(folder, "echo", DECK, "--names")
+    answer(folder, "convert", DECK, "copy.dat")
+    answer(folder, "layout", "guess", DECK)
+    answer(folder, "layout", "guess", DECK, "-o", "guessed.toml")
+    answer(folder, "layout", "check", "sage1", DECK)
+    book = answer(folder, "verify", "--only", "nosuchcase", code=1)["messages"][0]["message"]
+    expect("no case matches" in book, book)
+    cases = answer(folder, "verify", "--only", "lame.two_rings")["result"]
+    expect(cases["row_count"] == sum(len(one["rows"]) for one in cases["cases"]) > 0, "rows of cases")
+    answer(folder, "verify", "--list")
+    answer(folder, "stress", "--only", "units")
+    answer(folder, "stress", "--list")
+    answer(folder, "figures", "--list")
+    answer(folder, "figures", "--only", "7.1", "-o", "figures")
+    tables = answer(folder, "tables", "--pinned", "-o", "out")["result"]["entries"]
+    expect(all(abs(one["computed"] - one["chapter"]) < 6e-5 for one in tables), "Table 7.3")
+    answer(folder, "run", DECK, "-o", "out")
+    for file in answer(folder, "plot", "out/pinned_ld2_nu0333.report1.csv")["result"]["files"]:
+        expect((folder / file).exists(), file)
+    both = answer(folder, "compare", DECK, "--both", "-o", "out")["result"]
+    expect(both["comparison"]["answers"] and both["a"]["reports"], "comparison")
+
+
+def make_weak_deck(folder):
+    """A Mohr-Coulomb element (c = 10, phi = 0) under 30 where its limit is 20."""
+    card = lambda integers, reals=(): "".join(f"{i:>5}" for i in integers) + "".join(f"{r:>10}" for r in reals)
+    lines = ["A column loaded beyond its strength", "m       kN      kPa",
+             card([1, 0, 4, 0, 1, 1, 1, 2, 0, 1, 0]), card([1, "", ""], ["0.", "0."]), card([2, "", ""], ["1.", "0."]),
+             card([3, "", ""], ["0.", "1."]), card([4, "", ""], ["1.", "1."]), card([1, 4, 4], [""]) + "clay",
+             card([], ["10000.", ".3", "10.", "0."]), card([1, 1, "", 1]), card([1, 1, 1, 2, 4, 3]),
+             card([1, 2, 1, 0, 1]), card([1, 3, 2, 1, 0]), "Pressure on the top",
+             card([10, 0, 0, 0, 0, 0, 1, 0, 0, 0]), card([1, 3, "", ""], ["30.", "30."]), "END"]
+    (folder / "weak.dat").write_text("\n".join(lines) + "\n")
+
+
+with tempfile.TemporaryDirectory() as name:
+    place = pathlib.Path(name)
+    make_weak_deck(place)
+    check_run(place)
+    check_failures(place)
+    check_others(place)
+sys.exit(1 if failures else 0)
