@@ -17,7 +17,7 @@ Catalogue full_catalogue() {
 int solver_code(const Catalogue& catalogue, const std::string& name) {
   if (name.empty()) return -1;
   if (const int code = catalogue.solvers.code_of(name); code != 0) return code;
-  throw InputError({}, "unknown solver " + name + "; known: " + catalogue.solvers.known());
+  throw InputError("S213", {}, "unknown solver " + name + "; known: " + catalogue.solvers.known());
 }
 
 std::function<std::string(const std::string&)> known_solver(const Catalogue& catalogue) {
@@ -25,7 +25,7 @@ std::function<std::string(const std::string&)> known_solver(const Catalogue& cat
     try {
       solver_code(catalogue, name);
     } catch (const InputError& error) {
-      return std::string(error.what());
+      return error.diagnostics().list().front().message;
     }
     return std::string();
   };

@@ -17,7 +17,7 @@ constexpr std::string_view kFirstLine = "sagefe restart 5\n";
 // What a checkpoint means depends on every line of the program: its build is identified by its own file.
 std::uint64_t build_identity() {
   static const std::optional<Checksum> program = checksum_of("/proc/self/exe");
-  if (!program) throw OutputError("a checkpoint can't name this build: /proc/self/exe can't be read");
+  if (!program) throw OutputError("S631", "a checkpoint can't name this build: /proc/self/exe can't be read");
   return program->value();
 }
 
@@ -44,18 +44,18 @@ void expect_results(const std::filesystem::path& checkpoint, const ResultFiles& 
     std::error_code error;
     if (file.complete) {
       if (std::filesystem::file_size(path, error) == file.sum.bytes() && begins_with(path, file.sum)) continue;
-      throw InputError({checkpoint.string(), 0, 0, 0},
+      throw InputError("S630", {checkpoint.string(), 0, 0, 0},
                        "builds on " + path.string() +
                            ", which is missing or has been changed since; run again without --restart");
     }
     const bool half = begins_with(partial, file.sum);
     if (!half && !begins_with(path, file.sum))
-      throw InputError({checkpoint.string(), 0, 0, 0},
+      throw InputError("S630", {checkpoint.string(), 0, 0, 0},
                        "goes on from " + partial.string() +
                            ", which is missing, shorter than it was, or has been changed since; run again "
                            "without --restart");
     if (!half && results.changed_since(name))
-      throw InputError({checkpoint.string(), 0, 0, 0},
+      throw InputError("S630", {checkpoint.string(), 0, 0, 0},
                        "goes on from " + path.string() +
                            ", which has been changed since its run ended; run again without --restart");
   }
@@ -74,8 +74,8 @@ Checkpoint::Checkpoint(std::filesystem::path file, double seconds, std::string b
   expect_no_input(file_);
   std::error_code ignored;
   if (std::filesystem::is_directory(file_, ignored))
-    throw OutputError("cannot write " + file_.string() +
-                      ", the checkpoint: " + std::generic_category().message(EISDIR));
+    throw OutputError("S601", "cannot write " + file_.string() +
+                                  ", the checkpoint: " + std::generic_category().message(EISDIR));
 }
 
 bool Checkpoint::due() const {
@@ -121,10 +121,11 @@ std::optional<std::string> Checkpoint::load() {
   if (!in) return std::nullopt;
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   const SourcePosition where{file_.string(), 0, 0, 0};
-  if (!text.starts_with("sagefe restart ")) throw InputError(where, "is not a checkpoint of this program");
+  if (!text.starts_with("sagefe restart "))
+    throw InputError("S631", where, "is not a checkpoint of this program");
   const char* const other_build =
       "was written by another build of the program; go on with that one, or run again without --restart";
-  if (!text.starts_with(kFirstLine)) throw InputError(where, other_build);
+  if (!text.starts_with(kFirstLine)) throw InputError("S630", where, other_build);
   Archive archive(text.substr(kFirstLine.size()));
   std::uint64_t build = 0, sum = 0;
   std::string belongs_to, state;
@@ -137,14 +138,14 @@ std::optional<std::string> Checkpoint::load() {
     archive(state);
     archive(sum);
   } catch (const InputError&) {
-    throw InputError(where, "is damaged (cut short); run again without --restart");
+    throw InputError("S631", where, "is damaged (cut short); run again without --restart");
   }
   if (!archive.at_end() ||
       sum != checksum(std::string_view(archive.bytes()).substr(0, archive.bytes().size() - sizeof sum)))
-    throw InputError(where, "is damaged; run again without --restart");
-  if (build != build_identity()) throw InputError(where, other_build);
+    throw InputError("S631", where, "is damaged; run again without --restart");
+  if (build != build_identity()) throw InputError("S630", where, other_build);
   if (belongs_to != belongs_to_)
-    throw InputError(where,
+    throw InputError("S630", where,
                      "belongs to another run: the deck or the options have changed since; run again without "
                      "--restart");
   expect_results(file_, *results_, files);

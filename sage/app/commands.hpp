@@ -41,5 +41,12 @@ Command drive_command(CLI::App& parser, const Catalogue& catalogue);
 Command figures_command(CLI::App& parser, const Catalogue& catalogue);
 Command stress_command(CLI::App& parser, const Catalogue& catalogue);
 Command layout_command(CLI::App& parser, const Catalogue& catalogue);
+Command explain_command(CLI::App& parser, const Catalogue& catalogue);
+Command completion_command(CLI::App& parser, const Catalogue& catalogue);
+Command manpages_command(CLI::App& parser, const Catalogue& catalogue);
+
+// The whole command line in one parser, which is to be looked at and not to parse: a run makes the options of
+// its own command alone.
+void add_all_commands(CLI::App& root, const Catalogue& catalogue);
 
 }  // namespace sage::app

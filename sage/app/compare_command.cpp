@@ -197,7 +197,7 @@ void require_points(const CompareOptions& o, const Model* a, const Model* b) {
   if ((a == nullptr && b == nullptr) || interrupted()) return;
   for (const PointRequest& point : o.input.build.points)
     if (!holds(a, point) && !holds(b, point))
-      throw InputError({o.decks.front(), 0, 0, 0},
+      throw InputError("S907", {o.decks.front(), 0, 0, 0},
                        fmt::format("the point ({:.10g}; {:.10g}) lies outside the mesh of both runs",
                                    point.place.x(), point.place.y()));
 }
@@ -251,7 +251,7 @@ void warn_of_fields(const CompareOptions& o, const compare::Side& a, const compa
     const std::string text =
         fields_without_column(o.fields, fields_of(model), has_column,
                               "--line and --point have those of nodes and integration points");
-    if (!text.empty()) return say_warning("sagefe compare", text);
+    if (!text.empty()) return say_warning("sagefe compare", text, "S610");
   }
 }
 
@@ -321,11 +321,11 @@ int exit_code_of(const FinishedSide& a, const FinishedSide& b) {
 int compare_decks(const CompareOptions& asked, const Catalogue& catalogue) {
   CompareOptions o = asked;
   if (o.decks.size() == 1 && !o.both && !o.changes_b()) {
-    say_error("sagefe compare", "one deck needs --both or an option that ends in -b");
+    say_error("sagefe compare", "one deck needs --both or an option that ends in -b", "S903");
     return kUsage;
   }
   if (o.both && o.geometry_b) {
-    say_error("sagefe compare", "--both sets the geometries itself, --geometry-b does not go with it");
+    say_error("sagefe compare", "--both sets the geometries itself, --geometry-b does not go with it", "S905");
     return kUsage;
   }
   if (o.decks.size() == 1) require_file(o.decks.front(), "compare of one deck in two ways");
@@ -333,7 +333,7 @@ int compare_decks(const CompareOptions& asked, const Catalogue& catalogue) {
   try {
     for (const std::string& text : o.lines) lines.push_back(compare::line_from_text(text));
   } catch (const std::invalid_argument& error) {
-    say_error("sagefe compare", error.what());
+    say_error("sagefe compare", error.what(), "S904");
     return kUsage;
   }
   SideOptions options[2] = {side_a(o), side_b(o)};
@@ -381,7 +381,7 @@ int compare_decks(const CompareOptions& asked, const Catalogue& catalogue) {
   }
   for (std::size_t i = 0; i < files.size(); ++i)
     fmt::print("{:<7}{}\n", i == 0 ? "files:" : "", files[i].string());
-  if (interrupted()) say_error("sagefe compare", "interrupted: what is missing above was not computed");
+  if (interrupted()) say_error("sagefe compare", "interrupted: what is missing above was not computed", "S511");
   return interrupted() ? kInterrupted : exit_code_of(side_a, side_b);
 }
 

@@ -425,17 +425,17 @@ Ladder Climb::choose_ladder() {
   print_diagnostics(first.diagnostics);
   // Once, of the deck's mesh: what finer ones warn of is their own.
   if (request_.input.strict && first.diagnostics.warnings() > 0)
-    throw InputError({request_.deck, 0, 0, 0}, "warnings count as errors (--strict)");
+    throw InputError("S906", {request_.deck, 0, 0, 0}, "warnings count as errors (--strict)");
   request_.input.strict = false;
   title_ = first.title;
   if (first.reports.empty())
-    throw InputError({request_.deck, 0, 0, 0},
+    throw InputError("S907", {request_.deck, 0, 0, 0},
                      "--converge needs a report card: it says which number must be certain");
   if (!first.left_out.empty()) partial_ = left_out_words(first);
   const std::vector<std::string> known = component_names(first);
   for (const std::string& name : options_.follow)
     if (std::find(known.begin(), known.end(), name) == known.end())
-      throw InputError({request_.deck, 0, 0, 0},
+      throw InputError("S907", {request_.deck, 0, 0, 0},
                        fmt::format("--follow {}: the deck's reports have no such number, "
                                    "only {}",
                                    name, fmt::join(known, ", ")));
@@ -454,7 +454,8 @@ Ladder Climb::choose_ladder() {
   }
   if (const std::string why = why_not_graded(deck); !why.empty()) {
     build.coarsen = coarsen;
-    say_note(request_.deck, "the deck's own elements are halved, for layers at its corners do not fit: " + why);
+    say_note(request_.deck, "the deck's own elements are halved, for layers at its corners do not fit: " + why,
+             "S403");
     return halving(first);
   }
   return ladder;
@@ -538,7 +539,7 @@ std::string Climb::why_unusable(const RunOutcome& outcome, const Rung& rung) {
   if (rows_.empty()) find_blanks(*outcome.model, components);
   if (follower_.append(components)) return {};
   if (!rows_.empty()) return "the reports of the next mesh lack a value that the others have";
-  throw InputError({request_.deck, 0, 0, 0},
+  throw InputError("S907", {request_.deck, 0, 0, 0},
                    "--converge: no report has a value at the end of the run" +
                        (blanks_.empty() ? std::string() : fmt::format(": {}", fmt::join(blanks_, "; "))));
 }
@@ -549,7 +550,7 @@ void Climb::find_blanks(const Model& model, const std::vector<ReportComponent>& 
     if (find_component(components, name) == nullptr) {
       const std::size_t report = std::stoul(name.substr(std::string("report").size())) - 1;
       const std::string why = why_no_value(model, report);
-      throw InputError(model.reports[report].where,
+      throw InputError("S907", model.reports[report].where,
                        fmt::format("--follow {}: it has no value at the end of the run{}", name,
                                    why.empty() ? "" : ": " + why));
     }
@@ -695,7 +696,7 @@ int converge(const RunRequest& request, const ConvergeOptions& options, const Ca
   const Convergence found = climb(request, options, catalogue);
   if (answer_of_deck != nullptr)
     *answer_of_deck = {{"convergence", convergence_json(found)}, {"files", files_json({found.table})}};
-  if (!found.not_reached.empty()) say_error(request.deck, "NOT REACHED: " + found.not_reached);
+  if (!found.not_reached.empty()) say_error(request.deck, "NOT REACHED: " + found.not_reached, "S408");
   return found.exit_code;
 }
 

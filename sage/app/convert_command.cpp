@@ -37,10 +37,10 @@ Model read_model(const ConvertOptions& options, const Catalogue& catalogue) {
     return build_model(read_input(options.from, options.input), catalogue, options.input.build);
   const BuildOptions& build = options.input.build;
   if (build.element != 0 || build.refine != 0 || !build.gradings.empty())
-    throw InputError({options.from, 0, 0, 0},
+    throw InputError("S905", {options.from, 0, 0, 0},
                      "--element, --refine and --grade are for decks: convert to .dat first");
   std::ifstream in(options.from, std::ios::binary);
-  if (!in) throw InputError({options.from, 0, 0, 0}, "the file can't be read");
+  if (!in) throw InputError("S101", {options.from, 0, 0, 0}, "the file can't be read");
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   MshOptions mesh = options.mesh;
   if (options.input.build.geometry == 2) mesh.geometry = Geometry::axisymmetric;
@@ -63,12 +63,13 @@ void warn_of_results(const std::filesystem::path& to, Diagnostics& diagnostics) 
 int convert(const ConvertOptions& options, const Catalogue& catalogue) {
   const std::string to = ending(options.to);
   if (to != ".dat" && to != ".msh" && to != ".inp") {
-    say_error("sagefe", options.to + ": the ending tells the format: .dat deck, .msh Gmsh, .inp CalculiX");
+    say_error("sagefe", options.to + ": the ending tells the format: .dat deck, .msh Gmsh, .inp CalculiX",
+              "S904");
     return kUsage;
   }
   std::error_code absent;
   if (std::filesystem::equivalent(options.from, options.to, absent)) {
-    say_error("sagefe", options.to + ": is the file to be read; the converted one needs another name");
+    say_error("sagefe", options.to + ": is the file to be read; the converted one needs another name", "S602");
     return kUsage;
   }
   Model model = read_model(options, catalogue);

@@ -114,7 +114,8 @@ int run_figures(const FiguresOptions& options, const Catalogue& catalogue) {
   require_converter(options.formats);
   std::error_code error;
   std::filesystem::create_directories(options.folder, error);
-  if (error) throw OutputError("the folder " + options.folder.string() + " can't be made: " + error.message());
+  if (error)
+    throw OutputError("S601", "the folder " + options.folder.string() + " can't be made: " + error.message());
 
   Task task("figures");
   const scenes::Workbench bench = make_workbench(catalogue);

@@ -25,7 +25,7 @@ int guarded(const std::string& name, const std::function<int()>& work) {
     say_error(name, error);
     return kOutput;
   } catch (const std::bad_alloc&) {
-    say_error(name, "not enough memory for this model");
+    say_error(name, "not enough memory for this model", "S508");
     return kNotConverged;
   } catch (const std::exception& error) {
     say_error(name, error);

@@ -131,7 +131,8 @@ std::vector<std::string> require_fields(const std::vector<std::string>& pictures
     if (field == nullptr) {
       std::string known;
       for (const FieldEntry& row : tables.front().rows()) known += (known.empty() ? "" : ", ") + row.name;
-      throw UsageError("--field: unknown field " + name + "; known: " + known + ", or a component of one");
+      throw UsageError("S644",
+                       "--field: unknown field " + name + "; known: " + known + ", or a component of one");
     }
     if (std::ranges::find(names, field->name) == names.end()) names.push_back(field->name);
   }
@@ -146,7 +147,7 @@ std::vector<std::string> require_fields(const std::vector<std::string>& pictures
         reason = error.what();
       }
     }
-    if (!reason.empty()) throw UsageError("--picture: " + reason);
+    if (!reason.empty()) throw UsageError("S644", "--picture: " + reason);
   }
   return names;
 }
@@ -251,7 +252,8 @@ std::function<std::string(const std::string&)> number_in(double low, double high
 void require_file(const std::string& path, const std::string& who) {
   std::error_code ignored;
   if (std::filesystem::is_fifo(path, ignored))
-    throw InputError({path, 0, 0, 0}, who + " reads its deck more than once: a file is wanted, not a pipe");
+    throw InputError("S908", {path, 0, 0, 0},
+                     who + " reads its deck more than once: a file is wanted, not a pipe");
 }
 
 Deck read_input(const std::string& path, const InputOptions& options, bool whole_layout) {

@@ -13,9 +13,10 @@
 namespace sage::app {
 
 // The command line asks for what there is not (exit code 1), found out when a deck had been read.
-class UsageError : public std::runtime_error {
+class UsageError : public CodedError {
  public:
-  using std::runtime_error::runtime_error;
+  using CodedError::CodedError;
+  explicit UsageError(const std::string& message) : CodedError("S900", message) {}
 };
 
 // Options that every command which reads a deck shares.

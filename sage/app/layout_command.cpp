@@ -78,9 +78,10 @@ Layout layout_of(const CoverageOptions& options) {
   } catch (const InputError& error) {
     if (is_built_in(options.layout) || is_layout_file(options.layout)) throw;
     if (is_built_in(options.deck) || is_layout_file(options.deck))
-      throw InputError({options.layout, 0, 0, 0}, "this is no layout, but " + options.deck +
-                                                      " is: the layout comes first, sagefe layout check " +
-                                                      options.deck + ' ' + options.layout);
+      throw InputError("S149", {options.layout, 0, 0, 0},
+                       "this is no layout, but " + options.deck +
+                           " is: the layout comes first, sagefe layout check " + options.deck + ' ' +
+                           options.layout);
     Diagnostics problems = error.diagnostics();
     problems.note("S149", {options.layout, 0, 0, 0},
                   "it was read as the layout: sagefe layout check LAYOUT DECK takes the layout first, a file "

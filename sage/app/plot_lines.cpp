@@ -180,7 +180,7 @@ void plot_over_places(const PlotOptions& options, const Catalogue& catalogue,
   if (interfaces) {
     along = extent_of_interfaces(first);
     if (!(along.x() >= 0.0))
-      throw UsageError(options.files.front() + ": --interface: the model has no interface");
+      throw UsageError("S645", options.files.front() + ": --interface: the model has no interface");
     along[along.x() >= along.y() ? 1 : 0] = 0.0;
   }
   expect_fields(options, runs, fields, interfaces ? ElementKind::interface : ElementKind::solid);
@@ -227,7 +227,7 @@ std::string line_error(const std::string& text) {
 }
 
 void plot_line(const PlotOptions& options, const Catalogue& catalogue) {
-  if (options.pictures.empty()) throw UsageError("--line: of which fields? --picture FIELD");
+  if (options.pictures.empty()) throw UsageError("S645", "--line: of which fields? --picture FIELD");
   plot_over_places(options, catalogue, options.pictures, "line");
 }
 

@@ -35,12 +35,12 @@ std::size_t state_with(const StoredRun& run, const StateChoice& choice, double w
     if (std::abs(*here - wanted) <= kSame) return i;
     known += fmt::format(" {:.6g}", *here);
   }
-  throw UsageError(fmt::format("{}: --at {}: {}", run.file, choice.words,
-                               known.empty()
-                                   ? fmt::format("no state has {}", what)
-                                   : fmt::format("the file has no such state; its {} are{}; sagefe run "
-                                                 "--result --states {} writes it",
-                                                 what, known, choice.words)));
+  throw UsageError(
+      "S643", fmt::format("{}: --at {}: {}", run.file, choice.words,
+                          known.empty() ? fmt::format("no state has {}", what)
+                                        : fmt::format("the file has no such state; its {} are{}; sagefe run "
+                                                      "--result --states {} writes it",
+                                                      what, known, choice.words)));
 }
 
 std::size_t state_at(const StoredRun& run, const StateChoice& choice) {

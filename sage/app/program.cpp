@@ -62,7 +62,36 @@ constexpr Entry kCommands[] = {
      drive_command},
     {"stress", "stability stress test: everything swept to the edge must be right or say what is wrong",
      stress_command},
+    {"explain", "what a message means and what helps, by the code behind it", explain_command},
+    {"completion", "print what bash, zsh or fish need to complete commands and options", completion_command},
+    {"manpages", "write the man pages of all commands into a folder", manpages_command},
 };
+
+void describe(CLI::App& root) {
+  root.description(kDescription);
+  root.footer(kFooter);
+  root.require_subcommand(1);
+  root.set_version_flag("--version", "sagefe " SAGE_VERSION);
+}
+
+Code code_of(const CLI::Error& error) {
+  switch (static_cast<CLI::ExitCodes>(error.get_exit_code())) {
+    case CLI::ExitCodes::ExtrasError:
+      return "S902";
+    case CLI::ExitCodes::RequiredError:
+    case CLI::ExitCodes::ArgumentMismatch:
+      return "S903";
+    case CLI::ExitCodes::ExcludesError:
+    case CLI::ExitCodes::RequiresError:
+      return "S905";
+    default:
+      return "S904";
+  }
+}
+
+std::string complaint(const CLI::App*, const CLI::Error& error) {
+  return with_code(error.what(), code_of(error)) + "\nRun with --help for more information.\n";
+}
 
 // The command that the first word which is no option names, whose options alone are made; nullptr, with a
 // message, where it is none.
@@ -73,7 +102,7 @@ const Entry* find_command(const std::string& word) {
     known += std::string(" ") + entry.name;
   }
   // The parser itself would only ask for one.
-  say_error("sagefe", fmt::format("unknown command {}; known:{}", word, known));
+  say_error("sagefe", fmt::format("unknown command {}; known:{}", word, known), "S901");
   return nullptr;
 }
 
@@ -88,7 +117,7 @@ int say_parse_error(const CLI::App& root, const CLI::ParseError& error) {
   const int code = root.exit(error, out, err);
   std::fputs(out.str().c_str(), stdout);  // what could not be written shows at the end
   print_stderr(err.str());
-  if (code != 0) keep_message({Severity::error, {}, {"sagefe", 0, 0, 0}, error.what(), {}});
+  if (code != 0) keep_message({Severity::error, code_of(error), {"sagefe", 0, 0, 0}, error.what(), {}});
   return code == 0 ? kOk : kUsage;
 }
 
@@ -113,10 +142,9 @@ int refuse(const std::string& name, const std::function<int()>& say) {
 }
 
 int run_command_line(int argc, char** argv, const AddToCatalogue& add) {
-  CLI::App root(kDescription, "sagefe");
-  root.footer(kFooter);
-  root.require_subcommand(1);
-  root.set_version_flag("--version", "sagefe " SAGE_VERSION);
+  CLI::App root("", "sagefe");
+  describe(root);
+  root.failure_message(complaint);
   int word = 1;
   while (word < argc && argv[word][0] == '-') ++word;  // sagefe --help run
   const bool named = word < argc;
@@ -158,6 +186,13 @@ void take_no_signal_for_large_files() {
 }
 
 }  // namespace
+
+void add_all_commands(CLI::App& root, const Catalogue& catalogue) {
+  describe(root);
+  for (const Entry& entry : kCommands)
+    entry.add_options(*root.add_subcommand(entry.name, entry.about), catalogue);
+}
+
 }  // namespace app
 
 int sagefe(int argc, char** argv, const AddToCatalogue& add) {
@@ -170,14 +205,14 @@ int sagefe(int argc, char** argv, const AddToCatalogue& add) {
   } catch (const std::system_error&) {
     return kOutput;  // not even a message could be written
   } catch (const std::bad_alloc&) {
-    std::fputs("sagefe: not enough memory\n", stderr);
+    std::fputs("sagefe: not enough memory [S508]\n", stderr);
     return kNotConverged;
   } catch (const std::exception& error) {
     say_error("sagefe", error.what());  // of `add`, such as a code that is taken
     return kUsage;
   }
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
-  fmt::print(stderr, "sagefe: standard output could not be written\n");
+  fmt::print(stderr, "sagefe: {}\n", with_code("standard output could not be written", "S911"));
   return kOutput;
 }
 

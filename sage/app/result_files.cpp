@@ -27,7 +27,7 @@ void make_folder(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder, error);
   if (!error && !folder.empty() && !std::filesystem::is_directory(folder, error) && !error)
     error = std::make_error_code(std::errc::not_a_directory);
-  if (error) throw OutputError("the folder " + folder.string() + " can't be made: " + error.message());
+  if (error) throw OutputError("S601", "the folder " + folder.string() + " can't be made: " + error.message());
 }
 
 std::optional<std::uint64_t> number_from(std::string_view text, int base) {
@@ -65,7 +65,8 @@ ResultFiles::ResultFiles(const std::filesystem::path& folder, const std::string&
   expect_no_input(list_);
   expect_no_input(while_running_);
   if (std::error_code ignored; std::filesystem::is_directory(list_, ignored))
-    throw OutputError("cannot write " + list_.string() + ": " + std::generic_category().message(EISDIR));
+    throw OutputError("S601",
+                      "cannot write " + list_.string() + ": " + std::generic_category().message(EISDIR));
   while (!lock()) ::close(std::exchange(descriptor_, -1));
   try {
     if (is_ordinary(list_)) parse(read_file(list_.string()), earlier_);
@@ -106,7 +107,8 @@ bool ResultFiles::lock() {
   }, named{};
   if (fstat(descriptor_, &opened) != 0 || !S_ISREG(opened.st_mode) || opened.st_nlink > 1) {
     ::close(descriptor_);
-    throw OutputError("cannot write " + while_running_.string() + ": it is no ordinary file of one name");
+    throw OutputError("S601",
+                      "cannot write " + while_running_.string() + ": it is no ordinary file of one name");
   }
   if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
     if (errno == EINTR) return false;
@@ -129,12 +131,13 @@ void ResultFiles::refuse() const {
     if (text.starts_with("# process ")) first = " (" + text.substr(2, text.find('\n') - 2) + ")";
   }
   ::close(descriptor_);
-  throw OutputError("another run" + first + " is writing " + (folder_ / stem_).string() +
-                    ".*: wait for its end, or choose another folder (-o)");
+  throw OutputError("S603", "another run" + first + " is writing " + (folder_ / stem_).string() +
+                                ".*: wait for its end, or choose another folder (-o)");
 }
 
 void ResultFiles::fail(int error) const {
-  throw OutputError("cannot write " + while_running_.string() + ": " + std::generic_category().message(error));
+  throw OutputError("S601",
+                    "cannot write " + while_running_.string() + ": " + std::generic_category().message(error));
 }
 
 std::string ResultFiles::read_list() const {

@@ -87,13 +87,14 @@ int compute_deck(const RunOptions& options, const std::string& deck, const Catal
           !output.states.empty() || !output.pictures.empty() || request.restart)
         say_note(deck,
                  "--converge writes its table only; the options of its last line give that mesh again, with "
-                 "all outputs");
+                 "all outputs",
+                 "S909");
       return converge(request, options.converge, catalogue, screen().json ? &found : nullptr);
     }
     const RunOutcome outcome = run_deck(request, catalogue);
     if (screen().json && !outcome.record.stages.empty()) found = outcome_json(outcome);
     if (outcome.exit_code == kInterrupted) {
-      say_error(deck, "interrupted: " + outcome.record.result.reason + "; " + way_on(outcome));
+      say_error(deck, "interrupted: " + outcome.record.result.reason + "; " + way_on(outcome), "S511");
       return outcome.exit_code;
     }
     if (outcome.record.stages.empty()) return outcome.exit_code;  // --strict stopped it
@@ -128,7 +129,7 @@ std::string skip_names() {
 }
 
 void not_run(const std::string& deck) {
-  say_error(deck, "not run, interrupted before");
+  say_error(deck, "not run, interrupted before", "S511");
   if (Json* json = answer()) (*json)["decks"].push_back(deck_json(deck, kInterrupted, {}));
 }
 
@@ -189,7 +190,8 @@ int run_beside(RunOptions options, int jobs, const Catalogue& catalogue) {
     if (end.signal != 0)
       say_error(options.decks[i],
                 fmt::format("its process was ended by signal {} ({}); its results are not complete", end.signal,
-                            strsignal(end.signal)));
+                            strsignal(end.signal)),
+                "S512");
   };
   list.skip = [&](std::size_t i) {
     not_run(options.decks[i]);
@@ -203,15 +205,18 @@ int run_all(const RunOptions& options, const Catalogue& catalogue) {
   const OutputOptions& output = options.request.output;
   if (!output.states.empty() && !output.result && !output.vtu && !output.msh && !output.nodes &&
       !output.points && output.pictures.empty() && options.tables != "all") {
-    say_error("sagefe",
-              "--states: into which files? --result, --picture, --vtu, --msh, --nodes, --points or --tables all");
+    say_error(
+        "sagefe",
+        "--states: into which files? --result, --picture, --vtu, --msh, --nodes, --points or --tables all",
+        "S905");
     return kUsage;
   }
   std::set<std::string> names;
   for (const std::string& deck : options.decks)
     if (!names.insert(case_name(deck)).second) {
       say_error("sagefe",
-                "two decks would both write " + case_name(deck) + ".*; run them into different folders (-o)");
+                "two decks would both write " + case_name(deck) + ".*; run them into different folders (-o)",
+                "S602");
       return kUsage;
     }
   for (const std::string& deck : options.decks) keep_input(deck);  // of those too that come later

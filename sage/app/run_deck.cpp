@@ -89,17 +89,20 @@ Checkpoint checkpoint_of(const RunRequest& request, const Model& model, ResultFi
 std::string resume_from(Checkpoint& checkpoint, const RunRequest& request) {
   std::optional<std::string> state = checkpoint.load();
   if (!state && !request.quiet)
-    say_note(request.deck, "no checkpoint in " + request.output.folder.string() + ": from the start");
+    say_note(request.deck, "no checkpoint in " + request.output.folder.string() + ": from the start", "S632");
   const std::string kernels = choose_kernels(request.kernels).name;
   if (!request.quiet && checkpoint.earlier_kernels() != kernels)
-    say_note(request.deck, "what stands before the checkpoint was computed with kernels " +
-                               checkpoint.earlier_kernels() + "; the digits are the same");
+    say_note(request.deck,
+             "what stands before the checkpoint was computed with kernels " + checkpoint.earlier_kernels() +
+                 "; the digits are the same",
+             "S632");
   for (const Checkpoint::Cut& cut : checkpoint.cut())
     if (!request.quiet)
       say_note(request.deck,
                fmt::format("{} goes on from its checkpoint: the {} bytes behind that are cut off and written "
                            "anew",
-                           cut.file.string(), cut.bytes));
+                           cut.file.string(), cut.bytes),
+               "S632");
   return state.value_or("");
 }
 
@@ -107,7 +110,8 @@ std::string resume_from(Checkpoint& checkpoint, const RunRequest& request) {
 void close(ResultFiles& results, const RunRequest& request) {
   for (const std::filesystem::path& file : results.close())
     if (!request.quiet)
-      say_note(request.deck, file.string() + " is of an earlier run, but has been changed since: it stays");
+      say_note(request.deck, file.string() + " is of an earlier run, but has been changed since: it stays",
+               "S632");
 }
 
 // When an interrupted run ends: behind the checkpoint of the increment in hand, if there can be one and the
@@ -222,9 +226,9 @@ std::unique_ptr<Model> model_of(RunRequest& request, const Catalogue& catalogue,
   for (Report& report : model->reports) report.fields = request.output.fields;
   try {
     for (const std::string& note : ask_for_states(*model, request.output.states))
-      if (!request.quiet) say_note(request.deck, note);
+      if (!request.quiet) say_note(request.deck, note, "S643");
   } catch (const std::invalid_argument& error) {
-    throw UsageError(std::string("--states: ") + error.what());
+    throw UsageError("S643", std::string("--states: ") + error.what());
   }
   return model;
 }
@@ -242,8 +246,10 @@ RunSettings settings_for(const RunRequest& request) {
 }
 
 void note_missing_locks(const RunRequest& request) {
-  say_note(request.deck, request.output.folder.string() +
-                             " lies on a file system without locks: nothing keeps a second run out of it");
+  say_note(request.deck,
+           request.output.folder.string() +
+               " lies on a file system without locks: nothing keeps a second run out of it",
+           "S603");
 }
 
 std::vector<std::filesystem::path> files_of(const Reports& reports,

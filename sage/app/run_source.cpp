@@ -51,7 +51,7 @@ BuildOptions build_options_of(const std::string& text, const Catalogue& catalogu
   try {
     parser.parse(words);
   } catch (const CLI::ParseError& error) {
-    throw InputError({"", 0, 0, 0}, std::string("the options of the run: ") + error.what());
+    throw InputError("S640", {"", 0, 0, 0}, std::string("the options of the run: ") + error.what());
   }
   return build;
 }

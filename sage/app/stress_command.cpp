@@ -67,7 +67,7 @@ int run_rows(const StressOptions& options, const Catalogue& catalogue) {
   std::vector<stress::Row> rows = stress::all_rows();
   for (const std::string& name : options.only)
     if (std::none_of(rows.begin(), rows.end(), [&](const stress::Row& row) { return row.name == name; })) {
-      say_error("sagefe stress", "no row is called " + name + "; see --list");
+      say_error("sagefe stress", "no row is called " + name + "; see --list", "S904");
       return kUsage;
     }
   if (!options.only.empty())

@@ -42,7 +42,8 @@ struct ChapterEntry {
 
 std::vector<ChapterEntry> read_entries(const std::filesystem::path& path) {
   std::ifstream in(path);
-  if (!in) throw InputError({path.string(), 0, 0, 0}, "the list of table entries can't be read (see --cases)");
+  if (!in)
+    throw InputError("S101", {path.string(), 0, 0, 0}, "the list of table entries can't be read (see --cases)");
   std::vector<ChapterEntry> entries;
   std::string line;
   bool header = true;
@@ -115,7 +116,8 @@ int print_tables(const TableOptions& options, const Catalogue& catalogue) {
       runs.emplace(entry.deck, run_deck(request, catalogue));
       const RunOutcome& outcome = runs.at(entry.deck);
       worst = std::max(worst, outcome.exit_code);
-      if (outcome.exit_code != kOk) say_error(request.deck, outcome.record.result.reason, outcome.record.result.code);
+      if (outcome.exit_code != kOk)
+        say_error(request.deck, outcome.record.result.reason, outcome.record.result.code);
     }
     if (Json* json = answer())
       (*json)["entries"].push_back(entry_json(entry, ratio_of(runs.at(entry.deck), entry)));

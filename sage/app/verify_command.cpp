@@ -95,7 +95,7 @@ int run_book(const VerifyOptions& options, const Catalogue& catalogue) {
   const std::vector<Section> sections = book();
   if (options.list) return list_cases(options, sections);
   if (!options.write.empty() && !options.only.empty()) {
-    say_error("sagefe verify", "--write writes the whole book; leave --only away");
+    say_error("sagefe verify", "--write writes the whole book; leave --only away", "S905");
     return kUsage;
   }
   OutFile csv, written;  // opened first: an unwritable folder shows before anything is computed
@@ -126,7 +126,7 @@ int run_book(const VerifyOptions& options, const Catalogue& catalogue) {
     }
   }
   if (cases == 0) {
-    say_error("sagefe verify", "no case matches " + options.only + "; see sagefe verify --list");
+    say_error("sagefe verify", "no case matches " + options.only + "; see sagefe verify --list", "S904");
     return kUsage;
   }
   if (Json* json = answer())

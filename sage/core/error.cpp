@@ -86,9 +86,6 @@ InputError::InputError(Diagnostics diagnostics)
 InputError::InputError(Code code, SourcePosition where, const std::string& message)
     : InputError(single(code, std::move(where), message)) {}
 
-InputError::InputError(SourcePosition where, const std::string& message)
-    : InputError(Code(), std::move(where), message) {}
-
 std::string message_of(const std::exception& error) {
   const auto* coded = dynamic_cast<const CodedError*>(&error);
   return with_code(error.what(), coded != nullptr ? coded->code() : Code());

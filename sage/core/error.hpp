@@ -56,8 +56,6 @@ class InputError : public std::runtime_error {
  public:
   explicit InputError(Diagnostics diagnostics);
   InputError(Code code, SourcePosition where, const std::string& message);
-  // Without a code: places that have none yet.
-  InputError(SourcePosition where, const std::string& message);
   const Diagnostics& diagnostics() const { return diagnostics_; }
 
  private:
@@ -121,8 +119,6 @@ class AnalysisError : public CodedError {
 class OutputError : public CodedError {
  public:
   using CodedError::CodedError;
-  // Without a code: places that have none yet.
-  explicit OutputError(const std::string& message) : CodedError(Code(), message) {}
 };
 
 }  // namespace sage

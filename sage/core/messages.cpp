@@ -6,6 +6,19 @@ namespace sage {
 
 namespace {
 
+// By the first digit of the codes.
+constexpr const char* kSections[] = {
+    "S1: files, cards and layouts",
+    "S2: what the cards say together, until there is a model",
+    "S3: a legal model that may not be meant",
+    "S4: refining, grading and mid-side nodes",
+    "S5: the analysis",
+    "S6: results, checkpoints and what is made of them",
+    "S7: decks of other programs, meshes, and writing for others",
+    "S8: pieces from outside of the program",
+    "S9: the command line",
+};
+
 constexpr MessageEntry kMessages[] = {
     // S1: files, cards and layouts.
     {"S101", "a file can't be read",
@@ -482,7 +495,8 @@ constexpr MessageEntry kMessages[] = {
     {"S321", "a load on the axis has no effect",
      "At r = 0 a radial force acts on nothing, and an edge there has no area.",
      "Remove the load, or check whether plane strain (geometry 1) is meant."},
-    {"S322", "no element takes part in a stage", "Every group is removed or not born yet.",
+    {"S322", "no element takes part in a stage",
+     "Every group is removed or not born yet, so there is nothing to be in equilibrium.",
      "Correct births and deaths of the stage or of those before."},
     {"S323", "nothing holds the mesh",
      "A part of the body can move without straining: as a whole along x or y, or turn. The stiffness "
@@ -574,6 +588,16 @@ constexpr MessageEntry kMessages[] = {
     {"S407", "the mesh stays as it is",
      "No coarser mesh of quadrilaterals has the same bodies, supports and loads.",
      "Nothing: the run uses the deck's own mesh."},
+    {"S408", "the wanted certainty was not reached",
+     "--converge made meshes up to its limit of unknowns or of time, and the reports still change by "
+     "more than the tolerance. Singular corners, a limit load or a point load make numbers converge "
+     "slowly or not at all.",
+     "Read the last column: it says how certain each number is. --max-dofs or --max-seconds further, "
+     "--grade auto, elements of higher degree, or --follow with a number that does converge."},
+    {"S409", "refining makes a large model",
+     "Each --refine makes four elements of one; memory and time grow at least as fast. The message "
+     "estimates the memory.",
+     "--grade at corners, or 8-node elements, give the same accuracy with far fewer elements."},
 
     // S5: the analysis.
     {"S501", "no equilibrium",
@@ -617,6 +641,16 @@ constexpr MessageEntry kMessages[] = {
     {"S510", "a piece of the analysis gave up",
      "A solver, law or element, perhaps one from outside of this program, says that it can't go on.",
      "Its own message says why; try --solver with another one to see whether the solver is the reason."},
+    {"S511", "the run was interrupted",
+     "Ctrl-C, or a request of the system to end, stopped the run. What was complete is on disk; a "
+     "checkpoint was written where one could be.",
+     "sagefe run --restart goes on from the checkpoint; decks that were not begun have to be named "
+     "again."},
+    {"S512", "the process of a deck was ended",
+     "With --jobs each deck has a process of its own, and this one was killed: by the system for want of "
+     "memory, by a user, or by a fault of the program.",
+     "Run the deck alone to see whether it ends again; fewer --jobs need less memory at a time. A fault "
+     "of the program is worth a report with the deck."},
     {"S520", "the initial stress is outside the yield surface",
      "At some points the stated stress is more than the strength allows. The first increment sheds it to "
      "the neighbours: the state the run starts from is another one than stated.",
@@ -685,6 +719,11 @@ constexpr MessageEntry kMessages[] = {
      "Run the deck again without --restart; or restore deck, options and program as they were."},
     {"S631", "the checkpoint can't be read", "The file is damaged, cut short or not a checkpoint.",
      "Run the deck again without --restart."},
+    {"S632", "how a run goes on from what an earlier one left",
+     "There was no checkpoint, or bytes behind it were cut off and are written anew, or a file of an "
+     "earlier run has been changed since and stays where it is.",
+     "Nothing: the results are those of a run without interruption. Remove a file that stays if it is "
+     "not needed."},
     {"S640", "a result file can't be used",
      "It is no result file of this program, damaged, or of a version in which its deck means another "
      "model.",
@@ -696,8 +735,9 @@ constexpr MessageEntry kMessages[] = {
      "--xy names columns of the tables; this one is in none of those given.",
      "Take a name from the list in the message; head -1 TABLE shows them too."},
     {"S643", "the result file has no such state",
-     "--at names a stage and increment, or a strain, that the run did not write.",
-     "Take one from the list in the message, or run the deck with output at every increment."},
+     "--at of a plot names a stage and increment, a strain or a load factor that the run did not write; "
+     "or --states of a run asks for one at which no increment ends, and the nearest is written.",
+     "Take one from the list in the message, or sagefe run --result --states for just that state."},
     {"S644", "a field is unknown or can't be drawn",
      "Fields are named as sagefe list fields shows them; histories by the names of the deck's laws. A "
      "picture needs a field of nodes or points.",
@@ -705,6 +745,21 @@ constexpr MessageEntry kMessages[] = {
     {"S645", "there is nothing to plot",
      "The model has no interface, the line meets no element, or no field was named.",
      "Name what is to be drawn; check the coordinates of the line against the mesh."},
+    {"S650", "a path or test can't be followed as it is given",
+     "The columns of a path file must be those of the law (components of stress or strain, one of the "
+     "two for each), with a number in each cell.",
+     "Correct the file: docs/manual/drive.md lists the columns. A blank cell in a column that is "
+     "controlled is not a zero."},
+    {"S651", "the law to be driven is not given whole",
+     "A law is given by its name and its parameters by name; one is missing, misspelt, or given no "
+     "number.",
+     "sagefe list materials shows names and parameters; --set NAME=VALUE gives each, or --deck takes "
+     "them from a deck."},
+    {"S660", "the fit can't be made as asked",
+     "A fit needs free parameters that the law has, bounds around their start, and curves with the "
+     "driven column first and more points than parameters.",
+     "Correct what the message names; docs/manual/drive.md shows the columns of a curve and the form "
+     "--free NAME=LOW:HIGH."},
 
     // S7: decks of other programs, meshes, and writing for others.
     {"S701", "the deck's own counts and lists contradict each other",
@@ -744,12 +799,7 @@ constexpr MessageEntry kMessages[] = {
     {"S713", "a curve of the mesh is left out",
      "Physical curves become supports and pressures by their names, and this name says neither, or the "
      "curve lies on no element.",
-     "Name curves fix_x, fix_y, fix_xy, pressure=VALUE, interface_bottom=NAME and interface_top=NAME, or add "
-     "the cards to the deck by hand."},
-    {"S714", "the two sides of an interface don't fit",
-     "The lines of interface_bottom=NAME and interface_top=NAME are no pairs at the same places with equally "
-     "many nodes, or no interface element has so many.",
-     "Give both curves the same mesh: Gmsh's plugin Crack doubles the nodes of one curve."},
+     "Name curves fix_x, fix_y, fix_xy or pressure=VALUE, or add the cards to the deck by hand."},
     {"S720", "something is left out of the written file",
      "The format written to has no place for it, or less digits. The new file describes another problem, "
      "or the same one with less accuracy.",
@@ -765,6 +815,10 @@ constexpr MessageEntry kMessages[] = {
     {"S723", "the other program would write over a file",
      "CalculiX names its results after its input, and a file of that name is there already.",
      "Convert to the name in the message."},
+    {"S900", "the command line asks for what there is not",
+     "A name, a column, a state or a combination of options that the command was given does not exist in "
+     "the deck, the law or the result file.",
+     "The message says what there is; the help of the command says what goes together."},
 
     // S9: the command line.
     {"S901", "there is no such command", "The first word after sagefe names what is to be done.",
@@ -789,6 +843,10 @@ constexpr MessageEntry kMessages[] = {
      "Add a report card, name one that the message lists, or a point in both meshes."},
     {"S908", "the deck can't come from a pipe here",
      "The command reads its deck more than once, which a pipe can't give.", "Save the deck to a file first."},
+    {"S909", "an option does nothing here",
+     "Together with the others the option has no effect: --converge writes its table, not the files of a "
+     "run.",
+     "Run the deck again with the options that the last line of the table shows."},
     {"S910", "there is no such code",
      "sagefe explain takes a code as messages print it in brackets, such as S501.",
      "sagefe explain lists all codes; sagefe explain --search WORD looks in their texts."},
@@ -807,6 +865,32 @@ const MessageEntry* find_message(int number) {
   const auto* found =
       std::ranges::find(kMessages, number, [](const MessageEntry& m) { return m.code.number(); });
   return found != std::end(kMessages) ? found : nullptr;
+}
+
+std::string messages_manual() {
+  std::string text =
+      "# Messages\n\n"
+      "Every message ends in a code, such as `[S501]`: `sagefe explain S501` prints what stands here, `sagefe "
+      "explain` "
+      "lists all\ncodes, and `sagefe explain --search WORD` looks for a word in all texts. Whether a message "
+      "is an "
+      "error, a warning or a note\nstands before it; `--strict` makes errors of warnings, and the code stays "
+      "the "
+      "same. This page is written from\n`sage/core/messages.cpp` (`SAGE_WRITE_MANUAL=1 test_core "
+      "--gtest_filter=Messages.*`).\n\n"
+      "A new message: its place in the program names a code; where none of those here has the same cause and "
+      "cure, "
+      "it gets a new one\nand an entry in that table. A test holds the two together.\n";
+  int section = 0;
+  for (const MessageEntry& message : kMessages) {
+    if (message.code.number() / 100 != section) {
+      section = message.code.number() / 100;
+      text += std::string("\n## ") + kSections[section - 1] + "\n";
+    }
+    text += "\n### " + to_string(message.code) + ": " + message.title + "\n" + message.cause +
+            "\n\n*What helps:* " + message.cure + "\n";
+  }
+  return text;
 }
 
 }  // namespace sage

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "sage/core/code.hpp"
 
@@ -21,5 +22,8 @@ std::span<const MessageEntry> messages();
 
 // 104 for S104; nullptr where there is none.
 const MessageEntry* find_message(int number);
+
+// docs/manual/messages.md, in Markdown.
+std::string messages_manual();
 
 }  // namespace sage

@@ -142,7 +142,7 @@ bool follow_leg(PointDriver<N>& point, const Law<N>& law, const Path& path, int 
 template <int N>
 Curve follow_law(const Law<N>& law, const UnitSystem& units, const Path& path) {
   if (path.start.size() != N)
-    throw InputError({}, fmt::format("the path has {} components, the law {}", path.start.size(), N));
+    throw InputError("S650", {}, fmt::format("the path has {} components, the law {}", path.start.size(), N));
   Vector<N> start;
   for (int i = 0; i < N; ++i) start[i] = turned(path.start[static_cast<std::size_t>(i)]);
   Curve curve;
@@ -151,7 +151,7 @@ Curve follow_law(const Law<N>& law, const UnitSystem& units, const Path& path) {
   try {
     point = std::make_unique<PointDriver<N>>(law, start);
   } catch (const AnalysisError&) {
-    throw InputError({},
+    throw InputError("S650", {},
                      "the law can't carry the stress at the start of the path (it lies beyond its strength)");
   }
   put_row<N>(rows, curve, law, *point, start, path, {0, 0});
@@ -178,7 +178,7 @@ Curve follow(const LawRef& law, const UnitSystem& units, const Path& path) {
         if constexpr (N == 2 || N == 4)
           return follow_law<N>(*held, units, path);
         else
-          throw InputError({}, "laws of structures are not driven, those of solids and interfaces are");
+          throw InputError("S651", {}, "laws of structures are not driven, those of solids and interfaces are");
       },
       law);
 }

@@ -49,7 +49,7 @@ void append_rows(std::string& text, const Curve& curve, const std::vector<const 
 std::pair<std::string, std::string> sides_of(const std::string& panel) {
   const std::size_t colon = panel.find(':');
   if (colon == std::string::npos || colon == 0 || colon + 1 == panel.size())
-    throw InputError({}, fmt::format("{}: wanted X:Y, names of columns", panel));
+    throw InputError("S642", {}, fmt::format("{}: wanted X:Y, names of columns", panel));
   return {panel.substr(0, colon), panel.substr(colon + 1)};
 }
 
@@ -104,7 +104,7 @@ void expect_columns(const std::string& panel, const std::vector<Curve>& curves) 
     if (find_in(curves, name) != nullptr) continue;
     std::string known;
     for (const Column* column : columns_of(curves)) known += (known.empty() ? "" : ", ") + column->name;
-    throw InputError({}, fmt::format("{}: there is no column {}; there are {}", panel, name, known));
+    throw InputError("S642", {}, fmt::format("{}: there is no column {}; there are {}", panel, name, known));
   }
 }
 

@@ -259,22 +259,23 @@ void judge(const FitProblem& problem, const Eigen::MatrixXd& J, const std::vecto
 }
 
 void expect_answer(const FitProblem& problem, const Comparison& comparison) {
-  if (problem.free.empty()) throw InputError({}, "which parameters are free? --free NAME,...");
+  if (problem.free.empty()) throw InputError("S660", {}, "which parameters are free? --free NAME,...");
   for (std::size_t i = 0; i < problem.free.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (problem.free[i].place == problem.free[j].place)
-        throw InputError({}, problem.free[i].name + " is free twice");
+        throw InputError("S660", {}, problem.free[i].name + " is free twice");
   const auto free = static_cast<int>(problem.free.size());
   if (comparison.points() <= free)
-    throw InputError({}, fmt::format("{} measured values can't give {} parameters and their errors",
-                                     comparison.points(), free));
+    throw InputError(
+        "S660", {},
+        fmt::format("{} measured values can't give {} parameters and their errors", comparison.points(), free));
   const std::vector<Curve> start = comparison.curves(problem.subject);
   for (std::size_t c = 0; c < start.size(); ++c)
     for (const Measured::Response& response : problem.curves[c].responses)
       if (start[c].find(response.column) == nullptr) {
         std::string known;
         for (const Column& column : start[c].columns) known += (known.empty() ? "" : ", ") + column.name;
-        throw InputError({problem.curves[c].name},
+        throw InputError("S660", {problem.curves[c].name},
                          fmt::format("column {}: the law's curve has {}", response.column, known));
       }
 }
@@ -287,7 +288,7 @@ FreeParameter free_parameter_from(const Subject& subject, std::string_view text)
   const std::string key(text.substr(0, equals));
   parameter.place = parameter_place(*subject.entry, key);
   if (parameter.place < 0)
-    throw InputError({}, fmt::format("{} has no parameter {}", subject.entry->name, key));
+    throw InputError("S660", {}, fmt::format("{} has no parameter {}", subject.entry->name, key));
   const Parameter& row = subject.entry->parameters[static_cast<std::size_t>(parameter.place)];
   parameter.name = row.name;
   if (row.dimension == Dimension::angle) parameter.low = 0.0, parameter.high = kHighestAngle;
@@ -305,11 +306,12 @@ FreeParameter free_parameter_from(const Subject& subject, std::string_view text)
                       colon + 1 < bounds.size() && *end_high == '\0';
     if (!read || !(parameter.low < parameter.high) || !std::isfinite(parameter.low) ||
         !std::isfinite(parameter.high))
-      throw InputError({}, fmt::format("{}: wanted NAME=LOW:HIGH", text));
+      throw InputError("S660", {}, fmt::format("{}: wanted NAME=LOW:HIGH", text));
   }
   if (!(value >= parameter.low && value <= parameter.high))
-    throw InputError({}, fmt::format("{} starts at {:g}, outside {:g} to {:g}", parameter.name, value,
-                                     parameter.low, parameter.high));
+    throw InputError("S660", {},
+                     fmt::format("{} starts at {:g}, outside {:g} to {:g}", parameter.name, value,
+                                 parameter.low, parameter.high));
   return parameter;
 }
 
@@ -318,19 +320,19 @@ Measured read_measured(const std::filesystem::path& file, const LabTest& test, d
   const SourcePosition where{file.string()};
   if (!table.words.empty()) {
     const CsvTable::Word& word = table.words.front();
-    throw InputError({file.string(), word.line, 0, 0},
+    throw InputError("S660", {file.string(), word.line, 0, 0},
                      fmt::format("column {}: {} is no number", table.columns[word.column].name, word.text));
   }
   if (table.columns.front().name != driven_column(test) || table.columns.size() < 2)
-    throw InputError(where,
+    throw InputError("S660", where,
                      fmt::format("the first column is to be {}, which {} drives, and others what was measured "
                                  "there (columns of `sagefe drive --csv`)",
                                  driven_column(test), test.name));
   Measured measured{file.stem().string(), pressure, table.columns.front().values, {}};
-  if (measured.driven.empty()) throw InputError(where, "holds no point");
+  if (measured.driven.empty()) throw InputError("S660", where, "holds no point");
   for (std::size_t i = 0; i < measured.driven.size(); ++i)
     if (!std::isfinite(measured.driven[i]))
-      throw InputError({file.string(), table.lines[i], 0, 0},
+      throw InputError("S660", {file.string(), table.lines[i], 0, 0},
                        fmt::format("{} is missing", driven_column(test)));
   for (std::size_t c = 1; c < table.columns.size(); ++c)
     measured.responses.push_back({table.columns[c].name, table.columns[c].values});

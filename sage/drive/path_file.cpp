@@ -27,7 +27,7 @@ class PathTable {
     return found == nullptr ? std::nan("") : found->values[row];
   }
   [[noreturn]] void fail(std::size_t row, const std::string& message) const {
-    throw InputError({file_, table_.lines[row], 0, 0}, message);
+    throw InputError("S650", {file_, table_.lines[row], 0, 0}, message);
   }
 
   void expect_columns() const {
@@ -39,11 +39,11 @@ class PathTable {
       bool good = column.name == "steps" || column.name == "duration";
       for (int i = 0; i < size_; ++i)
         good = good || column.name == stress_column(size_, i) || column.name == strain_column(size_, i);
-      if (!good) throw InputError({file_}, fmt::format("column {} is none of {}", column.name, known));
+      if (!good) throw InputError("S650", {file_}, fmt::format("column {} is none of {}", column.name, known));
     }
     if (table_.words.empty()) return;
     const CsvTable::Word& word = table_.words.front();
-    throw InputError({file_, word.line, 0, 0},
+    throw InputError("S650", {file_, word.line, 0, 0},
                      fmt::format("column {}: {} is no number", table_.columns[word.column].name, word.text));
   }
 
@@ -59,7 +59,7 @@ int closing_component(const PathTable& table, const std::filesystem::path& file)
   for (int i = 0; i < 3; ++i) {
     if (table.has(stress_column(4, i)))
       throw InputError(
-          {file.string()},
+          "S650", {file.string()},
           fmt::format("{}: an undrained path is one of strains; its effective normal stresses are what "
                       "it is to find",
                       stress_column(4, i)));
@@ -69,7 +69,7 @@ int closing_component(const PathTable& table, const std::filesystem::path& file)
   }
   if (absent != 1)
     throw InputError(
-        {file.string()},
+        "S650", {file.string()},
         "an undrained path has two of strain_xx, strain_yy and strain_zz; the third keeps the volume");
   return closing;
 }
@@ -121,7 +121,7 @@ void close_volume(std::vector<Leg>& legs, int closing) {
 std::vector<Leg> read_path(const std::filesystem::path& file, int law_size, bool undrained, int steps) {
   const PathTable table(file, law_size);
   table.expect_columns();
-  if (table.rows() == 0) throw InputError({file.string()}, "has no row of the path");
+  if (table.rows() == 0) throw InputError("S650", {file.string()}, "has no row of the path");
   const int closing = undrained && law_size == 4 ? closing_component(table, file) : -1;
   std::vector<Leg> legs;
   for (std::size_t row = 0; row < table.rows(); ++row) {

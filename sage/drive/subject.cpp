@@ -26,7 +26,7 @@ double number_from(const Setting& setting, const SourcePosition& where) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(start, text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-    throw InputError(where, fmt::format("{}={}: wanted a finite number", setting.key, text));
+    throw InputError("S651", where, fmt::format("{}={}: wanted a finite number", setting.key, text));
   return value;
 }
 
@@ -53,7 +53,7 @@ std::string parameter_names(const MaterialEntry& entry) {
 Setting setting_from(std::string_view text, const SourcePosition& where) {
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos || trimmed(text.substr(0, equals)).empty())
-    throw InputError(where, fmt::format("{}: wanted NAME=VALUE", text));
+    throw InputError("S651", where, fmt::format("{}: wanted NAME=VALUE", text));
   return {std::string(trimmed(text.substr(0, equals))), std::string(trimmed(text.substr(equals + 1)))};
 }
 
@@ -77,7 +77,8 @@ Subject subject_of(const Catalogue& catalogue, std::string_view law, const UnitS
         subject.values.push_back(row.required ? kUnset : row.fallback);
       return subject;
     }
-  throw InputError(where, fmt::format("there is no law {}; known: {}", law, catalogue.materials.known()));
+  throw InputError("S212", where,
+                   fmt::format("there is no law {}; known: {}", law, catalogue.materials.known()));
 }
 
 void apply(Subject& subject, const Setting& setting, const SourcePosition& where) {
@@ -88,9 +89,10 @@ void apply(Subject& subject, const Setting& setting, const SourcePosition& where
   }
   const int place = parameter_place(*subject.entry, setting.key);
   if (place < 0)
-    throw InputError(where, fmt::format("{} has no parameter {}; it has {} (and E, nu, c, phi, psi for short; "
-                                        "pressure is that of the start)",
-                                        subject.entry->name, setting.key, parameter_names(*subject.entry)));
+    throw InputError("S651", where,
+                     fmt::format("{} has no parameter {}; it has {} (and E, nu, c, phi, psi for short; "
+                                 "pressure is that of the start)",
+                                 subject.entry->name, setting.key, parameter_names(*subject.entry)));
   subject.values[static_cast<std::size_t>(place)] = value;
 }
 
@@ -100,11 +102,13 @@ void expect_whole(const Subject& subject, const SourcePosition& where) {
     if (std::isnan(subject.values[i]))
       missing += (missing.empty() ? "" : ", ") + subject.entry->parameters[i].name;
   if (!missing.empty())
-    throw InputError(where, fmt::format("{} ({}): not set: {}", subject.name, subject.entry->name, missing));
+    throw InputError("S651", where,
+                     fmt::format("{} ({}): not set: {}", subject.name, subject.entry->name, missing));
   try {
     make_law(subject);
   } catch (const ParameterError& error) {
-    throw InputError(where, fmt::format("{} ({}): {}", subject.name, subject.entry->name, error.what()));
+    throw InputError(error.code(), where,
+                     fmt::format("{} ({}): {}", subject.name, subject.entry->name, error.what()));
   }
 }
 
@@ -116,12 +120,12 @@ Subject subject_from(const Catalogue& catalogue, std::string_view text, const Un
   const bool named = colon != std::string_view::npos;
   const std::string_view law = named ? trimmed(head.substr(colon + 1)) : head;
   if (law.empty() && base == nullptr)
-    throw InputError(where, fmt::format("{}: wanted NAME:LAW,KEY=VALUE,...", text));
+    throw InputError("S651", where, fmt::format("{}: wanted NAME:LAW,KEY=VALUE,...", text));
   Subject subject = law.empty() ? *base : subject_of(catalogue, law, units, where);
   if (!law.empty()) subject.pressure = pressure;
   if (named) subject.name = std::string(trimmed(head.substr(0, colon)));
   if (subject.name.empty() || subject.name.find('"') != std::string::npos)
-    throw InputError(where, fmt::format("{}: wanted a name without quotes before the colon", text));
+    throw InputError("S651", where, fmt::format("{}: wanted a name without quotes before the colon", text));
   for (std::size_t at = comma + 1, end = 0; at < text.size(); at = end + 1) {
     end = std::min(text.find(',', at), text.size());
     apply(subject, setting_from(text.substr(at, end - at), where), where);
@@ -133,7 +137,8 @@ Subject subject_from(const Catalogue& catalogue, std::string_view text, const Un
 std::vector<Subject> read_subjects(const Catalogue& catalogue, const std::filesystem::path& file,
                                    const UnitSystem& units, double pressure, const Subject* base) {
   std::ifstream stream(file);
-  if (!stream || std::filesystem::is_directory(file)) throw InputError({file.string()}, "can't be opened");
+  if (!stream || std::filesystem::is_directory(file))
+    throw InputError("S101", {file.string()}, "can't be opened");
   std::vector<Subject> subjects;
   int number = 0;
   for (std::string line; std::getline(stream, line);) {
@@ -142,7 +147,8 @@ std::vector<Subject> read_subjects(const Catalogue& catalogue, const std::filesy
     if (!text.empty())
       subjects.push_back(subject_from(catalogue, text, units, pressure, base, {file.string(), number, 0, 0}));
   }
-  if (subjects.empty()) throw InputError({file.string()}, "holds no case; wanted lines NAME:LAW,KEY=VALUE,...");
+  if (subjects.empty())
+    throw InputError("S651", {file.string()}, "holds no case; wanted lines NAME:LAW,KEY=VALUE,...");
   return subjects;
 }
 

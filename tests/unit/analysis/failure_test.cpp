@@ -133,7 +133,7 @@ TEST(Failure, WhatAnObserverThrowsIsItsCallers) {
   EXPECT_THROW(sage::run(model, bench.catalogue(), by_skyline(), observers), AnalysisError);
   RunSettings settings = by_skyline();
   settings.checkpoint_due = [] { return true; };
-  settings.save_checkpoint = [](const std::string&) { throw OutputError("a full disk"); };
+  settings.save_checkpoint = [](const std::string&) { throw OutputError("S601", "a full disk"); };
   EXPECT_THROW(sage::run(model, bench.catalogue(), settings, {}), OutputError);
 }
 
