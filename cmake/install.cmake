@@ -2,16 +2,17 @@
 include(CMakePackageConfigHelpers)
 
 set(SAGE_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/sagefe)
-set(SAGE_PACKAGE_TARGETS sage_fmt sage_core sage_layout sage_deck sage_guess sage_model sage_exchange sage_mesh sage_build sage_analysis sage_record
+set(SAGE_PACKAGE_TARGETS sage_fmt sage_core sage_umat sage_layout sage_deck sage_guess sage_model sage_exchange sage_mesh sage_build sage_analysis sage_record
                          sage_draw sage_scenes sage_judge sage_verify sage_compare sage_drive sage_stress sage_figures sage_app sage_commands
                          sage_elements sage_materials sage_solvers sage_conformance)
 
 install(TARGETS sagefe RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY legacy_inputs DESTINATION ${CMAKE_INSTALL_DATADIR}/sagefe)
+install(DIRECTORY sage/app/templates DESTINATION ${CMAKE_INSTALL_DATADIR}/sagefe)
 
 # Headers keep their paths: #include "sage/core/law.hpp".  Those whose library is in the package, no others.
 # The module of library solvers is installed by solvers/.
-set(SAGE_PACKAGE_ROOMS core deck guess model exchange mesh build analysis record draw scenes judge verify compare drive
+set(SAGE_PACKAGE_ROOMS core umat deck guess model exchange mesh build analysis record draw scenes judge verify compare drive
                        stress figures conformance)
 list(TRANSFORM SAGE_PACKAGE_ROOMS PREPEND sage/)
 foreach(folder ${SAGE_PACKAGE_ROOMS} elements materials solvers)
@@ -27,4 +28,5 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/sagefeConfig.cmake.in ${
                               INSTALL_DESTINATION ${SAGE_PACKAGE_DIR})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/sagefeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/sagefeConfig.cmake ${PROJECT_BINARY_DIR}/sagefeConfigVersion.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/sagefePlugin.cmake
         DESTINATION ${SAGE_PACKAGE_DIR})

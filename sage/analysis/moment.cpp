@@ -1,12 +1,27 @@
 #include "sage/analysis/moment.hpp"
 
+#include <cmath>
+
 namespace sage {
+
+namespace {
+
+// Of the polygon of the corners, which come first; of one without an area the distance of the first two.
+double size_of(const Group& group, const Eigen::Matrix2Xd& x) {
+  const int corners = group.entry != nullptr ? group.entry->corners : static_cast<int>(x.cols());
+  double twice_area = 0.0;
+  for (int i = 0, j = corners - 1; group.solid() && i < corners; j = i++)
+    twice_area += x(0, j) * x(1, i) - x(0, i) * x(1, j);
+  return twice_area > 0.0 ? std::sqrt(0.5 * twice_area) : (x.col(1) - x.col(0)).norm();
+}
+
+}  // namespace
 
 Moment moment_at(const Model& model, int stage, int increment, double load_factor, double share) {
   double before = 0.0;
   for (int s = 0; s < stage; ++s) before += model.stages[static_cast<std::size_t>(s)].duration;
   const double duration = model.stages[static_cast<std::size_t>(stage)].duration;
-  return {stage + 1, increment, before + load_factor * duration, share * duration};
+  return {stage + 1, increment, before + load_factor * duration, share * duration, before};
 }
 
 PointContext context_of(const GroupData& data, int element, const Eigen::Matrix2Xd& x, int point,
@@ -17,7 +32,9 @@ PointContext context_of(const GroupData& data, int element, const Eigen::Matrix2
           .stage = moment.stage,
           .increment = moment.increment,
           .time = moment.time,
-          .dt = moment.dt};
+          .dt = moment.dt,
+          .stage_start = moment.stage_start,
+          .size = size_of(*data.group, x)};
 }
 
 }  // namespace sage

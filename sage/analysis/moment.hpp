@@ -8,7 +8,7 @@ namespace sage {
 // As in PointContext.
 struct Moment {
   int stage = 1, increment = 0;
-  double time = 0.0, dt = 0.0;
+  double time = 0.0, dt = 0.0, stage_start = 0.0;
 };
 
 // At a load factor of a stage (0-based), at the end of a step of that share of the stage (0: a state that stands).

@@ -6,11 +6,12 @@
 
 namespace sage::app {
 
-Catalogue full_catalogue() {
+Catalogue full_catalogue(std::vector<umat::Binding> umats) {
   Catalogue catalogue;
   register_elements(catalogue);
   register_materials(catalogue);
   register_solvers(catalogue);
+  catalogue.materials.add(umat::kUmatCode, umat::umat_entry(std::move(umats)));
   return catalogue;
 }
 

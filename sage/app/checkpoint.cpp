@@ -146,8 +146,8 @@ std::optional<std::string> Checkpoint::load() {
   if (build != build_identity()) throw InputError("S630", where, other_build);
   if (belongs_to != belongs_to_)
     throw InputError("S630", where,
-                     "belongs to another run: the deck or the options have changed since; run again without "
-                     "--restart");
+                     "belongs to another run: the deck, the options or a plug-in have changed since; run again "
+                     "without --restart");
   expect_results(file_, *results_, files);
   for (const auto& [name, file] : files) {
     const std::filesystem::path partial = results_->path_of(name).string() + ".partial";

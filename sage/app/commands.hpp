@@ -8,13 +8,14 @@
 
 #include "sage/core/catalogue.hpp"
 #include "sage/scenes/whole_run.hpp"
+#include "sage/umat/law.hpp"
 
 namespace sage::app {
 
 using Command = std::function<int()>;  // gives an exit code
 
-// Every piece of the program itself: elements, materials, solvers.
-Catalogue full_catalogue();
+// Every piece of the program itself: elements, materials, solvers; with the routines of law `umat`.
+Catalogue full_catalogue(std::vector<umat::Binding> umats = {});
 
 // Catalogue code of a solver, -1 for an empty name.  Throws InputError for one that is unknown.
 int solver_code(const Catalogue& catalogue, const std::string& name);
@@ -31,7 +32,9 @@ int guarded(const std::string& name, const std::function<int()>& work);
 Command run_command(CLI::App& parser, const Catalogue& catalogue);
 Command check_command(CLI::App& parser, const Catalogue& catalogue);
 Command echo_command(CLI::App& parser, const Catalogue& catalogue);
+Command conform_command(CLI::App& parser, const Catalogue& catalogue);
 Command list_command(CLI::App& parser, const Catalogue& catalogue);
+Command new_command(CLI::App& parser, const Catalogue& catalogue);
 Command plot_command(CLI::App& parser, const Catalogue& catalogue);
 Command tables_command(CLI::App& parser, const Catalogue& catalogue);
 Command convert_command(CLI::App& parser, const Catalogue& catalogue);

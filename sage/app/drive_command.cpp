@@ -64,7 +64,7 @@ Subject subject_of_deck(const DriveOptions& options, const Catalogue& catalogue)
     if (material.number != options.material && !(options.material == 0 && model.materials.size() == 1))
       continue;
     Subject subject = subject_of(catalogue, material.law_name, model.units);
-    std::ranges::copy(material.parameters, subject.values.begin());
+    subject.values = material.parameters;
     if (!material.name.empty()) subject.name = material.name;
     return subject;
   }

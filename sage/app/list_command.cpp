@@ -14,6 +14,9 @@ namespace sage::app {
 
 namespace {
 
+// Of the fields, by the place where they have values.
+constexpr const char* kFieldPlaces[] = {"nodes", "integration points", "elements", "increments"};
+
 void list_elements(const Catalogue& catalogue) {
   fmt::print("code  element, its formulations (code 0 on a group card = the first)\n");
   for (const auto& [code, entry] : catalogue.elements.entries()) {
@@ -49,9 +52,8 @@ void list_solvers(const Catalogue& catalogue) {
 
 void list_fields(const Catalogue& catalogue) {
   const UnitSystem generic{"length", "force", "stress", 0.0, 0.0};
-  constexpr const char* kPlaces[] = {"nodes", "integration points", "elements", "increments"};
   for (int place = 0; place < 4; ++place) {
-    fmt::print("{}: name [unit] (components) meaning\n", kPlaces[place]);
+    fmt::print("{}: name [unit] (components) meaning\n", kFieldPlaces[place]);
     for (const FieldEntry& row : catalogue.fields.rows()) {
       if (static_cast<int>(row.place()) != place) continue;
       std::string components;
@@ -117,13 +119,12 @@ Json solvers_json(const Catalogue& catalogue) {
 }
 
 Json fields_json(const Catalogue& catalogue, const UnitSystem& units) {
-  constexpr const char* kPlaces[] = {"nodes", "integration points", "elements", "increments"};
   Json list = Json::array();
   for (const FieldEntry& row : catalogue.fields.rows()) {
     Json components = Json::array();
     for (const FieldComponent& c : row.components) components.push_back(c.name);
     list.push_back({{"name", row.name},
-                    {"at", kPlaces[static_cast<int>(row.place())]},
+                    {"at", kFieldPlaces[static_cast<int>(row.place())]},
                     {"unit", unit_text(row.dimension, units)},
                     {"components", std::move(components)},
                     {"meaning", json_text(row.meaning)},
@@ -140,19 +141,37 @@ Json list_json(const std::string& what, const Catalogue& catalogue) {
   return fields_json(catalogue, generic);
 }
 
+void list_plugins(const Catalogue& catalogue) {
+  const auto codes = [](const char* kind, const std::vector<int>& list) {
+    std::string text;
+    for (const int code : list)
+      text += fmt::format("{}{}", text.empty() ? fmt::format("; {} ", kind) : ", ", code);
+    return text;
+  };
+  fmt::print("plug-in, version and author; what it brings; its file\n");
+  for (const Plugin& plugin : catalogue.plugins) {
+    std::string fields;
+    for (const std::string& field : plugin.fields) fields += (fields.empty() ? "; fields " : ", ") + field;
+    fmt::print("      {} {} by {}{}{}{}{}; {}\n", plugin.name, plugin.version, plugin.author,
+               codes("materials", plugin.materials), codes("elements", plugin.elements),
+               codes("solvers", plugin.solvers), fields, plugin.file);
+  }
+}
+
 }  // namespace
 
 Command list_command(CLI::App& parser, const Catalogue& catalogue) {
   auto what = std::make_shared<std::string>();
-  parser.add_option("WHAT", *what, "elements, materials, solvers or fields")
+  parser.add_option("WHAT", *what, "elements, materials, solvers, fields or plugins (that --plugin loads)")
       ->required()
-      ->check(CLI::IsMember({"elements", "materials", "solvers", "fields"}));
+      ->check(CLI::IsMember({"elements", "materials", "solvers", "fields", "plugins"}));
   return [what, &catalogue] {
     if (Json* json = answer()) (*json)[*what] = list_json(*what, catalogue);
     if (*what == "elements") list_elements(catalogue);
     if (*what == "materials") list_materials(catalogue);
     if (*what == "solvers") list_solvers(catalogue);
     if (*what == "fields") list_fields(catalogue);
+    if (*what == "plugins") list_plugins(catalogue);
     return kOk;
   };
 }

@@ -36,7 +36,7 @@ void convert(const std::filesystem::path& svg, const std::filesystem::path& to, 
   int status = 0;
   if (posix_spawnp(&child, program.c_str(), nullptr, nullptr, arguments, environ) != 0 ||
       waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw OutputError("rsvg-convert could not make " + to.string());
+    throw OutputError("S604", "rsvg-convert could not make " + to.string());
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ void add_format_option(CLI::App& parser, std::vector<std::string>& formats) {
 void require_converter(const std::vector<std::string>& formats) {
   for (const std::string& format : formats)
     if (format != "svg" && !on_path(kConverter))
-      throw OutputError("--format " + format + " needs the program rsvg-convert (librsvg2-bin)");
+      throw OutputError("S604", "--format " + format + " needs the program rsvg-convert (librsvg2-bin)");
 }
 
 std::vector<std::filesystem::path> convert_picture(const std::filesystem::path& svg,

@@ -273,7 +273,7 @@ std::filesystem::path plot_folder(const PlotOptions& options, const std::string&
                                                         : std::filesystem::path(options.folder);
   std::error_code error;
   if (!folder.empty()) std::filesystem::create_directories(folder, error);
-  if (error) throw OutputError("the folder " + folder.string() + " can't be made: " + error.message());
+  if (error) throw OutputError("S601", "the folder " + folder.string() + " can't be made: " + error.message());
   return folder;
 }
 

@@ -65,13 +65,13 @@ FieldChoice choice_of(const FieldTable& table, const std::string& name) {
 // What the solids have along a line; a gap where there are none.
 PlotSeries along_line(const Model& model, const Solution& solution, const FieldChoice& field,
                       const Line& line) {
-  constexpr int kPlaces = 200;
+  constexpr int kSamples = 200;
   PlotSeries series;
   const Sampler sampler(model, solution, {field.entry});
   const Vector2 along = line.to - line.from;
   const int axis = abscissa_of(model, along).axis;
-  for (int i = 0; i <= kPlaces; ++i) {
-    const double part = static_cast<double>(i) / kPlaces;
+  for (int i = 0; i <= kSamples; ++i) {
+    const double part = static_cast<double>(i) / kSamples;
     const Vector2 at = line.from + part * along;
     const Sample sample = sampler.at(at);
     series.x.push_back(axis < 0 ? part * along.norm() : at[axis]);

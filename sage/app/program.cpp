@@ -16,6 +16,7 @@
 #include "sage/app/answer.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
+#include "sage/app/plugins.hpp"
 #include "sage/app/screen.hpp"
 
 namespace sage {
@@ -37,29 +38,34 @@ struct Entry {
   const char* name;
   const char* about;
   Command (*add_options)(CLI::App& parser, const Catalogue& catalogue);
+  bool takes_plugins = false;
 };
 
 constexpr Entry kCommands[] = {
-    {"run", "compute decks; listing, CSV and reports go to the output folder", run_command},
-    {"check", "read and validate decks; compute nothing", check_command},
-    {"echo", "show each card of a deck as it was read, under a column ruler", echo_command},
+    {"run", "compute decks; listing, CSV and reports go to the output folder", run_command, true},
+    {"check", "read and validate decks; compute nothing", check_command, true},
+    {"echo", "show each card of a deck as it was read, under a column ruler", echo_command, true},
     {"layout", "a first layout for a deck that nobody knows (guess); what a layout reads of a deck (check)",
      layout_command},
     {"list", "show the elements, materials or solvers that a deck can ask for, or the fields of results",
-     list_command},
+     list_command, true},
     {"plot", "curves from the tables of runs and pictures of their states, without running the deck again",
-     plot_command},
+     plot_command, true},
+    {"conform", "try the pieces of a plug-in: the suites that the program's own pieces pass", conform_command,
+     true},
+    {"new", "write a folder with a law, an element or a UMAT of one's own, ready to be built and changed",
+     new_command},
     {"tables", "rerun the source chapter's Tables 7.3 and 7.4 beside its numbers", tables_command},
     {"figures", "compute the source chapter's Figures 7.1 to 7.40 and judge its sentences about them",
      figures_command},
     {"convert", "write a deck or Gmsh mesh as sage1 deck (.dat), Gmsh mesh (.msh) or CalculiX input (.inp)",
-     convert_command},
+     convert_command, true},
     {"verify", "the verification book: cases against closed forms, converged references and published values",
      verify_command},
     {"compare", "two decks, or one deck in two ways, side by side: forces, stresses, lines, theory, pictures",
-     compare_command},
+     compare_command, true},
     {"drive", "a law along a laboratory's path (triaxial, oedometer, shear, ...) without a mesh; CSV and plots",
-     drive_command},
+     drive_command, true},
     {"stress", "stability stress test: everything swept to the edge must be right or say what is wrong",
      stress_command},
     {"explain", "what a message means and what helps, by the code behind it", explain_command},
@@ -141,6 +147,15 @@ int refuse(const std::string& name, const std::function<int()>& say) {
   return screen().json && code != kOk ? with_answer(name, code, MutedOutput()) : code;
 }
 
+// A command's own and those that it shares with others.
+Command add_all_options(CLI::App& parser, const Entry& entry, const Catalogue& catalogue,
+                        ScreenOptions& screen) {
+  if (entry.takes_plugins) add_plugin_options(parser);
+  Command execute = entry.add_options(parser, catalogue);
+  add_screen_options(parser, screen);
+  return execute;
+}
+
 int run_command_line(int argc, char** argv, const AddToCatalogue& add) {
   CLI::App root("", "sagefe");
   describe(root);
@@ -153,16 +168,19 @@ int run_command_line(int argc, char** argv, const AddToCatalogue& add) {
   if (named && chosen == nullptr) return refuse(argv[word], [] { return kUsage; });
   Catalogue catalogue;
   if (chosen != nullptr) {
-    catalogue = full_catalogue();
+    const auto values = [&](const char* option) {
+      return chosen->takes_plugins ? values_on(argc, argv, option) : std::vector<std::string>();
+    };
+    catalogue = full_catalogue(load_umats(values("--umat")));
     if (add) add(catalogue);
+    for (const std::string& file : values("--plugin")) load_plugin(file, catalogue);
   }
   Command execute;
   ScreenOptions options;
   for (const Entry& entry : kCommands) {
     CLI::App* parser = root.add_subcommand(entry.name, entry.about);
     if (&entry != chosen) continue;
-    execute = entry.add_options(*parser, catalogue);
-    add_screen_options(*parser, options);
+    execute = add_all_options(*parser, entry, catalogue, options);
   }
   try {
     root.parse(argc, argv);
@@ -188,9 +206,10 @@ void take_no_signal_for_large_files() {
 }  // namespace
 
 void add_all_commands(CLI::App& root, const Catalogue& catalogue) {
+  static ScreenOptions unused;  // the options outlive this function; nothing is parsed
   describe(root);
   for (const Entry& entry : kCommands)
-    entry.add_options(*root.add_subcommand(entry.name, entry.about), catalogue);
+    add_all_options(*root.add_subcommand(entry.name, entry.about), entry, catalogue, unused);
 }
 
 }  // namespace app
@@ -208,7 +227,7 @@ int sagefe(int argc, char** argv, const AddToCatalogue& add) {
     std::fputs("sagefe: not enough memory [S508]\n", stderr);
     return kNotConverged;
   } catch (const std::exception& error) {
-    say_error("sagefe", error.what());  // of `add`, such as a code that is taken
+    say_error("sagefe", error);  // of `add` or a plug-in, such as a code that is taken
     return kUsage;
   }
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;

@@ -18,6 +18,7 @@
 #include "sage/app/run_source.hpp"
 #include "sage/app/screen.hpp"
 #include "sage/app/state_choice.hpp"
+#include "sage/app/umat_output.hpp"
 #include "sage/app/verbose.hpp"
 #include "sage/deck/text.hpp"
 #include "sage/draw/picture.hpp"
@@ -30,6 +31,7 @@
 #include "sage/record/profile_text.hpp"
 #include "sage/record/result_file.hpp"
 #include "sage/record/vtu.hpp"
+#include "sage/umat/routine.hpp"
 #include "solvers/choose_kernels.hpp"
 #include "solvers/choose_solver.hpp"
 
@@ -67,7 +69,20 @@ std::vector<std::unique_ptr<Output>> make_outputs(const RunRequest& request, con
   return outputs;
 }
 
-Checkpoint checkpoint_of(const RunRequest& request, const Model& model, ResultFiles& results) {
+// A library that was built anew computes something else, whatever it says of its version.
+std::string plugin_words(const Catalogue& catalogue) {
+  std::string text;
+  for (const Plugin& plugin : catalogue.plugins)
+    text += fmt::format(" plug-in {} {} {:016x}", plugin.name, plugin.version,
+                        checksum_of(plugin.file).value_or(Checksum()).value());
+  for (const umat::OpenedLibrary& library : umat::opened_libraries())
+    text +=
+        fmt::format(" umat {} {:016x}", library.file, checksum_of(library.file).value_or(Checksum()).value());
+  return text;
+}
+
+Checkpoint checkpoint_of(const RunRequest& request, const Model& model, const Catalogue& catalogue,
+                         ResultFiles& results) {
   const OutputOptions& o = request.output;
   std::string run =
       fmt::format("{:016x} {} {} {}{}{}{}{}{}", fingerprint(model), request.solver, static_cast<int>(o.tables),
@@ -81,6 +96,7 @@ Checkpoint checkpoint_of(const RunRequest& request, const Model& model, ResultFi
   for (const std::string& picture : o.pictures) run += " " + picture;
   for (const std::string& field : o.fields) run += " field " + field;
   for (const std::string& state : o.states) run += " state " + state;
+  run += plugin_words(catalogue);
   return {o.folder / (stem_of(request) + ".restart"), request.checkpoint_seconds, run,
           choose_kernels(request.kernels).name, results};
 }
@@ -316,7 +332,7 @@ RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
   if (request.results == nullptr) own.emplace(request.output.folder, stem_of(request), owner);
   ResultFiles& results = own ? *own : *request.results;
   if (!results.locked() && !request.quiet) note_missing_locks(request);
-  Checkpoint checkpoint = checkpoint_of(request, model, results);
+  Checkpoint checkpoint = checkpoint_of(request, model, catalogue, results);
   bool has_checkpoint = request.restart && std::filesystem::exists(checkpoint.file());
   EndOfInterrupted end(checkpoint.ever_due(), request.interrupt_patience);
   settings.stop_asked = [&] { return end.stop_now() || (request.stop_asked && request.stop_asked()); };
@@ -339,7 +355,8 @@ RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
   try {
     const RunResult result = [&] {
       const Profile::Scope scope(profile, phase::kAnalysis);
-      RunResult done = run(model, catalogue, settings, observers);
+      RunResult done;
+      with_umat_output(request, [&] { done = run(model, catalogue, settings, observers); });
       profile.add(done.work.profile);
       return done;
     }();

@@ -279,6 +279,12 @@ void read_parameters(Builder& b, Material& m, const SourcePosition& where, const
               name + ": " + p.name + " is too large to compute with (beyond 1e100)");
     m.parameters.push_back(value);
   }
+  for (std::size_t i = m.entry->parameters.size(); i < given.size(); ++i) {
+    if (!(std::abs(given[i].number) < 1e100))
+      b.error("S208", cards.front().where(given[i]),
+              name + ": parameter " + std::to_string(i + 1) + " is too large to compute with (beyond 1e100)");
+    m.parameters.push_back(given[i].blank ? 0.0 : given[i].number);
+  }
 }
 
 void read_material(Builder& b, const CardView& card, const std::vector<CardView>& parameter_cards) {
@@ -299,7 +305,8 @@ void read_material(Builder& b, const CardView& card, const std::vector<CardView>
   Material& m = b.model.materials.back();
   if (entry == nullptr) {
     b.error("S212", card.where("law"),
-            name + ": law " + std::to_string(m.code) + " is unknown; known: " + b.catalogue.materials.known());
+            name + ": law " + std::to_string(m.code) + " is unknown; known: " + b.catalogue.materials.known() +
+                plugin_hint(m.code));
     return;
   }
   m.law_name = entry->name;
@@ -310,7 +317,7 @@ void read_material(Builder& b, const CardView& card, const std::vector<CardView>
     given = parameter_cards.front().list("values");
     where = parameter_cards.front().where();
   }
-  if (given.size() > entry->parameters.size()) {
+  if (given.size() > entry->parameters.size() && !entry->open_ended) {
     b.error("S223", where,
             name + ": law " + entry->name + " has " + std::to_string(entry->parameters.size()) +
                 " parameters, the card gives " + std::to_string(given.size()));
@@ -320,15 +327,16 @@ void read_material(Builder& b, const CardView& card, const std::vector<CardView>
   read_parameters(b, m, where, given, parameter_cards);
   if (b.problems.errors() > before) return;
   try {
-    m.law = entry->make(m.parameters, b.model.units);
+    m.law = entry->law_for(m.parameters, b.model.units, m.name);
   } catch (const ParameterError& e) {
     const auto i = static_cast<std::size_t>(std::max(0, e.parameter()));
     const bool known = e.parameter() >= 0 && i < given.size();
     b.error(e.code(), known ? parameter_cards.front().where(given[i]) : where,
             name + " (" + entry->name + "): " + e.what() +
-                (e.parameter() >= 0 ? " [" + entry->parameters[i].name + ", " +
-                                          unit_text(entry->parameters[i].dimension, b.model.units) + "]"
-                                    : ""));
+                (i < entry->parameters.size() && e.parameter() >= 0
+                     ? " [" + entry->parameters[i].name + ", " +
+                           unit_text(entry->parameters[i].dimension, b.model.units) + "]"
+                     : ""));
   }
 }
 
@@ -359,7 +367,7 @@ void build_groups(Builder& b) {
     if (entry == nullptr)
       b.error("S211", card.where("element"),
               name + ": element type " + std::to_string(group.element_code) +
-                  " is unknown; known: " + b.catalogue.elements.known());
+                  " is unknown; known: " + b.catalogue.elements.known() + plugin_hint(group.element_code));
     if (material != b.material_index.end())
       group.material = material->second;
     else if (b.materials_known)

@@ -87,9 +87,10 @@ void build_control(Builder& b) {
   model.geometry = code == 2 ? Geometry::axisymmetric : Geometry::plane_strain;
   model.solver = b.options.solver >= 0 ? b.options.solver : card.integer("solver", 0);
   if (model.solver != 0 && b.catalogue.solvers.find(model.solver) == nullptr)
-    b.error(
-        "S213", card.where("solver"),
-        "solver " + std::to_string(model.solver) + " is unknown; 0 automatic, " + b.catalogue.solvers.known());
+    b.error("S213", card.where("solver"),
+            "solver " + std::to_string(model.solver) + " is unknown; 0 automatic, " +
+                b.catalogue.solvers.known() + plugin_hint(model.solver));
+  build_plugins(b);
 }
 
 namespace {

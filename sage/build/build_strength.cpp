@@ -12,7 +12,7 @@ namespace {
 // c / F and atan(tan phi / F); dilation like friction.  False: the law has no strength, nothing changes.
 bool reduce(std::vector<double>& parameters, const MaterialEntry& entry, double factor) {
   bool any = false;
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
+  for (std::size_t i = 0; i < entry.parameters.size(); ++i) {
     const Parameter& p = entry.parameters[i];
     double& value = parameters[i];
     if (p.role == ParameterRole::strength) {
@@ -39,7 +39,7 @@ Material reduced(const Material& from, double factor, const UnitSystem& units) {
   m.where = from.where;
   if (reduce(m.parameters, *m.entry, factor))
     m.name += (m.name.empty() ? "strength / " : ", strength / ") + rounded_text(factor, 6);
-  m.law = m.entry->make(m.parameters, units);
+  m.law = m.entry->law_for(m.parameters, units, from.name);
   return m;
 }
 

@@ -84,6 +84,9 @@ void read_load(Builder& b, const CardView& card, std::vector<NodalLoad>& out,
 void read_pressure(Builder& b, const CardView& card, std::vector<EdgeLoad>& out);
 
 void build_control(Builder& b);
+void build_plugins(Builder& b);  // those that the deck names must have been loaded
+// Behind a message about a code that is unknown; empty where no plug-in could have it.
+std::string plugin_hint(int code);
 void build_nodes(Builder& b);
 void build_materials(Builder& b);
 void build_groups(Builder& b);

@@ -73,7 +73,7 @@ void check_units(Builder& b) {
 template <class Act>
 void for_parameters(const Material& material, Act act) {
   for (std::size_t i = 0; material.entry != nullptr && i < material.parameters.size(); ++i)
-    act(material.entry->parameters[i], material.parameters[i]);
+    if (i < material.entry->parameters.size()) act(material.entry->parameters[i], material.parameters[i]);
 }
 
 // Largest modulus of a solid, as far as its law has one; 0 = none.

@@ -49,6 +49,15 @@ inline std::string law_words(int law_size) {
   return "structure of " + std::to_string(law_size) + (law_size == 1 ? " component" : " components");
 }
 
+// Parameters in kPa, m and degrees with which `sagefe conform` tries a law, and what it may expect of it.
+struct LawTrial {
+  std::vector<double> values;
+  double strain = 0.01;           // an increment that takes the law well into its nonlinear range
+  bool bounded = false;           // has a strength that stress_level must respect
+  bool reaches_strength = true;   // with increments of that size
+  bool knows_directions = false;  // as layered soil does: turned axes give another answer
+};
+
 // Parameters arrive as the deck writes them: degrees, compression-positive stress.
 struct MaterialEntry {
   std::string name;
@@ -58,6 +67,16 @@ struct MaterialEntry {
   // Throws ParameterError.  The law has law_size components.
   std::function<LawPtr(std::span<const double> values, const UnitSystem& units)> make;
   std::span<const Quantity> history{};  // of those laws, for people: decks count it from 1
+  std::vector<LawTrial> trials{};       // of laws that come in a plug-in
+  // The card may give any number of parameters behind those that are listed.
+  bool open_ended = false;
+  // In place of `make`, for a law that goes by the name of the material.
+  std::function<LawPtr(std::span<const double> values, const UnitSystem& units, const std::string& material)>
+      make_for{};
+
+  LawPtr law_for(std::span<const double> values, const UnitSystem& units, const std::string& material) const {
+    return make_for ? make_for(values, units, material) : make(values, units);
+  }
 
   bool for_solids() const { return law_size == 4; }
   // Place of a parameter on the card, from 0; -1 = there is none.  Of several of a role the first.
@@ -154,8 +173,9 @@ class Registry {
   void add(int code, Entry entry) {
     for (const auto& [other_code, other] : *entries_)
       if (other_code == code || other.name == entry.name)
-        throw std::logic_error("catalogue: code " + std::to_string(code) + " or name " + entry.name +
-                               " is taken");
+        throw std::logic_error("catalogue: " + std::to_string(code) + " " + entry.name + " clashes with " +
+                               std::to_string(other_code) + " " + other.name +
+                               ": a code and a name can be taken once");
     if (entries_.use_count() > 1) entries_ = std::make_shared<std::map<int, Entry>>(*entries_);
     entries_->emplace(code, std::move(entry));
   }
@@ -189,11 +209,19 @@ class Registry {
   std::shared_ptr<std::map<int, Entry>> entries_ = std::make_shared<std::map<int, Entry>>();
 };
 
+// A plug-in (docs/manual/plugins.md) and what it has brought.
+struct Plugin {
+  std::string name, version, author, file;
+  std::vector<int> elements{}, materials{}, solvers{};  // codes
+  std::vector<std::string> fields{};
+};
+
 struct Catalogue {
   Registry<ElementEntry> elements;
   Registry<MaterialEntry> materials;
   Registry<SolverEntry> solvers;
   FieldTable fields;
+  std::vector<Plugin> plugins{};
 };
 
 }  // namespace sage

@@ -67,6 +67,8 @@ struct PointContext {
   // 0 where the committed state itself is evaluated (start of a stage, after a cut): deps is zero then too, and
   // the answer is sigma0 and h0.
   double dt = 0.0;
+  double stage_start = 0.0;  // time at the beginning of the stage
+  double size = 0.0;         // of the element: root of its area; of an interface or a structure its length
 };
 
 // All that a law may see.  Tension positive, radians.  N = 4: [xx yy zz xy], engineering shear.

@@ -815,12 +815,52 @@ constexpr MessageEntry kMessages[] = {
     {"S723", "the other program would write over a file",
      "CalculiX names its results after its input, and a file of that name is there already.",
      "Convert to the name in the message."},
+    // S8: pieces from outside of the program.
+    {"S801", "the deck needs a plug-in that is not loaded",
+     "A line \"* plugin: NAME\" before the first card names a plug-in that the deck was written for. A deck "
+     "never loads a library by itself: whoever runs it decides which code of others is executed.",
+     "Give --plugin LIBRARY with the library that has this name; sagefe list plugins --plugin LIBRARY shows "
+     "name and pieces of a library."},
+    {"S802", "a library is no plug-in that can be used",
+     "The file is no library, misses another library that it was linked to, has no entry point "
+     "sage_plugin_v1, was built by another compiler or for another version of the program (the message names "
+     "the field and both values), or crashed or gave up when its pieces were asked for.",
+     "Build it against the installed package of this very program (sage_add_plugin in CMake, "
+     "docs/manual/plugins.md) with the compiler that the message names; ldd LIBRARY shows missing libraries, "
+     "sagefe conform LIBRARY tries its pieces."},
+    {"S803", "two pieces have the same code or name",
+     "A law, element, solver or field of a plug-in has a code or a name that is taken by the program or by "
+     "another plug-in, so that a card could mean either.",
+     "Change code or name in one of the two plug-ins; codes from 1000 are free, and each author best takes a "
+     "range of his own."},
+    {"S804", "the routine of a UMAT can't be had",
+     "A material of law umat has no routine, or the library of --umat can't be loaded, or has no symbol umat_, "
+     "umat or UMAT.",
+     "Give --umat LIBRARY for all such materials, or --umat MATERIAL=LIBRARY for one; LIBRARY:SYMBOL names a "
+     "routine that is called otherwise (nm -D LIBRARY lists names). Fortran: gfortran -shared -fPIC."},
+    {"S805", "a number of a umat material does not fit",
+     "The material card of a UMAT begins with the number of stress components (4 or 6), the number of state "
+     "variables and two marks (symmetric, safe for threads), each 0 or 1; the routine's properties follow.",
+     "Compare the card with the routine's own documentation: NTENS, NSTATV (the DEPVAR of an Abaqus deck), "
+     "PROPS."},
+    {"S806", "a UMAT did not do what it must",
+     "The routine wrote beyond one of its arrays, ended the program (XIT, STOP, exit), returned what is no "
+     "number, or gave an unsymmetric matrix though the card calls it symmetric. Nothing of that step is kept.",
+     "sagefe conform --umat LIBRARY drives the routine alone and says what is wrong with it. Too few state "
+     "variables or properties on the card are the most frequent cause of writing beyond an array."},
+    {"S807", "a folder for a new piece can't be written",
+     "The folder is there already and is not empty, or the templates of the program are not where they were "
+     "installed.",
+     "Choose another name or folder, or empty it; where the templates are missing install the program anew."},
+    {"S808", "the suites that try pieces are not there",
+     "sagefe conform runs a program beside sagefe which is built only where GoogleTest was found.",
+     "Install GoogleTest (libgtest-dev), build and install the program again."},
+
+    // S9: the command line.
     {"S900", "the command line asks for what there is not",
      "A name, a column, a state or a combination of options that the command was given does not exist in "
      "the deck, the law or the result file.",
      "The message says what there is; the help of the command says what goes together."},
-
-    // S9: the command line.
     {"S901", "there is no such command", "The first word after sagefe names what is to be done.",
      "sagefe --help lists the commands; the usual one is sagefe run DECK."},
     {"S902", "an option or word is not known",

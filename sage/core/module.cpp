@@ -4,6 +4,7 @@
 #include <elf.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -78,6 +79,44 @@ std::string elf_section(const std::string& file, std::string_view name) {
   return {};
 }
 
+Library open_library(const std::string& file) {
+  if (void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) return {handle};
+  const char* error = dlerror();
+  return {nullptr, error != nullptr ? error : "the system gives no reason"};
+}
+
+std::string library_flaw(const std::string& file) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (status.type() == std::filesystem::file_type::not_found) return "does not exist";
+  if (error) return "can't be opened: " + error.message();
+  if (std::filesystem::is_directory(status)) return "is a folder";
+  if (!std::filesystem::is_regular_file(status)) return "is no file";
+  errno = 0;
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return "can't be opened: " + std::generic_category().message(errno);
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (size == 0) return "is empty";
+  const std::string mark = bytes_at(in, 0, EI_NIDENT);
+  if (!mark.starts_with(std::string_view(ELFMAG, SELFMAG))) return "is no shared library (no ELF file)";
+  if (mark.size() < EI_NIDENT) return "is cut short";
+  if (mark[EI_CLASS] != ELFCLASS64) return "is a library of 32 bits, the program has 64";
+  Elf64_Ehdr own;
+  std::ifstream program("/proc/self/exe", std::ios::binary);
+  own = value_at<Elf64_Ehdr>(program, 0).value_or(Elf64_Ehdr{});
+  const auto head = value_at<Elf64_Ehdr>(in, 0);
+  if (!head) return "is cut short";
+  if (mark[EI_DATA] != static_cast<char>(own.e_ident[EI_DATA]) || head->e_machine != own.e_machine)
+    return "is a library for another kind of processor";
+  if (head->e_type != ET_DYN) return "is an ELF file, but no shared library";
+  for (std::uint64_t i = 0; i < head->e_phnum; ++i) {
+    const auto part = value_at<Elf64_Phdr>(in, head->e_phoff + i * sizeof(Elf64_Phdr));
+    if (!part || (part->p_type == PT_LOAD && (part->p_filesz > size || part->p_offset > size - part->p_filesz)))
+      return "is cut short";
+  }
+  return {};
+}
+
 std::vector<std::string> module_places(const Module& module) {
   std::vector<std::string> places;
   if (const char* chosen = std::getenv(module.variable.c_str())) places.emplace_back(chosen);
@@ -99,14 +138,14 @@ void* load_module(const Module& module, const std::vector<std::string>& places) 
       tried += ": belongs to another version";
       continue;
     }
-    void* handle = dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (!handle) {
-      tried += std::string(": ") + dlerror();
+    const Library library = open_library(place);
+    if (library.handle == nullptr) {
+      tried += ": " + library.error;
       continue;
     }
-    if (void* function = dlsym(handle, module.function.c_str())) return function;
+    if (void* function = dlsym(library.handle, module.function.c_str())) return function;
     tried += ": has no " + module.function;
-    dlclose(handle);
+    dlclose(library.handle);
   }
   throw AnalysisError("S505", module.what + " can't be loaded; tried:" + tried);
 }

@@ -26,6 +26,17 @@ std::vector<std::string> module_places(const Module& module);
 // AnalysisError that lists the places.
 void* load_module(const Module& module, const std::vector<std::string>& places);
 
+// Why a file is no shared library that this machine can load, in words behind its name ("is a folder"); empty = it
+// may be one.  Reads its headers, runs nothing of it.
+std::string library_flaw(const std::string& file);
+
+struct Library {
+  void* handle = nullptr;  // never closed; nullptr: `error` says why
+  std::string error{};
+};
+// With all it needs; its names stay its own.  Runs its constructors.
+Library open_library(const std::string& file);
+
 // Bytes of a section of an ELF file of 64 bits, at most 64 KiB of them; empty where there is none.
 std::string elf_section(const std::string& file, std::string_view name);
 

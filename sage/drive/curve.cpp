@@ -169,7 +169,7 @@ const Column* Curve::find(std::string_view column) const {
 }
 
 LawPtr make_law(const Subject& subject) {
-  return subject.entry->make(subject.values, subject.units);
+  return subject.entry->law_for(subject.values, subject.units, subject.name);
 }
 
 Curve follow(const LawRef& law, const UnitSystem& units, const Path& path) {

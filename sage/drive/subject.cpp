@@ -48,6 +48,24 @@ std::string parameter_names(const MaterialEntry& entry) {
   return names;
 }
 
+// Parameters behind those that the entry lists: "prop1", "prop2", ...
+std::string open_name(const Subject& subject, std::size_t place) {
+  return "prop" + std::to_string(place - subject.entry->parameters.size() + 1);
+}
+
+// Room is made up to there.  -1: the key is none of them.
+int open_place(Subject& subject, std::string_view key) {
+  constexpr std::string_view kKey = "prop";
+  constexpr std::size_t kMost = 1000;
+  std::size_t number = 0;
+  if (!subject.entry->open_ended || !key.starts_with(kKey)) return -1;
+  const auto [end, error] = std::from_chars(key.data() + kKey.size(), key.data() + key.size(), number);
+  if (error != std::errc() || end != key.data() + key.size() || number < 1 || number > kMost) return -1;
+  const std::size_t place = subject.entry->parameters.size() + number - 1;
+  if (subject.values.size() <= place) subject.values.resize(place + 1, kUnset);
+  return static_cast<int>(place);
+}
+
 }  // namespace
 
 Setting setting_from(std::string_view text, const SourcePosition& where) {
@@ -87,7 +105,8 @@ void apply(Subject& subject, const Setting& setting, const SourcePosition& where
     subject.pressure = value;
     return;
   }
-  const int place = parameter_place(*subject.entry, setting.key);
+  int place = parameter_place(*subject.entry, setting.key);
+  if (place < 0) place = open_place(subject, setting.key);
   if (place < 0)
     throw InputError("S651", where,
                      fmt::format("{} has no parameter {}; it has {} (and E, nu, c, phi, psi for short; "
@@ -100,7 +119,9 @@ void expect_whole(const Subject& subject, const SourcePosition& where) {
   std::string missing;
   for (std::size_t i = 0; i < subject.values.size(); ++i)
     if (std::isnan(subject.values[i]))
-      missing += (missing.empty() ? "" : ", ") + subject.entry->parameters[i].name;
+      missing +=
+          (missing.empty() ? "" : ", ") +
+          (i < subject.entry->parameters.size() ? subject.entry->parameters[i].name : open_name(subject, i));
   if (!missing.empty())
     throw InputError("S651", where,
                      fmt::format("{} ({}): not set: {}", subject.name, subject.entry->name, missing));
@@ -155,7 +176,12 @@ std::vector<Subject> read_subjects(const Catalogue& catalogue, const std::filesy
 std::string words_of(const Subject& subject) {
   std::string words = subject.entry->name;
   for (std::size_t i = 0; i < subject.values.size(); ++i) {
-    const Parameter& row = subject.entry->parameters[i];
+    const bool open = i >= subject.entry->parameters.size();
+    Parameter row;
+    if (open)
+      row.name = open_name(subject, i);
+    else
+      row = subject.entry->parameters[i];
     const std::string unit = unit_text(row.dimension, subject.units);
     words += fmt::format("{} {} = {:.10g}{}", i == 0 ? ":" : ",", row.name, subject.values[i],
                          unit == "-" ? "" : " " + unit);

@@ -459,6 +459,7 @@ void Sage1Writer::report(const Report& report) {
 std::string Sage1Writer::deck() {
   number_groups();
   if (wide_) text_.append("* layout: ").append(kWideLayout) += '\n';
+  for (const std::string& plugin : model_.plugins) text_.append("* plugin: ").append(plugin) += '\n';
   name(model_.title.starts_with('*') ? " " + model_.title : model_.title, 80);
   line();
   text_ += wide_ ? "* length force   stress                   p_a             gamma_w\n"

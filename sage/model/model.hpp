@@ -181,6 +181,7 @@ struct Model {
   std::vector<Report> reports;
   Diagnostics diagnostics;            // warnings and notes of reading and building
   std::vector<std::string> left_out;  // what the deck asks for and this is without, to be named with results
+  std::vector<std::string> plugins;   // that the deck names
 
   const Material& material_of(const Group& group) const {
     return materials[static_cast<std::size_t>(group.material)];

@@ -1,0 +1,138 @@
+// sagefe conform: the suites over the pieces of a plug-in.  They are in a program beside this one, since they count
+// allocations, which sagefe does not; and a piece that crashes then ends that program only.
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <sstream>
+
+#include "sage/app/commands.hpp"
+#include "sage/app/exit_codes.hpp"
+#include "sage/app/input.hpp"
+#include "sage/core/module.hpp"
+#include "sage/umat/try_routine.hpp"
+
+namespace sage::app {
+
+namespace {
+
+struct ConformOptions {
+  std::vector<std::string> libraries;
+  std::string only;
+  umat::Trial umat;
+  std::vector<double> stress{0.0, 0.0, 0.0, 0.0};  // compression +
+};
+
+std::string suites_program() {
+  const Module program{
+      "the program of the suites", "SAGE_CONFORM_PROGRAM", SAGE_CONFORM_RELATIVE, "sagefe-conform", "", ""};
+  std::string tried;
+  for (const std::string& place : module_places(program)) {
+    if (access(place.c_str(), X_OK) == 0 && !std::filesystem::is_directory(place)) return place;
+    tried += "\n  " + place;
+  }
+  throw OutputError("S808",
+                    "the program of the suites is not there (it is built where GoogleTest is); tried:" + tried);
+}
+
+constexpr int kNotRun = 127;
+
+// The exit code of what is done in a process of its own, which it may crash.
+int done_apart(const std::function<int()>& work) {
+  std::fflush(stdout);
+  const pid_t child = fork();
+  if (child == 0) _exit(work());
+  int status = 0;
+  while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (child < 0 || (WIFEXITED(status) && WEXITSTATUS(status) == kNotRun))
+    throw OutputError("S808", "the checks can't be run");
+  if (WIFEXITED(status)) return WEXITSTATUS(status);
+  fmt::print(stderr, "sagefe: the checks were ended by signal {} ({}): a piece has crashed\n", WTERMSIG(status),
+             strsignal(WTERMSIG(status)));
+  return kNotConverged;
+}
+
+int run_program(const std::vector<std::string>& words) {
+  std::vector<char*> arguments;
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  return done_apart([&] {
+    execv(arguments.front(), arguments.data());
+    return kNotRun;
+  });
+}
+
+int try_umat(const ConformOptions& options, const std::string& text) {
+  umat::Trial trial = options.umat;
+  const umat::Binding binding = umat::bind(text);
+  trial.setup.routine = binding.routine;
+  trial.setup.material = binding.material;
+  if (options.stress.size() != 4 || trial.statev.size() > static_cast<std::size_t>(trial.setup.statev))
+    throw UsageError("S903", "--stress has four numbers, and --initial no more than there are state variables");
+  trial.stress = -Vector4(options.stress.data());
+  return done_apart([&] {
+    std::ostringstream answer;
+    const bool holds = umat::try_routine(trial, answer);
+    std::fflush(stdout);
+    fmt::print("{}", answer.str());
+    return std::fflush(stdout) != 0 ? kOutput : holds ? kOk : kNotConverged;
+  });
+}
+
+void add_umat_options(CLI::App& parser, ConformOptions& options) {
+  constexpr const char* kGroup = "Of --umat";
+  parser.add_option("--props", options.umat.setup.props, "PROPS, separated by commas")
+      ->delimiter(',')
+      ->group(kGroup);
+  parser.add_option("--statev", options.umat.setup.statev, "NSTATV (default: 0)")
+      ->check(CLI::Range(0, 100000))
+      ->group(kGroup);
+  parser
+      .add_option("--initial", options.umat.statev, "first values of STATEV, separated by commas (default: 0)")
+      ->delimiter(',')
+      ->group(kGroup);
+  parser.add_option("--components", options.umat.setup.components, "NTENS, 4 (default) or 6")
+      ->check(CLI::IsMember({4, 6}))
+      ->group(kGroup);
+  parser.add_flag("--symmetric", options.umat.setup.symmetric, "DDSDDE is symmetric in every state")
+      ->group(kGroup);
+  parser.add_option("--stress", options.stress, "xx,yy,zz,xy at the start, compression positive (default: 0)")
+      ->delimiter(',')
+      ->group(kGroup);
+  parser.add_option("--strain", options.umat.strain, "increment of strain (default: 1e-3)")
+      ->check(number_in(1e-12, 1.0, "a number from 1e-12 to 1"))
+      ->group(kGroup);
+}
+
+}  // namespace
+
+Command conform_command(CLI::App& parser, const Catalogue& catalogue) {
+  auto options = std::make_shared<ConformOptions>();
+  parser.add_option("LIBRARY", options->libraries, "plug-ins whose pieces are tried");
+  parser.add_option("--only", options->only, "checks whose name has this text");
+  add_umat_options(parser, *options);
+  const CLI::Option* umats = parser.get_option("--umat");
+  parser.footer("Exit codes: 0 all checks hold, 1 the library can't be loaded, 3 a check fails.");
+  return [options, umats, &catalogue] {
+    int worst = kOk;
+    for (const std::string& text : umats->results()) worst = std::max(worst, try_umat(*options, text));
+    if (options->libraries.empty() && umats->results().empty())
+      throw UsageError("S903", "a plug-in is wanted, or --umat with a routine");
+    if (options->libraries.empty()) return worst;
+    std::vector<std::string> words{suites_program(), options->only};
+    for (const Plugin& plugin : catalogue.plugins) words.insert(words.end(), {"--plugin", plugin.file});
+    words.insert(words.end(), options->libraries.begin(), options->libraries.end());
+    return std::max(worst, run_program(words));
+  };
+}
+
+}  // namespace sage::app

@@ -1,0 +1,105 @@
+// sagefe new: a folder with a piece of one's own, which builds against the installed package, passes the suites and
+// is ready to be changed.
+#include <fmt/format.h>
+
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+#include "sage/app/commands.hpp"
+#include "sage/app/exit_codes.hpp"
+#include "sage/app/input.hpp"
+#include "sage/core/error.hpp"
+#include "sage/record/out_file.hpp"
+
+namespace sage::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NewOptions {
+  std::string kind, name;
+  fs::path folder;
+};
+
+// Beside an installed program, else those of the source tree.
+fs::path templates() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  const fs::path installed = (program.parent_path() / SAGE_TEMPLATES_RELATIVE).lexically_normal();
+  return !error && fs::is_directory(installed, error) ? installed : fs::path(SAGE_TEMPLATES_DIR);
+}
+
+// It becomes names of files, of a class and of a Fortran routine.
+std::string name_flaw(const std::string& name) {
+  const bool plain =
+      !name.empty() && name.size() <= 30 && std::islower(static_cast<unsigned char>(name[0])) != 0 &&
+      std::ranges::all_of(
+          name, [](unsigned char c) { return std::islower(c) != 0 || std::isdigit(c) != 0 || c == '_'; });
+  return plain ? "" : "a name is wanted of lower-case letters, digits and _, at most 30, a letter first";
+}
+
+// cam_clay: CamClay.
+std::string class_name(const std::string& name) {
+  std::string words;
+  bool first = true;
+  for (const char c : name) {
+    if (c != '_') words += first ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
+    first = c == '_';
+  }
+  return words;
+}
+
+std::string filled_in(std::string text, const std::string& name) {
+  const std::pair<std::string, std::string> marks[] = {{"@name@", name}, {"@Name@", class_name(name)}};
+  for (const auto& [mark, words] : marks)
+    for (std::size_t at = 0; (at = text.find(mark, at)) != std::string::npos; at += words.size())
+      text.replace(at, mark.size(), words);
+  return text;
+}
+
+int write_folder(const NewOptions& options) {
+  const fs::path from = templates() / options.kind;
+  if (!fs::is_directory(from))
+    throw OutputError("S807", "the templates are missing: no folder " + from.string());
+  const fs::path folder = options.folder.empty() ? fs::path(options.name) : options.folder;
+  std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_empty(folder, error))
+    throw UsageError("S807", folder.string() + " is there already and not empty");
+  fs::create_directories(folder, error);
+  if (error) throw OutputError("S601", "cannot make the folder " + folder.string() + ": " + error.message());
+  for (const fs::directory_entry& file : fs::directory_iterator(from)) {
+    std::ifstream in(file.path());
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    // Sources are kept as NAME.cpp.in, which no tool takes for sources.
+    const fs::path name = file.path().extension() == ".in" ? file.path().stem() : file.path().filename();
+    OutFile out(folder / filled_in(name.string(), options.name));
+    out.text() = filled_in(text, options.name);
+    out.finish();
+  }
+  fmt::print("{}: {} {} that builds and conforms; {} says what to do next\n", folder.string(),
+             options.kind == "element" ? "an" : "a", options.kind, (folder / "README.md").string());
+  return kOk;
+}
+
+}  // namespace
+
+Command new_command(CLI::App& parser, const Catalogue&) {
+  auto options = std::make_shared<NewOptions>();
+  parser.add_option("KIND", options->kind, "law, element or umat")
+      ->required()
+      ->check(CLI::IsMember({"law", "element", "umat"}));
+  parser.add_option("NAME", options->name, "its name: lower-case letters, digits and _")
+      ->required()
+      ->check(name_flaw);
+  parser.add_option("-o,--output", options->folder, "folder to write (default: NAME)");
+  return [options] { return write_folder(*options); };
+}
+
+}  // namespace sage::app

@@ -1,0 +1,78 @@
+// One call of a UMAT: its arguments in memory of their own, between guard words.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sage/core/law.hpp"
+#include "sage/umat/routine.hpp"
+
+namespace sage::umat {
+
+// What a material card says of its routine.
+struct Setup {
+  Routine routine;
+  std::string material;    // CMNAME
+  int components = 4;      // NTENS: 4 (11 22 33 12) or 6 (and 13 23)
+  bool symmetric = false;  // DDSDDE is, in every state
+  int statev = 0;          // NSTATV
+  std::vector<double> props;
+};
+
+// Bytes of an integer argument.
+enum class Width : std::uint8_t { four = 4, eight = 8 };
+
+class Call {
+ public:
+  explicit Call(const Setup& setup);
+
+  // Puts in the state at the start of an increment.  h: STATEV, then SSE, SPD and SCD.
+  void load(const PointIn<4>& in, const PointContext& context, Width width);
+  // Calls the routine.  poisoned: the upper halves of all integers hold ones, which routines with integers of 4
+  // bytes don't see.
+  CallEnd run(bool poisoned = false);
+
+  // The argument that was written beyond its end or, of an input, changed, in words; empty = there is none.
+  std::string damage() const;
+  void repair();  // the guard words, after damage
+
+  double pnewdt() const { return pnewdt_; }
+  bool finite() const;
+  Vector4 stress() const;
+  Matrix4 tangent() const;
+  void history(std::span<double> h) const;
+  // Bit by bit: stress, state variables and DDSDDE.
+  std::vector<double> answer() const;
+
+  // For the search of routines that read DFGRD1 alone.
+  void strain_by_gradient(const Vector4& deps);
+
+ private:
+  struct Place {
+    const char* name;
+    std::size_t first, size;
+  };
+  struct Guards {
+    std::size_t first, size;
+  };
+  std::string damage_words() const;
+  double* at(std::size_t which) { return memory_.data() + places_[which].first; }
+  const double* at(std::size_t which) const { return memory_.data() + places_[which].first; }
+  void call();
+
+  const Setup* setup_;
+  std::vector<Place> places_;
+  std::vector<double> memory_;
+  std::vector<Guards> guards_;
+  std::array<double, 3> energies_{};
+  std::array<double, 2> time_{};
+  double dtime_ = 0.0, pnewdt_ = 1.0, size_ = 0.0;
+  std::array<std::int64_t, 10> integers_{};
+  std::array<std::int64_t, 4> jstep_{};
+  std::array<char, 80> name_{};
+};
+
+}  // namespace sage::umat

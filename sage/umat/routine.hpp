@@ -1,0 +1,55 @@
+// User materials of Abaqus/Standard, the interface UMAT: a routine of a shared library, in Fortran or C
+// (docs/manual/umat.md).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sage::umat {
+
+// 37 arguments by reference, and by value the length of CMNAME as Fortran has it.  Integers are 4 bytes, or 8
+// in libraries that were built so.
+using Function = void (*)(double* stress, double* statev, double* ddsdde, double* sse, double* spd, double* scd,
+                          double* rpl, double* ddsddt, double* drplde, double* drpldt, double* stran,
+                          double* dstran, double* time, double* dtime, double* temp, double* dtemp,
+                          double* predef, double* dpred, char* cmname, void* ndi, void* nshr, void* ntens,
+                          void* nstatv, double* props, void* nprops, double* coords, double* drot,
+                          double* pnewdt, double* celent, double* dfgrd0, double* dfgrd1, void* noel, void* npt,
+                          void* layer, void* kspt, void* jstep, void* kinc, std::size_t cmname_length);
+
+struct Routine {
+  std::string file, symbol;
+  Function function = nullptr;
+
+  std::string words() const { return "routine " + symbol + " of " + file; }
+};
+
+// LIBRARY[:SYMBOL]; without a symbol umat_ or umat.  Runs the library's constructors; it is never closed.  Throws
+// std::runtime_error that names the file.
+Routine open_routine(const std::string& text);
+
+struct OpenedLibrary {
+  std::string file;
+  void* handle = nullptr;
+};
+const std::vector<OpenedLibrary>& opened_libraries();
+
+// What the utility routines tell a UMAT of the run.
+void set_job(const std::string& folder, const std::string& name);
+
+// How a call ended.
+enum class Ending : std::uint8_t { returned, xit, stop, exit };
+
+// `words` of at most 200 characters: the message of STOP or of STDB_ABQERR.
+struct CallEnd {
+  Ending ending = Ending::returned;
+  const char* words = "";
+};
+
+// Does `call(data)`.  Where the routine calls XIT, executes STOP or ends the program in another way, its frames are
+// left by longjmp: what it had allocated or opened stays so.
+CallEnd call_caught(void (*call)(void*), void* data);
+
+}  // namespace sage::umat

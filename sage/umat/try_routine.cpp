@@ -1,0 +1,173 @@
+#include "sage/umat/try_routine.hpp"
+
+#include <cmath>
+#include <iomanip>
+#include <optional>
+#include <ostream>
+
+#include "sage/core/error.hpp"
+#include "sage/umat/law.hpp"
+
+namespace sage::umat {
+
+namespace {
+
+struct State {
+  Vector4 sigma = Vector4::Zero(), eps = Vector4::Zero();
+  std::vector<double> h;
+};
+
+struct Answer {
+  State state;
+  Matrix4 D = Matrix4::Zero();
+  bool cut = false;
+};
+
+class Driver {
+ public:
+  Driver(const Trial& trial, std::ostream& out)
+      : trial_(trial), out_(out), law_(umat_law(trial.setup)), start_{trial.stress, Vector4::Zero(), {}} {
+    for (const Quantity& q : law_->history()) start_.h.push_back(q.initial);
+    std::copy_n(trial.statev.begin(), std::min(trial.statev.size(), start_.h.size()), start_.h.begin());
+  }
+
+  bool run() {
+    out_ << trial_.setup.routine.words() << ": " << trial_.setup.components << " components, "
+         << trial_.setup.statev << " state variables, " << trial_.setup.props.size() << " properties\n";
+    try {
+      zero_increment();
+      for (const auto& [name, direction] : paths()) path(name, direction);
+      check("answers twice alike", repeats_);
+      check_tangent();
+      check("DDSDDE is symmetric, as its card says", !trial_.setup.symmetric || asymmetry_ <= 1e-9);
+    } catch (const AnalysisError& error) {
+      check(error.what(), false);
+    }
+    for (const std::string& note : take_notes()) out_ << "note   " << note << "\n";
+    if (states_ > 0 && !trial_.setup.symmetric && asymmetry_ <= 1e-12)
+      out_ << "note   DDSDDE was symmetric everywhere: its card may say so (symmetric = 1), if it always is\n";
+    out_ << "verdict: " << (holds_ ? "conforms" : "does NOT conform") << "\n";
+    return holds_;
+  }
+
+ private:
+  using Path = std::pair<const char*, Vector4>;
+  static std::vector<Path> paths() {
+    return {{"compression along yy, sides held", Vector4(0.0, -1.0, 0.0, 0.0)},
+            {"simple shear xy", Vector4(0.0, 0.0, 0.0, 1.0)},
+            {"compression along yy, extension along xx", Vector4(1.0, -1.0, 0.0, 0.3)}};
+  }
+
+  void check(const std::string& what, bool holds) {
+    out_ << (holds ? "holds  " : "FAILS  ") << what << "\n";
+    holds_ = holds_ && holds;
+  }
+
+  Answer answer(const State& from, const Vector4& deps, bool moves = true) const {
+    const PointContext context{
+        .element = 1, .stage = 1, .increment = 1, .time = 1.0, .dt = moves ? 1.0 : 0.0, .size = 1.0};
+    Answer a;
+    a.state = from;
+    PointOut<4> out;
+    out.h1 = a.state.h;
+    a.cut = law_->update({from.sigma, from.eps, deps, from.h, &context}, out) == Outcome::cut_step;
+    a.state.sigma = out.sigma;
+    a.state.eps = from.eps + deps;
+    a.D = out.D;
+    return a;
+  }
+
+  // Of the routine itself; within the program the state stands where nothing moves.
+  void zero_increment() {
+    Call call(trial_.setup);
+    const Answer first = answer(start_, Vector4::Zero(), false);
+    check("a state that stands has a stiffness", first.D.cwiseAbs().maxCoeff() > 0.0);
+    const PointContext context{.element = 1, .stage = 1, .increment = 1, .time = 1.0, .dt = 1.0, .size = 1.0};
+    call.load({start_.sigma, start_.eps, Vector4::Zero(), start_.h, &context}, context, Width::four);
+    call.run();
+    std::vector<double> h(start_.h.size());
+    call.history(h);
+    if (!call.stress().isApprox(start_.sigma, 1e-10) &&
+        (call.stress() - start_.sigma).norm() > 1e-12 * first.D.norm())
+      out_ << "note   stress changes under no strain: by time, or the state is outside of its surface\n";
+    else if (h != start_.h)
+      out_ << "note   state variables change under no strain\n";
+  }
+
+  void path(const char* name, const Vector4& direction) {
+    constexpr int kSteps = 10;
+    out_ << name << " by " << trial_.strain << " a step; stress, tension +\n";
+    out_ << "  step            xx            yy            zz            xy\n";
+    State state = start_;
+    for (int step = 1; step <= kSteps; ++step) {
+      const Vector4 deps = trial_.strain * direction;
+      const Answer a = answer(state, deps), again = answer(state, deps);
+      if (a.cut) {
+        out_ << "  " << std::setw(4) << step << "  the routine asks for a smaller step\n";
+        break;
+      }
+      repeats_ = repeats_ && a.state.sigma == again.state.sigma && a.state.h == again.state.h && a.D == again.D;
+      look_at_tangent(state, deps, a);
+      state = a.state;
+      out_ << "  " << std::setw(4) << step;
+      for (int i = 0; i < 4; ++i) out_ << std::setw(14) << state.sigma[i];
+      out_ << "\n";
+    }
+  }
+
+  // Against central differences; at a kink one-sided ones differ, so some states may fail.
+  void look_at_tangent(const State& from, const Vector4& deps, const Answer& a) {
+    const double step = 1e-5 * trial_.strain, largest = a.D.cwiseAbs().maxCoeff();
+    Matrix4 D;
+    for (int j = 0; j < 4; ++j) {
+      const Answer up = answer(from, deps + step * Vector4::Unit(j)),
+                   down = answer(from, deps - step * Vector4::Unit(j));
+      if (up.cut || down.cut) return;
+      D.col(j) = (up.state.sigma - down.state.sigma) / (2.0 * step);
+    }
+    ++states_;
+    asymmetry_ = std::max(asymmetry_, (a.D - a.D.transpose()).cwiseAbs().maxCoeff() / largest);
+    const double scale = std::max(largest, D.cwiseAbs().maxCoeff());
+    Eigen::Index row = 0, column = 0;
+    const double error = (a.D - D).cwiseAbs().maxCoeff(&row, &column) / scale;
+    if (error <= 1e-4) return;
+    ++wrong_;
+    if (error > worst_.error)
+      worst_ = {error, static_cast<int>(row), static_cast<int>(column), a.D(row, column), D(row, column)};
+    const double shear = a.D(3, 3) / D(3, 3);
+    twice_ += std::abs(shear - 2.0) < 1e-3 || std::abs(shear - 0.5) < 1e-3 ? 1 : 0;
+  }
+
+  void check_tangent() {
+    check("DDSDDE is the derivative of the stress (" + std::to_string(states_ - wrong_) + " of " +
+              std::to_string(states_) + " states)",
+          states_ > 0 && wrong_ <= states_ / 10);
+    if (wrong_ == 0) return;
+    out_ << "       worst: DDSDDE(" << worst_.row + 1 << "," << worst_.column + 1 << ") = " << worst_.given
+         << ", differences of the stress give " << worst_.found << "\n";
+    if (twice_ > states_ / 2)
+      out_ << "       its shear term is wrong by a factor of 2: shear strains are engineering ones\n";
+  }
+
+  struct Worst {
+    double error = 0.0;
+    int row = 0, column = 0;
+    double given = 0.0, found = 0.0;
+  };
+  const Trial& trial_;
+  std::ostream& out_;
+  std::unique_ptr<SolidLaw> law_;
+  State start_;
+  bool holds_ = true, repeats_ = true;
+  double asymmetry_ = 0.0;
+  int states_ = 0, wrong_ = 0, twice_ = 0;
+  Worst worst_;
+};
+
+}  // namespace
+
+bool try_routine(const Trial& trial, std::ostream& out) {
+  return Driver(trial, out).run();
+}
+
+}  // namespace sage::umat

@@ -1,0 +1,347 @@
+// User materials of Abaqus/Standard: own small ones, in Fortran and C, against the native laws, and ones with faults.
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "tests/regression/program.hpp"
+
+namespace sage::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kUmats = SAGE_TEST_UMATS;
+const std::string kCases = std::string(SAGE_SOURCE_DIR) + "/legacy_inputs/chapter7/";
+
+std::string library(const std::string& name) {
+  return kUmats + "/" + name + "_umat.so";
+}
+
+void expect_words(const std::string& text, const std::vector<std::string>& words) {
+  for (const std::string& word : words)
+    EXPECT_NE(text.find(word), std::string::npos) << word << "\nin:\n" << text;
+}
+
+// Card and parameters of law umat.
+std::string umat_material(const std::vector<std::string>& parameters, const std::string& name = "") {
+  std::string text = card({"1", "100", std::to_string(parameters.size()).c_str()}) + "          " + name;
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    text += (i % 8 == 0 ? "\n" : "") + std::string(10 - parameters[i].size(), ' ') + parameters[i];
+  return text + "\n";
+}
+
+// Two elements under 100, sides held, in ten increments.
+std::string column_deck(const std::string& material, const std::string& initial = "", int initials = 0) {
+  return "a column\nm       kN      kPa\n" +
+         card({"1", "0", "6", "0", "1", "1", "2", "3", std::to_string(initials).c_str(), "1", "1"}) +
+         "\n    1                  0.        0.\n    2                  1.        0.\n    3                  "
+         "0.        "
+         "1.\n    4                  1.        1.\n    5                  0.        2.\n    6                  "
+         "1.        "
+         "2.\n" +
+         material +
+         "    1    1    2    1\n    1    1    1    2    4    3\n    2    1    3    4    6    5\n    1    2    "
+         "1    0    "
+         "1\n    1    5    2    1    0\n    2    6    2    1    0\n" +
+         initial +
+         "press\n   10    0    0    1    0    0    1\n    2    3                100.      100.\n    2    0    "
+         "5    "
+         "6    1    1\nEND\n";
+}
+
+// All numbers of a CSV file, comments and headings left out.
+std::vector<double> numbers(const fs::path& file) {
+  std::vector<double> found;
+  std::istringstream lines(read(file));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('#') || line.empty() || std::isalpha(static_cast<unsigned char>(line[0])) != 0)
+      continue;
+    std::istringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ',');) {
+      std::size_t end = 0;
+      try {
+        const double value = std::stod(cell, &end);
+        if (end == cell.size()) found.push_back(value);
+      } catch (const std::exception&) {
+        continue;  // a word, or blank
+      }
+    }
+  }
+  return found;
+}
+
+// The reports of two decks of the chapter: 1e-10 of the stress, which is what rounding leaves of two orders of
+// summation in 60 increments.
+void expect_same_reports(const fs::path& folder, const std::string& umat_deck, const std::string& native,
+                         const std::string& umat) {
+  write(folder / "umat.dat", umat_deck);
+  const Finished own = sagefe(folder, "run -q -o own --digits 17 " + native);
+  const Finished other = sagefe(folder, "run -q -o other --digits 17 umat.dat --umat " + umat);
+  ASSERT_EQ(own.exit_code, 0) << own.err;
+  ASSERT_EQ(other.exit_code, 0) << other.err;
+  const std::string stem = fs::path(native).parent_path().filename().string();
+  const std::vector<double> expected = numbers(folder / "own" / (stem + ".report1.csv"));
+  const std::vector<double> found = numbers(folder / "other" / "umat.report1.csv");
+  ASSERT_EQ(expected.size(), found.size());
+  ASSERT_GT(expected.size(), 20u);
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_NEAR(found[i], expected[i], 1e-10 * std::max(1.0, std::abs(expected[i]))) << i;
+}
+
+TEST(Umat, ElasticIsTheNativeLawInTheChaptersDecks) {
+  const fs::path folder = empty_folder("umat_elastic");
+  const std::string native = kCases + "pinned_ld2_nu0495/deck.dat", text = read(native);
+  const std::size_t card_at = text.find("    1    1    2"),
+                    end = text.find('\n', text.find("3000.", card_at)) + 1;
+  for (const char* components : {"4", "6"}) {
+    std::string deck = text;
+    deck.replace(card_at, end - card_at, umat_material({components, "0", "1", "0", "3000.", ".495"}, "soil"));
+    for (const char* routine : {"elastic", "elastic_c", "wide"})
+      expect_same_reports(folder, deck, native, library(routine));
+  }
+}
+
+TEST(Umat, DruckerPragerIsTheNativeLawInTheChaptersDecks) {
+  const fs::path folder = empty_folder("umat_dp");
+  const std::string native = kCases + "dp_285/deck.dat", text = read(native);
+  const std::size_t card_at = text.find("    1    3    9"), end = text.find("    2   22   10");
+  for (const char* components : {"4", "6"}) {
+    std::string deck = text;
+    deck.replace(card_at, end - card_at,
+                 umat_material({components, "0", "0", "0", "3000.", ".495", "0.", "36.87"}));
+    expect_same_reports(folder, deck, native, library("drucker_prager"));
+  }
+}
+
+// Element, point, place, increment, times and size of the element as SDV1 ... SDV8, at the last increment of ten.
+TEST(Umat, ContextIsTrue) {
+  const fs::path folder = empty_folder("umat_context");
+  write(folder / "deck.dat", column_deck(umat_material({"4", "8", "1", "0", "1000.", "0.25"})));
+  const Finished run = sagefe(folder, "run deck.dat -o out --points --umat " + library("elastic"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::istringstream lines(read(folder / "out/deck.points.csv"));
+  std::string heading, line, last;
+  while (std::getline(lines, line)) {
+    if (line.find("SDV1") != std::string::npos) heading = line;
+    if (!line.empty()) last = line;
+  }
+  expect_words(heading, {"SDV8", "SSE", "SPD", "SCD"});
+  std::vector<std::string> names, values;
+  for (auto [text, cells] : {std::pair{&heading, &names}, std::pair{&last, &values}}) {
+    std::istringstream stream(*text);
+    for (std::string cell; std::getline(stream, cell, ',');) cells->push_back(cell.substr(0, cell.find('[')));
+  }
+  const auto value = [&](const std::string& name) {
+    const auto at = std::find(names.begin(), names.end(), name) - names.begin();
+    return std::stod(values.at(static_cast<std::size_t>(at)));
+  };
+  EXPECT_EQ(value("SDV1"), 2.0);                 // NOEL
+  EXPECT_EQ(value("SDV2"), 4.0);                 // NPT: from 1
+  EXPECT_NEAR(value("SDV3"), value("x"), 1e-9);  // COORDS
+  EXPECT_NEAR(value("SDV4"), value("y"), 1e-9);
+  EXPECT_EQ(value("SDV5"), 10.0);         // KINC
+  EXPECT_NEAR(value("SDV6"), 0.9, 1e-9);  // TIME(1), at the start of the increment
+  EXPECT_NEAR(value("SDV7"), 0.1, 1e-9);  // DTIME
+  EXPECT_NEAR(value("SDV8"), 1.0, 1e-9);  // CELENT: squares of 1 m
+}
+
+// CMNAME is the material's name; STATEV(1) of the routine in C is the step, where the name begins with C.
+TEST(Umat, MaterialsFindTheirRoutinesByName) {
+  const fs::path folder = empty_folder("umat_names");
+  write(folder / "deck.dat", column_deck(umat_material({"4", "1", "1", "0", "1000.", "0.25"}, "clay")));
+  const std::string c = library("elastic_c");
+  const Finished run = sagefe(folder, "run deck.dat -q -o out --points --umat Clay=" + c + ":umat");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  expect_words(read(folder / "out/deck.points.csv"), {"SDV1"});
+  const Finished none = sagefe(folder, "check deck.dat --umat sand=" + c);
+  EXPECT_EQ(none.exit_code, 2);
+  expect_words(none.err, {"no routine is given for the material \"clay\": --umat clay=LIBRARY loads one"});
+  EXPECT_EQ(sagefe(folder, "check deck.dat --umat sand=" + c + " --umat clay=" + c).exit_code, 0);
+  const Finished twice = sagefe(folder, "check deck.dat --umat clay=" + c + " --umat CLAY=" + c);
+  EXPECT_EQ(twice.exit_code, 1);
+  expect_words(twice.err, {"its materials have a routine already"});
+}
+
+TEST(Umat, LibrariesWithoutARoutineAreRefused) {
+  const fs::path folder = empty_folder("umat_libraries");
+  write(folder / "deck.dat", column_deck(umat_material({"4", "0", "1", "0", "1000.", "0.25"})));
+  write(folder / "text.so", "no library");
+  for (const auto& [value, words] : {std::pair<std::string, std::string>{"none.so", "does not exist"},
+                                     {"text.so", "no ELF file"},
+                                     {library("elastic") + ":other", "has no routine other, other_"},
+                                     {SAGE_TEST_UMAT_MODULE, "has no routine umat_, umat, UMAT"}}) {
+    const Finished run = sagefe(folder, "check deck.dat --umat " + value);
+    EXPECT_EQ(run.exit_code, 1) << run.err;
+    expect_words(run.err, {"--umat " + value, words});
+  }
+  for (const auto& [parameters, words] :
+       {std::pair<std::vector<std::string>, std::string>{{"5", "0"}, "4 or 6"},
+        {{"4", "-1"}, "a whole number from 0"},
+        {{"4", "0", "2"}, "a whole number from 0 to 1"}}) {
+    write(folder / "bad.dat", column_deck(umat_material(parameters)));
+    const Finished run = sagefe(folder, "check bad.dat --umat " + library("elastic"));
+    EXPECT_EQ(run.exit_code, 2);
+    expect_words(run.err, {"bad.dat:", words});
+  }
+}
+
+Finished run_fault(const fs::path& folder, const std::string& fault, const std::string& from = "3.",
+                   const std::string& statev = "1") {
+  write(folder / "deck.dat", column_deck(umat_material({"4", statev, "0", "0", "1000.", "0.25", fault, from})));
+  fs::remove_all(folder / "out");
+  return sagefe(folder, "run deck.dat -o out --umat " + library("faults"));
+}
+
+// From the third increment on: two increments are on the disk, and the run says who, what and where.
+TEST(Umat, RoutinesThatBreakTheirContractAreRefused) {
+  const fs::path folder = empty_folder("umat_faults");
+  const std::vector<std::pair<std::string, std::vector<std::string>>> faults = {
+      {"1.", {"wrote to DDSDDE(", "which has 16 numbers"}},
+      {"2.", {"wrote to STRESS(5), which has 4 numbers"}},
+      {"3.", {"wrote to STATEV(2), which has 1 numbers"}},
+      {"4.", {"called XIT"}},
+      {"5.", {"executed STOP (no convergence)"}},
+      {"9.", {"changed PROPS"}},
+      {"11.", {"executed STOP (12)"}},
+      {"13.", {"called XIT (element 1 of clay has 2.5)"}},
+      {"14.", {"ended the program"}},
+  };
+  for (const auto& [fault, words] : faults) {
+    SCOPED_TRACE(fault);
+    const Finished run = run_fault(folder, fault);
+    EXPECT_EQ(run.exit_code, 3) << run.out << run.err;
+    expect_words(run.err, words);
+    expect_words(run.err,
+                 {"routine umat_ of ", "faults_umat.so", " at element 1, point 1 (", "stage 1, increment 3"});
+    EXPECT_EQ(numbers(folder / "out/deck.report1.csv").size() % 2, 0u);
+    const std::string rows = read(folder / "out/deck.increments.csv");
+    EXPECT_NE(rows.find("\n1,2,"), std::string::npos) << rows;
+    EXPECT_EQ(rows.find("\n1,3,"), std::string::npos) << rows;
+  }
+}
+
+TEST(Umat, OneThatReadsTheDeformationGradientAloneIsRefused) {
+  const fs::path folder = empty_folder("umat_gradient");
+  const Finished run = run_fault(folder, "10.", "0.");
+  EXPECT_EQ(run.exit_code, 3);
+  expect_words(run.err, {"answers DFGRD1 and not DSTRAN"});
+}
+
+// Steps above 0.06 are refused by the routine: every increment of 0.1 is taken in two.
+TEST(Umat, ACutIsAskedForAndTaken) {
+  const fs::path folder = empty_folder("umat_cut");
+  const Finished run = run_fault(folder, "6.", "0.");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.out.find(" 0 cuts"), std::string::npos) << run.out;
+  const Finished sound = run_fault(folder, "0.", "0.");
+  EXPECT_EQ(sound.exit_code, 0) << sound.err;
+  expect_words(sound.out, {" 0 cuts"});
+}
+
+TEST(Umat, NotANumberCutsTheStepAndIsNamed) {
+  const fs::path folder = empty_folder("umat_nan");
+  const Finished run = run_fault(folder, "8.");
+  EXPECT_EQ(run.exit_code, 3) << run.out;
+  expect_words(run.err, {"returned what is no finite number, first at element 1, point 1"});
+}
+
+// Unit 6 of Fortran goes to a file, of which no more is kept than anybody reads.
+TEST(Umat, FloodedOutputIsCaught) {
+  const fs::path folder = empty_folder("umat_flood");
+  const Finished run = run_fault(folder, "7.", "0.");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.out.find("again and again"), std::string::npos);
+  expect_words(run.err, {"deck.dat: note: user materials printed ", "deck.umat.log"});
+  const std::string log = read(folder / "out/deck.umat.log");
+  expect_words(log, {"called", "again and again"});
+  EXPECT_LT(log.size(), std::size_t{257} << 10);
+}
+
+TEST(Umat, IntegersOfEightBytesAreFoundOut) {
+  const fs::path folder = empty_folder("umat_wide");
+  write(folder / "deck.dat", column_deck(umat_material({"4", "8", "1", "0", "1000.", "0.25"})));
+  for (const char* name : {"elastic", "wide"}) {
+    const Finished run =
+        sagefe(folder, std::string("run deck.dat --points -o ") + name + " --umat " + library(name));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.err.find("integers of 8 bytes") != std::string::npos, std::string(name) == "wide") << run.err;
+  }
+  EXPECT_EQ(read(folder / "wide/deck.points.csv"), read(folder / "elastic/deck.points.csv"));
+}
+
+// A state variable that is counted up by every call: 5 at the start, once an increment whatever Newton asked.
+TEST(Umat, StateVariablesStartFromTheDeckAndAreKept) {
+  const fs::path folder = empty_folder("umat_statev");
+  const std::string material = umat_material({"4", "1", "0", "0", "1000.", "0.25", "15.", "0."});
+  write(folder / "deck.dat", column_deck(material, card({"1", "4"}, {"1.", "5."}) + "\n", 1));
+  const Finished run = sagefe(folder, "run deck.dat -o out --points --umat " + library("faults"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::string points = read(folder / "out/deck.points.csv");
+  expect_words(points, {",15,"});  // 5 + 10 increments
+}
+
+TEST(UmatConform, SaysWhatIsWrong) {
+  const fs::path folder = empty_folder("umat_conform");
+  const auto conform = [&](const std::string& routine, const std::string& options) {
+    return sagefe(folder, "conform --umat " + library(routine) + " " + options);
+  };
+  for (const char* components : {"4", "6"}) {
+    const std::string of = std::string(" --components ") + components;
+    EXPECT_EQ(conform("elastic", "--props 1e4,.3 --symmetric" + of).exit_code, 0);
+    EXPECT_EQ(conform("elastic_c", "--props 1e4,.3" + of).exit_code, 0);
+    const Finished dp =
+        conform("drucker_prager", "--props 3000,.3,0,30 --stress 50,50,50,0 --strain 2e-3" + of);
+    EXPECT_EQ(dp.exit_code, 0) << dp.out;
+    expect_words(dp.out, {"verdict: conforms", "simple shear xy"});
+  }
+  const std::vector<std::pair<std::string, std::string>> faults = {
+      {"1", "wrote to DDSDDE("},    {"2", "wrote to STRESS(5)"},
+      {"4", "called XIT"},          {"5", "executed STOP (no convergence)"},
+      {"10", "answers DFGRD1"},     {"16", "wrong by a factor of 2"},
+      {"17", "worst: DDSDDE(1,2)"},
+  };
+  for (const auto& [fault, words] : faults) {
+    const Finished run = conform("faults", "--statev 1 --props 1000,.25," + fault + ",0");
+    EXPECT_EQ(run.exit_code, 3) << run.out << run.err;
+    expect_words(run.out, {words, "verdict: does NOT conform"});
+  }
+  const Finished counts = conform("faults", "--statev 1 --props 1000,.25,15,0");
+  expect_words(counts.out, {"note   state variables change under no strain"});
+  const Finished unsymmetric = conform("faults", "--statev 1 --symmetric --props 1000,.25,18,0");
+  expect_words(unsymmetric.out, {"unsymmetric DDSDDE, though its card says symmetric"});
+}
+
+// Uniaxial stress s: mean s / 3, Mises s.  Shear t: principal values t, 0, -t.  A turn by 90 degrees changes 11 and 22.
+TEST(UmatRoutines, Invariants) {
+  void* module = dlopen(SAGE_TEST_UMAT_MODULE, RTLD_NOW | RTLD_LOCAL);
+  ASSERT_NE(module, nullptr);
+  using Sinv = void (*)(const double*, double*, double*, const int*, const int*);
+  using Sprind = void (*)(const double*, double*, double*, const int*, const int*, const int*);
+  using Rotsig = void (*)(const double*, const double*, double*, const int*, const int*, const int*);
+  const int three = 3, one = 1, two = 2;
+  const double uniaxial[4] = {6.0, 0.0, 0.0, 0.0}, shear[4] = {0.0, 0.0, 0.0, 2.0};
+  double mean = 0.0, mises = 0.0;
+  reinterpret_cast<Sinv>(dlsym(module, "sinv_"))(uniaxial, &mean, &mises, &three, &one);
+  EXPECT_NEAR(mean, 2.0, 1e-14);
+  EXPECT_NEAR(mises, 6.0, 1e-14);
+  double ps[3], an[9];
+  const auto sprind = reinterpret_cast<Sprind>(dlsym(module, "sprind_"));
+  sprind(shear, ps, an, &one, &three, &one);
+  EXPECT_NEAR(ps[0], 2.0, 1e-14);
+  EXPECT_NEAR(ps[1], 0.0, 1e-14);
+  EXPECT_NEAR(ps[2], -2.0, 1e-14);
+  EXPECT_NEAR(std::abs(an[0]), std::sqrt(0.5), 1e-14);  // AN(1,1)
+  EXPECT_NEAR(an[0] * an[3], 0.5, 1e-14);               // AN(1,1) AN(1,2)
+  sprind(shear, ps, an, &two, &three, &one);
+  EXPECT_NEAR(ps[0], 1.0, 1e-14);  // of an engineering shear strain
+  const double turn[9] = {0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0};
+  double turned[4];
+  reinterpret_cast<Rotsig>(dlsym(module, "rotsig_"))(uniaxial, turn, turned, &one, &three, &one);
+  EXPECT_NEAR(turned[0], 0.0, 1e-14);
+  EXPECT_NEAR(turned[1], 6.0, 1e-14);
+}
+
+}  // namespace
+}  // namespace sage::test
