@@ -33,4 +33,18 @@ void add_edge_load(const Eigen::Matrix<double, 2, Line::nodes>& x, const Vector2
   }
 }
 
+// f_i += integral N_i q measure(r) dL, one number a node; q varies linearly as p does above.
+template <class Line, class Kinematics>
+void add_edge_inflow(const Eigen::Matrix<double, 2, Line::nodes>& x, const Vector2& inflow,
+                     const std::vector<int>& edge, std::span<double> f) {
+  for (const LinePoint& point : GaussLine<std::max(5, Line::nodes)>::table) {
+    const Vector<Line::nodes> N = Line::N(point.xi);
+    const double length = (x * Line::dN(point.xi)).norm();
+    const Vector2 ends = Line2::N(point.xi);
+    const double w = point.w * length * Kinematics::measure(x.row(0).dot(N)) * ends.dot(inflow);
+    for (int i = 0; i < Line::nodes; ++i)
+      f[static_cast<std::size_t>(edge[static_cast<std::size_t>(i)])] += w * N(i);
+  }
+}
+
 }  // namespace sage

@@ -30,5 +30,10 @@ ElementEntry tri6_entry();
 ElementEntry tri15_entry();
 ElementEntry interface4_entry();
 ElementEntry interface6_entry();
+ElementEntry flow_quad4_entry();
+ElementEntry flow_quad8_entry();
+ElementEntry flow_quad9_entry();
+ElementEntry flow_tri3_entry();
+ElementEntry flow_tri6_entry();
 
 }  // namespace sage

@@ -35,6 +35,11 @@ void register_elements(Catalogue& catalogue) {
   catalogue.elements.add(9, quad81_entry());
   catalogue.elements.add(11, interface4_entry());
   catalogue.elements.add(12, interface6_entry());
+  catalogue.elements.add(41, flow_quad4_entry());
+  catalogue.elements.add(42, flow_quad8_entry());
+  catalogue.elements.add(43, flow_tri3_entry());
+  catalogue.elements.add(44, flow_tri6_entry());
+  catalogue.elements.add(45, flow_quad9_entry());
 }
 
 }  // namespace sage

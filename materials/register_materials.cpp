@@ -2,6 +2,7 @@
 #include "materials/register_materials.hpp"
 
 #include "materials/clough_duncan.hpp"
+#include "materials/darcy.hpp"
 #include "materials/dilating_joint.hpp"
 #include "materials/drucker_prager.hpp"
 #include "materials/duncan_chang.hpp"
@@ -29,6 +30,8 @@ void register_materials(Catalogue& catalogue) {
   catalogue.materials.add(21, goodman_entry());
   catalogue.materials.add(22, clough_duncan_entry());
   catalogue.materials.add(23, dilating_joint_entry());
+  // Water
+  catalogue.materials.add(41, darcy_entry());
 }
 
 }  // namespace sage

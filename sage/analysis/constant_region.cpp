@@ -22,7 +22,9 @@ ConstantRegion::ConstantRegion(const Model& model, std::vector<GroupData>& group
 // K u cannot be better than rounding of its largest terms.  Near nu = 1/2 those belong to a change of volume
 // that all but vanishes, and summing B u first keeps the digits.
 bool ConstantRegion::suits(const Group& group, const LawRef& law) {
-  if (!group.entry->unknowns.empty() || !group.element->traits().linear) return false;
+  if (!group.element->traits().linear) return false;
+  if (group.flow()) return true;
+  if (!group.entry->unknowns.empty()) return false;
   constexpr double kMostRatio = 1e4;  // of the largest to the smallest stiffness; nu = .4998
   const auto* solid = std::get_if<const SolidLaw*>(&law);
   if (solid == nullptr) return true;  // of joints the relative displacement is taken first
@@ -54,7 +56,8 @@ void ConstantRegion::make_matrices(GroupData& data, const std::vector<int>& shap
 void ConstantRegion::make_shifts(GroupData& data, int matrices) const {
   const std::size_t n = data.dofs();
   data.shift.assign(static_cast<std::size_t>(matrices) * n, 0.0);
-  const bool ring = model_->geometry == Geometry::axisymmetric && !data.group->interface();
+  const bool ring =
+      model_->geometry == Geometry::axisymmetric && !data.group->interface() && !data.group->flow();
   if (!ring) return;
   for (std::size_t m = 0; m < static_cast<std::size_t>(matrices); ++m)
     for (std::size_t j = 0; j < n; j += 2)
@@ -84,9 +87,10 @@ void ConstantRegion::add_forces(const Eigen::VectorXd& du, Eigen::VectorXd& to) 
 
 namespace {
 
-// f = start + K u but for its first two columns + shift times the motion of the first node along x.  count: terms of f;
-// 0 = only `terms` says.  Where the compiler knows it, sums stay in registers; their order is the same.
-template <std::size_t count>
+// f = start + K u but for its first `skipped` columns + shift times the motion of the first node along x.
+// count: terms of f; 0 = only `terms` says.  Where the compiler knows it, sums stay in registers; their order is
+// the same.
+template <std::size_t count, std::size_t skipped = 2>
 void multiply(const double* K, const double* shift, double x, const double* u, std::size_t terms,
               const double* start, double* f) {
   constexpr std::size_t kRoom = count > 0 ? count : 1;
@@ -94,31 +98,47 @@ void multiply(const double* K, const double* shift, double x, const double* u, s
   double in_registers[kRoom];
   double* const sum = count > 0 ? in_registers : f;
   for (std::size_t i = 0; i < n; ++i) sum[i] = (start != nullptr ? start[i] : 0.0) + shift[i] * x;
-  for (std::size_t j = 2; j < n; ++j)
+  for (std::size_t j = skipped; j < n; ++j)
     for (std::size_t i = 0; i < n; ++i) sum[i] += K[j * n + i] * u[j];
   if constexpr (count > 0) std::copy_n(sum, n, f);
+}
+
+using Product = void (*)(const double* K, const double* shift, double x, const double* u, std::size_t terms,
+                         const double* start, double* f);
+
+Product product_for(bool heads, std::size_t n) {
+  if (heads) return n == 4 ? multiply<4, 1> : n == 8 ? multiply<8, 1> : multiply<0, 1>;
+  return n == 8 ? multiply<8> : n == 16 ? multiply<16> : multiply<0>;
+}
+
+// Displacements of an element, or its heads, relative to its first node.
+void take_relative(double* u, std::size_t n, bool heads) {
+  const double x = u[0], y = u[1];
+  const std::size_t step = heads ? 1 : 2;
+  for (std::size_t i = 0; i < n; i += step) {
+    u[i] -= x;
+    if (!heads) u[i + 1] -= y;
+  }
 }
 
 }  // namespace
 
 // K times displacements relative to the first node: differences of neighbours are exact where they are small,
 // and stiff joints and nu near 1/2 make much of every rounding.  A shift along y costs nothing, one along x
-// only in a ring.
+// only in a ring.  So with heads, of which a level that is the same everywhere costs nothing.
 void ConstantRegion::add_group(GroupData& data, const Eigen::VectorXd& du, Eigen::VectorXd& to) {
   const std::size_t n = data.dofs();
   const bool from_zero = data.force.empty();
   if (from_zero && du.isZero(0.0)) return data.trial_force.clear();
   data.trial_force.resize(static_cast<std::size_t>(data.group->elements()) * n);
-  const auto product = n == 8 ? multiply<8> : n == 16 ? multiply<16> : multiply<0>;
+  const bool heads = data.group->flow();
+  const Product product = product_for(heads, n);
   double* const u = element_->du();
   for (int e = 0; e < data.group->elements(); ++e) {
     element_->stop_if_asked_at(e);
     data.dofs_of(e).gather(du, u);
-    const double x = u[0], y = u[1];
-    for (std::size_t i = 0; i < n; i += 2) {
-      u[i] -= x;
-      u[i + 1] -= y;
-    }
+    const double x = u[0];
+    take_relative(u, n, heads);
     const std::size_t begin = static_cast<std::size_t>(e) * n;
     double* const f = data.trial_force.data() + begin;
     product(data.matrix_of(e), data.shift_of(e), x, u, n, from_zero ? nullptr : data.force.data() + begin, f);

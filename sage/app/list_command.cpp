@@ -30,7 +30,7 @@ void list_materials(const Catalogue& catalogue) {
   const UnitSystem generic{"length", "force", "stress", 0.0, 0.0};
   fmt::print("code  law, parameters in the order of the card\n");
   for (const auto& [code, entry] : catalogue.materials.entries()) {
-    fmt::print("{:4}  {} ({}): {}\n", code, entry.name, law_words(entry.law_size), entry.summary);
+    fmt::print("{:4}  {} ({}): {}\n", code, entry.name, law_words(entry), entry.summary);
     int number = 0;
     for (const Parameter& p : entry.parameters) {
       const std::string otherwise = p.required ? "required" : fmt::format("blank = {:g}", p.fallback);

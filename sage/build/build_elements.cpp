@@ -21,6 +21,7 @@ std::string formulations_of(const ElementEntry& entry) {
 
 // "solids": what an element's laws are for.
 std::string laws_for(const ElementEntry& entry) {
+  if (entry.flow()) return "the flow of water";
   if (entry.law_size == 4) return "solids";
   if (entry.law_size == 2) return "interfaces";
   return "structures of " + std::to_string(entry.law_size) +
@@ -394,7 +395,7 @@ void build_groups(Builder& b) {
       if (material != b.material_index.end()) {
         const Material& m = b.model.materials[static_cast<std::size_t>(material->second)];
         const MaterialEntry* law = b.catalogue.materials.find(m.code);
-        if (law != nullptr && law->law_size != entry->law_size)
+        if (law != nullptr && (law->law_size != entry->law_size || law->flow != entry->flow()))
           b.error("S225", card.where("material"),
                   name + ": a " + entry->name + " needs a law for " + laws_for(*entry) + ", material " +
                       std::to_string(m.number) + " is " + law->name);

@@ -161,9 +161,10 @@ void build_reports(Builder& b) {
     Report report;
     report.where = card.where();
     const int kind = card.integer("kind", 1);
-    if (kind < 1 || kind > 3) {
-      b.error("S210", card.where("kind"),
-              "report kind " + std::to_string(kind) + " is unknown; 1 triaxial, 2 nodes, 3 a point");
+    if (kind < 1 || kind > 4) {
+      b.error(
+          "S210", card.where("kind"),
+          "report kind " + std::to_string(kind) + " is unknown; 1 triaxial, 2 nodes, 3 a point, 4 a discharge");
       continue;
     }
     report.kind = static_cast<ReportKind>(kind);

@@ -204,7 +204,7 @@ void add_middle_nodes(Builder& b, PlacedNodes& nodes) {
   std::map<int, int> corners;  // of the groups' elements
   for (const CardView& group : b.deck.all("group")) {
     const ElementEntry* entry = b.catalogue.elements.find(group.integer("element"));
-    if (entry != nullptr && entry->solid()) corners[group.integer("number")] = entry->corners;
+    if (entry != nullptr && entry->fills_area()) corners[group.integer("number")] = entry->corners;
   }
   for (const CardView& card : b.deck.all("element"))
     if (const auto found = corners.find(card.integer("group", 1)); found != corners.end())

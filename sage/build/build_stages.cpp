@@ -168,6 +168,12 @@ void read_pressure(Builder& b, const CardView& card, std::vector<EdgeLoad>& out)
                   group.element_name + ")" + numbers);
       return;
     }
+    if (group.flow() && !load.shear.isZero(0.0)) {
+      b.error("S230", card.where("shear1"),
+              "element " + std::to_string(number) + " (" + group.element_name +
+                  ") takes an inflow through its edge, in the columns of the pressure, and no shear");
+      return;
+    }
     load.edge = folded >= 0 && edge > folded ? edge - 1 : edge;
     load.group = place->group;
     load.element = place->element;

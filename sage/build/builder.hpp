@@ -131,6 +131,8 @@ void check_model(Builder& b);
 void check_stages(Builder& b);
 // Straight sides that are held over a part of their length.
 void check_sides(Builder& b);
+// Lines that discharge is asked for, and weights of what has none.
+void check_water(Builder& b);
 // Nodes at one place, hanging nodes, joints without a solid on one side.
 void check_joints(Builder& b);
 

@@ -86,6 +86,18 @@ void check_shapes(Builder& b) {
                   rounded_text(worst_angle, 3) + " degrees");
 }
 
+// A flag a node: only elements without displacements, which water flows through, have it otherwise.
+std::vector<char> moved_nodes(const Model& model) {
+  std::vector<char> moved(static_cast<std::size_t>(model.mesh.nodes()), 1);
+  for (const Group& group : model.groups)
+    if (!group.entry->moves())
+      for (const int node : group.nodes) moved[static_cast<std::size_t>(node)] = 0;
+  for (const Group& group : model.groups)
+    if (group.entry->moves())
+      for (const int node : group.nodes) moved[static_cast<std::size_t>(node)] = 1;
+  return moved;
+}
+
 // In axisymmetry a point on the axis can't move radially.
 void fix_axis(Builder& b) {
   Model& model = b.model;
@@ -94,11 +106,13 @@ void fix_axis(Builder& b) {
   std::vector<char> held(static_cast<std::size_t>(model.mesh.nodes()), 0);
   for (const Fixity& f : model.fixities)
     if (f.code[0] == FixityCode::fixed) held[static_cast<std::size_t>(f.node)] = 1;
+  const std::vector<char> moved = moved_nodes(model);
   int added = 0;
   for (int node = 0; node < model.mesh.nodes(); ++node) {
     const double r = model.mesh.x(0, node);
     if (r < -1e-12 * reach) continue;  // its elements are refused
     if (std::abs(r) > 1e-12 * reach || held[static_cast<std::size_t>(node)]) continue;
+    if (!moved[static_cast<std::size_t>(node)]) continue;
     Fixity fixity;
     fixity.node = node;
     fixity.code[0] = FixityCode::fixed;
@@ -243,6 +257,7 @@ void check_model(Builder& b) {
   check_inactive(b);
   note_unused_nodes(b);
   note_unused_materials(b);
+  check_water(b);
   check_joints(b);
   check_sides(b);
   warn_materials(b);

@@ -2,6 +2,7 @@
 // number, name and parameters with units, so that parser, manual and error text come from one place.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <limits>
@@ -77,6 +78,7 @@ struct MaterialEntry {
   LawPtr law_for(std::span<const double> values, const UnitSystem& units, const std::string& material) const {
     return make_for ? make_for(values, units, material) : make(values, units);
   }
+  bool flow = false;  // a law of water in soil: for elements of ElementKind::flow alone
 
   bool for_solids() const { return law_size == 4; }
   // Place of a parameter on the card, from 0; -1 = there is none.  Of several of a role the first.
@@ -91,6 +93,10 @@ struct MaterialEntry {
     return -1;
   }
 };
+
+inline std::string law_words(const MaterialEntry& entry) {
+  return entry.flow ? "flow of water" : law_words(entry.law_size);
+}
 
 struct Formulation {
   int code = 0;
@@ -142,6 +148,13 @@ struct ElementEntry {
   bool solid() const { return kind == ElementKind::solid; }
   bool interface() const { return kind == ElementKind::interface; }
   bool structure() const { return kind == ElementKind::structure; }
+  bool flow() const { return kind == ElementKind::flow; }
+  bool fills_area() const { return solid() || flow(); }
+  // Some of its nodes are displaced; else it has neither weight nor stress.
+  bool moves() const {
+    return unknowns.empty() ||
+           std::ranges::any_of(unknowns, [](const ElementUnknown& one) { return one.field.displacement(); });
+  }
   bool triangle() const { return shape == ParentShape::triangle; }
   bool square() const { return shape == ParentShape::square; }
   bool only_corners() const { return nodes == corners; }

@@ -26,9 +26,10 @@ enum class ElementKind {
   solid,      // fills an area; its law relates four stresses to strains
   interface,  // joins two bodies: bottom and top side at one place; its law relates two tractions to slips
   structure,  // a line with stiffness of its own (bar, beam); its law relates 1, 3 or 5 section forces to strains
+  flow,       // fills an area that water flows through; its law relates the flow to the slope of the head
 };
-inline constexpr std::array<ElementKind, 3> kElementKinds{ElementKind::solid, ElementKind::interface,
-                                                          ElementKind::structure};
+inline constexpr std::array<ElementKind, 4> kElementKinds{ElementKind::solid, ElementKind::interface,
+                                                          ElementKind::structure, ElementKind::flow};
 
 // What the value of a field may be computed from.  Numbers are as people read them: stress and strain
 // compression positive, displacements and forces along +x (+r) and +y (+z), full circle in axisymmetry.

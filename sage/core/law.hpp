@@ -75,6 +75,8 @@ struct PointContext {
 // N = 2: [shear, normal] traction and relative displacement; normal > 0 opens.
 // Structures have section forces and what they do work on, first the axial force and strain: N = 1 [axial];
 // N = 3 [axial, shear, bending]; N = 5 [axial, hoop, shear, bending, hoop bending].
+// Laws of water in soil (MaterialEntry::flow) have N = 3: slope of the head and the head itself [h,x h,y h], and
+// what the flow is against, [-v_x, -v_y, 0].
 template <int N>
 struct PointIn {
   Vector<N> sigma0;            // committed stress

@@ -245,6 +245,29 @@ void add_structure_fields(std::vector<FieldEntry>& rows) {
                   .kind = ElementKind::structure});
 }
 
+// What a law of water has is tension + as all is inside: the flow is against it.
+void add_flow_fields(std::vector<FieldEntry>& rows) {
+  rows.push_back({.name = "velocity",
+                  .meaning = "velocity of water: volume per area and time",
+                  .dimension = Dimension::velocity,
+                  .value = PointField{[](const PointView& p, double* v) {
+                    for (std::size_t i = 0; i < 2; ++i) v[i] = 0.0 - p.sigma[i];
+                  }},
+                  .components = {{"x", {"v-x", "v-r"}}, {"y", {"v-y", "v-z"}}},
+                  .shape = FieldShape::vector,
+                  .sign = FieldSign::along_axes,
+                  .kind = ElementKind::flow});
+  rows.push_back({.name = "hydraulic_gradient",
+                  .meaning = "hydraulic gradient: fall of the head along x and y",
+                  .value = PointField{[](const PointView& p, double* v) {
+                    for (std::size_t i = 0; i < 2; ++i) v[i] = 0.0 - p.eps[i];
+                  }},
+                  .components = {{"x", {"i-x", "i-r"}}, {"y", {"i-y", "i-z"}}},
+                  .shape = FieldShape::vector,
+                  .sign = FieldSign::along_axes,
+                  .kind = ElementKind::flow});
+}
+
 void add_state_fields(std::vector<FieldEntry>& rows) {
   rows.push_back({.name = "stress_level",
                   .meaning = "stress level (1 = at strength)",
@@ -336,6 +359,7 @@ const std::vector<FieldEntry>& program_fields() {
     add_strain_fields(all);
     add_interface_fields(all);
     add_structure_fields(all);
+    add_flow_fields(all);
     add_state_fields(all);
     add_element_fields(all);
     add_increment_fields(all);

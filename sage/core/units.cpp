@@ -18,6 +18,10 @@ std::string unit_text(Dimension dimension, const UnitSystem& units) {
       return units.stress + "/" + units.length;
     case Dimension::unit_weight:
       return units.force + "/" + units.length + "^3";
+    case Dimension::velocity:
+      return units.length + "/time";
+    case Dimension::discharge:
+      return units.length + "^3/time";
   }
   return "-";
 }

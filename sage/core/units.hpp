@@ -15,6 +15,8 @@ enum class Dimension {
   stress,             // psi, kPa
   stress_per_length,  // psi/in: stiffness of an interface
   unit_weight,        // lbf/in^3
+  velocity,           // m/time: of flow, and permeability; the time unit is that of the deck's permeability
+  discharge,          // m^3/time (full circle when axisymmetric, unit thickness in plane strain)
 };
 
 struct UnitSystem {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <unordered_map>
 
 namespace sage::mesh {
@@ -26,15 +27,14 @@ struct CutEdge {
   }
 };
 
-// Edges whose made nodes take something over: outer ones, and inner ones whose own
-// middle node says what is meant.
-std::vector<CutEdge> cut_edges(const MadeEdges& edges, int first_made) {
+// Edges with made nodes: outer ones, and inner ones whose own middle node says what is meant; or all.
+std::vector<CutEdge> cut_edges(const MadeEdges& edges, int first_made, bool all = false) {
   std::vector<CutEdge> cut;
   for (const auto& [ends, edge] : edges) {
     CutEdge one{{{0.0, ends.first}, {1.0, ends.second}}, {}};
     for (std::size_t i = 0; i < edge.nodes.size(); ++i)
       (edge.nodes[i] < first_made ? one.known : one.made).push_back({edge.at[i], edge.nodes[i]});
-    if (one.made.empty() || (edge.solids > 1 && one.known.size() == 2)) continue;
+    if (one.made.empty() || (!all && edge.solids > 1 && one.known.size() == 2)) continue;
     std::sort(one.known.begin(), one.known.end(), [](const OnEdge& a, const OnEdge& b) { return a.at < b.at; });
     cut.push_back(std::move(one));
   }
@@ -151,6 +151,32 @@ void inherit_report(Report& report, const std::vector<CutEdge>& edges) {
     }
 }
 
+bool follows_a_line(const Report& report) {
+  return report.kind == ReportKind::discharge;
+}
+
+// A line that discharge is asked for may go anywhere: what was made between two of its nodes is put between them.
+void fill_line(std::vector<int>& line, const std::vector<CutEdge>& edges) {
+  std::map<std::pair<int, int>, std::vector<OnEdge>> between;  // known nodes next to each other, both ways
+  for (const CutEdge& edge : edges)
+    for (const OnEdge& made : edge.made) {
+      const std::size_t behind = edge.behind(made);
+      const int a = edge.known[behind - 1].node, z = edge.known[behind].node;
+      between[{a, z}].push_back(made);
+      between[{z, a}].push_back({-made.at, made.node});
+    }
+  std::vector<int> filled;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    filled.push_back(line[i]);
+    if (i + 1 == line.size()) break;
+    const auto found = between.find({line[i], line[i + 1]});
+    if (found == between.end()) continue;
+    std::ranges::sort(found->second, {}, &OnEdge::at);
+    for (const OnEdge& made : found->second) filled.push_back(made.node);
+  }
+  line = std::move(filled);
+}
+
 // The supports of one field of one number a node, in a list of cards, follow as those of a displacement do.
 void follow_field(Supports& supports, int field, std::vector<FieldFixity>& list,
                   const std::vector<CutEdge>& edges) {
@@ -172,6 +198,11 @@ void inherit_field(Model& model, int field, const std::vector<CutEdge>& edges) {
 }  // namespace
 
 void inherit_along_edges(Model& model, const MadeEdges& edges, int first_made) {
+  if (std::ranges::any_of(model.reports, follows_a_line)) {
+    const std::vector<CutEdge> all = cut_edges(edges, first_made, true);
+    for (Report& report : model.reports)
+      if (follows_a_line(report)) fill_line(report.nodes, all);
+  }
   const std::vector<CutEdge> cut = cut_edges(edges, first_made);
   if (cut.empty()) return;
   Supports supports(model.mesh.nodes());
@@ -179,7 +210,8 @@ void inherit_along_edges(Model& model, const MadeEdges& edges, int first_made) {
   for (Stage& stage : model.stages) supports.follow(stage.fixities, cut);
   for (std::size_t field = 1; field < model.unknowns.size(); ++field)
     inherit_field(model, static_cast<int>(field), cut);
-  for (Report& report : model.reports) inherit_report(report, cut);
+  for (Report& report : model.reports)
+    if (!follows_a_line(report)) inherit_report(report, cut);
 }
 
 int NewNodes::append() {

@@ -18,6 +18,11 @@ inline EdgeKey edge_key(int a, int z) {
   return {std::min(a, z), std::max(a, z)};
 }
 
+// Bodies that share an edge make it an inner one; water that flows through a body lies on the same edges.
+inline bool counts_for_outline(const Group& group) {
+  return group.entry->fills_area() && !(group.flow() && group.overlay);
+}
+
 // Nodes inside an edge: those that cards give, and those that are made.
 struct MadeEdge {
   std::vector<int> nodes;

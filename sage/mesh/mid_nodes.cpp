@@ -48,7 +48,7 @@ void make_edge(Work& b, const Group& group, int e, int* nodes, const std::vector
   const EdgeKey key = edge_key(a, z);
   if (!fits(b, group, e, made, key, inner)) return;
   MadeEdge& edge = made.edges[key];
-  if (group.solid()) ++edge.solids;
+  if (counts_for_outline(group)) ++edge.solids;
   if (inner == 0) return;
   const bool begun = !edge.nodes.empty();
   if (!begun) {
@@ -113,7 +113,7 @@ void make_group(Work& b, Group& group, Making& made) {
     const int before = b.problems.errors();
     for (const std::vector<int>& local : group.element->edges()) make_edge(b, group, e, nodes, local, made);
     if (b.problems.errors() > before) return;  // one message a group
-    if (group.solid()) make_inner(group, corners, nodes, made);
+    if (group.entry->fills_area()) make_inner(group, corners, nodes, made);
   }
 }
 

@@ -123,7 +123,7 @@ Subdivision::Subdivision(Work& b) : b_(&b), nodes_(b.model.mesh) {
       for (const auto& edge : group.element->edges()) {
         const int* nodes = group.nodes_of(e);
         MadeEdge& known = edges_[edge_key(nodes[edge[0]], nodes[edge[1]])];
-        known.solids += group.interface() ? 0 : 1;
+        known.solids += counts_for_outline(group) ? 1 : 0;
         const int middle = middle_of(edge) < 0 ? -1 : nodes[middle_of(edge)];
         if (middle < 0 || !known.nodes.empty()) continue;
         known.nodes.push_back(middle);

@@ -65,7 +65,8 @@ std::vector<char> active_nodes(const Model& model, const Activity& activity) {
 }
 
 std::vector<int> connected_parts(const Model& model, const Activity& activity) {
-  return connected_parts(model, [&](std::size_t g, int) { return activity.group[g] != 0; });
+  return connected_parts(
+      model, [&](std::size_t g, int) { return activity.group[g] != 0 && model.groups[g].entry->moves(); });
 }
 
 std::vector<int> connected_parts(const Model& model, const Carries& carries) {

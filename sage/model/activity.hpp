@@ -27,7 +27,7 @@ struct Activity {
 // A flag for every node: some element of an active group has it.
 std::vector<char> active_nodes(const Model& model, const Activity& activity);
 
-// For every node the number of its connected part (by elements of active groups), -1 = in no active element.
+// For every node the number of its connected part (by elements of active groups that are displaced), -1 = in none.
 std::vector<int> connected_parts(const Model& model, const Activity& activity);
 // By those elements alone that carry something: of group number `group`, counted from 0.
 using Carries = std::function<bool(std::size_t group, int element)>;

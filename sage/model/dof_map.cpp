@@ -14,7 +14,7 @@ std::vector<int> nodes_with(const ElementUnknown& unknown, std::size_t nodes) {
   return all;
 }
 
-// A flag a node: some element has it, and the field there.
+// A flag a node: some element has it, and the field there.  Nodes that are still to be made are -1.
 std::vector<char> nodes_of_field(const Model& model, const std::string& name) {
   std::vector<char> flags(static_cast<std::size_t>(model.mesh.nodes()), 0);
   for (const Group& group : model.groups) {
@@ -23,7 +23,8 @@ std::vector<char> nodes_of_field(const Model& model, const std::string& name) {
       if (unknown.field.name != name) continue;
       const std::vector<int> local = nodes_with(unknown, group.node_count());
       for (int e = 0; e < group.elements(); ++e)
-        for (const int i : local) flags[static_cast<std::size_t>(group.nodes_of(e)[i])] = 1;
+        for (const int i : local)
+          if (const int node = group.nodes_of(e)[i]; node >= 0) flags[static_cast<std::size_t>(node)] = 1;
     }
   }
   return flags;

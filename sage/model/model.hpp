@@ -63,6 +63,7 @@ struct Group {
   bool solid() const { return entry->solid(); }
   bool interface() const { return entry->interface(); }
   bool structure() const { return entry->structure(); }
+  bool flow() const { return entry->flow(); }
 };
 
 // Makes a group one of these elements.  formulation: 0 = the first.  Throws ParameterError for one that the
@@ -147,11 +148,12 @@ struct Stage {
   SourcePosition where;
 };
 
-enum class ReportKind { triaxial = 1, nodes = 2, point = 3 };
+enum class ReportKind { triaxial = 1, nodes = 2, point = 3, discharge = 4 };
 
 // triaxial: axial force of the listed nodes against the law's own answer for frictionless ends.
 // nodes: displacement and force summed over the listed nodes, a row an increment.
 // point: displacement, strain and stress at a place, a row an increment.
+// discharge: what flows through a line of nodes, from its left to its right, a row an increment.
 struct Report {
   ReportKind kind = ReportKind::triaxial;
   int group = -1;  // triaxial: of the specimen; point: the one that answers where several meet, -1 = the first

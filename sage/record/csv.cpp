@@ -161,6 +161,8 @@ Csv::Table& Csv::of(ElementKind kind) {
       return interfaces_;
     case ElementKind::structure:
       return structures_;
+    case ElementKind::flow:
+      return flows_;
     case ElementKind::solid:
       break;
   }
@@ -176,6 +178,7 @@ void Csv::choose_fields(const Model& model) {
   nodes_.fields = fields_named({}, {"displacement", "external_force", "reaction"});
   points_.fields = fields_named({}, {"stress", "strain", "stress_level", "status"});
   interfaces_.fields = fields_named({}, {"traction", "relative_displacement", "stress_level", "status"});
+  flows_.fields = fields_named({}, {"velocity", "hydraulic_gradient"});
   unknowns_ = unknown_fields(model);
   for (const FieldEntry& row : unknowns_) nodes_.fields.push_back(&row);
   fields_ = fields_of(model);
@@ -211,7 +214,8 @@ void Csv::on_start(const Model& model, const Scene&, std::string_view, int) {
   open(nodes_, places_header(model, "node"), model);
   open(points_, places_header(model, kPointColumns), model);
   const std::pair<ElementKind, const char*> kOthers[] = {{ElementKind::interface, ".interfaces.csv"},
-                                                         {ElementKind::structure, ".structures.csv"}};
+                                                         {ElementKind::structure, ".structures.csv"},
+                                                         {ElementKind::flow, ".flow.csv"}};
   for (const auto& [kind, name] : kOthers) {
     const auto has = [kind = kind](const Group& group) { return group.entry->kind == kind; };
     if (wants_points_ && std::ranges::any_of(model.groups, has))

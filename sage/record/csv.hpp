@@ -39,7 +39,7 @@ class Csv final : public Output {
     OutFile file;
     FieldList fields;  // columns, in this order
   };
-  std::array<Table*, 5> all() { return {&increments_, &nodes_, &points_, &interfaces_, &structures_}; }
+  std::array<Table*, 6> all() { return {&increments_, &nodes_, &points_, &interfaces_, &structures_, &flows_}; }
   Table& of(ElementKind kind);
   void open(Table& table, const std::string& header, const Model& model);
   void choose_fields(const Model& model);
@@ -56,7 +56,7 @@ class Csv final : public Output {
   FieldTable fields_;                                                  // of the model
   std::vector<FieldEntry> unknowns_;                                   // besides displacement
   std::array<std::vector<FieldEntry>, kElementKinds.size()> history_;  // of the laws of each kind
-  Table increments_, nodes_, points_, interfaces_, structures_;
+  Table increments_, nodes_, points_, interfaces_, structures_, flows_;
   std::vector<std::filesystem::path> files_;
 };
 

@@ -78,6 +78,14 @@ std::vector<FieldEntry> unknown_fields(const Model& model) {
         unknown.load_dimension, &UnknownView::load);
     add(unknown.name + "_reaction", unknown.load + " of the " + unknown.name + " where it is held",
         unknown.load_dimension, &UnknownView::reaction);
+    if (unknown.name == "head")
+      rows.push_back({.name = "pressure_head",
+                      .meaning = "head above the node's place",
+                      .dimension = Dimension::length,
+                      .value = NodeField{[=](const NodeView& node, double* v) {
+                        *v = node.unknowns[i].value - node.place.y();
+                      }},
+                      .optional = true});
   }
   return rows;
 }

@@ -59,6 +59,20 @@ void node_rows(std::string& text, const Model& model, const std::vector<NodesRow
   if (std::ranges::any_of(rows, holds)) text += kHeldNote;
 }
 
+void discharge_rows(std::string& text, const Model& model, const std::vector<DischargeRow>& rows) {
+  fmt::format_to(
+      to(text),
+      "   {:>5}{:>6}{:>14}{:>14}{:>14}    (discharge {}, from the left of the line to its right; largest "
+      "gradient across it; mean head {})\n",
+      "stage", "incr", "discharge", "gradient", "head", unit_text(Dimension::discharge, model.units),
+      model.units.length);
+  for (const DischargeRow& r : rows) {
+    fmt::format_to(to(text), "   {:>5}{:>6}", r.stage, r.increment);
+    for (double v : {r.discharge, r.gradient, r.head}) put(text, v, 14, 6);
+    text += '\n';
+  }
+}
+
 void point_rows(std::string& text, const Model& model, const std::vector<PointRow>& rows) {
   text += "   stage  incr";
   const FieldTable table;
@@ -133,6 +147,10 @@ void report_rows(std::string& text, const Model& model, const Reports& reports) 
       case ReportKind::nodes:
         heading(text, fmt::format("REPORT {}: NODES", i + 1));
         node_rows(text, model, reports.nodes(i));
+        break;
+      case ReportKind::discharge:
+        heading(text, fmt::format("REPORT {}: DISCHARGE", i + 1));
+        discharge_rows(text, model, reports.discharges(i));
         break;
       case ReportKind::point:
         heading(text,

@@ -62,6 +62,9 @@ GroupColumns columns_of(const GroupData& data, const FieldTable& table, const st
     case ElementKind::interface:
       columns.components = fields_named(table, {"traction", "relative_displacement"});
       break;
+    case ElementKind::flow:
+      columns.wide = fields_named(table, {"velocity", "hydraulic_gradient"});
+      break;
     case ElementKind::structure:
       for (const FieldEntry& row : table.rows())
         if (row.kind == ElementKind::structure && applies(row, data)) columns.wide.push_back(&row);
@@ -102,6 +105,11 @@ void point_columns(std::string& text, const Model& model, const GroupData& data,
                      "\n   Interface of group {} {} (stress {}, relative displacement {}; compression and "
                      "closing positive)\n",
                      number, name, model.units.stress, model.units.length);
+      break;
+    case ElementKind::flow:
+      fmt::format_to(to(text), "\n   Flow in group {} {} (velocity {}, along +{} and +{})\n", number, name,
+                     unit_text(Dimension::velocity, model.units), axis_names(model.geometry).x,
+                     axis_names(model.geometry).y);
       break;
     case ElementKind::structure:
       fmt::format_to(to(text), "\n   Structure of group {} {} (force {}, compression positive)\n", number, name,

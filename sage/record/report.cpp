@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "sage/analysis/flow_through.hpp"
 #include "sage/analysis/loads.hpp"
 #include "sage/record/nodal_values.hpp"
 #include "sage/record/number.hpp"
@@ -82,6 +83,11 @@ std::string remarks(const Model& model, std::size_t index) {
         "supports "
         "put on the nodes, without the weight of the soil; positive along +x, +y; forces {}\n",
         report.stage + 1, per);
+  if (report.kind == ReportKind::discharge)
+    return fmt::format(
+        "# discharge through a line of nodes, from its left to its right; volumes per time {}\n"
+        "# gradient: largest fall of the head across the line at its nodes; head: mean of its nodes\n",
+        per);
   return fmt::format(
       "# {}; displacement along +x, +y and strain since the start of stage {}; stress and strain compression "
       "positive, shear likewise reversed and engineering; units {}, {}\n"
@@ -117,6 +123,10 @@ std::vector<ReportColumn> report_columns(const Model& model, const Report& repor
             {"ratio", "-", true}};
   if (report.kind == ReportKind::nodes)
     return {{"ux", u.length}, {"uy", u.length}, {"fx", u.force}, {"fy", u.force}};
+  if (report.kind == ReportKind::discharge)
+    return {{"discharge", unit_text(Dimension::discharge, u), true},
+            {"gradient", "-", true},
+            {"head", u.length, true}};
   const FieldTable table = fields_of(model);
   std::vector<ReportColumn> columns;
   for (const FieldEntry* field : point_report_fields(table, report))
@@ -200,8 +210,9 @@ void Reports::on_start(const Model& model, const Scene&, std::string_view, int) 
 }
 
 bool Reports::wants_states(const Model& model, const StepReport&) const {
-  return std::any_of(model.reports.begin(), model.reports.end(),
-                     [](const Report& r) { return r.kind == ReportKind::point; });
+  return std::any_of(model.reports.begin(), model.reports.end(), [](const Report& r) {
+    return r.kind == ReportKind::point || r.kind == ReportKind::discharge;
+  });
 }
 
 void Reports::on_stage_start(const Model& model, int stage, const Solution& solution) {
@@ -257,6 +268,7 @@ void Reports::enter_points(const Model& model, const Solution& solution) {
   std::optional<ProbeMaker> maker;
   for (std::size_t i = 0; i < series_.size(); ++i) {
     const Report& report = model.reports[i];
+    if (report.kind == ReportKind::discharge) series_[i].line = flow_line(model, probed_, report.nodes);
     if (report.kind != ReportKind::point) continue;
     if (!maker) maker.emplace(model, probed_);
     series_[i].probe = maker->at(report.place, report.group);
@@ -321,15 +333,30 @@ void Reports::add_point(Series& series, const Model& model, const StepReport& st
   series.points.push_back(r);
 }
 
+void Reports::add_discharge(Series& series, const Model& model, const Report& report, const StepReport& step,
+                            const Solution& solution) {
+  DischargeRow r{step.stage + 1, step.increment, kUnknown, kUnknown, kUnknown};
+  if (series.line.fault.empty()) {
+    const FlowThrough through = flow_through(model, series.line, report.nodes, solution.groups(),
+                                             solution.activity->dof_map, *solution.u);
+    r.discharge = through.discharge;
+    r.gradient = through.gradient;
+    r.head = through.head;
+  }
+  series.discharges.push_back(r);
+}
+
 std::size_t Reports::rows(std::size_t index) const {
   const Series& series = series_[index];
-  return series.triaxial.size() + series.nodes.size() + series.points.size();  // of one kind only
+  return series.triaxial.size() + series.nodes.size() + series.points.size() +
+         series.discharges.size();  // of one kind only
 }
 
 std::pair<int, int> Reports::step(std::size_t index, std::size_t row) const {
   const Series& series = series_[index];
   if (row < series.triaxial.size()) return {series.triaxial[row].stage, series.triaxial[row].increment};
   if (row < series.nodes.size()) return {series.nodes[row].stage, series.nodes[row].increment};
+  if (row < series.discharges.size()) return {series.discharges[row].stage, series.discharges[row].increment};
   return {series.points.at(row).stage, series.points.at(row).increment};
 }
 
@@ -343,6 +370,10 @@ std::vector<double> Reports::values(std::size_t index, std::size_t row) const {
   if (row < series.nodes.size()) {
     const NodesRow& r = series.nodes[row];
     return {r.displacement[0], r.displacement[1], r.force[0], r.force[1]};
+  }
+  if (row < series.discharges.size()) {
+    const DischargeRow& r = series.discharges[row];
+    return {r.discharge, r.gradient, r.head};
   }
   const PointRow& r = series.points.at(row);
   std::vector<double> values(r.displacement, r.displacement + 2);
@@ -383,6 +414,8 @@ void Reports::add_rows(const Model& model, const StepReport& step, const Solutio
     note_release(series, model, step);
     if (report.kind == ReportKind::point) {
       add_point(series, model, step, solution);
+    } else if (report.kind == ReportKind::discharge) {
+      add_discharge(series, model, report, step, solution);
     } else {
       const NodeSums sums = sum_nodes(model, report, solution, series.weight, step.load_factor);
       if (report.kind == ReportKind::triaxial)
@@ -437,6 +470,7 @@ void Reports::exchange(Archive& archive) {
     archive(series.triaxial);
     archive(series.nodes);
     archive(series.points);
+    archive(series.discharges);
     archive(series.filled);
     archive(series.group);
     archive(series.start);

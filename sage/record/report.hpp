@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "sage/core/point_driver.hpp"
+#include "sage/model/flow_line.hpp"
 #include "sage/record/number.hpp"
 #include "sage/record/out_file.hpp"
 #include "sage/record/output.hpp"
@@ -51,6 +52,14 @@ struct PointRow {
   double stress[4] = {0, 0, 0, 0};
   double mean = 0.0, deviator = 0.0;  // p = (xx + yy + zz) / 3 and q = sqrt(3 J2) of that stress
 };
+
+// One increment of a discharge report: FlowThrough of the line; NaN while nothing that water flows through is
+// active on its left.
+struct DischargeRow {
+  int stage = 0, increment = 0;
+  double discharge = 0.0, gradient = 0.0, head = 0.0;
+};
+
 // The usual fields of a point report, whose values are those numbers; then come those of Report::fields.
 FieldList point_report_fields(const FieldTable& table, const Report& report);
 
@@ -90,6 +99,7 @@ class Reports final : public Output {
   const std::vector<TriaxialRow>& triaxial(std::size_t index) const { return series_[index].triaxial; }
   const std::vector<NodesRow>& nodes(std::size_t index) const { return series_[index].nodes; }
   const std::vector<PointRow>& points(std::size_t index) const { return series_[index].points; }
+  const std::vector<DischargeRow>& discharges(std::size_t index) const { return series_[index].discharges; }
   std::size_t count() const { return series_.size(); }
 
   // The same for reports of any kind: their rows so far, each row's stage and increment (from 1), and its
@@ -123,6 +133,8 @@ class Reports final : public Output {
     std::vector<TriaxialRow> triaxial;
     std::vector<NodesRow> nodes;
     std::vector<PointRow> points;
+    std::vector<DischargeRow> discharges;
+    FlowLine line;              // of a discharge, in the present stage
     std::vector<double> more;   // numbers of Report::fields, a row behind the other
     Probe probe;                // of a point, in the present stage
     bool filled = false;        // something was born there, and what follows counts from it
@@ -139,6 +151,7 @@ class Reports final : public Output {
   void add_triaxial(Series&, const Report&, const StepReport&, const NodeSums&);
   static void add_nodes(Series&, const StepReport&, const NodeSums&);
   static void add_point(Series&, const Model&, const StepReport&, const Solution&);
+  static void add_discharge(Series&, const Model&, const Report&, const StepReport&, const Solution&);
   void append_row(std::size_t index);
   void add_rows(const Model&, const StepReport&, const Solution&);
   void finish();

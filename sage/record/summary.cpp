@@ -136,12 +136,25 @@ void point_table(std::string& text, const Model& model, std::size_t index, const
   }
 }
 
+void discharge_table(std::string& text, const Model& model, std::size_t index,
+                     const std::vector<DischargeRow>& rows, int digits) {
+  fmt::format_to(to(text), "  discharge {:<7}{:>7}{:>{}}{:>{}}{:>{}}\n", index + 1, "incr",
+                 "[" + unit_text(Dimension::discharge, model.units) + "]", wide(18, digits), "gradient",
+                 wide(14, digits), "head [" + model.units.length + "]", wide(14, digits));
+  for (const DischargeRow& r : chosen(rows))
+    fmt::format_to(to(text), "    stage {:<7}{:>7}{}{}{}\n", r.stage, r.increment,
+                   cell(r.discharge, "{:.6g}", 18, digits), cell(r.gradient, "{:.5g}", 14, digits),
+                   cell(r.head, "{:.5g}", 14, digits));
+}
+
 void report_tables(std::string& text, const Model& model, const Reports& reports, int digits) {
   std::size_t shown = 0, points = 0;
   for (std::size_t i = 0; i < reports.count(); ++i) {
     if (!reports.triaxial(i).empty() && shown++ < kReports)
       triaxial_table(text, model, i, reports.triaxial(i), digits);
     if (!reports.nodes(i).empty() && shown++ < kReports) node_table(text, model, i, reports.nodes(i), digits);
+    if (!reports.discharges(i).empty() && shown++ < kReports)
+      discharge_table(text, model, i, reports.discharges(i), digits);
     if (!reports.points(i).empty() && points++ < kPoints)
       point_table(text, model, i, reports.points(i), digits);
   }

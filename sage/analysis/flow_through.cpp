@@ -1,0 +1,77 @@
+#include "sage/analysis/flow_through.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace sage {
+
+namespace {
+
+using Operator = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3>>;
+
+// Stress or strain of a point: three numbers of a law of water.
+Vector<3> at_point(const std::vector<double>& values, int points, int element, int point) {
+  return Vector<3>::Map(values.data() +
+                        3 * (static_cast<std::size_t>(element) * static_cast<std::size_t>(points) +
+                             static_cast<std::size_t>(point)));
+}
+
+// What an element takes in at its nodes: sum w B^T sigma.
+Eigen::VectorXd taken_in(const Model& model, const GroupData& data, int element) {
+  const ElementTraits& traits = data.group->element->traits();
+  Eigen::Matrix2Xd x;
+  element_coordinates(model.mesh, *data.group, element, x);
+  std::vector<double> geometry(static_cast<std::size_t>(traits.geometry_size()));
+  data.group->element->geometry(x, geometry);
+  Eigen::VectorXd f = Eigen::VectorXd::Zero(traits.dofs);
+  for (int p = 0; p < traits.points; ++p) {
+    const double* const block = geometry.data() + static_cast<std::ptrdiff_t>(p) * (1 + 3 * traits.dofs);
+    f += block[0] * Operator(block + 1, traits.dofs, 3) *
+         at_point(data.state.committed.sigma, traits.points, element, p);
+  }
+  return f;
+}
+
+// Of the nodes of one edge, whose element lies on the left of the line: the line goes along with the edge.
+double largest_gradient(const Model& model, const GroupData& data, const FlowLine::Edge& on) {
+  const Element& element = *data.group->element;
+  const int points = element.traits().points;
+  Eigen::Matrix2Xd x;
+  element_coordinates(model.mesh, *data.group, on.element, x);
+  const std::vector<int>& edge = element.edges()[static_cast<std::size_t>(on.edge)];
+  const Vector2 along = (x.col(edge[1]) - x.col(edge[0])).normalized(), out(along.y(), -along.x());
+  const std::span<const double> map = element.point_to_node_at(x);
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const int node : edge) {
+    Vector2 slope = Vector2::Zero();
+    for (int p = 0; p < points; ++p)
+      slope += map[static_cast<std::size_t>(node * points + p)] *
+               at_point(data.state.committed.eps, points, on.element, p).head<2>();
+    largest = std::max(largest, -slope.dot(out));
+  }
+  return largest;
+}
+
+double mean_head(const Model& model, const std::vector<int>& nodes, const DofMap& dof_map,
+                 const Eigen::VectorXd& u) {
+  const int field = find_unknown(model.unknowns, "head");
+  double sum = 0.0;
+  for (const int node : nodes) sum += u[dof_map.of(node, field)];
+  return sum / static_cast<double>(nodes.size());
+}
+
+}  // namespace
+
+FlowThrough flow_through(const Model& model, const FlowLine& line, const std::vector<int>& nodes,
+                         std::span<const GroupData> groups, const DofMap& dof_map, const Eigen::VectorXd& u) {
+  FlowThrough through;
+  for (const FlowLine::Corner& corner : line.corners)
+    through.discharge -= taken_in(model, groups[corner.group], corner.element)[corner.local];
+  through.gradient = -std::numeric_limits<double>::infinity();
+  for (const FlowLine::Edge& edge : line.edges)
+    through.gradient = std::max(through.gradient, largest_gradient(model, groups[edge.group], edge));
+  through.head = mean_head(model, nodes, dof_map, u);
+  return through;
+}
+
+}  // namespace sage

@@ -1,0 +1,25 @@
+// What flows through a line, of a state whose points are up to date.
+#pragma once
+
+#include <span>
+
+#include "sage/analysis/group_data.hpp"
+#include "sage/model/flow_line.hpp"
+
+namespace sage {
+
+struct FlowThrough {
+  // From the left of the line to its right: the sum of what the elements on its left take in at its nodes, turned
+  // about.  No gradient is involved: it balances to the last digits with what comes in elsewhere.
+  // [length^3/time, full circle or unit thickness]
+  double discharge = 0.0;
+  // Largest fall of the head across the line at its nodes, from the points of the elements on its left.
+  double gradient = 0.0;
+  double head = 0.0;  // mean of the line's nodes
+};
+
+// nodes: of the line.  u: all unknowns.
+FlowThrough flow_through(const Model& model, const FlowLine& line, const std::vector<int>& nodes,
+                         std::span<const GroupData> groups, const DofMap& dof_map, const Eigen::VectorXd& u);
+
+}  // namespace sage
