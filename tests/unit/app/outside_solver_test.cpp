@@ -87,7 +87,7 @@ TEST(OutsideSolver, OneThatGivesUpEndsTheCommandWithItsWords) {
     app::run_deck(request, catalogue);
     ADD_FAILURE() << "it went on";
   } catch (const AnalysisError& error) {
-    EXPECT_STREQ(error.what(), "out of digits");
+    EXPECT_STREQ(error.what(), "out of digits [S510]");
   }
   std::ifstream in(request.output.folder / (app::stem_of(request) + ".increments.csv"));
   const std::string rows{std::istreambuf_iterator<char>(in), {}};

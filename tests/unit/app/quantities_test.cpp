@@ -355,8 +355,8 @@ TEST(Quantities, InterfacesAndStructuresAreNamed) {
 // What has none needs none: it follows from the rest, or is about the deck and not about the problem.
 [[maybe_unused]] void known(const Model& one) {
   [[maybe_unused]] const auto& [file, title, geometry, units, solver, fields, mesh, materials, groups, unknowns,
-                                fixities, field_fixities, initials, stages, reports, diagnostics, left_out] =
-      one;
+                                fixities, field_fixities, initials, stages, reports, diagnostics, left_out,
+                                plugins] = one;
 }
 [[maybe_unused]] void known(const UnitSystem& one) {
   [[maybe_unused]] const auto& [length, force, stress, p_a, gamma_w] = one;

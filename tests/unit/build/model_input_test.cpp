@@ -89,6 +89,7 @@ TEST(ModelInput, EveryPartOfItReachesTheModel) {
   EXPECT_NE(plain, print([](ModelInput& i) { i.title = "other"; }));
   const auto off_the_axis = [](ModelInput& i) {
     for (Vector2& x : i.nodes) x.x() += 1.0;
+    for (ReportInput& report : i.reports) report.place.x() += 1.0;
   };
   EXPECT_NE(print(off_the_axis), print([&](ModelInput& i) {
               off_the_axis(i);
