@@ -103,7 +103,13 @@ TEST(ModelInput, EveryPartOfItReachesTheModel) {
   EXPECT_NE(plain, print([](ModelInput& i) { i.supports[1].x = FixityCode::fixed; }));
   EXPECT_NE(plain, print([](ModelInput& i) { i.initials[0].values[2] = 0.6; }));
   EXPECT_NE(plain, print([](ModelInput& i) { i.stages[0].gravity.x() = 0.1; }));
-  EXPECT_NE(plain, print([](ModelInput& i) { i.stages[1].supports[0].y_value = 0.1; }));
+  const auto held = [](double value) {
+    return [value](ModelInput& i) {
+      i.stages[1].supports[0].y = FixityCode::fixed;
+      i.stages[1].supports[0].y_value = value;
+    };
+  };
+  EXPECT_NE(print(held(0.1)), print(held(0.2)));
   EXPECT_NE(plain, print([](ModelInput& i) { i.stages[1].loads[0].x = 0.6; }));
   EXPECT_NE(plain, print([](ModelInput& i) { i.stages[1].pressures[0].shear2 = 0.6; }));
   EXPECT_NE(plain, print([](ModelInput& i) { i.stages[1].duration = 2.0; }));
