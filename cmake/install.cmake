@@ -3,7 +3,7 @@ include(CMakePackageConfigHelpers)
 
 set(SAGE_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/sagefe)
 set(SAGE_PACKAGE_TARGETS sage_fmt sage_core sage_umat sage_layout sage_deck sage_guess sage_model sage_exchange sage_mesh sage_build sage_analysis sage_record
-                         sage_draw sage_scenes sage_judge sage_verify sage_compare sage_drive sage_stress sage_figures sage_app sage_commands
+                         sage_draw sage_scenes sage_judge sage_safety sage_verify sage_compare sage_drive sage_stress sage_figures sage_app sage_commands
                          sage_elements sage_materials sage_solvers sage_conformance)
 
 install(TARGETS sagefe RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

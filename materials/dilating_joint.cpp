@@ -16,7 +16,8 @@ const std::vector<Parameter>& rows() {
       required("normal_stiffness", Dimension::stress_per_length, "normal stiffness k_n"),
       required("cohesion", Dimension::stress, "cohesion c", ParameterRole::strength),
       required("friction_angle", Dimension::angle, "friction angle phi", ParameterRole::friction_angle),
-      optional("dilation_angle", Dimension::angle, "dilation angle psi, at most phi", 0.0),
+      optional("dilation_angle", Dimension::angle, "dilation angle psi, at most phi", 0.0,
+               ParameterRole::dilation_angle),
       optional("slip_limit", Dimension::length, "plastic slip after which it dilates no more; -1 = never",
                -1.0),
   };

@@ -21,14 +21,15 @@ const std::vector<Parameter>& rows() {
     r.push_back(required("cohesion", Dimension::stress, "cohesion c", ParameterRole::strength));
     r.push_back(
         required("friction_angle", Dimension::angle, "friction angle phi", ParameterRole::friction_angle));
-    r.push_back(optional("dilation_angle", Dimension::angle, "dilation angle psi, at most phi", 0.0));
+    r.push_back(optional("dilation_angle", Dimension::angle, "dilation angle psi, at most phi", 0.0,
+                         ParameterRole::dilation_angle));
     r.push_back(optional("cone", Dimension::none,
                          "1 triaxial compression, 2 extension, 3 plane strain associated, "
                          "4 plane strain without volume change, 5 inner",
                          1.0));
     r.push_back(optional("flow", Dimension::none, "0 from the dilation angle, 1 without volume change", 0.0));
-    r.push_back(
-        optional("mean_tension_limit", Dimension::stress, "largest mean tension; -1 = the apex only", -1.0));
+    r.push_back(optional("mean_tension_limit", Dimension::stress, "largest mean tension; -1 = the apex only",
+                         -1.0, ParameterRole::tension_limit));
     r.push_back(optional("apex", Dimension::none,
                          "beyond the apex 0 the mean stress returns to it, 1 stays elastic (no volume change)",
                          0.0));

@@ -125,7 +125,8 @@ std::vector<Parameter> hyperbolic_rows(VolumeRule volume) {
   rows.push_back(required("cohesion", Dimension::stress, "cohesion c", ParameterRole::strength));
   rows.push_back(required("friction_angle", Dimension::angle, "friction angle phi_0 at sigma_3 = p_a",
                           ParameterRole::friction_angle));
-  rows.push_back(optional("friction_loss", Dimension::angle, "decrease of phi for a tenfold sigma_3", 0.0));
+  rows.push_back(optional("friction_loss", Dimension::angle, "decrease of phi for a tenfold sigma_3", 0.0,
+                          ParameterRole::friction_loss));
   return rows;
 }
 

@@ -11,9 +11,10 @@ namespace {
 const std::vector<Parameter>& rows() {
   static const std::vector<Parameter> table = [] {
     std::vector<Parameter> r = hyperbolic_rows(VolumeRule::bulk_1980);
-    r.push_back(
-        optional("dilation_angle", Dimension::angle, "dilation angle psi at failure, at most phi_0", 0.0));
-    r.push_back(optional("tension_cut_off", Dimension::stress, "largest tension; -1 = the apex only", -1.0));
+    r.push_back(optional("dilation_angle", Dimension::angle, "dilation angle psi at failure, at most phi_0",
+                         0.0, ParameterRole::dilation_angle));
+    r.push_back(optional("tension_cut_off", Dimension::stress, "largest tension; -1 = the apex only", -1.0,
+                         ParameterRole::tension_limit));
     r.push_back(optional("largest_poissons_ratio", Dimension::none, "upper bound of Poisson's ratio", 0.49));
     r.push_back(optional("stress_floor", Dimension::none, "smallest sigma_3 seen by the moduli, of p_a", 0.01));
     r.push_back(

@@ -16,8 +16,10 @@ const std::vector<Parameter>& rows() {
     r.push_back(required("cohesion", Dimension::stress, "cohesion c", ParameterRole::strength));
     r.push_back(required("friction_angle", Dimension::angle, "friction angle phi; 0 is Tresca",
                          ParameterRole::friction_angle));
-    r.push_back(optional("dilation_angle", Dimension::angle, "dilation angle psi, at most phi", 0.0));
-    r.push_back(optional("tension_cut_off", Dimension::stress, "largest tension; -1 = the apex only", -1.0));
+    r.push_back(optional("dilation_angle", Dimension::angle, "dilation angle psi, at most phi", 0.0,
+                         ParameterRole::dilation_angle));
+    r.push_back(optional("tension_cut_off", Dimension::stress, "largest tension; -1 = the apex only", -1.0,
+                         ParameterRole::tension_limit));
     return r;
   }();
   return table;

@@ -20,20 +20,27 @@ const std::vector<Parameter>& rows() {
         required("cohesion", Dimension::stress, "cohesion c before plastic strain", ParameterRole::strength));
     r.push_back(required("friction_angle", Dimension::angle, "friction angle phi before plastic strain",
                          ParameterRole::friction_angle));
-    r.push_back(required("dilation_angle", Dimension::angle, "dilation angle psi before plastic strain"));
+    r.push_back(required("dilation_angle", Dimension::angle, "dilation angle psi before plastic strain",
+                         ParameterRole::dilation_angle));
     r.push_back(
         required("strain_1", Dimension::none, "plastic shear strain, sum of sqrt(2 de_p:de_p), of the next"));
-    r.push_back(required("cohesion_1", Dimension::stress, "c at strain_1"));
-    r.push_back(required("friction_angle_1", Dimension::angle, "phi at strain_1"));
-    r.push_back(required("dilation_angle_1", Dimension::angle, "psi at strain_1"));
+    r.push_back(required("cohesion_1", Dimension::stress, "c at strain_1", ParameterRole::strength));
+    r.push_back(
+        required("friction_angle_1", Dimension::angle, "phi at strain_1", ParameterRole::friction_angle));
+    r.push_back(
+        required("dilation_angle_1", Dimension::angle, "psi at strain_1", ParameterRole::dilation_angle));
     r.push_back(
         optional("strain_2", Dimension::none, "plastic shear strain of the last values; -1 = none", -1.0));
-    r.push_back(optional("cohesion_2", Dimension::stress, "c there; -1 = as at strain_1", kUnchanged));
-    r.push_back(optional("friction_angle_2", Dimension::angle, "phi there; -1 = as at strain_1", kUnchanged));
-    r.push_back(optional("dilation_angle_2", Dimension::angle, "psi there; -1 = as at strain_1", kUnchanged));
+    r.push_back(optional("cohesion_2", Dimension::stress, "c there; -1 = as at strain_1", kUnchanged,
+                         ParameterRole::strength));
+    r.push_back(optional("friction_angle_2", Dimension::angle, "phi there; -1 = as at strain_1", kUnchanged,
+                         ParameterRole::friction_angle));
+    r.push_back(optional("dilation_angle_2", Dimension::angle, "psi there; -1 = as at strain_1", kUnchanged,
+                         ParameterRole::dilation_angle));
     r.push_back(optional("shape", Dimension::none,
                          "after strain_1: 0 straight to strain_2, 1 exponential with that length", 0.0));
-    r.push_back(optional("tension_cut_off", Dimension::stress, "largest tension; -1 = the apex only", -1.0));
+    r.push_back(optional("tension_cut_off", Dimension::stress, "largest tension; -1 = the apex only", -1.0,
+                         ParameterRole::tension_limit));
     return r;
   }();
   return table;

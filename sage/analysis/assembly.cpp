@@ -88,6 +88,13 @@ void Assembly::reset_group(std::size_t group) {
                           history_of(data.law), !data.constant);
 }
 
+void Assembly::take_laws() {
+  for (GroupData& data : groups_) {
+    data.law = model_->material_of(*data.group).law_ref();
+    std::ranges::fill(data.constant_by_four, char{0});
+  }
+}
+
 // What moved so far concerns the groups that were active then.
 bool Assembly::constant_groups_change(const Activity& activity) const {
   for (std::size_t g = 0; g < groups_.size(); ++g)

@@ -46,6 +46,9 @@ class Assembly {
   void set_stage_loads(const Eigen::VectorXd& loads);
   // Birth of a group: free of stress, with its first history.
   void reset_group(std::size_t group);
+  // The laws of the model's materials are others now, each of the kind that it was before: same history, same
+  // stiffness as long as nothing yields.
+  void take_laws();
   // Sets committed states from outside (initial stress): `set` gets all groups.  any: it is going to set some.
   template <class Set>
   void start_states(bool any, Set set) {

@@ -63,6 +63,7 @@ class Step {
   double residual_size() const;
   double work_left() const;
   bool hopeless() const;
+  bool flows();
   bool outgrown(int field, const IterationRecord& record) const;
   double load_size(int field) const;
   void take_start_scales();
@@ -335,6 +336,18 @@ bool Step::hopeless() const {
   return false;
 }
 
+// Corrections leave more out of balance than there was, and a good part of all stress: no equilibrium is near.  The
+// second rule is for steps that begin with as much.
+bool Step::flows() {
+  constexpr double kMuch = 0.4, kTimes = 3.0;
+  constexpr std::size_t kPatience = 12;
+  const std::vector<IterationRecord>& done = result_.iterations;
+  if (!settings_.stop_at_flow || done.empty()) return false;
+  const double first = done.front().force, last = done.back().force;
+  result_.flows = last > kMuch && (last > kTimes * first || (done.size() >= kPatience && last >= first));
+  return result_.flows;
+}
+
 // Stress that balances itself is made by the motion and grows with it (mean stress near nu = 1/2): beside that
 // of an iteration that runs away any load is small.  What is left out of balance must be small beside what the
 // step has to balance, too.
@@ -430,8 +443,12 @@ NewtonStep& Step::iterate_with_line_search() {
     if (settings_.line_search && !accelerated() && i > 1 && std::abs(work_left()) > 0.8 * std::abs(slope_) &&
         !search_line())
       return result_;
-    if (hopeless() || record_iteration()) return result_;
-    if (i == settings_.max_iterations) break;
+    if (hopeless()) {
+      result_.flows = settings_.stop_at_flow;
+      return result_;
+    }
+    if (record_iteration()) return result_;
+    if (flows() || i == settings_.max_iterations) break;
     const double norm = residual_size();
     if (settings_.contract && contracts_poorly(norm, old_norm) && evaluate(true) == Outcome::cut_step)
       return result_;

@@ -15,6 +15,7 @@ struct NewtonSettings {
   const Eigen::VectorXd* committed = nullptr;  // unknowns at the start of the step, every dof; null = zero
   StageSoFar so_far{};                         // a condensed region moves on in its direction
   Pulse* pulse = nullptr;                      // hears of every iteration; null = nobody looks
+  bool stop_at_flow = false;                   // a step that turns into flow is given up (NewtonStep::flows)
   bool contract = false;  // factors are kept while they contract well; K may then be behind du at the end
 };
 
@@ -23,6 +24,7 @@ enum class StepOutcome { converged, not_converged, law_cut, singular };
 struct NewtonStep {
   StepOutcome outcome = StepOutcome::not_converged;
   bool repeated = false;  // the step before once more
+  bool flows = false;     // stop_at_flow: corrections only bring more of all stress out of balance
   std::vector<IterationRecord> iterations;
   WorstDof worst;               // of the last iteration, or where none converged, of the best
   double predicted_work = 0.0;  // forces out of balance at the start times the first correction

@@ -13,11 +13,17 @@
 #include "sage/analysis/loads.hpp"
 #include "sage/analysis/run_checkpoint.hpp"
 #include "sage/analysis/stage_warnings.hpp"
+#include "sage/analysis/trials.hpp"
 #include "sage/model/active_dofs.hpp"
 
 namespace sage {
 
 namespace {
+
+enum class StateSide { committed, trial };
+
+// Attempts of a trial, of so many iterations each at most.
+constexpr int kMostAttempts = 3;
 
 // Stages, increments and the steps within them.
 class Run {
@@ -28,7 +34,8 @@ class Run {
         settings_(settings),
         audience_(observers, result_.work.profile),
         system_(model, catalogue, settings, result_.work),
-        extent_(model) {
+        extent_(model),
+        max_cuts_(settings.max_cuts) {
     const int dofs = assembly_.dof_map().dofs();
     if (settings.profile_memory) result_.work.profile = Profile(true);
     profile().show_in(settings.pulse);
@@ -70,6 +77,12 @@ class Run {
   void start();
   void recover_for(const StepReport& report);
   void run_stages();
+  std::string keep_state();
+  void give_back_state(const std::string& kept);
+  TrialResult try_stage();
+  void run_trial_stage();
+  void take_motion(const Eigen::VectorXd& u, StateSide side);
+  void run_trials();
   void stop();
   void warn(const std::vector<Diagnostic>& list);
   Solution solution() const;
@@ -91,6 +104,11 @@ class Run {
   Eigen::VectorXd last_du_;          // the last step of the stage, if path_.last_size > 0
   bool on_last_way_ = false;         // the next attempt starts with the tangent of that step
   Eigen::VectorXd committed_force_;  // internal, at the committed state; of scenes that are not linear
+  int max_cuts_;
+  // Of a trial: what it comes to, and where it began.
+  TrialResult* trial_ = nullptr;
+  Eigen::VectorXd trial_u_;
+  std::vector<std::vector<double>> trial_strain_;
 };
 
 Solution Run::solution() const {
@@ -189,6 +207,7 @@ NewtonStep Run::attempt(const Stage& stage, double from, double to) {
   newton.repeat = can_repeat(stage, to - from);
   newton.contract = contracts(stage);
   newton.pulse = settings_.pulse;
+  newton.stop_at_flow = settings_.trials != nullptr;
   newton.committed = &state_.u;
   if (path_.u_start.size() > 0) newton.so_far = {from, &path_.u_start, &state_.u};
   const Profile::Scope scope(profile(), phase::kIteration);
@@ -351,7 +370,9 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
     }
     report.points = assembly_.count_points();
     report.failed_at = to;  // beyond `reached`, which may have passed an earlier failure
-    const bool shortest = to - reached < 1.001 * std::ldexp(whole, -settings_.max_cuts);
+    const bool given_up =
+        trial_ != nullptr && (step.flows || report.total_iterations >= kMostAttempts * stage.max_iterations);
+    const bool shortest = given_up || to - reached < 1.001 * std::ldexp(whole, -max_cuts_);
     if (shortest || tangent_.constant()) {
       report.stiffness_share = stiffness_share(reached, to, step);
       return fail(report, step);
@@ -366,6 +387,15 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
 bool Run::fail(StepReport& report, const NewtonStep& step) {
   report.converged = false;
   report.motion = result_.motion;
+  if (trial_ != nullptr) {
+    trial_->outcome = step.outcome;
+    trial_->flows = step.flows;
+    trial_->reason = step.outcome == StepOutcome::singular
+                         ? explain_singular(model_, system_.activity(), assembly_, report, step)
+                         : explain_failure(model_, assembly_, report, step);
+    take_motion(state_.u + state_.du, StateSide::trial);
+    return false;
+  }
   warn(motion_warnings(model_.stages[static_cast<std::size_t>(report.stage)], result_.motion));
   if (step.outcome == StepOutcome::singular) {
     result_.status = RunStatus::singular;
@@ -487,8 +517,95 @@ void Run::run_stages() {
     start_states(model_.initials);
   else
     place = resume();
-  for (int s = place.stage; s < static_cast<int>(model_.stages.size()); ++s)
-    if (!run_stage(s, s == place.stage ? place.increment : 0)) break;
+  const int stages =
+      settings_.trials != nullptr ? settings_.trials->stage() : static_cast<int>(model_.stages.size());
+  for (int s = place.stage; s < stages; ++s)
+    if (!run_stage(s, s == place.stage ? place.increment : 0)) return;
+  if (settings_.trials != nullptr) run_trials();
+}
+
+// Everything that the next trial starts from; the tangent is made anew.
+std::string Run::keep_state() {
+  Archive archive;
+  state_.exchange_totals(archive);
+  assembly_.exchange(archive, false);
+  return archive.take();
+}
+
+void Run::give_back_state(const std::string& kept) {
+  Archive archive(kept);
+  state_.exchange_totals(archive);
+  assembly_.exchange(archive, false);
+  state_.du.setZero();
+  tangent_.forget();
+}
+
+// Since the start of the trial.  Groups whose states come late have no strain here.
+void Run::take_motion(const Eigen::VectorXd& u, StateSide side) {
+  trial_->motion = u - trial_u_;
+  const std::vector<GroupData>& groups = assembly_.groups();
+  trial_->strain.assign(groups.size(), {});
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (!groups[g].active || groups[g].constant) continue;
+    const StateStore& store = groups[g].state;
+    std::vector<double>& strain = trial_->strain[g];
+    strain = side == StateSide::trial ? store.trial.eps : store.committed.eps;
+    for (std::size_t i = 0; i < strain.size(); ++i) strain[i] -= trial_strain_[g][i];
+  }
+}
+
+// What the new laws no longer carry of the stresses is held at first and let go in proportion (prepare_stage).  The
+// first correction has the stiffness of points that have just returned to their surfaces, which is elastic: that of the
+// return itself leads far away where flow is not associated.
+void Run::run_trial_stage() {
+  const int s = settings_.trials->stage();
+  StepReport& report = trial_->report;
+  report.stage = s;
+  report.increment = report.increments = 1;
+  prepare_stage(s);
+  tangent_.forget();
+  if (!assembly_.condensation()) assembly_.evaluate(state_.du, &tangent_);
+  double reached = 0.0;
+  trial_->equilibrium = run_increment(model_.stages[static_cast<std::size_t>(s)], report, reached);
+  if (!trial_->equilibrium) return;
+  report.points = assembly_.count_points();
+  take_motion(state_.u, StateSide::committed);
+  trial_->outcome = StepOutcome::converged;
+}
+
+// What a law or the solver refuses is an answer too.
+TrialResult Run::try_stage() {
+  TrialResult result;
+  trial_ = &result;
+  trial_u_ = state_.u;
+  trial_strain_.clear();
+  for (const GroupData& data : assembly_.groups()) trial_strain_.push_back(data.state.committed.eps);
+  try {
+    run_trial_stage();
+  } catch (const AnalysisError& error) {
+    result.outcome = StepOutcome::law_cut;
+    result.reason = error.what();
+    take_motion(state_.u, StateSide::committed);
+  }
+  trial_ = nullptr;
+  return result;
+}
+
+void Run::run_trials() {
+  assembly_.recover_states();
+  std::string kept = keep_state();
+  bool more = settings_.trials->next(nullptr, solution());
+  while (more) {
+    max_cuts_ = settings_.trials->max_cuts();
+    assembly_.take_laws();
+    const TrialResult result = try_stage();
+    if (result.equilibrium)
+      kept = keep_state();
+    else
+      give_back_state(kept);
+    more = settings_.trials->next(&result, solution());
+    stop_if_asked(settings_.stop_asked);
+  }
 }
 
 void Run::stop() {

@@ -10,6 +10,8 @@
 
 namespace sage {
 
+class Trials;
+
 struct RunSettings {
   int solver = -1;  // catalogue code; -1 = the model's, 0 = automatic
   // Picks a catalogue code from the scene when automatic: (equations, symmetric) -> code.
@@ -30,6 +32,10 @@ struct RunSettings {
   std::function<bool()> checkpoint_due;
   std::function<void(const std::string&)> save_checkpoint;
   std::string resume_from;
+
+  // Not null: one stage does not follow those before it, but is tried with the laws that this one chooses
+  // (trials.hpp), and ends the run.  Observers hear nothing of it.  Not together with checkpoints.
+  Trials* trials = nullptr;
 
   // Ends the run early, with RunStatus::stopped: asked after every increment (once a checkpoint that is due has
   // been saved), and within increments: in every pass over the elements, in factorisations and before every

@@ -1,30 +1,13 @@
 // Strength reduction: the whole body once for every factor, with its strengths divided by it.
 #include <algorithm>
-#include <cmath>
 
 #include "sage/build/builder.hpp"
 #include "sage/deck/text.hpp"
+#include "sage/model/strength.hpp"
 
 namespace sage::build {
 
 namespace {
-
-// c / F and atan(tan phi / F); dilation like friction.  False: the law has no strength, nothing changes.
-bool reduce(std::vector<double>& parameters, const MaterialEntry& entry, double factor) {
-  bool any = false;
-  for (std::size_t i = 0; i < entry.parameters.size(); ++i) {
-    const Parameter& p = entry.parameters[i];
-    double& value = parameters[i];
-    if (p.role == ParameterRole::strength) {
-      value /= factor;
-      any = true;
-    } else if (p.role == ParameterRole::friction_angle || p.name == "dilation_angle") {
-      value = std::atan(std::tan(value * kRadiansPerDegree) / factor) / kRadiansPerDegree;
-      any = true;
-    }
-  }
-  return any;
-}
 
 // The material with its strengths divided by a factor.
 Material reduced(const Material& from, double factor, const UnitSystem& units) {
@@ -37,15 +20,10 @@ Material reduced(const Material& from, double factor, const UnitSystem& units) {
   m.parameters = from.parameters;
   m.unit_weight = from.unit_weight;
   m.where = from.where;
-  if (reduce(m.parameters, *m.entry, factor))
+  if (reduce_strength(m.parameters, *m.entry, {factor, DilationRule::reduced}))
     m.name += (m.name.empty() ? "strength / " : ", strength / ") + rounded_text(factor, 6);
   m.law = m.entry->law_for(m.parameters, units, from.name);
   return m;
-}
-
-bool has_strength(const Material& material) {
-  std::vector<double> parameters = material.parameters;
-  return reduce(parameters, *material.entry, 1.0);
 }
 
 struct Factor {
@@ -145,7 +123,7 @@ void build_strength_stages(Builder& b) {
     b.error("S241", factors.back().where, "there are too many strength factors for so large element numbers");
     return;
   }
-  if (std::none_of(model.materials.begin(), model.materials.end(), has_strength))
+  if (std::ranges::none_of(model.materials, [](const Material& m) { return has_strength(*m.entry); }))
     b.warning("S241", factors.front().where,
               "strength factors are given, but no material has a strength: every factor gives the same answer");
   for (std::size_t k = 1; k < factors.size(); ++k) {

@@ -32,6 +32,9 @@ enum class ParameterRole {
   strength,        // shear or tensile strength without confinement, stress
   friction_angle,  // degrees
   unit_weight,     // of a law that has one besides the material card's
+  dilation_angle,  // degrees; of the friction angle before it in the table
+  tension_limit,   // stress; -1 = none
+  friction_loss,   // degrees by which that friction angle falls when the pressure grows tenfold
 };
 
 struct Parameter {

@@ -380,8 +380,8 @@ constexpr MessageEntry kMessages[] = {
     {"S241", "strength factors can't be used as given",
      "Factors on strength need a deck with one step of loading, no start stress, and a material with a "
      "strength; each must lie above 0.",
-     "Correct the factor, or reduce the strength on the material card and run the deck twice. There is "
-     "no automatic search for a safety factor."},
+     "Correct the factor, or reduce the strength on the material card and run the deck twice. sagefe "
+     "safety searches for the factor of any deck."},
     {"S242", "a report card lacks something",
      "A report needs what its kind measures: a height for a triaxial specimen, a point card for a point, "
      "a stage that exists, an area where it can't be found from the nodes.",
@@ -411,6 +411,12 @@ constexpr MessageEntry kMessages[] = {
      "has no built-in units.",
      "Give it on the control or unit card: p_a is 101.325 kPa or 14.696 psi, gamma_w 9.81 kN/m3 or "
      "0.036111 pci."},
+    {"S260", "there is nothing to divide for a safety factor",
+     "sagefe safety divides the strengths of the chosen groups. The deck has no such stage or group, or no "
+     "chosen group has a law whose entry names a strength: elastic laws have none, interfaces and structures "
+     "are divided on request only, and a law of one's own names its strengths by the roles of its parameters.",
+     "Correct --stage or --group, add --interfaces or --structures, or give the soil a law with strength "
+     "(sagefe list materials)."},
 
     // S3: a legal model that may not be meant.
     {"S301", "p_a or gamma_w does not fit the units",
@@ -651,6 +657,12 @@ constexpr MessageEntry kMessages[] = {
      "memory, by a user, or by a fault of the program.",
      "Run the deck alone to see whether it ends again; fewer --jobs need less memory at a time. A fault "
      "of the program is worth a report with the deck."},
+    {"S515", "the safety factor is not proved",
+     "The search for the factor ended without the bracket that was asked for: no factor stands, every factor "
+     "stands, or at the upper end no equilibrium was found although nothing gives way there, so that the "
+     "iterations may have failed and not the soil.",
+     "Read the reasons of both ends. Move --smallest or --largest; for an end that is not proved more "
+     "--iterations and --cuts, --from anew, or --dilation reduced with a dilation angle nearer to friction."},
     {"S520", "the initial stress is outside the yield surface",
      "At some points the stated stress is more than the strength allows. The first increment sheds it to "
      "the neighbours: the state the run starts from is another one than stated.",

@@ -39,7 +39,7 @@ struct ShortName {
 constexpr ShortName kShortNames[] = {
     {"E", ParameterRole::youngs_modulus, ""},  {"nu", ParameterRole::poissons_ratio, ""},
     {"c", ParameterRole::strength, ""},        {"phi", ParameterRole::friction_angle, ""},
-    {"gamma", ParameterRole::unit_weight, ""}, {"psi", ParameterRole::none, "dilation_angle"},
+    {"gamma", ParameterRole::unit_weight, ""}, {"psi", ParameterRole::dilation_angle, ""},
 };
 
 std::string parameter_names(const MaterialEntry& entry) {

@@ -58,6 +58,12 @@ class Workbench {
   Workbench(Catalogue catalogue, std::function<int(int, bool)> choose_solver);
 
   const Catalogue& catalogue() const { return catalogue_; }
+  // Of a run by hand: with the rule that picks a solver.
+  RunSettings settings() const {
+    RunSettings settings;
+    settings.choose_solver = choose_solver_;
+    return settings;
+  }
   // Throws InputError for a deck with mistakes.
   Model build(const std::string& deck, const BuildOptions& options = {}) const;
   // A built model, perhaps with loads or places that a card's ten columns can't hold.

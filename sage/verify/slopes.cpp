@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "sage/safety/safety.hpp"
 #include "sage/verify/cases.hpp"
 #include "sage/verify/fields.hpp"
 
@@ -68,6 +69,44 @@ void acads(Record& record) {
   record.near(Where::plane_strain, "factor of safety",
               bisect(0.92, 1.08, 0.02, [&](double F) { return stands(record, block, soil, F, true); }), 1.0,
               0.03);
+}
+
+// Within -1 % and +2 % of the log-spiral through the toe, an upper bound for associated flow: elements of finite size
+// smear the slip line.
+void log_spirals(Record& record) {
+  struct Slope {
+    const char* name;
+    double run, phi, c, weight, H, factor;
+  };
+  for (const Slope& slope :
+       {Slope{"2:1, phi = 20, c = .05 gamma H", 2.0, 20.0, 10.0, 20.0, 10.0, 1.36821452},
+        Slope{"1:1, phi = 30, c = .0694 gamma H", 1.0, 30.0, 10.0, 18.0, 8.0, 1.36482236}}) {
+    Block block;
+    block.cell = Cell::quad8;
+    block.columns = 24;
+    block.rows = 16;
+    block.straight = true;
+    block.place = [&](double s, double t) -> Vector2 {
+      return {s * slope.H * (slope.run + 1.2 - slope.run * t), slope.H * t};
+    };
+    DeckWriter deck(1);
+    block.write_nodes(deck);
+    deck.material(1, 4, {1e5, 0.3, slope.c, slope.phi, slope.phi}, slope.weight);
+    deck.group(1, 2, 1, 1);
+    block.write_elements(deck, 1);
+    for (int n : block.left()) deck.fix(n, 1, 0);
+    for (int n : block.bottom()) deck.fix(n, 1, 1);
+    deck.stage().gravity_y = -1.0;
+    safety::Options options;
+    options.limits.tolerance = 0.004;
+    Model model = record.bench().build(deck.text());
+    const safety::Safety found =
+        safety::find_safety(model, record.bench().catalogue(), record.bench().settings(), options);
+    if (!found.complete()) throw AnalysisError("S515", found.incomplete);
+    // +2 % and -1 %: the middle of both, give or take half of their distance.
+    record.near(Where::plane_strain, slope.name, 0.5 * (*found.lower + *found.upper), 1.005 * slope.factor,
+                0.015 / 1.005);
+  }
 }
 
 // Vertical cut of height 1 in Tresca clay, c_u = 1, square cells of 1/n: gamma H/c_u at
@@ -162,6 +201,9 @@ Section slope_cases() {
            "3 %: two digits are printed; 12 x 8 quad8, F within .01 (psi = 0: .02)", griffiths_lane},
           {"slope.acads_1a", "ACADS example 1(a)", "1.00, Giam & Donald 1989: limit equilibrium, so psi = phi",
            Grade::published, "3 %; 20 x 8 quad8, F within .01", acads},
+          {"slope.log_spirals", "slopes by sagefe safety, psi = phi",
+           "log-spiral through the toe, minimised to 1e-12 (Chen 1975): 1.36821452, 1.36482236",
+           Grade::computed, "-1 to +2 % of the upper bound; 24 x 16 quad8, bracket .004", log_spirals},
           {"slope.vertical_cut", "vertical cut in Tresca clay",
            "3.7752 <= gamma H/c_u <= 3.7776 (Kammoun et al. 2010; Pastor et al. 2009)", Grade::published,
            "approached from above, a slip line smears over a cell: order 1, and 1 % extrapolated",

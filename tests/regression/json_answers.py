@@ -142,6 +142,11 @@ def check_others(folder):
     answer(folder, "run", DECK, "-o", "out")
     for file in answer(folder, "plot", "out/pinned_ld2_nu0333.report1.csv")["result"]["files"]:
         expect((folder / file).exists(), file)
+    slope = SOURCE / "legacy_inputs/slopes/taylor_60/deck.dat"
+    safety = answer(folder, "safety", str(slope), "--tolerance", ".05", "-o", "out")["result"]
+    expect(safety["complete"] and safety["lower"] < safety["upper"] <= safety["lower"] + 0.05, "bracket", safety["lower"])
+    expect(all((folder / file).exists() for file in safety["files"]), "files of a safety factor")
+    answer(folder, "safety", DECK, "-o", "out", code=2)
     both = answer(folder, "compare", DECK, "--both", "-o", "out")["result"]
     expect(both["comparison"]["answers"] and both["a"]["reports"], "comparison")
 

@@ -1,0 +1,69 @@
+#include "sage/model/strength.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sage {
+
+namespace {
+
+bool is_strength(ParameterRole role) {
+  return role == ParameterRole::strength || role == ParameterRole::friction_angle;
+}
+
+// Degrees to degrees.
+double divided_angle(double angle, double factor) {
+  return std::atan(std::tan(angle * kRadiansPerDegree) / factor) / kRadiansPerDegree;
+}
+
+double reduced_dilation(double psi, double phi_left, const StrengthReduction& reduction) {
+  switch (reduction.dilation) {
+    case DilationRule::reduced:
+      return divided_angle(psi, reduction.factor);
+    case DilationRule::kept:
+      return std::min(psi, phi_left);
+    case DilationRule::none:
+      return 0.0;
+  }
+  return psi;
+}
+
+}  // namespace
+
+bool has_strength(const MaterialEntry& entry) {
+  return std::ranges::any_of(entry.parameters, [](const Parameter& p) { return is_strength(p.role); });
+}
+
+bool reduce_strength(std::span<double> parameters, const MaterialEntry& entry,
+                     const StrengthReduction& reduction) {
+  if (!has_strength(entry)) return false;
+  const double F = reduction.factor;
+  double phi = 0.0, phi_left = 0.0;  // of the rows so far: others refer to the friction angle before them
+  for (std::size_t i = 0; i < std::min(parameters.size(), entry.parameters.size()); ++i) {
+    double& value = parameters[i];
+    switch (entry.parameters[i].role) {
+      case ParameterRole::strength:
+      case ParameterRole::tension_limit:
+        if (value > 0.0) value /= F;
+        break;
+      case ParameterRole::friction_angle:
+        // A softening law's -1 stands for the angle before it.
+        if (value < 0.0) break;
+        phi = value;
+        value = phi_left = divided_angle(value, F);
+        break;
+      case ParameterRole::friction_loss:
+        // The angle at ten times the pressure is divided like any other.
+        if (value != 0.0) value = phi_left - divided_angle(phi - value, F);
+        break;
+      case ParameterRole::dilation_angle:
+        if (value > 0.0) value = reduced_dilation(value, phi_left, reduction);
+        break;
+      default:
+        break;
+    }
+  }
+  return true;
+}
+
+}  // namespace sage

@@ -1,0 +1,43 @@
+// Strength reduction of a material: c / F, tan(phi) / F.  What of a law is strength its catalogue entry says, by the
+// roles of its parameters; so laws of other programs and plug-ins take part like those of this tree.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "sage/model/model.hpp"
+
+namespace sage {
+
+// What becomes of the dilation angle.
+enum class DilationRule {
+  reduced,  // tan(psi) / F: flow that is associated stays so
+  kept,     // stays, but never above the friction angle that is left
+  none,     // no volume change, at any factor
+};
+
+struct DilationRuleName {
+  DilationRule rule;
+  std::string_view name, what;
+};
+inline constexpr DilationRuleName kDilationRules[] = {
+    {DilationRule::reduced, "reduced", "tan(psi) / F, like friction"},
+    {DilationRule::kept, "kept", "psi stays, at most the friction angle that is left"},
+    {DilationRule::none, "none", "psi = 0 at every factor"},
+};
+
+struct StrengthReduction {
+  double factor = 1.0;
+  DilationRule dilation = DilationRule::reduced;
+};
+
+// Some parameter of the law is a strength.
+bool has_strength(const MaterialEntry& entry);
+
+// parameters: as the deck writes them, perhaps fewer than the entry has.  Cohesions and tensile strengths / F, angles
+// of friction atan(tan(phi) / F), dilation by the rule.  Numbers that are not positive (0, or -1 for "none") stay.
+// False: the law has no strength, nothing changes.
+bool reduce_strength(std::span<double> parameters, const MaterialEntry& entry,
+                     const StrengthReduction& reduction);
+
+}  // namespace sage

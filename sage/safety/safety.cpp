@@ -1,0 +1,441 @@
+#include "sage/safety/safety.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sage/analysis/extent.hpp"
+#include "sage/analysis/trials.hpp"
+#include "sage/model/activity.hpp"
+
+namespace sage::safety {
+
+namespace {
+
+// Stiffness along the motion, as a share of the first, from which on a body gives way.
+constexpr double kGivesWay = 0.1;
+// A trial that began farther below its factor is repeated before its factor counts as an end of the bracket.
+constexpr double kFarBelow = 2.5;  // tolerances
+constexpr int kSecondEffort = 3;   // times the iterations, with all cuts
+constexpr int kFirstCuts = 2;
+
+struct Largest {
+  double displacement = 0.0;
+  int node = -1;
+};
+
+Largest largest_of(const Model& model, const Eigen::VectorXd& u) {
+  Largest largest;
+  for (int node = 0; node < model.mesh.nodes(); ++node)
+    for (int c = 0; c < 2; ++c) {
+      const double moved = std::abs(u[DofMap::displacement(node, c)]);
+      if (moved > largest.displacement) largest = {moved, node};
+    }
+  return largest;
+}
+
+long inelastic(const std::array<long, kStatuses>& points) {
+  long count = 0;
+  for (PointStatus s : {PointStatus::yielded, PointStatus::slipping, PointStatus::open, PointStatus::apex})
+    count += points[static_cast<std::size_t>(s)];
+  return count;
+}
+
+// What is known of the last attempt of a factor, whether it was a trial or a run.
+struct Attempt {
+  const StepReport& report;
+  bool singular = false, law_refused = false, flows = false;
+};
+
+Verdict judge(const Attempt& last) {
+  const double share = last.report.stiffness_share;
+  const bool gives_way = last.flows || last.singular || (share >= 0.0 && share <= kGivesWay);
+  return gives_way ? Verdict::falls : Verdict::undecided;
+}
+
+std::string percent(double share) {
+  return fmt::format("{:.2g} %", 100.0 * share);
+}
+
+std::string moved_words(const Model& model, const FactorTrial& trial) {
+  if (trial.node < 0) return {};
+  return fmt::format("node {} has moved {:.3g} {}", model.mesh.number[static_cast<std::size_t>(trial.node)],
+                     trial.displacement, model.units.length);
+}
+
+std::string why_not(const Model& model, const FactorTrial& trial, const Attempt& last) {
+  if (last.singular) return "no equilibrium: the stiffness matrix is singular, a mechanism";
+  if (last.flows)
+    return fmt::format("no equilibrium: it flows; after {} iterations {} of all forces are out of balance, {}",
+                       trial.iterations, percent(std::min(trial.out_of_balance, 1.0)),
+                       moved_words(model, trial));
+  const double share = last.report.stiffness_share;
+  const std::string tried =
+      fmt::format("no equilibrium in {} iterations, {} let go", trial.iterations, percent(trial.released));
+  if (trial.verdict == Verdict::falls)
+    return tried + fmt::format("; it gives way, stiffness along the motion {} of the first", percent(share));
+  if (last.law_refused) return tried + "; a law has no answer, which proves nothing";
+  return tried + fmt::format("; nothing gives way{}: the iterations failed, which proves nothing",
+                             share >= 0.0 ? ", stiffness along the motion " + percent(share) + " of the first"
+                                          : std::string());
+}
+
+std::string why(const FactorTrial& trial, double tolerance) {
+  return fmt::format("equilibrium to {:.1e} of all forces ({:.0e} asked for)", trial.out_of_balance, tolerance);
+}
+
+// What a run of the stages came to.
+class LastState final : public Observer {
+ public:
+  bool wants_states(const Model&, const StepReport&) const override { return false; }
+  void on_increment(const Model&, const StepReport& step, const Solution& now) override { keep(step, now); }
+  void on_failure(const Model&, const StepReport& step, const std::string&, const Solution& now) override {
+    keep(step, now);
+  }
+  StepReport report;
+  Eigen::VectorXd u;
+  int iterations = 0;
+
+ private:
+  void keep(const StepReport& step, const Solution& now) {
+    report = step;
+    u = *now.u;
+    iterations += step.total_iterations;
+  }
+};
+
+class Finder final : public Trials {
+ public:
+  Finder(Model& model, const Catalogue& catalogue, const RunSettings& settings, const Options& options)
+      : model_(model), catalogue_(catalogue), settings_(settings), options_(options), search_(options.limits) {}
+
+  Safety find();
+
+  bool next(const TrialResult* last, const Solution& now) override;
+  int stage() const override { return safety_.stages; }
+  int max_cuts() const override {
+    return repeated_ == factor_ ? options_.cuts : std::min(options_.cuts, kFirstCuts);
+  }
+
+ private:
+  void check() const;
+  bool chosen(const Group& group) const;
+  void choose_materials();
+  void keep_other_strengths();
+  void insert_trial_stage();
+  Stage& trial_stage() { return model_.stages[static_cast<std::size_t>(safety_.stages)]; }
+  void set_factor(double factor);
+  void run_from_start(double factor);
+  void take(FactorTrial trial);
+  void take_run(const RunResult& result, const LastState& last);
+  void take_trial(const TrialResult& result);
+  void keep_mechanism(const TrialResult& result, const Solution& now);
+  std::optional<double> next_factor();
+  bool must_repeat(const FactorTrial& end) const;
+  void conclude();
+
+  Model& model_;
+  const Catalogue& catalogue_;
+  RunSettings settings_;
+  const Options& options_;
+  FactorSearch search_;
+  Safety safety_;
+  std::vector<std::size_t> materials_;         // whose strength is divided
+  std::vector<std::vector<double>> strength_;  // their parameters at factor 1
+  std::vector<LawPtr> laws_before_;            // until the run has taken the new ones
+  Eigen::VectorXd u_start_;                    // when the strengths began to fall
+  double factor_ = 0.0, from_ = 0.0;           // in hand; whose state it begins with
+  double repeated_ = 0.0;                      // the last factor that was tried again
+};
+
+bool Finder::chosen(const Group& group) const {
+  const bool listed =
+      options_.groups.empty() || std::ranges::find(options_.groups, group.number) != options_.groups.end();
+  return listed && (group.solid() || (group.interface() && options_.interfaces) ||
+                    (group.structure() && options_.structures));
+}
+
+void Finder::check() const {
+  const SourcePosition place{model_.file, 0, 0, 0};
+  const int stages = static_cast<int>(model_.stages.size());
+  if (stages == 0)
+    throw InputError("S260", place, "a safety factor needs a stage with loads; the deck has none");
+  if (options_.stage >= stages)
+    throw InputError("S260", place,
+                     fmt::format("there is no stage {}; the deck has {}", options_.stage + 1, stages));
+  for (const int number : options_.groups)
+    if (std::ranges::none_of(model_.groups, [&](const Group& group) { return group.number == number; }))
+      throw InputError("S260", place, fmt::format("there is no group {}", number));
+}
+
+// "1 clay (mohr_coulomb)"
+std::string material_words(const Material& material) {
+  return fmt::format("{}{}{} ({})", material.number, material.name.empty() ? "" : " ", material.name,
+                     material.law_name);
+}
+
+// Of groups that stand at the end of the stages.  A material that chosen ones share with others gets a twin for them.
+void Finder::choose_materials() {
+  Activity activity(model_);
+  for (int s = 0; s < safety_.stages; ++s) activity.enter(model_.stages[static_cast<std::size_t>(s)]);
+  const std::size_t given = model_.materials.size();
+  for (std::size_t m = 0; m < given; ++m) {
+    std::vector<Group*> with, without;
+    for (std::size_t g = 0; g < model_.groups.size(); ++g)
+      if (model_.groups[g].material == static_cast<int>(m) && activity.group[g] != 0)
+        (chosen(model_.groups[g]) ? with : without).push_back(&model_.groups[g]);
+    if (with.empty() && without.empty()) continue;
+    const bool strong = has_strength(*model_.materials[m].entry);
+    if (with.empty() || !strong) {
+      safety_.untouched.push_back(material_words(model_.materials[m]) +
+                                  (strong ? ": not asked for" : ": its law names no strength"));
+      continue;
+    }
+    std::size_t at = m;
+    if (!without.empty()) {
+      const Material& from = model_.materials[m];
+      at = model_.materials.size();
+      model_.materials.push_back({from.number, from.name, from.code, from.law_name, from.entry, from.parameters,
+                                  from.unit_weight, from.entry->make(from.parameters, model_.units),
+                                  from.where});
+      for (Group* group : with) group->material = static_cast<int>(at);
+    }
+    materials_.push_back(at);
+    strength_.push_back(model_.materials[at].parameters);
+    safety_.reduced.push_back(material_words(model_.materials[at]));
+  }
+  if (materials_.empty()) {
+    std::string text = "nothing that a safety factor could divide: no chosen group has a law with strength";
+    for (const std::string& other : safety_.untouched) text += "\n  " + other;
+    throw InputError("S260", {model_.file, 0, 0, 0}, text);
+  }
+}
+
+// Factors that the deck states itself (strength_factors) are taken back: ours count from its strengths.
+void Finder::keep_other_strengths() {
+  const double stated = model_.stages[static_cast<std::size_t>(safety_.stages) - 1].strength_factor;
+  if (stated <= 0.0 || stated == 1.0) return;
+  for (std::size_t i = 0; i < materials_.size(); ++i)
+    reduce_strength(strength_[i], *model_.materials[materials_[i]].entry,
+                    {1.0 / stated, DilationRule::reduced});
+}
+
+void Finder::insert_trial_stage() {
+  // Stages with factors of the deck's own are analyses of their own: the first is as good as any.
+  const std::size_t whole = model_.stages[0].strength_factor > 0.0 ? 0 : model_.stages.size() - 1;
+  const std::size_t last = options_.stage < 0 ? whole : static_cast<std::size_t>(options_.stage);
+  Stage trial;
+  trial.number = model_.stages[last].number + 1;
+  trial.title = "strength reduction";
+  trial.max_iterations = options_.iterations;
+  trial.tolerance = safety_.tolerance;
+  trial.where = model_.stages[last].where;
+  safety_.stages = static_cast<int>(last) + 1;
+  model_.stages.insert(model_.stages.begin() + safety_.stages, std::move(trial));
+}
+
+void Finder::set_factor(double factor) {
+  factor_ = factor;
+  for (std::size_t i = 0; i < materials_.size(); ++i) {
+    Material& material = model_.materials[materials_[i]];
+    material.parameters = strength_[i];
+    if (factor != 1.0 || options_.dilation == DilationRule::none)
+      reduce_strength(material.parameters, *material.entry, {factor, options_.dilation});
+    laws_before_.push_back(std::move(material.law));
+    material.law = material.entry->make(material.parameters, model_.units);
+  }
+}
+
+void Finder::take(FactorTrial trial) {
+  if (trial.verdict == Verdict::stands)
+    search_.stands(trial.factor);
+  else
+    search_.falls(trial.factor);
+  safety_.trials.push_back(std::move(trial));
+}
+
+void Finder::take_run(const RunResult& result, const LastState& last) {
+  FactorTrial trial;
+  trial.factor = factor_;
+  trial.iterations = last.iterations;
+  trial.cuts = last.report.cuts;
+  trial.page = result.reason;
+  trial.yielded = inelastic(last.report.points);
+  if (!last.report.iterations.empty()) trial.out_of_balance = last.report.iterations.back().force;
+  if (last.u.size() > 0) {
+    const Largest largest = largest_of(model_, last.u);
+    trial.displacement = largest.displacement;
+    trial.node = largest.node;
+  }
+  if (result.status == RunStatus::completed) {
+    trial.reason = fmt::format("equilibrium at the end of stage {}", safety_.stages);
+  } else {
+    const Attempt attempt{last.report, result.status == RunStatus::singular, false, false};
+    trial.released = last.report.load_factor;
+    trial.verdict = judge(attempt);
+    trial.reason = fmt::format("stage {}: {}", last.report.stage + 1, why_not(model_, trial, attempt));
+  }
+  take(std::move(trial));
+}
+
+// The stages with these strengths; from their end trials go on.
+void Finder::run_from_start(double factor) {
+  set_factor(factor);
+  from_ = 0.0;
+  LastState last;
+  Observer* observers[] = {&last};
+  settings_.trials = this;
+  const std::size_t before = safety_.trials.size();
+  const RunResult result = run(model_, catalogue_, settings_, observers);
+  laws_before_.clear();
+  if (result.status == RunStatus::failed) throw AnalysisError(result.code, result.reason);
+  safety_.stopped = result.status == RunStatus::stopped;
+  if (!safety_.stopped && safety_.trials.size() == before) take_run(result, last);
+}
+
+void Finder::take_trial(const TrialResult& result) {
+  FactorTrial trial;
+  trial.factor = factor_;
+  trial.from = from_;
+  trial.iterations = result.report.total_iterations;
+  trial.cuts = result.report.cuts;
+  trial.page = result.reason;
+  if (!result.report.iterations.empty()) trial.out_of_balance = result.report.iterations.back().force;
+  trial.yielded = inelastic(result.report.points);
+  const Largest largest = largest_of(model_, result.motion);
+  trial.displacement = largest.displacement;
+  trial.node = largest.node;
+  if (result.equilibrium) {
+    trial.reason = why(trial, safety_.tolerance);
+  } else {
+    const Attempt attempt{result.report, result.outcome == StepOutcome::singular,
+                          result.outcome == StepOutcome::law_cut, result.flows};
+    trial.released = result.report.load_factor;
+    trial.verdict = judge(attempt);
+    trial.reason = why_not(model_, trial, attempt);
+  }
+  take(std::move(trial));
+}
+
+// The state that stands, with the motion and the strain of a trial in place of its own.  How far an attempt without
+// equilibrium went means nothing: its largest displacement becomes a part of the mesh.
+void Finder::keep_mechanism(const TrialResult& result, const Solution& now) {
+  constexpr double kShown = 0.05;
+  const double largest = largest_of(model_, result.motion).displacement;
+  if (!result.motion.allFinite() || !(largest > 0.0)) return;
+  const double scale = kShown * Extent(model_).size() / largest;
+  std::vector<GroupData> groups;
+  for (std::size_t g = 0; g < now.groups().size(); ++g) {
+    const GroupData& from = now.groups()[g];
+    GroupData& data = groups.emplace_back();
+    data.group = from.group;
+    data.law = from.law;
+    data.active = from.active;
+    data.state = from.state;
+    std::vector<double>& eps = data.state.committed.eps;
+    const std::vector<double>& strain = result.strain[g];
+    for (std::size_t i = 0; i < eps.size(); ++i) eps[i] = strain.size() == eps.size() ? scale * strain[i] : 0.0;
+  }
+  const Eigen::VectorXd motion = scale * result.motion, none = Eigen::VectorXd::Zero(motion.size());
+  safety_.mechanism = std::make_unique<Frame>(model_, result.report,
+                                              Solution{&motion, &none, &none, nullptr, now.activity, groups});
+  safety_.mechanism_factor = factor_;
+}
+
+// An end that was tried from far below, or whose iterations failed, deserves a second trial from the other end.
+bool Finder::must_repeat(const FactorTrial& end) const {
+  if (repeated_ == end.factor || options_.start == Start::anew) return false;
+  return end.verdict == Verdict::undecided || end.factor - end.from > kFarBelow * options_.limits.tolerance;
+}
+
+std::optional<double> Finder::next_factor() {
+  trial_stage().max_iterations = options_.iterations;
+  if (!search_.bracketed()) return search_.next();
+  if (const FactorTrial* end = safety_.at(search_.upper()); end != nullptr && must_repeat(*end)) {
+    repeated_ = end->factor;
+    trial_stage().max_iterations = kSecondEffort * options_.iterations;
+    return repeated_;
+  }
+  return {};
+}
+
+bool Finder::next(const TrialResult* last, const Solution& now) {
+  laws_before_.clear();
+  if (last == nullptr) {
+    u_start_ = *now.u;
+    FactorTrial first;
+    first.factor = factor_;
+    first.reason = fmt::format("equilibrium at the end of stage {}", safety_.stages);
+    if (options_.start == Start::anew) {
+      const Largest largest = largest_of(model_, u_start_);
+      first.displacement = largest.displacement;
+      first.node = largest.node;
+    }
+    take(std::move(first));
+  } else {
+    take_trial(*last);
+    FactorTrial& trial = safety_.trials.back();
+    const bool stands = trial.verdict == Verdict::stands;
+    if (stands) {
+      const Largest largest = largest_of(model_, *now.u - u_start_);
+      trial.displacement = largest.displacement;
+      trial.node = largest.node;
+    }
+    if (stands ? !search_.upper() : search_.upper() == factor_) keep_mechanism(*last, now);
+  }
+  if (options_.start == Start::anew) return false;
+  const std::optional<double> factor = next_factor();
+  if (!factor) return false;
+  from_ = *search_.lower();
+  set_factor(*factor);
+  return true;
+}
+
+void Finder::conclude() {
+  safety_.lower = search_.lower();
+  safety_.upper = search_.upper();
+  const SearchLimits& limits = options_.limits;
+  if (safety_.stopped)
+    safety_.incomplete = "the search was interrupted";
+  else if (!safety_.lower)
+    safety_.incomplete = fmt::format("no equilibrium even at F = {:g}, the smallest factor", limits.smallest);
+  else if (!safety_.upper)
+    safety_.incomplete = fmt::format("still in equilibrium at F = {:g}, the largest factor", limits.largest);
+  else if (!search_.bracketed())
+    safety_.incomplete = "the search ended early";
+  else if (safety_.at(safety_.upper)->verdict == Verdict::undecided)
+    safety_.incomplete =
+        "at the upper end no equilibrium was found, but nothing gives way there: F may be larger";
+}
+
+Safety Finder::find() {
+  check();
+  safety_.tolerance = std::clamp(0.01 * options_.limits.tolerance, 1e-10, 1e-4);
+  insert_trial_stage();
+  choose_materials();
+  keep_other_strengths();
+  const auto go_on = [&] { return !safety_.stopped && (options_.start == Start::anew || !search_.lower()); };
+  while (go_on()) {
+    const std::optional<double> factor = search_.next();
+    if (!factor) break;
+    run_from_start(*factor);
+  }
+  conclude();
+  return std::move(safety_);
+}
+
+}  // namespace
+
+const FactorTrial* Safety::at(std::optional<double> factor) const {
+  for (std::size_t i = trials.size(); i-- > 0;)
+    if (factor && trials[i].factor == *factor) return &trials[i];
+  return nullptr;
+}
+
+Safety find_safety(Model& model, const Catalogue& catalogue, const RunSettings& settings,
+                   const Options& options) {
+  return Finder(model, catalogue, settings, options).find();
+}
+
+}  // namespace sage::safety

@@ -1,0 +1,82 @@
+// Factor of safety by strength reduction: the largest factor by which the strengths of a model can be divided so
+// that it still finds equilibrium.  docs/theory/strength_reduction.md
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sage/analysis/run.hpp"
+#include "sage/model/strength.hpp"
+#include "sage/record/result.hpp"
+#include "sage/safety/factor_search.hpp"
+
+namespace sage::safety {
+
+// Where the analysis of a factor begins.
+enum class Start {
+  carried,  // from the state of the last factor that stands, with the stresses and the history that it has
+  anew,     // from the beginning of the deck: every stage is run with the divided strengths
+};
+
+struct Options {
+  SearchLimits limits;
+  DilationRule dilation = DilationRule::reduced;
+  Start start = Start::carried;
+  int stage = -1;           // the last stage that is run, from 0; negative = the model's last
+  std::vector<int> groups;  // numbers of those whose strength is divided; empty = all
+  bool interfaces = false, structures = false;  // theirs too
+  int iterations = 40;                          // of an attempt
+  int cuts = 5;                                 // halvings of a factor's way before it is given up
+};
+
+enum class Verdict {
+  stands,     // equilibrium
+  falls,      // none, and the body gives way
+  undecided,  // none, but nothing gives way: perhaps only the iterations failed
+};
+
+// One factor that was tried.  Relative forces: beside the sum of what all elements hold, root mean square.
+struct FactorTrial {
+  double factor = 0.0,
+         from = 0.0;  // from: the factor whose state it began with; 0 = from the start of the deck
+  Verdict verdict = Verdict::stands;
+  std::string reason;           // why, in one line
+  std::string page;             // of a failure: all that the run says of it
+  double out_of_balance = 0.0;  // relative force, of the last iteration
+  double released =
+      1.0;  // share of the forces let go, or of the last stage's loads, that equilibrium was found for
+  double displacement =
+      0.0;        // largest along an axis since the strengths began to fall; Start::anew: since the run began
+  int node = -1;  // where: index
+  int iterations = 0, cuts = 0;
+  long yielded = 0;  // points that yield, slip, are open or at the apex
+};
+
+struct Safety {
+  std::vector<FactorTrial> trials;     // as they were tried
+  std::optional<double> lower, upper;  // ends of the bracket, where there are
+  // Why the answer is not the bracket that was asked for; empty = it is, and its upper end gives way.
+  std::string incomplete;
+  bool stopped = false;  // as RunSettings::stop_asked wanted
+  std::vector<std::string> reduced,
+      untouched;           // materials: "1 clay (mohr_coulomb)", of the others with the reason
+  int stages = 0;          // that were run with factor 1
+  double tolerance = 0.0;  // of the relative force
+  // Motion and strain of the trial that shows the mechanism, as a state of the model: the upper end's, or where that
+  // has none the last that stands; scaled to a displacement of 5 % of the mesh.  Null = no trial moved anything.
+  std::unique_ptr<Frame> mechanism;
+  double mechanism_factor = 0.0;
+
+  bool complete() const { return incomplete.empty() && !stopped; }
+  // The last trial of a factor; nullptr = it was not tried.
+  const FactorTrial* at(std::optional<double> factor) const;
+};
+
+// Behind the chosen stage the model gets one for the trials, and its materials change; it must outlive the result.  settings: as for run().
+// Throws InputError (a model in which nothing has strength; a stage or a group that it lacks) and what run() throws.
+Safety find_safety(Model& model, const Catalogue& catalogue, const RunSettings& settings,
+                   const Options& options);
+
+}  // namespace sage::safety

@@ -1,0 +1,75 @@
+// sagefe safety as a user meets it: what it prints and writes, and what it refuses.
+#include <gtest/gtest.h>
+
+#include "tests/regression/program.hpp"
+
+namespace sage::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool has(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
+
+// c = 10, phi = 0 under 30 where 2 c = 20 is the limit: F = 2/3.
+TEST(SafetyCommand, SaysBothEndsAndWhy) {
+  const fs::path folder = empty_folder("safety");
+  write(folder / "weak.dat", collapse_deck().text());
+  const Finished run = sagefe(folder, "safety weak.dat --tolerance 1e-3 -o out");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE(has(run.out, "safety factor between 0.666")) << run.out;
+  EXPECT_TRUE(has(run.out, "lower end") && has(run.out, "equilibrium to")) << run.out;
+  EXPECT_TRUE(has(run.out, "upper end") && has(run.out, "no equilibrium")) << run.out;
+  for (const char* ending : {".safety.lst", ".safety.csv", ".safety.svg", ".mechanism.svg"})
+    EXPECT_TRUE(fs::exists(folder / "out" / (std::string("weak") + ending))) << ending;
+  EXPECT_TRUE(has(read(folder / "out/weak.safety.csv"), "factor,from,verdict,displacement"));
+  EXPECT_TRUE(has(read(folder / "out/weak.safety.lst"), "safety factor between 0.666"));
+}
+
+TEST(SafetyCommand, NoBracketIsExitCodeThree) {
+  const fs::path folder = empty_folder("safety_none");
+  write(folder / "weak.dat", collapse_deck().text());
+  const Finished low = sagefe(folder, "safety weak.dat --smallest .9");
+  EXPECT_EQ(low.exit_code, 3);
+  EXPECT_TRUE(has(low.err, "no equilibrium even at F = 0.9") && has(low.err, "[S515]")) << low.err;
+  EXPECT_TRUE(has(low.out, "safety factor below 0.9") && has(low.out, "NOT PROVED")) << low.out;
+  const Finished high = sagefe(folder, "safety weak.dat --start .3 --largest .5");
+  EXPECT_EQ(high.exit_code, 3);
+  EXPECT_TRUE(has(high.err, "still in equilibrium at F = 0.5")) << high.err;
+  EXPECT_TRUE(has(high.out, "safety factor above 0.5")) << high.out;
+}
+
+TEST(SafetyCommand, RefusesWhatItCantDo) {
+  const fs::path folder = empty_folder("safety_refused");
+  write(folder / "elastic.dat", block_deck().text());
+  write(folder / "weak.dat", collapse_deck().text());
+  const Finished elastic = sagefe(folder, "safety elastic.dat");
+  EXPECT_EQ(elastic.exit_code, 2);
+  EXPECT_TRUE(has(elastic.err, "no chosen group has a law with strength") && has(elastic.err, "[S260]"))
+      << elastic.err;
+  for (const char* options : {"--stage 7", "--group 9"}) {
+    const Finished run = sagefe(folder, std::string("safety weak.dat ") + options);
+    EXPECT_EQ(run.exit_code, 2) << options;
+    EXPECT_TRUE(has(run.err, "[S260]")) << run.err;
+  }
+  for (const char* options :
+       {"--tolerance 0", "--tolerance -1", "--tolerance nan", "--start -2", "--largest 0", "--dilation some",
+        "--from nowhere", "--iterations 0", "--cuts -1", "--stage 0", "--converge 2", "--group x"})
+    EXPECT_EQ(sagefe(folder, std::string("safety weak.dat ") + options).exit_code, 1) << options;
+  EXPECT_EQ(sagefe(folder, "safety none.dat").exit_code, 2);
+}
+
+TEST(SafetyCommand, ConvergeSaysTheEffectOfTheMesh) {
+  const fs::path folder = empty_folder("safety_converge");
+  write(folder / "weak.dat", collapse_deck().text());
+  const Finished run = sagefe(folder, "safety weak.dat --converge .01");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE(has(run.out, "mesh effect") && has(run.out, "--refine 1") && has(run.out, "+0 %")) << run.out;
+  const Finished small = sagefe(folder, "safety weak.dat --converge .01 --max-dofs 10");
+  EXPECT_EQ(small.exit_code, 3);
+  EXPECT_TRUE(has(small.out, "NOT REACHED: the next mesh has")) << small.out;
+}
+
+}  // namespace
+}  // namespace sage::test

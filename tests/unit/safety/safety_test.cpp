@@ -1,0 +1,195 @@
+// Whole searches on small models whose factor is known.
+#include "sage/safety/safety.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "elements/register_elements.hpp"
+#include "materials/register_materials.hpp"
+#include "sage/scenes/deck_writer.hpp"
+#include "sage/scenes/whole_run.hpp"
+#include "solvers/choose_solver.hpp"
+#include "solvers/register_solvers.hpp"
+
+namespace sage::safety {
+namespace {
+
+using scenes::Block;
+using scenes::Cell;
+using scenes::DeckWriter;
+
+constexpr double kDegree = kRadiansPerDegree;
+
+scenes::Workbench make_workbench() {
+  Catalogue catalogue;
+  register_elements(catalogue);
+  register_materials(catalogue);
+  register_solvers(catalogue);
+  return {std::move(catalogue), choose_solver};
+}
+
+Safety find(const DeckWriter& deck, const Options& options = {}) {
+  const scenes::Workbench bench = make_workbench();
+  Model model = bench.build(deck.text());
+  Safety found = find_safety(model, bench.catalogue(), bench.settings(), options);
+  found.mechanism.reset();  // it refers to the model
+  return found;
+}
+
+void expect_around(const Safety& found, double factor, double tolerance) {
+  ASSERT_TRUE(found.complete()) << found.incomplete;
+  EXPECT_LE(*found.lower, factor);
+  EXPECT_GE(*found.upper, factor);
+  EXPECT_LE(*found.upper - *found.lower, tolerance * (1.0 + 1e-6));
+  EXPECT_EQ(found.at(found.lower)->verdict, Verdict::stands);
+  EXPECT_EQ(found.at(found.upper)->verdict, Verdict::falls);
+}
+
+// The shipped slopes: -1 to +2 % of the log-spiral through the toe, for both ends of the bracket.
+TEST(Safety, ShippedSlopesAgainstLogSpirals) {
+  struct Row {
+    const char* deck;
+    double factor, start;
+  };
+  const scenes::Workbench bench = make_workbench();
+  for (const Row& row : {Row{"griffiths_lane", 1.36821452, 1.0}, Row{"one_to_one", 1.36482236, 1.0},
+                         Row{"acads_1a", 0.98498502, 0.8}, Row{"taylor_60", 5.247358 / 5.0, 1.0}}) {
+    std::ifstream in(std::string(SAGE_SOURCE_DIR "/legacy_inputs/slopes/") + row.deck + "/deck.dat");
+    Model model = bench.build({std::istreambuf_iterator<char>(in), {}});
+    Options options;
+    options.limits.start = row.start;
+    const Safety found = find_safety(model, bench.catalogue(), bench.settings(), options);
+    ASSERT_TRUE(found.complete()) << row.deck << ": " << found.incomplete;
+    EXPECT_GE(*found.lower, 0.99 * row.factor) << row.deck;
+    EXPECT_LE(*found.upper, 1.02 * row.factor) << row.deck;
+    EXPECT_EQ(found.mechanism_factor, *found.upper) << row.deck;
+  }
+}
+
+// A slab of elastic rock that lies on a joint in a slope, in axes along the slope: gravity leans.
+DeckWriter slab(double c, double phi, double weight, double depth, double beta, int joint_law) {
+  Block block;
+  block.columns = 6;
+  block.rows = 2;
+  block.cell = Cell::quad4;
+  block.place = scenes::rectangle(0.0, 6.0 * depth, 0.0, depth);
+  DeckWriter deck(1);
+  block.write_nodes(deck);
+  const std::vector<int> lower = scenes::copy_row(deck, block, block.bottom(), 1001);
+  deck.material(1, 1, {1e7, 0.0}, weight);
+  if (joint_law == 23)
+    deck.material(2, 23, {1e6, 1e6, c, phi, 0.0});
+  else
+    deck.material(2, 22, {c, phi, 0.0, 0.0, 1e5, 0.0, 1e6, 1.0, 1e-3});
+  deck.group(1, 1, 1, 1);
+  deck.group(2, 11, 0, 2);
+  block.write_elements(deck, 1);
+  scenes::join(deck, 101, 2, lower, block.bottom(), 1);
+  for (const int node : lower) deck.fix(node, 1, 1);
+  scenes::StageCards& stage = deck.stage(4);
+  stage.gravity_x = std::sin(beta * kDegree);
+  stage.gravity_y = -std::cos(beta * kDegree);
+  return deck;
+}
+
+// Infinite slope: F = c/(gamma z sin(beta) cos(beta)) + tan(phi)/tan(beta), z vertical; the slab's thickness is z cos(beta).
+TEST(Safety, SlabOnASlopeIsTheInfiniteSlope) {
+  struct Row {
+    double c, phi, weight, z, beta;
+  };
+  for (const Row& row : {Row{5, 30, 20, 4, 20}, Row{0, 35, 19, 3, 25}, Row{10, 0, 18, 2.2, 12}}) {
+    const double b = row.beta * kDegree, expected = row.c / (row.weight * row.z * std::sin(b) * std::cos(b)) +
+                                                    std::tan(row.phi * kDegree) / std::tan(b);
+    Options options;
+    options.interfaces = true;
+    options.limits.tolerance = 1e-6;
+    expect_around(find(slab(row.c, row.phi, row.weight, row.z * std::cos(b), row.beta, 23), options), expected,
+                  1e-6);
+  }
+}
+
+TEST(Safety, InterfacesAreDividedOnRequestOnly) {
+  EXPECT_THROW(find(slab(5, 30, 20, 4, 20, 23)), InputError);
+}
+
+// A strip of phi = 0 soil that is pushed down on its whole width: it yields at 2 c, and so stands up to F = 2 c / p.
+DeckWriter column(const std::vector<double>& parameters, int law = 4, double pressure = 10.0) {
+  Block block;
+  block.cell = Cell::quad8;
+  block.columns = 2;
+  block.rows = 2;
+  block.place = scenes::rectangle(0.0, 1.0, 0.0, 1.0);
+  DeckWriter deck(1);
+  block.write_nodes(deck);
+  deck.material(1, law, parameters);
+  deck.group(1, 2, 1, 1);
+  block.write_elements(deck, 1);
+  for (const int node : block.bottom()) deck.fix(node, 0, 1);
+  for (const int node : block.left()) deck.fix(node, 1, 0);
+  scenes::StageCards& stage = deck.stage();
+  for (int i = 0; i < 2; ++i) stage.pressure(block.element(i, 1), 3, pressure, pressure);
+  return deck;
+}
+
+TEST(Safety, CompressedTrescaColumn) {
+  Options options;
+  options.limits.tolerance = 1e-5;
+  expect_around(find(column({1e4, 0.3, 8.0, 0.0, 0.0}), options), 1.6, 1e-5);
+}
+
+// Below 1: the stages themselves have no equilibrium at F = 1.
+TEST(Safety, FactorBelowOne) {
+  const Safety found = find(column({1e4, 0.3, 3.0, 0.0, 0.0}));
+  expect_around(found, 0.6, 0.01);
+  EXPECT_EQ(found.trials.front().factor, 1.0);
+  EXPECT_NE(found.trials.front().verdict, Verdict::stands);
+}
+
+// c and phi: sigma_1 = 2 c/F sqrt(N), N of atan(tan(phi)/F), by both ways, and by the cone that is exact in plane strain.
+TEST(Safety, BothWaysAndBothLawsAgree) {
+  const double c = 6.0, phi = 25.0;
+  const auto strength = [&](double F) {
+    const double s = std::sin(std::atan(std::tan(phi * kDegree) / F));
+    return 2.0 * c / F * std::sqrt((1 + s) / (1 - s));
+  };
+  double F = 1.0;
+  for (int i = 0; i < 200; ++i) F *= std::pow(strength(F) / 10.0, 0.5);
+  ASSERT_NEAR(strength(F), 10.0, 1e-9);
+  for (const Start start : {Start::carried, Start::anew}) {
+    Options options;
+    options.limits.tolerance = 1e-3;
+    options.start = start;
+    expect_around(find(column({1e4, 0.3, c, phi, phi}), options), F, 1e-3);
+    expect_around(find(column({1e4, 0.3, c, phi, phi, 3.0}, 3), options), F, 1e-3);
+  }
+}
+
+TEST(Safety, NothingToDivideIsRefused) {
+  EXPECT_THROW(find(column({1e4, 0.3}, 1)), InputError);
+  Options other;
+  other.groups = {7};
+  EXPECT_THROW(find(column({1e4, 0.3, 8.0, 0.0, 0.0}), other), InputError);
+  Options late;
+  late.stage = 1;
+  EXPECT_THROW(find(column({1e4, 0.3, 8.0, 0.0, 0.0}), late), InputError);
+}
+
+TEST(Safety, NoBracketIsSaidSo) {
+  Options high, low;
+  high.limits.largest = 1.5;
+  const Safety above = find(column({1e4, 0.3, 8.0, 0.0, 0.0}), high);
+  EXPECT_FALSE(above.complete());
+  EXPECT_EQ(above.lower, 1.5);
+  EXPECT_FALSE(above.upper);
+  low.limits.smallest = 0.7;
+  const Safety below = find(column({1e4, 0.3, 3.0, 0.0, 0.0}), low);
+  EXPECT_FALSE(below.complete());
+  EXPECT_FALSE(below.lower);
+  EXPECT_NE(below.incomplete.find("0.7"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sage::safety
