@@ -14,6 +14,7 @@
 #include "sage/app/progress.hpp"
 #include "sage/app/run_deck.hpp"
 #include "sage/app/screen.hpp"
+#include "sage/app/umat_output.hpp"
 #include "sage/compare/comparison.hpp"
 #include "sage/compare/pair_picture.hpp"
 #include "sage/model/locate.hpp"
@@ -142,7 +143,7 @@ compare::Side run_model(Model model, const std::string& label, const SideOptions
   Task task("compare " + stem);
   settings.pulse = task.pulse();
   compare::Side side(label, std::move(model), place.folder, stem);
-  side.run(place.catalogue, settings);
+  with_umat_output(label, [&] { side.run(place.catalogue, settings); });
   if (!side.error().empty()) say_error(options.deck, side.error());
   return side;
 }

@@ -17,6 +17,7 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
+#include "sage/app/umat_output.hpp"
 #include "sage/core/module.hpp"
 #include "sage/umat/try_routine.hpp"
 
@@ -81,8 +82,8 @@ int try_umat(const ConformOptions& options, const std::string& text) {
   trial.stress = -Vector4(options.stress.data());
   return done_apart([&] {
     std::ostringstream answer;
-    const bool holds = umat::try_routine(trial, answer);
-    std::fflush(stdout);
+    bool holds = false;
+    with_umat_output(text, [&] { holds = umat::try_routine(trial, answer); });
     fmt::print("{}", answer.str());
     return std::fflush(stdout) != 0 ? kOutput : holds ? kOk : kNotConverged;
   });

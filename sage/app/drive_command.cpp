@@ -5,15 +5,19 @@
 #include <CLI/Validators.hpp>
 #include <cmath>
 #include <memory>
+#include <nlohmann/json.hpp>
 
+#include "sage/app/answer.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
+#include "sage/app/umat_output.hpp"
 #include "sage/drive/curve_files.hpp"
 #include "sage/drive/fit.hpp"
 #include "sage/drive/path_file.hpp"
 #include "sage/drive/subject.hpp"
 #include "sage/record/out_file.hpp"
+#include "sage/record/values.hpp"
 
 namespace sage::app {
 
@@ -120,6 +124,7 @@ std::vector<Subject> subjects_of(const DriveOptions& options, const Catalogue& c
 Path path_of(const DriveOptions& options, const Subject& subject, const LabTest* test) {
   const int size = subject.entry->law_size;
   Path path;
+  path.history = subject.history;
   path.start.assign(static_cast<std::size_t>(size), 0.0);
   if (!options.start.empty()) {
     if (options.start.size() > path.start.size())
@@ -206,6 +211,58 @@ Measured measured_from(const std::string& text, const LabTest& test, double pres
   return read_measured(file, test, pressure);
 }
 
+Json curve_json(const Curve& curve) {
+  Json columns = Json::array(), rows = Json::array(), states = Json::array();
+  for (const Column& column : curve.columns)
+    columns.push_back({{"name", json_text(column.name)}, {"unit", json_text(column.unit)}});
+  for (std::size_t row = 0; row < curve.rows(); ++row) {
+    Json values = Json::array();
+    for (const Column& column : curve.columns) values.push_back(column.values[row]);
+    rows.push_back(std::move(values));
+    states.push_back(status_name(curve.status[row]));
+  }
+  return {{"name", json_text(curve.name)},
+          {"failure", curve.failure.empty() ? Json(nullptr) : Json(json_text(curve.failure))},
+          {"columns", std::move(columns)},
+          {"rows", std::move(rows)},
+          {"status", std::move(states)}};
+}
+
+void answer_curves(const Heading& heading, const std::vector<Curve>& curves) {
+  Json* json = answer();
+  if (json == nullptr) return;
+  (*json)["title"] = json_text(heading.title);
+  (*json)["cases"] = json_list(heading.notes);
+  (*json)["curves"] = Json::array();
+  for (const Curve& curve : curves) (*json)["curves"].push_back(curve_json(curve));
+}
+
+void answer_fit(const FitProblem& problem, const FitResult& result) {
+  Json* json = answer();
+  if (json == nullptr) return;
+  Json parameters = Json::array(), undetermined = Json::array();
+  for (std::size_t i = 0; i < problem.free.size(); ++i)
+    parameters.push_back({{"name", json_text(problem.free[i].name)},
+                          {"value", result.values[i]},
+                          {"standard_error", result.standard_errors[i]},
+                          {"low", result.low[i]},
+                          {"high", result.high[i]},
+                          {"at_bound", static_cast<bool>(result.at_bound[i])}});
+  for (const Undetermined& one : result.undetermined)
+    undetermined.push_back({{"parameters", json_list(one.names)}, {"shares", one.shares}});
+  (*json)["fit"] = {{"converged", result.converged},
+                    {"rms", result.rms},
+                    {"points", result.points},
+                    {"parameters", std::move(parameters)},
+                    {"undetermined", std::move(undetermined)}};
+}
+
+void finish(OutFile& file, std::string text) {
+  file.text() = std::move(text);
+  file.finish();
+  answer_file(file.path());
+}
+
 // The fitted curves go where driven ones go.
 int fit_law(const DriveOptions& options, const Subject& subject, const LabTest* test) {
   if (test == nullptr) throw UsageError("--fit goes with --test, not with --path");
@@ -221,21 +278,20 @@ int fit_law(const DriveOptions& options, const Subject& subject, const LabTest* 
   OutFile csv, plot;
   if (!options.csv.empty() && options.csv != "-") csv = OutFile(options.csv);
   if (!options.plot.empty()) plot = OutFile(options.plot);
-  const FitResult result = of_command_line("--free: ", [&] {
-    for (const std::string& text : options.free) problem.free.push_back(free_parameter_from(subject, text));
-    return fit(problem);
+  FitResult result;
+  with_umat_output(subject.name, [&] {
+    result = of_command_line("--free: ", [&] {
+      for (const std::string& text : options.free) problem.free.push_back(free_parameter_from(subject, text));
+      return fit(problem);
+    });
   });
   const Heading heading = heading_of(options, {result.fitted});
   fmt::print("{}",
              options.csv == "-" ? csv_text(heading, result.curves, options.digits) : fit_text(problem, result));
-  if (csv.open()) {
-    csv.text() = csv_text(heading, result.curves, options.digits);
-    csv.finish();
-  }
-  if (plot.open()) {
-    plot.text() = fit_plot(problem, result);
-    plot.finish();
-  }
+  answer_curves(heading, result.curves);
+  answer_fit(problem, result);
+  if (csv.open()) finish(csv, csv_text(heading, result.curves, options.digits));
+  if (plot.open()) finish(plot, fit_plot(problem, result));
   const bool whole =
       std::ranges::all_of(result.curves, [](const Curve& curve) { return curve.failure.empty(); });
   return result.converged && whole ? kOk : kNotConverged;
@@ -269,9 +325,11 @@ int drive_laws(const DriveOptions& options, const Catalogue& catalogue) {
   std::vector<Curve> curves;
   for (const Subject& subject : subjects) {
     const LawPtr law = make_law(subject);
-    curves.push_back(of_command_line(subject.name + ": ", [&] {
-      return follow(reference(law), subject.units, path_of(options, subject, test));
-    }));
+    with_umat_output(subject.name, [&] {
+      curves.push_back(of_command_line(subject.name + ": ", [&] {
+        return follow(reference(law), subject.units, path_of(options, subject, test));
+      }));
+    });
     curves.back().name = subject.name;
   }
   const std::vector<std::string> panels =
@@ -281,14 +339,9 @@ int drive_laws(const DriveOptions& options, const Catalogue& catalogue) {
   const Heading heading = heading_of(options, subjects);
   fmt::print("{}",
              to_screen ? csv_text(heading, curves, options.digits) : summary_text(curves, panels.front()));
-  if (csv.open()) {
-    csv.text() = csv_text(heading, curves, options.digits);
-    csv.finish();
-  }
-  if (plot.open()) {
-    plot.text() = plot_text(heading, curves, panels);
-    plot.finish();
-  }
+  answer_curves(heading, curves);
+  if (csv.open()) finish(csv, csv_text(heading, curves, options.digits));
+  if (plot.open()) finish(plot, plot_text(heading, curves, panels));
   const bool whole = std::ranges::all_of(curves, [](const Curve& curve) { return curve.failure.empty(); });
   return whole ? kOk : kNotConverged;
 }

@@ -11,6 +11,7 @@
 #include <iterator>
 #include <memory>
 
+#include "sage/app/answer.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
@@ -82,6 +83,7 @@ int write_folder(const NewOptions& options) {
     OutFile out(folder / filled_in(name.string(), options.name));
     out.text() = filled_in(text, options.name);
     out.finish();
+    answer_file(out.path());
   }
   fmt::print("{}: {} {} that builds and conforms; {} says what to do next\n", folder.string(),
              options.kind == "element" ? "an" : "a", options.kind, (folder / "README.md").string());

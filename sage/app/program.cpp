@@ -159,6 +159,17 @@ Command add_all_options(CLI::App& parser, const Entry& entry, const Catalogue& c
   return execute;
 }
 
+// All that the command can ask for, with what the command line loads.
+Catalogue catalogue_for(const Entry& entry, int argc, char** argv, const AddToCatalogue& add) {
+  const auto values = [&](const char* option) {
+    return entry.takes_plugins ? values_on(argc, argv, option) : std::vector<std::string>();
+  };
+  Catalogue catalogue = full_catalogue(load_umats(values("--umat")));
+  if (add) add(catalogue);
+  for (const std::string& file : values("--plugin")) load_plugin(file, catalogue);
+  return catalogue;
+}
+
 int run_command_line(int argc, char** argv, const AddToCatalogue& add) {
   CLI::App root("", "sagefe");
   describe(root);
@@ -170,13 +181,13 @@ int run_command_line(int argc, char** argv, const AddToCatalogue& add) {
   const Entry* chosen = named ? find_command(argv[word]) : nullptr;
   if (named && chosen == nullptr) return refuse(argv[word], [] { return kUsage; });
   Catalogue catalogue;
-  if (chosen != nullptr) {
-    const auto values = [&](const char* option) {
-      return chosen->takes_plugins ? values_on(argc, argv, option) : std::vector<std::string>();
-    };
-    catalogue = full_catalogue(load_umats(values("--umat")));
-    if (add) add(catalogue);
-    for (const std::string& file : values("--plugin")) load_plugin(file, catalogue);
+  try {
+    if (chosen != nullptr) catalogue = catalogue_for(*chosen, argc, argv, add);
+  } catch (const PluginError& error) {
+    return refuse(argv[word], [&] {
+      say_error("sagefe", error);
+      return kUsage;
+    });
   }
   Command execute;
   ScreenOptions options;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "sage/app/screen.hpp"
 #include "sage/record/out_file.hpp"
 #include "sage/umat/capture.hpp"
 #include "sage/umat/law.hpp"
@@ -10,7 +11,7 @@ namespace sage::app {
 
 namespace {
 
-constexpr std::size_t kMostKept = std::size_t{256} << 10;
+constexpr std::size_t kMostKept = std::size_t{256} << 10, kMostShown = std::size_t{8} << 10;
 
 void write_log(const RunRequest& request, const umat::Capture::Text& text) {
   if (text.bytes == 0) return;
@@ -20,13 +21,33 @@ void write_log(const RunRequest& request, const umat::Capture::Text& text) {
     file.text() += fmt::format("\n... and {} more bytes, which are not kept\n", text.bytes - text.first.size());
   file.finish();
   if (!request.quiet)
-    fmt::print(stderr, "{}: note: user materials printed {} bytes: {}{}\n", request.deck, text.bytes,
-               file.path().string(), text.bytes > text.first.size() ? " has the first of them" : "");
+    say_note(request.deck,
+             fmt::format("user materials printed {} bytes: {}{}", text.bytes, file.path().string(),
+                         text.bytes > text.first.size() ? " has the first of them" : ""));
 }
 
-void say_notes(const RunRequest& request) {
-  for (const std::string& note : umat::take_notes())
-    if (!request.quiet) fmt::print(stderr, "{}: note: {}\n", request.deck, note);
+void show(const std::string& who, const umat::Capture::Text& text) {
+  if (text.bytes == 0) return;
+  say_note(who, fmt::format("user materials printed {} bytes{}:", text.bytes,
+                            text.bytes > text.first.size() ? ", of which these are the first" : ""));
+  print_stderr(text.first + (text.first.ends_with('\n') ? "" : "\n"));
+}
+
+void say_notes(const std::string& who) {
+  for (const std::string& note : umat::take_notes()) say_note(who, note);
+}
+
+// After the work, also where it failed, what was caught goes to `take`.
+void with_capture(std::size_t most, const std::function<void()>& work,
+                  const std::function<void(const umat::Capture::Text&)>& take) {
+  umat::Capture capture(most);
+  try {
+    work();
+  } catch (...) {
+    take(capture.end());
+    throw;
+  }
+  take(capture.end());
 }
 
 }  // namespace
@@ -34,15 +55,18 @@ void say_notes(const RunRequest& request) {
 void with_umat_output(const RunRequest& request, const std::function<void()>& work) {
   if (umat::opened_libraries().empty()) return work();
   umat::set_job(std::filesystem::absolute(request.output.folder).string(), stem_of(request));
-  umat::Capture capture(kMostKept);
-  try {
-    work();
-  } catch (...) {
-    write_log(request, capture.end());
-    throw;
-  }
-  write_log(request, capture.end());
-  say_notes(request);
+  with_capture(kMostKept, work, [&](const umat::Capture::Text& text) {
+    write_log(request, text);
+    if (!request.quiet) say_notes(request.deck);
+  });
+}
+
+void with_umat_output(const std::string& who, const std::function<void()>& work) {
+  if (umat::opened_libraries().empty()) return work();
+  with_capture(kMostShown, work, [&](const umat::Capture::Text& text) {
+    show(who, text);
+    say_notes(who);
+  });
 }
 
 }  // namespace sage::app

@@ -17,12 +17,16 @@ constexpr int kHalvings = 12;
 }  // namespace
 
 template <int N>
-PointDriver<N>::PointDriver(const Law<N>& law, const Vector<N>& sigma)
+PointDriver<N>::PointDriver(const Law<N>& law, const Vector<N>& sigma, std::span<const double> history)
     : law_(law), sigma_(sigma), eps_(Vector<N>::Zero()) {
   for (const Quantity& quantity : law.history()) h_.push_back(quantity.initial);
   h_trial_ = h_;
   if (!law_.initialise(sigma_, h_))
     throw AnalysisError("S503", "point driver: the law can't carry the initial stress");
+  for (std::size_t i = 0; i < std::min(history.size(), h_.size()); ++i)
+    if (!std::isnan(history[i])) h_[i] = history[i];
+  if (!history.empty() && !law_.accepts_history(sigma_, h_))
+    throw AnalysisError("S503", "point driver: the law can't go on from this history");
 }
 
 template <int N>

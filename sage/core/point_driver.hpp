@@ -17,8 +17,10 @@ template <int N>
 class PointDriver {
  public:
   // Starts from an initial stress, strain zero.  Throws AnalysisError if the law can't carry that stress.
-  // The law must outlive the driver.
-  explicit PointDriver(const Law<N>& law, const Vector<N>& sigma = Vector<N>::Zero());
+  // The law must outlive the driver.  history: first values of the law's first quantities, in its own sign; NaN
+  // leaves one as the law has it.  Throws AnalysisError if the law can't go on from them.
+  explicit PointDriver(const Law<N>& law, const Vector<N>& sigma = Vector<N>::Zero(),
+                       std::span<const double> history = {});
 
   // One step.  target[i] is the strain increment of a strain-controlled component, or the stress that a
   // stress-controlled one has at the end.  Newton on the law's tangent; a step that fails is halved, up to
@@ -50,8 +52,8 @@ class PointDriver {
   std::vector<double> h_, h_trial_;
   PointStatus status_ = PointStatus::elastic;
   int iterations_ = 0, steps_ = 0;
-  // Stage 1, an increment for each advance(), at the origin; handed on where the law wants it.
-  PointContext context_{.stage = 1};
+  // Element 1 of size 1, stage 1, an increment for each advance(), at the origin; handed on where the law wants it.
+  PointContext context_{.element = 1, .stage = 1, .size = 1.0};
 };
 
 extern template class PointDriver<1>;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -125,18 +126,41 @@ bool follow_leg(PointDriver<N>& point, const Law<N>& law, const Path& path, int 
     const int parts = point.steps();
     try {
       point.advance(controls_of<N>(leg), target, leg.duration / leg.steps, springs);
-    } catch (const AnalysisError&) {
+    } catch (const AnalysisError& error) {
       if (point.steps() > parts) put_row<N>(rows, curve, law, point, start, path, {number, step});
-      curve.failure = fmt::format(
-          "ends in leg {}, step {} of {}: no equilibrium there, even in 4096 parts of the step (a stress "
-          "beyond "
-          "the law's strength, or lost contact)",
-          number, step, leg.steps);
+      const bool lost = error.code() == Code("S501");  // else the law itself says what is wrong
+      curve.failure =
+          fmt::format("ends in leg {}, step {} of {}: {}", number, step, leg.steps,
+                      lost ? "no equilibrium there, even in 4096 parts of the step (a stress beyond "
+                             "the law's strength, or lost contact)"
+                           : error.what());
       return false;
     }
     put_row<N>(rows, curve, law, point, start, path, {number, step});
   }
   return true;
+}
+
+// One a quantity of the law; NaN: as the law has it.
+template <int N>
+std::vector<double> first_history(const Law<N>& law, const std::vector<FirstValue>& given) {
+  if (given.empty()) return {};
+  const std::span<const Quantity> quantities = law.history();
+  std::vector<double> values(quantities.size(), std::nan(""));
+  for (const FirstValue& one : given) {
+    const auto found =
+        std::ranges::find_if(quantities, [&](const Quantity& quantity) { return quantity.name == one.name; });
+    if (found == quantities.end()) {
+      std::string known;
+      for (const Quantity& quantity : quantities)
+        known += (known.empty() ? "" : ", ") + std::string(quantity.name);
+      throw InputError("S651", {},
+                       fmt::format("the law has no history variable {}; it has {}", one.name,
+                                   known.empty() ? "none" : known));
+    }
+    values[static_cast<std::size_t>(found - quantities.begin())] = inward(*found, one.value);
+  }
+  return values;
 }
 
 template <int N>
@@ -147,12 +171,16 @@ Curve follow_law(const Law<N>& law, const UnitSystem& units, const Path& path) {
   for (int i = 0; i < N; ++i) start[i] = turned(path.start[static_cast<std::size_t>(i)]);
   Curve curve;
   Rows rows(curve, units);
+  const std::vector<double> history = first_history<N>(law, path.history);
   std::unique_ptr<PointDriver<N>> point;
   try {
-    point = std::make_unique<PointDriver<N>>(law, start);
+    point = std::make_unique<PointDriver<N>>(law, start, history);
   } catch (const AnalysisError&) {
-    throw InputError("S650", {},
-                     "the law can't carry the stress at the start of the path (it lies beyond its strength)");
+    throw InputError(
+        "S650", {},
+        history.empty()
+            ? "the law can't carry the stress at the start of the path (it lies beyond its strength)"
+            : "the law can't carry the stress at the start of the path with this history");
   }
   put_row<N>(rows, curve, law, *point, start, path, {0, 0});
   for (int leg = 1; leg <= static_cast<int>(path.legs.size()); ++leg)

@@ -10,6 +10,12 @@
 
 namespace sage::drive {
 
+// Of a history variable, at the start: its name in outputs, the law's own sign, angles in degrees.
+struct FirstValue {
+  std::string name;
+  double value = 0.0;
+};
+
 // A law with what its curve is called and was made of.
 struct Subject {
   std::string name;
@@ -19,12 +25,14 @@ struct Subject {
   std::vector<double> values;  // parameters as decks write them, all of them
   UnitSystem units;
   double pressure = 0.0;  // stress at the start, all round; across a joint
+  std::vector<FirstValue> history{};
 };
 
 // Compression positive.
 struct Path {
   std::vector<double> start;  // stresses, one a component
   std::vector<Leg> legs;
+  std::vector<FirstValue> history{};
   double normal_stiffness = 0.0;  // of a spring that a joint's normal stress pushes [stress/length]
   // Component whose total stress stays while the volume does, for the pore pressure; -1 = none.
   int total_stress_stays = -1;

@@ -133,6 +133,7 @@ class Comparison {
   Path path_of(const Measured& measured) const {
     const LabTest& test = *problem_.test;
     Path path;
+    path.history = problem_.subject.history;
     path.start = test.law_size == 4
                      ? std::vector<double>{measured.pressure, measured.pressure, measured.pressure, 0.0}
                      : std::vector<double>{0.0, measured.pressure};

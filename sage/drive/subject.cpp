@@ -105,12 +105,16 @@ void apply(Subject& subject, const Setting& setting, const SourcePosition& where
     subject.pressure = value;
     return;
   }
+  if (constexpr std::string_view kHistory = "history."; setting.key.starts_with(kHistory)) {
+    subject.history.push_back({setting.key.substr(kHistory.size()), value});
+    return;
+  }
   int place = parameter_place(*subject.entry, setting.key);
   if (place < 0) place = open_place(subject, setting.key);
   if (place < 0)
     throw InputError("S651", where,
                      fmt::format("{} has no parameter {}; it has {} (and E, nu, c, phi, psi for short; "
-                                 "pressure is that of the start)",
+                                 "pressure and history.NAME are those of the start)",
                                  subject.entry->name, setting.key, parameter_names(*subject.entry)));
   subject.values[static_cast<std::size_t>(place)] = value;
 }

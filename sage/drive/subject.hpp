@@ -26,7 +26,7 @@ int parameter_place(const MaterialEntry& entry, std::string_view key);
 Subject subject_of(const Catalogue& catalogue, std::string_view law, const UnitSystem& units,
                    const SourcePosition& where = {});
 
-// Sets a parameter, or the pressure at the start.  Throws InputError with the parameters that there are.
+// Sets a parameter, or the pressure or history.NAME at the start.  Throws InputError with the parameters that there are.
 void apply(Subject& subject, const Setting& setting, const SourcePosition& where = {});
 
 // Whether all is set that has to be, and the law takes it.  Throws InputError with name and what is wrong.

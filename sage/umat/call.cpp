@@ -36,6 +36,18 @@ bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
+// Of the increment.  Routines look for a time of exactly 0, where rounding must leave nothing.
+double start_of(const PointContext& context) {
+  const double start = context.time - context.dt;
+  return std::abs(start - context.stage_start) <= 1e-9 * context.dt ? context.stage_start : start;
+}
+
+// Routines take increment 1 for the beginning of the step, as Abaqus has it: what follows when the first increment is
+// divided counts as the next.
+int increment_of(const PointContext& context, double start) {
+  return std::max(context.increment, start > context.stage_start ? 2 : 1);
+}
+
 void set_unit(double* matrix) {
   std::fill(matrix, matrix + 9, 0.0);
   for (int i = 0; i < 3; ++i) matrix[4 * i] = 1.0;
@@ -91,7 +103,7 @@ void Call::load(const PointIn<4>& in, const PointContext& context, Width width) 
   at(kCoords)[2] = 0.0;
   // A state that stands has no length of time, but some routines divide by it.
   dtime_ = context.dt > 0.0 ? context.dt : 1.0;
-  const double start = context.time - context.dt;
+  const double start = start_of(context);
   time_ = {start - context.stage_start, start};
   size_ = context.size;
   pnewdt_ = 1.0;
@@ -104,7 +116,7 @@ void Call::load(const PointIn<4>& in, const PointContext& context, Width width) 
                context.point + 1,
                1,
                1,
-               std::max(1, context.increment)};
+               increment_of(context, start)};
   // Step, procedure (1 static), large deformation (no), perturbation (no).
   jstep_ = {context.stage, 1, 0, 0};
   if (width == Width::four) {

@@ -17,6 +17,7 @@ namespace {
 
 // All units of the libraries' Fortran runtime, gfortran's.
 void flush_fortran() {
+  if (!may_flush()) return;
   for (const OpenedLibrary& library : opened_libraries())
     if (void* flush = dlsym(library.handle, "_gfortran_flush_i4"))
       reinterpret_cast<void (*)(const int*)>(flush)(nullptr);

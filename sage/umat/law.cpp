@@ -64,7 +64,7 @@ class UmatLaw final : public SolidLaw {
       out.sigma = in.sigma0;
       std::copy(in.h0.begin(), in.h0.end(), out.h1.begin());
     } else {
-      if (call_.pnewdt() < 1.0) return Outcome::cut_step;
+      if (!(call_.pnewdt() >= 1.0)) return Outcome::cut_step;  // a number that is none, too
       out.sigma = call_.stress();
       call_.history(out.h1);
     }
@@ -86,6 +86,8 @@ class UmatLaw final : public SolidLaw {
     if (end.ending == Ending::stop) refuse("executed STOP" + words, context);
     if (end.ending == Ending::exit)
       refuse("ended the program, by exit() or an error of its library" + words + ",", context);
+    if (end.ending == Ending::crash) refuse("crashed" + words, context);
+    if (end.ending == Ending::exception) refuse("threw an exception" + words, context);
     if (const std::string damage = call_.damage(); !damage.empty()) {
       call_.repair();
       refuse(damage, context);
@@ -122,6 +124,9 @@ class UmatLaw final : public SolidLaw {
       return answer;
     };
     width_known_ = true;
+    if (!setup_.routine.not_called.empty())
+      notes.push_back(setup_.routine.file + " has " + setup_.routine.not_called +
+                      " too, which sagefe does not call: first values come from the deck");
     const auto first = ask(false);
     if (!first) return;  // the call itself says why
     const auto second = ask(false), poisoned = ask(true);

@@ -5,10 +5,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "sage/core/module.hpp"
@@ -30,12 +35,16 @@ thread_local Under under;
 std::string job_folder = ".", job_name = "job";
 std::vector<OpenedLibrary> libraries;
 
-void leave(Ending ending, const char* words, std::size_t length) {
-  if (under.back == nullptr) return;
+void keep_end(Ending ending, const char* words, std::size_t length) {
   const std::size_t size = std::min(length, under.words.size() - 1);
   std::memcpy(under.words.data(), words, size);
   under.words[size] = '\0';
   under.end = {ending, under.words.data()};
+}
+
+void leave(Ending ending, const char* words, std::size_t length) {
+  if (under.back == nullptr) return;
+  keep_end(ending, words, length);
   longjmp(*under.back, 1);
 }
 
@@ -43,10 +52,57 @@ void leave_for_module(int who, const char* words, size_t length) {
   leave(who == 0 ? Ending::xit : who == 1 ? Ending::stop : Ending::exit, words, length);
 }
 
+// A routine was left in the middle of its Fortran library, whose locks then stay taken: who asks it for anything would
+// wait for ever.
+bool library_left = false;
+
+// So would the end of the program, where the library closes its units: it is passed over.
+void end_at_once(int code, void*) {
+  std::fflush(nullptr);
+  std::_Exit(code);
+}
+
+void leave_library() {
+  if (!std::exchange(library_left, true)) on_exit(end_at_once, nullptr);
+}
+
 // exit(), and what ends in it: STOP of other compilers, errors of the Fortran library.
 void caught_exit() {
-  if (under.back != nullptr) std::atexit(caught_exit);  // for the next time
+  if (under.back == nullptr) return;
+  leave_library();
+  std::atexit(caught_exit);  // for the next time
   leave(Ending::exit, "", 0);
+}
+
+// Signals of a crash.  Outside of a call the program ends by them as it would without this.
+constexpr std::array kCrashes{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+
+void crashed(int signal) {
+  if (under.back != nullptr) {
+    leave_library();
+    const char* words = sigdescr_np(signal);
+    leave(Ending::crash, words, std::strlen(words));
+  }
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+void catch_crashes() {
+  struct sigaction action {};
+  action.sa_handler = crashed;
+  action.sa_flags = SA_ONSTACK | SA_NODEFER;  // the handler is left by longjmp, which lifts no block
+  for (const int signal : kCrashes) sigaction(signal, &action, nullptr);
+}
+
+// Routines with large local arrays use up a thread's stack: the handler needs another.  A sanitizer has given one.
+void expect_spare_stack() {
+  thread_local bool there = false;
+  thread_local std::array<char, std::size_t{64} << 10> stack;
+  if (std::exchange(there, true)) return;
+  stack_t spare{};
+  if (sigaltstack(nullptr, &spare) != 0 || (spare.ss_flags & SS_DISABLE) == 0) return;
+  spare = {stack.data(), 0, stack.size()};
+  sigaltstack(&spare, nullptr);
 }
 
 // Its names stand for all libraries that are loaded from then on: before the first UMAT.
@@ -67,9 +123,22 @@ void load_utilities() {
                             [] { return job_name.c_str(); }};
     reinterpret_cast<void (*)(const SageUmatHost*)>(function)(&host);
     std::atexit(caught_exit);
+    catch_crashes();
     return true;
   }();
   (void)loaded;
+}
+
+// They would set first values or share data with the routine.
+std::string routines_not_called(void* handle) {
+  std::string names;
+  for (const char* symbol : {"sdvini_", "sigini_", "usdfld_", "uexternaldb_"})
+    if (dlsym(handle, symbol) != nullptr) {
+      std::string name(symbol, std::strlen(symbol) - 1);
+      for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+      names += (names.empty() ? "" : ", ") + name;
+    }
+  return names;
 }
 
 }  // namespace
@@ -90,6 +159,7 @@ Routine open_routine(const std::string& text) {
   const Library library = open_library(std::filesystem::absolute(routine.file).string());
   if (library.handle == nullptr) throw std::runtime_error(routine.file + " can't be loaded: " + library.error);
   libraries.push_back({routine.file, library.handle});
+  routine.not_called = routines_not_called(library.handle);
   std::string tried;
   for (const std::string& symbol :
        wanted.empty() ? std::vector<std::string>{"umat_", "umat", "UMAT"} : std::vector{wanted, wanted + "_"}) {
@@ -106,12 +176,26 @@ const std::vector<OpenedLibrary>& opened_libraries() {
   return libraries;
 }
 
+bool may_flush() {
+  return !library_left;
+}
+
 CallEnd call_caught(void (*call)(void*), void* data) {
+  if (library_left) return {Ending::exit, "an earlier call did so"};
+  expect_spare_stack();
   jmp_buf back;
   under.end = {};
   under.back = &back;
   // What changes between here and a longjmp is not read after it.
-  if (_setjmp(back) == 0) call(data);
+  if (_setjmp(back) == 0) {
+    try {
+      call(data);
+    } catch (const std::exception& thrown) {  // of a routine in C++
+      keep_end(Ending::exception, thrown.what(), std::strlen(thrown.what()));
+    } catch (...) {
+      keep_end(Ending::exception, "", 0);
+    }
+  }
   under.back = nullptr;
   return under.end;
 }

@@ -23,6 +23,8 @@ struct Routine {
   std::string file, symbol;
   Function function = nullptr;
 
+  std::string not_called;  // other user routines of the library, which a user may think are called
+
   std::string words() const { return "routine " + symbol + " of " + file; }
 };
 
@@ -40,16 +42,20 @@ const std::vector<OpenedLibrary>& opened_libraries();
 void set_job(const std::string& folder, const std::string& name);
 
 // How a call ended.
-enum class Ending : std::uint8_t { returned, xit, stop, exit };
+enum class Ending : std::uint8_t { returned, xit, stop, exit, crash, exception };
 
-// `words` of at most 200 characters: the message of STOP or of STDB_ABQERR.
+// `words` of at most 200 characters: the message of STOP, of STDB_ABQERR or of an exception, the name of a signal.
 struct CallEnd {
   Ending ending = Ending::returned;
   const char* words = "";
 };
 
-// Does `call(data)`.  Where the routine calls XIT, executes STOP or ends the program in another way, its frames are
-// left by longjmp: what it had allocated or opened stays so.
+// Whether the libraries' Fortran runtime can be asked for anything: not after it was left by an error of its own or a
+// crash.
+bool may_flush();
+
+// Does `call(data)`.  Where the routine calls XIT, executes STOP, ends the program in another way or crashes, its
+// frames are left by longjmp: what it had allocated or opened stays so.
 CallEnd call_caught(void (*call)(void*), void* data);
 
 }  // namespace sage::umat

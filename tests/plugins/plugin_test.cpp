@@ -145,7 +145,7 @@ TEST(Plugins, ConformRunsTheSuites) {
   const Finished sound = sagefe(folder, "conform " + kWrong);
   EXPECT_EQ(sound.exit_code, 3) << sound.out << sound.err;
   expect_words(sound.out, {"wrong 0.1 by the tests: 1 laws, 0 elements, 0 solvers, 0 fields",
-                           "FAILS  law 1001 rigid trial 1: linear", "verdict: does NOT conform"});
+                           "FAILS  law 1001 rigid trial 1: no hidden units", "verdict: does NOT conform"});
 }
 
 TEST(Plugins, ConformSaysWhereAPieceCrashesAndWhatIsNotTried) {
@@ -171,7 +171,7 @@ TEST(WrongPlugins, FilesThatAreNoPlugin) {
   mkfifo((folder / "pipe.so").c_str(), 0600);
   expect_refused(folder, "pipe.so", {"is no file"});
   write(folder / "half.so", good.substr(0, good.size() / 2));
-  expect_refused(folder, "half.so", {"section .sage_plugin"});
+  expect_refused(folder, "half.so", {"is cut short"});
   write(folder / "start.so", good.substr(0, 40));
   expect_refused(folder, "start.so", {"is cut short"});
   write(folder / "page.so", good.substr(0, 4096));
@@ -197,7 +197,7 @@ TEST(WrongPlugins, FilesThatAreNoPlugin) {
 TEST(WrongPlugins, LibrariesThatLackSomething) {
   const fs::path folder = empty_folder("plugin_lacks");
   const std::string good = read(kWrong);
-  write(folder / "section.so", patched(good, ".sage_plugin", ".sage_foreign"));
+  write(folder / "section.so", patched(good, ".sage_plugin", ".sage_pluggy"));
   expect_refused(folder, "section.so", {"section .sage_plugin"});
   write(folder / "entry.so", patched(good, "sage_plugin_v1", "sage_plugin_v9"));
   expect_refused(folder, "entry.so", {"has no function sage_plugin_v1"});

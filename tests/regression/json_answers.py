@@ -147,6 +147,15 @@ def check_others(folder):
     expect(safety["complete"] and safety["lower"] < safety["upper"] <= safety["lower"] + 0.05, "bracket", safety["lower"])
     expect(all((folder / file).exists() for file in safety["files"]), "files of a safety factor")
     answer(folder, "safety", DECK, "-o", "out", code=2)
+    driven = answer(folder, "drive", "--law", "linear_elastic", "--set", "E=1000", "--set", "nu=.25", "--test", "oedometer",
+                    "--to", ".01", "--steps", "4", "--csv", "c.csv")["result"]
+    curve = driven["curves"][0]
+    place = [column["name"] for column in curve["columns"]].index("stress_yy")
+    expect(len(curve["rows"]) == len(curve["status"]) == 5 and curve["failure"] is None, "rows of a driven law")
+    expect(abs(curve["rows"][-1][place] - 12.0) < 1e-9 and driven["files"] == ["c.csv"], "oedometer", curve["rows"][-1])
+    for option in ("--plugin", "--umat"):  # a library that can't be loaded: the document says so
+        refused = answer(folder, "run", DECK, option, "none.so", code=1)["messages"]
+        expect("none.so" in refused[0]["message"] and refused[0]["code"][:2] == "S8", option, refused)
     both = answer(folder, "compare", DECK, "--both", "-o", "out")["result"]
     expect(both["comparison"]["answers"] and both["a"]["reports"], "comparison")
 

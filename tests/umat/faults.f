@@ -68,7 +68,27 @@ C     PROPS(4) on: PROPS are E, nu, fault, increment.
       IF (KIND.EQ.15) STATEV(1)=STATEV(1)+1.D0
       IF (KIND.EQ.17) DDSDDE(1,2)=-DDSDDE(1,2)
       IF (KIND.EQ.18) DDSDDE(1,2)=1.5D0*DDSDDE(1,2)
+      IF (KIND.EQ.19) CALL NOWHERE(STRESS)
+      IF (KIND.EQ.20) OPEN(77,FILE='no/such/file',STATUS='OLD')
+      IF (KIND.EQ.21) CALL DEEP(1,D)
       RETURN
+      END
+C     Writes far beyond all memory.
+      SUBROUTINE NOWHERE(A)
+      DOUBLE PRECISION A(*)
+      INTEGER*8 I
+      DO I=1,8
+        A(I*2_8**44)=0.D0
+      END DO
+      END
+C     Uses up the stack.
+      RECURSIVE SUBROUTINE DEEP(N,D)
+      DOUBLE PRECISION A(10000),D
+      DO I=1,10000
+        A(I)=N+I+D
+      END DO
+      IF (N.GT.0) CALL DEEP(N+1,A(MOD(N,9999)+1))
+      D=D+A(17)
       END
 C     As a routine for three dimensions has it.
       SUBROUTINE ZERO36(D)
