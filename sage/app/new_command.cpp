@@ -46,6 +46,23 @@ std::string name_flaw(const std::string& name) {
   return plain ? "" : "a name is wanted of lower-case letters, digits and _, at most 30, a letter first";
 }
 
+// Why no piece can be called so; empty = one can.  CMake and the headers need some names themselves.
+std::string taken_by(const std::string& kind, const std::string& name, const Catalogue& catalogue) {
+  for (const char* own : {"all", "clean", "depend", "edit_cache", "help", "install", "list_install_components",
+                          "package", "package_source", "preinstall", "rebuild_cache", "test"})
+    if (name == own) return "CMake has a target of this name";
+  for (const char* own : {"solid", "interface", "structure"})
+    if (name == own) return "the headers have a class of this name";
+  const auto among = [&](const auto& entries) {
+    for (const auto& [code, entry] : entries)
+      if (entry.name == name) return "sagefe has " + kind + " " + std::to_string(code) + " of this name";
+    return std::string();
+  };
+  return kind == "law"       ? among(catalogue.materials.entries())
+         : kind == "element" ? among(catalogue.elements.entries())
+                             : "";
+}
+
 // cam_clay: CamClay.
 std::string class_name(const std::string& name) {
   std::string words;
@@ -65,7 +82,9 @@ std::string filled_in(std::string text, const std::string& name) {
   return text;
 }
 
-int write_folder(const NewOptions& options) {
+int write_folder(const NewOptions& options, const Catalogue& catalogue) {
+  if (const std::string taken = taken_by(options.kind, options.name, catalogue); !taken.empty())
+    throw UsageError("S904", options.name + ": another name is wanted, since " + taken);
   const fs::path from = templates() / options.kind;
   if (!fs::is_directory(from))
     throw OutputError("S807", "the templates are missing: no folder " + from.string());
@@ -92,7 +111,7 @@ int write_folder(const NewOptions& options) {
 
 }  // namespace
 
-Command new_command(CLI::App& parser, const Catalogue&) {
+Command new_command(CLI::App& parser, const Catalogue& catalogue) {
   auto options = std::make_shared<NewOptions>();
   parser.add_option("KIND", options->kind, "law, element or umat")
       ->required()
@@ -101,7 +120,7 @@ Command new_command(CLI::App& parser, const Catalogue&) {
       ->required()
       ->check(name_flaw);
   parser.add_option("-o,--output", options->folder, "folder to write (default: NAME)");
-  return [options] { return write_folder(*options); };
+  return [options, &catalogue] { return write_folder(*options, catalogue); };
 }
 
 }  // namespace sage::app

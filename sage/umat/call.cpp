@@ -129,7 +129,7 @@ void Call::load(const PointIn<4>& in, const PointContext& context, Width width) 
 CallEnd Call::run(bool poisoned) {
   if (poisoned)
     for (std::int64_t& value : integers_) value |= ~std::int64_t{0} << 32;
-  return call_caught([](void* self) { static_cast<Call*>(self)->call(); }, this);
+  return call_caught([](void* self) { static_cast<Call*>(self)->call(); }, this, poisoned);
 }
 
 void Call::call() {
@@ -144,14 +144,14 @@ void Call::call() {
                            &integers_[kKspt], jstep_.data(), &integers_[kKinc], name_.size());
 }
 
+// After every call: whole regions at once.
 std::string Call::damage() const {
-  std::uint64_t changed = 0;
+  static const std::vector<double> kWhole(kBefore + kBehindMatrix, kGuard);
+  bool same = setup_->props.empty() ||
+              std::memcmp(at(kProps), setup_->props.data(), setup_->props.size() * sizeof(double)) == 0;
   for (const Guards& guards : guards_)
-    for (std::size_t i = 0; i < guards.size; ++i)
-      changed |= std::bit_cast<std::uint64_t>(memory_[guards.first + i]) ^ std::bit_cast<std::uint64_t>(kGuard);
-  for (std::size_t i = 0; i < setup_->props.size(); ++i)
-    changed |= std::bit_cast<std::uint64_t>(at(kProps)[i]) ^ std::bit_cast<std::uint64_t>(setup_->props[i]);
-  return changed == 0 ? std::string() : damage_words();
+    same = same && std::memcmp(&memory_[guards.first], kWhole.data(), guards.size * sizeof(double)) == 0;
+  return same ? std::string() : damage_words();
 }
 
 std::string Call::damage_words() const {

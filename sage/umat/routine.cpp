@@ -29,6 +29,7 @@ struct Under {
   jmp_buf* back = nullptr;
   CallEnd end;
   std::array<char, 201> words{};
+  bool asked = false;  // with numbers that some routines crash on
 };
 thread_local Under under;
 
@@ -55,6 +56,7 @@ void leave_for_module(int who, const char* words, size_t length) {
 // A routine was left in the middle of its Fortran library, whose locks then stay taken: who asks it for anything would
 // wait for ever.
 bool library_left = false;
+Under when_left;
 
 // So would the end of the program, where the library closes its units: it is passed over.
 void end_at_once(int code, void*) {
@@ -63,6 +65,7 @@ void end_at_once(int code, void*) {
 }
 
 void leave_library() {
+  if (under.asked) return;
   if (!std::exchange(library_left, true)) on_exit(end_at_once, nullptr);
 }
 
@@ -180,12 +183,13 @@ bool may_flush() {
   return !library_left;
 }
 
-CallEnd call_caught(void (*call)(void*), void* data) {
-  if (library_left) return {Ending::exit, "an earlier call did so"};
+CallEnd call_caught(void (*call)(void*), void* data, bool may_crash) {
+  if (library_left) return when_left.end;
   expect_spare_stack();
   jmp_buf back;
   under.end = {};
   under.back = &back;
+  under.asked = may_crash;
   // What changes between here and a longjmp is not read after it.
   if (_setjmp(back) == 0) {
     try {
@@ -197,6 +201,10 @@ CallEnd call_caught(void (*call)(void*), void* data) {
     }
   }
   under.back = nullptr;
+  if (library_left) {
+    when_left.words = under.words;
+    when_left.end = {under.end.ending, when_left.words.data()};
+  }
   return under.end;
 }
 

@@ -56,6 +56,8 @@ bool may_flush();
 
 // Does `call(data)`.  Where the routine calls XIT, executes STOP, ends the program in another way or crashes, its
 // frames are left by longjmp: what it had allocated or opened stays so.
-CallEnd call_caught(void (*call)(void*), void* data);
+// After an error of the Fortran library or a crash there are no more calls: each ends as that one did.  may_crash: not
+// after this one, which is made to find something out.
+CallEnd call_caught(void (*call)(void*), void* data, bool may_crash = false);
 
 }  // namespace sage::umat

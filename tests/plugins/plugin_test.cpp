@@ -282,6 +282,43 @@ TEST(WrongPlugins, OnesThatCrash) {
                  "exit in a constructor");
 }
 
+// With --json a refusal is a document, too.
+TEST(WrongPlugins, AreRefusedInJson) {
+  const fs::path folder = empty_folder("plugin_json");
+  for (const char* command : {"run deck.dat --json --plugin none.so", "list materials --umat none.so --json"}) {
+    const Finished run = sagefe(folder, command);
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_TRUE(run.out.starts_with("{\n")) << run.out;
+    expect_words(run.out, {"\"exit_code\": 1", "none.so", "does not exist"});
+  }
+}
+
+TEST(New, NamesAndFoldersThatCantBe) {
+  const fs::path folder = empty_folder("new_names");
+  const auto refuse = [&](const std::string& arguments, const std::string& words, int code = 1) {
+    const Finished run = sagefe(folder, "new " + arguments);
+    EXPECT_EQ(run.exit_code, code) << arguments;
+    EXPECT_EQ(run.out, "");
+    expect_words(run.err, {words});
+  };
+  for (const char* name :
+       {"''", "Clay", "1clay", "a/b", "../clay", "'my clay'", "a_name_of_more_than_thirty_letters"})
+    refuse(std::string("law ") + name, "lower-case letters, digits and _");
+  refuse("law test", "CMake has a target of this name");
+  refuse("umat all", "CMake has a target of this name");
+  refuse("law solid", "the headers have a class of this name");
+  refuse("law mohr_coulomb", "sagefe has law 4 of this name");
+  refuse("element quad4", "of this name");
+  refuse("solver mine", "law,element,umat");
+  fs::create_directory(folder / "there");
+  write(folder / "there/file", "");
+  write(folder / "file", "");
+  refuse("law there", "there is there already and not empty");
+  refuse("law clay -o file", "file", 4);
+  EXPECT_EQ(sagefe(folder, "new umat mohr_coulomb").exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder / "mohr_coulomb/mohr_coulomb.f"));
+}
+
 TEST(PluginOption, IsReadBeforeTheOthers) {
   const auto files = [](std::vector<std::string> words) {
     std::vector<char*> arguments;
