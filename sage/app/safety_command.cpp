@@ -220,7 +220,7 @@ int run_safety(const SafetyOptions& options, const Catalogue& catalogue) {
 void add_search_options(CLI::App& parser, SafetyOptions& o) {
   safety::SearchLimits& limits = o.search.limits;
   parser.add_option("--stage", o.stage, "the last stage that is run, from 1 (default: the deck's last)")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, 100'000));
   parser
       .add_option("--tolerance", limits.tolerance, "width of the bracket that ends the search (default 0.01)")
       ->check(number_in(1e-8, 1.0, "a width from 1e-8 to 1"));

@@ -18,7 +18,7 @@ constexpr double kGivesWay = 0.1;
 // A trial that began farther below its factor is repeated before its factor counts as an end of the bracket.
 constexpr double kFarBelow = 2.5;  // tolerances
 constexpr int kSecondEffort = 3;   // times the iterations, with all cuts
-constexpr int kFirstCuts = 2;
+constexpr int kFirstCuts = 1;
 
 struct Largest {
   double displacement = 0.0;
