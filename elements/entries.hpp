@@ -35,5 +35,13 @@ ElementEntry flow_quad8_entry();
 ElementEntry flow_quad9_entry();
 ElementEntry flow_tri3_entry();
 ElementEntry flow_tri6_entry();
+ElementEntry bar2_entry();
+ElementEntry bar3_entry();
+ElementEntry spring2_entry();
+ElementEntry ring1_entry();
+ElementEntry beam2_entry();
+ElementEntry beam3_entry();
+ElementEntry beam2_hinged_entry();
+ElementEntry beam3_hinged_entry();
 
 }  // namespace sage

@@ -40,6 +40,14 @@ void register_elements(Catalogue& catalogue) {
   catalogue.elements.add(43, flow_tri3_entry());
   catalogue.elements.add(44, flow_tri6_entry());
   catalogue.elements.add(45, flow_quad9_entry());
+  catalogue.elements.add(31, bar2_entry());
+  catalogue.elements.add(32, bar3_entry());
+  catalogue.elements.add(33, spring2_entry());
+  catalogue.elements.add(34, ring1_entry());
+  catalogue.elements.add(35, beam2_entry());
+  catalogue.elements.add(36, beam3_entry());
+  catalogue.elements.add(37, beam2_hinged_entry());
+  catalogue.elements.add(38, beam3_hinged_entry());
 }
 
 }  // namespace sage

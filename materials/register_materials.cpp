@@ -1,6 +1,7 @@
 // The page that lists every law.  A new law = its own file, one line here, one in CMakeLists.txt, one test.
 #include "materials/register_materials.hpp"
 
+#include "materials/axial.hpp"
 #include "materials/clough_duncan.hpp"
 #include "materials/darcy.hpp"
 #include "materials/dilating_joint.hpp"
@@ -12,6 +13,7 @@
 #include "materials/linear_elastic.hpp"
 #include "materials/mohr_coulomb.hpp"
 #include "materials/mohr_coulomb_softening.hpp"
+#include "materials/section.hpp"
 
 namespace sage {
 
@@ -30,6 +32,13 @@ void register_materials(Catalogue& catalogue) {
   catalogue.materials.add(21, goodman_entry());
   catalogue.materials.add(22, clough_duncan_entry());
   catalogue.materials.add(23, dilating_joint_entry());
+  // Structures
+  catalogue.materials.add(31, axial_elastic_entry());
+  catalogue.materials.add(32, axial_one_way_entry());
+  catalogue.materials.add(33, axial_plastic_entry());
+  catalogue.materials.add(35, plate_entry());
+  catalogue.materials.add(36, section_elastic_entry());
+  catalogue.materials.add(37, section_plastic_entry());
   // Water
   catalogue.materials.add(41, darcy_entry());
 }

@@ -183,6 +183,10 @@ std::string refused_line(const StepReport& report) {
 
 // Of a field that nothing gives a level: what goes in can't go out.
 std::string missing_level(const UnknownField& field) {
+  if (field.turns)
+    return "nothing holds the beam there against turning: a mechanism of hinges, or a beam without "
+           "stiffness in bending.\n  try: a fixity of the " +
+           field.name + " at one of its nodes, or a hinge less.";
   return "nothing determines the level of the " + field.name +
          " there: no node of that part has it prescribed.\n" + "  try: a fixity of the " + field.name +
          " at one node or more of the part.";

@@ -28,10 +28,36 @@ std::string laws_for(const ElementEntry& entry) {
          (entry.law_size == 1 ? " component" : " components");
 }
 
+// The structure that differs from this one by a node in the middle alone; 0 = there is none.
+int with_middle_node(const Catalogue& catalogue, const ElementEntry& entry) {
+  const auto fields = [](const ElementEntry& of) {
+    std::vector<std::string> names;
+    for (const ElementUnknown& unknown : of.unknowns) names.push_back(unknown.field.name);
+    return names;
+  };
+  for (const auto& [code, other] : catalogue.elements.entries())
+    if (other.structure() && other.corners == entry.corners && other.nodes == entry.nodes + 1 &&
+        other.law_size == entry.law_size && other.extends == entry.extends && fields(other) == fields(entry))
+      return code;
+  return 0;
+}
+
+// A structure of two nodes beside sides with a node in the middle.
+int chosen_structure(const Builder& b, const ElementEntry& entry, int deck_code) {
+  const ElementEntry* wanted = b.catalogue.elements.find(b.options.element);
+  if (wanted == nullptr || !entry.only_corners() || entry.nodes != 2 || wanted->makes_nodes()) return deck_code;
+  const ElementEntry* joint = b.catalogue.elements.find(b.catalogue.elements.code_of(wanted->side_interface));
+  if (joint == nullptr || joint->only_corners()) return deck_code;
+  const int code = with_middle_node(b.catalogue, entry);
+  return code != 0 ? code : deck_code;
+}
+
 // The deck's element, or the one that BuildOptions puts in its place.
 int chosen_element(const Builder& b, int deck_code) {
   const ElementEntry* deck_entry = b.catalogue.elements.find(deck_code);
-  if (b.options.element == 0 || deck_entry == nullptr || !deck_entry->unknowns.empty()) return deck_code;
+  if (b.options.element == 0 || deck_entry == nullptr) return deck_code;
+  if (deck_entry->structure()) return chosen_structure(b, *deck_entry, deck_code);
+  if (!deck_entry->unknowns.empty()) return deck_code;
   const ElementEntry* wanted = b.catalogue.elements.find(b.options.element);
   if (can_replace(wanted, *deck_entry)) return b.options.element;
   if (wanted == nullptr) return deck_code;
@@ -208,6 +234,9 @@ void read_element_card(Builder& b, const CardView& card, ElementFields& fields) 
   if (!target.element) return;  // its own error was reported
   const ElementEntry& entry = *target.entry;
   ElementCard element{card.integer(fields.number), group->second, card_nodes(card, fields)};
+  // A card with one node alone reads like one of another kind: that of a ring may give its node twice.
+  if (entry.card_nodes == 1 && element.nodes.size() == 2 && element.nodes[0] == element.nodes[1])
+    element.nodes.pop_back();
   const int given = static_cast<int>(element.nodes.size());
   if (given < entry.corners || given > entry.card_nodes) {
     b.error("S217", card.where("n1"),

@@ -206,6 +206,33 @@ void warn_hanging(Builder& b, const std::vector<double>& shortest) {
                   "; the element does not have that node, and the mesh can gape or overlap there");
 }
 
+// A structure along a side of a solid must have all of the side's nodes, and no others: elsewhere both part.
+void warn_structures_on_sides(Builder& b) {
+  const Model& model = b.model;
+  Examples found;
+  for (const Group& group : model.groups) {
+    if (!group.structure() || group.entry->corners != 2) continue;
+    for (int e = 0; e < group.elements(); ++e) {
+      const int first = std::min(group.nodes_of(e)[0], group.nodes_of(e)[1]),
+                last = std::max(group.nodes_of(e)[0], group.nodes_of(e)[1]);
+      for (const SolidEdge& edge : b.solid_edges().at(first)) {
+        if (edge.other != last) continue;
+        const EdgeUse use{first, last, edge.group, edge.element, edge.local};
+        const std::size_t nodes = local_nodes(model, use).size();
+        if (nodes == group.node_count()) continue;
+        found.add("element " + std::to_string(group.element_numbers[static_cast<std::size_t>(e)]) + " (" +
+                  group.element_name + ") on a side of " + element_of(model, use) + " with " +
+                  std::to_string(nodes) + " nodes");
+        break;
+      }
+    }
+  }
+  if (found.count > 0)
+    b.warning("S337", b.at_line(0),
+              std::to_string(found.count) + " structure(s) with other nodes than the sides that they lie on: " +
+                  found.text() + "; between their ends the two are not connected");
+}
+
 // Flags of nodes that solids have: those of the groups that `counts` lets through.
 template <class Counts>
 std::vector<char> solid_nodes(const Model& model, Counts counts) {
@@ -266,6 +293,7 @@ void check_joints(Builder& b) {
   const std::vector<double> shortest = shortest_edges(b.model);
   warn_coincident(b, shortest);
   warn_hanging(b, shortest);
+  warn_structures_on_sides(b);
 }
 
 }  // namespace sage::build

@@ -98,6 +98,29 @@ std::vector<char> moved_nodes(const Model& model) {
   return moved;
 }
 
+// ... nor can it turn.
+void fix_turning_on_axis(Builder& b, double reach) {
+  Model& model = b.model;
+  const DofMap map(model);
+  int added = 0;
+  for (std::size_t field = 1; field < model.unknowns.size(); ++field) {
+    if (!model.unknowns[field].turns) continue;
+    for (int node = 0; node < model.mesh.nodes(); ++node) {
+      const int f = static_cast<int>(field);
+      if (std::abs(model.mesh.x(0, node)) > 1e-12 * reach || map.of(node, f) < 0) continue;
+      FieldFixity fixity;
+      fixity.field = f;
+      fixity.node = node;
+      fixity.code = FixityCode::fixed;
+      model.field_fixities.push_back(fixity);
+      ++added;
+    }
+  }
+  if (added > 0)
+    b.note("S328", b.at_line(0),
+           std::to_string(added) + " node(s) of beams on the axis r = 0 held against turning, by symmetry");
+}
+
 // In axisymmetry a point on the axis can't move radially.
 void fix_axis(Builder& b) {
   Model& model = b.model;
@@ -122,6 +145,7 @@ void fix_axis(Builder& b) {
   if (added > 0)
     b.note("S328", b.at_line(0),
            std::to_string(added) + " node(s) on the axis r = 0 held radially (u_r = 0 by symmetry)");
+  fix_turning_on_axis(b, reach);
 }
 
 void note_unused_nodes(Builder& b) {
@@ -175,6 +199,19 @@ void warn_materials(Builder& b) {
   }
 }
 
+// Whether beams of a part could hold it by their rotation.
+bool turns(const Model& model, const std::vector<int>& part, int p) {
+  const DofMap map(model);
+  for (std::size_t field = 1; field < model.unknowns.size(); ++field)
+    for (int node = 0; model.unknowns[field].turns && node < model.mesh.nodes(); ++node)
+      if (part[static_cast<std::size_t>(node)] == p && map.of(node, static_cast<int>(field)) >= 0) return true;
+  return false;
+}
+
+std::string turning_words() {
+  return " (the beams there have no rotation support: a fixity of the unknown rotation clamps a node)";
+}
+
 // Rigid motions left free, by connected part.
 void check_supports_of(Builder& b, const Stage& stage, const Activity& activity) {
   constexpr std::size_t kShown = 5;
@@ -185,7 +222,7 @@ void check_supports_of(Builder& b, const Stage& stage, const Activity& activity)
     b.error("S323", stage.where,
             "stage " + std::to_string(stage.number) + ": nothing holds the " +
                 (several ? part_name(b.model, part, loose[i].part) : "mesh") + " against " + loose[i].motion +
-                "; add fixities");
+                "; add fixities" + (turns(b.model, part, loose[i].part) ? turning_words() : std::string()));
 }
 
 void check_supports(Builder& b) {

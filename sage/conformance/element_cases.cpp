@@ -25,6 +25,14 @@ Eigen::VectorXd history_start(std::span<const Quantity> history) {
   return h;
 }
 
+bool exists(const ElementEntry& entry, Geometry geometry, int formulation) {
+  try {
+    return entry.make(geometry, formulation) != nullptr;
+  } catch (const ParameterError&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 std::vector<ElementCase> element_cases(const Catalogue& catalogue, const std::vector<int>& codes) {
@@ -32,10 +40,12 @@ std::vector<ElementCase> element_cases(const Catalogue& catalogue, const std::ve
   for (const auto& [code, entry] : catalogue.elements.entries()) {
     if (!codes.empty() && std::ranges::find(codes, code) == codes.end()) continue;
     for (const Formulation& formulation : entry.formulations)
-      for (const Geometry geometry : {Geometry::plane_strain, Geometry::axisymmetric})
+      for (const Geometry geometry : {Geometry::plane_strain, Geometry::axisymmetric}) {
+        if (!exists(entry, geometry, formulation.code)) continue;
         cases.push_back({code, formulation.code, geometry, &entry,
                          entry.name + " " + formulation.name +
                              (geometry == Geometry::axisymmetric ? " axisymmetric" : " plane strain")});
+      }
   }
   return cases;
 }

@@ -19,7 +19,7 @@ struct ElementCase {
   bool axisymmetric() const { return geometry == Geometry::axisymmetric; }
 };
 
-// All formulations in both geometries, of the elements with these codes or, where there are none, of all.  The
+// All formulations in each geometry that they can be in, of the elements with these codes or, where there are none, of all.  The
 // catalogue must outlive the answer.
 std::vector<ElementCase> element_cases(const Catalogue& catalogue, const std::vector<int>& codes = {});
 // Those of one kind.

@@ -343,7 +343,9 @@ TEST_P(Laws, NoHiddenUnits) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       const bool stress = rows[i].dimension == Dimension::stress ||
                           rows[i].dimension == Dimension::stress_per_length ||
-                          rows[i].dimension == Dimension::velocity;  // what flow is to the slope of the head
+                          rows[i].dimension == Dimension::velocity ||  // what flow is to the slope of the head
+                          rows[i].dimension == Dimension::force || rows[i].dimension == Dimension::moment ||
+                          rows[i].dimension == Dimension::bending_stiffness;
       if (stress && values[i] != -1.0) values[i] *= factor;
     }
     with_law([&](const auto& law) {

@@ -145,6 +145,7 @@ struct ElementEntry {
   // What is solved for at its nodes, in the order of the element's dofs: field by field, in a field node by node.
   // Empty: the displacement of every node.
   std::vector<ElementUnknown> unknowns{};
+  bool extends = false;  // a structure whose axial strain is no strain but the extension itself, a length
   // Throws ParameterError for an unknown formulation code, or a geometry that it can't be in.
   std::function<std::unique_ptr<Element>(Geometry geometry, int formulation)> make{};
 

@@ -30,8 +30,9 @@ struct ElementTraits {
   bool linear = true;          // f is linear in du, with one K for every dt, wherever the law is
   bool sees_unknowns = false;  // ElementIn::u0 and dt are wanted
   bool loses_order = false;    // as nu -> 1/2 it still converges, but slower than its shape functions allow
+  int own_doubles = 0;         // that geometry() writes behind the points, for evaluate() alone
   // Doubles filled by geometry(): for each point its weight w, then B^T (dofs x law_size, column-major).
-  int geometry_size() const { return points * (1 + law_size * dofs); }
+  int geometry_size() const { return points * (1 + law_size * dofs) + own_doubles; }
 };
 
 // One element's inputs.  Pointers are to contiguous blocks of the sizes that the traits give.

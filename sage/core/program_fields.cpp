@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "sage/core/field.hpp"
+#include "sage/core/spaced.hpp"
 
 namespace sage {
 
@@ -230,7 +231,47 @@ void add_interface_fields(std::vector<FieldEntry>& rows) {
        .arrays = {"interface_relative_shear", "interface_relative_normal"}});
 }
 
-// The first component of every structure's law.
+// A component of beams, whose laws have three or five; -1: those of three have none.
+FieldEntry section_field(std::string name, std::string meaning, Dimension dimension, int of_three, int of_five,
+                         double sign) {
+  FieldEntry row;
+  row.name = std::move(name);
+  row.meaning = std::move(meaning);
+  row.dimension = dimension;
+  row.value = PointField{[=](const PointView& p, double* v) {
+    const int at = p.sigma.size() == 5 ? of_five : of_three;
+    *v = 0.0 + sign * p.sigma[static_cast<std::size_t>(at)];
+  }};
+  if (sign < 0.0) row.sign = FieldSign::compression_positive;
+  row.kind = ElementKind::structure;
+  row.has_law = [of_three](LawRef law) {
+    const int size = size_of_law(law);
+    return size == 5 || (size == 3 && of_three >= 0);
+  };
+  row.optional = true;
+  return row;
+}
+
+const Spaced* spaced(LawRef law) {
+  const auto* one = std::get_if<const Law<1>*>(&law);
+  return one == nullptr ? nullptr : dynamic_cast<const Spaced*>(*one);
+}
+
+// The axial force of one bar, where bars stand apart.
+FieldEntry force_each() {
+  FieldEntry row;
+  row.name = "force_each";
+  row.meaning = "axial force of one bar";
+  row.dimension = Dimension::force;
+  row.value =
+      PointField{[](const PointView& p, double* v) { *v = 0.0 - p.sigma[0] * spaced(p.law)->spacing(); }};
+  row.sign = FieldSign::compression_positive;
+  row.kind = ElementKind::structure;
+  row.has_law = [](LawRef law) { return spaced(law) != nullptr && spaced(law)->spacing() != 1.0; };
+  row.optional = true;
+  return row;
+}
+
 void add_structure_fields(std::vector<FieldEntry>& rows) {
   rows.push_back({.name = "axial_force",
                   .meaning = "axial force of structures",
@@ -243,6 +284,11 @@ void add_structure_fields(std::vector<FieldEntry>& rows) {
                   .value = PointField{[](const PointView& p, double* v) { *v = 0.0 - p.eps[0]; }},
                   .sign = FieldSign::compression_positive,
                   .kind = ElementKind::structure});
+  rows.push_back(section_field("shear_force", "shear force of beams", Dimension::force, 1, 2, 1.0));
+  rows.push_back(section_field("bending_moment", "bending moment of beams", Dimension::moment, 2, 3, 1.0));
+  rows.push_back(section_field("hoop_force", "hoop force of shells", Dimension::force, -1, 1, -1.0));
+  rows.push_back(section_field("hoop_moment", "hoop moment of shells", Dimension::moment, -1, 4, 1.0));
+  rows.push_back(force_each());
 }
 
 // What a law of water has is tension + as all is inside: the flow is against it.

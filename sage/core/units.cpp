@@ -22,6 +22,10 @@ std::string unit_text(Dimension dimension, const UnitSystem& units) {
       return units.length + "/time";
     case Dimension::discharge:
       return units.length + "^3/time";
+    case Dimension::moment:
+      return units.force + " " + units.length;
+    case Dimension::bending_stiffness:
+      return units.force + " " + units.length + "^2";
   }
   return "-";
 }

@@ -17,6 +17,8 @@ enum class Dimension {
   unit_weight,        // lbf/in^3
   velocity,           // m/time: of flow, and permeability; the time unit is that of the deck's permeability
   discharge,          // m^3/time (full circle when axisymmetric, unit thickness in plane strain)
+  moment,             // lbf in, kN m
+  bending_stiffness,  // lbf in^2, kN m^2
 };
 
 struct UnitSystem {

@@ -16,6 +16,8 @@ struct UnknownField {
   Dimension load_dimension = Dimension::none;
   // What comes in through loads and held nodes goes out through others: no element keeps or makes any of it.
   bool balanced = true;
+  // Turns with the body, counter-clockwise: held, it stops a rigid rotation; zero on an axis of symmetry.
+  bool turns = false;
 
   bool displacement() const { return name == "displacement"; }
   int components() const { return displacement() ? 2 : 1; }

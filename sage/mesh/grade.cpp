@@ -46,6 +46,19 @@ std::vector<ChildCorners> interface_end(int pair, double ratio) {
   return pair == 0 ? std::vector<ChildCorners>{left, right} : std::vector<ChildCorners>{right, left};
 }
 
+// A structure along the sides that are cut goes with them.
+template <class IsCentre>
+void cut_structures(const Group& group, int g, const IsCentre& is_centre, double ratio,
+                    Subdivision& subdivision) {
+  for (int e = group.elements() - 1; e >= 0; --e) {
+    const int* nodes = group.nodes_of(e);
+    if (is_centre(nodes[0]))
+      subdivision.split_line(g, e, ratio);
+    else if (group.node_count() > 1 && is_centre(nodes[1]))
+      subdivision.split_line(g, e, 1.0 - ratio);
+  }
+}
+
 bool add_layer(Work& b, const std::vector<int>& centre, double ratio) {
   const auto is_centre = [&](int node) {
     return std::find(centre.begin(), centre.end(), node) != centre.end();
@@ -56,7 +69,10 @@ bool add_layer(Work& b, const std::vector<int>& centre, double ratio) {
     const int before = b.model.groups[g].elements();
     const int corners = b.model.groups[g].entry->corners;
     const bool interface = b.model.groups[g].interface();
-    if (b.model.groups[g].structure()) continue;  // its end nodes stay
+    if (b.model.groups[g].structure()) {
+      cut_structures(b.model.groups[g], static_cast<int>(g), is_centre, ratio, subdivision);
+      continue;
+    }
     for (int e = 0; e < before; ++e) {
       const int* nodes = b.model.groups[g].nodes_of(e);
       for (int k = 0; k < (interface ? 2 : corners); ++k) {

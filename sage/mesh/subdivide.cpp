@@ -51,8 +51,8 @@ void check_nodes(Work& b, const Group& group, int corners) {
       }
 }
 
-// Sizes after every element was split into four and every interface into two, so many times; structures stay
-// whole.
+// Sizes after every element was split into four and every interface into two, so many times; structures, split
+// along them or whole, are few.
 struct Refined {
   double elements = 0.0, nodes = 0.0;
 };
@@ -119,6 +119,7 @@ Subdivision::Subdivision(Work& b) : b_(&b), nodes_(b.model.mesh) {
   for (const Group& group : b.model.groups) {
     check_nodes(b, group, group.entry->corners);
     for (const int number : group.element_numbers) last_number_ = std::max(last_number_, number);
+    if (group.structure()) continue;  // they are cut where these are
     for (int e = 0; e < group.elements(); ++e)
       for (const auto& edge : group.element->edges()) {
         const int* nodes = group.nodes_of(e);
@@ -140,7 +141,9 @@ void Subdivision::share_middles() {
       int* nodes = group.nodes.data() + static_cast<std::size_t>(e) * group.node_count();
       for (const auto& edge : group.element->edges()) {
         if (middle_of(edge) < 0 || nodes[middle_of(edge)] >= 0) continue;
-        const MadeEdge& known = edges_[edge_key(nodes[edge[0]], nodes[edge[1]])];
+        const auto found = edges_.find(edge_key(nodes[edge[0]], nodes[edge[1]]));
+        if (found == edges_.end()) continue;  // a structure by itself
+        const MadeEdge& known = found->second;
         if (!known.nodes.empty()) nodes[middle_of(edge)] = known.nodes.front();
       }
     }
@@ -236,6 +239,38 @@ void Subdivision::split(int g, int e, const std::vector<ChildCorners>& children)
   }
 }
 
+// The second part of an element with a hinge at its first node would need another kind of element.
+void Subdivision::refuse_hinge(const Group& group, int element) const {
+  const auto& unknowns = group.entry->unknowns;
+  if (std::ranges::all_of(unknowns, [](const ElementUnknown& u) { return u.nodes.empty(); })) return;
+  b_->error("S402", {b_->deck.file, group.element_lines[static_cast<std::size_t>(element)], 0, 0},
+            "element " + std::to_string(group.element_numbers[static_cast<std::size_t>(element)]) + " (" +
+                group.element_name +
+                ") lies along elements that are to be refined, and has a hinge: give it and its neighbours the "
+                "size that is wanted");
+  throw InputError(b_->problems);
+}
+
+void Subdivision::split_line(int g, int e, double t) {
+  Group& group = b_->model.groups[static_cast<std::size_t>(g)];
+  const std::size_t n = group.node_count();
+  const std::vector<int> nodes(group.nodes_of(e), group.nodes_of(e) + n);
+  if (n < 2 || !edges_.contains(edge_key(nodes[0], nodes[1]))) return;
+  refuse_hinge(group, e);
+  const int middle = n > 2 ? nodes[2] : -1, at = cut(nodes[0], nodes[1], middle, t), child = group.elements();
+  std::vector<int> first{nodes[0], at}, second{at, nodes[1]};
+  if (n > 2) {
+    first.push_back(middle < 0 ? -1 : cut(nodes[0], nodes[1], middle, 0.5 * t));
+    second.push_back(middle < 0 ? -1 : cut(nodes[0], nodes[1], middle, 0.5 * (1.0 + t)));
+  }
+  std::copy(first.begin(), first.end(),
+            group.nodes.begin() + static_cast<std::ptrdiff_t>(e) * static_cast<std::ptrdiff_t>(n));
+  group.element_numbers.push_back(++last_number_);
+  group.element_lines.push_back(group.element_lines[static_cast<std::size_t>(e)]);
+  group.nodes.insert(group.nodes.end(), second.begin(), second.end());
+  segments_[{g, e, 0}] = {{e, 0, 0.0, t}, {child, 0, t, 1.0}};
+}
+
 void Subdivision::carry_loads(Stage& stage) const {
   std::vector<EdgeLoad> carried;
   for (const EdgeLoad& load : stage.pressures) {
@@ -284,7 +319,10 @@ void refine(Work& b, int times) {
     Subdivision subdivision(b);
     for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
       const Group& group = b.model.groups[g];
-      if (group.structure()) continue;
+      if (group.structure()) {
+        for (int e = group.elements() - 1; e >= 0; --e) subdivision.split_line(static_cast<int>(g), e, 0.5);
+        continue;
+      }
       const auto& children = group.interface() ? interface : group.entry->triangle() ? triangle : quad;
       const int before = group.elements();
       for (int e = 0; e < before; ++e) subdivision.split(static_cast<int>(g), e, children);

@@ -22,6 +22,10 @@ class Subdivision {
   // The first child takes the element's place and number; the others come after the group's last.
   void split(int group, int element, const std::vector<ChildCorners>& children);
 
+  // Cuts a structure that lies along a side of a solid or an interface, as that side is cut: at t, counted from its
+  // first node.  Throws InputError where it has a hinge.
+  void split_line(int group, int element, double t);
+
   // New nodes into the mesh, fixities and reports along the edges that were cut, loads
   // on the edges of children.
   void finish();
@@ -35,6 +39,7 @@ class Subdivision {
   struct SplitElement;
 
   void share_middles();
+  void refuse_hinge(const Group& group, int element) const;
   int node_at(SplitElement& parent, const Place& q, bool middle);
   int cut(int a, int z, int middle, double t);
   void carry_loads(Stage& stage) const;

@@ -117,6 +117,11 @@ std::vector<LoosePart> loose_parts(const Model& model, const Activity& activity,
     const Eigen::Vector3d row_x(1.0, 0.0, -d.y()), row_y(0.0, 1.0, d.x());
     if (activity.holds(node, 0)) gram[pu] += row_x * row_x.transpose();
     if (activity.holds(node, 1)) gram[pu] += row_y * row_y.transpose();
+    for (std::size_t field = 1; field < model.unknowns.size(); ++field) {
+      const int dof = activity.dof_map.of(node, static_cast<int>(field));
+      if (model.unknowns[field].turns && dof >= 0 && activity.held[static_cast<std::size_t>(dof)])
+        gram[pu](2, 2) += 1.0;
+    }
   }
   std::vector<LoosePart> loose;
   for (std::size_t p = 0; p < gram.size(); ++p) {

@@ -182,8 +182,13 @@ void Csv::choose_fields(const Model& model) {
   unknowns_ = unknown_fields(model);
   for (const FieldEntry& row : unknowns_) nodes_.fields.push_back(&row);
   fields_ = fields_of(model);
+  const auto applies_here = [&](const FieldEntry& row) {
+    return std::ranges::any_of(model.groups, [&](const Group& group) {
+      return applies(row, group.entry->kind, model.material_of(group).law_ref());
+    });
+  };
   for (const FieldEntry& row : fields_.rows())
-    if (row.kind == ElementKind::structure) structures_.fields.push_back(&row);
+    if (row.kind == ElementKind::structure && applies_here(row)) structures_.fields.push_back(&row);
   for (const char* name : {"stress_level", "status"}) structures_.fields.push_back(fields_.find(name));
   for (const ElementKind kind : kElementKinds) {
     std::vector<FieldEntry>& history = history_[static_cast<std::size_t>(kind)];

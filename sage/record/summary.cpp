@@ -263,6 +263,7 @@ void RunRecord::exchange(Archive& archive) {
   archive(out_of_balance);
   archive(audited);
   strength.exchange(archive);
+  archive(structures);
 }
 
 void RunRecord::on_start(const Model& model, const Scene& scene_found, std::string_view solver_name,
@@ -286,6 +287,8 @@ void RunRecord::on_increment(const Model& model, const StepReport& report, const
 void RunRecord::on_stage_end(const Model& model, int stage, const EquilibriumAudit& audit,
                              const Solution& solution) {
   strength.end(model, stage, solution);
+  const std::vector<ExtremeRow> now = extremes(model, stage, solution);
+  structures.insert(structures.end(), now.begin(), now.end());
   out_of_balance = std::max(out_of_balance, audit.out_of_balance);
   ++audited;
 }
@@ -312,6 +315,10 @@ std::string summary(const Model& model, const RunRecord& record, const Reports* 
   counts(text, model, record);
   if (const auto& rows = record.strength.rows(); !rows.empty())
     text += "  strength divided by factors, each an analysis of its own\n" + strength_table(model, rows);
+  if (const std::vector<ExtremeRow> all = envelope(record.structures); !all.empty())
+    text += "  structures  extremes of " +
+            std::string(model.stages.size() > 1 ? "all stages, each at its end\n" : "the stage\n") +
+            extremes_table(model, all, model.stages.size() > 1);
   if (reports != nullptr) report_tables(text, model, *reports, digits);
   text += sketch;
   if (error != nullptr) text += error->text(model);

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "sage/record/discretisation.hpp"
+#include "sage/record/extremes.hpp"
 #include "sage/record/output.hpp"
 #include "sage/record/report.hpp"
 #include "sage/record/strength.hpp"
@@ -25,7 +26,11 @@ class RunRecord final : public Observer {
   void on_increment(const Model&, const StepReport&, const Solution&) override;
   void on_stage_end(const Model&, int stage, const EquilibriumAudit&, const Solution&) override;
   void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
-  bool wants_states(const Model&, const StepReport&) const override { return false; }
+  // At the ends of stages, for the extremes of structures.
+  bool wants_states(const Model& model, const StepReport& report) const override {
+    return has_structures(model) &&
+           report.increment == model.stages[static_cast<std::size_t>(report.stage)].increments;
+  }
   void on_finish(const Model&, const RunResult&) override;
   void exchange(Archive& archive) override;
 
@@ -39,7 +44,8 @@ class RunRecord final : public Observer {
   double out_of_balance = 0.0;           // the largest of all stages
   int audited = 0;                       // stages that reached their end
   StrengthRows strength;
-  StepReport failed;  // of a run that did not converge
+  std::vector<ExtremeRow> structures;  // at the end of each stage
+  StepReport failed;                   // of a run that did not converge
   RunResult result;
   // Of the whole run, for the caller to fill in; not shown before.
   double seconds = 0.0;

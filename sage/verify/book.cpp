@@ -10,7 +10,8 @@ std::vector<Section> book() {
           box_cases(),       restrained_cylinder_cases(),
           interface_cases(), cavity_cases(),
           bearing_cases(),   slope_cases(),
-          ground_cases(),    law_cases()};
+          ground_cases(),    law_cases(),
+          structure_cases()};
 }
 
 }  // namespace sage::verify

@@ -19,5 +19,6 @@ Section bearing_cases();
 Section slope_cases();
 Section ground_cases();
 Section law_cases();
+Section structure_cases();
 
 }  // namespace sage::verify

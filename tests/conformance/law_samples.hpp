@@ -72,6 +72,17 @@ inline std::vector<conformance::LawSample> samples() {
       {"cd_exact_no_memory", 22, {0, 30, 0, 1, 5000, 0.7, 1e6, 1e6, 100, 2, 1e-3, 1}, 1e-3, true},
       {"cd_strengthless", 22, {0, 0, 0, 0.8, 5000, 0.7, 1e6, 1e6, 0, 1}, 1e-3, true},
       {"cd_89", 22, {1, 89, 0, 0.8, 5000, 0.7, 1e6, 1e6, 0, 2}, 1e-3, true, false},
+      {"axial_elastic", 31, {2e4}, 0.01, false},
+      {"axial_elastic_spaced", 31, {2e4, 2.5}, 0.01, false},
+      {"axial_tension", 32, {2e4}, 0.01, false},
+      {"axial_compression", 32, {2e4, -1, 3}, 0.01, false},
+      {"axial_plastic", 33, {2e4, 80, 50}, 0.01, true},
+      {"axial_no_compression", 33, {2e4, 80, 0, 2}, 0.01, true},
+      {"plate", 35, {2e7, 0.2, 0.3}, 0.01, false},
+      {"plate_strips", 35, {2e7, 0.2, 0.3, 0}, 0.01, false},
+      {"section_elastic", 36, {1e6, 2e4, 3e5, 2e4, 30}, 0.01, false},
+      {"section_plastic", 37, {1e6, 2e4, 5e3, 100}, 0.01, true},
+      {"section_plastic_moment", 37, {1e6, 2e4, 0, 100, 3e5, 2e4, 30}, 0.01, true},
   };
 }
 

@@ -5,6 +5,7 @@
 
 #include "elements/register_elements.hpp"
 #include "sage/conformance/element_cases.hpp"
+#include "sage/conformance/sample_laws.hpp"
 
 namespace sage::test {
 
@@ -27,6 +28,26 @@ inline std::vector<ElementCase> solid_cases() {
 inline std::vector<ElementCase> interface_cases() {
   return of_kind(ElementKind::interface, element_cases());
 }
+// A nonlinear law for any element; refuses components beyond `limit`.
+struct AnySmoothLaw {
+  explicit AnySmoothLaw(double limit = 1e9) : one(limit), two(limit), four(limit), five(limit) {}
+  LawRef of(const ElementCase& c) const {
+    switch (c.entry->law_size) {
+      case 1:
+        return static_cast<const Law<1>*>(&one);
+      case 2:
+        return static_cast<const InterfaceLaw*>(&two);
+      case 5:
+        return static_cast<const Law<5>*>(&five);
+      default:
+        return static_cast<const SolidLaw*>(&four);
+    }
+  }
+  SmoothLaw<1> one;
+  SmoothLaw<2> two;
+  SmoothLaw<4> four;
+  SmoothLaw<5> five;
+};
 inline ElementCase element_case(int code, int formulation, Geometry geometry) {
   for (const ElementCase& c : element_cases())
     if (c.code == code && c.formulation == formulation && c.geometry == geometry) return c;

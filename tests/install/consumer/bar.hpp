@@ -43,7 +43,7 @@ class Bar2 final : public sage::PointElement<1, 4, 1> {
  public:
   explicit Bar2(sage::Geometry geometry)
       : PointElement(
-            {.name = "bar2", .geometry = geometry, .nodes = 2, .dofs = 4, .points = 1, .law_size = 1}) {}
+            {.name = "own_bar2", .geometry = geometry, .nodes = 2, .dofs = 4, .points = 1, .law_size = 1}) {}
 
   void geometry(const sage::NodeCoordinates& x, std::span<double> out) const override {
     if (traits().geometry == sage::Geometry::axisymmetric && x.row(0).minCoeff() < 0.0)
@@ -65,7 +65,7 @@ class Bar2 final : public sage::PointElement<1, 4, 1> {
 };
 
 inline sage::ElementEntry bar2() {
-  sage::ElementEntry entry{.name = "bar2", .summary = "two-node bar"};
+  sage::ElementEntry entry{.name = "own_bar2", .summary = "two-node bar"};
   entry.kind = sage::ElementKind::structure;
   entry.shape = sage::ParentShape::line;
   entry.nodes = entry.corners = entry.card_nodes = 2;
@@ -74,7 +74,7 @@ inline sage::ElementEntry bar2() {
   entry.vtk = {3, {}};
   entry.formulations = {{1, "one point", "exact for a straight bar", 1}};
   entry.make = [](sage::Geometry geometry, int formulation) -> std::unique_ptr<sage::Element> {
-    if (formulation > 1) throw sage::ParameterError(-1, "a bar2 has no such formulation");
+    if (formulation > 1) throw sage::ParameterError(-1, "an own_bar2 has no such formulation");
     return std::make_unique<Bar2>(geometry);
   };
   return entry;

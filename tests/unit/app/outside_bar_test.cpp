@@ -82,7 +82,7 @@ TEST(OutsideBar, ValuesThatABarHasNoUseForAreNoted) {
   EXPECT_EQ(notes_of("    1    0      -10.").find("not used"), std::string::npos);
   EXPECT_NE(
       notes_of("    1    0      -10.       5.                 7.")
-          .find("not used of this initial stress card: value 2, value 4; a bar2 has 1 component of stress"),
+          .find("not used of this initial stress card: value 2, value 4; a own_bar2 has 1 component of stress"),
       std::string::npos);
 }
 
@@ -127,13 +127,13 @@ TEST(OutsideBar, WhatDoesNotFitIsRefusedByName) {
   wrong_law.materials.clear();
   wrong_law.material(1, 1, {1000.0, 0.2});
   wrong_law.stage();
-  EXPECT_NE(
-      message(wrong_law).find("a bar2 needs a law for structures of 1 component, material 1 is linear_elastic"),
-      std::string::npos)
+  EXPECT_NE(message(wrong_law).find(
+                "a own_bar2 needs a law for structures of 1 component, material 1 is linear_elastic"),
+            std::string::npos)
       << message(wrong_law);
   DeckWriter pressed = truss();
   pressed.stage().pressure(1, 1, 1.0, 1.0);
-  EXPECT_NE(message(pressed).find("(bar2 one point) has no edges"), std::string::npos) << message(pressed);
+  EXPECT_NE(message(pressed).find("(own_bar2 one point) has no edges"), std::string::npos) << message(pressed);
 }
 
 // Two blocks 1 x 1 (E = 1000, nu = 0) with two props of length 2 and EA = 200 between them, the left one held at
@@ -272,7 +272,7 @@ TEST(OutsideBar, OtherFormatsLeaveItOutWithAWarning) {
     EXPECT_FALSE(text(model, diagnostics).empty());
     bool said = false;
     for (const Diagnostic& d : diagnostics.list())
-      said = said || d.message.find("2 bar2 one point element(s) left out") != std::string::npos;
+      said = said || d.message.find("2 own_bar2 one point element(s) left out") != std::string::npos;
     EXPECT_TRUE(said);
   }
   // A sage1 deck holds it: the same model again.

@@ -1,0 +1,333 @@
+#include "elements/beam.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "elements/edge_load.hpp"
+#include "elements/extrapolation.hpp"
+
+namespace sage {
+
+namespace {
+
+enum Strain { kAxial, kHoop, kShear, kBending, kHoopBending };
+constexpr int kStrains = 5;
+constexpr int kDofs = 6, kPoints = 3;  // of the beam with two nodes
+using Operator2 = OperatorT<kStrains, kDofs>;
+using Strains = Vector<kStrains>;
+
+// Ends and middle with Simpson's weights: exact for the square of a linear curvature.
+constexpr std::array<LinePoint, kPoints> kEndsAndMiddle{
+    {{-1.0, 1.0 / 3.0}, {0.0, 4.0 / 3.0}, {1.0, 1.0 / 3.0}}};
+
+// Rotation and deflection of the beam with two nodes at xi, from (w1, w2, theta1, theta2, gamma):
+// theta = N . theta_i + a (1 - xi^2) with gamma the same everywhere asks for a = 3/2 ((w2 - w1)/L - mean theta -
+// gamma), and w' = theta + gamma.
+struct Linked {
+  Vector<5> theta, slope, w;  // slope: of theta along the line
+
+  Linked(double xi, double L) {
+    const Vector<5> a = Vector<5>(-1.5 / L, 1.5 / L, -0.75, -0.75, -1.5);
+    const double bubble = 1.0 - xi * xi;
+    theta = Vector<5>(0.0, 0.0, 0.5 * (1.0 - xi), 0.5 * (1.0 + xi), 0.0) + bubble * a;
+    slope = Vector<5>(0.0, 0.0, -1.0 / L, 1.0 / L, 0.0) - 4.0 * xi / L * a;
+    // Integrals from the first end of N1, N2, 1 - xi^2 and 1.
+    const double whole = xi + 1.0, square = 0.25 * (xi * xi - 1.0), cubic = xi - xi * xi * xi / 3.0 + 2.0 / 3.0;
+    w = Vector<5>(1.0, 0.0, 0.0, 0.0, 0.0) +
+        0.5 * L * (Vector<5>(0.0, 0.0, 0.5 * whole - square, 0.5 * whole + square, whole) + cubic * a);
+  }
+};
+
+// Rows of the dofs of both nodes from what a local quantity has of (w1, w2, theta1, theta2), and of the
+// displacements along the line (s1, s2).
+void set_column(const LineFrame& frame, const Vector2& along, const Vector<5>& across, int strain,
+                Operator2& Bt, Strains& G) {
+  for (int i = 0; i < 2; ++i) {
+    Bt.block<2, 1>(2 * i, strain) = along(i) * frame.t + across(i) * frame.n;
+    Bt(4 + i, strain) = across(2 + i);
+  }
+  G(strain) = across(4);
+}
+
+// Strains at a point: B^T for the dofs and G for gamma.
+template <class Kinematics>
+void strains_at(const LineFrame& frame, double L, double xi, double r, Operator2& Bt, Strains& G) {
+  const Linked linked(xi, L);
+  const Vector2 N = Line2::N(xi), stretch(-1.0 / L, 1.0 / L);
+  const Vector<5> none = Vector<5>::Zero(), gamma = Vector<5>::Unit(4);
+  set_column(frame, stretch, none, kAxial, Bt, G);
+  set_column(frame, Vector2::Zero(), gamma, kShear, Bt, G);
+  set_column(frame, Vector2::Zero(), linked.slope, kBending, Bt, G);
+  if constexpr (Kinematics::geometry == Geometry::plane_strain) {
+    set_column(frame, Vector2::Zero(), none, kHoop, Bt, G);
+    set_column(frame, Vector2::Zero(), none, kHoopBending, Bt, G);
+  } else if (r > kRadiusTolerance * L) {
+    set_column(frame, frame.t.x() / r * N, frame.n.x() / r * linked.w, kHoop, Bt, G);
+    set_column(frame, Vector2::Zero(), frame.t.x() / r * linked.theta, kHoopBending, Bt, G);
+  } else {
+    // On the axis u_r = 0 and theta = 0: the limits of u_r / r and theta t_r / r are their slopes.
+    set_column(frame, stretch, frame.n.x() / frame.t.x() * (linked.theta + gamma), kHoop, Bt, G);
+    set_column(frame, Vector2::Zero(), linked.slope, kHoopBending, Bt, G);
+  }
+}
+
+// The points of one element, as evaluate() sees them.
+struct Points {
+  std::array<double, kPoints> w{};
+  std::array<Operator2, kPoints> Bt;
+  std::array<Strains, kPoints> G, deps, sigma;
+  std::array<Matrix<kStrains>, kPoints> D;
+
+  explicit Points(const double* geometry) {
+    for (std::size_t p = 0; p < kPoints; ++p) {
+      const double* block = geometry + p * kPointStride<kStrains, kDofs>;
+      w[p] = *block;
+      Bt[p] = Operator2::Map(block + 1);
+      G[p] = Strains::Map(geometry + kPoints * kPointStride<kStrains, kDofs> + p * kStrains);
+    }
+  }
+};
+
+// Asks the law at all points for an increment of gamma.
+Outcome update_points(const Law<kStrains>& law, const ElementIn& in, double gamma, Points& points,
+                      ElementOut& out) {
+  const std::size_t history = law.history().size();
+  const auto du = Vector<kDofs>::Map(in.du);
+  PointIn<kStrains> point;
+  PointOut<kStrains> result;
+  for (std::size_t p = 0; p < kPoints; ++p) {
+    point.sigma0 = Strains::Map(in.sigma0 + p * kStrains);
+    point.eps0 = Strains::Map(in.eps0 + p * kStrains);
+    point.deps = points.Bt[p].transpose() * du + gamma * points.G[p];
+    point.h0 = {in.h0 + p * history, history};
+    result.h1 = {out.h1 + p * history, history};
+    point.context = in.contexts != nullptr ? in.contexts + p : nullptr;
+    if (law.update(point, result) != Outcome::ok) return Outcome::cut_step;
+    points.deps[p] = point.deps;
+    points.sigma[p] = result.sigma;
+    points.D[p] = result.D;
+    Strains::Map(out.sigma1 + p * kStrains) = result.sigma;
+    Strains::Map(out.eps1 + p * kStrains) = point.eps0 + point.deps;
+    out.status[p] = result.status;
+  }
+  return Outcome::ok;
+}
+
+// What gamma does work on: its balance, the balance's slope and the size of its terms.
+struct ShearBalance {
+  double sum = 0.0, slope = 0.0, size = 0.0;
+
+  explicit ShearBalance(const Points& points) {
+    for (std::size_t p = 0; p < kPoints; ++p) {
+      sum += points.w[p] * points.G[p].dot(points.sigma[p]);
+      slope += points.w[p] * points.G[p].dot(points.D[p] * points.G[p]);
+      size += points.w[p] * points.G[p].cwiseProduct(points.sigma[p]).cwiseAbs().sum();
+    }
+  }
+};
+
+// Newton for the increment of gamma, within the bracket that the signs seen so far leave: the balance grows with
+// gamma wherever the law's tangent is positive.
+class ShearSearch {
+ public:
+  // False: gamma stands.
+  bool next(const ShearBalance& balance, double& gamma) {
+    constexpr double kSmall = 1e-14;
+    if (std::abs(balance.sum) <= kSmall * balance.size || !(balance.slope > 0.0)) return false;
+    (balance.sum > 0.0 ? high_ : low_) = gamma;
+    double to = gamma - balance.sum / balance.slope;
+    if (std::isfinite(low_) && std::isfinite(high_) && !(to > low_ && to < high_)) to = 0.5 * (low_ + high_);
+    if (std::abs(to - gamma) <= 1e-15 * std::max(std::abs(to), std::abs(gamma))) return false;
+    gamma = to;
+    return true;
+  }
+
+ private:
+  double low_ = -std::numeric_limits<double>::infinity(), high_ = std::numeric_limits<double>::infinity();
+};
+
+// f and K of the six dofs, gamma eliminated.
+void condense(const Points& points, double slope, ElementOut& out) {
+  Vector<kDofs> f = Vector<kDofs>::Zero(), right = f, left = f;
+  Matrix<kDofs> K = Matrix<kDofs>::Zero();
+  for (std::size_t p = 0; p < kPoints; ++p) {
+    f += points.Bt[p] * (points.w[p] * points.sigma[p]);
+    if (out.K == nullptr) continue;
+    const Matrix<kStrains> wD = points.w[p] * points.D[p];
+    K += points.Bt[p] * wD * points.Bt[p].transpose();
+    right += points.Bt[p] * (wD * points.G[p]);
+    left += points.Bt[p] * (wD.transpose() * points.G[p]);
+  }
+  Vector<kDofs>::Map(out.f) = f;
+  if (out.K == nullptr) return;
+  if (slope > 0.0) K -= right * left.transpose() / slope;
+  Matrix<kDofs>::Map(out.K) = K;
+}
+
+// f += integral of the deflection's shape times a load, force per length at xi.  With Hermite's cubics, those of
+// a slender beam: the forces of an even load are exact for every beam.
+template <class Kinematics, class Load>
+void add_load(const NodeCoordinates& x, const Load& load, std::span<double> f) {
+  const LineFrame frame(0.5 * (x.col(1) - x.col(0)));
+  const double L = 2.0 * frame.J;
+  for (const LinePoint& q : GaussLine<5>::table) {
+    const Vector2 N = Line2::N(q.xi);
+    const Vector<5> w = Linked(q.xi, L).w;
+    const Vector2 force = q.w * frame.J * Kinematics::measure(x.row(0).head<2>().dot(N)) * load(q.xi, frame);
+    for (int i = 0; i < 2; ++i) {
+      const Vector2 at = N(i) * force.dot(frame.t) * frame.t + w(i) * force.dot(frame.n) * frame.n;
+      const auto first = static_cast<std::size_t>(2 * i);
+      f[first] += at.x();
+      f[first + 1] += at.y();
+      f[static_cast<std::size_t>(4 + i)] += w(2 + i) * force.dot(frame.n);
+    }
+  }
+}
+
+}  // namespace
+
+template <class Kinematics>
+Beam2<Kinematics>::Beam2(std::string_view name) {
+  traits_.name = name;
+  traits_.geometry = Kinematics::geometry;
+  traits_.nodes = 2;
+  traits_.dofs = kDofs;
+  traits_.points = kPoints;
+  traits_.law_size = kStrains;
+  traits_.own_doubles = kPoints * kStrains;
+}
+
+template <class Kinematics>
+void Beam2<Kinematics>::geometry(const NodeCoordinates& x, std::span<double> out) const {
+  check_line<Line2, Kinematics>(x, "beam");
+  const LineFrame frame(0.5 * (x.col(1) - x.col(0)));
+  double* block = out.data();
+  double* own = out.data() + kPoints * kPointStride<kStrains, kDofs>;
+  for (const LinePoint& q : kEndsAndMiddle) {
+    const double r = x.row(0).head<2>().dot(Line2::N(q.xi));
+    Operator2 Bt;
+    Strains G;
+    strains_at<Kinematics>(frame, 2.0 * frame.J, q.xi, r, Bt, G);
+    *block = q.w * frame.J * Kinematics::measure(r);
+    Operator2::Map(block + 1) = Bt;
+    Strains::Map(own) = G;
+    block += kPointStride<kStrains, kDofs>;
+    own += kStrains;
+  }
+}
+
+template <class Kinematics>
+Outcome Beam2<Kinematics>::evaluate(const ElementIn& in, ElementOut& out) const {
+  constexpr int kMostSteps = 60;
+  const Law<kStrains>& law = *std::get<const Law<kStrains>*>(in.law);
+  Points points(in.geometry);
+  double gamma = 0.0;
+  ShearSearch search;
+  for (int step = 0; step < kMostSteps; ++step) {
+    if (update_points(law, in, gamma, points, out) != Outcome::ok) return Outcome::cut_step;
+    const ShearBalance balance(points);
+    if (search.next(balance, gamma)) continue;
+    if (!(balance.slope > 0.0) && std::abs(balance.sum) > 1e-9 * balance.size) return Outcome::cut_step;
+    condense(points, balance.slope, out);
+    return Outcome::ok;
+  }
+  return Outcome::cut_step;
+}
+
+template <class Kinematics>
+Vector2 Beam2<Kinematics>::position(const NodeCoordinates& x, int point) const {
+  return x.leftCols<2>() * Line2::N(kEndsAndMiddle[static_cast<std::size_t>(point)].xi);
+}
+
+template <class Kinematics>
+void Beam2<Kinematics>::body_load(const NodeCoordinates& x, const Vector2& b, std::span<double> f) const {
+  add_load<Kinematics>(
+      x, [&](double, const LineFrame&) -> Vector2 { return b; }, f);
+}
+
+template <class Kinematics>
+const std::vector<std::vector<int>>& Beam2<Kinematics>::edges() const {
+  static const EdgeNodes edges{{0, 1}};
+  return edges;
+}
+
+template <class Kinematics>
+void Beam2<Kinematics>::edge_load(const NodeCoordinates& x, int /*edge*/, const Vector2& normal,
+                                  const Vector2& shear, std::span<double> f) const {
+  add_load<Kinematics>(
+      x,
+      [&](double xi, const LineFrame& frame) -> Vector2 {
+        return between_ends(normal, xi) * frame.n + between_ends(shear, xi) * frame.t;
+      },
+      f);
+}
+
+template class Beam2<PlaneStrain>;
+template class Beam2<Axisymmetric>;
+
+template <class Kinematics>
+Beam3<Kinematics>::Beam3(std::string_view name)
+    : PointElement({.name = name,
+                    .geometry = Kinematics::geometry,
+                    .nodes = 3,
+                    .dofs = 9,
+                    .points = 2,
+                    .law_size = kStrains}) {
+  std::vector<ParentPoint> points, nodes;
+  for (const LinePoint& q : GaussLine<2>::table) points.push_back({q.xi, 0.0});
+  for (const double xi : Line3::node_xi) nodes.push_back({xi, 0.0});
+  to_nodes_ = extrapolation_matrix(points, nodes, Basis::line_linear);
+}
+
+template <class Kinematics>
+void Beam3<Kinematics>::geometry(const NodeCoordinates& x, std::span<double> out) const {
+  check_line<Line3, Kinematics>(x, "beam");
+  const Eigen::Matrix<double, 2, 3> nodes = x;
+  double* block = out.data();
+  for (const LinePoint& q : GaussLine<2>::table) {
+    const Vector<3> N = Line3::N(q.xi);
+    const LineFrame frame(nodes * Line3::dN(q.xi));
+    const Vector<3> dN = Line3::dN(q.xi) / frame.J;
+    const double r = nodes.row(0).dot(N);
+    *block = q.w * frame.J * Kinematics::measure(r);
+    Eigen::Map<OperatorT<kStrains, 9>> Bt(block + 1);
+    for (int i = 0; i < 3; ++i) {
+      Bt.row(2 * i) << dN(i) * frame.t.x(), Kinematics::hoop(N(i), r), dN(i) * frame.n.x(), 0.0, 0.0;
+      Bt.row(2 * i + 1) << dN(i) * frame.t.y(), 0.0, dN(i) * frame.n.y(), 0.0, 0.0;
+      Bt.row(6 + i) << 0.0, 0.0, -N(i), dN(i), frame.t.x() * Kinematics::hoop(N(i), r);
+    }
+    block += kPointStride<kStrains, 9>;
+  }
+}
+
+template <class Kinematics>
+void Beam3<Kinematics>::body_load(const NodeCoordinates& x, const Vector2& b, std::span<double> f) const {
+  const Eigen::Matrix<double, 2, 3> nodes = x;
+  for (const LinePoint& q : GaussLine<5>::table) {
+    const Vector<3> N = Line3::N(q.xi);
+    const double w = q.w * (nodes * Line3::dN(q.xi)).norm() * Kinematics::measure(nodes.row(0).dot(N));
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t c = 0; c < 2; ++c)
+        f[2 * i + c] += w * N(static_cast<Eigen::Index>(i)) * b(static_cast<Eigen::Index>(c));
+  }
+}
+
+template <class Kinematics>
+const std::vector<std::vector<int>>& Beam3<Kinematics>::edges() const {
+  static const EdgeNodes edges{{0, 1, 2}};
+  return edges;
+}
+
+template <class Kinematics>
+void Beam3<Kinematics>::edge_load(const NodeCoordinates& x, int edge, const Vector2& normal,
+                                  const Vector2& shear, std::span<double> f) const {
+  add_edge_load<Line3, Kinematics>(Eigen::Matrix<double, 2, 3>(x), normal, shear,
+                                   edges().at(static_cast<std::size_t>(edge)), f);
+}
+
+template class Beam3<PlaneStrain>;
+template class Beam3<Axisymmetric>;
+
+}  // namespace sage

@@ -1,0 +1,62 @@
+// Timoshenko beams; in axisymmetry shells of revolution (Reissner).  docs/theory/structures.md
+//
+// Dofs: u1 v1 u2 v2 [u3 v3] theta1 theta2 [theta3]; theta turns counter-clockwise.  At a point, with t along the
+// line, n to its left, w = u . n:  axial t . u', hoop u_r / r, shear w' - theta, bending theta', hoop bending
+// theta t_r / r.  A positive bending moment pulls the right-hand side of the way from node 1 to node 2.  In plane
+// strain the two hoop strains are zero, as for solids.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "elements/line_frame.hpp"
+#include "elements/point_kernel.hpp"
+#include "elements/quadrature.hpp"
+
+namespace sage {
+
+// Three nodes, two Gauss points: no locking of thin or curved beams, and no motion without energy.
+template <class Kinematics>
+class Beam3 final : public PointElement<5, 9, 2> {
+ public:
+  explicit Beam3(std::string_view name);
+  void geometry(const NodeCoordinates& x, std::span<double> out) const override;
+  Vector2 position(const NodeCoordinates& x, int point) const override {
+    return x * Line3::N(GaussLine<2>::table[static_cast<std::size_t>(point)].xi);
+  }
+  void body_load(const NodeCoordinates& x, const Vector2& b, std::span<double> f) const override;
+  const std::vector<std::vector<int>>& edges() const override;
+  void edge_load(const NodeCoordinates& x, int edge, const Vector2& normal, const Vector2& shear,
+                 std::span<double> f) const override;
+  std::span<const double> point_to_node() const override { return to_nodes_; }
+  int degree() const override { return 2; }
+
+ private:
+  std::vector<double> to_nodes_;
+};
+
+// Two nodes, straight.  One shear strain for the element, found from its own equilibrium, and the deflection and
+// rotation that follow from it: of a beam of one section the stiffness matrix is the exact one, however slender it
+// is.  Points: the two ends and the middle (Simpson), so that results stand where designers want them.
+template <class Kinematics>
+class Beam2 final : public Element {
+ public:
+  explicit Beam2(std::string_view name);
+  const ElementTraits& traits() const override { return traits_; }
+  void geometry(const NodeCoordinates& x, std::span<double> out) const override;
+  Outcome evaluate(const ElementIn& in, ElementOut& out) const override;
+  Vector2 position(const NodeCoordinates& x, int point) const override;
+  void body_load(const NodeCoordinates& x, const Vector2& b, std::span<double> f) const override;
+  const std::vector<std::vector<int>>& edges() const override;
+  void edge_load(const NodeCoordinates& x, int edge, const Vector2& normal, const Vector2& shear,
+                 std::span<double> f) const override;
+  std::span<const double> point_to_node() const override {
+    static constexpr std::array<double, 6> ends{1.0, 0.0, 0.0, 0.0, 0.0, 1.0};
+    return ends;
+  }
+
+ private:
+  ElementTraits traits_;
+};
+
+}  // namespace sage

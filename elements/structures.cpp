@@ -1,0 +1,129 @@
+// Catalogue entries of bars, springs, rings and beams.
+#include <utility>
+
+#include "elements/bar.hpp"
+#include "elements/beam.hpp"
+#include "elements/entries.hpp"
+
+namespace sage {
+
+namespace {
+
+UnknownField rotation(std::string name) {
+  UnknownField field{.name = std::move(name), .load = "moment", .load_dimension = Dimension::moment};
+  field.balanced = false;  // forces have moments too
+  field.turns = true;
+  return field;
+}
+
+// Ends, then the middle node.
+ElementEntry line_entry(ElementEntry entry, int nodes, int law_size) {
+  entry.kind = ElementKind::structure;
+  entry.shape = ParentShape::line;
+  entry.nodes = entry.card_nodes = nodes;
+  entry.corners = 2;
+  entry.law_size = law_size;
+  entry.parent_nodes = {{-1.0, 0.0}, {1.0, 0.0}};
+  if (nodes == 3) entry.parent_nodes.push_back({0.0, 0.0});
+  entry.vtk = nodes == 3 ? ForeignElement<int>{21, {}} : ForeignElement<int>{3, {}};
+  return entry;
+}
+
+template <template <class> class Made>
+Choice in_both(Formulation formulation, std::string_view full_name, int points) {
+  formulation.points = points;
+  return {std::move(formulation), [full_name](Geometry geometry) -> std::unique_ptr<Element> {
+            if (geometry == Geometry::plane_strain) return std::make_unique<Made<PlaneStrain>>(full_name);
+            return std::make_unique<Made<Axisymmetric>>(full_name);
+          }};
+}
+
+template <class Kinematics>
+using Bar2 = Bar<Line2, Kinematics>;
+template <class Kinematics>
+using Bar3 = Bar<Line3, Kinematics>;
+
+constexpr const char* kBeamSummary = "beam that shears, a wall or lining; in axisymmetry a shell of revolution";
+
+Choice beam2_choice(std::string_view full_name) {
+  return in_both<Beam2>({1, "exact", "exact at its nodes for one section and even loads; results at both ends"},
+                        full_name, 3);
+}
+Choice beam3_choice(std::string_view full_name) {
+  return in_both<Beam3>({1, "reduced", "two Gauss points: does not lock; may be curved"}, full_name, 2);
+}
+
+// Displacement and rotation of every node.
+ElementEntry beam(ElementEntry entry, int nodes) {
+  entry = line_entry(std::move(entry), nodes, 5);
+  entry.unknowns = {{displacement_field()}, {rotation("rotation")}};
+  return entry;
+}
+
+// The same, but at node 1 a rotation of its own.
+ElementEntry hinged(ElementEntry entry, int nodes) {
+  entry = beam(std::move(entry), nodes);
+  std::vector<int> others;
+  for (int i = 1; i < nodes; ++i) others.push_back(i);
+  entry.unknowns = {{displacement_field()}, {rotation("hinge_rotation"), {0}}, {rotation("rotation"), others}};
+  return entry;
+}
+
+}  // namespace
+
+ElementEntry bar2_entry() {
+  return element_entry(
+      line_entry({.name = "bar2", .summary = "bar of two nodes: strut, anchor, tie, geotextile"}, 2, 1),
+      {in_both<Bar2>({1, "one point", "exact for a straight bar of one section"}, "bar2", 1)});
+}
+
+ElementEntry bar3_entry() {
+  return element_entry(
+      line_entry({.name = "bar3", .summary = "bar of three nodes, beside eight-node elements"}, 3, 1),
+      {in_both<Bar3>({1, "two points", "linear strain; may be curved"}, "bar3", 2)});
+}
+
+ElementEntry spring2_entry() {
+  ElementEntry entry =
+      line_entry({.name = "spring2", .summary = "spring between two nodes, along the line between them"}, 2, 1);
+  entry.extends = true;
+  return element_entry(
+      std::move(entry),
+      {in_both<Spring>({1, "one point", "the stiffness is a force per length"}, "spring2", 1)});
+}
+
+ElementEntry ring1_entry() {
+  ElementEntry entry = line_entry(
+      {.name = "ring1", .summary = "bar around the axis of symmetry through one node (waling, hoop)"}, 2, 1);
+  entry.nodes = entry.card_nodes = entry.corners = 1;
+  entry.parent_nodes = {{0.0, 0.0}};
+  entry.vtk = {1, {}};
+  Formulation formulation{1, "one point", "hoop strain of its node", 1};
+  return element_entry(std::move(entry), {{formulation, [](Geometry geometry) -> std::unique_ptr<Element> {
+                                             if (geometry != Geometry::axisymmetric)
+                                               throw ParameterError(
+                                                   "S210", -1,
+                                                   "ring1 is for axisymmetry: it runs around the axis");
+                                             return std::make_unique<Ring>("ring1");
+                                           }}});
+}
+
+ElementEntry beam2_entry() {
+  return element_entry(beam({.name = "beam2", .summary = kBeamSummary}, 2), {beam2_choice("beam2")});
+}
+
+ElementEntry beam3_entry() {
+  return element_entry(beam({.name = "beam3", .summary = kBeamSummary}, 3), {beam3_choice("beam3")});
+}
+
+ElementEntry beam2_hinged_entry() {
+  return element_entry(hinged({.name = "beam2_hinged", .summary = "beam2 with a hinge at its first node"}, 2),
+                       {beam2_choice("beam2_hinged")});
+}
+
+ElementEntry beam3_hinged_entry() {
+  return element_entry(hinged({.name = "beam3_hinged", .summary = "beam3 with a hinge at its first node"}, 3),
+                       {beam3_choice("beam3_hinged")});
+}
+
+}  // namespace sage
