@@ -373,4 +373,16 @@ std::string explain_failure(const Model& model, const Assembly& assembly, const 
   return text + "  try: " + (unique.lost > 0 ? finer_than_helps(model, assembly) : "") + advice(stage);
 }
 
+std::string chattering_exits(const Model& model, const Stage& stage, const std::vector<int>& switched,
+                             int rounds) {
+  constexpr std::size_t kShown = 10;
+  std::string text = "stage " + std::to_string(stage.number) + ": after " + std::to_string(rounds) +
+                     " rounds it is not settled where water leaves: the exit is switched to and fro at node";
+  if (switched.size() > 1) text += "s";
+  for (std::size_t i = 0; i < std::min(kShown, switched.size()); ++i)
+    text += (i > 0 ? ", " : " ") + std::to_string(model.mesh.number[static_cast<std::size_t>(switched[i])]);
+  if (switched.size() > kShown) text += " and " + std::to_string(switched.size() - kShown) + " more";
+  return text + ".\n  try: smaller elements there, or fewer exits, where it is known that they stay dry";
+}
+
 }  // namespace sage

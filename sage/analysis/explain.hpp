@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "sage/analysis/newton.hpp"
 #include "sage/analysis/observer.hpp"
@@ -19,6 +20,10 @@ std::string explain_loose_part(const Model& model, const Activity& activity, con
 // A step that did not converge even after all cuts.
 std::string explain_failure(const Model& model, const Assembly& assembly, const StepReport& report,
                             const NewtonStep& step);
+
+// Exits of water that are switched to and fro.  switched: their nodes, last.
+std::string chattering_exits(const Model& model, const Stage& stage, const std::vector<int>& switched,
+                             int rounds);
 
 // "0.001234", four digits.
 std::string short_number(double value);

@@ -60,6 +60,7 @@ class Run {
   void show(const StepReport& report, double reached) const;
   bool run_increment(const Stage& stage, StepReport& report, double& reached);
   NewtonStep attempt(const Stage& stage, double from, double to);
+  NewtonStep attempt_with_exits(const Stage& stage, double from, double to);
   void renew_tangent();
   bool contracts(const Stage& stage) const;
   bool can_repeat(const Stage& stage, double size) const;
@@ -214,6 +215,20 @@ NewtonStep Run::attempt(const Stage& stage, double from, double to) {
   return newton_step(assembly_, tangent_, target_, system_.rate(), to - from, newton, result_.work, state_.du);
 }
 
+// Some rounds of this settle which places water leaves at; places that are switched to and fro end the run.
+NewtonStep Run::attempt_with_exits(const Stage& stage, double from, double to) {
+  constexpr int kMostRounds = 50;
+  if (!system_.has_exits()) return attempt(stage, from, to);
+  path_.repeats.forget();
+  system_.start_exits(state_.u, to - from);
+  for (int round = 0; round < kMostRounds; ++round) {
+    const NewtonStep step = attempt(stage, from, to);
+    if (step.outcome != StepOutcome::converged) return step;
+    if (!system_.switch_exits(state_.u, state_.du, target_, to - from)) return step;
+  }
+  throw AnalysisError("S529", chattering_exits(model_, stage, system_.exits().switched(), kMostRounds));
+}
+
 // Modified Newton: the tangent at the end of a step serves the next one.  It must be taken with the step still
 // in hand: at du = 0 a law on its yield surface answers elastically.
 void Run::renew_tangent() {
@@ -335,7 +350,7 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
   while (reached < end) {
     const double to = size >= end - reached - 1e-12 * whole ? end : reached + size;
     show(report, reached);
-    const NewtonStep step = attempt(stage, reached, to);
+    const NewtonStep step = attempt_with_exits(stage, reached, to);
     report.iterations = step.iterations;
     report.total_iterations += static_cast<int>(step.iterations.size());
     report.worst = step.worst;
@@ -475,7 +490,7 @@ void Run::end_stage(int s, double last_force) {
   EquilibriumAudit sums;
   {
     const Profile::Scope scope(profile(), phase::kChecks);
-    sums = audit_equilibrium(model_, assembly_, state_.external, path_.force_start);
+    sums = audit_equilibrium(model_, assembly_, state_.external, path_.force_start, state_.u);
     warn(stage_warnings(
         model_.stages[static_cast<std::size_t>(s)],
         {result_.motion, sums.out_of_balance, system_.digits(), path_.path_error, path_.loose_part, last_force},

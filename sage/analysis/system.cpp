@@ -89,11 +89,33 @@ void System::open_stage(int s) {
     return make(*choose_solver(equations, symmetric));
   });
   tangent_.set_rate(rate_);
+  exits_.enter(model_, activity_, s);
   const bool same_pattern = tangent_.analysed() && !condensed_before && !assembly_.condensation() &&
                             held_before_ == activity_.held && groups_before_ == activity_.group;
   if (!same_pattern) analyse();
   const bool serves = tangent_.constant() && tangent_.factorised() && rate_.isZero(0.0);
   if (!serves) tangent_.forget();
+}
+
+void System::start_exits(const Eigen::VectorXd& u, double part) {
+  exits_.start(u, activity_.held);
+  take_exits(u, part);
+}
+
+bool System::switch_exits(const Eigen::VectorXd& u, const Eigen::VectorXd& du, const Eigen::VectorXd& target,
+                          double part) {
+  if (!exits_.update(u + du, assembly_.internal_force() - target, activity_.held)) return false;
+  take_exits(u, part);
+  return true;
+}
+
+// Equations for the dofs that are held now, within a stage.
+void System::take_exits(const Eigen::VectorXd& u, double part) {
+  exits_.set_rates(u, part, activity_.held, rate_);
+  assembly_.enter_stage(activity_, rate_);
+  tangent_.set_rate(rate_);
+  analyse();
+  tangent_.forget();
 }
 
 int System::equations() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sage/analysis/condition.hpp"
+#include "sage/analysis/exits.hpp"
 #include "sage/analysis/newton.hpp"
 #include "sage/analysis/run.hpp"
 
@@ -16,6 +17,15 @@ class System {
   void pass_stage(int s);
   // What takes part, equations and numbering.  K and its factors stay where they can serve.
   void open_stage(int s);
+
+  // Where water may leave into air.  Before a step from the unknowns u, a part of the stage: those at their limit
+  // are held there.
+  bool has_exits() const { return exits_.any(); }
+  void start_exits(const Eigen::VectorXd& u, double part);
+  // After that step, to u + du: true where some were switched, and the step is to be tried again.
+  bool switch_exits(const Eigen::VectorXd& u, const Eigen::VectorXd& du, const Eigen::VectorXd& target,
+                    double part);
+  const Exits& exits() const { return exits_; }
 
   const Scene& scene() const { return scene_; }
   const Activity& activity() const { return activity_; }
@@ -35,6 +45,7 @@ class System {
   std::unique_ptr<LinearSolver> make(const SolverEntry& entry) const;
   std::vector<EquationPlace> places() const;
   void analyse();
+  void take_exits(const Eigen::VectorXd& u, double part);
 
   const Model& model_;
   const Catalogue& catalogue_;
@@ -43,6 +54,7 @@ class System {
   Scene scene_;
   Assembly assembly_;
   Activity activity_;
+  Exits exits_;
   Eigen::VectorXd rate_;
   Tangent tangent_;
   std::vector<char> held_before_, groups_before_, lived_;

@@ -74,10 +74,31 @@ void read_field_fixity(Builder& b, const CardView& card, int field, const Fixity
   }
 }
 
-void read_fixity(Builder& b, const CardView& card, bool in_stage, std::vector<Fixity>& out,
+// Code 2 of a head: an exit.  False: the card is about something else.
+bool read_exit(Builder& b, const CardView& card, int field, std::vector<Exit>* out) {
+  constexpr int kExit = 2;
+  if (card.integer("x_code") != kExit || field == 0) return false;
+  if (b.model.unknowns[static_cast<std::size_t>(field)].name != "head") return false;
+  if (out == nullptr) {
+    b.error("S233", card.where("x_code"), "an exit of water (code 2) belongs on a fixity card of a stage");
+    return true;
+  }
+  require_one_component(b, card, {"y_code", "y_value"});
+  const double pressure_head = card.real("x_value");
+  b.usable(card, "x_value", pressure_head);
+  for (const int node : node_range(b, card)) {
+    if (!has_unknown(b, card, node, field)) return true;
+    out->push_back({node, pressure_head, card.card().line});
+  }
+  return true;
+}
+
+// exits: of a stage; nullptr before the first.
+void read_fixity(Builder& b, const CardView& card, std::vector<Exit>* exits, std::vector<Fixity>& out,
                  std::vector<FieldFixity>& out_fields) {
+  const bool in_stage = exits != nullptr;
   const int field = read_unknown(b, card);
-  if (field < 0) return;
+  if (field < 0 || read_exit(b, card, field, exits)) return;
   Fixity fixity;
   fixity.code = {fixity_code(b, card, "x_code"), fixity_code(b, card, "y_code")};
   fixity.value = {card.real("x_value"), card.real("y_value")};
@@ -393,7 +414,7 @@ Stage read_stage(Builder& b, const CardView& card, int number) {
     b.error("S207", card.where("strength_factor"),
             "the strength factor of a stage must not be negative (blank = none)");
   for (const CardView& c : b.deck.all("fixity", card))
-    read_fixity(b, c, true, stage.fixities, stage.field_fixities);
+    read_fixity(b, c, &stage.exits, stage.fixities, stage.field_fixities);
   for (const CardView& c : b.deck.all("load", card)) read_load(b, c, stage.loads, stage.field_loads);
   for (const CardView& c : b.deck.all("pressure", card)) read_pressure(b, c, stage.pressures);
   for (const CardView& c : b.deck.all("edge_load", card)) read_edge_load(b, c, stage.pressures, stage.loads);
@@ -457,7 +478,7 @@ void build_stages(Builder& b) {
   collect_unknowns(b.model);
   b.dof_map = DofMap(b.model);
   for (const CardView& card : b.deck.all("fixity"))
-    if (outside_stages(b.deck, card)) read_fixity(b, card, false, b.model.fixities, b.model.field_fixities);
+    if (outside_stages(b.deck, card)) read_fixity(b, card, nullptr, b.model.fixities, b.model.field_fixities);
   for (const CardView& card : b.deck.all("initial"))
     if (outside_stages(b.deck, card)) read_initial(b, card, b.model.initials);
   for (const CardView& card : b.deck.all("initial")) check_traction(b, card);

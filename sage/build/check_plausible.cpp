@@ -417,7 +417,7 @@ void note_null_stage(Builder& b, const Stage& stage) {
     for (std::size_t c = 0; c < 2; ++c) any = any || f.value[c] != 0.0 || f.code[c] == FixityCode::released;
   for (const FieldFixity& f : stage.field_fixities)
     any = any || f.value != 0.0 || f.code == FixityCode::released;
-  any = any || !stage.field_loads.empty();
+  any = any || !stage.field_loads.empty() || !stage.exits.empty();
   if (any) return;
   b.note("S316", stage.where,
          "stage " + std::to_string(stage.number) +

@@ -705,6 +705,10 @@ constexpr MessageEntry kMessages[] = {
      "and the first increment lets the difference go: bodies move before anything is loaded.",
      "Where the motion matters, correct initial stress, K0 or weights, or add the gravity or pressure "
      "that belongs to the stress. For a start with no stress at all nothing is to be done."},
+    {"S529", "exits of water are switched to and fro",
+     "At an exit either the head stands at its limit and water leaves, or it stands lower and nothing flows. "
+     "At the nodes that the message names one leads to the other again and again, so that no answer was found.",
+     "Smaller elements near the end of the wet face, or fewer exits, where it is known that they stay dry."},
 
     // S6: results, checkpoints and result files.
     {"S601", "a result can't be written",

@@ -7,6 +7,7 @@
 
 #include "sage/deck/wide_layout.hpp"
 #include "sage/exchange/convert.hpp"
+#include "sage/model/dof_map.hpp"
 
 namespace sage {
 
@@ -121,6 +122,7 @@ class Sage1Writer {
   void fixity(const Fixity& fixity, bool in_stage);
   void fixity(const FieldFixity& fixity, bool in_stage);
   void unknown(int field);
+  void exit(const Exit& exit);
   void initial(const InitialStress& initial);
   void list(const std::vector<int>& groups);
   void stage(const Stage& stage);
@@ -339,6 +341,17 @@ void Sage1Writer::fixity(const FieldFixity& fixity, bool in_stage) {
   unknown(fixity.field);
 }
 
+void Sage1Writer::exit(const Exit& exit) {
+  if (!is_given(exit.node)) return;
+  integer(node_number(exit.node));
+  two_zeros();
+  integer(2);
+  integer(0);
+  real(exit.pressure_head);
+  blank_real();
+  unknown(find_unknown(model_.unknowns, "head"));
+}
+
 void Sage1Writer::unknown(int field) {
   name(model_.unknowns[static_cast<std::size_t>(field)].name, 20);
   line();
@@ -378,7 +391,7 @@ void Sage1Writer::stage(const Stage& stage) {
   name(stage.title.starts_with('*') ? " " + stage.title : stage.title, 80);
   line();
   heading("* incr meth iter outp fixi load pres brth deth init    grav x    grav y tolerance");
-  const std::size_t counts[] = {given(stage.fixities) + given(stage.field_fixities),
+  const std::size_t counts[] = {given(stage.fixities) + given(stage.field_fixities) + given(stage.exits),
                                 stage.loads.size() + stage.field_loads.size(),
                                 stage.pressures.size(),
                                 of_groups(stage.births),
@@ -393,6 +406,7 @@ void Sage1Writer::stage(const Stage& stage) {
   line();
   for (const Fixity& f : stage.fixities) fixity(f, true);
   for (const FieldFixity& f : stage.field_fixities) fixity(f, true);
+  for (const Exit& e : stage.exits) exit(e);
   for (const NodalLoad& load : stage.loads) {
     integer(node_number(load.node));
     two_zeros();

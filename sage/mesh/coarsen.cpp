@@ -328,6 +328,7 @@ void Coarsening::require_by_model() {
   for (const FieldFixity& f : model_->field_fixities) require(f.node);
   for (const Stage& stage : model_->stages) {
     for (const FieldFixity& f : stage.field_fixities) require(f.node);
+    for (const Exit& exit : stage.exits) require(exit.node);
     for (const FieldLoad& load : stage.field_loads) require(load.node);
   }
   for (const Grading& grading : b_->meshing.gradings)
@@ -592,6 +593,7 @@ void Coarsening::drop_nodes(std::vector<char> gone) {
     renumber(stage.fixities);
     renumber(stage.loads);
     renumber(stage.field_fixities);
+    renumber(stage.exits);
     renumber(stage.field_loads);
   }
   for (Report& report : model_->reports) {

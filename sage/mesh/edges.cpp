@@ -195,6 +195,23 @@ void inherit_field(Model& model, int field, const std::vector<CutEdge>& edges) {
   for (Stage& stage : model.stages) follow_field(supports, field, stage.field_fixities, edges);
 }
 
+// Between two exits of one stage there are exits.
+void follow_exits(std::vector<Exit>& exits, const std::vector<CutEdge>& edges) {
+  std::unordered_map<int, Exit> given;
+  for (const Exit& exit : exits) given[exit.node] = exit;
+  if (given.empty()) return;
+  for (const CutEdge& edge : edges)
+    for (const OnEdge& made : edge.made) {
+      const std::size_t behind = edge.behind(made);
+      const auto a = given.find(edge.known[behind - 1].node), z = given.find(edge.known[behind].node);
+      if (a == given.end() || z == given.end()) continue;
+      const double share =
+          (made.at - edge.known[behind - 1].at) / (edge.known[behind].at - edge.known[behind - 1].at);
+      const double pressure_head = (1.0 - share) * a->second.pressure_head + share * z->second.pressure_head;
+      exits.push_back({made.node, pressure_head, a->second.line});
+    }
+}
+
 }  // namespace
 
 void inherit_along_edges(Model& model, const MadeEdges& edges, int first_made) {
@@ -210,6 +227,7 @@ void inherit_along_edges(Model& model, const MadeEdges& edges, int first_made) {
   for (Stage& stage : model.stages) supports.follow(stage.fixities, cut);
   for (std::size_t field = 1; field < model.unknowns.size(); ++field)
     inherit_field(model, static_cast<int>(field), cut);
+  for (Stage& stage : model.stages) follow_exits(stage.exits, cut);
   for (Report& report : model.reports)
     if (!follows_a_line(report)) inherit_report(report, cut);
 }

@@ -78,6 +78,7 @@ void drop_lost_nodes(Work& b, std::vector<char> lost) {
   for (Stage& stage : model.stages) {
     std::erase_if(stage.fixities, holds_lost);
     std::erase_if(stage.field_fixities, holds_lost);
+    std::erase_if(stage.exits, holds_lost);
     refuse_lost(stage.loads);
     refuse_lost(stage.field_loads);
   }

@@ -29,6 +29,7 @@ void add_stage(Archive& archive, const Stage& s) {
   add_fixities(archive, s.fixities);
   for (const NodalLoad& load : s.loads) add(archive, load.node, load.force.x(), load.force.y());
   add_field_fixities(archive, s.field_fixities);
+  for (const Exit& exit : s.exits) add(archive, exit.node, exit.pressure_head);
   for (const FieldLoad& load : s.field_loads) add(archive, load.field, load.node, load.value);
   for (const EdgeLoad& load : s.pressures)
     add(archive, load.group, load.element, load.edge, load.normal.x(), load.normal.y(), load.shear.x(),

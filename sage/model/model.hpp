@@ -109,6 +109,14 @@ struct FieldLoad {
   int line = 0;
 };
 
+// From its stage on, until a card holds or releases the head of the node: water may leave there, and does as soon
+// as it stands at this pressure head above the node; none comes in.
+struct Exit {
+  int node = 0;
+  double pressure_head = 0.0;
+  int line = 0;
+};
+
 enum class InitialKind {
   uniform,    // given stress (solids: xx yy zz xy; interfaces: shear, normal; structures: the law's components)
   geostatic,  // vertical stress from a surface level and unit weight, horizontal by K0
@@ -141,6 +149,7 @@ struct Stage {
   std::vector<NodalLoad> loads;
   std::vector<FieldFixity> field_fixities;
   std::vector<FieldLoad> field_loads;
+  std::vector<Exit> exits;
   std::vector<EdgeLoad> pressures;
   std::vector<int> births, deaths;      // groups
   std::vector<InitialStress> initials;  // of groups born in this stage

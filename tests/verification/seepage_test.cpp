@@ -73,13 +73,15 @@ class Discharges final : public Observer {
           flow_through(model, line, report.nodes, solution.groups(), solution.activity->dof_map, *solution.u));
     }
     u = *solution.u;
+    internal = *solution.internal;
+    external = *solution.external;
   }
   void on_stage_end(const Model&, int, const EquilibriumAudit& audit, const Solution&) override {
     balance = audit.out_of_balance;
     sums = audit.fields.at(0);
   }
   std::vector<FlowThrough> through;
-  Eigen::VectorXd u;
+  Eigen::VectorXd u, internal, external;
   double balance = 1.0;
   FieldAudit sums;
 };
@@ -89,10 +91,16 @@ struct Seepage {
   DofMap map;
   RunResult result;
   Discharges seen;
-  double head(int number) const {
+  int index(int number) const {
     for (int node = 0; node < model->mesh.nodes(); ++node)
-      if (model->mesh.number[static_cast<std::size_t>(node)] == number) return seen.u[map.of(node, 1)];
+      if (model->mesh.number[static_cast<std::size_t>(node)] == number) return node;
     throw std::logic_error("no such node");
+  }
+  double head(int number) const { return seen.u[map.of(index(number), 1)]; }
+  // What the node takes in beyond the deck's own inflow.
+  double inflow(int number) const {
+    const int dof = map.of(index(number), 1);
+    return seen.internal[dof] - seen.external[dof];
   }
   double discharge(std::size_t line = 0) const { return seen.through.at(line).discharge; }
 };
@@ -438,6 +446,96 @@ TEST(Seepage, StagesAddHeads) {
   const Seepage run = seep(flow.deck.text());
   EXPECT_NEAR(run.head(flow.block.left()[0]), 3.5, 1e-13);
   EXPECT_NEAR(run.discharge(), -0.5, 1e-13);
+}
+
+// Ground whose surface lets water out and none in, fed by a well; water may leave where it stands at the surface.
+Flow springs(Cell cell, int n) {
+  Flow flow({2 * n, n, cell, 1, 1, rectangle(0.0, 8.0, 0.0, 4.0)});
+  flow.hold(flow.block.right(), 2.0);
+  flow.deck.stages[0].loads.push_back(inflow_card(1, 8.0));
+  for (const int node : flow.block.top())
+    if (node != flow.block.right().back()) flow.deck.stages[0].fixities.push_back(head_card(node, 0.0, 2));
+  flow.deck.reports.push_back(discharge_card(flow.block.right()));
+  return flow;
+}
+
+// The head stands at the surface and water leaves, or it stands lower and nothing flows.
+TEST(Exits, WaterLeavesOrStandsLower) {
+  for (const Cell cell : {Cell::quad4, Cell::tri3, Cell::quad8}) {
+    const Flow flow = springs(cell, 8);
+    const Seepage run = seep(flow.deck.text());
+    int wet = 0, dry = 0;
+    for (const int node : flow.block.top()) {
+      if (node == flow.block.right().back()) continue;
+      const double head = run.head(node), inflow = run.inflow(node);
+      EXPECT_LE(head, 4.0 + 1e-6);
+      if (head > 4.0 - 1e-9) {
+        EXPECT_LE(inflow, 1e-6);
+        ++wet;
+      } else {
+        EXPECT_NEAR(inflow, 0.0, 1e-10);
+        ++dry;
+      }
+    }
+    EXPECT_GT(wet, 2);
+    EXPECT_GT(dry, 2);
+    // What does not leave at the right leaves at the springs.
+    EXPECT_LT(run.discharge(), 8.0);
+    EXPECT_NEAR(run.seen.sums.reactions, -8.0, 1e-9);
+  }
+}
+
+// Mid-side nodes between exits that the program makes are exits too: a finer mesh has the answer of one whose
+// cards give all of them.
+TEST(Exits, FinerMeshesInheritThem) {
+  BuildOptions finer;
+  finer.refine = 1;
+  const Seepage refined = seep(springs(Cell::quad4, 4).deck.text(), finer),
+                given = seep(springs(Cell::quad4, 8).deck.text());
+  EXPECT_NEAR(refined.discharge(), given.discharge(), 1e-11);
+}
+
+// What is held at the start of a step follows from the heads: a restart goes on to the same bits.
+TEST(Exits, RestartsToTheSameBits) {
+  Flow flow = springs(Cell::quad4, 6);
+  flow.deck.stage(2);
+  flow.deck.stages.back().loads.push_back(inflow_card(1, -4.0));
+  const Workbench bench = app::make_workbench();
+  const auto end_of = [&](const RunSettings& settings) {
+    return bench.run(bench.build(flow.deck.text()), settings);
+  };
+  std::vector<std::string> saved;
+  RunSettings settings;
+  settings.checkpoint_due = [] { return true; };
+  settings.save_checkpoint = [&](const std::string& bytes) { saved.push_back(bytes); };
+  const WholeRun straight = end_of(settings);
+  ASSERT_TRUE(straight.completed()) << straight.failure;
+  ASSERT_EQ(saved.size(), 2u);
+  for (const std::string& bytes : saved) {
+    RunSettings resumed;
+    resumed.resume_from = bytes;
+    EXPECT_EQ(end_of(resumed).last().u, straight.last().u);
+  }
+}
+
+// A drain at a pressure of its own takes water as long as there is any.
+TEST(Exits, DrainsTakeWaterAndGiveNone) {
+  for (const double outside : {3.0, 0.5}) {
+    Flow flow({8, 4, Cell::quad4, 1, 1, rectangle(0.0, 8.0, 0.0, 4.0)});
+    flow.hold(flow.block.left(), outside);
+    flow.hold(flow.block.right(), outside);
+    const int drain = flow.block.node(4, 0);
+    flow.deck.stages.back().fixities.push_back(head_card(drain, 1.0, 2));  // lets out at 1 m of water
+    flow.deck.reports.push_back(discharge_card(flow.block.right()));
+    const Seepage run = seep(flow.deck.text());
+    if (outside > 1.0) {
+      EXPECT_NEAR(run.head(drain), 1.0, 1e-12);
+      EXPECT_LT(run.discharge(), -0.1);
+    } else {
+      EXPECT_NEAR(run.head(drain), outside, 1e-12);
+      EXPECT_NEAR(run.discharge(), 0.0, 1e-12);
+    }
+  }
 }
 
 std::string refusal_of(const std::string& deck) {
