@@ -486,13 +486,17 @@ Drawing draw_picture(Draft& draft, const std::vector<double>& limits, const Head
   return drawing;
 }
 
-// One range for all panels of a field, or one each.
+bool share_scale(const FieldPanel& a, const FieldPanel& b) {
+  return a.field == b.field && a.scale == b.scale;
+}
+
+// One range for all panels of a field and scale, or one each.
 std::vector<std::vector<double>> limits_of_panels(const FieldSheet& sheet, const std::vector<Draft>& drafts) {
   std::vector<std::vector<double>> limits;
   for (std::size_t k = 0; k < drafts.size(); ++k) {
     std::vector<Weighted> values;
     for (std::size_t j = 0; j < drafts.size(); ++j)
-      if (j == k || (sheet.one_scale && sheet.panels[j].field == sheet.panels[k].field))
+      if (j == k || (sheet.one_scale && share_scale(sheet.panels[j], sheet.panels[k])))
         values.insert(values.end(), drafts[j].values.begin(), drafts[j].values.end());
     limits.push_back(limits_of(sheet.look, colour_range(std::move(values), sheet.look.robust)));
   }
@@ -571,7 +575,8 @@ std::string sheet_svg(const FieldSheet& sheet) {
   const double top = sheet.title.empty() ? 0.0 : 36.0;
   const Grid grid = grid_of(drawings, sheet.columns, top);
   const double width = grid.width;
-  std::string out = svg::open(static_cast<int>(width), static_cast<int>(grid.height));
+  constexpr double kMargin = 8.0;  // below the notes of the last row
+  std::string out = svg::open(static_cast<int>(width), static_cast<int>(grid.height + kMargin));
   if (top > 0.0)
     svg::text_within(out, 8.0, 26.0, sheet.title, svg::kTitleFont, 0.88 * (width - 16.0), "start", svg::kBold);
   for (std::size_t k = 0; k < drawings.size(); ++k)

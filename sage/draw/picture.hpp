@@ -59,13 +59,14 @@ struct FieldPanel {
   std::string field;
   std::string title = {};  // empty = the model's
   std::string state = {};  // before the name of the field
+  std::string scale = {};  // panels of a field share one with those that name the same (FieldSheet::one_scale)
 };
 
 struct FieldSheet {
   std::string title;
   std::vector<FieldPanel> panels;
   int columns = 0;        // 0 = as many as stand side by side in about 1400 px
-  bool one_scale = true;  // of the colours of all panels that show the same field
+  bool one_scale = true;  // of the colours of all panels that show the same field and name the same scale
   PictureOptions look{};  // of each; title and state are those of the panels
 };
 

@@ -31,7 +31,8 @@ FieldChoice picture_field(const FieldTable& table, std::string_view name) {
   const std::optional<FieldChoice> choice = table.choose(name);
   const FieldPlace place = choice ? choice->entry->place() : FieldPlace::increment;
   if (place == FieldPlace::node || place == FieldPlace::point) return *choice;
-  throw std::invalid_argument("unknown field " + std::string(name) + "; known: " + table.known());
+  throw std::invalid_argument("unknown field " + std::string(name) + "; known: conf, dev, SL, " +
+                              table.known());
 }
 
 void unfold_angles(const FieldEntry& field, std::vector<double*> values) {

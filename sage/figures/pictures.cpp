@@ -115,6 +115,32 @@ std::vector<PanelRow> panel_rows(const char* scene, const std::vector<StiffnessC
   return list;
 }
 
+FieldPanel panel_of(const SpecimenRun& run, Quantity quantity, double strain) {
+  FieldPanel panel;
+  panel.model = run.model.get();
+  panel.solution = run.state(strain).frame->view();
+  panel.field = field_of(quantity);
+  return panel;
+}
+
+// Whether no value of the field at one strain occurs at another: on one scale each panel would be of one colour.
+bool strains_lie_apart(const FieldFigure& figure, Quantity quantity, const PictureOptions& look, Runs& runs,
+                       const std::vector<PanelRow>& rows) {
+  std::vector<FieldRange> ranges;
+  for (double strain : figure.strains) {
+    FieldRange& range = ranges.emplace_back();
+    for (const PanelRow& row : rows) {
+      const FieldPanel panel = panel_of(runs.get(figure.scene, row.elements, row.k_j), quantity, strain);
+      const FieldRange one = field_range(*panel.model, panel.solution, panel.field, look);
+      range = {std::min(range.low, one.low), std::max(range.high, one.high)};
+    }
+  }
+  for (std::size_t i = 0; i < ranges.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (ranges[i].low <= ranges[j].high && ranges[j].low <= ranges[i].high) return false;
+  return ranges.size() > 1;
+}
+
 std::string field_figure(const FieldFigure& figure, Runs& runs, const std::vector<StiffnessChoice>& choices) {
   FieldSheet sheet;
   sheet.title = titled(figure.figure);
@@ -124,17 +150,19 @@ std::string field_figure(const FieldFigure& figure, Runs& runs, const std::vecto
   sheet.look.width = scene_named(figure.scene).slenderness == 1.0 ? 430 : 390;  // with axis and colour bar
   sheet.look.levels = 14;
   sheet.look.yielded = figure.quantities[0] == Quantity::level;
-  for (const PanelRow& row : panel_rows(figure.scene, choices))
-    for (Quantity quantity : figure.quantities)
+  const std::vector<PanelRow> rows = panel_rows(figure.scene, choices);
+  std::vector<bool> apart;
+  for (Quantity quantity : figure.quantities)
+    apart.push_back(strains_lie_apart(figure, quantity, sheet.look, runs, rows));
+  for (const PanelRow& row : rows)
+    for (std::size_t q = 0; q < figure.quantities.size(); ++q)
       for (double strain : figure.strains) {
-        const SpecimenRun& run = runs.get(figure.scene, row.elements, row.k_j);
-        FieldPanel& panel = sheet.panels.emplace_back();
-        panel.model = run.model.get();
-        const State& state = run.state(strain);
-        panel.solution = state.frame->view();
-        panel.field = field_of(quantity);
+        const Quantity quantity = figure.quantities[q];
+        FieldPanel& panel = sheet.panels.emplace_back(
+            panel_of(runs.get(figure.scene, row.elements, row.k_j), quantity, strain));
         panel.title = fmt::format("{}, {}", title_of(quantity), row.name);
         panel.state = fmt::format("{:g} %", strain);
+        if (apart[q]) panel.scale = panel.state;
       }
   return sheet_svg(sheet);
 }

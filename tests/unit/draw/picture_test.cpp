@@ -159,8 +159,13 @@ TEST(FieldSheet, PanelsOfAFieldShareAScale) {
   EXPECT_EQ(count(together, ">10</text>"), 2u);
   EXPECT_EQ(count(together, ">20</text>"), 2u);
   EXPECT_EQ(count(together, ">both</text>"), 1u);
+  sheet.panels[1].scale = "of its own";
+  const std::string named = sheet_svg(sheet);
+  EXPECT_EQ(count(named, ">20</text>"), 1u);
+  sheet.panels[1].scale.clear();
   sheet.one_scale = false;
   const std::string apart = sheet_svg(sheet);
+  EXPECT_EQ(named, apart);
   EXPECT_EQ(count(apart, ">10</text>"), 1u);
   EXPECT_EQ(count(apart, ">20</text>"), 1u);
 }
