@@ -52,7 +52,10 @@ void Frame::exchange(Archive& archive) {
   archive(r.iterations);
   archive(r.total_iterations);
   archive(r.points);
-  archive(r.worst);
+  archive(r.worst.node);  // member by member: the bytes between them are nobody's
+  archive(r.worst.field);
+  archive(r.worst.component);
+  archive(r.worst.residual);
   archive(r.smallest_pivot_ratio);
   archive(r.motion);
   exchange_state(archive);
