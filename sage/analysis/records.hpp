@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -99,8 +100,8 @@ enum class RunStatus { completed, not_converged, singular, failed, stopped };
 
 struct RunResult {
   RunStatus status = RunStatus::completed;
-  std::string reason;  // one page for a person, with the code; empty when completed
-  Code code;           // of the reason; none when completed or stopped
+  std::string reason;        // one page for a person, with the code; empty when completed
+  std::optional<Code> code;  // of the reason; none when completed or stopped
   int stages_done = 0;
   int increments_done = 0;
   double motion = 0.0;  // largest difference of displacements along an axis over the model's extent along it

@@ -414,14 +414,14 @@ bool Run::fail(StepReport& report, const NewtonStep& step) {
   warn(motion_warnings(model_.stages[static_cast<std::size_t>(report.stage)], result_.motion));
   if (step.outcome == StepOutcome::singular) {
     result_.status = RunStatus::singular;
-    result_.code = "S502";
+    result_.code = Code("S502");
     result_.reason = explain_singular(model_, system_.activity(), assembly_, report, step);
   } else {
     result_.status = RunStatus::not_converged;
-    result_.code = "S501";
+    result_.code = Code("S501");
     result_.reason = explain_failure(model_, assembly_, report, step);
   }
-  result_.reason = with_code(result_.reason, result_.code);
+  result_.reason = with_code(result_.reason, *result_.code);
   state_.du.setZero();
   set_moment(report.load_factor, 0.0);
   assembly_.evaluate(state_.du, nullptr);
@@ -643,7 +643,7 @@ RunResult Run::execute() {
     result_.status = RunStatus::failed;
     const auto* coded = dynamic_cast<const CodedError*>(&error);
     result_.code = coded != nullptr ? coded->code() : Code("S510");
-    result_.reason = with_code(error.what(), result_.code);
+    result_.reason = with_code(error.what(), *result_.code);
     return result_;
   }
   result_.kernels = tangent_.solver().kernels();

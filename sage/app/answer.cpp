@@ -32,7 +32,7 @@ Json number_or_null(int value) {
 Json message_json(const Diagnostic& message) {
   const SourcePosition& where = message.where;
   return {{"severity", severity_word(message.severity)},
-          {"code", message.code.given() ? Json(to_string(message.code)) : Json(nullptr)},
+          {"code", to_string(message.code)},
           {"message", json_text(message.message)},
           {"where", json_text(where.file)},
           {"line", number_or_null(where.line)},

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -24,6 +25,9 @@ std::function<std::string(const std::string&)> known_solver(const Catalogue& cat
 
 // To run decks that the program writes itself.
 scenes::Workbench make_workbench(const Catalogue& catalogue = full_catalogue());
+
+// The folder of the decks that come with the program: beside an installed one, else that of the source tree.
+std::filesystem::path shipped_decks();
 
 // Does the work; what it throws goes to standard error, and its kind into the exit code.  `name` stands before
 // messages that name no place in a file.

@@ -144,7 +144,8 @@ compare::Side run_model(Model model, const std::string& label, const SideOptions
   settings.pulse = task.pulse();
   compare::Side side(label, std::move(model), place.folder, stem);
   with_umat_output(label, [&] { side.run(place.catalogue, settings); });
-  if (!side.error().empty()) say_error(options.deck, side.error());
+  if (!side.error().empty())
+    say_error(options.deck, side.error(), code_in(side.error()).value_or(Code("S511")));
   return side;
 }
 

@@ -5,7 +5,9 @@
 #include <CLI/Validators.hpp>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 
+#include "sage/app/answer.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/option_tables.hpp"
@@ -22,8 +24,10 @@ CommandRow whole_program(const Catalogue& catalogue) {
 }
 
 int write_man_pages(const std::filesystem::path& folder, const Catalogue& catalogue) {
-  for (const ManPage& page : man_pages(whole_program(catalogue), SAGE_VERSION))
+  for (const ManPage& page : man_pages(whole_program(catalogue), SAGE_VERSION)) {
     write_file(folder / page.file, page.text);
+    answer_file(folder / page.file);
+  }
   return kOk;
 }
 
@@ -34,8 +38,14 @@ Command completion_command(CLI::App& parser, const Catalogue& catalogue) {
   parser.add_option("SHELL", *shell, "bash, zsh or fish")
       ->required()
       ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  parser.footer(
+      "An installed program brings them along.  Else, for this shell:\n"
+      "  bash: . <(sagefe completion bash)      fish: sagefe completion fish | source\n"
+      "  zsh:  . <(sagefe completion zsh)       (behind compinit)");
   return [shell, &catalogue] {
-    fmt::print("{}", completion_script(whole_program(catalogue), *shell));
+    const std::string script = completion_script(whole_program(catalogue), *shell);
+    if (Json* json = answer()) *json = {{"shell", *shell}, {"script", script}};
+    fmt::print("{}", script);
     return kOk;
   };
 }
@@ -43,6 +53,8 @@ Command completion_command(CLI::App& parser, const Catalogue& catalogue) {
 Command manpages_command(CLI::App& parser, const Catalogue& catalogue) {
   auto folder = std::make_shared<std::string>();
   parser.add_option("FOLDER", *folder, "where sagefe.1 and a page for each command go")->required();
+  parser.footer(
+      "man -l FOLDER/sagefe-run.1 shows one; an installed program brings them along: man sagefe-run.");
   return [folder, &catalogue] { return write_man_pages(*folder, catalogue); };
 }
 

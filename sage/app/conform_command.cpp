@@ -1,6 +1,7 @@
 // sagefe conform: the suites over the pieces of a plug-in.  They are in a program beside this one, since they count
 // allocations, which sagefe does not; and a piece that crashes then ends that program only.
 #include <fmt/format.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,11 +13,15 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 
+#include "sage/app/answer.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
+#include "sage/app/screen.hpp"
 #include "sage/app/umat_output.hpp"
 #include "sage/core/module.hpp"
 #include "sage/umat/try_routine.hpp"
@@ -46,19 +51,77 @@ std::string suites_program() {
 
 constexpr int kNotRun = 127;
 
+// All of a file of memory.
+std::string text_in(int file) {
+  std::string text;
+  char buffer[4096];
+  for (off_t at = 0;;) {
+    const ssize_t size = pread(file, buffer, sizeof buffer, at);
+    if (size <= 0) return text;
+    text.append(buffer, static_cast<std::size_t>(size));
+    at += size;
+  }
+}
+
+// With --json what a child writes, in memory that both processes see; else it goes where it always does.
+class ChildText {
+ public:
+  ChildText() {
+    if (answer() == nullptr) return;
+    out_ = memfd_create("checks", MFD_CLOEXEC);
+    err_ = memfd_create("messages", MFD_CLOEXEC);
+  }
+  ~ChildText() {
+    for (const int file : {out_, err_})
+      if (file >= 0) ::close(file);
+  }
+  ChildText(const ChildText&) = delete;
+  ChildText& operator=(const ChildText&) = delete;
+
+  // In the child.
+  void take_output() const {
+    if (out_ >= 0) dup2(out_, STDOUT_FILENO);
+    if (err_ >= 0) dup2(err_, STDERR_FILENO);
+  }
+  // In the parent, when the child has ended: its lines, which end in a verdict, and its messages.
+  void keep() const {
+    if (out_ < 0 || err_ < 0) return;
+    Json& lines = (*answer())["lines"];
+    if (lines.is_null()) lines = Json::array();
+    std::istringstream out(text_in(out_)), err(text_in(err_));
+    for (std::string line; std::getline(out, line);) lines.push_back(json_text(line));
+    constexpr std::string_view kWho = "sagefe: ";
+    for (std::string line; std::getline(err, line);)
+      if (const std::optional<Code> code = code_in(line); code && line.starts_with(kWho))
+        say_error("sagefe", line.substr(kWho.size()), *code);
+      else
+        print_stderr(line + '\n');
+  }
+
+ private:
+  int out_ = -1, err_ = -1;
+};
+
 // The exit code of what is done in a process of its own, which it may crash.
 int done_apart(const std::function<int()>& work) {
   std::fflush(stdout);
+  const ChildText text;
   const pid_t child = fork();
-  if (child == 0) _exit(work());
+  if (child == 0) {
+    text.take_output();
+    _exit(work());
+  }
   int status = 0;
   while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (child < 0 || (WIFEXITED(status) && WEXITSTATUS(status) == kNotRun))
     throw OutputError("S808", "the checks can't be run");
+  text.keep();
   if (WIFEXITED(status)) return WEXITSTATUS(status);
-  fmt::print(stderr, "sagefe: the checks were ended by signal {} ({}): a piece has crashed\n", WTERMSIG(status),
-             strsignal(WTERMSIG(status)));
+  say_error("sagefe",
+            fmt::format("the checks were ended by signal {} ({}): a piece has crashed", WTERMSIG(status),
+                        strsignal(WTERMSIG(status))),
+            "S810");
   return kNotConverged;
 }
 

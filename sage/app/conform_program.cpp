@@ -186,7 +186,7 @@ int conform(int argc, char** argv) {
   try {
     load(argc, argv, subjects());
   } catch (const std::exception& error) {
-    fmt::print(stderr, "sagefe: {}\n", error.what());
+    fmt::print(stderr, "sagefe: {}\n", message_of(error));
     return kUsage;
   }
   return try_all(argc > 1 ? argv[1] : "");

@@ -443,7 +443,8 @@ Ladder Climb::choose_ladder() {
   if (ladder.kind == Ladder::spectral && (build.element > 0 || build.formulation >= 0))
     say_note(request_.deck,
              "where the scene allows it --converge chooses elements and formulation itself: --element and "
-             "--formulation are not used");
+             "--formulation are not used",
+             "S909");
   if (ladder.kind == Ladder::halving) return ladder;
   const bool coarsen = build.coarsen;
   if (!coarsen) {
@@ -530,7 +531,7 @@ std::string Climb::why_unusable(const RunOutcome& outcome, const Rung& rung) {
   if (outcome.exit_code != kOk) {
     // Of a finer mesh it is no news of the deck; of the first one it is the answer.
     if (rows_.empty()) {
-      say_error(request_.deck, result.reason, result.code);
+      say_error(request_.deck, result.reason, *result.code);
       without_equilibrium_ = rung;
     }
     return "no equilibrium with " + rung.options + ": " + result.reason.substr(0, result.reason.find('\n'));

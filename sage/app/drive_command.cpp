@@ -51,8 +51,9 @@ auto of_command_line(const std::string& option, const Work& work) {
   try {
     return work();
   } catch (const InputError& error) {
-    if (!error.diagnostics().list().front().where.file.empty()) throw;
-    throw UsageError(option + error.diagnostics().list().front().message);
+    const Diagnostic& first = error.diagnostics().list().front();
+    if (!first.where.file.empty()) throw;
+    throw UsageError(first.code, option + first.message);
   }
 }
 
@@ -72,7 +73,7 @@ Subject subject_of_deck(const DriveOptions& options, const Catalogue& catalogue)
     if (!material.name.empty()) subject.name = material.name;
     return subject;
   }
-  throw UsageError(fmt::format("which material? --material NUMBER; the deck has {}", known));
+  throw UsageError("S903", fmt::format("which material? --material NUMBER; the deck has {}", known));
 }
 
 UnitSystem units_of(const DriveOptions& options) {
@@ -87,8 +88,9 @@ UnitSystem units_of(const DriveOptions& options) {
 
 std::vector<Subject> subjects_of(const DriveOptions& options, const Catalogue& catalogue) {
   if (options.law.empty() == options.deck.empty() && options.cases.empty() && options.cases_file.empty())
-    throw UsageError("which law? --law LAW, --deck DECK, --case NAME:LAW,... or --cases FILE");
-  if (!options.law.empty() && !options.deck.empty()) throw UsageError("--law and --deck exclude each other");
+    throw UsageError("S903", "which law? --law LAW, --deck DECK, --case NAME:LAW,... or --cases FILE");
+  if (!options.law.empty() && !options.deck.empty())
+    throw UsageError("S905", "--law and --deck exclude each other");
   UnitSystem units = units_of(options);
   std::vector<Subject> subjects;
   std::unique_ptr<Subject> base;
@@ -102,7 +104,7 @@ std::vector<Subject> subjects_of(const DriveOptions& options, const Catalogue& c
     for (const std::string& text : options.settings)
       of_command_line("--set ", [&] { apply(*base, setting_from(text)); });
   } else if (!options.settings.empty()) {
-    throw UsageError("--set goes with --law or --deck; a case has its own settings");
+    throw UsageError("S905", "--set goes with --law or --deck; a case has its own settings");
   }
   if (base && options.cases.empty() && options.cases_file.empty()) {
     of_command_line("", [&] { expect_whole(*base); });
@@ -128,7 +130,7 @@ Path path_of(const DriveOptions& options, const Subject& subject, const LabTest*
   path.start.assign(static_cast<std::size_t>(size), 0.0);
   if (!options.start.empty()) {
     if (options.start.size() > path.start.size())
-      throw UsageError(fmt::format("--start: the law has {} components of stress", size));
+      throw UsageError("S904", fmt::format("--start: the law has {} components of stress", size));
     std::ranges::copy(options.start, path.start.begin());
   } else if (size == 4) {
     std::fill_n(path.start.begin(), 3, subject.pressure);
@@ -151,25 +153,28 @@ Path path_of(const DriveOptions& options, const Subject& subject, const LabTest*
 // nullptr: a path from a file.
 const LabTest* test_for(const DriveOptions& options, int size) {
   if (options.test.empty() == options.path.empty())
-    throw UsageError("what is to be done with the law? --test NAME or --path FILE (sagefe drive --list)");
+    throw UsageError("S903",
+                     "what is to be done with the law? --test NAME or --path FILE (sagefe drive --list)");
   if (options.normal_stiffness > 0.0 && (size != 2 || options.undrained))
-    throw UsageError("--normal-stiffness is for joints whose volume may change");
+    throw UsageError("S905", "--normal-stiffness is for joints whose volume may change");
   if (!options.path.empty()) {
-    if (!options.turns.empty() || options.cycles != 1) throw UsageError("--to and --cycles go with --test");
+    if (!options.turns.empty() || options.cycles != 1)
+      throw UsageError("S905", "--to and --cycles go with --test");
     keep_input(options.path);
     return nullptr;
   }
   const LabTest* test = find_lab_test(options.test, size);
   if (test == nullptr)
-    throw UsageError(fmt::format("--test {}: none for laws of {}s; there are {}", options.test, law_words(size),
-                                 known_lab_tests(size)));
+    throw UsageError("S904", fmt::format("--test {}: none for laws of {}s; there are {}", options.test,
+                                         law_words(size), known_lab_tests(size)));
   if (options.undrained && test->undrained.empty())
-    throw UsageError(fmt::format("--undrained: nothing moves in {} without change of volume", test->name));
+    throw UsageError("S905",
+                     fmt::format("--undrained: nothing moves in {} without change of volume", test->name));
   if (!options.fits.empty()) {
     if (!options.turns.empty() || !options.start.empty() || options.cycles != 1)
-      throw UsageError("--fit goes where its curves go: without --to, --cycles and --start");
+      throw UsageError("S905", "--fit goes where its curves go: without --to, --cycles and --start");
   } else if (options.turns.empty()) {
-    throw UsageError(fmt::format("--to: how far? {} at the end", driven_column(*test)));
+    throw UsageError("S903", fmt::format("--to: how far? {} at the end", driven_column(*test)));
   }
   return test;
 }
@@ -190,10 +195,17 @@ Heading heading_of(const DriveOptions& options, const std::vector<Subject>& subj
 void list_tests() {
   for (const int size : {4, 2}) {
     fmt::print("of {}s:\n", law_words(size));
-    for (const LabTest& test : lab_tests())
-      if (test.law_size == size)
-        fmt::print("  {:<22} {}; --to is {}{}\n", test.name, test.about, driven_column(test),
-                   test.undrained.empty() ? "" : "; --undrained");
+    for (const LabTest& test : lab_tests()) {
+      if (test.law_size != size) continue;
+      if (Json* json = answer())
+        (*json)["tests"].push_back({{"of", law_words(size)},
+                                    {"name", test.name},
+                                    {"about", test.about},
+                                    {"driven", driven_column(test)},
+                                    {"undrained", !test.undrained.empty()}});
+      fmt::print("  {:<22} {}; --to is {}{}\n", test.name, test.about, driven_column(test),
+                 test.undrained.empty() ? "" : "; --undrained");
+    }
   }
 }
 
@@ -204,7 +216,7 @@ Measured measured_from(const std::string& text, const LabTest& test, double pres
     char* end = nullptr;
     pressure = std::strtod(text.c_str() + at + 1, &end);
     if (at + 1 == text.size() || *end != '\0' || !std::isfinite(pressure))
-      throw UsageError("--fit " + text + ": wanted FILE or FILE@PRESSURE");
+      throw UsageError("S904", "--fit " + text + ": wanted FILE or FILE@PRESSURE");
   }
   const std::string file = text.substr(0, at);
   keep_input(file);
@@ -265,8 +277,8 @@ void finish(OutFile& file, std::string text) {
 
 // The fitted curves go where driven ones go.
 int fit_law(const DriveOptions& options, const Subject& subject, const LabTest* test) {
-  if (test == nullptr) throw UsageError("--fit goes with --test, not with --path");
-  if (!options.panels.empty()) throw UsageError("--fit has its own panels: --xy goes without it");
+  if (test == nullptr) throw UsageError("S905", "--fit goes with --test, not with --path");
+  if (!options.panels.empty()) throw UsageError("S905", "--fit has its own panels: --xy goes without it");
   FitProblem problem;
   problem.subject = subject;
   problem.test = test;
@@ -306,15 +318,16 @@ int drive_laws(const DriveOptions& options, const Catalogue& catalogue) {
   const int size = subjects.front().entry->law_size;
   for (const Subject& subject : subjects) {
     if (subject.entry->law_size != size)
-      throw UsageError("all cases must be of solids, or all of joints: one test drives them");
+      throw UsageError("S905", "all cases must be of solids, or all of joints: one test drives them");
     for (const Subject& other : subjects)
       if (&other != &subject && other.name == subject.name)
-        throw UsageError(fmt::format("two cases are called {}; NAME:LAW,... gives names", subject.name));
+        throw UsageError("S904",
+                         fmt::format("two cases are called {}; NAME:LAW,... gives names", subject.name));
   }
   const LabTest* test = test_for(options, size);
-  if (options.fits.empty() != options.free.empty()) throw UsageError("--fit and --free go together");
+  if (options.fits.empty() != options.free.empty()) throw UsageError("S905", "--fit and --free go together");
   if (!options.fits.empty()) {
-    if (subjects.size() > 1) throw UsageError("--fit is for one law");
+    if (subjects.size() > 1) throw UsageError("S905", "--fit is for one law");
     return fit_law(options, subjects.front(), test);
   }
   OutFile csv, plot;  // opened first: an unwritable folder shows before anything is computed

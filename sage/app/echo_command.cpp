@@ -30,9 +30,11 @@ struct EchoOptions {
 void note_half_layout(const std::string& name) {
   if (name.empty()) return;
   if (const int missing = name_problems(load_layout(name, false)).errors(); missing > 0)
-    say_note(name, fmt::format("the layout makes no model yet: {} missing or used by nothing; sagefe echo "
-                               "--names lists them",
-                               missing == 1 ? "one name is" : std::to_string(missing) + " names are"));
+    say_note(name,
+             fmt::format("the layout makes no model yet: {} missing or used by nothing; sagefe echo "
+                         "--names lists them",
+                         missing == 1 ? "one name is" : std::to_string(missing) + " names are"),
+             "S147");
 }
 
 std::string names_of(const EchoOptions& options) {

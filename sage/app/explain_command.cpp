@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cctype>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <vector>
 
+#include "sage/app/answer.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
@@ -37,7 +39,13 @@ void print_indented(const std::string& text) {
   fmt::print("{}\n", line);
 }
 
+// For a person and for --json, which has every text of it.
 void print_line(const MessageEntry& message) {
+  if (Json* json = answer())
+    (*json)["codes"].push_back({{"code", to_string(message.code)},
+                                {"title", message.title},
+                                {"cause", message.cause},
+                                {"cure", message.cure}});
   fmt::print("{}  {}\n", to_string(message.code), message.title);
 }
 

@@ -185,7 +185,7 @@ void add_formulation_option(CLI::App& parser, const std::string& flag, const std
 }
 
 void add_build_options(CLI::App& parser, BuildOptions& options, const Catalogue& catalogue) {
-  options.say = [](const std::string& text) { say_note("sagefe", text); };
+  options.say = [](const std::string& text, Code code) { say_note("sagefe", text, code); };
   add_formulation_option(parser, "--formulation", "replace the formulation code of all solid elements",
                          [&options](int code) { options.formulation = code; });
   add_element_option(parser, catalogue, "--element",

@@ -16,7 +16,6 @@ namespace sage::app {
 class UsageError : public CodedError {
  public:
   using CodedError::CodedError;
-  explicit UsageError(const std::string& message) : CodedError("S900", message) {}
 };
 
 // Options that every command which reads a deck shares.

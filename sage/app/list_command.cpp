@@ -3,6 +3,9 @@
 
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -133,11 +136,58 @@ Json fields_json(const Catalogue& catalogue, const UnitSystem& units) {
   return list;
 }
 
+Json plugins_json(const Catalogue& catalogue) {
+  Json list = Json::array();
+  for (const Plugin& plugin : catalogue.plugins)
+    list.push_back({{"name", json_text(plugin.name)},
+                    {"version", json_text(plugin.version)},
+                    {"author", json_text(plugin.author)},
+                    {"file", json_text(plugin.file)},
+                    {"materials", plugin.materials},
+                    {"elements", plugin.elements},
+                    {"solvers", plugin.solvers},
+                    {"fields", json_list(plugin.fields)}});
+  return list;
+}
+
+struct ShippedDeck {
+  std::filesystem::path file;
+  std::string title;
+};
+
+// Decks of the program's own layout; those of other programs that are shipped are examples of layouts.
+std::vector<ShippedDeck> decks() {
+  std::vector<ShippedDeck> list;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(shipped_decks())) {
+    if (entry.path().filename() != "deck.dat") continue;
+    std::ifstream in(entry.path());
+    std::string line;
+    while (std::getline(in, line) && (line.empty() || line[0] == '*')) {
+    }
+    list.push_back({entry.path(), line});
+  }
+  std::ranges::sort(list, {}, &ShippedDeck::file);
+  return list;
+}
+
+void list_decks() {
+  for (const ShippedDeck& deck : decks()) fmt::print("{}\n      {}\n", deck.file.string(), deck.title);
+}
+
+Json decks_json() {
+  Json list = Json::array();
+  for (const ShippedDeck& deck : decks())
+    list.push_back({{"deck", json_text(deck.file.string())}, {"title", json_text(deck.title)}});
+  return list;
+}
+
 Json list_json(const std::string& what, const Catalogue& catalogue) {
   const UnitSystem generic{"length", "force", "stress", 0.0, 0.0};
   if (what == "elements") return elements_json(catalogue);
   if (what == "materials") return materials_json(catalogue, generic);
   if (what == "solvers") return solvers_json(catalogue);
+  if (what == "plugins") return plugins_json(catalogue);
+  if (what == "decks") return decks_json();
   return fields_json(catalogue, generic);
 }
 
@@ -162,9 +212,12 @@ void list_plugins(const Catalogue& catalogue) {
 
 Command list_command(CLI::App& parser, const Catalogue& catalogue) {
   auto what = std::make_shared<std::string>();
-  parser.add_option("WHAT", *what, "elements, materials, solvers, fields or plugins (that --plugin loads)")
+  parser
+      .add_option("WHAT", *what,
+                  "elements, materials, solvers, fields, plugins (that --plugin loads) or decks (that come "
+                  "with the program)")
       ->required()
-      ->check(CLI::IsMember({"elements", "materials", "solvers", "fields", "plugins"}));
+      ->check(CLI::IsMember({"elements", "materials", "solvers", "fields", "plugins", "decks"}));
   return [what, &catalogue] {
     if (Json* json = answer()) (*json)[*what] = list_json(*what, catalogue);
     if (*what == "elements") list_elements(catalogue);
@@ -172,6 +225,7 @@ Command list_command(CLI::App& parser, const Catalogue& catalogue) {
     if (*what == "solvers") list_solvers(catalogue);
     if (*what == "fields") list_fields(catalogue);
     if (*what == "plugins") list_plugins(catalogue);
+    if (*what == "decks") list_decks();
     return kOk;
   };
 }

@@ -3,6 +3,7 @@
 #include <map>
 #include <sstream>
 
+#include "sage/core/messages.hpp"
 #include "sage/deck/layout.hpp"
 
 namespace sage::app {
@@ -52,9 +53,16 @@ std::vector<std::string> choices_of_name(const std::string& name, const Catalogu
   return {};
 }
 
+std::vector<std::string> codes() {
+  std::vector<std::string> all;
+  for (const MessageEntry& message : messages()) all.push_back(to_string(message.code));
+  return all;
+}
+
 std::vector<std::string> choices_of(const CLI::Option& option, const Catalogue& catalogue) {
   if (option.get_items_expected_max() == 0) return {};
   std::vector<std::string> choices = choices_of_type(option.get_type_name());
+  if (option.get_positional() && option.get_name(true) == "CODE") return codes();
   if (!choices.empty() || option.get_positional()) return choices;
   for (std::string name : option.get_lnames()) {
     if (name.ends_with("-b")) name.resize(name.size() - 2);

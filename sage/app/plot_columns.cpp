@@ -42,7 +42,7 @@ Variable variable_from(std::string_view text) {
 Panel panel_from(const std::string& text) {
   const std::size_t colon = text.find(':');
   if (colon == std::string::npos || colon == 0 || colon + 1 == text.size())
-    throw UsageError("--xy " + text + ": wanted X:Y[,Y...], names of columns");
+    throw UsageError("S904", "--xy " + text + ": wanted X:Y[,Y...], names of columns");
   Panel panel{variable_from(std::string_view(text).substr(0, colon)), {}};
   for (std::size_t at = colon + 1, end = 0; at <= text.size(); at = end + 1) {
     end = std::min(text.find(',', at), text.size());
@@ -54,8 +54,8 @@ Panel panel_from(const std::string& text) {
 const CsvTable::Column& column_of(const Source& source, const Variable& variable) {
   const CsvTable::Column* column = source.table.find(variable.name);
   if (column == nullptr)
-    throw UsageError(
-        fmt::format("{}: no column {}; it has {}", source.file.string(), variable.name, source.table.names()));
+    throw UsageError("S642", fmt::format("{}: no column {}; it has {}", source.file.string(), variable.name,
+                                         source.table.names()));
   return *column;
 }
 
@@ -109,8 +109,8 @@ void expect_numbers(const Source& source, const Variable& x, const Variable& y) 
   const std::vector<double> xs = values_of(source, x), ys = values_of(source, y);
   for (std::size_t i = 0; i < xs.size(); ++i)
     if (std::isfinite(xs[i]) && std::isfinite(ys[i])) return;
-  throw UsageError(fmt::format("{}: no row has a number of both {} and {}: nothing to draw",
-                               source.file.string(), x.name, y.name));
+  throw UsageError("S645", fmt::format("{}: no row has a number of both {} and {}: nothing to draw",
+                                       source.file.string(), x.name, y.name));
 }
 
 // Throws UsageError where the columns of two files, or of one axis, have different units.
@@ -124,7 +124,8 @@ void expect_one_unit(const std::vector<Source>& sources, const std::vector<Varia
   for (const Source& source : sources)
     for (const Variable& variable : variables)
       if (const std::string other = unit_of(source, variable); other != unit)
-        throw UsageError(fmt::format("{} of {} is in {}, {} of {} in {}: they can't be drawn on one axis",
+        throw UsageError("S646",
+                         fmt::format("{} of {} is in {}, {} of {} in {}: they can't be drawn on one axis",
                                      variables.front().name, first.file.string(), unit, variable.name,
                                      source.file.string(), other));
 }
@@ -169,8 +170,8 @@ std::vector<std::string> usual_panels(const Source& source) {
     };
     return {sign("u" + axis) + ":" + sign("f" + axis)};
   }
-  throw UsageError(
-      fmt::format("{}: which columns? --xy X:Y[,Y...]; it has {}", source.file.string(), source.table.names()));
+  throw UsageError("S903", fmt::format("{}: which columns? --xy X:Y[,Y...]; it has {}", source.file.string(),
+                                       source.table.names()));
 }
 
 // "dp_285" of dp_285.report1.csv.

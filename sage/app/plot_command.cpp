@@ -90,17 +90,19 @@ void expect_options_fit(const CLI::App& parser, const PlotOptions& options) {
   const Mode mode = mode_of(options);
   for (const OptionPlace& place : kPlaces)
     if (parser.count(place.option) > 0 && (place.modes & mode) == 0)
-      throw UsageError(fmt::format("{} is for {}", place.option, place.words));
+      throw UsageError("S905", fmt::format("{} is for {}", place.option, place.words));
   if (!options.labels.empty() && options.labels.size() != options.files.size())
     throw UsageError(
-        fmt::format("--label: {} of them for {} files", options.labels.size(), options.files.size()));
+        "S904", fmt::format("--label: {} of them for {} files", options.labels.size(), options.files.size()));
   if (options.own_scales && std::isfinite(options.look.low))
-    throw UsageError("--own-scales does not go with --range LOW:HIGH, which is one scale for all panels");
+    throw UsageError("S905",
+                     "--own-scales does not go with --range LOW:HIGH, which is one scale for all panels");
   for (const std::string& file : options.files)
     if (mode != kCurves && std::filesystem::path(file).extension() == ".csv")
-      throw UsageError(file +
-                       " is a table: --picture, --line and --interface show result files (STEM.h5 of sagefe "
-                       "run DECK --result)");
+      throw UsageError(
+          "S640", file +
+                      " is a table: --picture, --line and --interface show result files (STEM.h5 of sagefe "
+                      "run DECK --result)");
 }
 
 // "x.png" is "x" in that format.

@@ -26,7 +26,9 @@ void draw(Pictures& pictures, const StoredRun& run, std::size_t state) {
 }
 
 void say_failure(const StoredRun& run) {
-  if (!run.stored.failure().empty()) say_error(run.file, "the run did not converge: " + run.stored.failure());
+  const std::string& reason = run.stored.failure();
+  if (!reason.empty())
+    say_error(run.file, "the run did not converge: " + reason, code_in(reason).value_or(Code("S501")));
 }
 
 // Names of the files' pictures before the state: that of the file, and of its folder where others in the same
@@ -48,10 +50,10 @@ std::vector<std::string> stems_of(const PlotOptions& options) {
     stems.push_back(alike ? folder + "_" + stem(file) : stem(file));
     for (std::size_t j = 0; j < i; ++j)
       if (stems[j] == stems[i] && same_folder(options.files[j], file))
-        throw UsageError(
-            fmt::format("the pictures of {} and {} would bear the same names: draw them into "
-                        "different folders (-o)",
-                        options.files[j], file));
+        throw UsageError("S602",
+                         fmt::format("the pictures of {} and {} would bear the same names: draw them into "
+                                     "different folders (-o)",
+                                     options.files[j], file));
   }
   return stems;
 }

@@ -58,7 +58,7 @@ Abscissa abscissa_of(const Model& model, const Vector2& along) {
 FieldChoice choice_of(const FieldTable& table, const std::string& name) {
   const std::optional<FieldChoice> choice = table.choose(name);
   if (!choice || (choice->entry->place() != FieldPlace::node && choice->entry->place() != FieldPlace::point))
-    throw UsageError("--picture: unknown field " + name + "; known: " + table.known());
+    throw UsageError("S644", "--picture: unknown field " + name + "; known: conf, dev, SL, " + table.known());
   return *choice;
 }
 
@@ -157,9 +157,11 @@ void expect_on_line(const std::string& line, const StoredRun& run, const std::ve
   };
   if (std::ranges::any_of(curves, known)) return;
   const Eigen::Matrix2Xd& x = run.model.mesh.x;
-  throw UsageError(fmt::format(
-      "--line {}: no solid of {} lies on it; its mesh goes from {:.6g},{:.6g} to {:.6g},{:.6g}", line, run.file,
-      x.row(0).minCoeff(), x.row(1).minCoeff(), x.row(0).maxCoeff(), x.row(1).maxCoeff()));
+  throw UsageError(
+      "S645",
+      fmt::format("--line {}: no solid of {} lies on it; its mesh goes from {:.6g},{:.6g} to {:.6g},{:.6g}",
+                  line, run.file, x.row(0).minCoeff(), x.row(1).minCoeff(), x.row(0).maxCoeff(),
+                  x.row(1).maxCoeff()));
 }
 
 StoredRuns open_runs(const PlotOptions& options, const Catalogue& catalogue) {

@@ -63,9 +63,9 @@ std::size_t state_at(const StoredRun& run, const StateChoice& choice) {
     known += fmt::format(" {}:{}", state.stage + 1, state.increment);
   }
   throw UsageError(
-      fmt::format("{}: --at {}: the file has no such state; it has{}; sagefe run --result --states "
-                  "STAGE:INCREMENT writes more",
-                  run.file, choice.words, known));
+      "S643", fmt::format("{}: --at {}: the file has no such state; it has{}; sagefe run --result --states "
+                          "STAGE:INCREMENT writes more",
+                          run.file, choice.words, known));
 }
 
 }  // namespace
@@ -135,9 +135,9 @@ void expect_same_units(const StoredRun& a, const StoredRun& b) {
   const std::string of_a = words(a.model.units), of_b = words(b.model.units);
   if (of_a != of_b)
     throw UsageError(
-        fmt::format("{} is in {}, {} in {}: they can't be drawn on one axis or scale; draw them in "
-                    "separate files",
-                    a.file, of_a, b.file, of_b));
+        "S646", fmt::format("{} is in {}, {} in {}: they can't be drawn on one axis or scale; draw them in "
+                            "separate files",
+                            a.file, of_a, b.file, of_b));
 }
 
 }  // namespace
@@ -159,7 +159,7 @@ void expect_numbers(const StoredRun& run, const std::vector<std::size_t>& states
   else if (in_any(solid ? ElementKind::interface : ElementKind::solid))
     text += solid ? ": it is of interfaces; --interface shows it"
                   : ": it is of solids; --picture and --line show it";
-  throw UsageError(text);
+  throw UsageError("S644", text);
 }
 
 std::vector<std::string> labels_of(const StoredRuns& runs, const std::vector<std::string>& asked) {

@@ -27,7 +27,8 @@ constexpr const char* kDescription =
     "sagefe: 2-D geotechnical finite elements (plane strain and axisymmetry) from fixed-format decks.\n"
     "Try:  sagefe run DECK         compute a deck\n"
     "      sagefe check DECK       read and validate it, compute nothing\n"
-    "      sagefe list elements    what a deck can ask for";
+    "      sagefe list elements    what a deck can ask for\n"
+    "      sagefe list decks       decks to start from, such as those of the source chapter";
 constexpr const char* kFooter =
     "Signs: outside, compression is positive for stress and strain; inside and in displacements, axes are.\n"
     "Exit codes: 0 done, 1 command line, 2 input, 3 no equilibrium, singular or out of memory, 4 output could "
@@ -47,7 +48,7 @@ constexpr Entry kCommands[] = {
     {"echo", "show each card of a deck as it was read, under a column ruler", echo_command, true},
     {"layout", "a first layout for a deck that nobody knows (guess); what a layout reads of a deck (check)",
      layout_command},
-    {"list", "show the elements, materials or solvers that a deck can ask for, or the fields of results",
+    {"list", "show the elements, materials or solvers that a deck can ask for, the fields of results, or decks",
      list_command, true},
     {"plot", "curves from the tables of runs and pictures of their states, without running the deck again",
      plot_command, true},
@@ -130,10 +131,14 @@ int say_parse_error(const CLI::App& root, const CLI::ParseError& error) {
   return code == 0 ? kOk : kUsage;
 }
 
+void say_output_lost() {
+  say_error("sagefe", "standard output could not be written", "S911");
+}
+
 // The document of --json; an answer that can't be written is none.
 int with_answer(const std::string& command, int code, const MutedOutput& output) {
   if (output.write(answer_text(command, code))) return code;
-  fmt::print(stderr, "sagefe: standard output could not be written\n");
+  say_output_lost();
   return kOutput;
 }
 
@@ -183,7 +188,7 @@ int run_command_line(int argc, char** argv, const AddToCatalogue& add) {
   Catalogue catalogue;
   try {
     if (chosen != nullptr) catalogue = catalogue_for(*chosen, argc, argv, add);
-  } catch (const PluginError& error) {
+  } catch (const std::exception& error) {  // of `add` or a plug-in, such as a code that is taken
     return refuse(argv[word], [&] {
       say_error("sagefe", error);
       return kUsage;
@@ -241,11 +246,11 @@ int sagefe(int argc, char** argv, const AddToCatalogue& add) {
     std::fputs("sagefe: not enough memory [S508]\n", stderr);
     return kNotConverged;
   } catch (const std::exception& error) {
-    say_error("sagefe", error);  // of `add` or a plug-in, such as a code that is taken
+    say_error("sagefe", error);
     return kUsage;
   }
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
-  fmt::print(stderr, "sagefe: {}\n", with_code("standard output could not be written", "S911"));
+  say_output_lost();
   return kOutput;
 }
 

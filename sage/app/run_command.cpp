@@ -49,8 +49,10 @@ std::string way_on(const RunOutcome& outcome) {
 
 // Notes of the run, a line each, where no summary shows them.
 void say_notes(const std::string& deck, const std::string& notes) {
-  for (std::size_t at = 0, end = 0; (end = notes.find('\n', at)) != std::string::npos; at = end + 1)
-    say_note(deck, notes.substr(at, end - at));
+  for (std::size_t at = 0, end = 0; (end = notes.find('\n', at)) != std::string::npos; at = end + 1) {
+    const std::string note = notes.substr(at, end - at);
+    say_note(deck, note, code_in(note).value_or(Code("S513")));
+  }
 }
 
 // Where the results go to a terminal with room for it.
@@ -104,7 +106,7 @@ int compute_deck(const RunOptions& options, const std::string& deck, const Catal
       fmt::print("{}\n", summary(*outcome.model, outcome.record, outcome.reports.get(), outcome.files,
                                  outcome.error.get(), request.output.digits, sketch_for_screen(outcome)));
     if (request.profile) fmt::print("{}\n", profile_table(outcome.record.profile));
-    if (outcome.exit_code != kOk) say_error(deck, outcome.record.result.reason, outcome.record.result.code);
+    if (outcome.exit_code != kOk) say_error(deck, outcome.record.result.reason, *outcome.record.result.code);
     return outcome.exit_code;
   });
 }
@@ -243,7 +245,9 @@ Command run_command(CLI::App& parser, const Catalogue& catalogue) {
   auto options = std::make_shared<RunOptions>();
   RunRequest& request = options->request;
   parser.add_option("DECK", options->decks, "deck files")->required();
-  parser.add_option("-o,--output", request.output.folder, "folder for results (default: out)");
+  parser.add_option("-o,--output", request.output.folder,
+                    "folder for results (default: out), called STEM.lst, STEM.report1.csv, ...; STEM is the "
+                    "deck's name without its ending, or the name of its folder where it is called deck");
   parser.add_option("--solver", request.solver, "solver by name (see sagefe list solvers)")
       ->check(known_solver(catalogue));
   add_threads_option(parser, request.threads);

@@ -361,7 +361,7 @@ RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
       return done;
     }();
     outcome.record.result.work = result.work;
-    if (result.status == RunStatus::failed) throw AnalysisError(Code(), result.reason);
+    if (result.status == RunStatus::failed) throw AnalysisError(*result.code, result.reason);
     outcome.exit_code = result.status == RunStatus::completed ? kOk : kNotConverged;
     if (result.status == RunStatus::stopped) {
       outcome.record.result = result;

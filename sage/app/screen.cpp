@@ -73,13 +73,11 @@ void say(Severity severity, const std::string& who, const std::string& text, Cod
   keep_message({severity, code, {who, 0, 0, 0}, text, {}});
   const std::string word =
       severity == Severity::error ? "" : coloured(severity, fmt::format("{}:", word_of(severity))) + ' ';
-  const bool has_code = text.find("[" + to_string(code) + "]") != std::string::npos;
-  print_stderr(fmt::format("{}: {}{}\n", who, word, has_code ? text : with_code(text, code)));
+  print_stderr(fmt::format("{}: {}{}\n", who, word, with_code(text, code)));
 }
 
 void say_error(const std::string& who, const std::exception& error) {
-  const auto* coded = dynamic_cast<const CodedError*>(&error);
-  say_error(who, std::string(error.what()), coded != nullptr ? coded->code() : Code());
+  say_error(who, std::string(error.what()), code_of(error));
 }
 
 void say_detail(const std::string& who, const std::string& text) {

@@ -28,16 +28,16 @@ void set_screen(const ScreenOptions& options);
 void print_stderr(const std::string& text);
 
 // A message to standard error, "who: warning: text [S104]" as a person reads it; an error goes without its word.  It
-// stands in the answer of --json too.  A text that has its code already is printed as it is.
-void say(Severity severity, const std::string& who, const std::string& text, Code code = {});
-inline void say_error(const std::string& who, const std::string& text, Code code = {}) {
+// stands in the answer of --json too.
+void say(Severity severity, const std::string& who, const std::string& text, Code code);
+inline void say_error(const std::string& who, const std::string& text, Code code) {
   say(Severity::error, who, text, code);
 }
 void say_error(const std::string& who, const std::exception& error);
-inline void say_warning(const std::string& who, const std::string& text, Code code = {}) {
+inline void say_warning(const std::string& who, const std::string& text, Code code) {
   say(Severity::warning, who, text, code);
 }
-inline void say_note(const std::string& who, const std::string& text, Code code = {}) {
+inline void say_note(const std::string& who, const std::string& text, Code code) {
   say(Severity::note, who, text, code);
 }
 // "who: text", with --verbose only.

@@ -43,7 +43,10 @@ bool read_choice(std::string_view keyword, std::string_view text, StateChoice& c
 std::vector<double> strains_of_last_stage(const Model& model) {
   const auto report = std::ranges::find(model.reports, ReportKind::triaxial, &Report::kind);
   if (report == model.reports.end())
-    throw std::invalid_argument("the deck has no triaxial report, whose strain it could be");
+    throw std::invalid_argument(
+        "the deck has no triaxial report, whose strain it could be; load=VALUE or STAGE:INCREMENT name states "
+        "of "
+        "any deck");
   const std::vector<int> nodes = report_nodes(model, *report);
   Activity activity(model);
   double before = 0.0, last = 0.0;
@@ -59,7 +62,7 @@ std::vector<double> strains_of_last_stage(const Model& model) {
         throw std::invalid_argument(
             "the deck loads the specimen's end and does not move it, so that its strain is not known before "
             "the "
-            "run: load=VALUE or STAGE:INCREMENT");
+            "run; name the state by load=VALUE (part of the last stage's load) or STAGE:INCREMENT");
       last += added[DofMap::displacement(node) + 1] / static_cast<double>(nodes.size());
     }
   }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/Option.hpp>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -16,19 +17,18 @@
 
 namespace sage::app {
 
-namespace {
-
-// The cases beside an installed program, else those of the source tree.
-std::filesystem::path default_cases() {
+std::filesystem::path shipped_decks() {
   std::error_code error;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-  const auto installed = (program.parent_path() / SAGE_CASES_RELATIVE).lexically_normal() / "chapter7";
-  if (!error && std::filesystem::exists(installed / "tables.csv", error)) return installed;
-  return SAGE_CASES_DIR "/chapter7";
+  const auto installed = (program.parent_path() / SAGE_CASES_RELATIVE).lexically_normal();
+  if (!error && std::filesystem::exists(installed / "chapter7" / "tables.csv", error)) return installed;
+  return SAGE_CASES_DIR;
 }
 
+namespace {
+
 struct TableOptions {
-  std::filesystem::path cases = default_cases();
+  std::filesystem::path cases = shipped_decks() / "chapter7";
   std::filesystem::path folder = "out";
   bool pinned = false;
 };
@@ -117,7 +117,7 @@ int print_tables(const TableOptions& options, const Catalogue& catalogue) {
       const RunOutcome& outcome = runs.at(entry.deck);
       worst = std::max(worst, outcome.exit_code);
       if (outcome.exit_code != kOk)
-        say_error(request.deck, outcome.record.result.reason, outcome.record.result.code);
+        say_error(request.deck, outcome.record.result.reason, *outcome.record.result.code);
     }
     if (Json* json = answer())
       (*json)["entries"].push_back(entry_json(entry, ratio_of(runs.at(entry.deck), entry)));
@@ -139,7 +139,8 @@ int print_tables(const TableOptions& options, const Catalogue& catalogue) {
 
 Command tables_command(CLI::App& parser, const Catalogue& catalogue) {
   auto options = std::make_shared<TableOptions>();
-  parser.add_option("--cases", options->cases, "folder with tables.csv and the decks");
+  parser.add_option("--cases", options->cases,
+                    "folder with tables.csv and the decks (default: the program's own, see sagefe list decks)");
   parser.add_option("-o,--output", options->folder, "folder for results (default: out)");
   parser.add_flag("--pinned", options->pinned, "only the columns with pinned ends");
   return [options, &catalogue] { return print_tables(*options, catalogue); };

@@ -23,18 +23,21 @@ void write_log(const RunRequest& request, const umat::Capture::Text& text) {
   if (!request.quiet)
     say_note(request.deck,
              fmt::format("user materials printed {} bytes: {}{}", text.bytes, file.path().string(),
-                         text.bytes > text.first.size() ? " has the first of them" : ""));
+                         text.bytes > text.first.size() ? " has the first of them" : ""),
+             "S809");
 }
 
 void show(const std::string& who, const umat::Capture::Text& text) {
   if (text.bytes == 0) return;
-  say_note(who, fmt::format("user materials printed {} bytes{}:", text.bytes,
-                            text.bytes > text.first.size() ? ", of which these are the first" : ""));
+  say_note(who,
+           fmt::format("user materials printed {} bytes{}:", text.bytes,
+                       text.bytes > text.first.size() ? ", of which these are the first" : ""),
+           "S809");
   print_stderr(text.first + (text.first.ends_with('\n') ? "" : "\n"));
 }
 
 void say_notes(const std::string& who) {
-  for (const std::string& note : umat::take_notes()) say_note(who, note);
+  for (const std::string& note : umat::take_notes()) say_note(who, note, "S809");
 }
 
 // After the work, also where it failed, what was caught goes to `take`.

@@ -111,7 +111,7 @@ void Side::run(const Catalogue& catalogue, const RunSettings& settings) {
   } catch (const OutputError&) {
     throw;
   } catch (const std::exception& error) {
-    error_ = error.what();
+    error_ = message_of(error);
     reports_->stop(error_);
   }
   read_result();

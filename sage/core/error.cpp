@@ -1,6 +1,8 @@
 #include "sage/core/error.hpp"
 
 #include <algorithm>
+#include <new>
+#include <string_view>
 #include <utility>
 
 namespace sage {
@@ -34,13 +36,24 @@ const char* severity_text(Severity severity) {
 }  // namespace
 
 std::string to_string(Code code) {
-  return code.given() ? "S" + std::to_string(code.number()) : std::string();
+  return "S" + std::to_string(code.number());
 }
 
 std::string with_code(const std::string& message, Code code) {
-  if (!code.given()) return message;
+  if (code_in(message)) return message;
   const std::size_t end = std::min(message.find('\n'), message.size());
   return message.substr(0, end) + " [" + to_string(code) + "]" + message.substr(end);
+}
+
+std::optional<Code> code_in(const std::string& message) {
+  const std::string line = message.substr(0, message.find('\n'));
+  constexpr std::size_t kSize = std::string_view(" [S104]").size();
+  if (line.size() < kSize) return {};
+  const std::string_view end = std::string_view(line).substr(line.size() - kSize);
+  const std::string_view digits = end.substr(3, 3);
+  if (!end.starts_with(" [S") || !end.ends_with(']') || digits[0] == '0') return {};
+  if (!std::ranges::all_of(digits, [](char c) { return c >= '0' && c <= '9'; })) return {};
+  return Code(static_cast<short>(100 * (digits[0] - '0') + 10 * (digits[1] - '0') + (digits[2] - '0')));
 }
 
 std::string to_string(const SourcePosition& where) {
@@ -86,9 +99,15 @@ InputError::InputError(Diagnostics diagnostics)
 InputError::InputError(Code code, SourcePosition where, const std::string& message)
     : InputError(single(code, std::move(where), message)) {}
 
+Code code_of(const std::exception& error) {
+  if (const auto* coded = dynamic_cast<const CodedError*>(&error)) return coded->code();
+  const bool memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
+                      dynamic_cast<const std::length_error*>(&error) != nullptr;
+  return memory ? Code("S508") : Code("S513");
+}
+
 std::string message_of(const std::exception& error) {
-  const auto* coded = dynamic_cast<const CodedError*>(&error);
-  return with_code(error.what(), coded != nullptr ? coded->code() : Code());
+  return with_code(error.what(), code_of(error));
 }
 
 }  // namespace sage

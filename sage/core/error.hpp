@@ -72,7 +72,10 @@ class CodedError : public std::runtime_error {
   Code code_;
 };
 
-// What is printed of an exception: its message, with the code where it has one.
+// The code of an exception: its own, or what those of the library have in common ("S508", no memory or an array
+// beyond what can be addressed; "S513", everything else).
+Code code_of(const std::exception& error);
+// What is printed of an exception: its message with the code.
 std::string message_of(const std::exception& error);
 
 // A law, element or solver refuses one of its parameters; the model builder adds the place in the deck.

@@ -209,8 +209,9 @@ constexpr MessageEntry kMessages[] = {
     {"S201", "a node is not defined",
      "A card names a node that no node card, line or block makes. With generated nodes a step that is "
      "off by one leaves gaps.",
-     "Correct the number, or the generation that should make the node. sagefe run --picture mesh, or "
-     "sagefe echo, shows what there is."},
+     "Correct the number, or the generation that should make the node; sagefe echo DECK shows how each card "
+     "was "
+     "read."},
     {"S202", "an element is not defined",
      "A card (pressure, removal, strength) names an element that no element card or block makes.",
      "Correct the number or the block; element numbers of a block run along its rows."},
@@ -437,7 +438,9 @@ constexpr MessageEntry kMessages[] = {
      "Correct the coordinate; model thin zones by interface elements of zero thickness."},
     {"S305", "element numbers have a gap",
      "Numbers jump: a block may be shorter than meant, and a part of the body be missing.",
-     "Look at the mesh (sagefe run DECK --picture mesh). Nothing is to be done where the gap is meant."},
+     "Look at the mesh (sagefe run DECK --picture displacement draws it). Nothing is to be done where the gap "
+     "is "
+     "meant."},
     {"S306", "a material parameter is implausible",
      "A negative Poisson's ratio or unit weight, a strength above the modulus, or a friction angle that "
      "looks like radians. The law can compute with it; soil is seldom like it.",
@@ -657,6 +660,11 @@ constexpr MessageEntry kMessages[] = {
      "memory, by a user, or by a fault of the program.",
      "Run the deck alone to see whether it ends again; fewer --jobs need less memory at a time. A fault "
      "of the program is worth a report with the deck."},
+    {"S513", "a fault of the program or of a library",
+     "Something happened that the program does not foresee: the message is that of a library or of a check "
+     "within the program. The deck may be right.",
+     "Try another solver (--solver) and one thread (--threads 1), to see what it depends on. A report with the "
+     "deck, the command and the message helps to mend it."},
     {"S515", "the safety factor is not proved",
      "The search for the factor ended without the bracket that was asked for: no factor stands, every factor "
      "stands, or at the upper end no equilibrium was found although nothing gives way there, so that the "
@@ -715,9 +723,11 @@ constexpr MessageEntry kMessages[] = {
      "The disk is full, the folder may not be written to, or there is a folder or a device of that name. "
      "The message gives the system's reason.",
      "Free space or choose another folder (-o). sagefe run --restart goes on from the last checkpoint."},
-    {"S602", "a result would take the place of an input",
-     "The file to be written is one that the same command reads, under this or another name.",
-     "Another output folder (-o) or another name."},
+    {"S602", "a result would take the place of another file",
+     "The file to be written is one that the same command reads, or two of its results would bear the same "
+     "name: "
+     "results are called after the deck's folder or file.",
+     "Another output folder (-o) or another name; decks of one name in commands of their own."},
     {"S603", "another run is writing there",
      "A run locks the names of its results. Another process is at work with the same folder and deck "
      "name, perhaps one in the background.",
@@ -761,6 +771,11 @@ constexpr MessageEntry kMessages[] = {
     {"S645", "there is nothing to plot",
      "The model has no interface, the line meets no element, or no field was named.",
      "Name what is to be drawn; check the coordinates of the line against the mesh."},
+    {"S646", "units differ",
+     "Two runs, or two columns, are in different units. On one axis or one scale they would look alike where "
+     "they "
+     "are not.",
+     "Draw them in separate files, or write one of the decks in the units of the other."},
     {"S650", "a path or test can't be followed as it is given",
      "The columns of a path file must be those of the law (components of stress or strain, one of the "
      "two for each), with a number in each cell.",
@@ -816,6 +831,13 @@ constexpr MessageEntry kMessages[] = {
      "Physical curves become supports and pressures by their names, and this name says neither, or the "
      "curve lies on no element.",
      "Name curves fix_x, fix_y, fix_xy or pressure=VALUE, or add the cards to the deck by hand."},
+    {"S714", "the two sides of a joint do not match",
+     "Lines named interface_bottom=NAME and interface_top=NAME are the two sides of one joint: each line needs "
+     "a "
+     "partner at the same place with as many nodes, of its own side's nodes.",
+     "Mesh both sides alike (the same transfinite numbers, or one curve periodic to the other), with nodes of "
+     "their "
+     "own: Gmsh's plugin Crack makes them from one curve."},
     {"S720", "something is left out of the written file",
      "The format written to has no place for it, or less digits. The new file describes another problem, "
      "or the same one with less accuracy.",
@@ -869,15 +891,22 @@ constexpr MessageEntry kMessages[] = {
      "installed.",
      "Choose another name or folder, or empty it; where the templates are missing install the program anew."},
     {"S808", "the suites that try pieces are not there",
-     "sagefe conform runs a program beside sagefe which is built only where GoogleTest was found.",
+     "sagefe conform runs a second program, which is built only where GoogleTest was found.",
      "Install GoogleTest (libgtest-dev), build and install the program again."},
+    {"S809", "a user material printed something",
+     "A UMAT wrote text, or called for something that this program does not offer; the run went on. Routines "
+     "print when they meet a state that they were not written for, or while their author looks for a fault.",
+     "Read the log that the message names. Lines that a routine prints at every point slow a run down much: "
+     "take "
+     "them out."},
+    {"S810", "a piece crashed under the checks",
+     "A law or element of the library ended the program that tries it, mostly by writing or reading beyond an "
+     "array, or by a division of integers by zero.",
+     "The last line above names what was tried. Build the library with -g -fsanitize=address, or run "
+     "sagefe conform LIBRARY under gdb or valgrind: they show the line."},
 
     // S9: the command line.
-    {"S900", "the command line asks for what there is not",
-     "A name, a column, a state or a combination of options that the command was given does not exist in "
-     "the deck, the law or the result file.",
-     "The message says what there is; the help of the command says what goes together."},
-    {"S901", "there is no such command", "The first word after sagefe names what is to be done.",
+    {"S901", "there is no such command", "The first word behind the program's name says what is to be done.",
      "sagefe --help lists the commands; the usual one is sagefe run DECK."},
     {"S902", "an option or word is not known",
      "The command has no such option, or takes no further word. Options of one command are not those of "

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "sage/core/code.hpp"
+
 namespace sage {
 
 // Layers of smaller elements around a node.
@@ -15,10 +17,11 @@ struct Grading {
 };
 
 struct MeshOptions {
-  bool coarsen = false;                         // first: no more elements than the geometry needs
-  int refine = 0;                               // every element into four, so many times
-  std::vector<Grading> gradings;                // after refining
-  std::function<void(const std::string&)> say;  // gets a line before a large mesh is made; empty = nobody
+  bool coarsen = false;           // first: no more elements than the geometry needs
+  int refine = 0;                 // every element into four, so many times
+  std::vector<Grading> gradings;  // after refining
+  // Gets a message before a large mesh is made; empty = nobody.
+  std::function<void(const std::string&, Code)> say;
 };
 
 }  // namespace sage

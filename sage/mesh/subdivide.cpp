@@ -94,11 +94,10 @@ void check_size(Work& b, int times) {
     throw InputError(b.problems);
   }
   if (b.meshing.say && size.nodes > kManyNodes)
-    b.meshing.say(
-        with_code(option + " makes " + whole(size.elements) + " elements with about " + whole(size.nodes) +
+    b.meshing.say(option + " makes " + whole(size.elements) + " elements with about " + whole(size.nodes) +
                       " nodes: expect " + rounded_text(size.nodes * kBytesPerNode / 1e9, 2) +
                       " GB of memory, and a multiple of it where the equations are unsymmetric or degrees high",
-                  "S409"));
+                  "S409");
 }
 
 }  // namespace

@@ -250,7 +250,7 @@ void RunRecord::on_warning(const Diagnostic& d) {
   if (d.severity == Severity::warning)
     ++warnings;
   else
-    notes += d.message + "\n";
+    notes += with_code(d.message, d.code) + "\n";
 }
 
 void RunRecord::exchange(Archive& archive) {

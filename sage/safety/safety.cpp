@@ -289,7 +289,7 @@ void Finder::run_from_start(double factor) {
   const std::size_t before = safety_.trials.size();
   const RunResult result = run(model_, catalogue_, settings_, observers);
   laws_before_.clear();
-  if (result.status == RunStatus::failed) throw AnalysisError(result.code, result.reason);
+  if (result.status == RunStatus::failed) throw AnalysisError(*result.code, result.reason);
   safety_.stopped = result.status == RunStatus::stopped;
   if (!safety_.stopped && safety_.trials.size() == before) take_run(result, last);
 }

@@ -1,9 +1,12 @@
 """Answers of sagefe --json: every command's document against docs/schema/sagefe.schema.json, and its numbers against
-those of the files that the same run wrote.  usage: json_answers.py SAGEFE SOURCE_FOLDER.  Exit code 77: no jsonschema."""
+those of the files that the same run wrote.  usage: json_answers.py SAGEFE SOURCE_FOLDER [PLUGIN].  Exit code 77: no
+jsonschema."""
 import csv
 import json
 import math
 import pathlib
+import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -44,10 +47,16 @@ Draft202012Validator.check_schema(SCHEMA)
 STRICT = Draft202012Validator(strict(SCHEMA))
 
 
-def answer(folder, *arguments, code=0):
-    """The document of a command; its exit code is that of the command without --json."""
+asked = set()  # commands that gave an answer
+
+
+def answer(folder, *arguments, code=0, between=lambda: None):
+    """The document of a command; its exit code is that of the command without --json, and every error on standard
+    error is one of its messages."""
     plain = subprocess.run([SAGEFE, *arguments], cwd=folder, capture_output=True)
+    between()
     run = subprocess.run([SAGEFE, *arguments, "--json"], cwd=folder, capture_output=True)
+    asked.add(arguments[0])
     name = " ".join(arguments)
     expect(run.returncode == plain.returncode == code, name, "exit code", run.returncode, plain.returncode)
     expect(b"\033" not in run.stdout + run.stderr, name, "control characters")
@@ -56,6 +65,11 @@ def answer(folder, *arguments, code=0):
         expect(False, name, error.json_path, error.message[:300])
     expect(document["exit_code"] == code, name, "says", document["exit_code"])
     expect(document["command"] == arguments[0], name, "says", document["command"])
+    shown = re.findall(r"\[(S[0-9]{3})\]", run.stderr.decode())
+    kept = [one["code"] for one in document["messages"]]
+    expect(set(shown) <= set(kept), name, "messages with the codes", shown, "in the document", kept)
+    expect(code == 0 or "error" in [one["severity"] for one in document["messages"]] or arguments[0] in ("verify", "conform", "drive"),
+           name, "fails without a message")
     for missing in document["not_finite"]:
         value = document
         for part in missing["at"].split("/")[1:]:
@@ -108,13 +122,21 @@ def check_failures(folder):
     expect(any(deck["reason"] == one["message"] for one in weak["messages"]), "the reason is a message")
     expect(answer(folder, "run", "--nonsense", code=1)["messages"], "a message about the command line")
     answer(folder, "nonsense", code=1)
+    answer(folder, "run", code=1)
+    answer(folder, "run", DECK, "--plugin", "none.so", code=1)
+    answer(folder, "run", DECK, "--umat", "none.so", code=1)
+    answer(folder, "run", DECK, "--quiet", "--verbose", code=1)
+    answer(folder, "run", DECK, "--picture", "nonsense", "-o", "out", code=1)
+    answer(folder, "plot", "none.h5", "--picture", "conf", code=2)
+    answer(folder, "run", "weak.dat", DECK, "-j", "2", "-o", "out", code=3)
+    answer(folder, "run", DECK, "-o", "cut.dat", code=4)
     with open("/dev/full", "w") as full:
         run = subprocess.run([SAGEFE, "list", "solvers", "--json"], stdout=full, stderr=subprocess.PIPE)
     expect(run.returncode == 4, "standard output that can't be written", run.returncode)
 
 
 def check_others(folder):
-    for what in ("elements", "materials", "solvers", "fields"):
+    for what in ("elements", "materials", "solvers", "fields", "decks"):
         expect(len(answer(folder, "list", what)["result"][what]) >= 3, what)
     cards = answer(folder, "echo", DECK)["result"]["cards"]
     line = pathlib.Path(DECK).read_text().splitlines()
@@ -160,6 +182,50 @@ def check_others(folder):
     expect(both["comparison"]["answers"] and both["a"]["reports"], "comparison")
 
 
+def check_small_commands(folder, plugin):
+    clean = lambda name: lambda: shutil.rmtree(folder / name)
+    every = answer(folder, "explain")["result"]["codes"]
+    lines = subprocess.run([SAGEFE, "explain"], capture_output=True, text=True).stdout.splitlines()
+    expect([f"{one['code']}  {one['title']}" for one in every] == lines[:-1], "explain lists")
+    one = answer(folder, "explain", "S501")["result"]["codes"]
+    expect(one == [entry for entry in every if entry["code"] == "S501"] and one, "explain S501", one)
+    expect(answer(folder, "explain", "--search", "interface")["result"]["codes"], "explain --search")
+    answer(folder, "explain", "S999", code=1)
+    for shell in ("bash", "zsh", "fish"):
+        script = subprocess.run([SAGEFE, "completion", shell], capture_output=True, text=True).stdout
+        expect(answer(folder, "completion", shell)["result"] == {"shell": shell, "script": script}, "completion", shell)
+    pages = answer(folder, "manpages", "man")["result"]["files"]
+    expect(sorted(pages) == sorted(str(file.relative_to(folder)) for file in (folder / "man").iterdir()), "manpages", pages)
+    for kind in ("law", "element", "umat"):
+        files = answer(folder, "new", kind, "mine", between=clean("mine"))["result"]["files"]
+        expect(sorted(files) == sorted(str(file.relative_to(folder)) for file in (folder / "mine").iterdir()), "new", files)
+        answer(folder, "new", kind, "mine", code=1)
+        shutil.rmtree(folder / "mine")
+    answer(folder, "new", "law", "No Name", code=1)
+    tests = answer(folder, "drive", "--list")["result"]["tests"]
+    expect(len(tests) > 5, "drive --list", tests)
+    law = ["drive", "--law", "mohr_coulomb", "--set", "E=2e4", "--set", "nu=.3", "--set", "c=5", "--set", "phi=30"]
+    curve = answer(folder, *law, "--test", "triaxial_compression", "--pressure", "100", "--to", ".05", "--csv", "mc.csv")["result"]
+    table = [row for row in csv.reader(line for line in open(folder / "mc.csv") if not line.startswith("#"))]
+    columns = curve["curves"][0]["columns"]
+    names = [f"{one['name']}[{one['unit']}]" if one["unit"] else one["name"] for one in columns]
+    expect(curve["files"] == ["mc.csv"] and len(columns[0]["values"]) == len(table) - 1 > 10, "rows of drive")
+    for at, name in enumerate(names):
+        title = next((i for i, cell in enumerate(table[0]) if cell.split("[")[0] == name.split("[")[0]), None)
+        expect(title is not None, name, table[0])
+        for row, value in zip(table[1:], columns[at]["values"]):
+            expect(math.isclose(float(row[title]), value, rel_tol=6e-10, abs_tol=1e-12), name, row[title], value)
+    answer(folder, *law, "--test", "nonsense", "--to", ".05", code=1)
+    answer(folder, "drive", code=1)
+    answer(folder, "conform", "none.so", code=1)
+    answer(folder, "conform", code=1)
+    if plugin:
+        lines = answer(folder, "conform", plugin)["result"]["lines"]
+        expect(lines[-1] == "verdict: conforms", "conform", lines[-3:])
+        brought = answer(folder, "list", "plugins", "--plugin", plugin)["result"]["plugins"]
+        expect([one["file"] for one in brought] == [plugin], "list plugins", brought)
+
+
 def make_weak_deck(folder):
     """A Mohr-Coulomb element (c = 10, phi = 0) under 30 where its limit is 20."""
     card = lambda integers, reals=(): "".join(f"{i:>5}" for i in integers) + "".join(f"{r:>10}" for r in reals)
@@ -178,4 +244,8 @@ with tempfile.TemporaryDirectory() as name:
     check_run(place)
     check_failures(place)
     check_others(place)
+    check_small_commands(place, str(pathlib.Path(sys.argv[3]).resolve()) if "".join(sys.argv[3:]) else "")
+    help_text = subprocess.run([SAGEFE, "--help"], capture_output=True, text=True).stdout.split("Subcommands:")[1]
+    commands = set(re.findall(r"^  (\w+) {2,}\S", help_text, re.MULTILINE))
+    expect(commands <= asked, "commands without an answer here:", commands - asked)
 sys.exit(1 if failures else 0)

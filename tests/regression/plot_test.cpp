@@ -402,6 +402,25 @@ TEST(RunStates, SayWhichIncrementIsNearestAndWhatThereIsNot) {
   expect("--states 1:5", 1, "into which files?");
 }
 
+// Where the strain is not known before the run the refusal says why, and how states are named then.
+TEST(RunStates, AreNoStrainsWhereNothingPrescribesThem) {
+  const fs::path folder = empty_folder("run_states_loaded");
+  const Finished footing =
+      sagefe(folder, "run " + kInputs + "hyperbolic/strip_footing/deck.dat --points --states strain=.05");
+  EXPECT_EQ(footing.exit_code, 1) << footing.err;
+  EXPECT_NE(footing.err.find("no triaxial report"), std::string::npos) << footing.err;
+  EXPECT_NE(footing.err.find("load=VALUE or STAGE:INCREMENT"), std::string::npos) << footing.err;
+  std::string deck = read(kInputs + "hyperbolic/triaxial/deck.dat");
+  const std::string moved = "    3    4    1    0    1               -0.04";
+  ASSERT_NE(deck.find(moved), std::string::npos);
+  deck.replace(deck.find(moved), moved.size(), "    3    4    1    0   -1");  // the end is let go
+  std::ofstream(folder / "loaded.dat") << deck;
+  const Finished loaded = sagefe(folder, "run loaded.dat --points --states strain=.05");
+  EXPECT_EQ(loaded.exit_code, 1) << loaded.err;
+  EXPECT_NE(loaded.err.find("loads the specimen's end and does not move it"), std::string::npos) << loaded.err;
+  EXPECT_NE(loaded.err.find("load=VALUE"), std::string::npos) << loaded.err;
+}
+
 // Each is refused by its name, and nothing is drawn.
 TEST(Plot, OptionsThatWouldMeanNothingAreRefused) {
   const fs::path folder = empty_folder("plot_options");
