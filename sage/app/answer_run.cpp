@@ -10,7 +10,17 @@ namespace sage::app {
 namespace {
 
 const char* kind_word(ReportKind kind) {
-  return kind == ReportKind::triaxial ? "triaxial" : kind == ReportKind::nodes ? "nodes" : "point";
+  switch (kind) {
+    case ReportKind::triaxial:
+      return "triaxial";
+    case ReportKind::nodes:
+      return "nodes";
+    case ReportKind::point:
+      return "point";
+    case ReportKind::discharge:
+      return "discharge";
+  }
+  return "";
 }
 
 Json report_json(const Model& model, const Reports& reports, std::size_t index) {
