@@ -57,11 +57,20 @@ std::vector<ElementCase> of_kind(ElementKind kind, const std::vector<ElementCase
   return found;
 }
 
+namespace {
+
+// Solids and elements of flow have an area; interfaces and structures are lines.
+bool has_area(const ElementEntry& entry) {
+  return entry.solid() || entry.flow();
+}
+
+}  // namespace
+
 Eigen::Matrix2Xd parent_nodes(const ElementEntry& entry) {
   Eigen::Matrix2Xd nodes(2, static_cast<Eigen::Index>(entry.parent_nodes.size()));
   for (Eigen::Index i = 0; i < nodes.cols(); ++i) {
     const auto& [xi, eta] = entry.parent_nodes[static_cast<std::size_t>(i)];
-    nodes.col(i) << xi, (entry.solid() ? eta : 0.0);
+    nodes.col(i) << xi, (has_area(entry) ? eta : 0.0);
   }
   return nodes;
 }
@@ -79,13 +88,13 @@ Eigen::Matrix2Xd straight_element(const ElementEntry& entry, const Eigen::Matrix
 }
 
 Eigen::Matrix2Xd sample_shape(const ElementEntry& entry) {
-  if (!entry.solid()) return straight_element(entry, columns({{1.0, 0.5}, {2.2, 1.1}}));
+  if (!has_area(entry)) return straight_element(entry, columns({{1.0, 0.5}, {2.2, 1.1}}));
   if (entry.triangle()) return straight_element(entry, columns({{1.0, 0.2}, {2.3, 0.5}, {1.4, 1.7}}));
   return straight_element(entry, columns({{1.0, 0.1}, {2.4, 0.3}, {2.0, 1.6}, {1.2, 1.2}}));
 }
 
 Eigen::Matrix2Xd sample_shape_on_axis(const ElementEntry& entry) {
-  if (!entry.solid()) return straight_element(entry, columns({{0.0, 0.5}, {1.2, 1.1}}));
+  if (!has_area(entry)) return straight_element(entry, columns({{0.0, 0.5}, {1.2, 1.1}}));
   if (entry.triangle()) return straight_element(entry, columns({{0.0, 0.2}, {1.3, 0.5}, {0.4, 1.7}}));
   return straight_element(entry, columns({{0.0, 0.1}, {1.4, 0.3}, {1.0, 1.6}, {0.0, 1.2}}));
 }

@@ -19,7 +19,7 @@ const Catalogue& pieces() {
     c.materials.add(91, own::maxwell());
     c.elements.add(40, own::tri10());
     c.elements.add(50, own::bar2());
-    c.elements.add(41, own::diffusion_quad());
+    c.elements.add(1041, own::diffusion_quad());
     c.solvers.add(90, own::sparse_lu());
     return c;
   }();

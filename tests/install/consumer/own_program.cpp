@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
     catalogue.materials.add(92, own::swelling_soil());
     catalogue.elements.add(40, own::tri10());
     catalogue.elements.add(50, own::bar2());
-    catalogue.elements.add(41, own::diffusion_quad());
+    catalogue.elements.add(1041, own::diffusion_quad());
     catalogue.solvers.add(90, own::sparse_lu());
     catalogue.fields.add(own::stress_ratio());
   });

@@ -27,7 +27,7 @@
 namespace sage {
 namespace {
 
-constexpr int kElement = 41, kLaw = 92;
+constexpr int kElement = 1041, kLaw = 92;
 
 Catalogue with_diffusion(bool balanced = false) {
   Catalogue catalogue = app::full_catalogue();

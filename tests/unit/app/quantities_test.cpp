@@ -20,7 +20,8 @@ namespace {
 
 using scenes::DeckWriter;
 
-constexpr int kDiffusion = 41, kBar = 50, kRod = 80, kSwelling = 92;
+constexpr int kDiffusion = 1041, kBar = 50, kRod = 80, kSwelling = 92;
+constexpr int kFlow = 41, kDarcy = 41;  // of the program
 
 const Catalogue& catalogue() {
   static const Catalogue all = [] {
@@ -46,7 +47,7 @@ struct Soil {
 
 // Two rows of two squares, each row a group, held at the base; one stage in which nothing happens.  Nodes 1-3
 // below, 4-6, 7-9; elements 1 2, 3 4.
-Model plain(int element = 1, int formulation = 1, const Soil& soil = {}) {
+Model plain(int element = 1, int formulation = 1, const Soil& soil = {}, bool held = true) {
   DeckWriter deck(1);
   deck.atmospheric_pressure = deck.water_unit_weight = 0.0;
   if (soil.law != 1) deck.atmospheric_pressure = 100.0;
@@ -57,7 +58,8 @@ Model plain(int element = 1, int formulation = 1, const Soil& soil = {}) {
     const int n = 1 + e % 2 + 3 * (e / 2);
     deck.element(e + 1, e < 2 ? 1 : 2, {n, n + 1, n + 4, n + 3});
   }
-  for (const int node : {1, 2, 3}) deck.fix(node, 1, 1);
+  if (held)
+    for (const int node : {1, 2, 3}) deck.fix(node, 1, 1);
   deck.stage();
   Model model = model_of(deck.text());
   model.title.clear();
@@ -285,6 +287,13 @@ const std::vector<Row>& rows() {
          first(m).field_fixities.push_back({1, 8, FixityCode::fixed, 1.0, 0});
          first(m).field_loads.push_back({1, 4, 0.5, 0});
        }},
+      {"an exit of water",
+       {"", "the head of nodes is left out", "the head of nodes is left out"},
+       [](Model& m) {
+         m = plain(kFlow, 1, {kDarcy, {1e-3}}, false);
+         m.field_fixities.push_back({1, 0, FixityCode::fixed, 0.0, 0});
+         first(m).exits.push_back({8, 0.5, 0});
+       }},
   };
   return all;
 }
@@ -383,7 +392,7 @@ TEST(Quantities, InterfacesAndStructuresAreNamed) {
 [[maybe_unused]] void known(const Stage& one) {
   [[maybe_unused]] const auto& [number, title, increments, duration, method, max_iterations, output_every,
                                 output_at, tolerance, gravity, fixities, loads, field_fixities, field_loads,
-                                pressures, births, deaths, initials, strength_factor, where] = one;
+                                exits, pressures, births, deaths, initials, strength_factor, where] = one;
 }
 [[maybe_unused]] void known(const NodalLoad& one) {
   [[maybe_unused]] const auto& [node, force, line] = one;

@@ -43,9 +43,9 @@ TEST(Elements, PassOnThatTheLawWantsASmallerStep) {
   const AnySmoothLaw laws(1e-3);
   for (const ElementCase& c : element_cases()) {
     const std::unique_ptr<Element> element = c.make();
-    const bool solid = c.entry->solid();
+    const bool area = c.entry->solid() || c.entry->flow();
     const Eigen::Matrix2Xd ends = (Eigen::Matrix2Xd(2, 2) << 1.0, 2.0, 0.0, 0.0).finished();
-    ElementRun run(*element, solid ? sample_shape(*c.entry) : straight_element(*c.entry, ends), laws.of(c));
+    ElementRun run(*element, area ? sample_shape(*c.entry) : straight_element(*c.entry, ends), laws.of(c));
     Eigen::VectorXd du = Eigen::VectorXd::Zero(element->traits().dofs);
     const int moved = c.entry->structure() ? 0 : 1;  // along the line, or across the joint
     du(moved) = 1e-6;

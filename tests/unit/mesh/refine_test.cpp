@@ -479,7 +479,7 @@ TEST(RefineOption, LargeMeshesAreAnnouncedOrRefused) {
   const DeckWriter deck = block_deck();
   BuildOptions options = with(0, 12);
   std::string printed;
-  options.say = [&](const std::string& text) {
+  options.say = [&](const std::string& text, Code) {
     printed = text;
     throw Stop();
   };
@@ -509,7 +509,7 @@ TEST(RefineOption, AnnouncedNodesAreThoseThatAreMade) {
     SCOPED_TRACE(static_cast<int>(cell));
     BuildOptions options = with(0, 9);
     double announced = 0.0;
-    options.say = [&](const std::string& text) {
+    options.say = [&](const std::string& text, Code) {
       announced = std::stod(text.substr(text.find("about ") + 6));
       throw Stop();
     };

@@ -26,7 +26,7 @@ Result run_summary(Specimen& specimen, bool fail, int increments) {
   specimen.model.reports.push_back(report);
   Reports reports(fresh_folder(fail ? "summary_fail" : "summary"), "t");
   Result result;
-  result.record.on_warning({Severity::warning, {}, {}, "odd", {}});
+  result.record.on_warning({Severity::warning, "S331", {}, "odd", {}});
   for (Observer* observer : {static_cast<Observer*>(&reports), static_cast<Observer*>(&result.record)})
     fail ? specimen.run_and_fail(*observer, 0.02, increments) : specimen.run(*observer, 0.02, increments);
   result.record.seconds = 0.125;
