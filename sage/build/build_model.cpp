@@ -104,6 +104,16 @@ void read_stage(Builder& b, const CardView& card, Report& report) {
                 std::to_string(b.model.stages.size()));
 }
 
+// Numbers of the card that a report of its kind makes nothing of.
+void note_unused(Builder& b, const CardView& card, std::initializer_list<const char*> fields,
+                 const std::string& why) {
+  std::string ignored;
+  for (const char* field : fields)
+    if (!card.blank(field) && card.real(field) != 0.0)
+      ignored += (ignored.empty() ? "" : ", ") + card.label(field);
+  if (!ignored.empty()) b.note("S242", card.where(), why + "; of this card it does not use: " + ignored);
+}
+
 // From the point card behind the report card.
 void read_point(Builder& b, const CardView& card, Report& report) {
   read_stage(b, card, report);
@@ -115,14 +125,8 @@ void read_point(Builder& b, const CardView& card, Report& report) {
     else if (b.layer_pieces.empty())  // else parts of it may be groups of their own
       report.group = found->second;
   }
-  std::string ignored;
-  for (const char* field : {"first", "last", "step", "height", "area", "cell_pressure"})
-    if (!card.blank(field) && card.real(field) != 0.0)
-      ignored += (ignored.empty() ? "" : ", ") + card.label(field);
-  if (!ignored.empty())
-    b.note("S242", card.where(),
-           "a point report takes its place from the point card behind it; of this card it does not use: " +
-               ignored + " (kind 2 reports nodes)");
+  note_unused(b, card, {"first", "last", "step", "height", "area", "cell_pressure"},
+              "a point report takes its place from the point card behind it (kind 2 reports nodes)");
   const std::vector<CardView> places = b.deck.all("point", card);
   if (places.empty()) {
     b.error("S242", card.where(), "a point report needs a point card with its place, x and y, behind it");
@@ -206,6 +210,9 @@ void build_reports(Builder& b) {
                     (b.model.geometry == Geometry::axisymmetric ? "all of which lie on the axis"
                                                                 : "which have no width along x"));
     }
+    if (report.kind == ReportKind::discharge)
+      note_unused(b, card, {"height", "area", "cell_pressure"},
+                  "a discharge needs the nodes of its line alone");
     b.model.reports.push_back(std::move(report));
   }
   add_requested_points(b);

@@ -37,9 +37,34 @@ void note_weights(Builder& b) {
                     "from the solids there");
 }
 
+// A flag a node: something there moves.
+std::vector<bool> moving_nodes(const Model& model) {
+  std::vector<bool> moves(static_cast<std::size_t>(model.mesh.nodes()), false);
+  for (const Group& group : model.groups)
+    if (!group.flow())
+      for (const int node : group.nodes) moves[static_cast<std::size_t>(node)] = true;
+  return moves;
+}
+
+// A support card whose name of the unknown is blank holds displacements, which water does not have.
+void warn_of_displacements(Builder& b, const std::vector<bool>& moves, const std::vector<Fixity>& fixities) {
+  const int head = find_unknown(b.model.unknowns, "head");
+  for (const Fixity& fixity : fixities)
+    if (b.dof_map.of(fixity.node, head) >= 0 && !moves[static_cast<std::size_t>(fixity.node)])
+      b.warning("S332", {b.model.file, fixity.line, 0, 0},
+                "node " + std::to_string(b.model.mesh.number[static_cast<std::size_t>(fixity.node)]) +
+                    " has a head and no displacement that the card could hold; a card for heads names them "
+                    "(head)");
+}
+
 }  // namespace
 
 void check_water(Builder& b) {
+  if (find_unknown(b.model.unknowns, "head") >= 0) {
+    const std::vector<bool> moves = moving_nodes(b.model);
+    warn_of_displacements(b, moves, b.model.fixities);
+    for (const Stage& stage : b.model.stages) warn_of_displacements(b, moves, stage.fixities);
+  }
   check_discharges(b);
   note_weights(b);
 }

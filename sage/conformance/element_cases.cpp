@@ -33,6 +33,11 @@ bool exists(const ElementEntry& entry, Geometry geometry, int formulation) {
   }
 }
 
+// Solids and elements of flow have an area; interfaces and structures are lines.
+bool has_area(const ElementEntry& entry) {
+  return entry.solid() || entry.flow();
+}
+
 }  // namespace
 
 std::vector<ElementCase> element_cases(const Catalogue& catalogue, const std::vector<int>& codes) {
@@ -56,15 +61,6 @@ std::vector<ElementCase> of_kind(ElementKind kind, const std::vector<ElementCase
     if (c.entry->kind == kind) found.push_back(c);
   return found;
 }
-
-namespace {
-
-// Solids and elements of flow have an area; interfaces and structures are lines.
-bool has_area(const ElementEntry& entry) {
-  return entry.solid() || entry.flow();
-}
-
-}  // namespace
 
 Eigen::Matrix2Xd parent_nodes(const ElementEntry& entry) {
   Eigen::Matrix2Xd nodes(2, static_cast<Eigen::Index>(entry.parent_nodes.size()));

@@ -547,8 +547,8 @@ constexpr MessageEntry kMessages[] = {
      "Read the law's page in docs/theory; the message names parameter and range."},
     {"S332", "a card does nothing in its stage",
      "What it names is not active then: the elements are removed or not yet born, or the nodes belong to "
-     "none that is.",
-     "Move the card to the stage meant, or correct births and deaths."},
+     "none that is, or have no such unknown (a support of displacements where only water flows).",
+     "Move the card to the stage meant, correct births and deaths, or give the unknown's name (head)."},
     {"S334", "the mesh is coarse for what is asked",
      "Between two loads or supports lie so few elements that the answer there is far from that of a fine "
      "mesh. The message says by about how much.",

@@ -213,11 +213,12 @@ def check_small_commands(folder, plugin):
     table = [row for row in csv.reader(line for line in open(folder / "mc.csv") if not line.startswith("#"))]
     columns = curve["curves"][0]["columns"]
     names = [f"{one['name']}[{one['unit']}]" if one["unit"] else one["name"] for one in columns]
-    expect(curve["files"] == ["mc.csv"] and len(columns[0]["values"]) == len(table) - 1 > 10, "rows of drive")
+    expect(curve["files"] == ["mc.csv"] and len(curve["curves"][0]["rows"]) == len(table) - 1 > 10, "rows of drive")
     for at, name in enumerate(names):
         title = next((i for i, cell in enumerate(table[0]) if cell.split("[")[0] == name.split("[")[0]), None)
         expect(title is not None, name, table[0])
-        for row, value in zip(table[1:], columns[at]["values"]):
+        for row, values in zip(table[1:], curve["curves"][0]["rows"]):
+            value = values[at]
             expect(math.isclose(float(row[title]), value, rel_tol=6e-10, abs_tol=1e-12), name, row[title], value)
     answer(folder, *law, "--test", "nonsense", "--to", ".05", code=1)
     answer(folder, "drive", code=1)

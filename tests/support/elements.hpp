@@ -30,13 +30,15 @@ inline std::vector<ElementCase> interface_cases() {
 }
 // A nonlinear law for any element; refuses components beyond `limit`.
 struct AnySmoothLaw {
-  explicit AnySmoothLaw(double limit = 1e9) : one(limit), two(limit), four(limit), five(limit) {}
+  explicit AnySmoothLaw(double limit = 1e9) : one(limit), two(limit), three(limit), four(limit), five(limit) {}
   LawRef of(const ElementCase& c) const {
     switch (c.entry->law_size) {
       case 1:
         return static_cast<const Law<1>*>(&one);
       case 2:
         return static_cast<const InterfaceLaw*>(&two);
+      case 3:
+        return static_cast<const Law<3>*>(&three);
       case 5:
         return static_cast<const Law<5>*>(&five);
       default:
@@ -45,6 +47,7 @@ struct AnySmoothLaw {
   }
   SmoothLaw<1> one;
   SmoothLaw<2> two;
+  SmoothLaw<3> three;
   SmoothLaw<4> four;
   SmoothLaw<5> five;
 };
