@@ -332,6 +332,9 @@ void read_initial(Builder& b, const CardView& card, std::vector<InitialStress>& 
     found = true;
     if (initial.kind == InitialKind::traction && b.model.groups[g].element && !b.model.groups[g].interface())
       b.error("S236", card.where("kind"), "kind 3 (traction of the neighbours) is for interface groups");
+    if (b.model.groups[g].element && b.model.groups[g].flow())
+      b.error("S236", card.where("group"),
+              "elements of flow start without a card: their heads follow from those that are held");
     if (initial.kind == InitialKind::geostatic && b.model.groups[g].element && b.model.groups[g].structure())
       b.error("S236", card.where("kind"), "kind 1 (geostatic) is for solids; structures take kind 0 or 2");
     initial.group = static_cast<int>(g);

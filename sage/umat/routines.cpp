@@ -9,6 +9,7 @@
 #include <cstring>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include "sage/core/module.hpp"
 #include "sage/umat/host.h"
@@ -124,7 +125,11 @@ void stdb_abqerr_(const int* lop, const char* text, const int* integers, const d
       words += text[i];
   }
   words.erase(words.find_last_not_of(' ') + 1);
-  if (*lop == -3) leave(0, words);
+  if (*lop == -3) {
+    thread_local std::string last_words;  // the jump out of here destroys nothing
+    last_words = std::move(words);
+    leave(0, last_words);
+  }
   std::printf("%s%s\n", *lop == -1 ? "warning: " : *lop == -2 ? "error: " : "", words.c_str());
 }
 

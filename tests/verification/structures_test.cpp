@@ -72,6 +72,25 @@ TEST(Structures, ACantileverByCards) {
   EXPECT_NEAR(run.reaction(1).y(), -1.0, 1e-10);
 }
 
+// Forces are then the rounding of rotations, and moments that of displacements: the step ends all the same.
+TEST(Structures, MomentsAloneAndMotionsWithoutForceConverge) {
+  for (const int n : {1, 2, 4, 16}) {
+    DeckWriter bent = cantilever(n, 5.0, kPlate, {3e7, 0.2, 0.4, 0.0});
+    bent.stage().loads.push_back(moment(n + 1, 50.0));
+    const WholeRun run = run_text(bent.text());
+    ASSERT_TRUE(run.completed()) << n << " " << run.failure;
+    const double EI = 50.0 * 5.0 / rotation(run, n + 1);
+    EXPECT_NEAR(run.stress[0](3, 0), 50.0, 50.0 * 1e-9) << n;
+    EXPECT_NEAR(run.u(n + 1).y(), 50.0 * 25.0 / (2.0 * EI), 1e-9 * run.u(n + 1).y()) << n;
+
+    DeckWriter moved = cantilever(n, 5.0, kPlate, {3e7, 0.2, 0.4, 0.0});
+    moved.stage().fix(1, 1, 1, 0.01, 0.01);
+    const WholeRun rigid = run_text(moved.text());
+    ASSERT_TRUE(rigid.completed()) << n << " " << rigid.failure;
+    EXPECT_NEAR(rigid.u(n + 1).y(), 0.01, 1e-12) << n;
+  }
+}
+
 // Clamped at 1, a hinge at 3, a roller at 5; P in the middle of the hung span: half of it hangs on the hinge.
 TEST(Structures, AHingeCarriesNoMoment) {
   DeckWriter deck(1);
