@@ -69,6 +69,10 @@ function(sage_target name)
   # The layout of fixed-size Eigen types must not depend on more of the processor's flags than it has to.
   # Nor must the blocks of its products depend on the caches of the machine; asking for them takes longer than a small product.
   target_compile_definitions(${name} PUBLIC EIGEN_MAX_ALIGN_BYTES=32 EIGEN_NO_CPUID)
+  # Without AVX Eigen would align what it has on the stack less than what it allocates, and its stableNorm() mixes both.
+  if(NOT (SAGE_NATIVE AND SAGE_HAVE_AVX2))
+    target_compile_definitions(${name} PUBLIC EIGEN_MAX_STATIC_ALIGN_BYTES=32)
+  endif()
   # Eigen aligns them as AVX wants only where it is on.  And a program of one's own that makes one of the elements'
   # templates too hands the linker a second one, which may take the place of the first: both must be the same.
   if(SAGE_NATIVE AND SAGE_HAVE_AVX2)
