@@ -118,6 +118,27 @@ std::vector<int> nodes_of(Work& b, const Grading& grading) {
   return {};
 }
 
+// Elements that the checks behind refuse by their shape are left as the deck has them: their parts would be no
+// better, and each corner of a mesh that folds looks like a singular one to grade towards.
+bool has_unusable_shapes(const Model& model) {
+  Eigen::Matrix2Xd x;
+  std::vector<double> geometry;
+  for (const Group& group : model.groups) {
+    geometry.resize(static_cast<std::size_t>(group.element->traits().geometry_size()));
+    for (int e = 0; e < group.elements(); ++e) {
+      const int* nodes = group.nodes_of(e);
+      if (std::any_of(nodes, nodes + group.node_count(), [](int node) { return node < 0; })) continue;
+      element_coordinates(model.mesh, group, e, x);
+      try {
+        group.element->geometry(x, geometry);
+      } catch (const ElementShapeError&) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 void refine_as_asked(Work& b) {
@@ -125,6 +146,7 @@ void refine_as_asked(Work& b) {
   if (options.coarsen && !coarsen(b))
     b.note("S407", b.at_line(0), "the mesh stays as it is: no coarser one of quadrilaterals means the same");
   if (options.refine <= 0 && options.gradings.empty()) return;
+  if (has_unusable_shapes(b.model)) return;
   const std::vector<char> before = used_nodes(b.model);
   const std::map<int, EdgeKey> middles = given_middles(b.model);
   warn_point_loads(b);

@@ -525,5 +525,34 @@ TEST(GradeOption, NodeThatIsNoCornerIsRefused) {
       << "a mid-side node";
 }
 
+// A deck whose elements run clockwise is refused for its own four elements, not for their parts.
+TEST(Refine, ElementsOfUnusableShapeAreNotCut) {
+  Block block;
+  block.columns = block.rows = 2;
+  block.place = [](double s, double t) { return Vector2(-s, t); };
+  DeckWriter deck(1);
+  block.write_nodes(deck);
+  deck.material(1, 1, {1000.0, 0.3});
+  deck.group(1, static_cast<int>(Cell::quad4), 0, 1);
+  block.write_elements(deck, 1);
+  for (int node : block.bottom()) deck.fix(node, 1, 1);
+  deck.stage();
+  for (const BuildOptions& options : {with(0, 2), with(0, 0, {Grading{0, 3}})}) {
+    try {
+      build(deck.text(), options);
+      FAIL() << "clockwise elements are refused";
+    } catch (const InputError& error) {
+      int refused = 0;
+      for (const Diagnostic& d : error.diagnostics().list()) {
+        EXPECT_NE(d.code, Code("S406")) << d.message;  // graded towards a node
+        if (d.code != Code("S226")) continue;
+        EXPECT_EQ(d.message.find("more of this card"), std::string::npos) << d.message;
+        ++refused;
+      }
+      EXPECT_EQ(refused, 4) << error.what();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sage::test
