@@ -18,6 +18,8 @@ struct GroupData {
   bool constant = false;       // of a linear law, and matrices and forces are kept: iterations call no law
   bool by_four = false;        // not constant, and its elements are evaluated four at a time
   StateStore state;
+  // Pore pressure at the points of a solid at the committed state, without the excess; empty = the model has none.
+  std::vector<double> pore;
   // Elements with unknowns of their own: the dofs of all of them, and the field of each dof of one.  Empty: the
   // displacements of the nodes.
   std::vector<int> dof_list, field_of_dof;

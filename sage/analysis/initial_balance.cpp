@@ -1,6 +1,7 @@
 #include "sage/analysis/initial_balance.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "sage/analysis/explain.hpp"
 #include "sage/analysis/loads.hpp"
@@ -76,13 +77,17 @@ InitialImbalance initial_imbalance(const Model& model) {
   activity.enter(first);
   assembly.enter_stage(activity, prescribed_rate(first, activity.dof_map));
   Diagnostics refused;  // the run tells of it
+  std::optional<PorePressure> water;
+  if (!model.water.empty()) water.emplace(model, 0, activity.group, activity.dof_map, nullptr);
+  const PorePressure* const pressed = water ? &*water : nullptr;
   assembly.start_states(true, [&](std::vector<GroupData>& groups) {
     for (const std::vector<InitialStress>* list : {&model.initials, &first.initials})
-      apply_initials(model, *list, groups, refused);
+      apply_initials(model, *list, pressed, groups, refused);
   });
   if (assembly.evaluate(Eigen::VectorXd::Zero(activity.dof_map.dofs()), nullptr) == Outcome::cut_step)
     return {};
-  return initial_imbalance(model, activity, 0, assembly.internal_force(), external_force(model, 0));
+  return initial_imbalance(model, activity, 0, assembly.internal_force(),
+                           external_force(model, 0) + water_of(model, activity, pressed));
 }
 
 std::string explain_imbalance(const Model& model, int stage, const InitialImbalance& imbalance) {

@@ -64,17 +64,17 @@ void drop_inactive(const std::vector<char>& active, Eigen::VectorXd& force) {
 }
 
 // Compression-positive vertical and horizontal stress at a level.
-Vector4 geostatic_stress(const InitialStress& initial, double y) {
+Vector4 geostatic_stress(const InitialStress& initial, double y, double u) {
   const double surface = initial.value[0], unit_weight = initial.value[1], K0 = initial.value[2];
-  const double vertical = initial.value[3] + unit_weight * (surface - y);
+  const double vertical = initial.value[3] + unit_weight * (surface - y) - u;
   return {K0 * vertical, vertical, K0 * vertical, 0.0};
 }
 
-// Stress of a solid point as the deck states it, turned to tension positive.
-Vector4 solid_stress(const InitialStress& initial, const Vector2& x) {
+// Stress of a solid point as the deck states it, turned to tension positive.  u: pore pressure there.
+Vector4 solid_stress(const InitialStress& initial, const Vector2& x, double u) {
   switch (initial.kind) {
     case InitialKind::geostatic:
-      return -geostatic_stress(initial, x.y());
+      return -geostatic_stress(initial, x.y(), u);
     case InitialKind::uniform:
     case InitialKind::traction:
       return -Vector4(initial.value[0], initial.value[1], initial.value[2], initial.value[3]);
@@ -111,14 +111,15 @@ bool start_point(const Law<N>& law, const Vector<N>& sigma, std::size_t point, S
   return law.initialise(sigma, {state.committed.h.data() + point * history, history});
 }
 
-// At a point of an element; x: its nodes.  neighbour: whose traction an interface takes.
+// At a point of an element; x: its nodes.  neighbour: whose traction an interface takes.  u: pore pressure.
 template <int N>
 Vector<N> initial_stress(const InitialStress& initial, const InitialStress* neighbour, const Group& group,
-                         const Eigen::Matrix2Xd& x, int point) {
+                         const Eigen::Matrix2Xd& x, int point, double u) {
   if constexpr (N == 4)
-    if (group.solid()) return solid_stress(initial, group.element->position(x, point));
+    if (group.solid()) return solid_stress(initial, group.element->position(x, point), u);
   if constexpr (N == 2)
-    if (neighbour != nullptr) return traction(solid_stress(*neighbour, group.element->position(x, point)), x);
+    if (neighbour != nullptr)
+      return traction(solid_stress(*neighbour, group.element->position(x, point), u), x);
   Vector<N> sigma = Vector<N>::Zero();
   if (initial.kind == InitialKind::uniform)
     for (int i = 0; i < N; ++i) sigma[i] = -initial.value[static_cast<std::size_t>(i)];
@@ -192,8 +193,24 @@ Eigen::VectorXd prescribed_rate(const Stage& stage, const DofMap& map) {
   return rate;
 }
 
-void apply_initial_stress(const Model& model, const InitialStress& initial, GroupData& data,
-                          Diagnostics& diagnostics) {
+namespace {
+
+// What a geostatic card takes from the total stress at a point; of an interface that of its neighbour.
+double pressure_at(const Model& model, const PorePressure* water, const GroupData& data,
+                   const InitialStress* neighbour, const Eigen::Matrix2Xd& x, int element, int point) {
+  if (water == nullptr) return 0.0;
+  if (neighbour == nullptr)
+    return water->at_point(static_cast<std::size_t>(data.group - model.groups.data()), element, point);
+  const auto g = static_cast<std::size_t>(neighbour->group);
+  const WaterCard* const card = water->card(g);
+  const bool anywhere = card != nullptr && (card->kind == WaterKind::line || card->kind == WaterKind::ratio);
+  return anywhere ? water->at(g, 0, data.group->element->position(x, point), {}) : 0.0;
+}
+
+}  // namespace
+
+void apply_initial_stress(const Model& model, const InitialStress& initial, const PorePressure* water,
+                          GroupData& data, Diagnostics& diagnostics) {
   const Group& group = *data.group;
   const ElementTraits& traits = group.element->traits();
   const InitialStress* neighbour = initial.kind == InitialKind::traction
@@ -210,9 +227,11 @@ void apply_initial_stress(const Model& model, const InitialStress& initial, Grou
     element_coordinates(model.mesh, group, e, x);
     for (int p = 0; p < traits.points; ++p) {
       const auto point = static_cast<std::size_t>(e * traits.points + p);
+      const double u = pressure_at(model, water, data, neighbour, x, e, p);
       const bool admissible = std::visit(
           [&]<int N>(const Law<N>* law) {
-            return start_point<N>(*law, initial_stress<N>(initial, neighbour, group, x, p), point, data.state);
+            return start_point<N>(*law, initial_stress<N>(initial, neighbour, group, x, p, u), point,
+                                  data.state);
           },
           data.law);
       refused += admissible ? 0 : 1;
@@ -243,14 +262,53 @@ void apply_initial_history(const Model& model, const InitialStress& initial, Gro
     }
 }
 
-void apply_initials(const Model& model, const std::vector<InitialStress>& initials,
+void apply_initials(const Model& model, const std::vector<InitialStress>& initials, const PorePressure* water,
                     std::vector<GroupData>& groups, Diagnostics& diagnostics) {
   for (const InitialStress& initial : initials)
     if (initial.kind != InitialKind::history)
-      apply_initial_stress(model, initial, groups[static_cast<std::size_t>(initial.group)], diagnostics);
+      apply_initial_stress(model, initial, water, groups[static_cast<std::size_t>(initial.group)], diagnostics);
   for (const InitialStress& initial : initials)
     if (initial.kind == InitialKind::history)
       apply_initial_history(model, initial, groups[static_cast<std::size_t>(initial.group)]);
+}
+
+namespace {
+
+bool changes_drainage(const WaterCard& card, int stage) {
+  return card.stage == stage && !card.pressure();
+}
+
+void take_drainage(const WaterCard& card, GroupData& data) {
+  const Group& group = *data.group;
+  if (group.excess < 0) return;
+  data.state.make_room();
+  const auto history = static_cast<std::size_t>(data.state.history_size());
+  const std::size_t points = static_cast<std::size_t>(group.elements() * group.element->traits().points);
+  for (std::size_t p = 0; p < points; ++p) {
+    double* const own = data.state.committed.h.data() + p * history + group.excess;
+    own[1] = card.kind == WaterKind::undrained ? card.value : 0.0;
+    if (card.kind == WaterKind::undrained) continue;
+    for (std::size_t c = 0; c < 3; ++c) data.state.committed.sigma[4 * p + c] += own[0];
+    own[0] = 0.0;
+  }
+}
+
+}  // namespace
+
+bool changes_drainage(const Model& model, int stage) {
+  return std::ranges::any_of(model.water, [&](const WaterCard& card) { return changes_drainage(card, stage); });
+}
+
+void apply_drainage(const Model& model, int stage, std::vector<GroupData>& groups) {
+  for (const WaterCard& card : model.water)
+    if (changes_drainage(card, stage))
+      for (std::size_t g = 0; g < groups.size(); ++g)
+        if (card.group < 0 || card.group == static_cast<int>(g)) take_drainage(card, groups[g]);
+}
+
+Eigen::VectorXd water_of(const Model& model, const Activity& activity, const PorePressure* water) {
+  if (water == nullptr || !water->any()) return Eigen::VectorXd::Zero(activity.dof_map.dofs());
+  return water_force(model, activity, *water);
 }
 
 }  // namespace sage

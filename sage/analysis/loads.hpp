@@ -4,6 +4,7 @@
 #include "sage/analysis/assembly.hpp"
 #include "sage/model/activity.hpp"
 #include "sage/model/model.hpp"
+#include "sage/model/water.hpp"
 
 namespace sage {
 
@@ -23,14 +24,23 @@ Eigen::VectorXd prescribed_rate(const Stage& stage, const DofMap& map);
 
 // Sets the committed stress and history of a group's points.  Stress that a law can't carry is reported as a
 // warning in `diagnostics` with the number of points.
-void apply_initial_stress(const Model& model, const InitialStress& initial, GroupData& data,
-                          Diagnostics& diagnostics);
+void apply_initial_stress(const Model& model, const InitialStress& initial, const PorePressure* water,
+                          GroupData& data, Diagnostics& diagnostics);
 
 // Sets the history that a card of InitialKind::history states.  Throws InputError where the law refuses it.
 void apply_initial_history(const Model& model, const InitialStress& initial, GroupData& data);
 
 // All cards of the model or of a stage: stresses, then histories, which count from what the stresses have made.
-void apply_initials(const Model& model, const std::vector<InitialStress>& initials,
+// water: of the stage, where the model has some: the weights of geostatic cards then are total ones.
+void apply_initials(const Model& model, const std::vector<InitialStress>& initials, const PorePressure* water,
                     std::vector<GroupData>& groups, Diagnostics& diagnostics);
+
+// What the water cards of a stage (0-based) change of states: water of undrained groups is shut in, the excess of
+// drained ones taken out of their pressure, so that it is let go over the stage.
+bool changes_drainage(const Model& model, int stage);
+void apply_drainage(const Model& model, int stage, std::vector<GroupData>& groups);
+
+// Force of the water at the end of a stage, one entry a dof; zero without water cards.
+Eigen::VectorXd water_of(const Model& model, const Activity& activity, const PorePressure* water);
 
 }  // namespace sage

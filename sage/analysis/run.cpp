@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "sage/analysis/audit.hpp"
@@ -49,7 +50,9 @@ class Run {
 
  private:
   void start_new_nodes();
-  void start_states(const std::vector<InitialStress>& initials);
+  void start_states(int s, const Activity& activity, const std::vector<InitialStress>& initials, bool drainage);
+  void begin_water(int s, const PorePressure* water);
+  void set_water(double reached);
   void evaluate_start();
   void prepare_stage(int s);
   void begin_stage(int s);
@@ -77,6 +80,7 @@ class Run {
   Place resume();
   void start();
   void recover_for(const StepReport& report);
+  void start_first_states();
   void run_stages();
   std::string keep_state();
   void give_back_state(const std::string& kept);
@@ -116,12 +120,62 @@ Solution Run::solution() const {
   return {&state_.u, &assembly_.internal_force(), &state_.external, &assembly_, &system_.activity()};
 }
 
-void Run::start_states(const std::vector<InitialStress>& initials) {
+// Pore pressures at the end of a stage; nothing where the deck has no water.
+std::optional<PorePressure> water_at(const Model& model, int s, const Activity& activity,
+                                     const Eigen::VectorXd* u) {
+  std::optional<PorePressure> water;
+  if (!model.water.empty()) water.emplace(model, s, activity.group, activity.dof_map, u);
+  return water;
+}
+
+// drainage: of the stage too, not of what stands before the first.
+void Run::start_states(int s, const Activity& activity, const std::vector<InitialStress>& initials,
+                       bool drainage) {
   Diagnostics warnings;
-  assembly_.start_states(!initials.empty(), [&](std::vector<GroupData>& groups) {
-    apply_initials(model_, initials, groups, warnings);
+  const bool changes = drainage && changes_drainage(model_, s);
+  const std::optional<PorePressure> water =
+      initials.empty() ? std::nullopt : water_at(model_, s, activity, s > 0 ? &state_.u : nullptr);
+  assembly_.start_states(!initials.empty() || changes, [&](std::vector<GroupData>& groups) {
+    apply_initials(model_, initials, water ? &*water : nullptr, groups, warnings);
+    if (changes) apply_drainage(model_, s, groups);
   });
   warn(warnings.list());
+}
+
+// The pore pressure of points goes from what it was to that of the stage.  What begins with stress has that of the
+// stage from its start: its stress is what the pressure has left.
+void Run::begin_water(int s, const PorePressure* water) {
+  if (water == nullptr) return;
+  const Stage& stage = model_.stages[static_cast<std::size_t>(s)];
+  const std::size_t groups = assembly_.groups().size();
+  path_.pore_start.assign(groups, {});
+  path_.pore_end.assign(groups, {});
+  for (std::size_t g = 0; g < groups; ++g) {
+    GroupData& data = assembly_.groups()[g];
+    if (!data.group->solid()) continue;
+    const int points = data.group->element->traits().points;
+    std::vector<double>& end = path_.pore_end[g];
+    for (int e = 0; e < data.group->elements(); ++e)
+      for (int p = 0; p < points; ++p) end.push_back(water->at_point(g, e, p));
+    const auto states_stress = [&](const InitialStress& initial) {
+      return initial.group == static_cast<int>(g) && initial.kind != InitialKind::history &&
+             initial.kind != InitialKind::zero;
+    };
+    const bool begins = (s == 0 && std::ranges::any_of(model_.initials, states_stress)) ||
+                        std::ranges::any_of(stage.initials, states_stress);
+    if (data.pore.empty()) data.pore.assign(end.size(), 0.0);
+    path_.pore_start[g] = begins ? end : data.pore;
+  }
+  path_.force_end += water_of(model_, system_.activity(), water);
+  set_water(0.0);
+}
+
+void Run::set_water(double reached) {
+  for (std::size_t g = 0; g < path_.pore_end.size(); ++g) {
+    std::vector<double>& now = assembly_.groups()[g].pore;
+    for (std::size_t p = 0; p < path_.pore_end[g].size(); ++p)
+      now[p] = (1.0 - reached) * path_.pore_start[g][p] + reached * path_.pore_end[g][p];
+  }
 }
 
 void Run::warn(const std::vector<Diagnostic>& list) {
@@ -166,7 +220,7 @@ void Run::prepare_stage(int s) {
   const Profile::Scope scope(profile(), phase::kStart);
   start_new_nodes();
   system_.open_stage(s);
-  start_states(model_.stages[static_cast<std::size_t>(s)].initials);
+  start_states(s, system_.activity(), model_.stages[static_cast<std::size_t>(s)].initials, true);
   state_.du.setZero();
   path_.repeats.forget();
   place_ = {s, 0};
@@ -176,6 +230,8 @@ void Run::prepare_stage(int s) {
   if (!tangent_.constant()) committed_force_ = path_.force_start;
   path_.last_size = path_.stiffest = path_.last_stiffness = 0.0;
   path_.force_end = external_force(model_, s);
+  const std::optional<PorePressure> water = water_at(model_, s, system_.activity(), &state_.u);
+  begin_water(s, water ? &*water : nullptr);
   path_.u_start.resize(0);
   if (assembly_.condensation() != nullptr) {
     path_.u_start = state_.u;
@@ -240,6 +296,7 @@ void Run::accept(double reached) {
   if (assembly_.sees_unknowns()) state_.u_before = state_.u;
   state_.u += state_.du;
   state_.external = (1.0 - reached) * path_.external_start + reached * path_.force_end;
+  if (!path_.pore_end.empty()) set_water(reached);
   result_.motion = std::max(result_.motion, extent_.motion(state_.u));
 }
 
@@ -526,10 +583,16 @@ bool Run::run_stage(int s, int done) {
   return true;
 }
 
+void Run::start_first_states() {
+  Activity first(model_);
+  first.enter(model_.stages.front());
+  start_states(0, first, model_.initials, false);
+}
+
 void Run::run_stages() {
   Place place;
   if (settings_.resume_from.empty())
-    start_states(model_.initials);
+    start_first_states();
   else
     place = resume();
   const int stages =

@@ -8,6 +8,18 @@ namespace {
   throw InputError("S630", {}, "the checkpoint does not belong to this model");
 }
 
+void exchange_water(const Resumable& run, Archive& archive) {
+  std::vector<GroupData>& groups = run.system.assembly().groups();
+  StagePath& path = run.state.path;
+  path.pore_start.resize(groups.size());
+  path.pore_end.resize(groups.size());
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    archive(groups[g].pore);
+    archive(path.pore_start[g]);
+    archive(path.pore_end[g]);
+  }
+}
+
 // Within a stage the states before the last step are kept beside that step, because the tangent that the next
 // step starts with was taken there.  factorised: the solver holds factors.
 void exchange(const Resumable& run, Archive& archive, const Place& place, bool& factorised) {
@@ -20,6 +32,7 @@ void exchange(const Resumable& run, Archive& archive, const Place& place, bool& 
   archive(factorised);
   if (within) run.state.exchange_path(archive);
   run.system.assembly().exchange(archive, within);
+  if (!run.model.water.empty()) exchange_water(run, archive);
 }
 
 // The last step's end is evaluated once more: that gives its tangent too.  What the run still had in hand is

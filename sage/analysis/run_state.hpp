@@ -25,6 +25,7 @@ struct StagePath {
   double stiffest = 0.0, last_stiffness = 0.0;  // along the motion: largest so far, of the last step
   double path_error = 0.0;                      // largest so far
   std::string loose_part;                       // the first; empty = none
+  std::vector<std::vector<double>> pore_start, pore_end;  // pore pressure at points, by group; empty = no water
 };
 
 struct RunState {

@@ -310,6 +310,7 @@ Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOp
   build::split_removed(b);
   build::split_layers(b);
   build::build_stages(b);
+  build::build_water(b);
   build::build_reports(b);
   if (b.problems.errors() == 0) build::check_totals(b);
   if (b.problems.errors() > 0) throw refusal(deck, b.problems);

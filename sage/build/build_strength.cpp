@@ -4,6 +4,7 @@
 #include "sage/build/builder.hpp"
 #include "sage/deck/text.hpp"
 #include "sage/model/strength.hpp"
+#include "sage/model/undrained.hpp"
 
 namespace sage::build {
 
@@ -22,7 +23,8 @@ Material reduced(const Material& from, double factor, const UnitSystem& units) {
   m.where = from.where;
   if (reduce_strength(m.parameters, *m.entry, {factor, DilationRule::reduced}))
     m.name += (m.name.empty() ? "strength / " : ", strength / ") + rounded_text(factor, 6);
-  m.law = m.entry->law_for(m.parameters, units, from.name);
+  m.undrained = from.undrained;
+  m.law = with_water(m.entry->law_for(m.parameters, units, from.name), m.undrained);
   return m;
 }
 

@@ -57,6 +57,7 @@ struct Builder : mesh::Work {
   std::unordered_map<int, std::vector<int>> removed = {};
   // The ground at the start, from the top down, where a start_stress card asks for it.
   std::vector<GroundLayer> layers = {};
+  int water_nodes = 0;                 // when the water cards were read
   std::vector<int> layer_pieces = {};  // groups whose elements had to be told apart by layers
   // False once a card of that kind was refused: what refers to it is then not reported as missing as well.
   bool nodes_known = true, materials_known = true, groups_known = true, elements_known = true;
@@ -110,6 +111,8 @@ void build_strength_stages(Builder& b);
 // Pressure and shear on an edge that is given by its nodes.  `forces`: of what is not linear along the edge.
 void read_edge_load(Builder& b, const CardView& card, std::vector<EdgeLoad>& out,
                     std::vector<NodalLoad>& forces);
+// Pore pressures and undrained groups.
+void build_water(Builder& b);
 void build_reports(Builder& b);
 // Places of point reports: outside the mesh, or where several bodies meet.
 void check_points(Builder& b);
@@ -131,7 +134,7 @@ void check_model(Builder& b);
 void check_stages(Builder& b);
 // Straight sides that are held over a part of their length.
 void check_sides(Builder& b);
-// Lines that discharge is asked for, and weights of what has none.
+// Lines that discharge is asked for, weights of what has none, and water that nothing balances.
 void check_water(Builder& b);
 // Nodes at one place, hanging nodes, joints without a solid on one side.
 void check_joints(Builder& b);

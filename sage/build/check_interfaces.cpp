@@ -12,9 +12,9 @@ namespace sage::build {
 namespace {
 
 // Directed edge -> number of a solid to the left of it.  All solids count, active now or in a later stage.
-class SolidEdges {
+class EdgesOfSolids {
  public:
-  explicit SolidEdges(const Model& model) {
+  explicit EdgesOfSolids(const Model& model) {
     for (const Group& group : model.groups) {
       if (!group.solid()) continue;
       for (int e = 0; e < group.elements(); ++e)
@@ -135,7 +135,7 @@ class SideCheck {
   }
 
   Builder& b_;
-  SolidEdges solids_;
+  EdgesOfSolids solids_;
 };
 
 }  // namespace

@@ -2,8 +2,10 @@
 #include <algorithm>
 
 #include "sage/build/builder.hpp"
+#include "sage/deck/text.hpp"
 #include "sage/model/activity.hpp"
 #include "sage/model/flow_line.hpp"
+#include "sage/model/water.hpp"
 
 namespace sage::build {
 
@@ -59,7 +61,114 @@ void warn_of_displacements(Builder& b, const std::vector<bool>& moves, const std
 
 }  // namespace
 
+namespace {
+
+// Pressures at nodes belong to the nodes of the deck and those between them.
+bool follows_mesh(Builder& b) {
+  if (b.model.mesh.given_nodes() == b.water_nodes) return true;
+  for (const WaterCard& card : b.model.water)
+    if (card.kind == WaterKind::nodes) {
+      b.error("S248", card.where, "pressures at nodes can't be carried over to another mesh than the deck's");
+      return false;
+    }
+  return true;
+}
+
+// Edges with water behind them that the card says not to stand outside.
+void warn_of_open_edges(Builder& b, const Activity& activity, const PorePressure& water, const Stage& stage) {
+  int edges = 0;
+  const FreeEdge* first = nullptr;
+  const WaterCard* card = nullptr;
+  const std::vector<FreeEdge> all = free_edges(b.model, activity.group);
+  for (const FreeEdge& edge : all) {
+    const WaterCard* const own = water.card(static_cast<std::size_t>(edge.group));
+    if (own == nullptr || own->kind != WaterKind::line || own->action != WaterAction::none || edge.on_structure)
+      continue;
+    const Group& group = b.model.groups[static_cast<std::size_t>(edge.group)];
+    const std::vector<int>& local = group.element->edges()[static_cast<std::size_t>(edge.edge)];
+    bool below = true, held = true;
+    for (const int i : {local[0], local[1]}) {
+      const int node = group.nodes_of(edge.element)[i];
+      const Vector2 x = b.model.mesh.x.col(node);
+      below = below && water_level(*own, x.x()) > x.y() + b.model.mesh.reach;
+      held = held && (activity.holds(node, 0) || activity.holds(node, 1));
+    }
+    if (!below || held) continue;
+    if (edges++ == 0) {
+      first = &edge;
+      card = own;
+    }
+  }
+  if (edges == 0) return;
+  const Group& group = b.model.groups[static_cast<std::size_t>(first->group)];
+  b.warning("S339", card->where,
+            "stage " + std::to_string(stage.number) + ": the phreatic line lies above " +
+                std::to_string(edges) + " free edge(s), first of element " +
+                std::to_string(group.element_numbers[static_cast<std::size_t>(first->element)]) +
+                ", and by action 1 no water stands there: nothing balances the pressure");
+}
+
+// Where the pressure is more than all that lies above, water included.
+void warn_of_uplift(Builder& b, const Activity& activity, const PorePressure& water, const Stage& stage,
+                    double gravity) {
+  if (!(gravity > 0.0)) return;
+  const Model& model = b.model;
+  const Overburden above(model, activity.group);
+  int places = 0, worst_element = 0;
+  double worst = 0.0;
+  const WaterCard* card = nullptr;
+  Eigen::Matrix2Xd x;
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const WaterCard* const own = water.card(g);
+    if (own == nullptr) continue;
+    const Group& group = model.groups[g];
+    for (int e = 0; e < group.elements(); ++e) {
+      element_coordinates(model.mesh, group, e, x);
+      const double u = water.at_point(g, e, 0);
+      if (!(u > 0.0)) continue;
+      const Vector2 place = group.element->position(x, 0);
+      const Overburden::Above soil = above.above(place);
+      double total = gravity * soil.stress;
+      if (own->kind == WaterKind::line && own->action != WaterAction::none)
+        total += model.units.water_unit_weight * std::max(0.0, water_level(*own, place.x()) - soil.top);
+      if (!(u - total > 1e-6 * u)) continue;
+      ++places;
+      if (u - total <= worst) continue;
+      worst = u - total;
+      worst_element = group.element_numbers[static_cast<std::size_t>(e)];
+      card = own;
+    }
+  }
+  if (places == 0) return;
+  b.warning("S340", card->where,
+            "stage " + std::to_string(stage.number) + ": uplift: in " + std::to_string(places) +
+                " element(s) the pore pressure is more than all that lies above; most in element " +
+                std::to_string(worst_element) + ", by " + rounded_text(worst, 4) + " " + model.units.stress);
+}
+
+void check_pressures(Builder& b) {
+  if (b.model.water.empty() || !follows_mesh(b)) return;
+  Activity activity(b.model);
+  double gravity = 0.0;
+  for (std::size_t s = 0; s < b.model.stages.size(); ++s) {
+    const Stage& stage = b.model.stages[s];
+    activity.enter(stage);
+    gravity -= stage.gravity.y();
+    const bool changes =
+        s == 0 || !stage.births.empty() || !stage.deaths.empty() ||
+        std::ranges::any_of(b.model.water, [&](const WaterCard& c) { return c.stage == static_cast<int>(s); });
+    if (!changes) continue;
+    const PorePressure water(b.model, static_cast<int>(s), activity.group, activity.dof_map, nullptr);
+    if (!water.any()) continue;
+    warn_of_open_edges(b, activity, water, stage);
+    warn_of_uplift(b, activity, water, stage, gravity);
+  }
+}
+
+}  // namespace
+
 void check_water(Builder& b) {
+  check_pressures(b);
   if (find_unknown(b.model.unknowns, "head") >= 0) {
     const std::vector<bool> moves = moving_nodes(b.model);
     warn_of_displacements(b, moves, b.model.fixities);

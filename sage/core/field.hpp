@@ -51,6 +51,9 @@ struct PointView {
   LawRef law;
   std::span<const double> sigma, eps, history;  // law_size, law_size, one of each Quantity
   PointStatus status = PointStatus::elastic;
+  double pore_pressure = 0.0;  // of solids, compression positive, excess included
+  // Of solids: effective stress [xx yy zz xy], compression positive.
+  Vector4 effective = Vector4::Zero();
 };
 
 struct ElementView {
@@ -168,6 +171,9 @@ class FieldTable {
  private:
   std::shared_ptr<std::vector<FieldEntry>> rows_;  // null: those of the program alone
 };
+
+// Pore pressure and total stress: rows of models that have water cards.
+std::vector<FieldEntry> water_fields();
 
 // Those of the program itself, made when somebody first asks.
 const std::vector<FieldEntry>& program_fields();

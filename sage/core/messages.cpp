@@ -412,6 +412,15 @@ constexpr MessageEntry kMessages[] = {
      "has no built-in units.",
      "Give it on the control or unit card: p_a is 101.325 kPa or 14.696 psi, gamma_w 9.81 kN/m3 or "
      "0.036111 pci."},
+    {"S248", "a water card does not fit",
+     "The card lacks what its kind needs (points of a line, pairs of node and pressure, r_u, a bulk of water), "
+     "names "
+     "a stage that is not there or a group that is no solid, or asks for heads where none are solved for.",
+     "Complete the card: docs/manual/deck_format.md, card water; docs/manual/water.md."},
+    {"S249", "undrained, and a pressure is given",
+     "The pore pressure of an undrained group follows from its change of volume. A card that changes it in the "
+     "same stage contradicts that.",
+     "Give the pressure in an earlier stage, or make the group drained (kind 6) first."},
     {"S260", "there is nothing to divide for a safety factor",
      "sagefe safety divides the strengths of the chosen groups. The deck has no such stage or group, or no "
      "chosen group has a law whose entry names a strength: elastic laws have none, interfaces and structures "
@@ -572,6 +581,14 @@ constexpr MessageEntry kMessages[] = {
      "Place and remove a joint together with its solid, or hold the nodes by fixities."},
 
     // S4: refining, grading and mid-side nodes.
+    {"S339", "water above a free edge that no load balances",
+     "The phreatic line lies above edges that nothing supports, and its card says that no water stands there "
+     "(action 1): the soil is pressed outwards by its own water.",
+     "Action 0 lets the water stand at the edges; or lower the line, as where the soil is covered."},
+    {"S340", "pore pressure lifts what lies above",
+     "The pore pressure is more than the weight of soil and water above: the vertical effective stress is "
+     "negative, as in the floor of an excavation over an artesian layer.",
+     "Lower the pressure (dewatering), leave more ground, or check the level of water and the unit weights."},
     {"S401", "elements of different degree meet",
      "One element has nodes inside the common edge, the other has not: the mesh would gape there.",
      "Give both the same number of nodes an edge; --element quad8 turns all of the mesh."},

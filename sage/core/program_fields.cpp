@@ -314,6 +314,14 @@ void add_flow_fields(std::vector<FieldEntry>& rows) {
                   .kind = ElementKind::flow});
 }
 
+void pore_pressure(const PointView& p, double* v) {
+  *v = p.pore_pressure;
+}
+
+void total_stress(const PointView& p, double* v) {
+  Vector4::Map(v) = p.effective + p.pore_pressure * Vector4(1.0, 1.0, 1.0, 0.0);
+}
+
 void add_state_fields(std::vector<FieldEntry>& rows) {
   rows.push_back({.name = "stress_level",
                   .meaning = "stress level (1 = at strength)",
@@ -396,6 +404,26 @@ void add_increment_fields(std::vector<FieldEntry>& rows) {
 }
 
 }  // namespace
+
+std::vector<FieldEntry> water_fields() {
+  std::vector<FieldEntry> rows;
+  rows.push_back({.name = "pore_pressure",
+                  .meaning = "pore pressure",
+                  .dimension = Dimension::stress,
+                  .value = PointField{pore_pressure},
+                  .sign = FieldSign::compression_positive,
+                  .kind = ElementKind::solid,
+                  .symbol = "u"});
+  rows.push_back({.name = "total_stress",
+                  .meaning = "total stress: effective stress and pore pressure",
+                  .dimension = Dimension::stress,
+                  .value = PointField{total_stress},
+                  .components = tensor("tot", "tot-tau"),
+                  .shape = FieldShape::tensor,
+                  .sign = FieldSign::compression_positive,
+                  .kind = ElementKind::solid});
+  return rows;
+}
 
 const std::vector<FieldEntry>& program_fields() {
   static const std::vector<FieldEntry> rows = [] {

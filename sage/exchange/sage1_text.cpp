@@ -128,7 +128,13 @@ class Sage1Writer {
   void stage(const Stage& stage);
   void write_list(const std::vector<int>& numbers);
   bool is_written(const Report& report) const;
+  // Those of undrained groups are twins of others, with their numbers.
+  std::size_t given_materials() const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(model_.materials, [](const Material& m) { return !m.undrained; }));
+  }
   void report(const Report& report);
+  void water(const WaterCard& card);
   void point(const Report& report);
 
   const Model& model_;
@@ -208,7 +214,7 @@ void Sage1Writer::control(std::size_t reports) {
   const auto nodes = static_cast<std::size_t>(model_.mesh.given_nodes());
   const std::size_t counts[] = {nodes,
                                 0,
-                                model_.materials.size(),
+                                given_materials(),
                                 static_cast<std::size_t>(std::count(folded_.begin(), folded_.end(), 0)),
                                 elements,
                                 given(model_.fixities) + given(model_.field_fixities),
@@ -217,10 +223,12 @@ void Sage1Writer::control(std::size_t reports) {
                                 reports,
                                 nodes,
                                 elements};
+  const std::size_t waters = model_.water.size();
   heading("* geom solv node fill matl grup elem fixi init stag rept nnod nele");
   integer(model_.geometry == Geometry::axisymmetric ? 2 : 1);
   integer(model_.solver);
   for (std::size_t count : counts) integer(static_cast<long>(count));
+  if (waters > 0) integer(static_cast<long>(waters));
   line();
 }
 
@@ -237,6 +245,7 @@ void Sage1Writer::nodes() {
 
 void Sage1Writer::materials() {
   for (const Material& material : model_.materials) {
+    if (material.undrained) continue;
     heading("* numb  law para    weight name");
     integer(material.number);
     integer(material.code);
@@ -470,6 +479,25 @@ void Sage1Writer::report(const Report& report) {
   if (!range) write_list(numbers);
 }
 
+void Sage1Writer::water(const WaterCard& card) {
+  std::vector<double> values;
+  for (const Vector2& point : card.line) values.insert(values.end(), {point.x(), point.y()});
+  for (const auto& [node, pressure] : card.nodes)
+    values.insert(values.end(), {1.0 * node_number(node), pressure});
+  integer(static_cast<int>(card.kind));
+  integer(card.group < 0 ? 0 : group_number(card.group));
+  integer(card.stage + 1);
+  integer(static_cast<int>(card.action));
+  real(card.value);
+  real(0.0);
+  integer(static_cast<long>(values.size()));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i % 8 == 0) line();
+    real(values[i]);
+  }
+  line();
+}
+
 std::string Sage1Writer::deck() {
   number_groups();
   if (wide_) text_.append("* layout: ").append(kWideLayout) += '\n';
@@ -503,6 +531,8 @@ std::string Sage1Writer::deck() {
   for (const InitialStress& i : model_.initials) initial(i);
   for (const Stage& s : model_.stages) stage(s);
   for (const Report& r : model_.reports) report(r);
+  if (!model_.water.empty()) heading("* kind grup stag actn    value1    value2 list");
+  for (const WaterCard& card : model_.water) water(card);
   text_ += "END\n";
   if (!cut_.empty())
     warning(std::to_string(cut_.size()) + " name(s) or title(s) are longer than their columns and are cut: \"" +

@@ -57,6 +57,11 @@ std::uint64_t fingerprint(const Model& model) {
   add_field_fixities(archive, model.field_fixities);
   add_initials(archive, model.initials);
   for (const Stage& stage : model.stages) add_stage(archive, stage);
+  for (const WaterCard& card : model.water) {
+    add(archive, card.stage, card.group, card.kind, card.action, card.value);
+    for (const Vector2& point : card.line) add(archive, point.x(), point.y());
+    for (const auto& [node, pressure] : card.nodes) add(archive, node, pressure);
+  }
   for (const Report& r : model.reports)
     add(archive, r.kind, r.group, r.nodes, r.height, r.area, r.cell_pressure, r.place.x(), r.place.y(), r.name,
         r.stage);

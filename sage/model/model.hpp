@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sage/core/catalogue.hpp"
@@ -35,6 +36,7 @@ struct Material {
   double unit_weight = 0.0;        // force / length^3
   LawPtr law;
   SourcePosition where;
+  bool undrained = false;  // the law stands within one of sage/model/undrained.hpp
 
   LawRef law_ref() const;
   // The first parameter of a role as the deck writes it; nothing where the law has none.
@@ -56,6 +58,7 @@ struct Group {
   // Lies on the elements of other groups on purpose, as pore water does in soil.
   bool overlay = false;
   SourcePosition where;
+  int excess = -1;  // place of the excess pore pressure in the law's history; -1 = never undrained
 
   int elements() const { return static_cast<int>(element_numbers.size()); }
   const int* nodes_of(int e) const { return nodes.data() + static_cast<std::size_t>(e) * node_count(); }
@@ -132,6 +135,35 @@ struct InitialStress {
   SourcePosition where;
 };
 
+enum class WaterKind {
+  dry,        // no pore pressure
+  line,       // hydrostatic below a phreatic line
+  ratio,      // r_u times the weight above
+  nodes,      // given at nodes
+  heads,      // from the heads of flow elements at the start of the stage
+  undrained,  // water can't leave: its bulk over the porosity adds to that of the grains
+  drained,    // what was undrained lets its excess go over the stage
+};
+enum class WaterAction {
+  edges,  // water stands at free edges where there is pressure behind them, and in joints
+  none,   // pressure in the solids alone
+  force,  // seepage force and buoyancy in place of pressures; all free edges are balanced by water
+};
+
+// From its stage on, until a later card of the same group: pore pressure, or (undrained, drained) how it moves.
+struct WaterCard {
+  int stage = 0;   // 0-based
+  int group = -1;  // index; -1 = all solids
+  WaterKind kind = WaterKind::dry;
+  WaterAction action = WaterAction::edges;
+  double value = 0.0;                         // ratio: r_u.  undrained: bulk of the water over the porosity
+  std::vector<Vector2> line;                  // by rising x
+  std::vector<std::pair<int, double>> nodes;  // node index and pressure
+  SourcePosition where;
+
+  bool pressure() const { return kind != WaterKind::undrained && kind != WaterKind::drained; }
+};
+
 enum class Method { newton, modified_newton, initial_stiffness, dogleg };
 
 struct Stage {
@@ -189,6 +221,7 @@ struct Model {
   std::vector<FieldFixity> field_fixities;                   // likewise
   std::vector<InitialStress> initials;
   std::vector<Stage> stages;
+  std::vector<WaterCard> water;  // in the order of the deck
   std::vector<Report> reports;
   Diagnostics diagnostics;            // warnings and notes of reading and building
   std::vector<std::string> left_out;  // what the deck asks for and this is without, to be named with results

@@ -135,6 +135,13 @@ PointState::PointState(const Mesh& mesh, const GroupData& data, std::size_t poin
   if (!solid) return;
   stress = Vector4::Zero() - Vector4::Map(view.sigma.data());
   strain = Vector4::Zero() - Vector4::Map(view.eps.data());
+  if (!data.pore.empty()) view.pore_pressure = data.pore[point];
+  if (data.group->excess >= 0) {  // the law's stress holds it
+    const double excess = view.history[static_cast<std::size_t>(data.group->excess)];
+    view.pore_pressure += excess;
+    stress.head<3>().array() -= excess;
+  }
+  view.effective = stress;
 }
 
 bool applies(const FieldEntry& entry, ElementKind kind) {

@@ -16,6 +16,7 @@ GroupData states_of(const GroupData& data) {
   const auto history = history_of(data.law);
   copy.state = StateStore(0, data.state.law_size(), history, false);
   copy.state.committed = data.state.committed;
+  copy.pore = data.pore;
   return copy;
 }
 
@@ -41,6 +42,8 @@ Frame::Frame(const Model& model) : activity_(model) {
     data.law = model.material_of(group).law_ref();
     const auto history = history_of(data.law);
     data.state = StateStore(0, group.element->traits().law_size, history, false);
+    if (!model.water.empty() && group.solid())
+      data.pore.assign(static_cast<std::size_t>(group.elements() * group.element->traits().points), 0.0);
     groups_.push_back(std::move(data));
   }
 }
@@ -79,6 +82,7 @@ void Frame::exchange_state(Archive& archive) {
     archive(state.eps);
     archive(state.h);
     archive(state.status);
+    if (!data.pore.empty()) archive(data.pore);
   }
 }
 

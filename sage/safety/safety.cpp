@@ -8,6 +8,7 @@
 #include "sage/analysis/extent.hpp"
 #include "sage/analysis/trials.hpp"
 #include "sage/model/activity.hpp"
+#include "sage/model/undrained.hpp"
 
 namespace sage::safety {
 
@@ -197,8 +198,9 @@ void Finder::choose_materials() {
       const Material& from = model_.materials[m];
       at = model_.materials.size();
       model_.materials.push_back({from.number, from.name, from.code, from.law_name, from.entry, from.parameters,
-                                  from.unit_weight, from.entry->make(from.parameters, model_.units),
-                                  from.where});
+                                  from.unit_weight,
+                                  with_water(from.entry->make(from.parameters, model_.units), from.undrained),
+                                  from.where, from.undrained});
       for (Group* group : with) group->material = static_cast<int>(at);
     }
     materials_.push_back(at);
@@ -233,6 +235,8 @@ void Finder::insert_trial_stage() {
   trial.where = model_.stages[last].where;
   safety_.stages = static_cast<int>(last) + 1;
   model_.stages.insert(model_.stages.begin() + safety_.stages, std::move(trial));
+  for (WaterCard& card : model_.water)  // those of later stages stay theirs
+    if (card.stage >= safety_.stages) ++card.stage;
 }
 
 void Finder::set_factor(double factor) {
@@ -243,7 +247,7 @@ void Finder::set_factor(double factor) {
     if (factor != 1.0 || options_.dilation == DilationRule::none)
       reduce_strength(material.parameters, *material.entry, {factor, options_.dilation});
     laws_before_.push_back(std::move(material.law));
-    material.law = material.entry->make(material.parameters, model_.units);
+    material.law = with_water(material.entry->make(material.parameters, model_.units), material.undrained);
   }
 }
 

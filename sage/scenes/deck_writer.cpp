@@ -120,15 +120,25 @@ void DeckWriter::triaxial_report(int group_number, int first, int last, int from
                     ten_columns(0.0) + ten_columns(cell_pressure));
 }
 
+void DeckWriter::water(int kind, int group_number, int from_stage, int action,
+                       const std::vector<double>& values, double v1, double v2) {
+  std::string card = integers({kind, group_number, from_stage, action}) + reals({v1, v2}) +
+                     five(static_cast<int>(values.size()));
+  for (std::size_t i = 0; i < values.size(); ++i) card += (i % 8 == 0 ? "\n" : "") + ten_columns(values[i]);
+  waters.push_back(card);
+}
+
 std::string DeckWriter::text() const {
   std::string text = "verification\nm       kN      kPa     ";
   text += ten_columns(atmospheric_pressure) + ten_columns(water_unit_weight) + "\n";
   text += integers({geometry, 0, size_of(nodes), 0, size_of(materials), size_of(groups), size_of(elements),
-                    size_of(fixities), size_of(initials), static_cast<int>(stages.size()), size_of(reports)}) +
-          "\n";
+                    size_of(fixities), size_of(initials), static_cast<int>(stages.size()), size_of(reports)});
+  if (!waters.empty()) text += integers({0, 0, size_of(waters)});
+  text += "\n";
   for (const auto* cards : {&nodes, &materials, &groups, &elements, &fixities, &initials}) append(text, *cards);
   for (const StageCards& stage : stages) text += stage_text(stage);
   append(text, reports);
+  append(text, waters);
   return text + "END\n";
 }
 

@@ -34,7 +34,7 @@ struct DeckWriter {
 
   int geometry = 1;  // 1 plane strain, 2 axisymmetric
   double atmospheric_pressure = 101.325, water_unit_weight = 9.81;
-  std::vector<std::string> nodes, materials, groups, elements, fixities, initials, reports;
+  std::vector<std::string> nodes, materials, groups, elements, fixities, initials, reports, waters;
   std::vector<StageCards> stages;
 
   void node(int number, double x, double y, bool polar = false);
@@ -47,6 +47,10 @@ struct DeckWriter {
   StageCards& stage(int increments = 1);
   // Axial force of nodes first ... last against a frictionless test, from a stage (from 1) on.
   void triaxial_report(int group, int first, int last, int stage, double height, double cell_pressure = 0.0);
+
+  // Pore pressure from a stage (from 1) on; group 0 = all.  values: those that the card lists.
+  void water(int kind, int group, int stage, int action, const std::vector<double>& values, double v1 = 0.0,
+             double v2 = 0.0);
 
   std::string text() const;
 };

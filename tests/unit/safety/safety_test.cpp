@@ -53,14 +53,18 @@ TEST(Safety, ShippedSlopesAgainstLogSpirals) {
   struct Row {
     const char* deck;
     double factor, start;
+    double tolerance = 0.01;
   };
   const scenes::Workbench bench = make_workbench();
-  for (const Row& row : {Row{"griffiths_lane", 1.36821452, 1.0}, Row{"one_to_one", 1.36482236, 1.0},
-                         Row{"acads_1a", 0.98498502, 0.8}, Row{"taylor_60", 5.247358 / 5.0, 1.0}}) {
+  for (const Row& row :
+       {Row{"griffiths_lane", 1.36821452, 1.0}, Row{"one_to_one", 1.36482236, 1.0},
+        Row{"acads_1a", 0.98498502, 0.8}, Row{"taylor_60", 5.247358 / 5.0, 1.0},
+        Row{"griffiths_lane_ru", 1.10035217, 1.0, 0.002}, Row{"one_to_one_ru", 1.04896807, 1.0, 0.002}}) {
     std::ifstream in(std::string(SAGE_SOURCE_DIR "/legacy_inputs/slopes/") + row.deck + "/deck.dat");
     Model model = bench.build({std::istreambuf_iterator<char>(in), {}});
     Options options;
     options.limits.start = row.start;
+    options.limits.tolerance = row.tolerance;
     const Safety found = find_safety(model, bench.catalogue(), bench.settings(), options);
     ASSERT_TRUE(found.complete()) << row.deck << ": " << found.incomplete;
     EXPECT_GE(*found.lower, 0.99 * row.factor) << row.deck;
@@ -108,6 +112,27 @@ TEST(Safety, SlabOnASlopeIsTheInfiniteSlope) {
     options.limits.tolerance = 1e-6;
     expect_around(find(slab(row.c, row.phi, row.weight, row.z * std::cos(b), row.beta, 23), options), expected,
                   1e-6);
+  }
+}
+
+// Seepage along the slope, in the lowest part `wet` of the slab: in its axes a level, under which the pressure grows by
+// gamma_w cos(beta) a length.  F = (c + (gamma - wet gamma_w) z cos(beta)^2 tan(phi)) / (gamma z sin(beta) cos(beta)).
+TEST(Safety, SlabWithSeepageAlongTheSlope) {
+  struct Row {
+    double c, phi, weight, z, beta, wet, factor;
+  };
+  for (const Row& row : {Row{5, 30, 20, 4, 20, 1.0, 1.0026633321}, Row{0, 35, 19, 3, 15, 1.0, 1.2639684682},
+                         Row{10, 25, 18, 5, 22, 0.5, 1.1595470000}}) {
+    const double b = row.beta * kDegree, depth = row.z * std::cos(b);
+    DeckWriter deck = slab(row.c, row.phi, row.weight, depth, row.beta, 23);
+    deck.water_unit_weight = 9.81 * std::cos(b);  // of ten columns
+    deck.water(1, 0, 1, 0, {0.0, row.wet * depth});
+    Options options;
+    options.interfaces = true;
+    options.limits.tolerance = 1e-6;
+    const Safety found = find(deck, options);
+    ASSERT_TRUE(found.complete()) << found.incomplete;
+    EXPECT_NEAR(0.5 * (*found.lower + *found.upper), row.factor, 1e-6) << row.beta;
   }
 }
 

@@ -1,0 +1,254 @@
+// Water cards: pore pressures of solids stage by stage, and groups whose water can't leave.
+#include <cmath>
+#include <map>
+
+#include "sage/build/builder.hpp"
+#include "sage/model/undrained.hpp"
+
+namespace sage::build {
+
+namespace {
+
+constexpr int kKinds = 7;
+
+std::vector<double> values_of(Builder& b, const CardView& card) {
+  std::vector<double> values;
+  for (const FieldValue& value : card.list("values")) {
+    if (!(std::abs(value.number) < 1e100)) {
+      b.error("S208", card.where(value),
+              "a value of the water card is too large to compute with (beyond 1e100)");
+      return {};
+    }
+    values.push_back(value.number);
+  }
+  return values;
+}
+
+void read_line(Builder& b, const CardView& card, WaterCard& water) {
+  const std::vector<double> values = values_of(b, card);
+  if (values.empty() || values.size() % 2 != 0) {
+    b.error("S248", card.where("listed"),
+            "a phreatic line takes x and y of its points, two values a point; the card has " +
+                std::to_string(values.size()) + " values");
+    return;
+  }
+  for (std::size_t i = 0; i < values.size(); i += 2) {
+    const Vector2 point(values[i], values[i + 1]);
+    if (!water.line.empty() && !(point.x() > water.line.back().x())) {
+      b.error("S248", card.where("values"), "the points of a phreatic line stand by rising x");
+      return;
+    }
+    water.line.push_back(point);
+  }
+}
+
+void read_nodes(Builder& b, const CardView& card, WaterCard& water) {
+  const std::vector<double> values = values_of(b, card);
+  if (values.empty() || values.size() % 2 != 0) {
+    b.error("S248", card.where("listed"),
+            "pressures at nodes are pairs of a node and its pressure; the card has " +
+                std::to_string(values.size()) + " values");
+    return;
+  }
+  for (std::size_t i = 0; i < values.size(); i += 2) {
+    if (!(values[i] >= 1.0 && values[i] < 2e9 && values[i] == std::floor(values[i])) || values[i + 1] < 0.0) {
+      b.error("S248", card.where("values"),
+              "pressures at nodes are pairs of a node's number and a pressure that is not negative");
+      return;
+    }
+    const int node = b.node(card, "values", static_cast<std::int64_t>(values[i]));
+    if (node < 0) return;
+    water.nodes.emplace_back(node, values[i + 1]);
+  }
+}
+
+void require_unit_weight(Builder& b, const CardView& card) {
+  if (!(b.model.units.water_unit_weight > 0.0))
+    b.error("S247", card.where("kind"),
+            "pressures from a level of water need the unit weight of water of the unit card");
+}
+
+// Stage of a card, 0-based; -1 after an error.
+int read_first_stage(Builder& b, const CardView& card) {
+  const int stage = card.integer("stage") == 0 ? 1 : card.integer("stage");
+  const int stages = static_cast<int>(b.model.stages.size());
+  if (stage >= 1 && stage <= stages) return stage - 1;
+  b.error("S248", card.where("stage"),
+          "there is no stage " + std::to_string(stage) + "; the deck has " + std::to_string(stages));
+  return -1;
+}
+
+void read_heads(Builder& b, const CardView& card, const WaterCard& water) {
+  require_unit_weight(b, card);
+  if (find_unknown(b.model.unknowns, "head") < 0)
+    b.error("S248", card.where("kind"), "no element of the deck solves for heads");
+  else if (water.stage == 0)
+    b.error("S248", card.where("stage"),
+            "heads are taken as they stand at the start of the stage: they need a stage of flow before it");
+}
+
+void read_kind(Builder& b, const CardView& card, WaterCard& water) {
+  switch (water.kind) {
+    case WaterKind::line:
+      require_unit_weight(b, card);
+      return read_line(b, card, water);
+    case WaterKind::ratio:
+      if (!(water.value >= 0.0 && water.value <= 1.0))
+        b.error("S248", card.where("value1"), "r_u lies between 0 and 1");
+      if (water.action == WaterAction::force)
+        b.error("S248", card.where("action"), "r_u has no seepage force: its pressures belong to no flow");
+      return;
+    case WaterKind::nodes:
+      return read_nodes(b, card, water);
+    case WaterKind::heads:
+      return read_heads(b, card, water);
+    default:
+      return;
+  }
+}
+
+// Groups that a card is about.
+std::vector<int> groups_of(Builder& b, const CardView& card) {
+  const int number = card.integer("group");
+  if (number == 0) return {-1};
+  std::vector<int> groups;
+  for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
+    const Group& group = b.model.groups[g];
+    if (group.number != number) continue;
+    groups.push_back(static_cast<int>(g));
+    if (group.entry != nullptr && !group.solid()) {
+      b.error("S248", card.where("group"),
+              "group " + std::to_string(number) +
+                  " is no solid: pore pressures are those of solids, and joints "
+                  "take that of the solids beside them");
+      return {};
+    }
+  }
+  if (groups.empty()) b.group_missing(card.where("group"), number);
+  return groups;
+}
+
+// K_w / n of a card about undrained groups; 0 after an error.
+double bulk_of(Builder& b, const CardView& card, const Group& group) {
+  const double bulk = card.real("value1"), nu = card.real("value2");
+  if (bulk > 0.0 && nu == 0.0) return bulk;
+  if (bulk != 0.0 || !(nu > 0.0 && nu < 0.5)) {
+    b.error("S248", card.where("value1"),
+            "an undrained group takes the bulk of water over the porosity, or (value 2) an undrained Poisson's "
+            "ratio between 0 and 1/2, and not both");
+    return 0.0;
+  }
+  const LawRef law = b.model.material_of(group).law_ref();
+  const auto* const solid = std::get_if<const SolidLaw*>(&law);
+  const double found = solid == nullptr || *solid == nullptr ? 0.0 : bulk_for(**solid, nu);
+  if (found > 0.0) return found;
+  b.error("S248", card.where("value2"),
+          "group " + std::to_string(group.number) + " (" + b.model.material_of(group).law_name +
+              ") has no bulk of water that gives this undrained Poisson's ratio at zero stress; state the bulk "
+              "(value 1)");
+  return 0.0;
+}
+
+// A material with room for the excess pressure, one for each that undrained groups have.
+void shut_in(Builder& b, Group& group, std::map<int, int>& twins) {
+  if (group.excess >= 0) return;
+  const int from = group.material;
+  auto twin = twins.find(from);
+  if (twin == twins.end()) {
+    const Material& own = b.model.materials[static_cast<std::size_t>(from)];
+    Material material{
+        own.number,      own.name,
+        own.code,        own.law_name,
+        own.entry,       own.parameters,
+        own.unit_weight, with_water(own.entry->law_for(own.parameters, b.model.units, own.name), true),
+        own.where,       true};
+    twin = twins.emplace(from, static_cast<int>(b.model.materials.size())).first;
+    b.model.materials.push_back(std::move(material));
+  }
+  group.material = twin->second;
+  group.excess = static_cast<int>(history_of(b.model.material_of(group).law_ref()).size() - UndrainedLaw::kOwn);
+}
+
+void read_undrained(Builder& b, const CardView& card, WaterCard water, std::map<int, int>& twins,
+                    const std::vector<int>& groups) {
+  std::vector<int> all = groups;
+  if (groups == std::vector<int>{-1}) {
+    all.clear();
+    for (std::size_t g = 0; g < b.model.groups.size(); ++g)
+      if (b.model.groups[g].entry != nullptr && b.model.groups[g].solid()) all.push_back(static_cast<int>(g));
+  }
+  for (const int g : all) {
+    Group& group = b.model.groups[static_cast<std::size_t>(g)];
+    water.group = g;
+    water.value = bulk_of(b, card, group);
+    if (!(water.value > 0.0)) return;
+    shut_in(b, group, twins);
+    b.model.water.push_back(water);
+  }
+}
+
+// A pressure that is given while the volume says what it is.
+void check_undrained(Builder& b) {
+  for (const WaterCard& shut : b.model.water) {
+    if (shut.kind != WaterKind::undrained) continue;
+    int until = static_cast<int>(b.model.stages.size());
+    for (const WaterCard& open : b.model.water)
+      if (open.kind == WaterKind::drained && open.stage > shut.stage &&
+          (open.group < 0 || open.group == shut.group))
+        until = std::min(until, open.stage);
+    for (const WaterCard& given : b.model.water) {
+      if (!given.pressure() || (given.group >= 0 && given.group != shut.group)) continue;
+      const bool begins = given.stage > shut.stage || (given.stage == shut.stage && given.stage > 0);
+      if (begins && given.stage < until)
+        b.error("S249", given.where,
+                "group " + std::to_string(b.model.groups[static_cast<std::size_t>(shut.group)].number) +
+                    " is undrained in stage " + std::to_string(given.stage + 1) +
+                    ": its pressure follows from the change of volume and can't be given as well");
+    }
+  }
+}
+
+}  // namespace
+
+void build_water(Builder& b) {
+  std::map<int, int> twins;
+  for (const CardView& card : b.deck.all("water")) {
+    const int kind = card.integer("kind"), action = card.integer("action");
+    if (kind < 0 || kind >= kKinds) {
+      b.error("S210", card.where("kind"),
+              "water of kind " + std::to_string(kind) +
+                  " is unknown; 0 dry, 1 phreatic line, 2 r_u, 3 nodes, 4 heads, 5 undrained, 6 drained");
+      continue;
+    }
+    if (action < 0 || action > 2) {
+      b.error("S210", card.where("action"),
+              "action " + std::to_string(action) +
+                  " is unknown; 0 water stands at free edges, 1 it does not, 2 seepage force");
+      continue;
+    }
+    WaterCard water;
+    water.kind = static_cast<WaterKind>(kind);
+    water.action = static_cast<WaterAction>(action);
+    water.where = card.where();
+    water.value = card.real("value1");
+    water.stage = read_first_stage(b, card);
+    const std::vector<int> groups = groups_of(b, card);
+    if (water.stage < 0 || groups.empty() || !b.materials_known || !b.groups_known) continue;
+    if (water.kind == WaterKind::undrained) {
+      read_undrained(b, card, water, twins, groups);
+      continue;
+    }
+    read_kind(b, card, water);
+    for (const int g : groups) {
+      water.group = g;
+      b.model.water.push_back(water);
+    }
+  }
+  check_undrained(b);
+  if (!b.model.water.empty())
+    for (FieldEntry& row : water_fields())
+      if (b.model.fields.clash(row).empty()) b.model.fields.add(std::move(row));
+  b.water_nodes = b.model.mesh.nodes();
+}
+
+}  // namespace sage::build

@@ -1,0 +1,84 @@
+#include "sage/model/undrained.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace sage {
+
+namespace {
+
+const Vector4 kVolume(1.0, 1.0, 1.0, 0.0);
+
+}  // namespace
+
+UndrainedLaw::UndrainedLaw(std::unique_ptr<SolidLaw> grains) : grains_(std::move(grains)) {
+  const std::span<const Quantity> own = grains_->history();
+  quantities_.assign(own.begin(), own.end());
+  quantities_.push_back({"excess_pore_pressure", Dimension::stress});
+  quantities_.push_back({"water_bulk", Dimension::stress});
+}
+
+Vector4 UndrainedLaw::effective(const Vector4& sigma, std::span<const double> h) const {
+  return sigma + h[excess()] * kVolume;
+}
+
+bool UndrainedLaw::initialise(const Vector4& sigma, std::span<double> h) const {
+  return grains_->initialise(effective(sigma, h), h.first(excess()));
+}
+
+bool UndrainedLaw::accepts_history(const Vector4& sigma, std::span<const double> h) const {
+  return grains_->accepts_history(effective(sigma, h), h.first(excess()));
+}
+
+Outcome UndrainedLaw::update(const PointIn<4>& in, PointOut<4>& out) const {
+  const std::size_t n = excess();
+  PointIn<4> grains = in;
+  grains.sigma0 = effective(in.sigma0, in.h0);
+  grains.h0 = in.h0.first(n);
+  const std::span<double> all = out.h1;
+  out.h1 = all.first(n);
+  const Outcome outcome = grains_->update(grains, out);
+  out.h1 = all;
+  const double bulk = in.h0[n + 1];
+  const double excess = in.h0[n] - bulk * in.deps.head<3>().sum();
+  all[n] = excess;
+  all[n + 1] = bulk;
+  if (outcome != Outcome::ok) return outcome;
+  out.sigma -= excess * kVolume;
+  out.D.topLeftCorner<3, 3>().array() += bulk;
+  return outcome;
+}
+
+double UndrainedLaw::path_error(const PointIn<4>& in, const Vector4& sigma, std::span<const double> h) const {
+  PointIn<4> grains = in;
+  grains.sigma0 = effective(in.sigma0, in.h0);
+  grains.h0 = in.h0.first(excess());
+  return grains_->path_error(grains, effective(sigma, h), h.first(excess()));
+}
+
+double UndrainedLaw::stress_level(const Vector4& sigma, std::span<const double> h) const {
+  return grains_->stress_level(effective(sigma, h), h.first(excess()));
+}
+
+LawPtr with_water(LawPtr law, bool undrained) {
+  auto* const solid = std::get_if<std::unique_ptr<SolidLaw>>(&law);
+  if (!undrained || solid == nullptr || *solid == nullptr) return law;
+  return std::make_unique<UndrainedLaw>(std::move(*solid));
+}
+
+double bulk_for(const SolidLaw& law, double nu_u) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  if (law.wants_context()) return kNone;
+  std::vector<double> h, h1;
+  for (const Quantity& quantity : law.history()) h.push_back(quantity.initial);
+  h1 = h;
+  PointIn<4> in{Vector4::Zero(), Vector4::Zero(), Vector4::Zero(), h};
+  PointOut<4> out;
+  out.h1 = h1;
+  if (law.update(in, out) != Outcome::ok) return kNone;
+  const double G = out.D(3, 3), K = out.D.topLeftCorner<3, 3>().sum() / 9.0;
+  const double bulk = 2.0 * G * (1.0 + nu_u) / (3.0 * (1.0 - 2.0 * nu_u)) - K;
+  return std::isfinite(bulk) && bulk > 0.0 && G > 0.0 ? bulk : kNone;
+}
+
+}  // namespace sage

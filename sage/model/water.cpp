@@ -1,0 +1,452 @@
+#include "sage/model/water.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <set>
+
+namespace sage {
+
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+// Shape functions of an element at a place of the parent shape, and what they make of its nodes.
+struct Mapped {
+  std::vector<double> N;
+  Eigen::MatrixX2d dN_parent, dN;  // one row a node; dN: along x and y
+  Matrix2 J = Matrix2::Zero();     // d(x, y) / d(parent)
+  Vector2 place = Vector2::Zero();
+
+  void take(const Element& element, const Eigen::Matrix2Xd& x, const Vector2& parent) {
+    N.resize(static_cast<std::size_t>(x.cols()));
+    dN_parent.resize(x.cols(), 2);
+    element.shape_functions(parent, N, {dN_parent.data(), static_cast<std::size_t>(dN_parent.size())});
+    place = x * Eigen::Map<const Eigen::VectorXd>(N.data(), x.cols());
+    J = x * dN_parent;
+  }
+  double det() const { return J(0, 0) * J(1, 1) - J(0, 1) * J(1, 0); }
+  void take_derivatives() {
+    Matrix2 inverse;
+    inverse << J(1, 1), -J(0, 1), -J(1, 0), J(0, 0);
+    dN = dN_parent * inverse / det();
+  }
+};
+
+struct RulePlace {
+  Vector2 parent;
+  double weight;
+};
+
+// Gauss points and weights of (-1, 1).
+struct GaussRule {
+  std::vector<double> x, w;
+  explicit GaussRule(int n) {
+    for (int i = 0; i < n; ++i) {
+      double t = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5)), slope = 1.0;
+      for (int step = 0; step < 50; ++step) {
+        double p0 = 1.0, p1 = t;
+        for (int k = 2; k <= n; ++k) {
+          const double next = ((2 * k - 1) * t * p1 - (k - 1) * p0) / k;
+          p0 = p1;
+          p1 = next;
+        }
+        slope = n * (t * p1 - p0) / (t * t - 1.0);
+        const double change = p1 / slope;
+        t -= change;
+        if (std::abs(change) < 1e-16) break;
+      }
+      x.push_back(t);
+      w.push_back(2.0 / ((1.0 - t * t) * slope * slope));
+    }
+  }
+};
+
+// Exact for the products that a straight-sided element of that degree has here.
+std::vector<RulePlace> rule_for(bool triangle, int degree) {
+  const GaussRule line(degree + 2);
+  std::vector<RulePlace> places;
+  for (std::size_t i = 0; i < line.x.size(); ++i)
+    for (std::size_t j = 0; j < line.x.size(); ++j) {
+      if (!triangle) {
+        places.push_back({{line.x[i], line.x[j]}, line.w[i] * line.w[j]});
+        continue;
+      }
+      // The square folded onto the triangle.
+      const double s = 0.5 * (1.0 + line.x[i]), t = 0.5 * (1.0 + line.x[j]);
+      places.push_back({{s, (1.0 - s) * t}, 0.25 * line.w[i] * line.w[j] * (1.0 - s)});
+    }
+  return places;
+}
+
+Vector2 parent_corner(bool triangle, int corner) {
+  static const Vector2 kSquare[] = {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}};
+  static const Vector2 kTriangle[] = {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}};
+  return triangle ? kTriangle[corner] : kSquare[corner];
+}
+
+double measure(const Model& model, const Vector2& place) {
+  return model.geometry == Geometry::axisymmetric ? 2.0 * std::numbers::pi * place.x() : 1.0;
+}
+
+std::pair<int, int> edge_key(int a, int b) {
+  return std::minmax(a, b);
+}
+
+}  // namespace
+
+const WaterCard* water_card(const Model& model, int stage, int group) {
+  const WaterCard* found = nullptr;
+  for (const WaterCard& card : model.water) {
+    if (!card.pressure() || card.stage > stage || (card.group >= 0 && card.group != group)) continue;
+    if (found == nullptr || card.stage >= found->stage) found = &card;
+  }
+  return found != nullptr && found->kind != WaterKind::dry ? found : nullptr;
+}
+
+double water_level(const WaterCard& card, double x) {
+  const std::vector<Vector2>& line = card.line;
+  if (x <= line.front().x()) return line.front().y();
+  for (std::size_t i = 1; i < line.size(); ++i)
+    if (x <= line[i].x()) {
+      const double part = (x - line[i - 1].x()) / (line[i].x() - line[i - 1].x());
+      return line[i - 1].y() + part * (line[i].y() - line[i - 1].y());
+    }
+  return line.back().y();
+}
+
+namespace {
+
+double water_slope(const WaterCard& card, double x) {
+  const std::vector<Vector2>& line = card.line;
+  for (std::size_t i = 1; i < line.size(); ++i)
+    if (x > line[i - 1].x() && x <= line[i].x())
+      return (line[i].y() - line[i - 1].y()) / (line[i].x() - line[i - 1].x());
+  return 0.0;
+}
+
+}  // namespace
+
+Overburden::Overburden(const Model& model, const std::vector<char>& groups) {
+  double high = -std::numeric_limits<double>::infinity();
+  low_ = -high;
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const Group& group = model.groups[g];
+    if (!groups[g] || !group.solid()) continue;
+    for (int e = 0; e < group.elements(); ++e) {
+      Cell cell;
+      cell.unit_weight = model.material_of(group).unit_weight;
+      for (const std::vector<int>& edge : group.element->edges())
+        cell.corners.push_back(model.mesh.x.col(group.nodes_of(e)[edge[0]]));
+      for (const Vector2& corner : cell.corners) {
+        low_ = std::min(low_, corner.x());
+        high = std::max(high, corner.x());
+      }
+      cells_.push_back(std::move(cell));
+    }
+  }
+  if (cells_.empty()) return;
+  const auto bins = static_cast<std::size_t>(2.0 * std::sqrt(static_cast<double>(cells_.size()))) + 1;
+  bins_.resize(bins);
+  width_ = std::max(high - low_, 1e-300) / static_cast<double>(bins);
+  const auto bin = [&](double x) {
+    return std::min(bins - 1, static_cast<std::size_t>(std::max(0.0, (x - low_) / width_)));
+  };
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    const auto [left, right] =
+        std::minmax_element(cells_[c].corners.begin(), cells_[c].corners.end(),
+                            [](const Vector2& a, const Vector2& b) { return a.x() < b.x(); });
+    for (std::size_t b = bin(left->x()); b <= bin(right->x()); ++b) bins_[b].push_back(static_cast<int>(c));
+  }
+}
+
+// Half-open in x: on a line between two columns only one of them counts.
+Overburden::Above Overburden::above(const Vector2& place) const {
+  Above sum{0.0, place.y()};
+  if (bins_.empty() || place.x() < low_) return sum;
+  const auto bin = std::min(bins_.size() - 1, static_cast<std::size_t>((place.x() - low_) / width_));
+  for (const int c : bins_[bin]) {
+    const Cell& cell = cells_[static_cast<std::size_t>(c)];
+    double bottom = std::numeric_limits<double>::infinity(), top = -bottom;
+    for (std::size_t i = 0; i < cell.corners.size(); ++i) {
+      const Vector2 &a = cell.corners[i], &b = cell.corners[(i + 1) % cell.corners.size()];
+      if (!(std::min(a.x(), b.x()) <= place.x() && place.x() < std::max(a.x(), b.x()))) continue;
+      const double y = a.y() + (place.x() - a.x()) / (b.x() - a.x()) * (b.y() - a.y());
+      bottom = std::min(bottom, y);
+      top = std::max(top, y);
+    }
+    if (!(top > place.y())) continue;
+    sum.stress += cell.unit_weight * (top - std::max(bottom, place.y()));
+    sum.top = std::max(sum.top, top);
+  }
+  return sum;
+}
+
+PorePressure::PorePressure(const Model& model, int stage, const std::vector<char>& groups, const DofMap& map,
+                           const Eigen::VectorXd* unknowns)
+    : model_(&model), groups_(groups), cards_(model.groups.size(), nullptr), nodes_(model.groups.size()) {
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    if (!groups[g] || !model.groups[g].solid()) continue;
+    const WaterCard* const card = water_card(model, stage, static_cast<int>(g));
+    if (card == nullptr || (card->kind == WaterKind::heads && unknowns == nullptr)) continue;
+    cards_[g] = card;
+    if (card->kind == WaterKind::nodes) take_nodes(*card, g);
+    if (card->kind == WaterKind::heads) take_heads(g, map, unknowns);
+    if (card->kind == WaterKind::ratio && overburden_ == nullptr)
+      overburden_ = std::make_shared<const Overburden>(model, groups);
+  }
+}
+
+bool PorePressure::any() const {
+  return std::ranges::any_of(cards_, [](const WaterCard* card) { return card != nullptr; });
+}
+
+void PorePressure::take_nodes(const WaterCard& card, std::size_t group) {
+  nodes_[group].assign(static_cast<std::size_t>(model_->mesh.nodes()), kNone);
+  for (const auto& [node, pressure] : card.nodes) nodes_[group][static_cast<std::size_t>(node)] = pressure;
+  fill_middles(group);
+}
+
+void PorePressure::take_heads(std::size_t group, const DofMap& map, const Eigen::VectorXd* unknowns) {
+  const int head = find_unknown(model_->unknowns, "head");
+  nodes_[group].assign(static_cast<std::size_t>(model_->mesh.nodes()), kNone);
+  for (const int node : model_->groups[group].nodes)
+    if (const int dof = head < 0 ? -1 : map.of(node, head); dof >= 0)
+      nodes_[group][static_cast<std::size_t>(node)] =
+          model_->units.water_unit_weight * ((*unknowns)[dof] - model_->mesh.x(1, node));
+  fill_middles(group);
+}
+
+// Nodes along an edge that have no pressure of their own lie between its ends.  What is left has none.
+void PorePressure::fill_middles(std::size_t group) {
+  std::vector<double>& u = nodes_[group];
+  const Group& own = model_->groups[group];
+  for (int e = 0; e < own.elements(); ++e)
+    for (const std::vector<int>& edge : own.element->edges()) {
+      const int* const nodes = own.nodes_of(e);
+      const double a = u[static_cast<std::size_t>(nodes[edge[0]])],
+                   b = u[static_cast<std::size_t>(nodes[edge[1]])];
+      for (std::size_t i = 2; i < edge.size(); ++i) {
+        double& middle = u[static_cast<std::size_t>(nodes[edge[i]])];
+        const double part = static_cast<double>(i - 1) / static_cast<double>(edge.size() - 1);
+        if (std::isnan(middle)) middle = a + part * (b - a);
+      }
+    }
+  for (double& value : u)
+    if (std::isnan(value)) value = 0.0;
+}
+
+double PorePressure::nodal(std::size_t group, int element, std::span<const double> N) const {
+  const int* const nodes = model_->groups[group].nodes_of(element);
+  double u = 0.0;
+  for (std::size_t i = 0; i < N.size(); ++i) u += N[i] * nodes_[group][static_cast<std::size_t>(nodes[i])];
+  return std::max(0.0, u);
+}
+
+double PorePressure::at(std::size_t group, int element, const Vector2& place, std::span<const double> N) const {
+  const WaterCard* const card = cards_[group];
+  if (card == nullptr) return 0.0;
+  switch (card->kind) {
+    case WaterKind::line:
+      return std::max(0.0, model_->units.water_unit_weight * (water_level(*card, place.x()) - place.y()));
+    case WaterKind::ratio:
+      return card->value * overburden_->above(place).stress;
+    default:
+      return nodal(group, element, N);
+  }
+}
+
+Vector2 PorePressure::gradient(std::size_t group, int element, const Vector2& place, std::span<const double> N,
+                               const Eigen::MatrixX2d& dN) const {
+  Vector2 slope = Vector2::Zero();
+  const WaterCard* const card = cards_[group];
+  if (card == nullptr || !(at(group, element, place, N) > 0.0)) return slope;
+  if (card->kind == WaterKind::line)
+    return model_->units.water_unit_weight * Vector2(water_slope(*card, place.x()), -1.0);
+  const int* const nodes = model_->groups[group].nodes_of(element);
+  for (Eigen::Index i = 0; i < dN.rows(); ++i)
+    slope += nodes_[group][static_cast<std::size_t>(nodes[i])] * dN.row(i).transpose();
+  return slope;
+}
+
+double PorePressure::at_point(std::size_t group, int element, int point) const {
+  if (cards_[group] == nullptr) return 0.0;
+  const Group& own = model_->groups[group];
+  Eigen::Matrix2Xd x;
+  element_coordinates(model_->mesh, own, element, x);
+  const Vector2 place = own.element->position(x, point);
+  Mapped mapped;
+  if (nodes_[group].empty()) return at(group, element, place, {});
+  Vector2 parent = own.entry->triangle() ? Vector2(1.0 / 3.0, 1.0 / 3.0) : Vector2(0.0, 0.0);
+  for (int step = 0; step < 20; ++step) {
+    mapped.take(*own.element, x, parent);
+    const Vector2 missing = place - mapped.place;
+    const double det = mapped.det();
+    const Vector2 change((mapped.J(1, 1) * missing.x() - mapped.J(0, 1) * missing.y()) / det,
+                         (-mapped.J(1, 0) * missing.x() + mapped.J(0, 0) * missing.y()) / det);
+    if (!(change.cwiseAbs().maxCoeff() > 1e-13)) break;
+    parent += change;
+  }
+  mapped.take(*own.element, x, parent);
+  return at(group, element, place, mapped.N);
+}
+
+std::vector<FreeEdge> free_edges(const Model& model, const std::vector<char>& groups) {
+  std::map<std::pair<int, int>, std::pair<FreeEdge, int>> seen;
+  std::set<int> structures;
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const Group& group = model.groups[g];
+    if (groups[g] && group.structure()) structures.insert(group.nodes.begin(), group.nodes.end());
+    if (!groups[g] || !group.solid()) continue;
+    for (int e = 0; e < group.elements(); ++e)
+      for (std::size_t k = 0; k < group.element->edges().size(); ++k) {
+        const std::vector<int>& edge = group.element->edges()[k];
+        auto& [first, count] = seen[edge_key(group.nodes_of(e)[edge[0]], group.nodes_of(e)[edge[1]])];
+        if (count++ == 0) first = {static_cast<int>(g), e, static_cast<int>(k)};
+      }
+  }
+  std::vector<FreeEdge> free;
+  for (auto& [nodes, edge] : seen) {
+    if (edge.second != 1) continue;
+    edge.first.on_structure = structures.contains(nodes.first) && structures.contains(nodes.second);
+    free.push_back(edge.first);
+  }
+  return free;
+}
+
+namespace {
+
+// The force of water, put together.
+class WaterForce {
+ public:
+  WaterForce(const Model& model, const Activity& activity, const PorePressure& water)
+      : model_(model), activity_(activity), water_(water) {
+    force_.setZero(activity.dof_map.dofs());
+  }
+
+  Eigen::VectorXd sum() {
+    for (std::size_t g = 0; g < model_.groups.size(); ++g)
+      if (water_.card(g) != nullptr) add_group(g);
+    add_edges();
+    return std::move(force_);
+  }
+
+ private:
+  void add_group(std::size_t g) {
+    const Group& group = model_.groups[g];
+    const bool ring = model_.geometry == Geometry::axisymmetric;
+    const bool as_force = water_.card(g)->action == WaterAction::force;
+    const std::vector<RulePlace> rule = rule_for(group.entry->triangle(), group.element->degree());
+    for (int e = 0; e < group.elements(); ++e) {
+      element_coordinates(model_.mesh, group, e, x_);
+      const int* const nodes = group.nodes_of(e);
+      for (const RulePlace& q : rule) {
+        mapped_.take(*group.element, x_, q.parent);
+        mapped_.take_derivatives();
+        const double w = q.weight * mapped_.det() * measure(model_, mapped_.place);
+        const double u = water_.at(g, e, mapped_.place, mapped_.N);
+        if (!(u > 0.0)) continue;
+        const Vector2 slope =
+            as_force ? water_.gradient(g, e, mapped_.place, mapped_.N, mapped_.dN) : Vector2(0.0, 0.0);
+        for (Eigen::Index i = 0; i < x_.cols(); ++i) {
+          const double N = mapped_.N[static_cast<std::size_t>(i)];
+          Vector2 f = u * mapped_.dN.row(i).transpose();
+          if (ring) f.x() += u * N / mapped_.place.x();
+          if (as_force) f = -N * slope;
+          at(nodes[i]) += w * f;
+        }
+      }
+    }
+  }
+
+  // Edges where the water outside, or in a joint, has the pressure of that behind them.
+  void add_edges() {
+    std::vector<FreeEdge> wet;
+    std::set<std::pair<int, int>> keys;
+    for (const FreeEdge& edge : free_edges(model_, activity_.group)) {
+      const WaterCard* const card = water_.card(static_cast<std::size_t>(edge.group));
+      const bool loads =
+          card != nullptr && card->action == WaterAction::edges && card->kind != WaterKind::ratio;
+      if (!loads || edge.on_structure) continue;
+      wet.push_back(edge);
+      keys.insert(key_of(edge));
+    }
+    take_joints();
+    for (const FreeEdge& edge : wet) add_edge(edge, keys);
+  }
+
+  std::pair<int, int> key_of(const FreeEdge& edge) const {
+    const Group& group = model_.groups[static_cast<std::size_t>(edge.group)];
+    const std::vector<int>& local = group.element->edges()[static_cast<std::size_t>(edge.edge)];
+    const int* const nodes = group.nodes_of(edge.element);
+    return edge_key(nodes[local[0]], nodes[local[1]]);
+  }
+
+  // Sides of active interfaces: by their end nodes the nodes that lie opposite of each.
+  void take_joints() {
+    for (std::size_t g = 0; g < model_.groups.size(); ++g) {
+      const Group& group = model_.groups[g];
+      if (!activity_.group[g] || !group.interface()) continue;
+      for (int e = 0; e < group.elements(); ++e) {
+        const int* const n = group.nodes_of(e);
+        std::map<int, int> right{{n[0], n[3]}, {n[1], n[2]}};
+        for (std::size_t pair = 4; pair + 1 < group.node_count(); pair += 2) right[n[pair]] = n[pair + 1];
+        std::map<int, int> left;
+        for (const auto& [a, b] : right) left[b] = a;
+        joints_[edge_key(n[0], n[1])] = std::move(right);
+        joints_[edge_key(n[2], n[3])] = std::move(left);
+      }
+    }
+  }
+
+  // -u n on the solid; what lies behind a joint gets the opposite unless it is wet itself.
+  void add_edge(const FreeEdge& edge, const std::set<std::pair<int, int>>& wet) {
+    const auto g = static_cast<std::size_t>(edge.group);
+    const Group& group = model_.groups[g];
+    const bool triangle = group.entry->triangle();
+    element_coordinates(model_.mesh, group, edge.element, x_);
+    const int* const nodes = group.nodes_of(edge.element);
+    const std::vector<int>& local = group.element->edges()[static_cast<std::size_t>(edge.edge)];
+    const Vector2 from = parent_corner(triangle, local[0]), to = parent_corner(triangle, local[1]);
+    const auto joint = joints_.find(key_of(edge));
+    const std::map<int, int>* behind = joint == joints_.end() ? nullptr : &joint->second;
+    if (behind != nullptr) {
+      const auto other = [&](int corner) { return behind->at(nodes[local[static_cast<std::size_t>(corner)]]); };
+      if (wet.contains(edge_key(other(0), other(1)))) behind = nullptr;
+    }
+    const GaussRule line(group.element->degree() + 2);
+    for (std::size_t q = 0; q < line.x.size(); ++q) {
+      mapped_.take(*group.element, x_, from + 0.5 * (1.0 + line.x[q]) * (to - from));
+      const Vector2 along = 0.5 * mapped_.J * (to - from);
+      const double w = line.w[q] * measure(model_, mapped_.place);
+      const double u = water_.at(g, edge.element, mapped_.place, mapped_.N);
+      if (!(u > 0.0)) continue;
+      for (const int i : local) {
+        const Vector2 f = mapped_.N[static_cast<std::size_t>(i)] * w * u * Vector2(-along.y(), along.x());
+        at(nodes[i]) += f;
+        if (behind == nullptr) continue;
+        if (const auto opposite = behind->find(nodes[i]); opposite != behind->end()) at(opposite->second) -= f;
+      }
+    }
+  }
+
+  Eigen::VectorBlock<Eigen::VectorXd, 2> at(int node) { return force_.segment<2>(DofMap::displacement(node)); }
+
+  const Model& model_;
+  const Activity& activity_;
+  const PorePressure& water_;
+  Eigen::VectorXd force_;
+  Eigen::Matrix2Xd x_;
+  Mapped mapped_;
+  std::map<std::pair<int, int>, std::map<int, int>> joints_;
+};
+
+}  // namespace
+
+Eigen::VectorXd water_force(const Model& model, const Activity& activity, const PorePressure& water) {
+  return WaterForce(model, activity, water).sum();
+}
+
+}  // namespace sage

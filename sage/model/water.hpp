@@ -1,0 +1,83 @@
+// Pore pressure in solids and the water that stands on them: what the water cards say of a stage, as numbers at
+// places.  docs/theory/effective_stress.md
+#pragma once
+
+#include <vector>
+
+#include "sage/model/activity.hpp"
+
+namespace sage {
+
+// The card that holds for a group's pore pressure in a stage (0-based): the last of the deck that is about the
+// group or about all and begins no later.  nullptr = dry.
+const WaterCard* water_card(const Model& model, int stage, int group);
+
+// u of solids, compression positive, at the end of a stage; never negative (no suction).
+class PorePressure {
+ public:
+  // groups: a flag each, active.  unknowns: what heads are taken from (one entry a dof); nullptr = there are none
+  // yet, and groups that want heads are dry.  The model must outlive it.
+  PorePressure(const Model& model, int stage, const std::vector<char>& groups, const DofMap& map,
+               const Eigen::VectorXd* unknowns);
+
+  bool any() const;
+  // nullptr where the group is dry, no solid or not active.
+  const WaterCard* card(std::size_t group) const { return cards_[group]; }
+
+  // At a place of an element, with its shape functions there.
+  double at(std::size_t group, int element, const Vector2& place, std::span<const double> N) const;
+  // Gradient there; dN: of the shape functions along x and y, one row a node.  Zero where u is.
+  Vector2 gradient(std::size_t group, int element, const Vector2& place, std::span<const double> N,
+                   const Eigen::MatrixX2d& dN) const;
+  // At an integration point.
+  double at_point(std::size_t group, int element, int point) const;
+
+ private:
+  double nodal(std::size_t group, int element, std::span<const double> N) const;
+  void take_nodes(const WaterCard& card, std::size_t group);
+  void take_heads(std::size_t group, const DofMap& map, const Eigen::VectorXd* unknowns);
+  void fill_middles(std::size_t group);
+
+  const Model* model_;
+  std::vector<char> groups_;
+  std::vector<const WaterCard*> cards_;
+  std::vector<std::vector<double>> nodes_;  // by group: u of every node of the mesh, of cards about nodes
+  std::shared_ptr<const class Overburden> overburden_;
+};
+
+// Weight of the solids of active groups above places: vertical lines through their corners' polygons.
+class Overburden {
+ public:
+  Overburden(const Model& model, const std::vector<char>& groups);
+  struct Above {
+    double stress = 0.0;  // unit weights times heights
+    double top = 0.0;     // level of the uppermost solid
+  };
+  Above above(const Vector2& place) const;
+
+ private:
+  struct Cell {
+    std::vector<Vector2> corners;
+    double unit_weight = 0.0;
+  };
+  std::vector<Cell> cells_;
+  std::vector<std::vector<int>> bins_;  // cells by x
+  double low_ = 0.0, width_ = 1.0;
+};
+
+// Level of a phreatic line at x: linear between its points, level beyond the first and the last.
+double water_level(const WaterCard& card, double x);
+
+// What water does to the mesh at the end of a stage, one entry a dof: its pressure in the solids (sum of B^T u),
+// and on their free edges and in their joints; or, of cards that say so, seepage force and buoyancy (-grad u).
+// Shape functions are taken as they are, without B-bar, by a rule that is exact on straight-sided elements.
+Eigen::VectorXd water_force(const Model& model, const Activity& activity, const PorePressure& water);
+
+// Edges of active solids that no other active solid shares, by group, element and edge.
+struct FreeEdge {
+  int group = 0, element = 0, edge = 0;
+  bool on_structure = false;  // both of its corners belong to an active structure
+};
+std::vector<FreeEdge> free_edges(const Model& model, const std::vector<char>& groups);
+
+}  // namespace sage

@@ -1,0 +1,386 @@
+// Pore pressures in whole models: against closed forms, and against the same soil in other guises.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sage/analysis/observer.hpp"
+#include "sage/app/commands.hpp"
+#include "sage/exchange/convert.hpp"
+#include "sage/record/field_reader.hpp"
+#include "tests/support/run_text.hpp"
+
+namespace sage::test {
+namespace {
+
+constexpr double kWater = 9.81;
+
+const Workbench& bench() {
+  static const Workbench all = app::make_workbench();
+  return all;
+}
+
+Block cells(int columns, int rows, Cell cell) {
+  Block block;
+  block.columns = columns;
+  block.rows = rows;
+  block.cell = cell;
+  return block;
+}
+
+// Ground with a sloping top: 4 m high at the left, 2 m at the right; its sides are held in x, its bottom in both.
+DeckWriter slope(const Block& block, int geometry, double weight, int formulation = 0) {
+  DeckWriter deck(geometry);
+  block.write_nodes(deck);
+  deck.material(1, 1, {1e4, 0.3}, weight);
+  deck.group(1, static_cast<int>(block.cell), formulation, 1);
+  block.write_elements(deck, 1);
+  for (const int node : block.left()) deck.fix(node, 1, 0);
+  for (const int node : block.right()) deck.fix(node, 1, 0);
+  for (const int node : block.bottom()) deck.fix(node, 1, 1);
+  deck.stage().gravity_y = -1.0;
+  return deck;
+}
+
+Block sloping(Cell cell) {
+  Block block = cells(4, 3, cell);
+  block.straight = true;
+  block.place = [](double s, double t) { return Vector2(1.0 + 6.0 * s, t * (4.0 - 2.0 * s)); };
+  return block;
+}
+
+double difference(const WholeRun& a, const WholeRun& b) {
+  return (a.last().u - b.last().u).cwiseAbs().maxCoeff() / b.largest_u();
+}
+
+// Fields of the points at the end of every increment.
+class Fields final : public Observer {
+ public:
+  void on_increment(const Model& model, const StepReport&, const Solution& now) override {
+    const FieldTable table = fields_of(model);
+    rows.clear();
+    for (std::size_t g = 0; g < now.groups().size(); ++g) {
+      const GroupData& data = now.groups()[g];
+      if (!data.active || !data.group->solid()) continue;
+      const int points = data.group->element->traits().points;
+      Eigen::Matrix2Xd x;
+      for (int e = 0; e < data.group->elements(); ++e)
+        for (int p = 0; p < points; ++p) {
+          element_coordinates(model.mesh, *data.group, e, x);
+          const PointState state(model.mesh, data, static_cast<std::size_t>(e * points + p));
+          Row row;
+          row.place = data.group->element->position(x, p);
+          read_field(*table.find("stress"), state, row.effective.data());
+          read_field(*table.find("total_stress"), state, row.total.data());
+          read_field(*table.find("pore_pressure"), state, &row.u);
+          if (const FieldEntry* excess = table.find("excess_pore_pressure"))
+            read_field(*excess, state, &row.excess);
+          rows.push_back(row);
+        }
+    }
+    all.push_back(rows);
+    u = *now.u;
+  }
+  struct Row {
+    Vector2 place = Vector2::Zero();
+    Vector4 effective = Vector4::Zero(), total = Vector4::Zero();
+    double u = 0.0, excess = 0.0;
+  };
+  std::vector<Row> rows;
+  std::vector<std::vector<Row>> all;
+  Eigen::VectorXd u;
+};
+
+Fields look(const DeckWriter& deck) {
+  Fields seen;
+  const Model model = bench().build(deck.text());
+  Observer* const observers[] = {&seen};
+  const RunResult result = bench().run(model, observers);
+  EXPECT_EQ(result.status, RunStatus::completed) << result.reason;
+  return seen;
+}
+
+// Total weight, pore pressure and water on the slope do what the buoyant weight does without them.
+TEST(Water, SubmergedIsBuoyant) {
+  struct Row {
+    Cell cell;
+    int formulation;
+  };
+  for (const int geometry : {1, 2})
+    for (const Row& row : {Row{Cell::quad4, 1}, Row{Cell::quad4, 2}, Row{Cell::quad8, 0}, Row{Cell::quad8, 2},
+                           Row{Cell::quad9, 0}, Row{Cell::tri3, 0}, Row{Cell::tri6, 0}}) {
+      const Block block = sloping(row.cell);
+      DeckWriter wet = slope(block, geometry, 20.0, row.formulation);
+      wet.water(1, 0, 1, 0, {0.0, 9.0});
+      const DeckWriter buoyant = slope(block, geometry, 20.0 - kWater, row.formulation);
+      EXPECT_LT(difference(bench().run(wet.text()), bench().run(buoyant.text())), 1e-10)
+          << "geometry " << geometry << ", element " << static_cast<int>(row.cell) << " " << row.formulation;
+    }
+}
+
+// A wet half and a dry one: a card of a group, and the sum of both at every point.
+TEST(Water, TotalIsEffectiveAndPressure) {
+  Block block = cells(1, 4, Cell::quad8);
+  block.place = rectangle(0.0, 1.0, 0.0, 8.0);
+  DeckWriter deck = slope(block, 1, 20.0);
+  deck.water(1, 1, 1, 0, {0.0, 6.0});
+  const Fields seen = look(deck);
+  for (const Fields::Row& row : seen.rows) {
+    const double y = row.place.y();
+    EXPECT_NEAR(row.u, kWater * std::max(0.0, 6.0 - y), 1e-9);
+    EXPECT_NEAR(row.total[1] - row.effective[1], row.u, 1e-9);
+    EXPECT_NEAR(row.total[3], row.effective[3], 1e-9);
+    EXPECT_NEAR(row.total[1], 20.0 * (8.0 - y), 1e-8) << "the element's edge lies on the line: exact";
+  }
+}
+
+// r_u: sigma' = (1 - r_u) gamma z.
+TEST(Water, RatioOfTheWeightAbove) {
+  Block block = cells(1, 4, Cell::quad8);
+  block.place = rectangle(0.0, 1.0, 0.0, 8.0);
+  DeckWriter deck = slope(block, 1, 20.0);
+  deck.water(2, 0, 1, 0, {}, 0.25);
+  for (const Fields::Row& row : look(deck).rows) {
+    EXPECT_NEAR(row.u, 0.25 * 20.0 * (8.0 - row.place.y()), 1e-9);
+    EXPECT_NEAR(row.effective[1], 0.75 * 20.0 * (8.0 - row.place.y()), 1e-8);
+  }
+}
+
+// A start by K0 under a phreatic line: the card's weight is the total one, and nothing moves.
+TEST(Water, GeostaticStartUnderALine) {
+  Block block = cells(2, 4, Cell::quad8);
+  block.place = rectangle(0.0, 2.0, 0.0, 8.0);
+  DeckWriter deck = slope(block, 1, 20.0);
+  deck.initial(1, 1, 8.0, 20.0, 0.6);
+  deck.water(1, 0, 1, 0, {0.0, 6.0});
+  const Fields seen = look(deck);
+  EXPECT_LT(seen.u.cwiseAbs().maxCoeff(), 1e-12) << "m; the weight alone would move it by 0.05";
+  for (const Fields::Row& row : seen.rows) {
+    const double y = row.place.y(), vertical = 20.0 * (8.0 - y) - kWater * std::max(0.0, 6.0 - y);
+    EXPECT_NEAR(row.effective[1], vertical, 1e-8);
+    EXPECT_NEAR(row.effective[0], 0.6 * vertical, 1e-8);
+  }
+}
+
+// Drawdown of a column: the surface settles by the integral of gamma_w (6 - y) above the new level and 4 gamma_w
+// below it, over the constrained modulus.
+TEST(Water, DrawdownSettles) {
+  Block block = cells(1, 4, Cell::quad8);
+  block.place = rectangle(0.0, 1.0, 0.0, 8.0);
+  DeckWriter deck = slope(block, 1, 20.0);
+  deck.initial(1, 1, 8.0, 20.0, 0.5);
+  deck.water(1, 0, 1, 0, {0.0, 6.0});
+  deck.water(1, 0, 2, 0, {0.0, 2.0});
+  deck.stage(4);
+  const WholeRun run = bench().run(deck.text());
+  const double M = 1e4 * 0.7 / (1.3 * 0.4);
+  const double settlement = kWater * (4.0 * 4.0 / 2.0 + 4.0 * 2.0) / M;
+  EXPECT_NEAR(run.u(block.top()[0]).y(), -settlement, 1e-10);
+  ASSERT_EQ(run.increments.size(), 5U);
+  EXPECT_NEAR(run.increments[2].u[2 * run.index(block.top()[0]) + 1], -0.5 * settlement, 1e-10)
+      << "in proportion over the stage";
+}
+
+// Two blocks with a joint between them, all under water: the joint carries the buoyant weight.
+TEST(Water, JointsUnderWater) {
+  for (const Cell cell : {Cell::quad4, Cell::quad8}) {
+    Block low = cells(3, 2, cell), high = cells(3, 2, cell);
+    low.place = rectangle(0.0, 3.0, 0.0, 2.0);
+    high.place = rectangle(0.0, 3.0, 2.0, 4.0);
+    high.first_node = 1001;
+    high.first_element = 101;
+    const auto jointed = [&](double weight) {
+      DeckWriter deck = slope(low, 1, weight);
+      high.write_nodes(deck);
+      high.write_elements(deck, 1);
+      deck.material(2, 21, {1e4, 1e4});
+      deck.group(2, cell == Cell::quad4 ? 11 : 12, 0, 2);
+      join(deck, 501, 2, low.top(), high.bottom(), low.order());
+      for (const int node : high.left()) deck.fix(node, 1, 0);
+      return deck;
+    };
+    DeckWriter wet = jointed(20.0);
+    wet.water(1, 0, 1, 0, {0.0, 7.0});
+    EXPECT_LT(difference(bench().run(wet.text()), bench().run(jointed(20.0 - kWater).text())), 1e-10);
+  }
+}
+
+// Heads of flow elements on the same nodes, after a stage of flow.
+DeckWriter seeping(const Block& block, int geometry, int action, int flow) {
+  DeckWriter deck = slope(block, geometry, 20.0);
+  deck.material(2, 41, {1.0, 0.3, 20.0});
+  deck.groups.push_back("    2" + std::string(flow < 10 ? "    " : "   ") + std::to_string(flow) +
+                        "    0    2" + std::string(40, ' ') + "    1");
+  Block water = block;
+  water.first_element = 201;
+  water.write_elements(deck, 2);
+  StageCards& first = deck.stages[0];
+  first.gravity_y = 0.0;
+  const auto hold = [&](const std::vector<int>& nodes, double head) {
+    for (const int node : nodes) {
+      char card[120];
+      std::snprintf(card, sizeof card, "%5d%5d%5d%5d%5d%10.3f%10s%-20s", node, 0, 0, 1, 0, head, "", "head");
+      first.fixities.push_back(card);
+    }
+  };
+  hold(block.left(), 12.0);
+  hold(block.right(), 9.0);
+  StageCards& second = deck.stage();
+  second.gravity_y = -1.0;
+  deck.water(4, 1, 2, action, {});
+  return deck;
+}
+
+// As pressure, with water standing at the edges, or as seepage force and buoyancy.
+TEST(Water, PressureOrSeepageForce) {
+  for (const int geometry : {1, 2})
+    for (const auto& [cell, flow] : {std::pair{Cell::quad4, 41}, {Cell::quad8, 42}, {Cell::tri6, 44}}) {
+      const Block block = sloping(cell);
+      const WholeRun pressure = bench().run(seeping(block, geometry, 0, flow).text());
+      const WholeRun force = bench().run(seeping(block, geometry, 2, flow).text());
+      const WholeRun dry = bench().run(slope(block, geometry, 20.0).text());
+      const int n = 2 * pressure.model->mesh.nodes();
+      const Eigen::VectorXd a = pressure.last().u.head(n), b = force.last().u.head(n);
+      EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 1e-12 * b.cwiseAbs().maxCoeff());
+      EXPECT_GT((a - dry.last().u).cwiseAbs().maxCoeff(), 0.1 * b.cwiseAbs().maxCoeff());
+    }
+}
+
+// Pressures at nodes that are those of a level give what the level gives.
+TEST(Water, PressuresAtNodes) {
+  const Block block = sloping(Cell::quad8);
+  DeckWriter level = slope(block, 1, 20.0), nodes = level;
+  level.water(1, 0, 1, 0, {0.0, 9.0});
+  std::vector<double> values;
+  for (int j = 0; j < block.up(); ++j)
+    for (int i = 0; i < block.across(); ++i)
+      if (i % 2 == 0 && j % 2 == 0)  // corners: what is between them follows
+        values.insert(values.end(), {1.0 * block.node(i, j), kWater * (9.0 - block.at(i, j).y())});
+  nodes.water(3, 0, 1, 0, values);
+  EXPECT_LT(difference(bench().run(nodes.text()), bench().run(level.text())), 1e-6) << "of ten columns";
+  BuildOptions finer;
+  finer.refine = 1;
+  EXPECT_THROW(bench().build(nodes.text(), finer), InputError);
+  EXPECT_NO_THROW(bench().build(level.text(), finer));
+}
+
+// A column that is loaded shut in and then drained.  Constrained modulus M, bulk of water B = K_w / n: the excess
+// is p B / (M + B); drained it goes, and the settlement is p h / M.
+TEST(Water, UndrainedThenDrained) {
+  const double M = 1e4 * 0.7 / (1.3 * 0.4), p = 100.0;
+  for (const double bulk : {1e4, 1e8, 1e12}) {
+    Block block = cells(1, 3, Cell::quad8);
+    block.place = rectangle(0.0, 1.0, 0.0, 3.0);
+    DeckWriter deck = slope(block, 1, 0.0);
+    deck.stages[0].gravity_y = 0.0;
+    deck.stages[0].pressure(block.element(0, 2), 3, p, p);
+    deck.stage(2);
+    deck.water(5, 1, 1, 0, {}, bulk);
+    deck.water(6, 1, 2, 0, {});
+    const Fields seen = look(deck);
+    ASSERT_EQ(seen.all.size(), 3U);
+    const double excess = p * bulk / (M + bulk), tolerance = 1e-9 * p + 1e-15 * bulk;
+    for (std::size_t k = 0; k < 3; ++k)
+      for (const Fields::Row& row : seen.all[k]) {
+        EXPECT_NEAR(row.excess, k == 0 ? excess : 0.0, tolerance) << "taken out as the stage begins";
+        EXPECT_NEAR(row.total[1] - row.effective[1], row.u, 1e-12 * p);
+      }
+    for (const Fields::Row& row : seen.all[0]) EXPECT_NEAR(row.total[1], p, tolerance);
+    for (const Fields::Row& row : seen.rows) EXPECT_NEAR(row.effective[1], p, tolerance);
+    EXPECT_NEAR(seen.u.minCoeff(), -3.0 * p / M, 1e-10);
+  }
+}
+
+// nu_u gives the same as an elastic soil of that ratio and the same shear modulus.
+TEST(Water, UndrainedPoissonsRatio) {
+  const Block block = sloping(Cell::quad8);
+  DeckWriter shut = slope(block, 1, 20.0), total = shut;
+  shut.materials.clear();
+  shut.material(1, 1, {1.3e4, 0.3}, 20.0);  // G = 5000
+  shut.water(5, 0, 1, 0, {}, 0.0, 0.49);
+  total.materials.clear();
+  total.material(1, 1, {14900.0, 0.49}, 20.0);
+  EXPECT_LT(difference(bench().run(shut.text()), bench().run(total.text())), 1e-10);
+}
+
+TEST(Water, RestartsToTheBit) {
+  const Block block = sloping(Cell::quad8);
+  DeckWriter deck = slope(block, 1, 20.0);
+  deck.stages[0].increments = 2;
+  deck.water(1, 0, 1, 0, {0.0, 3.0, 5.0, 1.0});
+  deck.water(5, 0, 2, 0, {}, 1e5);
+  deck.water(6, 0, 3, 0, {});
+  StageCards& load = deck.stage(3);
+  load.pressure(block.element(0, 2), 3, 50.0, 50.0);
+  deck.stage(2);
+  std::vector<std::string> saved;
+  RunSettings settings = bench().settings();
+  settings.checkpoint_due = [] { return true; };
+  settings.save_checkpoint = [&](const std::string& bytes) { saved.push_back(bytes); };
+  const WholeRun whole = bench().run(deck.text(), {}, settings);
+  ASSERT_TRUE(whole.completed()) << whole.failure;
+  ASSERT_EQ(saved.size(), 6U);
+  for (const std::string& bytes : saved) {
+    RunSettings again = bench().settings();
+    again.resume_from = bytes;
+    const WholeRun rest = bench().run(deck.text(), {}, again);
+    ASSERT_TRUE(rest.completed()) << rest.failure;
+    EXPECT_EQ((rest.last().u - whole.last().u).cwiseAbs().maxCoeff(), 0.0);
+  }
+}
+
+TEST(Water, DecksAreWrittenAsTheyAreRead) {
+  const Block block = sloping(Cell::quad8);
+  DeckWriter deck = slope(block, 1, 20.0);
+  deck.water(1, 0, 1, 0, {0.0, 3.0, 5.0, 1.0});
+  deck.water(5, 1, 1, 0, {}, 1e5);
+  Diagnostics words;
+  const Model model = bench().build(deck.text());
+  const std::string text = sage1_text(model, words, FieldWidth::narrow);
+  EXPECT_EQ(difference(bench().run(text), bench().run(deck.text())), 0.0) << text;
+}
+
+TEST(Water, WhatContradictsIsNamed) {
+  const Block block = sloping(Cell::quad4);
+  const auto code_of = [&](auto change) {
+    DeckWriter deck = slope(block, 1, 20.0);
+    deck.stage();
+    change(deck);
+    try {
+      const Model model = bench().build(deck.text());
+      for (const Diagnostic& d : model.diagnostics.list())
+        if (d.severity == Severity::warning) return to_string(d.code);
+    } catch (const InputError& error) {
+      return to_string(error.diagnostics().list().front().code);
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(code_of([](DeckWriter& d) { d.water(1, 0, 1, 0, {0.0, 3.0}); }), "none");
+  EXPECT_EQ(code_of([](DeckWriter& d) { d.water(1, 0, 1, 1, {0.0, 9.0}); }), "S339") << "no load balances it";
+  EXPECT_EQ(code_of([](DeckWriter& d) { d.water(1, 0, 1, 1, {0.0, 1.0}); }), "none");
+  EXPECT_EQ(code_of([](DeckWriter& d) {
+              d.water(5, 1, 1, 0, {}, 1e5);
+              d.water(1, 1, 2, 0, {0.0, 3.0});
+            }),
+            "S249");
+  EXPECT_EQ(code_of([](DeckWriter& d) {
+              std::vector<double> artesian;
+              for (int node = 1; node <= 5; ++node) artesian.insert(artesian.end(), {1.0 * node, 200.0});
+              d.water(3, 0, 1, 1, artesian);
+            }),
+            "S340");
+  EXPECT_EQ(code_of([](DeckWriter& d) { d.water(1, 0, 1, 0, {0.0, 3.0, 0.0, 2.0}); }), "S248");
+  EXPECT_EQ(code_of([](DeckWriter& d) { d.water(1, 0, 3, 0, {0.0, 3.0}); }), "S248");
+  EXPECT_EQ(code_of([](DeckWriter& d) { d.water(2, 0, 1, 0, {}, 1.5); }), "S248");
+  EXPECT_EQ(code_of([](DeckWriter& d) { d.water(2, 0, 1, 2, {}, 0.5); }), "S248");
+  EXPECT_EQ(code_of([](DeckWriter& d) { d.water(4, 0, 2, 0, {}); }), "S248");
+  EXPECT_EQ(code_of([](DeckWriter& d) { d.water(5, 0, 1, 0, {}, 1e5, 0.4); }), "S248");
+  EXPECT_EQ(code_of([](DeckWriter& d) { d.water(7, 0, 1, 0, {}); }), "S210");
+  EXPECT_EQ(code_of([](DeckWriter& d) {
+              d.water_unit_weight = 0.0;
+              d.water(1, 0, 1, 0, {0.0, 3.0});
+            }),
+            "S247");
+}
+
+}  // namespace
+}  // namespace sage::test
