@@ -583,7 +583,9 @@ bool Run::run_stage(int s, int done) {
   return true;
 }
 
+// Who lives at the start only matters to pore pressures.
 void Run::start_first_states() {
+  if (model_.water.empty()) return start_states(0, system_.activity(), model_.initials, false);
   Activity first(model_);
   first.enter(model_.stages.front());
   start_states(0, first, model_.initials, false);

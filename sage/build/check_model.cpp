@@ -267,7 +267,8 @@ void warn_locking(Builder& b) {
     const ElementTraits& traits = group.element->traits();
     if (!group.solid() || !(traits.locks || traits.loses_order)) continue;
     const double nu = poissons_ratio(b.model.material_of(group));
-    if (nu <= 0.45 || ++found > kShown) continue;
+    const bool undrained = group.excess >= 0;
+    if ((nu <= 0.45 && !undrained) || ++found > kShown) continue;
     const std::string& remedy = group.entry->against_locking;
     const std::string what =
         traits.locks
@@ -277,7 +278,7 @@ void warn_locking(Builder& b) {
               "mesh; 8-node quadrilaterals (reduced) or quad4 b-bar keep theirs";
     b.warning("S325", group.where,
               "group " + std::to_string(group.number) + " (" + group.element_name +
-                  ") has nu = " + rounded_text(nu, 7) + what);
+                  (undrained ? std::string(") is undrained") : ") has nu = " + rounded_text(nu, 7)) + what);
   }
   if (found > kShown)
     b.warning("S325", b.at_line(0),

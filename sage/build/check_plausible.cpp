@@ -417,7 +417,9 @@ void note_null_stage(Builder& b, const Stage& stage) {
     for (std::size_t c = 0; c < 2; ++c) any = any || f.value[c] != 0.0 || f.code[c] == FixityCode::released;
   for (const FieldFixity& f : stage.field_fixities)
     any = any || f.value != 0.0 || f.code == FixityCode::released;
-  any = any || !stage.field_loads.empty() || !stage.exits.empty();
+  any =
+      any || !stage.field_loads.empty() || !stage.exits.empty() ||
+      std::ranges::any_of(b.model.water, [&](const WaterCard& card) { return card.stage + 1 == stage.number; });
   if (any) return;
   b.note("S316", stage.where,
          "stage " + std::to_string(stage.number) +

@@ -183,6 +183,7 @@ void warn_of_the_rest(const Model& model, const HeldDofs& beside, Diagnostics& d
   add(displacements, "fixities of stages");
   add(lives, "birth(s) and death(s)");
   add(initials, "initial stress(es)");
+  add(model.water.size(), "water card(s)");
   add(model.reports.size(), "report(s)");
   add(points.size(), "held node(s) that are no whole edge of the outline");
   add(formulations, "formulation(s) of groups");

@@ -66,19 +66,36 @@ LawPtr with_water(LawPtr law, bool undrained) {
   return std::make_unique<UndrainedLaw>(std::move(*solid));
 }
 
-double bulk_for(const SolidLaw& law, double nu_u) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  if (law.wants_context()) return kNone;
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+struct Stiffness {
+  double G = kNone, K = kNone;
+};
+
+Stiffness at_zero_stress(const SolidLaw& law) {
+  if (law.wants_context()) return {};
   std::vector<double> h, h1;
   for (const Quantity& quantity : law.history()) h.push_back(quantity.initial);
   h1 = h;
-  PointIn<4> in{Vector4::Zero(), Vector4::Zero(), Vector4::Zero(), h};
+  const PointIn<4> in{Vector4::Zero(), Vector4::Zero(), Vector4::Zero(), h};
   PointOut<4> out;
   out.h1 = h1;
-  if (law.update(in, out) != Outcome::ok) return kNone;
-  const double G = out.D(3, 3), K = out.D.topLeftCorner<3, 3>().sum() / 9.0;
-  const double bulk = 2.0 * G * (1.0 + nu_u) / (3.0 * (1.0 - 2.0 * nu_u)) - K;
-  return std::isfinite(bulk) && bulk > 0.0 && G > 0.0 ? bulk : kNone;
+  if (law.update(in, out) != Outcome::ok || !(out.D(3, 3) > 0.0)) return {};
+  return {out.D(3, 3), out.D.topLeftCorner<3, 3>().sum() / 9.0};
+}
+
+}  // namespace
+
+double shear_modulus(const SolidLaw& law) {
+  return at_zero_stress(law).G;
+}
+
+double bulk_for(const SolidLaw& law, double nu_u) {
+  const Stiffness grains = at_zero_stress(law);
+  const double bulk = 2.0 * grains.G * (1.0 + nu_u) / (3.0 * (1.0 - 2.0 * nu_u)) - grains.K;
+  return std::isfinite(bulk) && bulk > 0.0 ? bulk : kNone;
 }
 
 }  // namespace sage

@@ -37,6 +37,9 @@ class UndrainedLaw final : public SolidLaw {
 // A solid's law within an UndrainedLaw where asked.
 LawPtr with_water(LawPtr law, bool undrained);
 
+// Shear modulus of a law at zero stress; NaN where it has none there.
+double shear_modulus(const SolidLaw& law);
+
 // Bulk of water over porosity that gives an elastic law this undrained Poisson's ratio at zero stress; NaN where the
 // law is no isotropic one or has no such ratio above its own.
 double bulk_for(const SolidLaw& law, double nu_u);

@@ -78,13 +78,14 @@ void description(std::string& text, const Model& model, const Scene& scene, std:
                       : "plane strain in x, y; z is out of plane");
   text += sign_convention(model, "   ");
   if (model.units.atmospheric_pressure > 0.0 || model.units.water_unit_weight > 0.0)
-    fmt::format_to(
-        to(text),
-        "   atmospheric pressure {:.7g} {}, unit weight of water {:.7g} {}\n"
-        "   (in hyperbolic laws only, the water's in clough_duncan interfaces only: no pore pressure is "
-        "computed)\n",
-        model.units.atmospheric_pressure, model.units.stress, model.units.water_unit_weight,
-        unit_text(Dimension::unit_weight, model.units));
+    fmt::format_to(to(text),
+                   "   atmospheric pressure {:.7g} {}, unit weight of water {:.7g} {}\n"
+                   "   (in hyperbolic laws only, the water's in clough_duncan interfaces {})\n",
+                   model.units.atmospheric_pressure, model.units.stress, model.units.water_unit_weight,
+                   unit_text(Dimension::unit_weight, model.units),
+                   model.water.empty() ? "only: no pore pressure is computed" : "and in pore pressures");
+  if (!model.water.empty())
+    text += "   stress is effective stress; total_stress and pore_pressure are fields of their own\n";
   heading(text, "SCENE");
   fmt::format_to(to(text), "   {}\n   solver {}, {} equations at the start\n", describe(scene), solver,
                  equations);

@@ -60,7 +60,9 @@ TEST(Manual, EchoAndListingSayWhatTheUnitWeightOfWaterIsFor) {
   write(folder / "deck.dat", block_deck().text());
   const std::string echo = sagefe(folder, "echo deck.dat").out;
   EXPECT_TRUE(
-      has(echo, "(water_unit_weight: scales the shear stiffness of clough_duncan interfaces, nothing else"))
+      has(echo,
+          "(water_unit_weight: scales the shear stiffness of clough_duncan interfaces, and gives the pore "
+          "pressures of water cards"))
       << echo;
   EXPECT_TRUE(has(echo, "there is no pore water")) << echo;
   EXPECT_EQ(count(echo, "(water_unit_weight:"), 1);

@@ -204,6 +204,39 @@ TEST(Water, JointsUnderWater) {
   }
 }
 
+// A wall of nodes that stand still, behind a joint: beyond what the buoyant ground does to it, it takes the thrust of
+// the water, gamma_w h^2 / 2, and the joint does not.
+TEST(Water, WallsTakeTheWater) {
+  for (const Cell cell : {Cell::quad4, Cell::quad8}) {
+    Block block = cells(2, 4, cell);
+    block.place = rectangle(0.0, 3.0, 0.0, 6.0);
+    std::vector<int> wall;
+    const auto walled = [&](double weight) {
+      DeckWriter deck(1);
+      block.write_nodes(deck);
+      deck.material(1, 1, {1e4, 0.3}, weight);
+      deck.material(2, 21, {1e6, 1e4});
+      deck.group(1, static_cast<int>(cell), 0, 1);
+      deck.group(2, cell == Cell::quad4 ? 11 : 12, 0, 2);
+      block.write_elements(deck, 1);
+      wall = copy_row(deck, block, block.right(), 1001);
+      join(deck, 501, 2, wall, block.right(), block.order());
+      for (const int node : block.left()) deck.fix(node, 1, 0);
+      for (const int node : block.bottom()) deck.fix(node, 0, 1);
+      for (const int node : wall) deck.fix(node, 1, 1);
+      deck.stage().gravity_y = -1.0;
+      return deck;
+    };
+    DeckWriter wet = walled(20.0);
+    wet.water(1, 0, 1, 0, {0.0, 6.0});
+    const WholeRun full = bench().run(wet.text()), buoyant = bench().run(walled(20.0 - kWater).text());
+    ASSERT_TRUE(full.completed() && buoyant.completed()) << full.failure << buoyant.failure;
+    EXPECT_LT(difference(full, buoyant), 1e-10);
+    const double thrust = buoyant.reaction(buoyant.last(), wall, 0) - full.reaction(full.last(), wall, 0);
+    EXPECT_NEAR(thrust, 0.5 * kWater * 36.0, 1e-8);
+  }
+}
+
 // Heads of flow elements on the same nodes, after a stage of flow.
 DeckWriter seeping(const Block& block, int geometry, int action, int flow) {
   DeckWriter deck = slope(block, geometry, 20.0);

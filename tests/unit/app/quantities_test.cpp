@@ -177,6 +177,17 @@ const std::vector<Row>& rows() {
        [](Model& m) { m = plain(1, 1); },
        [] { return plain(1, 2); }},
       {"overlay", {"", "lie on others", ""}, [](Model& m) { m.groups[1].overlay = true; }},
+      {"level of water",
+       {"", "1 water card(s)", "1 water card(s)"},
+       [](Model& m) {
+         m.units.water_unit_weight = 9.81;
+         m.water.push_back({0, -1, WaterKind::line, WaterAction::edges, 0.0, {{0.0, 1.0}, {2.0, 0.5}}, {}, {}});
+       }},
+      {"pressure at a node",
+       {"", "1 water card(s)", "1 water card(s)"},
+       [](Model& m) {
+         m.water.push_back({0, 0, WaterKind::nodes, WaterAction::none, 0.0, {}, {{0, 3.5}}, {}});
+       }},
       {"element numbers", {"", "", ""}, [](Model& m) { m.groups[1].element_numbers[1] = 9; }},
       {"support of an edge",
        {"", "", ""},
@@ -364,8 +375,8 @@ TEST(Quantities, InterfacesAndStructuresAreNamed) {
 // What has none needs none: it follows from the rest, or is about the deck and not about the problem.
 [[maybe_unused]] void known(const Model& one) {
   [[maybe_unused]] const auto& [file, title, geometry, units, solver, fields, mesh, materials, groups, unknowns,
-                                fixities, field_fixities, initials, stages, reports, diagnostics, left_out,
-                                plugins] = one;
+                                fixities, field_fixities, initials, stages, water, reports, diagnostics,
+                                left_out, plugins] = one;
 }
 [[maybe_unused]] void known(const UnitSystem& one) {
   [[maybe_unused]] const auto& [length, force, stress, p_a, gamma_w] = one;
@@ -374,11 +385,15 @@ TEST(Quantities, InterfacesAndStructuresAreNamed) {
   [[maybe_unused]] const auto& [x, number, deck_nodes, made_between, reach] = one;
 }
 [[maybe_unused]] void known(const Material& one) {
-  [[maybe_unused]] const auto& [number, name, code, law_name, entry, parameters, unit_weight, law, where] = one;
+  [[maybe_unused]] const auto& [number, name, code, law_name, entry, parameters, unit_weight, law, where,
+                                undrained] = one;
 }
 [[maybe_unused]] void known(const Group& one) {
   [[maybe_unused]] const auto& [number, name, element_code, formulation, element_name, entry, element, material,
-                                element_numbers, element_lines, nodes, overlay, where] = one;
+                                element_numbers, element_lines, nodes, overlay, where, excess] = one;
+}
+[[maybe_unused]] void known(const WaterCard& one) {
+  [[maybe_unused]] const auto& [stage, group, kind, action, value, line, nodes, where] = one;
 }
 [[maybe_unused]] void known(const Fixity& one) {
   [[maybe_unused]] const auto& [node, code, value, line] = one;
