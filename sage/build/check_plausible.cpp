@@ -417,10 +417,15 @@ void note_null_stage(Builder& b, const Stage& stage) {
     for (std::size_t c = 0; c < 2; ++c) any = any || f.value[c] != 0.0 || f.code[c] == FixityCode::released;
   for (const FieldFixity& f : stage.field_fixities)
     any = any || f.value != 0.0 || f.code == FixityCode::released;
-  any =
-      any || !stage.field_loads.empty() || !stage.exits.empty() ||
+  any = any || !stage.field_loads.empty() || !stage.exits.empty();
+  const bool water =
       std::ranges::any_of(b.model.water, [&](const WaterCard& card) { return card.stage + 1 == stage.number; });
-  if (any) return;
+  if (any || (water && stage.number > 1)) return;
+  if (water) {
+    b.note("S316", stage.where,
+           "stage 1 adds water alone: no weight, load or displacement; is gravity missing?");
+    return;
+  }
   b.note("S316", stage.where,
          "stage " + std::to_string(stage.number) +
              " adds nothing (no load, displacement, gravity, birth or death): a null step, which only "

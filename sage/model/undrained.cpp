@@ -68,10 +68,10 @@ LawPtr with_water(LawPtr law, bool undrained) {
 
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnknownStiffness = std::numeric_limits<double>::quiet_NaN();
 
 struct Stiffness {
-  double G = kNone, K = kNone;
+  double G = kUnknownStiffness, K = kUnknownStiffness;
 };
 
 Stiffness at_zero_stress(const SolidLaw& law) {
@@ -95,7 +95,7 @@ double shear_modulus(const SolidLaw& law) {
 double bulk_for(const SolidLaw& law, double nu_u) {
   const Stiffness grains = at_zero_stress(law);
   const double bulk = 2.0 * grains.G * (1.0 + nu_u) / (3.0 * (1.0 - 2.0 * nu_u)) - grains.K;
-  return std::isfinite(bulk) && bulk > 0.0 ? bulk : kNone;
+  return std::isfinite(bulk) && bulk > 0.0 ? bulk : kUnknownStiffness;
 }
 
 }  // namespace sage

@@ -215,7 +215,7 @@ TEST(Water, WallsTakeTheWater) {
       DeckWriter deck(1);
       block.write_nodes(deck);
       deck.material(1, 1, {1e4, 0.3}, weight);
-      deck.material(2, 21, {1e6, 1e4});
+      deck.material(2, 21, {1.0, 1e6, 1.0});
       deck.group(1, static_cast<int>(cell), 0, 1);
       deck.group(2, cell == Cell::quad4 ? 11 : 12, 0, 2);
       block.write_elements(deck, 1);
