@@ -180,6 +180,37 @@ TEST(Water, DrawdownSettles) {
       << "in proportion over the stage";
 }
 
+// What is dug out under water leaves an edge on which water stands.
+TEST(Water, ExcavationUnderWater) {
+  Block low = cells(4, 2, Cell::quad8), high = cells(2, 2, Cell::quad8);
+  low.place = rectangle(0.0, 8.0, 0.0, 4.0);
+  const auto dug = [&](double weight) {
+    DeckWriter deck = slope(low, 1, weight);
+    // Over the left half of the block; its lowest nodes are those of the block.
+    high.first_node = 1001;
+    high.first_element = 101;
+    high.place = rectangle(0.0, 4.0, 4.0, 8.0);
+    deck.group(2, 2, 0, 1);
+    high.write_nodes(deck);
+    high.write_elements(deck, 2);
+    deck.group(3, 12, 0, 2);
+    deck.material(2, 21, {1e7, 1e7, 1.0});
+    const std::vector<int> top = low.top();
+    join(deck, 501, 3, {top.begin(), top.begin() + 5}, high.bottom(), 2);
+    for (const int node : high.left()) deck.fix(node, 1, 0);
+    deck.stage(2).deaths = {2, 3};
+    return deck;
+  };
+  DeckWriter wet = dug(20.0);
+  wet.water(1, 0, 1, 0, {0.0, 9.0});
+  const WholeRun full = bench().run(wet.text()), buoyant = bench().run(dug(20.0 - kWater).text());
+  ASSERT_TRUE(full.completed() && buoyant.completed()) << full.failure << buoyant.failure;
+  ASSERT_EQ(full.increments.size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_LT((full.increments[k].u - buoyant.increments[k].u).cwiseAbs().maxCoeff(),
+              1e-10 * buoyant.largest_u());
+}
+
 // Two blocks with a joint between them, all under water: the joint carries the buoyant weight.
 TEST(Water, JointsUnderWater) {
   for (const Cell cell : {Cell::quad4, Cell::quad8}) {
