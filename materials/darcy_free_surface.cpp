@@ -1,12 +1,11 @@
 #include "materials/darcy_free_surface.hpp"
 
-#include <algorithm>
-
 namespace sage {
 
 namespace {
 
 constexpr double kShare = 1.0, kLeast = 1e-3;
+constexpr Quantity kHistory[] = {{"relative_permeability", Dimension::none, 1.0}};
 
 const std::vector<Parameter>& rows() {
   static const std::vector<Parameter> table = {
@@ -36,7 +35,6 @@ DarcyFreeSurface::DarcyFreeSurface(const Matrix2& k, double ramp, double share, 
     : k_(k), ramp_(ramp), share_(share), least_(least) {}
 
 std::span<const Quantity> DarcyFreeSurface::history() const {
-  static constexpr Quantity kHistory[] = {{"relative_permeability", Dimension::none, 1.0}};
   return kHistory;
 }
 
@@ -50,7 +48,9 @@ Outcome DarcyFreeSurface::update(const PointIn<3>& in, PointOut<3>& out) const {
   out.D.setZero();
   out.D.topLeftCorner<2, 2>() = k_r.value * k_;
   out.D.topRightCorner<2, 1>() = k_r.slope * saturated;
-  out.h1[0] = in.deps.isZero(0.0) && in.context->dt == 0.0 ? in.h0[0] : k_r.value;
+  const bool stands = in.deps.isZero(0.0) && in.context->dt == 0.0;
+  if (stands) out.sigma = in.sigma0;
+  out.h1[0] = stands ? in.h0[0] : k_r.value;
   out.status = PointStatus::elastic;
   return Outcome::ok;
 }
@@ -66,6 +66,7 @@ MaterialEntry darcy_free_surface_entry() {
                             p.between("least", 1e-6, 0.1));
                       }};
   entry.flow = true;
+  entry.history = kHistory;
   return entry;
 }
 
