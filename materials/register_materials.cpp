@@ -4,6 +4,7 @@
 #include "materials/axial.hpp"
 #include "materials/clough_duncan.hpp"
 #include "materials/darcy.hpp"
+#include "materials/darcy_free_surface.hpp"
 #include "materials/dilating_joint.hpp"
 #include "materials/drucker_prager.hpp"
 #include "materials/duncan_chang.hpp"
@@ -41,6 +42,7 @@ void register_materials(Catalogue& catalogue) {
   catalogue.materials.add(37, section_plastic_entry());
   // Water
   catalogue.materials.add(41, darcy_entry());
+  catalogue.materials.add(42, darcy_free_surface_entry());
 }
 
 }  // namespace sage

@@ -64,6 +64,7 @@ Assembly::Assembly(const Model& model, const Scene& scene, const Skips& skips, W
     data.group = &model.groups[g];
     data.law = model.material_of(model.groups[g]).law_ref();
     data.wants_context = wants_context(data.law);
+    eases_ = eases_ || (data.wants_context && data.group->flow());
     wants_moment_ = wants_moment_ || data.wants_context || data.group->element->traits().sees_unknowns;
     data.constant =
         scene.group_linear[g] != 0 && skips.elements && ConstantRegion::suits(*data.group, data.law);

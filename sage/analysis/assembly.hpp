@@ -27,6 +27,8 @@ class Assembly {
 
   // When what is evaluated from now on takes place; asked for only where a law wants it.
   bool wants_moment() const { return wants_moment_; }
+  // Water flows by a law that is eased (PointContext::easing).
+  bool eases() const { return eases_; }
   void set_moment(const Moment& moment) { element_.set_moment(moment); }
   const Moment& moment() const { return element_.moment(); }
   const Mesh& mesh() const { return model_->mesh; }
@@ -123,7 +125,7 @@ class Assembly {
   LateStates late_;
   std::unique_ptr<Condensation> condensation_;
   Equations equations_;
-  bool wants_moment_ = false;
+  bool wants_moment_ = false, eases_ = false;
   int elements_ = 0;  // of the system
   Eigen::VectorXd rate_, internal_;
   Eigen::VectorXd constant_force_;  // of a condensed region, at the start of a step

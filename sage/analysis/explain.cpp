@@ -373,6 +373,15 @@ std::string explain_failure(const Model& model, const Assembly& assembly, const 
   return text + "  try: " + (unique.lost > 0 ? finer_than_helps(model, assembly) : "") + advice(stage);
 }
 
+std::string lost_free_surface(const Stage& stage, double easing, double from) {
+  std::string text = "stage " + std::to_string(stage.number) +
+                     ": no free surface was found: no heads with a ramp of the permeability " +
+                     short_number(easing) + " times as high as is meant";
+  if (from > 0.0) text += ", from those of one " + short_number(from) + " times as high";
+  return text +
+         ".\n  try: a larger ramp or a larger part that dry soil keeps, smaller elements, more iterations";
+}
+
 std::string chattering_exits(const Model& model, const Stage& stage, const std::vector<int>& switched,
                              int rounds) {
   constexpr std::size_t kShown = 10;

@@ -21,6 +21,9 @@ std::string explain_loose_part(const Model& model, const Activity& activity, con
 std::string explain_failure(const Model& model, const Assembly& assembly, const StepReport& report,
                             const NewtonStep& step);
 
+// easing: how many times wider the fall of the permeability was taken in vain; from: where there were heads, 0 = never.
+std::string lost_free_surface(const Stage& stage, double easing, double from);
+
 // Exits of water that are switched to and fro.  switched: their nodes, last.
 std::string chattering_exits(const Model& model, const Stage& stage, const std::vector<int>& switched,
                              int rounds);

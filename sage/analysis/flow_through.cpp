@@ -1,6 +1,7 @@
 #include "sage/analysis/flow_through.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace sage {
@@ -14,22 +15,6 @@ Vector<3> at_point(const std::vector<double>& values, int points, int element, i
   return Vector<3>::Map(values.data() +
                         3 * (static_cast<std::size_t>(element) * static_cast<std::size_t>(points) +
                              static_cast<std::size_t>(point)));
-}
-
-// What an element takes in at its nodes: sum w B^T sigma.
-Eigen::VectorXd taken_in(const Model& model, const GroupData& data, int element) {
-  const ElementTraits& traits = data.group->element->traits();
-  Eigen::Matrix2Xd x;
-  element_coordinates(model.mesh, *data.group, element, x);
-  std::vector<double> geometry(static_cast<std::size_t>(traits.geometry_size()));
-  data.group->element->geometry(x, geometry);
-  Eigen::VectorXd f = Eigen::VectorXd::Zero(traits.dofs);
-  for (int p = 0; p < traits.points; ++p) {
-    const double* const block = geometry.data() + static_cast<std::ptrdiff_t>(p) * (1 + 3 * traits.dofs);
-    f += block[0] * Operator(block + 1, traits.dofs, 3) *
-         at_point(data.state.committed.sigma, traits.points, element, p);
-  }
-  return f;
 }
 
 // Of the nodes of one edge, whose element lies on the left of the line: the line goes along with the edge.
@@ -52,6 +37,34 @@ double largest_gradient(const Model& model, const GroupData& data, const FlowLin
   return largest;
 }
 
+// Of one edge with two or three nodes: pressure times the normal that points to the right of the line.
+Vector2 pressure_force(const Model& model, const GroupData& data, const FlowLine::Edge& on,
+                       const DofMap& dof_map, const Eigen::VectorXd& u) {
+  constexpr std::array<double, 3> kPlace{-0.7745966692414834, 0.0, 0.7745966692414834};
+  constexpr std::array<double, 3> kWeight{5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
+  const std::vector<int>& edge = data.group->element->edges()[static_cast<std::size_t>(on.edge)];
+  const int field = find_unknown(model.unknowns, "head");
+  const auto node = [&](int i) { return data.group->nodes_of(on.element)[edge[static_cast<std::size_t>(i)]]; };
+  Vector2 force = Vector2::Zero();
+  for (std::size_t q = 0; q < kPlace.size(); ++q) {
+    const double s = kPlace[q];
+    const bool curved = edge.size() > 2;
+    const Vector<3> N = curved ? Vector<3>(0.5 * s * (s - 1.0), 0.5 * s * (s + 1.0), 1.0 - s * s)
+                               : Vector<3>(0.5 * (1.0 - s), 0.5 * (1.0 + s), 0.0);
+    const Vector<3> slope = curved ? Vector<3>(s - 0.5, s + 0.5, -2.0 * s) : Vector<3>(-0.5, 0.5, 0.0);
+    Vector2 x = Vector2::Zero(), along = Vector2::Zero();
+    double head = 0.0;
+    for (int i = 0; i < (curved ? 3 : 2); ++i) {
+      x += N[i] * model.mesh.x.col(node(i));
+      along += slope[i] * model.mesh.x.col(node(i));
+      head += N[i] * u[dof_map.of(node(i), field)];
+    }
+    const double ring = model.geometry == Geometry::axisymmetric ? 2.0 * kPi * x.x() : 1.0;
+    force += kWeight[q] * ring * (head - x.y()) * Vector2(along.y(), -along.x());
+  }
+  return model.units.water_unit_weight * force;
+}
+
 double mean_head(const Model& model, const std::vector<int>& nodes, const DofMap& dof_map,
                  const Eigen::VectorXd& u) {
   const int field = find_unknown(model.unknowns, "head");
@@ -62,6 +75,21 @@ double mean_head(const Model& model, const std::vector<int>& nodes, const DofMap
 
 }  // namespace
 
+Eigen::VectorXd taken_in(const Model& model, const GroupData& data, int element) {
+  const ElementTraits& traits = data.group->element->traits();
+  Eigen::Matrix2Xd x;
+  element_coordinates(model.mesh, *data.group, element, x);
+  std::vector<double> geometry(static_cast<std::size_t>(traits.geometry_size()));
+  data.group->element->geometry(x, geometry);
+  Eigen::VectorXd f = Eigen::VectorXd::Zero(traits.dofs);
+  for (int p = 0; p < traits.points; ++p) {
+    const double* const block = geometry.data() + static_cast<std::ptrdiff_t>(p) * (1 + 3 * traits.dofs);
+    f += block[0] * Operator(block + 1, traits.dofs, 3) *
+         at_point(data.state.committed.sigma, traits.points, element, p);
+  }
+  return f;
+}
+
 FlowThrough flow_through(const Model& model, const FlowLine& line, const std::vector<int>& nodes,
                          std::span<const GroupData> groups, const DofMap& dof_map, const Eigen::VectorXd& u) {
   FlowThrough through;
@@ -70,6 +98,10 @@ FlowThrough flow_through(const Model& model, const FlowLine& line, const std::ve
   through.gradient = -std::numeric_limits<double>::infinity();
   for (const FlowLine::Edge& edge : line.edges)
     through.gradient = std::max(through.gradient, largest_gradient(model, groups[edge.group], edge));
+  for (const FlowLine::Edge& edge : line.edges)
+    through.force += pressure_force(model, groups[edge.group], edge, dof_map, u);
+  if (!(model.units.water_unit_weight > 0.0))
+    through.force.setConstant(std::numeric_limits<double>::quiet_NaN());
   through.head = mean_head(model, nodes, dof_map, u);
   return through;
 }

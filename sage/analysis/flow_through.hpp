@@ -16,7 +16,14 @@ struct FlowThrough {
   // Largest fall of the head across the line at its nodes, from the points of the elements on its left.
   double gradient = 0.0;
   double head = 0.0;  // mean of the line's nodes
+  // What the water presses with from the left of the line on what lies to its right: integral of gamma_w (h - y) n
+  // along the line, suction included.  Along +x and +y; NaN where the deck gives no gamma_w.
+  //                                                                  [force, full circle or unit thickness]
+  Vector2 force = Vector2::Zero();
 };
+
+// What an element takes in at its nodes: sum w B^T sigma.  [length^3/time]
+Eigen::VectorXd taken_in(const Model& model, const GroupData& data, int element);
 
 // nodes: of the line.  u: all unknowns.
 FlowThrough flow_through(const Model& model, const FlowLine& line, const std::vector<int>& nodes,

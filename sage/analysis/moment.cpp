@@ -10,18 +10,19 @@ namespace {
 double size_of(const Group& group, const Eigen::Matrix2Xd& x) {
   const int corners = group.entry != nullptr ? group.entry->corners : static_cast<int>(x.cols());
   double twice_area = 0.0;
-  for (int i = 0, j = corners - 1; group.solid() && i < corners; j = i++)
+  for (int i = 0, j = corners - 1; (group.solid() || group.flow()) && i < corners; j = i++)
     twice_area += x(0, j) * x(1, i) - x(0, i) * x(1, j);
   return twice_area > 0.0 ? std::sqrt(0.5 * twice_area) : (x.col(1) - x.col(0)).norm();
 }
 
 }  // namespace
 
-Moment moment_at(const Model& model, int stage, int increment, double load_factor, double share) {
+Moment moment_at(const Model& model, int stage, int increment, double load_factor, double share,
+                 double easing) {
   double before = 0.0;
   for (int s = 0; s < stage; ++s) before += model.stages[static_cast<std::size_t>(s)].duration;
   const double duration = model.stages[static_cast<std::size_t>(stage)].duration;
-  return {stage + 1, increment, before + load_factor * duration, share * duration, before};
+  return {stage + 1, increment, before + load_factor * duration, share * duration, before, easing};
 }
 
 PointContext context_of(const GroupData& data, int element, const Eigen::Matrix2Xd& x, int point,
@@ -34,7 +35,8 @@ PointContext context_of(const GroupData& data, int element, const Eigen::Matrix2
           .time = moment.time,
           .dt = moment.dt,
           .stage_start = moment.stage_start,
-          .size = size_of(*data.group, x)};
+          .size = size_of(*data.group, x),
+          .easing = moment.easing};
 }
 
 }  // namespace sage

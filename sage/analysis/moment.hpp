@@ -9,10 +9,12 @@ namespace sage {
 struct Moment {
   int stage = 1, increment = 0;
   double time = 0.0, dt = 0.0, stage_start = 0.0;
+  double easing = 1.0;
 };
 
 // At a load factor of a stage (0-based), at the end of a step of that share of the stage (0: a state that stands).
-Moment moment_at(const Model& model, int stage, int increment, double load_factor, double share);
+Moment moment_at(const Model& model, int stage, int increment, double load_factor, double share,
+                 double easing = 1.0);
 
 // x: coordinates of the element's nodes.
 PointContext context_of(const GroupData& data, int element, const Eigen::Matrix2Xd& x, int point,

@@ -48,6 +48,7 @@ class Step {
   void form_residual();
   void correct();
   bool predict(const Eigen::VectorXd& rate);
+  void take_prescribed(const Eigen::VectorXd& rate);
   bool search_line();
   IterationRecord measure(int field) const;
   IterationRecord measure() const;
@@ -140,17 +141,24 @@ bool Step::repeats() {
 
 // First correction: prescribed displacements enter through K(free, prescribed).
 bool Step::predict(const Eigen::VectorXd& rate) {
-  du_.setZero();
-  if (!tangent_.current() && evaluate(true) == Outcome::cut_step) return false;
+  if (settings_.from_here) {
+    take_prescribed(rate);
+    if (evaluate(true) == Outcome::cut_step) return false;
+  } else {
+    du_.setZero();
+    if (!tangent_.current() && evaluate(true) == Outcome::cut_step) return false;
+  }
   if (start_known_) {
     residual_ = start_residual_;
   } else {
     take_start_scales();  // a step may end without any stress
     form_residual();
   }
-  const Eigen::VectorXd& coupling = tangent_.coupling();
-  for (int eq = 0; eq < assembly_.equations(); ++eq)
-    residual_[eq] -= rate_part_ * coupling[assembly_.dof_of(eq)];
+  if (!settings_.from_here) {
+    const Eigen::VectorXd& coupling = tangent_.coupling();
+    for (int eq = 0; eq < assembly_.equations(); ++eq)
+      residual_[eq] -= rate_part_ * coupling[assembly_.dof_of(eq)];
+  }
   correct();
   double work = 0.0;
   for (int f = 0; f < fields_.count(); ++f)
@@ -163,10 +171,18 @@ bool Step::predict(const Eigen::VectorXd& rate) {
   for (int f = 0; f < fields_.count(); ++f)
     at(first_force_, f) =
         std::max({fields_.norm(residual_, f), at(start_scale_, f), at(load_scale_, f), own_forces(f)});
-  du_ = rate_part_ * rate;
+  if (!settings_.from_here) du_ = rate_part_ * rate;
   for (int f = 0; f < fields_.count(); ++f) at(prescribed_, f) = fields_.largest_of_dofs(du_, f);
   move(1.0);
   return true;
+}
+
+// Of du: all that has no equation.
+void Step::take_prescribed(const Eigen::VectorXd& rate) {
+  Eigen::VectorXd free = Eigen::VectorXd::Zero(du_.size());
+  for (int eq = 0; eq < assembly_.equations(); ++eq) free[assembly_.dof_of(eq)] = du_[assembly_.dof_of(eq)];
+  du_ = rate_part_ * rate;
+  for (int eq = 0; eq < assembly_.equations(); ++eq) du_[assembly_.dof_of(eq)] = free[assembly_.dof_of(eq)];
 }
 
 // What the first correction of a field makes in its own equations, where another field balances it.
@@ -287,6 +303,8 @@ bool Step::converged(int field, const IterationRecord& record) const {
 
 // Every field for itself.  record: of all of them.
 bool Step::converged(const IterationRecord& record) const {
+  constexpr double kFirst = 1e-6;  // of the unknowns: no refinement
+  if (settings_.refine && record.displacement > kFirst) return false;
   if (fields_.count() == 1) return converged(0, record);
   for (int f = 0; f < fields_.count(); ++f)
     if (!converged(f, measure(f)) && !even(f)) return false;

@@ -16,7 +16,9 @@ struct NewtonSettings {
   StageSoFar so_far{};                         // a condensed region moves on in its direction
   Pulse* pulse = nullptr;                      // hears of every iteration; null = nobody looks
   bool stop_at_flow = false;                   // a step that turns into flow is given up (NewtonStep::flows)
-  bool contract = false;  // factors are kept while they contract well; K may then be behind du at the end
+  bool from_here = false;  // du holds a place nearby, all but what supports prescribe: iterate from there
+  bool refine = false;     // a first correction does not do, even if all that is left is rounding
+  bool contract = false;   // factors are kept while they contract well; K may then be behind du at the end
 };
 
 enum class StepOutcome { converged, not_converged, law_cut, singular };

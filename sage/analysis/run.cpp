@@ -26,6 +26,9 @@ enum class StateSide { committed, trial };
 // Attempts of a trial, of so many iterations each at most.
 constexpr int kMostAttempts = 3;
 
+constexpr double kWaterBalance = 1e-11;
+constexpr int kManyHeads = 20000;
+
 // Stages, increments and the steps within them.
 class Run {
  public:
@@ -44,6 +47,9 @@ class Run {
     state_.du.setZero(dofs);
     state_.external.setZero(dofs);
     assembly_.set_committed(state_.u);
+    water_alone_ = !model.groups.empty() && std::ranges::all_of(model.groups, [](const Group& group) {
+      return group.entry != nullptr && group.flow();
+    });
   }
 
   RunResult execute();
@@ -62,8 +68,10 @@ class Run {
   void set_moment(double load_factor, double share);
   void show(const StepReport& report, double reached) const;
   bool run_increment(const Stage& stage, StepReport& report, double& reached);
-  NewtonStep attempt(const Stage& stage, double from, double to);
+  NewtonStep attempt(const Stage& stage, double from, double to, bool from_here = false);
   NewtonStep attempt_with_exits(const Stage& stage, double from, double to);
+  NewtonStep settle_exits(const Stage& stage, double from, double to, bool from_here);
+  NewtonStep settle_free_surface(const Stage& stage, double from, double to);
   void renew_tangent();
   bool contracts(const Stage& stage) const;
   bool can_repeat(const Stage& stage, double size) const;
@@ -110,6 +118,8 @@ class Run {
   bool on_last_way_ = false;         // the next attempt starts with the tangent of that step
   Eigen::VectorXd committed_force_;  // internal, at the committed state; of scenes that are not linear
   int max_cuts_;
+  bool water_alone_ = false;  // flow is all that there is
+  double easing_ = 1.0;       // of laws of water, on the way to a free surface
   // Of a trial: what it comes to, and where it began.
   TrialResult* trial_ = nullptr;
   Eigen::VectorXd trial_u_;
@@ -195,7 +205,7 @@ void Run::start_new_nodes() {
 // state that stands.
 void Run::set_moment(double load_factor, double share) {
   if (assembly_.wants_moment())
-    assembly_.set_moment(moment_at(model_, place_.stage, place_.increment, load_factor, share));
+    assembly_.set_moment(moment_at(model_, place_.stage, place_.increment, load_factor, share, easing_));
 }
 
 // The tangent of laws that depend on time is that of the first increment, where they have an answer for it; forces
@@ -257,11 +267,18 @@ bool Run::can_repeat(const Stage& stage, double size) const {
   return settings_.skips.repeats && newton && !tangent_.constant() && path_.repeats.due(size);
 }
 
-NewtonStep Run::attempt(const Stage& stage, double from, double to) {
+// from_here: state_.du is near the answer, but for what is prescribed.
+NewtonStep Run::attempt(const Stage& stage, double from, double to, bool from_here) {
   target_ = (1.0 - to) * path_.force_start + to * path_.force_end;
   set_moment(to, to - from);
   NewtonSettings newton{stage.method, stage.max_iterations, stage.tolerance, settings_.line_search};
   newton.repeat = can_repeat(stage, to - from);
+  newton.from_here = from_here;
+  // What is put in comes out to ten digits.  The rounding of many heads is all on one side and adds up.
+  if (water_alone_ && easing_ == 1.0) {
+    newton.tolerance = std::min(stage.tolerance, kWaterBalance);
+    newton.refine = assembly_.equations() >= kManyHeads;
+  }
   newton.contract = contracts(stage);
   newton.pulse = settings_.pulse;
   newton.stop_at_flow = settings_.trials != nullptr;
@@ -271,18 +288,65 @@ NewtonStep Run::attempt(const Stage& stage, double from, double to) {
   return newton_step(assembly_, tangent_, target_, system_.rate(), to - from, newton, result_.work, state_.du);
 }
 
-// Some rounds of this settle which places water leaves at; places that are switched to and fro end the run.
 NewtonStep Run::attempt_with_exits(const Stage& stage, double from, double to) {
-  constexpr int kMostRounds = 50;
-  if (!system_.has_exits()) return attempt(stage, from, to);
+  const bool eased = assembly_.eases();
+  if (!system_.has_exits() && !eased) return attempt(stage, from, to);
   path_.repeats.forget();
-  system_.start_exits(state_.u, to - from);
+  if (system_.has_exits()) system_.start_exits(state_.u, to - from);
+  return eased ? settle_free_surface(stage, from, to) : settle_exits(stage, from, to, false);
+}
+
+// Some rounds of this settle which places water leaves at; places that are switched to and fro end the run.
+NewtonStep Run::settle_exits(const Stage& stage, double from, double to, bool from_here) {
+  constexpr int kMostRounds = 50;
+  std::vector<IterationRecord> iterations;  // of a free surface, all
   for (int round = 0; round < kMostRounds; ++round) {
-    const NewtonStep step = attempt(stage, from, to);
+    NewtonStep step = attempt(stage, from, to, from_here);
+    if (assembly_.eases()) {
+      iterations.insert(iterations.end(), step.iterations.begin(), step.iterations.end());
+      step.iterations = iterations;
+      from_here = true;
+    }
     if (step.outcome != StepOutcome::converged) return step;
-    if (!system_.switch_exits(state_.u, state_.du, target_, to - from)) return step;
+    if (!system_.has_exits() || !system_.switch_exits(state_.u, state_.du, target_, to - from)) return step;
   }
   throw AnalysisError("S529", chattering_exits(model_, stage, system_.exits().switched(), kMostRounds));
+}
+
+// Where a free surface lies is found from far to near: first the soil falls dry over a height many times the one that
+// is meant, then each answer starts the next, sharper one.  One that is not found is reached in smaller steps.
+NewtonStep Run::settle_free_surface(const Stage& stage, double from, double to) {
+  constexpr double kWidest = 64.0, kSharper = 4.0, kLeast = 1.02;
+  struct Restore {
+    double& easing;
+    ~Restore() { easing = 1.0; }
+  } const restore{easing_};
+  std::vector<IterationRecord> iterations;
+  Eigen::VectorXd found;
+  double wide = 0.0;  // of the answer in `found`
+  double ratio = kSharper;
+  for (easing_ = kWidest;;) {
+    NewtonStep step = settle_exits(stage, from, to, found.size() > 0);
+    iterations.insert(iterations.end(), step.iterations.begin(), step.iterations.end());
+    if (step.outcome == StepOutcome::converged) {
+      if (easing_ <= 1.0) {
+        step.iterations = iterations;
+        return step;
+      }
+      if (found.size() > 0 && wide / easing_ >= 0.99 * ratio) ratio = std::min(kSharper, ratio * ratio);
+      wide = easing_;
+      found = state_.du;
+    } else {
+      ratio = std::sqrt(ratio);
+      if (found.size() == 0 || ratio < kLeast) {
+        if (water_alone_) throw AnalysisError("S539", lost_free_surface(stage, easing_, wide));
+        step.iterations = iterations;
+        return step;
+      }
+      state_.du = found;
+    }
+    easing_ = wide / ratio < 1.001 ? 1.0 : wide / ratio;
+  }
 }
 
 // Modified Newton: the tangent at the end of a step serves the next one.  It must be taken with the step still
@@ -552,6 +616,7 @@ void Run::end_stage(int s, double last_force) {
         model_.stages[static_cast<std::size_t>(s)],
         {result_.motion, sums.out_of_balance, system_.digits(), path_.path_error, path_.loose_part, last_force},
         assembly_));
+    warn(free_surface_warnings(model_, model_.stages[static_cast<std::size_t>(s)], assembly_));
   }
   audience_.tell([&](Observer& o) { o.on_stage_end(model_, s, sums, solution()); });
 }

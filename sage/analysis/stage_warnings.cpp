@@ -1,6 +1,7 @@
 #include "sage/analysis/stage_warnings.hpp"
 
 #include "sage/analysis/explain.hpp"
+#include "sage/analysis/free_surface.hpp"
 #include "sage/analysis/uniqueness.hpp"
 
 namespace sage {
@@ -54,6 +55,21 @@ Diagnostic stage_message(const Stage& stage, Code code, const std::string& messa
 std::vector<Diagnostic> motion_warnings(const Stage& stage, double motion) {
   Messages messages(stage);
   add_motion(messages, motion);
+  return std::move(messages).list();
+}
+
+std::vector<Diagnostic> free_surface_warnings(const Model& model, const Stage& stage,
+                                              const Assembly& assembly) {
+  constexpr double kMuchBetween = 0.25, kMuchDry = 0.02;
+  Messages messages(stage);
+  if (!assembly.eases()) return {};
+  const FreeSurfaceBlur blur = free_surface_blur(model, assembly.groups());
+  if (blur.half_dry > kMuchBetween)
+    messages.add("S537", "the soil falls dry over " + short_number(100.0 * blur.half_dry) +
+                             " % of what is wet: heads and discharge near the free surface are blurred");
+  if (blur.dry_flow > kMuchDry)
+    messages.add("S538",
+                 short_number(100.0 * blur.dry_flow) + " % of the flow goes through soil that should be dry");
   return std::move(messages).list();
 }
 

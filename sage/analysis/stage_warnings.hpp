@@ -25,6 +25,10 @@ struct StageFindings {
   std::string loose_part;   // the first of the stage; empty = none
   double last_force = 0.0;  // out of balance at the end of the last increment, relative
 };
+
+// Answers about a free surface that depend on how it is smoothed.
+std::vector<Diagnostic> free_surface_warnings(const Model& model, const Stage& stage, const Assembly& assembly);
+
 std::vector<Diagnostic> stage_warnings(const Stage& stage, const StageFindings& findings,
                                        const Assembly& assembly);
 

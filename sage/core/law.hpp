@@ -69,6 +69,9 @@ struct PointContext {
   double dt = 0.0;
   double stage_start = 0.0;  // time at the beginning of the stage
   double size = 0.0;         // of the element: root of its area; of an interface or a structure its length
+  // Water alone: how many times wider than it is meant a sharp change is to be taken, on the way to an answer; 1 at
+  // every answer.
+  double easing = 1.0;
 };
 
 // All that a law may see.  Tension positive, radians.  N = 4: [xx yy zz xy], engineering shear.

@@ -735,6 +735,27 @@ constexpr MessageEntry kMessages[] = {
      "At the nodes that the message names one leads to the other again and again, so that no answer was found.",
      "Smaller elements near the end of the wet face, or fewer exits, where it is known that they stay dry."},
 
+    {"S537", "a free surface is blurred",
+     "Soil of law darcy_free_surface falls dry within a ramp of the pressure head, as high as an element where "
+     "the "
+     "deck does not say. That is much of what is wet here: the surface is where the ramp is, and the discharge "
+     "is in "
+     "error by about its height.",
+     "Smaller elements (--refine 1), or a smaller ramp in the material. Compare the discharge of both."},
+    {"S538", "dry soil carries water",
+     "Above the free surface the soil keeps a part of its permeability, so that heads are determined there. "
+     "Here what "
+     "flows there is no small part of the whole: thin wet soil under much dry soil, or a part that is too "
+     "large.",
+     "A smaller 'least' in the material (1e-4), or leave the soil out that stays dry."},
+    {"S539", "no free surface was found",
+     "The free surface is looked for with soil that falls dry over a great height at first, then over less and "
+     "less "
+     "down to what is meant. At some height no heads were found from those before.",
+     "A larger ramp or a larger 'least' in the material, smaller elements, more iterations in the stage. Look "
+     "whether "
+     "the soil may let water out where it must (exits, code 2)."},
+
     // S6: results, checkpoints and result files.
     {"S601", "a result can't be written",
      "The disk is full, the folder may not be written to, or there is a folder or a device of that name. "

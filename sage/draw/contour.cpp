@@ -1,7 +1,9 @@
 #include "sage/draw/contour.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "sage/draw/plot.hpp"
 #include "sage/draw/svg.hpp"
@@ -70,6 +72,53 @@ void append_above(std::string& path, const Patch& patch, const GridCell& cell, d
 }
 
 }  // namespace
+
+namespace {
+
+// Where a triangle has the value: from edge to edge, nothing where it touches a corner alone.
+void append_crossing(std::string& path, const std::array<const Corner*, 3>& triangle, double limit) {
+  char pen = 'M';
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Corner &a = *triangle[i], &b = *triangle[(i + 1) % 3];
+    if ((a.value >= limit) == (b.value >= limit)) continue;
+    const Vector2 at = a.at + (limit - a.value) / (b.value - a.value) * (b.at - a.at);
+    path += pen;
+    svg::number(path, at.x());
+    path += ' ';
+    svg::number(path, at.y());
+    pen = 'L';
+  }
+}
+
+void append_crossings(std::string& path, const Patch& patch, const GridCell& cell, double limit) {
+  const auto corner = [&](std::size_t i) {
+    return &patch.places[static_cast<std::size_t>(cell.corners[i % cell.corners.size()])];
+  };
+  if (cell.centre < 0) return append_crossing(path, {corner(0), corner(1), corner(2)}, limit);
+  const Corner* const centre = &patch.places[static_cast<std::size_t>(cell.centre)];
+  for (std::size_t i = 0; i < cell.corners.size(); ++i)
+    append_crossing(path, {corner(i), corner(i + 1), centre}, limit);
+}
+
+}  // namespace
+
+std::vector<std::string> line_paths(const std::vector<Patch>& patches, const std::vector<double>& limits) {
+  std::vector<std::string> paths(limits.size());
+  for (const Patch& patch : patches) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    bool known = true;
+    for (const Corner& c : patch.places) {
+      known = known && !std::isnan(c.value);
+      low = std::min(low, c.value);
+      high = std::max(high, c.value);
+    }
+    if (!known) continue;
+    for (std::size_t k = 0; k < limits.size(); ++k)
+      if (low < limits[k] && limits[k] <= high)
+        for (const GridCell& cell : patch.grid->cells) append_crossings(paths[k], patch, cell, limits[k]);
+  }
+  return paths;
+}
 
 std::vector<std::string> band_paths(const std::vector<Patch>& patches, const std::vector<double>& limits) {
   std::vector<std::string> paths(std::max<std::size_t>(limits.size(), 2) - 1);

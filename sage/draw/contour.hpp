@@ -47,6 +47,9 @@ std::vector<Corner> above(const std::vector<Corner>& polygon, double limit);
 // the next is painted over it, so that no gaps can show.
 std::vector<std::string> band_paths(const std::vector<Patch>& patches, const std::vector<double>& limits);
 
+// SVG path data of the lines where the values are a limit, for each limit.
+std::vector<std::string> line_paths(const std::vector<Patch>& patches, const std::vector<double>& limits);
+
 void append_path(std::string& path, const std::vector<Corner>& polygon);
 
 }  // namespace sage

@@ -10,6 +10,7 @@
 
 #include "sage/draw/colour_map.hpp"
 #include "sage/draw/contour.hpp"
+#include "sage/draw/flow_net.hpp"
 #include "sage/draw/marks.hpp"
 #include "sage/draw/plot.hpp"
 #include "sage/draw/scenery.hpp"
@@ -306,11 +307,13 @@ struct Draft {
   Scenery scenery;
   std::vector<Patch> patches;
   std::vector<Weighted> values = {};
+  bool net = false;  // of flow, over its head
 };
 
 Draft make_draft(const Model& model, const Solution& solution, std::string_view field,
                  const PictureOptions& options) {
   Draft draft{options, make_scenery(model, solution, field, options), {}};
+  draft.net = field == kFlowNet;
   draft.patches = patches(draft.scenery);
   append_values(draft.values, draft.patches);
   return draft;
@@ -402,13 +405,14 @@ std::string draw_mesh_and_field(Draft& draft, const std::vector<double>& limits,
   Scenery& scenery = draft.scenery;
   const PictureOptions& options = draft.options;
   draw_bands(out, draft.patches, limits);
-  if (options.mesh && draft.patches.size() <= kMostElements) draw_mesh(out, draft.patches);
+  if (options.mesh && !draft.net && draft.patches.size() <= kMostElements) draw_mesh(out, draft.patches);
   if (scenery.view.deformation > 0.0) draw_outline(out, scenery);
   draw_interfaces(out, scenery);
   draw_structures(out, scenery);
   if (options.yielded) notes.push_back(draw_yielded(out, scenery));
   if (options.crosses) notes.push_back(draw_crosses(out, scenery));
   if (options.arrows) notes.push_back(draw_arrows(out, scenery));
+  if (draft.net) notes.push_back(draw_flow_net(out, scenery, options.levels));
   return out;
 }
 

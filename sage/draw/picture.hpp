@@ -11,7 +11,7 @@
 namespace sage {
 
 // A field is named as FieldTable::choose takes it, of fields_of(model): "stress_yy", "displacement",
-// "plastic_shear_strain".  An unknown one, or one that lives neither at nodes nor at points: std::invalid_argument.
+// "plastic_shear_strain"; "flow_net" is the head with stream lines.  An unknown one, or one that lives neither at nodes nor at points: std::invalid_argument.
 FieldChoice picture_field(const FieldTable& table, std::string_view name);
 
 struct PictureOptions {

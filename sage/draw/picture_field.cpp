@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "sage/draw/flow_net.hpp"
+
 namespace sage {
 
 namespace {
@@ -28,7 +30,7 @@ double largest_of(const FieldEntry& field, const Eigen::MatrixXd& at) {
 }  // namespace
 
 FieldChoice picture_field(const FieldTable& table, std::string_view name) {
-  const std::optional<FieldChoice> choice = table.choose(name);
+  const std::optional<FieldChoice> choice = table.choose(name == kFlowNet ? "head" : name);
   const FieldPlace place = choice ? choice->entry->place() : FieldPlace::increment;
   if (place == FieldPlace::node || place == FieldPlace::point) return *choice;
   throw std::invalid_argument("unknown field " + std::string(name) + "; known: conf, dev, SL, " +

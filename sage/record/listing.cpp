@@ -107,6 +107,7 @@ void Listing::on_stage_end(const Model& model, int stage, const EquilibriumAudit
     fmt::format_to(std::back_inserter(text), "\n   STATE: end of stage {}\n", stage + 1);
     states(text, model, solution, options_.fields);
   }
+  listing::free_surface(text, model, solution);
   if (const std::string table = extremes_table(model, extremes(model, stage, solution), false); !table.empty())
     text += "\n   Extremes of structures (compression positive)\n" + table;
   file_.checkpoint();

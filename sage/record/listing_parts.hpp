@@ -39,6 +39,8 @@ void points(std::string& text, const Model& model, const Solution& solution,
 void increment_columns(std::string& text);
 void increment(std::string& text, const StepReport& report);
 void audit(std::string& text, const Model& model, const EquilibriumAudit& audit);
+// Places of the free surface of water; nothing where there is none.
+void free_surface(std::string& text, const Model& model, const Solution& solution);
 void report_rows(std::string& text, const Model& model, const Reports& reports);
 void work(std::string& text, const RunResult& result);
 

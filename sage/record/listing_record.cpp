@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sage/analysis/free_surface.hpp"
 #include "sage/record/listing_parts.hpp"
 #include "sage/record/number.hpp"
 
@@ -62,13 +63,13 @@ void node_rows(std::string& text, const Model& model, const std::vector<NodesRow
 void discharge_rows(std::string& text, const Model& model, const std::vector<DischargeRow>& rows) {
   fmt::format_to(
       to(text),
-      "   {:>5}{:>6}{:>14}{:>14}{:>14}    (discharge {}, from the left of the line to its right; largest "
-      "gradient across it; mean head {})\n",
-      "stage", "incr", "discharge", "gradient", "head", unit_text(Dimension::discharge, model.units),
-      model.units.length);
+      "   {:>5}{:>6}{:>14}{:>14}{:>14}{:>14}{:>14}    (discharge {}, from the left of the line to its right; "
+      "largest gradient across it; mean head {}; what the water presses with to its right {})\n",
+      "stage", "incr", "discharge", "gradient", "head", "fx", "fy",
+      unit_text(Dimension::discharge, model.units), model.units.length, model.units.force);
   for (const DischargeRow& r : rows) {
     fmt::format_to(to(text), "   {:>5}{:>6}", r.stage, r.increment);
-    for (double v : {r.discharge, r.gradient, r.head}) put(text, v, 14, 6);
+    for (double v : {r.discharge, r.gradient, r.head, r.force[0], r.force[1]}) put(text, v, 14, 6);
     text += '\n';
   }
 }
@@ -90,6 +91,20 @@ void point_rows(std::string& text, const Model& model, const std::vector<PointRo
 }
 
 }  // namespace
+
+void free_surface(std::string& text, const Model& model, const Solution& solution) {
+  constexpr std::size_t kAcross = 4;
+  if (std::ranges::none_of(solution.groups(), has_free_surface)) return;
+  const std::vector<Vector2> places = sage::free_surface(model, solution.activity->group, solution.groups(),
+                                                         solution.activity->dof_map, *solution.u);
+  const AxisNames names = axis_names(model.geometry);
+  fmt::format_to(to(text), "\n   Free surface, where pressure 0 crosses edges of elements: {}, {} [{}]\n",
+                 names.x, names.y, model.units.length);
+  if (places.empty()) text += "   none: all soil is wet, or all is dry\n";
+  for (std::size_t i = 0; i < places.size(); ++i)
+    fmt::format_to(to(text), "{}{:11.5g}{:11.5g}{}", i % kAcross == 0 ? " " : "   ", places[i].x(),
+                   places[i].y(), i % kAcross == kAcross - 1 || i + 1 == places.size() ? "\n" : "");
+}
 
 void increment_columns(std::string& text) {
   text +=

@@ -86,7 +86,8 @@ std::string remarks(const Model& model, std::size_t index) {
   if (report.kind == ReportKind::discharge)
     return fmt::format(
         "# discharge through a line of nodes, from its left to its right; volumes per time {}\n"
-        "# gradient: largest fall of the head across the line at its nodes; head: mean of its nodes\n",
+        "# gradient: largest fall of the head across the line at its nodes; head: mean of its nodes\n"
+        "# fx, fy: what the water presses with from the left of the line on what lies to its right\n",
         per);
   return fmt::format(
       "# {}; displacement along +x, +y and strain since the start of stage {}; stress and strain compression "
@@ -126,7 +127,9 @@ std::vector<ReportColumn> report_columns(const Model& model, const Report& repor
   if (report.kind == ReportKind::discharge)
     return {{"discharge", unit_text(Dimension::discharge, u), true},
             {"gradient", "-", true},
-            {"head", u.length, true}};
+            {"head", u.length, true},
+            {"fx", u.force, true},
+            {"fy", u.force, true}};
   const FieldTable table = fields_of(model);
   std::vector<ReportColumn> columns;
   for (const FieldEntry* field : point_report_fields(table, report))
@@ -335,13 +338,14 @@ void Reports::add_point(Series& series, const Model& model, const StepReport& st
 
 void Reports::add_discharge(Series& series, const Model& model, const Report& report, const StepReport& step,
                             const Solution& solution) {
-  DischargeRow r{step.stage + 1, step.increment, kUnknown, kUnknown, kUnknown};
+  DischargeRow r{step.stage + 1, step.increment, kUnknown, kUnknown, kUnknown, {kUnknown, kUnknown}};
   if (series.line.fault.empty()) {
     const FlowThrough through = flow_through(model, series.line, report.nodes, solution.groups(),
                                              solution.activity->dof_map, *solution.u);
     r.discharge = through.discharge;
     r.gradient = through.gradient;
     r.head = through.head;
+    for (int i = 0; i < 2; ++i) r.force[i] = through.force[i];
   }
   series.discharges.push_back(r);
 }
@@ -373,7 +377,7 @@ std::vector<double> Reports::values(std::size_t index, std::size_t row) const {
   }
   if (row < series.discharges.size()) {
     const DischargeRow& r = series.discharges[row];
-    return {r.discharge, r.gradient, r.head};
+    return {r.discharge, r.gradient, r.head, r.force[0], r.force[1]};
   }
   const PointRow& r = series.points.at(row);
   std::vector<double> values(r.displacement, r.displacement + 2);

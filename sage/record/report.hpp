@@ -58,6 +58,7 @@ struct PointRow {
 struct DischargeRow {
   int stage = 0, increment = 0;
   double discharge = 0.0, gradient = 0.0, head = 0.0;
+  double force[2] = {0, 0};
 };
 
 // The usual fields of a point report, whose values are those numbers; then come those of Report::fields.

@@ -87,6 +87,7 @@ std::vector<Row> support_rows();
 std::vector<Row> invariance_rows();
 std::vector<Row> stage_rows();
 std::vector<Row> input_rows();
+std::vector<Row> water_rows();
 
 struct RowResult {
   std::vector<Trial> trials;

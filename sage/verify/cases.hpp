@@ -20,5 +20,6 @@ Section slope_cases();
 Section ground_cases();
 Section law_cases();
 Section structure_cases();
+Section seepage_cases();
 
 }  // namespace sage::verify

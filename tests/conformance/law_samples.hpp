@@ -58,6 +58,7 @@ inline std::vector<conformance::LawSample> samples() {
       {"hoek_brown_straight", 9, {2e4, 0.3, 100, 2, 0.2, 1, 0.2}, 0.01, true},
       {"darcy", 41, {1e-3}, 0.01, false},
       {"darcy_turned", 41, {1e-3, 1e-5, 30}, 0.01, false},
+      {"darcy_free_surface", 42, {1e-3, 1e-5, 30, 1.0}, 0.01, false},
       {"goodman", 21, {2e4, 1e6}, 1e-3, false},
       {"goodman_bonded", 21, {2e4, 1e6, 1}, 1e-3, false},
       {"joint_dilating", 23, {2e4, 1e6, 5, 30, 10}, 1e-3, true},

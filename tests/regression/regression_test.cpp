@@ -126,7 +126,10 @@ double quantity_of(const RunOutcome& outcome, const fs::path& deck, const Expect
         return r.force[part[1] == "fx" ? 0 : 1];
     for (const DischargeRow& r : outcome.reports->discharges(0))
       if (r.stage == row.stage && r.increment == row.increment)
-        return part[1] == "discharge" ? r.discharge : part[1] == "gradient" ? r.gradient : r.head;
+        return part[1] == "discharge"  ? r.discharge
+               : part[1] == "gradient" ? r.gradient
+               : part[1] == "head"     ? r.head
+                                       : r.force[part[1] == "fx" ? 0 : 1];
     return std::nan("");
   }
   const std::string stage = std::to_string(row.stage), increment = std::to_string(row.increment);
