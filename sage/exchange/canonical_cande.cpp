@@ -1,5 +1,5 @@
-// CANDE Level 3 decks: soil elements by load step, under the load factors of the steps.  Beams, interfaces and
-// links have no element here.
+// CANDE Level 3 decks: soil elements and the beams of pipes by load step, under the load factors of the steps.
+// Interfaces and links are left out.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -33,6 +33,10 @@ void add_listed_nodes(const Deck& deck, CardWriter& out) {
 
 bool is_soil(const CardView& element) {
   return element.integer("n3") != 0 && element.integer("class") == 0;
+}
+
+bool is_beam(const CardView& element) {
+  return element.integer("n3") == 0 && element.integer("class") == 0;
 }
 
 int birth_of(const CardView& element) {
@@ -88,6 +92,42 @@ std::vector<NewField> parameters(const Deck& deck, const CardView& material, std
   return values;
 }
 
+// The wall of a pipe for each unit of its length, from the B cards of its group; elastic.
+struct Wall {
+  double axial = 0.0, bending = 0.0;  // E A / (1 - nu^2) and E I / (1 - nu^2)
+  double weight = 0.0;                // for each unit of the wall's surface
+  std::string name;
+  SourcePosition where;
+  int material = 0;  // number of its own
+};
+
+double above_zero(const Deck& deck, const CardView& card, const char* field) {
+  const double value = card.real(field);
+  if (!(value > 0.0) || !std::isfinite(value))
+    fail(deck, card.where(field), "the pipe's " + card.label(field) + " must be above zero");
+  return value;
+}
+
+// `density`: its field on the card of the moduli, if it has one.
+Wall wall_of(const Deck& deck, double modulus, const CardView& moduli, double area, double inertia,
+             const CardView& pipe, const char* density = nullptr) {
+  const double nu = moduli.real("poissons_ratio");
+  if (!(nu >= 0.0 && nu < 0.5))
+    fail(deck, moduli.where("poissons_ratio"), "the pipe's Poisson's ratio must lie from 0 to below 0.5");
+  const double plane = modulus / (1.0 - nu * nu), weight = density == nullptr ? 0.0 : moduli.real(density);
+  if (!(weight >= 0.0) || !std::isfinite(weight))
+    fail(deck, moduli.where(density), "the pipe's density can't be negative");
+  return {plane * area, plane * inertia, weight * area, "pipe " + pipe.text("type"), moduli.where(), 0};
+}
+
+// What the pipe's material does in CANDE and the elastic wall here doesn't.
+void say_elastic(const CardView& card, CardWriter& out) {
+  const bool large = card.integer("deformation") != 0;
+  out.warning("S703", card.where(),
+              std::string("the pipe is computed elastic: no yield, no local buckling, no limit by its seams") +
+                  (large ? "; deformations are small, other than its code of large deformation asks" : ""));
+}
+
 // Net load factors of the load steps (cards E-1); 1 where there is none.
 class LoadFactors {
  public:
@@ -124,13 +164,140 @@ class LoadFactors {
   std::vector<double> of_step_;  // 0: no card
 };
 
+// The pipe groups (cards A-2) and the elements that each has: a beam's material is the number of its group.
+class Pipes {
+ public:
+  Pipes(const Deck& deck, const LoadFactors& factors, int highest_material, CardWriter& out) {
+    std::map<int, int> beams;
+    for (const CardView& element : deck.all("element"))
+      if (is_beam(element)) ++beams[element.integer("material")];
+    int number = 0;
+    for (const CardView& card : deck.all("pipe")) {
+      const auto has = beams.find(++number);
+      if (has == beams.end()) continue;
+      if (const int said = card.integer("elements"); said != 0 && said != has->second)
+        fail(deck, card.where("elements"),
+             "pipe group " + std::to_string(number) + " has " + std::to_string(said) +
+                 " beam elements by this card, " + std::to_string(has->second) + " by cards C-4");
+      add(deck, card, number, out);
+    }
+    for (const CardView& element : deck.all("element"))
+      if (is_beam(element)) place(deck, element, factors.at(birth_of(element)));
+    for (Wall& wall : walls_) wall.material = ++highest_material;
+  }
+  const std::vector<Wall>& walls() const { return walls_; }
+  // The place in walls() of a beam's wall; -1 where it has none.
+  int wall(const CardView& beam) const {
+    const auto found = of_beam_.find(beam.integer("number"));
+    return found == of_beam_.end() ? -1 : found->second;
+  }
+
+ private:
+  struct Range {
+    int first, last, wall;  // elements of the group, counted from 1
+  };
+
+  void add(const Deck& deck, const CardView& pipe, int number, CardWriter& out) {
+    const std::string type = pipe.text("type");
+    std::vector<Range>& ranges = ranges_[number];
+    const auto whole = [&](const Wall& wall) {
+      walls_.push_back(wall);
+      ranges.push_back({1, kMostSteps, static_cast<int>(walls_.size()) - 1});
+    };
+    const auto metal = [&](const char* first, const char* second) {
+      const auto moduli = deck.all(first, pipe), section = deck.all(second, pipe);
+      if (moduli.empty() || section.empty())
+        return refuse(pipe, "cards B-1 and B-2 of an analysis are wanted", out);
+      const CardView& b1 = moduli.front();
+      if (type == "STEEL" && b1.integer("joint_slip") != 0)
+        return refuse(pipe, "joints that slip are not built", out);
+      const CardView& b2 = section.front();
+      whole(wall_of(deck, above_zero(deck, b1, "youngs_modulus"), b1, above_zero(deck, b2, "area"),
+                    above_zero(deck, b2, "inertia"), pipe, "density"));
+      say_elastic(b1, out);
+    };
+    if (type == "STEEL") return metal("pipe_steel", "pipe_section");
+    if (type == "ALUMINUM") return metal("pipe_alum", "pipe_alum_section");
+    if (type == "PLASTIC") {
+      const auto kind = deck.all("pipe_plastic", pipe), moduli = deck.all("pipe_plastic_moduli", pipe),
+                 section = deck.all("pipe_plastic_section", pipe);
+      if (kind.empty() || moduli.empty() || section.empty() || kind.front().text("wall") == "PROFILE")
+        return refuse(pipe, "cards B-1 to B-3 of a smooth or general wall are wanted", out);
+      const CardView &b1 = kind.front(), &b2 = moduli.front(), &b3 = section.front();
+      const char* modulus = b1.integer("duration") == 2 ? "long_modulus" : "short_modulus";
+      const bool smooth = b3.real("area") == 0.0;  // a wall without ribs: its height says all
+      const double h = smooth ? above_zero(deck, b3, "height") : 0.0;
+      whole(wall_of(deck, above_zero(deck, b2, modulus), b2, smooth ? h : above_zero(deck, b3, "area"),
+                    smooth ? h * h * h / 12.0 : above_zero(deck, b3, "inertia"), pipe, "density"));
+      return say_elastic(b1, out);
+    }
+    if (type != "BASIC")
+      return refuse(pipe, "only STEEL, ALUMINUM, PLASTIC and BASIC pipes are known here", out);
+    for (const CardView& card : deck.all("pipe_basic", pipe)) {
+      if (card.real("load") != 0.0)
+        fail(deck, card.where("load"), "the load along a basic pipe is not built: leave it blank");
+      whole(wall_of(deck, above_zero(deck, card, "youngs_modulus"), card, above_zero(deck, card, "area"),
+                    above_zero(deck, card, "inertia"), pipe));
+      const int first = std::max(1, card.integer("first"));
+      ranges.back() = {first, card.integer("last") == 0 ? kMostSteps : card.integer("last"),
+                       ranges.back().wall};
+    }
+    if (ranges.empty()) refuse(pipe, "cards B-1.Basic are wanted", out);
+  }
+  void refuse(const CardView& pipe, const std::string& why, CardWriter& out) {
+    const std::string what = "pipe " + pipe.text("type");
+    out.left_out(pipe.where("type"), what, what + " is not taken: " + why);
+  }
+  void place(const Deck& deck, const CardView& element, double factor) {
+    const auto ranges = ranges_.find(element.integer("material"));
+    if (ranges == ranges_.end() || ranges->second.empty()) return;
+    const int count = ++counted_[ranges->first];
+    for (const Range& range : ranges->second)
+      if (count >= range.first && count <= range.last) {
+        of_beam_[element.integer("number")] = factored(range.wall, factor);
+        return;
+      }
+    fail(deck, element.where(),
+         "no card B-1.Basic covers beam " + std::to_string(count) + " of pipe group " +
+             std::to_string(ranges->first));
+  }
+  // The same wall with its weight times the load factor of its step.
+  int factored(int wall, double factor) {
+    if (factor == 1.0 || walls_[static_cast<std::size_t>(wall)].weight == 0.0) return wall;
+    const auto [place, is_new] = factored_.try_emplace({wall, factor}, static_cast<int>(walls_.size()));
+    if (is_new) {
+      Wall other = walls_[static_cast<std::size_t>(wall)];
+      other.weight *= factor;
+      other.name += " x " + number_text(factor);
+      walls_.push_back(other);
+    }
+    return place->second;
+  }
+
+  std::vector<Wall> walls_;
+  std::map<int, std::vector<Range>> ranges_;  // by pipe group
+  std::map<int, int> counted_, of_beam_;
+  std::map<std::pair<int, double>, int> factored_;
+};
+
+void add_walls(const Pipes& pipes, const Catalogue& catalogue, CardWriter& out) {
+  for (const Wall& wall : pipes.walls()) {
+    const int card = out.add("material", wall.where,
+                             {{"number", static_cast<double>(wall.material)},
+                              {"law", static_cast<double>(law_code(catalogue, "section_elastic"))},
+                              {"unit_weight", wall.weight},
+                              {"name", 0.0, wall.where, wall.name}});
+    out.add("parameters", wall.where, {{"values", wall.axial}, {"values", wall.bending}}, card);
+  }
+}
+
 // A soil of the deck under one load factor: the weight that an element brings is that of its load step, so one
 // material of the deck becomes several that differ in unit weight alone.
 struct Soils {
   std::map<std::pair<int, double>, int> number;  // of material and factor
+  int highest = 0;                               // of all numbers
 
   Soils(const Deck& deck, const LoadFactors& factors) {
-    int highest = 0;
     std::set<int> defined;
     for (const CardView& material : deck.all("material")) {
       defined.insert(material.integer("number"));
@@ -207,15 +374,16 @@ void add_materials(const Deck& deck, const Catalogue& catalogue, const Soils& so
 }
 
 struct GroupKey {
-  int birth, death, material;
-  bool triangle;
+  int birth, death, material;  // of a beam: its wall
+  bool triangle, beam;
   auto operator<=>(const GroupKey&) const = default;
 };
 using Groups = std::map<GroupKey, double>;  // ordered by load step
 
-GroupKey key_of(const CardView& element) {
+GroupKey key_of(const CardView& element, const Pipes& pipes) {
+  if (is_beam(element)) return {birth_of(element), element.integer("death"), pipes.wall(element), false, true};
   const int n3 = element.integer("n3"), n4 = element.integer("n4");
-  return {birth_of(element), element.integer("death"), element.integer("material"), n4 == 0 || n4 == n3};
+  return {birth_of(element), element.integer("death"), element.integer("material"), n4 == 0 || n4 == n3, false};
 }
 
 // Those decks turn elements either way; this program wants them counter-clockwise.
@@ -252,11 +420,11 @@ class Turner {
 
 // Without its beams the pipe would be a hole with loose soil above; its nodes are
 // held: a rigid pipe that stays.
-void leave_out(const Deck& deck, CardWriter& out) {
+void leave_out(const Deck& deck, const Pipes& pipes, CardWriter& out) {
   int beams = 0, interfaces = 0, links = 0;
   SourcePosition where;
   for (const CardView& element : deck.all("element")) {
-    if (is_soil(element)) continue;
+    if (is_soil(element) || pipes.wall(element) >= 0) continue;
     if (where.line == 0) where = element.where();
     const int kind = element.integer("class");
     ++(kind == 1 ? interfaces : kind > 1 ? links : beams);
@@ -282,9 +450,8 @@ void leave_out(const Deck& deck, CardWriter& out) {
   out.left_out(where, list, message);
 }
 
-Groups add_groups(const Deck& deck, const Catalogue& catalogue, const LoadFactors& factors, const Soils& soils,
-                  CardWriter& out) {
-  Groups groups;
+// CANDE generates elements by rules that are not known here.
+void refuse_generation(const Deck& deck) {
   int before = 0;
   for (const CardView& element : deck.all("element")) {
     for (const char* field : {"node_increment", "rows", "row_increment"})
@@ -299,11 +466,26 @@ Groups add_groups(const Deck& deck, const Catalogue& catalogue, const LoadFactor
                "on a card "
                "of its own");
     before = element.integer("number");
-    if (is_soil(element)) groups.try_emplace(key_of(element), 0.0);
   }
+}
+
+Groups add_groups(const Deck& deck, const Catalogue& catalogue, const LoadFactors& factors, const Soils& soils,
+                  const Pipes& pipes, CardWriter& out) {
+  Groups groups;
+  for (const CardView& element : deck.all("element"))
+    if (is_soil(element) || pipes.wall(element) >= 0) groups.try_emplace(key_of(element, pipes), 0.0);
   double number = 0.0;
   for (auto& [key, group] : groups) {
     group = ++number;
+    if (key.beam) {
+      const Wall& wall = pipes.walls()[static_cast<std::size_t>(key.material)];
+      out.add("group", wall.where,
+              {{"number", group},
+               {"element", static_cast<double>(catalogue.elements.code_of("beam2"))},
+               {"material", static_cast<double>(wall.material)},
+               {"name", 0.0, {}, "pipe, step " + std::to_string(key.birth)}});
+      continue;
+    }
     out.add("group", deck.one("control").where(),
             {{"number", group},
              {"element", static_cast<double>(corner_element(catalogue, key.triangle))},
@@ -312,9 +494,14 @@ Groups add_groups(const Deck& deck, const Catalogue& catalogue, const LoadFactor
   }
   Turner turner(deck);
   for (const CardView& element : deck.all("element")) {
-    if (!is_soil(element)) continue;
-    const GroupKey key = key_of(element);
+    if (!is_soil(element) && pipes.wall(element) < 0) continue;
+    const GroupKey key = key_of(element, pipes);
     std::vector<NewField> fields{take(element, "number"), {"group", groups.at(key)}};
+    if (key.beam) {
+      for (const char* node : {"n1", "n2"}) fields.push_back(take(element, node));
+      out.add("element", element.where(), fields);
+      continue;
+    }
     for (NewField& node : turner.nodes(element, key.triangle)) fields.push_back(std::move(node));
     out.add("element", element.where(), fields);
   }
@@ -365,7 +552,8 @@ void add_boundary(const Deck& deck, const LoadFactors& factors, CardWriter& out,
 int load_steps(const Deck& deck) {
   int steps = std::max(1, deck.one("control").integer("load_steps"));
   for (const CardView& element : deck.all("element"))
-    if (is_soil(element)) steps = std::max({steps, birth_of(element), element.integer("death")});
+    if (is_soil(element) || is_beam(element))
+      steps = std::max({steps, birth_of(element), element.integer("death")});
   if (steps > kMostSteps)
     fail(deck, deck.one("control").where("load_steps"),
          std::to_string(steps) + " load steps; at most " + std::to_string(kMostSteps) + " are taken");
@@ -422,8 +610,11 @@ Deck cande_deck(const Deck& deck, const Catalogue& catalogue) {
   const Soils soils(deck, factors);
   add_listed_nodes(deck, out);
   add_materials(deck, catalogue, soils, out);
-  leave_out(deck, out);
-  const Groups groups = add_groups(deck, catalogue, factors, soils, out);
+  refuse_generation(deck);
+  const Pipes pipes(deck, factors, soils.highest, out);
+  add_walls(pipes, catalogue, out);
+  leave_out(deck, pipes, out);
+  const Groups groups = add_groups(deck, catalogue, factors, soils, pipes, out);
   add_boundary(deck, factors, out, 0, -1);
   explain_factors(deck, factors, out);
   add_stages(deck, factors, out, groups);
