@@ -444,7 +444,7 @@ void leave_out(const Deck& deck, const Pipes& pipes, CardWriter& out) {
   add(links, "link");
   if (list.empty()) return;
   if (beams > 0) list += " (the pipe; its nodes are held)";
-  message = "left out: " + message + "; this program has no such elements";
+  message = "left out: " + message + "; this program does not translate them";
   if (beams > 0)
     message += ". The beams' nodes are held in x and y: the soil rests on a pipe that does not move";
   out.left_out(where, list, message);
