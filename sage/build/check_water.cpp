@@ -49,10 +49,11 @@ std::vector<bool> moving_nodes(const Model& model) {
 }
 
 // A support card whose name of the unknown is blank holds displacements, which water does not have.
-void warn_of_displacements(Builder& b, const std::vector<bool>& moves, const std::vector<Fixity>& fixities) {
+void warn_of_displacements(Builder& b, const DofMap& map, const std::vector<bool>& moves,
+                           const std::vector<Fixity>& fixities) {
   const int head = find_unknown(b.model.unknowns, "head");
   for (const Fixity& fixity : fixities)
-    if (b.dof_map.of(fixity.node, head) >= 0 && !moves[static_cast<std::size_t>(fixity.node)])
+    if (map.of(fixity.node, head) >= 0 && !moves[static_cast<std::size_t>(fixity.node)])
       b.warning("S332", {b.model.file, fixity.line, 0, 0},
                 "node " + std::to_string(b.model.mesh.number[static_cast<std::size_t>(fixity.node)]) +
                     " has a head and no displacement that the card could hold; a card for heads names them "
@@ -170,9 +171,10 @@ void check_pressures(Builder& b) {
 void check_water(Builder& b) {
   check_pressures(b);
   if (find_unknown(b.model.unknowns, "head") >= 0) {
+    const DofMap map(b.model);  // with the nodes in the middle of sides, which the deck's own map lacks
     const std::vector<bool> moves = moving_nodes(b.model);
-    warn_of_displacements(b, moves, b.model.fixities);
-    for (const Stage& stage : b.model.stages) warn_of_displacements(b, moves, stage.fixities);
+    warn_of_displacements(b, map, moves, b.model.fixities);
+    for (const Stage& stage : b.model.stages) warn_of_displacements(b, map, moves, stage.fixities);
   }
   check_discharges(b);
   note_weights(b);
