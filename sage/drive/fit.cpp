@@ -232,7 +232,9 @@ void judge(const FitProblem& problem, const Eigen::MatrixXd& J, const std::vecto
     }
     Undetermined combination{size[0] > 0.0 ? size[k] / size[0] : 0.0, {}, {}};
     for (Eigen::Index i = 0; i < n; ++i) {
-      if (std::abs(V(i, k)) < kNamed) continue;
+      // A small share takes part too where its own influence is no rounding: others make up for it.
+      const bool takes_part = std::abs(V(i, k)) * J.col(i).norm() > kUndetermined * size[0];
+      if (std::abs(V(i, k)) < kNamed && !takes_part) continue;
       unknown[static_cast<std::size_t>(i)] = true;
       combination.names.push_back(problem.free[static_cast<std::size_t>(i)].name);
       combination.shares.push_back(V(i, k));

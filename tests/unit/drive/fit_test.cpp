@@ -126,7 +126,8 @@ TEST(Fit, CohesionAndFrictionFromOnePressureAreNamed) {
   set_free(problem, {"E", "c", "phi"});
   const FitResult result = fit(problem);
   ASSERT_EQ(result.undetermined.size(), 1u);
-  EXPECT_EQ(result.undetermined[0].names, (std::vector<std::string>{"cohesion", "friction_angle"}));
+  ASSERT_EQ(result.undetermined[0].names, (std::vector<std::string>{"cohesion", "friction_angle"}))
+      << fit_text(problem, result);
   // In opposite directions.
   EXPECT_LT(result.undetermined[0].shares[0] * result.undetermined[0].shares[1], 0.0);
   EXPECT_TRUE(std::isnan(result.standard_errors[1]));
