@@ -137,6 +137,13 @@ TEST(Fit, CohesionAndFrictionFromOnePressureAreNamed) {
   EXPECT_NE(fit_text(problem, result).find("can't tell apart: cohesion"), std::string::npos)
       << fit_text(problem, result);
   EXPECT_NE(fit_plot(problem, result).find("fitted less measured"), std::string::npos);
+  // Where the fit ends with little cohesion a small change of the friction angle makes up for all of it.
+  problem.subject = subject("mohr_coulomb,E=1.5e4,nu=.3,c=.01,phi=33");
+  const FitResult little = fit(problem);
+  ASSERT_LT(little.values[1], 1.0);
+  ASSERT_EQ(little.undetermined.size(), 1u);
+  EXPECT_EQ(little.undetermined[0].names, (std::vector<std::string>{"cohesion", "friction_angle"}))
+      << fit_text(problem, little);
 }
 
 // Poisson's ratio says nothing about the deviator.
