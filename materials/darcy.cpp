@@ -34,13 +34,17 @@ Matrix2 turned_permeability(double k1, double k2, double angle) {
   return k;
 }
 
+Matrix2 permeability_of(const Parameters& p) {
+  const double k1 = p.positive("permeability"), k2 = p.not_negative("permeability_2");
+  const double angle = p.between("direction", -360.0, 360.0) * kRadiansPerDegree;
+  return turned_permeability(k1, k2 > 0.0 ? k2 : k1, angle);
+}
+
 MaterialEntry darcy_entry() {
   MaterialEntry entry{"darcy", "Darcy's law, saturated, isotropic or along two directions", 3, rows(),
                       [](std::span<const double> values, const UnitSystem& units) -> LawPtr {
                         const Parameters p(rows(), values, units);
-                        const double k1 = p.positive("permeability"), k2 = p.not_negative("permeability_2");
-                        const double angle = p.between("direction", -360.0, 360.0) * kRadiansPerDegree;
-                        return std::make_unique<Darcy>(turned_permeability(k1, k2 > 0.0 ? k2 : k1, angle));
+                        return std::make_unique<Darcy>(permeability_of(p));
                       }};
   entry.flow = true;
   return entry;

@@ -28,6 +28,9 @@ class Darcy final : public Law<3> {
 // Permeability k1 along a direction `angle` (radians, counter-clockwise from +x) and k2 across it.
 Matrix2 turned_permeability(double k1, double k2, double angle);
 
+// Of a card with k1, k2 (0 = k1) and the direction of k1 in degrees.  Throws ParameterError.
+Matrix2 permeability_of(const Parameters& p);
+
 MaterialEntry darcy_entry();
 
 }  // namespace sage

@@ -4,7 +4,7 @@ namespace sage {
 
 namespace {
 
-constexpr double kShare = 1.0, kLeast = 1e-3;
+constexpr double kLeast = 1e-3;
 constexpr Quantity kHistory[] = {{"relative_permeability", Dimension::none, 1.0}};
 
 const std::vector<Parameter>& rows() {
@@ -31,8 +31,8 @@ RelativePermeability relative_permeability(double pressure_head, double ramp, do
   return {least + (1.0 - least) * s * s * (3.0 - 2.0 * s), (1.0 - least) * 6.0 * s * (1.0 - s) / ramp};
 }
 
-DarcyFreeSurface::DarcyFreeSurface(const Matrix2& k, double ramp, double share, double least)
-    : k_(k), ramp_(ramp), share_(share), least_(least) {}
+DarcyFreeSurface::DarcyFreeSurface(const Matrix2& k, double ramp, double least)
+    : k_(k), ramp_(ramp), least_(least) {}
 
 std::span<const Quantity> DarcyFreeSurface::history() const {
   return kHistory;
@@ -41,7 +41,7 @@ std::span<const Quantity> DarcyFreeSurface::history() const {
 // Steady: what flows follows from the head itself, whatever came before.
 Outcome DarcyFreeSurface::update(const PointIn<3>& in, PointOut<3>& out) const {
   const Vector<3> eps = in.eps0 + in.deps;
-  const double ramp = in.context->easing * (ramp_ > 0.0 ? ramp_ : share_ * in.context->size);
+  const double ramp = in.context->easing * (ramp_ > 0.0 ? ramp_ : in.context->size);
   const RelativePermeability k_r = relative_permeability(eps[2] - in.context->place.y(), ramp, least_);
   const Vector2 saturated = k_ * eps.head<2>();
   out.sigma << k_r.value * saturated, 0.0;
@@ -59,11 +59,8 @@ MaterialEntry darcy_free_surface_entry() {
   MaterialEntry entry{"darcy_free_surface", "Darcy's law below a free surface, nearly dry above it", 3, rows(),
                       [](std::span<const double> values, const UnitSystem& units) -> LawPtr {
                         const Parameters p(rows(), values, units);
-                        const double k1 = p.positive("permeability"), k2 = p.not_negative("permeability_2");
-                        const double angle = p.between("direction", -360.0, 360.0) * kRadiansPerDegree;
-                        return std::make_unique<DarcyFreeSurface>(
-                            turned_permeability(k1, k2 > 0.0 ? k2 : k1, angle), p.not_negative("ramp"), kShare,
-                            p.between("least", 1e-6, 0.1));
+                        return std::make_unique<DarcyFreeSurface>(permeability_of(p), p.not_negative("ramp"),
+                                                                  p.between("least", 1e-6, 0.1));
                       }};
   entry.flow = true;
   entry.history = kHistory;

@@ -15,9 +15,9 @@ RelativePermeability relative_permeability(double pressure_head, double ramp, do
 
 class DarcyFreeSurface final : public Law<3> {
  public:
-  // k: saturated permeability.  ramp > 0: height over which it falls; 0 = `share` of the element's size.
+  // k: saturated permeability.  ramp > 0: height over which it falls; 0 = the element's size.
   // least: what is left of it where the soil is dry, 0 < least < 1.
-  DarcyFreeSurface(const Matrix2& k, double ramp, double share, double least);
+  DarcyFreeSurface(const Matrix2& k, double ramp, double least);
 
   std::span<const Quantity> history() const override;
   bool wants_context() const override { return true; }
@@ -25,7 +25,7 @@ class DarcyFreeSurface final : public Law<3> {
 
  private:
   Matrix2 k_;
-  double ramp_, share_, least_;
+  double ramp_, least_;
 };
 
 MaterialEntry darcy_free_surface_entry();

@@ -60,10 +60,6 @@ void warn_of_displacements(Builder& b, const DofMap& map, const std::vector<bool
                     "(head)");
 }
 
-}  // namespace
-
-namespace {
-
 // Pressures at nodes belong to the nodes of the deck and those between them.
 bool follows_mesh(Builder& b) {
   if (b.model.mesh.given_nodes() == b.water_nodes) return true;

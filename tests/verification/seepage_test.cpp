@@ -11,31 +11,13 @@
 #include "sage/analysis/flow_through.hpp"
 #include "sage/analysis/observer.hpp"
 #include "sage/app/commands.hpp"
+#include "sage/scenes/seepage.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kDarcy = 41;
-// Codes of the elements that water flows through.
-const std::map<Cell, int> kFlow{
-    {Cell::quad4, 41}, {Cell::quad8, 42}, {Cell::tri3, 43}, {Cell::tri6, 44}, {Cell::quad9, 45}};
-
-std::string head_card(int node, double value, int code = 1) {
-  return fmt::format("{:5}{:5}{:5}{:5}{:5}{}{:10}{:20}", node, 0, 0, code, 0, ten_columns(value), "", "head");
-}
-std::string inflow_card(int node, double value) {
-  return fmt::format("{:5}{:5}{:5}{}{:10}{:20}", node, 0, 0, ten_columns(value), "", "head");
-}
-// Report of what flows through a line of nodes.
-std::string discharge_card(const std::vector<int>& nodes) {
-  std::string card = fmt::format("{:5}{:25}{:30}{:5}\n", 4, "", "", nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    card += fmt::format("{:5}{}", nodes[i], i % 16 == 15 && i + 1 < nodes.size() ? "\n" : "");
-  return card;
-}
-
 Block cells(int columns, int rows, Cell cell) {
   Block block;
   block.columns = columns;
@@ -51,8 +33,8 @@ struct Flow {
   explicit Flow(const Block& b, int geometry = 1, const std::vector<double>& permeability = {1.0})
       : block(b), deck(geometry) {
     block.write_nodes(deck);
-    deck.material(1, kDarcy, permeability);
-    deck.group(1, kFlow.at(block.cell), 0, 1);
+    deck.material(1, kDarcyLaw, permeability);
+    deck.group(1, flow_element(block.cell), 0, 1);
     block.write_elements(deck, 1);
     deck.stage();
   }
@@ -165,7 +147,7 @@ TEST_P(EveryShape, AnEvenSlopeIsExact) {
 // Two layers in a row: what one lets through, the other does.
 TEST(Seepage, LayersInARow) {
   Flow flow({4, 2, Cell::quad4, 1, 1, rectangle(0.0, 4.0, 0.0, 1.5)});
-  flow.deck.material(2, kDarcy, {0.1});
+  flow.deck.material(2, kDarcyLaw, {0.1});
   flow.deck.group(2, 41, 0, 2);
   for (std::string& element : flow.deck.elements) {
     const int number = std::stoi(element.substr(0, 5));
@@ -219,9 +201,9 @@ TEST(Seepage, ConfinedWell) {
                         {Cell::tri6, 24, 1e-4, 4.0}}) {
     double head = 1.0;
     const double coarse = radial_error(c.cell, c.n / 2), fine = radial_error(c.cell, c.n, &head);
-    EXPECT_LT(fine, c.error) << kFlow.at(c.cell);
-    EXPECT_LT(head, 1e-3) << kFlow.at(c.cell);
-    EXPECT_NEAR(std::log2(coarse / fine), c.rate, 0.3) << kFlow.at(c.cell);
+    EXPECT_LT(fine, c.error) << flow_element(c.cell);
+    EXPECT_LT(head, 1e-3) << flow_element(c.cell);
+    EXPECT_NEAR(std::log2(coarse / fine), c.rate, 0.3) << flow_element(c.cell);
   }
 }
 
@@ -241,81 +223,25 @@ TEST(Seepage, Sphere) {
   EXPECT_NEAR(seep(flow.deck.text()).discharge() / (0.5 * 15.7079632679), 1.0, 1e-4);
 }
 
-// Lattice lines at the ends of some intervals, each cut in n; `fine` names the end that cells get finer towards.
-struct Interval {
-  double to;
-  int n;
-  int fine;  // -1 its beginning, 0 even, 1 its end
-};
-std::vector<double> lines(double from, const std::vector<Interval>& intervals) {
-  std::vector<double> at{from};
-  for (const Interval& one : intervals) {
-    for (int i = 1; i <= one.n; ++i) {
-      const double s = static_cast<double>(i) / one.n;
-      const double t = one.fine < 0 ? std::pow(s, 3.0) : one.fine > 0 ? 1.0 - std::pow(1.0 - s, 3.0) : s;
-      at.push_back(from + t * (one.to - from));
-    }
-    from = one.to;
-  }
-  return at;
-}
-Block lattice(const std::vector<double>& xs, const std::vector<double>& ys, Cell cell) {
-  Block block = cells(static_cast<int>(xs.size()) - 1, static_cast<int>(ys.size()) - 1, cell);
-  const auto at = [](const std::vector<double>& list, double s) {
-    const double place = s * static_cast<double>(list.size() - 1);
-    const auto i = std::min(static_cast<std::size_t>(place + 1e-9), list.size() - 2);
-    return list[i] + (place - static_cast<double>(i)) * (list[i + 1] - list[i]);
-  };
-  block.place = [=](double s, double t) { return Vector2(at(xs, s), at(ys, t)); };
-  return block;
-}
-
-// Right half of a layer of thickness 1 under a pile of depth s or a floor of half-width b with a cut-off of depth
-// s; by antisymmetry the head is half way below them.  q / (k h) = K'(m) / 2 K(m).
-struct Barrier {
-  double b = 0.0, s = 0.0;
-  double discharge = 0.0;
-};
-Seepage flow_below(const Barrier& barrier, Cell cell, int n, const std::vector<double>& depths,
-                   Block* used = nullptr) {
-  const auto [b, depth] = std::pair(barrier.b, barrier.s);
-  std::vector<Interval> along, up;
-  if (b > 0.0) along = {{0.5 * b, n, -1}, {b, n, 1}};
-  along.insert(along.end(), {{b + 1.0, n, -1}, {b + 5.0, n, 0}});
-  if (depth > 0.0) up.push_back({-depth, n, 1});
-  for (const double at : depths) up.push_back({-at, n, at == depths.front() ? -1 : 0});
-  if (depths.empty() && b > 0.0 && depth > 0.0) up.push_back({-0.5 * depth, n, -1});
-  up.push_back({0.0, n, b > 0.0 ? 1 : depths.empty() ? -1 : 0});
-  const Block block = lattice(lines(0.0, along), lines(-1.0, up), cell);
-  if (used != nullptr) *used = block;
-  Flow flow(block);
-  std::vector<int> exit;
-  for (int i = 0; i < block.across(); ++i)
-    if (block.at(i, block.up() - 1).x() >= barrier.b - 1e-9) exit.push_back(block.node(i, block.up() - 1));
-  flow.hold(exit, 0.0);
-  for (int j = 0; j < block.up(); ++j)
-    if (block.at(0, j).y() <= -barrier.s + 1e-9) flow.hold({block.node(0, j)}, 0.5);
-  std::reverse(exit.begin(), exit.end());
-  flow.deck.reports.push_back(discharge_card(exit));
-  return seep(flow.deck.text());
-}
-
 TEST(Seepage, SheetPileFloorAndCutOff) {
-  const Barrier cases[] = {{0.0, 0.25, .7346090158}, {0.0, 0.5, 0.5},         {0.0, 0.75, .3403170865},
-                           {0.5, 0.0, .5331795566},  {1.0, 0.0, .3469517731}, {0.5, 0.5, .4063602699},
-                           {1.0, 0.5, .2983698755},  {0.0, 0.1, 1.0298065910}};
-  for (const Barrier& barrier : cases) {
+  // q / (k h) = K'(m) / 2 K(m).
+  const std::pair<Barrier, double> cases[] = {{{0.0, 0.25}, .7346090158}, {{0.0, 0.5}, 0.5},
+                                              {{0.0, 0.75}, .3403170865}, {{0.5, 0.0}, .5331795566},
+                                              {{1.0, 0.0}, .3469517731},  {{0.5, 0.5}, .4063602699},
+                                              {{1.0, 0.5}, .2983698755},  {{0.0, 0.1}, 1.0298065910}};
+  for (const auto& [barrier, discharge] : cases) {
     // The tip makes the discharge converge with the size of its elements, which the cubes of the lattice make
     // small.
-    const double q = flow_below(barrier, Cell::quad8, 12, {}).discharge();
-    EXPECT_NEAR(q / barrier.discharge, 1.0, 1e-3) << barrier.b << " " << barrier.s;
+    const double q = seep(barrier.deck().text()).discharge();
+    EXPECT_NEAR(q / discharge, 1.0, 1e-3) << barrier.b << " " << barrier.s;
   }
 }
 
 // Heads on the downstream face of the pile, and the gradient of the exit beside it.
 TEST(Seepage, PressureAndExitGradientAtThePile) {
-  Block block;
-  const Seepage run = flow_below({0.0, 0.5, 0.5}, Cell::quad8, 8, {0.4, 0.25, 0.1}, &block);
+  const Barrier pile{0.0, 0.5, Cell::quad8, 8, {0.4, 0.25, 0.1}};
+  const Block block = pile.block();
+  const Seepage run = seep(pile.deck().text());
   const std::map<double, double> heads{{0.1, .060408441}, {0.25, .158443550}, {0.4, .285883831}};
   int found = 0;
   for (int j = 0; j < block.up(); ++j)
@@ -384,7 +310,7 @@ TEST(Seepage, NothingDependsOnAxesUnitsAndNumbers) {
 // permeable side differ by 1e-12, and their rounding is 1e-4 of that: so much of the water moved can't be balanced.
 TEST(Seepage, PermeabilityOverTwelveOrders) {
   Flow flow({4, 1, Cell::quad4, 1, 1, rectangle(0.0, 4.0, 0.0, 1.0)});
-  flow.deck.material(2, kDarcy, {1e-12});
+  flow.deck.material(2, kDarcyLaw, {1e-12});
   flow.deck.group(2, 41, 0, 2);
   flow.deck.elements.back().replace(5, 5, "    2");
   flow.hold(flow.block.left(), 1.0);
