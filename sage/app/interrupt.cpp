@@ -18,7 +18,7 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it"
 
 void on_signal(int number) {
   if (heard.exchange(true)) {
-    clear_progress_at_signal();
+    end_progress_at_signal();
     signal(number, SIG_DFL);
     raise(number);
     return;

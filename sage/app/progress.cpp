@@ -9,6 +9,7 @@
 #include <cmath>
 #include <condition_variable>
 #include <cstdio>
+#include <ctime>
 #include <thread>
 #include <vector>
 
@@ -25,12 +26,12 @@ using std::chrono::milliseconds;
 constexpr milliseconds kFirst{500}, kBetween{200};  // what is over soon is not worth a line
 constexpr std::string_view kClear = "\r\033[K";
 
-std::atomic<bool> line_stands{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "signal handlers read it");
+std::atomic<bool> line_stands{false}, being_drawn{false}, process_ends{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "signal handlers read them");
 
 // A signal that would end the process would leave the line behind.
 void on_fatal_signal(int number) {
-  clear_progress_at_signal();
+  end_progress_at_signal();
   signal(number, SIG_DFL);
   raise(number);
 }
@@ -155,8 +156,17 @@ struct TaskLine {
     next = now + kBetween / 2;
     std::string line;
     for (std::size_t i = 0; i < tasks.size(); ++i) line += (i == 0 ? "" : ": ") + text_of(*tasks[i], now);
-    write_out(std::string(kClear) + cut_to(well_formed(line).text, columns_of(stderr) - 1));
-    line_stands = true;
+    draw(std::string(kClear) + cut_to(well_formed(line).text, columns_of(stderr) - 1));
+  }
+
+  // A fatal signal may come at any moment of this: its handler waits until the line is whole, and none follows.
+  static void draw(const std::string& line) {
+    being_drawn = true;
+    if (!process_ends) {
+      line_stands = true;
+      write_out(line);
+    }
+    being_drawn = false;
   }
 
   void clear() {
@@ -234,8 +244,17 @@ ProgressPause::~ProgressPause() {
 }
 
 void clear_progress_at_signal() {
+  // The line may be drawn by the very thread that the signal interrupts: the wait has an end.
+  constexpr int kWaits = 100;
+  const timespec millisecond{0, 1000000};
+  for (int waits = 0; being_drawn && waits < kWaits; ++waits) nanosleep(&millisecond, nullptr);
   if (!line_stands.load(std::memory_order_relaxed)) return;
   if (write(STDERR_FILENO, kClear.data(), kClear.size()) < 0) return;  // nobody reads it
+}
+
+void end_progress_at_signal() {
+  process_ends = true;
+  clear_progress_at_signal();
 }
 
 void no_progress_here() {

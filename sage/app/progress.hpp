@@ -56,6 +56,9 @@ class ProgressPause {
 
 // Takes the line away; for signal handlers.
 void clear_progress_at_signal();
+
+// The same where the signal ends the process: no line follows.
+void end_progress_at_signal();
 // No lines from now on: in a process whose streams are another's.
 void no_progress_here();
 
