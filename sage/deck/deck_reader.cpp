@@ -7,6 +7,7 @@
 #include "sage/deck/card_formats.hpp"
 #include "sage/deck/text.hpp"
 #include "sage/deck/unknown_deck.hpp"
+#include "sage/deck/wide_layout.hpp"
 
 namespace sage {
 
@@ -438,7 +439,7 @@ Deck read_what_can_be(std::string text, const std::string& name, const Layout& l
 Deck read_deck(const std::string& path, const ReadOptions& options) {
   const SourceText source = source_of(read_file(path), path);
   const std::string recognised = recognised_layout(*source.text());
-  const Layout layout = load_layout(detect_layout(*source.text()));
+  const Layout layout = load_layout(recognised.empty() ? std::string(kStandardLayout) : recognised);
   try {
     return DeckReader(source, layout, options).read();
   } catch (const InputError& error) {

@@ -12,8 +12,6 @@ namespace sage {
 
 namespace {
 
-constexpr std::string_view standard_layout = "sage1";
-
 // "* layout: quad4m" in the first line of a deck.
 std::string named_layout(std::string_view first_line) {
   const std::size_t at = first_line.find("layout:");
@@ -24,15 +22,17 @@ std::string named_layout(std::string_view first_line) {
   return std::string(rest.substr(begin, rest.find(' ', begin) - begin));
 }
 
-Layout unpacked(const EmbeddedLayout& embedded) {
-  Layout layout;
+// What: a layout, or its marks alone.
+template <class What>
+What unpacked(const EmbeddedLayout& embedded) {
+  What what;
   Archive archive{std::string(embedded.bytes)};
-  exchange(archive, layout);
-  return layout;
+  exchange(archive, what);
+  return what;
 }
 
-bool has_marks(const Layout& layout, const SourceText& deck) {
-  return std::all_of(layout.marks.begin(), layout.marks.end(), [&](const LayoutMark& mark) {
+bool has_marks(const std::vector<LayoutMark>& marks, const SourceText& deck) {
+  return std::all_of(marks.begin(), marks.end(), [&](const LayoutMark& mark) {
     const std::string_view line = deck.line(mark.line);
     const auto column = static_cast<std::size_t>(mark.column) - 1;
     return column < line.size() &&
@@ -47,15 +47,15 @@ std::vector<std::string> built_in_layouts() {
   std::vector<std::string> names;
   for (const EmbeddedLayout& layout : embedded_layouts()) {
     names.emplace_back(layout.name);
-    if (layout.name == standard_layout) names.emplace_back(kWideLayout);
+    if (layout.name == kStandardLayout) names.emplace_back(kWideLayout);
   }
   return names;
 }
 
 Layout load_layout(const std::string& path_or_name, bool checked) {
   for (const EmbeddedLayout& embedded : embedded_layouts())
-    if (embedded.name == path_or_name) return unpacked(embedded);
-  if (path_or_name == kWideLayout) return wide_layout(load_layout(std::string(standard_layout)));
+    if (embedded.name == path_or_name) return unpacked<Layout>(embedded);
+  if (path_or_name == kWideLayout) return wide_layout(load_layout(std::string(kStandardLayout)));
   const bool path = path_or_name.find('/') != std::string::npos || path_or_name.find('.') != std::string::npos;
   if (path) return (checked ? load_checked_layout : load_layout_text)(read_file(path_or_name), path_or_name);
   std::string known;
@@ -68,13 +68,14 @@ std::string recognised_layout(std::string_view deck_text) {
   const SourceText deck(std::string(deck_text.substr(0, 4000)), "");
   if (std::string named = named_layout(deck.line(1)); !named.empty()) return named;
   for (const EmbeddedLayout& embedded : embedded_layouts())
-    if (embedded.has_marks && has_marks(unpacked(embedded), deck)) return std::string(embedded.name);
+    if (embedded.has_marks && has_marks(unpacked<std::vector<LayoutMark>>(embedded), deck))
+      return std::string(embedded.name);
   return {};
 }
 
 std::string detect_layout(std::string_view deck_text) {
   std::string name = recognised_layout(deck_text);
-  return name.empty() ? std::string(standard_layout) : name;
+  return name.empty() ? std::string(kStandardLayout) : name;
 }
 
 }  // namespace sage

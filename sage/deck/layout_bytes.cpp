@@ -90,13 +90,17 @@ void exchange(Archive& archive, RecordRules& records) {
 
 }  // namespace
 
+void exchange(Archive& archive, std::vector<LayoutMark>& marks) {
+  exchange_list(archive, marks, [](Archive& a, LayoutMark& mark) { exchange(a, mark); });
+}
+
 void exchange(Archive& archive, Layout& layout) {
   auto& [name, title, file, draft, records, first_sequence, last_sequence, separator, name_columns,
          introduction, closing, example, marks, cards, entries] = layout;
+  exchange(archive, marks);
   exchange_all(archive, name, title, file, draft, first_sequence, last_sequence, separator, name_columns,
                introduction, closing, example);
   exchange(archive, records);
-  exchange_list(archive, marks, [](Archive& a, LayoutMark& mark) { exchange(a, mark); });
   exchange_list(archive, cards, [](Archive& a, CardRule& card) { exchange(a, card); });
   exchange_list(archive, entries, [](Archive& a, LayoutEntry& entry) { exchange(a, entry); });
 }

@@ -9,4 +9,7 @@ namespace sage {
 
 void exchange(Archive& archive, Layout& layout);
 
+// The bytes of a layout begin with its marks: what tells which layout a deck has reads no further.
+void exchange(Archive& archive, std::vector<LayoutMark>& marks);
+
 }  // namespace sage

@@ -8,6 +8,9 @@
 
 namespace sage {
 
+// The layout of decks whose first lines name none and bear no layout's marks.
+inline constexpr std::string_view kStandardLayout = "sage1";
+
 // "sage1_wide": sage1 with I10 for I5 and F20.0 for F10.0.  Made from sage1 by rule, so that what a card holds is
 // written in one place.
 inline constexpr std::string_view kWideLayout = "sage1_wide";
