@@ -37,7 +37,11 @@ class Assembly {
   void set_stop(StopAsked asked) { element_.set_stop(std::move(asked)); }
 
   // Passes over many elements may use so many threads; answers do not depend on it.
-  void set_threads(int threads) { changing_.set_threads(threads); }
+  void set_threads(int threads) {
+    threads_ = threads;
+    changing_.set_threads(threads);
+  }
+  int threads() const { return threads_; }
 
   // Equations and element order of a stage.  rate: displacement of every prescribed dof over the stage.
   void enter_stage(const Activity& activity, const Eigen::VectorXd& rate);
@@ -121,6 +125,7 @@ class Assembly {
   std::vector<GroupData> groups_;
   ElementWork element_;
   ChangingRegion changing_;
+  int threads_ = 1;
   ConstantRegion constant_;
   LateStates late_;
   std::unique_ptr<Condensation> condensation_;

@@ -3,17 +3,28 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <map>
 #include <optional>
 
 #include "sage/analysis/patch_fit.hpp"
 #include "sage/core/dense.hpp"
+#include "sage/core/thread_pool.hpp"
 #include "sage/model/coarse_shape.hpp"
 
 namespace sage {
 
 namespace {
+
+constexpr int kUnit = 64;            // elements or patches that a thread takes at a time
+constexpr int kWorthThreads = 2000;  // elements from which on threads gain
+
+// Calls work(first, last, thread) for pieces of 0 ... count.  Each makes what belongs to its own elements alone:
+// the estimate does not depend on the number of threads.
+template <class Work>
+void in_units(ThreadPool& pool, int count, const Work& work) {
+  pool.run((count + kUnit - 1) / kUnit,
+           [&](int unit, int thread) { work(unit * kUnit, std::min((unit + 1) * kUnit, count), thread); });
+}
 
 // The elements of a group, one after the other: places and stress of their samples, and of the points where the
 // error is measured, with their weights.
@@ -191,7 +202,21 @@ class ElementPoints {
   std::vector<double> made_;
 };
 
-GroupStress group_stress(const Model& model, const GroupData& data, const std::vector<double>* start) {
+// to_samples: sample_map of the element.
+void put_samples(const ElementPoints& own, const Eigen::MatrixXd& to_samples, int e, GroupStress& s) {
+  auto places = s.sample_at.middleCols(e * s.samples, s.samples);
+  auto values = s.sample.middleCols(e * s.samples, s.samples);
+  if (to_samples.size() > 0) {
+    places.noalias() = own.at * to_samples.transpose();
+    values.noalias() = own.stress * to_samples.transpose();
+  } else {
+    places = own.at;
+    values = own.stress;
+  }
+}
+
+GroupStress group_stress(const Model& model, const GroupData& data, const std::vector<double>* start,
+                         ThreadPool& pool) {
   const Group& group = *data.group;
   const Element& element = *group.element;
   const Eigen::MatrixXd to_samples = sample_map(element);
@@ -208,26 +233,22 @@ GroupStress group_stress(const Model& model, const GroupData& data, const std::v
   s.point_at.resize(2, elements * s.points);
   s.point.resize(4, elements * s.points);
   s.w.resize(elements * s.points);
-  ElementPoints own(model, data, start);
-  for (int e = 0; e < group.elements(); ++e) {
-    own.take(e);
-    auto places = s.sample_at.middleCols(e * s.samples, s.samples);
-    auto values = s.sample.middleCols(e * s.samples, s.samples);
-    if (to_samples.size() > 0) {
-      places.noalias() = own.at * to_samples.transpose();
-      values.noalias() = own.stress * to_samples.transpose();
-    } else {
-      places = own.at;
-      values = own.stress;
+  std::vector<ElementPoints> points(static_cast<std::size_t>(pool.threads()),
+                                    ElementPoints(model, data, start));
+  in_units(pool, group.elements(), [&](int first, int last, int thread) {
+    ElementPoints& own = points[static_cast<std::size_t>(thread)];
+    for (int e = first; e < last; ++e) {
+      own.take(e);
+      put_samples(own, to_samples, e, s);
+      if (between) {
+        between->put(own.x, own.stress, own.w, e, s);
+      } else {
+        s.point_at.middleCols(e * s.points, s.points) = own.at;
+        s.point.middleCols(e * s.points, s.points) = own.stress;
+        s.w.segment(e * s.points, s.points) = own.w;
+      }
     }
-    if (between) {
-      between->put(own.x, own.stress, own.w, e, s);
-    } else {
-      s.point_at.middleCols(e * s.points, s.points) = own.at;
-      s.point.middleCols(e * s.points, s.points) = own.stress;
-      s.w.segment(e * s.points, s.points) = own.w;
-    }
-  }
+  });
   return s;
 }
 
@@ -236,35 +257,60 @@ const SolidLaw* solid_law(const GroupData& data) {
   return data.active && law != nullptr ? *law : nullptr;
 }
 
-// The polynomials of all patches of one material, each made when it is first asked for.
+// The polynomials of all patches of one material.
 class PatchFits {
  public:
+  // What one thread needs to fit and to ask.
+  struct Room {
+    PatchFitter fitter;
+    Eigen::Matrix2Xd places;
+    Eigen::MatrixXd values;
+    Fit own;
+    std::vector<const Fit*> use;
+  };
+
   PatchFits(const Model& model, const std::vector<ElementRef>& elements, const std::vector<GroupStress>& stress,
             int material)
       : elements_(elements),
         stress_(stress),
-        patches_(model, of_material(model, material), elements),
-        fit_of_(static_cast<std::size_t>(model.mesh.nodes()), -1) {}
+        nodes_(model.mesh.nodes()),
+        patches_(model, of_material(model, material), elements) {}
+
+  // Fits around all vertices inside the material; rooms: one for each thread.
+  void make(const std::vector<GroupData>& groups, int material, ThreadPool& pool, std::vector<Room>& rooms) {
+    std::vector<int> vertices;
+    fit_of_.assign(static_cast<std::size_t>(nodes_), -1);
+    for (const ElementRef& element : elements_) {
+      const Group& group = *groups[element.group].group;
+      if (group.material != material) continue;
+      const int* nodes = group.nodes_of(element.element);
+      for (int c = 0; c < stress_[element.group].corners; ++c) {
+        int& known = fit_of_[static_cast<std::size_t>(nodes[c])];
+        if (known >= 0 || !patches_.inside(nodes[c])) continue;
+        known = static_cast<int>(vertices.size());
+        vertices.push_back(nodes[c]);
+      }
+    }
+    fits_.resize(vertices.size());
+    in_units(pool, static_cast<int>(vertices.size()), [&](int first, int last, int thread) {
+      for (auto v = static_cast<std::size_t>(first); v < static_cast<std::size_t>(last); ++v)
+        fits_[v] = fit(patches_.around(vertices[v]), rooms[static_cast<std::size_t>(thread)]);
+    });
+  }
 
   // Those around an element's corners inside its material; where it has none, one of all of its neighbours.
-  // Valid until the next call.
-  const std::vector<const Fit*>& of(const Group& group, const ElementRef& element) {
+  // Valid until the next call with this room.
+  const std::vector<const Fit*>& of(const Group& group, const ElementRef& element, Room& room) const {
     const int* nodes = group.nodes_of(element.element);
-    use_.clear();
-    for (int c = 0; c < stress_[element.group].corners; ++c) {
-      if (!patches_.inside(nodes[c])) continue;
-      int& known = fit_of_[static_cast<std::size_t>(nodes[c])];
-      if (known < 0) {
-        known = static_cast<int>(fits_.size());
-        fits_.push_back(fit(patches_.around(nodes[c])));
-      }
-      use_.push_back(&fits_[static_cast<std::size_t>(known)]);
+    room.use.clear();
+    for (int c = 0; c < stress_[element.group].corners; ++c)
+      if (const int known = fit_of_[static_cast<std::size_t>(nodes[c])]; known >= 0)
+        room.use.push_back(&fits_[static_cast<std::size_t>(known)]);
+    if (room.use.empty()) {
+      room.own = fit(patches_.neighbours(*group.element, nodes), room);
+      room.use.push_back(&room.own);
     }
-    if (use_.empty()) {
-      own_ = fit(patches_.neighbours(*group.element, nodes));
-      use_.push_back(&own_);
-    }
-    return use_;
+    return room.use;
   }
 
  private:
@@ -274,50 +320,51 @@ class PatchFits {
     return same;
   }
 
-  Fit fit(std::span<const std::size_t> patch) {
+  Fit fit(std::span<const std::size_t> patch, Room& room) const {
     Eigen::Index count = 0;
     int degree = PolynomialTerms::kMostDegree;
     for (const std::size_t k : patch) {
       count += stress_[elements_[k].group].samples;
       degree = std::min(degree, stress_[elements_[k].group].degree);
     }
-    places_.resize(2, count);
-    values_.resize(count, 4);
+    room.places.resize(2, count);
+    room.values.resize(count, 4);
     Eigen::Index row = 0;
     for (const std::size_t k : patch) {
       const auto& [group, element] = elements_[k];
       const GroupStress& s = stress_[group];
-      places_.middleCols(row, s.samples) = s.sample_places_of(element);
-      values_.middleRows(row, s.samples) = s.samples_of(element).transpose();
+      room.places.middleCols(row, s.samples) = s.sample_places_of(element);
+      room.values.middleRows(row, s.samples) = s.samples_of(element).transpose();
       row += s.samples;
     }
-    fitter_.set_places(places_, degree);
-    return {fitter_.terms(), fitter_.fit(values_).transpose()};
+    room.fitter.set_places(room.places, degree);
+    return {room.fitter.terms(), room.fitter.fit(room.values).transpose()};
   }
 
   const std::vector<ElementRef>& elements_;
   const std::vector<GroupStress>& stress_;
+  int nodes_;
   Patches patches_;
-  std::vector<int> fit_of_;  // by node: in fits_, -1 = not made yet
-  std::deque<Fit> fits_;
-  Fit own_;
-  std::vector<const Fit*> use_;
-  PatchFitter fitter_;
-  Eigen::Matrix2Xd places_;
-  Eigen::MatrixXd values_;
+  std::vector<int> fit_of_;  // by node: in fits_, -1 = none
+  std::vector<Fit> fits_;
 };
 
-// |sigma* - sigma|^2 over an element, sigma* the mean of the fits; |sigma|^2 is added to `size`.
-double fitted_error(const GroupStress& s, int e, const std::vector<const Fit*>& fits, double& size) {
-  double error = 0.0;
+// Squares over one element: of the error and of the stress itself.
+struct ElementSquares {
+  double error = 0.0, size = 0.0;
+};
+
+// |sigma* - sigma|^2 and |sigma|^2 over an element, sigma* the mean of the fits.
+ElementSquares fitted_error(const GroupStress& s, int e, const std::vector<const Fit*>& fits) {
+  ElementSquares sum;
   for (Eigen::Index p = e * s.points; p < (e + 1) * s.points; ++p) {
     Vector4 smooth = Vector4::Zero();
     for (const Fit* fit : fits) smooth += fit->at(s.point_at.col(p)) / static_cast<double>(fits.size());
     const Vector4 own_stress = s.point.col(p), difference = smooth - own_stress;
-    error += s.w(p) * difference.dot(s.C * difference);
-    size += s.w(p) * own_stress.dot(s.C * own_stress);
+    sum.error += s.w(p) * difference.dot(s.C * difference);
+    sum.size += s.w(p) * own_stress.dot(s.C * own_stress);
   }
-  return error;
+  return sum;
 }
 
 // Elements of high degree show their error themselves by their highest degrees; the polynomials of patches are
@@ -346,6 +393,92 @@ void add_element(ErrorEstimate& estimate, const ElementRef& element, double erro
   }
 }
 
+int solid_elements(const std::vector<GroupData>& groups) {
+  int count = 0;
+  for (const GroupData& data : groups)
+    if (solid_law(data) != nullptr) count += data.group->elements();
+  return count;
+}
+
+// One estimate: stress of all active solids, the fits of each material, then each element's distance from them.
+class Estimation {
+ public:
+  Estimation(const Model& model, const Assembly& assembly)
+      : model_(model),
+        groups_(assembly.groups()),
+        count_(solid_elements(groups_)),
+        pool_(count_ >= kWorthThreads ? assembly.threads() : 1),
+        stress_(groups_.size()),
+        rooms_(static_cast<std::size_t>(pool_.threads())) {}
+
+  ErrorEstimate compute(const StressState* start) {
+    ErrorEstimate result;
+    result.element.resize(groups_.size());
+    take_stress(start);
+    for (const GroupData& data : groups_)
+      if (const SolidLaw* law = solid_law(data)) result.energy = result.energy && law->linear();
+    if (result.energy)
+      for (std::size_t g = 0; g < groups_.size(); ++g)
+        if (const SolidLaw* law = solid_law(groups_[g])) stress_[g].C = compliance(*law);
+    make_fits();
+    measure();
+    for (std::size_t i = 0; i < elements_.size(); ++i) {
+      result.size += squares_[i].size;
+      add_element(result, elements_[i], squares_[i].error);
+    }
+    return result;
+  }
+
+ private:
+  void take_stress(const StressState* start) {
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      if (solid_law(groups_[g]) == nullptr) continue;
+      stress_[g] = group_stress(model_, groups_[g], start != nullptr ? &(*start)[g] : nullptr, pool_);
+      for (int e = 0; e < groups_[g].group->elements(); ++e) elements_.push_back({g, e});
+      const int line = stress_[g].degree + 1;
+      if (shows_its_own_error(stress_[g])) highest_.try_emplace(line, highest_degrees(line));
+    }
+  }
+
+  void make_fits() {
+    for (const GroupData& data : groups_) {
+      if (solid_law(data) == nullptr) continue;
+      const int material = data.group->material;
+      if (const auto [made, is_new] = fits_.try_emplace(material, model_, elements_, stress_, material); is_new)
+        made->second.make(groups_, material, pool_, rooms_);
+    }
+  }
+
+  void measure() {
+    squares_.resize(elements_.size());
+    in_units(pool_, count_, [&](int first, int last, int thread) {
+      for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
+        squares_[i] = squares_of(elements_[i], rooms_[static_cast<std::size_t>(thread)]);
+    });
+  }
+
+  ElementSquares squares_of(const ElementRef& element, PatchFits::Room& room) const {
+    const GroupStress& s = stress_[element.group];
+    const Group& group = *groups_[element.group].group;
+    ElementSquares squares =
+        fitted_error(s, element.element, fits_.at(group.material).of(group, element, room));
+    if (shows_its_own_error(s))
+      squares.error = std::min(squares.error, own_error(s, element.element, highest_.at(s.degree + 1)));
+    return squares;
+  }
+
+  const Model& model_;
+  const std::vector<GroupData>& groups_;
+  int count_;  // of elements
+  ThreadPool pool_;
+  std::vector<ElementRef> elements_;
+  std::vector<GroupStress> stress_;         // by group
+  std::map<int, Eigen::MatrixXd> highest_;  // by points a line
+  std::vector<PatchFits::Room> rooms_;      // by thread
+  std::map<int, PatchFits> fits_;           // by material
+  std::vector<ElementSquares> squares_;     // by element
+};
+
 }  // namespace
 
 double ErrorEstimate::relative() const {
@@ -359,39 +492,7 @@ StressState stress_state(const Assembly& assembly) {
 }
 
 ErrorEstimate estimate_error(const Model& model, const Solution& solution, const StressState* start) {
-  ErrorEstimate result;
-  const std::vector<GroupData>& groups = solution.assembly->groups();
-  result.element.resize(groups.size());
-  std::vector<ElementRef> elements;
-  std::vector<GroupStress> stress(groups.size());
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    const SolidLaw* law = solid_law(groups[g]);
-    if (law == nullptr) continue;
-    result.energy = result.energy && law->linear();
-    stress[g] = group_stress(model, groups[g], start != nullptr ? &(*start)[g] : nullptr);
-    for (int e = 0; e < groups[g].group->elements(); ++e) elements.push_back({g, e});
-  }
-  if (result.energy)
-    for (std::size_t g = 0; g < groups.size(); ++g)
-      if (const SolidLaw* law = solid_law(groups[g])) stress[g].C = compliance(*law);
-
-  std::map<int, PatchFits> fits;           // by material
-  std::map<int, Eigen::MatrixXd> highest;  // by points a line
-  for (const ElementRef& element : elements) {
-    const GroupStress& s = stress[element.group];
-    const Group& group = *groups[element.group].group;
-    PatchFits& of_material =
-        fits.try_emplace(group.material, model, elements, stress, group.material).first->second;
-    double error = fitted_error(s, element.element, of_material.of(group, element), result.size);
-    if (shows_its_own_error(s)) {
-      const int line = s.degree + 1;
-      auto& above = highest[line];
-      if (above.size() == 0) above = highest_degrees(line);
-      error = std::min(error, own_error(s, element.element, above));
-    }
-    add_element(result, element, error);
-  }
-  return result;
+  return Estimation(model, *solution.assembly).compute(start);
 }
 
 }  // namespace sage

@@ -60,12 +60,13 @@ class Judge final : public Observer {
   double nu_;
 };
 
-Judge judge(const LameDeck& deck, const BuildOptions& options = {}) {
+Judge judge(const LameDeck& deck, const BuildOptions& options = {}, int threads = 1) {
   static const Catalogue catalogue = app::full_catalogue();
   const Model model =
       build_model(read_deck_text(deck.text(), "deck", load_layout("sage1")), catalogue, options);
   RunSettings settings;
   settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
+  settings.threads = threads;
   Judge watch(deck.body, deck.nu);
   Observer* observers[] = {&watch};
   EXPECT_EQ(run(model, catalogue, settings, observers).status, RunStatus::completed);
@@ -112,6 +113,21 @@ TEST(ErrorEstimate, PartsOfTheElementsSumToTheWhole) {
     }
   EXPECT_NEAR(sum, now.estimate.error, 1e-14 * sum);
   EXPECT_EQ(now.estimate.worst_group, 0);
+}
+
+TEST(ErrorEstimate, ThreadsChangeNoBit) {
+  const LameDeck deck{LameBody::sector, Cell::quad4, 2, 8, 0.3};
+  BuildOptions options;
+  options.refine = 3;
+  const Judge alone = judge(deck, options, 1);
+  ASSERT_GE(alone.estimate.element.at(0).size(), 2000u) << "fewer elements are left to one thread";
+  for (const int threads : {2, 3}) {
+    const Judge several = judge(deck, options, threads);
+    EXPECT_EQ(several.estimate.error, alone.estimate.error);
+    EXPECT_EQ(several.estimate.size, alone.estimate.size);
+    EXPECT_EQ(several.estimate.element, alone.estimate.element);
+    EXPECT_EQ(several.estimate.worst_element, alone.estimate.worst_element);
+  }
 }
 
 TEST(WithError, ShowsTheDigitsThatAreCertain) {
