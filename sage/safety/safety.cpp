@@ -20,6 +20,8 @@ constexpr double kGivesWay = 0.1;
 constexpr double kFarBelow = 2.5;  // tolerances
 constexpr int kSecondEffort = 3;   // times the iterations, with all cuts
 constexpr int kFirstCuts = 1;
+constexpr int kCutsOfFirstRun =
+    3;  // of the stages with the first factor: a lower one follows, and it is tried again
 
 struct Largest {
   double displacement = 0.0;
@@ -291,7 +293,10 @@ void Finder::run_from_start(double factor) {
   Observer* observers[] = {&last};
   settings_.trials = this;
   const std::size_t before = safety_.trials.size();
-  const RunResult result = run(model_, catalogue_, settings_, observers);
+  RunSettings settings = settings_;
+  if (safety_.trials.empty() && options_.start == Start::carried)
+    settings.max_cuts = std::min(settings.max_cuts, kCutsOfFirstRun);
+  const RunResult result = run(model_, catalogue_, settings, observers);
   laws_before_.clear();
   if (result.status == RunStatus::failed) throw AnalysisError(*result.code, result.reason);
   safety_.stopped = result.status == RunStatus::stopped;
