@@ -35,7 +35,7 @@ int size_of(const std::vector<std::string>& cards) {
 
 std::string stage_text(const StageCards& stage) {
   std::string text =
-      "stage\n" + integers({stage.increments, stage.method, stage.max_iterations, stage.output_every});
+      stage.title + "\n" + integers({stage.increments, stage.method, stage.max_iterations, stage.output_every});
   text += integers({size_of(stage.fixities), size_of(stage.loads), size_of(stage.pressures),
                     static_cast<int>(stage.births.size()), static_cast<int>(stage.deaths.size()),
                     size_of(stage.initials)});
@@ -85,20 +85,41 @@ void DeckWriter::node(int number, double x, double y, bool polar) {
   nodes.push_back(integers({number, 0, polar ? 1 : 0}) + reals({x, y}));
 }
 
-void DeckWriter::material(int number, int law, const std::vector<double>& parameters, double unit_weight) {
+void DeckWriter::node_row(int number, int step, double x, double y, double ratio, bool polar) {
+  nodes.push_back(integers({number, step, polar ? 1 : 0}) + reals({x, y, ratio}));
+}
+
+void DeckWriter::fill(int first, int columns, int column_step, int rows, int row_step, double column_ratio,
+                      double row_ratio) {
+  fills.push_back(integers({first, columns, column_step, rows, row_step}) + reals({column_ratio, row_ratio}));
+}
+
+void DeckWriter::material(int number, int law, const std::vector<double>& parameters, double unit_weight,
+                          const std::string& name) {
   std::string card = integers({number, law, static_cast<int>(parameters.size())}) + ten_columns(unit_weight);
-  card += " law";
+  card += " " + name;
   for (std::size_t i = 0; i < parameters.size(); ++i)
     card += (i % 8 == 0 ? "\n" : "") + ten_columns(parameters[i]);
   materials.push_back(card);
 }
 
-void DeckWriter::group(int number, int element, int formulation, int material) {
-  groups.push_back(integers({number, element, formulation, material}));
+void DeckWriter::group(int number, int element, int formulation, int material, const std::string& name) {
+  groups.push_back(integers({number, element, formulation, material}) + name);
 }
 
 void DeckWriter::element(int number, int group, const std::vector<int>& element_nodes) {
   elements.push_back(integers({number, group}) + integers(element_nodes));
+}
+
+void DeckWriter::elements_block(int number, int group, const std::vector<int>& element_nodes, int columns,
+                                int rows, int column_step, int row_step) {
+  std::string card = integers({number, group}) + integers(element_nodes);
+  card.resize(50, ' ');
+  elements.push_back(card + integers({columns, rows, column_step, row_step}));
+}
+
+void DeckWriter::fix_row(int first, int last, int step, int x_code, int y_code) {
+  fixities.push_back(integers({first, last, step, x_code, y_code}));
 }
 
 void DeckWriter::fix(int node, int x_code, int y_code) {
@@ -129,13 +150,15 @@ void DeckWriter::water(int kind, int group_number, int from_stage, int action,
 }
 
 std::string DeckWriter::text() const {
-  std::string text = "verification\nm       kN      kPa     ";
+  std::string text = title + "\nm       kN      kPa     ";
   text += ten_columns(atmospheric_pressure) + ten_columns(water_unit_weight) + "\n";
-  text += integers({geometry, 0, size_of(nodes), 0, size_of(materials), size_of(groups), size_of(elements),
-                    size_of(fixities), size_of(initials), static_cast<int>(stages.size()), size_of(reports)});
+  text += integers({geometry, 0, size_of(nodes), size_of(fills), size_of(materials), size_of(groups),
+                    size_of(elements), size_of(fixities), size_of(initials), static_cast<int>(stages.size()),
+                    size_of(reports)});
   if (!waters.empty()) text += integers({0, 0, size_of(waters)});
   text += "\n";
-  for (const auto* cards : {&nodes, &materials, &groups, &elements, &fixities, &initials}) append(text, *cards);
+  for (const auto* cards : {&nodes, &fills, &materials, &groups, &elements, &fixities, &initials})
+    append(text, *cards);
   for (const StageCards& stage : stages) text += stage_text(stage);
   append(text, reports);
   append(text, waters);

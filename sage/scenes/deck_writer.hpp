@@ -15,6 +15,7 @@ std::string ten_columns(double value);
 
 // One stage; cards are stored as text.
 struct StageCards {
+  std::string title = "stage";
   int increments = 1, method = 0, max_iterations = 0, output_every = 0;
   double gravity_x = 0.0, gravity_y = 0.0, tolerance = 0.0;
   std::vector<int> births, deaths;
@@ -34,14 +35,25 @@ struct DeckWriter {
 
   int geometry = 1;  // 1 plane strain, 2 axisymmetric
   double atmospheric_pressure = 101.325, water_unit_weight = 9.81;
-  std::vector<std::string> nodes, materials, groups, elements, fixities, initials, reports, waters;
+  std::string title = "verification";
+  std::vector<std::string> nodes, fills, materials, groups, elements, fixities, initials, reports, waters;
   std::vector<StageCards> stages;
 
   void node(int number, double x, double y, bool polar = false);
-  void material(int number, int law, const std::vector<double>& parameters, double unit_weight = 0.0);
-  void group(int number, int element, int formulation, int material);
+  // A row from the node card before to this one, numbers `step` apart; ratio: last interval over the first.
+  void node_row(int number, int step, double x, double y, double ratio = 0.0, bool polar = false);
+  // Nodes of a block whose sides are known: columns x rows of elements.
+  void fill(int first, int columns, int column_step, int rows, int row_step, double column_ratio = 0.0,
+            double row_ratio = 0.0);
+  void material(int number, int law, const std::vector<double>& parameters, double unit_weight = 0.0,
+                const std::string& name = "law");
+  void group(int number, int element, int formulation, int material, const std::string& name = "");
   void element(int number, int group, const std::vector<int>& element_nodes);
+  // columns x rows of elements, numbered row by row.
+  void elements_block(int number, int group, const std::vector<int>& element_nodes, int columns, int rows,
+                      int column_step, int row_step);
   void fix(int node, int x_code, int y_code);
+  void fix_row(int first, int last, int step, int x_code, int y_code);
   // Values one by one: GCC 12.2 (-O2 -march=native) stores a list {x, x, x, 0} of constants as {x, x, x, x}.
   void initial(int group, int kind, double v1, double v2 = 0.0, double v3 = 0.0, double v4 = 0.0);
   StageCards& stage(int increments = 1);

@@ -5,10 +5,16 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "sage/model/dof_map.hpp"
+
 namespace sage::scenes {
 
 std::string rotation_held(int node) {
   return fmt::format("{:5}{:5}{:5}{:5}{:5}{:20}rotation", node, 0, 0, 1, 0, "");
+}
+
+double rotation_of(const WholeRun& run, int node) {
+  return run.last().u[DofMap(*run.model).of(run.index(node), find_unknown(run.model->unknowns, "rotation"))];
 }
 
 BeamRow::BeamRow(int geometry, int code, int n, const Vector2& a, const Vector2& z, int law,

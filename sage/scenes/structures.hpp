@@ -19,6 +19,9 @@ inline constexpr int kAxialForce = 0, kHoopForce = 1, kShearForce = 2, kMoment =
 // Card of fixity: a node that can't turn.
 std::string rotation_held(int node);
 
+// Rotation of a deck node at the end of a run.
+double rotation_of(const WholeRun& run, int node);
+
 // A row of beams of one law from a to z: their nodes are the deck's first, group and material are number 1.
 struct BeamRow {
   int elements, order;

@@ -11,7 +11,8 @@ std::vector<Section> book() {
           interface_cases(), cavity_cases(),
           bearing_cases(),   slope_cases(),
           ground_cases(),    law_cases(),
-          structure_cases(), seepage_cases()};
+          structure_cases(), soil_structure_cases(),
+          seepage_cases()};
 }
 
 }  // namespace sage::verify

@@ -20,6 +20,7 @@ Section slope_cases();
 Section ground_cases();
 Section law_cases();
 Section structure_cases();
+Section soil_structure_cases();
 Section seepage_cases();
 
 }  // namespace sage::verify
