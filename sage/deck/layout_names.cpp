@@ -69,7 +69,8 @@ constexpr KnownCard kKnown[] = {
     {"quad4m", "element", true, "number n1 n2 n3 n4 unit_weight poissons_ratio shear_modulus", "material", ""},
 
     {"cande", "title", false, "", "title method", ""},
-    {"cande", "control", true, "", "load_steps total_nodes load_scaling", ""},
+    {"cande", "control", true, "", "load_steps total_nodes", ""},
+    {"cande", "load_scaling", false, "", "text", ""},
     {"cande", "pipe", false, "type", "elements", ""},
     {"cande", "pipe_steel", false, "youngs_modulus poissons_ratio", "density joint_slip behaviour deformation",
      "pipe"},

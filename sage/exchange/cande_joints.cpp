@@ -258,7 +258,7 @@ void CandeJoints::add_gaps(int step, int stage, CardWriter& out) const {
   for (const Group& group : groups_)
     if (group.birth == step && group.law.gap > 0.0)
       out.add("initial", group.where,
-              {{"group", static_cast<double>(group.number)}, {"kind", 4.0}, {"v1", 1.0}, {"v2", group.law.gap}},
+              {{"group", static_cast<double>(group.number)}, {"kind", 4.0}, {"v1", 1.0}, {"v2", group.law.gap}, {"v3", 1.0}},
               stage);
 }
 

@@ -27,7 +27,9 @@ void add_listed_nodes(const Deck& deck, const CandeJoints& joints, CardWriter& o
     for (const char* field : {"reference_code", "generation_x", "generation_y", "increment"})
       if (node.integer(field) != 0)
         fail(deck, node.where(field),
-             "node generation (" + node.label(field) + ") is not built; give the coordinates of every node");
+             "node generation (" + node.label(field) +
+                 ") is not built: its rule stands in CANDE's user manual alone, which is not at hand; give the "
+                 "coordinates of every node");
     if (!joints.moves(node.integer("number")))
       out.add("node", node.where(), {take(node, "number"), take(node, "x"), take(node, "y")});
   }
@@ -454,8 +456,8 @@ void leave_out(const Deck& deck, const Pipes& pipes, const CandeJoints& joints, 
   SourcePosition where;
   for (const CardView& element : deck.all("element")) {
     if (is_soil(element) || pipes.wall(element) >= 0 || joints.takes(element)) continue;
-    if (where.line == 0) where = element.where();
     const int kind = element.integer("class");
+    if (where.line == 0) where = kind == 0 ? element.where() : element.where("class");
     ++(kind == 1 ? interfaces : kind > 1 ? links : beams);
     if (kind != 0) continue;
     for (const char* node : {"n1", "n2"})
@@ -474,6 +476,7 @@ void leave_out(const Deck& deck, const Pipes& pipes, const CandeJoints& joints, 
   if (list.empty()) return;
   if (beams > 0) list += " (the pipe; its nodes are held)";
   message = "left out: " + message + "; this program does not translate them";
+  if (links > 0) message += " (of links class 8 and 9 are: the equations of composite ones are in no source at hand)";
   if (beams > 0)
     message += ". The beams' nodes are held in x and y: the soil rests on a pipe that does not move";
   out.left_out(where, list, message);
@@ -487,13 +490,13 @@ void refuse_generation(const Deck& deck) {
       if (element.integer(field) > 1)
         fail(deck, element.where(field),
              "element generation (" + element.label(field) +
-                 ") is not built; give every element on a card of its own");
+                 ") is not built: its rule stands in CANDE's user manual alone, which is not at hand; give every "
+                 "element on a card of its own");
     if (const int number = element.integer("number"); before > 0 && number > before + 1)
       fail(deck, element.where("number"),
            "elements " + std::to_string(before + 1) + " to " + std::to_string(number - 1) +
                " are not given: CANDE fills such a gap by generation, which is not built; give every element "
-               "on a card "
-               "of its own");
+               "on a card of its own");
     before = element.integer("number");
   }
 }
@@ -614,13 +617,25 @@ void add_stages(const Deck& deck, const LoadFactors& factors, CardWriter& out, c
   }
 }
 
+// Numbers of nodes may have gaps: card C-2 has the highest.
+void check_highest_node(const Deck& deck, const CardView& control, const CandeJoints& joints, CardWriter& out) {
+  const int said = control.integer("total_nodes"), highest = joints.highest_node();
+  if (said == 0 || highest == 0 || said == highest) return;
+  const std::string words = "the highest node is " + std::to_string(said) + " by this card, " +
+                            std::to_string(highest) + " by cards C-3";
+  if (said > highest) return out.warning("S701", control.where("total_nodes"), words);
+  Diagnostics problems;
+  problems.add(card_diagnostic(deck, Severity::error, "S701", control.where("total_nodes"), words));
+  throw InputError(problems);
+}
+
 // Live loads that CANDE spreads along the pipe as they go down into the ground.
-void refuse_load_scaling(const CardView& control, CardWriter& out) {
-  if (control.integer("load_scaling") != 0)
-    out.left_out(control.where("load_scaling"), "continuous load scaling",
-                 "continuous load scaling (code " + control.text("load_scaling") +
-                     ", cards C-2b and C-2c) is not built: its equations are in no source at hand; forces on nodes "
-                     "count as they are");
+void refuse_load_scaling(const Deck& deck, CardWriter& out) {
+  const std::vector<CardView> cards = deck.all("load_scaling");
+  if (!cards.empty())
+    out.left_out(cards.front().where("text"), "continuous load scaling",
+                 "continuous load scaling (cards C-2b and C-2c) is not built: its equations are in no source at "
+                 "hand; forces on nodes count as they are");
 }
 
 // The largest modulus that a soil starts with at atmospheric pressure; 0: none is known.
@@ -671,8 +686,9 @@ Deck cande_deck(const Deck& deck, const Catalogue& catalogue) {
            {"stress", 0.0, {}, "psi"},
            {"atmospheric_pressure", kAtmosphere},
            {"water_unit_weight", kCandeWaterWeight}});
-  out.add("control", control.where(), {{"geometry", 1.0}, take(control, "total_nodes")});
+  out.add("control", control.where(), {{"geometry", 1.0}});
   CandeJoints joints(deck, out);
+  check_highest_node(deck, control, joints, out);
   const LoadFactors factors(deck, load_steps(deck, joints));
   const Soils soils(deck, factors);
   add_listed_nodes(deck, joints, out);
@@ -681,7 +697,7 @@ Deck cande_deck(const Deck& deck, const Catalogue& catalogue) {
   const Pipes pipes(deck, factors, soils.highest, out);
   add_walls(pipes, catalogue, out);
   leave_out(deck, pipes, joints, out);
-  refuse_load_scaling(control, out);
+  refuse_load_scaling(deck, out);
   const Groups groups = add_groups(deck, catalogue, factors, soils, pipes, joints, out);
   joints.add(catalogue, stiffest_soil(deck), stiffest_wall(pipes),
              soils.highest + static_cast<int>(pipes.walls().size()), static_cast<int>(groups.size()), out);

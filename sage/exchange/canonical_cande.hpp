@@ -49,7 +49,7 @@ class CandeJoints {
   // soils, stiffest_wall: the largest E A of beams.
   void add(const Catalogue& catalogue, double stiffest, double stiffest_wall, int material, int group,
            CardWriter& out);
-  // What opens at the start: the history of the groups born in this step, on the stage's card, or -1: on no stage.
+  // What is open at the start, so without a bond: the history of the groups born in this step, on the stage's card, or -1: on no stage.
   void add_gaps(int step, int stage, CardWriter& out) const;
   int last_step() const { return last_step_; }
   int highest_node() const { return highest_node_; }
