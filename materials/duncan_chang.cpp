@@ -2,9 +2,7 @@
 
 namespace sage {
 
-namespace {
-
-std::vector<Parameter> rows(VolumeRule volume) {
+std::vector<Parameter> duncan_chang_rows(VolumeRule volume) {
   std::vector<Parameter> r = hyperbolic_rows(volume);
   r.push_back(optional("largest_poissons_ratio", Dimension::none, "upper bound of Poisson's ratio", 0.49));
   r.push_back(optional("stress_floor", Dimension::none, "smallest sigma_3 seen by the moduli, of p_a", 0.01));
@@ -16,8 +14,8 @@ std::vector<Parameter> rows(VolumeRule volume) {
   return r;
 }
 
-LawPtr make(VolumeRule volume, std::span<const double> values, const UnitSystem& units) {
-  const std::vector<Parameter> table = rows(volume);
+LawPtr make_duncan_chang(VolumeRule volume, std::span<const double> values, const UnitSystem& units) {
+  const std::vector<Parameter> table = duncan_chang_rows(volume);
   const Parameters p(table, values, units);
   HyperbolicSteps steps;
   steps.moduli = hyperbolic_parameters(p, volume);
@@ -26,8 +24,6 @@ LawPtr make(VolumeRule volume, std::span<const double> values, const UnitSystem&
   steps.tolerance = p.between("step_tolerance", 1e-10, 1.0);
   return std::make_unique<DuncanChang>(steps, tangent);
 }
-
-}  // namespace
 
 bool DuncanChang::initialise(const Vector4& sigma, std::span<double> h) const {
   const Extremes s = extremes(sigma, steps_.in_plane);
@@ -59,9 +55,9 @@ MaterialEntry duncan_chang_1970_entry() {
   return {"duncan_chang_1970",
           "hyperbolic E and Poisson's ratio (Duncan & Chang 1970)",
           4,
-          rows(VolumeRule::poisson_1970),
+          duncan_chang_rows(VolumeRule::poisson_1970),
           [](std::span<const double> values, const UnitSystem& units) {
-            return make(VolumeRule::poisson_1970, values, units);
+            return make_duncan_chang(VolumeRule::poisson_1970, values, units);
           },
           DuncanChang::kHistory};
 }
@@ -70,9 +66,9 @@ MaterialEntry duncan_chang_eb_entry() {
   return {"duncan_chang_eb",
           "hyperbolic E and bulk modulus (Duncan, Byrne, Wong & Mabry 1980)",
           4,
-          rows(VolumeRule::bulk_1980),
+          duncan_chang_rows(VolumeRule::bulk_1980),
           [](std::span<const double> values, const UnitSystem& units) {
-            return make(VolumeRule::bulk_1980, values, units);
+            return make_duncan_chang(VolumeRule::bulk_1980, values, units);
           },
           DuncanChang::kHistory};
 }

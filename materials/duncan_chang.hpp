@@ -37,6 +37,10 @@ class DuncanChang final : public SolidLaw {
   HyperbolicTangent tangent_;
 };
 
+// Rows of a law of this kind, and the law; hyperbolic_rows and what DuncanChang and its steps add.
+std::vector<Parameter> duncan_chang_rows(VolumeRule volume);
+LawPtr make_duncan_chang(VolumeRule volume, std::span<const double> values, const UnitSystem& units);
+
 MaterialEntry duncan_chang_1970_entry();
 MaterialEntry duncan_chang_eb_entry();
 

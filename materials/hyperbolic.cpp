@@ -11,7 +11,6 @@ using Real = HyperbolicReal;
 
 constexpr double kSmallestTangent = 1e-4;   // of E_i; reached only for R_f near 1
 constexpr double kTensionStiffness = 1e-3;  // share of the modulus left in tension
-constexpr double kLastDecade = 3.0;         // phi falls up to sigma_3 = 1000 p_a, far beyond any test
 // Stress levels.  Isotropic loading leaves some of 1e-16 (rounding) to 1e-9 (what equilibrium leaves), and such
 // a memory must not choose between E_t and E_ur.
 constexpr double kRounding = 1e-11;   // so far below the memory is on it
@@ -63,12 +62,38 @@ Real poisson_1970(const HyperbolicParameters& p, const Real& sigma_1, const Real
   return max(Real(0.0), min(nu_i / (one_minus_A * one_minus_A), Real(p.nu_max)));
 }
 
+// Whether the strength grows with sigma_3 = 10^decade p_a, far beyond any test at 3: d/d sigma_3 of
+// sigma_3 sin phi/(1 - sin phi) >= 0.
+bool grows(const HyperbolicParameters& h, double decade) {
+  const double phi = h.phi0 - h.dphi * decade, sine = std::sin(phi);
+  return sine * (1.0 - sine) >= std::cos(phi) * h.dphi / std::log(10.0);
+}
+
+// B = B_i p_a (1 + sigma_m/(B_i p_a eps_u))^2 [Selig 1988]; no less than B_i p_a where the mean stress is tensile.
+// One of its derivatives is not among those of Real: K and G are made with a number that has it too.
+HyperbolicModuli selig(const HyperbolicParameters& p, const Young& young, double mean) {
+  using Wide = Dual<4>;
+  const auto narrow = [](const Wide& x) {
+    Real r = x.v;
+    r.d = x.d.head<3>();
+    return r;
+  };
+  Wide E = young.E.v;
+  E.d << young.E.d, 0.0;
+  const double B_i = p.B_i * p.p_a;
+  const Wide stiffening = 1.0 + max(Wide::variable(mean, 3), Wide(0.0)) / (B_i * p.eps_u);
+  const Wide B = B_i * stiffening * stiffening;
+  const Wide K = max(E / 3.0, min(B, E / (3.0 * (1.0 - 2.0 * p.nu_max))));
+  const Wide G = 3.0 * K * E / (9.0 * K - E);
+  return {narrow(K), narrow(G), young.unloading, K.d[3], G.d[3]};
+}
+
 }  // namespace
 
 HyperbolicReal friction_angle(const HyperbolicParameters& p, const HyperbolicReal& sigma_3) {
   if (p.dphi == 0.0) return p.phi0;
   const Real decades = log(floored(p, sigma_3)) / std::log(10.0);
-  return p.phi0 - p.dphi * min(decades, Real(kLastDecade));
+  return p.phi0 - p.dphi * min(decades, Real(p.decades));
 }
 
 HyperbolicReal deviator_strength(const HyperbolicParameters& p, const HyperbolicReal& sigma_3) {
@@ -86,9 +111,10 @@ HyperbolicReal stress_state(const HyperbolicParameters& p, double sigma_1, doubl
 }
 
 HyperbolicModuli hyperbolic_moduli(const HyperbolicParameters& p, double sigma_1, double sigma_3,
-                                   double memory) {
+                                   double memory, double mean) {
   const Real s1 = Real::variable(sigma_1, 0), s3 = Real::variable(sigma_3, 1);
   const Young young_now = young(p, s1, s3, Real::variable(memory, 2));
+  if (p.volume == VolumeRule::bulk_selig) return selig(p, young_now, mean);
   const Real& E = young_now.E;
   HyperbolicModuli moduli{{}, {}, young_now.unloading};
   if (p.volume == VolumeRule::bulk_1980) {
@@ -117,6 +143,12 @@ std::vector<Parameter> hyperbolic_rows(VolumeRule volume) {
                             "bulk modulus number K_b, B = K_b p_a (sigma_3/p_a)^m",
                             ParameterRole::modulus_number));
     rows.push_back(required("bulk_exponent", Dimension::none, "bulk modulus exponent m"));
+  } else if (volume == VolumeRule::bulk_selig) {
+    rows.push_back(required("bulk_number", Dimension::none,
+                            "B_i/p_a: bulk modulus number, B = B_i (1 + sigma_m/(B_i eps_u))^2",
+                            ParameterRole::modulus_number));
+    rows.push_back(required("ultimate_volume_strain", Dimension::none,
+                            "eps_u: volume strain that isotropic compression tends to"));
   } else {
     rows.push_back(required("poisson_G", Dimension::none, "G: initial Poisson's ratio at sigma_3 = p_a"));
     rows.push_back(required("poisson_F", Dimension::none, "F: its decrease for a tenfold sigma_3"));
@@ -140,6 +172,9 @@ HyperbolicParameters hyperbolic_parameters(const Parameters& p, VolumeRule volum
   if (volume == VolumeRule::bulk_1980) {
     h.K_b = p.positive("bulk_number");
     h.m = p.between("bulk_exponent", -2.0, 2.0);
+  } else if (volume == VolumeRule::bulk_selig) {
+    h.B_i = p.positive("bulk_number");
+    h.eps_u = p.positive("ultimate_volume_strain");
   } else {
     h.G = p.between("poisson_G", 0.0, 1.0);
     h.F = p.between("poisson_F", -1.0, 1.0);
@@ -154,11 +189,19 @@ HyperbolicParameters hyperbolic_parameters(const Parameters& p, VolumeRule volum
   const double steepest = h.phi0 - h.dphi * std::log10(h.floor);
   if (steepest >= 89.5 * kRadiansPerDegree)
     p.refuse("friction_loss", "must leave the friction angle below 89.5 degrees at the stress floor");
-  // The strength must not fall with sigma_3: d/d sigma_3 of sigma_3 sin phi/(1 - sin
-  // phi) >= 0 at the last decade.
-  const double flattest = h.phi0 - h.dphi * kLastDecade, sine = std::sin(flattest);
-  if (sine * (1.0 - sine) < std::cos(flattest) * h.dphi / std::log(10.0))
-    p.refuse("friction_loss", "must leave a strength that grows with sigma_3 up to 1000 p_a");
+  // Clays of Selig's lose their whole angle before: phi stays where the strength would begin to fall.
+  if (volume == VolumeRule::bulk_selig && grows(h, 0.0)) {
+    double above = h.decades;
+    for (h.decades = 0.0; above - h.decades > 1e-12;) {
+      const double middle = 0.5 * (h.decades + above);
+      (grows(h, middle) ? h.decades : above) = middle;
+    }
+    if (grows(h, 3.0)) h.decades = 3.0;
+  }
+  if (!grows(h, h.decades))
+    p.refuse("friction_loss", volume == VolumeRule::bulk_selig
+                                  ? "must leave a strength that grows with sigma_3 at p_a"
+                                  : "must leave a strength that grows with sigma_3 up to 1000 p_a");
   return h;
 }
 

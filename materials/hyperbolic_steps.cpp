@@ -39,12 +39,19 @@ struct Memory {
 
 Stiffness stiffness(const HyperbolicSteps& steps, const Point& at, const Memory& memory) {
   const Extremes s = extremes(at.sigma, steps.in_plane);
-  const HyperbolicModuli law = hyperbolic_moduli(steps.moduli, s.sigma_1, s.sigma_3, memory.value);
+  const HyperbolicModuli law =
+      hyperbolic_moduli(steps.moduli, s.sigma_1, s.sigma_3, memory.value, -mean_stress(at.sigma));
   const auto chain = [&](const HyperbolicReal& x) -> Vector4 {
     const Vector4 by_stress = x.d[0] * s.gradient_1 + x.d[1] * s.gradient_3;
     return at.J.transpose() * by_stress + x.d[2] * memory.d;
   };
-  return {{law.K.v, law.G.v}, chain(law.K), chain(law.G), law.unloading};
+  Stiffness k{{law.K.v, law.G.v}, chain(law.K), chain(law.G), law.unloading};
+  if (steps.moduli.volume == VolumeRule::bulk_selig) {
+    const Vector4 by_mean = at.J.transpose() * unit_tensor() / -3.0;
+    k.dK += law.dK_mean * by_mean;
+    k.dG += law.dG_mean * by_mean;
+  }
+  return k;
 }
 
 Stiffness mean(const Stiffness& a, const Stiffness& b) {
@@ -202,7 +209,8 @@ double path_error(const HyperbolicSteps& steps, const PointIn<4>& in, const Vect
                   double memory1) {
   const auto moduli = [&](const Vector4& at, double memory) {
     const Extremes s = extremes(at, steps.in_plane);
-    const HyperbolicModuli law = hyperbolic_moduli(steps.moduli, s.sigma_1, s.sigma_3, memory);
+    const HyperbolicModuli law =
+        hyperbolic_moduli(steps.moduli, s.sigma_1, s.sigma_3, memory, -mean_stress(at));
     const bool flows = steps.bounded && !inside(steps, {at, Matrix4::Zero()});
     return ElasticModuli{law.K.v, flows ? 0.0 : law.G.v};
   };

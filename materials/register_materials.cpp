@@ -8,6 +8,7 @@
 #include "materials/dilating_joint.hpp"
 #include "materials/drucker_prager.hpp"
 #include "materials/duncan_chang.hpp"
+#include "materials/duncan_selig.hpp"
 #include "materials/goodman.hpp"
 #include "materials/hoek_brown.hpp"
 #include "materials/hyperbolic_mohr_coulomb.hpp"
@@ -29,6 +30,7 @@ void register_materials(Catalogue& catalogue) {
   catalogue.materials.add(7, hyperbolic_mohr_coulomb_entry());
   catalogue.materials.add(8, mohr_coulomb_softening_entry());
   catalogue.materials.add(9, hoek_brown_entry());
+  catalogue.materials.add(10, duncan_selig_entry());
   // Interfaces
   catalogue.materials.add(21, goodman_entry());
   catalogue.materials.add(22, clough_duncan_entry());

@@ -56,6 +56,16 @@ void DeckReader::report_flaws(const CardRule& rule) {
     FieldValue& value = fields_[at];
     // A map may take what isn't a number.
     if (!rule.rules[field].map.empty() && flaw.fault != FieldFault::none) continue;
+    // Old hands let a name run on over a field that nobody needs.
+    if (rule.rules[field].ignored && flaw.fault == FieldFault::bad_character && field > 0 &&
+        rule.spec.fields[field - 1].kind == FieldKind::text && !trimmed(fields_[at - 1].text).empty()) {
+      log_.add(Severity::note, "S129", log_.where(value),
+               quoted(trimmed(value.text)) + " is read as the end of the text before it, not as a number " +
+                   field_text(rule, rule.spec.fields[field]));
+      value.number = 0.0;
+      value.blank = true;
+      continue;
+    }
     log_.flaw(rule, rule.spec.fields[field], value, flaw);
     if (log_.errors() > errors) {
       mark_faulty(at);

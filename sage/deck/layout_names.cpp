@@ -70,6 +70,7 @@ constexpr KnownCard kKnown[] = {
 
     {"cande", "title", false, "", "title method", ""},
     {"cande", "control", true, "", "load_steps total_nodes", ""},
+    {"cande", "load_scaling", false, "", "text", ""},
     {"cande", "pipe", false, "type", "elements", ""},
     {"cande", "pipe_steel", false, "youngs_modulus poissons_ratio", "density joint_slip behaviour deformation",
      "pipe"},
@@ -88,7 +89,8 @@ constexpr KnownCard kKnown[] = {
     {"cande", "material", true, "number law", "unit_weight name", ""},
     {"cande", "isotropic", false, "youngs_modulus poissons_ratio", "", "material"},
     {"cande", "mohr_coulomb", false, "youngs_modulus poissons_ratio cohesion friction_angle", "", "material"},
-    {"cande", "duncan", false, "model", "", "material"},
+    {"cande", "duncan", false, "model", "unloading", "material"},
+    {"cande", "interface", false, "angle friction", "tension gap", "material"},
     {"cande", "duncan_strength", false,
      "cohesion friction_angle friction_drop modulus_number modulus_exponent failure_ratio", "", "material"},
     {"cande", "duncan_bulk", false, "bulk_number bulk_exponent", "", "material"},

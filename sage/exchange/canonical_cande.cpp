@@ -1,12 +1,13 @@
 // CANDE Level 3 decks: soil elements and the beams of pipes by load step, under the load factors of the steps.
-// Interfaces and links are left out.
+// Interfaces and links: cande_joints.cpp.
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 
 #include "sage/core/types.hpp"
-#include "sage/exchange/canonical.hpp"
+#include "sage/exchange/cande_soils.hpp"
+#include "sage/exchange/canonical_cande.hpp"
 
 namespace sage::canonical {
 
@@ -15,44 +16,33 @@ namespace {
 constexpr int kMostSteps = 99999;        // what the card has columns for
 constexpr double kCubicInches = 1728.0;  // lengths in inches, densities in lbf/ft^3
 
+constexpr double kAtmosphere = 14.696;   // psi
+
 void fail(const Deck& deck, const SourcePosition& where, const std::string& message) {
-  Diagnostics problems;
-  problems.add(card_diagnostic(deck, Severity::error, "S702", where, message));
-  throw InputError(problems);
+  refuse_field(deck, where, message);
 }
 
-void add_listed_nodes(const Deck& deck, CardWriter& out) {
+void add_listed_nodes(const Deck& deck, const CandeJoints& joints, CardWriter& out) {
   for (const CardView& node : deck.all("node")) {
     for (const char* field : {"reference_code", "generation_x", "generation_y", "increment"})
       if (node.integer(field) != 0)
         fail(deck, node.where(field),
-             "node generation (" + node.label(field) + ") is not built; give the coordinates of every node");
-    out.add("node", node.where(), {take(node, "number"), take(node, "x"), take(node, "y")});
+             "node generation (" + node.label(field) +
+                 ") is not built: its rule stands in CANDE's user manual alone, which is not at hand; give the "
+                 "coordinates of every node");
+    if (!joints.moves(node.integer("number")))
+      out.add("node", node.where(), {take(node, "number"), take(node, "x"), take(node, "y")});
   }
+  joints.add_nodes(out);
 }
 
-bool is_soil(const CardView& element) {
-  return element.integer("n3") != 0 && element.integer("class") == 0;
+bool selig(const CardView& model) {
+  return model.integer("model") == 1;
 }
 
-bool is_beam(const CardView& element) {
-  return element.integer("n3") == 0 && element.integer("class") == 0;
-}
-
-int birth_of(const CardView& element) {
-  return std::max(1, element.integer("birth"));
-}
-
-// The law of Duncan et al. (1980) from the cards D-2 to D-4, where these hold its numbers.  Decks may name a
-// standard soil instead (SW95 ...), whose numbers stand in CANDE.
+// The law of Duncan et al. (1980), or with the bulk modulus of Selig, from the cards D-2 to D-4.
 std::vector<NewField> duncan_parameters(const CardView& model, const CardView& strength, const CardView& bulk,
                                         CardWriter& out) {
-  if (model.integer("model") != 0) {
-    out.warning("S703", model.where("model"),
-                "this soil's bulk modulus is that of Selig (code " + model.text("model", "1") +
-                    "), which is not known here; only code 0, that of Duncan, is");
-    return {};
-  }
   if (!(bulk.real("bulk_number") > 0.0)) {
     out.warning("S703", bulk.where("bulk_number"),
                 "without a bulk modulus number this soil has a constant Poisson's ratio, which "
@@ -60,13 +50,50 @@ std::vector<NewField> duncan_parameters(const CardView& model, const CardView& s
     return {};
   }
   out.warning("S703", strength.where("modulus_number"),
-              "computed as duncan_chang_eb; the deck has no modulus for unloading: the modulus number K serves "
-              "for both");
+              std::string("computed as ") + (selig(model) ? "duncan_selig" : "duncan_chang_eb") +
+                  "; the deck has no modulus for unloading: the modulus number K serves for both");
   return {take(strength, "modulus_number", "values"), take(strength, "modulus_exponent", "values"),
           take(strength, "failure_ratio", "values"),  take(strength, "modulus_number", "values"),
           take(bulk, "bulk_number", "values"),        take(bulk, "bulk_exponent", "values"),
           take(strength, "cohesion", "values"),       take(strength, "friction_angle", "values"),
           take(strength, "friction_drop", "values")};
+}
+
+// The same of a soil that CANDE has by name.
+std::vector<NewField> named_parameters(const CardView& material, const CardView& model, CardWriter& out) {
+  const std::string name = material.text("name");
+  const NamedSoil* soil = named_soil(selig(model), name);
+  if (soil == nullptr) {
+    if (named_soil(!selig(model), name) != nullptr)
+      out.warning("S703", model.where("model"),
+                  "the soil " + name + " is known for code " + (selig(model) ? "0 (Duncan)" : "1 (Selig)") +
+                      " of this card alone");
+    return {};
+  }
+  out.warning("S703", material.where("name"),
+              std::string(soil->name) + " is computed as " +
+                  (selig(model) ? "duncan_selig with the numbers of Selig (1988)"
+                                : "duncan_chang_eb with the numbers of Duncan et al. (1980)") +
+                  "; the modulus number K serves for unloading too");
+  std::vector<NewField> values;
+  for (const double value : {soil->K, soil->n, soil->R_f, soil->K, soil->bulk, soil->bulk_other, soil->cohesion,
+                             soil->friction_angle, soil->friction_loss})
+    values.push_back({"values", value, material.where("name")});
+  return values;
+}
+
+std::vector<NewField> hyperbolic_parameters_of(const Deck& deck, const CardView& material, const CardView& model,
+                                               std::string& law, CardWriter& out) {
+  if (const int code = model.integer("model"); code != 0 && code != 1)
+    fail(deck, model.where("model"), "the code of the model is 0 (Duncan) or 1 (Selig), not " + std::to_string(code));
+  if (model.integer("unloading") != 0)
+    out.warning("S703", model.where("unloading"),
+                "unloading with lasting strain (code " + model.text("unloading") +
+                    ") is not built: this soil unloads with its modulus number K");
+  law = selig(model) ? "duncan_selig" : "duncan_chang_eb";
+  const auto strength = deck.all("duncan_strength", material), bulk = deck.all("duncan_bulk", material);
+  if (!strength.empty() && !bulk.empty()) return duncan_parameters(model, strength.front(), bulk.front(), out);
+  return named_parameters(material, model, out);
 }
 
 // The parameters of a material, empty where the deck doesn't give a law that exists here.
@@ -83,11 +110,8 @@ std::vector<NewField> parameters(const Deck& deck, const CardView& material, std
   } else if (!mohr.empty()) {
     law = "mohr_coulomb";
     add(mohr.front(), {"youngs_modulus", "poissons_ratio", "cohesion", "friction_angle"});
-  } else if (const auto model = deck.all("duncan", material), strength = deck.all("duncan_strength", material),
-             bulk = deck.all("duncan_bulk", material);
-             !model.empty() && !strength.empty() && !bulk.empty()) {
-    law = "duncan_chang_eb";
-    values = duncan_parameters(model.front(), strength.front(), bulk.front(), out);
+  } else if (const auto model = deck.all("duncan", material); !model.empty()) {
+    values = hyperbolic_parameters_of(deck, material, model.front(), law, out);
   }
   return values;
 }
@@ -386,6 +410,13 @@ GroupKey key_of(const CardView& element, const Pipes& pipes) {
   return {birth_of(element), element.integer("death"), element.integer("material"), n4 == 0 || n4 == n3, false};
 }
 
+// A node of an element; of nodes that a link joins for good the one that stays.
+NewField joined(const CardView& element, const char* field, const CandeJoints& joints) {
+  NewField node = take(element, field);
+  node.number = static_cast<double>(joints.node(static_cast<int>(node.number)));
+  return node;
+}
+
 // Those decks turn elements either way; this program wants them counter-clockwise.
 class Turner {
  public:
@@ -394,10 +425,10 @@ class Turner {
       place_.insert_or_assign(node.integer("number"), Vector2(node.real("x"), node.real("y")));
   }
   // The fields n1 ... in counter-clockwise order.
-  std::vector<NewField> nodes(const CardView& element, bool triangle) {
+  std::vector<NewField> nodes(const CardView& element, bool triangle, const CandeJoints& joints) {
     std::vector<NewField> list;
     for (const char* node : {"n1", "n2", "n3", "n4"})
-      if (!triangle || node[1] != '4') list.push_back(take(element, node));
+      if (!triangle || node[1] != '4') list.push_back(joined(element, node, joints));
     double twice_area = 0.0;
     for (std::size_t i = 0; i < list.size(); ++i) {
       const auto a = place_.find(static_cast<int>(list[i].number));
@@ -420,13 +451,13 @@ class Turner {
 
 // Without its beams the pipe would be a hole with loose soil above; its nodes are
 // held: a rigid pipe that stays.
-void leave_out(const Deck& deck, const Pipes& pipes, CardWriter& out) {
+void leave_out(const Deck& deck, const Pipes& pipes, const CandeJoints& joints, CardWriter& out) {
   int beams = 0, interfaces = 0, links = 0;
   SourcePosition where;
   for (const CardView& element : deck.all("element")) {
-    if (is_soil(element) || pipes.wall(element) >= 0) continue;
-    if (where.line == 0) where = element.where();
+    if (is_soil(element) || pipes.wall(element) >= 0 || joints.takes(element)) continue;
     const int kind = element.integer("class");
+    if (where.line == 0) where = kind == 0 ? element.where() : element.where("class");
     ++(kind == 1 ? interfaces : kind > 1 ? links : beams);
     if (kind != 0) continue;
     for (const char* node : {"n1", "n2"})
@@ -445,6 +476,7 @@ void leave_out(const Deck& deck, const Pipes& pipes, CardWriter& out) {
   if (list.empty()) return;
   if (beams > 0) list += " (the pipe; its nodes are held)";
   message = "left out: " + message + "; this program does not translate them";
+  if (links > 0) message += " (of links class 8 and 9 are: the equations of composite ones are in no source at hand)";
   if (beams > 0)
     message += ". The beams' nodes are held in x and y: the soil rests on a pipe that does not move";
   out.left_out(where, list, message);
@@ -458,19 +490,19 @@ void refuse_generation(const Deck& deck) {
       if (element.integer(field) > 1)
         fail(deck, element.where(field),
              "element generation (" + element.label(field) +
-                 ") is not built; give every element on a card of its own");
+                 ") is not built: its rule stands in CANDE's user manual alone, which is not at hand; give every "
+                 "element on a card of its own");
     if (const int number = element.integer("number"); before > 0 && number > before + 1)
       fail(deck, element.where("number"),
            "elements " + std::to_string(before + 1) + " to " + std::to_string(number - 1) +
                " are not given: CANDE fills such a gap by generation, which is not built; give every element "
-               "on a card "
-               "of its own");
+               "on a card of its own");
     before = element.integer("number");
   }
 }
 
 Groups add_groups(const Deck& deck, const Catalogue& catalogue, const LoadFactors& factors, const Soils& soils,
-                  const Pipes& pipes, CardWriter& out) {
+                  const Pipes& pipes, const CandeJoints& joints, CardWriter& out) {
   Groups groups;
   for (const CardView& element : deck.all("element"))
     if (is_soil(element) || pipes.wall(element) >= 0) groups.try_emplace(key_of(element, pipes), 0.0);
@@ -498,11 +530,11 @@ Groups add_groups(const Deck& deck, const Catalogue& catalogue, const LoadFactor
     const GroupKey key = key_of(element, pipes);
     std::vector<NewField> fields{take(element, "number"), {"group", groups.at(key)}};
     if (key.beam) {
-      for (const char* node : {"n1", "n2"}) fields.push_back(take(element, node));
+      for (const char* node : {"n1", "n2"}) fields.push_back(joined(element, node, joints));
       out.add("element", element.where(), fields);
       continue;
     }
-    for (NewField& node : turner.nodes(element, key.triangle)) fields.push_back(std::move(node));
+    for (NewField& node : turner.nodes(element, key.triangle, joints)) fields.push_back(std::move(node));
     out.add("element", element.where(), fields);
   }
   if (turner.turned() > 0)
@@ -549,8 +581,8 @@ void add_boundary(const Deck& deck, const LoadFactors& factors, CardWriter& out,
 }
 
 // The control card's number, or more where an element is born or removed later.
-int load_steps(const Deck& deck) {
-  int steps = std::max(1, deck.one("control").integer("load_steps"));
+int load_steps(const Deck& deck, const CandeJoints& joints) {
+  int steps = std::max({1, deck.one("control").integer("load_steps"), joints.last_step()});
   for (const CardView& element : deck.all("element"))
     if (is_soil(element) || is_beam(element))
       steps = std::max({steps, birth_of(element), element.integer("death")});
@@ -560,9 +592,10 @@ int load_steps(const Deck& deck) {
   return steps;
 }
 
-void add_stages(const Deck& deck, const LoadFactors& factors, CardWriter& out, const Groups& groups) {
+void add_stages(const Deck& deck, const LoadFactors& factors, CardWriter& out, const Groups& groups,
+                const CandeJoints& joints) {
   const CardView control = deck.one("control");
-  const int steps = load_steps(deck);
+  const int steps = load_steps(deck, joints);
   for (int step = 1; step <= steps; ++step) {
     out.add("stage_title", control.where(), {{"title", 0.0, {}, "load step " + std::to_string(step)}});
     const int stage =
@@ -572,10 +605,58 @@ void add_stages(const Deck& deck, const LoadFactors& factors, CardWriter& out, c
       if (step > 1 && key.birth == step) births.push_back({"groups", number});
       if (key.death == step) deaths.push_back({"groups", number});
     }
+    for (const CandeJoints::Group& group : joints.groups()) {
+      const auto number = static_cast<double>(group.number);
+      if (step > 1 && group.birth == step) births.push_back({"groups", number});
+      if (group.death == step) deaths.push_back({"groups", number});
+    }
+    if (step > 1) joints.add_gaps(step, stage, out);
     add_boundary(deck, factors, out, step, stage);
     if (!births.empty()) out.add("birth", control.where(), births, stage);
     if (!deaths.empty()) out.add("death", control.where(), deaths, stage);
   }
+}
+
+// Numbers of nodes may have gaps: card C-2 has the highest.
+void check_highest_node(const Deck& deck, const CardView& control, const CandeJoints& joints, CardWriter& out) {
+  const int said = control.integer("total_nodes"), highest = joints.highest_node();
+  if (said == 0 || highest == 0 || said == highest) return;
+  const std::string words = "the highest node is " + std::to_string(said) + " by this card, " +
+                            std::to_string(highest) + " by cards C-3";
+  if (said > highest) return out.warning("S701", control.where("total_nodes"), words);
+  Diagnostics problems;
+  problems.add(card_diagnostic(deck, Severity::error, "S701", control.where("total_nodes"), words));
+  throw InputError(problems);
+}
+
+// Live loads that CANDE spreads along the pipe as they go down into the ground.
+void refuse_load_scaling(const Deck& deck, CardWriter& out) {
+  const std::vector<CardView> cards = deck.all("load_scaling");
+  if (!cards.empty())
+    out.left_out(cards.front().where("text"), "continuous load scaling",
+                 "continuous load scaling (cards C-2b and C-2c) is not built: its equations are in no source at "
+                 "hand; forces on nodes count as they are");
+}
+
+// The largest modulus that a soil starts with at atmospheric pressure; 0: none is known.
+double stiffest_soil(const Deck& deck) {
+  double most = 0.0;
+  const auto see = [&](double modulus) {
+    if (std::isfinite(modulus)) most = std::max(most, modulus);
+  };
+  for (const char* card : {"isotropic", "mohr_coulomb"})
+    for (const CardView& soil : deck.all(card)) see(soil.real("youngs_modulus"));
+  for (const CardView& soil : deck.all("duncan_strength")) see(kAtmosphere * soil.real("modulus_number"));
+  for (const CardView& material : deck.all("material"))
+    for (const CardView& model : deck.all("duncan", material))
+      if (const NamedSoil* soil = named_soil(selig(model), material.text("name"))) see(kAtmosphere * soil->K);
+  return most;
+}
+
+double stiffest_wall(const Pipes& pipes) {
+  double most = 0.0;
+  for (const Wall& wall : pipes.walls()) most = std::max(most, wall.axial);
+  return most;
 }
 
 // What the load factors do, and where the deck contradicts itself.
@@ -603,21 +684,27 @@ Deck cande_deck(const Deck& deck, const Catalogue& catalogue) {
           {{"length", 0.0, {}, "in"},
            {"force", 0.0, {}, "lbf"},
            {"stress", 0.0, {}, "psi"},
-           {"atmospheric_pressure", 14.696},
-           {"water_unit_weight", 0.036111}});
-  out.add("control", control.where(), {{"geometry", 1.0}, take(control, "total_nodes")});
-  const LoadFactors factors(deck, load_steps(deck));
+           {"atmospheric_pressure", kAtmosphere},
+           {"water_unit_weight", kCandeWaterWeight}});
+  out.add("control", control.where(), {{"geometry", 1.0}});
+  CandeJoints joints(deck, out);
+  check_highest_node(deck, control, joints, out);
+  const LoadFactors factors(deck, load_steps(deck, joints));
   const Soils soils(deck, factors);
-  add_listed_nodes(deck, out);
+  add_listed_nodes(deck, joints, out);
   add_materials(deck, catalogue, soils, out);
   refuse_generation(deck);
   const Pipes pipes(deck, factors, soils.highest, out);
   add_walls(pipes, catalogue, out);
-  leave_out(deck, pipes, out);
-  const Groups groups = add_groups(deck, catalogue, factors, soils, pipes, out);
+  leave_out(deck, pipes, joints, out);
+  refuse_load_scaling(deck, out);
+  const Groups groups = add_groups(deck, catalogue, factors, soils, pipes, joints, out);
+  joints.add(catalogue, stiffest_soil(deck), stiffest_wall(pipes),
+             soils.highest + static_cast<int>(pipes.walls().size()), static_cast<int>(groups.size()), out);
+  joints.add_gaps(1, -1, out);
   add_boundary(deck, factors, out, 0, -1);
   explain_factors(deck, factors, out);
-  add_stages(deck, factors, out, groups);
+  add_stages(deck, factors, out, groups, joints);
   return out.take();
 }
 
