@@ -126,10 +126,10 @@ void Call::load(const PointIn<4>& in, const PointContext& context, Width width) 
   }
 }
 
-CallEnd Call::run(bool poisoned) {
-  if (poisoned)
+CallEnd Call::run(Asked asked) {
+  if (asked == Asked::with_wide_integers)
     for (std::int64_t& value : integers_) value |= ~std::int64_t{0} << 32;
-  return call_caught([](void* self) { static_cast<Call*>(self)->call(); }, this, poisoned);
+  return call_caught([](void* self) { static_cast<Call*>(self)->call(); }, this, asked != Asked::in_earnest);
 }
 
 void Call::call() {

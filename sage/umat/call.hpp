@@ -15,15 +15,25 @@ namespace sage::umat {
 // What a material card says of its routine.
 struct Setup {
   Routine routine;
-  std::string material;    // CMNAME
-  int components = 4;      // NTENS: 4 (11 22 33 12) or 6 (and 13 23)
-  bool symmetric = false;  // DDSDDE is, in every state
-  int statev = 0;          // NSTATV
+  std::string material;       // CMNAME
+  int components = 4;         // NTENS: 4 (11 22 33 12) or 6 (and 13 23)
+  bool symmetric = false;     // DDSDDE is, in every state
+  bool differences = false;   // of the stress stand for DDSDDE
+  bool threads_safe = false;  // several threads may call it at once
+  int statev = 0;             // NSTATV
   std::vector<double> props;
 };
 
 // Bytes of an integer argument.
 enum class Width : std::uint8_t { four = 4, eight = 8 };
+
+// Why the routine is called.
+enum class Asked : std::uint8_t {
+  in_earnest,
+  to_find_out,         // with numbers that it may have no answer to
+  with_wide_integers,  // likewise; the upper halves of all integers hold ones, which routines with integers of 4
+                       // bytes don't see
+};
 
 class Call {
  public:
@@ -31,9 +41,7 @@ class Call {
 
   // Puts in the state at the start of an increment.  h: STATEV, then SSE, SPD and SCD.
   void load(const PointIn<4>& in, const PointContext& context, Width width);
-  // Calls the routine.  poisoned: the upper halves of all integers hold ones, which routines with integers of 4
-  // bytes don't see.
-  CallEnd run(bool poisoned = false);
+  CallEnd run(Asked asked = Asked::in_earnest);
 
   // The argument that was written beyond its end or, of an input, changed, in words; empty = there is none.
   std::string damage() const;

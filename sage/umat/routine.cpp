@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cctype>
 #include <csignal>
 #include <cstdio>
@@ -12,6 +13,7 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <mutex>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -55,7 +57,8 @@ void leave_for_module(int who, const char* words, size_t length) {
 
 // A routine was left in the middle of its Fortran library, whose locks then stay taken: who asks it for anything would
 // wait for ever.
-bool library_left = false;
+std::atomic<bool> library_left = false;
+std::mutex when_left_lock;
 Under when_left;
 
 // So would the end of the program, where the library closes its units: it is passed over.
@@ -66,7 +69,7 @@ void end_at_once(int code, void*) {
 
 void leave_library() {
   if (under.asked) return;
-  if (!std::exchange(library_left, true)) on_exit(end_at_once, nullptr);
+  if (!library_left.exchange(true)) on_exit(end_at_once, nullptr);
 }
 
 // exit(), and what ends in it: STOP of other compilers, errors of the Fortran library.
@@ -202,6 +205,7 @@ CallEnd call_caught(void (*call)(void*), void* data, bool may_crash) {
   }
   under.back = nullptr;
   if (library_left) {
+    const std::lock_guard lock(when_left_lock);
     when_left.words = under.words;
     when_left.end = {under.end.ending, when_left.words.data()};
   }
