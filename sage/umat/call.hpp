@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,6 +40,8 @@ enum class Asked : std::uint8_t {
 class Call {
  public:
   explicit Call(const Setup& setup);
+  Call(const Call&) = delete;
+  Call& operator=(const Call&) = delete;
 
   // Puts in the state at the start of an increment.  h: STATEV, then SSE, SPD and SCD.
   void load(const PointIn<4>& in, const PointContext& context, Width width);
@@ -47,7 +51,7 @@ class Call {
   std::string damage() const;
   void repair();  // the guard words, after damage
 
-  double pnewdt() const { return pnewdt_; }
+  double pnewdt() const;
   bool finite() const;
   Vector4 stress() const;
   Matrix4 tangent() const;
@@ -61,26 +65,33 @@ class Call {
  private:
   struct Place {
     const char* name;
-    std::size_t first, size;
+    std::size_t first, size, before;  // before: guard words in front of it
   };
   struct Guards {
     std::size_t first, size;
   };
+  // Numbers between pages that nobody may touch: what is written far beyond an array is a crash, which is caught.
+  class Memory {
+   public:
+    explicit Memory(std::size_t numbers);
+    ~Memory();
+    Memory(const Memory&) = delete;
+    Memory& operator=(const Memory&) = delete;
+    double* data = nullptr;
+    char *first = nullptr, *end = nullptr;  // of the pages
+  };
   std::string damage_words() const;
-  double* at(std::size_t which) { return memory_.data() + places_[which].first; }
-  const double* at(std::size_t which) const { return memory_.data() + places_[which].first; }
+  double* at(std::size_t which) { return memory_->data + places_[which].first; }
+  const double* at(std::size_t which) const { return memory_->data + places_[which].first; }
   void call();
 
   const Setup* setup_;
   std::vector<Place> places_;
-  std::vector<double> memory_;
-  std::vector<Guards> guards_;
-  std::array<double, 3> energies_{};
-  std::array<double, 2> time_{};
-  double dtime_ = 0.0, pnewdt_ = 1.0, size_ = 0.0;
+  std::vector<Guards> guards_;  // in fours
+  std::optional<Memory> memory_;
   std::array<std::int64_t, 10> integers_{};
   std::array<std::int64_t, 4> jstep_{};
-  std::array<char, 80> name_{};
+  std::array<char, 80> name_{}, given_name_{};
 };
 
 }  // namespace sage::umat

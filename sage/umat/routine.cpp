@@ -32,6 +32,7 @@ struct Under {
   CallEnd end;
   std::array<char, 201> words{};
   bool asked = false;  // with numbers that some routines crash on
+  Pages pages;
 };
 thread_local Under under;
 
@@ -83,10 +84,12 @@ void caught_exit() {
 // Signals of a crash.  Outside of a call the program ends by them as it would without this.
 constexpr std::array kCrashes{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
-void crashed(int signal) {
+void crashed(int signal, siginfo_t* info, void*) {
   if (under.back != nullptr) {
     leave_library();
-    const char* words = sigdescr_np(signal);
+    const char* const place = static_cast<const char*>(info->si_addr);
+    const bool beside = signal == SIGSEGV && place >= under.pages.first && place < under.pages.end;
+    const char* words = beside ? "an access far beyond one of its arrays" : sigdescr_np(signal);
     leave(Ending::crash, words, std::strlen(words));
   }
   std::signal(signal, SIG_DFL);
@@ -95,8 +98,9 @@ void crashed(int signal) {
 
 void catch_crashes() {
   struct sigaction action {};
-  action.sa_handler = crashed;
-  action.sa_flags = SA_ONSTACK | SA_NODEFER;  // the handler is left by longjmp, which lifts no block
+  action.sa_sigaction = crashed;
+  action.sa_flags =
+      SA_SIGINFO | SA_ONSTACK | SA_NODEFER;  // the handler is left by longjmp, which lifts no block
   for (const int signal : kCrashes) sigaction(signal, &action, nullptr);
 }
 
@@ -186,13 +190,14 @@ bool may_flush() {
   return !library_left;
 }
 
-CallEnd call_caught(void (*call)(void*), void* data, bool may_crash) {
+CallEnd call_caught(void (*call)(void*), void* data, bool may_crash, Pages pages) {
   if (library_left) return when_left.end;
   expect_spare_stack();
   jmp_buf back;
   under.end = {};
   under.back = &back;
   under.asked = may_crash;
+  under.pages = pages;
   // What changes between here and a longjmp is not read after it.
   if (_setjmp(back) == 0) {
     try {

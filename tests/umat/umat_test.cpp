@@ -199,34 +199,44 @@ Finished run_fault(const fs::path& folder, const std::string& fault, const std::
 }
 
 // From the third increment on: two increments are on the disk, and the run says who, what and where.
-TEST(Umat, RoutinesThatBreakTheirContractAreRefused) {
-  const fs::path folder = empty_folder("umat_faults");
-  const std::vector<std::pair<std::string, std::vector<std::string>>> faults = {
-      {"1.", {"wrote to DDSDDE(", "which has 16 numbers"}},
-      {"2.", {"wrote to STRESS(5), which has 4 numbers"}},
-      {"3.", {"wrote to STATEV(2), which has 1 numbers"}},
-      {"4.", {"called XIT"}},
-      {"5.", {"executed STOP (no convergence)"}},
-      {"9.", {"changed PROPS"}},
-      {"11.", {"executed STOP (12)"}},
-      {"13.", {"called XIT (element 1 of clay has 2.5)"}},
-      {"14.", {"ended the program"}},
-      {"19.", {"crashed (Segmentation fault)"}},
-      {"20.", {"ended the program, by exit() or an error of its library"}},
-      {"21.", {"crashed (Segmentation fault)"}},
-  };
-  for (const auto& [fault, words] : faults) {
-    SCOPED_TRACE(fault);
-    const Finished run = run_fault(folder, fault);
-    EXPECT_EQ(run.exit_code, 3) << run.out << run.err;
-    expect_words(run.err, words);
-    expect_words(run.err,
-                 {"routine umat_ of ", "faults_umat.so", " at element 1, point 1 (", "stage 1, increment 3"});
-    EXPECT_EQ(numbers(folder / "out/deck.report1.csv").size() % 2, 0u);
-    const std::string rows = read(folder / "out/deck.increments.csv");
-    EXPECT_NE(rows.find("\n1,2,"), std::string::npos) << rows;
-    EXPECT_EQ(rows.find("\n1,3,"), std::string::npos) << rows;
-  }
+void expect_refused_in_third(const fs::path& folder, const std::string& fault,
+                             const std::vector<std::string>& words) {
+  SCOPED_TRACE(fault);
+  const Finished run = run_fault(folder, fault);
+  EXPECT_EQ(run.exit_code, 3) << run.out << run.err;
+  expect_words(run.err, words);
+  expect_words(run.err,
+               {"routine umat_ of ", "faults_umat.so", " at element 1, point 1 (", "stage 1, increment 3"});
+  EXPECT_EQ(numbers(folder / "out/deck.report1.csv").size() % 2, 0u);
+  const std::string rows = read(folder / "out/deck.increments.csv");
+  EXPECT_NE(rows.find("\n1,2,"), std::string::npos) << rows;
+  EXPECT_EQ(rows.find("\n1,3,"), std::string::npos) << rows;
+}
+
+TEST(Umat, RoutinesThatWriteBeyondTheirArraysAreRefused) {
+  const fs::path folder = empty_folder("umat_arrays");
+  expect_refused_in_third(folder, "1.", {"wrote to DDSDDE(", "which has 16 numbers"});
+  expect_refused_in_third(folder, "2.", {"wrote to STRESS(5), which has 4 numbers"});
+  expect_refused_in_third(folder, "3.", {"wrote to STATEV(2), which has 1 number,"});
+  expect_refused_in_third(folder, "9.", {"changed PROPS"});
+  expect_refused_in_third(folder, "22.", {"wrote to TIME(3), which has 2 numbers"});
+  expect_refused_in_third(folder, "23.", {"crashed (an access far beyond one of its arrays)"});
+}
+
+TEST(Umat, RoutinesThatEndTheProgramAreRefused) {
+  const fs::path folder = empty_folder("umat_ends");
+  expect_refused_in_third(folder, "4.", {"called XIT"});
+  expect_refused_in_third(folder, "5.", {"executed STOP (no convergence)"});
+  expect_refused_in_third(folder, "11.", {"executed STOP (12)"});
+  expect_refused_in_third(folder, "13.", {"called XIT (element 1 of clay has 2.5)"});
+  expect_refused_in_third(folder, "14.", {"ended the program"});
+}
+
+TEST(Umat, RoutinesThatCrashAreRefused) {
+  const fs::path folder = empty_folder("umat_crashes");
+  expect_refused_in_third(folder, "19.", {"crashed (Segmentation fault)"});
+  expect_refused_in_third(folder, "20.", {"ended the program, by exit() or an error of its library"});
+  expect_refused_in_third(folder, "21.", {"crashed (Segmentation fault)"});
 }
 
 TEST(Umat, AnExceptionIsAnErrorOfTheRun) {
