@@ -13,6 +13,7 @@
 #include "sage/app/progress.hpp"
 #include "sage/app/run_deck.hpp"
 #include "sage/app/screen.hpp"
+#include "sage/app/umat_output.hpp"
 #include "sage/record/csv.hpp"
 #include "sage/safety/safety_text.hpp"
 #include "solvers/choose_solver.hpp"
@@ -66,7 +67,8 @@ MeshResult find_on_mesh(const SafetyOptions& options, const Catalogue& catalogue
   settings.pulse = task.pulse();
   safety::Options search = options.search;
   search.stage = options.stage - 1;
-  result.found = safety::find_safety(*result.model, catalogue, settings, search);
+  with_umat_output(options.deck,
+                   [&] { result.found = safety::find_safety(*result.model, catalogue, settings, search); });
   return result;
 }
 

@@ -931,12 +931,16 @@ constexpr MessageEntry kMessages[] = {
     {"S808", "the suites that try pieces are not there",
      "sagefe conform runs a second program, which is built only where GoogleTest was found.",
      "Install GoogleTest (libgtest-dev), build and install the program again."},
-    {"S809", "a user material printed something",
-     "A UMAT wrote text, or called for something that this program does not offer; the run went on. Routines "
-     "print when they meet a state that they were not written for, or while their author looks for a fault.",
+    {"S809", "a user material printed something, or needs a look",
+     "A UMAT wrote text, called for something that this program does not offer, or returned a DDSDDE that is "
+     "not "
+     "the derivative of its stress; the run went on. Routines print when they meet a state that they were not "
+     "written for, or while their author looks for a fault.",
      "Read the log that the message names. Lines that a routine prints at every point slow a run down much: "
      "take "
-     "them out."},
+     "them out. Where equilibrium comes slowly, symmetric = 2 on the card has differences of the stress taken "
+     "in "
+     "place of DDSDDE (docs/manual/umat.md)."},
     {"S810", "a piece crashed under the checks",
      "A law or element of the library ended the program that tries it, mostly by writing or reading beyond an "
      "array, or by a division of integers by zero.",

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kTolerance = 1e-12;  // of the largest stress in play
 constexpr int kIterations = 40;
+constexpr int kSlow = 15;  // iterations, after which the law's tangent is taken for no derivative of its stress
 constexpr int kHalvings = 12;
 
 }  // namespace
@@ -65,6 +66,23 @@ Vector<N> correction_for(const std::array<Control, N>& control, const Vector<N>&
 
 }  // namespace
 
+// User materials may return an elastic stiffness, or one of a step of no length: differences of the stress stand for
+// it in the columns of the unknown strains.
+template <int N>
+void PointDriver<N>::put_differences(const std::array<Control, N>& control, const Vector<N>& deps,
+                                     PointOut<N>& out) {
+  const double step = std::max(1e-4 * deps.cwiseAbs().maxCoeff(), 1e-9);
+  std::vector<double> history(h_trial_.size());
+  PointOut<N> beside;
+  beside.h1 = history;
+  for (int i = 0; i < N; ++i) {
+    if (control[static_cast<std::size_t>(i)] == Control::strain) continue;
+    const double change = std::copysign(step, deps[i]);
+    if (call(deps + change * Vector<N>::Unit(i), beside) == Outcome::ok && beside.sigma.allFinite())
+      out.D.col(i) = (beside.sigma - out.sigma) / change;
+  }
+}
+
 // Newton; unknowns are the strain increments of the stress-controlled components.  A correction that makes
 // things worse is halved, seven times at most.
 template <int N>
@@ -91,6 +109,7 @@ bool PointDriver<N>::attempt(const std::array<Control, N>& control, const Vector
       ++steps_;
       return true;
     }
+    if (iteration >= kSlow) put_differences(control, deps, out);
     const Matrix<N> stiffness = out.D + Matrix<N>(springs.asDiagonal());
     const Vector<N> base = deps, correction = correction_for<N>(control, r, stiffness);
     for (int cut = 0; cut < 8; ++cut) {

@@ -45,6 +45,7 @@ class PointDriver {
   bool attempt(const std::array<Control, N>& control, const Vector<N>& target, const Vector<N>& springs,
                bool may_divide);
   Outcome call(const Vector<N>& deps, PointOut<N>& out);
+  void put_differences(const std::array<Control, N>& control, const Vector<N>& deps, PointOut<N>& out);
   PointIn<N> input(const Vector<N>& deps) const;
 
   const Law<N>& law_;

@@ -1,9 +1,14 @@
 #include "sage/umat/call.hpp"
 
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <bit>
 #include <cctype>
 #include <cmath>
 #include <cstring>
+#include <new>
 
 namespace sage::umat {
 
@@ -23,12 +28,28 @@ enum Array : std::size_t {
   kDrot,
   kDfgrd0,
   kDfgrd1,
-  kArrays
+  kTime,  // single numbers from here on, but for TIME
+  kSse,
+  kSpd,
+  kScd,
+  kRpl,
+  kDrpldt,
+  kDtime,
+  kTemp,
+  kDtemp,
+  kPredef,
+  kDpred,
+  kPnewdt,
+  kCelent,
+  kArguments
 };
 // In front of an array, and behind it: a routine for three dimensions writes 36 terms where there are 16.
-constexpr std::size_t kBefore = 4, kBehind = 8, kBehindMatrix = 32;
+constexpr std::size_t kBefore = 4, kBehind = 8, kBehindMatrix = 32, kBesideNumber = 2;
 // A number of no computation.
-const double kGuard = std::bit_cast<double>(std::uint64_t{0x7ff8'dead'5afe'beef});
+constexpr std::uint64_t kGuardBits = 0x7ff8'dead'5afe'beef;
+const double kGuard = std::bit_cast<double>(kGuardBits);
+// On either side of the arguments.
+constexpr std::size_t kFar = std::size_t{1} << 20;
 
 enum Integer : std::size_t { kNdi, kNshr, kNtens, kNstatv, kNprops, kNoel, kNpt, kLayer, kKspt, kKinc };
 
@@ -55,23 +76,47 @@ void set_unit(double* matrix) {
 
 }  // namespace
 
+Call::Memory::Memory(std::size_t numbers) {
+  const std::size_t page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE)),
+                    own = (numbers * sizeof(double) + page - 1) / page * page;
+  void* const pages =
+      mmap(nullptr, own + 2 * kFar, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (pages == MAP_FAILED) throw std::bad_alloc();
+  first = static_cast<char*>(pages);
+  end = first + own + 2 * kFar;
+  if (mprotect(first + kFar, own, PROT_READ | PROT_WRITE) != 0) {
+    munmap(first, own + 2 * kFar);
+    throw std::bad_alloc();
+  }
+  data = reinterpret_cast<double*>(end - kFar) - numbers;
+}
+
+Call::Memory::~Memory() {
+  munmap(first, static_cast<std::size_t>(end - first));
+}
+
 Call::Call(const Setup& setup) : setup_(&setup) {
   const auto n = static_cast<std::size_t>(setup.components), state = static_cast<std::size_t>(setup.statev);
-  const std::array<std::size_t, kArrays> sizes{n, state, n * n, n, n, n, n, setup.props.size(), 3, 9, 9, 9};
-  constexpr std::array<const char*, kArrays> kNames{"STRESS", "STATEV", "DDSDDE", "DDSDDT", "DRPLDE", "STRAN",
-                                                    "DSTRAN", "PROPS",  "COORDS", "DROT",   "DFGRD0", "DFGRD1"};
+  std::array<std::size_t, kArguments> sizes{n, state, n * n, n, n, n, n, setup.props.size(), 3, 9, 9, 9, 2};
+  std::fill(sizes.begin() + kSse, sizes.end(), std::size_t{1});
+  constexpr std::array<const char*, kArguments> kNames{
+      "STRESS", "STATEV", "DDSDDE", "DDSDDT", "DRPLDE", "STRAN",  "DSTRAN", "PROPS", "COORDS",
+      "DROT",   "DFGRD0", "DFGRD1", "TIME",   "SSE",    "SPD",    "SCD",    "RPL",   "DRPLDT",
+      "DTIME",  "TEMP",   "DTEMP",  "PREDEF", "DPRED",  "PNEWDT", "CELENT"};
   std::size_t end = 0;
-  for (std::size_t i = 0; i < kArrays; ++i) {
-    places_.push_back({kNames[i], end + kBefore, sizes[i]});
-    const std::size_t behind = i == kDdsdde || i == kStatev ? kBehindMatrix : kBehind;
+  for (std::size_t i = 0; i < kArguments; ++i) {
+    const std::size_t before = i > kTime ? kBesideNumber : kBefore;
+    const bool large = i == kDdsdde || i == kStatev, last = i + 1 == kArguments;
+    const std::size_t behind = large ? kBehindMatrix : last ? kBefore : i >= kTime ? kBesideNumber : kBehind;
     if (i == 0)
-      guards_.push_back({0, kBefore});
+      guards_.push_back({0, before});
     else
-      guards_.back().size += kBefore;
-    guards_.push_back({end + kBefore + sizes[i], behind});
-    end += kBefore + sizes[i] + behind;
+      guards_.back().size += before;
+    places_.push_back({kNames[i], end + before, sizes[i], before});
+    guards_.push_back({end + before + sizes[i], behind});
+    end += before + sizes[i] + behind;
   }
-  memory_.assign(end, 0.0);
+  memory_.emplace(end);
   repair();
   name_.fill(' ');
   for (std::size_t i = 0; i < std::min(name_.size(), setup.material.size()); ++i)
@@ -79,8 +124,7 @@ Call::Call(const Setup& setup) : setup_(&setup) {
 }
 
 void Call::repair() {
-  for (const Guards& guards : guards_)
-    std::fill_n(memory_.begin() + static_cast<std::ptrdiff_t>(guards.first), guards.size, kGuard);
+  for (const Guards& guards : guards_) std::fill_n(memory_->data + guards.first, guards.size, kGuard);
   set_unit(at(kDrot));
   set_unit(at(kDfgrd0));
   set_unit(at(kDfgrd1));
@@ -89,7 +133,7 @@ void Call::repair() {
 
 void Call::load(const PointIn<4>& in, const PointContext& context, Width width) {
   const auto n = static_cast<std::size_t>(setup_->components), state = static_cast<std::size_t>(setup_->statev);
-  std::fill(memory_.data() + places_[kDdsdde].first, at(kDdsdde) + n * n, 0.0);
+  std::fill(at(kDdsdde), at(kDdsdde) + n * n, 0.0);
   for (const Array a : {kStress, kStran, kDstran, kDdsddt, kDrplde}) std::fill(at(a), at(a) + n, 0.0);
   for (int i = 0; i < 4; ++i) {
     at(kStress)[i] = in.sigma0[i];
@@ -97,16 +141,19 @@ void Call::load(const PointIn<4>& in, const PointContext& context, Width width) 
     at(kDstran)[i] = in.deps[i];
   }
   std::copy(in.h0.begin(), in.h0.begin() + static_cast<std::ptrdiff_t>(state), at(kStatev));
-  std::copy(in.h0.begin() + static_cast<std::ptrdiff_t>(state), in.h0.end(), energies_.begin());
+  for (const Array a : {kSse, kSpd, kScd}) *at(a) = in.h0[state + (a - kSse)];
+  for (const Array a : {kRpl, kDrpldt, kTemp, kDtemp, kPredef, kDpred}) *at(a) = 0.0;
   at(kCoords)[0] = context.place.x();
   at(kCoords)[1] = context.place.y();
   at(kCoords)[2] = 0.0;
   // A state that stands has no length of time, but some routines divide by it.
-  dtime_ = context.dt > 0.0 ? context.dt : 1.0;
+  *at(kDtime) = context.dt > 0.0 ? context.dt : 1.0;
   const double start = start_of(context);
-  time_ = {start - context.stage_start, start};
-  size_ = context.size;
-  pnewdt_ = 1.0;
+  at(kTime)[0] = start - context.stage_start;
+  at(kTime)[1] = start;
+  *at(kCelent) = context.size;
+  *at(kPnewdt) = 1.0;
+  given_name_ = name_;
   integers_ = {3,
                setup_->components - 3,
                setup_->components,
@@ -126,53 +173,65 @@ void Call::load(const PointIn<4>& in, const PointContext& context, Width width) 
   }
 }
 
-CallEnd Call::run(bool poisoned) {
-  if (poisoned)
+CallEnd Call::run(Asked asked) {
+  if (asked == Asked::with_wide_integers)
     for (std::int64_t& value : integers_) value |= ~std::int64_t{0} << 32;
-  return call_caught([](void* self) { static_cast<Call*>(self)->call(); }, this, poisoned);
+  return call_caught([](void* self) { static_cast<Call*>(self)->call(); }, this, asked != Asked::in_earnest,
+                     {memory_->first, memory_->end});
 }
 
 void Call::call() {
-  double rpl = 0.0, drpldt = 0.0;
-  double none[4] = {0.0, 0.0, 0.0, 0.0};  // TEMP, DTEMP, PREDEF, DPRED
-  setup_->routine.function(at(kStress), at(kStatev), at(kDdsdde), &energies_[0], &energies_[1], &energies_[2],
-                           &rpl, at(kDdsddt), at(kDrplde), &drpldt, at(kStran), at(kDstran), time_.data(),
-                           &dtime_, &none[0], &none[1], &none[2], &none[3], name_.data(), &integers_[kNdi],
-                           &integers_[kNshr], &integers_[kNtens], &integers_[kNstatv], at(kProps),
-                           &integers_[kNprops], at(kCoords), at(kDrot), &pnewdt_, &size_, at(kDfgrd0),
-                           at(kDfgrd1), &integers_[kNoel], &integers_[kNpt], &integers_[kLayer],
-                           &integers_[kKspt], jstep_.data(), &integers_[kKinc], name_.size());
+  setup_->routine.function(at(kStress), at(kStatev), at(kDdsdde), at(kSse), at(kSpd), at(kScd), at(kRpl),
+                           at(kDdsddt), at(kDrplde), at(kDrpldt), at(kStran), at(kDstran), at(kTime),
+                           at(kDtime), at(kTemp), at(kDtemp), at(kPredef), at(kDpred), given_name_.data(),
+                           &integers_[kNdi], &integers_[kNshr], &integers_[kNtens], &integers_[kNstatv],
+                           at(kProps), &integers_[kNprops], at(kCoords), at(kDrot), at(kPnewdt), at(kCelent),
+                           at(kDfgrd0), at(kDfgrd1), &integers_[kNoel], &integers_[kNpt], &integers_[kLayer],
+                           &integers_[kKspt], jstep_.data(), &integers_[kKinc], given_name_.size());
 }
 
-// After every call: whole regions at once.
+double Call::pnewdt() const {
+  return *at(kPnewdt);
+}
+
+// After every call: four words at once.
 std::string Call::damage() const {
-  static const std::vector<double> kWhole(kBefore + kBehindMatrix, kGuard);
-  bool same = setup_->props.empty() ||
-              std::memcmp(at(kProps), setup_->props.data(), setup_->props.size() * sizeof(double)) == 0;
-  for (const Guards& guards : guards_)
-    same = same && std::memcmp(&memory_[guards.first], kWhole.data(), guards.size * sizeof(double)) == 0;
+  using Four [[gnu::vector_size(32)]] = std::uint64_t;
+  const Four guard = {kGuardBits, kGuardBits, kGuardBits, kGuardBits};
+  Four other = {};
+  for (const Guards& guards : guards_) {
+    const double* const first = memory_->data + guards.first;
+    for (std::size_t i = 0; i < guards.size; i += 4) {
+      Four words;
+      std::memcpy(&words, first + i, sizeof words);
+      other |= words ^ guard;
+    }
+  }
+  const bool same = (other[0] | other[1] | other[2] | other[3]) == 0 &&
+                    (setup_->props.empty() ||
+                     std::memcmp(at(kProps), setup_->props.data(), setup_->props.size() * sizeof(double)) == 0);
   return same ? std::string() : damage_words();
 }
 
 std::string Call::damage_words() const {
   for (const Guards& guards : guards_)
     for (std::size_t i = guards.first; i < guards.first + guards.size; ++i) {
-      if (same_bits(memory_[i], kGuard)) continue;
+      if (same_bits(memory_->data[i], kGuard)) continue;
       const Place* hit = &places_.front();
       for (const Place& place : places_)
-        if (place.first - kBefore <= i) hit = &place;
+        if (place.first - place.before <= i) hit = &place;
       const long index = static_cast<long>(i) - static_cast<long>(hit->first) + 1;
       return std::string("wrote to ") + hit->name + "(" + std::to_string(index) + "), which has " +
-             std::to_string(hit->size) + " numbers,";
+             std::to_string(hit->size) + (hit->size == 1 ? " number," : " numbers,");
     }
   return "changed PROPS, which are an input,";
 }
 
 bool Call::finite() const {
-  bool all = true;
+  double sum = 0.0;  // nothing but zeros, or no number
   for (const Array a : {kStress, kStatev, kDdsdde})
-    for (std::size_t i = 0; i < places_[a].size; ++i) all = all && std::isfinite(at(a)[i]);
-  return all;
+    for (std::size_t i = 0; i < places_[a].size; ++i) sum += 0.0 * at(a)[i];
+  return sum == 0.0;
 }
 
 Vector4 Call::stress() const {
@@ -190,7 +249,7 @@ Matrix4 Call::tangent() const {
 void Call::history(std::span<double> h) const {
   const auto state = static_cast<std::ptrdiff_t>(setup_->statev);
   std::copy(at(kStatev), at(kStatev) + state, h.begin());
-  std::copy(energies_.begin(), energies_.end(), h.begin() + state);
+  for (const Array a : {kSse, kSpd, kScd}) h[static_cast<std::size_t>(state) + (a - kSse)] = *at(a);
 }
 
 std::vector<double> Call::answer() const {

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cctype>
+#include <cmath>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <sstream>
@@ -17,7 +20,14 @@ namespace {
 
 // COMMON and SAVE are usual, also between the materials of a library: one call at a time.
 std::mutex calls;
+
+std::mutex notes_lock;
 std::vector<std::string> notes;
+
+void note(std::string text) {
+  const std::lock_guard lock(notes_lock);
+  notes.push_back(std::move(text));
+}
 
 std::string lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -37,9 +47,40 @@ std::string place_words(const PointContext& c) {
   return text.str();
 }
 
+// Memory for calls that are under way at once.
+class Calls {
+ public:
+  explicit Calls(const Setup& setup) : setup_(&setup) {}
+  std::unique_ptr<Call> take() {
+    {
+      const std::lock_guard lock(lock_);
+      if (!free_.empty()) {
+        std::unique_ptr<Call> call = std::move(free_.back());
+        free_.pop_back();
+        return call;
+      }
+    }
+    return std::make_unique<Call>(*setup_);
+  }
+  void give_back(std::unique_ptr<Call> call) {
+    const std::lock_guard lock(lock_);
+    free_.push_back(std::move(call));
+  }
+
+ private:
+  const Setup* setup_;
+  std::mutex lock_;
+  std::vector<std::unique_ptr<Call>> free_;
+};
+
+// A strain that is small beside the increment and large beside what routines leave of their own iterations.
+double probe_of(const Vector4& deps) {
+  return std::max(1e-3 * deps.cwiseAbs().maxCoeff(), 1e-7);
+}
+
 class UmatLaw final : public SolidLaw {
  public:
-  explicit UmatLaw(Setup setup) : setup_(std::move(setup)), call_(setup_) {
+  explicit UmatLaw(Setup setup) : setup_(std::move(setup)), call_(setup_), calls_(setup_) {
     const auto state = static_cast<std::size_t>(setup_.statev);
     names_.reserve(state);
     for (std::size_t i = 0; i < state; ++i) names_.push_back("SDV" + std::to_string(i + 1));
@@ -54,33 +95,94 @@ class UmatLaw final : public SolidLaw {
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override {
     static const PointContext nowhere{};
     const PointContext& context = in.context != nullptr ? *in.context : nowhere;
+    if (known_.load(std::memory_order_acquire)) {
+      std::unique_ptr<Call> call = calls_.take();
+      const Outcome outcome = answer(*call, in, context, out);  // one that throws ends the run: its memory, too
+      calls_.give_back(std::move(call));
+      return outcome;
+    }
     const std::lock_guard lock(calls);
-    const bool moves = !in.deps.isZero(0.0), still = !moves && context.dt == 0.0;
+    const bool moves = !in.deps.isZero(0.0);
     if (!width_known_) find_width(in, context);
     if (!answers_strain_ && moves) expect_answer_to_strain(in, context);
-    call_.load(in, context, width_);
-    expect_returned(call_.run(), context);
+    const Outcome outcome = answer(call_, in, context, out);
+    if (moves && outcome == Outcome::ok && !setup_.differences && !told_of_tangent_)
+      look_at_tangent(in, context, out);
+    if (setup_.threads_safe && answers_strain_) known_.store(true, std::memory_order_release);
+    return outcome;
+  }
+
+ private:
+  Outcome answer(Call& call, const PointIn<4>& in, const PointContext& context, PointOut<4>& out) const {
+    const bool still = in.deps.isZero(0.0) && context.dt == 0.0;
+    call.load(in, context, width_);
+    expect_returned(call, call.run(), context);
     if (still) {
       out.sigma = in.sigma0;
       std::copy(in.h0.begin(), in.h0.end(), out.h1.begin());
     } else {
-      if (!(call_.pnewdt() >= 1.0)) return Outcome::cut_step;  // a number that is none, too
-      out.sigma = call_.stress();
-      call_.history(out.h1);
+      if (!(call.pnewdt() >= 1.0)) return Outcome::cut_step;  // a number that is none, too
+      out.sigma = call.stress();
+      call.history(out.h1);
     }
-    if (!call_.finite()) return not_finite(still, context);
-    out.D = call_.tangent();
+    if (!call.finite()) return not_finite(still, context);
+    out.D = call.tangent();
     if (setup_.symmetric) expect_symmetric(out.D, context);
+    if (setup_.differences) put_differences(call, in, context, out.D);
     out.status = PointStatus::elastic;
     return Outcome::ok;
   }
 
- private:
+  // What the stress is with `deps`; no number where the routine has no answer there.
+  Vector4 stress_for(Call& call, const PointIn<4>& in, const PointContext& context, const Vector4& deps) const {
+    PointIn<4> other = in;
+    other.deps = deps;
+    call.load(other, context, width_);
+    const CallEnd end = call.run(Asked::to_find_out);
+    const bool answered = end.ending == Ending::returned && call.pnewdt() >= 1.0 && call.finite();
+    if (!call.damage().empty()) call.repair();
+    return answered ? call.stress() : Vector4::Constant(std::nan(""));
+  }
+
+  // Columns without an answer keep what DDSDDE has.  From both sides: where a point is on its yield surface and
+  // nothing moves yet, the one side is elastic, and a stiffness of both kinds of columns can be singular.
+  void put_differences(Call& call, const PointIn<4>& in, const PointContext& context, Matrix4& D) const {
+    const double step = probe_of(in.deps);
+    for (int j = 0; j < 4; ++j) {
+      const Vector4 change = step * Vector4::Unit(j), ahead = stress_for(call, in, context, in.deps + change),
+                    behind = stress_for(call, in, context, in.deps - change);
+      const Vector4 column = (ahead - behind) / (2.0 * step);
+      if (column.allFinite()) D.col(j) = column;
+    }
+  }
+
+  // At the 64th call, the 128th, the 256th ...: whether DDSDDE gives the stress that the routine itself gives for a
+  // little more of the same strain.  Elastic ones don't beyond the yield surface: allowed, and slow.
+  void look_at_tangent(const PointIn<4>& in, const PointContext& context, const PointOut<4>& out) const {
+    constexpr unsigned kFirst = 64;
+    constexpr int kEnough = 3;
+    if (++calls_done_ < kFirst || !std::has_single_bit(calls_done_)) return;
+    const Vector4 along = in.deps.normalized();
+    const double step = probe_of(in.deps);
+    const Vector4 derivative = (stress_for(call_, in, context, in.deps + step * along) - out.sigma) / step;
+    const Vector4 given = out.D * along;
+    ++tangents_seen_;
+    if ((derivative - given).norm() > 0.02 * given.norm()) ++tangents_wrong_;
+    if (tangents_wrong_ < kEnough) return;
+    told_of_tangent_ = true;
+    note(
+        setup_.routine.words() + " returned a DDSDDE that is not the derivative of its stress, in " +
+        std::to_string(tangents_wrong_) + " of " + std::to_string(tangents_seen_) + " states, the last" +
+        place_words(context) +
+        ": equilibrium is found slowly, or not. Its card may have symmetric = 2: differences of the stress are "
+        "taken instead");
+  }
+
   [[noreturn]] void refuse(const std::string& what, const PointContext& context) const {
     throw AnalysisError("S806", setup_.routine.words() + " " + what + place_words(context));
   }
 
-  void expect_returned(const CallEnd& end, const PointContext& context) const {
+  void expect_returned(Call& call, const CallEnd& end, const PointContext& context) const {
     const std::string words = *end.words != '\0' ? std::string(" (") + end.words + ")" : "";
     if (end.ending == Ending::xit) refuse("called XIT" + words, context);
     if (end.ending == Ending::stop) refuse("executed STOP" + words, context);
@@ -88,8 +190,8 @@ class UmatLaw final : public SolidLaw {
       refuse("ended the program, by exit() or an error of its library" + words + ",", context);
     if (end.ending == Ending::crash) refuse("crashed" + words, context);
     if (end.ending == Ending::exception) refuse("threw an exception" + words, context);
-    if (const std::string damage = call_.damage(); !damage.empty()) {
-      call_.repair();
+    if (const std::string damage = call.damage(); !damage.empty()) {
+      call.repair();
       refuse(damage, context);
     }
   }
@@ -97,10 +199,9 @@ class UmatLaw final : public SolidLaw {
   // A smaller step may have an answer; the state that stands has no other.
   Outcome not_finite(bool still, const PointContext& context) const {
     if (still) refuse("returned what is no finite number", context);
-    if (!told_of_nan_)
-      notes.push_back(setup_.routine.words() + " returned what is no finite number, first" +
-                      place_words(context) + ": the step was cut");
-    told_of_nan_ = true;
+    if (!told_of_nan_.exchange(true))
+      note(setup_.routine.words() + " returned what is no finite number, first" + place_words(context) +
+           ": the step was cut");
     return Outcome::cut_step;
   }
 
@@ -116,7 +217,7 @@ class UmatLaw final : public SolidLaw {
   void find_width(const PointIn<4>& in, const PointContext& context) const {
     const auto ask = [&](bool poisoned) {
       call_.load(in, context, Width::four);
-      const CallEnd end = call_.run(poisoned);
+      const CallEnd end = call_.run(poisoned ? Asked::with_wide_integers : Asked::in_earnest);
       const bool returned = end.ending == Ending::returned && call_.damage().empty();
       std::optional<std::vector<double>> answer;
       if (returned) answer = call_.answer();
@@ -125,15 +226,15 @@ class UmatLaw final : public SolidLaw {
     };
     width_known_ = true;
     if (!setup_.routine.not_called.empty())
-      notes.push_back(setup_.routine.file + " has " + setup_.routine.not_called +
-                      " too, which sagefe does not call: first values come from the deck");
+      note(setup_.routine.file + " has " + setup_.routine.not_called +
+           " too, which sagefe does not call: first values come from the deck");
     const auto first = ask(false);
     if (!first) return;  // the call itself says why
     const auto second = ask(false), poisoned = ask(true);
     if (!second || !same_bits(*first, *second)) return;
     if (poisoned && same_bits(*first, *poisoned)) return;
     width_ = Width::eight;
-    notes.push_back(setup_.routine.words() + " was built with integers of 8 bytes: it is given such");
+    note(setup_.routine.words() + " was built with integers of 8 bytes: it is given such");
   }
 
   // Without DSTRAN its stress stays; it must not be DFGRD1 that it answers.
@@ -156,17 +257,23 @@ class UmatLaw final : public SolidLaw {
 
   Setup setup_;
   mutable Call call_;
+  mutable Calls calls_;                      // of those that several threads may do at once
+  mutable std::atomic<bool> known_ = false;  // what is found out by the first calls, and the routine is safe
   std::vector<std::string> names_;
   std::vector<Quantity> quantities_;
   mutable Width width_ = Width::four;
-  mutable bool width_known_ = false, answers_strain_ = false, told_of_nan_ = false;
+  mutable bool width_known_ = false, answers_strain_ = false, told_of_tangent_ = false;
+  mutable std::atomic<bool> told_of_nan_ = false;
+  mutable unsigned calls_done_ = 0;
+  mutable int tangents_seen_ = 0, tangents_wrong_ = 0;
 };
 
 const std::vector<Parameter>& table() {
   static const std::vector<Parameter> rows = {
       {"components", Dimension::none, "NTENS: 4 (11 22 33 12) or 6 (and 13 23, whose strains are 0)"},
       {"state_variables", Dimension::none, "NSTATV; initial cards of kind 4 give their first values, else 0"},
-      {"symmetric", Dimension::none, "1: DDSDDE is symmetric in every state", 0.0, false},
+      {"symmetric", Dimension::none,
+       "1: DDSDDE is symmetric in every state; 2: differences of the stress stand for it", 0.0, false},
       {"threads_safe", Dimension::none, "1: may be called by several threads at once", 0.0, false}};
   return rows;
 }
@@ -212,8 +319,10 @@ MaterialEntry umat_entry(std::vector<Binding> bindings) {
     setup.components = whole(values, 0, 4, 6);
     if (setup.components == 5) throw ParameterError("S805", 0, "4 or 6 is wanted");
     setup.statev = whole(values, 1, 0, 100000);
-    setup.symmetric = whole(values, 2, 0, 1) == 1;
-    whole(values, 3, 0, 1);
+    const int tangent = whole(values, 2, 0, 2);
+    setup.symmetric = tangent == 1;
+    setup.differences = tangent == 2;
+    setup.threads_safe = whole(values, 3, 0, 1) == 1;
     setup.props.assign(values.begin() + 4, values.end());
     setup.routine = routine_of(bindings, material);
     return umat_law(std::move(setup));
@@ -229,6 +338,7 @@ std::unique_ptr<SolidLaw> umat_law(Setup setup) {
 }
 
 std::vector<std::string> take_notes() {
+  const std::lock_guard lock(notes_lock);
   return std::exchange(notes, {});
 }
 

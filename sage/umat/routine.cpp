@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cctype>
 #include <csignal>
 #include <cstdio>
@@ -12,6 +13,7 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <mutex>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -30,6 +32,7 @@ struct Under {
   CallEnd end;
   std::array<char, 201> words{};
   bool asked = false;  // with numbers that some routines crash on
+  Pages pages;
 };
 thread_local Under under;
 
@@ -55,7 +58,8 @@ void leave_for_module(int who, const char* words, size_t length) {
 
 // A routine was left in the middle of its Fortran library, whose locks then stay taken: who asks it for anything would
 // wait for ever.
-bool library_left = false;
+std::atomic<bool> library_left = false;
+std::mutex when_left_lock;
 Under when_left;
 
 // So would the end of the program, where the library closes its units: it is passed over.
@@ -66,7 +70,7 @@ void end_at_once(int code, void*) {
 
 void leave_library() {
   if (under.asked) return;
-  if (!std::exchange(library_left, true)) on_exit(end_at_once, nullptr);
+  if (!library_left.exchange(true)) on_exit(end_at_once, nullptr);
 }
 
 // exit(), and what ends in it: STOP of other compilers, errors of the Fortran library.
@@ -80,10 +84,12 @@ void caught_exit() {
 // Signals of a crash.  Outside of a call the program ends by them as it would without this.
 constexpr std::array kCrashes{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
-void crashed(int signal) {
+void crashed(int signal, siginfo_t* info, void*) {
   if (under.back != nullptr) {
     leave_library();
-    const char* words = sigdescr_np(signal);
+    const char* const place = static_cast<const char*>(info->si_addr);
+    const bool beside = signal == SIGSEGV && place >= under.pages.first && place < under.pages.end;
+    const char* words = beside ? "an access far beyond one of its arrays" : sigdescr_np(signal);
     leave(Ending::crash, words, std::strlen(words));
   }
   std::signal(signal, SIG_DFL);
@@ -92,8 +98,9 @@ void crashed(int signal) {
 
 void catch_crashes() {
   struct sigaction action {};
-  action.sa_handler = crashed;
-  action.sa_flags = SA_ONSTACK | SA_NODEFER;  // the handler is left by longjmp, which lifts no block
+  action.sa_sigaction = crashed;
+  action.sa_flags =
+      SA_SIGINFO | SA_ONSTACK | SA_NODEFER;  // the handler is left by longjmp, which lifts no block
   for (const int signal : kCrashes) sigaction(signal, &action, nullptr);
 }
 
@@ -183,13 +190,14 @@ bool may_flush() {
   return !library_left;
 }
 
-CallEnd call_caught(void (*call)(void*), void* data, bool may_crash) {
+CallEnd call_caught(void (*call)(void*), void* data, bool may_crash, Pages pages) {
   if (library_left) return when_left.end;
   expect_spare_stack();
   jmp_buf back;
   under.end = {};
   under.back = &back;
   under.asked = may_crash;
+  under.pages = pages;
   // What changes between here and a longjmp is not read after it.
   if (_setjmp(back) == 0) {
     try {
@@ -202,6 +210,7 @@ CallEnd call_caught(void (*call)(void*), void* data, bool may_crash) {
   }
   under.back = nullptr;
   if (library_left) {
+    const std::lock_guard lock(when_left_lock);
     when_left.words = under.words;
     when_left.end = {under.end.ending, when_left.words.data()};
   }

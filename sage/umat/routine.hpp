@@ -54,10 +54,15 @@ struct CallEnd {
 // crash.
 bool may_flush();
 
+// Memory that a routine must not touch, from the first to before the end, but for what is its own.
+struct Pages {
+  const char *first = nullptr, *end = nullptr;
+};
+
 // Does `call(data)`.  Where the routine calls XIT, executes STOP, ends the program in another way or crashes, its
 // frames are left by longjmp: what it had allocated or opened stays so.
 // After an error of the Fortran library or a crash there are no more calls: each ends as that one did.  may_crash: not
-// after this one, which is made to find something out.
-CallEnd call_caught(void (*call)(void*), void* data, bool may_crash = false);
+// after this one, which is made to find something out.  pages: of its arguments, for the words of a crash.
+CallEnd call_caught(void (*call)(void*), void* data, bool may_crash = false, Pages pages = {});
 
 }  // namespace sage::umat

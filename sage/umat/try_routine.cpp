@@ -147,6 +147,9 @@ class Driver {
          << ", differences of the stress give " << worst_.found << "\n";
     if (twice_ > states_ / 2)
       out_ << "       its shear term is wrong by a factor of 2: shear strains are engineering ones\n";
+    if (wrong_ > states_ / 10)
+      out_ << "       symmetric = 2 on its card has differences of the stress taken instead, for five calls a "
+              "point\n";
   }
 
   struct Worst {

@@ -1,6 +1,7 @@
 C     Drucker-Prager without volume change after yield: PROPS are E, nu,
 C     c and phi (degrees); the cone of triaxial compression.  Beyond the
-C     apex the mean stress stays elastic and the deviator goes.
+C     apex the mean stress stays elastic and the deviator goes.  A fifth
+C     property of 1: DDSDDE stays elastic.
       SUBROUTINE UMAT(STRESS,STATEV,DDSDDE,SSE,SPD,SCD,RPL,DDSDDT,
      1 DRPLDE,DRPLDT,STRAN,DSTRAN,TIME,DTIME,TEMP,DTEMP,PREDEF,DPRED,
      2 CMNAME,NDI,NSHR,NTENS,NSTATV,PROPS,NPROPS,COORDS,DROT,PNEWDT,
@@ -60,6 +61,13 @@ C     Elastic trial, its mean stress and the root of J2.
         IF (Q.GT.0.D0) XN(I)=S(I)/(SQRT(2.D0)*Q)
         STRESS(I)=THETA*S(I)+P*UNIT(I)
       END DO
+      IF (NPROPS.GE.5) THEN
+        IF (PROPS(5).EQ.1.D0) THEN
+          THETA=1.D0
+          TURN=0.D0
+          PUSH=0.D0
+        END IF
+      END IF
       DO J=1,NTENS
         DO I=1,NTENS
           D=BULK*UNIT(I)*UNIT(J)-2.D0*G*THETA*UNIT(I)*UNIT(J)/3.D0

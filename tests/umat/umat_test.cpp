@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <sstream>
+#include <thread>
 
+#include "sage/umat/law.hpp"
 #include "tests/regression/program.hpp"
 
 namespace sage::test {
@@ -179,7 +182,8 @@ TEST(Umat, LibrariesWithoutARoutineAreRefused) {
   for (const auto& [parameters, words] :
        {std::pair<std::vector<std::string>, std::string>{{"5", "0"}, "4 or 6"},
         {{"4", "-1"}, "a whole number from 0"},
-        {{"4", "0", "2"}, "a whole number from 0 to 1"}}) {
+        {{"4", "0", "3"}, "a whole number from 0 to 2"},
+        {{"4", "0", "0", "2"}, "a whole number from 0 to 1"}}) {
     write(folder / "bad.dat", column_deck(umat_material(parameters)));
     const Finished run = sagefe(folder, "check bad.dat --umat " + library("elastic"));
     EXPECT_EQ(run.exit_code, 2);
@@ -195,34 +199,44 @@ Finished run_fault(const fs::path& folder, const std::string& fault, const std::
 }
 
 // From the third increment on: two increments are on the disk, and the run says who, what and where.
-TEST(Umat, RoutinesThatBreakTheirContractAreRefused) {
-  const fs::path folder = empty_folder("umat_faults");
-  const std::vector<std::pair<std::string, std::vector<std::string>>> faults = {
-      {"1.", {"wrote to DDSDDE(", "which has 16 numbers"}},
-      {"2.", {"wrote to STRESS(5), which has 4 numbers"}},
-      {"3.", {"wrote to STATEV(2), which has 1 numbers"}},
-      {"4.", {"called XIT"}},
-      {"5.", {"executed STOP (no convergence)"}},
-      {"9.", {"changed PROPS"}},
-      {"11.", {"executed STOP (12)"}},
-      {"13.", {"called XIT (element 1 of clay has 2.5)"}},
-      {"14.", {"ended the program"}},
-      {"19.", {"crashed (Segmentation fault)"}},
-      {"20.", {"ended the program, by exit() or an error of its library"}},
-      {"21.", {"crashed (Segmentation fault)"}},
-  };
-  for (const auto& [fault, words] : faults) {
-    SCOPED_TRACE(fault);
-    const Finished run = run_fault(folder, fault);
-    EXPECT_EQ(run.exit_code, 3) << run.out << run.err;
-    expect_words(run.err, words);
-    expect_words(run.err,
-                 {"routine umat_ of ", "faults_umat.so", " at element 1, point 1 (", "stage 1, increment 3"});
-    EXPECT_EQ(numbers(folder / "out/deck.report1.csv").size() % 2, 0u);
-    const std::string rows = read(folder / "out/deck.increments.csv");
-    EXPECT_NE(rows.find("\n1,2,"), std::string::npos) << rows;
-    EXPECT_EQ(rows.find("\n1,3,"), std::string::npos) << rows;
-  }
+void expect_refused_in_third(const fs::path& folder, const std::string& fault,
+                             const std::vector<std::string>& words) {
+  SCOPED_TRACE(fault);
+  const Finished run = run_fault(folder, fault);
+  EXPECT_EQ(run.exit_code, 3) << run.out << run.err;
+  expect_words(run.err, words);
+  expect_words(run.err,
+               {"routine umat_ of ", "faults_umat.so", " at element 1, point 1 (", "stage 1, increment 3"});
+  EXPECT_EQ(numbers(folder / "out/deck.report1.csv").size() % 2, 0u);
+  const std::string rows = read(folder / "out/deck.increments.csv");
+  EXPECT_NE(rows.find("\n1,2,"), std::string::npos) << rows;
+  EXPECT_EQ(rows.find("\n1,3,"), std::string::npos) << rows;
+}
+
+TEST(Umat, RoutinesThatWriteBeyondTheirArraysAreRefused) {
+  const fs::path folder = empty_folder("umat_arrays");
+  expect_refused_in_third(folder, "1.", {"wrote to DDSDDE(", "which has 16 numbers"});
+  expect_refused_in_third(folder, "2.", {"wrote to STRESS(5), which has 4 numbers"});
+  expect_refused_in_third(folder, "3.", {"wrote to STATEV(2), which has 1 number,"});
+  expect_refused_in_third(folder, "9.", {"changed PROPS"});
+  expect_refused_in_third(folder, "22.", {"wrote to TIME(3), which has 2 numbers"});
+  expect_refused_in_third(folder, "23.", {"crashed (an access far beyond one of its arrays)"});
+}
+
+TEST(Umat, RoutinesThatEndTheProgramAreRefused) {
+  const fs::path folder = empty_folder("umat_ends");
+  expect_refused_in_third(folder, "4.", {"called XIT"});
+  expect_refused_in_third(folder, "5.", {"executed STOP (no convergence)"});
+  expect_refused_in_third(folder, "11.", {"executed STOP (12)"});
+  expect_refused_in_third(folder, "13.", {"called XIT (element 1 of clay has 2.5)"});
+  expect_refused_in_third(folder, "14.", {"ended the program"});
+}
+
+TEST(Umat, RoutinesThatCrashAreRefused) {
+  const fs::path folder = empty_folder("umat_crashes");
+  expect_refused_in_third(folder, "19.", {"crashed (Segmentation fault)"});
+  expect_refused_in_third(folder, "20.", {"ended the program, by exit() or an error of its library"});
+  expect_refused_in_third(folder, "21.", {"crashed (Segmentation fault)"});
 }
 
 TEST(Umat, AnExceptionIsAnErrorOfTheRun) {
@@ -304,6 +318,28 @@ TEST(UmatDrive, StandsBesideANativeLaw) {
       EXPECT_NEAR(rows[1][i][j], rows[0][i][j], 1e-9 * 150.0) << i << " " << j;
 }
 
+// An elastic DDSDDE beyond yield: a path is followed all the same, to the states of the native law.
+TEST(UmatDrive, FollowsARoutineWithAnElasticStiffness) {
+  const fs::path folder = empty_folder("umat_drive_elastic");
+  const std::string of =
+      "drive --umat " + library("drucker_prager") + " --csv c.csv --digits 15 --pressure 50 ";
+  for (const char* test : {"biaxial --to .05", "simple_shear --to .1"}) {
+    const Finished native =
+        sagefe(folder, of + "--case n:drucker_prager,E=3000,nu=.3,c=2,phi=30 --test " + test);
+    ASSERT_EQ(native.exit_code, 0) << native.out << native.err;
+    const double expected[] = {last_value(folder / "c.csv", "stress_yy"),
+                               last_value(folder / "c.csv", "stress_xy")};
+    const Finished routine =
+        sagefe(folder, of +
+                           "--case u:umat,components=4,state_variables=0,prop1=3000,prop2=.3,prop3=2,prop4=30,"
+                           "prop5=1 --test " +
+                           test);
+    ASSERT_EQ(routine.exit_code, 0) << routine.out << routine.err;
+    EXPECT_NEAR(last_value(folder / "c.csv", "stress_yy"), expected[0], 1e-8 * 50.0) << test;
+    EXPECT_NEAR(last_value(folder / "c.csv", "stress_xy"), expected[1], 1e-8 * 50.0) << test;
+  }
+}
+
 // What a routine says of itself comes through, and what it prints is no part of the table.
 TEST(UmatDrive, FaultsAreNamed) {
   const fs::path folder = empty_folder("umat_drive_faults");
@@ -344,6 +380,48 @@ TEST(Umat, ACutIsAskedForAndTaken) {
   const Finished sound = run_fault(folder, "0.", "0.");
   EXPECT_EQ(sound.exit_code, 0) << sound.err;
   expect_words(sound.out, {" 0 cuts"});
+}
+
+// An elastic DDSDDE beyond yield is named, and differences of the stress lead to the same state without it: up to
+// what the slow one's equilibrium leaves, 1e-7 of the load.
+TEST(Umat, ADdsddeThatIsNoDerivativeIsNamed) {
+  const fs::path folder = empty_folder("umat_tangent");
+  std::vector<double> ends[2];
+  for (const bool differences : {false, true}) {
+    write(folder / "deck.dat", column_deck(umat_material({"4", "0", differences ? "2" : "0", "0", "1000.",
+                                                          "0.25", "1.", "10.", "1."})));
+    const Finished run =
+        sagefe(folder, "run deck.dat -o out --points --digits 15 --umat " + library("drucker_prager"));
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.err.find("not the derivative of its stress") != std::string::npos, !differences) << run.err;
+    ends[differences ? 1 : 0] = numbers(folder / "out/deck.points.csv");
+  }
+  ASSERT_EQ(ends[0].size(), ends[1].size());
+  for (std::size_t i = 0; i < ends[0].size(); ++i) EXPECT_NEAR(ends[0][i], ends[1][i], 1e-5) << i;
+}
+
+// Two calls at once where the card says so, one after the other else.
+TEST(Umat, ThreadsCallARoutineThatIsSafe) {
+  setenv("SAGE_UMAT_MODULE", SAGE_TEST_UMAT_MODULE, 1);
+  umat::Setup setup;
+  setup.routine = umat::open_routine(library("meeting"));
+  setup.statev = 1;
+  setup.threads_safe = true;
+  const std::unique_ptr<SolidLaw> law = umat::umat_law(setup);
+  const auto call = [&](double strain) {
+    const std::vector<double> start(4, 0.0);
+    std::vector<double> end(4, 0.0);
+    PointOut<4> out;
+    out.h1 = end;
+    law->update({Vector4::Zero(), Vector4::Zero(), strain * Vector4::Unit(0), start, nullptr}, out);
+    return end[0];
+  };
+  EXPECT_EQ(call(0.001), 0.0);
+  double other = 0.0;
+  std::thread second([&] { other = call(0.002); });
+  EXPECT_EQ(call(0.002), 1.0);
+  second.join();
+  EXPECT_EQ(other, 1.0);
 }
 
 TEST(Umat, NotANumberCutsTheStepAndIsNamed) {

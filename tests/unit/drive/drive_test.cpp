@@ -125,6 +125,10 @@ TEST(Drive, DilationAndFrictionOfASimpleShear) {
       curve_of({"mohr_coulomb,E=2e4,nu=.3,c=0,phi=35,psi=10", "simple_shear", 100.0, {1.0}, false, 200});
   const double ratio = std::sin(phi) * std::cos(psi) / (1 - std::sin(phi) * std::sin(psi));
   EXPECT_NEAR(end_of(shear, "stress_xy") / end_of(shear, "stress_yy"), ratio, 1e-6);
+  // The zone between the halves of a box, likewise.
+  const Curve box =
+      curve_of({"mohr_coulomb,E=2e4,nu=.3,c=0,phi=35,psi=10", "direct_shear", 100.0, {1.0}, false, 200});
+  EXPECT_NEAR(end_of(box, "stress_xy") / end_of(box, "stress_yy"), ratio, 1e-6);
 }
 
 // q = eps/(1/E_i + eps R_f/q_f), E_i = K p_a (sigma_3/p_a)^n (Duncan & Chang 1970); the law's substeps are good to
