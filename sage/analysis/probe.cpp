@@ -31,10 +31,10 @@ ProbeValue read_probe(const Probe& probe, const Solution& solution) {
   return value;
 }
 
-ProbeMaker::ProbeMaker(const Model& model, const std::vector<char>& active)
-    : model_(&model), active_(active), zone_(zones_of(model)), locator_(model) {
+ProbeMaker::ProbeMaker(const Model& model, const std::vector<char>& active, ElementKind kind)
+    : model_(&model), active_(active), zone_(zones_of(model)), locator_(model, kind) {
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
-    if (!active[g] || !model.groups[g].solid()) continue;
+    if (!active[g] || model.groups[g].entry->kind != kind) continue;
     for (int e = 0; e < model.groups[g].elements(); ++e) elements_.push_back({g, e});
   }
 }

@@ -23,7 +23,7 @@ struct Probe {
     std::size_t group = 0, point = 0;  // in Assembly::groups and its state store
     double weight = 0.0;
   };
-  int group = -1, element = -1;  // that hold the place; -1 = no active solid does
+  int group = -1, element = -1;  // that hold the place; -1 = no active one does
   std::vector<Node> nodes;
   std::vector<Point> points;
 
@@ -41,8 +41,8 @@ ProbeValue read_probe(const Probe& probe, const Solution& solution);
 
 class ProbeMaker {
  public:
-  // The model must outlive it.  `active`: by group.
-  ProbeMaker(const Model& model, const std::vector<char>& active);
+  // Of the solids, or of the elements of flow.  The model must outlive it.  `active`: by group.
+  ProbeMaker(const Model& model, const std::vector<char>& active, ElementKind kind = ElementKind::solid);
 
   // Where several elements of one body meet, the mean of their answers; where bodies meet (zones, sides of an
   // interface), the first group of the deck answers, or `group` where it is not negative.
@@ -58,7 +58,7 @@ class ProbeMaker {
   std::vector<char> active_;
   std::vector<int> zone_;  // of each group
   Locator locator_;
-  std::vector<ElementRef> elements_;        // active solids
+  std::vector<ElementRef> elements_;        // active ones
   mutable std::map<int, Patches> patches_;  // by zone, made when asked for
 };
 

@@ -418,7 +418,7 @@ Command compare_command(CLI::App& parser, const Catalogue& catalogue) {
       ->allow_extra_args(false);
   add_converge_options(parser, o->converge, "of each side, ");
   add_digits_option(parser, o->digits);
-  add_field_options(parser, catalogue, o->pictures, o->fields, "SVG of both sides on one scale of colours",
+  add_field_options(parser, o->pictures, o->fields, "SVG of both sides on one scale of colours",
                     "lines and reports of points");
   parser.add_option("-o,--output", o->folder, "folder for results (default: out)");
   return [o, &catalogue] { return compare_decks(*o, catalogue); };

@@ -95,14 +95,9 @@ void add_digits_option(CLI::App& parser, int& digits) {
       ->check(CLI::Range(2, 17));
 }
 
-void add_field_options(CLI::App& parser, const Catalogue& catalogue, std::vector<std::string>& pictures,
-                       std::vector<std::string>& fields, const std::string& picture_words,
-                       const std::string& field_words) {
-  parser
-      .add_option("--picture", pictures,
-                  picture_words + ": conf (sigma_3), dev (sigma_1 - sigma_3), SL (stress level), " +
-                      catalogue.fields.known() + ", or a history variable of a law; may be repeated")
-      ->allow_extra_args(false);
+void add_field_options(CLI::App& parser, std::vector<std::string>& pictures, std::vector<std::string>& fields,
+                       const std::string& picture_words, const std::string& field_words) {
+  parser.add_option("--picture", pictures, picture_words + ": " + kPictureNames)->allow_extra_args(false);
   parser
       .add_option("--field", fields,
                   "more fields in " + field_words + " (see sagefe list fields); may be repeated")

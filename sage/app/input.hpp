@@ -41,10 +41,14 @@ void add_element_option(CLI::App& parser, const Catalogue& catalogue, const std:
 void add_formulation_option(CLI::App& parser, const std::string& flag, const std::string& words,
                             const std::function<void(int)>& set);
 
+// What --picture takes, in words.
+inline constexpr const char* kPictureNames =
+    "conf or sigma_3, dev or sigma_1-sigma_3, SL (stress level), stress_yy, displacement, yielded; where water "
+    "flows head, velocity, flow_net (head with its flow net), where it stands in soil pore_pressure; any other "
+    "number of `sagefe list fields` or of a component of one, or a history variable of a law; may be repeated";
 // --picture and --field, with what they are for; names are looked at by require_fields.
-void add_field_options(CLI::App& parser, const Catalogue& catalogue, std::vector<std::string>& pictures,
-                       std::vector<std::string>& fields, const std::string& picture_words,
-                       const std::string& field_words);
+void add_field_options(CLI::App& parser, std::vector<std::string>& pictures, std::vector<std::string>& fields,
+                       const std::string& picture_words, const std::string& field_words);
 // Gives the names of `fields`, each once; that of a component ("stress_yy") stands for its field.  tables: of the
 // results.  Throws UsageError for a field that none of them has, or that can't be drawn.
 std::vector<std::string> require_fields(const std::vector<std::string>& pictures,

@@ -66,7 +66,17 @@ void list_fields(const Catalogue& catalogue) {
                  row.sign == FieldSign::compression_positive ? ", compression positive" : "");
     }
   }
-  fmt::print("and at integration points the history variables of the deck's laws, by their names\n");
+  fmt::print(
+      "and, of what a deck has:\n"
+      "      at nodes, where water flows: head, head_inflow, head_reaction, pressure_head (and of any other "
+      "unknown "
+      "the\n"
+      "      same three, by its name)\n"
+      "      at integration points, where there is water: pore_pressure, total_stress (xx yy zz xy)\n"
+      "      at integration points the history variables of the deck's laws, by their names\n"
+      "pictures, besides NAME and NAME_COMPONENT:\n"
+      "      conf or sigma_3, dev or sigma_1-sigma_3, SL (stress level)\n"
+      "      flow_net: the head with lines of equal drops and stream lines\n");
 }
 
 Json parameters_json(const MaterialEntry& entry, const UnitSystem& units) {

@@ -46,7 +46,13 @@ std::vector<std::string> choices_of_type(const std::string& type) {
 std::vector<std::string> choices_of_name(const std::string& name, const Catalogue& catalogue) {
   if (name == "solver") return names_of(catalogue.solvers);
   if (name == "element") return quadrilaterals(catalogue);
-  if (name == "picture" || name == "field") return fields(catalogue);
+  if (name == "field") return fields(catalogue);
+  if (name == "picture") {
+    std::vector<std::string> names = fields(catalogue);
+    for (const char* other : {"conf", "dev", "SL", "head", "flow_net", "pore_pressure"})
+      names.emplace_back(other);
+    return names;
+  }
   if (name == "kernels") return {"auto", "avx2", "avx512"};
   if (name == "geometry") return {"1", "2"};
   if (name == "layout") return built_in_layouts();

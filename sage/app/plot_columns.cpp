@@ -81,9 +81,18 @@ bool compression_positive(const Source& source, const Variable& variable) {
   return says && !variable.negative && (has("strain") || has("stress") || has("axial") || has("deviator"));
 }
 
+// What short names of columns stand for, with a comma; empty where one is another's or says it itself.
+std::string quantity_of(const std::vector<Variable>& variables) {
+  const auto all_are = [&](const char* x, const char* y) {
+    return std::ranges::all_of(variables, [&](const Variable& v) { return v.name == x || v.name == y; });
+  };
+  return all_are("ux", "uy") ? "displacement, " : all_are("fx", "fy") ? "load, " : "";
+}
+
 std::string label_of(const Source& source, const std::vector<Variable>& variables) {
   std::string label;
   for (const Variable& variable : variables) label += (label.empty() ? "" : ", ") + words_of(variable);
+  label = quantity_of(variables) + label;
   const std::string& unit = column_of(source, variables.front()).unit;
   if (!unit.empty()) label += " [" + unit + "]";
   if (std::ranges::all_of(variables, [&](const Variable& v) { return compression_positive(source, v); }))

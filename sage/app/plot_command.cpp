@@ -160,12 +160,7 @@ void add_curve_options(CLI::App& parser, PlotOptions& options) {
 
 // Which fields, of which states, where.
 void add_state_options(CLI::App& parser, PlotOptions& options) {
-  parser
-      .add_option(
-          "--picture", options.pictures,
-          "a field to draw: conf (sigma_3), dev (sigma_1 - sigma_3), SL (stress level), stress_yy, "
-          "displacement, any other number of `sagefe list fields`, or a history variable of a law; may be "
-          "repeated")
+  parser.add_option("--picture", options.pictures, std::string("a field to draw: ") + kPictureNames)
       ->allow_extra_args(false)
       ->group(kGroupStates);
   parser
@@ -263,6 +258,8 @@ constexpr const char* kPlotExamples =
     "      contours of sigma_3 and of sigma_1 - sigma_3 at 5 and 10 % of strain, on one sheet\n"
     "  sagefe plot out/a.h5 --picture stress_yy --at 1:5 --mirror both --format png\n"
     "      the whole specimen at increment 5 of stage 1, as SVG and PNG\n"
+    "  sagefe plot out/dam.h5 --picture flow_net --picture velocity\n"
+    "      lines of equal head and stream lines, and how fast the water flows, of a seepage deck\n"
     "  sagefe plot out/a.h5 --interface --at strain=.1\n"
     "      stresses along the interface\n"
     "  sagefe plot out/a.h5 out/b.h5 --line 0,0:0,2.8 --picture stress_yy\n"

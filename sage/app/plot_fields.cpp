@@ -129,6 +129,8 @@ void plot_sheet(const PlotOptions& options, const Catalogue& catalogue) {
     }
     say_failure(run);
   }
+  constexpr int kBeside = 430;  // px, so that panels of flat models stand side by side
+  if (sheet.panels.size() > 2) sheet.look.width = kBeside;
   const std::string stem = std::filesystem::path(options.files.front()).stem().string();
   write_plot(options, plot_path(options, stem + "_" + fmt::format("{}", fmt::join(options.pictures, "_"))),
              sheet_svg(sheet));

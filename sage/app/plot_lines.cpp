@@ -58,24 +58,31 @@ Abscissa abscissa_of(const Model& model, const Vector2& along) {
 FieldChoice choice_of(const FieldTable& table, const std::string& name) {
   const std::optional<FieldChoice> choice = table.choose(name);
   if (!choice || (choice->entry->place() != FieldPlace::node && choice->entry->place() != FieldPlace::point))
-    throw UsageError("S644", "--picture: unknown field " + name + "; known: conf, dev, SL, " + table.known());
+    throw UsageError("S644", "--picture: " + unknown_field(table, name, false));
   return *choice;
 }
 
-// What the solids have along a line; a gap where there are none.
+// What the solids, or where they have no number the elements of flow, have along a line; a gap where there are none.
 PlotSeries along_line(const Model& model, const Solution& solution, const FieldChoice& field,
                       const Line& line) {
   constexpr int kSamples = 200;
   PlotSeries series;
-  const Sampler sampler(model, solution, {field.entry});
+  const Sampler solids(model, solution, {field.entry}), flow(model, solution, {field.entry}, ElementKind::flow);
+  const auto number_at = [&](const Vector2& at) {
+    for (const Sampler* sampler : {&solids, &flow}) {
+      const Sample sample = sampler->at(at);
+      if (sample.element == 0) continue;
+      if (const double value = chosen(field, sample.values.data()); std::isfinite(value)) return value;
+    }
+    return kGap;
+  };
   const Vector2 along = line.to - line.from;
   const int axis = abscissa_of(model, along).axis;
   for (int i = 0; i <= kSamples; ++i) {
     const double part = static_cast<double>(i) / kSamples;
     const Vector2 at = line.from + part * along;
-    const Sample sample = sampler.at(at);
     series.x.push_back(axis < 0 ? part * along.norm() : at[axis]);
-    series.y.push_back(sample.element == 0 ? kGap : chosen(field, sample.values.data()));
+    series.y.push_back(number_at(at));
   }
   return series;
 }
@@ -150,7 +157,7 @@ void expect_fields(const PlotOptions& options, const StoredRuns& runs, const std
   }
 }
 
-// Throws UsageError where all of a line lies outside the solids.
+// Throws UsageError where all of a line lies outside what fills an area.
 void expect_on_line(const std::string& line, const StoredRun& run, const std::vector<PlotSeries>& curves) {
   const auto known = [](const PlotSeries& curve) {
     return std::ranges::any_of(curve.y, [](double y) { return std::isfinite(y); });
@@ -159,7 +166,7 @@ void expect_on_line(const std::string& line, const StoredRun& run, const std::ve
   const Eigen::Matrix2Xd& x = run.model.mesh.x;
   throw UsageError(
       "S645",
-      fmt::format("--line {}: no solid of {} lies on it; its mesh goes from {:.6g},{:.6g} to {:.6g},{:.6g}",
+      fmt::format("--line {}: nothing of {} lies on it; its mesh goes from {:.6g},{:.6g} to {:.6g},{:.6g}",
                   line, run.file, x.row(0).minCoeff(), x.row(1).minCoeff(), x.row(0).maxCoeff(),
                   x.row(1).maxCoeff()));
 }

@@ -110,13 +110,20 @@ std::vector<std::size_t> states_of(const StoredRun& run, const std::vector<std::
 
 namespace {
 
-// Whether an active element of the kind has one at any of its points.
-bool has_number(const Model& model, const Frame& frame, const FieldChoice& field, ElementKind kind) {
+// What pictures and lines show: soil, and the elements that water flows through.
+bool fills_area(ElementKind kind) {
+  return kind == ElementKind::solid || kind == ElementKind::flow;
+}
+
+// Whether an active element that fills an area, or an interface, has one at any of its points.
+bool has_number(const Model& model, const Frame& frame, const FieldChoice& field, bool of_areas) {
   const Solution now = frame.view();
   std::vector<double> value(field.entry->size());
   for (std::size_t g = 0; g < now.groups().size(); ++g) {
     const GroupData& data = now.groups()[g];
-    if (data.group->entry->kind != kind || now.activity->group[g] == 0 || !applies(*field.entry, data))
+    const ElementKind kind = data.group->entry->kind;
+    if (!(of_areas ? fills_area(kind) : kind == ElementKind::interface) || now.activity->group[g] == 0 ||
+        !applies(*field.entry, data))
       continue;
     const std::size_t points =
         static_cast<std::size_t>(data.group->elements() * data.group->element->traits().points);
@@ -144,20 +151,25 @@ void expect_same_units(const StoredRun& a, const StoredRun& b) {
 
 void expect_numbers(const StoredRun& run, const std::vector<std::size_t>& states, const FieldChoice& field,
                     const std::string& name, ElementKind kind) {
-  const bool solid = kind == ElementKind::solid;
-  if (solid && field.entry->place() == FieldPlace::node) return;
-  const auto in_any = [&](ElementKind asked) {
+  const bool areas = fills_area(kind);
+  if (areas && field.entry->place() == FieldPlace::node) return;
+  const auto in_any = [&](bool of_areas) {
     return std::ranges::any_of(states, [&](std::size_t state) {
-      return has_number(run.model, run.stored.frame(run.model, state), field, asked);
+      return has_number(run.model, run.stored.frame(run.model, state), field, of_areas);
     });
   };
-  if (field.entry->place() == FieldPlace::point && in_any(kind)) return;
+  if (field.entry->place() == FieldPlace::point && in_any(areas)) return;
+  const bool flows = std::ranges::any_of(
+      run.model.groups, [](const Group& group) { return group.entry->kind == ElementKind::flow; });
   std::string text = fmt::format("{}: no {} has a number of {} in these states", run.file,
-                                 solid ? "solid" : "interface", name);
+                                 !areas  ? "interface"
+                                 : flows ? "element that fills an area"
+                                         : "solid",
+                                 name);
   if (field.entry->place() == FieldPlace::node)
     text += ": it is of nodes; --picture and --line show it";
-  else if (in_any(solid ? ElementKind::interface : ElementKind::solid))
-    text += solid ? ": it is of interfaces; --interface shows it"
+  else if (in_any(!areas))
+    text += areas ? ": it is of interfaces; --interface shows it"
                   : ": it is of solids; --picture and --line show it";
   throw UsageError("S644", text);
 }

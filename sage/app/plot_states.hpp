@@ -41,8 +41,8 @@ using StoredRuns = std::vector<std::unique_ptr<StoredRun>>;
 // or scale can show.
 std::vector<std::string> labels_of(const StoredRuns& runs, const std::vector<std::string>& asked);
 
-// Throws UsageError where no element of the kind has a number of the field in any of these states.  Fields of nodes
-// have one wherever there is a mesh.
+// Throws UsageError where no interface, or else no element that fills an area (soil, or water's way through it), has
+// a number of the field in any of these states.  Fields of nodes have one wherever there is a mesh.
 void expect_numbers(const StoredRun& run, const std::vector<std::size_t>& states, const FieldChoice& field,
                     const std::string& name, ElementKind kind);
 

@@ -155,12 +155,24 @@ int refuse(const std::string& name, const std::function<int()>& say) {
   return screen().json && code != kOk ? with_answer(name, code, MutedOutput()) : code;
 }
 
+// A name of an option where another wants its value ("--write -q") is a value forgotten, not a file of that name.
+void refuse_options_as_values(CLI::App& parser) {
+  const auto is_option = [&parser](const std::string& value) {
+    if (value.size() < 2 || value.front() != '-' || parser.get_option_no_throw(value) == nullptr)
+      return std::string();
+    return "wanted a value, and " + value + " is an option; a file of that name is ./" + value;
+  };
+  for (CLI::Option* option : parser.get_options())
+    if (option->get_expected_max() > 0) option->check(is_option);
+}
+
 // A command's own and those that it shares with others.
 Command add_all_options(CLI::App& parser, const Entry& entry, const Catalogue& catalogue,
                         ScreenOptions& screen) {
   if (entry.takes_plugins) add_plugin_options(parser);
   Command execute = entry.add_options(parser, catalogue);
   add_screen_options(parser, screen);
+  refuse_options_as_values(parser);
   return execute;
 }
 

@@ -283,7 +283,7 @@ Command run_command(CLI::App& parser, const Catalogue& catalogue) {
           "--nodes, --points")
       ->allow_extra_args(false)
       ->check([](const std::string& text) { return state_error("--states", text); });
-  add_field_options(parser, catalogue, request.output.pictures, request.output.fields,
+  add_field_options(parser, request.output.pictures, request.output.fields,
                     "SVG pictures at the end of each stage, and at --states",
                     "listing, CSV and reports of points");
   parser.add_flag("--error", request.output.error, "estimate the error of the mesh (Zienkiewicz-Zhu)");

@@ -113,7 +113,11 @@ Command stress_command(CLI::App& parser, const Catalogue& catalogue) {
   parser.add_option("--only", options->only, "these rows only");
   parser.add_flag("--details", options->details, "every trial, not only those that failed");
   parser.add_option("--csv", options->csv, "write every trial to this file");
-  parser.add_option("--write", options->page, "write a Markdown page, and plots into a folder beside it");
+  parser
+      .add_option("--write", options->page,
+                  "write a Markdown page, and plots into a folder beside it (default docs/stress.md)")
+      ->expected(0, 1)
+      ->default_str("docs/stress.md");
   return [options, &catalogue] { return run_rows(*options, catalogue); };
 }
 

@@ -104,7 +104,13 @@ namespace {
 // By the source chapter's names too: sigma_3, sigma_1 - sigma_3, stress level.
 std::string_view full_name(std::string_view name) {
   static constexpr std::pair<std::string_view, std::string_view> kShort[] = {
-      {"conf", "principal_stress_3"}, {"dev", "stress_difference"}, {"SL", "stress_level"}};
+      {"conf", "principal_stress_3"},
+      {"dev", "stress_difference"},
+      {"SL", "stress_level"},
+      {"sigma_1", "principal_stress_1"},
+      {"sigma_2", "principal_stress_2"},
+      {"sigma_3", "principal_stress_3"},
+      {"sigma_1-sigma_3", "stress_difference"}};
   for (const auto& [one, full] : kShort)
     if (name == one) return full;
   return name;

@@ -476,7 +476,9 @@ Drawing draw_picture(Draft& draft, const std::vector<double>& limits, const Head
   fmt::format_to(std::back_inserter(out), "<g transform=\"translate(0 {:.1f})\">\n", down);
   append_mirrored(out, mesh, view, draft.options, name);
   draw_axes(out, draft.scenery);
-  const double bar = draw_legend(out, limits, legend, view.height, range_of(draft.patches));
+  const FieldRange range = range_of(draft.patches);
+  const bool any = range.low <= range.high;  // else the colours would be those of no value
+  const double bar = any ? draw_legend(out, limits, legend, view.height, range) : kPictureTop;
   draw_line_legend(out, draft.scenery, legend, bar + 26.0);
   double bottom = std::max(kPictureTop + view.height + kBottom, bar + 66.0);
   for (const std::string& note : notes)
@@ -513,7 +515,7 @@ struct Grid {
   double width = 0.0, height = 0.0;
 };
 
-Grid grid_of(const std::vector<Drawing>& drawings, int columns, double top) {
+Grid grid_of(const std::vector<Drawing>& drawings, int columns) {
   constexpr double kMostWidth = 1400.0, kGap = 12.0;
   double widest = 1.0;
   for (const Drawing& drawing : drawings) widest = std::max(widest, drawing.width + kGap);
@@ -525,7 +527,7 @@ Grid grid_of(const std::vector<Drawing>& drawings, int columns, double top) {
       width = std::max(width, drawings[k].width + kGap);
     left[c + 1] = left[c] + width;
   }
-  Grid grid{{}, left[per_row] - kGap, top};
+  Grid grid{{}, left[per_row] - kGap, 0.0};
   for (std::size_t k = 0; k < drawings.size(); k += per_row) {
     double row_height = 0.0;
     for (std::size_t c = 0; c < std::min(per_row, drawings.size() - k); ++c) {
@@ -535,6 +537,19 @@ Grid grid_of(const std::vector<Drawing>& drawings, int columns, double top) {
     grid.height += row_height;
   }
   return grid;
+}
+
+// In as many lines as a narrow sheet needs, up to three.  Gives the height that they take.
+double draw_sheet_title(std::string& out, const std::string& title, double room) {
+  if (title.empty()) return 0.0;
+  const std::string shown = svg::shortened(title, svg::kTitleFont, 2.5 * room);
+  if (shown != title) out += "<title>" + xml_text(title) + "</title>\n";
+  double y = 26.0;
+  for (const std::string& line : svg::wrapped(shown, svg::kTitleFont, room, true)) {
+    svg::text(out, 8.0, y, line, svg::kTitleFont, "start", svg::kBold);
+    y += kLine + 2.0;
+  }
+  return y - 10.0;
 }
 
 }  // namespace
@@ -576,16 +591,15 @@ std::string sheet_svg(const FieldSheet& sheet) {
   std::vector<Drawing> drawings;
   for (std::size_t k = 0; k < drafts.size(); ++k)
     drawings.push_back(draw_picture(drafts[k], limits[k], headings[k], lines, fmt::format("half{}", k + 1)));
-  const double top = sheet.title.empty() ? 0.0 : 36.0;
-  const Grid grid = grid_of(drawings, sheet.columns, top);
-  const double width = grid.width;
+  const Grid grid = grid_of(drawings, sheet.columns);
   constexpr double kMargin = 8.0;  // below the notes of the last row
-  std::string out = svg::open(static_cast<int>(width), static_cast<int>(grid.height + kMargin));
-  if (top > 0.0)
-    svg::text_within(out, 8.0, 26.0, sheet.title, svg::kTitleFont, 0.88 * (width - 16.0), "start", svg::kBold);
+  std::string title;
+  const double top = draw_sheet_title(title, sheet.title, grid.width - 16.0);
+  std::string out =
+      svg::open(static_cast<int>(grid.width), static_cast<int>(top + grid.height + kMargin)) + title;
   for (std::size_t k = 0; k < drawings.size(); ++k)
-    out += fmt::format("<g transform=\"translate({:.1f} {:.1f})\">\n{}</g>\n", grid.at[k].x(), grid.at[k].y(),
-                       drawings[k].svg);
+    out += fmt::format("<g transform=\"translate({:.1f} {:.1f})\">\n{}</g>\n", grid.at[k].x(),
+                       top + grid.at[k].y(), drawings[k].svg);
   return out + std::string(svg::kClose);
 }
 

@@ -29,12 +29,20 @@ double largest_of(const FieldEntry& field, const Eigen::MatrixXd& at) {
 
 }  // namespace
 
+std::string unknown_field(const FieldTable& table, std::string_view name, bool pictures) {
+  const bool heads = table.find("head") != nullptr;
+  if (name == kFlowNet)
+    return pictures ? "flow_net is of heads, and the model has none: it has no elements of flow"
+                    : "flow_net is a picture; head is its field";
+  return "unknown field " + std::string(name) + "; known: conf, dev, SL, " +
+         (pictures && heads ? "flow_net, " : "") + table.known();
+}
+
 FieldChoice picture_field(const FieldTable& table, std::string_view name) {
   const std::optional<FieldChoice> choice = table.choose(name == kFlowNet ? "head" : name);
   const FieldPlace place = choice ? choice->entry->place() : FieldPlace::increment;
   if (place == FieldPlace::node || place == FieldPlace::point) return *choice;
-  throw std::invalid_argument("unknown field " + std::string(name) + "; known: conf, dev, SL, " +
-                              table.known());
+  throw std::invalid_argument(unknown_field(table, name, true));
 }
 
 void unfold_angles(const FieldEntry& field, std::vector<double*> values) {

@@ -6,6 +6,9 @@
 
 namespace sage {
 
+// "unknown field devi; known: conf, dev, SL, ..."; `pictures`: flow_net is one, where there are heads.
+std::string unknown_field(const FieldTable& table, std::string_view name, bool pictures);
+
 // A direction has two angles, 180 degrees apart.  Where most of these angles (degrees, -90 to 90) are nearer to 90
 // than to 0, they are turned to 0 to 180, so that directions which are nearly alike do not lie at both ends.
 // Nothing happens to fields that are no angles.

@@ -31,11 +31,11 @@ bool share_a_node(const Model& model, const Location& a, const Location& b) {
 
 }  // namespace
 
-Locator::Locator(const Model& model) : model_(&model) {
+Locator::Locator(const Model& model, ElementKind kind) : model_(&model) {
   Eigen::Matrix2Xd x;
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     const Group& group = model.groups[g];
-    if (!group.solid()) continue;
+    if (group.entry->kind != kind) continue;
     for (int e = 0; e < group.elements(); ++e) {
       element_coordinates(model.mesh, group, e, x);
       const Vector2 low = x.rowwise().minCoeff(), high = x.rowwise().maxCoeff();

@@ -1,4 +1,4 @@
-// Which solid elements hold a place, and where it lies in their parent shape.
+// Which elements that fill an area hold a place, and where it lies in their parent shape.
 #pragma once
 
 #include <vector>
@@ -16,10 +16,10 @@ struct Location {
 
 class Locator {
  public:
-  // The model must outlive the locator.
-  explicit Locator(const Model& model);
+  // Among the solids, or the elements of flow.  The model must outlive the locator.
+  explicit Locator(const Model& model, ElementKind kind = ElementKind::solid);
 
-  // Every solid element that holds the place, in the order of groups and elements; its edges belong to it (to
+  // Every such element that holds the place, in the order of groups and elements; its edges belong to it (to
   // 1e-6 of its size).  Of a group without one: those whose edge is nearest, at the nearest place there, if
   // that is within the mesh's reach.  So what the deck's mesh holds is held by every mesh that is made of it.
   std::vector<Location> at(const Vector2& place) const;

@@ -111,7 +111,9 @@ std::vector<double> element_average(const Mesh& mesh, const GroupData& data, con
     const double* from = sum.data();
     double* to = mean.data() + e * n;
     for (const FieldEntry* field : fields) {
-      if (field->of_mean)
+      if (field->of_mean && !applies(*field, data))  // the mean of no stress has an angle, 0, all the same
+        std::fill_n(to, field->size(), std::nan(""));
+      else if (field->of_mean)
         value_of_carried(*field, from, to);
       else
         std::copy_n(from, field->size(), to);

@@ -213,8 +213,13 @@ class OwnPart {
  private:
   static std::string increments(const std::string& name) { return "/sage/increments/" + name; }
   static std::string nodes(const std::string& name) { return "/sage/nodes/" + name; }
-  static std::string in(const Group& group, const std::string& name = "") {
-    return fmt::format("/sage/groups/{}", group.number) + (name.empty() ? "" : "/" + name);
+  // Triangles among the quadrilaterals of a card are a group with its number too: the second has the name of its
+  // element behind that.
+  std::string in(const Group& group, const std::string& name = "") const {
+    const bool second = std::any_of(model_.groups.data(), &group,
+                                    [&](const Group& other) { return other.number == group.number; });
+    return fmt::format("/sage/groups/{}{}", group.number, second ? "_" + group.entry->name : "") +
+           (name.empty() ? "" : "/" + name);
   }
   static bool whole_numbers(const FieldEntry& field) {
     return field.form != FieldForm::number && !field.optional;

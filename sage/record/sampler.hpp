@@ -7,7 +7,7 @@ namespace sage {
 
 struct Sample {
   Vector2 at = Vector2::Zero();
-  int element = 0;             // deck number; 0 = in no active solid, and then all values are NaN
+  int element = 0;             // deck number; 0 = in no active one, and then all values are NaN
   std::vector<double> values;  // of the fields that were asked for, one behind the other
 };
 
@@ -16,9 +16,10 @@ Sample sample_of(const Model& model, const Probe& probe, const Solution& solutio
 
 class Sampler {
  public:
-  // Model, solution and fields must outlive the sampler.
-  Sampler(const Model& model, const Solution& solution, const FieldList& fields)
-      : model_(&model), solution_(solution), fields_(fields), probes_(model, solution.activity->group) {}
+  // In the solids, or in the elements of flow.  Model, solution and fields must outlive the sampler.
+  Sampler(const Model& model, const Solution& solution, const FieldList& fields,
+          ElementKind kind = ElementKind::solid)
+      : model_(&model), solution_(solution), fields_(fields), probes_(model, solution.activity->group, kind) {}
 
   Sample at(const Vector2& place, int group = -1) const;
 

@@ -363,6 +363,22 @@ TEST(CommandLine, FiguresComputesOneWithItsPage) {
   EXPECT_EQ(sagefe(folder, "figures --only 7.1 -o file/out").exit_code, 4);
 }
 
+// "--write -q": a value was forgotten.  Nothing is written into a file of an option's name.
+TEST(CommandLine, NamesOfOptionsAreNoValues) {
+  const fs::path folder = empty_folder("option_as_value");
+  for (const char* words :
+       {"run none.dat -o -q", "plot none.csv --title -q", "drive --law linear_elastic --csv --plot"}) {
+    const Finished run = sagefe(folder, words);
+    EXPECT_EQ(run.exit_code, 1) << words;
+    expect_words(run.err, {"is an option; a file of that name is ./-"});
+  }
+  EXPECT_EQ(sagefe(folder, "plot none.csv --xy=-uy:-fy").err.find("is an option"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder / "-q"));
+  const Finished page = sagefe(folder, "stress --only units --write -q");
+  EXPECT_EQ(page.exit_code, 0) << page.err;
+  EXPECT_TRUE(fs::exists(folder / "docs/stress.md"));
+}
+
 // Without rsvg-convert: what is missing, before anything is computed.
 TEST(CommandLine, FiguresSaysWhatAnotherFormatNeeds) {
   const fs::path folder = empty_folder("figures_format");

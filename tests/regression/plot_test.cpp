@@ -231,6 +231,7 @@ TEST(Plot, WrongWishesAreNamed) {
   expect_refused("--picture dev --at strain=x", "wanted STAGE[:INCREMENT], both from 1, strain=VALUE");
   expect_refused("--picture dev --range 5:1", "wanted LOW:HIGH, full or auto");
   expect_refused("--picture devi", "unknown field devi");
+  expect_refused("--picture flow_net", "flow_net is of heads, and the model has none");
   expect_refused("--picture dev --line 0,0", "wanted X,Y:X,Y");
   expect_refused("--line 0,0:1,1", "of which fields?");
   expect_refused("--interface", "the model has no interface");
@@ -250,6 +251,36 @@ TEST(Plot, FieldsAlongALineAreCurves) {
   for (const std::vector<double>& line : lines) EXPECT_TRUE(std::ranges::is_sorted(line)) << "down";
   EXPECT_NEAR(lines[1].back() - lines[1].front(), 2.0 * (lines[0].back() - lines[0].front()), 0.05) << "px";
   EXPECT_NE(svg.find("z [in]"), std::string::npos);
+}
+
+// Elements of flow are drawn and cut as soil is.  The head below the sheet pile is 2 m by symmetry, and falls along the
+// bottom to 0 at the far end; so does the velocity there.
+TEST(Plot, WaterIsDrawnWhereItFlows) {
+  const fs::path folder = empty_folder("plot_flow");
+  const Finished run = sagefe(folder, "run " + kInputs + "seepage/sheet_pile/deck.dat -q --result");
+  if (without_module(run)) GTEST_SKIP() << "built without HDF5";
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Finished plot = sagefe(folder, "plot out/sheet_pile.h5 --picture flow_net --picture velocity");
+  ASSERT_EQ(plot.exit_code, 0) << plot.err;
+  EXPECT_NE(read(folder / "out/sheet_pile_stage1_flow_net.svg").find("lines of equal head"), std::string::npos);
+  EXPECT_NE(read(folder / "out/sheet_pile_stage1_velocity.svg").find("length of velocity of water"),
+            std::string::npos);
+  const Finished line =
+      sagefe(folder, "plot out/sheet_pile.h5 --line 0,-10:50,-10 --picture head --picture velocity");
+  ASSERT_EQ(line.exit_code, 0) << line.err;
+  const auto lines = lines_of(read(folder / "out/sheet_pile_line.svg"));
+  ASSERT_EQ(lines.size(), 2u);
+  for (const std::vector<double>& one : lines) {
+    EXPECT_EQ(one.size(), 201u);
+    for (std::size_t i = 1; i < one.size(); ++i)  // px down; a fitted velocity may swing below what is seen
+      EXPECT_GE(one[i], one[i - 1] - 0.1) << i;
+    EXPECT_GT(one.back() - one.front(), 200.0) << "px";
+  }
+  const Finished stress = sagefe(folder, "plot out/sheet_pile.h5 --picture stress_yy");
+  EXPECT_EQ(stress.exit_code, 1);
+  EXPECT_NE(stress.err.find("no element that fills an area has a number of stress_yy"), std::string::npos);
+  const Finished net = sagefe(folder, "plot out/sheet_pile.h5 --picture flow_net --line 0,0:1,0");
+  EXPECT_NE(net.err.find("head is its field"), std::string::npos) << net.err;
 }
 
 // A place for each integration point of the interface.

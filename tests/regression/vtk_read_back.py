@@ -3,6 +3,7 @@
 
 Usage: vtk_read_back.py SAGEFE SOURCE_FOLDER       exit code 77: a package is missing
 """
+import functools
 import math
 import pathlib
 import subprocess
@@ -31,6 +32,7 @@ CASES = [  # deck and its area, options, types of solids and of interfaces
     ("smith_griffiths/p51_1.dat", None, ["--layout", "sg_p51"], {5}, set()),
     ("chapter7/dp_285/deck.dat", SLENDER, [], {9}, {3}),
 ]
+BEAMS = ("cande_level3/candejar_input_test1.cid", ["--partial"])
 MESHIO = {3: "line", 21: "line3", 5: "triangle", 22: "triangle6", 9: "quad", 23: "quad8", 28: "quad9"}
 
 
@@ -157,8 +159,8 @@ def check_times(folder, out, stem):
             expect(time <= 0.0, f"time {time} before the report's stage")
 
 
-def check(program, source, folder, case):
-    deck, area, options, solids, lines = case
+def results(program, source, folder, deck, options):
+    """The last state of a run, its file, the folder and the stem of its files."""
     out = pathlib.Path(folder) / "out"
     path = source / "legacy_inputs" / deck
     command = [program, "run", path, "-o", out, "--vtu", "--nodes", "--points", "-q", *options]
@@ -166,7 +168,27 @@ def check(program, source, folder, case):
     expect(done.returncode == 0, f"{command}: exit code {done.returncode}\n{done.stderr}")
     stem = path.parent.name if path.stem == "deck" else path.stem
     files = sorted(out.glob(f"{stem}_*.vtu"))
-    state = State(files[-1])
+    return State(files[-1]), files, out, stem
+
+
+def check_beams(program, source, folder):
+    """The pipe of a culvert: section forces with their values, and nothing of what only soil has."""
+    state, _, out, stem = results(program, source, folder, *BEAMS)
+    elements, line = state.cells["element"].ravel(), numpy.array([kind == 3 for kind in state.types])
+    columns = ("axial_force", "shear_force", "bending_moment")
+    of = means(last_step(rows(out / f"{stem}.structures.csv")), columns)
+    expect(line.sum() == len(of) > 10, f"{line.sum()} lines of {len(of)} beams")
+    for k, column in enumerate(columns):
+        values = state.cells[column].ravel()
+        near(values, [of[e][k] if l else math.nan for e, l in zip(elements, line)], column, numpy.nanmax(numpy.abs(values)))
+    for name in ("mean_stress", "principal_stress", "principal_angle", "principal_direction_1"):
+        known = numpy.isfinite(state.cells[name]).reshape(len(line), -1).all(axis=1)
+        expect((known == ~line).all(), f"{name} is known in {known[line].sum()} beams and {known[~line].sum()} of {(~line).sum()} solids")
+
+
+def check(program, source, folder, case):
+    deck, area, options, solids, lines = case
+    state, files, out, stem = results(program, source, folder, deck, options)
     check_cells(state, area, solids, lines)
     check_nodes(state, out, stem)
     check_points(state, out, stem, lines)
@@ -181,14 +203,15 @@ def check(program, source, folder, case):
 def main():
     program, source = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
     failed = 0
-    for case in CASES:
+    checks = [(f"{case[0]} {' '.join(case[2])}", functools.partial(check, case=case)) for case in CASES]
+    for name, one in [*checks, (BEAMS[0], check_beams)]:
         with tempfile.TemporaryDirectory() as folder:
             try:
-                check(program, source, folder, case)
-                print(f"passed: {case[0]} {' '.join(case[2])}")
+                one(program, source, folder)
+                print(f"passed: {name}")
             except AssertionError as error:
                 failed += 1
-                print(f"FAILED: {case[0]} {' '.join(case[2])}: {error}")
+                print(f"FAILED: {name}: {error}")
     sys.exit(1 if failed else 0)
 
 

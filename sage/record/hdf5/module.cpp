@@ -121,8 +121,8 @@ class Hdf5File final : public DataFile {
     std::vector<hsize_t> size{0}, most{H5S_UNLIMITED}, piece{chunk};
     for (std::uint64_t n : row) {
       size.push_back(n);
-      most.push_back(n);
-      piece.push_back(n);
+      most.push_back(n == 0 ? H5S_UNLIMITED : n);  // a group without elements: its rows are empty,
+      piece.push_back(n == 0 ? 1 : n);             // and neither a chunk nor what is fixed may be
     }
     std::uint64_t numbers = 1;
     for (std::uint64_t n : row) numbers *= n;
@@ -132,10 +132,10 @@ class Hdf5File final : public DataFile {
     H5Pset_create_intermediate_group(links.get(), 1);
     bool done = space.ok() && make_folders(path) && H5Pset_chunk(how.get(), rank, piece.data()) >= 0;
     if (done && numbers > 16) done = H5Pset_shuffle(how.get()) >= 0 && H5Pset_deflate(how.get(), 1) >= 0;
-    if (!done) return failed();
+    if (!done) return failed(path);
     const hid_t set =
         H5Dcreate2(file_, path, hdf5_type(type), space.get(), links.get(), how.get(), H5P_DEFAULT);
-    if (set < 0) return failed();
+    if (set < 0) return failed(path);
     const std::size_t width = size_of(type);
     sets_[path] = {set, numbers > 16 && chunk == 1 ? numbers * width : 0, width};
     return true;
@@ -158,6 +158,7 @@ class Hdf5File final : public DataFile {
     size[0] += count;
     errno = 0;
     if (H5Dset_extent(id, size.data()) < 0) return failed();
+    if (std::find(more.begin(), more.end(), 0) != more.end()) return true;
     if (count == 1 && left_as_it_is(set->second, rows))
       return H5Dwrite_chunk(id, H5P_DEFAULT, kNoFilters, start.data(), set->second.packed_row, rows) >= 0 ||
              failed();
@@ -248,13 +249,15 @@ class Hdf5File final : public DataFile {
   }
 
   // What the system says comes first: a full disk.
-  bool failed() {
+  // `table`: that could not be made.
+  bool failed(const char* table = nullptr) {
     if (!error_.empty()) return false;
     if (errno != 0)
       error_ = std::strerror(errno);
     else
       H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, first_message, &error_);
     if (error_.empty()) error_ = "HDF5 gives no reason";
+    if (table != nullptr) error_ += std::string(", ") + table;
     return false;
   }
 

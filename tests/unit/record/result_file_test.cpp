@@ -135,6 +135,33 @@ TEST(ResultFile, LongRowsComeBackCompressedOrNot) {
   EXPECT_GT(size, 2 * kNumbers * sizeof(double));            // the other is not compressed
 }
 
+// As the triangles among the quadrilaterals of a card.
+TEST(ResultFile, TwoGroupsMayHaveOneNumber) {
+  Specimen specimen;
+  specimen.model.groups[1].number = specimen.model.groups[0].number;
+  const auto folder = fresh_folder("result_number");
+  {
+    ResultOutput result(folder, "t");
+    specimen.run(result, 0.01, 2);
+  }
+  const Hdf5 file(folder / "t.h5");
+  EXPECT_NEAR(file.numbers("/sage/groups/1/stress")[1], 5.0, 1e-9);
+  EXPECT_NEAR(file.numbers("/sage/groups/1_interface4/traction").back(), 10.0, 1e-9);
+}
+
+// What a group without elements has at its points.
+TEST(ResultFile, RowsMayBeEmpty) {
+  const auto path = fresh_folder("result_empty") / "t.h5";
+  const auto file = make_data_file(path.string());
+  ASSERT_TRUE(file->table("/none", DataType::float64, {0, 2}, 1)) << file->error();
+  ASSERT_TRUE(file->append("/none", nullptr, 1)) << file->error();
+  ASSERT_TRUE(file->close());
+  std::string bytes = "x";
+  const auto back = open_data_file(path.string());
+  ASSERT_TRUE(back->read("/none", bytes)) << back->error();
+  EXPECT_EQ(bytes, "");
+}
+
 // What ParaView's reader asks for: parts, steps and where each array of a step begins.
 TEST(ResultFile, HasTheLayoutOfVtkHdf) {
   Specimen specimen;
