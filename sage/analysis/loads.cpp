@@ -287,6 +287,7 @@ void take_drainage(const WaterCard& card, GroupData& data) {
   for (std::size_t p = 0; p < points; ++p) {
     double* const own = data.state.committed.h.data() + p * history + group.excess;
     own[1] = card.kind == WaterKind::undrained ? card.value : 0.0;
+    own[2] = 0.0;
     if (card.kind == WaterKind::undrained) continue;
     for (std::size_t c = 0; c < 3; ++c) data.state.committed.sigma[4 * p + c] += own[0];
     own[0] = 0.0;

@@ -133,10 +133,10 @@ std::vector<int> groups_of(Builder& b, const CardView& card) {
 double bulk_of(Builder& b, const CardView& card, const Group& group) {
   const double bulk = card.real("value1"), nu = card.real("value2");
   if (bulk > 0.0 && nu == 0.0) return bulk;
-  if (bulk != 0.0 || !(nu > 0.0 && nu < 0.5)) {
+  if (bulk != 0.0 || !(nu > 0.0 && nu <= 0.5)) {
     b.error("S248", card.where("value1"),
             "an undrained group takes the bulk of water over the porosity, or (value 2) an undrained Poisson's "
-            "ratio between 0 and 1/2, and not both");
+            "ratio between 0 and 1/2 (1/2: no change of volume), and not both");
     return 0.0;
   }
   const LawRef law = b.model.material_of(group).law_ref();
@@ -170,20 +170,6 @@ void shut_in(Builder& b, Group& group, std::map<int, int>& twins) {
   group.excess = static_cast<int>(history_of(b.model.material_of(group).law_ref()).size() - UndrainedLaw::kOwn);
 }
 
-// Beyond that, rounding of strains times the bulk is what equilibrium is asked for.
-void warn_of_stiff_water(Builder& b, const CardView& card, const Group& group, double bulk) {
-  constexpr double kMost = 1e9;
-  const LawRef law = b.model.material_of(group).law_ref();
-  const auto* const solid = std::get_if<const SolidLaw*>(&law);
-  const double share = solid == nullptr || *solid == nullptr ? 0.0 : bulk / shear_modulus(**solid);
-  if (share > kMost)
-    b.warning(
-        "S331", card.where("value1"),
-        "group " + std::to_string(group.number) + ": the bulk of water is " + rounded_text(share, 3) +
-            " times the soil's shear modulus: digits of the excess pressure are lost and equilibrium may not "
-            "be found; 1e4 times is as good as no change of volume");
-}
-
 void read_undrained(Builder& b, const CardView& card, WaterCard water, std::map<int, int>& twins,
                     const std::vector<int>& groups) {
   std::vector<int> all = groups;
@@ -197,7 +183,6 @@ void read_undrained(Builder& b, const CardView& card, WaterCard water, std::map<
     water.group = g;
     water.value = bulk_of(b, card, group);
     if (!(water.value > 0.0)) return;
-    warn_of_stiff_water(b, card, group, water.value);
     shut_in(b, group, twins);
     b.model.water.push_back(water);
   }

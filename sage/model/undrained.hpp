@@ -5,12 +5,16 @@
 
 namespace sage {
 
-// Behind the history of the grains' law two quantities: the excess pore pressure p and the bulk of the water over
-// the porosity, which is 0 while the group is drained.  The stress that equilibrium sees is sigma' - p [1 1 1 0];
-// the grains' law sees sigma' alone.  p grows by -bulk times the change of volume (tension +).
+// Behind the history of the grains' law three quantities: the excess pore pressure p, the bulk K of the water over
+// the porosity, which is 0 while the group is drained, and e + p / K, e being the change of volume since it was
+// shut in (tension +).  The stress that equilibrium sees is sigma' - p [1 1 1 0]; the grains' law sees sigma' alone.
+// p grows by -K times the change of volume.  Water stiffer than 1e8 shear moduli (at zero stress, where the law has
+// one) is held by a multiplier: p grows by -B (e + p / K) with B = 1e8 G, so that what is left of an increment's
+// change of volume, (growth of p) / B, is taken out by the next one, and no digits are lost.
+// docs/decisions/0029-stiff-water.md
 class UndrainedLaw final : public SolidLaw {
  public:
-  static constexpr std::size_t kOwn = 2;
+  static constexpr std::size_t kOwn = 3;
 
   explicit UndrainedLaw(std::unique_ptr<SolidLaw> grains);
 
@@ -24,7 +28,7 @@ class UndrainedLaw final : public SolidLaw {
   std::string caution() const override { return grains_->caution(); }
   double stress_level(const Vector4& sigma, std::span<const double> h) const override;
 
-  // Place of p in the history; that of the bulk comes next.
+  // Place of p in the history; those of the bulk and of e + p / K come next.
   std::size_t excess() const { return quantities_.size() - kOwn; }
 
  private:
@@ -32,16 +36,14 @@ class UndrainedLaw final : public SolidLaw {
 
   std::unique_ptr<SolidLaw> grains_;
   std::vector<Quantity> quantities_;
+  double stiffest_;  // B
 };
 
 // A solid's law within an UndrainedLaw where asked.
 LawPtr with_water(LawPtr law, bool undrained);
 
-// Shear modulus of a law at zero stress; NaN where it has none there.
-double shear_modulus(const SolidLaw& law);
-
-// Bulk of water over porosity that gives an elastic law this undrained Poisson's ratio at zero stress; NaN where the
-// law is no isotropic one or has no such ratio above its own.
+// Bulk of water over porosity that gives an elastic law this undrained Poisson's ratio at zero stress (1/2: none that
+// gives way); NaN where the law is no isotropic one or has no such ratio above its own.
 double bulk_for(const SolidLaw& law, double nu_u);
 
 }  // namespace sage
