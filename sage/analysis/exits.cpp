@@ -19,6 +19,7 @@ void Exits::enter(const Model& model, const Activity& activity, int stage) {
       if (f.field == field && f.code != FixityCode::unchanged) limits.erase(f.node);
     for (const Exit& exit : one.exits) limits[exit.node] = model.mesh.x(1, exit.node) + exit.pressure_head;
   }
+  if (limits.empty()) return;
   const std::vector<char> active = active_dofs(model, activity);
   for (const auto& [node, limit] : limits)
     if (const int dof = activity.dof_map.of(node, field);

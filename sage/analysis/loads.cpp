@@ -177,7 +177,7 @@ Eigen::VectorXd stage_loads(const Model& model, int stage, const Activity& activ
   Eigen::VectorXd force = Eigen::VectorXd::Zero(activity.dof_map.dofs());
   const Stage& now = model.stages[static_cast<std::size_t>(stage)];
   add_point_loads(now, activity.dof_map, force);
-  drop_inactive(active_dofs(model, activity), force);
+  if (!force.isZero(0.0)) drop_inactive(active_dofs(model, activity), force);
   LoadSum sum(model, activity.dof_map, force);
   add_edge_loads(model, activity.group, now, sum);
   return force;

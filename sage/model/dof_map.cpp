@@ -65,8 +65,10 @@ void DofMap::list(const Group& group, int element, std::vector<int>& dofs) const
     for (std::size_t i = 0; i < group.node_count(); ++i) add(0, 2, nodes[i]);
   for (const ElementUnknown& unknown : group.entry->unknowns) {
     const int field = find_unknown(unknowns_, unknown.field.name);
-    for (const int i : nodes_with(unknown, group.node_count()))
-      add(field, unknown.field.components(), nodes[i]);
+    const int components = unknown.field.components();
+    if (unknown.nodes.empty())
+      for (std::size_t i = 0; i < group.node_count(); ++i) add(field, components, nodes[i]);
+    for (const int i : unknown.nodes) add(field, components, nodes[i]);
   }
 }
 

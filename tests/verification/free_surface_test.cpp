@@ -77,6 +77,27 @@ TEST(FreeSurface, SideNumbersAndThreadsDoNotMatter) {
   }
 }
 
+// What blurs a free surface is named with its share, and what finds none with the ramp that it came to.
+TEST(FreeSurface, WhatBlursItIsNamed) {
+  Dam plain, wide, leaky;
+  for (Dam* dam : {&plain, &wide, &leaky}) dam->columns = dam->rows = 14;
+  wide.ramp = 4.0;
+  const WholeRun sharp = run_text(plain.deck().text()), blurred = run_text(wide.deck().text());
+  EXPECT_FALSE(sharp.warns("the soil falls dry over"));
+  EXPECT_FALSE(sharp.warns("soil that should be dry"));
+  EXPECT_TRUE(blurred.warns("the soil falls dry over")) << "S537";
+  leaky.top = 14.0;  // as much soil above the water as below
+  DeckWriter deck = leaky.deck();
+  deck.materials.clear();
+  deck.material(1, kFreeSurfaceLaw, {1e-3, 0.0, 0.0, 0.0, 0.1});
+  EXPECT_TRUE(run_text(deck.text()).warns("soil that should be dry")) << "S538";
+  DeckWriter short_of_iterations = plain.deck();
+  short_of_iterations.stages[0].max_iterations = 1;
+  const WholeRun lost = run_text(short_of_iterations.text());
+  EXPECT_FALSE(lost.completed());
+  EXPECT_EQ(to_string(lost.result.code.value()), "S539") << lost.failure;
+}
+
 // Water that rises in three increments, gone on with from each of the checkpoints.
 TEST(FreeSurface, RestartsToTheSameBits) {
   Dam dam;
