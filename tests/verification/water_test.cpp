@@ -212,6 +212,52 @@ TEST(Water, ExcavationUnderWater) {
               1e-10 * buoyant.largest_u());
 }
 
+// Four metres of soil are left over a layer with artesian water.  With u0 below and none at the floor the effective stress
+// is (gamma - u0 / d) times the depth, and the floor lifts where u0 > gamma d = 80: said of the stage that digs, not before.
+TEST(Water, UpliftOfAnExcavationsFloor) {
+  Block low = cells(2, 2, Cell::quad8), high = cells(2, 2, Cell::quad8);
+  low.place = rectangle(0.0, 4.0, 0.0, 4.0);
+  high.place = rectangle(0.0, 4.0, 4.0, 8.0);
+  high.first_node = 1001;
+  high.first_element = 101;
+  const auto dug = [&](double u0) {
+    DeckWriter deck = slope(low, 1, 20.0);
+    deck.group(2, 2, 0, 1);
+    high.write_nodes(deck);
+    high.write_elements(deck, 2);
+    deck.group(3, 12, 0, 2);
+    deck.material(2, 21, {1e7, 1e7, 1.0});
+    join(deck, 501, 3, low.top(), high.bottom(), 2);
+    for (const int node : high.left()) deck.fix(node, 1, 0);
+    for (const int node : high.right()) deck.fix(node, 1, 0);
+    deck.stage(2).deaths = {2, 3};
+    std::vector<double> artesian;
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 3; ++i)
+        artesian.insert(artesian.end(), {1.0 * low.node(2 * i, 2 * j), u0 * (1.0 - 0.5 * j)});
+    deck.water(3, 1, 1, 0, artesian);
+    return deck;
+  };
+  const double u0 = 40.0;
+  const Fields seen = look(dug(u0));
+  ASSERT_FALSE(seen.rows.empty());
+  for (const Fields::Row& row : seen.rows) {
+    const double depth = 4.0 - row.place.y();
+    EXPECT_NEAR(row.total[1], 20.0 * depth, 1e-8);
+    EXPECT_NEAR(row.effective[1], (20.0 - u0 / 4.0) * depth, 1e-8);
+  }
+  const auto uplift = [&](double pressure) {
+    std::string words;
+    const Model model = bench().build(dug(pressure).text());
+    for (const Diagnostic& d : model.diagnostics.list())
+      if (to_string(d.code) == "S340") words += d.message;
+    return words;
+  };
+  EXPECT_EQ(uplift(79.9), "");
+  EXPECT_NE(uplift(80.1).find("stage 2: uplift"), std::string::npos);
+  EXPECT_EQ(uplift(80.1).find("stage 1"), std::string::npos);
+}
+
 // Two blocks with a joint between them, all under water: the joint carries the buoyant weight.
 TEST(Water, JointsUnderWater) {
   for (const Cell cell : {Cell::quad4, Cell::quad8}) {
