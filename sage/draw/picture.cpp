@@ -394,8 +394,10 @@ struct Drawing {
   double width = 0.0, height = 0.0;
 };
 
-double legend_left(const View& view) {
-  return std::max(view.at(view.high).x() + 36.0, kPictureLeft + 120.0);
+// Beyond the longest arrow, too.
+double legend_left(const View& view, const PictureOptions& options) {
+  return std::max(view.at(view.high).x() + (options.arrows ? kLongestArrow + 16.0 : 36.0),
+                  kPictureLeft + 120.0);
 }
 
 // The mesh with all that lies on it; `notes` get what explains it.
@@ -459,7 +461,7 @@ Drawing draw_picture(Draft& draft, const std::vector<double>& limits, const Head
     notes.push_back(
         "this one turns its sign across the line of symmetry: values are those of the half that was computed");
   Drawing drawing;
-  const double legend = legend_left(view),
+  const double legend = legend_left(view, draft.options),
                down = kLine * (static_cast<double>(std::max<std::size_t>(heading_lines, 3)) - 3.0);
   drawing.width = std::max({legend + 28.0 + legend_text_width(limits), width_of(heading), 300.0});
   std::string& out = drawing.svg;
@@ -585,7 +587,7 @@ std::string sheet_svg(const FieldSheet& sheet) {
   std::size_t lines = 0;
   for (std::size_t k = 0; k < drafts.size(); ++k) {
     const double room =
-        std::max(legend_left(drafts[k].scenery.view) + legend_text_width(limits[k]), kLeastRoom);
+        std::max(legend_left(drafts[k].scenery.view, sheet.look) + legend_text_width(limits[k]), kLeastRoom);
     lines = std::max(lines, headings.emplace_back(heading_of(drafts[k], limits[k], room)).lines());
   }
   std::vector<Drawing> drawings;
