@@ -16,7 +16,7 @@ namespace {
 constexpr int kMostSteps = 99999;        // what the card has columns for
 constexpr double kCubicInches = 1728.0;  // lengths in inches, densities in lbf/ft^3
 
-constexpr double kAtmosphere = 14.696;   // psi
+constexpr double kAtmosphere = 14.696;  // psi
 
 void fail(const Deck& deck, const SourcePosition& where, const std::string& message) {
   refuse_field(deck, where, message);
@@ -82,10 +82,11 @@ std::vector<NewField> named_parameters(const CardView& material, const CardView&
   return values;
 }
 
-std::vector<NewField> hyperbolic_parameters_of(const Deck& deck, const CardView& material, const CardView& model,
-                                               std::string& law, CardWriter& out) {
+std::vector<NewField> hyperbolic_parameters_of(const Deck& deck, const CardView& material,
+                                               const CardView& model, std::string& law, CardWriter& out) {
   if (const int code = model.integer("model"); code != 0 && code != 1)
-    fail(deck, model.where("model"), "the code of the model is 0 (Duncan) or 1 (Selig), not " + std::to_string(code));
+    fail(deck, model.where("model"),
+         "the code of the model is 0 (Duncan) or 1 (Selig), not " + std::to_string(code));
   if (model.integer("unloading") != 0)
     out.warning("S703", model.where("unloading"),
                 "unloading with lasting strain (code " + model.text("unloading") +
@@ -476,7 +477,8 @@ void leave_out(const Deck& deck, const Pipes& pipes, const CandeJoints& joints, 
   if (list.empty()) return;
   if (beams > 0) list += " (the pipe; its nodes are held)";
   message = "left out: " + message + "; this program does not translate them";
-  if (links > 0) message += " (of links class 8 and 9 are: the equations of composite ones are in no source at hand)";
+  if (links > 0)
+    message += " (of links class 8 and 9 are: the equations of composite ones are in no source at hand)";
   if (beams > 0)
     message += ". The beams' nodes are held in x and y: the soil rests on a pipe that does not move";
   out.left_out(where, list, message);
@@ -490,7 +492,8 @@ void refuse_generation(const Deck& deck) {
       if (element.integer(field) > 1)
         fail(deck, element.where(field),
              "element generation (" + element.label(field) +
-                 ") is not built: its rule stands in CANDE's user manual alone, which is not at hand; give every "
+                 ") is not built: its rule stands in CANDE's user manual alone, which is not at hand; give "
+                 "every "
                  "element on a card of its own");
     if (const int number = element.integer("number"); before > 0 && number > before + 1)
       fail(deck, element.where("number"),
@@ -633,9 +636,10 @@ void check_highest_node(const Deck& deck, const CardView& control, const CandeJo
 void refuse_load_scaling(const Deck& deck, CardWriter& out) {
   const std::vector<CardView> cards = deck.all("load_scaling");
   if (!cards.empty())
-    out.left_out(cards.front().where("text"), "continuous load scaling",
-                 "continuous load scaling (cards C-2b and C-2c) is not built: its equations are in no source at "
-                 "hand; forces on nodes count as they are");
+    out.left_out(
+        cards.front().where("text"), "continuous load scaling",
+        "continuous load scaling (cards C-2b and C-2c) is not built: its equations are in no source at "
+        "hand; forces on nodes count as they are");
 }
 
 // The largest modulus that a soil starts with at atmospheric pressure; 0: none is known.

@@ -77,7 +77,7 @@ class CandeJoints {
     double angle;
     Law law;
   };
-  struct Around {  // of a node
+  struct Around {                    // of a node
     Vector2 soil = Vector2::Zero();  // sum of the middles of its soil elements
     int soils = 0, uses = 0, birth = 0;
     bool beam = false, held = false;
