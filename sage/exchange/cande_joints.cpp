@@ -7,7 +7,10 @@ namespace sage::canonical {
 
 namespace {
 
-constexpr double kStiffer = 1e4;      // joints in contact, than the stiffest soil
+constexpr double kStiffer = 1e4;  // contact, than elastic soil
+constexpr double kStifferThanSoft =
+    100.0;                            // and than soil at atmospheric pressure, whose lifts begin far softer
+constexpr double kShearShare = 0.1;   // of the normal stiffness, before slip, in such soil
 constexpr double kAtOnePlace = 1e-6;  // of the mesh's reach
 constexpr double kSlant = 0.2;  // of the way to its soil that a normal shows at least, to be taken for wrong
 
@@ -203,10 +206,13 @@ void CandeJoints::add_nodes(CardWriter& out) const {
               {{"number", static_cast<double>(node)}, {"x", joint.far.x()}, {"y", joint.far.y()}});
 }
 
-void CandeJoints::add(const Catalogue& catalogue, double stiffest, double stiffest_wall, int material,
-                      int group, CardWriter& out) {
-  const double contact = kStiffer * (stiffest > 0.0 ? stiffest : 1.0),
-               bond = kStiffer * std::max({stiffest, stiffest_wall, 1.0});
+void CandeJoints::add(const Catalogue& catalogue, const SoilStiffness& soils, double stiffest_wall,
+                      int material, int group, CardWriter& out) {
+  const bool soft = soils.hyperbolic > 0.0;
+  const double stiffest = std::max({soils.elastic, soils.hyperbolic, 1.0}),
+               contact = soft ? kStifferThanSoft * soils.hyperbolic : kStiffer * stiffest,
+               shear = soft ? kShearShare * contact : contact,
+               bond = kStiffer * std::max(stiffest, stiffest_wall);
   const auto as_number = [](int value) { return static_cast<double>(value); };
   std::map<Law, int> numbers;
   for (const Joint& joint : joints_) {
@@ -221,7 +227,7 @@ void CandeJoints::add(const Catalogue& catalogue, double stiffest, double stiffe
     std::vector<double> values{bond, bond, 1.0};
     if (!l.bonded)
       values = {
-          0.0,     std::atan(l.friction) / kRadiansPerDegree, l.tension, 0.0, contact / kCandeWaterWeight, 0.0,
+          0.0,     std::atan(l.friction) / kRadiansPerDegree, l.tension, 0.0, shear / kCandeWaterWeight, 0.0,
           contact, l.tension > 0.0 ? contact : 0.0,           0.0};
     std::vector<NewField> fields;
     for (const double value : values) fields.push_back({"values", value});

@@ -17,6 +17,8 @@ constexpr int kMostSteps = 99999;        // what the card has columns for
 constexpr double kCubicInches = 1728.0;  // lengths in inches, densities in lbf/ft^3
 
 constexpr double kAtmosphere = 14.696;  // psi
+// Of hyperbolic soils: lifts are born without stress, and moduli that see less hardly let Newton settle.
+constexpr double kLargestPoisson = 0.49, kStressFloor = 0.05;
 
 void fail(const Deck& deck, const SourcePosition& where, const std::string& message) {
   refuse_field(deck, where, message);
@@ -52,11 +54,17 @@ std::vector<NewField> duncan_parameters(const CardView& model, const CardView& s
   out.warning("S703", strength.where("modulus_number"),
               std::string("computed as ") + (selig(model) ? "duncan_selig" : "duncan_chang_eb") +
                   "; the deck has no modulus for unloading: the modulus number K serves for both");
-  return {take(strength, "modulus_number", "values"), take(strength, "modulus_exponent", "values"),
-          take(strength, "failure_ratio", "values"),  take(strength, "modulus_number", "values"),
-          take(bulk, "bulk_number", "values"),        take(bulk, "bulk_exponent", "values"),
-          take(strength, "cohesion", "values"),       take(strength, "friction_angle", "values"),
-          take(strength, "friction_drop", "values")};
+  return {take(strength, "modulus_number", "values"),
+          take(strength, "modulus_exponent", "values"),
+          take(strength, "failure_ratio", "values"),
+          take(strength, "modulus_number", "values"),
+          take(bulk, "bulk_number", "values"),
+          take(bulk, "bulk_exponent", "values"),
+          take(strength, "cohesion", "values"),
+          take(strength, "friction_angle", "values"),
+          take(strength, "friction_drop", "values"),
+          {"values", kLargestPoisson},
+          {"values", kStressFloor}};
 }
 
 // The same of a soil that CANDE has by name.
@@ -77,7 +85,7 @@ std::vector<NewField> named_parameters(const CardView& material, const CardView&
                   "; the modulus number K serves for unloading too");
   std::vector<NewField> values;
   for (const double value : {soil->K, soil->n, soil->R_f, soil->K, soil->bulk, soil->bulk_other, soil->cohesion,
-                             soil->friction_angle, soil->friction_loss})
+                             soil->friction_angle, soil->friction_loss, kLargestPoisson, kStressFloor})
     values.push_back({"values", value, material.where("name")});
   return values;
 }
@@ -642,19 +650,21 @@ void refuse_load_scaling(const Deck& deck, CardWriter& out) {
         "hand; forces on nodes count as they are");
 }
 
-// The largest modulus that a soil starts with at atmospheric pressure; 0: none is known.
-double stiffest_soil(const Deck& deck) {
-  double most = 0.0;
-  const auto see = [&](double modulus) {
+// The largest modulus of an elastic soil, and that of a hyperbolic one at atmospheric pressure; 0: there is none.
+SoilStiffness stiffest_soil(const Deck& deck) {
+  double elastic = 0.0, hyperbolic = 0.0;
+  const auto see = [](double& most, double modulus) {
     if (std::isfinite(modulus)) most = std::max(most, modulus);
   };
   for (const char* card : {"isotropic", "mohr_coulomb"})
-    for (const CardView& soil : deck.all(card)) see(soil.real("youngs_modulus"));
-  for (const CardView& soil : deck.all("duncan_strength")) see(kAtmosphere * soil.real("modulus_number"));
+    for (const CardView& soil : deck.all(card)) see(elastic, soil.real("youngs_modulus"));
+  for (const CardView& soil : deck.all("duncan_strength"))
+    see(hyperbolic, kAtmosphere * soil.real("modulus_number"));
   for (const CardView& material : deck.all("material"))
     for (const CardView& model : deck.all("duncan", material))
-      if (const NamedSoil* soil = named_soil(selig(model), material.text("name"))) see(kAtmosphere * soil->K);
-  return most;
+      if (const NamedSoil* soil = named_soil(selig(model), material.text("name")))
+        see(hyperbolic, kAtmosphere * soil->K);
+  return {elastic, hyperbolic};
 }
 
 double stiffest_wall(const Pipes& pipes) {
