@@ -39,6 +39,18 @@ void take(Diagram& diagram, const Scenery& scenery, const ElementEnd& end, doubl
   element.high[i] = high;
 }
 
+// What is rounding beside the largest is zero.
+void drop_rounding(Diagram& diagram) {
+  constexpr double kRoundOff = 1e-9;
+  double most = 0.0;
+  for (const DiagramElement& e : diagram.elements)
+    for (int i = 0; i < 2; ++i) most = std::max({most, std::abs(e.low[i]), std::abs(e.high[i])});
+  for (DiagramElement& e : diagram.elements)
+    for (int i = 0; i < 2; ++i)
+      for (double* value : {&e.low[i], &e.high[i]})
+        if (std::abs(*value) < kRoundOff * most) *value = 0.0;
+}
+
 void draw_label(std::string& out, const Vector2& at, const Vector2& offset, double value) {
   const double away = offset.x() < 0.0 ? -1.0 : 1.0;
   svg::text(out, at.x() + offset.x() + 5.0 * away, at.y() + offset.y() + 4.0, fmt::format("{:.4g}", value),
@@ -95,6 +107,7 @@ Diagram make_diagram(const Scenery& scenery, std::string_view picture, const std
     }
   }
   if (diagram.elements.empty()) return diagram;
+  drop_rounding(diagram);
   diagram.least = diagram.elements.front().low[0];
   diagram.largest = diagram.elements.front().high[0];
   for (const DiagramElement& element : diagram.elements)

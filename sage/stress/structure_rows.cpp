@@ -103,11 +103,15 @@ void rigid(Sweep& s) {
       raft.press();
       const Ran ran = s.run(raft.deck.text());
       const std::string label = fmt::format("{}, EI = 1e{} E L^3", geometry_name(geometry), power);
+      if (power >= 13) {  // 16 digits hold the soil's stiffness beside the raft's no more
+        s.says(label, kUnknown, ran, "the stiffness matrix is singular");
+        continue;
+      }
       Trial& t = s.right(label, stiff, ran,
                          ran.completed() ? difference(displacements(raft, *ran.run), exact) : kUnknown,
-                         20.0 / stiff + 1e-12 + 20.0 * kUnit * stiff);
+                         20.0 / stiff + 1e-12 + 100.0 * kUnit * stiff);
       t.series = geometry_name(geometry);
-      if (power >= 12) s.says(label, kUnknown, ran, "digits are lost");
+      if (power >= 9) s.says(label, kUnknown, ran, "digits are lost");
       if (power <= 6) s.silent(label, kUnknown, ran, "digits are lost");
     }
   }
@@ -346,20 +350,20 @@ void wrong_sides(Sweep& s) {
 
 std::vector<Row> structure_rows() {
   const std::string family = "Structures";
-  return {
-      {"beam-rigid", family, "a raft on soil, EA = EI = GA from 1e2 to 1e14 E L^3",
-       "the soil's nodes there moved as a rigid body, its own flexibility 20/EI and kn-like rounding 20 u EI",
-       "EI", true, rigid},
-      {"beam-bar", family, "the same raft, EI = GA from 1e-2 to 1e-18 E L^3, EA = 10 E L",
-       "a bar in its place. Allowed: 20 EI + 1e-12", "EI", true, [](Sweep& s) { soft(s, true); }},
-      {"beam-nothing", family, "the same raft, EA = EI = GA from 1e-2 to 1e-18",
-       "the soil without it. Allowed: 20 EI + 1e-12", "EI", true, [](Sweep& s) { soft(s, false); }},
-      {"wall-variants", family,
-       "wall with strut and joints on both sides: mirror, numbers, order, units, reversed beams",
-       "the same wall in its plain form: u, N, Q, M and the strut's force. Allowed: 1e-10", "", false,
-       wall_variants},
-      {"wall-sides", family, "a joint beside a wall with its sides swapped", "the message that names it", "",
-       false, wrong_sides}};
+  return {{"beam-rigid", family, "a raft on soil, EA = EI = GA from 1e2 to 1e14 E L^3",
+           "the soil's nodes there moved as a rigid body, beyond its own flexibility, 20/EI, and rounding, 100 "
+           "u EI; singular, and called so, from 1e13 on",
+           "EI", true, rigid},
+          {"beam-bar", family, "the same raft, EI = GA from 1e-2 to 1e-18 E L^3, EA = 10 E L",
+           "a bar in its place. Allowed: 20 EI + 1e-12", "EI", true, [](Sweep& s) { soft(s, true); }},
+          {"beam-nothing", family, "the same raft, EA = EI = GA from 1e-2 to 1e-18",
+           "the soil without it. Allowed: 20 EI + 1e-12", "EI", true, [](Sweep& s) { soft(s, false); }},
+          {"wall-variants", family,
+           "wall with strut and joints on both sides: mirror, numbers, order, units, reversed beams",
+           "the same wall in its plain form: u, N, Q, M and the strut's force. Allowed: 1e-10", "", false,
+           wall_variants},
+          {"wall-sides", family, "a joint beside a wall with its sides swapped", "the message that names it",
+           "", false, wrong_sides}};
 }
 
 }  // namespace sage::stress
