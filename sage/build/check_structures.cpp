@@ -285,6 +285,10 @@ void check_turning(Builder& b, const Stage& stage, const Activity& activity, std
     rotations(model.groups[g], e);
     for (const int dof : dofs) parts.join(dof, dofs.front());
   });
+  std::vector<char> structure(static_cast<std::size_t>(model.mesh.nodes()), 0);
+  for (const Group& group : model.groups)
+    if (group.structure())
+      for (const int node : group.nodes) structure[static_cast<std::size_t>(node)] = 1;
   std::map<int, Turning> found;
   std::map<int, std::set<int>> parts_at;  // of each node; -1: of what has no rotation
   each([&](std::size_t g, int e) {
@@ -299,7 +303,9 @@ void check_turning(Builder& b, const Stage& stage, const Activity& activity, std
         turning.held = turning.held || activity.held[static_cast<std::size_t>(dof)] != 0;
       turning.nodes.insert(group.nodes_of(e), group.nodes_of(e) + group.node_count());
     }
-    for (std::size_t i = 0; i < group.node_count(); ++i) parts_at[group.nodes_of(e)[i]].insert(part);
+    for (std::size_t i = 0; i < group.node_count(); ++i)
+      if (const int node = group.nodes_of(e)[i]; structure[static_cast<std::size_t>(node)])
+        parts_at[node].insert(part);
   });
   for (const auto& [part, turning] : found) {
     std::vector<int> hangs;
