@@ -443,8 +443,7 @@ DeckWriter TankOnSoil::deck() const {
     deck.stages.push_back(stage);
     return deck;
   }
-  deck.node(wall_node(2), radius, height / above);
-  deck.node_row(wall_node(above + 1), 1, radius, height);
+  for (int j = 1; j <= above; ++j) deck.node(wall_node(j + 1), radius, height * j / above);
   deck.material(2, kPlate, {3e7, 0.2, bottom}, 0.0, "bottom");
   deck.material(3, kPlate, {3e7, 0.2, wall}, 0.0, "wall");
   deck.group(2, kBeam3, 1, 2, "bottom");
@@ -534,13 +533,12 @@ DeckWriter PipePile::deck() const {
   deck.elements_block(numbers(2 * (rows - tip)), 1, {n, n + 1, n + 1 + s, n + s}, 2, rows - tip, 1, s);
   n = node(2, rows);
   deck.elements_block(numbers(columns * rows), 1, {n, n + 1, n + 1 + s, n + s}, columns, rows, 1, s);
-  const int pipe = numbers(tip), plate = numbers(2);
-  deck.elements_block(pipe, 2, {pile(tip - 1), pile(tip)}, 1, tip, 1, s);
+  deck.elements_block(numbers(tip), 2, {pile(tip - 1), pile(tip)}, 1, tip, 1, s);
   n = pile(tip) - 2;
-  deck.elements_block(plate, 3, {n + 1, n}, 2, 1, 1, 1000);
+  deck.elements_block(numbers(2), 3, {n + 1, n}, 2, 1, 1, 1000);
+  deck.elements_block(numbers(2), 5, {node(0, tip), node(1, tip), n + 1, n}, 2, 1, 1, 1000);
   deck.elements_block(numbers(tip), 4, {node(2, tip), node(2, tip - 1), pile(tip - 1), pile(tip)}, 1, tip, 1,
                       s);
-  deck.elements_block(numbers(2), 5, {node(0, tip), node(1, tip), n + 1, n}, 2, 1, 1, 1000);
   deck.fix_row(node(0, rows), node(2 + columns, rows), 1, 1, 1);
   deck.fix_row(node(0, rows), node(0, tip), s, 1, 0);
   deck.fix(n, 1, 0);
@@ -548,13 +546,10 @@ DeckWriter PipePile::deck() const {
   deck.initial(1, 1, 0.0, weight, 1.0, 0.0);
   deck.initial(4, 3, 1);
   deck.initial(5, 3, 1);
-  // The pile is filled with what weighs and presses as the soil did in whose place it is.
+  // The pile is hollow and weighs nothing: what the earth presses on it is let go in the first stage.
   StageCards& rest = deck.stage();
   rest.title = "At rest, with the pile in place";
   rest.gravity_y = -1.0;
-  for (int e = 0; e < tip; ++e)  // from the tip on
-    rest.pressure(pipe + e, 1, weight * (tip - e - 1), weight * (tip - e));
-  for (const int e : {plate, plate + 1}) rest.pressure(e, 1, weight * tip, weight * tip);
   double before = 0.0;
   for (const double down : settlements) {
     StageCards& push = deck.stage(2);
