@@ -14,8 +14,8 @@ namespace {
 
 enum Strain { kAxial, kHoop, kShear, kBending, kHoopBending };
 constexpr int kStrains = 5;
-constexpr int kDofs = 6, kPoints = 3;  // of the beam with two nodes
-using Operator2 = OperatorT<kStrains, kDofs>;
+constexpr int kJoined = 6, kPoints = 3;  // of the beam with two nodes: dofs without a slip
+using Operator2 = OperatorT<kStrains, kJoined>;
 using Strains = Vector<kStrains>;
 
 // Ends and middle with Simpson's weights: exact for the square of a linear curvature.
@@ -51,6 +51,41 @@ void set_column(const LineFrame& frame, const Vector2& along, const Vector<5>& a
   G(strain) = across(4);
 }
 
+// Along which the first end may part from its node.
+Vector2 slip_direction(Release released, const LineFrame& at_end) {
+  return released == Release::shear ? at_end.n : at_end.t;
+}
+
+// What the slip adds to a list of loads of dofs: the end goes where node and slip take it.
+template <Release released>
+void add_slip(const LineFrame& at_end, std::span<double> f) {
+  if constexpr (released != Release::none) {
+    const Vector2 along = slip_direction(released, at_end);
+    f.back() = along.x() * f[0] + along.y() * f[1];
+  }
+}
+
+// B^T of a point, behind that of the other dofs the row of the slip.
+template <Release released, int Dofs>
+void put_operator(const LineFrame& at_end, const OperatorT<kStrains, Dofs - slip_dofs(released)>& Bt,
+                  double* to) {
+  Eigen::Map<OperatorT<kStrains, Dofs>> all(to);
+  all.template topRows<Dofs - slip_dofs(released)>() = Bt;
+  if constexpr (released != Release::none) {
+    const Vector2 along = slip_direction(released, at_end);
+    all.row(Dofs - 1) = along.x() * Bt.row(0) + along.y() * Bt.row(1);
+  }
+}
+
+// On the axis nothing is left of an end that slips.
+template <class Kinematics, Release released>
+void check_release(const NodeCoordinates& x) {
+  if constexpr (released != Release::none && Kinematics::geometry == Geometry::axisymmetric)
+    if (x(0, 0) <= kRadiusTolerance * extent(x))
+      throw ElementShapeError(
+          "beam: an end that is released along the line or across it can't lie on the axis");
+}
+
 // Strains at a point: B^T for the dofs and G for gamma.
 template <class Kinematics>
 void strains_at(const LineFrame& frame, double L, double xi, double r, Operator2& Bt, Strains& G) {
@@ -74,27 +109,29 @@ void strains_at(const LineFrame& frame, double L, double xi, double r, Operator2
 }
 
 // The points of one element, as evaluate() sees them.
+template <int Dofs>
 struct Points {
   std::array<double, kPoints> w{};
-  std::array<Operator2, kPoints> Bt;
+  std::array<OperatorT<kStrains, Dofs>, kPoints> Bt;
   std::array<Strains, kPoints> G, deps, sigma;
   std::array<Matrix<kStrains>, kPoints> D;
 
   explicit Points(const double* geometry) {
     for (std::size_t p = 0; p < kPoints; ++p) {
-      const double* block = geometry + p * kPointStride<kStrains, kDofs>;
+      const double* block = geometry + p * kPointStride<kStrains, Dofs>;
       w[p] = *block;
-      Bt[p] = Operator2::Map(block + 1);
-      G[p] = Strains::Map(geometry + kPoints * kPointStride<kStrains, kDofs> + p * kStrains);
+      Bt[p] = OperatorT<kStrains, Dofs>::Map(block + 1);
+      G[p] = Strains::Map(geometry + kPoints * kPointStride<kStrains, Dofs> + p * kStrains);
     }
   }
 };
 
 // Asks the law at all points for an increment of gamma.
-Outcome update_points(const Law<kStrains>& law, const ElementIn& in, double gamma, Points& points,
+template <int Dofs>
+Outcome update_points(const Law<kStrains>& law, const ElementIn& in, double gamma, Points<Dofs>& points,
                       ElementOut& out) {
   const std::size_t history = law.history().size();
-  const auto du = Vector<kDofs>::Map(in.du);
+  const auto du = Vector<Dofs>::Map(in.du);
   PointIn<kStrains> point;
   PointOut<kStrains> result;
   for (std::size_t p = 0; p < kPoints; ++p) {
@@ -119,7 +156,8 @@ Outcome update_points(const Law<kStrains>& law, const ElementIn& in, double gamm
 struct ShearBalance {
   double sum = 0.0, slope = 0.0, size = 0.0;
 
-  explicit ShearBalance(const Points& points) {
+  template <int Dofs>
+  explicit ShearBalance(const Points<Dofs>& points) {
     for (std::size_t p = 0; p < kPoints; ++p) {
       sum += points.w[p] * points.G[p].dot(points.sigma[p]);
       slope += points.w[p] * points.G[p].dot(points.D[p] * points.G[p]);
@@ -148,10 +186,11 @@ class ShearSearch {
   double low_ = -std::numeric_limits<double>::infinity(), high_ = std::numeric_limits<double>::infinity();
 };
 
-// f and K of the six dofs, gamma eliminated.
-void condense(const Points& points, double slope, ElementOut& out) {
-  Vector<kDofs> f = Vector<kDofs>::Zero(), right = f, left = f;
-  Matrix<kDofs> K = Matrix<kDofs>::Zero();
+// f and K of the dofs, gamma eliminated.
+template <int Dofs>
+void condense(const Points<Dofs>& points, double slope, ElementOut& out) {
+  Vector<Dofs> f = Vector<Dofs>::Zero(), right = f, left = f;
+  Matrix<Dofs> K = Matrix<Dofs>::Zero();
   for (std::size_t p = 0; p < kPoints; ++p) {
     f += points.Bt[p] * (points.w[p] * points.sigma[p]);
     if (out.K == nullptr) continue;
@@ -160,10 +199,10 @@ void condense(const Points& points, double slope, ElementOut& out) {
     right += points.Bt[p] * (wD * points.G[p]);
     left += points.Bt[p] * (wD.transpose() * points.G[p]);
   }
-  Vector<kDofs>::Map(out.f) = f;
+  Vector<Dofs>::Map(out.f) = f;
   if (out.K == nullptr) return;
   if (slope > 0.0) K -= right * left.transpose() / slope;
-  Matrix<kDofs>::Map(out.K) = K;
+  Matrix<Dofs>::Map(out.K) = K;
 }
 
 // f += integral of the deflection's shape times a load, force per length at xi.  With Hermite's cubics, those of
@@ -188,8 +227,8 @@ void add_load(const NodeCoordinates& x, const Load& load, std::span<double> f) {
 
 }  // namespace
 
-template <class Kinematics>
-Beam2<Kinematics>::Beam2(std::string_view name) {
+template <class Kinematics, Release released>
+Beam2<Kinematics, released>::Beam2(std::string_view name) {
   traits_.name = name;
   traits_.geometry = Kinematics::geometry;
   traits_.nodes = 2;
@@ -199,9 +238,10 @@ Beam2<Kinematics>::Beam2(std::string_view name) {
   traits_.own_doubles = kPoints * kStrains;
 }
 
-template <class Kinematics>
-void Beam2<Kinematics>::geometry(const NodeCoordinates& x, std::span<double> out) const {
+template <class Kinematics, Release released>
+void Beam2<Kinematics, released>::geometry(const NodeCoordinates& x, std::span<double> out) const {
   check_line<Line2, Kinematics>(x, "beam");
+  check_release<Kinematics, released>(x);
   const LineFrame frame(0.5 * (x.col(1) - x.col(0)));
   double* block = out.data();
   double* own = out.data() + kPoints * kPointStride<kStrains, kDofs>;
@@ -211,18 +251,18 @@ void Beam2<Kinematics>::geometry(const NodeCoordinates& x, std::span<double> out
     Strains G;
     strains_at<Kinematics>(frame, 2.0 * frame.J, q.xi, r, Bt, G);
     *block = q.w * frame.J * Kinematics::measure(r);
-    Operator2::Map(block + 1) = Bt;
+    put_operator<released, kDofs>(frame, Bt, block + 1);
     Strains::Map(own) = G;
     block += kPointStride<kStrains, kDofs>;
     own += kStrains;
   }
 }
 
-template <class Kinematics>
-Outcome Beam2<Kinematics>::evaluate(const ElementIn& in, ElementOut& out) const {
+template <class Kinematics, Release released>
+Outcome Beam2<Kinematics, released>::evaluate(const ElementIn& in, ElementOut& out) const {
   constexpr int kMostSteps = 60;
   const Law<kStrains>& law = *std::get<const Law<kStrains>*>(in.law);
-  Points points(in.geometry);
+  Points<kDofs> points(in.geometry);
   double gamma = 0.0;
   ShearSearch search;
   for (int step = 0; step < kMostSteps; ++step) {
@@ -236,55 +276,64 @@ Outcome Beam2<Kinematics>::evaluate(const ElementIn& in, ElementOut& out) const 
   return Outcome::cut_step;
 }
 
-template <class Kinematics>
-Vector2 Beam2<Kinematics>::position(const NodeCoordinates& x, int point) const {
+template <class Kinematics, Release released>
+Vector2 Beam2<Kinematics, released>::position(const NodeCoordinates& x, int point) const {
   return x.leftCols<2>() * Line2::N(kEndsAndMiddle[static_cast<std::size_t>(point)].xi);
 }
 
-template <class Kinematics>
-void Beam2<Kinematics>::body_load(const NodeCoordinates& x, const Vector2& b, std::span<double> f) const {
+template <class Kinematics, Release released>
+void Beam2<Kinematics, released>::body_load(const NodeCoordinates& x, const Vector2& b,
+                                            std::span<double> f) const {
   add_load<Kinematics>(
       x, [&](double, const LineFrame&) -> Vector2 { return b; }, f);
+  add_slip<released>(LineFrame(x.col(1) - x.col(0)), f);
 }
 
-template <class Kinematics>
-const std::vector<std::vector<int>>& Beam2<Kinematics>::edges() const {
+template <class Kinematics, Release released>
+const std::vector<std::vector<int>>& Beam2<Kinematics, released>::edges() const {
   static const EdgeNodes edges{{0, 1}};
   return edges;
 }
 
-template <class Kinematics>
-void Beam2<Kinematics>::edge_load(const NodeCoordinates& x, int /*edge*/, const Vector2& normal,
-                                  const Vector2& shear, std::span<double> f) const {
+template <class Kinematics, Release released>
+void Beam2<Kinematics, released>::edge_load(const NodeCoordinates& x, int /*edge*/, const Vector2& normal,
+                                            const Vector2& shear, std::span<double> f) const {
   add_load<Kinematics>(
       x,
       [&](double xi, const LineFrame& frame) -> Vector2 {
         return between_ends(normal, xi) * frame.n + between_ends(shear, xi) * frame.t;
       },
       f);
+  add_slip<released>(LineFrame(x.col(1) - x.col(0)), f);
 }
 
 template class Beam2<PlaneStrain>;
 template class Beam2<Axisymmetric>;
+template class Beam2<PlaneStrain, Release::axial>;
+template class Beam2<Axisymmetric, Release::axial>;
+template class Beam2<PlaneStrain, Release::shear>;
+template class Beam2<Axisymmetric, Release::shear>;
 
-template <class Kinematics>
-Beam3<Kinematics>::Beam3(std::string_view name)
-    : PointElement({.name = name,
-                    .geometry = Kinematics::geometry,
-                    .nodes = 3,
-                    .dofs = 9,
-                    .points = 2,
-                    .law_size = kStrains}) {
+template <class Kinematics, Release released>
+Beam3<Kinematics, released>::Beam3(std::string_view name)
+    : PointElement<kStrains, kDofs, 2>({.name = name,
+                                        .geometry = Kinematics::geometry,
+                                        .nodes = 3,
+                                        .dofs = kDofs,
+                                        .points = 2,
+                                        .law_size = kStrains}) {
   std::vector<ParentPoint> points, nodes;
   for (const LinePoint& q : GaussLine<2>::table) points.push_back({q.xi, 0.0});
   for (const double xi : Line3::node_xi) nodes.push_back({xi, 0.0});
   to_nodes_ = extrapolation_matrix(points, nodes, Basis::line_linear);
 }
 
-template <class Kinematics>
-void Beam3<Kinematics>::geometry(const NodeCoordinates& x, std::span<double> out) const {
+template <class Kinematics, Release released>
+void Beam3<Kinematics, released>::geometry(const NodeCoordinates& x, std::span<double> out) const {
   check_line<Line3, Kinematics>(x, "beam");
+  check_release<Kinematics, released>(x);
   const Eigen::Matrix<double, 2, 3> nodes = x;
+  const LineFrame first(nodes * Line3::dN(-1.0));
   double* block = out.data();
   for (const LinePoint& q : GaussLine<2>::table) {
     const Vector<3> N = Line3::N(q.xi);
@@ -292,18 +341,20 @@ void Beam3<Kinematics>::geometry(const NodeCoordinates& x, std::span<double> out
     const Vector<3> dN = Line3::dN(q.xi) / frame.J;
     const double r = nodes.row(0).dot(N);
     *block = q.w * frame.J * Kinematics::measure(r);
-    Eigen::Map<OperatorT<kStrains, 9>> Bt(block + 1);
+    OperatorT<kStrains, 9> Bt;
     for (int i = 0; i < 3; ++i) {
       Bt.row(2 * i) << dN(i) * frame.t.x(), Kinematics::hoop(N(i), r), dN(i) * frame.n.x(), 0.0, 0.0;
       Bt.row(2 * i + 1) << dN(i) * frame.t.y(), 0.0, dN(i) * frame.n.y(), 0.0, 0.0;
       Bt.row(6 + i) << 0.0, 0.0, -N(i), dN(i), frame.t.x() * Kinematics::hoop(N(i), r);
     }
-    block += kPointStride<kStrains, 9>;
+    put_operator<released, kDofs>(first, Bt, block + 1);
+    block += kPointStride<kStrains, kDofs>;
   }
 }
 
-template <class Kinematics>
-void Beam3<Kinematics>::body_load(const NodeCoordinates& x, const Vector2& b, std::span<double> f) const {
+template <class Kinematics, Release released>
+void Beam3<Kinematics, released>::body_load(const NodeCoordinates& x, const Vector2& b,
+                                            std::span<double> f) const {
   const Eigen::Matrix<double, 2, 3> nodes = x;
   for (const LinePoint& q : GaussLine<5>::table) {
     const Vector<3> N = Line3::N(q.xi);
@@ -312,22 +363,28 @@ void Beam3<Kinematics>::body_load(const NodeCoordinates& x, const Vector2& b, st
       for (std::size_t c = 0; c < 2; ++c)
         f[2 * i + c] += w * N(static_cast<Eigen::Index>(i)) * b(static_cast<Eigen::Index>(c));
   }
+  add_slip<released>(LineFrame(nodes * Line3::dN(-1.0)), f);
 }
 
-template <class Kinematics>
-const std::vector<std::vector<int>>& Beam3<Kinematics>::edges() const {
+template <class Kinematics, Release released>
+const std::vector<std::vector<int>>& Beam3<Kinematics, released>::edges() const {
   static const EdgeNodes edges{{0, 1, 2}};
   return edges;
 }
 
-template <class Kinematics>
-void Beam3<Kinematics>::edge_load(const NodeCoordinates& x, int edge, const Vector2& normal,
-                                  const Vector2& shear, std::span<double> f) const {
+template <class Kinematics, Release released>
+void Beam3<Kinematics, released>::edge_load(const NodeCoordinates& x, int edge, const Vector2& normal,
+                                            const Vector2& shear, std::span<double> f) const {
   add_edge_load<Line3, Kinematics>(Eigen::Matrix<double, 2, 3>(x), normal, shear,
                                    edges().at(static_cast<std::size_t>(edge)), f);
+  add_slip<released>(LineFrame(x.leftCols<3>() * Line3::dN(-1.0)), f);
 }
 
 template class Beam3<PlaneStrain>;
 template class Beam3<Axisymmetric>;
+template class Beam3<PlaneStrain, Release::axial>;
+template class Beam3<Axisymmetric, Release::axial>;
+template class Beam3<PlaneStrain, Release::shear>;
+template class Beam3<Axisymmetric, Release::shear>;
 
 }  // namespace sage

@@ -1,6 +1,6 @@
 // Timoshenko beams; in axisymmetry shells of revolution (Reissner).  docs/theory/structures.md
 //
-// Dofs: u1 v1 u2 v2 [u3 v3] theta1 theta2 [theta3]; theta turns counter-clockwise.  At a point, with t along the
+// Dofs: u1 v1 u2 v2 [u3 v3] theta1 theta2 [theta3] [slip]; theta turns counter-clockwise.  At a point, with t along the
 // line, n to its left, w = u . n:  axial t . u', hoop u_r / r, shear w' - theta, bending theta', hoop bending
 // theta t_r / r.  A positive bending moment pulls the right-hand side of the way from node 1 to node 2.  In plane
 // strain the two hoop strains are zero, as for solids.
@@ -15,9 +15,20 @@
 
 namespace sage {
 
+// What the first end of a beam does not hand on to its node.  The end then has a motion of its own against the node,
+// along the line (axial) or to its left (shear), as a last dof; a beam that hands on all has none.  A hinge needs no
+// release: its rotation is another unknown.
+enum class Release { none, axial, shear };
+
+constexpr int slip_dofs(Release release) {
+  return release == Release::none ? 0 : 1;
+}
+
 // Three nodes, two Gauss points: no locking of thin or curved beams, and no motion without energy.
-template <class Kinematics>
-class Beam3 final : public PointElement<5, 9, 2> {
+template <class Kinematics, Release released = Release::none>
+class Beam3 final : public PointElement<5, 9 + slip_dofs(released), 2> {
+  static constexpr int kDofs = 9 + slip_dofs(released);
+
  public:
   explicit Beam3(std::string_view name);
   void geometry(const NodeCoordinates& x, std::span<double> out) const override;
@@ -38,8 +49,10 @@ class Beam3 final : public PointElement<5, 9, 2> {
 // Two nodes, straight.  One shear strain for the element, found from its own equilibrium, and the deflection and
 // rotation that follow from it: of a beam of one section the stiffness matrix is the exact one, however slender it
 // is.  Points: the two ends and the middle (Simpson), so that results stand where designers want them.
-template <class Kinematics>
+template <class Kinematics, Release released = Release::none>
 class Beam2 final : public Element {
+  static constexpr int kDofs = 6 + slip_dofs(released);
+
  public:
   explicit Beam2(std::string_view name);
   const ElementTraits& traits() const override { return traits_; }

@@ -43,5 +43,11 @@ ElementEntry beam2_entry();
 ElementEntry beam3_entry();
 ElementEntry beam2_hinged_entry();
 ElementEntry beam3_hinged_entry();
+ElementEntry beam2_pinned_entry();
+ElementEntry beam3_pinned_entry();
+ElementEntry beam2_axial_release_entry();
+ElementEntry beam3_axial_release_entry();
+ElementEntry beam2_shear_release_entry();
+ElementEntry beam3_shear_release_entry();
 
 }  // namespace sage

@@ -48,6 +48,12 @@ void register_elements(Catalogue& catalogue) {
   catalogue.elements.add(36, beam3_entry());
   catalogue.elements.add(37, beam2_hinged_entry());
   catalogue.elements.add(38, beam3_hinged_entry());
+  catalogue.elements.add(51, beam2_pinned_entry());
+  catalogue.elements.add(52, beam3_pinned_entry());
+  catalogue.elements.add(53, beam2_axial_release_entry());
+  catalogue.elements.add(54, beam3_axial_release_entry());
+  catalogue.elements.add(55, beam2_shear_release_entry());
+  catalogue.elements.add(56, beam3_shear_release_entry());
 }
 
 }  // namespace sage

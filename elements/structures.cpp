@@ -45,12 +45,23 @@ using Bar3 = Bar<Line3, Kinematics>;
 
 constexpr const char* kBeamSummary = "beam that shears, a wall or lining; in axisymmetry a shell of revolution";
 
+template <Release released>
+struct Released {
+  template <class Kinematics>
+  using Two = Beam2<Kinematics, released>;
+  template <class Kinematics>
+  using Three = Beam3<Kinematics, released>;
+};
+
+template <Release released = Release::none>
 Choice beam2_choice(std::string_view full_name) {
-  return in_both<Beam2>({1, "exact", "exact at its nodes for one section and even loads; results at both ends"},
-                        full_name, 3);
+  return in_both<Released<released>::template Two>(
+      {1, "exact", "exact at its nodes for one section and even loads; results at both ends"}, full_name, 3);
 }
+template <Release released = Release::none>
 Choice beam3_choice(std::string_view full_name) {
-  return in_both<Beam3>({1, "reduced", "two Gauss points: does not lock; may be curved"}, full_name, 2);
+  return in_both<Released<released>::template Three>(
+      {1, "reduced", "two Gauss points: does not lock; may be curved"}, full_name, 2);
 }
 
 // Displacement and rotation of every node.
@@ -66,6 +77,24 @@ ElementEntry hinged(ElementEntry entry, int nodes) {
   std::vector<int> others;
   for (int i = 1; i < nodes; ++i) others.push_back(i);
   entry.unknowns = {{displacement_field()}, {rotation("hinge_rotation"), {0}}, {rotation("rotation"), others}};
+  return entry;
+}
+
+// A rotation of its own at either end: neighbours at one end don't share that of neighbours at another.
+ElementEntry pinned(ElementEntry entry, int nodes) {
+  entry = beam(std::move(entry), nodes);
+  entry.unknowns = {
+      {displacement_field()}, {rotation("hinge_rotation"), {0}}, {rotation("hinge_rotation_2"), {1}}};
+  if (nodes == 3) entry.unknowns.push_back({rotation("rotation"), {2}});
+  return entry;
+}
+
+// The first end parts from its node along the line or across it: a motion against the node, and no force.
+ElementEntry slipping(ElementEntry entry, int nodes, std::string unknown) {
+  entry = beam(std::move(entry), nodes);
+  UnknownField slip{std::move(unknown), Dimension::length, "force", Dimension::force};
+  slip.balanced = false;
+  entry.unknowns.push_back({std::move(slip), {0}});
   return entry;
 }
 
@@ -124,6 +153,48 @@ ElementEntry beam2_hinged_entry() {
 ElementEntry beam3_hinged_entry() {
   return element_entry(hinged({.name = "beam3_hinged", .summary = "beam3 with a hinge at its first node"}, 3),
                        {beam3_choice("beam3_hinged")});
+}
+
+ElementEntry beam2_pinned_entry() {
+  return element_entry(pinned({.name = "beam2_pinned", .summary = "beam2 with a hinge at both ends"}, 2),
+                       {beam2_choice("beam2_pinned")});
+}
+
+ElementEntry beam3_pinned_entry() {
+  return element_entry(pinned({.name = "beam3_pinned", .summary = "beam3 with a hinge at both ends"}, 3),
+                       {beam3_choice("beam3_pinned")});
+}
+
+ElementEntry beam2_axial_release_entry() {
+  return element_entry(
+      slipping({.name = "beam2_axial_release",
+                .summary = "beam2 whose first end slides along its line: no axial force there"},
+               2, "axial_slip"),
+      {beam2_choice<Release::axial>("beam2_axial_release")});
+}
+
+ElementEntry beam3_axial_release_entry() {
+  return element_entry(
+      slipping({.name = "beam3_axial_release",
+                .summary = "beam3 whose first end slides along its line: no axial force there"},
+               3, "axial_slip"),
+      {beam3_choice<Release::axial>("beam3_axial_release")});
+}
+
+ElementEntry beam2_shear_release_entry() {
+  return element_entry(
+      slipping({.name = "beam2_shear_release",
+                .summary = "beam2 whose first end slides across its line: no shear force there"},
+               2, "shear_slip"),
+      {beam2_choice<Release::shear>("beam2_shear_release")});
+}
+
+ElementEntry beam3_shear_release_entry() {
+  return element_entry(
+      slipping({.name = "beam3_shear_release",
+                .summary = "beam3 whose first end slides across its line: no shear force there"},
+               3, "shear_slip"),
+      {beam3_choice<Release::shear>("beam3_shear_release")});
 }
 
 }  // namespace sage

@@ -110,8 +110,8 @@ HyperbolicReal stress_state(const HyperbolicParameters& p, double sigma_1, doubl
   return min(level(p, s1, s3), Real(1.0)) * pow(floored(p, s3), 0.25);
 }
 
-HyperbolicModuli hyperbolic_moduli(const HyperbolicParameters& p, double sigma_1, double sigma_3,
-                                   double memory, double mean) {
+HyperbolicModuli hyperbolic_moduli(const HyperbolicParameters& p, double sigma_1, double sigma_3, double memory,
+                                   double mean) {
   const Real s1 = Real::variable(sigma_1, 0), s3 = Real::variable(sigma_3, 1);
   const Young young_now = young(p, s1, s3, Real::variable(memory, 2));
   if (p.volume == VolumeRule::bulk_selig) return selig(p, young_now, mean);

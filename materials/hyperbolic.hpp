@@ -30,8 +30,8 @@ struct HyperbolicParameters {
 using HyperbolicReal = Dual<3>;
 
 struct HyperbolicModuli {
-  HyperbolicReal K, G;  // bulk and shear modulus                         [stress]
-  bool unloading;       // below the largest stress state so far
+  HyperbolicReal K, G;                  // bulk and shear modulus                         [stress]
+  bool unloading;                       // below the largest stress state so far
   double dK_mean = 0.0, dG_mean = 0.0;  // with respect to the mean stress: bulk_selig alone
 };
 

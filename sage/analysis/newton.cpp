@@ -56,6 +56,7 @@ class Step {
   bool converged(int field, const IterationRecord& record) const;
   bool linear_rounding(const IterationRecord& record) const;
   bool at_rounding(int field, const IterationRecord& record) const;
+  double couplings(int field) const;
   double stiffness_norm(int field) const;
   double own_forces(int field) const;
   Eigen::VectorXd times_K(const Eigen::VectorXd& x) const;
@@ -307,7 +308,7 @@ bool Step::converged(const IterationRecord& record) const {
   if (settings_.refine && record.displacement > kFirst) return false;
   if (fields_.count() == 1) return converged(0, record);
   for (int f = 0; f < fields_.count(); ++f)
-    if (!converged(f, measure(f)) && !even(f)) return false;
+    if (!converged(f, measure(f)) && !even(f) && !linear_rounding(record)) return false;
   return true;
 }
 
@@ -344,9 +345,18 @@ bool Step::at_rounding(int field, const IterationRecord& record) const {
   const double unit = kRounding * stiffness_norm(field);  // negative where the solver has no norm
   const double largest = fields_.largest(residual_, field);
   if (record.force <= std::sqrt(settings_.tolerance))
-    return largest <= unit * fields_.largest_of_dofs(du_, field);
+    return largest <= (fields_.count() == 1 || unit < 0.0 ? unit * fields_.largest_of_dofs(du_, field)
+                                                          : kRounding * couplings(field));
   const double prescribed = at(prescribed_, field);
   return largest <= unit * prescribed && scale(field) <= 1e3 * unit * prescribed;
+}
+
+// Moments of beams are K times displacements too: the sum over all fields.
+double Step::couplings(int field) const {
+  double sum = 0.0;
+  for (int f = 0; f < fields_.count(); ++f)
+    sum += fields_.largest(times_K(fields_.part(fields_.signs(), f)), field) * fields_.largest_of_dofs(du_, f);
+  return sum;
 }
 
 // Of the field's own block of K; of one among several from below, which is the careful side.

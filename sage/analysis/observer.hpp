@@ -18,6 +18,8 @@ struct Solution {
   const Assembly* assembly = nullptr;         // of a run that goes on; null of a state that was kept
   const Activity* activity = nullptr;
   std::span<const GroupData> kept{};  // without an assembly
+  int stage = -1;                     // from 0; -1 = not known
+  double load_factor = 1.0;           // of the stage
 
   // Stresses, strains and histories of all points, by Model::groups.
   std::span<const GroupData> groups() const {

@@ -111,7 +111,8 @@ class Run {
   Assembly& assembly_ = system_.assembly();
   Tangent& tangent_ = system_.tangent();
   StagePath& path_ = state_.path;
-  Place place_;  // the increment in hand
+  Place place_;           // the increment in hand
+  double reached_ = 0.0;  // of the stage's loads, at the committed state
   const Extent extent_;
   Eigen::VectorXd target_;
   Eigen::VectorXd last_du_;          // the last step of the stage, if path_.last_size > 0
@@ -127,7 +128,10 @@ class Run {
 };
 
 Solution Run::solution() const {
-  return {&state_.u, &assembly_.internal_force(), &state_.external, &assembly_, &system_.activity()};
+  return {&state_.u,           &assembly_.internal_force(),
+          &state_.external,    &assembly_,
+          &system_.activity(), {},
+          place_.stage,        reached_};
 }
 
 // Pore pressures at the end of a stage; nothing where the deck has no water.
@@ -234,6 +238,7 @@ void Run::prepare_stage(int s) {
   state_.du.setZero();
   path_.repeats.forget();
   place_ = {s, 0};
+  reached_ = 0.0;
   evaluate_start();
   assembly_.commit(state_.du);
   path_.force_start = assembly_.internal_force();
@@ -359,6 +364,7 @@ void Run::accept(double reached) {
   assembly_.commit(state_.du);
   if (assembly_.sees_unknowns()) state_.u_before = state_.u;
   state_.u += state_.du;
+  reached_ = reached;
   state_.external = (1.0 - reached) * path_.external_start + reached * path_.force_end;
   if (!path_.pore_end.empty()) set_water(reached);
   result_.motion = std::max(result_.motion, extent_.motion(state_.u));

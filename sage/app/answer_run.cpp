@@ -76,6 +76,50 @@ Json work_json(const WorkCounters& w) {
           {"kept_factors", w.kept_factors},     {"repeated_increments", w.repeats}};
 }
 
+// Extremes of each stage and of all, and the envelope at the ends of elements; compression positive.
+Json extremes_json(const Model& model, const std::vector<ExtremeRow>& rows) {
+  Json list = Json::array();
+  const FieldList fields = structure_forces(model);
+  for (const ExtremeRow& row : rows) {
+    const FieldEntry& field = *fields[static_cast<std::size_t>(row.field)];
+    list.push_back(
+        {{"stage", row.stage + 1},
+         {"group", model.groups[static_cast<std::size_t>(row.group)].number},
+         {"quantity", field.name},
+         {"unit", json_text(unit_text(field.dimension, model.units))},
+         {"least", {{"value", row.low}, {"element", row.low_at}, {"stage", row.low_stage + 1}}},
+         {"largest", {{"value", row.high}, {"element", row.high_at}, {"stage", row.high_stage + 1}}}});
+  }
+  return list;
+}
+
+Json end_json(const Model& model, const EnvelopeEnd& row) {
+  const Group& group = model.groups[static_cast<std::size_t>(row.group)];
+  Json json = {{"group", group.number},
+               {"element", group.element_numbers[static_cast<std::size_t>(row.element)]},
+               {"end", row.end},
+               {"node", model.mesh.number[static_cast<std::size_t>(row.node)]},
+               {"x", model.mesh.x(0, row.node)},
+               {"y", model.mesh.x(1, row.node)}};
+  for (std::size_t q = 0; q < kEndQuantities.size(); ++q)
+    if (has_quantity(model, group, q))
+      json[std::string(kEndQuantities[q])] = {{"least", row.low[q]},
+                                              {"least_stage", row.low_stage[q] + 1},
+                                              {"largest", row.high[q]},
+                                              {"largest_stage", row.high_stage[q] + 1}};
+  return json;
+}
+
+Json structures_json(const Model& model, const RunRecord& record) {
+  Json along = Json::array();
+  for (const EnvelopeEnd& row : record.envelope.rows()) along.push_back(end_json(model, row));
+  Json all = extremes_json(model, envelope(record.structures));
+  for (Json& row : all) row.erase("stage");
+  return {{"stages", extremes_json(model, record.structures)},
+          {"envelope", std::move(all)},
+          {"ends", std::move(along)}};
+}
+
 Json failure_json(const StepReport& failed) {
   return {{"stage", failed.stage + 1},
           {"increment", failed.increment},
@@ -159,6 +203,7 @@ Json outcome_json(const RunOutcome& outcome) {
     json["failed_at"] = failure_json(record.failed);
   json["integration_points"] = points_json(record.points);
   if (!record.strength.rows().empty()) json["strength"] = strength_json(record.strength.rows());
+  if (!record.structures.empty()) json["structures"] = structures_json(model, record);
   json["reports"] = outcome.reports ? reports_json(model, *outcome.reports) : Json::array();
   if (outcome.error) json["mesh_error"] = error_json(*outcome.error);
   json["out_of_balance"] = record.audited > 0 ? Json(record.out_of_balance) : Json(nullptr);

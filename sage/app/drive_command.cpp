@@ -87,10 +87,10 @@ UnitSystem units_of(const DriveOptions& options) {
 }
 
 std::vector<Subject> subjects_of(const DriveOptions& options, const Catalogue& catalogue) {
-  if (options.law.empty() == options.deck.empty() && options.cases.empty() && options.cases_file.empty())
-    throw UsageError("S903", "which law? --law LAW, --deck DECK, --case NAME:LAW,... or --cases FILE");
   if (!options.law.empty() && !options.deck.empty())
     throw UsageError("S905", "--law and --deck exclude each other");
+  if (options.law.empty() && options.deck.empty() && options.cases.empty() && options.cases_file.empty())
+    throw UsageError("S903", "which law? --law LAW, --deck DECK, --case NAME:LAW,... or --cases FILE");
   UnitSystem units = units_of(options);
   std::vector<Subject> subjects;
   std::unique_ptr<Subject> base;

@@ -76,7 +76,9 @@ void list_fields(const Catalogue& catalogue) {
       "      at integration points the history variables of the deck's laws, by their names\n"
       "pictures, besides NAME and NAME_COMPONENT:\n"
       "      conf or sigma_3, dev or sigma_1-sigma_3, SL (stress level)\n"
-      "      flow_net: the head with lines of equal drops and stream lines\n");
+      "      flow_net: the head with lines of equal drops and stream lines\n"
+      "      of structures axial_force, bending_moment and the like are diagrams; NAME_envelope: of all "
+      "stages\n");
 }
 
 Json parameters_json(const MaterialEntry& entry, const UnitSystem& units) {

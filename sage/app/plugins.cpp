@@ -51,7 +51,7 @@ void expect_plugin_file(const std::string& file) {
   const std::string abi = elf_section(file, SAGE_PLUGIN_SECTION);
   if (abi.empty())
     throw PluginError("is a library, but no plug-in of sagefe: it has no section " SAGE_PLUGIN_SECTION
-                      ", which the macro SAGE_PLUGIN writes");
+                      ", which the macro SAGE_PLUGIN writes (a routine UMAT is loaded by --umat)");
   expect_same_abi(abi.c_str());
 }
 

@@ -138,5 +138,9 @@ void check_sides(Builder& b);
 void check_water(Builder& b);
 // Nodes at one place, hanging nodes, joints without a solid on one side.
 void check_joints(Builder& b);
+// Structures: which side of a joint is which, and ends that are released; what holds them, once supports are known
+// to hold all.
+void check_structures(Builder& b);
+void check_held_structures(Builder& b);
 
 }  // namespace sage::build

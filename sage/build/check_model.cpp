@@ -291,6 +291,7 @@ void warn_locking(Builder& b) {
 void check_model(Builder& b) {
   check_shapes(b);
   if (b.problems.errors() == 0) check_interfaces(b);
+  if (b.problems.errors() == 0) check_structures(b);
   fix_axis(b);
   check_inactive(b);
   note_unused_nodes(b);
@@ -300,6 +301,7 @@ void check_model(Builder& b) {
   check_sides(b);
   warn_materials(b);
   if (b.problems.errors() == 0) check_supports(b);
+  if (b.problems.errors() == 0) check_held_structures(b);
   check_solver(b);
   warn_locking(b);
 }

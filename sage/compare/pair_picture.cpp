@@ -32,7 +32,7 @@ bool shows(const Side& side, std::string_view field) {
 }  // namespace
 
 std::string pair_svg(const Side& a, const Side& b, std::string_view field) {
-  constexpr int kTop = 44, kGap = 16, kBottom = 30;
+  constexpr int kTop = 44, kBottom = 30;
   PictureOptions options;
   options.width = 560;
   FieldRange range;
@@ -46,30 +46,28 @@ std::string pair_svg(const Side& a, const Side& b, std::string_view field) {
     options.low = range.low;
     options.high = range.high;
   }
-  std::string drawings[2];
-  Size sizes[2];
-  const Side* sides[2] = {&a, &b};
-  for (std::size_t k = 0; k < 2; ++k) {
-    if (!shows(*sides[k], field)) continue;
-    options.state = sides[k]->error().empty() ? "end of the run" : "NOT COMPLETE, last equilibrium";
-    options.title = (k == 0 ? "A: " : "B: ") + sides[k]->model().title;
-    drawings[k] = field_svg(sides[k]->model(), sides[k]->last(), field, options);
-    sizes[k] = size_of(drawings[k]);
-  }
-  const int width = sizes[0].width + kGap + sizes[1].width;
-  const int height = kTop + std::max(sizes[0].height, sizes[1].height) + kBottom;
-  std::string out = svg::open(width, height);
-  svg::text_within(out, 8.0, 18.0, a.label(), svg::kFont, width - 16.0, "start");
-  svg::text_within(out, 8.0, 38.0, b.label(), svg::kFont, width - 16.0, "start");
-  for (std::size_t k = 0; k < 2; ++k) {
-    const int left = k == 0 ? 0 : sizes[0].width + kGap;
-    if (drawings[k].empty()) {
-      svg::text(out, left + 8.0, kTop + 40.0, std::string(k == 0 ? "A" : "B") + " has no results", 16, "start",
-                "font-weight=\"bold\"");
+  FieldSheet sheet;
+  sheet.columns = 2;
+  sheet.look = options;
+  std::string missing;
+  for (const Side* side : {&a, &b}) {
+    const std::string name = side == &a ? "A" : "B";
+    if (!shows(*side, field)) {
+      missing += name + " has no results";
       continue;
     }
-    out += fmt::format("<g transform=\"translate({} {})\">\n{}</g>\n", left, kTop, drawings[k]);
+    FieldPanel& panel = sheet.panels.emplace_back(FieldPanel{&side->model(), side->last(), std::string(field)});
+    panel.title = name + ": " + side->model().title;
+    panel.state = side->error().empty() ? "end of the run" : "NOT COMPLETE, last equilibrium";
   }
+  const std::string drawing = sheet.panels.empty() ? "" : sheet_svg(sheet);
+  const Size size = size_of(drawing);
+  const int top = missing.empty() ? kTop : kTop + 24, height = top + size.height + kBottom;
+  std::string out = svg::open(size.width, height);
+  svg::text_within(out, 8.0, 18.0, a.label(), svg::kFont, size.width - 16.0, "start");
+  svg::text_within(out, 8.0, 38.0, b.label(), svg::kFont, size.width - 16.0, "start");
+  if (!missing.empty()) svg::text(out, 8.0, kTop + 16.0, missing, 16, "start", "font-weight=\"bold\"");
+  out += fmt::format("<g transform=\"translate(0 {})\">\n{}</g>\n", top, drawing);
   svg::text(out, 8.0, height - 10.0, "one scale of colours for both", 13, "start");
   return out + std::string(svg::kClose);
 }

@@ -589,6 +589,21 @@ constexpr MessageEntry kMessages[] = {
      "The pore pressure is more than the weight of soil and water above: the vertical effective stress is "
      "negative, as in the floor of an excavation over an artesian layer.",
      "Lower the pressure (dewatering), leave more ground, or check the level of water and the unit weights."},
+    {"S345", "a structure is held by joints alone",
+     "A wall, raft or lining shares no node with solids, no support holds it, and its joints carry no "
+     "tension: what holds it is pressure and friction. Where joints lie on one side only it can lift off.",
+     "Nothing, where weight or pressure is there from the first increment on. Else hold a node (a wall's toe), "
+     "give the joint tension, or let the structure share nodes with the soil."},
+    {"S346", "a beam turns freely",
+     "The beam meets the rest of the model in a single node, and neither a support nor another beam holds its "
+     "rotation there: solids and bars hold displacements alone. The stiffness matrix is singular then.",
+     "Hold the rotation of that node by a fixity card with the unknown's name, let the beam go on into the "
+     "solid along a side, or use a bar."},
+    {"S347", "released ends meet at a node",
+     "A beam whose end is released along its line (or across it) has one more unknown at that node, along its "
+     "own "
+     "line. Two such beams would share it.",
+     "List the nodes of one of them the other way round, so that its released end is at its other node."},
     {"S401", "elements of different degree meet",
      "One element has nodes inside the common edge, the other has not: the mesh would gape there.",
      "Give both the same number of nodes an edge; --element quad8 turns all of the mesh."},

@@ -17,6 +17,13 @@ std::size_t last_read_field(const CardRule& rule) {
   return field;
 }
 
+// Old hands let a name run on over a field that nobody needs: no more than a blank stands between.
+bool runs_on(std::string_view text, std::string_view behind) {
+  const bool to_its_end = text.size() > 1 && text.find_last_not_of(' ') != std::string_view::npos &&
+                          text.find_last_not_of(' ') + 2 >= text.size();
+  return to_its_end && !behind.empty() && behind.front() != ' ';
+}
+
 }  // namespace
 
 void DeckReader::close_card(const CardRule& rule, const Card& card, bool complete) {
@@ -56,9 +63,8 @@ void DeckReader::report_flaws(const CardRule& rule) {
     FieldValue& value = fields_[at];
     // A map may take what isn't a number.
     if (!rule.rules[field].map.empty() && flaw.fault != FieldFault::none) continue;
-    // Old hands let a name run on over a field that nobody needs.
     if (rule.rules[field].ignored && flaw.fault == FieldFault::bad_character && field > 0 &&
-        rule.spec.fields[field - 1].kind == FieldKind::text && !trimmed(fields_[at - 1].text).empty()) {
+        rule.spec.fields[field - 1].kind == FieldKind::text && runs_on(fields_[at - 1].text, value.text)) {
       log_.add(Severity::note, "S129", log_.where(value),
                quoted(trimmed(value.text)) + " is read as the end of the text before it, not as a number " +
                    field_text(rule, rule.spec.fields[field]));

@@ -90,7 +90,7 @@ void append_cross(std::string (&paths)[2], const Cross& cross, double scale) {
 }  // namespace
 
 std::string draw_arrows(std::string& out, const Scenery& scenery) {
-  constexpr double kLongest = 44.0, kShortest = 1.5;  // px
+  constexpr double kShortest = 1.5;  // px
   std::vector<Arrow> arrows;
   Thinning thinning(scenery.view);
   double largest = 0.0;
@@ -103,7 +103,7 @@ std::string draw_arrows(std::string& out, const Scenery& scenery) {
   if (largest == 0.0 || scenery.view.rounding) return "arrows: none, nothing has moved";
   std::string path;
   for (const Arrow& arrow : arrows) {
-    const Vector2 along = kLongest / largest * arrow.along;
+    const Vector2 along = kLongestArrow / largest * arrow.along;
     if (along.norm() >= kShortest) append_arrow(path, arrow.from, along);
   }
   fmt::format_to(std::back_inserter(out),

@@ -5,6 +5,8 @@
 
 namespace sage {
 
+inline constexpr double kLongestArrow = 44.0;  // px
+
 // Each appends to a picture what was asked for, and gives the line that explains it.
 
 // From the nodes as they are drawn, thinned out to what can be told apart.

@@ -10,6 +10,7 @@
 
 #include "sage/draw/colour_map.hpp"
 #include "sage/draw/contour.hpp"
+#include "sage/draw/diagram.hpp"
 #include "sage/draw/flow_net.hpp"
 #include "sage/draw/marks.hpp"
 #include "sage/draw/plot.hpp"
@@ -308,12 +309,16 @@ struct Draft {
   std::vector<Patch> patches;
   std::vector<Weighted> values = {};
   bool net = false;  // of flow, over its head
+  Diagram diagram = {};
+
+  bool has_diagram() const { return diagram.quantity >= 0; }
 };
 
 Draft make_draft(const Model& model, const Solution& solution, std::string_view field,
                  const PictureOptions& options) {
   Draft draft{options, make_scenery(model, solution, field, options), {}};
   draft.net = field == kFlowNet;
+  draft.diagram = make_diagram(draft.scenery, field, options.envelope);
   draft.patches = patches(draft.scenery);
   append_values(draft.values, draft.patches);
   return draft;
@@ -330,6 +335,11 @@ std::string percent(double share) {
 
 // "from 1 to 20; colours end at 8: 0.3 % of the area lies beyond".
 std::string range_text(const Draft& draft, const std::vector<double>& limits) {
+  if (draft.has_diagram() && !draft.diagram.elements.empty())
+    return fmt::format("from {:.4g} to {:.4g}", draft.diagram.least, draft.diagram.largest) +
+           (draft.scenery.view.deformation > 0.0
+                ? fmt::format("; deformation x {:g}", draft.scenery.view.deformation)
+                : "");
   const FieldRange range = range_of(draft.patches);
   if (!(range.low <= range.high)) return "no value anywhere in this state";
   std::string text = fmt::format("from {:.4g} to {:.4g}", range.low, range.high);
@@ -394,8 +404,10 @@ struct Drawing {
   double width = 0.0, height = 0.0;
 };
 
-double legend_left(const View& view) {
-  return std::max(view.at(view.high).x() + 36.0, kPictureLeft + 120.0);
+// Beyond the longest arrow, too.
+double legend_left(const View& view, const PictureOptions& options) {
+  return std::max(view.at(view.high).x() + (options.arrows ? kLongestArrow + 16.0 : 36.0),
+                  kPictureLeft + 120.0);
 }
 
 // The mesh with all that lies on it; `notes` get what explains it.
@@ -412,6 +424,7 @@ std::string draw_mesh_and_field(Draft& draft, const std::vector<double>& limits,
   if (options.yielded) notes.push_back(draw_yielded(out, scenery));
   if (options.crosses) notes.push_back(draw_crosses(out, scenery));
   if (options.arrows) notes.push_back(draw_arrows(out, scenery));
+  if (draft.has_diagram()) notes.push_back(draw_diagram(out, scenery, draft.diagram));
   if (draft.net) notes.push_back(draw_flow_net(out, scenery, options.levels));
   return out;
 }
@@ -450,7 +463,8 @@ Drawing draw_picture(Draft& draft, const std::vector<double>& limits, const Head
   if (!draft.options.smooth) flatten(draft.patches);
   snap(draft.patches, limits);
   const FieldEntry& entry = *draft.scenery.field.entry;
-  std::vector<std::string> notes{rule_text(entry, draft.options.rule)};
+  std::vector<std::string> notes;
+  if (!draft.has_diagram()) notes.push_back(rule_text(entry, draft.options.rule));
   if (view.rounding && draft.options.deformed)
     notes.push_back(fmt::format("displacements are rounding ({:.1g} of the mesh's size): drawn undeformed",
                                 view.largest / (view.high - view.low).maxCoeff()));
@@ -459,7 +473,7 @@ Drawing draw_picture(Draft& draft, const std::vector<double>& limits, const Head
     notes.push_back(
         "this one turns its sign across the line of symmetry: values are those of the half that was computed");
   Drawing drawing;
-  const double legend = legend_left(view),
+  const double legend = legend_left(view, draft.options),
                down = kLine * (static_cast<double>(std::max<std::size_t>(heading_lines, 3)) - 3.0);
   drawing.width = std::max({legend + 28.0 + legend_text_width(limits), width_of(heading), 300.0});
   std::string& out = drawing.svg;
@@ -478,7 +492,9 @@ Drawing draw_picture(Draft& draft, const std::vector<double>& limits, const Head
   draw_axes(out, draft.scenery);
   const FieldRange range = range_of(draft.patches);
   const bool any = range.low <= range.high;  // else the colours would be those of no value
-  const double bar = any ? draw_legend(out, limits, legend, view.height, range) : kPictureTop;
+  const double bar = draft.has_diagram() ? kPictureTop - 20.0
+                     : any               ? draw_legend(out, limits, legend, view.height, range)
+                                         : kPictureTop;
   draw_line_legend(out, draft.scenery, legend, bar + 26.0);
   double bottom = std::max(kPictureTop + view.height + kBottom, bar + 66.0);
   for (const std::string& note : notes)
@@ -585,7 +601,7 @@ std::string sheet_svg(const FieldSheet& sheet) {
   std::size_t lines = 0;
   for (std::size_t k = 0; k < drafts.size(); ++k) {
     const double room =
-        std::max(legend_left(drafts[k].scenery.view) + legend_text_width(limits[k]), kLeastRoom);
+        std::max(legend_left(drafts[k].scenery.view, sheet.look) + legend_text_width(limits[k]), kLeastRoom);
     lines = std::max(lines, headings.emplace_back(heading_of(drafts[k], limits[k], room)).lines());
   }
   std::vector<Drawing> drawings;
@@ -613,10 +629,13 @@ Pictures::Pictures(std::filesystem::path folder, std::string stem, std::vector<s
 }
 
 void Pictures::draw(const Model& model, const Solution& solution, const std::string& state,
-                    const std::string& caption) {
+                    const std::string& caption, bool last) {
   PictureOptions options = options_;
-  options.state = caption;
+  const std::vector<EnvelopeEnd> ends = envelope_.rows();
   for (const std::string& field : fields_) {
+    if (is_envelope(field) && !last) continue;
+    options.state = is_envelope(field) ? "all stages" : caption;
+    options.envelope = is_envelope(field) ? &ends : nullptr;
     files_.push_back(folder_ / fmt::format("{}_{}_{}.svg", stem_, state, field));
     write_file(files_.back(), field_svg(model, solution, field, options));
   }
@@ -631,10 +650,13 @@ void Pictures::exchange(Archive& archive) {
     archive(name);
     file = folder_ / name;
   }
+  envelope_.exchange(archive);
 }
 
 void Pictures::on_stage_end(const Model& model, int stage, const EquilibriumAudit&, const Solution& solution) {
-  draw(model, solution, fmt::format("stage{}", stage + 1), fmt::format("end of stage {}", stage + 1));
+  if (std::ranges::any_of(fields_, is_envelope)) envelope_.add(model, stage, solution);
+  draw(model, solution, fmt::format("stage{}", stage + 1), fmt::format("end of stage {}", stage + 1),
+       static_cast<std::size_t>(stage) + 1 == model.stages.size());
 }
 
 void Pictures::on_increment(const Model& model, const StepReport& report, const Solution& solution) {
@@ -646,13 +668,14 @@ void Pictures::on_increment(const Model& model, const StepReport& report, const 
 void Pictures::draw_increment(const Model& model, const StepReport& report, const Solution& solution) {
   draw(model, solution, fmt::format("stage{}_increment{}", report.stage + 1, report.increment),
        fmt::format("stage {}, increment {}, load factor {:.4g}", report.stage + 1, report.increment,
-                   report.load_factor));
+                   report.load_factor),
+       false);
 }
 
 void Pictures::on_failure(const Model& model, const StepReport& report, const std::string&,
                           const Solution& solution) {
   draw(model, solution, fmt::format("stage{}_failed", report.stage + 1),
-       fmt::format("NOT CONVERGED: stage {}, load factor {:.4g}", report.stage + 1, report.load_factor));
+       fmt::format("NOT CONVERGED: stage {}, load factor {:.4g}", report.stage + 1, report.load_factor), false);
 }
 
 }  // namespace sage

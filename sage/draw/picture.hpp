@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "sage/record/field_reader.hpp"
+#include "sage/record/end_forces.hpp"
 #include "sage/record/nodal_values.hpp"
 #include "sage/record/out_file.hpp"
 #include "sage/record/output.hpp"
@@ -11,7 +11,8 @@
 namespace sage {
 
 // A field is named as FieldTable::choose takes it, of fields_of(model): "stress_yy", "displacement",
-// "plastic_shear_strain"; "flow_net" is the head with stream lines.  An unknown one, or one that lives neither at nodes nor at points: std::invalid_argument.
+// "plastic_shear_strain"; "flow_net" is the head with stream lines; forces and moments of structures are
+// diagrams along them, and "bending_moment_envelope" shows the least and the largest of all stages.  An unknown one, or one that lives neither at nodes nor at points: std::invalid_argument.
 FieldChoice picture_field(const FieldTable& table, std::string_view name);
 
 struct PictureOptions {
@@ -35,6 +36,7 @@ struct PictureOptions {
   NodalRule rule = NodalRule::element_means;  // of fields that live at integration points
   double low = std::numeric_limits<double>::quiet_NaN();  // range of the colours; NaN = that of the field
   double high = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<EnvelopeEnd>* envelope = nullptr;  // of "..._envelope"; without: the state alone
 };
 
 struct FieldRange {
@@ -73,7 +75,7 @@ struct FieldSheet {
 // A whole SVG document.
 std::string sheet_svg(const FieldSheet& sheet);
 
-// STEM_stage1_stress_yy.svg, ... at the end of every stage and at a failure (STEM_stage1_failed_...).
+// STEM_stage1_stress_yy.svg, ... at the end of every stage (envelopes: of the last) and at a failure (STEM_stage1_failed_...).
 class Pictures final : public Output {
  public:
   // Throws OutputError where a folder bears a name that a picture could get.
@@ -93,12 +95,14 @@ class Pictures final : public Output {
   std::vector<std::filesystem::path> files() const override { return files_; }
 
  private:
-  void draw(const Model&, const Solution&, const std::string& state, const std::string& caption);
+  // last: no stage comes after it.
+  void draw(const Model&, const Solution&, const std::string& state, const std::string& caption, bool last);
 
   std::filesystem::path folder_;
   std::string stem_;
   std::vector<std::string> fields_;
   PictureOptions options_;
+  Envelope envelope_;
   std::vector<std::filesystem::path> files_;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "sage/draw/diagram.hpp"
 #include "sage/draw/flow_net.hpp"
 
 namespace sage {
@@ -39,7 +40,9 @@ std::string unknown_field(const FieldTable& table, std::string_view name, bool p
 }
 
 FieldChoice picture_field(const FieldTable& table, std::string_view name) {
-  const std::optional<FieldChoice> choice = table.choose(name == kFlowNet ? "head" : name);
+  std::string_view field = name == kFlowNet ? "head" : name;
+  if (is_envelope(name)) field = kEndQuantities[static_cast<std::size_t>(diagram_of(name))];
+  const std::optional<FieldChoice> choice = table.choose(field);
   const FieldPlace place = choice ? choice->entry->place() : FieldPlace::increment;
   if (place == FieldPlace::node || place == FieldPlace::point) return *choice;
   throw std::invalid_argument(unknown_field(table, name, true));

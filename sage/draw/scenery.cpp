@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "sage/draw/diagram.hpp"
+
 namespace sage {
 
 namespace {
@@ -17,8 +19,9 @@ double round_down(double value) {
   return power;
 }
 
-View make_view(const Model& model, const Solution& s, const NodalLayout& layout,
-               const PictureOptions& options) {
+// diagrams: room for them around the mesh.
+View make_view(const Model& model, const Solution& s, const NodalLayout& layout, const PictureOptions& options,
+               bool diagrams) {
   View view;
   if (layout.node.empty()) return view;
   constexpr double kRounding = 1e-10;  // of the mesh's size
@@ -42,6 +45,11 @@ View make_view(const Model& model, const Solution& s, const NodalLayout& layout,
     view.low = view.low.cwiseMin(x);
     view.high = view.high.cwiseMax(x);
   }
+  if (diagrams) {
+    constexpr double kRoom = 0.16;
+    view.low.array() -= kRoom * size;
+    view.high.array() += kRoom * size;
+  }
   if (options.mirror_left) view.low.x() = 2.0 * view.left - view.high.x();
   if (options.mirror_down) view.low.y() = 2.0 * view.bottom - view.high.y();
   const Vector2 room = (view.high - view.low).cwiseMax(1e-6 * size);
@@ -56,7 +64,7 @@ Scenery make_scenery(const Model& model, const Solution& solution, std::string_v
                      const PictureOptions& options) {
   Scenery scenery{model, solution, nodal_layout(model, *solution.activity), {}, fields_of(model), {}, {}};
   scenery.field = picture_field(scenery.table, field);
-  scenery.view = make_view(model, solution, scenery.layout, options);
+  scenery.view = make_view(model, solution, scenery.layout, options, diagram_of(field) >= 0);
   scenery.parts = field_parts(model, solution, scenery.layout, *scenery.field.entry, options.rule);
   if (scenery.view.rounding && std::holds_alternative<DisplacementField>(scenery.field.entry->value))
     scenery.parts.at.setZero();

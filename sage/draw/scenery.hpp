@@ -14,6 +14,7 @@
 namespace sage {
 
 inline constexpr double kPictureLeft = 70.0, kPictureTop = 108.0;  // of the frame, for axis and heading
+inline constexpr double kDiagramShare = 0.1;  // of the frame's longer side, that the largest force has
 
 // Where the deformed mesh stands on the paper.
 struct View {

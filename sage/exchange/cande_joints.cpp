@@ -7,9 +7,12 @@ namespace sage::canonical {
 
 namespace {
 
-constexpr double kStiffer = 1e4;    // joints in contact, than the stiffest soil
+constexpr double kStiffer = 1e4;  // contact, than elastic soil
+constexpr double kStifferThanSoft =
+    100.0;                            // and than soil at atmospheric pressure, whose lifts begin far softer
+constexpr double kShearShare = 0.1;   // of the normal stiffness, before slip, in such soil
 constexpr double kAtOnePlace = 1e-6;  // of the mesh's reach
-constexpr double kSlant = 0.2;      // of the way to its soil that a normal shows at least, to be taken for wrong
+constexpr double kSlant = 0.2;  // of the way to its soil that a normal shows at least, to be taken for wrong
 
 }  // namespace
 
@@ -84,13 +87,13 @@ void CandeJoints::read_materials(const Deck& deck) {
       const double value = card.real(field);
       if (!(value >= least && value <= most))
         refuse_field(deck, card.where(field),
-                     "the " + card.label(field) + " of an interface must lie from " + number_text(least) + " to " +
-                         number_text(most) + "; here it is " + number_text(value));
+                     "the " + card.label(field) + " of an interface must lie from " + number_text(least) +
+                         " to " + number_text(most) + "; here it is " + number_text(value));
       return value;
     };
-    const Material one{checked("angle", -360.0, 360.0),
-                       {checked("friction", 0.0, 100.0), checked("tension", 0.0, 1e9), checked("gap", 0.0, 1e6),
-                        false}};
+    const Material one{
+        checked("angle", -360.0, 360.0),
+        {checked("friction", 0.0, 100.0), checked("tension", 0.0, 1e9), checked("gap", 0.0, 1e6), false}};
     if (!materials_.emplace(material.integer("number"), one).second)
       refuse_field(deck, material.where("number"),
                    "interface material " + material.text("number") + " is defined twice");
@@ -98,17 +101,19 @@ void CandeJoints::read_materials(const Deck& deck) {
 }
 
 CandeJoints::Joint CandeJoints::start(const Deck& deck, const CardView& element, const char* what) {
-  Joint joint{element, {}, node(element.integer("n1")), node(element.integer("n2")), element.integer("n3"), 0, {}};
+  Joint joint{element, {}, node(element.integer("n1")), node(element.integer("n2")), element.integer("n3"),
+              0,       {}};
   const std::string name = std::string(what) + " " + element.text("number");
   std::array<Vector2, 2> place;
   for (std::size_t i = 0; i < 2; ++i) {
     const char* field = i == 0 ? "n1" : "n2";
     const auto found = nodes_.find(element.integer(field));
     if (found == nodes_.end())
-      refuse_field(deck, element.where(field),
-                   name + ": node " + element.text(field, "0") +
-                       " has no card C-3; CANDE places such nodes by its Laplace generation, whose rule is in no "
-                       "source at hand");
+      refuse_field(
+          deck, element.where(field),
+          name + ": node " + element.text(field, "0") +
+              " has no card C-3; CANDE places such nodes by its Laplace generation, whose rule is in no "
+              "source at hand");
     place[i] = found->second;
   }
   double reach = 0.0;
@@ -117,8 +122,7 @@ CandeJoints::Joint CandeJoints::start(const Deck& deck, const CardView& element,
     refuse_field(deck, element.where("n2"),
                  name + " joins nodes " + number_text((place[0] - place[1]).norm()) +
                      " in apart; only nodes at one place can be joined here");
-  if (joint.first == joint.second)
-    refuse_field(deck, element.where("n2"), name + " joins a node with itself");
+  if (joint.first == joint.second) refuse_field(deck, element.where("n2"), name + " joins a node with itself");
   if (joint.third == 0 || joint.third == element.integer("n1") || joint.third == element.integer("n2") ||
       around_[joint.third].uses > 1)
     refuse_field(deck, element.where("n3"),
@@ -171,13 +175,18 @@ void CandeJoints::add_link(const Deck& deck, const CardView& element, CardWriter
     joints_.push_back(joint);
     return;
   }
-  const bool for_good = element.integer("death") == 0 && birth_of(element) <= std::max(first.birth, second.birth);
+  const bool for_good =
+      element.integer("death") == 0 && birth_of(element) <= std::max(first.birth, second.birth);
   if (!for_good || second.held) {
     const std::string name = "link " + element.text("number");
-    out.left_out(element.where(for_good ? "n2" : element.integer("death") != 0 ? "death" : "birth"), name,
-                 name + (for_good ? ": its second node has supports or loads of its own (card C-5)"
-                                  : " welds two beams (class 8) for some load steps: a rotation is tied here for "
-                                    "good or not at all"));
+    out.left_out(
+        element.where(for_good                        ? "n2"
+                      : element.integer("death") != 0 ? "death"
+                                                      : "birth"),
+        name,
+        name + (for_good ? ": its second node has supports or loads of its own (card C-5)"
+                         : " welds two beams (class 8) for some load steps: a rotation is tied here for "
+                           "good or not at all"));
     return;
   }
   joined_[element.integer("n2")] = joint.first;
@@ -197,10 +206,13 @@ void CandeJoints::add_nodes(CardWriter& out) const {
               {{"number", static_cast<double>(node)}, {"x", joint.far.x()}, {"y", joint.far.y()}});
 }
 
-void CandeJoints::add(const Catalogue& catalogue, double stiffest, double stiffest_wall, int material, int group,
-                      CardWriter& out) {
-  const double contact = kStiffer * (stiffest > 0.0 ? stiffest : 1.0),
-               bond = kStiffer * std::max({stiffest, stiffest_wall, 1.0});
+void CandeJoints::add(const Catalogue& catalogue, const SoilStiffness& soils, double stiffest_wall,
+                      int material, int group, CardWriter& out) {
+  const bool soft = soils.hyperbolic > 0.0;
+  const double stiffest = std::max({soils.elastic, soils.hyperbolic, 1.0}),
+               contact = soft ? kStifferThanSoft * soils.hyperbolic : kStiffer * stiffest,
+               shear = soft ? kShearShare * contact : contact,
+               bond = kStiffer * std::max(stiffest, stiffest_wall);
   const auto as_number = [](int value) { return static_cast<double>(value); };
   std::map<Law, int> numbers;
   for (const Joint& joint : joints_) {
@@ -214,15 +226,9 @@ void CandeJoints::add(const Catalogue& catalogue, double stiffest, double stiffe
                               {"name", 0.0, {}, l.bonded ? "link" : "interface"}});
     std::vector<double> values{bond, bond, 1.0};
     if (!l.bonded)
-      values = {0.0,
-                std::atan(l.friction) / kRadiansPerDegree,
-                l.tension,
-                0.0,
-                contact / kCandeWaterWeight,
-                0.0,
-                contact,
-                l.tension > 0.0 ? contact : 0.0,
-                0.0};
+      values = {
+          0.0,     std::atan(l.friction) / kRadiansPerDegree, l.tension, 0.0, shear / kCandeWaterWeight, 0.0,
+          contact, l.tension > 0.0 ? contact : 0.0,           0.0};
     std::vector<NewField> fields;
     for (const double value : values) fields.push_back({"values", value});
     out.add("parameters", joint.card.where(), fields, card);
@@ -239,7 +245,10 @@ void CandeJoints::add(const Catalogue& catalogue, double stiffest, double stiffe
               {{"number", as_number(group)},
                {"element", interface},
                {"material", as_number(numbers.at(joint.law))},
-               {"name", 0.0, {}, (joint.law.bonded ? "links, step " : "interfaces, step ") + std::to_string(birth)}});
+               {"name",
+                0.0,
+                {},
+                (joint.law.bonded ? "links, step " : "interfaces, step ") + std::to_string(birth)}});
     }
     ++fourth;
     out.add("element", joint.card.where(),
@@ -258,7 +267,11 @@ void CandeJoints::add_gaps(int step, int stage, CardWriter& out) const {
   for (const Group& group : groups_)
     if (group.birth == step && group.law.gap > 0.0)
       out.add("initial", group.where,
-              {{"group", static_cast<double>(group.number)}, {"kind", 4.0}, {"v1", 1.0}, {"v2", group.law.gap}, {"v3", 1.0}},
+              {{"group", static_cast<double>(group.number)},
+               {"kind", 4.0},
+               {"v1", 1.0},
+               {"v2", group.law.gap},
+               {"v3", 1.0}},
               stage);
 }
 

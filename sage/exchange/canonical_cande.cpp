@@ -16,7 +16,9 @@ namespace {
 constexpr int kMostSteps = 99999;        // what the card has columns for
 constexpr double kCubicInches = 1728.0;  // lengths in inches, densities in lbf/ft^3
 
-constexpr double kAtmosphere = 14.696;   // psi
+constexpr double kAtmosphere = 14.696;  // psi
+// Of hyperbolic soils: lifts are born without stress, and moduli that see less hardly let Newton settle.
+constexpr double kLargestPoisson = 0.49, kStressFloor = 0.05;
 
 void fail(const Deck& deck, const SourcePosition& where, const std::string& message) {
   refuse_field(deck, where, message);
@@ -52,11 +54,17 @@ std::vector<NewField> duncan_parameters(const CardView& model, const CardView& s
   out.warning("S703", strength.where("modulus_number"),
               std::string("computed as ") + (selig(model) ? "duncan_selig" : "duncan_chang_eb") +
                   "; the deck has no modulus for unloading: the modulus number K serves for both");
-  return {take(strength, "modulus_number", "values"), take(strength, "modulus_exponent", "values"),
-          take(strength, "failure_ratio", "values"),  take(strength, "modulus_number", "values"),
-          take(bulk, "bulk_number", "values"),        take(bulk, "bulk_exponent", "values"),
-          take(strength, "cohesion", "values"),       take(strength, "friction_angle", "values"),
-          take(strength, "friction_drop", "values")};
+  return {take(strength, "modulus_number", "values"),
+          take(strength, "modulus_exponent", "values"),
+          take(strength, "failure_ratio", "values"),
+          take(strength, "modulus_number", "values"),
+          take(bulk, "bulk_number", "values"),
+          take(bulk, "bulk_exponent", "values"),
+          take(strength, "cohesion", "values"),
+          take(strength, "friction_angle", "values"),
+          take(strength, "friction_drop", "values"),
+          {"values", kLargestPoisson},
+          {"values", kStressFloor}};
 }
 
 // The same of a soil that CANDE has by name.
@@ -77,15 +85,16 @@ std::vector<NewField> named_parameters(const CardView& material, const CardView&
                   "; the modulus number K serves for unloading too");
   std::vector<NewField> values;
   for (const double value : {soil->K, soil->n, soil->R_f, soil->K, soil->bulk, soil->bulk_other, soil->cohesion,
-                             soil->friction_angle, soil->friction_loss})
+                             soil->friction_angle, soil->friction_loss, kLargestPoisson, kStressFloor})
     values.push_back({"values", value, material.where("name")});
   return values;
 }
 
-std::vector<NewField> hyperbolic_parameters_of(const Deck& deck, const CardView& material, const CardView& model,
-                                               std::string& law, CardWriter& out) {
+std::vector<NewField> hyperbolic_parameters_of(const Deck& deck, const CardView& material,
+                                               const CardView& model, std::string& law, CardWriter& out) {
   if (const int code = model.integer("model"); code != 0 && code != 1)
-    fail(deck, model.where("model"), "the code of the model is 0 (Duncan) or 1 (Selig), not " + std::to_string(code));
+    fail(deck, model.where("model"),
+         "the code of the model is 0 (Duncan) or 1 (Selig), not " + std::to_string(code));
   if (model.integer("unloading") != 0)
     out.warning("S703", model.where("unloading"),
                 "unloading with lasting strain (code " + model.text("unloading") +
@@ -476,7 +485,8 @@ void leave_out(const Deck& deck, const Pipes& pipes, const CandeJoints& joints, 
   if (list.empty()) return;
   if (beams > 0) list += " (the pipe; its nodes are held)";
   message = "left out: " + message + "; this program does not translate them";
-  if (links > 0) message += " (of links class 8 and 9 are: the equations of composite ones are in no source at hand)";
+  if (links > 0)
+    message += " (of links class 8 and 9 are: the equations of composite ones are in no source at hand)";
   if (beams > 0)
     message += ". The beams' nodes are held in x and y: the soil rests on a pipe that does not move";
   out.left_out(where, list, message);
@@ -490,7 +500,8 @@ void refuse_generation(const Deck& deck) {
       if (element.integer(field) > 1)
         fail(deck, element.where(field),
              "element generation (" + element.label(field) +
-                 ") is not built: its rule stands in CANDE's user manual alone, which is not at hand; give every "
+                 ") is not built: its rule stands in CANDE's user manual alone, which is not at hand; give "
+                 "every "
                  "element on a card of its own");
     if (const int number = element.integer("number"); before > 0 && number > before + 1)
       fail(deck, element.where("number"),
@@ -633,24 +644,27 @@ void check_highest_node(const Deck& deck, const CardView& control, const CandeJo
 void refuse_load_scaling(const Deck& deck, CardWriter& out) {
   const std::vector<CardView> cards = deck.all("load_scaling");
   if (!cards.empty())
-    out.left_out(cards.front().where("text"), "continuous load scaling",
-                 "continuous load scaling (cards C-2b and C-2c) is not built: its equations are in no source at "
-                 "hand; forces on nodes count as they are");
+    out.left_out(
+        cards.front().where("text"), "continuous load scaling",
+        "continuous load scaling (cards C-2b and C-2c) is not built: its equations are in no source at "
+        "hand; forces on nodes count as they are");
 }
 
-// The largest modulus that a soil starts with at atmospheric pressure; 0: none is known.
-double stiffest_soil(const Deck& deck) {
-  double most = 0.0;
-  const auto see = [&](double modulus) {
+// The largest modulus of an elastic soil, and that of a hyperbolic one at atmospheric pressure; 0: there is none.
+SoilStiffness stiffest_soil(const Deck& deck) {
+  double elastic = 0.0, hyperbolic = 0.0;
+  const auto see = [](double& most, double modulus) {
     if (std::isfinite(modulus)) most = std::max(most, modulus);
   };
   for (const char* card : {"isotropic", "mohr_coulomb"})
-    for (const CardView& soil : deck.all(card)) see(soil.real("youngs_modulus"));
-  for (const CardView& soil : deck.all("duncan_strength")) see(kAtmosphere * soil.real("modulus_number"));
+    for (const CardView& soil : deck.all(card)) see(elastic, soil.real("youngs_modulus"));
+  for (const CardView& soil : deck.all("duncan_strength"))
+    see(hyperbolic, kAtmosphere * soil.real("modulus_number"));
   for (const CardView& material : deck.all("material"))
     for (const CardView& model : deck.all("duncan", material))
-      if (const NamedSoil* soil = named_soil(selig(model), material.text("name"))) see(kAtmosphere * soil->K);
-  return most;
+      if (const NamedSoil* soil = named_soil(selig(model), material.text("name")))
+        see(hyperbolic, kAtmosphere * soil->K);
+  return {elastic, hyperbolic};
 }
 
 double stiffest_wall(const Pipes& pipes) {

@@ -29,6 +29,11 @@ inline int birth_of(const CardView& element) {
 // Throws InputError S702 at a field of that deck.
 [[noreturn]] void refuse_field(const Deck& deck, const SourcePosition& where, const std::string& message);
 
+// Largest moduli of a deck's soils; 0: it has none of the kind.
+struct SoilStiffness {
+  double elastic = 0.0, hyperbolic = 0.0;
+};
+
 // Interfaces (class 1) and links (class 8 and 9).  Each joins two nodes at one place and names a third of its own.
 // It becomes an interface4 of length 2 across the normal: one pair is the two nodes, with the length 1 for its part, so
 // that tractions are CANDE's forces on a unit of the pipe's length; the other pair, the third node and a new one, is held.
@@ -45,10 +50,10 @@ class CandeJoints {
   bool moves(int node) const { return moved_.contains(node); }
 
   void add_nodes(CardWriter& out) const;
-  // Materials from `material` + 1, groups from `group` + 1, elements and supports.  stiffest: the largest modulus of
-  // soils, stiffest_wall: the largest E A of beams.
-  void add(const Catalogue& catalogue, double stiffest, double stiffest_wall, int material, int group,
-           CardWriter& out);
+  // Materials from `material` + 1, groups from `group` + 1, elements and supports.  stiffest_wall: the largest E A of
+  // beams.
+  void add(const Catalogue& catalogue, const SoilStiffness& soils, double stiffest_wall, int material,
+           int group, CardWriter& out);
   // What is open at the start, so without a bond: the history of the groups born in this step, on the stage's card, or -1: on no stage.
   void add_gaps(int step, int stage, CardWriter& out) const;
   int last_step() const { return last_step_; }
@@ -77,7 +82,7 @@ class CandeJoints {
     double angle;
     Law law;
   };
-  struct Around {  // of a node
+  struct Around {                    // of a node
     Vector2 soil = Vector2::Zero();  // sum of the middles of its soil elements
     int soils = 0, uses = 0, birth = 0;
     bool beam = false, held = false;

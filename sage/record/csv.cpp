@@ -227,6 +227,75 @@ void Csv::on_start(const Model& model, const Scene&, std::string_view, int) {
       of(kind).file = OutFile(folder_ / (stem_ + name));
     open(of(kind), places_header(model, kPointColumns), model);
   }
+  open_ends(model);
+}
+
+void Csv::open_ends(const Model& model) {
+  quantities_ = end_quantities(model);
+  if (!wants_points_ || quantities_.empty()) return;
+  const std::string ends = fmt::format("group,element,end,node,x[{0}],y[{0}]", model.units.length);
+  const auto unit = [&](std::size_t q) { return unit_text(end_field(q).dimension, model.units); };
+  const std::string along =
+      "# ends of elements, in equilibrium with the forces of their nodes; 1 = at the element's first node\n";
+  ends_.file = OutFile(folder_ / (stem_ + ".ends.csv"));
+  ends_.file.text() = head(model) + along + "stage,increment," + ends;
+  envelope_table_.file = OutFile(folder_ / (stem_ + ".envelope.csv"));
+  envelope_table_.file.text() =
+      head(model) + along + "# least and largest at the ends of all stages, each with its stage\n" + ends;
+  for (const std::size_t q : quantities_) {
+    const std::string name(kEndQuantities[q]);
+    ends_.file.text() += fmt::format(",{}[{}]", name, unit(q));
+    envelope_table_.file.text() +=
+        fmt::format(",{0}_least[{1}],{0}_least_stage,{0}_largest[{1}],{0}_largest_stage", name, unit(q));
+  }
+  ends_.file.text() += '\n';
+  envelope_table_.file.text() += '\n';
+}
+
+void Csv::add_ends(const Model& model, const StepReport& report, const Solution& solution) {
+  add_whole(ends_.file, [&](std::string& text) {
+    const Cells cells{text, digits_};
+    for (std::size_t g = 0; g < model.groups.size(); ++g)
+      for (const ElementEnd& end : element_ends(model, solution, g)) {
+        const Group& group = model.groups[g];
+        cells.begin(report);
+        cells.integer(group.number);
+        cells.integer(group.element_numbers[static_cast<std::size_t>(end.element)]);
+        cells.integer(end.end);
+        cells.integer(model.mesh.number[static_cast<std::size_t>(end.node)]);
+        for (int c = 0; c < 2; ++c) cells.result(end.place[c]);
+        for (const std::size_t q : quantities_) cells.optional(end.value[q]);
+        cells.end();
+      }
+  });
+}
+
+void Csv::add_envelope(const Model& model) {
+  if (!envelope_table_.file.open()) return;
+  std::string& text = envelope_table_.file.text();
+  const Cells cells{text, digits_};
+  for (const EnvelopeEnd& row : envelope_.rows()) {
+    const Group& group = model.groups[static_cast<std::size_t>(row.group)];
+    append_integer(text, group.number, 0);
+    cells.integer(group.element_numbers[static_cast<std::size_t>(row.element)]);
+    cells.integer(row.end);
+    cells.integer(model.mesh.number[static_cast<std::size_t>(row.node)]);
+    for (int c = 0; c < 2; ++c) cells.result(model.mesh.x(c, row.node));
+    for (const std::size_t q : quantities_)
+      for (const auto& [value, stage] :
+           {std::pair{row.low[q], row.low_stage[q]}, {row.high[q], row.high_stage[q]}}) {
+        cells.optional(value);
+        if (std::isnan(value))
+          cells.blank();
+        else
+          cells.integer(static_cast<long>(stage) + 1);
+      }
+    cells.end();
+  }
+}
+
+void Csv::on_stage_end(const Model& model, int stage, const EquilibriumAudit&, const Solution& solution) {
+  if (envelope_table_.file.open()) envelope_.add(model, stage, solution);
 }
 
 void Csv::add_increment(const Model& model, const StepReport& report) {
@@ -253,6 +322,7 @@ void Csv::add_states(const Model& model, const StepReport& report, const Solutio
         if (data.active && data.group->entry->kind == kind)
           point_rows({text, digits_}, model, report, data, of(kind).fields);
     });
+  add_ends(model, report, solution);
   for (Table* table : all()) table->file.checkpoint();
 }
 
@@ -264,6 +334,7 @@ void Csv::on_increment(const Model& model, const StepReport& report, const Solut
 
 void Csv::exchange(Archive& archive) {
   for (Table* table : all()) table->file.exchange(archive);
+  envelope_.exchange(archive);
 }
 
 void Csv::comment(const std::string& line) {
@@ -275,6 +346,8 @@ void Csv::on_failure(const Model& model, const StepReport& report, const std::st
                      const Solution& solution) {
   add_increment(model, report);
   add_states(model, report, solution);
+  add_envelope(model);
+  envelope_ = {};
   comment(fmt::format(
       "NOT CONVERGED in stage {}, increment {}; the last state in equilibrium is at load factor {:.6g}",
       report.stage + 1, report.increment, report.load_factor));
@@ -288,7 +361,8 @@ void Csv::finish() {
   }
 }
 
-void Csv::on_finish(const Model&, const RunResult&) {
+void Csv::on_finish(const Model& model, const RunResult&) {
+  add_envelope(model);
   finish();
 }
 

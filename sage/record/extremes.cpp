@@ -14,27 +14,42 @@ bool is_force(const FieldEntry& row) {
          row.size() == 1 && (row.dimension == Dimension::force || row.dimension == Dimension::moment);
 }
 
-ExtremeRow extreme_of(const FieldEntry& field, const Model& model, const GroupData& data) {
+// The least and the largest so far.
+void take(ExtremeRow& row, double value, int number) {
+  if (value < row.low) row.low = value, row.low_at = number;
+  if (value > row.high) row.high = value, row.high_at = number;
+}
+
+int element_number(const GroupData& data, int element) {
+  return data.group->element_numbers[static_cast<std::size_t>(element)];
+}
+
+// At the ends of the elements; of a field that ends don't have, at their points.
+ExtremeRow extreme_of(const FieldEntry& field, const Model& model, const GroupData& data,
+                      const std::vector<ElementEnd>& ends) {
   ExtremeRow row;
   row.low = std::numeric_limits<double>::infinity();
   row.high = -row.low;
+  if (const int quantity = end_quantity(field.name); quantity >= 0) {
+    for (const ElementEnd& end : ends)
+      take(row, end.value[static_cast<std::size_t>(quantity)], element_number(data, end.element));
+    return row;
+  }
   const int points = data.group->element->traits().points;
   for (int e = 0; e < data.group->elements(); ++e)
     for (int p = 0; p < points; ++p) {
       double value = 0.0;
       read_field(field, PointState(model.mesh, data, static_cast<std::size_t>(e * points + p)), &value);
-      const int number = data.group->element_numbers[static_cast<std::size_t>(e)];
-      if (value < row.low) row.low = value, row.low_at = number;
-      if (value > row.high) row.high = value, row.high_at = number;
+      take(row, value, element_number(data, e));
     }
   return row;
 }
 
-std::string group_name(const Group& group) {
+}  // namespace
+
+std::string structure_name(const Group& group) {
   return fmt::format("{} {}", group.number, group.name.empty() ? group.entry->name : group.name);
 }
-
-}  // namespace
 
 FieldList structure_forces(const Model& model) {
   FieldList list;
@@ -55,9 +70,10 @@ std::vector<ExtremeRow> extremes(const Model& model, int stage, const Solution& 
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const GroupData& data = groups[g];
     if (!data.active || !data.group->structure() || data.group->elements() == 0) continue;
+    const std::vector<ElementEnd> ends = element_ends(model, solution, g);
     for (std::size_t f = 0; f < fields.size(); ++f) {
       if (!applies(*fields[f], data)) continue;
-      ExtremeRow row = extreme_of(*fields[f], model, data);
+      ExtremeRow row = extreme_of(*fields[f], model, data, ends);
       row.stage = row.low_stage = row.high_stage = stage;
       row.group = static_cast<std::int64_t>(g);
       row.field = static_cast<std::int64_t>(f);
@@ -102,10 +118,38 @@ std::string extremes_table(const Model& model, const std::vector<ExtremeRow>& ro
                                  "least", "element", stage, "largest", "element", stage);
   for (const ExtremeRow& row : rows) {
     const FieldEntry& field = *fields[static_cast<std::size_t>(row.field)];
-    text +=
-        fmt::format("    {:<20.20}{:<24}{}{}\n", group_name(model.groups[static_cast<std::size_t>(row.group)]),
-                    fmt::format("{} [{}]", field.name, unit_text(field.dimension, model.units)),
-                    value(row.low, row.low_at, row.low_stage), value(row.high, row.high_at, row.high_stage));
+    text += fmt::format(
+        "    {:<20.20}{:<24}{}{}\n", structure_name(model.groups[static_cast<std::size_t>(row.group)]),
+        fmt::format("{} [{}]", field.name, unit_text(field.dimension, model.units)),
+        value(row.low, row.low_at, row.low_stage), value(row.high, row.high_at, row.high_stage));
+  }
+  return text;
+}
+
+std::string envelope_table(const Model& model, const std::vector<EnvelopeEnd>& rows) {
+  std::string text;
+  const auto unit = [&](std::size_t q) { return unit_text(end_field(q).dimension, model.units); };
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const Group& group = model.groups[g];
+    const auto own = std::ranges::equal_range(rows, static_cast<std::int64_t>(g), {}, &EnvelopeEnd::group);
+    if (own.empty()) continue;
+    std::vector<std::size_t> quantities;
+    for (std::size_t q = 0; q < kEndQuantities.size(); ++q)
+      if (has_quantity(model, group, q)) quantities.push_back(q);
+    text += fmt::format(
+        "\n   Ends of group {} (least and largest of all stages, each with its stage)\n{:>9}{:>4}{:>9}",
+        structure_name(group), "element", "end", "node");
+    for (const std::size_t q : quantities)
+      text += fmt::format("{:>36}", fmt::format("{} [{}]", kEndQuantities[q], unit(q)));
+    text += '\n';
+    for (const EnvelopeEnd& row : own) {
+      text += fmt::format("{:>9}{:>4}{:>9}", group.element_numbers[static_cast<std::size_t>(row.element)],
+                          row.end, model.mesh.number[static_cast<std::size_t>(row.node)]);
+      for (const std::size_t q : quantities)
+        text += fmt::format("{:>14.5g}{:>4}{:>14.5g}{:>4}", row.low[q], row.low_stage[q] + 1, row.high[q],
+                            row.high_stage[q] + 1);
+      text += '\n';
+    }
   }
   return text;
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sage/record/field_reader.hpp"
+#include "sage/record/end_forces.hpp"
 
 namespace sage {
 
@@ -27,7 +27,11 @@ std::vector<ExtremeRow> extremes(const Model& model, int stage, const Solution& 
 // Rows of one group and field made one: the envelope of the stages.
 std::vector<ExtremeRow> envelope(const std::vector<ExtremeRow>& rows);
 
+// Of a group: its number, and its name or element.
+std::string structure_name(const Group& group);
 // A table, a line a row; with the stages of the values where there are several.  Empty without rows.
 std::string extremes_table(const Model& model, const std::vector<ExtremeRow>& rows, bool with_stages);
+// The same of every end, a line an end, with the stages.  Empty without rows.
+std::string envelope_table(const Model& model, const std::vector<EnvelopeEnd>& rows);
 
 }  // namespace sage

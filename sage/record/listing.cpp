@@ -14,6 +14,7 @@ void states(std::string& text, const Model& model, const Solution& solution,
             const std::vector<std::string>& fields) {
   listing::nodes(text, model, solution, fields);
   listing::points(text, model, solution, fields);
+  listing::ends(text, model, solution);
 }
 
 void indented(std::string& text, const std::string& page) {
@@ -108,8 +109,13 @@ void Listing::on_stage_end(const Model& model, int stage, const EquilibriumAudit
     states(text, model, solution, options_.fields);
   }
   listing::free_surface(text, model, solution);
-  if (const std::string table = extremes_table(model, extremes(model, stage, solution), false); !table.empty())
-    text += "\n   Extremes of structures (compression positive)\n" + table;
+  const std::vector<ExtremeRow> now = extremes(model, stage, solution);
+  if (!now.empty())
+    text += "\n   Extremes of structures (compression positive)\n" + extremes_table(model, now, false);
+  if (has_structures(model)) {
+    structures_.insert(structures_.end(), now.begin(), now.end());
+    envelope_.add(model, stage, solution);
+  }
   file_.checkpoint();
 }
 
@@ -136,6 +142,12 @@ void Listing::on_finish(const Model& model, const RunResult& result) {
     listing::heading(text, "STRENGTH DIVIDED BY FACTORS");
     text += strength_table(model, strength_.rows());
   }
+  if (model.stages.size() > 1 && !structures_.empty()) {
+    listing::heading(text, "ENVELOPE OF STRUCTURES");
+    text += "   Of all stages, each at its end (compression positive)\n" +
+            extremes_table(model, envelope(structures_), true);
+    if (tables_ != Tables::none) text += envelope_table(model, envelope_.rows());
+  }
   if (options_.reports != nullptr) listing::report_rows(text, model, *options_.reports);
   listing::work(text, result);
   if (result.status == RunStatus::completed)
@@ -155,6 +167,8 @@ void Listing::exchange(Archive& archive) {
   archive(columns_shown_);
   archive(last_state_);
   strength_.exchange(archive);
+  archive(structures_);
+  envelope_.exchange(archive);
 }
 
 void Listing::stop(const std::string& reason) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sage/core/catalogue.hpp"
+#include "sage/record/extremes.hpp"
 #include "sage/record/out_file.hpp"
 #include "sage/record/output.hpp"
 #include "sage/record/report.hpp"
@@ -54,6 +55,8 @@ class Listing final : public Output {
   Tables tables_ = Tables::stage_end;
   std::vector<Diagnostic> early_;  // warnings from before the header
   StrengthRows strength_;
+  std::vector<ExtremeRow> structures_;  // at the ends of stages
+  Envelope envelope_;
   bool started_ = false, columns_shown_ = false;
   std::string last_state_;  // "stage 2, increment 10, load factor 1"
 };

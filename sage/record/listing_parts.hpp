@@ -34,6 +34,8 @@ void nodes(std::string& text, const Model& model, const Solution& solution,
            const std::vector<std::string>& asked);
 void points(std::string& text, const Model& model, const Solution& solution,
             const std::vector<std::string>& asked);
+// Of structures' elements; nothing where there are none.
+void ends(std::string& text, const Model& model, const Solution& solution);
 
 // listing_record.cpp: what was done.
 void increment_columns(std::string& text);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sage/record/field_reader.hpp"
+#include "sage/record/end_forces.hpp"
 #include "sage/record/listing_parts.hpp"
 #include "sage/record/number.hpp"
 #include "sage/record/values.hpp"
@@ -227,6 +227,40 @@ void points(std::string& text, const Model& model, const Solution& solution,
         put(text, at.y());
         point_values(text, {model.mesh, data, static_cast<std::size_t>(e * count + p)}, columns, values);
       }
+    }
+  }
+}
+
+void ends(std::string& text, const Model& model, const Solution& solution) {
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const std::vector<ElementEnd> all = element_ends(model, solution, g);
+    if (all.empty()) continue;
+    const Group& group = model.groups[g];
+    FieldList fields;
+    std::vector<std::size_t> quantities;
+    for (std::size_t q = 0; q < kEndQuantities.size(); ++q)
+      if (has_quantity(model, group, q)) {
+        quantities.push_back(q);
+        fields.push_back(&end_field(q));
+      }
+    fmt::format_to(to(text),
+                   "\n   Ends of group {} {} (in equilibrium with their nodes, compression positive)\n",
+                   group.number, group.name);
+    column(text, "element", 9);
+    column(text, "end", 4);
+    column(text, "node", 9);
+    column(text, axis_names(model.geometry).x);
+    column(text, axis_names(model.geometry).y);
+    wide_columns(text, fields, model.units);
+    text += '\n';
+    for (const ElementEnd& end : all) {
+      append_integer(text, group.element_numbers[static_cast<std::size_t>(end.element)], 9);
+      append_integer(text, end.end, 4);
+      append_integer(text, model.mesh.number[static_cast<std::size_t>(end.node)], 9);
+      put(text, end.place.x());
+      put(text, end.place.y());
+      for (const std::size_t q : quantities) put_wide(text, end.value[q]);
+      text += '\n';
     }
   }
 }

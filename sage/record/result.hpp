@@ -19,7 +19,9 @@ class Frame {
   // Of iterations only the last.
   const StepReport& report() const { return report_; }
   // Stands for the solution that the frame was made of; has no assembly.
-  Solution view() const { return {&u_, &internal_, &external_, nullptr, &activity_, groups_}; }
+  Solution view() const {
+    return {&u_, &internal_, &external_, nullptr, &activity_, groups_, report_.stage, report_.load_factor};
+  }
   double largest_stress() const { return largest_stress_; }  // |component| of all active points
   // What is left are displacements and forces.
   void drop_points() { groups_.clear(); }

@@ -264,6 +264,7 @@ void RunRecord::exchange(Archive& archive) {
   archive(audited);
   strength.exchange(archive);
   archive(structures);
+  envelope.exchange(archive);
 }
 
 void RunRecord::on_start(const Model& model, const Scene& scene_found, std::string_view solver_name,
@@ -289,6 +290,7 @@ void RunRecord::on_stage_end(const Model& model, int stage, const EquilibriumAud
   strength.end(model, stage, solution);
   const std::vector<ExtremeRow> now = extremes(model, stage, solution);
   structures.insert(structures.end(), now.begin(), now.end());
+  if (!now.empty()) envelope.add(model, stage, solution);
   out_of_balance = std::max(out_of_balance, audit.out_of_balance);
   ++audited;
 }

@@ -45,6 +45,7 @@ class RunRecord final : public Observer {
   int audited = 0;                       // stages that reached their end
   StrengthRows strength;
   std::vector<ExtremeRow> structures;  // at the end of each stage
+  Envelope envelope;                   // of the same stages, at the ends of elements
   StepReport failed;                   // of a run that did not converge
   RunResult result;
   // Of the whole run, for the caller to fill in; not shown before.

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sage/model/foreign_element.hpp"
+#include "sage/record/end_forces.hpp"
 
 namespace sage {
 
@@ -72,6 +74,40 @@ void add_field(const FieldEntry& field, const Rows& rows, std::vector<VtkArray>&
   } else {
     add_numbers(field, rows, arrays);
   }
+}
+
+// Rows of the arrays that have both ends of a structure's element as their components.
+const FieldEntry& ends_field(std::size_t quantity) {
+  static const std::vector<FieldEntry> rows = [] {
+    std::vector<FieldEntry> all;
+    for (std::size_t q = 0; q < kEndQuantities.size(); ++q) {
+      FieldEntry row = end_field(q);
+      row.name += "_ends";
+      row.components = {{"1"}, {"2"}};
+      all.push_back(std::move(row));
+    }
+    return all;
+  }();
+  return rows[quantity];
+}
+
+void add_ends(const Model& model, const Solution& s, std::vector<VtkArray>& arrays) {
+  const std::vector<std::size_t> quantities = end_quantities(model);
+  if (quantities.empty()) return;
+  const std::size_t width = 2 * quantities.size();
+  std::vector<double> rows;
+  for (std::size_t g = 0; g < s.groups().size(); ++g) {
+    if (!s.groups()[g].active) continue;
+    const std::size_t first = rows.size();
+    rows.resize(first + static_cast<std::size_t>(model.groups[g].elements()) * width,
+                std::numeric_limits<double>::quiet_NaN());
+    for (const ElementEnd& end : element_ends(model, s, g))
+      for (std::size_t i = 0; i < quantities.size(); ++i)
+        rows[first + static_cast<std::size_t>(end.element) * width + 2 * i +
+             static_cast<std::size_t>(end.end - 1)] = end.value[quantities[i]];
+  }
+  for (std::size_t i = 0; i < quantities.size(); ++i)
+    add_field(ends_field(quantities[i]), {rows, width, 2 * i}, arrays);
 }
 
 FieldList cell_fields(const Model& model, const FieldTable& table) {
@@ -176,6 +212,7 @@ std::vector<VtkArray> vtk_cell_data(const Model& model, const Solution& s, const
     add_field(*field, {rows, size_of(fields), at}, arrays);
     at += field->size();
   }
+  add_ends(model, s, arrays);
   return arrays;
 }
 

@@ -14,6 +14,15 @@ namespace {
 constexpr int kQuad4 = 1, kQuad8 = 2, kElastic = 1, kMohrCoulomb = 4, kCloughDuncan = 22, kJoint = 23,
               kOneWay = 32;
 
+// Numbers of elements, one after the other.
+struct Numbers {
+  int next = 1;
+  int operator()(int count) {
+    next += count;
+    return next - count;
+  }
+};
+
 int group_at(const WholeRun& run, int number) {
   for (std::size_t g = 0; g < run.model->groups.size(); ++g)
     if (run.model->groups[g].number == number) return static_cast<int>(g);
@@ -101,26 +110,28 @@ DeckWriter WallInGround::deck(int last_stage) const {
   if (some(false)) deck.material(4, kAxial, tie, 0.0, rings ? "rings" : "struts");
   if (some(true)) deck.material(5, kOneWay, {strut_stiffness, 1.0, spacing}, 0.0, "anchors");
 
+  Numbers numbers;
   // Elements of rows between two depths, below first.
-  const auto soil = [&](int number, int group, int from, int to) {  // inside, from above to below
+  const auto soil = [&](int group, int from, int to) {  // inside, from above to below
     const int n = node(0, to);
-    deck.elements_block(number, group, {n, n + 1, n + 1 + stride(), n + stride()}, inside, to - from, 1,
-                        stride());
+    deck.elements_block(numbers(inside * (to - from)), group, {n, n + 1, n + 1 + stride(), n + stride()},
+                        inside, to - from, 1, stride());
   };
-  const auto face = [&](int number, int group, int from, int to, bool outer) {
+  const auto face = [&](int group, int from, int to, bool outer) {
     int w = wall(to);
     if (outer) {  // the ground on the right of the way up
       const int first = to == toe ? node(c, toe) : node(c, to) + 5000;
       if (to == toe) {
-        deck.element(number, group, {first, right + stride(), w + stride(), w});
-        deck.elements_block(number + 1, group,
+        deck.element(numbers(1), group, {first, right + stride(), w + stride(), w});
+        deck.elements_block(numbers(to - from - 1), group,
                             {right + stride(), right + 2 * stride(), w + 2 * stride(), w + stride()}, 1,
                             to - from - 1, 1, stride());
         return;
       }
     }
     const int n = node(c, to);
-    deck.elements_block(number, group, {w, w + stride(), n + stride(), n}, 1, to - from, 1, stride());
+    deck.elements_block(numbers(to - from), group, {w, w + stride(), n + stride(), n}, 1, to - from, 1,
+                        stride());
   };
   deck.group(kSoil, kQuad4, 2, 1, "ground");
   int above = 0;
@@ -132,28 +143,31 @@ DeckWriter WallInGround::deck(int last_stage) const {
     deck.group(kInside + 1 + k, kInterface4, 1, 3, fmt::format("inner face, lift {}", k + 1));
   deck.group(kOutside, kInterface4, 1, 3, "outer face");
 
-  soil(1, kSoil, levels.back(), depth);
+  soil(kSoil, levels.back(), depth);
   for (int k = 0; k < lifts; ++k) {
-    soil(1001 + 200 * k, 2 + k, above, levels[static_cast<std::size_t>(k)]);
+    soil(2 + k, above, levels[static_cast<std::size_t>(k)]);
     above = levels[static_cast<std::size_t>(k)];
   }
   // Outside: below the toe the column beside the wall is joined to the inside.
   const int s = stride();
   int n = node(c, depth);
-  deck.elements_block(2001, kSoil, {n, n + 1, n + 1 + s, n + s}, outside, depth - toe, 1, s);
+  deck.elements_block(numbers(outside * (depth - toe)), kSoil, {n, n + 1, n + 1 + s, n + s}, outside,
+                      depth - toe, 1, s);
   n = node(c, toe);
-  deck.element(2401, kSoil, {n, n + 1, n + 1 + s, right + s});
-  deck.elements_block(2402, kSoil, {right + s, n + 1 + s, n + 1 + 2 * s, right + 2 * s}, 1, toe - 1, 1, s);
-  deck.elements_block(2501, kSoil, {n + 1, n + 2, n + 2 + s, n + 1 + s}, outside - 1, toe, 1, s);
-  deck.elements_block(3001, kWall, {wall(toe), wall(toe - 1)}, 1, toe, 1, s);
-  face(3101, kInside, levels.back(), toe, false);
+  deck.element(numbers(1), kSoil, {n, n + 1, n + 1 + s, right + s});
+  deck.elements_block(numbers(toe - 1), kSoil, {right + s, n + 1 + s, n + 1 + 2 * s, right + 2 * s}, 1, toe - 1,
+                      1, s);
+  deck.elements_block(numbers((outside - 1) * toe), kSoil, {n + 1, n + 2, n + 2 + s, n + 1 + s}, outside - 1,
+                      toe, 1, s);
+  deck.elements_block(numbers(toe), kWall, {wall(toe), wall(toe - 1)}, 1, toe, 1, s);
+  face(kInside, levels.back(), toe, false);
   above = 0;
   for (int k = 0; k < lifts; ++k) {
-    face(3201 + 50 * k, kInside + 1 + k, above, levels[static_cast<std::size_t>(k)], false);
+    face(kInside + 1 + k, above, levels[static_cast<std::size_t>(k)], false);
     above = levels[static_cast<std::size_t>(k)];
   }
-  face(3501, kOutside, 0, toe, true);
-  int number = 3601, group = kStruts;
+  face(kOutside, 0, toe, true);
+  int group = kStruts;
   const int last = last_stage == 0 ? stages() : last_stage;
   for (const Strut& strut : struts) {
     if (strut.born > last) continue;  // a group that is never born is there from the first
@@ -166,11 +180,10 @@ DeckWriter WallInGround::deck(int last_stage) const {
     if (strut.anchor) {
       deck.node(7000 + group, half_width + 0.5 * far + 0.3, -strut.level);
       deck.fix(7000 + group, 1, 1);
-      deck.element(number, group, {wall(strut.level), 7000 + group});
+      deck.element(numbers(1), group, {wall(strut.level), 7000 + group});
     } else {
-      deck.element(number, group, {wall(strut.level), rings ? wall(strut.level) : node(0, strut.level)});
+      deck.element(numbers(1), group, {wall(strut.level), rings ? wall(strut.level) : node(0, strut.level)});
     }
-    ++number;
     ++group;
   }
   deck.fix_row(node(0, depth), node(c + outside, depth), 1, 1, 1);
@@ -326,24 +339,25 @@ DeckWriter Culvert::deck(int last_stage) const {
   deck.group(2, slipping ? kBeam3 : kBeam2, 1, 2, "pipe");
   deck.group(3, slipping ? kInterface6 : kInterface4, 1, 3, "pipe and fill");
   for (int k = 1; k <= raised; ++k) deck.group(3 + k, solid, slipping ? 1 : 2, 1, fmt::format("lift {}", k));
+  Numbers numbers;
   if (slipping) {
-    deck.elements_block(1, 1, {1, 2, 9, 8, 0, 0, 0, 8001}, 1, kAround, 1, 7);
-    deck.elements_block(21, 1, {2, 3, 10, 9}, 5, kAround, 1, 7);
-    deck.elements_block(301, 2, {5001, 5008, 9001}, 1, kAround, 1, 7);
-    deck.elements_block(401, 3, {1, 8, 5008, 5001, 8001, 9001}, 1, kAround, 1, 7);
+    deck.elements_block(numbers(kAround), 1, {1, 2, 9, 8, 0, 0, 0, 8001}, 1, kAround, 1, 7);
+    deck.elements_block(numbers(5 * kAround), 1, {2, 3, 10, 9}, 5, kAround, 1, 7);
+    deck.elements_block(numbers(kAround), 2, {5001, 5008, 9001}, 1, kAround, 1, 7);
+    deck.elements_block(numbers(kAround), 3, {1, 8, 5008, 5001, 8001, 9001}, 1, kAround, 1, 7);
   } else {
-    deck.elements_block(1, 1, {1, 2, 9, 8}, 6, kAround, 1, 7);
-    deck.elements_block(301, 2, {5001, 5008}, 1, kAround, 1, 7);
-    deck.elements_block(401, 3, {1, 8, 5008, 5001}, 1, kAround, 1, 7);
+    deck.elements_block(numbers(6 * kAround), 1, {1, 2, 9, 8}, 6, kAround, 1, 7);
+    deck.elements_block(numbers(kAround), 2, {5001, 5008}, 1, kAround, 1, 7);
+    deck.elements_block(numbers(kAround), 3, {1, 8, 5008, 5001}, 1, kAround, 1, 7);
   }
-  deck.elements_block(201, 1, {35, 1002, 1009, 42}, 1, 8, 1, 7);
-  deck.elements_block(211, 1, {1002, 1003, 1010, 1009}, 3, 8, 1, 7);
+  deck.elements_block(numbers(8), 1, {35, 1002, 1009, 42}, 1, 8, 1, 7);
+  deck.elements_block(numbers(24), 1, {1002, 1003, 1010, 1009}, 3, 8, 1, 7);
   for (int k = 1; k <= raised; ++k) {
-    const int above = 2001 + 100 * k, side = 3001 + 100 * k, first = 501 + 20 * k, group = 3 + k;
+    const int above = 2001 + 100 * k, side = 3001 + 100 * k, group = 3 + k;
     const int below = k == 1 ? 91 : above - 100, beside = k == 1 ? 1057 : side - 100;
-    deck.elements_block(first, group, {below + 7, below, above, above + 7}, 4, 1, 7, 1000);
-    deck.element(first + 4, group, {below, beside + 1, side + 1, above});
-    deck.elements_block(first + 5, group, {beside + 1, beside + 2, side + 2, side + 1}, 3, 1, 1, 1000);
+    deck.elements_block(numbers(4), group, {below + 7, below, above, above + 7}, 4, 1, 7, 1000);
+    deck.element(numbers(1), group, {below, beside + 1, side + 1, above});
+    deck.elements_block(numbers(3), group, {beside + 1, beside + 2, side + 2, side + 1}, 3, 1, 1, 1000);
   }
   deck.fix_row(7, 35, 7, 1, 1);
   deck.fix_row(1002, 1005, 1, 1, 1);
@@ -429,20 +443,20 @@ DeckWriter TankOnSoil::deck() const {
     deck.stages.push_back(stage);
     return deck;
   }
-  deck.node(wall_node(2), radius, height / above);
-  deck.node_row(wall_node(above + 1), 1, radius, height);
+  for (int j = 1; j <= above; ++j) deck.node(wall_node(j + 1), radius, height * j / above);
   deck.material(2, kPlate, {3e7, 0.2, bottom}, 0.0, "bottom");
   deck.material(3, kPlate, {3e7, 0.2, wall}, 0.0, "wall");
   deck.group(2, kBeam3, 1, 2, "bottom");
   deck.group(3, kBeam3, 1, 3, "wall");
-  deck.elements_block(9001, 2, {surface(0), surface(1)}, columns, 1, 1, 1000);
-  deck.element(9101, 3, {surface(columns), wall_node(2)});
-  deck.elements_block(9102, 3, {wall_node(2), wall_node(3)}, above - 1, 1, 1, 1000);
-  deck.fixities.push_back(rotation_held(surface(0)));
-  for (int i = 0; i < columns; ++i) stage.pressure(9001 + i, 1, -water * height, -water * height);
+  // Towards the axis and down: pressure pushes to the left.
+  const int bottoms = 2 * columns * rows + 1, walls = bottoms + columns;
+  deck.elements_block(bottoms, 2, {surface(1), surface(0)}, columns, 1, 1, 1000);
+  deck.element(walls, 3, {wall_node(2), surface(columns)});
+  deck.elements_block(walls + 1, 3, {wall_node(3), wall_node(2)}, above - 1, 1, 1, 1000);
+  for (int i = 0; i < columns; ++i) stage.pressure(bottoms + i, 1, water * height, water * height);
   for (int j = 0; j < above; ++j)
-    stage.pressure(9101 + j, 1, -water * height * (above - j) / above,
-                   -water * height * (above - j - 1) / above);
+    stage.pressure(walls + j, 1, water * height * (above - j - 1) / above,
+                   water * height * (above - j) / above);
   deck.stages.push_back(stage);
   return deck;
 }
@@ -472,7 +486,8 @@ DeckWriter RaftOnGround::deck() const {
   const int raft = layers + 1, width = whole_width ? s - 1 : columns;
   deck.material(raft, kSection, {EA, EI}, 0.0, "raft");
   deck.group(raft, kBeam3, 1, raft, "raft");
-  deck.elements_block(9001, raft, {surface(0), surface(1)}, width, 1, 1, 1000);
+  const int rafts = rows * (s - 1) + 1;  // towards the middle: pressure pushes to the left, down
+  deck.elements_block(rafts, raft, {surface(1), surface(0)}, width, 1, 1, 1000);
   deck.fix_row(1, s, 1, 1, 1);
   deck.fix_row(1, surface(0), s, 1, 0);
   deck.fix_row(s, surface(s - 1), s, 1, 0);
@@ -480,7 +495,7 @@ DeckWriter RaftOnGround::deck() const {
   if (whole_width) deck.fixities.push_back(rotation_held(surface(s - 1)));
   StageCards& stage = deck.stage();
   stage.title = "Loaded";
-  for (int i = 0; i < width; ++i) stage.pressure(9001 + i, 1, -load, -load);
+  for (int i = 0; i < width; ++i) stage.pressure(rafts + i, 1, load, load);
   return deck;
 }
 
@@ -513,28 +528,28 @@ DeckWriter PipePile::deck() const {
   deck.group(3, kBeam2, 1, 3, "end plate");
   deck.group(4, kInterface4, 1, 4, "shaft");
   deck.group(5, kInterface4, 1, 5, "tip");
+  Numbers numbers;
   int n = node(0, rows);
-  deck.elements_block(1, 1, {n, n + 1, n + 1 + s, n + s}, 2, rows - tip, 1, s);
+  deck.elements_block(numbers(2 * (rows - tip)), 1, {n, n + 1, n + 1 + s, n + s}, 2, rows - tip, 1, s);
   n = node(2, rows);
-  deck.elements_block(101, 1, {n, n + 1, n + 1 + s, n + s}, columns, rows, 1, s);
-  deck.elements_block(1001, 2, {pile(tip), pile(tip - 1)}, 1, tip, 1, s);
+  deck.elements_block(numbers(columns * rows), 1, {n, n + 1, n + 1 + s, n + s}, columns, rows, 1, s);
+  deck.elements_block(numbers(tip), 2, {pile(tip - 1), pile(tip)}, 1, tip, 1, s);
   n = pile(tip) - 2;
-  deck.elements_block(1101, 3, {n, n + 1}, 2, 1, 1, 1000);
-  deck.elements_block(1201, 4, {node(2, tip), node(2, tip - 1), pile(tip - 1), pile(tip)}, 1, tip, 1, s);
-  deck.elements_block(1301, 5, {node(0, tip), node(1, tip), n + 1, n}, 2, 1, 1, 1000);
+  deck.elements_block(numbers(2), 3, {n + 1, n}, 2, 1, 1, 1000);
+  deck.elements_block(numbers(2), 5, {node(0, tip), node(1, tip), n + 1, n}, 2, 1, 1, 1000);
+  deck.elements_block(numbers(tip), 4, {node(2, tip), node(2, tip - 1), pile(tip - 1), pile(tip)}, 1, tip, 1,
+                      s);
   deck.fix_row(node(0, rows), node(2 + columns, rows), 1, 1, 1);
   deck.fix_row(node(0, rows), node(0, tip), s, 1, 0);
   deck.fix(n, 1, 0);
-  deck.fixities.push_back(rotation_held(n));
   deck.fix_row(node(2 + columns, rows), node(2 + columns, 0), s, 1, 0);
   deck.initial(1, 1, 0.0, weight, 1.0, 0.0);
   deck.initial(4, 3, 1);
   deck.initial(5, 3, 1);
-  // The pile is as heavy as the soil in whose place it is.
+  // The pile is hollow and weighs nothing: what the earth presses on it is let go in the first stage.
   StageCards& rest = deck.stage();
   rest.title = "At rest, with the pile in place";
   rest.gravity_y = -1.0;
-  for (const int e : {1101, 1102}) rest.pressure(e, 1, -weight * tip, -weight * tip);
   double before = 0.0;
   for (const double down : settlements) {
     StageCards& push = deck.stage(2);

@@ -88,6 +88,7 @@ std::vector<Row> invariance_rows();
 std::vector<Row> stage_rows();
 std::vector<Row> input_rows();
 std::vector<Row> water_rows();
+std::vector<Row> structure_rows();
 
 struct RowResult {
   std::vector<Trial> trials;

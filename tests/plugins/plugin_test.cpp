@@ -170,6 +170,8 @@ TEST(WrongPlugins, FilesThatAreNoPlugin) {
   expect_refused(folder, "text.so", {"no ELF file"});
   mkfifo((folder / "pipe.so").c_str(), 0600);
   expect_refused(folder, "pipe.so", {"is no file"});
+  fs::create_symlink("loop.so", folder / "loop.so");
+  expect_refused(folder, "loop.so", {"can't be opened: Too many levels of symbolic links"});
   write(folder / "half.so", good.substr(0, good.size() / 2));
   expect_refused(folder, "half.so", {"is cut short"});
   write(folder / "start.so", good.substr(0, 40));
@@ -235,6 +237,9 @@ TEST(WrongPlugins, WhatTheyGive) {
   const fs::path folder = empty_folder("plugin_gives");
   const std::vector<std::pair<std::string, std::vector<std::string>>> faults = {
       {"null", {"sage_plugin_v1() returned a null pointer"}},
+      {"throws in a constructor", {"out of a constructor"}},
+      {"throws at once", {"out of the entry point"}},
+      {"throws a number at once", {"while it is loaded"}},
       {"short", {"of 16 bytes, the program's has 56"}},
       {"other api", {"version 99 of the plug-in interface, the program has 1"}},
       {"no name", {"gives no name"}},

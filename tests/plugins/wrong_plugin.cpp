@@ -66,6 +66,7 @@ constexpr std::array<char, 9> kOtherAbi{"C++=1998"};
   if (fault("crash in a constructor")) std::raise(SIGSEGV);
   if (fault("abort in a constructor")) std::abort();
   if (fault("exit in a constructor")) std::_Exit(4);
+  if (fault("throws in a constructor")) throw std::runtime_error("out of a constructor");
 }
 
 }  // namespace
@@ -73,6 +74,8 @@ constexpr std::array<char, 9> kOtherAbi{"C++=1998"};
 extern "C" [[gnu::visibility("default")]] const SagePlugin* sage_plugin_v1() {
   static SagePlugin plugin{sizeof(SagePlugin), SAGE_PLUGIN_API, "wrong", "0.1", "the tests", kAbi.data(), fill};
   if (fault("null")) return nullptr;
+  if (fault("throws at once")) throw std::runtime_error("out of the entry point");
+  if (fault("throws a number at once")) throw 1;
   if (fault("short")) plugin.struct_size = 16;
   if (fault("other api")) plugin.api = 99;
   if (fault("no name")) plugin.name = nullptr;

@@ -179,6 +179,9 @@ TEST(Umat, LibrariesWithoutARoutineAreRefused) {
     EXPECT_EQ(run.exit_code, 1) << run.err;
     expect_words(run.err, {"--umat " + value, words});
   }
+  const Finished no_plugin = sagefe(folder, "conform " + library("elastic"));
+  EXPECT_EQ(no_plugin.exit_code, 1);
+  expect_words(no_plugin.err, {"no plug-in of sagefe", "a routine UMAT is loaded by --umat"});
   for (const auto& [parameters, words] :
        {std::pair<std::vector<std::string>, std::string>{{"5", "0"}, "4 or 6"},
         {{"4", "-1"}, "a whole number from 0"},

@@ -287,8 +287,7 @@ TEST(Cande, RingWithInterfacesIsBondedOrSlips) {
   // Elements of 7.5 degrees: (2 pi/48)^2 = 1.7 % times a third, and a quarter of it with half their size.
   EXPECT_LT(smooth[0], 3e-3) << "thrust";
   EXPECT_LT(smooth[1], 6e-3) << "moment";
-  const std::array<double, 2> fine =
-      ring_errors(RingInGround(true), 96, 12, "       0.0       0.0       0.0");
+  const std::array<double, 2> fine = ring_errors(RingInGround(true), 96, 12, "       0.0       0.0       0.0");
   EXPECT_LT(fine[1], 0.35 * smooth[1]);
   // Slip is another answer than bond: the moment differs by far more than these errors.
   EXPECT_GT(ring_errors(RingInGround(), 48, 6, "       0.0       0.0       0.0")[1], 0.05);
@@ -300,10 +299,11 @@ TEST(Cande, RingWithInterfacesIsBondedOrSlips) {
 std::string two_squares(const std::string& joints, const std::string& interface, const std::string& top) {
   std::string text = cande_line("A-1", "ANALYS   3 0  0two squares") + cande_line("C-1.L3", "PREP") +
                      cande_line("C-2.L3", "    2    3    1    3    1   10");
-  const double x[] = {0, 100, 100, 0, 0, 100, 100, 0, 0, 100}, y[] = {0, 0, 100, 100, 100, 100, 200, 200, 100, 100};
+  const double x[] = {0, 100, 100, 0, 0, 100, 100, 0, 0, 100},
+               y[] = {0, 0, 100, 100, 100, 100, 200, 200, 100, 100};
   for (int n = 1; n <= 10; ++n)
-    text += cande_line("C-3.L3", fmt::format("{}{:>4}  00{:>10.2f}{:>10.2f}", n == 10 ? "L" : " ", n, x[n - 1],
-                                             y[n - 1]));
+    text += cande_line(
+        "C-3.L3", fmt::format("{}{:>4}  00{:>10.2f}{:>10.2f}", n == 10 ? "L" : " ", n, x[n - 1], y[n - 1]));
   text += cande_line("C-4.L3", "    1    1    2    3    4    1    1") +
           cande_line("C-4.L3", "    2    5    6    7    8    1    1") + joints +
           cande_line("C-5.L3", "    1    1       0.0    1       0.0") +
@@ -319,8 +319,8 @@ const std::string kTwoInterfaces = cande_line("C-4.L3", "    3    4    5    9   
 // C-5 cards of both top nodes in a step.
 std::string moved_top(double x, double y, int step, bool last) {
   return cande_line("C-5.L3", fmt::format("    7    1{:>10.4f}    1{:>10.4f}       0.0{:>5}", x, y, step)) +
-         cande_line("C-5.L3", fmt::format("{}   8    1{:>10.4f}    1{:>10.4f}       0.0{:>5}", last ? "L" : " ", x, y,
-                                          step));
+         cande_line("C-5.L3", fmt::format("{}   8    1{:>10.4f}    1{:>10.4f}       0.0{:>5}", last ? "L" : " ",
+                                          x, y, step));
 }
 
 // Force on the top at the end of a step.
@@ -345,8 +345,8 @@ TEST(Cande, InterfacesCloseTheirGapAndBreak) {
 
 // Coulomb, whatever the squares do: the sum of shear is the friction coefficient times the sum of normal forces.
 TEST(Cande, InterfacesSlipByTheirCoefficient) {
-  const scenes::WholeRun run =
-      run_cande(two_squares(kTwoInterfaces, "      90.0       0.3", moved_top(0, -0.05, 1, false) + moved_top(1.0, 0, 2, true)));
+  const scenes::WholeRun run = run_cande(two_squares(
+      kTwoInterfaces, "      90.0       0.3", moved_top(0, -0.05, 1, false) + moved_top(1.0, 0, 2, true)));
   ASSERT_TRUE(run.completed()) << run.failure;
   EXPECT_LT(top_force(run, 1, 1), -10.0);
   EXPECT_NEAR(top_force(run, 1, 0), -0.3 * top_force(run, 1, 1), 1e-6);
@@ -354,8 +354,7 @@ TEST(Cande, InterfacesSlipByTheirCoefficient) {
 
 // The angle of a card that is turned round, or whose nodes are swapped, is put right by where the soil is.
 TEST(Cande, InterfacesTurnedRoundAreTurnedBack) {
-  const std::string text =
-      two_squares(kTwoInterfaces, "     -90.0       0.3", moved_top(0, -0.02, 1, true));
+  const std::string text = two_squares(kTwoInterfaces, "     -90.0       0.3", moved_top(0, -0.02, 1, true));
   const scenes::WholeRun run = run_cande(text);
   ASSERT_TRUE(run.completed()) << run.failure;
   EXPECT_NEAR(top_force(run, 0, 1), -20.0, 20 * 2e-4);
@@ -364,8 +363,9 @@ TEST(Cande, InterfacesTurnedRoundAreTurnedBack) {
 
 // Pinned links hold both ways until they die.
 TEST(Cande, LinksHoldUntilTheyDie) {
-  const std::string links = cande_line("C-4.L3", "    3    4    5    9    0    0    1    9    0    0    0    2") +
-                            cande_line("C-4.L3", "L   4    3    6   10    0    0    1    8    0    0    0    2");
+  const std::string links =
+      cande_line("C-4.L3", "    3    4    5    9    0    0    1    9    0    0    0    2") +
+      cande_line("C-4.L3", "L   4    3    6   10    0    0    1    8    0    0    0    2");
   const scenes::WholeRun run = run_cande(two_squares(links, "", moved_top(0, 0.02, 1, true)));
   ASSERT_TRUE(run.completed()) << run.failure;
   EXPECT_NEAR(top_force(run, 0, 1), 20.0, 20 * 2e-4);
@@ -380,13 +380,15 @@ std::string two_beams(const std::string& link) {
                      cande_line("C-1.L3", "PREP") + cande_line("C-2.L3", "    1    3    1    3    1    5");
   const double x[] = {0, 50, 50, 100, 50};
   for (int n = 1; n <= 5; ++n)
-    text += cande_line("C-3.L3", fmt::format("{}{:>4}  00{:>10.2f}{:>10.2f}", n == 5 ? "L" : " ", n, x[n - 1], 0.0));
+    text += cande_line("C-3.L3",
+                       fmt::format("{}{:>4}  00{:>10.2f}{:>10.2f}", n == 5 ? "L" : " ", n, x[n - 1], 0.0));
   return text + cande_line("C-4.L3", "    1    1    2    0    0    1    1") +
          cande_line("C-4.L3", "    2    3    4    0    0    1    1") + cande_line("C-4.L3", link) +
          cande_line("C-5.L3", "    1    1       0.0    1       0.0") +
          cande_line("C-5.L3", "    4    0       0.0    1       0.0") +
-         cande_line("C-5.L3", "L   2    0       0.0    0      -2.0") + cande_line("D-1", "L   1    1       0.0soil") +
-         cande_line("D-2.Isotropic", "      2000       0.3") + "STOP\n";
+         cande_line("C-5.L3", "L   2    0       0.0    0      -2.0") +
+         cande_line("D-1", "L   1    1       0.0soil") + cande_line("D-2.Isotropic", "      2000       0.3") +
+         "STOP\n";
 }
 
 TEST(Cande, FixedLinkWeldsTwoBeams) {
@@ -406,7 +408,8 @@ TEST(Cande, JointsThatMakeNoSenseAreErrorsOfTheirFields) {
     return cande_line("C-4.L3", card) + cande_line("C-4.L3", "L   4    3    6   10    0    1    1    1");
   };
   for (const Case& c :
-       {Case{kTwoInterfaces, "      abcd       0.3", "angle"}, Case{kTwoInterfaces, "      90.0      -0.3", "coefficient of friction"},
+       {Case{kTwoInterfaces, "      abcd       0.3", "angle"},
+        Case{kTwoInterfaces, "      90.0      -0.3", "coefficient of friction"},
         Case{kTwoInterfaces, "      90.0       abc", "coefficient of friction"},
         Case{kTwoInterfaces, "     999.0       0.3", "from -360 to 360"},
         Case{kTwoInterfaces, "      90.0       0.3      -1.0", "tensile limit"},
@@ -418,7 +421,8 @@ TEST(Cande, JointsThatMakeNoSenseAreErrorsOfTheirFields) {
         Case{first("    3    4    4    9    0    1    1    1"), good, "joins a node with itself"},
         Case{first("    3    4    6    9    0    1    1    1"), good, "only nodes at one place"},
         Case{first("    3    4   77    9    0    1    1    1"), good, "node 77 has no card C-3"},
-        Case{first("    3    4    5    9    0    2    1    1"), good, "no card D-1 has the interface material 2"},
+        Case{first("    3    4    5    9    0    2    1    1"), good,
+             "no card D-1 has the interface material 2"},
         Case{first("    3    4    5    9    0    0    1   10"), good, "1 link"}}) {
     SCOPED_TRACE(c.words);
     try {
@@ -442,8 +446,9 @@ TEST(Cande, JointsThatMakeNoSenseAreErrorsOfTheirFields) {
     }
     return std::string();
   };
-  EXPECT_NE(link_error("L   3    2    3    5    0    0    1    8    0    0    0    1").find("for good or not at all"),
-            std::string::npos);
+  EXPECT_NE(
+      link_error("L   3    2    3    5    0    0    1    8    0    0    0    1").find("for good or not at all"),
+      std::string::npos);
 }
 
 TEST(Cande, LoadScalingIsRefusedAtItsCard) {
@@ -474,9 +479,17 @@ TEST(Cande, SoilsOfSeligHaveTheirConstrainedModuli) {
     const canonical::NamedSoil* soil = canonical::named_soil(true, std::string(c.name) + "  fill");
     ASSERT_NE(soil, nullptr);
     const UnitSystem units{"m", "kN", "kPa", 101.325, 9.81};
-    const std::vector<double> values{soil->K, soil->n, soil->R_f, soil->K, soil->bulk, soil->bulk_other,
-                                     soil->cohesion * 6.894757, soil->friction_angle, soil->friction_loss};
-    const auto law = std::get<std::unique_ptr<SolidLaw>>(full_catalogue().materials.find(10)->make(values, units));
+    const std::vector<double> values{soil->K,
+                                     soil->n,
+                                     soil->R_f,
+                                     soil->K,
+                                     soil->bulk,
+                                     soil->bulk_other,
+                                     soil->cohesion * 6.894757,
+                                     soil->friction_angle,
+                                     soil->friction_loss};
+    const auto law =
+        std::get<std::unique_ptr<SolidLaw>>(full_catalogue().materials.find(10)->make(values, units));
     PointDriver<4> point(*law, Vector4(-0.1, -0.1, -0.1, 0));
     double moduli[2] = {0, 0}, strain = 0;
     const double goals[2] = {69.0, 275.0};

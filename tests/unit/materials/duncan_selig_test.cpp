@@ -22,8 +22,7 @@ double compressed(const std::vector<double>& values, double from, double to, int
   const Vector4 start{-from, -from, -from, 0};
   const double strain = (volume_strain(to) - volume_strain(from)) / 3 / steps;
   test::Answer<4> at = test::update<4>(*law, start, Vector4::Zero(), test::initial_history<4>(*law, start));
-  for (int i = 0; i < steps; ++i)
-    at = test::update<4>(*law, at.sigma, {-strain, -strain, -strain, 0}, at.h);
+  for (int i = 0; i < steps; ++i) at = test::update<4>(*law, at.sigma, {-strain, -strain, -strain, 0}, at.h);
   EXPECT_NEAR(at.sigma[0], at.sigma[2], 1e-9 * to);
   return -(at.sigma[0] + at.sigma[1] + at.sigma[2]) / 3;
 }

@@ -1,0 +1,289 @@
+#include "sage/record/end_forces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sage/core/spaced.hpp"
+
+namespace sage {
+
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kOnAxis = 1e-9;  // of the largest radius of an element
+
+// Loads spread along the elements of a group, at a state: for each element a force a dof.
+class SpreadLoads {
+ public:
+  SpreadLoads(const Model& model, const Solution& solution, std::size_t group)
+      : model_(model),
+        group_(model.groups[group]),
+        dofs_(static_cast<std::size_t>(group_.element->traits().dofs)) {
+    if (solution.stage < 0) return;
+    add_until(solution.stage - 1, group, 1.0 - solution.load_factor);
+    add_until(solution.stage, group, solution.load_factor);
+  }
+
+  // Empty: there are none.
+  std::span<const double> of(int element) const {
+    return loads_.empty() ? std::span<const double>()
+                          : std::span(loads_).subspan(static_cast<std::size_t>(element) * dofs_, dofs_);
+  }
+
+ private:
+  // What acts at the end of stage `last`, times a factor.
+  void add_until(int last, std::size_t group, double factor) {
+    if (last < 0 || factor == 0.0) return;
+    const int index = static_cast<int>(group);
+    const auto listed = [&](const std::vector<int>& list) { return std::ranges::count(list, index) > 0; };
+    bool active = std::ranges::none_of(model_.stages, [&](const Stage& stage) { return listed(stage.births); });
+    std::vector<const EdgeLoad*> edges;
+    Vector2 gravity = Vector2::Zero();
+    for (int s = 0; s <= last; ++s) {
+      const Stage& stage = model_.stages[static_cast<std::size_t>(s)];
+      active = (active || listed(stage.births)) && !listed(stage.deaths);
+      gravity += stage.gravity;
+      for (const EdgeLoad& load : stage.pressures)
+        if (active && load.group == index) edges.push_back(&load);
+    }
+    if (!active) return;
+    for (const EdgeLoad* load : edges)
+      add(load->element, factor, [&](const Eigen::Matrix2Xd& x, std::span<double> f) {
+        group_.element->edge_load(x, load->edge, load->normal, load->shear, f);
+      });
+    const Vector2 weight = gravity * model_.material_of(group_).unit_weight;
+    if (weight.isZero(0.0)) return;
+    for (int e = 0; e < group_.elements(); ++e)
+      add(e, factor,
+          [&](const Eigen::Matrix2Xd& x, std::span<double> f) { group_.element->body_load(x, weight, f); });
+  }
+
+  template <class Load>
+  void add(int element, double factor, const Load& load) {
+    if (loads_.empty()) loads_.assign(static_cast<std::size_t>(group_.elements()) * dofs_, 0.0);
+    element_coordinates(model_.mesh, group_, element, x_);
+    one_.assign(dofs_, 0.0);
+    load(x_, one_);
+    for (std::size_t i = 0; i < dofs_; ++i)
+      loads_[static_cast<std::size_t>(element) * dofs_ + i] += factor * one_[i];
+  }
+
+  const Model& model_;
+  const Group& group_;
+  std::size_t dofs_;
+  std::vector<double> loads_, one_;
+  Eigen::Matrix2Xd x_;
+};
+
+// Unit vector along the line at an end, from node 1 to node 2; the line through three nodes is a parabola.
+Vector2 along_at(const Eigen::Matrix2Xd& x, int end) {
+  if (x.cols() < 2) return Vector2::UnitX();
+  if (x.cols() < 3) return (x.col(1) - x.col(0)).normalized();
+  const Vector2 to_middle = x.col(2) - 0.5 * (x.col(0) + x.col(1));
+  return (0.5 * (x.col(1) - x.col(0)) + (end == 1 ? 2.0 : -2.0) * to_middle).normalized();
+}
+
+// Place of a node's rotation among the dofs of an element; -1 = it has none.
+int rotation_of(const ElementEntry& entry, int node) {
+  int at = 0;
+  for (const ElementUnknown& unknown : entry.unknowns) {
+    const int count = unknown.nodes.empty() ? entry.nodes : static_cast<int>(unknown.nodes.size());
+    for (int i = 0; i < count; ++i)
+      if (unknown.field.turns &&
+          (unknown.nodes.empty() ? i : unknown.nodes[static_cast<std::size_t>(i)]) == node)
+        return at + i;
+    at += count * unknown.field.components();
+  }
+  return -1;
+}
+
+// Section forces as laws count them (tension positive): the same places as in kEndQuantities.
+using Section = std::array<double, 5>;
+
+// Of the stress of a law of bars or beams.
+Section section_of(std::span<const double> sigma) {
+  Section section;
+  section.fill(kNone);
+  section[kAxialForce] = sigma[0];
+  if (sigma.size() == 3) section[kShearForce] = sigma[1], section[kBendingMoment] = sigma[2];
+  if (sigma.size() == 5) {
+    section[kShearForce] = sigma[2];
+    section[kBendingMoment] = sigma[3];
+    section[kHoopForce] = sigma[1];
+    section[kHoopMoment] = sigma[4];
+  }
+  return section;
+}
+
+// One element after the other.
+class EndReader {
+ public:
+  EndReader(const Model& model, const Solution& solution, std::size_t group)
+      : model_(model),
+        data_(solution.groups()[group]),
+        group_(*data_.group),
+        traits_(group_.element->traits()),
+        loads_(model, solution, group),
+        geometry_(static_cast<std::size_t>(traits_.geometry_size())),
+        force_(static_cast<std::size_t>(traits_.dofs)),
+        sigma_(static_cast<std::size_t>(traits_.law_size)) {
+    if (const auto* one = std::get_if<const Law<1>*>(&data_.law))
+      if (const auto* spaced = dynamic_cast<const Spaced*>(*one)) spacing_ = spaced->spacing();
+  }
+
+  void read(int element, std::vector<ElementEnd>& ends) {
+    element_coordinates(model_.mesh, group_, element, x_);
+    const bool ring = x_.cols() < 2;
+    if (!ring) node_forces(element);
+    for (int end = 1; end <= (ring ? 1 : 2); ++end) {
+      ElementEnd one;
+      one.element = element;
+      one.end = end;
+      one.node = group_.nodes_of(element)[end - 1];
+      one.place = x_.col(end - 1);
+      one.along = along_at(x_, end);
+      const Section section = section_at(element, end, ring);
+      one.value.fill(kNone);
+      for (const std::size_t q : {kAxialForce, kHoopForce}) one.value[q] = 0.0 - section[q];
+      for (const std::size_t q : {kShearForce, kBendingMoment, kHoopMoment}) one.value[q] = 0.0 + section[q];
+      if (spacing_ != 1.0) one.value[kForceEach] = spacing_ * one.value[kAxialForce];
+      ends.push_back(one);
+    }
+  }
+
+ private:
+  const double* sigma_at(int element, int point) const {
+    return data_.state.committed.sigma.data() +
+           static_cast<std::size_t>(element * traits_.points + point) * sigma_.size();
+  }
+
+  // sum w B^T sigma less the loads along the element.
+  void node_forces(int element) {
+    group_.element->geometry(x_, geometry_);
+    std::ranges::fill(force_, 0.0);
+    const std::size_t n = force_.size(), size = sigma_.size();
+    const double* block = geometry_.data();
+    for (int p = 0; p < traits_.points; ++p, block += 1 + size * n) {
+      const double* sigma = sigma_at(element, p);
+      for (std::size_t c = 0; c < size; ++c)
+        for (std::size_t i = 0; i < n; ++i) force_[i] += *block * sigma[c] * block[1 + c * n + i];
+    }
+    const std::span<const double> load = loads_.of(element);
+    for (std::size_t i = 0; i < load.size(); ++i) force_[i] -= load[i];
+  }
+
+  // What the points say of a node.
+  Section extrapolated(int element, int node) {
+    const std::span<const double> map = group_.element->point_to_node_at(x_);
+    const auto points = static_cast<std::size_t>(traits_.points);
+    std::ranges::fill(sigma_, 0.0);
+    for (std::size_t p = 0; p < points; ++p)
+      for (std::size_t c = 0; c < sigma_.size(); ++c)
+        sigma_[c] +=
+            map[static_cast<std::size_t>(node) * points + p] * sigma_at(element, static_cast<int>(p))[c];
+    return section_of(sigma_);
+  }
+
+  Section section_at(int element, int end, bool ring) {
+    const int node = end - 1;
+    Section section = extrapolated(element, node);
+    double width = 1.0;
+    if (traits_.geometry == Geometry::axisymmetric) {
+      const double r = x_(0, node);
+      if (ring || !(r > kOnAxis * x_.row(0).maxCoeff())) return section;
+      width = 2.0 * static_cast<double>(EIGEN_PI) * r;
+    }
+    const double towards = (end == 1 ? -1.0 : 1.0) / width;
+    const Vector2 t = along_at(x_, end), force = Vector2::Map(force_.data() + 2 * node);
+    section[kAxialForce] = towards * force.dot(t);
+    if (const int turn = rotation_of(*group_.entry, node); turn >= 0) {
+      section[kShearForce] = towards * force.dot(Vector2(-t.y(), t.x()));
+      section[kBendingMoment] = towards * force_[static_cast<std::size_t>(turn)];
+    }
+    return section;
+  }
+
+  const Model& model_;
+  const GroupData& data_;
+  const Group& group_;
+  const ElementTraits& traits_;
+  SpreadLoads loads_;
+  std::vector<double> geometry_, force_, sigma_;
+  double spacing_ = 1.0;
+  Eigen::Matrix2Xd x_;
+};
+
+void widen(EnvelopeEnd& row, const ElementEnd& end, int stage) {
+  for (std::size_t q = 0; q < end.value.size(); ++q) {
+    const double value = end.value[q];
+    if (!(row.low[q] <= value)) row.low[q] = value, row.low_stage[q] = stage;
+    if (!(row.high[q] >= value)) row.high[q] = value, row.high_stage[q] = stage;
+  }
+}
+
+}  // namespace
+
+int end_quantity(std::string_view field) {
+  const auto* at = std::ranges::find(kEndQuantities, field);
+  return at == kEndQuantities.end() ? -1 : static_cast<int>(at - kEndQuantities.begin());
+}
+
+const FieldEntry& end_field(std::size_t quantity) {
+  static const FieldTable program;
+  return *program.find(kEndQuantities[quantity]);
+}
+
+bool has_quantity(const Model& model, const Group& group, std::size_t quantity) {
+  return group.structure() && group.elements() > 0 &&
+         applies(end_field(quantity), ElementKind::structure, model.material_of(group).law_ref());
+}
+
+std::vector<std::size_t> end_quantities(const Model& model) {
+  std::vector<std::size_t> list;
+  for (std::size_t q = 0; q < kEndQuantities.size(); ++q)
+    if (std::ranges::any_of(model.groups, [&](const Group& group) { return has_quantity(model, group, q); }))
+      list.push_back(q);
+  return list;
+}
+
+std::vector<ElementEnd> element_ends(const Model& model, const Solution& solution, std::size_t group) {
+  std::vector<ElementEnd> ends;
+  if (group >= solution.groups().size()) return ends;  // points were not kept
+  const GroupData& data = solution.groups()[group];
+  if (!data.active || !data.group->structure() || data.state.committed.sigma.empty()) return ends;
+  EndReader reader(model, solution, group);
+  for (int e = 0; e < data.group->elements(); ++e) reader.read(e, ends);
+  return ends;
+}
+
+void Envelope::add(const Model& model, int stage, const Solution& solution) {
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    if (!model.groups[g].structure()) continue;
+    const std::vector<ElementEnd> ends = element_ends(model, solution, g);
+    if (ends.empty()) continue;
+    auto row = std::ranges::find(rows_, static_cast<std::int64_t>(g), &EnvelopeEnd::group);
+    if (row == rows_.end()) {
+      const std::size_t first = rows_.size();
+      for (const ElementEnd& end : ends) {
+        EnvelopeEnd& made = rows_.emplace_back();
+        made.group = static_cast<std::int64_t>(g);
+        made.element = end.element;
+        made.end = end.end;
+        made.node = end.node;
+        made.low.fill(kNone);
+        made.high.fill(kNone);
+      }
+      row = rows_.begin() + static_cast<std::ptrdiff_t>(first);
+    }
+    for (const ElementEnd& end : ends) widen(*row++, end, stage);
+  }
+}
+
+std::vector<EnvelopeEnd> Envelope::rows() const {
+  std::vector<EnvelopeEnd> sorted = rows_;
+  std::ranges::stable_sort(sorted, {}, &EnvelopeEnd::group);
+  return sorted;
+}
+
+}  // namespace sage
