@@ -55,6 +55,7 @@ class Step {
   bool converged(const IterationRecord& record) const;
   bool converged(int field, const IterationRecord& record) const;
   bool linear_rounding(const IterationRecord& record) const;
+  bool falls_no_more() const;
   bool at_rounding(int field, const IterationRecord& record) const;
   double couplings(int field) const;
   double stiffness_norm(int field) const;
@@ -287,6 +288,18 @@ bool Step::linear_rounding(const IterationRecord& record) const {
          record.force <= std::sqrt(settings_.tolerance);
 }
 
+// Residuals of several fields at rounding go up and down: that of the field farthest from its end has come no further in
+// eight corrections.
+bool Step::falls_no_more() const {
+  constexpr std::size_t kLook = 8;
+  const auto& all = result_.iterations;
+  if (all.size() < kLook + 2) return false;
+  const auto force = [](const IterationRecord& record) { return record.force; };
+  const auto recent = all.end() - kLook;
+  return std::ranges::min(std::ranges::subrange(recent, all.end()), {}, force).force >
+         0.5 * std::ranges::min(std::ranges::subrange(all.begin(), recent), {}, force).force;
+}
+
 // Equilibrium and energy to the tolerance; the last correction to its root, unless the energy is smaller still
 // (a linear step ends with its first correction, which is then the whole increment).
 // Forces of very stiff joints are k times differences of displacements and can't be balanced better than those
@@ -308,7 +321,7 @@ bool Step::converged(const IterationRecord& record) const {
   if (settings_.refine && record.displacement > kFirst) return false;
   if (fields_.count() == 1) return converged(0, record);
   for (int f = 0; f < fields_.count(); ++f)
-    if (!converged(f, measure(f)) && !even(f) && !linear_rounding(record)) return false;
+    if (!converged(f, measure(f)) && !even(f) && !(linear_rounding(record) && falls_no_more())) return false;
   return true;
 }
 
@@ -344,14 +357,16 @@ bool Step::at_rounding(int field, const IterationRecord& record) const {
   if (!(record.displacement <= kTiny) || record.step_length < 1.0 || residual_.size() == 0) return false;
   const double unit = kRounding * stiffness_norm(field);  // negative where the solver has no norm
   const double largest = fields_.largest(residual_, field);
-  if (record.force <= std::sqrt(settings_.tolerance))
-    return largest <= (fields_.count() == 1 || unit < 0.0 ? unit * fields_.largest_of_dofs(du_, field)
-                                                          : kRounding * couplings(field));
+  if (record.force <= std::sqrt(settings_.tolerance)) {
+    if (largest <= unit * fields_.largest_of_dofs(du_, field)) return true;
+    return fields_.count() > 1 && unit >= 0.0 && falls_no_more() && largest <= kRounding * couplings(field);
+  }
   const double prescribed = at(prescribed_, field);
   return largest <= unit * prescribed && scale(field) <= 1e3 * unit * prescribed;
 }
 
-// Moments of beams are K times displacements too: the sum over all fields.
+// Moments of beams are K times displacements too: the sum over all fields.  It is a bound from above, so that it ends a
+// step only where corrections help no more.
 double Step::couplings(int field) const {
   double sum = 0.0;
   for (int f = 0; f < fields_.count(); ++f)

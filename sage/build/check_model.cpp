@@ -108,6 +108,10 @@ void fix_turning_on_axis(Builder& b, double reach) {
     for (int node = 0; node < model.mesh.nodes(); ++node) {
       const int f = static_cast<int>(field);
       if (std::abs(model.mesh.x(0, node)) > 1e-12 * reach || map.of(node, f) < 0) continue;
+      const bool held = std::ranges::any_of(model.field_fixities, [&](const FieldFixity& other) {
+        return other.field == f && other.node == node && other.code == FixityCode::fixed;
+      });
+      if (held) continue;
       FieldFixity fixity;
       fixity.field = f;
       fixity.node = node;

@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kTolerance = 1e-12;  // of the largest stress in play
 constexpr int kIterations = 40;
-constexpr int kSlow = 15;  // iterations, after which the law's tangent is taken for no derivative of its stress
 constexpr int kHalvings = 12;
 
 }  // namespace
@@ -109,7 +108,7 @@ bool PointDriver<N>::attempt(const std::array<Control, N>& control, const Vector
       ++steps_;
       return true;
     }
-    if (iteration >= kSlow) put_differences(control, deps, out);
+    if (differences_) put_differences(control, deps, out);
     const Matrix<N> stiffness = out.D + Matrix<N>(springs.asDiagonal());
     const Vector<N> base = deps, correction = correction_for<N>(control, r, stiffness);
     for (int cut = 0; cut < 8; ++cut) {
@@ -144,6 +143,10 @@ void PointDriver<N>::advance(const std::array<Control, N>& control, const Vector
     } else {
       share *= 0.5;
       context_.time = start + done * duration;
+      if (share < smallest && !differences_) {  // the tangent may be no derivative of the stress
+        differences_ = true;
+        share = 1.0 - done;
+      }
       if (share < smallest) throw AnalysisError("S501", "point driver: the path can't be followed further");
     }
   }

@@ -53,6 +53,7 @@ class PointDriver {
   std::vector<double> h_, h_trial_;
   PointStatus status_ = PointStatus::elastic;
   int iterations_ = 0, steps_ = 0;
+  bool differences_ = false;  // stand for the law's tangent, with which the path went no further
   // Element 1 of size 1, stage 1, an increment for each advance(), at the origin; handed on where the law wants it.
   PointContext context_{.element = 1, .stage = 1, .size = 1.0};
 };

@@ -68,7 +68,8 @@ std::vector<NewField> duncan_parameters(const CardView& model, const CardView& s
 }
 
 // The same of a soil that CANDE has by name.
-std::vector<NewField> named_parameters(const CardView& material, const CardView& model, CardWriter& out) {
+std::vector<NewField> named_parameters(const CardView& material, const CardView& model, bool used,
+                                       CardWriter& out) {
   const std::string name = material.text("name");
   const NamedSoil* soil = named_soil(selig(model), name);
   if (soil == nullptr) {
@@ -78,11 +79,16 @@ std::vector<NewField> named_parameters(const CardView& material, const CardView&
                       " of this card alone");
     return {};
   }
-  out.warning("S703", material.where("name"),
-              std::string(soil->name) + " is computed as " +
-                  (selig(model) ? "duncan_selig with the numbers of Selig (1988)"
-                                : "duncan_chang_eb with the numbers of Duncan et al. (1980)") +
-                  "; the modulus number K serves for unloading too");
+  const std::string number = material.text("number");
+  const std::string source = selig(model) ? "Selig (1988)" : "Duncan et al. (1980)";
+  const std::string law = selig(model) ? "duncan_selig" : "duncan_chang_eb";
+  const std::string known = "material " + number + " (" + std::string(soil->name) + ")";
+  if (used)
+    out.left_out(material.where("name"),
+                 known + ", computed as " + law + " with numbers not compared with " + source,
+                 known + ": the numbers of this soil have not been compared with " + source +
+                     ": give them on cards D-3 and D-4 (soil USER), or compute " + law +
+                     " with those of legacy_inputs/cande_level3/README.md; K serves for unloading too");
   std::vector<NewField> values;
   for (const double value : {soil->K, soil->n, soil->R_f, soil->K, soil->bulk, soil->bulk_other, soil->cohesion,
                              soil->friction_angle, soil->friction_loss, kLargestPoisson, kStressFloor})
@@ -91,7 +97,8 @@ std::vector<NewField> named_parameters(const CardView& material, const CardView&
 }
 
 std::vector<NewField> hyperbolic_parameters_of(const Deck& deck, const CardView& material,
-                                               const CardView& model, std::string& law, CardWriter& out) {
+                                               const CardView& model, bool used, std::string& law,
+                                               CardWriter& out) {
   if (const int code = model.integer("model"); code != 0 && code != 1)
     fail(deck, model.where("model"),
          "the code of the model is 0 (Duncan) or 1 (Selig), not " + std::to_string(code));
@@ -102,11 +109,11 @@ std::vector<NewField> hyperbolic_parameters_of(const Deck& deck, const CardView&
   law = selig(model) ? "duncan_selig" : "duncan_chang_eb";
   const auto strength = deck.all("duncan_strength", material), bulk = deck.all("duncan_bulk", material);
   if (!strength.empty() && !bulk.empty()) return duncan_parameters(model, strength.front(), bulk.front(), out);
-  return named_parameters(material, model, out);
+  return named_parameters(material, model, used, out);
 }
 
 // The parameters of a material, empty where the deck doesn't give a law that exists here.
-std::vector<NewField> parameters(const Deck& deck, const CardView& material, std::string& law,
+std::vector<NewField> parameters(const Deck& deck, const CardView& material, bool used, std::string& law,
                                  CardWriter& out) {
   std::vector<NewField> values;
   const auto add = [&](const CardView& card, std::initializer_list<const char*> fields) {
@@ -120,7 +127,7 @@ std::vector<NewField> parameters(const Deck& deck, const CardView& material, std
     law = "mohr_coulomb";
     add(mohr.front(), {"youngs_modulus", "poissons_ratio", "cohesion", "friction_angle"});
   } else if (const auto model = deck.all("duncan", material); !model.empty()) {
-    values = hyperbolic_parameters_of(deck, material, model.front(), law, out);
+    values = hyperbolic_parameters_of(deck, material, model.front(), used, law, out);
   }
   return values;
 }
@@ -357,7 +364,7 @@ StandIn stand_in(const Deck& deck, CardWriter& out) {
   std::string ignored;
   for (const CardView& material : deck.all("material"))
     if (!deck.all("isotropic", material).empty())
-      return {parameters(deck, material, ignored, out),
+      return {parameters(deck, material, false, ignored, out),
               material.text("number") + " (" + material.text("name") + ")"};
   return {};
 }
@@ -366,7 +373,7 @@ StandIn stand_in(const Deck& deck, CardWriter& out) {
 // the deck does not hold them.
 std::vector<NewField> law_of(const Deck& deck, const CardView& material, const StandIn& stand_in, bool used,
                              std::string& law, CardWriter& out) {
-  std::vector<NewField> values = parameters(deck, material, law, out);
+  std::vector<NewField> values = parameters(deck, material, used, law, out);
   if (!values.empty()) return values;
   const std::string name = "material " + material.text("number") + " (" + material.text("name") + ")";
   if (stand_in.values.empty())

@@ -305,7 +305,8 @@ void Sage1Writer::elements() {
     const Group& group = model_.groups[g];
     for (int e = 0; e < group.elements(); ++e) {
       std::vector<int> numbers = card_nodes(group, e);
-      if (folded_[g] != 0) numbers.push_back(numbers.back());
+      // A ring's card gives its node twice: with one node it would read like a card of another kind.
+      if (folded_[g] != 0 || numbers.size() == 1) numbers.push_back(numbers.back());
       if (numbers.size() > static_cast<std::size_t>(kWideNodes))
         throw InputError("S722", group.where,
                          "group " + std::to_string(group.number) + " (" + group.element_name +

@@ -1,6 +1,8 @@
 // Decks of other programs and files that are no decks, as the command line meets them.
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "tests/regression/program.hpp"
 
 namespace sage::test {

@@ -79,15 +79,12 @@ TEST_P(RoundTrip, GivesTheSameModelAndListing) {
   } catch (const InputError&) {
     GTEST_SKIP() << "no model: the deck is refused";
   }
-  // What the writer still loses: rings (their one node twice), a digit of places on a circle, beams that share the middle
-  // nodes of solids.
-  const std::string folder = GetParam().parent_path().filename().string();
-  for (const char* known : {"braced_shaft", "culvert_bonded", "culvert_slipping", "pile", "tank"})
-    if (GetParam().parent_path().parent_path().filename() == "structures" && folder == known)
-      GTEST_SKIP() << "known: the writer does not give this model back";
   Diagnostics lost;
   const std::string text = sage1_text(*model, lost);
-  EXPECT_TRUE(lost.list().empty()) << lost.list().front().message;
+  // A place on a circle may have a last digit that no field holds: the writer says so.
+  for (const Diagnostic& d : lost.list())
+    EXPECT_TRUE(d.severity == Severity::warning && d.message.find("twenty columns") != std::string::npos)
+        << d.message;
   const fs::path written = test::scratch_folder("round_trip") / "written.dat";
   std::ofstream(written, std::ios::binary) << text;
   const InputOptions as_written;
