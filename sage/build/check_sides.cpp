@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 
 #include "sage/build/builder.hpp"
 #include "sage/deck/text.hpp"
 #include "sage/model/activity.hpp"
+#include "sage/model/joined.hpp"
 
 namespace sage::build {
 
@@ -85,17 +85,14 @@ struct Deeds {
 
 // Parts of a straight side that hang together, as lists of edges.
 std::vector<std::vector<std::vector<int>>> connected(const std::vector<std::vector<int>>& edges) {
-  std::map<int, std::size_t> owner;  // of each node, the first edge that has it
-  std::vector<std::size_t> parent(edges.size());
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const auto root = [&](std::size_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  for (std::size_t i = 0; i < edges.size(); ++i)
-    for (const int node : edges[i]) parent[root(i)] = root(owner.try_emplace(node, i).first->second);
-  std::map<std::size_t, std::vector<std::vector<int>>> parts;
-  for (std::size_t i = 0; i < edges.size(); ++i) parts[root(i)].push_back(edges[i]);
+  std::map<int, int> owner;  // of each node, the first edge that has it
+  Joined joined(edges.size());
+  const auto count = static_cast<int>(edges.size());
+  for (int i = 0; i < count; ++i)
+    for (const int node : edges[static_cast<std::size_t>(i)])
+      joined.join(i, owner.try_emplace(node, i).first->second);
+  std::map<int, std::vector<std::vector<int>>> parts;
+  for (int i = 0; i < count; ++i) parts[joined.set_of(i)].push_back(edges[static_cast<std::size_t>(i)]);
   std::vector<std::vector<std::vector<int>>> list;
   for (auto& [first, part] : parts) list.push_back(std::move(part));
   return list;

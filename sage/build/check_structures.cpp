@@ -3,12 +3,12 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
 #include "sage/build/builder.hpp"
 #include "sage/model/activity.hpp"
+#include "sage/model/joined.hpp"
 
 namespace sage::build {
 
@@ -103,12 +103,12 @@ void check_faces(Builder& b) {
   const std::map<Segment, std::string> structures = segments_of_structures(b.model);
   if (structures.empty()) return;
   const Lives lives(b.model);
-  std::set<std::pair<std::size_t, std::size_t>> told;  // pairs of groups
+  std::set<std::pair<std::size_t, std::size_t>> reported;  // pairs of groups
   for (const auto& [ends, faces] : faces_of(b, structures))
     for (std::size_t i = 0; i < faces.size(); ++i)
       for (std::size_t j = i + 1; j < faces.size(); ++j) {
         if (faces[i].left != faces[j].left || !lives.meet(faces[i].group, faces[j].group)) continue;
-        if (!told.insert(std::minmax(faces[i].group, faces[j].group)).second) continue;
+        if (!reported.insert(std::minmax(faces[i].group, faces[j].group)).second) continue;
         const bool first_wrong = faces[j].known && !faces[i].known;
         const Face &wrong = first_wrong ? faces[i] : faces[j], &other = first_wrong ? faces[j] : faces[i];
         const Group &group = b.model.groups[wrong.group], &beside = b.model.groups[other.group];
@@ -123,24 +123,6 @@ void check_faces(Builder& b) {
                 "to node 2, nodes 3 and 4 those of the body on the left");
       }
 }
-
-// Parts of a whole that grow together.
-class Parts {
- public:
-  explicit Parts(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int of(int i) {
-    while (parent_[static_cast<std::size_t>(i)] != i) {
-      int& p = parent_[static_cast<std::size_t>(i)];
-      p = parent_[static_cast<std::size_t>(p)];
-      i = p;
-    }
-    return i;
-  }
-  void join(int a, int b) { parent_[static_cast<std::size_t>(of(a))] = of(b); }
-
- private:
-  std::vector<int> parent_;
-};
 
 // A joint that opens carries nothing: asked with an opening too small to break anything.
 bool carries_tension(const Model& model, const Group& group) {
@@ -193,29 +175,23 @@ Vector2 free_direction(const std::vector<Vector2>& away, Geometry geometry) {
   return Vector2::Zero();
 }
 
-// Connected parts of active structures, by a node of each.
+// Connected parts of active structures, by number.
 std::map<int, Hold> holds_of(const Model& model, const Activity& activity) {
-  Parts parts(static_cast<std::size_t>(model.mesh.nodes()));
-  std::vector<char> structure(static_cast<std::size_t>(model.mesh.nodes()), 0);
   const auto active = [&](std::size_t g) { return activity.group[g] != 0; };
-  for (std::size_t g = 0; g < model.groups.size(); ++g)
-    if (const Group& group = model.groups[g]; active(g) && group.structure())
-      for (int e = 0; e < group.elements(); ++e)
-        for (std::size_t i = 0; i < group.node_count(); ++i) {
-          parts.join(group.nodes_of(e)[i], group.nodes_of(e)[0]);
-          structure[static_cast<std::size_t>(group.nodes_of(e)[i])] = 1;
-        }
+  const std::vector<int> parts =
+      connected_parts(model, [&](std::size_t g, int) { return active(g) && model.groups[g].structure(); });
+  const auto part_of = [&](int node) { return parts[static_cast<std::size_t>(node)]; };
   std::map<int, Hold> holds;
   for (std::size_t g = 0; g < model.groups.size(); ++g)
     if (const Group& group = model.groups[g]; active(g) && group.structure())
-      for (int e = 0; e < group.elements(); ++e) holds.try_emplace(parts.of(group.nodes_of(e)[0]), Hold{g, e});
+      for (int e = 0; e < group.elements(); ++e) holds.try_emplace(part_of(group.nodes_of(e)[0]), Hold{g, e});
   for (std::size_t g = 0; g < model.groups.size(); ++g)
     if (const Group& group = model.groups[g]; active(g) && group.solid())
       for (const int node : group.nodes)
-        if (structure[static_cast<std::size_t>(node)]) holds.at(parts.of(node)).otherwise = true;
+        if (part_of(node) >= 0) holds.at(part_of(node)).otherwise = true;
   for (int node = 0; node < model.mesh.nodes(); ++node)
-    if (structure[static_cast<std::size_t>(node)] && (activity.holds(node, 0) || activity.holds(node, 1)))
-      holds.at(parts.of(node)).otherwise = true;
+    if (part_of(node) >= 0 && (activity.holds(node, 0) || activity.holds(node, 1)))
+      holds.at(part_of(node)).otherwise = true;
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     const Group& group = model.groups[g];
     if (!active(g) || !group.interface()) continue;
@@ -225,8 +201,8 @@ std::map<int, Hold> holds_of(const Model& model, const Activity& activity) {
       const Vector2 t = (model.mesh.x.col(n[1]) - model.mesh.x.col(n[0])).normalized();
       for (const auto& [node, away] :
            {std::pair(n[0], Vector2(t.y(), -t.x())), {n[3], Vector2(-t.y(), t.x())}}) {
-        if (!structure[static_cast<std::size_t>(node)]) continue;
-        Hold& hold = holds.at(parts.of(node));
+        if (part_of(node) < 0) continue;
+        Hold& hold = holds.at(part_of(node));
         hold.joints = true;
         hold.tension = hold.tension || tension;
         hold.away.push_back(away);
@@ -236,9 +212,9 @@ std::map<int, Hold> holds_of(const Model& model, const Activity& activity) {
   return holds;
 }
 
-void check_holds(Builder& b, const Stage& stage, const Activity& activity, std::set<std::size_t>& told) {
+void check_holds(Builder& b, const Stage& stage, const Activity& activity, std::set<std::size_t>& reported) {
   for (const auto& [node, hold] : holds_of(b.model, activity)) {
-    if (hold.otherwise || !hold.joints || hold.tension || !told.insert(hold.group).second) continue;
+    if (hold.otherwise || !hold.joints || hold.tension || !reported.insert(hold.group).second) continue;
     const Group& group = b.model.groups[hold.group];
     const Vector2 free = free_direction(hold.away, b.model.geometry);
     const std::string words = "stage " + std::to_string(stage.number) + ": the structure with element " +
@@ -265,10 +241,10 @@ struct Turning {
 };
 
 // Parts of beams that turn together, in plane strain: one that hangs on a single node turns about it.
-void check_turning(Builder& b, const Stage& stage, const Activity& activity, std::set<std::size_t>& told) {
+void check_turning(Builder& b, const Stage& stage, const Activity& activity, std::set<std::size_t>& reported) {
   const Model& model = b.model;
   const DofMap& map = activity.dof_map;
-  Parts parts(static_cast<std::size_t>(map.dofs()));
+  Joined parts(static_cast<std::size_t>(map.dofs()));
   std::vector<int> dofs;
   const auto rotations = [&](const Group& group, int e) {
     map.list(group, e, dofs);
@@ -296,7 +272,7 @@ void check_turning(Builder& b, const Stage& stage, const Activity& activity, std
     if (!group.entry->moves()) return;
     dofs.clear();
     if (group.structure()) rotations(group, e);
-    const int part = dofs.empty() ? -1 : parts.of(dofs.front());
+    const int part = dofs.empty() ? -1 : parts.set_of(dofs.front());
     if (part >= 0) {
       Turning& turning = found.try_emplace(part, Turning{g, e}).first->second;
       for (const int dof : dofs)
@@ -315,7 +291,7 @@ void check_turning(Builder& b, const Stage& stage, const Activity& activity, std
       shared = shared || more;
       if (more || activity.holds(node, 0) || activity.holds(node, 1)) hangs.push_back(node);
     }
-    if (turning.held || !shared || hangs.size() != 1 || !told.insert(turning.group).second) continue;
+    if (turning.held || !shared || hangs.size() != 1 || !reported.insert(turning.group).second) continue;
     const Group& group = model.groups[turning.group];
     b.error(
         "S346", stage.where,

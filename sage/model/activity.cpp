@@ -1,9 +1,10 @@
 #include "sage/model/activity.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include <Eigen/Eigenvalues>
+
+#include "sage/model/joined.hpp"
 
 namespace sage {
 
@@ -22,15 +23,6 @@ void apply(const std::vector<Fixity>& fixities, const std::vector<FieldFixity>& 
     for (std::size_t c = 0; c < 2; ++c)
       apply(f.code[c], DofMap::displacement(f.node, static_cast<int>(c)), held);
   for (const FieldFixity& f : others) apply(f.code, dof_map.of(f.node, f.field), held);
-}
-
-int root(std::vector<int>& parent, int i) {
-  while (parent[static_cast<std::size_t>(i)] != i) {
-    int& p = parent[static_cast<std::size_t>(i)];
-    p = parent[static_cast<std::size_t>(p)];
-    i = p;
-  }
-  return i;
 }
 
 std::string mode_name(const Eigen::Vector3d& mode) {
@@ -70,9 +62,9 @@ std::vector<int> connected_parts(const Model& model, const Activity& activity) {
 }
 
 std::vector<int> connected_parts(const Model& model, const Carries& carries) {
-  std::vector<int> parent(static_cast<std::size_t>(model.mesh.nodes()));
-  std::iota(parent.begin(), parent.end(), 0);
-  std::vector<char> used(parent.size(), 0);
+  const auto count = static_cast<std::size_t>(model.mesh.nodes());
+  Joined nodes_joined(count);
+  std::vector<char> used(count, 0);
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     const Group& group = model.groups[g];
     for (int e = 0; e < group.elements(); ++e) {
@@ -80,15 +72,15 @@ std::vector<int> connected_parts(const Model& model, const Carries& carries) {
       const int* nodes = group.nodes_of(e);
       for (std::size_t i = 0; i < group.node_count(); ++i) {
         used[static_cast<std::size_t>(nodes[i])] = 1;
-        parent[static_cast<std::size_t>(root(parent, nodes[i]))] = root(parent, nodes[0]);
+        nodes_joined.join(nodes[i], nodes[0]);
       }
     }
   }
-  std::vector<int> part(parent.size(), -1), number(parent.size(), -1);
+  std::vector<int> part(count, -1), number(count, -1);
   int parts = 0;
-  for (std::size_t i = 0; i < parent.size(); ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     if (!used[i]) continue;
-    int& n = number[static_cast<std::size_t>(root(parent, static_cast<int>(i)))];
+    int& n = number[static_cast<std::size_t>(nodes_joined.set_of(static_cast<int>(i)))];
     if (n < 0) n = parts++;
     part[i] = n;
   }
