@@ -1,5 +1,7 @@
 // Node cards (with line generation) and fill cards (blocks between four corner nodes).
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <vector>
@@ -55,6 +57,12 @@ bool place(Builder& b, PlacedNodes& nodes, const CardView& card, int number, con
   return false;
 }
 
+// A generated place on an axis is a difference of numbers of the size `reach`: what is rounding of those is zero.
+Vector2 on_axes(const Vector2& place, double reach) {
+  constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
+  return (place.array().abs() <= kRounding * reach).select(0.0, place);
+}
+
 void fill_line(Builder& b, PlacedNodes& nodes, const CardView& card, const NodeCard& from, const NodeCard& to,
                int step, double ratio) {
   const std::int64_t span = std::int64_t{to.number} - from.number;
@@ -75,10 +83,12 @@ void fill_line(Builder& b, PlacedNodes& nodes, const CardView& card, const NodeC
   }
   const int intervals = static_cast<int>(span / step);
   const std::vector<double> at = graded_fractions(intervals, ratio);
+  const double reach = std::max(cartesian(from).cwiseAbs().maxCoeff(), cartesian(to).cwiseAbs().maxCoeff());
   for (int i = 1; i < intervals; ++i) {
     NodeCard between = from;
     between.given += at[static_cast<std::size_t>(i)] * (to.given - from.given);
-    if (!place(b, nodes, card, from.number + i * step, cartesian(between))) return;  // one message a card
+    const Vector2 at_node = on_axes(cartesian(between), reach);
+    if (!place(b, nodes, card, from.number + i * step, at_node)) return;  // one message a card
   }
 }
 
@@ -170,6 +180,8 @@ void fill_block(Builder& b, PlacedNodes& nodes, const CardView& card, int errors
   const auto top = side_points(nodes, corners[3], column_step, columns, cr);
   const auto left = side_points(nodes, first, row_step, rows, rr);
   const auto right = side_points(nodes, corners[1], row_step, rows, rr);
+  double reach = 0.0;
+  for (const int corner : corners) reach = std::max(reach, nodes.find(corner)->cwiseAbs().maxCoeff());
   const auto s_at = graded_fractions(columns, cr), t_at = graded_fractions(rows, rr);
   for (int j = 0; j <= rows; ++j) {
     for (int i = 0; i <= columns; ++i) {
@@ -179,7 +191,7 @@ void fill_block(Builder& b, PlacedNodes& nodes, const CardView& card, int errors
       const Vector2 x = (1 - t) * bottom[iu] + t * top[iu] + (1 - s) * left[ju] + s * right[ju] -
                         ((1 - s) * (1 - t) * bottom.front() + s * (1 - t) * bottom.back() + s * t * top.back() +
                          (1 - s) * t * top.front());
-      nodes.try_emplace(first + i * column_step + j * row_step, x);  // nodes of cards stay
+      nodes.try_emplace(first + i * column_step + j * row_step, on_axes(x, reach));  // nodes of cards stay
     }
   }
 }
