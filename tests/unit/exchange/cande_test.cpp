@@ -16,32 +16,18 @@
 #include "sage/record/values.hpp"
 #include "sage/scenes/whole_run.hpp"
 #include "solvers/choose_solver.hpp"
+#include "tests/support/foreign_decks.hpp"
 
 namespace sage::app {
 namespace {
 
-const std::string kInputs = SAGE_SOURCE_DIR "/legacy_inputs/";
-
-BuildOptions partial_if(bool partial) {
-  BuildOptions options;
-  options.partial = partial;
-  return options;
-}
-
-Model model_of(const std::string& deck, const std::string& layout = "", bool partial = false) {
-  InputOptions input;
-  input.layout = layout;
-  return build_model(read_input(kInputs + deck, input), full_catalogue(), partial_if(partial));
-}
-
-bool mentions(const Diagnostics& diagnostics, Severity severity, const std::string& text) {
-  for (const Diagnostic& d : diagnostics.list())
-    if (d.severity == severity && d.message.find(text) != std::string::npos) return true;
-  return false;
-}
+using test::kInputs, test::mentions, test::partial_if, test::run_of;
 
 TEST(Cande, PipeIsBeamsInASoilOfItsName) {
-  const Model model = model_of("cande_level3/candejar_input_test1.cid", "", true);
+  const RunOutcome outcome = run_of("cande_level3/candejar_input_test1.cid", true);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.record.result.reason;
+  EXPECT_LT(outcome.record.out_of_balance, 1e-9);
+  const Model& model = *outcome.model;
   int elements = 0;
   for (const Group& group : model.groups) elements += group.elements();
   EXPECT_EQ(elements, 2047);
@@ -56,6 +42,7 @@ TEST(Cande, PipeIsBeamsInASoilOfItsName) {
   EXPECT_NEAR(wall.unit_weight, 0.0378793 * 1.65, 1e-12);
   EXPECT_EQ(model.materials[1].law_name, "duncan_selig");
   EXPECT_EQ(model.materials[1].parameters[0], 75.0);
+  EXPECT_TRUE(mentions(model.diagnostics, Severity::warning, "material 2 (CL90)"));
   EXPECT_TRUE(mentions(model.diagnostics, Severity::note, "1 element(s) listed clockwise"));
   // 115 lbf/ft^3 in inches.
   EXPECT_NEAR(model.materials[1].unit_weight, 115.0 / 1728.0, 1e-15);

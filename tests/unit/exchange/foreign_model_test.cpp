@@ -17,24 +17,12 @@
 #include "sage/record/values.hpp"
 #include "sage/scenes/whole_run.hpp"
 #include "solvers/choose_solver.hpp"
-#include "tests/support/scratch_folder.hpp"
+#include "tests/support/foreign_decks.hpp"
 
 namespace sage::app {
 namespace {
 
-const std::string kInputs = SAGE_SOURCE_DIR "/legacy_inputs/";
-
-BuildOptions partial_if(bool partial) {
-  BuildOptions options;
-  options.partial = partial;
-  return options;
-}
-
-Model model_of(const std::string& deck, const std::string& layout = "", bool partial = false) {
-  InputOptions input;
-  input.layout = layout;
-  return build_model(read_input(kInputs + deck, input), full_catalogue(), partial_if(partial));
-}
+using test::kInputs, test::mentions, test::model_of, test::run_of;
 
 std::string refusal(const std::string& deck, const std::string& layout) {
   try {
@@ -43,21 +31,6 @@ std::string refusal(const std::string& deck, const std::string& layout) {
     return error.diagnostics().list().front().message;
   }
   return "";
-}
-
-bool mentions(const Diagnostics& diagnostics, Severity severity, const std::string& text) {
-  for (const Diagnostic& d : diagnostics.list())
-    if (d.severity == severity && d.message.find(text) != std::string::npos) return true;
-  return false;
-}
-
-RunOutcome run_of(const std::string& deck, bool partial = false) {
-  RunRequest request;
-  request.input.build.partial = partial;
-  request.deck = kInputs + deck;
-  request.quiet = true;
-  request.output.folder = test::scratch_folder("foreign");
-  return run_deck(request, full_catalogue());
 }
 
 TEST(ForeignModel, Quad4mAreasAgreeWithItsOwnEcho) {
