@@ -288,8 +288,8 @@ bool Step::linear_rounding(const IterationRecord& record) const {
          record.force <= std::sqrt(settings_.tolerance);
 }
 
-// Residuals of several fields at rounding go up and down: that of the field farthest from its end has come no further in
-// eight corrections.
+// Residuals of several fields at rounding go up and down: that of the field farthest from its end has come no
+// further in eight corrections.
 bool Step::falls_no_more() const {
   constexpr std::size_t kLook = 8;
   const auto& all = result_.iterations;
@@ -320,8 +320,9 @@ bool Step::converged(const IterationRecord& record) const {
   constexpr double kFirst = 1e-6;  // of the unknowns: no refinement
   if (settings_.refine && record.displacement > kFirst) return false;
   if (fields_.count() == 1) return converged(0, record);
+  if (linear_rounding(record) && falls_no_more()) return true;
   for (int f = 0; f < fields_.count(); ++f)
-    if (!converged(f, measure(f)) && !even(f) && !(linear_rounding(record) && falls_no_more())) return false;
+    if (!converged(f, measure(f)) && !even(f)) return false;
   return true;
 }
 
@@ -365,8 +366,8 @@ bool Step::at_rounding(int field, const IterationRecord& record) const {
   return largest <= unit * prescribed && scale(field) <= 1e3 * unit * prescribed;
 }
 
-// Moments of beams are K times displacements too: the sum over all fields.  It is a bound from above, so that it ends a
-// step only where corrections help no more.
+// Moments of beams are K times displacements too: the sum over all fields.  It is a bound from above, so that it
+// ends a step only where corrections help no more.
 double Step::couplings(int field) const {
   double sum = 0.0;
   for (int f = 0; f < fields_.count(); ++f)

@@ -601,8 +601,7 @@ constexpr MessageEntry kMessages[] = {
      "solid along a side, or use a bar."},
     {"S347", "released ends meet at a node",
      "A beam whose end is released along its line (or across it) has one more unknown at that node, along its "
-     "own "
-     "line. Two such beams would share it.",
+     "own line. Two such beams would share it.",
      "List the nodes of one of them the other way round, so that its released end is at its other node."},
     {"S401", "elements of different degree meet",
      "One element has nodes inside the common edge, the other has not: the mesh would gape there.",
@@ -948,14 +947,12 @@ constexpr MessageEntry kMessages[] = {
      "Install GoogleTest (libgtest-dev), build and install the program again."},
     {"S809", "a user material printed something, or needs a look",
      "A UMAT wrote text, called for something that this program does not offer, or returned a DDSDDE that is "
+     "not the derivative of its stress; the run went on. Routines print when they meet a state that they were "
      "not "
-     "the derivative of its stress; the run went on. Routines print when they meet a state that they were not "
      "written for, or while their author looks for a fault.",
      "Read the log that the message names. Lines that a routine prints at every point slow a run down much: "
-     "take "
-     "them out. Where equilibrium comes slowly, symmetric = 2 on the card has differences of the stress taken "
-     "in "
-     "place of DDSDDE (docs/manual/umat.md)."},
+     "take them out. Where equilibrium comes slowly, symmetric = 2 on the card has differences of the stress "
+     "taken in place of DDSDDE (docs/manual/umat.md)."},
     {"S810", "a piece crashed under the checks",
      "A law or element of the library ended the program that tries it, mostly by writing or reading beyond an "
      "array, or by a division of integers by zero.",

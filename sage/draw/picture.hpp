@@ -12,7 +12,8 @@ namespace sage {
 
 // A field is named as FieldTable::choose takes it, of fields_of(model): "stress_yy", "displacement",
 // "plastic_shear_strain"; "flow_net" is the head with stream lines; forces and moments of structures are
-// diagrams along them, and "bending_moment_envelope" shows the least and the largest of all stages.  An unknown one, or one that lives neither at nodes nor at points: std::invalid_argument.
+// diagrams along them, and "bending_moment_envelope" shows the least and the largest of all stages.
+// An unknown one, or one that lives neither at nodes nor at points: std::invalid_argument.
 FieldChoice picture_field(const FieldTable& table, std::string_view name);
 
 struct PictureOptions {
@@ -75,7 +76,8 @@ struct FieldSheet {
 // A whole SVG document.
 std::string sheet_svg(const FieldSheet& sheet);
 
-// STEM_stage1_stress_yy.svg, ... at the end of every stage (envelopes: of the last) and at a failure (STEM_stage1_failed_...).
+// STEM_stage1_stress_yy.svg, ... at the end of every stage (envelopes: of the last) and at a
+// failure (STEM_stage1_failed_...).
 class Pictures final : public Output {
  public:
   // Throws OutputError where a folder bears a name that a picture could get.

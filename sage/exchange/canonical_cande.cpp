@@ -508,8 +508,7 @@ void refuse_generation(const Deck& deck) {
         fail(deck, element.where(field),
              "element generation (" + element.label(field) +
                  ") is not built: its rule stands in CANDE's user manual alone, which is not at hand; give "
-                 "every "
-                 "element on a card of its own");
+                 "every element on a card of its own");
     if (const int number = element.integer("number"); before > 0 && number > before + 1)
       fail(deck, element.where("number"),
            "elements " + std::to_string(before + 1) + " to " + std::to_string(number - 1) +
@@ -637,11 +636,11 @@ void add_stages(const Deck& deck, const LoadFactors& factors, CardWriter& out, c
 
 // Numbers of nodes may have gaps: card C-2 has the highest.
 void check_highest_node(const Deck& deck, const CardView& control, const CandeJoints& joints, CardWriter& out) {
-  const int said = control.integer("total_nodes"), highest = joints.highest_node();
-  if (said == 0 || highest == 0 || said == highest) return;
-  const std::string words = "the highest node is " + std::to_string(said) + " by this card, " +
+  const int stated = control.integer("total_nodes"), highest = joints.highest_node();
+  if (stated == 0 || highest == 0 || stated == highest) return;
+  const std::string words = "the highest node is " + std::to_string(stated) + " by this card, " +
                             std::to_string(highest) + " by cards C-3";
-  if (said > highest) return out.warning("S701", control.where("total_nodes"), words);
+  if (stated > highest) return out.warning("S701", control.where("total_nodes"), words);
   Diagnostics problems;
   problems.add(card_diagnostic(deck, Severity::error, "S701", control.where("total_nodes"), words));
   throw InputError(problems);

@@ -54,7 +54,8 @@ class CandeJoints {
   // beams.
   void add(const Catalogue& catalogue, const SoilStiffness& soils, double stiffest_wall, int material,
            int group, CardWriter& out);
-  // What is open at the start, so without a bond: the history of the groups born in this step, on the stage's card, or -1: on no stage.
+  // What is open at the start, so without a bond: the history of the groups born in this step, on the stage's card;
+  // stage -1: before the stages.
   void add_gaps(int step, int stage, CardWriter& out) const;
   int last_step() const { return last_step_; }
   int highest_node() const { return highest_node_; }

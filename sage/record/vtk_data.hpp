@@ -30,7 +30,8 @@ struct VtkArray {
 std::vector<VtkArray> vtk_point_data(const Model& model, const Solution& solution, const NodalLayout& layout,
                                      const FieldTable& table);
 // Fields of elements, and those of integration points that are no tensors and no words: means over an element's
-// points, NaN where they do not apply; and NAME_ends of structures, the values at both ends of an element.  Which arrays there are depends on the model alone.
+// points, NaN where they do not apply; and NAME_ends of structures, the values at both ends of an element.  Which
+// arrays there are depends on the model alone.
 std::vector<VtkArray> vtk_cell_data(const Model& model, const Solution& solution, const FieldTable& table);
 
 }  // namespace sage

@@ -20,8 +20,8 @@ constexpr double kGivesWay = 0.1;
 constexpr double kFarBelow = 2.5;  // tolerances
 constexpr int kSecondEffort = 3;   // times the iterations, with all cuts
 constexpr int kFirstCuts = 1;
-constexpr int kCutsOfFirstRun =
-    3;  // of the stages with the first factor: a lower one follows, and it is tried again
+// Of the stages with the first factor: a lower one follows, and it is tried again.
+constexpr int kCutsOfFirstRun = 3;
 
 struct Largest {
   double displacement = 0.0;

@@ -212,8 +212,9 @@ TEST(Water, ExcavationUnderWater) {
               1e-10 * buoyant.largest_u());
 }
 
-// Four metres of soil are left over a layer with artesian water.  With u0 below and none at the floor the effective stress
-// is (gamma - u0 / d) times the depth, and the floor lifts where u0 > gamma d = 80: said of the stage that digs, not before.
+// Four metres of soil are left over a layer with artesian water.  With u0 below and none at the floor the
+// effective stress is (gamma - u0 / d) times the depth, and the floor lifts where u0 > gamma d = 80: the warning stands at the
+// stage that digs, not before.
 TEST(Water, UpliftOfAnExcavationsFloor) {
   Block low = cells(2, 2, Cell::quad8), high = cells(2, 2, Cell::quad8);
   low.place = rectangle(0.0, 4.0, 0.0, 4.0);
@@ -533,6 +534,20 @@ double same_as(const WholeRun& one, const WholeRun& other, const Guise& guise) {
   return most / one.largest_u();
 }
 
+// A whole run that keeps its checkpoints, and one that goes on from such a one.
+WholeRun run_saving(const DeckWriter& deck, std::vector<std::string>& saved) {
+  RunSettings settings = bench().settings();
+  settings.checkpoint_due = [] { return true; };
+  settings.save_checkpoint = [&](const std::string& bytes) { saved.push_back(bytes); };
+  return bench().run(deck.text(), {}, settings);
+}
+
+WholeRun restarted(const DeckWriter& deck, const std::string& bytes) {
+  RunSettings again = bench().settings();
+  again.resume_from = bytes;
+  return bench().run(deck.text(), {}, again);
+}
+
 TEST(Water, NothingDependsOnSideNumbersUnitsAndThreads) {
   const WholeRun plain = bench().run(Guise{}.deck().text());
   ASSERT_TRUE(plain.completed()) << plain.failure;
@@ -562,16 +577,11 @@ TEST(Water, RestartsToTheBit) {
     load.pressure(block.element(0, 2), 3, 50.0, 50.0);
     deck.stage(2);
     std::vector<std::string> saved;
-    RunSettings settings = bench().settings();
-    settings.checkpoint_due = [] { return true; };
-    settings.save_checkpoint = [&](const std::string& bytes) { saved.push_back(bytes); };
-    const WholeRun whole = bench().run(deck.text(), {}, settings);
+    const WholeRun whole = run_saving(deck, saved);
     ASSERT_TRUE(whole.completed()) << whole.failure;
     ASSERT_EQ(saved.size(), 6U);
     for (const std::string& bytes : saved) {
-      RunSettings again = bench().settings();
-      again.resume_from = bytes;
-      const WholeRun rest = bench().run(deck.text(), {}, again);
+      const WholeRun rest = restarted(deck, bytes);
       ASSERT_TRUE(rest.completed()) << rest.failure;
       EXPECT_EQ((rest.last().u - whole.last().u).cwiseAbs().maxCoeff(), 0.0);
     }
@@ -582,15 +592,10 @@ TEST(Water, RestartsToTheBit) {
 TEST(Water, HeadsRestartToTheBit) {
   const DeckWriter deck = seeping(sloping(Cell::quad8), 1, 0, 42);
   std::vector<std::string> saved;
-  RunSettings settings = bench().settings();
-  settings.checkpoint_due = [] { return true; };
-  settings.save_checkpoint = [&](const std::string& bytes) { saved.push_back(bytes); };
-  const WholeRun whole = bench().run(deck.text(), {}, settings);
+  const WholeRun whole = run_saving(deck, saved);
   ASSERT_TRUE(whole.completed()) << whole.failure;
   ASSERT_EQ(saved.size(), 1U);  // behind the flow
-  RunSettings again = bench().settings();
-  again.resume_from = saved.front();
-  const WholeRun rest = bench().run(deck.text(), {}, again);
+  const WholeRun rest = restarted(deck, saved.front());
   ASSERT_TRUE(rest.completed()) << rest.failure;
   EXPECT_EQ((rest.last().u - whole.last().u).cwiseAbs().maxCoeff(), 0.0);
 }
