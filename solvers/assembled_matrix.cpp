@@ -236,16 +236,31 @@ void AssembledMatrix::add_part(const ElementMatrices& some, int part, int parts)
   each([&](int element, const double* K) { add_columns(element, K, first, end); });
 }
 
+// Rows of a column ascend: the diagonal is the last one of a symmetric matrix.  Columns before the first entry of
+// x that is not zero do nothing.
 void AssembledMatrix::multiply(std::span<const double> x, std::span<double> y) const {
   std::ranges::fill(y, 0.0);
-  for (int column = 0; column < equations_; ++column) {
-    double mirrored = 0.0;
-    for (int k = column_start_[at(column)]; k < column_start_[at(column) + 1]; ++k) {
-      const int row = row_[at(k)];
-      y[at(row)] += value_[at(k)] * x[at(column)];
-      if (symmetric_ && row != column) mirrored += value_[at(k)] * x[at(row)];
+  const auto first = std::ranges::find_if(x, [](double entry) { return entry != 0.0; }) - x.begin();
+  const double* const in = x.data();
+  double* const out = y.data();
+  const int begin = column_start_[at(first)];
+  const int* row = row_.data() + begin;
+  const double* value = value_.data() + begin;
+  for (int column = static_cast<int>(first); column < equations_; ++column) {
+    const double of_column = in[column];
+    const int* const end = row_.data() + column_start_[at(column) + 1];
+    if (!symmetric_) {
+      for (; row != end; ++row, ++value) out[*row] += *value * of_column;
+      continue;
     }
-    y[at(column)] += mirrored;
+    double mirrored = 0.0;
+    for (; row != end - 1; ++row, ++value) {
+      out[*row] += *value * of_column;
+      mirrored += *value * in[*row];
+    }
+    out[column] += *value * of_column;
+    out[column] += mirrored;
+    ++row, ++value;
   }
 }
 
@@ -274,15 +289,22 @@ void AssembledMatrix::residual(std::span<const double> b, std::span<const double
 }
 
 double AssembledMatrix::norm1() const {
-  std::vector<double>& sum = column_sum_;
-  sum.assign(at(equations_), 0.0);
-  for (int column = 0; column < equations_; ++column)
-    for (int k = column_start_[at(column)]; k < column_start_[at(column) + 1]; ++k) {
-      const double term = std::abs(value_[at(k)]);
-      sum[at(column)] += term;
-      if (symmetric_ && row_[at(k)] != column) sum[at(row_[at(k)])] += term;
+  column_sum_.assign(at(equations_), 0.0);
+  double* const sum = column_sum_.data();
+  const int* row = row_.data();
+  const double* value = value_.data();
+  for (int column = 0; column < equations_; ++column) {
+    const int* const end = row_.data() + column_start_[at(column) + 1] - (symmetric_ ? 1 : 0);
+    double own = sum[column];
+    for (; row != end; ++row, ++value) {
+      const double term = std::abs(*value);
+      own += term;
+      if (symmetric_) sum[*row] += term;
     }
-  return sum.empty() ? 0.0 : *std::ranges::max_element(sum);
+    if (symmetric_) own += std::abs(*value), ++row, ++value;  // the diagonal
+    sum[column] = own;
+  }
+  return column_sum_.empty() ? 0.0 : *std::ranges::max_element(column_sum_);
 }
 
 // The same for two columns of the same rows at once, and where two of those stand in a row, for both of these.

@@ -93,6 +93,8 @@ class Assembly {
   // Brings the states of constant groups up to date; others always are.  Until it is called, stress and strain
   // of constant groups may have no room at all.
   void recover_states() { late_.recover(groups_, element_, *work_); }
+  // Those of structures alone.
+  void recover_structures() { late_.recover_structures(groups_, element_, *work_); }
 
   const Eigen::VectorXd& internal_force() const { return internal_; }  // every dof
   // sqrt(sum over elements of |f_e|^2), of a field of unknowns: a scale that vanishes only in a stress-free mesh.

@@ -33,11 +33,10 @@ class Audience {
     tell([&](Observer& o) { o.on_warning(diagnostic); });
   }
   bool wants_states(const Model& model, const StepReport& report) {
-    bool wanted = false;
-    outside([&] {
-      for (const Observer* observer : observers_) wanted = wanted || observer->wants_states(model, report);
-    });
-    return wanted;
+    return any([&](const Observer& o) { return o.wants_states(model, report); });
+  }
+  bool wants_structures(const Model& model, const StepReport& report) {
+    return any([&](const Observer& o) { return o.wants_structures(model, report); });
   }
   void exchange(Archive& archive) {
     outside([&] {
@@ -46,6 +45,15 @@ class Audience {
   }
 
  private:
+  template <class Ask>
+  bool any(Ask ask) {
+    bool wanted = false;
+    outside([&] {
+      for (const Observer* observer : observers_) wanted = wanted || ask(*observer);
+    });
+    return wanted;
+  }
+
   std::span<Observer* const> observers_;
   Profile* profile_;
   bool is_outside_ = false;

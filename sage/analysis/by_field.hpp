@@ -3,10 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdint>
-#include <random>
-#include <vector>
 
 #include "sage/analysis/assembly.hpp"
 
@@ -19,24 +17,36 @@ inline double at(const FieldSums& values, int field) {
   return values[static_cast<std::size_t>(field)];
 }
 
+// Dofs and equations of a field stand together, fields in their order: a field is a piece of a vector.
 class ByField {
  public:
-  // Of the assembly's equations as they are now; it must outlive it.
-  explicit ByField(const Assembly& assembly) : assembly_(&assembly), count_(assembly.dof_map().fields()) {
-    if (count_ == 1) return;
-    for (int eq = 0; eq < assembly.equations(); ++eq)
-      field_.push_back(static_cast<std::uint8_t>(assembly.dof_map().at(assembly.dof_of(eq)).field));
+  struct Piece {
+    int begin, end;
+  };
+
+  // Of the assembly's equations as they are now.
+  explicit ByField(const Assembly& assembly) : count_(assembly.dof_map().fields()) {
+    const DofMap& map = assembly.dof_map();
+    int dof = map.dofs(), eq = assembly.equations();
+    dof_end_.fill(dof);
+    equation_end_.fill(eq);
+    for (int field = count_ - 1; field > 0; --field) {
+      while (dof > 0 && map.at(dof - 1).field >= field) --dof;
+      while (eq > 0 && assembly.dof_of(eq - 1) >= dof) --eq;
+      dof_end_[static_cast<std::size_t>(field) - 1] = dof;
+      equation_end_[static_cast<std::size_t>(field) - 1] = eq;
+    }
   }
 
   int count() const { return count_; }
-  int of_equation(int eq) const { return count_ == 1 ? 0 : field_[static_cast<std::size_t>(eq)]; }
+  Piece equations_of(int field) const { return piece(equation_end_, field); }
 
   // Of vectors with an entry an equation.
   double norm(const Eigen::VectorXd& v, int field) const {
-    return count_ == 1 ? v.norm() : std::sqrt(sum_of(v, v, field));
+    return count_ == 1 ? v.norm() : std::sqrt(sum_of(v, v, equations_of(field)));
   }
   double dot(const Eigen::VectorXd& a, const Eigen::VectorXd& b, int field) const {
-    return count_ == 1 ? a.dot(b) : sum_of(a, b, field);
+    return count_ == 1 ? a.dot(b) : sum_of(a, b, equations_of(field));
   }
   double largest(const Eigen::VectorXd& v, int field) const {
     const int eq = place_of_largest(v, field);
@@ -44,57 +54,51 @@ class ByField {
   }
   // The first equation with the largest entry; -1 = the field has none.
   int place_of_largest(const Eigen::VectorXd& v, int field) const {
-    int place = -1;
-    for (int eq = 0; eq < static_cast<int>(v.size()); ++eq)
-      if (of_equation(eq) == field && (place < 0 || std::abs(v[eq]) > std::abs(v[place]))) place = eq;
+    const Piece own = equations_of(field);
+    int place = own.begin < own.end ? own.begin : -1;
+    double largest = place < 0 ? 0.0 : std::abs(v[place]);
+    for (int eq = own.begin; eq < own.end; ++eq)
+      if (const double size = std::abs(v[eq]); size > largest) largest = size, place = eq;
     return place;
   }
   // The field's part of a vector, 0 elsewhere.
   Eigen::VectorXd part(const Eigen::VectorXd& v, int field) const {
-    Eigen::VectorXd own = Eigen::VectorXd::Zero(v.size());
-    for (int eq = 0; eq < static_cast<int>(v.size()); ++eq)
-      if (of_equation(eq) == field) own[eq] = v[eq];
-    return own;
-  }
-  // 1 and -1 without an order at all equations: no row of a matrix cancels against them but by chance.
-  Eigen::VectorXd signs() const {
-    Eigen::VectorXd v(assembly_->equations());
-    std::minstd_rand next;
-    for (double& sign : v) sign = next() % 2 == 0 ? 1.0 : -1.0;
-    return v;
+    const Piece own = equations_of(field);
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(v.size());
+    all.segment(own.begin, own.end - own.begin) = v.segment(own.begin, own.end - own.begin);
+    return all;
   }
 
   // Of vectors with an entry a dof.
   double norm_of_dofs(const Eigen::VectorXd& u, int field) const {
-    if (count_ == 1) return u.norm();
-    double sum = 0.0;
-    for_dofs(field, [&](int dof) { sum += u[dof] * u[dof]; });
-    return std::sqrt(sum);
+    return count_ == 1 ? u.norm() : std::sqrt(sum_of(u, u, dofs_of(field)));
   }
   double largest_of_dofs(const Eigen::VectorXd& u, int field) const {
     if (count_ == 1) return u.size() > 0 ? u.lpNorm<Eigen::Infinity>() : 0.0;
+    const Piece own = dofs_of(field);
     double largest = 0.0;
-    for_dofs(field, [&](int dof) { largest = std::max(largest, std::abs(u[dof])); });
+    for (int dof = own.begin; dof < own.end; ++dof) largest = std::max(largest, std::abs(u[dof]));
     return largest;
   }
 
  private:
-  double sum_of(const Eigen::VectorXd& a, const Eigen::VectorXd& b, int field) const {
+  using Ends = std::array<int, kMostFields>;  // of each field
+
+  static Piece piece(const Ends& ends, int field) {
+    const auto f = static_cast<std::size_t>(field);
+    return {f == 0 ? 0 : ends[f - 1], ends[f]};
+  }
+  Piece dofs_of(int field) const { return piece(dof_end_, field); }
+
+  // One term after the other.
+  static double sum_of(const Eigen::VectorXd& a, const Eigen::VectorXd& b, Piece own) {
     double sum = 0.0;
-    for (int eq = 0; eq < static_cast<int>(a.size()); ++eq)
-      if (of_equation(eq) == field) sum += a[eq] * b[eq];
+    for (int i = own.begin; i < own.end; ++i) sum += a[i] * b[i];
     return sum;
   }
-  template <class Do>
-  void for_dofs(int field, Do action) const {
-    const DofMap& map = assembly_->dof_map();
-    for (int dof = 0; dof < map.dofs(); ++dof)
-      if (map.at(dof).field == field) action(dof);
-  }
 
-  const Assembly* assembly_;
   int count_;
-  std::vector<std::uint8_t> field_;  // of each equation, where there are several
+  Ends dof_end_, equation_end_;
 };
 
 }  // namespace sage

@@ -9,26 +9,35 @@
 
 namespace sage {
 
+// Structures have a date of their own: tables of their forces are asked for where nobody looks at the soil.
 class LateStates {
  public:
   // The displacement since the states were last up to date, every dof.
-  explicit LateStates(int dofs) { behind_.setZero(dofs); }
+  // structures: some group is one.
+  LateStates(int dofs, bool structures) {
+    others_.setZero(dofs);
+    if (structures) structures_.setZero(dofs);
+  }
 
   // A step was committed.
   void move(const Eigen::VectorXd& du) {
-    behind_ += du;
+    others_ += du;
+    if (structures_.size() > 0) structures_ += du;
     is_behind_ = true;
   }
   bool behind() const { return is_behind_; }
   // Brings the states of active constant groups up to date, and makes their room where there was none.
   void recover(std::vector<GroupData>& groups, ElementWork& element, WorkCounters& work);
+  // The same of structures alone.
+  void recover_structures(std::vector<GroupData>& groups, ElementWork& element, WorkCounters& work);
   void exchange(Archive& archive) {
-    archive(behind_);
+    archive(others_);
     archive(is_behind_);
+    if (structures_.size() > 0) archive(structures_);
   }
 
  private:
-  Eigen::VectorXd behind_;
+  Eigen::VectorXd others_, structures_;
   bool is_behind_ = false;
 };
 

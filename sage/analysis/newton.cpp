@@ -1,5 +1,6 @@
 #include "sage/analysis/newton.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -51,7 +52,7 @@ class Step {
   void take_prescribed(const Eigen::VectorXd& rate);
   bool search_line();
   IterationRecord measure(int field) const;
-  IterationRecord measure() const;
+  IterationRecord measure();
   bool converged(const IterationRecord& record) const;
   bool converged(int field, const IterationRecord& record) const;
   bool linear_rounding(const IterationRecord& record) const;
@@ -60,7 +61,6 @@ class Step {
   double couplings(int field) const;
   double stiffness_norm(int field) const;
   double own_forces(int field) const;
-  Eigen::VectorXd times_K(const Eigen::VectorXd& x) const;
   bool even(int field) const;
   double size_of_unknown(int field) const;
   double scale(int field) const;
@@ -92,6 +92,7 @@ class Step {
   FieldSums load_scale_{};   // |loads| of all free dofs
   FieldSums first_force_{};  // largest of the step's start, its loads, and what its first correction balances
   FieldSums energy_scale_{}, start_scale_{};
+  std::array<IterationRecord, kMostFields> measured_{};
   double slope_ = 0.0, step_length_ = 1.0;
   double best_ = std::numeric_limits<double>::infinity();  // smallest residual_size() so far
   NewtonStep result_;
@@ -189,15 +190,8 @@ void Step::take_prescribed(const Eigen::VectorXd& rate) {
 
 // What the first correction of a field makes in its own equations, where another field balances it.
 double Step::own_forces(int field) const {
-  if (fields_.count() == 1 || tangent_.solver().norm1() < 0.0) return 0.0;
-  return fields_.norm(times_K(fields_.part(correction_, field)), field);
-}
-
-Eigen::VectorXd Step::times_K(const Eigen::VectorXd& x) const {
-  Eigen::VectorXd product(x.size());
-  const auto n = static_cast<std::size_t>(x.size());
-  tangent_.solver().multiply({x.data(), n}, {product.data(), n});
-  return product;
+  if (fields_.count() == 1 || tangent_.norm1() < 0.0) return 0.0;
+  return fields_.norm(tangent_.times(fields_.part(correction_, field)), field);
 }
 
 void Step::take_start_scales() {
@@ -211,8 +205,8 @@ void Step::take_energy(const Eigen::VectorXd& correction) {
 
 double Step::load_size(int field) const {
   double sum = 0.0;
-  for (int eq = 0; eq < assembly_.equations(); ++eq)
-    if (fields_.of_equation(eq) == field) sum += std::pow(target_[assembly_.dof_of(eq)], 2);
+  const ByField::Piece own = fields_.equations_of(field);
+  for (int eq = own.begin; eq < own.end; ++eq) sum += std::pow(target_[assembly_.dof_of(eq)], 2);
   if (const Condensation* region = assembly_.condensation(); region != nullptr && field == 0)
     for (int dof : region->condensed_dofs()) sum += std::pow(target_[dof], 2);
   return std::sqrt(sum);
@@ -266,13 +260,14 @@ IterationRecord Step::measure(int field) const {
 }
 
 // Of the field that is farthest from its end.
-IterationRecord Step::measure() const {
-  IterationRecord record = measure(0);
+IterationRecord Step::measure() {
+  for (int f = 0; f < fields_.count(); ++f) measured_[static_cast<std::size_t>(f)] = measure(f);
+  IterationRecord record = measured_[0];
   const auto take = [](double& worst, double value) {
     if (!(value <= worst)) worst = value;  // not a number counts as worst
   };
   for (int f = 1; f < fields_.count(); ++f) {
-    const IterationRecord other = measure(f);
+    const IterationRecord& other = measured_[static_cast<std::size_t>(f)];
     take(record.force, other.force);
     take(record.displacement, other.displacement);
     take(record.energy, other.energy);
@@ -315,14 +310,14 @@ bool Step::converged(int field, const IterationRecord& record) const {
          (record.energy <= tol && record.displacement <= std::sqrt(tol));
 }
 
-// Every field for itself.  record: of all of them.
+// Every field for itself, as measured last.  record: of all of them.
 bool Step::converged(const IterationRecord& record) const {
   constexpr double kFirst = 1e-6;  // of the unknowns: no refinement
   if (settings_.refine && record.displacement > kFirst) return false;
   if (fields_.count() == 1) return converged(0, record);
   if (linear_rounding(record) && falls_no_more()) return true;
   for (int f = 0; f < fields_.count(); ++f)
-    if (!converged(f, measure(f)) && !even(f)) return false;
+    if (!converged(f, measured_[static_cast<std::size_t>(f)]) && !even(f)) return false;
   return true;
 }
 
@@ -335,11 +330,10 @@ bool Step::even(int field) const {
   constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon(), kNothing = 1e3;
   const double largest = fields_.largest(residual_, field);
   if (field != 0 && largest <= kRounding * stiffness_norm(field) * size_of_unknown(field)) return true;
-  if (tangent_.solver().norm1() < 0.0) return false;
+  if (tangent_.norm1() < 0.0) return false;
   double together = 0.0;
   for (int f = 0; f < fields_.count(); ++f)
-    together +=
-        kRounding * fields_.largest(times_K(fields_.part(fields_.signs(), f)), field) * size_of_unknown(f);
+    together += kRounding * tangent_.coupling_of(fields_, field, f) * size_of_unknown(f);
   return largest <= together && scale(field) <= kNothing * together;
 }
 
@@ -371,15 +365,15 @@ bool Step::at_rounding(int field, const IterationRecord& record) const {
 double Step::couplings(int field) const {
   double sum = 0.0;
   for (int f = 0; f < fields_.count(); ++f)
-    sum += fields_.largest(times_K(fields_.part(fields_.signs(), f)), field) * fields_.largest_of_dofs(du_, f);
+    sum += tangent_.coupling_of(fields_, field, f) * fields_.largest_of_dofs(du_, f);
   return sum;
 }
 
 // Of the field's own block of K; of one among several from below, which is the careful side.
 double Step::stiffness_norm(int field) const {
-  const double norm1 = tangent_.solver().norm1();
+  const double norm1 = tangent_.norm1();
   if (fields_.count() == 1 || norm1 < 0.0) return norm1;
-  return fields_.largest(times_K(fields_.part(fields_.signs(), field)), field);
+  return tangent_.coupling_of(fields_, field, field);
 }
 
 // Beyond 1/eps of the step's own forces no digit of those is left in a residual: the iteration has run away,
@@ -461,7 +455,8 @@ bool Step::search_line() {
 bool Step::record_iteration() {
   constexpr double kNear = 10.0;  // iterations of a condensed region know the scale of its forces roughly
   IterationRecord record = measure();
-  if (record.force <= kNear * settings_.tolerance || converged(record)) record = measure_whole();
+  const bool condensed = assembly_.condensation() != nullptr;
+  if (condensed && (record.force <= kNear * settings_.tolerance || converged(record))) record = measure_whole();
   result_.iterations.push_back(record);
   if (settings_.pulse != nullptr)
     settings_.pulse->iterated(static_cast<int>(result_.iterations.size()), record.force);

@@ -38,6 +38,8 @@ class Observer {
   // Whether the observer looks at stresses and strains after this increment (0: at the start of the stage; the
   // last: at its end too); those of linear elements are there only then.  After a failure they always are.
   virtual bool wants_states(const Model&, const StepReport&) const { return true; }
+  // The same of those that don't: whether it looks at stresses of structures.
+  virtual bool wants_structures(const Model&, const StepReport&) const { return false; }
   virtual void on_stage_end(const Model&, int /*stage*/, const EquilibriumAudit&, const Solution&) {}
   virtual void on_failure(const Model&, const StepReport&, const std::string& /*reason*/, const Solution&) {}
   virtual void on_finish(const Model&, const RunResult&) {}

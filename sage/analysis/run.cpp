@@ -588,7 +588,10 @@ Place Run::resume() {
 
 // Stress and strain of linear elements, if somebody will look at them.
 void Run::recover_for(const StepReport& report) {
-  if (audience_.wants_states(model_, report)) assembly_.recover_states();
+  if (audience_.wants_states(model_, report))
+    assembly_.recover_states();
+  else if (audience_.wants_structures(model_, report))
+    assembly_.recover_structures();
 }
 
 void Run::begin_stage(int s) {

@@ -1,21 +1,44 @@
 #include "sage/analysis/tangent.hpp"
 
+#include <random>
 #include <utility>
 
+#include "sage/analysis/by_field.hpp"
+
 namespace sage {
+
+namespace {
+
+// 1 and -1 without an order: no row of a matrix cancels against them but by chance.
+Eigen::VectorXd signs(Eigen::Index equations) {
+  Eigen::VectorXd v(equations);
+  std::minstd_rand next;
+  for (double& sign : v) sign = next() % 2 == 0 ? 1.0 : -1.0;
+  return v;
+}
+
+}  // namespace
 
 void Tangent::analyse(std::unique_ptr<LinearSolver> solver, const std::string& name, int equations,
                       ElementEquations elements, WorkCounters& work) {
   const Profile::Scope scope(work.profile, phase::kNumbering);
   ++work.analyses;
   state_ = State::empty;
+  forget_sizes();
+  equations_ = equations;
   solver_ = std::move(solver);
   name_ = name;
   if (constant_) solver_->expect_one_factorisation();
   solver_->analyse(equations, std::move(elements));
 }
 
+void Tangent::forget_sizes() {
+  norm1_.reset();
+  sizes_.clear();
+}
+
 void Tangent::clear() {
+  forget_sizes();
   solver_->clear();
   coupling_.setZero(rate_->size());
 }
@@ -59,6 +82,30 @@ void Tangent::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, WorkCounters& 
   const auto n = static_cast<std::size_t>(b.size());
   solver_->solve({b.data(), n}, {x.data(), n});
   scope.add_operations(solver_->report().solve_operations);
+}
+
+double Tangent::norm1() const {
+  if (!norm1_) norm1_ = solver_->norm1();
+  return *norm1_;
+}
+
+Eigen::VectorXd Tangent::times(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd product(x.size());
+  const auto n = static_cast<std::size_t>(x.size());
+  solver_->multiply({x.data(), n}, {product.data(), n});
+  return product;
+}
+
+double Tangent::coupling_of(const ByField& fields, int to, int from) const {
+  const auto count = static_cast<std::size_t>(fields.count());
+  if (sizes_.empty()) {
+    const Eigen::VectorXd all = signs(equations_);
+    for (int f = 0; f < fields.count(); ++f) {
+      const Eigen::VectorXd forces = times(fields.part(all, f));
+      for (int row = 0; row < fields.count(); ++row) sizes_.push_back(fields.largest(forces, row));
+    }
+  }
+  return sizes_[static_cast<std::size_t>(from) * count + static_cast<std::size_t>(to)];
 }
 
 }  // namespace sage

@@ -2,13 +2,17 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "sage/analysis/group_data.hpp"
 #include "sage/analysis/records.hpp"
 #include "sage/core/linear_solver.hpp"
 
 namespace sage {
+
+class ByField;
 
 class Tangent {
  public:
@@ -69,16 +73,29 @@ class Tangent {
   // Needs factors.
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, WorkCounters& work) const;
 
+  // Sizes of K, kept while it stands; they need an assembly.
+  // Of the solver: the largest column sum of |K|, negative = not known.
+  double norm1() const;
+  // Largest size, in the equations of the field `to`, of K times signs without an order in those of the field
+  // `from`: of the block's row sums from below.
+  double coupling_of(const ByField& fields, int to, int from) const;
+  // K x, of the solver.
+  Eigen::VectorXd times(const Eigen::VectorXd& x) const;
+
  private:
   void clear();
+  void forget_sizes();
 
   bool constant_;
   State state_ = State::empty;
   bool changed_ = true;
   std::unique_ptr<LinearSolver> solver_;
   std::string name_;
+  int equations_ = 0;
   const Eigen::VectorXd* rate_ = nullptr;
   Eigen::VectorXd coupling_;
+  mutable std::optional<double> norm1_;
+  mutable std::vector<double> sizes_;  // coupling_of() all fields, column by column
 };
 
 // An element of the system.

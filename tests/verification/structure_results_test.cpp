@@ -180,6 +180,71 @@ TEST(EndForces, AreInEquilibriumAtEveryNode) {
     }
 }
 
+// Looks at structures at the ends of stages, and at all at the end of the run or after every increment.
+struct Looker : Observer {
+  enum class Looks { always, last, never };
+  explicit Looker(Looks how) : looks(how) {}
+  bool wants_states(const Model& model, const StepReport& report) const override {
+    const bool end = report.stage + 1 == static_cast<int>(model.stages.size()) && report.increment == 2;
+    return looks == Looks::always || (looks == Looks::last && end);
+  }
+  bool wants_structures(const Model&, const StepReport& report) const override { return report.increment == 2; }
+  void on_stage_end(const Model&, int, const EquilibriumAudit&, const Solution& now) override {
+    soil = now.groups()[0].state.committed.sigma;
+    wall.push_back(now.groups()[1].state.committed.sigma);
+  }
+  Looks looks;
+  std::vector<double> soil;
+  std::vector<std::vector<double>> wall;  // of each stage
+};
+
+void expect_same(const std::vector<double>& a, const std::vector<double>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  double size = 0.0;
+  for (const double value : b) size = std::max(size, std::abs(value));
+  ASSERT_GT(size, 0.0);
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-12 * size) << i;
+}
+
+// Forces of structures are there for who looks at them alone, and stresses of elastic soil are not made for them; soil
+// that is looked at later has all of its stress.
+TEST(EndForces, OfStructuresAloneWhereNobodyLooksAtTheSoil) {
+  Block soil;
+  soil.columns = soil.rows = 3;
+  soil.place = rectangle(2.0, 5.0, 0.0, 3.0);
+  DeckWriter deck(1);
+  soil.write_nodes(deck);
+  deck.material(1, 1, {1000.0, 0.3});
+  deck.material(2, kSection, {1e5, 1e3, 4e4});
+  deck.group(1, 1, 1, 1);
+  deck.group(2, kBeam2, 0, 2);
+  soil.write_elements(deck, 1);
+  const std::vector<int> wall = soil.left();
+  for (std::size_t e = 0; e < 3; ++e) deck.element(201 + static_cast<int>(e), 2, {wall[e], wall[e + 1]});
+  for (const int n : soil.bottom()) deck.fix(n, 1, 1);
+  for (const double push : {-10.0, 7.0}) {
+    StageCards& stage = deck.stage(2);
+    for (const int n : soil.right()) stage.load(n, push, -3.0);
+  }
+  const Model model = bench().build(deck.text());
+  const auto look = [&](Looker::Looks how) {
+    Looker looker(how);
+    Observer* const observers[] = {&looker};
+    EXPECT_EQ(bench().run(model, observers).status, RunStatus::completed);
+    return looker;
+  };
+  const Looker always = look(Looker::Looks::always);
+  for (const Looker::Looks how : {Looker::Looks::last, Looker::Looks::never}) {
+    const Looker some = look(how);
+    ASSERT_EQ(some.wall.size(), 2u);
+    for (std::size_t stage = 0; stage < 2; ++stage) expect_same(some.wall[stage], always.wall[stage]);
+    if (how == Looker::Looks::last)
+      expect_same(some.soil, always.soil);
+    else
+      EXPECT_TRUE(some.soil.empty());
+  }
+}
+
 // Loads 1, then -3: moments 10 and -20 at the clamp, each with its stage; half of it after half of the stage.
 TEST(EndForces, EnvelopeAndTablesOfAllStages) {
   DeckWriter deck(1);

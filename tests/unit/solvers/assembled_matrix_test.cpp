@@ -151,6 +151,26 @@ TEST(AssembledMatrix, ColumnsAscendAndHoldTheDiagonal) {
   }
 }
 
+// Whole numbers: no sum is rounded.  Zeros stand before, behind and between.
+TEST(AssembledMatrix, ProductsOfVectorsWithZeros) {
+  System system;
+  system.equations = 4;
+  MatrixXd K(3, 3);
+  K << 1, -7, 0, -7, 3, 4, 0, 4, 5;
+  system.add_element({0, 1, 2}, K);
+  system.add_element({1, 2, 3}, K);
+  for (const bool symmetric : {false, true}) {
+    const AssembledMatrix matrix = assemble(system, symmetric);
+    const MatrixXd A = dense(matrix);
+    for (int zeros = 0; zeros < 16; ++zeros) {
+      Eigen::VectorXd x(4), y(4);
+      for (int i = 0; i < 4; ++i) x[i] = (zeros >> i) % 2 == 1 ? 0.0 : 2.0 + i;
+      matrix.multiply({x.data(), 4}, {y.data(), 4});
+      EXPECT_EQ(y, A * x) << zeros;
+    }
+  }
+}
+
 TEST(AssembledMatrix, RowMaximaAndNorm) {
   System system;
   system.equations = 3;
