@@ -586,11 +586,13 @@ Place Run::resume() {
   return place;
 }
 
-// Stress and strain of linear elements, if somebody will look at them.
+// Stress and strain of linear elements, if somebody will look at them.  Where laws are asked all come up to date at
+// once: forces made from stresses are rounded otherwise than those that go on, and a stage near its limit load shows it.
 void Run::recover_for(const StepReport& report) {
-  if (audience_.wants_states(model_, report))
+  const bool structures = audience_.wants_structures(model_, report);
+  if (audience_.wants_states(model_, report) || (structures && !system_.scene().linear))
     assembly_.recover_states();
-  else if (audience_.wants_structures(model_, report))
+  else if (structures)
     assembly_.recover_structures();
 }
 
