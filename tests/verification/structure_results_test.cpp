@@ -227,10 +227,10 @@ TEST(EndForces, OfStructuresAloneWhereNobodyLooksAtTheSoil) {
     for (const int n : soil.right()) stage.load(n, push, -3.0);
   }
   const Model model = bench().build(deck.text());
-  const auto look = [&](Looker::Looks how) {
+  const auto look = [&](Looker::Looks how, const RunSettings& settings = bench().settings()) {
     Looker looker(how);
     Observer* const observers[] = {&looker};
-    EXPECT_EQ(bench().run(model, observers).status, RunStatus::completed);
+    EXPECT_EQ(run(model, bench().catalogue(), settings, observers).status, RunStatus::completed);
     return looker;
   };
   const Looker always = look(Looker::Looks::always);
@@ -242,6 +242,20 @@ TEST(EndForces, OfStructuresAloneWhereNobodyLooksAtTheSoil) {
       expect_same(some.soil, always.soil);
     else
       EXPECT_TRUE(some.soil.empty());
+  }
+  // Checkpoints keep what is still to be made.
+  std::vector<std::string> checkpoints;
+  RunSettings settings = bench().settings();
+  settings.checkpoint_due = [] { return true; };
+  settings.save_checkpoint = [&](const std::string& state) { checkpoints.push_back(state); };
+  const Looker whole = look(Looker::Looks::last, settings);
+  ASSERT_EQ(checkpoints.size(), 3u);
+  for (const std::string& state : checkpoints) {
+    RunSettings resumed = bench().settings();
+    resumed.resume_from = state;
+    const Looker rest = look(Looker::Looks::last, resumed);
+    EXPECT_EQ(rest.soil, whole.soil);
+    EXPECT_EQ(rest.wall.back(), whole.wall.back());
   }
 }
 
