@@ -30,6 +30,8 @@ const std::vector<Parameter>& rows() {
       optional("stress_floor", Dimension::none, "smallest sigma_n seen by k_s, as a fraction of p_a", 1e-6),
       optional("unloading", Dimension::none, "0 reload linearly to the largest |tau|, 1 hyperbola at once",
                0.0),
+      optional("slip_tangent", Dimension::none,
+               "share of k_s that the tangent alone keeps while the joint slips; the stress keeps none", 0.0),
   };
   return table;
 }
@@ -48,6 +50,7 @@ LawPtr make(std::span<const double> values, const UnitSystem& units) {
   law.rule = static_cast<ShearRule>(p.code("shear_rule", {0, 1, 2}));
   law.floor = p.positive("stress_floor");
   law.memory = p.code("unloading", {0, 1}) == 0;
+  law.slip_tangent = p.between("slip_tangent", 0.0, 1.0);
   const double k_j = p.not_negative("stiffness_number");
   law.k_unit = k_j > 0.0 ? k_j * p.water_unit_weight() : 0.0;
   const bool scaled = k_j > 0.0 && law.n > 0.0;  // by p_a, which is known then
@@ -201,6 +204,7 @@ Outcome CloughDuncan::update(const PointIn<2>& in, PointOut<2>& out) const {
   out.sigma << tau.v, normal.sigma.v;
   out.D.row(0) = tau.d;
   out.D.row(1) = normal.sigma.d;
+  if (out.status == PointStatus::slipping) out.D(0, 0) += p_.slip_tangent * trial.stiffness.v;
   return Outcome::ok;
 }
 

@@ -29,6 +29,8 @@ class Assembly {
   bool wants_moment() const { return wants_moment_; }
   // Water flows by a law that is eased (PointContext::easing).
   bool eases() const { return eases_; }
+  // Of K, whatever the laws' states.
+  bool symmetric() const { return scene_->symmetric; }
   void set_moment(const Moment& moment) { element_.set_moment(moment); }
   const Moment& moment() const { return element_.moment(); }
   const Mesh& mesh() const { return model_->mesh; }

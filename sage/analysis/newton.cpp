@@ -50,6 +50,7 @@ class Step {
   void correct();
   bool predict(const Eigen::VectorXd& rate);
   void take_prescribed(const Eigen::VectorXd& rate);
+  bool wants_line_search(double old_norm) const;
   bool search_line();
   IterationRecord measure(int field) const;
   IterationRecord measure();
@@ -426,10 +427,19 @@ void Step::find_worst() {
   result_.worst = {unknown.node, unknown.field, unknown.component, residual_[worst]};
 }
 
+constexpr double kAccept = 0.8;  // of the slope at the start
+
 // Crisfield's criterion on the slope correction . residual: the full step is kept while it is below 0.8 of the
-// start, otherwise the zero of the slope is sought by regula falsi within (0, 1).
+// start.  Without symmetry that slope is no energy and may start near zero: a full step that halves what is out of
+// balance is kept then, too.
+bool Step::wants_line_search(double old_norm) const {
+  constexpr double kHalf = 0.5;
+  if (std::abs(work_left()) <= kAccept * std::abs(slope_)) return false;
+  return assembly_.symmetric() || !(residual_size() < kHalf * old_norm);
+}
+
+// The zero of the slope is sought by regula falsi within (0, 1).
 bool Step::search_line() {
-  constexpr double kAccept = 0.8;
   constexpr int kTrials = 4;
   double a = 0.0, slope_a = slope_, length = 1.0, slope = work_left();
   double b = 1.0, slope_b = slope;
@@ -492,8 +502,7 @@ NewtonStep& Step::iterate_with_line_search() {
     if (evaluate(new_K_each_iteration()) == Outcome::cut_step) return result_;
     form_residual();
     step_length_ = 1.0;
-    if (settings_.line_search && !accelerated() && i > 1 && std::abs(work_left()) > 0.8 * std::abs(slope_) &&
-        !search_line())
+    if (settings_.line_search && !accelerated() && i > 1 && wants_line_search(old_norm) && !search_line())
       return result_;
     if (hopeless()) {
       result_.flows = settings_.stop_at_flow;

@@ -9,9 +9,10 @@ namespace {
 
 constexpr double kStiffer = 1e4;  // contact, than elastic soil
 constexpr double kStifferThanSoft =
-    100.0;                            // and than soil at atmospheric pressure, whose lifts begin far softer
-constexpr double kShearShare = 0.1;   // of the normal stiffness, before slip, in such soil
-constexpr double kAtOnePlace = 1e-6;  // of the mesh's reach
+    30.0;                              // and than soil at atmospheric pressure, whose lifts begin far softer
+constexpr double kShearShare = 0.1;    // of the normal stiffness, before slip, in such soil
+constexpr double kSlipTangent = 1e-4;  // of the shear stiffness, in the tangent of what slips
+constexpr double kAtOnePlace = 1e-6;   // of the mesh's reach
 constexpr double kSlant = 0.2;  // of the way to its soil that a normal shows at least, to be taken for wrong
 
 }  // namespace
@@ -229,6 +230,7 @@ void CandeJoints::add(const Catalogue& catalogue, const SoilStiffness& soils, do
       values = {
           0.0,     std::atan(l.friction) / kRadiansPerDegree, l.tension, 0.0, shear / kCandeWaterWeight, 0.0,
           contact, l.tension > 0.0 ? contact : 0.0,           0.0};
+    if (!l.bonded && soft) values.insert(values.end(), {0.0, 1e-6, 0.0, kSlipTangent});
     std::vector<NewField> fields;
     for (const double value : values) fields.push_back({"values", value});
     out.add("parameters", joint.card.where(), fields, card);

@@ -42,6 +42,20 @@ bool selig(const CardView& model) {
   return model.integer("model") == 1;
 }
 
+// Cards D-3 and D-4 are read with blanks as zeros: a number without which there is no soil is asked for.
+void check_duncan(const Deck& deck, const CardView& model, const CardView& strength, const CardView& bulk) {
+  const auto wanted = [&](const CardView& card, const char* field) {
+    const double value = card.real(field);
+    if (!(value > 0.0) || !std::isfinite(value))
+      fail(deck, card.where(field),
+           "the " + card.label(field) + " of this soil must be above zero; blank counts as zero");
+  };
+  wanted(strength, "modulus_number");
+  wanted(strength, "failure_ratio");
+  if (selig(model) && bulk.real("bulk_number") > 0.0) wanted(bulk, "bulk_exponent");
+  if (strength.real("cohesion") == 0.0) wanted(strength, "friction_angle");
+}
+
 // The law of Duncan et al. (1980), or with the bulk modulus of Selig, from the cards D-2 to D-4.
 std::vector<NewField> duncan_parameters(const CardView& model, const CardView& strength, const CardView& bulk,
                                         CardWriter& out) {
@@ -108,6 +122,7 @@ std::vector<NewField> hyperbolic_parameters_of(const Deck& deck, const CardView&
                     ") is not built: this soil unloads with its modulus number K");
   law = selig(model) ? "duncan_selig" : "duncan_chang_eb";
   const auto strength = deck.all("duncan_strength", material), bulk = deck.all("duncan_bulk", material);
+  if (!strength.empty() && !bulk.empty()) check_duncan(deck, model, strength.front(), bulk.front());
   if (!strength.empty() && !bulk.empty()) return duncan_parameters(model, strength.front(), bulk.front(), out);
   return named_parameters(material, model, used, out);
 }

@@ -594,6 +594,38 @@ TEST(Cande, SoilOfDuncan) {
   EXPECT_TRUE(mentions(duncan.diagnostics, Severity::warning, "no modulus for unloading"));
 }
 
+// D-3 and D-4 as they stand on a card: cohesion, angle, its loss, K, n, R_f; bulk number and exponent.
+Diagnostic refused_soil(const std::string& strength, const std::string& bulk) {
+  const std::string model_card = "               D-2.Duncan!!    0       0.5    1";
+  std::string text = cande_text();
+  text.insert(text.find('\n', text.find(model_card)) + 1,
+              "               D-3.Duncan!!" + strength + "\n               D-4.Duncan!!" + bulk + "\n");
+  try {
+    cande_model(text);
+  } catch (const InputError& error) {
+    return error.diagnostics().list().front();
+  }
+  throw std::logic_error("taken: " + strength + "|" + bulk);
+}
+
+// A blank, or a card that ends early, is a zero to CANDE: where no soil comes of it the field is named.
+// Beyond a card's end there are no columns to point at (0), but its line.
+TEST(Cande, BlankNumbersOfDuncanAreErrorsOfTheirFields) {
+  const std::string bulk = "     300.0      0.10";
+  const auto expect = [](const Diagnostic& d, const std::string& what, int column) {
+    EXPECT_NE(d.message.find(what), std::string::npos) << d.message;
+    EXPECT_EQ(d.where.first_column, column) << d.message;
+    EXPECT_GT(d.where.line, 0);
+  };
+  expect(refused_soil("       1.5      36.0       5.0                0.35      0.80", bulk), "modulus number",
+         58);
+  expect(refused_soil("       1.5      36.0       5.0     450.0      0.35", bulk), "failure ratio", 0);
+  expect(refused_soil("       0.0                 5.0     450.0      0.35      0.80", bulk), "friction angle",
+         38);
+  expect(refused_soil("       1.5      36.0       5.0     450.0      0.35      0.80", "     300.0"),
+         "bulk modulus exponent", 0);
+}
+
 TEST(Cande, GenerationIsRefusedWithItsField) {
   std::string text = cande_text();
   const std::size_t tenth = text.find("C-4.L3!!   10"), line = text.rfind('\n', tenth) + 1;

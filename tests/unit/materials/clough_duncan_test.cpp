@@ -124,6 +124,24 @@ TEST(CloughDuncan, SlipTangentIsUnsymmetric) {
   EXPECT_NEAR(b.D(0, 1), +1e9 * std::tan(30.0 * kRadiansPerDegree), 1e-3);
 }
 
+// slip_tangent is seen by D alone, and only where the joint slips: the stress is Coulomb's to the bit.
+TEST(CloughDuncan, SlipTangentIsNotInTheStress) {
+  std::vector<double> values = joint(0.0, 0);
+  const auto plain = test::interface(22, values);
+  values.push_back(1e-3);
+  const auto held = test::interface(22, values);
+  const Vector2 start{kTauF, -50.0};
+  const std::vector<double> history = test::initial_history<2>(*held, start);
+  const auto a = test::update<2>(*plain, start, {0.1, 0.0}, history);
+  const auto b = test::update<2>(*held, start, {0.1, 0.0}, history);
+  EXPECT_EQ(b.sigma, a.sigma);
+  EXPECT_EQ(b.h, a.h);
+  EXPECT_NEAR(b.D(0, 0), 1e-3 * kInitial, 1e-12 * kInitial);
+  EXPECT_EQ(b.D(0, 1), a.D(0, 1));
+  EXPECT_EQ(test::update<2>(*held, start, {-0.001, 0.0}, history).D,
+            test::update<2>(*plain, start, {-0.001, 0.0}, history).D);
+}
+
 // Unload and reload with k_si, then on along the same hyperbola.
 TEST(CloughDuncan, UnloadsLinearlyAndRemembers) {
   const auto law = test::interface(22, joint(0.8, 2));
