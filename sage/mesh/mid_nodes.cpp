@@ -51,10 +51,7 @@ void make_edge(Work& b, const Group& group, int e, int* nodes, const std::vector
   if (counts_for_outline(group)) ++edge.solids;
   if (inner == 0) return;
   const bool begun = !edge.nodes.empty();
-  if (!begun) {
-    edge.nodes.assign(inner, -1);
-    edge.at.assign(inner, 0.0);
-  }
+  if (!begun) edge.nodes.assign(inner, {0.0, -1});
   const std::span<const Place> parent = group.entry->parent_nodes;
   const auto from_small = [&](std::size_t i) { return a < z ? i : inner - 1 - i; };
   if (const auto it = made.given.find(key); it != made.given.end() && it->second.size() == inner)
@@ -65,12 +62,11 @@ void make_edge(Work& b, const Group& group, int e, int* nodes, const std::vector
   for (std::size_t i = 0; i < inner; ++i) {
     const std::size_t at = from_small(i);
     int& mid = nodes[local[i + 2]];
-    if (mid < 0 && begun) mid = edge.nodes[at];
+    if (mid < 0 && begun) mid = edge.nodes[at].node;
     if (begun) continue;
     const double t = place_on_edge(parent, local, i + 2);
     if (mid < 0) mid = made.nodes.add(along_edge(made.nodes.at(a), made.nodes.at(z), middle, t));
-    edge.nodes[at] = mid;
-    edge.at[at] = a < z ? t : 1 - t;
+    edge.nodes[at] = {a < z ? t : 1 - t, mid};
   }
 }
 
