@@ -75,6 +75,29 @@ class EdgeTable {
 void inherit_along_edges(Model& model, const MadeEdges& edges, int first_made);
 void inherit_along_edges(Model& model, const EdgeTable& edges, int first_made);
 
+// Nodes that are made inside elements.  Elements on the same corners, as those of water in soil, share them.
+class InnerNodes {
+ public:
+  // Of a model in which no group lies on another one it keeps nothing.
+  explicit InnerNodes(const Model& model)
+      : keep_(std::ranges::any_of(model.groups, [](const Group& group) { return group.overlay; })) {}
+  // make() where an element on these corners has no node at the place yet.
+  template <class Make>
+  int at(const int* nodes, int corners, const Vector2& place, const Make& make) {
+    if (!keep_) return make();
+    std::vector<int> key(nodes, nodes + corners);
+    std::sort(key.begin(), key.end());
+    auto& known = known_[std::move(key)];
+    for (const auto& [there, node] : known)
+      if ((there - place).norm() <= 1e-9 * (there.norm() + place.norm())) return node;
+    return known.emplace_back(place, make()).second;
+  }
+
+ private:
+  bool keep_;
+  std::map<std::vector<int>, std::vector<std::pair<Vector2, int>>> known_;  // by corners
+};
+
 // New nodes of a mesh, appended when all are known.
 class NewNodes {
  public:

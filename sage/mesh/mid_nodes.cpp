@@ -16,6 +16,7 @@ struct Making {
   MadeEdges edges;
   std::map<EdgeKey, std::pair<std::size_t, std::string>> owner;  // inner nodes, "element 7 (quad8)"
   std::map<EdgeKey, std::vector<int>> given;                     // inner nodes that cards give, -1 = none
+  InnerNodes inner;
 };
 
 // Place of an edge's inner node between its ends.
@@ -99,7 +100,10 @@ void make_inner(const Group& group, int corners, int* nodes, Making& made) {
     if (middle >= 0) shape.middle[ku] = made.nodes.at(nodes[middle]);
   }
   for (std::size_t i = static_cast<std::size_t>(corners); i < group.node_count(); ++i)
-    if (nodes[i] < 0) nodes[i] = made.nodes.add(shape.at(parent[i]));
+    if (nodes[i] < 0) {
+      const Vector2 place = shape.at(parent[i]);
+      nodes[i] = made.inner.at(nodes, corners, place, [&] { return made.nodes.add(place); });
+    }
 }
 
 void make_group(Work& b, Group& group, Making& made) {
@@ -120,7 +124,7 @@ void make_mid_nodes(Work& b) {
   for (const Group& group : b.model.groups)
     any = any || std::find(group.nodes.begin(), group.nodes.end(), -1) != group.nodes.end();
   if (!any) return;
-  Making made{NewNodes(b.model.mesh), {}, {}, {}};
+  Making made{NewNodes(b.model.mesh), {}, {}, {}, InnerNodes(b.model)};
   for (const Group& group : b.model.groups) find_given(group, made.given);
   for (Group& group : b.model.groups) make_group(b, group, made);
   const int first_made = made.nodes.append();

@@ -115,7 +115,7 @@ struct Subdivision::SplitElement {
   bool has_edge(int side) const { return !group->interface() || side % 2 == 0; }
 };
 
-Subdivision::Subdivision(Work& b) : b_(&b), nodes_(b.model.mesh), edges_(b.model) {
+Subdivision::Subdivision(Work& b) : b_(&b), nodes_(b.model.mesh), inner_(b.model), edges_(b.model) {
   for (const Stage& stage : b.model.stages)
     for (const EdgeLoad& load : stage.pressures) loaded_.emplace(load.group, load.element);
   for (const Group& group : b.model.groups) {
@@ -189,7 +189,9 @@ int Subdivision::node_at(SplitElement& parent, const Place& q, bool middle) {
   if (middle && !parent.shape.curved()) return -1;
   for (const auto& [at, node] : parent.inner)
     if (same(at, q)) return node;
-  parent.inner.emplace_back(q, nodes_.add(parent.shape.at(q)));
+  const Vector2 place = parent.shape.at(q);
+  const int node = inner_.at(parent.nodes.data(), parent.corners, place, [&] { return nodes_.add(place); });
+  parent.inner.emplace_back(q, node);
   return parent.inner.back().second;
 }
 

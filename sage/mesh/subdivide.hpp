@@ -50,6 +50,7 @@ class Subdivision {
 
   Work* b_;
   NewNodes nodes_;
+  InnerNodes inner_;
   EdgeTable edges_;                       // every edge there was before, with what was cut
   std::set<std::pair<int, int>> loaded_;  // group, element: pressures act on its edges
   std::map<std::tuple<int, int, int>, std::vector<Segment>> segments_;  // of those: group, element, edge
