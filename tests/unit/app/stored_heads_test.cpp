@@ -90,7 +90,7 @@ class StoredHeads : public ::testing::Test {
     request.quiet = true;
     request.keep_result = true;
     request.output.listing = request.output.increments = false;
-    request.output.result = true;
+    request.output.result = deck.waters.empty();  // what others read
     request.output.folder = folder_;
     request.input.build.heads = stored_heads(catalogue_);
     return run_deck(request, catalogue_);
@@ -119,8 +119,8 @@ class StoredHeads : public ::testing::Test {
 
 // The same mesh: the same numbers, as pressure and as seepage force.
 TEST_F(StoredHeads, OfTheSameMeshAreThoseOfOneRun) {
-  for (const Cell cell : {Cell::quad4, Cell::quad8, Cell::tri6}) {
-    const Block block = block_of(cell, 5, 4);
+  for (const Cell cell : {Cell::quad4, Cell::tri6}) {
+    const Block block = block_of(cell, 3, 2);
     const std::string name = "same" + std::to_string(static_cast<int>(cell));
     ASSERT_EQ(run(name, flow(block, 1, 0.1)).exit_code, kOk);
     for (const int action : {0, 2}) {
@@ -141,7 +141,7 @@ TEST_F(StoredHeads, OfAnotherMeshAreInterpolated) {
   for (const Cell other : {Cell::quad4, Cell::tri3, Cell::quad8}) {
     const std::string name = "other" + std::to_string(static_cast<int>(other));
     ASSERT_EQ(run(name, flow(block_of(other, 3, 2), 1, 1.0)).exit_code, kOk);
-    const Block block = block_of(Cell::quad8, 5, 4);
+    const Block block = block_of(Cell::quad8, 4, 3);
     DeckWriter deck = soil(block);
     add_water(deck, name + ".h5", 0, 1);
     const Eigen::VectorXd stored = moved(run("soil", deck)), direct = moved(run("both", both(block, 1.0, 0)));
