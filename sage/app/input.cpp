@@ -13,6 +13,7 @@
 
 #include "sage/app/commands.hpp"
 #include "sage/app/screen.hpp"
+#include "sage/app/stored_heads.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "sage/draw/picture.hpp"
 #include "sage/record/out_file.hpp"
@@ -181,6 +182,7 @@ void add_formulation_option(CLI::App& parser, const std::string& flag, const std
 
 void add_build_options(CLI::App& parser, BuildOptions& options, const Catalogue& catalogue) {
   options.say = [](const std::string& text, Code code) { say_note("sagefe", text, code); };
+  options.heads = stored_heads(catalogue);
   add_formulation_option(parser, "--formulation", "replace the formulation code of all solid elements",
                          [&options](int code) { options.formulation = code; });
   add_element_option(parser, catalogue, "--element",

@@ -318,6 +318,7 @@ Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOp
   mesh::refine_as_asked(b);
   if (b.problems.errors() > 0) throw refusal(deck, b.problems);
   mesh::make_mid_nodes(b);
+  if (b.problems.errors() == 0) build::take_stored_heads(b);
   if (b.problems.errors() > 0) throw refusal(deck, b.problems);
   build::check_model(b);
   build::check_stages(b);

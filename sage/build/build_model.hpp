@@ -2,6 +2,7 @@
 // elements, signs are flipped.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,19 @@ struct PointRequest {
   int group = 0;  // the deck's number; 0 = the first that holds the place
 };
 
+// Heads of an earlier run, wanted at nodes of a mesh that is whole.
+struct HeadRequest {
+  std::string file;              // the result file
+  int stage = 0;                 // of the earlier run, from 1; 0 = its last
+  const Model* model = nullptr;  // that of the nodes
+  std::vector<int> nodes;
+  std::vector<Vector2>
+      inside;  // of each node: the middle of an element that has it, for nodes on a slit of the mesh
+};
+// A head for every node; NaN where the mesh of the earlier run does not hold its place.  Throws InputError that
+// says why the file can't serve.
+using HeadReader = std::function<std::vector<double>(const HeadRequest&)>;
+
 struct BuildOptions : MeshOptions {
   // Replaces the deck's formulation code of solid groups where it exists; -1 = as the deck says.
   int formulation = -1;
@@ -27,6 +41,7 @@ struct BuildOptions : MeshOptions {
   int geometry = 0;      // 1 plane strain, 2 axisymmetric; 0 = as the deck says
   bool partial = false;  // what the program lacks may be left out (Deck::left_out); otherwise it is an error
   std::vector<PointRequest> points;  // behind the deck's reports
+  HeadReader heads;                  // for water cards that name a result file; empty = they are refused
   bool points_outside = false;       // a requested point may lie outside: its report is blank then
 };
 

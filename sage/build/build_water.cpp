@@ -1,5 +1,6 @@
 // Water cards: pore pressures of solids stage by stage, and groups whose water can't leave.
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 #include "sage/build/builder.hpp"
@@ -10,7 +11,8 @@ namespace sage::build {
 
 namespace {
 
-constexpr int kKinds = 7;
+constexpr int kKinds = 8;
+constexpr int kStored = 7;  // heads of an earlier run: pressures at nodes, once they are read
 
 std::vector<double> values_of(Builder& b, const CardView& card) {
   std::vector<double> values;
@@ -106,6 +108,20 @@ void read_kind(Builder& b, const CardView& card, WaterCard& water) {
     default:
       return;
   }
+}
+
+void read_file(Builder& b, const CardView& card) {
+  const double stage = card.real("value1");
+  const std::string file = b.text(card, "file");
+  if (file.empty())
+    b.error("S248", card.where("file"),
+            "heads of an earlier run stand in its result file (sagefe run --result), which the card must name");
+  else if (!(stage >= 0.0 && stage < 1e6 && stage == std::floor(stage)))
+    b.error(
+        "S248", card.where("value1"),
+        "value 1 is the number of a stage of the earlier run, 0 for its last, not " + rounded_text(stage, 7));
+  else
+    b.stored_heads.push_back({b.model.water.size(), file, card.where("file"), static_cast<int>(stage)});
 }
 
 // Groups that a card is about.
@@ -209,7 +225,72 @@ void check_undrained(Builder& b) {
   }
 }
 
+// Nodes of the solids that a water card is about, each once, and a place within an element of each.
+void list_nodes(const Model& model, const WaterCard& card, HeadRequest& request) {
+  std::vector<char> listed(static_cast<std::size_t>(model.mesh.nodes()), 0);
+  Eigen::Matrix2Xd x;
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const Group& group = model.groups[g];
+    if (!group.solid() || (card.group >= 0 && card.group != static_cast<int>(g))) continue;
+    for (int e = 0; e < group.elements(); ++e) {
+      element_coordinates(model.mesh, group, e, x);
+      for (std::size_t i = 0; i < group.node_count(); ++i) {
+        const int node = group.nodes_of(e)[i];
+        if (listed[static_cast<std::size_t>(node)]++ > 0) continue;
+        request.nodes.push_back(node);
+        request.inside.emplace_back(x.leftCols(group.entry->corners).rowwise().mean());
+      }
+    }
+  }
+}
+
+// Seen from the deck's folder, as names in a deck are.
+std::string beside(const std::string& deck, const std::string& file) {
+  const std::filesystem::path path(file);
+  return path.is_absolute() ? file : (std::filesystem::path(deck).parent_path() / path).string();
+}
+
+void take_heads(Builder& b, const StoredHeads& stored) {
+  Model& model = b.model;
+  WaterCard& card = model.water[stored.card];
+  HeadRequest request{beside(b.deck.file, stored.file), stored.stage, &model, {}, {}};
+  list_nodes(model, card, request);
+  std::vector<double> head;
+  try {
+    head = b.options.heads(request);
+  } catch (const InputError& error) {
+    for (const Diagnostic& d : error.diagnostics().list())
+      if (d.severity == Severity::error)
+        b.error("S250", stored.where, "heads of an earlier run: " + request.file + ": " + d.message);
+    return;
+  }
+  int outside = 0, first = -1;
+  for (std::size_t i = 0; i < request.nodes.size(); ++i) {
+    const int node = request.nodes[i];
+    if (std::isnan(head[i]) && outside++ == 0) first = node;
+    card.nodes.emplace_back(node, model.units.water_unit_weight * (head[i] - model.mesh.x(1, node)));
+  }
+  if (outside == 0) return;
+  b.error("S250", stored.where,
+          "heads of an earlier run: " + std::to_string(outside) + " node(s) lie outside the mesh of " +
+              request.file + ", the first is node " +
+              std::to_string(model.mesh.number[static_cast<std::size_t>(first)]) + " at (" +
+              rounded_text(model.mesh.x(0, first), 6) + ", " + rounded_text(model.mesh.x(1, first), 6) + ")");
+}
+
 }  // namespace
+
+void take_stored_heads(Builder& b) {
+  for (const StoredHeads& stored : b.stored_heads) {
+    if (!b.options.heads) {
+      b.error("S250", stored.where, "this command does not read heads of an earlier run");
+      return;
+    }
+    const int before = b.problems.errors();
+    take_heads(b, stored);
+    if (b.problems.errors() > before) return;
+  }
+}
 
 void build_water(Builder& b) {
   std::map<int, int> twins;
@@ -218,7 +299,8 @@ void build_water(Builder& b) {
     if (kind < 0 || kind >= kKinds) {
       b.error("S210", card.where("kind"),
               "water of kind " + std::to_string(kind) +
-                  " is unknown; 0 dry, 1 phreatic line, 2 r_u, 3 nodes, 4 heads, 5 undrained, 6 drained");
+                  " is unknown; 0 dry, 1 phreatic line, 2 r_u, 3 nodes, 4 heads, 5 undrained, 6 drained, 7 "
+                  "heads of an earlier run");
       continue;
     }
     if (action < 0 || action > 2) {
@@ -228,7 +310,7 @@ void build_water(Builder& b) {
       continue;
     }
     WaterCard water;
-    water.kind = static_cast<WaterKind>(kind);
+    water.kind = kind == kStored ? WaterKind::nodes : static_cast<WaterKind>(kind);
     water.action = static_cast<WaterAction>(action);
     water.where = card.where();
     water.value = card.real("value1");
@@ -239,9 +321,13 @@ void build_water(Builder& b) {
       read_undrained(b, card, water, twins, groups);
       continue;
     }
-    read_kind(b, card, water);
+    if (kind == kStored)
+      require_unit_weight(b, card);
+    else
+      read_kind(b, card, water);
     for (const int g : groups) {
       water.group = g;
+      if (kind == kStored) read_file(b, card);
       b.model.water.push_back(water);
     }
   }

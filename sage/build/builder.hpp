@@ -42,6 +42,14 @@ struct GroundLayer {
   double stress = 0.0;  // vertical at its top, compression positive: the weight of all above
 };
 
+// A water card whose pressures come from heads of an earlier run, once the mesh is whole.
+struct StoredHeads {
+  std::size_t card = 0;  // of Model::water
+  std::string file;      // as the card names it
+  SourcePosition where;  // of the name
+  int stage = 0;
+};
+
 // Everything that the steps of building share; operations on the mesh see the part that is theirs.
 struct Builder : mesh::Work {
   const BuildOptions& options;
@@ -57,6 +65,7 @@ struct Builder : mesh::Work {
   std::unordered_map<int, std::vector<int>> removed = {};
   // The ground at the start, from the top down, where a start_stress card asks for it.
   std::vector<GroundLayer> layers = {};
+  std::vector<StoredHeads> stored_heads = {};
   int water_nodes = 0;                 // when the water cards were read
   std::vector<int> layer_pieces = {};  // groups whose elements had to be told apart by layers
   // False once a card of that kind was refused: what refers to it is then not reported as missing as well.
@@ -113,6 +122,8 @@ void read_edge_load(Builder& b, const CardView& card, std::vector<EdgeLoad>& out
                     std::vector<NodalLoad>& forces);
 // Pore pressures and undrained groups.
 void build_water(Builder& b);
+// Pressures of cards that name the result file of an earlier run, at the nodes of the whole mesh.
+void take_stored_heads(Builder& b);
 void build_reports(Builder& b);
 // Places of point reports: outside the mesh, or where several bodies meet.
 void check_points(Builder& b);

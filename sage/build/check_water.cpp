@@ -63,8 +63,11 @@ void warn_of_displacements(Builder& b, const DofMap& map, const std::vector<bool
 // Pressures at nodes belong to the nodes of the deck and those between them.
 bool follows_mesh(Builder& b) {
   if (b.model.mesh.given_nodes() == b.water_nodes) return true;
-  for (const WaterCard& card : b.model.water)
-    if (card.kind == WaterKind::nodes) {
+  const auto follows = [&](std::size_t card) {
+    return std::ranges::any_of(b.stored_heads, [&](const StoredHeads& heads) { return heads.card == card; });
+  };
+  for (std::size_t i = 0; i < b.model.water.size(); ++i)
+    if (const WaterCard& card = b.model.water[i]; card.kind == WaterKind::nodes && !follows(i)) {
       b.error("S248", card.where, "pressures at nodes can't be carried over to another mesh than the deck's");
       return false;
     }

@@ -421,6 +421,15 @@ constexpr MessageEntry kMessages[] = {
      "The pore pressure of an undrained group follows from its change of volume. A card that changes it in the "
      "same stage contradicts that.",
      "Give the pressure in an earlier stage, or make the group drained (kind 6) first."},
+    {"S250", "heads of an earlier run can't be used",
+     "A water card of kind 7 takes heads from the result file of another run. The file is missing or none of "
+     "this "
+     "program, its run solves for no heads, ended without equilibrium or lacks the stage, its lengths or "
+     "geometry are "
+     "others, or nodes of this deck lie outside its mesh.",
+     "Run the deck of the flow with --result, name its STEM.h5 as seen from this deck's folder, and let its "
+     "mesh hold "
+     "all solids that the card is about."},
     {"S260", "there is nothing to divide for a safety factor",
      "sagefe safety divides the strengths of the chosen groups. The deck has no such stage or group, or no "
      "chosen group has a law whose entry names a strength: elastic laws have none, interfaces and structures "

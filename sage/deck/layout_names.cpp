@@ -58,7 +58,7 @@ constexpr KnownCard kKnown[] = {
     {"sage1", "report", false, "first|nodes|kind",
      "kind first last step listed nodes group stage height area cell_pressure", ""},
     {"sage1", "point", false, "x y", "name", "report"},
-    {"sage1", "water", false, "kind", "group stage action value1 value2 listed values", ""},
+    {"sage1", "water", false, "kind", "group stage action value1 value2 listed values file", ""},
 
     {"any", "left_out", false, "what", "of partial", ""},
 

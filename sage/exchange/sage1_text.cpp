@@ -484,7 +484,7 @@ void Sage1Writer::water(const WaterCard& card) {
   std::vector<double> values;
   for (const Vector2& point : card.line) values.insert(values.end(), {point.x(), point.y()});
   for (const auto& [node, pressure] : card.nodes)
-    values.insert(values.end(), {1.0 * node_number(node), pressure});
+    values.insert(values.end(), {1.0 * node_number(node), std::max(0.0, pressure)});  // heads may lie lower
   integer(static_cast<int>(card.kind));
   integer(card.group < 0 ? 0 : group_number(card.group));
   integer(card.stage + 1);

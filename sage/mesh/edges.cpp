@@ -9,12 +9,6 @@ namespace sage::mesh {
 
 namespace {
 
-// A node on an edge, at its place 0 ... 1 from the smaller end node.
-struct OnEdge {
-  double at = 0.0;
-  int node = 0;
-};
-
 // An edge with nodes that were made, and the nodes there were before: its ends, and those that its cards give.
 struct CutEdge {
   std::vector<OnEdge> known, made;
@@ -27,17 +21,36 @@ struct CutEdge {
   }
 };
 
+// use(ends, solids, each), each(visit) with visit(node on the edge), for all edges by rising key.
+template <class Use>
+void for_edges(const MadeEdges& edges, const Use& use) {
+  for (const auto& [ends, edge] : edges)
+    use(ends, edge.solids, [&nodes = edge.nodes](auto&& visit) {
+      for (const OnEdge& node : nodes) visit(node);
+    });
+}
+
+template <class Use>
+void for_edges(const EdgeTable& edges, const Use& use) {
+  for (const EdgeTable::Edge& edge : edges.edges())
+    use(edge.ends, edge.solids, [&](auto&& visit) {
+      for (int i = edge.first; i >= 0; i = edges.link(i).next) visit(edges.link(i));
+    });
+}
+
 // Edges with made nodes: outer ones, and inner ones whose own middle node says what is meant; or all.
-std::vector<CutEdge> cut_edges(const MadeEdges& edges, int first_made, bool all = false) {
+template <class Edges>
+std::vector<CutEdge> cut_edges(const Edges& edges, int first_made, bool all = false) {
   std::vector<CutEdge> cut;
-  for (const auto& [ends, edge] : edges) {
+  for_edges(edges, [&](const EdgeKey& ends, int solids, const auto& each) {
+    int known = 0, made = 0;
+    each([&](const OnEdge& node) { ++(node.node < first_made ? known : made); });
+    if (made == 0 || (!all && solids > 1 && known == 0)) return;
     CutEdge one{{{0.0, ends.first}, {1.0, ends.second}}, {}};
-    for (std::size_t i = 0; i < edge.nodes.size(); ++i)
-      (edge.nodes[i] < first_made ? one.known : one.made).push_back({edge.at[i], edge.nodes[i]});
-    if (one.made.empty() || (!all && edge.solids > 1 && one.known.size() == 2)) continue;
+    each([&](const OnEdge& node) { (node.node < first_made ? one.known : one.made).push_back(node); });
     std::sort(one.known.begin(), one.known.end(), [](const OnEdge& a, const OnEdge& b) { return a.at < b.at; });
     cut.push_back(std::move(one));
-  }
+  });
   return cut;
 }
 
@@ -212,9 +225,8 @@ void follow_exits(std::vector<Exit>& exits, const std::vector<CutEdge>& edges) {
     }
 }
 
-}  // namespace
-
-void inherit_along_edges(Model& model, const MadeEdges& edges, int first_made) {
+template <class Edges>
+void inherit(Model& model, const Edges& edges, int first_made) {
   if (std::ranges::any_of(model.reports, follows_a_line)) {
     const std::vector<CutEdge> all = cut_edges(edges, first_made, true);
     for (Report& report : model.reports)
@@ -230,6 +242,70 @@ void inherit_along_edges(Model& model, const MadeEdges& edges, int first_made) {
   for (Stage& stage : model.stages) follow_exits(stage.exits, cut);
   for (Report& report : model.reports)
     if (!follows_a_line(report)) inherit_report(report, cut);
+}
+
+// act(smaller end, larger end) for the edges of all elements but structures.
+template <class Act>
+void for_element_edges(const Model& model, const Act& act) {
+  for (const Group& group : model.groups) {
+    if (group.structure()) continue;
+    const auto& edges = group.element->edges();
+    const int elements = group.elements();
+    for (int e = 0; e < elements; ++e)
+      for (const auto& edge : edges) {
+        const int* nodes = group.nodes_of(e);
+        const EdgeKey key = edge_key(nodes[edge[0]], nodes[edge[1]]);
+        if (key.first >= 0) act(key.first, key.second);
+      }
+  }
+}
+
+}  // namespace
+
+EdgeTable::EdgeTable(const Model& model) : start_(static_cast<std::size_t>(model.mesh.nodes()) + 1, 0) {
+  for_element_edges(model, [&](int low, int) { ++start_[static_cast<std::size_t>(low) + 1]; });
+  for (std::size_t i = 1; i < start_.size(); ++i) start_[i] += start_[i - 1];
+  std::vector<int> high(static_cast<std::size_t>(start_.back()));
+  std::vector<int> end(start_.begin(), start_.end() - 1);
+  // Two elements share most edges: of each only one entry stays.
+  for_element_edges(model, [&](int low, int other) {
+    const auto node = static_cast<std::size_t>(low);
+    const auto begin = high.begin() + start_[node], stop = high.begin() + end[node];
+    if (std::find(begin, stop, other) == stop) high[static_cast<std::size_t>(end[node]++)] = other;
+  });
+  edges_.reserve(high.size() / 2 + high.size() / 8);
+  for (std::size_t node = 0; node < end.size(); ++node) {
+    const auto begin = high.begin() + start_[node], stop = high.begin() + end[node];
+    std::sort(begin, stop);
+    start_[node] = static_cast<int>(edges_.size());
+    for (auto it = begin; it != stop; ++it) edges_.push_back({{static_cast<int>(node), *it}});
+  }
+  start_.back() = static_cast<int>(edges_.size());
+}
+
+EdgeTable::Edge* EdgeTable::find(int a, int z) {
+  const auto [low, high] = edge_key(a, z);
+  if (low < 0 || low + 1 >= static_cast<int>(start_.size())) return nullptr;
+  const auto node = static_cast<std::size_t>(low);
+  const auto begin = edges_.begin() + start_[node], end = edges_.begin() + start_[node + 1];
+  const auto found =
+      std::ranges::lower_bound(begin, end, high, {}, [](const Edge& edge) { return edge.ends.second; });
+  return found != end && found->ends.second == high ? &*found : nullptr;
+}
+
+void EdgeTable::add(Edge& edge, const Link& link) {
+  const int i = static_cast<int>(links_.size());
+  links_.push_back(link);
+  (edge.first < 0 ? edge.first : links_[static_cast<std::size_t>(edge.last)].next) = i;
+  edge.last = i;
+}
+
+void inherit_along_edges(Model& model, const MadeEdges& edges, int first_made) {
+  inherit(model, edges, first_made);
+}
+
+void inherit_along_edges(Model& model, const EdgeTable& edges, int first_made) {
+  inherit(model, edges, first_made);
 }
 
 int NewNodes::append() {

@@ -23,10 +23,15 @@ inline bool counts_for_outline(const Group& group) {
   return group.entry->fills_area() && !(group.flow() && group.overlay);
 }
 
+// A node inside an edge, at its place 0 ... 1 from the smaller to the larger end node.
+struct OnEdge {
+  double at = 0.0;
+  int node = 0;
+};
+
 // Nodes inside an edge: those that cards give, and those that are made.
 struct MadeEdge {
-  std::vector<int> nodes;
-  std::vector<double> at;  // place of each, 0 ... 1 from the smaller to the larger end node
+  std::vector<OnEdge> nodes;
   // Solids that have the edge; 1 = boundary (an interface beyond it is another body), 0 = an interface on a
   // rigid body.
   int solids = 0;
@@ -34,12 +39,64 @@ struct MadeEdge {
 
 using MadeEdges = std::map<EdgeKey, MadeEdge>;
 
+// The edges of all elements but structures, by their ends, in flat tables: a mesh of a million edges has no time for
+// a tree of them.  Edges stand by rising key.
+class EdgeTable {
+ public:
+  struct Edge {
+    EdgeKey ends;
+    int solids = 0;             // as of MadeEdge
+    int first = -1, last = -1;  // its nodes in a chain; -1: none
+  };
+  struct Link : OnEdge {
+    int next = -1;
+    int near = -1;   // the end that the place is counted from; -1: a card gives the node
+    long place = 0;  // in 1e-15 of the edge
+  };
+
+  explicit EdgeTable(const Model& model);
+
+  Edge* find(int a, int z);  // nullptr: no element has it
+  void add(Edge& edge, const Link& link);
+  const std::vector<Edge>& edges() const { return edges_; }
+  const Link& link(int i) const { return links_[static_cast<std::size_t>(i)]; }
+
+ private:
+  std::vector<int> start_;  // of each node: the edges of which it is the smaller end
+  std::vector<Edge> edges_;
+  std::vector<Link> links_;
+};
+
 // What nodes that were made (indices from first_made on) take over from those that their edge had before, which
 // keep what the deck says of them.  A made node is held while both known nodes around it are: on an outer edge
 // if one list of cards (those before the stages, or those of one stage) holds both, on an edge whose middle
 // node a card gives in any case.  Prescribed displacements are interpolated through all known nodes of the
 // edge.  It belongs to the reports that list both nodes around it.
 void inherit_along_edges(Model& model, const MadeEdges& edges, int first_made);
+void inherit_along_edges(Model& model, const EdgeTable& edges, int first_made);
+
+// Nodes that are made inside elements.  Elements on the same corners, as those of water in soil, share them.
+class InnerNodes {
+ public:
+  // Of a model in which no group lies on another one it keeps nothing.
+  explicit InnerNodes(const Model& model)
+      : keep_(std::ranges::any_of(model.groups, [](const Group& group) { return group.overlay; })) {}
+  // make() where an element on these corners has no node at the place yet.
+  template <class Make>
+  int at(const int* nodes, int corners, const Vector2& place, const Make& make) {
+    if (!keep_) return make();
+    std::vector<int> key(nodes, nodes + corners);
+    std::sort(key.begin(), key.end());
+    auto& known = known_[std::move(key)];
+    for (const auto& [there, node] : known)
+      if ((there - place).norm() <= 1e-9 * (there.norm() + place.norm())) return node;
+    return known.emplace_back(place, make()).second;
+  }
+
+ private:
+  bool keep_;
+  std::map<std::vector<int>, std::vector<std::pair<Vector2, int>>> known_;  // by corners
+};
 
 // New nodes of a mesh, appended when all are known.
 class NewNodes {
@@ -52,6 +109,7 @@ class NewNodes {
   Vector2 at(int node) const {
     return node < first_ ? Vector2(mesh_->x.col(node)) : made_[static_cast<std::size_t>(node - first_)];
   }
+  void reserve(int nodes) { made_.reserve(static_cast<std::size_t>(nodes)); }
   int append();  // index of the first of them
 
  private:

@@ -16,6 +16,7 @@ struct Making {
   MadeEdges edges;
   std::map<EdgeKey, std::pair<std::size_t, std::string>> owner;  // inner nodes, "element 7 (quad8)"
   std::map<EdgeKey, std::vector<int>> given;                     // inner nodes that cards give, -1 = none
+  InnerNodes inner;
 };
 
 // Place of an edge's inner node between its ends.
@@ -51,10 +52,7 @@ void make_edge(Work& b, const Group& group, int e, int* nodes, const std::vector
   if (counts_for_outline(group)) ++edge.solids;
   if (inner == 0) return;
   const bool begun = !edge.nodes.empty();
-  if (!begun) {
-    edge.nodes.assign(inner, -1);
-    edge.at.assign(inner, 0.0);
-  }
+  if (!begun) edge.nodes.assign(inner, {0.0, -1});
   const std::span<const Place> parent = group.entry->parent_nodes;
   const auto from_small = [&](std::size_t i) { return a < z ? i : inner - 1 - i; };
   if (const auto it = made.given.find(key); it != made.given.end() && it->second.size() == inner)
@@ -65,12 +63,11 @@ void make_edge(Work& b, const Group& group, int e, int* nodes, const std::vector
   for (std::size_t i = 0; i < inner; ++i) {
     const std::size_t at = from_small(i);
     int& mid = nodes[local[i + 2]];
-    if (mid < 0 && begun) mid = edge.nodes[at];
+    if (mid < 0 && begun) mid = edge.nodes[at].node;
     if (begun) continue;
     const double t = place_on_edge(parent, local, i + 2);
     if (mid < 0) mid = made.nodes.add(along_edge(made.nodes.at(a), made.nodes.at(z), middle, t));
-    edge.nodes[at] = mid;
-    edge.at[at] = a < z ? t : 1 - t;
+    edge.nodes[at] = {a < z ? t : 1 - t, mid};
   }
 }
 
@@ -103,7 +100,10 @@ void make_inner(const Group& group, int corners, int* nodes, Making& made) {
     if (middle >= 0) shape.middle[ku] = made.nodes.at(nodes[middle]);
   }
   for (std::size_t i = static_cast<std::size_t>(corners); i < group.node_count(); ++i)
-    if (nodes[i] < 0) nodes[i] = made.nodes.add(shape.at(parent[i]));
+    if (nodes[i] < 0) {
+      const Vector2 place = shape.at(parent[i]);
+      nodes[i] = made.inner.at(nodes, corners, place, [&] { return made.nodes.add(place); });
+    }
 }
 
 void make_group(Work& b, Group& group, Making& made) {
@@ -124,7 +124,7 @@ void make_mid_nodes(Work& b) {
   for (const Group& group : b.model.groups)
     any = any || std::find(group.nodes.begin(), group.nodes.end(), -1) != group.nodes.end();
   if (!any) return;
-  Making made{NewNodes(b.model.mesh), {}, {}, {}};
+  Making made{NewNodes(b.model.mesh), {}, {}, {}, InnerNodes(b.model)};
   for (const Group& group : b.model.groups) find_given(group, made.given);
   for (Group& group : b.model.groups) make_group(b, group, made);
   const int first_made = made.nodes.append();

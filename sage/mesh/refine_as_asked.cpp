@@ -32,6 +32,7 @@ std::map<int, EdgeKey> given_middles(const Model& model) {
 // Supports of middle nodes that grading cut off: new nodes beside them have them only where the ends of the
 // edge are held too.
 void refuse_lost_supports(Work& b, const std::map<int, EdgeKey>& middles, const std::vector<char>& used) {
+  if (middles.empty()) return;
   const auto check = [&](const Activity& activity, const std::vector<Fixity>& cards) {
     for (const Fixity& f : cards) {
       const auto it = middles.find(f.node);

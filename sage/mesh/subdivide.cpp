@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "sage/deck/text.hpp"
 
@@ -114,20 +115,22 @@ struct Subdivision::SplitElement {
   bool has_edge(int side) const { return !group->interface() || side % 2 == 0; }
 };
 
-Subdivision::Subdivision(Work& b) : b_(&b), nodes_(b.model.mesh) {
+Subdivision::Subdivision(Work& b) : b_(&b), nodes_(b.model.mesh), inner_(b.model), edges_(b.model) {
+  for (const Stage& stage : b.model.stages)
+    for (const EdgeLoad& load : stage.pressures) loaded_.emplace(load.group, load.element);
   for (const Group& group : b.model.groups) {
     check_nodes(b, group, group.entry->corners);
     for (const int number : group.element_numbers) last_number_ = std::max(last_number_, number);
     if (group.structure()) continue;  // they are cut where these are
+    const bool outline = counts_for_outline(group);
     for (int e = 0; e < group.elements(); ++e)
       for (const auto& edge : group.element->edges()) {
         const int* nodes = group.nodes_of(e);
-        MadeEdge& known = edges_[edge_key(nodes[edge[0]], nodes[edge[1]])];
-        known.solids += counts_for_outline(group) ? 1 : 0;
+        EdgeTable::Edge* known = edges_.find(nodes[edge[0]], nodes[edge[1]]);
+        if (known == nullptr) continue;
+        known->solids += outline ? 1 : 0;
         const int middle = middle_of(edge) < 0 ? -1 : nodes[middle_of(edge)];
-        if (middle < 0 || !known.nodes.empty()) continue;
-        known.nodes.push_back(middle);
-        known.at.push_back(0.5);
+        if (middle >= 0 && known->first < 0) edges_.add(*known, {{0.5, middle}});
       }
   }
   share_middles();
@@ -140,10 +143,9 @@ void Subdivision::share_middles() {
       int* nodes = group.nodes.data() + static_cast<std::size_t>(e) * group.node_count();
       for (const auto& edge : group.element->edges()) {
         if (middle_of(edge) < 0 || nodes[middle_of(edge)] >= 0) continue;
-        const auto found = edges_.find(edge_key(nodes[edge[0]], nodes[edge[1]]));
-        if (found == edges_.end()) continue;  // a structure by itself
-        const MadeEdge& known = found->second;
-        if (!known.nodes.empty()) nodes[middle_of(edge)] = known.nodes.front();
+        const EdgeTable::Edge* known = edges_.find(nodes[edge[0]], nodes[edge[1]]);
+        if (known == nullptr || known->first < 0) continue;  // a structure by itself, or no middle
+        nodes[middle_of(edge)] = edges_.link(known->first).node;
       }
     }
 }
@@ -155,16 +157,16 @@ int Subdivision::cut(int a, int z, int middle, double t) {
     t = 1 - t;
   }
   if (middle >= 0 && std::abs(t - 0.5) < kTiny) return middle;
-  const auto [it, is_new] = cuts_.try_emplace({a, z, std::lround(t * 1e15)}, -1);
-  if (!is_new) return it->second;
+  EdgeTable::Edge* edge = edges_.find(a, z);
+  if (edge == nullptr) throw std::logic_error("an edge is cut that no element has");
+  const long place = std::lround(t * 1e15);
+  for (int i = edge->first; i >= 0; i = edges_.link(i).next)
+    if (const EdgeTable::Link& link = edges_.link(i); link.near == a && link.place == place) return link.node;
   std::optional<Vector2> m;
   if (middle >= 0) m = nodes_.at(middle);
-  it->second = nodes_.add(along_edge(nodes_.at(a), nodes_.at(z), m, t));
-  if (const auto edge = edges_.find(edge_key(a, z)); edge != edges_.end()) {
-    edge->second.nodes.push_back(it->second);
-    edge->second.at.push_back(a < z ? t : 1 - t);
-  }
-  return it->second;
+  const int made = nodes_.add(along_edge(nodes_.at(a), nodes_.at(z), m, t));
+  edges_.add(*edge, {{a < z ? t : 1 - t, made}, -1, a, place});
+  return made;
 }
 
 // Node at a place of the parent.  middle: a mid-side node, made only where the parent has a curve to follow
@@ -187,7 +189,9 @@ int Subdivision::node_at(SplitElement& parent, const Place& q, bool middle) {
   if (middle && !parent.shape.curved()) return -1;
   for (const auto& [at, node] : parent.inner)
     if (same(at, q)) return node;
-  parent.inner.emplace_back(q, nodes_.add(parent.shape.at(q)));
+  const Vector2 place = parent.shape.at(q);
+  const int node = inner_.at(parent.nodes.data(), parent.corners, place, [&] { return nodes_.add(place); });
+  parent.inner.emplace_back(q, node);
   return parent.inner.back().second;
 }
 
@@ -206,11 +210,21 @@ void Subdivision::split(int g, int e, const std::vector<ChildCorners>& children)
       if (const int m = middle_of(edges[k]); m >= 0 && parent.nodes[static_cast<std::size_t>(m)] >= 0)
         parent.shape.middle[k] = nodes_.at(parent.nodes[static_cast<std::size_t>(m)]);
 
+  // Children share corners.
+  std::vector<std::pair<Place, int>>& known = corners_;
+  known.clear();
+  const auto corner_at = [&](const Place& q) {
+    for (const auto& [place, node] : known)
+      if (place == q) return node;
+    return known.emplace_back(q, node_at(parent, q, false)).second;
+  };
   const auto& corner = parent_corners(parent.corners);
+  const bool loaded = loaded_.contains({g, e});
   for (std::size_t c = 0; c < children.size(); ++c) {
     const ChildCorners& at = children[c];
-    std::vector<int> nodes(n, -1);
-    for (std::size_t k = 0; k < at.size(); ++k) nodes[k] = node_at(parent, at[k], false);
+    std::vector<int>& nodes = child_;
+    nodes.assign(n, -1);
+    for (std::size_t k = 0; k < at.size(); ++k) nodes[k] = corner_at(at[k]);
     int child = e;
     if (c == 0) {
       std::copy(nodes.begin(), nodes.end(),
@@ -227,7 +241,7 @@ void Subdivision::split(int g, int e, const std::vector<ChildCorners>& children)
       if (const int m = middle_of(edges[i]); m >= 0)
         group.nodes[static_cast<std::size_t>(child) * n + static_cast<std::size_t>(m)] =
             node_at(parent, halfway(a, z), true);
-      for (int side = 0; side < parent.sides; ++side) {
+      for (int side = 0; loaded && side < parent.sides; ++side) {
         const Place &from = corner[static_cast<std::size_t>(side)],
                     &to = corner[static_cast<std::size_t>((side + 1) % parent.sides)];
         const auto ta = place_on(a, from, to), tz = place_on(z, from, to);
@@ -254,7 +268,7 @@ void Subdivision::split_line(int g, int e, double t) {
   Group& group = b_->model.groups[static_cast<std::size_t>(g)];
   const std::size_t n = group.node_count();
   const std::vector<int> nodes(group.nodes_of(e), group.nodes_of(e) + n);
-  if (n < 2 || !edges_.contains(edge_key(nodes[0], nodes[1]))) return;
+  if (n < 2 || edges_.find(nodes[0], nodes[1]) == nullptr) return;
   refuse_hinge(group, e);
   const int middle = n > 2 ? nodes[2] : -1, at = cut(nodes[0], nodes[1], middle, t), child = group.elements();
   std::vector<int> first{nodes[0], at}, second{at, nodes[1]};
@@ -267,7 +281,7 @@ void Subdivision::split_line(int g, int e, double t) {
   group.element_numbers.push_back(++last_number_);
   group.element_lines.push_back(group.element_lines[static_cast<std::size_t>(e)]);
   group.nodes.insert(group.nodes.end(), second.begin(), second.end());
-  segments_[{g, e, 0}] = {{e, 0, 0.0, t}, {child, 0, t, 1.0}};
+  if (loaded_.contains({g, e})) segments_[{g, e, 0}] = {{e, 0, 0.0, t}, {child, 0, t, 1.0}};
 }
 
 void Subdivision::carry_loads(Stage& stage) const {
@@ -316,14 +330,19 @@ void refine(Work& b, int times) {
   check_size(b, times);
   for (int i = 0; i < times; ++i) {
     Subdivision subdivision(b);
+    subdivision.reserve(4 * b.model.mesh.nodes());
     for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
-      const Group& group = b.model.groups[g];
+      Group& group = b.model.groups[g];
       if (group.structure()) {
         for (int e = group.elements() - 1; e >= 0; --e) subdivision.split_line(static_cast<int>(g), e, 0.5);
         continue;
       }
       const auto& children = group.interface() ? interface : group.entry->triangle() ? triangle : quad;
       const int before = group.elements();
+      const std::size_t after = static_cast<std::size_t>(before) * children.size();
+      group.nodes.reserve(after * group.node_count());
+      group.element_numbers.reserve(after);
+      group.element_lines.reserve(after);
       for (int e = 0; e < before; ++e) subdivision.split(static_cast<int>(g), e, children);
     }
     subdivision.finish();

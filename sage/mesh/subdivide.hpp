@@ -3,7 +3,9 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "sage/mesh/edges.hpp"
@@ -18,6 +20,8 @@ class Subdivision {
  public:
   // Throws InputError for elements whose cards give more than corners and mid-side nodes.
   explicit Subdivision(Work& b);
+  // Room for so many new nodes.
+  void reserve(int nodes) { nodes_.reserve(nodes); }
 
   // The first child takes the element's place and number; the others come after the group's last.
   void split(int group, int element, const std::vector<ChildCorners>& children);
@@ -46,10 +50,13 @@ class Subdivision {
 
   Work* b_;
   NewNodes nodes_;
-  MadeEdges edges_;                                 // every edge there was before, with what was cut
-  std::map<std::tuple<int, int, long>, int> cuts_;  // near end, far end, place
-  std::map<std::tuple<int, int, int>, std::vector<Segment>> segments_;  // group, element, edge
+  InnerNodes inner_;
+  EdgeTable edges_;                       // every edge there was before, with what was cut
+  std::set<std::pair<int, int>> loaded_;  // group, element: pressures act on its edges
+  std::map<std::tuple<int, int, int>, std::vector<Segment>> segments_;  // of those: group, element, edge
   int last_number_ = 0;
+  std::vector<std::pair<Place, int>> corners_;  // of the element in hand, for its children
+  std::vector<int> child_;                      // nodes of the child in hand
 };
 
 // Every element into four, interfaces into two, n times.

@@ -44,6 +44,20 @@ Locator::Locator(const Model& model, ElementKind kind) : model_(&model) {
       boxes_.push_back({g, e, low - margin, high + margin});
     }
   }
+  if (boxes_.empty()) return;
+  left_ = std::ranges::min_element(boxes_, {}, [](const Box& box) { return box.low.x(); })->low.x();
+  const double right =
+      std::ranges::max_element(boxes_, {}, [](const Box& box) { return box.high.x(); })->high.x();
+  strips_.resize(static_cast<std::size_t>(std::sqrt(static_cast<double>(boxes_.size()))) + 1);
+  strip_ = std::max(right - left_, std::numeric_limits<double>::min()) / static_cast<double>(strips_.size());
+  for (std::size_t i = 0; i < boxes_.size(); ++i)
+    for (std::size_t s = strip_at(boxes_[i].low.x()); s <= strip_at(boxes_[i].high.x()); ++s)
+      strips_[s].push_back(static_cast<int>(i));
+}
+
+std::size_t Locator::strip_at(double x) const {
+  const double last = static_cast<double>(strips_.size()) - 1.0;
+  return static_cast<std::size_t>(std::clamp(std::floor((x - left_) / strip_), 0.0, last));
 }
 
 // Newton for the place in the parent shape; exact in one step where the map is affine.
@@ -117,7 +131,9 @@ std::vector<Location> Locator::at(const Vector2& place) const {
   std::vector<Near> near;
   constexpr double kHeld = -1.0;
   std::map<std::size_t, double> least;  // distance by group; kHeld where an element holds the place
-  for (const Box& box : boxes_) {
+  if (strips_.empty()) return found;
+  for (const int i : strips_[strip_at(place.x())]) {
+    const Box& box = boxes_[static_cast<std::size_t>(i)];
     if ((place.array() < box.low.array()).any() || (place.array() > box.high.array()).any()) continue;
     Location location;
     if (inside(box, place, location)) {

@@ -31,10 +31,14 @@ class Locator {
     Vector2 low, high;
   };
   bool inside(const Box& box, const Vector2& place, Location& found) const;
+  std::size_t strip_at(double x) const;
   double nearest(const Box& box, const Vector2& place, Location& found) const;
 
   const Model* model_;
   std::vector<Box> boxes_;
+  // Boxes by strips along x, each in the order of boxes_.
+  std::vector<std::vector<int>> strips_;
+  double left_ = 0.0, strip_ = 1.0;
 };
 
 // Of a mesh as the deck has it: the most by which a place that Locator::at gives to an element lies outside.

@@ -157,6 +157,118 @@ void anisotropy(Record& record) {
   }
 }
 
+// Heads a x + b y are those of any permeability.  What flows in at the outline, weighted with x and with y, is then the
+// area times the two components of R diag(k1, k2) R^T (a, b), by the divergence theorem.
+void rotated(Record& record) {
+  const double k1 = 4.0, k2 = 0.25, angle = 30.0 * kRadiansPerDegree;
+  const Vector2 slope(0.5, -0.25);
+  const double c = std::cos(angle), s = std::sin(angle);
+  Matrix2 k;
+  k << k1 * c * c + k2 * s * s, (k1 - k2) * c * s, (k1 - k2) * c * s, k1 * s * s + k2 * c * c;
+  const Vector2 expected = 6.0 * k * slope;
+  for (const Shape& shape : kShapes) {
+    Block block;
+    block.columns = 6;
+    block.rows = 4;
+    block.cell = shape.cell;
+    block.place = rectangle(0.0, 3.0, 0.0, 2.0);
+    DeckWriter deck = flow_deck(block, 1, kDarcyLaw, {k1, k2, 30.0});
+    std::vector<std::pair<int, Vector2>> outline;
+    for (int j = 0; j < block.up(); ++j)
+      for (int i = 0; i < block.across(); ++i) {
+        const bool inside = i > 0 && j > 0 && i + 1 < block.across() && j + 1 < block.up();
+        if (inside || !block.exists(i, j)) continue;
+        outline.emplace_back(block.node(i, j), block.at(i, j));
+        hold_heads(deck.stages.back(), {block.node(i, j)}, slope.dot(block.at(i, j)));
+      }
+    const WholeRun run = record.run(deck);
+    Vector2 moment = Vector2::Zero();
+    for (const auto& [node, place] : outline) moment += inflow_of(run, {node}) * place;
+    for (const int axis : {0, 1})
+      record.near(Where::plane_strain,
+                  fmt::format("flow along {}, k1 turned by 30 degrees, {}", axis == 0 ? "x" : "y", shape.name),
+                  moment[axis], expected[axis], 1e-12);
+  }
+}
+
+// A layer 4 m long under a head of 5 m, with a drain at its other end 3 m above the datum: k (5 - 3) / 4 for each metre of
+// height while the head is above the drain, and nothing while it is below.
+void drains(Record& record) {
+  for (const double head : {5.0, 2.0}) {
+    Block block;
+    block.columns = 8;
+    block.rows = 2;
+    block.cell = Cell::quad8;
+    block.place = rectangle(0.0, 4.0, 0.0, 1.0);
+    DeckWriter deck = flow_deck(block, 1, kDarcyLaw, {2.0});
+    hold_heads(deck.stages.back(), block.left(), head);
+    for (std::size_t j = 0; j < block.right().size(); ++j)
+      deck.stages.back().fixities.push_back(
+          head_card(block.right()[j], 3.0 - block.at(0, static_cast<int>(j)).y(), 2));
+    const WholeRun run = record.run(deck);
+    const double out = -inflow_of(run, block.right());
+    record.within(Where::plane_strain, fmt::format("what a drain at 3 m takes under a head of {:g} m", head),
+                  out, head > 3.0 ? 2.0 * (head - 3.0) / 4.0 : 0.0, 1e-10);
+    record.within(Where::plane_strain, fmt::format("head at the drain, {:g} m given", head),
+                  head_of(run, block.right().front()), std::min(head, 3.0), 1e-10);
+  }
+}
+
+// Between two circles that have no common middle heads are linear in the bipolar coordinate xi, and both circles are
+// lines of it: q = 2 pi k dh / (xi of the drain - xi of the outer circle).  Half of it, for the line through both
+// middles lets nothing through.  k2 across the direction `angle`: the same in axes in which that soil is isotropic,
+// with k = sqrt(k1 k2).
+struct RoundDrain {
+  Cell cell = Cell::quad4;
+  int n = 12;
+  double k1 = 1.0, k2 = 1.0, angle = 0.0;            // degrees
+  static constexpr double inner = 2.0, outer = 0.5;  // xi
+
+  double exact() const { return kPi * std::sqrt(k1 * k2) / (inner - outer); }
+  double discharge(const Record& record) const {
+    Block block;
+    block.columns = block.rows = n;
+    block.cell = cell;
+    const double c = std::cos(angle * kRadiansPerDegree), s = std::sin(angle * kRadiansPerDegree);
+    block.place = [=, this](double across, double around) {
+      const double xi = outer + (inner - outer) * across, eta = kPi * (1.0 - around);
+      const double size = std::cosh(xi) - std::cos(eta);
+      const Vector2 p(std::sqrt(k1) * std::sinh(xi) / size, std::sqrt(k2) * std::sin(eta) / size);
+      return Vector2(c * p.x() - s * p.y(), s * p.x() + c * p.y());
+    };
+    DeckWriter deck = flow_deck(block, 1, kDarcyLaw, {k1, k2, angle});
+    hold_heads(deck.stages.back(), block.left(), 9.0);
+    // At the drain the head is 8: a pressure head of 8 - y.
+    const std::vector<int> drain = block.right();
+    for (std::size_t j = 0; j < drain.size(); ++j)
+      deck.stages.back().fixities.push_back(
+          head_card(drain[j], 8.0 - block.at(block.across() - 1, static_cast<int>(j)).y(), 2));
+    return -inflow_of(record.run(deck), drain);
+  }
+};
+
+void round_drain(Record& record, const char* what, double k1, double k2, double angle) {
+  for (const Shape& shape : kShapes) {
+    std::vector<double> size, error;
+    for (int level = 0; level < 3; ++level) {
+      const int n = shape.n << level;
+      const RoundDrain drain{shape.cell, n, k1, k2, angle};
+      size.push_back(1.0 / n);
+      error.push_back(std::abs(drain.discharge(record) / drain.exact() - 1.0));
+    }
+    record.order(Where::plane_strain, fmt::format("{}, {}", what, shape.name), size, error, shape.order, 0.4);
+    record.small(Where::plane_strain, fmt::format("{}, {}, finest", what, shape.name), error.back(), 1e-3);
+  }
+}
+
+void round_drains(Record& record) {
+  round_drain(record, "discharge of a round drain", 1.0, 1.0, 0.0);
+}
+
+void rotated_drains(Record& record) {
+  round_drain(record, "discharge of a drain, k1 turned by 30 degrees", 4.0, 0.25, 30.0);
+}
+
 void dam(Record& record) {
   std::vector<double> size, error;
   double finest = 0.0, balance = 0.0;
@@ -192,6 +304,16 @@ Section seepage_cases() {
             "1e-3; twice the degree of the element", wells},
            {"seepage.anisotropy", "Soil with two permeabilities on a stretched mesh", "x' = x sqrt(k2/k1)",
             Grade::twofold, "rounding", anisotropy},
+           {"seepage.rotated", "Soil with turned permeabilities in a uniform slope of the head",
+            "R diag(k1, k2) R^T (a, b)", Grade::exact, "rounding", rotated},
+           {"seepage.rotated_drain", "A round drain in soil with turned permeabilities",
+            "bipolar coordinates; x' = x sqrt(k2/k1) along k1", Grade::exact,
+            "1e-3; twice the degree of the element", rotated_drains},
+           {"seepage.drains", "A layer with a drain at its end", "k (h - 3)/4 above the drain, 0 below",
+            Grade::exact, "1e-10", drains},
+           {"seepage.round_drain", "A round drain off the middle of a round body",
+            "q = 2 pi k dh/(xi1 - xi2), bipolar coordinates", Grade::exact,
+            "1e-3; twice the degree of the element", round_drains},
            {"seepage.dam", "Free surface in a dam with vertical faces", "Dupuit; Charny (1951): exact",
             Grade::exact, "1e-3; first order, as the height over which the soil falls dry", dam}}};
 }

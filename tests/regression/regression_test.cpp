@@ -117,14 +117,15 @@ double quantity_of(const RunOutcome& outcome, const fs::path& deck, const Expect
   std::vector<std::string> part;
   std::stringstream stream(row.quantity);
   for (std::string p; std::getline(stream, p, '.');) part.push_back(p);
-  if (part[0] == "report1") {
-    for (const TriaxialRow& r : outcome.reports->triaxial(0))
+  if (part[0].starts_with("report")) {
+    const auto report = static_cast<std::size_t>(std::stoi(part[0].substr(6))) - 1;
+    for (const TriaxialRow& r : outcome.reports->triaxial(report))
       if (r.stage == row.stage && r.increment == row.increment)
         return part[1] == "ratio" ? r.ratio : part[1] == "force" ? r.force : r.measured_deviator;
-    for (const NodesRow& r : outcome.reports->nodes(0))
+    for (const NodesRow& r : outcome.reports->nodes(report))
       if (r.stage == row.stage && r.increment == row.increment && part[1][0] == 'f')
         return r.force[part[1] == "fx" ? 0 : 1];
-    for (const DischargeRow& r : outcome.reports->discharges(0))
+    for (const DischargeRow& r : outcome.reports->discharges(report))
       if (r.stage == row.stage && r.increment == row.increment)
         return part[1] == "discharge"  ? r.discharge
                : part[1] == "gradient" ? r.gradient

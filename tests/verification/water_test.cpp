@@ -646,7 +646,7 @@ TEST(Water, WhatContradictsIsNamed) {
   EXPECT_EQ(code_of([](DeckWriter& d) { d.water(2, 0, 1, 2, {}, 0.5); }), "S248");
   EXPECT_EQ(code_of([](DeckWriter& d) { d.water(4, 0, 2, 0, {}); }), "S248");
   EXPECT_EQ(code_of([](DeckWriter& d) { d.water(5, 0, 1, 0, {}, 1e5, 0.4); }), "S248");
-  EXPECT_EQ(code_of([](DeckWriter& d) { d.water(7, 0, 1, 0, {}); }), "S210");
+  EXPECT_EQ(code_of([](DeckWriter& d) { d.water(8, 0, 1, 0, {}); }), "S210");
   EXPECT_EQ(code_of([](DeckWriter& d) {
               d.water_unit_weight = 0.0;
               d.water(1, 0, 1, 0, {0.0, 3.0});
