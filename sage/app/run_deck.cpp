@@ -63,7 +63,9 @@ std::vector<std::unique_ptr<Output>> make_outputs(const RunRequest& request, con
     MshMesh mesh = msh_mesh(model, said_before);
     outputs.push_back(std::make_unique<MshResults>(options.folder, stem, mesh.text, std::move(mesh.elements)));
   }
-  if (options.result) outputs.push_back(std::make_unique<ResultOutput>(options.folder, stem, source));
+  if (options.result)
+    outputs.push_back(
+        std::make_unique<ResultOutput>(options.folder, stem, source, threads_for(request.threads)));
   if (!options.pictures.empty())
     outputs.push_back(std::make_unique<Pictures>(options.folder, stem, options.pictures));
   return outputs;
