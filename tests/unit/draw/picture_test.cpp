@@ -171,6 +171,32 @@ TEST(FieldSheet, PanelsOfAFieldShareAScale) {
 }
 
 // The other three quarters are the first one reflected: about its left side, its lower side, both.
+// Panels of different heights: the mesh of one is four times as high.
+TEST(FieldSheet, NotesOfARowStandAtOneHeight) {
+  Specimen one, high;
+  high.model.mesh.x.row(1) *= 4.0;
+  one.compress(0.01);
+  high.compress(0.01);
+  FieldSheet sheet{
+      "", {{&one.model, one.solution(), "stress_yy", "a"}, {&high.model, high.solution(), "stress_yy", "b"}}};
+  sheet.columns = 2;
+  const auto heights = [&] {
+    const std::string svg = sheet_svg(sheet);
+    const std::regex note("y=\"([0-9.]+)\"[^>]*>values: means");
+    std::vector<std::string> found;
+    for (std::sregex_iterator at(svg.begin(), svg.end(), note), none; at != none; ++at)
+      found.push_back((*at)[1]);
+    return found;
+  };
+  const std::vector<std::string> beside = heights();
+  ASSERT_EQ(beside.size(), 2u);
+  EXPECT_EQ(beside[0], beside[1]);
+  sheet.columns = 1;  // below one another: each below its own mesh
+  const std::vector<std::string> below = heights();
+  ASSERT_EQ(below.size(), 2u);
+  EXPECT_NE(below[0], below[1]);
+}
+
 TEST(FieldSheet, MirroredSpecimensAreReflections) {
   Specimen specimen(Geometry::axisymmetric, false);
   specimen.compress(0.01);
