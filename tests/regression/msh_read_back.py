@@ -30,7 +30,7 @@ CASES = [
     (FRICTION, [], {3, 1}, NAMES),
     (FRICTION, ["--element", "quad8"], {16, 8}, NAMES),
     ("structures/raft/deck.dat", [], {16, 8}, {"raft"}),
-    ("structures/sheet_pile/deck.dat", [], {3, 1}, set()),
+    ("structures/pile/deck.dat", [], {3, 1}, set()),
     ("smith_griffiths/p51_1.dat", ["--layout", "sg_p51"], {2, 1}, set()),
 ]
 
