@@ -21,6 +21,7 @@
 #include "sage/app/umat_output.hpp"
 #include "sage/app/verbose.hpp"
 #include "sage/deck/text.hpp"
+#include "sage/draw/diagram.hpp"
 #include "sage/draw/picture.hpp"
 #include "sage/exchange/convert.hpp"
 #include "sage/model/fingerprint.hpp"
@@ -63,7 +64,9 @@ std::vector<std::unique_ptr<Output>> make_outputs(const RunRequest& request, con
     MshMesh mesh = msh_mesh(model, said_before);
     outputs.push_back(std::make_unique<MshResults>(options.folder, stem, mesh.text, std::move(mesh.elements)));
   }
-  if (options.result) outputs.push_back(std::make_unique<ResultOutput>(options.folder, stem, source));
+  if (options.result)
+    outputs.push_back(
+        std::make_unique<ResultOutput>(options.folder, stem, source, threads_for(request.threads)));
   if (!options.pictures.empty())
     outputs.push_back(std::make_unique<Pictures>(options.folder, stem, options.pictures));
   return outputs;
@@ -222,6 +225,32 @@ void warn_of_fields(const OutputOptions& o, Model& model) {
   if (!text.empty()) model.diagnostics.add({Severity::warning, "S610", {model.file, 0, 0, 0}, text, {}});
 }
 
+// Pictures of integration points that no element has that is drawn would be empty.
+void expect_drawn(const std::vector<std::string>& pictures, const Model& model) {
+  const FieldTable table = fields_of(model);
+  const auto is_drawn = [&](const FieldEntry& field, bool diagram) {
+    return field.place() == FieldPlace::node || std::ranges::any_of(model.groups, [&](const Group& group) {
+             const bool drawn = diagram ? group.structure() : group.solid() || (group.flow() && !group.overlay);
+             return drawn && group.elements() > 0 &&
+                    applies(field, group.entry->kind, model.material_of(group).law_ref());
+           });
+  };
+  for (const std::string& name : pictures) {
+    const FieldChoice field = picture_field(table, name);
+    const bool diagram = diagram_of(name) >= 0;
+    if (is_drawn(*field.entry, diagram)) continue;
+    std::string there;
+    for (const FieldEntry& row : table.rows()) {
+      const bool shown = row.place() == FieldPlace::node || row.place() == FieldPlace::point;
+      if (shown && row.form == FieldForm::number && is_drawn(row, false))
+        there += (there.empty() ? "" : ", ") + row.name;
+    }
+    throw UsageError("S644", "--picture " + name + ": no " +
+                                 (diagram ? "structure" : "element that fills an area") +
+                                 " of this deck has it, the picture would be empty; there are: " + there);
+  }
+}
+
 // The deck as a model; its checksum becomes the owner's, and names of fields' components those of the fields.
 std::unique_ptr<Model> model_of(RunRequest& request, const Catalogue& catalogue, ResultOwner& owner,
                                 RunSource& source, Profile& profile) {
@@ -238,6 +267,7 @@ std::unique_ptr<Model> model_of(RunRequest& request, const Catalogue& catalogue,
   if (request.output.vtu || request.output.result) warn_of_vtu(*model, model->diagnostics);
   if (request.output.msh) msh_mesh(*model, model->diagnostics);
   request.output.fields = require_fields(request.output.pictures, request.output.fields, {fields_of(*model)});
+  expect_drawn(request.output.pictures, *model);
   warn_of_fields(request.output, *model);
   for (Report& report : model->reports) report.fields = request.output.fields;
   try {

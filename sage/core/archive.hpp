@@ -29,7 +29,15 @@ class Archive {
     return archive;
   }
 
+  // Collects behind what `text` holds, in its room.
+  static Archive behind(std::string text) {
+    Archive archive(std::move(text));
+    archive.reading_ = false;
+    return archive;
+  }
+
   bool reading() const { return reading_; }
+  std::size_t place() const { return at_; }  // of what is read next
   const std::string& bytes() const { return bytes_; }
   std::string take() { return std::move(bytes_); }  // the end of it
   // for_sum(): of all that was written.

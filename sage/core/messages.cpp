@@ -827,7 +827,7 @@ constexpr MessageEntry kMessages[] = {
      "Take one from the list in the message, or sagefe run --result --states for just that state."},
     {"S644", "a field is unknown or can't be drawn",
      "Fields are named as sagefe list fields shows them; histories by the names of the deck's laws. A "
-     "picture needs a field of nodes or points.",
+     "picture needs a field of nodes or points that some element of the deck has.",
      "Take a name from the list."},
     {"S645", "there is nothing to plot",
      "The model has no interface, the line meets no element, or no field was named.",

@@ -37,14 +37,22 @@ std::vector<Corner> above(const std::vector<Corner>& polygon, double limit) {
   return result;
 }
 
+namespace {
+
+void append_place(std::string& path, char pen, const Vector2& at) {
+  path += pen;
+  svg::number(path, at.x());
+  path += ' ';
+  svg::number(path, at.y());
+}
+
+}  // namespace
+
 void append_path(std::string& path, const std::vector<Corner>& polygon) {
   if (polygon.size() < 3) return;
   char pen = 'M';
   for (const Corner& corner : polygon) {
-    path += pen;
-    svg::number(path, corner.at.x());
-    path += ' ';
-    svg::number(path, corner.at.y());
+    append_place(path, pen, corner.at);
     pen = 'L';
   }
   path += 'Z';
@@ -58,15 +66,27 @@ std::vector<Corner> polygon_of(const Patch& patch, const std::vector<int>& indic
 
 namespace {
 
+// As append_path(path, polygon_of(patch, indices)), without the polygon.
+void append_places(std::string& path, const Patch& patch, const std::vector<int>& indices) {
+  if (indices.size() < 3) return;
+  char pen = 'M';
+  for (int i : indices) {
+    append_place(path, pen, patch.places[static_cast<std::size_t>(i)].at);
+    pen = 'L';
+  }
+  path += 'Z';
+}
+
 // The part of a cell where value >= limit: whole where it can be, else triangle by triangle.
 void append_above(std::string& path, const Patch& patch, const GridCell& cell, double limit) {
-  const std::vector<Corner> polygon = polygon_of(patch, cell.corners);
-  if (cell.centre < 0) return append_path(path, above(polygon, limit));
-  const Corner& centre = patch.places[static_cast<std::size_t>(cell.centre)];
-  const auto is_above = [&](const Corner& c) { return c.value >= limit; };
-  const auto count = std::count_if(polygon.begin(), polygon.end(), is_above) + (is_above(centre) ? 1 : 0);
+  if (cell.centre < 0) return append_path(path, above(polygon_of(patch, cell.corners), limit));
+  const auto is_above = [&](int i) { return patch.places[static_cast<std::size_t>(i)].value >= limit; };
+  const auto count = std::ranges::count_if(cell.corners, is_above) + (is_above(cell.centre) ? 1 : 0);
   if (count == 0) return;
-  if (count == static_cast<std::ptrdiff_t>(polygon.size()) + 1) return append_path(path, polygon);
+  if (count == static_cast<std::ptrdiff_t>(cell.corners.size()) + 1)
+    return append_places(path, patch, cell.corners);
+  const std::vector<Corner> polygon = polygon_of(patch, cell.corners);
+  const Corner& centre = patch.places[static_cast<std::size_t>(cell.centre)];
   for (std::size_t i = 0; i < polygon.size(); ++i)
     append_path(path, above({polygon[i], polygon[(i + 1) % polygon.size()], centre}, limit));
 }
@@ -82,10 +102,7 @@ void append_crossing(std::string& path, const std::array<const Corner*, 3>& tria
     const Corner &a = *triangle[i], &b = *triangle[(i + 1) % 3];
     if ((a.value >= limit) == (b.value >= limit)) continue;
     const Vector2 at = a.at + (limit - a.value) / (b.value - a.value) * (b.at - a.at);
-    path += pen;
-    svg::number(path, at.x());
-    path += ' ';
-    svg::number(path, at.y());
+    append_place(path, pen, at);
     pen = 'L';
   }
 }
@@ -129,7 +146,7 @@ std::vector<std::string> band_paths(const std::vector<Patch>& patches, const std
                             [](const Corner& a, const Corner& b) { return a.value < b.value; });
     std::size_t first = 0;  // the band of the lowest value: the whole element
     while (first + 1 < paths.size() && low->value >= limits[first + 1]) ++first;
-    append_path(paths[first], polygon_of(patch, patch.grid->outline));
+    append_places(paths[first], patch, patch.grid->outline);
     for (std::size_t band = first + 1; band < paths.size() && high->value > limits[band]; ++band)
       for (const GridCell& cell : patch.grid->cells) append_above(paths[band], patch, cell, limits[band]);
   }

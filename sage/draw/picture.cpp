@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <map>
+#include <span>
 
 #include "sage/draw/colour_map.hpp"
 #include "sage/draw/contour.hpp"
@@ -67,10 +67,10 @@ void draw_bands(std::string& out, const std::vector<Patch>& all, const std::vect
   for (std::size_t band = 0; band < paths.size(); ++band) {
     const std::string colour =
         hex(viridis((static_cast<double>(band) + 0.5) / static_cast<double>(paths.size())));
-    if (!paths[band].empty())
-      fmt::format_to(std::back_inserter(out),
-                     "<path fill=\"{0}\" stroke=\"{0}\" stroke-width=\"0.4\" d=\"{1}\"/>\n", colour,
-                     paths[band]);
+    if (paths[band].empty()) continue;
+    fmt::format_to(std::back_inserter(out), "<path fill=\"{0}\" stroke=\"{0}\" stroke-width=\"0.4\" d=\"",
+                   colour);
+    out.append(paths[band]).append("\"/>\n");
   }
 }
 
@@ -90,28 +90,31 @@ void append_line(std::string& path, const Eigen::Matrix2Xd& places) {
 // Edges of solids that only one element has, undeformed; not those along a line of symmetry.
 void draw_outline(std::string& out, Scenery& scenery) {
   struct Edge {
+    std::pair<int, int> ends;
     std::size_t group;
     int element;
     std::size_t edge;
-    int uses;
   };
-  std::map<std::pair<int, int>, Edge> edges;
+  std::vector<Edge> edges;
   for (std::size_t g = 0; g < scenery.model.groups.size(); ++g) {
     if (!scenery.draws(g, ElementKind::solid)) continue;
     const Group& group = scenery.model.groups[g];
+    const auto& sides = group.element->edges();
+    edges.reserve(edges.size() + static_cast<std::size_t>(group.elements()) * sides.size());
     for (int e = 0; e < group.elements(); ++e)
-      for (std::size_t k = 0; k < group.element->edges().size(); ++k) {
-        const std::vector<int>& edge = group.element->edges()[k];
-        ++edges
-              .try_emplace(std::minmax(group.nodes_of(e)[edge[0]], group.nodes_of(e)[edge[1]]),
-                           Edge{g, e, k, 0})
-              .first->second.uses;
+      for (std::size_t k = 0; k < sides.size(); ++k) {
+        const auto [low, high] = std::minmax(group.nodes_of(e)[sides[k][0]], group.nodes_of(e)[sides[k][1]]);
+        edges.push_back({{low, high}, g, e, k});
       }
   }
+  std::ranges::sort(edges, {}, &Edge::ends);
   out += "<g fill=\"none\" stroke=\"#666666\" stroke-width=\"1\" stroke-dasharray=\"5 4\">\n";
-  for (const auto& [ends, edge] : edges) {
+  for (std::size_t first = 0, next = 0; first < edges.size(); first = next) {
+    const Edge& edge = edges[first];
+    while (next < edges.size() && edges[next].ends == edge.ends) ++next;
     const Eigen::Matrix2Xd& x = scenery.model.mesh.x;
-    if (edge.uses != 1 || (scenery.view.on_seam(x.col(ends.first)) && scenery.view.on_seam(x.col(ends.second))))
+    if (next - first != 1 ||
+        (scenery.view.on_seam(x.col(edge.ends.first)) && scenery.view.on_seam(x.col(edge.ends.second))))
       continue;
     const Group& group = scenery.model.groups[edge.group];
     const Eigen::Matrix2Xd nodes = scenery.nodes_of(group, edge.element, 0.0);
@@ -265,11 +268,17 @@ struct Weighted {
 };
 
 void append_values(std::vector<Weighted>& values, const std::vector<Patch>& all) {
+  std::size_t count = values.size();
+  for (const Patch& patch : all) count += patch.places.size();
+  values.reserve(count);
   for (const Patch& patch : all) {
     double twice = 0.0;
-    const std::vector<Corner> outline = polygon_of(patch, patch.grid->outline);
+    const std::vector<int>& outline = patch.grid->outline;
+    const auto place = [&](std::size_t i) -> const Vector2& {
+      return patch.places[static_cast<std::size_t>(outline[i < outline.size() ? i : 0])].at;
+    };
     for (std::size_t i = 0; i < outline.size(); ++i) {
-      const Vector2 &a = outline[i].at, &b = outline[(i + 1) % outline.size()].at;
+      const Vector2 &a = place(i), &b = place(i + 1);
       twice += a.x() * b.y() - a.y() * b.x();
     }
     const double area = 0.5 * std::abs(twice) / static_cast<double>(patch.places.size());
@@ -402,7 +411,21 @@ std::string rule_text(const FieldEntry& entry, NodalRule rule) {
 struct Drawing {
   std::string svg;
   double width = 0.0, height = 0.0;
+  // Of a picture whose notes are still to be added: their lines, the upper end that they need at least, and what
+  // the picture is moved down by.
+  std::vector<std::string> notes = {};
+  double foot = 0.0, down = 0.0;
 };
+
+// foot: the upper end of the notes.
+void add_notes(Drawing& drawing, double foot) {
+  for (const std::string& line : drawing.notes) {
+    foot += kLine;  // below the words of the axis
+    svg::text(drawing.svg, 8.0, foot - 4.0, line, svg::kFont, "start");
+  }
+  drawing.svg += "</g>\n";
+  drawing.height = foot + drawing.down;
+}
 
 // Beyond the longest arrow, too.
 double legend_left(const View& view, const PictureOptions& options) {
@@ -456,7 +479,8 @@ void append_mirrored(std::string& out, const std::string& drawing, const View& v
   }
 }
 
-// `heading_lines`: room for that many, so that panels beside one another stand at one height.
+// All but its notes (add_notes).  `heading_lines`: room for that many, so that panels beside one another stand at one
+// height.
 Drawing draw_picture(Draft& draft, const std::vector<double>& limits, const Heading& heading,
                      std::size_t heading_lines, const std::string& name) {
   const View& view = draft.scenery.view;
@@ -496,15 +520,11 @@ Drawing draw_picture(Draft& draft, const std::vector<double>& limits, const Head
                      : any               ? draw_legend(out, limits, legend, view.height, range)
                                          : kPictureTop;
   draw_line_legend(out, draft.scenery, legend, bar + 26.0);
-  double bottom = std::max(kPictureTop + view.height + kBottom, bar + 66.0);
+  drawing.foot = std::max(kPictureTop + view.height + kBottom, bar + 66.0);
+  drawing.down = down;
   for (const std::string& note : notes)
-    for (const std::string& line : svg::wrapped(note, svg::kFont, drawing.width - 16.0)) {
-      if (line.empty()) continue;
-      bottom += kLine;  // below the words of the axis
-      svg::text(out, 8.0, bottom - 4.0, line, svg::kFont, "start");
-    }
-  out += "</g>\n";
-  drawing.height = bottom + down;
+    for (std::string& line : svg::wrapped(note, svg::kFont, drawing.width - 16.0))
+      if (!line.empty()) drawing.notes.push_back(std::move(line));
   return drawing;
 }
 
@@ -531,11 +551,26 @@ struct Grid {
   double width = 0.0, height = 0.0;
 };
 
-Grid grid_of(const std::vector<Drawing>& drawings, int columns) {
-  constexpr double kMostWidth = 1400.0, kGap = 12.0;
+constexpr double kGap = 12.0;
+
+std::size_t drawings_a_row(const std::vector<Drawing>& drawings, int columns) {
+  constexpr double kMostWidth = 1400.0;
   double widest = 1.0;
   for (const Drawing& drawing : drawings) widest = std::max(widest, drawing.width + kGap);
-  const auto per_row = static_cast<std::size_t>(columns > 0 ? columns : std::max(1.0, kMostWidth / widest));
+  return static_cast<std::size_t>(columns > 0 ? columns : std::max(1.0, kMostWidth / widest));
+}
+
+// The notes of drawings beside one another begin at one height.
+void add_notes(std::vector<Drawing>& drawings, std::size_t per_row) {
+  for (std::size_t first = 0; first < drawings.size(); first += per_row) {
+    const std::span<Drawing> row =
+        std::span(drawings).subspan(first, std::min(per_row, drawings.size() - first));
+    const double foot = std::ranges::max(row, {}, &Drawing::foot).foot;
+    for (Drawing& drawing : row) add_notes(drawing, foot);
+  }
+}
+
+Grid grid_of(const std::vector<Drawing>& drawings, std::size_t per_row) {
   std::vector<double> left(per_row + 1, 0.0);
   for (std::size_t c = 0; c < per_row; ++c) {
     double width = 0.0;
@@ -581,7 +616,8 @@ std::string field_svg(const Model& model, const Solution& solution, std::string_
   Draft draft = make_draft(model, solution, field, options);
   const std::vector<double> limits = limits_of(options, colour_range(draft.values, options.robust));
   const Heading heading = heading_of(draft, limits, options.width);
-  const Drawing drawing = draw_picture(draft, limits, heading, heading.lines(), "half");
+  Drawing drawing = draw_picture(draft, limits, heading, heading.lines(), "half");
+  add_notes(drawing, drawing.foot);
   return svg::open(static_cast<int>(drawing.width), static_cast<int>(drawing.height)) + drawing.svg +
          std::string(svg::kClose);
 }
@@ -607,7 +643,9 @@ std::string sheet_svg(const FieldSheet& sheet) {
   std::vector<Drawing> drawings;
   for (std::size_t k = 0; k < drafts.size(); ++k)
     drawings.push_back(draw_picture(drafts[k], limits[k], headings[k], lines, fmt::format("half{}", k + 1)));
-  const Grid grid = grid_of(drawings, sheet.columns);
+  const std::size_t per_row = drawings_a_row(drawings, sheet.columns);
+  add_notes(drawings, per_row);
+  const Grid grid = grid_of(drawings, per_row);
   constexpr double kMargin = 8.0;  // below the notes of the last row
   std::string title;
   const double top = draw_sheet_title(title, sheet.title, grid.width - 16.0);

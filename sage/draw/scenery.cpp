@@ -105,19 +105,22 @@ void set_directions(const Scenery& scenery, std::size_t g, std::vector<Patch>& a
 
 std::vector<Patch> patches(Scenery& scenery) {
   std::vector<Patch> result;
-  Eigen::MatrixXd at_nodes;
+  Eigen::MatrixXd at_nodes, parts;
+  Eigen::Matrix2Xd places;
   for (std::size_t g = 0; g < scenery.model.groups.size(); ++g) {
     if (!scenery.draws(g, ElementKind::solid)) continue;
     const Group& group = scenery.model.groups[g];
     const int* entry = scenery.layout.of_group[g].data();
+    result.reserve(result.size() + static_cast<std::size_t>(group.elements()));
     at_nodes.resize(scenery.parts.components, static_cast<Eigen::Index>(group.node_count()));
     for (int e = 0; e < group.elements(); ++e, entry += group.node_count()) {
       for (Eigen::Index i = 0; i < at_nodes.cols(); ++i) at_nodes.col(i) = scenery.parts.at.col(entry[i]);
       const Eigen::Matrix2Xd nodes = scenery.nodes_of(group, e, scenery.view.deformation);
       const SubGrid& grid = grid_for(scenery, group, nodes);
-      const Eigen::Matrix2Xd places = nodes * grid.N.transpose();
-      const Eigen::MatrixXd parts = at_nodes * grid.N.transpose();
+      places.noalias() = nodes * grid.N.transpose();
+      parts.noalias() = at_nodes * grid.N.transpose();
       Patch& patch = result.emplace_back(Patch{&grid.cells, {}});
+      patch.places.reserve(static_cast<std::size_t>(places.cols()));
       for (Eigen::Index p = 0; p < places.cols(); ++p)
         patch.places.push_back(
             {places.col(p), field_number(scenery.field, scenery.parts, parts.col(p).data())});

@@ -39,13 +39,6 @@ std::vector<Block> surfaces(const Model& model, Diagnostics& diagnostics, int& l
   std::vector<Block> blocks;
   for (const Group& group : model.groups) {
     for (int number : group.element_numbers) largest = std::max(largest, number);
-    if (group.structure() && group.elements() > 0)
-      diagnostics.add({Severity::warning,
-                       "S720",
-                       group.where,
-                       std::to_string(group.elements()) + " " + group.element_name +
-                           " element(s) left out: mesh files are written with solids alone",
-                       {}});
     if (!group.solid() || group.elements() == 0) continue;
     if (group.entry->gmsh.type == 0) warn_of_corners(group, "MSH", diagnostics);
     const std::vector<int> order = foreign_nodes(*group.entry, group.entry->gmsh);
@@ -60,7 +53,7 @@ std::vector<Block> surfaces(const Model& model, Diagnostics& diagnostics, int& l
   return blocks;
 }
 
-// A curve of lines for one side of a group's interfaces.  numbers: of the lines.
+// A curve of lines through some nodes (`side`) of each element of a group.  numbers: of the lines.
 Block side_lines(const Model& model, const Group& group, const std::vector<int>& side,
                  const std::vector<int>& numbers) {
   Block block{1, msh::line_type(side.size()), 0, "", {}};
@@ -95,8 +88,26 @@ std::vector<Block> interfaces(const Model& model, Diagnostics& diagnostics, int&
     blocks.push_back(side_lines(model, group, sides.top, of_top));
     blocks.back().name = std::string(msh::kInterfaceTop) + name.substr(msh::kInterfaceBottom.size());
   }
-  for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i].tag = static_cast<int>(i) + 1;
   return blocks;
+}
+
+// Bars and beams as lines that bear the elements' numbers, behind the curves that there are.
+void add_structures(const Model& model, std::vector<Block>& blocks, Diagnostics& diagnostics) {
+  for (const Group& group : model.groups) {
+    if (!group.structure() || group.elements() == 0) continue;
+    const std::vector<int> order = foreign_nodes(*group.entry, group.entry->vtk);
+    if (msh::line_type(order.size()) == 0) {
+      diagnostics.add({Severity::warning,
+                       "S720",
+                       group.where,
+                       std::to_string(group.elements()) + " " + group.element_name +
+                           " element(s) left out: MSH has no line of their nodes",
+                       {}});
+      continue;
+    }
+    blocks.push_back(side_lines(model, group, order, group.element_numbers));
+    blocks.back().name = unlike(group, {blocks.begin(), blocks.end() - 1});
+  }
 }
 
 // Nodes that are held, with a direction of each, and that no held edge has.
@@ -211,9 +222,11 @@ void warn_of_the_rest(const Model& model, const HeldDofs& beside, Diagnostics& d
 std::vector<Block> blocks_of(const Model& model, Diagnostics& diagnostics, HeldDofs& beside) {
   int largest = 0;
   std::vector<Block> blocks = surfaces(model, diagnostics, largest);
-  const std::vector<Block> joints = interfaces(model, diagnostics, largest);
-  const std::vector<Block> held = supports(model, largest + 1, static_cast<int>(joints.size()), beside);
-  blocks.insert(blocks.end(), joints.begin(), joints.end());
+  std::vector<Block> curves = interfaces(model, diagnostics, largest);
+  add_structures(model, curves, diagnostics);
+  for (std::size_t i = 0; i < curves.size(); ++i) curves[i].tag = static_cast<int>(i) + 1;
+  const std::vector<Block> held = supports(model, largest + 1, static_cast<int>(curves.size()), beside);
+  blocks.insert(blocks.end(), curves.begin(), curves.end());
   blocks.insert(blocks.end(), held.begin(), held.end());
   return blocks;
 }

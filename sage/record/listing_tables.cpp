@@ -30,6 +30,10 @@ void left(std::string& text, std::string_view word, std::size_t width) {
 
 // "   0.725": three decimals of a number that stands between 0 and 1.
 void append_level(std::string& text, double level) {
+  if (std::isnan(level)) {  // of water
+    text += "       -";
+    return;
+  }
   if (!(level >= 0.0 && level < 999.0)) {
     fmt::format_to(to(text), "{:8.3g}", level);
     return;

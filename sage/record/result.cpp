@@ -48,7 +48,7 @@ Frame::Frame(const Model& model) : activity_(model) {
   }
 }
 
-void Frame::exchange(Archive& archive) {
+void Frame::exchange_report(Archive& archive) {
   StepReport& r = report_;
   archive(r.cuts);
   archive(r.substeps);
@@ -61,7 +61,18 @@ void Frame::exchange(Archive& archive) {
   archive(r.worst.residual);
   archive(r.smallest_pivot_ratio);
   archive(r.motion);
-  exchange_state(archive);
+}
+
+std::size_t Frame::size_of_state() const {
+  constexpr std::size_t kCounts = 4096;
+  std::size_t numbers = static_cast<std::size_t>(u_.size() + internal_.size() + external_.size()),
+              words = activity_.held.size();
+  for (const GroupData& data : groups_) {
+    const PointStates& state = data.state.committed;
+    numbers += state.sigma.size() + state.eps.size() + state.h.size() + data.pore.size();
+    words += state.status.size();
+  }
+  return kCounts + numbers * sizeof(double) + words * sizeof(int);
 }
 
 void Frame::exchange_state(Archive& archive) {

@@ -25,10 +25,11 @@ class Frame {
   double largest_stress() const { return largest_stress_; }  // |component| of all active points
   // What is left are displacements and forces.
   void drop_points() { groups_.clear(); }
-  // To bytes and back.
-  void exchange(Archive& archive);
-  // The same without most of the report: equal states give equal bytes, whether or not the run was interrupted.
+  // To bytes and back, the one behind the other: most of the report, and all else.  Equal states give equal bytes,
+  // whether or not the run was interrupted.
+  void exchange_report(Archive& archive);
   void exchange_state(Archive& archive);
+  std::size_t size_of_state() const;  // bytes, about
 
  private:
   StepReport report_;

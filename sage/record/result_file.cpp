@@ -9,6 +9,7 @@
 
 #include "sage/model/fingerprint.hpp"
 #include "sage/record/data_file.hpp"
+#include "sage/record/in_order.hpp"
 #include "sage/record/state_time.hpp"
 #include "sage/record/stored_result.hpp"
 #include "sage/record/values.hpp"
@@ -20,39 +21,57 @@ namespace {
 
 using Shape = std::vector<std::uint64_t>;
 
-// A DataFile whose failures are OutputErrors.
+// A DataFile whose failures are OutputErrors.  What is written to it waits for a thread of its own, where there is
+// one: compressing and writing take as long as computing.
 class TableFile {
  public:
-  TableFile(const std::filesystem::path& partial, std::filesystem::path path)
-      : path_(std::move(path)), file_(make_data_file(partial.string())) {}
+  TableFile(const std::filesystem::path& partial, std::filesystem::path path, bool own_thread)
+      : path_(std::move(path)), file_(make_data_file(partial.string())), writer_(own_thread, kMostWaiting) {}
 
   void table(const std::string& name, DataType type, const Shape& row = {}, std::uint64_t chunk = 1) {
-    expect(file_->table(name.c_str(), type, row, std::max<std::uint64_t>(chunk, 1)));
+    later(0, [=, this] { return file_->table(name.c_str(), type, row, std::max<std::uint64_t>(chunk, 1)); });
   }
   template <class T>
-  void append(const std::string& name, const std::vector<T>& values, std::uint64_t rows) {
-    expect(file_->append(name.c_str(), values.data(), rows));
+  void append(const std::string& name, std::vector<T> values, std::uint64_t rows) {
+    later(values.size() * sizeof(T), [=, this, values = std::move(values)]() mutable {
+      const bool done = file_->append(name.c_str(), values.data(), rows);
+      if constexpr (std::is_same_v<T, double>) numbers_.give(std::move(values));
+      return done;
+    });
   }
   // A table that is complete at once.
   template <class T>
-  void whole(const std::string& name, const std::vector<T>& values, const Shape& row = {}) {
+  void whole(const std::string& name, std::vector<T> values, const Shape& row = {}) {
     std::uint64_t numbers = 1;
     for (std::uint64_t n : row) numbers *= n;
     const std::uint64_t rows = numbers == 0 ? 0 : values.size() / numbers;
     table(name, type_of<T>(), row, rows);
-    append(name, values, rows);
+    append(name, std::move(values), rows);
   }
-  void bytes(const std::string& name, std::string_view text) {
-    table(name, DataType::uint8, {}, text.size());
-    expect(file_->append(name.c_str(), text.data(), text.size()));
+  // What stands in `text` from `from` on.
+  void bytes(const std::string& name, std::string text, std::size_t from = 0) {
+    const std::size_t size = text.size() - from;
+    table(name, DataType::uint8, {}, size);
+    later(size, [=, this, text = std::move(text)]() mutable {
+      const bool done = file_->append(name.c_str(), text.data() + from, size);
+      texts_.give(std::move(text));
+      return done;
+    });
   }
   void text(const std::string& path, const char* name, const std::string& value) {
-    expect(file_->text(path.c_str(), name, value.c_str()));
+    later(0, [=, this] { return file_->text(path.c_str(), name, value.c_str()); });
   }
   void numbers(const std::string& path, const char* name, const std::vector<std::int64_t>& values) {
-    expect(file_->numbers(path.c_str(), name, values.data(), values.size()));
+    later(0, [=, this] { return file_->numbers(path.c_str(), name, values.data(), values.size()); });
   }
-  void close() { expect(file_->close()); }
+  void close() {
+    later(0, [this] { return file_->close(); });
+    writer_.finish();
+  }
+
+  // Room for what is going to be written.
+  std::vector<double> room(std::size_t numbers) { return numbers_.take(numbers); }
+  std::string room_for_text(std::size_t size) { return texts_.take(size); }
 
   template <class T>
   static constexpr DataType type_of() {
@@ -63,12 +82,20 @@ class TableFile {
   }
 
  private:
-  void expect(bool done) const {
-    if (!done) throw OutputError("S601", "cannot write " + path_.string() + ": " + file_->error());
+  static constexpr std::size_t kMostWaiting = std::size_t{1} << 26;
+
+  template <class Write>
+  void later(std::size_t bytes, Write write) {
+    writer_.add(bytes, [this, write = std::move(write)]() mutable {
+      if (!write()) throw OutputError("S601", "cannot write " + path_.string() + ": " + file_->error());
+    });
   }
 
   std::filesystem::path path_;
   std::unique_ptr<DataFile> file_;
+  Rooms<std::vector<double>> numbers_;
+  Rooms<std::string> texts_;
+  InOrder writer_;  // the last member: its thread uses the others
 };
 
 template <class T>
@@ -161,20 +188,20 @@ class VtkPart {
     ++parts_;
   }
 
-  void add_arrays(const std::string& where, const std::vector<VtkArray>& arrays, std::size_t rows,
+  void add_arrays(const std::string& where, std::vector<VtkArray> arrays, std::size_t rows,
                   std::int64_t& before) {
-    for (const VtkArray& array : arrays) {
+    for (VtkArray& array : arrays) {
       const std::string path = root(where) + "/" + array.name,
                         offsets = steps(where + "Offsets") + "/" + array.name;
       std::visit(
-          [&](const auto& values) {
+          [&](auto& values) {
             using T = typename std::decay_t<decltype(values)>::value_type;
             if (count_ == 0) {
               out_.table(path, TableFile::type_of<T>(), array.width > 1 ? Shape{array.width} : Shape{}, rows);
               out_.text(path, "unit", unit_text(array.field->dimension, model_.units));
               out_.table(offsets, DataType::int64);
             }
-            out_.append(path, values, rows);
+            out_.append(path, std::move(values), rows);
           },
           array.values);
       out_.append(offsets, std::vector{before}, 1);
@@ -234,12 +261,13 @@ class OwnPart {
     out_.table(path, whole_numbers(field) ? DataType::int32 : DataType::float64, with_size(rows, field));
     describe_table(out_, path, field, model_);
   }
-  void append(const std::string& path, const FieldEntry& field, const std::vector<double>& values) {
+  void append(const std::string& path, const FieldEntry& field, std::vector<double> values) {
     if (!whole_numbers(field)) {
-      out_.append(path, values, 1);
+      out_.append(path, std::move(values), 1);
       return;
     }
     std::vector<std::int32_t> whole;
+    whole.reserve(values.size());
     for (double value : values) whole.push_back(std::isnan(value) ? -1 : static_cast<std::int32_t>(value));
     out_.append(path, whole, 1);
   }
@@ -258,7 +286,7 @@ class OwnPart {
       if (field.place() != FieldPlace::increment) continue;
       std::vector<double> values(field.size());
       read_field(field, view, values.data());
-      append(increments(field.name), field, values);
+      append(increments(field.name), field, std::move(values));
     }
   }
 
@@ -280,11 +308,12 @@ class OwnPart {
     const std::vector<char> active = active_nodes(model_, *now.activity);
     for (const FieldEntry& field : fields_.rows()) {
       if (!own_node_field(field)) continue;
-      std::vector<double> values(active.size() * field.size(), std::nan(""));
+      std::vector<double> values = out_.room(active.size() * field.size());
+      std::ranges::fill(values, std::nan(""));
       for (std::size_t n = 0; n < active.size(); ++n)
         if (active[n])
           read_field(field, node_view(model_, now, static_cast<int>(n)), values.data() + n * field.size());
-      append(nodes(field.name), field, values);
+      append(nodes(field.name), field, std::move(values));
     }
   }
 
@@ -341,20 +370,40 @@ class OwnPart {
   void add_group(const GroupData& data) {
     const Group& group = *data.group;
     out_.append(in(group, "active"), std::vector<std::uint8_t>{static_cast<std::uint8_t>(data.active)}, 1);
-    for (const FieldEntry* field : point_fields(group)) {
-      values_.resize(points_of(group) * field->size());
-      if (!data.active) std::ranges::fill(values_, std::nan(""));
-      if (data.active)
-        for (std::size_t p = 0; p < points_of(group); ++p)
-          read_field(*field, {model_.mesh, data, p}, values_.data() + p * field->size());
-      append(in(group, field->name), *field, values_);
+    const FieldList all = point_fields(group);
+    const std::size_t points = points_of(group);
+    for (std::size_t first = 0; first < all.size();) {
+      std::size_t last = first, numbers = 0;
+      do numbers += points * all[last++]->size();
+      while (last < all.size() && numbers + points * all[last]->size() <= kAtOnce);
+      add_fields(data, {all.begin() + static_cast<std::ptrdiff_t>(first),
+                        all.begin() + static_cast<std::ptrdiff_t>(last)});
+      first = last;
     }
   }
+  // Fields that are read together: what a point has is looked up once for all of them.
+  void add_fields(const GroupData& data, const FieldList& fields) {
+    const Group& group = *data.group;
+    const std::size_t points = points_of(group);
+    std::vector<std::vector<double>> values;
+    for (const FieldEntry* field : fields) values.push_back(out_.room(points * field->size()));
+    if (!data.active)
+      for (std::vector<double>& one : values) std::ranges::fill(one, std::nan(""));
+    else
+      for (std::size_t p = 0; p < points; ++p) {
+        const PointState point(model_.mesh, data, p);
+        for (std::size_t f = 0; f < fields.size(); ++f)
+          read_field(*fields[f], point, values[f].data() + p * fields[f]->size());
+      }
+    for (std::size_t f = 0; f < fields.size(); ++f)
+      append(in(group, fields[f]->name), *fields[f], std::move(values[f]));
+  }
+
+  static constexpr std::size_t kAtOnce = std::size_t{1} << 21;  // numbers
 
   TableFile& out_;
   const Model& model_;
   const FieldTable& fields_;
-  std::vector<double> values_;  // of one field at the points of a group: room that is kept
 };
 
 // What StoredResult reads: the model's sources, and every state whole.
@@ -374,16 +423,14 @@ class SourcePart {
     out_.table(stored_path("states"), DataType::int64, {kStoredColumns});
   }
 
-  void add(Frame& frame) {
+  // stored: where the bytes of the state stand in what the run has written of it, from `from` on.
+  void add(const StepReport& report, std::string stored, std::size_t from) {
     if (!kept_) return;
-    const StepReport& report = frame.report();
-    Archive archive;
-    frame.exchange_state(archive);
-    const std::string& state = archive.bytes();
-    const std::vector<std::int64_t> row{report.stage, report.increment, report.increments,
-                                        std::bit_cast<std::int64_t>(checksum(state))};
+    const std::vector<std::int64_t> row{
+        report.stage, report.increment, report.increments,
+        std::bit_cast<std::int64_t>(checksum(std::string_view(stored).substr(from)))};
     out_.append(stored_path("states"), row, 1);
-    bytes(fmt::format("state{}", ++count_), state);
+    out_.bytes(stored_path(fmt::format("state{}", ++count_)), std::move(stored), from);
   }
 
  private:
@@ -398,26 +445,29 @@ class SourcePart {
 class FrameReader {
  public:
   FrameReader(const Model& model, const std::filesystem::path& file)
-      : model_(model), in_(file, std::ios::binary) {}
-  Frame next(std::uint64_t size) {
-    std::string bytes(size, '\0');
+      : in_(file, std::ios::binary), frame_(model) {}
+  // bytes: room for the state's `size`; gives the place where those of Frame::exchange_state begin.
+  std::size_t next(std::uint64_t size, std::string& bytes) {
     if (!in_.read(bytes.data(), static_cast<std::streamsize>(size)))
       throw OutputError("S601", "the states of the run can't be read back for its result file");
-    Frame frame(model_);
     Archive archive(std::move(bytes));
-    frame.exchange(archive);
-    return frame;
+    frame_.exchange_report(archive);
+    const std::size_t from = archive.place();
+    frame_.exchange_state(archive);
+    bytes = archive.take();
+    return from;
   }
+  const Frame& frame() const { return frame_; }
 
  private:
-  const Model& model_;
   std::ifstream in_;
+  Frame frame_;
 };
 
 }  // namespace
 
-ResultOutput::ResultOutput(std::filesystem::path folder, const std::string& stem, RunSource source)
-    : path_(folder / (stem + ".h5")), source_(std::move(source)) {
+ResultOutput::ResultOutput(std::filesystem::path folder, const std::string& stem, RunSource source, int threads)
+    : path_(folder / (stem + ".h5")), source_(std::move(source)), threads_(threads) {
   expect_data_module();
   expect_no_input(path_);
   std::error_code ignored;
@@ -434,10 +484,14 @@ ResultOutput::~ResultOutput() {
 
 void ResultOutput::add(const Model& model, const StepReport& report, const Solution& solution) {
   Frame frame(model, report, solution);
-  Archive archive;
-  frame.exchange(archive);
-  states_.text() += archive.bytes();
-  frames_.push_back(archive.bytes().size());
+  std::string& text = states_.text();
+  const std::size_t before = text.size();
+  text.reserve(before + frame.size_of_state());
+  Archive archive = Archive::behind(std::move(text));
+  frame.exchange_report(archive);
+  frame.exchange_state(archive);
+  text = archive.take();
+  frames_.push_back(text.size() - before);
   states_.checkpoint();
 }
 
@@ -462,7 +516,7 @@ void ResultOutput::on_finish(const Model& model, const RunResult& result) {
   OutFile file(path_);
   file.written_by([&](const std::filesystem::path& partial) {
     const FieldTable fields = fields_of(model);
-    TableFile out(partial, path_);
+    TableFile out(partial, path_, threads_ > 1);
     out.text("/sage", "title", model.title);
     out.text("/sage", "deck", model.file);
     out.text("/sage", "program", "sagefe " SAGE_VERSION);
@@ -475,10 +529,11 @@ void ResultOutput::on_finish(const Model& model, const RunResult& result) {
     SourcePart source(out, source_, model, failure_);
     FrameReader reader(model, states_.partial());
     for (std::uint64_t size : frames_) {
-      Frame frame = reader.next(size);
-      vtk.add(frame);
-      own.add(frame);
-      source.add(frame);
+      std::string bytes = out.room_for_text(size);
+      const std::size_t from = reader.next(size, bytes);
+      source.add(reader.frame().report(), std::move(bytes), from);
+      vtk.add(reader.frame());
+      own.add(reader.frame());
     }
     vtk.finish();
     out.close();

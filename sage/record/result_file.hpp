@@ -19,8 +19,9 @@ struct RunSource {
 // when the run has ended, whole, or not at all.
 class ResultOutput final : public Output {
  public:
+  // threads: with more than one the file is written while its fields are computed; its bytes are the same.
   // Throws OutputError, also where the module that writes such files can't be loaded.
-  ResultOutput(std::filesystem::path folder, const std::string& stem, RunSource source = {});
+  ResultOutput(std::filesystem::path folder, const std::string& stem, RunSource source = {}, int threads = 1);
   // Once the file is written nobody needs the states; until then only a checkpoint may name them.
   ~ResultOutput() override;
   ResultOutput(const ResultOutput&) = delete;
@@ -41,6 +42,7 @@ class ResultOutput final : public Output {
 
   std::filesystem::path path_;
   RunSource source_;
+  int threads_;
   OutFile states_;
   bool in_checkpoint_ = false;         // --restart goes on from the states
   std::vector<std::uint64_t> frames_;  // bytes of each

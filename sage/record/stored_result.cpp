@@ -55,10 +55,10 @@ void StoredResult::expect_model(const Model& model) const {
 }
 
 Frame StoredResult::frame(const Model& model, std::size_t state) const {
-  const std::string stored = bytes(fmt::format("state{}", state + 1));
+  std::string stored = bytes(fmt::format("state{}", state + 1));
   if (checksum(stored) != states_.at(state).checksum) fail(fmt::format("state {} is damaged", state + 1));
   Frame frame(model);
-  Archive archive(stored);
+  Archive archive(std::move(stored));
   frame.exchange_state(archive);
   return frame;
 }

@@ -283,6 +283,22 @@ TEST(Plot, WaterIsDrawnWhereItFlows) {
   EXPECT_NE(net.err.find("head is its field"), std::string::npos) << net.err;
 }
 
+// Before anything is computed: a deck of flow alone has no stress, and water has no strength.
+TEST(Plot, RunRefusesPicturesThatWouldBeEmpty) {
+  const fs::path folder = empty_folder("plot_empty");
+  for (const char* field : {"stress_yy", "SL", "bending_moment"}) {
+    const Finished run =
+        sagefe(folder, "run " + kInputs + "seepage/sheet_pile/deck.dat -q --picture " + std::string(field));
+    EXPECT_EQ(run.exit_code, 1) << field;
+    EXPECT_NE(run.err.find(std::string("--picture ") + field), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("S644"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("head, "), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("velocity, hydraulic_gradient"), std::string::npos) << run.err;
+    EXPECT_EQ(run.err.find("stress_level"), std::string::npos) << run.err;
+    EXPECT_FALSE(fs::exists(folder / "out/sheet_pile.lst"));
+  }
+}
+
 // A place for each integration point of the interface.
 TEST(Plot, StressesOfInterfacesAreCurves) {
   const fs::path folder = empty_folder("plot_interface");

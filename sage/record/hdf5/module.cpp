@@ -84,7 +84,7 @@ std::vector<unsigned char> shuffled(const unsigned char* numbers, std::size_t by
 // A long row whose middle hardly becomes smaller.  Compressing stress and strain of 200 000 elements took as long
 // as computing them, for half of their size; tables of zeros, directions and states pay a hundred times more.
 bool left_as_it_is(const Table& table, const void* row) {
-  constexpr std::size_t kLong = std::size_t{1} << 20, kSample = std::size_t{1} << 16;
+  constexpr std::size_t kLong = std::size_t{1} << 20, kSample = std::size_t{1} << 14;
   constexpr uLongf kWorth = 4;  // times smaller
   if (table.packed_row < kLong) return false;
   const std::size_t middle = table.packed_row / table.width / 2 * table.width;

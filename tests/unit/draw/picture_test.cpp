@@ -170,6 +170,32 @@ TEST(FieldSheet, PanelsOfAFieldShareAScale) {
   EXPECT_EQ(count(apart, ">20</text>"), 1u);
 }
 
+// Panels of different heights: the mesh of one is flat.
+TEST(FieldSheet, NotesOfARowStandAtOneHeight) {
+  Specimen one, flat;
+  flat.model.mesh.x.row(1) *= 0.1;
+  one.compress(0.01);
+  flat.compress(0.01);
+  FieldSheet sheet{
+      "", {{&one.model, one.solution(), "stress_yy", "a"}, {&flat.model, flat.solution(), "stress_yy", "b"}}};
+  sheet.columns = 2;
+  const auto heights = [&] {
+    const std::string svg = sheet_svg(sheet);
+    const std::regex note("y=\"([0-9.]+)\"[^>]*>values: means");
+    std::vector<std::string> found;
+    for (std::sregex_iterator at(svg.begin(), svg.end(), note), none; at != none; ++at)
+      found.push_back((*at)[1]);
+    return found;
+  };
+  const std::vector<std::string> beside = heights();
+  ASSERT_EQ(beside.size(), 2u);
+  EXPECT_EQ(beside[0], beside[1]);
+  sheet.columns = 1;  // below one another: each below its own mesh
+  const std::vector<std::string> below = heights();
+  ASSERT_EQ(below.size(), 2u);
+  EXPECT_NE(below[0], below[1]);
+}
+
 // The other three quarters are the first one reflected: about its left side, its lower side, both.
 TEST(FieldSheet, MirroredSpecimensAreReflections) {
   Specimen specimen(Geometry::axisymmetric, false);

@@ -1,5 +1,6 @@
 // The result file, read back by HDF5's own library: fields of a specimen whose state is known in closed form.
 #include "sage/record/result_file.hpp"
+#include "sage/record/in_order.hpp"
 
 #include <gtest/gtest.h>
 #include <hdf5.h>
@@ -204,6 +205,47 @@ TEST(ResultFile, EqualRunsGiveEqualBytes) {
   }
   EXPECT_GT(bytes[0].size(), 1000u);
   EXPECT_TRUE(bytes[0] == bytes[1]);
+}
+
+TEST(ResultFile, AThreadOfItsOwnGivesTheSameBytes) {
+  const auto folder = fresh_folder("result_threads");
+  std::string bytes[2];
+  for (int threads : {1, 2}) {
+    Specimen specimen;
+    ResultOutput result(folder, "t", {"a deck", "", "", ""}, threads);
+    specimen.run(result, 0.01, 3);
+    bytes[threads - 1] = contents(folder / "t.h5");
+  }
+  EXPECT_GT(bytes[0].size(), 1000u);
+  EXPECT_TRUE(bytes[0] == bytes[1]);
+}
+
+// Whoever does them, in the order in which they were added, though more waits than may.
+TEST(InOrder, DoesAllTasksInTheirOrder) {
+  for (bool own_thread : {false, true}) {
+    std::vector<int> done;
+    InOrder tasks(own_thread, 10);
+    for (int i = 0; i < 100; ++i) tasks.add(static_cast<std::size_t>(i), [&done, i] { done.push_back(i); });
+    tasks.finish();
+    ASSERT_EQ(done.size(), 100u);
+    EXPECT_TRUE(std::ranges::is_sorted(done));
+  }
+}
+
+TEST(InOrder, NothingIsDoneBehindAnError) {
+  int done = 0;
+  InOrder tasks(true, 10);
+  tasks.add(1, [&] { ++done; });
+  tasks.add(1, [] { throw OutputError("S601", "disk full"); });
+  try {
+    for (int i = 0; i < 100; ++i) tasks.add(9, [&] { ++done; });
+    tasks.finish();
+    FAIL() << "the error is lost";
+  } catch (const OutputError& error) {
+    EXPECT_STREQ(error.what(), "disk full");
+  }
+  EXPECT_THROW(tasks.finish(), OutputError);
+  EXPECT_EQ(done, 1);
 }
 
 TEST(ResultFile, FailedRunHoldsTheLastStateAndSaysSo) {
