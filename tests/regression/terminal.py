@@ -1,5 +1,6 @@
 """What sagefe shows on a terminal: a pseudo terminal is its standard error and output.
-usage: terminal.py SAGEFE SOURCE_FOLDER"""
+usage: terminal.py SAGEFE SOURCE_FOLDER
+COARSER in the environment: refinements less, for a program that sanitizers slow down."""
 import fcntl
 import os
 import pathlib
@@ -16,6 +17,7 @@ import termios
 SAGEFE, SOURCE = str(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(sys.argv[2]).resolve()
 CASES = SOURCE / "legacy_inputs/chapter7"
 DECK = str(CASES / "pinned_ld2_nu0333/deck.dat")
+COARSER = int(os.environ.get("COARSER", "0"))
 PLAIN = {"TERM": "xterm", "NO_COLOR": "", "LC_ALL": "C"}
 failures = []
 
@@ -60,7 +62,7 @@ def left_on_screen(text, columns=100):
 
 
 def check_progress(folder):
-    large = ["run", DECK, "--refine", "4", "-o", "out"]
+    large = ["run", DECK, "--refine", str(4 - COARSER), "-o", "out"]
     text, status = on_terminal(folder, *large)
     shown = lines_of_progress(text)
     expect(status == 0 and len(shown) >= 3, "a long run shows its progress", status, shown)
@@ -80,17 +82,18 @@ def check_progress(folder):
 
 
 def check_nonlinear(folder):
-    text, status = on_terminal(folder, "run", str(CASES / "dp_285/deck.dat"), "--refine", "2", "-o", "out", columns=200)
+    text, status = on_terminal(folder, "run", str(CASES / "dp_285/deck.dat"), "--refine", str(2 - COARSER), "-o", "out",
+                                columns=200)
     shown = lines_of_progress(text)
     expect(any(re.search(r"iteration [0-9]+, residual [0-9.]+e", line) for line in shown), "iterations", shown)
     expect(any("left" in line for line in shown) or len(shown) < 12, "time left", shown)
 
 
 def check_ends(folder):
-    for command in (["run", DECK, "--refine", "5", "-o", "out"], ["verify"]):
+    for command in (["run", DECK, "--refine", str(5 - COARSER), "-o", "out"], ["verify"]):
         for number in (signal.SIGTERM, signal.SIGINT):
             text, status = on_terminal(folder, *command, send=number)
-            if command[0] == "run":  # half a second after its start, where 400 000 elements are still being prepared
+            if command[0] == "run":  # half a second after its start, where up to 400 000 elements are still being prepared
                 first = lines_of_progress(text)[:1]
                 expect(any("building the model" in line or "numbering" in line for line in first), "before increments",
                        first)
