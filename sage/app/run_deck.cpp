@@ -225,8 +225,11 @@ void warn_of_fields(const OutputOptions& o, Model& model) {
   if (!text.empty()) model.diagnostics.add({Severity::warning, "S610", {model.file, 0, 0, 0}, text, {}});
 }
 
-// Pictures of integration points that no element has that is drawn would be empty.
+// Pictures of integration points that no element has that is drawn would be empty, but for structures, which are drawn in
+// every picture.
 void expect_drawn(const std::vector<std::string>& pictures, const Model& model) {
+  const bool structures =
+      std::ranges::any_of(model.groups, [](const Group& group) { return group.structure(); });
   const FieldTable table = fields_of(model);
   const auto is_drawn = [&](const FieldEntry& field, bool diagram) {
     return field.place() == FieldPlace::node || std::ranges::any_of(model.groups, [&](const Group& group) {
@@ -238,7 +241,7 @@ void expect_drawn(const std::vector<std::string>& pictures, const Model& model) 
   for (const std::string& name : pictures) {
     const FieldChoice field = picture_field(table, name);
     const bool diagram = diagram_of(name) >= 0;
-    if (is_drawn(*field.entry, diagram)) continue;
+    if (is_drawn(*field.entry, diagram) || (structures && !diagram)) continue;
     std::string there;
     for (const FieldEntry& row : table.rows()) {
       const bool shown = row.place() == FieldPlace::node || row.place() == FieldPlace::point;

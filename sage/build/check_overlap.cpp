@@ -459,9 +459,43 @@ void refuse_overlaps(Builder& b, const std::vector<std::pair<Solid, Solid>>& fou
           text + " (a group that lies on others on purpose says so: overlay 1)");
 }
 
+using Corners = std::array<int, 4>;  // rising; a triangle's last is -1
+
+Corners corners_of(const Group& group, int element) {
+  Corners corners{-1, -1, -1, -1};
+  std::copy_n(group.nodes_of(element), group.entry->corners, corners.begin());
+  std::ranges::sort(corners);
+  return corners;
+}
+
+// Elements of water on those of soil, of a group that does not say so: its edges would count as the neighbours of the
+// soil's, none of them be a free one, and nodes made on them not be held.
+void refuse_water_in_soil(Builder& b) {
+  const std::vector<Group>& groups = b.model.groups;
+  const auto unnamed = [](const Group& group) {
+    return group.flow() && !group.overlay && group.entry->corners <= 4;
+  };
+  if (std::ranges::none_of(groups, unnamed)) return;
+  std::vector<Corners> solids;
+  for (const Group& group : groups)
+    for (int e = 0; group.solid() && group.entry->corners <= 4 && e < group.elements(); ++e)
+      solids.push_back(corners_of(group, e));
+  std::ranges::sort(solids);
+  for (const Group& group : groups)
+    for (int e = 0; unnamed(group) && e < group.elements(); ++e)
+      if (std::ranges::binary_search(solids, corners_of(group, e))) {
+        b.error("S326", group.where,
+                "group " + std::to_string(group.number) + ": water flows through element " +
+                    std::to_string(group.element_numbers[static_cast<std::size_t>(e)]) +
+                    " on the corners of a solid (a group that lies on others on purpose says so: overlay 1)");
+        break;
+      }
+}
+
 }  // namespace
 
 void check_overlap(Builder& b) {
+  refuse_water_in_soil(b);
   const Company company(b.model);
   const EdgeSearch edges(b, company);
   if (edges.first) {

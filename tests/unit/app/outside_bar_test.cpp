@@ -265,16 +265,19 @@ TEST(OutsideBar, ATrussAloneHasAllOutputs) {
   EXPECT_EQ(run_with_all_outputs("truss", deck).exit_code, app::kOk);
 }
 
-TEST(OutsideBar, OtherFormatsLeaveItOutWithAWarning) {
+TEST(OutsideBar, InpLeavesItOutWithAWarningAndMshHoldsItsLine) {
   Model model = bench().build(props(1, kElastic).text());
-  for (const auto text : {msh_text, inp_text}) {
-    Diagnostics diagnostics;
-    EXPECT_FALSE(text(model, diagnostics).empty());
-    bool said = false;
-    for (const Diagnostic& d : diagnostics.list())
-      said = said || d.message.find("2 own_bar2 one point element(s) left out") != std::string::npos;
-    EXPECT_TRUE(said);
-  }
+  const auto left_out = [](const Diagnostics& diagnostics) {
+    return std::ranges::any_of(diagnostics.list(), [](const Diagnostic& d) {
+      return d.message.find("2 own_bar2 one point element(s) left out") != std::string::npos;
+    });
+  };
+  Diagnostics of_inp, of_msh;
+  EXPECT_FALSE(inp_text(model, of_inp).empty());
+  EXPECT_TRUE(left_out(of_inp));
+  EXPECT_NE(msh_text(model, of_msh).find("\n1 2 1 2\n"), std::string::npos)
+      << "two lines of two nodes in group 2";
+  EXPECT_FALSE(left_out(of_msh));
   // A sage1 deck holds it: the same model again.
   Diagnostics none;
   const WholeRun back = bench().run(sage1_text(model, none));

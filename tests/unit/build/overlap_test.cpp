@@ -256,6 +256,9 @@ TEST(Overlap, OverlaysAndTwinsMay) {
   card.resize(60, ' ');
   card += "    1";
   EXPECT_EQ(refusal(water), "");
+  // Another mark than 0 and 1 is none.
+  card.replace(card.size() - 5, 5, "    2");
+  EXPECT_NE(refusal(water).find("can't be 2"), std::string::npos);
 
   Pieces twins;
   twins.deck.group(4, 1, 0, 1);
@@ -266,6 +269,21 @@ TEST(Overlap, OverlaysAndTwinsMay) {
   stage.deaths = {4};
   stage.births = {2};
   EXPECT_EQ(refusal(twins), "");
+}
+
+// Water in soil counts as the soil's neighbour where its group does not say that it lies there: boundaries would be none.
+TEST(Overlap, WaterInSoilSaysSo) {
+  Pieces pieces;
+  pieces.deck.material(2, 41, {1e-6});
+  pieces.deck.group(4, 41, 0, 2);
+  const std::vector<int> corners{pieces.node(0, 0), pieces.node(1, 0), pieces.node(1, 1), pieces.node(0, 1)};
+  pieces.element(1, corners);
+  pieces.element(4, {corners[2], corners[3], corners[0], corners[1]});
+  EXPECT_NE(refusal(pieces).find("water flows through element 2 on the corners of a solid"), std::string::npos);
+  std::string& card = pieces.deck.groups[3];
+  card.resize(60, ' ');
+  card += "    1";
+  EXPECT_EQ(refusal(pieces), "");
 }
 
 // Rectangles with whole coordinates up to 12 units long overlap by a twelfth of their width or not at all: compared
