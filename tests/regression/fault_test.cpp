@@ -144,6 +144,7 @@ TEST(Fault, FullDiskUnderAResultFile) {
         sagefe(folder, "run deck.dat -q --result",
                "bash -c 'trap \"\" XFSZ; ulimit -f " + std::to_string(blocks) + "; exec \"$@\"' -");
     EXPECT_EQ(full.exit_code, 4) << blocks << "\n" << full.err;
+    EXPECT_EQ(full.err.find("HDF5-DIAG"), std::string::npos) << full.err;
     EXPECT_FALSE(fs::exists(folder / "out/deck.h5"));
     EXPECT_FALSE(fs::exists(folder / "out/deck.h5.partial"));
     EXPECT_FALSE(fs::exists(folder / "out/deck.h5.states.partial")) << "no checkpoint names it";

@@ -98,10 +98,20 @@ bool left_as_it_is(const Table& table, const void* row) {
 // A bit for each filter that a stored row has not passed: shuffle and deflate.
 constexpr std::uint32_t kNoFilters = 3;
 
+// Around the library's calls: every thread has its own list of what failed, which is printed unless that thread says no,
+// and is lost memory when the thread ends.
+class Calls {
+ public:
+  Calls() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+  ~Calls() { H5Eclear2(H5E_DEFAULT); }
+  Calls(const Calls&) = delete;
+  Calls& operator=(const Calls&) = delete;
+};
+
 class Hdf5File final : public DataFile {
  public:
   Hdf5File(const char* path, bool reading) {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    const Calls calls;
     errno = 0;
     if (reading) {
       file_ = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -117,6 +127,7 @@ class Hdf5File final : public DataFile {
 
   bool table(const char* path, DataType type, const std::vector<std::uint64_t>& row,
              std::uint64_t chunk) override {
+    const Calls calls;
     const int rank = static_cast<int>(row.size()) + 1;
     std::vector<hsize_t> size{0}, most{H5S_UNLIMITED}, piece{chunk};
     for (std::uint64_t n : row) {
@@ -142,6 +153,7 @@ class Hdf5File final : public DataFile {
   }
 
   bool append(const char* path, const void* rows, std::uint64_t count) override {
+    const Calls calls;
     const auto set = sets_.find(path);
     if (set == sets_.end()) {
       error_ = std::string("no table ") + path;
@@ -170,6 +182,7 @@ class Hdf5File final : public DataFile {
 
   // Of a fixed length: VTK reads no other.
   bool text(const char* path, const char* name, const char* value) override {
+    const Calls calls;
     const Id type(H5Tcopy(H5T_C_S1), H5Tclose), space(H5Screate(H5S_SCALAR), H5Sclose);
     const std::size_t length = std::strlen(value);
     H5Tset_size(type.get(), length > 0 ? length : 1);
@@ -181,12 +194,14 @@ class Hdf5File final : public DataFile {
   }
 
   bool numbers(const char* path, const char* name, const std::int64_t* values, std::uint64_t count) override {
+    const Calls calls;
     const hsize_t size = count;
     const Id space(count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &size, nullptr), H5Sclose);
     return attribute(path, name, H5T_STD_I64LE, H5T_NATIVE_INT64, space.get(), values);
   }
 
   bool read(const char* path, std::string& bytes) override {
+    const Calls calls;
     errno = 0;
     const Id set(H5Dopen2(file_, path, H5P_DEFAULT), H5Dclose);
     if (!set.ok()) return failed();
@@ -198,6 +213,7 @@ class Hdf5File final : public DataFile {
   }
 
   bool read_text(const char* path, const char* name, std::string& value) override {
+    const Calls calls;
     errno = 0;
     const Id attribute(H5Aopen_by_name(file_, path, name, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
     if (!attribute.ok()) return failed();
@@ -213,6 +229,7 @@ class Hdf5File final : public DataFile {
   }
 
   bool close() override {
+    const Calls calls;
     bool done = true;
     errno = 0;
     for (const auto& [path, set] : sets_) done = H5Dclose(set.id) >= 0 && done;
