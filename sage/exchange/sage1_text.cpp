@@ -483,8 +483,23 @@ void Sage1Writer::report(const Report& report) {
 void Sage1Writer::water(const WaterCard& card) {
   std::vector<double> values;
   for (const Vector2& point : card.line) values.insert(values.end(), {point.x(), point.y()});
-  for (const auto& [node, pressure] : card.nodes)
-    values.insert(values.end(), {1.0 * node_number(node), std::max(0.0, pressure)});  // heads may lie lower
+  int made = 0, negative = 0;
+  for (const auto& [node, pressure] : card.nodes) {
+    if (!is_given(node)) {
+      ++made;
+      continue;
+    }
+    negative += pressure < 0.0 ? 1 : 0;  // heads may lie lower than the node
+    values.insert(values.end(), {1.0 * node_number(node), std::max(0.0, pressure)});
+  }
+  if (made > 0)
+    warning("pressures at " + std::to_string(made) +
+            " node(s) that the deck does not name are left out: there the new deck has what is linear between "
+            "the ends of "
+            "an edge");
+  if (negative > 0)
+    warning("negative pressures of water at " + std::to_string(negative) +
+            " node(s) are written as 0: the water's surface lies a little otherwise between nodes");
   integer(static_cast<int>(card.kind));
   integer(card.group < 0 ? 0 : group_number(card.group));
   integer(card.stage + 1);

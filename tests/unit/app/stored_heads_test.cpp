@@ -9,6 +9,7 @@
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/run_deck.hpp"
 #include "sage/app/stored_heads.hpp"
+#include "sage/exchange/convert.hpp"
 #include "sage/scenes/deck_writer.hpp"
 #include "sage/scenes/seepage.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -147,6 +148,31 @@ TEST_F(StoredHeads, OfAnotherMeshAreInterpolated) {
     const Eigen::VectorXd stored = moved(run("soil", deck)), direct = moved(run("both", both(block, 1.0, 0)));
     EXPECT_LT((stored - direct).cwiseAbs().maxCoeff(), 1e-11 * direct.cwiseAbs().maxCoeff());
   }
+}
+
+// Nodes that the program makes stand on no card: a converted deck can't name them, and runs.
+TEST_F(StoredHeads, ConvertedDecksNameNodesOfCardsAlone) {
+  ASSERT_EQ(run("heads", flow(block_of(Cell::quad4, 3, 2), 1, 1.0)).exit_code, kOk);
+  DeckWriter deck = soil(block_of(Cell::quad4, 4, 3));
+  deck.groups.front().replace(5, 5, "    2");  // eight nodes from the corners
+  add_water(deck, "heads.h5");
+  const RunOutcome outcome = run("corners", deck);
+  ASSERT_EQ(outcome.exit_code, kOk);
+  Diagnostics diagnostics;
+  const std::string text = sage1_text(*outcome.model, diagnostics);
+  const auto warns = [&](const std::string& words) {
+    return std::ranges::any_of(diagnostics.list(), [&](const Diagnostic& d) {
+      return to_string(d.code) == "S720" && d.message.find(words) != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(warns("pressures at 31 node(s) that the deck does not name"));  // the sides of 4 x 3 elements
+  EXPECT_TRUE(warns("negative pressures of water"));
+  std::ofstream(folder_ / "back.dat") << text;
+  RunRequest request;
+  request.deck = (folder_ / "back.dat").string();
+  request.quiet = true;
+  request.output.folder = folder_;
+  EXPECT_EQ(run_deck(request, catalogue_).exit_code, kOk);
 }
 
 TEST_F(StoredHeads, WhatCannotServeIsNamedAtItsField) {
