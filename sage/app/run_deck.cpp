@@ -233,8 +233,8 @@ void expect_drawn(const std::vector<std::string>& pictures, const Model& model) 
   const FieldTable table = fields_of(model);
   const auto is_drawn = [&](const FieldEntry& field, bool diagram) {
     return field.place() == FieldPlace::node || std::ranges::any_of(model.groups, [&](const Group& group) {
-             const bool drawn = diagram ? group.structure() : group.solid() || (group.flow() && !group.overlay);
-             return drawn && group.elements() > 0 &&
+             const ElementKind kind = diagram ? ElementKind::structure : ElementKind::solid;
+             return drawn_as(group) == kind && group.elements() > 0 &&
                     applies(field, group.entry->kind, model.material_of(group).law_ref());
            });
   };

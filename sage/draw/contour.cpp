@@ -46,16 +46,18 @@ void append_place(std::string& path, char pen, const Vector2& at) {
   svg::number(path, at.y());
 }
 
+// at(i): the place of the i-th corner.
+template <class At>
+void append_closed(std::string& path, std::size_t corners, const At& at) {
+  if (corners < 3) return;
+  for (std::size_t i = 0; i < corners; ++i) append_place(path, i == 0 ? 'M' : 'L', at(i));
+  path += 'Z';
+}
+
 }  // namespace
 
 void append_path(std::string& path, const std::vector<Corner>& polygon) {
-  if (polygon.size() < 3) return;
-  char pen = 'M';
-  for (const Corner& corner : polygon) {
-    append_place(path, pen, corner.at);
-    pen = 'L';
-  }
-  path += 'Z';
+  append_closed(path, polygon.size(), [&](std::size_t i) -> const Vector2& { return polygon[i].at; });
 }
 
 std::vector<Corner> polygon_of(const Patch& patch, const std::vector<int>& indices) {
@@ -68,13 +70,9 @@ namespace {
 
 // As append_path(path, polygon_of(patch, indices)), without the polygon.
 void append_places(std::string& path, const Patch& patch, const std::vector<int>& indices) {
-  if (indices.size() < 3) return;
-  char pen = 'M';
-  for (int i : indices) {
-    append_place(path, pen, patch.places[static_cast<std::size_t>(i)].at);
-    pen = 'L';
-  }
-  path += 'Z';
+  append_closed(path, indices.size(), [&](std::size_t i) -> const Vector2& {
+    return patch.places[static_cast<std::size_t>(indices[i])].at;
+  });
 }
 
 // The part of a cell where value >= limit: whole where it can be, else triangle by triangle.

@@ -16,6 +16,11 @@ namespace sage {
 // An unknown one, or one that lives neither at nodes nor at points: std::invalid_argument.
 FieldChoice picture_field(const FieldTable& table, std::string_view name);
 
+// What water flows through is drawn as solids are, but not over them.
+inline ElementKind drawn_as(const Group& group) {
+  return group.flow() && !group.overlay ? ElementKind::solid : group.entry->kind;
+}
+
 struct PictureOptions {
   std::string title = {};  // empty = the model's
   std::string state = {};  // "end of stage 2", before the name of the field

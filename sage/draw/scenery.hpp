@@ -48,11 +48,8 @@ struct Scenery {
   FieldParts parts;
   std::map<std::tuple<const Element*, int, int>, SubGrid> grids = {};  // patches point into them
 
-  // What water flows through is drawn as solids are, but not over them.
   bool draws(std::size_t g, ElementKind kind) const {
-    const Group& group = model.groups[g];
-    const ElementKind own = group.flow() && !group.overlay ? ElementKind::solid : group.entry->kind;
-    return !layout.of_group[g].empty() && own == kind;
+    return !layout.of_group[g].empty() && drawn_as(model.groups[g]) == kind;
   }
   Vector2 moved(int node, double deformation) const {
     return view.at(model.mesh.x.col(node) + deformation * solution.u->segment<2>(DofMap::displacement(node)));
