@@ -18,6 +18,7 @@ SAGEFE, SOURCE = str(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(sys.argv
 CASES = SOURCE / "legacy_inputs/chapter7"
 DECK = str(CASES / "pinned_ld2_nu0333/deck.dat")
 COARSER = int(os.environ.get("COARSER", "0"))
+PHASE = "assembly|factorisation|solution|recovery|numbering"
 PLAIN = {"TERM": "xterm", "NO_COLOR": "", "LC_ALL": "C"}
 failures = []
 
@@ -62,14 +63,15 @@ def left_on_screen(text, columns=100):
 
 
 def check_progress(folder):
-    large = ["run", DECK, "--refine", str(4 - COARSER), "-o", "out"]
-    text, status = on_terminal(folder, *large)
+    # Which phases the few lines of a run of a second meet is chance: what has to be among them is asked of a longer run.
+    text, status = on_terminal(folder, "run", DECK, "--refine", str(5 - COARSER), "-o", "out")
     shown = lines_of_progress(text)
     expect(status == 0 and len(shown) >= 3, "a long run shows its progress", status, shown)
-    expect(any("factorisation" in line for line in shown), "a phase", shown)
+    expect(any(re.search(PHASE, line) for line in shown), "a phase", shown)
     expect(any(re.search("increment [0-9]+ of 10", line) for line in shown), "increments", shown)
     expect(any("% " in line or "%," in line for line in shown), "share done", shown)
     expect(left_on_screen(text) == "", "nothing is left", left_on_screen(text))
+    large = ["run", DECK, "--refine", str(4 - COARSER), "-o", "out"]
     narrow, status = on_terminal(folder, *large, columns=24)
     shown = lines_of_progress(narrow)
     expect(shown and max(len(line) for line in shown) < 24, "lines do not wrap", shown)
