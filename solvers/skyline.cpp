@@ -30,16 +30,17 @@ class Skyline final : public MatrixSolver {
     PivotCheck check(traits().name, row_maxima());
     const ProfileFactors factors = factors_in_place();
     alignas(64) double maximum[kTile] = {};
+    const double largest = check.largest_term(), filling = largest > 0.0 ? largest : 1.0;
     for (int J = 0; J < profile_.tiles; ++J) {
       stop_here_if_asked();
-      fill_column(J);
+      fill_column(J, filling);
       kernels_->reduce_profile_column(factors, J, maximum);
       const int live = std::min(kTile, profile_.equations - J * kTile);
       for (int k = 0; k < live; ++k)
         check.take(profile_.order[at(J * kTile + k)], diagonal_[J * kTileTerms + k * kTile + k]);
     }
     report_.smallest_pivot_ratio = profile_.equations > 0 ? check.smallest_ratio() : 1.0;
-    report_.growth = profile_.equations > 0 ? *std::ranges::max_element(maximum) / check.largest_term() : 1.0;
+    report_.growth = profile_.equations > 0 ? *std::ranges::max_element(maximum) / largest : 1.0;
     if constexpr (symmetric) report_.negative_pivots = check.negative();
   }
 
@@ -86,7 +87,9 @@ class Skyline final : public MatrixSolver {
     return symmetric ? lower() : TileTriangle{upper_, diagonal_, reciprocal_.data()};
   }
 
-  void fill_column(int J) {
+  // filling: the diagonal of the rows beyond the last equation, of the size of the matrix's own terms: a larger one
+  // would pass for terms that grew.
+  void fill_column(int J, double filling) {
     const std::int64_t begin = profile_.offset[at(J)], end = profile_.offset[at(J) + 1];
     std::fill(lower_ + begin, lower_ + end, 0.0);
     if constexpr (!symmetric) std::fill(upper_ + begin, upper_ + end, 0.0);
@@ -96,8 +99,7 @@ class Skyline final : public MatrixSolver {
     for (auto k = at(scatter_.start[at(J)]); k < at(scatter_.start[at(J) + 1]); ++k)
       tiles_.data()[scatter_.target[k]] = value[scatter_.source[k]];
     if constexpr (symmetric) std::copy(lower_ + begin, lower_ + end, column_.data());
-    for (int i = profile_.equations - J * kTile; i < kTile; ++i)  // whole tiles: the last rows are the identity
-      diagonal[i * kTile + i] = 1.0;
+    for (int i = profile_.equations - J * kTile; i < kTile; ++i) diagonal[i * kTile + i] = filling;
   }
 
   ProfileFactors factors_in_place() {
