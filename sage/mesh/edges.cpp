@@ -21,37 +21,40 @@ struct CutEdge {
   }
 };
 
-// use(ends, solids, each), each(visit) with visit(node on the edge), for all edges by rising key.
-template <class Use>
-void for_edges(const MadeEdges& edges, const Use& use) {
-  for (const auto& [ends, edge] : edges)
-    use(ends, edge.solids, [&nodes = edge.nodes](auto&& visit) {
-      for (const OnEdge& node : nodes) visit(node);
-    });
-}
-
-template <class Use>
-void for_edges(const EdgeTable& edges, const Use& use) {
-  for (const EdgeTable::Edge& edge : edges.edges())
-    use(edge.ends, edge.solids, [&](auto&& visit) {
-      for (int i = edge.first; i >= 0; i = edges.link(i).next) visit(edges.link(i));
-    });
-}
-
-// Edges with made nodes: outer ones, and inner ones whose own middle node says what is meant; or all.
-template <class Edges>
-std::vector<CutEdge> cut_edges(const Edges& edges, int first_made, bool all = false) {
+// Edges with made nodes that are wanted.  wanted(edge, known): known nodes inside it.
+template <class Wanted>
+std::vector<CutEdge> cut_edges(const EdgeTable& edges, int first_made, const Wanted& wanted) {
   std::vector<CutEdge> cut;
-  for_edges(edges, [&](const EdgeKey& ends, int solids, const auto& each) {
+  for (const EdgeTable::Edge& edge : edges.edges()) {
     int known = 0, made = 0;
+    const auto each = [&](auto&& visit) {
+      for (int i = edge.first; i >= 0; i = edges.link(i).next) visit(edges.link(i));
+    };
     each([&](const OnEdge& node) { ++(node.node < first_made ? known : made); });
-    if (made == 0 || (!all && solids > 1 && known == 0)) return;
-    CutEdge one{{{0.0, ends.first}, {1.0, ends.second}}, {}};
+    if (made == 0 || !wanted(edge, known)) continue;
+    CutEdge one{{{0.0, edge.ends.first}, {1.0, edge.ends.second}}, {}};
     each([&](const OnEdge& node) { (node.node < first_made ? one.known : one.made).push_back(node); });
     std::sort(one.known.begin(), one.known.end(), [](const OnEdge& a, const OnEdge& b) { return a.at < b.at; });
     cut.push_back(std::move(one));
-  });
+  }
   return cut;
+}
+
+// Outer ones, and inner ones whose own middle node says what is meant.
+std::vector<CutEdge> cut_edges_of_sides(const EdgeTable& edges, int first_made) {
+  return cut_edges(edges, first_made,
+                   [](const EdgeTable::Edge& edge, int known) { return edge.solids <= 1 || known > 0; });
+}
+
+// All that lie between two listed nodes, and those that have known nodes inside.
+std::vector<CutEdge> cut_edges_between(const std::vector<int>& listed, const EdgeTable& edges, int first_made) {
+  std::vector<char> is_listed(static_cast<std::size_t>(first_made), 0);
+  for (const int node : listed)
+    if (node < first_made) is_listed[static_cast<std::size_t>(node)] = 1;
+  return cut_edges(edges, first_made, [&](const EdgeTable::Edge& edge, int known) {
+    return known > 0 || (is_listed[static_cast<std::size_t>(edge.ends.first)] != 0 &&
+                         is_listed[static_cast<std::size_t>(edge.ends.second)] != 0);
+  });
 }
 
 // What holds every component of every node, one list of cards after the other: those before the stages, then
@@ -169,9 +172,9 @@ bool follows_a_line(const Report& report) {
 }
 
 // A line that discharge is asked for may go anywhere: what was made between two of its nodes is put between them.
-void fill_line(std::vector<int>& line, const std::vector<CutEdge>& edges) {
+void fill_line(std::vector<int>& line, const EdgeTable& edges, int first_made) {
   std::map<std::pair<int, int>, std::vector<OnEdge>> between;  // known nodes next to each other, both ways
-  for (const CutEdge& edge : edges)
+  for (const CutEdge& edge : cut_edges_between(line, edges, first_made))
     for (const OnEdge& made : edge.made) {
       const std::size_t behind = edge.behind(made);
       const int a = edge.known[behind - 1].node, z = edge.known[behind].node;
@@ -225,30 +228,11 @@ void follow_exits(std::vector<Exit>& exits, const std::vector<CutEdge>& edges) {
     }
 }
 
-template <class Edges>
-void inherit(Model& model, const Edges& edges, int first_made) {
-  if (std::ranges::any_of(model.reports, follows_a_line)) {
-    const std::vector<CutEdge> all = cut_edges(edges, first_made, true);
-    for (Report& report : model.reports)
-      if (follows_a_line(report)) fill_line(report.nodes, all);
-  }
-  const std::vector<CutEdge> cut = cut_edges(edges, first_made);
-  if (cut.empty()) return;
-  Supports supports(model.mesh.nodes());
-  supports.follow(model.fixities, cut);
-  for (Stage& stage : model.stages) supports.follow(stage.fixities, cut);
-  for (std::size_t field = 1; field < model.unknowns.size(); ++field)
-    inherit_field(model, static_cast<int>(field), cut);
-  for (Stage& stage : model.stages) follow_exits(stage.exits, cut);
-  for (Report& report : model.reports)
-    if (!follows_a_line(report)) inherit_report(report, cut);
-}
-
-// act(smaller end, larger end) for the edges of all elements but structures.
+// act(smaller end, larger end) for the edges of all elements, or of all but structures.
 template <class Act>
-void for_element_edges(const Model& model, const Act& act) {
+void for_element_edges(const Model& model, bool structures, const Act& act) {
   for (const Group& group : model.groups) {
-    if (group.structure()) continue;
+    if (group.structure() && !structures) continue;
     const auto& edges = group.element->edges();
     const int elements = group.elements();
     for (int e = 0; e < elements; ++e)
@@ -262,13 +246,14 @@ void for_element_edges(const Model& model, const Act& act) {
 
 }  // namespace
 
-EdgeTable::EdgeTable(const Model& model) : start_(static_cast<std::size_t>(model.mesh.nodes()) + 1, 0) {
-  for_element_edges(model, [&](int low, int) { ++start_[static_cast<std::size_t>(low) + 1]; });
+EdgeTable::EdgeTable(const Model& model, bool structures)
+    : start_(static_cast<std::size_t>(model.mesh.nodes()) + 1, 0) {
+  for_element_edges(model, structures, [&](int low, int) { ++start_[static_cast<std::size_t>(low) + 1]; });
   for (std::size_t i = 1; i < start_.size(); ++i) start_[i] += start_[i - 1];
   std::vector<int> high(static_cast<std::size_t>(start_.back()));
   std::vector<int> end(start_.begin(), start_.end() - 1);
   // Two elements share most edges: of each only one entry stays.
-  for_element_edges(model, [&](int low, int other) {
+  for_element_edges(model, structures, [&](int low, int other) {
     const auto node = static_cast<std::size_t>(low);
     const auto begin = high.begin() + start_[node], stop = high.begin() + end[node];
     if (std::find(begin, stop, other) == stop) high[static_cast<std::size_t>(end[node]++)] = other;
@@ -300,12 +285,19 @@ void EdgeTable::add(Edge& edge, const Link& link) {
   edge.last = i;
 }
 
-void inherit_along_edges(Model& model, const MadeEdges& edges, int first_made) {
-  inherit(model, edges, first_made);
-}
-
 void inherit_along_edges(Model& model, const EdgeTable& edges, int first_made) {
-  inherit(model, edges, first_made);
+  for (Report& report : model.reports)
+    if (follows_a_line(report)) fill_line(report.nodes, edges, first_made);
+  const std::vector<CutEdge> cut = cut_edges_of_sides(edges, first_made);
+  if (cut.empty()) return;
+  Supports supports(model.mesh.nodes());
+  supports.follow(model.fixities, cut);
+  for (Stage& stage : model.stages) supports.follow(stage.fixities, cut);
+  for (std::size_t field = 1; field < model.unknowns.size(); ++field)
+    inherit_field(model, static_cast<int>(field), cut);
+  for (Stage& stage : model.stages) follow_exits(stage.exits, cut);
+  for (Report& report : model.reports)
+    if (!follows_a_line(report)) inherit_report(report, cut);
 }
 
 int NewNodes::append() {

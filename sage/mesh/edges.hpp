@@ -29,23 +29,15 @@ struct OnEdge {
   int node = 0;
 };
 
-// Nodes inside an edge: those that cards give, and those that are made.
-struct MadeEdge {
-  std::vector<OnEdge> nodes;
-  // Solids that have the edge; 1 = boundary (an interface beyond it is another body), 0 = an interface on a
-  // rigid body.
-  int solids = 0;
-};
-
-using MadeEdges = std::map<EdgeKey, MadeEdge>;
-
-// The edges of all elements but structures, by their ends, in flat tables: a mesh of a million edges has no time for
-// a tree of them.  Edges stand by rising key.
+// The edges of elements, by their ends, with the nodes inside them, in flat tables: a mesh of a million edges has no
+// time for a tree of them.  Edges stand by rising key.
 class EdgeTable {
  public:
   struct Edge {
     EdgeKey ends;
-    int solids = 0;             // as of MadeEdge
+    // Solids that have the edge; 1 = boundary (an interface beyond it is another body), 0 = an interface on a
+    // rigid body.
+    int solids = 0;
     int first = -1, last = -1;  // its nodes in a chain; -1: none
   };
   struct Link : OnEdge {
@@ -54,9 +46,11 @@ class EdgeTable {
     long place = 0;  // in 1e-15 of the edge
   };
 
-  explicit EdgeTable(const Model& model);
+  // Of all elements, or of all but structures.
+  EdgeTable(const Model& model, bool structures);
 
   Edge* find(int a, int z);  // nullptr: no element has it
+  std::size_t index(const Edge& edge) const { return static_cast<std::size_t>(&edge - edges_.data()); }
   void add(Edge& edge, const Link& link);
   const std::vector<Edge>& edges() const { return edges_; }
   const Link& link(int i) const { return links_[static_cast<std::size_t>(i)]; }
@@ -72,7 +66,6 @@ class EdgeTable {
 // if one list of cards (those before the stages, or those of one stage) holds both, on an edge whose middle
 // node a card gives in any case.  Prescribed displacements are interpolated through all known nodes of the
 // edge.  It belongs to the reports that list both nodes around it.
-void inherit_along_edges(Model& model, const MadeEdges& edges, int first_made);
 void inherit_along_edges(Model& model, const EdgeTable& edges, int first_made);
 
 // Nodes that are made inside elements.  Elements on the same corners, as those of water in soil, share them.

@@ -3,6 +3,7 @@
 // the straight edge or on the parabola through a given middle node; inner nodes lie on the map of the sides.
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 #include "sage/mesh/edges.hpp"
 
@@ -12,12 +13,26 @@ namespace {
 
 // What has been made so far on the edges, and which element began each.
 struct Making {
+  explicit Making(Model& model)
+      : nodes(model.mesh), edges(model, true), owner(edges.edges().size()), inner(model) {}
+
+  struct Owner {
+    const Group* group = nullptr;
+    int element = 0;
+    std::size_t inner = 0;  // nodes inside the edge
+  };
+
   NewNodes nodes;
-  MadeEdges edges;
-  std::map<EdgeKey, std::pair<std::size_t, std::string>> owner;  // inner nodes, "element 7 (quad8)"
-  std::map<EdgeKey, std::vector<int>> given;                     // inner nodes that cards give, -1 = none
+  EdgeTable edges;
+  std::vector<Owner> owner;                                 // of each edge
+  std::unordered_map<std::size_t, std::vector<int>> given;  // of some: inner nodes that cards give, -1 = none
   InnerNodes inner;
 };
+
+std::string name_of(const Group& group, int e) {
+  return "element " + std::to_string(group.element_numbers[static_cast<std::size_t>(e)]) + " (" +
+         group.element_name + ")";
+}
 
 // Place of an edge's inner node between its ends.
 double place_on_edge(std::span<const Place> parent, const std::vector<int>& edge, std::size_t i) {
@@ -27,52 +42,69 @@ double place_on_edge(std::span<const Place> parent, const std::vector<int>& edge
 }
 
 // False, and an error, where a neighbour has another number of nodes on the edge.
-bool fits(Work& b, const Group& group, int e, Making& made, const EdgeKey& key, std::size_t inner) {
-  const auto eu = static_cast<std::size_t>(e);
-  const std::string name =
-      "element " + std::to_string(group.element_numbers[eu]) + " (" + group.element_name + ")";
-  const auto [it, is_new] = made.owner.try_emplace(key, inner, name);
-  if (is_new || it->second.first == inner) return true;
+bool fits(Work& b, const Group& group, int e, Making& made, const EdgeTable::Edge& edge, std::size_t inner) {
+  Making::Owner& owner = made.owner[made.edges.index(edge)];
+  if (owner.group == nullptr) owner = {&group, e, inner};
+  if (owner.inner == inner) return true;
   const auto number = [&](int node) {
     return std::to_string(b.model.mesh.number[static_cast<std::size_t>(node)]);
   };
-  b.error("S401", {b.deck.file, group.element_lines[eu], 0, 0},
-          name + " has " + std::to_string(inner) + " node(s) inside its edge from node " + number(key.first) +
-              " to " + number(key.second) + ", its neighbour " + it->second.second + " has " +
-              std::to_string(it->second.first) + ": elements of different degree don't fit together");
+  b.error("S401", {b.deck.file, group.element_lines[static_cast<std::size_t>(e)], 0, 0},
+          name_of(group, e) + " has " + std::to_string(inner) + " node(s) inside its edge from node " +
+              number(edge.ends.first) + " to " + number(edge.ends.second) + ", its neighbour " +
+              name_of(*owner.group, owner.element) + " has " + std::to_string(owner.inner) +
+              ": elements of different degree don't fit together");
   return false;
 }
 
+// Nodes that an element has inside an edge, in the order from its smaller end, and their places between the ends.
+struct InnerOfEdge {
+  int* nodes;
+  const std::vector<int>& local;
+  bool rising;  // the first end is the smaller one
+  std::size_t count() const { return local.size() - 2; }
+  // Index in `local` of number i from the smaller end.
+  std::size_t index(std::size_t i) const { return 2 + (rising ? i : count() - 1 - i); }
+  int& at(std::size_t i) const { return nodes[local[index(i)]]; }
+};
+
+void take_given(const Making& made, std::size_t edge, const InnerOfEdge& inner) {
+  const auto it = made.given.find(edge);
+  if (it == made.given.end() || it->second.size() != inner.count()) return;
+  for (std::size_t i = 0; i < inner.count(); ++i)
+    if (inner.at(i) < 0) inner.at(i) = it->second[i];
+}
+
+// The first element of an edge makes the nodes that it misses there, and all others take them over.
 void make_edge(Work& b, const Group& group, int e, int* nodes, const std::vector<int>& local, Making& made) {
   const int a = nodes[local[0]], z = nodes[local[1]];
-  const std::size_t inner = local.size() - 2;
-  const EdgeKey key = edge_key(a, z);
-  if (!fits(b, group, e, made, key, inner)) return;
-  MadeEdge& edge = made.edges[key];
+  EdgeTable::Edge& edge = *made.edges.find(a, z);
+  const InnerOfEdge inner{nodes, local, a < z};
+  if (!fits(b, group, e, made, edge, inner.count())) return;
   if (counts_for_outline(group)) ++edge.solids;
-  if (inner == 0) return;
-  const bool begun = !edge.nodes.empty();
-  if (!begun) edge.nodes.assign(inner, {0.0, -1});
+  if (inner.count() == 0) return;
+  take_given(made, made.edges.index(edge), inner);
+  if (edge.first >= 0) {
+    int link = edge.first;
+    for (std::size_t i = 0; i < inner.count(); ++i, link = made.edges.link(link).next)
+      if (inner.at(i) < 0) inner.at(i) = made.edges.link(link).node;
+    return;
+  }
   const std::span<const Place> parent = group.entry->parent_nodes;
-  const auto from_small = [&](std::size_t i) { return a < z ? i : inner - 1 - i; };
-  if (const auto it = made.given.find(key); it != made.given.end() && it->second.size() == inner)
-    for (std::size_t i = 0; i < inner; ++i)
-      if (int& node = nodes[local[i + 2]]; node < 0) node = it->second[from_small(i)];
   std::optional<Vector2> middle;
   if (const int m = middle_of(local); m >= 0 && nodes[m] >= 0) middle = made.nodes.at(nodes[m]);
-  for (std::size_t i = 0; i < inner; ++i) {
-    const std::size_t at = from_small(i);
-    int& mid = nodes[local[i + 2]];
-    if (mid < 0 && begun) mid = edge.nodes[at].node;
-    if (begun) continue;
-    const double t = place_on_edge(parent, local, i + 2);
-    if (mid < 0) mid = made.nodes.add(along_edge(made.nodes.at(a), made.nodes.at(z), middle, t));
-    edge.nodes[at] = {a < z ? t : 1 - t, mid};
+  for (std::size_t i = 2; i < local.size(); ++i)
+    if (int& node = nodes[local[i]]; node < 0)
+      node = made.nodes.add(
+          along_edge(made.nodes.at(a), made.nodes.at(z), middle, place_on_edge(parent, local, i)));
+  for (std::size_t i = 0; i < inner.count(); ++i) {
+    const double t = place_on_edge(parent, local, inner.index(i));
+    made.edges.add(edge, {{inner.rising ? t : 1 - t, inner.at(i)}});
   }
 }
 
 // A node inside an edge that only one of its elements gives is that of the others too.
-void find_given(const Group& group, std::map<EdgeKey, std::vector<int>>& given) {
+void find_given(const Group& group, Making& made) {
   for (int e = 0; e < group.elements(); ++e)
     for (const std::vector<int>& local : group.element->edges()) {
       const int* nodes = group.nodes_of(e);
@@ -80,7 +112,8 @@ void find_given(const Group& group, std::map<EdgeKey, std::vector<int>>& given) 
       for (std::size_t i = 2; i < local.size(); ++i) {
         if (nodes[local[i]] < 0) continue;
         const std::size_t inner = local.size() - 2;
-        std::vector<int>& known = given.try_emplace(edge_key(a, z), inner, -1).first->second;
+        const std::size_t edge = made.edges.index(*made.edges.find(a, z));
+        std::vector<int>& known = made.given.try_emplace(edge, inner, -1).first->second;
         if (known.size() != inner) continue;  // of another degree: fits() refuses it
         int& place = known[a < z ? i - 2 : inner + 1 - i];
         if (place < 0) place = nodes[local[i]];
@@ -124,8 +157,8 @@ void make_mid_nodes(Work& b) {
   for (const Group& group : b.model.groups)
     any = any || std::find(group.nodes.begin(), group.nodes.end(), -1) != group.nodes.end();
   if (!any) return;
-  Making made{NewNodes(b.model.mesh), {}, {}, {}, InnerNodes(b.model)};
-  for (const Group& group : b.model.groups) find_given(group, made.given);
+  Making made(b.model);
+  for (const Group& group : b.model.groups) find_given(group, made);
   for (Group& group : b.model.groups) make_group(b, group, made);
   const int first_made = made.nodes.append();
   b.model.mesh.made_between = b.model.mesh.nodes() - first_made;

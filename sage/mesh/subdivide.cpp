@@ -115,7 +115,7 @@ struct Subdivision::SplitElement {
   bool has_edge(int side) const { return !group->interface() || side % 2 == 0; }
 };
 
-Subdivision::Subdivision(Work& b) : b_(&b), nodes_(b.model.mesh), inner_(b.model), edges_(b.model) {
+Subdivision::Subdivision(Work& b) : b_(&b), nodes_(b.model.mesh), inner_(b.model), edges_(b.model, false) {
   for (const Stage& stage : b.model.stages)
     for (const EdgeLoad& load : stage.pressures) loaded_.emplace(load.group, load.element);
   for (const Group& group : b.model.groups) {
