@@ -146,25 +146,40 @@ void AssembledMatrix::clear() {
   std::ranges::fill(value_, 0.0);
 }
 
-double& AssembledMatrix::term(int row, int column) {
-  if (symmetric_ && row > column) std::swap(row, column);
+int AssembledMatrix::place_of(int row, int column) const {
   const auto begin = row_.begin() + column_start_[at(column)],
              end = row_.begin() + column_start_[at(column) + 1];
-  return value_[static_cast<std::size_t>(std::lower_bound(begin, end, row) - row_.begin())];
+  return static_cast<int>(std::lower_bound(begin, end, row) - row_.begin());
 }
 
 // The same sums in the same order as with slots.
 void AssembledMatrix::add_by_search(int element, const double* K) {
   const std::span<const int> equations = elements_.of(element);
   const int dofs = static_cast<int>(equations.size());
-  const auto add_terms = [&](auto&& wanted) {
-    for (int c = 0; c < dofs; ++c)
-      for (int r = 0; r < (symmetric_ ? c + 1 : dofs); ++r)
-        if (equations[at(c)] >= 0 && equations[at(r)] >= 0 && wanted(r, c))
-          term(equations[at(r)], equations[at(c)]) += K[c * dofs + r];
+  const auto add_column = [&](int c, auto&& wanted) {
+    const int column = equations[at(c)], last = column_start_[at(column) + 1] - 1;
+    int place = column_start_[at(column)];
+    for (int r = 0; r < (symmetric_ ? c + 1 : dofs); ++r) {
+      const int row = equations[at(r)];
+      if (row < 0 || !wanted(r)) continue;
+      if (symmetric_ && row > column) {
+        value_[at(place_of(column, row))] += K[c * dofs + r];
+        continue;
+      }
+      // The equations of a node stand in a row.
+      if (place < last && row_[at(place + 1)] == row)
+        ++place;
+      else if (row_[at(place)] != row)
+        place = place_of(row, column);
+      value_[at(place)] += K[c * dofs + r];
+    }
   };
-  add_terms([](int, int) { return true; });
-  if (symmetric_) add_terms([&](int r, int c) { return r < c && equations[at(r)] == equations[at(c)]; });
+  for (int c = 0; c < dofs; ++c)
+    if (equations[at(c)] >= 0) add_column(c, [](int) { return true; });
+  if (!symmetric_) return;
+  for (int c = 0; c < dofs; ++c)
+    if (equations[at(c)] >= 0)
+      add_column(c, [&](int r) { return r < c && equations[at(r)] == equations[at(c)]; });
 }
 
 namespace {

@@ -51,8 +51,8 @@ class AssembledMatrix {
   std::int64_t packed(std::int64_t r, std::int64_t c, std::int64_t dofs) const;
   void add_by_search(int element, const double* K);
   void add_columns(int element, const double* K, int first_column, int end_column);
+  int place_of(int row, int column) const;
   int column_of_part(int part, int parts) const;
-  double& term(int row, int column);
 
   int equations_ = 0;
   bool symmetric_ = false;

@@ -299,7 +299,6 @@ FrontTree make_front_tree(const EquationGraph& graph, const AssembledMatrix& mat
   divide_work(fronts);
   place_borders(fronts);
   fronts.in_parent.resize(fronts.border.size());
-  list_entries(matrix, fronts);
   return fronts;
 }
 

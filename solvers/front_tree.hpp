@@ -57,12 +57,12 @@ struct FrontTree {
 // diagonal; of symmetric matrices i <= j.
 std::int64_t arm_target(const Front& front, int i, int j);
 
-// width: of the kernels (TileKernels).  border: so many equations, the last ones, stay.  Throws std::length_error where
-// a front has more than 2^31 - 1 terms.
+// All but the lists of entries.  width: of the kernels (TileKernels).  border: so many equations, the last ones, stay.
+// Throws std::length_error where a front has more than 2^31 - 1 terms.
 FrontTree make_front_tree(const EquationGraph& graph, const AssembledMatrix& matrix, int leaf_equations,
                           int width, int border = 0, int threads = 1);
 
-// Makes the lists of entries of a tree that has given them away.
+// Makes the lists of entries, of a new tree or of one that has given them away.
 void list_entries(const AssembledMatrix& matrix, FrontTree& tree);
 
 }  // namespace sage

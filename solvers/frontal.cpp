@@ -5,6 +5,7 @@
 #include "sage/core/thread_pool.hpp"
 #include "solvers/aligned_array.hpp"
 #include "solvers/choose_kernels.hpp"
+#include "solvers/early_pages.hpp"
 #include "solvers/front_tree.hpp"
 #include "solvers/matrix_solver.hpp"
 
@@ -94,6 +95,7 @@ class Frontal final : public MatrixSolver {
   void expect_one_factorisation() override { once_ = true; }
 
   void factorise_matrix() override {
+    early_.stop();
     if (given_back_) take_room();
     const std::span<const double> maxima = row_maxima();
     for (Lane& lane : lanes_) {
@@ -134,7 +136,10 @@ class Frontal final : public MatrixSolver {
     kernels_ = wanted_kernels_;
     tree_ =
         make_front_tree(graph, matrix(), kLeafEquations, kernels_->width, border_equations(), wanted_threads_);
+    early_.stop();
     factors_ = AlignedArray(static_cast<std::size_t>(tree_.factor_terms));
+    touch_subtrees_early();
+    list_entries(matrix(), tree_);
     first_pivot_.assign(1, 0);
     widest_ = 0;
     report_.factor_operations = 0.0;
@@ -160,6 +165,14 @@ class Frontal final : public MatrixSolver {
   }
 
  private:
+  // Their room is needed first.  That of the largest fronts comes when the workspaces of the subtrees have gone: the
+  // run is largest then.
+  void touch_subtrees_early() {
+    if (wanted_threads_ == 1 || tree_.subtrees.empty()) return;
+    const Front& last = tree_.fronts[at(tree_.subtrees.back().end - 1)];
+    early_.start(factors_.data(), static_cast<std::size_t>(last.arms) * sizeof(double));
+  }
+
   // The first thread works on the fronts above the subtrees too, and all others in the arms of the first.
   void make_workspace() {
     shared_ = AlignedArray(static_cast<std::size_t>(tree_.shared_terms));
@@ -352,6 +365,7 @@ class Frontal final : public MatrixSolver {
   const TileKernels* kernels_ = wanted_kernels_;  // since analyse(): the tree is laid out for them
   FrontTree tree_;
   AlignedArray factors_, shared_;
+  EarlyPages early_;  // of factors_
   std::vector<Lane> lanes_;
   std::unique_ptr<ThreadPool> pool_;
   std::vector<int> first_pivot_;  // of every front, in reciprocal_
