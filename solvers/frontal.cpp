@@ -108,6 +108,7 @@ class Frontal final : public MatrixSolver {
         assemble(f, lanes_[at(thread)]);
         if (f != tree_.kept) eliminate(f, lanes_[at(thread)]);
       }
+      if (once_) give_back_entries(s);
     };
     pool_->run(static_cast<int>(tree_.subtrees.size()), eliminate_subtree);
     if (once_) give_back_subtrees();
@@ -197,13 +198,16 @@ class Frontal final : public MatrixSolver {
       sweeps_.push_back({AlignedArray(at(widest_) * kTile), AlignedArray(at(widest_) * kTile * kMostSums)});
   }
 
+  bool is_large() const { return matrix().row().size() > std::size_t{1} << 20; }
+  void give_back_entries(int subtree) {
+    tree_.entries[at(subtree)] = {};
+    if (is_large()) return_freed_memory();
+  }
   // What only the subtrees needed goes before the largest fronts come: the run is largest at its last front.
   void give_back_subtrees() {
-    constexpr std::size_t kMuch = std::size_t{1} << 20;  // terms of the matrix
     given_back_ = true;
     for (Lane& lane : lanes_) lane.workspace = {};
-    for (std::size_t s = 0; s < tree_.subtrees.size(); ++s) tree_.entries[s] = {};
-    if (matrix().row().size() > kMuch) return_freed_memory();
+    if (is_large()) return_freed_memory();
   }
   void give_back_rest() {
     shared_ = {};
