@@ -131,10 +131,9 @@ bool Step::repeats() {
   if (evaluate(false) == Outcome::cut_step) return false;
   form_residual();
   correction_.setZero();
-  const double limit = Repeats::limit(settings_.tolerance);
-  if (!(measure().force <= limit)) return false;
+  if (!(measure().force <= settings_.repeat)) return false;
   const IterationRecord record = measure_whole();
-  if (!(record.force <= limit)) return false;
+  if (!(record.force <= settings_.repeat)) return false;
   result_.iterations.push_back(record);
   find_worst();
   result_.outcome = StepOutcome::converged;
@@ -483,7 +482,7 @@ NewtonStep Step::solve(const Eigen::VectorXd& rate) {
   for (int f = 0; f < fields_.count(); ++f) at(load_scale_, f) = load_size(f);
   result_.outcome = StepOutcome::law_cut;
   result_.iterations.reserve(static_cast<std::size_t>(settings_.max_iterations));
-  if (settings_.repeat && repeats()) return result_;
+  if (settings_.repeat > 0.0 && repeats()) return result_;
   if (!predict(rate)) return result_;
   return settings_.method == Method::dogleg ? iterate_with_dogleg() : iterate_with_line_search();
 }

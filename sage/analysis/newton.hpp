@@ -11,7 +11,8 @@ struct NewtonSettings {
   int max_iterations = 25;
   double tolerance = 1e-8;  // force and energy; displacement sqrt(tolerance)
   bool line_search = true;
-  bool repeat = false;                         // du holds the step before, which was linear: it is tried first
+  // What the step before, in du, may leave out of balance if it is taken once more; 0 = that is not tried.
+  double repeat = 0.0;
   const Eigen::VectorXd* committed = nullptr;  // unknowns at the start of the step, every dof; null = zero
   StageSoFar so_far{};                         // a condensed region moves on in its direction
   Pulse* pulse = nullptr;                      // hears of every iteration; null = nobody looks

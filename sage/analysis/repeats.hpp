@@ -1,5 +1,5 @@
 // The skip 'repeats': after a step that was linear to the last digit, the next one of the same size is tried as
-// its repetition, which costs one force pass.
+// its repetition, which costs one force pass.  All steps of a stage of a linear scene are such.
 #pragma once
 
 #include <algorithm>
@@ -9,19 +9,38 @@
 
 namespace sage {
 
+// In a linear scene: a correction with kept factors costs little in small meshes, and mends the rounding of the steps
+// before, which repetitions keep.
+inline bool repeats_pay(int equations) {
+  constexpr int kLarge = 20000;
+  return equations > kLarge;
+}
+
 class Repeats {
  public:
-  // size: the step's share of the stage.  linear: one correction, and the very same K at its end.
-  void take(bool linear, double size) { size_ = linear ? size : 0.0; }
+  // After a step that was solved.  size: its share of the stage.  linear: one correction, and the very same K at its
+  // end.  force: share of the forces that it left out of balance.
+  void take(bool linear, double size, double force) {
+    size_ = linear ? size : 0.0;
+    force_ = force;
+  }
   void forget() { size_ = 0.0; }
   bool due(double size) const { return size_ > 0.0 && std::abs(size - size_) < 1e-12; }
-  void exchange(Archive& archive) { archive(size_); }
+  void exchange(Archive& archive) {
+    archive(size_);
+    archive(force_);
+  }
 
-  // Rounding: a share of the forces beyond it would be another answer than that of a correction.
-  static double limit(double tolerance) { return std::min(1e-14, 1e-3 * tolerance); }
+  // Share of the forces that a repetition may leave: rounding, as beyond it would be another answer than that of a
+  // correction.  Where K never changes a correction itself leaves more in large meshes.
+  double limit(double tolerance, bool constant) const {
+    return std::min(constant ? std::max(kRounding, 2.0 * force_) : kRounding, 1e-3 * tolerance);
+  }
 
  private:
-  double size_ = 0.0;  // of the last step, where it was linear; 0 = it was not
+  static constexpr double kRounding = 1e-14;
+  double size_ = 0.0;   // of the last step, where it was linear; 0 = it was not
+  double force_ = 0.0;  // of the last step that was solved
 };
 
 }  // namespace sage

@@ -269,7 +269,8 @@ bool Run::contracts(const Stage& stage) const {
 
 bool Run::can_repeat(const Stage& stage, double size) const {
   const bool newton = stage.method == Method::newton || stage.method == Method::dogleg;
-  return settings_.skips.repeats && newton && !tangent_.constant() && path_.repeats.due(size);
+  const bool pays = !tangent_.constant() || (!water_alone_ && repeats_pay(assembly_.equations()));
+  return settings_.skips.repeats && newton && pays && path_.repeats.due(size);
 }
 
 // from_here: state_.du is near the answer, but for what is prescribed.
@@ -277,13 +278,13 @@ NewtonStep Run::attempt(const Stage& stage, double from, double to, bool from_he
   target_ = (1.0 - to) * path_.force_start + to * path_.force_end;
   set_moment(to, to - from);
   NewtonSettings newton{stage.method, stage.max_iterations, stage.tolerance, settings_.line_search};
-  newton.repeat = can_repeat(stage, to - from);
   newton.from_here = from_here;
   // What is put in comes out to ten digits.  The rounding of many heads is all on one side and adds up.
   if (water_alone_ && easing_ == 1.0) {
     newton.tolerance = std::min(stage.tolerance, kWaterBalance);
     newton.refine = assembly_.equations() >= kManyHeads;
   }
+  if (can_repeat(stage, to - from)) newton.repeat = path_.repeats.limit(newton.tolerance, tangent_.constant());
   newton.contract = contracts(stage);
   newton.pulse = settings_.pulse;
   newton.stop_at_flow = settings_.trials != nullptr;
@@ -493,8 +494,9 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
       }
       path_.path_error = std::max(path_.path_error, error);
       if (stage.method == Method::modified_newton || contracts(stage)) renew_tangent();
-      const bool linear = step.repeated || (step.iterations.size() == 1 && !tangent_.changed());
-      path_.repeats.take(linear, to - reached);
+      const bool same_K = tangent_.constant() || !tangent_.changed();
+      const bool linear = step.iterations.size() == 1 && same_K;
+      if (!step.repeated) path_.repeats.take(linear, to - reached, step.iterations.back().force);
       on_last_way_ = false;
       measure_stiffness(reached, to);
       accept(to);

@@ -345,6 +345,27 @@ TEST(Skips, KeptFactorsForgetWhatMovedBefore) {
   EXPECT_EQ(run.result.work.factorisations, 1);
 }
 
+// Increments of a large linear scene are one step again and again; what that leaves out of balance does not grow with
+// them.
+TEST(Skips, LinearIncrementsAreRepeatedInLargeMeshes) {
+  DeckWriter deck(1);
+  Block block{110, 100, Cell::quad4, 1, 1, rectangle(0.0, 1.0, 0.0, 1.0)};
+  block.write_nodes(deck);
+  deck.material(1, 1, {1e4, 0.3});
+  deck.group(1, 1, 1, 1);
+  block.write_elements(deck, 1);
+  for (int n : block.bottom()) deck.fix(n, 1, 1);
+  StageCards& push = deck.stage(5);
+  for (int n : block.top()) push.fix(n, 0, 1, 0.0, -0.01);
+  push.pressure(block.element(109, 50), 1, 20.0, 20.0);
+  RunSettings solved;
+  solved.skips.repeats = false;
+  const WholeRun one = run_text(deck.text()), other = run_text(deck.text(), {}, solved);
+  EXPECT_EQ(one.result.work.repeats, 4);
+  EXPECT_EQ(other.result.work.repeats, 0);
+  expect_same(one, other, 1e-11);
+}
+
 TEST(Skips, OffMeansOff) {
   RunSettings none;
   for (const SkipName& skip : kSkipNames) none.skips.*skip.flag = false;
