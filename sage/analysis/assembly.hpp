@@ -42,6 +42,7 @@ class Assembly {
   void set_threads(int threads) {
     threads_ = threads;
     changing_.set_threads(threads);
+    constant_.set_threads(threads);
   }
   int threads() const { return threads_; }
 

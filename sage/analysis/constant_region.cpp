@@ -8,6 +8,9 @@ namespace sage {
 
 namespace {
 
+constexpr int kUnit = 512;            // elements that a thread takes at a time
+constexpr int kWorthThreads = 10000;  // elements from which on threads gain
+
 bool stress_free(const GroupData& data) {
   const std::vector<double>& sigma = data.state.committed.sigma;
   return std::all_of(sigma.begin(), sigma.end(), [](double s) { return s == 0.0; });
@@ -127,24 +130,44 @@ void take_relative(double* u, std::size_t n, bool heads) {
 // and stiff joints and nu near 1/2 make much of every rounding.  A shift along y costs nothing, one along x
 // only in a ring.  So with heads, of which a level that is the same everywhere costs nothing.
 void ConstantRegion::add_group(GroupData& data, const Eigen::VectorXd& du, Eigen::VectorXd& to) {
-  const std::size_t n = data.dofs();
-  const bool from_zero = data.force.empty();
-  if (from_zero && du.isZero(0.0)) return data.trial_force.clear();
-  data.trial_force.resize(static_cast<std::size_t>(data.group->elements()) * n);
-  const bool heads = data.group->flow();
-  const Product product = product_for(heads, n);
-  double* const u = element_->du();
-  for (int e = 0; e < data.group->elements(); ++e) {
-    element_->stop_if_asked_at(e);
-    data.dofs_of(e).gather(du, u);
-    const double x = u[0];
-    take_relative(u, n, heads);
-    const std::size_t begin = static_cast<std::size_t>(e) * n;
-    double* const f = data.trial_force.data() + begin;
-    product(data.matrix_of(e), data.shift_of(e), x, u, n, from_zero ? nullptr : data.force.data() + begin, f);
-    add_force(data, e, f, to, sums_);
+  if (data.force.empty() && du.isZero(0.0)) return data.trial_force.clear();
+  const int elements = data.group->elements();
+  data.trial_force.resize(static_cast<std::size_t>(elements) * data.dofs());
+  // Threads make what belongs to one element alone; sums have the order that they have on one thread.
+  const bool divided = pool_ != nullptr && elements >= kWorthThreads;
+  if (divided)
+    pool_->run((elements + kUnit - 1) / kUnit, [&](int unit, int thread) {
+      double* const u = room_[static_cast<std::size_t>(thread)].data();
+      for (int e = unit * kUnit; e < std::min((unit + 1) * kUnit, elements); ++e) make_force(data, e, du, u);
+    });
+  for (int e = 0; e < elements; ++e) {
+    if (!divided) make_force(data, e, du, element_->du());
+    add_force(data, e, data.trial_force.data() + static_cast<std::size_t>(e) * data.dofs(), to, sums_);
   }
-  work_->linear_products += data.group->elements();
+  work_->linear_products += elements;
+}
+
+// u: room for the element's unknowns.
+void ConstantRegion::make_force(GroupData& data, int e, const Eigen::VectorXd& du, double* u) const {
+  element_->stop_if_asked_at(e);
+  const std::size_t n = data.dofs(), begin = static_cast<std::size_t>(e) * n;
+  const bool heads = data.group->flow();
+  data.dofs_of(e).gather(du, u);
+  const double x = u[0];
+  take_relative(u, n, heads);
+  product_for(heads, n)(data.matrix_of(e), data.shift_of(e), x, u, n,
+                        data.force.empty() ? nullptr : data.force.data() + begin,
+                        data.trial_force.data() + begin);
+}
+
+void ConstantRegion::set_threads(int threads) {
+  const bool useful = std::ranges::any_of(
+      *groups_, [](const GroupData& data) { return data.constant && data.group->elements() >= kWorthThreads; });
+  pool_ = useful && threads > 1 ? std::make_unique<ThreadPool>(threads) : nullptr;
+  if (pool_ == nullptr) return;
+  std::size_t most = 0;
+  for (const GroupData& data : *groups_) most = std::max(most, data.dofs());
+  room_.resize(static_cast<std::size_t>(threads), std::vector<double>(most));
 }
 
 void ConstantRegion::add_committed_forces(Eigen::VectorXd& to) const {

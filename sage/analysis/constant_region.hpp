@@ -2,10 +2,12 @@
 // forces are K u, and no law is asked.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "sage/analysis/element_work.hpp"
 #include "sage/analysis/records.hpp"
+#include "sage/core/thread_pool.hpp"
 
 namespace sage {
 
@@ -13,6 +15,9 @@ class ConstantRegion {
  public:
   // All arguments must outlive it.
   ConstantRegion(const Model& model, std::vector<GroupData>& groups, ElementWork& element, WorkCounters& work);
+
+  // Those of large groups are made on so many.
+  void set_threads(int threads);
 
   // Whether displacements are all that the elements solve for, and K u keeps the digits that B u has.
   static bool suits(const Group& group, const LawRef& law);
@@ -31,12 +36,15 @@ class ConstantRegion {
  private:
   void make_shifts(GroupData& data, int matrices) const;
   void add_group(GroupData& data, const Eigen::VectorXd& du, Eigen::VectorXd& to);
+  void make_force(GroupData& data, int e, const Eigen::VectorXd& du, double* u) const;
 
   const Model* model_;
   std::vector<GroupData>* groups_;
   ElementWork* element_;
   WorkCounters* work_;
   FieldSums sums_{};
+  std::unique_ptr<ThreadPool> pool_;       // none where no group is large
+  std::vector<std::vector<double>> room_;  // for the unknowns of an element, of each thread
 };
 
 }  // namespace sage

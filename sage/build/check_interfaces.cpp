@@ -11,10 +11,14 @@ namespace sage::build {
 
 namespace {
 
-// Directed edge -> number of a solid to the left of it.  All solids count, active now or in a later stage.
+// Directed edge between nodes of interfaces -> number of a solid to the left of it.  All solids count, active now or in
+// a later stage.
 class EdgesOfSolids {
  public:
-  explicit EdgesOfSolids(const Model& model) {
+  explicit EdgesOfSolids(const Model& model) : of_interface_(static_cast<std::size_t>(model.mesh.nodes()), 0) {
+    for (const Group& group : model.groups)
+      if (group.interface())
+        for (const int node : group.nodes) of_interface_[static_cast<std::size_t>(node)] = 1;
     for (const Group& group : model.groups) {
       if (!group.solid()) continue;
       for (int e = 0; e < group.elements(); ++e)
@@ -38,16 +42,21 @@ class EdgesOfSolids {
   // may lie on a quadratic edge.
   void add_edge(const int* nodes, const std::vector<int>& edge, int number) {
     const int first = nodes[edge[0]], last = nodes[edge[1]];
-    solid_.try_emplace(key(first, last), number);
+    add_piece(first, last, number);
     if (edge.size() == 2) return;
     int from = first;
     for (std::size_t i = 2; i < edge.size(); ++i) {
-      solid_.try_emplace(key(from, nodes[edge[i]]), number);
+      add_piece(from, nodes[edge[i]], number);
       from = nodes[edge[i]];
     }
-    solid_.try_emplace(key(from, last), number);
+    add_piece(from, last, number);
+  }
+  void add_piece(int a, int b, int number) {
+    if (of_interface_[static_cast<std::size_t>(a)] && of_interface_[static_cast<std::size_t>(b)])
+      solid_.try_emplace(key(a, b), number);
   }
 
+  std::vector<char> of_interface_;  // of each node
   std::unordered_map<std::uint64_t, int> solid_;
 };
 

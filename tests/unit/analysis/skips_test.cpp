@@ -364,6 +364,9 @@ TEST(Skips, LinearIncrementsAreRepeatedInLargeMeshes) {
   EXPECT_EQ(one.result.work.repeats, 4);
   EXPECT_EQ(other.result.work.repeats, 0);
   expect_same(one, other, 1e-11);
+  RunSettings threads;
+  threads.threads = 3;
+  EXPECT_TRUE(run_text(deck.text(), {}, threads).last().internal == one.last().internal);
 }
 
 TEST(Skips, OffMeansOff) {
