@@ -65,8 +65,8 @@ std::vector<std::unique_ptr<Output>> make_outputs(const RunRequest& request, con
     outputs.push_back(std::make_unique<MshResults>(options.folder, stem, mesh.text, std::move(mesh.elements)));
   }
   if (options.result)
-    outputs.push_back(
-        std::make_unique<ResultOutput>(options.folder, stem, source, threads_for(request.threads)));
+    outputs.push_back(std::make_unique<ResultOutput>(options.folder, stem, source, threads_for(request.threads),
+                                                     options.fields));
   if (!options.pictures.empty())
     outputs.push_back(std::make_unique<Pictures>(options.folder, stem, options.pictures));
   return outputs;
@@ -230,13 +230,19 @@ void warn_of_fields(const OutputOptions& o, Model& model) {
 void expect_drawn(const std::vector<std::string>& pictures, const Model& model) {
   const bool structures =
       std::ranges::any_of(model.groups, [](const Group& group) { return group.structure(); });
+  const bool moves = std::ranges::any_of(
+      model.groups, [](const Group& group) { return group.entry->moves() && group.elements() > 0; });
   const FieldTable table = fields_of(model);
+  const auto of_motion = [](const FieldEntry& field) {
+    return field.name == "displacement" || field.name == "external_force" || field.name == "reaction";
+  };
   const auto is_drawn = [&](const FieldEntry& field, bool diagram) {
-    return field.place() == FieldPlace::node || std::ranges::any_of(model.groups, [&](const Group& group) {
-             const ElementKind kind = diagram ? ElementKind::structure : ElementKind::solid;
-             return drawn_as(group) == kind && group.elements() > 0 &&
-                    applies(field, group.entry->kind, model.material_of(group).law_ref());
-           });
+    if (field.place() == FieldPlace::node) return moves || !of_motion(field);
+    return std::ranges::any_of(model.groups, [&](const Group& group) {
+      const ElementKind kind = diagram ? ElementKind::structure : ElementKind::solid;
+      return drawn_as(group) == kind && group.elements() > 0 &&
+             applies(field, group.entry->kind, model.material_of(group).law_ref());
+    });
   };
   for (const std::string& name : pictures) {
     const FieldChoice field = picture_field(table, name);

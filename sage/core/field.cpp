@@ -1,6 +1,7 @@
 #include "sage/core/field.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 namespace sage {
@@ -87,6 +88,13 @@ void FieldTable::add(FieldEntry entry) {
   if (const std::string reason = clash(entry); !reason.empty()) throw std::logic_error("catalogue: " + reason);
   rows_ = std::make_shared<std::vector<FieldEntry>>(rows().begin(), rows().end());
   rows_->push_back(std::move(entry));
+}
+
+FieldTable FieldTable::without(const std::function<bool(const FieldEntry&)>& left_out) const {
+  FieldTable table;
+  table.rows_ = std::make_shared<std::vector<FieldEntry>>();
+  std::ranges::remove_copy_if(rows(), std::back_inserter(*table.rows_), left_out);
+  return table;
 }
 
 std::span<const FieldEntry> FieldTable::rows() const {

@@ -157,6 +157,8 @@ class FieldTable {
  public:
   // Throws std::logic_error on a row without a name, and on one that clashes.
   void add(FieldEntry entry);
+  // The same without some of its rows.
+  FieldTable without(const std::function<bool(const FieldEntry&)>& left_out) const;
   // Why results can't have the row too: its name is taken, or some file would have two columns (or tables) of one
   // name.  Empty = they can.
   std::string clash(const FieldEntry& entry) const;

@@ -16,15 +16,18 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 // In the plane: centre and radius of Mohr's circle, and the angle of the larger compression to +x (radians, in
 // (-pi/2, pi/2]).  Rounding beside the stress itself must not turn it: 0 where all directions are the same.
 struct Circle {
-  double centre, radius, angle;
+  const Vector4& stress;
+  double centre, radius;
   explicit Circle(const Vector4& s)
-      : centre(0.5 * (s[0] + s[1])), radius(std::hypot(0.5 * (s[0] - s[1]), s[3])) {
-    const double rounding = 1e-10 * s.cwiseAbs().maxCoeff();
-    const auto rounded = [&](double x) { return std::abs(x) > rounding ? x : 0.0; };
-    angle = 0.5 * std::atan2(rounded(2.0 * s[3]), rounded(s[0] - s[1]));
-  }
+      : stress(s), centre(0.5 * (s[0] + s[1])), radius(std::hypot(0.5 * (s[0] - s[1]), s[3])) {}
   double major() const { return centre + radius; }
   double minor() const { return centre - radius; }
+  // Apart: it takes longer than all else.
+  double angle() const {
+    const double rounding = 1e-10 * stress.cwiseAbs().maxCoeff();
+    const auto rounded = [&](double x) { return std::abs(x) > rounding ? x : 0.0; };
+    return 0.5 * std::atan2(rounded(2.0 * stress[3]), rounded(stress[0] - stress[1]));
+  }
 };
 
 void principal(const Vector4& s, double* value) {
@@ -44,20 +47,22 @@ void direction(double x, double y, double z, double* value) {
 // Unit vectors along the largest and the smallest compression.  They have no sense: x (then y) is not negative.
 void direction_1(const Vector4& s, double* value) {
   const Circle plane(s);
+  const double angle = plane.angle();
   if (s[2] > plane.major())
     direction(0.0, 0.0, 1.0, value);
   else
-    direction(std::cos(plane.angle), std::sin(plane.angle), 0.0, value);
+    direction(std::cos(angle), std::sin(angle), 0.0, value);
 }
 
 void direction_3(const Vector4& s, double* value) {
   const Circle plane(s);
+  const double angle = plane.angle();
   if (s[2] < plane.minor())
     direction(0.0, 0.0, 1.0, value);
-  else if (plane.angle <= 0.0)
-    direction(0.0 - std::sin(plane.angle), std::cos(plane.angle), 0.0, value);
+  else if (angle <= 0.0)
+    direction(0.0 - std::sin(angle), std::cos(angle), 0.0, value);
   else
-    direction(std::sin(plane.angle), -std::cos(plane.angle), 0.0, value);
+    direction(std::sin(angle), -std::cos(angle), 0.0, value);
 }
 
 double deviator(const Vector4& s) {
@@ -175,7 +180,7 @@ void add_stress_fields(std::vector<FieldEntry>& rows) {
       {.name = "principal_angle",
        .meaning = "angle of the larger compression in the plane to the first axis",
        .dimension = Dimension::angle,
-       .value = StressField{[](const Vector4& s, double* v) { *v = Circle(s).angle / kRadiansPerDegree; }},
+       .value = StressField{[](const Vector4& s, double* v) { *v = Circle(s).angle() / kRadiansPerDegree; }},
        .of_mean = true});
   for (const auto& [name, of] : {std::pair{"1", &direction_1}, std::pair{"3", &direction_3}})
     rows.push_back({.name = std::string("principal_direction_") + name,

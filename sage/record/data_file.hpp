@@ -12,7 +12,7 @@
 namespace sage {
 
 // Changes with DataFile.
-#define SAGE_DATA_MODULE_VERSION "sage-data-2"
+#define SAGE_DATA_MODULE_VERSION "sage-data-3"
 
 enum class DataType : std::uint8_t { float64, int64, int32, uint8 };
 
@@ -22,7 +22,7 @@ class DataFile {
  public:
   virtual ~DataFile() = default;
   // A table of rows of this shape (empty: of one number), to which append() adds.  chunk: rows that are stored
-  // together.
+  // together; such of zeros alone take no room.
   virtual bool table(const char* path, DataType type, const std::vector<std::uint64_t>& row,
                      std::uint64_t chunk) = 0;
   virtual bool append(const char* path, const void* rows, std::uint64_t count) = 0;
@@ -31,6 +31,8 @@ class DataFile {
   virtual bool numbers(const char* path, const char* name, const std::int64_t* values, std::uint64_t count) = 0;
   // Of a file that was opened: a whole table of bytes, and the text of a folder or table.
   virtual bool read(const char* path, std::string& bytes) = 0;
+  // One row, from 0, of a table whose rows have that many bytes.
+  virtual bool read_row(const char* path, std::uint64_t row, void* to, std::uint64_t bytes) = 0;
   virtual bool read_text(const char* path, const char* name, std::string& value) = 0;
   virtual bool close() = 0;
   virtual const char* error() const = 0;

@@ -147,7 +147,7 @@ PointState::PointState(const Mesh& mesh, const GroupData& data, std::size_t poin
 bool applies(const FieldEntry& entry, ElementKind kind) {
   if (std::holds_alternative<StressField>(entry.value) || std::holds_alternative<StrainField>(entry.value))
     return kind == ElementKind::solid;
-  if (kind == ElementKind::flow && entry.name == "stress_level")
+  if (kind == ElementKind::flow && (entry.name == "stress_level" || entry.name == "yielded"))
     return false;  // water has no strength to reach
   return std::holds_alternative<PointField>(entry.value) && entry.kind.value_or(kind) == kind;
 }

@@ -1,6 +1,7 @@
 // Tasks that another thread does one after the other, while their owner makes the next.
 #pragma once
 
+#include <algorithm>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -51,9 +52,10 @@ class Rooms {
     List list;
     {
       const std::lock_guard lock(mutex_);
-      if (!free_.empty()) {
-        list = std::move(free_.back());
-        free_.pop_back();
+      const auto fits = [&](const List& one) { return one.capacity() >= size; };
+      if (const auto found = std::ranges::find_if(free_, fits); found != free_.end()) {
+        list = std::move(*found);
+        free_.erase(found);
       }
     }
     list.resize(size);
@@ -61,13 +63,15 @@ class Rooms {
   }
   void give(List list) {
     const std::lock_guard lock(mutex_);
-    if (free_.size() < kMost) free_.push_back(std::move(list));
+    const auto at =
+        std::ranges::find_if(free_, [&](const List& one) { return one.capacity() >= list.capacity(); });
+    if (free_.size() < kMost) free_.insert(at, std::move(list));
   }
 
  private:
-  static constexpr std::size_t kMost = 8;
+  static constexpr std::size_t kMost = 32;
   std::mutex mutex_;
-  std::vector<List> free_;
+  std::vector<List> free_;  // from the smallest on
 };
 
 }  // namespace sage

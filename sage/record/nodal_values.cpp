@@ -67,8 +67,13 @@ std::vector<double> nodal_average(const Model& model, const Solution& solution, 
       for (std::size_t i = 0; i < group.node_count(); ++i) {
         const auto entry = static_cast<std::size_t>(layout.of_group[g][eu * group.node_count() + i]);
         ++uses[entry];
-        for (std::size_t p = 0; p < points; ++p)
-          for (std::size_t c = 0; c < n; ++c) sum[entry * n + c] += map[i * points + p] * at_points[p * n + c];
+        double* const to = sum.data() + entry * n;
+        for (std::size_t p = 0; p < points; ++p) {
+          const double part = map[i * points + p];
+          const double* const from = at_points.data() + p * n;
+#pragma GCC ivdep
+          for (std::size_t c = 0; c < n; ++c) to[c] += part * from[c];
+        }
       }
     }
   }

@@ -75,7 +75,19 @@ std::size_t Frame::size_of_state() const {
   return kCounts + numbers * sizeof(double) + words * sizeof(int);
 }
 
-void Frame::exchange_state(Archive& archive) {
+bool Frame::follows_from_fields(const GroupData& data) {
+  return data.active && data.group->solid() && data.group->excess < 0 && data.state.law_size() == 4;
+}
+
+void Frame::set_fields(std::size_t group, std::vector<double> stress, std::vector<double> strain) {
+  PointStates& state = groups_[group].state.committed;
+  for (std::vector<double>* values : {&stress, &strain})
+    for (double& value : *values) value = 0.0 - value;
+  state.sigma = std::move(stress);
+  state.eps = std::move(strain);
+}
+
+void Frame::exchange_state(Archive& archive, bool whole) {
   archive(report_.stage);
   archive(report_.increment);
   archive(report_.increments);
@@ -89,8 +101,10 @@ void Frame::exchange_state(Archive& archive) {
   for (GroupData& data : groups_) {
     archive(data.active);
     PointStates& state = data.state.committed;
-    archive(state.sigma);
-    archive(state.eps);
+    if (whole || !follows_from_fields(data)) {
+      archive(state.sigma);
+      archive(state.eps);
+    }
     archive(state.h);
     archive(state.status);
     if (!data.pore.empty()) archive(data.pore);

@@ -26,10 +26,16 @@ class Frame {
   // What is left are displacements and forces.
   void drop_points() { groups_.clear(); }
   // To bytes and back, the one behind the other: most of the report, and all else.  Equal states give equal bytes,
-  // whether or not the run was interrupted.
+  // whether or not the run was interrupted.  whole = false: without stress and strain of groups whose fields
+  // say them (follows_from_fields).
   void exchange_report(Archive& archive);
-  void exchange_state(Archive& archive);
+  void exchange_state(Archive& archive, bool whole = true);
   std::size_t size_of_state() const;  // bytes, about
+  // Whether the fields `stress` and `strain` of a group say all of its points' stress and strain: they are those of
+  // solids, compression positive.
+  static bool follows_from_fields(const GroupData& data);
+  // The values of these fields, one point behind the other, for the group of this place.
+  void set_fields(std::size_t group, std::vector<double> stress, std::vector<double> strain);
 
  private:
   StepReport report_;

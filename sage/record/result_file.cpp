@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "sage/core/checksum.hpp"
 #include "sage/model/fingerprint.hpp"
 #include "sage/record/data_file.hpp"
 #include "sage/record/in_order.hpp"
@@ -48,12 +49,11 @@ class TableFile {
     table(name, type_of<T>(), row, rows);
     append(name, std::move(values), rows);
   }
-  // What stands in `text` from `from` on.
-  void bytes(const std::string& name, std::string text, std::size_t from = 0) {
-    const std::size_t size = text.size() - from;
+  void bytes(const std::string& name, std::string text) {
+    const std::size_t size = text.size();
     table(name, DataType::uint8, {}, size);
     later(size, [=, this, text = std::move(text)]() mutable {
-      const bool done = file_->append(name.c_str(), text.data() + from, size);
+      const bool done = file_->append(name.c_str(), text.data(), size);
       texts_.give(std::move(text));
       return done;
     });
@@ -230,23 +230,21 @@ class OwnPart {
     for (const Group& group : model.groups) start_group(group);
   }
 
-  void add(const Frame& frame) {
+  // Gives the checksum of what Frame::follows_from_fields.
+  std::uint64_t add(const Frame& frame) {
     const Solution now = frame.view();
+    sum_ = {};
     add_increment(frame.report());
     add_nodes(now);
     for (std::size_t g = 0; g < model_.groups.size(); ++g) add_group(now.groups()[g]);
+    return sum_.value();
   }
 
  private:
   static std::string increments(const std::string& name) { return "/sage/increments/" + name; }
   static std::string nodes(const std::string& name) { return "/sage/nodes/" + name; }
-  // Triangles among the quadrilaterals of a card are a group with its number too: the second has the name of its
-  // element behind that.
   std::string in(const Group& group, const std::string& name = "") const {
-    const bool second = std::any_of(model_.groups.data(), &group,
-                                    [&](const Group& other) { return other.number == group.number; });
-    return fmt::format("/sage/groups/{}{}", group.number, second ? "_" + group.entry->name : "") +
-           (name.empty() ? "" : "/" + name);
+    return group_path(model_, group) + (name.empty() ? "" : "/" + name);
   }
   static bool whole_numbers(const FieldEntry& field) {
     return field.form != FieldForm::number && !field.optional;
@@ -306,15 +304,25 @@ class OwnPart {
   // NaN where no active element has the node.
   void add_nodes(const Solution& now) {
     const std::vector<char> active = active_nodes(model_, *now.activity);
+    FieldList fields;
+    std::vector<std::vector<double>> values;
     for (const FieldEntry& field : fields_.rows()) {
       if (!own_node_field(field)) continue;
-      std::vector<double> values = out_.room(active.size() * field.size());
-      std::ranges::fill(values, std::nan(""));
-      for (std::size_t n = 0; n < active.size(); ++n)
-        if (active[n])
-          read_field(field, node_view(model_, now, static_cast<int>(n)), values.data() + n * field.size());
-      append(nodes(field.name), field, std::move(values));
+      fields.push_back(&field);
+      values.push_back(out_.room(active.size() * field.size()));
     }
+    for (std::size_t n = 0; n < active.size(); ++n) {
+      const NodeView view = node_view(model_, now, static_cast<int>(n));
+      for (std::size_t f = 0; f < fields.size(); ++f) {
+        double* const to = values[f].data() + n * fields[f]->size();
+        if (active[n])
+          read_field(*fields[f], view, to);
+        else
+          std::fill_n(to, fields[f]->size(), std::nan(""));
+      }
+    }
+    for (std::size_t f = 0; f < fields.size(); ++f)
+      append(nodes(fields[f]->name), *fields[f], std::move(values[f]));
   }
 
   FieldList point_fields(const Group& group) const {
@@ -381,6 +389,15 @@ class OwnPart {
       first = last;
     }
   }
+  // As read_field, of a field that applies to the point.
+  static void read_applying(const FieldEntry& field, const PointState& point, double* value) {
+    if (const auto* stress = std::get_if<StressField>(&field.value))
+      stress->of(point.stress, value);
+    else if (const auto* strain = std::get_if<StrainField>(&field.value))
+      strain->of(point.strain, value);
+    else
+      std::get<PointField>(field.value).of(point.view, value);
+  }
   // Fields that are read together: what a point has is looked up once for all of them.
   void add_fields(const GroupData& data, const FieldList& fields) {
     const Group& group = *data.group;
@@ -393,10 +410,13 @@ class OwnPart {
       for (std::size_t p = 0; p < points; ++p) {
         const PointState point(model_.mesh, data, p);
         for (std::size_t f = 0; f < fields.size(); ++f)
-          read_field(*fields[f], point, values[f].data() + p * fields[f]->size());
+          read_applying(*fields[f], point, values[f].data() + p * fields[f]->size());
       }
-    for (std::size_t f = 0; f < fields.size(); ++f)
+    for (std::size_t f = 0; f < fields.size(); ++f) {
+      if (Frame::follows_from_fields(data) && (fields[f]->name == "stress" || fields[f]->name == "strain"))
+        sum_.add({reinterpret_cast<const char*>(values[f].data()), values[f].size() * sizeof(double)});
       append(in(group, fields[f]->name), *fields[f], std::move(values[f]));
+    }
   }
 
   static constexpr std::size_t kAtOnce = std::size_t{1} << 21;  // numbers
@@ -404,9 +424,25 @@ class OwnPart {
   TableFile& out_;
   const Model& model_;
   const FieldTable& fields_;
+  Checksum sum_;
 };
 
-// What StoredResult reads: the model's sources, and every state whole.
+// In a large model what follows from a point's stress or strain by itself is left to those who read the file, but for
+// what was asked for: it would be half of the file, and cost more than a linear run.
+bool is_left_out(const FieldEntry& field, const std::vector<std::string>& asked) {
+  const bool follows =
+      std::holds_alternative<StressField>(field.value) || std::holds_alternative<StrainField>(field.value);
+  return follows && field.shape != FieldShape::tensor && std::ranges::find(asked, field.name) == asked.end();
+}
+
+bool is_large(const Model& model) {
+  constexpr int kMostPoints = 100000;
+  int points = 0;
+  for (const Group& group : model.groups) points += group.elements() * group.element->traits().points;
+  return points > kMostPoints;
+}
+
+// What StoredResult reads: the model's sources, and of every state what no field has.
 class SourcePart {
  public:
   SourcePart(TableFile& out, const RunSource& source, const Model& model, const std::string& failure)
@@ -423,14 +459,18 @@ class SourcePart {
     out_.table(stored_path("states"), DataType::int64, {kStoredColumns});
   }
 
-  // stored: where the bytes of the state stand in what the run has written of it, from `from` on.
-  void add(const StepReport& report, std::string stored, std::size_t from) {
+  // fields: checksum of those that say the rest of the state.
+  void add(Frame& frame, std::uint64_t fields) {
     if (!kept_) return;
-    const std::vector<std::int64_t> row{
-        report.stage, report.increment, report.increments,
-        std::bit_cast<std::int64_t>(checksum(std::string_view(stored).substr(from)))};
+    Archive archive = Archive::behind(out_.room_for_text(0));
+    frame.exchange_state(archive, false);
+    std::string stored = archive.take();
+    const StepReport& report = frame.report();
+    const std::vector<std::int64_t> row{report.stage, report.increment, report.increments,
+                                        std::bit_cast<std::int64_t>(checksum(stored)),
+                                        std::bit_cast<std::int64_t>(fields)};
     out_.append(stored_path("states"), row, 1);
-    out_.bytes(stored_path(fmt::format("state{}", ++count_)), std::move(stored), from);
+    out_.bytes(stored_path(fmt::format("state{}", ++count_)), std::move(stored));
   }
 
  private:
@@ -441,33 +481,11 @@ class SourcePart {
   int count_ = 0;
 };
 
-// States one after the other, so that one alone is in memory.
-class FrameReader {
- public:
-  FrameReader(const Model& model, const std::filesystem::path& file)
-      : in_(file, std::ios::binary), frame_(model) {}
-  // bytes: room for the state's `size`; gives the place where those of Frame::exchange_state begin.
-  std::size_t next(std::uint64_t size, std::string& bytes) {
-    if (!in_.read(bytes.data(), static_cast<std::streamsize>(size)))
-      throw OutputError("S601", "the states of the run can't be read back for its result file");
-    Archive archive(std::move(bytes));
-    frame_.exchange_report(archive);
-    const std::size_t from = archive.place();
-    frame_.exchange_state(archive);
-    bytes = archive.take();
-    return from;
-  }
-  const Frame& frame() const { return frame_; }
-
- private:
-  std::ifstream in_;
-  Frame frame_;
-};
-
 }  // namespace
 
-ResultOutput::ResultOutput(std::filesystem::path folder, const std::string& stem, RunSource source, int threads)
-    : path_(folder / (stem + ".h5")), source_(std::move(source)), threads_(threads) {
+ResultOutput::ResultOutput(std::filesystem::path folder, const std::string& stem, RunSource source, int threads,
+                           std::vector<std::string> asked)
+    : path_(folder / (stem + ".h5")), source_(std::move(source)), threads_(threads), asked_(std::move(asked)) {
   expect_data_module();
   expect_no_input(path_);
   std::error_code ignored;
@@ -478,21 +496,50 @@ ResultOutput::ResultOutput(std::filesystem::path folder, const std::string& stem
 }
 
 ResultOutput::~ResultOutput() {
-  const bool of_no_checkpoint = !frames_.empty() && !in_checkpoint_;
+  const bool of_no_checkpoint = (!written_.empty() || !waiting_.empty()) && !in_checkpoint_;
   if (!files_.empty() || of_no_checkpoint) states_.discard();
 }
 
 void ResultOutput::add(const Model& model, const StepReport& report, const Solution& solution) {
-  Frame frame(model, report, solution);
-  std::string& text = states_.text();
-  const std::size_t before = text.size();
-  text.reserve(before + frame.size_of_state());
-  Archive archive = Archive::behind(std::move(text));
-  frame.exchange_report(archive);
-  frame.exchange_state(archive);
-  text = archive.take();
-  frames_.push_back(text.size() - before);
-  states_.checkpoint();
+  waiting_.emplace_back(model, report, solution);
+  waiting_bytes_ += waiting_.back().size_of_state();
+  if (waiting_bytes_ > kMostWaiting) write_states();
+}
+
+void ResultOutput::write_states() {
+  for (Frame& frame : waiting_) {
+    std::string& text = states_.text();
+    const std::size_t before = text.size();
+    text.reserve(before + frame.size_of_state());
+    Archive archive = Archive::behind(std::move(text));
+    frame.exchange_report(archive);
+    frame.exchange_state(archive);
+    text = archive.take();
+    written_.push_back(text.size() - before);
+    states_.checkpoint();
+  }
+  waiting_.clear();
+  waiting_bytes_ = 0;
+}
+
+// One after the other: of those that were written one alone is in memory.
+void ResultOutput::each_state(const Model& model, const std::function<void(Frame&)>& use) {
+  if (!written_.empty()) states_.flush();
+  std::ifstream in;
+  if (!written_.empty()) in.open(states_.partial(), std::ios::binary);
+  Frame frame(model);
+  std::string bytes;
+  for (std::uint64_t size : written_) {
+    bytes.resize(size);
+    if (!in.read(bytes.data(), static_cast<std::streamsize>(size)))
+      throw OutputError("S601", "the states of the run can't be read back for its result file");
+    Archive archive(std::move(bytes));
+    frame.exchange_report(archive);
+    frame.exchange_state(archive);
+    bytes = archive.take();
+    use(frame);
+  }
+  for (Frame& one : waiting_) use(one);
 }
 
 void ResultOutput::on_increment(const Model& model, const StepReport& report, const Solution& solution) {
@@ -507,15 +554,21 @@ void ResultOutput::on_failure(const Model& model, const StepReport& report, cons
 
 void ResultOutput::exchange(Archive& archive) {
   in_checkpoint_ = true;
+  if (!archive.reading()) write_states();
   states_.exchange(archive);
-  archive(frames_);
+  archive(written_);
 }
 
 void ResultOutput::on_finish(const Model& model, const RunResult& result) {
-  states_.flush();
   OutFile file(path_);
   file.written_by([&](const std::filesystem::path& partial) {
-    const FieldTable fields = fields_of(model);
+    FieldTable fields = fields_of(model);
+    std::vector<std::string> left_out;
+    if (is_large(model))
+      fields = fields.without([&](const FieldEntry& field) {
+        if (is_left_out(field, asked_)) left_out.push_back(field.name);
+        return is_left_out(field, asked_);
+      });
     TableFile out(partial, path_, threads_ > 1);
     out.text("/sage", "title", model.title);
     out.text("/sage", "deck", model.file);
@@ -524,17 +577,14 @@ void ResultOutput::on_finish(const Model& model, const RunResult& result) {
              failure_.empty() ? completed_words(model, result.motion) : "NOT CONVERGED: " + failure_);
     out.text("/sage", "signs", sign_convention(model, ""));
     out.text("/sage", "geometry", model.geometry == Geometry::axisymmetric ? "axisymmetric" : "plane strain");
+    if (!left_out.empty()) out.text("/sage", "left_out", joined(left_out));
     VtkPart vtk(out, model, fields);
     OwnPart own(out, model, fields);
     SourcePart source(out, source_, model, failure_);
-    FrameReader reader(model, states_.partial());
-    for (std::uint64_t size : frames_) {
-      std::string bytes = out.room_for_text(size);
-      const std::size_t from = reader.next(size, bytes);
-      source.add(reader.frame().report(), std::move(bytes), from);
-      vtk.add(reader.frame());
-      own.add(reader.frame());
-    }
+    each_state(model, [&](Frame& frame) {
+      vtk.add(frame);
+      source.add(frame, own.add(frame));
+    });
     vtk.finish();
     out.close();
   });

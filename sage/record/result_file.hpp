@@ -2,6 +2,8 @@
 // read; docs/manual/result_file.md is its layout, docs/decisions/0012 says why it is so.
 #pragma once
 
+#include <functional>
+
 #include "sage/record/out_file.hpp"
 #include "sage/record/result.hpp"
 
@@ -15,13 +17,16 @@ struct RunSource {
   std::string options;      // how the model differs from the deck, as words of a command line
 };
 
-// While the run goes, its states wait in STEM.h5.states.partial, from which --restart goes on.  STEM.h5 is written
-// when the run has ended, whole, or not at all.
+// While the run goes, its states wait in memory, and where they are many or a checkpoint is made in
+// STEM.h5.states.partial, from which --restart goes on.  STEM.h5 is written when the run has ended, whole, or not at
+// all.
 class ResultOutput final : public Output {
  public:
   // threads: with more than one the file is written while its fields are computed; its bytes are the same.
+  // asked: names of fields that large groups have too, though they follow from the stress of a point.
   // Throws OutputError, also where the module that writes such files can't be loaded.
-  ResultOutput(std::filesystem::path folder, const std::string& stem, RunSource source = {}, int threads = 1);
+  ResultOutput(std::filesystem::path folder, const std::string& stem, RunSource source = {}, int threads = 1,
+               std::vector<std::string> asked = {});
   // Once the file is written nobody needs the states; until then only a checkpoint may name them.
   ~ResultOutput() override;
   ResultOutput(const ResultOutput&) = delete;
@@ -38,15 +43,22 @@ class ResultOutput final : public Output {
   std::vector<std::filesystem::path> files() const override { return files_; }
 
  private:
+  static constexpr std::size_t kMostWaiting = std::size_t{1} << 29;  // bytes
+
   void add(const Model&, const StepReport&, const Solution&);
+  void write_states();
+  void each_state(const Model&, const std::function<void(Frame&)>& use);
 
   std::filesystem::path path_;
   RunSource source_;
   int threads_;
+  std::vector<std::string> asked_;
   OutFile states_;
-  bool in_checkpoint_ = false;         // --restart goes on from the states
-  std::vector<std::uint64_t> frames_;  // bytes of each
-  std::string failure_;                // what the run says that found no equilibrium
+  bool in_checkpoint_ = false;          // --restart goes on from the states
+  std::vector<std::uint64_t> written_;  // to states_, bytes of each
+  std::vector<Frame> waiting_;          // behind those
+  std::size_t waiting_bytes_ = 0;
+  std::string failure_;  // what the run says that found no equilibrium
   std::vector<std::filesystem::path> files_;
 };
 

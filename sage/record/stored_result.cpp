@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -17,7 +17,8 @@ StoredResult::StoredResult(const std::filesystem::path& file)
   std::string format;
   if (!file_->read_text(kStoredFolder, "format", format))
     fail("holds no run of this program that could be shown again (sagefe run --result writes one)");
-  if (format != kStoredFormat)
+  whole_ = format == kWholeFormat;
+  if (!whole_ && format != kStoredFormat)
     fail("its states are written as " + format + ", this program reads " + kStoredFormat +
          ": run the deck again");
   source_ = {bytes("deck"), text("layout"), bytes("layout"), text("options")};
@@ -25,11 +26,13 @@ StoredResult::StoredResult(const std::filesystem::path& file)
   failure_ = text("failure");
   model_ = text("model");
   const std::string rows = bytes("states");
-  std::array<std::int64_t, kStoredColumns> row;
-  for (std::size_t at = 0; at + sizeof row <= rows.size(); at += sizeof row) {
-    std::memcpy(row.data(), rows.data() + at, sizeof row);
+  std::vector<std::int64_t> row(whole_ ? kWholeColumns : kStoredColumns);
+  const std::size_t size = row.size() * sizeof row[0];
+  for (std::size_t at = 0; at + size <= rows.size(); at += size) {
+    std::memcpy(row.data(), rows.data() + at, size);
     states_.push_back({static_cast<int>(row[0]), static_cast<int>(row[1]), static_cast<int>(row[2]),
-                       std::bit_cast<std::uint64_t>(row[3])});
+                       std::bit_cast<std::uint64_t>(row[3]),
+                       whole_ ? 0 : std::bit_cast<std::uint64_t>(row[4])});
   }
 }
 
@@ -59,8 +62,37 @@ Frame StoredResult::frame(const Model& model, std::size_t state) const {
   if (checksum(stored) != states_.at(state).checksum) fail(fmt::format("state {} is damaged", state + 1));
   Frame frame(model);
   Archive archive(std::move(stored));
-  frame.exchange_state(archive);
+  frame.exchange_state(archive, whole_);
+  if (!whole_) read_fields(model, state, frame);
   return frame;
+}
+
+void StoredResult::read_fields(const Model& model, std::size_t state, Frame& frame) const {
+  Checksum sum;
+  const auto row = [&](const std::string& table, std::size_t points) {
+    std::vector<double> values(4 * points);
+    const std::size_t bytes = values.size() * sizeof(double);
+    if (!file_->read_row(table.c_str(), state, values.data(), bytes))
+      fail("is damaged: " + std::string(file_->error()));
+    sum.add({reinterpret_cast<const char*>(values.data()), bytes});
+    return values;
+  };
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const GroupData& data = frame.view().groups()[g];
+    if (!Frame::follows_from_fields(data)) continue;
+    const std::string folder = group_path(model, model.groups[g]);
+    const std::size_t points = data.state.committed.status.size();
+    std::vector<double> stress = row(folder + "/stress", points), strain = row(folder + "/strain", points);
+    frame.set_fields(g, std::move(stress), std::move(strain));
+  }
+  if (sum.value() != states_.at(state).fields_checksum)
+    fail(fmt::format("stress or strain of state {} is damaged", state + 1));
+}
+
+std::string group_path(const Model& model, const Group& group) {
+  const bool second = std::any_of(model.groups.data(), &group,
+                                  [&](const Group& other) { return other.number == group.number; });
+  return fmt::format("/sage/groups/{}{}", group.number, second ? "_" + group.entry->name : "");
 }
 
 }  // namespace sage

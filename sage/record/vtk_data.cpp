@@ -125,30 +125,53 @@ FieldList cell_fields(const Model& model, const FieldTable& table) {
   return fields;
 }
 
-std::vector<double> element_values(const Model& model, const Solution& s, const FieldEntry& field) {
-  std::vector<double> values;
+// Rows of all these fields, one behind the other.
+std::vector<double> element_values(const Model& model, const Solution& s, const FieldList& fields) {
+  std::size_t elements = 0;
+  for (const GroupData& data : s.groups())
+    if (data.active) elements += static_cast<std::size_t>(data.group->elements());
+  std::vector<double> values(elements * size_of(fields));
+  double* to = values.data();
   Eigen::Matrix2Xd x;
   for (const GroupData& data : s.groups()) {
     if (!data.active) continue;
     const Group& group = *data.group;
     for (int e = 0; e < group.elements(); ++e) {
       element_coordinates(model.mesh, group, e, x);
-      values.resize(values.size() + field.size());
-      read_field(field, element_view(model, group, e, x), values.data() + values.size() - field.size());
+      const ElementView view = element_view(model, group, e, x);
+      for (const FieldEntry* field : fields) {
+        read_field(*field, view, to);
+        to += field->size();
+      }
     }
   }
   return values;
 }
 
 std::vector<double> node_values(const Model& model, const Solution& s, const NodalLayout& layout,
-                                const FieldEntry& field) {
-  std::vector<double> values(layout.node.size() * field.size());
-  for (std::size_t i = 0; i < layout.node.size(); ++i)
-    read_field(field, node_view(model, s, layout.node[i]), values.data() + i * field.size());
-  if (field.shape == FieldShape::vector)
-    for (double& value : values)
-      if (std::isnan(value)) value = 0.0;  // the reaction where nothing is held
+                                const FieldList& fields) {
+  std::vector<double> values(layout.node.size() * size_of(fields));
+  double* to = values.data();
+  for (int node : layout.node) {
+    const NodeView view = node_view(model, s, node);
+    for (const FieldEntry* field : fields) {
+      read_field(*field, view, to);
+      if (field->shape == FieldShape::vector)
+        for (std::size_t c = 0; c < field->size(); ++c)
+          if (std::isnan(to[c])) to[c] = 0.0;  // the reaction where nothing is held
+      to += field->size();
+    }
+  }
   return values;
+}
+
+// One field after the other, from rows of all of them.
+void add_fields(const FieldList& fields, const std::vector<double>& rows, std::vector<VtkArray>& arrays) {
+  std::size_t at = 0;
+  for (const FieldEntry* field : fields) {
+    add_field(*field, {rows, size_of(fields), at}, arrays);
+    at += field->size();
+  }
 }
 
 }  // namespace
@@ -176,12 +199,12 @@ VtkGrid vtk_grid(const Model& model, const NodalLayout& layout) {
 std::vector<VtkArray> vtk_point_data(const Model& model, const Solution& s, const NodalLayout& layout,
                                      const FieldTable& table) {
   std::vector<VtkArray> arrays;
-  FieldList tensors;
+  FieldList of_nodes, tensors;
   for (const FieldEntry& field : table.rows()) {
-    if (field.place() == FieldPlace::node && field.form != FieldForm::word)
-      add_field(field, {node_values(model, s, layout, field), field.size()}, arrays);
+    if (field.place() == FieldPlace::node && field.form != FieldForm::word) of_nodes.push_back(&field);
     if (field.place() == FieldPlace::point && field.shape == FieldShape::tensor) tensors.push_back(&field);
   }
+  add_fields(of_nodes, node_values(model, s, layout, of_nodes), arrays);
   const std::vector<double> carried = nodal_average(model, s, layout, tensors);
   const std::size_t stride = carried_size_of(tensors);
   std::size_t at = 0;
@@ -197,9 +220,10 @@ std::vector<VtkArray> vtk_point_data(const Model& model, const Solution& s, cons
 
 std::vector<VtkArray> vtk_cell_data(const Model& model, const Solution& s, const FieldTable& table) {
   std::vector<VtkArray> arrays;
+  FieldList of_elements;
   for (const FieldEntry& field : table.rows())
-    if (field.place() == FieldPlace::element && field.form != FieldForm::word)
-      add_field(field, {element_values(model, s, field), field.size()}, arrays);
+    if (field.place() == FieldPlace::element && field.form != FieldForm::word) of_elements.push_back(&field);
+  add_fields(of_elements, element_values(model, s, of_elements), arrays);
   const FieldList fields = cell_fields(model, table);
   std::vector<double> rows;
   for (const GroupData& data : s.groups()) {
@@ -207,11 +231,7 @@ std::vector<VtkArray> vtk_cell_data(const Model& model, const Solution& s, const
     const std::vector<double> more = element_average(model.mesh, data, fields);
     rows.insert(rows.end(), more.begin(), more.end());
   }
-  std::size_t at = 0;
-  for (const FieldEntry* field : fields) {
-    add_field(*field, {rows, size_of(fields), at}, arrays);
-    at += field->size();
-  }
+  add_fields(fields, rows, arrays);
   add_ends(model, s, arrays);
   return arrays;
 }

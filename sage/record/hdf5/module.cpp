@@ -70,7 +70,15 @@ struct Table {
   hid_t id = H5I_INVALID_HID;
   std::size_t packed_row = 0;  // bytes of a row that is compressed by itself; 0: there are none such
   std::size_t width = 0;       // of a number
+  std::size_t row = 0;         // bytes of one
+  hsize_t chunk = 0;           // rows
 };
+
+// What was never written reads as zeros.
+bool only_zeros(const void* values, std::size_t bytes) {
+  const char* const at = static_cast<const char*>(values);
+  return bytes > 0 && at[0] == 0 && std::memcmp(at, at + 1, bytes - 1) == 0;
+}
 
 // Bytes of one place in the numbers behind one another, as HDF5's filter of that name has them.
 std::vector<unsigned char> shuffled(const unsigned char* numbers, std::size_t bytes, std::size_t width) {
@@ -148,7 +156,7 @@ class Hdf5File final : public DataFile {
         H5Dcreate2(file_, path, hdf5_type(type), space.get(), links.get(), how.get(), H5P_DEFAULT);
     if (set < 0) return failed(path);
     const std::size_t width = size_of(type);
-    sets_[path] = {set, numbers > 16 && chunk == 1 ? numbers * width : 0, width};
+    sets_[path] = {set, numbers > 16 && chunk == 1 ? numbers * width : 0, width, numbers * width, chunk};
     return true;
   }
 
@@ -171,6 +179,8 @@ class Hdf5File final : public DataFile {
     errno = 0;
     if (H5Dset_extent(id, size.data()) < 0) return failed();
     if (std::find(more.begin(), more.end(), 0) != more.end()) return true;
+    const bool whole_chunks = start[0] % set->second.chunk == 0 && count % set->second.chunk == 0;
+    if (whole_chunks && only_zeros(rows, count * set->second.row)) return true;
     if (count == 1 && left_as_it_is(set->second, rows))
       return H5Dwrite_chunk(id, H5P_DEFAULT, kNoFilters, start.data(), set->second.packed_row, rows) >= 0 ||
              failed();
@@ -210,6 +220,29 @@ class Hdf5File final : public DataFile {
     if (count < 0) return failed();
     bytes.resize(static_cast<std::size_t>(count) * H5Tget_size(type.get()));
     return H5Dread(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) >= 0 || failed();
+  }
+
+  bool read_row(const char* path, std::uint64_t row, void* to, std::uint64_t bytes) override {
+    const Calls calls;
+    errno = 0;
+    const Id set(H5Dopen2(file_, path, H5P_DEFAULT), H5Dclose);
+    if (!set.ok()) return failed();
+    const Id space(H5Dget_space(set.get()), H5Sclose), type(H5Dget_type(set.get()), H5Tclose);
+    std::vector<hsize_t> size(static_cast<std::size_t>(std::max(H5Sget_simple_extent_ndims(space.get()), 0)));
+    H5Sget_simple_extent_dims(space.get(), size.data(), nullptr);
+    std::vector<hsize_t> start(size.size(), 0), one = size;
+    std::uint64_t found = H5Tget_size(type.get());
+    for (std::size_t i = 1; i < size.size(); ++i) found *= size[i];
+    if (size.empty() || row >= size[0] || found != bytes) {
+      error_ = std::string(path) + " has other rows";
+      return false;
+    }
+    if (bytes == 0) return true;
+    start[0] = row;
+    one[0] = 1;
+    const Id memory(H5Screate_simple(static_cast<int>(one.size()), one.data(), nullptr), H5Sclose);
+    H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, one.data(), nullptr);
+    return H5Dread(set.get(), type.get(), memory.get(), space.get(), H5P_DEFAULT, to) >= 0 || failed();
   }
 
   bool read_text(const char* path, const char* name, std::string& value) override {

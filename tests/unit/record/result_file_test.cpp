@@ -5,10 +5,13 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
+#include <bit>
 #include <cmath>
 #include <cstring>
 
+#include "sage/core/checksum.hpp"
 #include "sage/record/data_file.hpp"
+#include "sage/record/stored_result.hpp"
 #include "tests/unit/record/specimen.hpp"
 
 namespace sage {
@@ -246,6 +249,73 @@ TEST(InOrder, NothingIsDoneBehindAnError) {
   }
   EXPECT_THROW(tasks.finish(), OutputError);
   EXPECT_EQ(done, 1);
+}
+
+// Every number of a state, by the bytes that a checkpoint would have.
+std::string bytes_of(Frame frame) {
+  Archive archive;
+  frame.exchange_state(archive);
+  return archive.bytes();
+}
+
+// Stress and strain of solids stand in their fields alone, and come back from there.
+TEST(ResultFile, GivesBackTheStatesThatItWasMadeOf) {
+  Specimen specimen;
+  const auto folder = fresh_folder("result_states");
+  ResultOutput result(folder, "t", {"a deck", "", "", ""});
+  specimen.run(result, 0.01, 2);
+  const Frame last(specimen.model, specimen.step(2, 2), specimen.solution());
+  const StoredResult stored(folder / "t.h5");
+  ASSERT_EQ(stored.states().size(), 2u);
+  EXPECT_TRUE(bytes_of(stored.frame(specimen.model, 1)) == bytes_of(last));
+  EXPECT_FALSE(bytes_of(stored.frame(specimen.model, 0)) == bytes_of(last));
+}
+
+// A damaged number of a field is one of the state.
+TEST(ResultFile, StatesOfDamagedFieldsAreRefused) {
+  Specimen specimen;
+  const auto folder = fresh_folder("result_damage");
+  ResultOutput result(folder, "t", {"a deck", "", "", ""});
+  specimen.run(result, 0.01, 1);
+  {
+    const hid_t file = H5Fopen((folder / "t.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT),
+                set = H5Dopen2(file, "/sage/groups/1/strain", H5P_DEFAULT);
+    std::vector<double> strain(32, 0.0);
+    ASSERT_GE(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, strain.data()), 0);
+    H5Dclose(set);
+    H5Fclose(file);
+  }
+  const StoredResult stored(folder / "t.h5");
+  EXPECT_THROW(stored.frame(specimen.model, 0), InputError);
+}
+
+// Files of the format before: whole states, rows of four numbers.
+TEST(ResultFile, FilesOfTheFormatBeforeAreRead) {
+  Specimen specimen;
+  const auto path = fresh_folder("result_before") / "t.h5";
+  specimen.compress(0.01);
+  Frame frame(specimen.model, specimen.step(3, 3), specimen.solution());
+  const std::string state = bytes_of(frame);
+  const auto file = make_data_file(path.string());
+  const auto bytes = [&](const char* name, const std::string& value) {
+    const std::string table = stored_path(name);
+    ASSERT_TRUE(file->table(table.c_str(), DataType::uint8, {}, value.size()));
+    ASSERT_TRUE(file->append(table.c_str(), value.data(), value.size()));
+  };
+  bytes("deck", "a deck");
+  bytes("layout", "a layout");
+  for (const char* name : {"name", "layout", "options", "model", "failure"})
+    ASSERT_TRUE(file->text(kStoredFolder, name, ""));
+  ASSERT_TRUE(file->text(kStoredFolder, "format", "frames-1"));
+  const std::int64_t row[]{0, 3, 3, std::bit_cast<std::int64_t>(checksum(state))};
+  ASSERT_TRUE(file->table(stored_path("states").c_str(), DataType::int64, {4}, 1));
+  ASSERT_TRUE(file->append(stored_path("states").c_str(), row, 1));
+  bytes("state1", state);
+  ASSERT_TRUE(file->close());
+  const StoredResult stored(path);
+  ASSERT_EQ(stored.states().size(), 1u);
+  EXPECT_EQ(stored.states()[0].increments, 3);
+  EXPECT_TRUE(bytes_of(stored.frame(specimen.model, 0)) == state);
 }
 
 TEST(ResultFile, FailedRunHoldsTheLastStateAndSaysSo) {
