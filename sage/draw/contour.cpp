@@ -135,8 +135,94 @@ std::vector<std::string> line_paths(const std::vector<Patch>& patches, const std
   return paths;
 }
 
+namespace {
+
+// A side of a tiny patch, in the sense of its outline.
+struct Side {
+  int from = 0, to = 0, band = 0;
+  Vector2 at = Vector2::Zero();  // of `from`
+  int low() const { return std::min(from, to); }
+};
+
+// By their lower nodes, so that the two of one place stand near one another.
+std::vector<Side> by_low(const std::vector<Side>& sides, std::vector<std::size_t>& first) {
+  int most = -1;
+  for (const Side& side : sides) most = std::max(most, side.low());
+  first.assign(static_cast<std::size_t>(most) + 2, 0);
+  for (const Side& side : sides) ++first[static_cast<std::size_t>(side.low()) + 1];
+  for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
+  std::vector<std::size_t> next(first);
+  std::vector<Side> sorted(sides.size());
+  for (const Side& side : sides) sorted[next[static_cast<std::size_t>(side.low())]++] = side;
+  return sorted;
+}
+
+// Those where the region of a band's patches ends, for each band: where the patch beyond has another or there is none.
+std::vector<std::vector<Side>> region_sides(const std::vector<Side>& sides, std::size_t bands) {
+  std::vector<std::vector<Side>> ends(bands);
+  std::vector<std::size_t> first;
+  std::vector<Side> all = by_low(sides, first);
+  for (std::size_t node = 0; node + 1 < first.size(); ++node)
+    for (std::size_t i = first[node]; i < first[node + 1]; ++i) {
+      int beyond = -1;
+      for (std::size_t j = first[node]; j < first[node + 1]; ++j)
+        if (all[j].from == all[i].to && all[j].to == all[i].from) beyond = all[j].band;
+      if (beyond != all[i].band) ends[static_cast<std::size_t>(all[i].band)].push_back(all[i]);
+    }
+  return ends;
+}
+
+// A closed line without the places that lie on the way between their neighbours.
+void append_loop(std::string& path, const std::vector<Vector2>& loop) {
+  constexpr double kNear = 0.01;  // px
+  constexpr std::size_t kMostPassed = 16;
+  std::vector<Vector2> kept;
+  std::size_t passed = 0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Vector2& next = loop[(i + 1) % loop.size()];
+    if (!kept.empty() && passed < kMostPassed) {
+      const Vector2 way = next - kept.back(), to = loop[i] - kept.back();
+      const double across = std::abs(way.x() * to.y() - way.y() * to.x()), along = way.dot(to);
+      ++passed;
+      if (across <= kNear * way.norm() && along >= 0.0 && along <= way.squaredNorm()) continue;
+    }
+    kept.push_back(loop[i]);
+    passed = 0;
+  }
+  append_closed(path, kept.size(), [&](std::size_t i) -> const Vector2& { return kept[i]; });
+}
+
+// Sides one behind the other, as closed lines.
+void append_loops(std::string& path, std::vector<Side> sides) {
+  std::ranges::stable_sort(sides, {}, &Side::from);
+  std::vector<char> used(sides.size(), 0);
+  const auto next_of = [&](int node) {
+    auto at = static_cast<std::size_t>(std::ranges::lower_bound(sides, node, {}, &Side::from) - sides.begin());
+    while (at < sides.size() && sides[at].from == node && used[at] != 0) ++at;
+    return at < sides.size() && sides[at].from == node ? at : sides.size();
+  };
+  for (std::size_t begin = 0; begin < sides.size(); ++begin) {
+    if (used[begin] != 0) continue;
+    std::vector<Vector2> loop;
+    for (std::size_t at = begin; at < sides.size(); at = next_of(sides[at].to)) {
+      used[at] = 1;
+      loop.push_back(sides[at].at);
+    }
+    append_loop(path, loop);
+  }
+}
+
+void add_sides(std::vector<Side>& sides, const Patch& patch, std::size_t band) {
+  const std::size_t n = patch.places.size();
+  for (std::size_t i = 0; i < n; ++i)
+    sides.push_back({patch.nodes[i], patch.nodes[(i + 1) % n], static_cast<int>(band), patch.places[i].at});
+}
+
+}  // namespace
+
 std::vector<std::string> band_paths(const std::vector<Patch>& patches, const std::vector<double>& limits) {
   std::vector<std::string> paths(std::max<std::size_t>(limits.size(), 2) - 1);
+  std::vector<Side> sides;  // of tiny patches
   for (const Patch& patch : patches) {
     if (patch.places.empty()) continue;
     const auto [low, high] =
@@ -144,10 +230,16 @@ std::vector<std::string> band_paths(const std::vector<Patch>& patches, const std
                             [](const Corner& a, const Corner& b) { return a.value < b.value; });
     std::size_t first = 0;  // the band of the lowest value: the whole element
     while (first + 1 < paths.size() && low->value >= limits[first + 1]) ++first;
-    append_places(paths[first], patch, patch.grid->outline);
+    if (patch.tiny())
+      add_sides(sides, patch, first);
+    else
+      append_places(paths[first], patch, patch.grid->outline);
     for (std::size_t band = first + 1; band < paths.size() && high->value > limits[band]; ++band)
       for (const GridCell& cell : patch.grid->cells) append_above(paths[band], patch, cell, limits[band]);
   }
+  if (sides.empty()) return paths;
+  std::vector<std::vector<Side>> ends = region_sides(sides, paths.size());
+  for (std::size_t band = 0; band < paths.size(); ++band) append_loops(paths[band], std::move(ends[band]));
   return paths;
 }
 

@@ -1,6 +1,7 @@
 // What a field looks like: elements as polygons with values, cut into bands of one colour.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,10 @@ struct CellGrid {
 struct Patch {
   const CellGrid* grid = nullptr;
   std::vector<Corner> places;
+  // Of one that is hardly larger than a point of the screen: the nodes at its places, all of which are its outline.
+  // What such neighbours have in one colour is drawn as one.
+  std::array<int, 4> nodes{-1, -1, -1, -1};
+  bool tiny() const { return nodes[0] >= 0; }
 };
 
 // Whether values from `low` to `high` are one to the eye: what differs is rounding, or what an iteration left.

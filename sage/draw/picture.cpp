@@ -22,7 +22,6 @@ namespace sage {
 
 namespace {
 
-constexpr int kMostElements = 6000;
 constexpr double kBottom = 54.0, kLine = 18.0;
 constexpr const char *kInterfaceColour = "#b2182b", *kStructureColour = "#1f4e9c";
 
@@ -87,14 +86,29 @@ void append_line(std::string& path, const Eigen::Matrix2Xd& places) {
     fmt::format_to(std::back_inserter(path), "{}{:.2f} {:.2f}", i == 0 ? 'M' : 'L', places(0, i), places(1, i));
 }
 
+// An edge of an element of a group; by the numbers of its end nodes.
+struct Edge {
+  std::pair<int, int> ends;
+  int group = 0, element = 0, edge = 0;
+};
+
+// By their ends; a list of all would take long to sort, of those at one node are few.
+std::vector<Edge> sorted(const std::vector<Edge>& edges, int nodes) {
+  std::vector<std::size_t> next(static_cast<std::size_t>(nodes) + 1, 0);
+  for (const Edge& edge : edges) ++next[static_cast<std::size_t>(edge.ends.first) + 1];
+  for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
+  const std::vector<std::size_t> first(next);
+  std::vector<Edge> result(edges.size());
+  for (const Edge& edge : edges) result[next[static_cast<std::size_t>(edge.ends.first)]++] = edge;
+  for (std::size_t i = 0; i + 1 < first.size(); ++i)
+    std::sort(result.begin() + static_cast<std::ptrdiff_t>(first[i]),
+              result.begin() + static_cast<std::ptrdiff_t>(first[i + 1]),
+              [](const Edge& a, const Edge& b) { return a.ends.second < b.ends.second; });
+  return result;
+}
+
 // Edges of solids that only one element has, undeformed; not those along a line of symmetry.
 void draw_outline(std::string& out, Scenery& scenery) {
-  struct Edge {
-    std::pair<int, int> ends;
-    std::size_t group;
-    int element;
-    std::size_t edge;
-  };
   std::vector<Edge> edges;
   for (std::size_t g = 0; g < scenery.model.groups.size(); ++g) {
     if (!scenery.draws(g, ElementKind::solid)) continue;
@@ -104,10 +118,10 @@ void draw_outline(std::string& out, Scenery& scenery) {
     for (int e = 0; e < group.elements(); ++e)
       for (std::size_t k = 0; k < sides.size(); ++k) {
         const auto [low, high] = std::minmax(group.nodes_of(e)[sides[k][0]], group.nodes_of(e)[sides[k][1]]);
-        edges.push_back({{low, high}, g, e, k});
+        edges.push_back({{low, high}, static_cast<int>(g), e, static_cast<int>(k)});
       }
   }
-  std::ranges::sort(edges, {}, &Edge::ends);
+  edges = sorted(edges, scenery.model.mesh.nodes());
   out += "<g fill=\"none\" stroke=\"#666666\" stroke-width=\"1\" stroke-dasharray=\"5 4\">\n";
   for (std::size_t first = 0, next = 0; first < edges.size(); first = next) {
     const Edge& edge = edges[first];
@@ -116,11 +130,11 @@ void draw_outline(std::string& out, Scenery& scenery) {
     if (next - first != 1 ||
         (scenery.view.on_seam(x.col(edge.ends.first)) && scenery.view.on_seam(x.col(edge.ends.second))))
       continue;
-    const Group& group = scenery.model.groups[edge.group];
+    const Group& group = scenery.model.groups[static_cast<std::size_t>(edge.group)];
     const Eigen::Matrix2Xd nodes = scenery.nodes_of(group, edge.element, 0.0);
     const SubGrid& grid = grid_for(scenery, group, nodes);
     std::string path;
-    append_line(path, nodes * grid.N(grid.edges[edge.edge], Eigen::all).transpose());
+    append_line(path, nodes * grid.N(grid.edges[static_cast<std::size_t>(edge.edge)], Eigen::all).transpose());
     fmt::format_to(std::back_inserter(out), "<path d=\"{}\"/>\n", path);
   }
   out += "</g>\n";
@@ -287,23 +301,36 @@ void append_values(std::vector<Weighted>& values, const std::vector<Patch>& all)
   }
 }
 
+constexpr std::size_t kFew = 50000;  // values that are sorted
+
+// The least value that `area` of the whole lies at or below; changes the order of values.
+double value_at(std::span<Weighted> values, double area) {
+  while (values.size() > kFew) {
+    const std::size_t half = values.size() / 2;
+    std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(half), {}, &Weighted::value);
+    double below = 0.0;
+    for (const Weighted& v : values.first(half)) below += v.area;
+    values = below >= area ? values.first(half) : values.subspan(half);
+    if (below < area) area -= below;
+  }
+  std::ranges::sort(values, {}, &Weighted::value);
+  double below = 0.0;
+  for (const Weighted& v : values)
+    if ((below += v.area) >= area) return v.value;
+  return values.back().value;
+}
+
 // The colours' range: an end moves in to what 99 % of the area has, where the rest would take a third of them.
 FieldRange colour_range(std::vector<Weighted> values, bool robust) {
   constexpr double kRare = 0.01, kTakesMuch = 0.5, kNothing = 1e-7;
   if (values.empty()) return {0.0, 0.0};  // no solid, or known nowhere
-  std::ranges::sort(values, {}, &Weighted::value);
-  FieldRange range{values.front().value, values.back().value};
+  if (values.size() <= kFew) std::ranges::sort(values, {}, &Weighted::value);
+  const auto [least, largest] = std::ranges::minmax_element(values, {}, &Weighted::value);
+  FieldRange range{least->value, largest->value};
   if (!robust || one_value(range.low, range.high)) return range;
-  double all = 0.0, below = 0.0;
+  double all = 0.0;
   for (const Weighted& v : values) all += v.area;
-  FieldRange usual{range.high, range.high};
-  for (const Weighted& v : values) {
-    below += v.area;
-    if (below >= kRare * all) usual.low = std::min(usual.low, v.value);
-    if (below < (1.0 - kRare) * all) continue;
-    usual.high = v.value;
-    break;
-  }
+  const FieldRange usual{value_at(values, kRare * all), value_at(values, (1.0 - kRare) * all)};
   const double far = kTakesMuch * (usual.high - usual.low);
   if (far <= kNothing * (range.high - range.low)) return range;  // nothing to see but what is rare
   if (range.high - usual.high > far) range.high = usual.high;

@@ -101,10 +101,58 @@ void set_directions(const Scenery& scenery, std::size_t g, std::vector<Patch>& a
       corner.value = chosen(scenery.field, values.data() + e * entry.size());
 }
 
+// The corners alone, and no place within.
+const CellGrid& tiny_grid(Scenery& scenery, std::size_t corners) {
+  const auto [at, added] = scenery.tiny.try_emplace(corners);
+  if (added)
+    for (int i = 0; i < static_cast<int>(corners); ++i) {
+      at->second.outline.push_back(i);
+      if (i >= 2) at->second.cells.push_back({{0, i - 1, i}, -1});
+    }
+  return at->second;
+}
+
+// Of a mesh of many elements: one that the eye does not see.
+bool is_tiny(const Element& element, const Eigen::Matrix2Xd& nodes) {
+  constexpr double kTiny = 2.5;  // px
+  return std::ranges::all_of(element.edges(), [&](const std::vector<int>& edge) {
+    return (nodes.col(edge[0]) - nodes.col(edge[1])).squaredNorm() < kTiny * kTiny;
+  });
+}
+
+// numbers: at the entries of the layout.
+Patch tiny_patch(Scenery& scenery, const Group& group, int e, const int* entry, const Eigen::Matrix2Xd& nodes,
+                 const std::vector<double>& numbers) {
+  const auto& edges = group.element->edges();
+  Patch patch{&tiny_grid(scenery, edges.size()), {}};
+  patch.places.reserve(edges.size());
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    const int corner = edges[k][0];
+    patch.places.push_back({nodes.col(corner), numbers[static_cast<std::size_t>(entry[corner])]});
+    patch.nodes[k] = group.nodes_of(e)[corner];
+  }
+  return patch;
+}
+
+// The field at the layout's entries, where there are many elements.
+std::vector<double> numbers_of_many(const Scenery& scenery) {
+  std::size_t elements = 0;
+  for (std::size_t g = 0; g < scenery.model.groups.size(); ++g)
+    if (scenery.draws(g, ElementKind::solid))
+      elements += static_cast<std::size_t>(scenery.model.groups[g].elements());
+  std::vector<double> numbers;
+  if (elements <= kMostElements) return numbers;
+  numbers.reserve(scenery.layout.node.size());
+  for (Eigen::Index i = 0; i < scenery.parts.at.cols(); ++i)
+    numbers.push_back(field_number(scenery.field, scenery.parts, scenery.parts.at.col(i).data()));
+  return numbers;
+}
+
 }  // namespace
 
 std::vector<Patch> patches(Scenery& scenery) {
   std::vector<Patch> result;
+  const std::vector<double> numbers = numbers_of_many(scenery);
   Eigen::MatrixXd at_nodes, parts;
   Eigen::Matrix2Xd places;
   for (std::size_t g = 0; g < scenery.model.groups.size(); ++g) {
@@ -114,8 +162,12 @@ std::vector<Patch> patches(Scenery& scenery) {
     result.reserve(result.size() + static_cast<std::size_t>(group.elements()));
     at_nodes.resize(scenery.parts.components, static_cast<Eigen::Index>(group.node_count()));
     for (int e = 0; e < group.elements(); ++e, entry += group.node_count()) {
-      for (Eigen::Index i = 0; i < at_nodes.cols(); ++i) at_nodes.col(i) = scenery.parts.at.col(entry[i]);
       const Eigen::Matrix2Xd nodes = scenery.nodes_of(group, e, scenery.view.deformation);
+      if (!numbers.empty() && is_tiny(*group.element, nodes)) {
+        result.push_back(tiny_patch(scenery, group, e, entry, nodes, numbers));
+        continue;
+      }
+      for (Eigen::Index i = 0; i < at_nodes.cols(); ++i) at_nodes.col(i) = scenery.parts.at.col(entry[i]);
       const SubGrid& grid = grid_for(scenery, group, nodes);
       places.noalias() = nodes * grid.N.transpose();
       parts.noalias() = at_nodes * grid.N.transpose();

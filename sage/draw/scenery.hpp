@@ -14,7 +14,8 @@
 namespace sage {
 
 inline constexpr double kPictureLeft = 70.0, kPictureTop = 108.0;  // of the frame, for axis and heading
-inline constexpr double kDiagramShare = 0.1;  // of the frame's longer side, that the largest force has
+inline constexpr std::size_t kMostElements = 6000;  // whose edges are drawn, and which are drawn one by one
+inline constexpr double kDiagramShare = 0.1;        // of the frame's longer side, that the largest force has
 
 // Where the deformed mesh stands on the paper.
 struct View {
@@ -47,6 +48,7 @@ struct Scenery {
   FieldChoice field;
   FieldParts parts;
   std::map<std::tuple<const Element*, int, int>, SubGrid> grids = {};  // patches point into them
+  std::map<std::size_t, CellGrid> tiny = {};                           // by corners; patches point into them
 
   bool draws(std::size_t g, ElementKind kind) const {
     return !layout.of_group[g].empty() && drawn_as(model.groups[g]) == kind;

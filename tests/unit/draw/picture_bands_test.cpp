@@ -291,5 +291,60 @@ TEST(PictureBands, DashedOutlineOfTheUndeformedMeshIsCurved) {
   EXPECT_GE(longest, 16u);
 }
 
+// 40 x 40 patches of one value each, that share their nodes; with `shared` false none knows its neighbours.
+std::vector<Patch> tiny_patches(const CellGrid& grid, bool shared,
+                                const std::function<double(int, int)>& value) {
+  constexpr int kSide = 40;
+  std::vector<Patch> all;
+  for (int j = 0; j < kSide; ++j)
+    for (int i = 0; i < kSide; ++i) {
+      Patch patch{&grid, {}};
+      for (const auto& [di, dj] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
+        const auto corner = patch.places.size();
+        patch.places.push_back({{1.5 * (i + di), 1.5 * (j + dj)}, value(i, j)});
+        if (shared) patch.nodes[corner] = (kSide + 1) * (j + dj) + i + di;
+      }
+      all.push_back(std::move(patch));
+    }
+  return all;
+}
+
+double signed_area(const std::vector<Polygon>& polygons) {
+  double twice = 0.0;
+  for (const Polygon& polygon : polygons)
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Vector2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+      twice += a.x() * b.y() - a.y() * b.x();
+    }
+  return 0.5 * twice;
+}
+
+// A ring with an island in its hole, and patches that touch at corners alone: the region of a band has the area of its
+// patches, in few lines.
+TEST(PictureBands, TinyPatchesOfOneColourAreOneRegion) {
+  const CellGrid grid{{0, 1, 2, 3}, {{{0, 1, 2}, -1}, {{0, 2, 3}, -1}}};
+  const std::vector<double> limits{0.0, 1.0, 2.0, 3.0};
+  const auto value = [](int i, int j) {
+    const double r = std::hypot(i - 20.0, j - 20.0);
+    if (i < 4 && j < 4) return (i + j) % 2 == 0 ? 2.5 : 0.5;
+    return r < 3.0 ? 2.5 : r < 8.0 ? 0.5 : r < 15.0 ? 1.5 : 0.5;
+  };
+  const std::vector<Patch> patches = tiny_patches(grid, true, value);
+  const std::vector<std::string> paths = band_paths(patches, limits);
+  ASSERT_EQ(paths.size(), 3u);
+  for (std::size_t band = 0; band < 3; ++band) {
+    double wanted = 0.0;
+    for (const Patch& patch : patches) {
+      const double at = patch.places[0].value;
+      wanted += at >= limits[band] && at < limits[band + 1] ? 1.5 * 1.5 : 0.0;
+    }
+    EXPECT_NEAR(signed_area(polygons_of(paths[band])), wanted, 1e-6 * wanted) << band;
+  }
+  std::size_t places = 0;
+  for (const Polygon& polygon : polygons_of(paths[1])) places += polygon.size();
+  EXPECT_GT(places, 50u);   // around and within the ring
+  EXPECT_LT(places, 200u);  // of 4 x 500
+}
+
 }  // namespace
 }  // namespace sage
