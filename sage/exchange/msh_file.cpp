@@ -11,7 +11,6 @@ namespace {
 
 // Gmsh's lines by their number of nodes.
 constexpr std::array<int, 12> kLines{0, 0, 1, 8, 26, 27, 28, 62, 63, 64, 65, 66};
-constexpr int kPoint = 15;
 
 // Of Gmsh's element types those that a 2-D mesh of this program can hold; no nodes = not this one.
 Shape shape_of(int type, const Registry<ElementEntry>& elements) {

@@ -11,6 +11,7 @@
 
 namespace sage::msh {
 
+inline constexpr int kPoint = 15;  // Gmsh's type
 // Gmsh's type of a line of so many nodes; 0 = it has none.
 int line_type(std::size_t nodes);
 

@@ -91,12 +91,13 @@ std::vector<Block> interfaces(const Model& model, Diagnostics& diagnostics, int&
   return blocks;
 }
 
-// Bars and beams as lines that bear the elements' numbers, behind the curves that there are.
+// Bars and beams as lines, rings as points, that bear the elements' numbers, behind the curves that there are.
 void add_structures(const Model& model, std::vector<Block>& blocks, Diagnostics& diagnostics) {
   for (const Group& group : model.groups) {
     if (!group.structure() || group.elements() == 0) continue;
     const std::vector<int> order = foreign_nodes(*group.entry, group.entry->vtk);
-    if (msh::line_type(order.size()) == 0) {
+    const bool point = order.size() == 1;
+    if (!point && msh::line_type(order.size()) == 0) {
       diagnostics.add({Severity::warning,
                        "S720",
                        group.where,
@@ -106,6 +107,10 @@ void add_structures(const Model& model, std::vector<Block>& blocks, Diagnostics&
       continue;
     }
     blocks.push_back(side_lines(model, group, order, group.element_numbers));
+    if (point) {
+      blocks.back().dimension = 0;
+      blocks.back().type = msh::kPoint;
+    }
     blocks.back().name = unlike(group, {blocks.begin(), blocks.end() - 1});
   }
 }
@@ -155,18 +160,30 @@ std::string clean(std::string name) {
   return name;
 }
 
+// Where the node of the block's first element is.
+Vector2 place_of(const Model& model, const Block& block) {
+  const auto node = std::ranges::find(model.mesh.number, block.elements.front()[1]) - model.mesh.number.begin();
+  return model.mesh.x.col(node);
+}
+
 std::string entities(const Model& model, const std::vector<Block>& blocks) {
   const Vector2 low = model.mesh.x.rowwise().minCoeff(), high = model.mesh.x.rowwise().maxCoeff();
   const std::string box = fmt::format("{} {} 0 {} {} 0", low[0], low[1], high[0], high[1]);
   std::map<std::pair<int, int>, bool> known;
-  std::string curves, faces;
-  int counts[2] = {0, 0};
+  std::string of_dimension[3];
+  int counts[3] = {0, 0, 0};
   for (const Block& block : blocks) {
     if (!known.try_emplace({block.dimension, block.tag}, true).second) continue;
-    ++counts[block.dimension - 1];
-    (block.dimension == 1 ? curves : faces) += fmt::format("{} {} 1 {} 0\n", block.tag, box, block.tag);
+    ++counts[block.dimension];
+    if (block.dimension == 0) {
+      const Vector2 at = place_of(model, block);
+      of_dimension[0] += fmt::format("{} {} {} 0 1 {}\n", block.tag, at.x(), at.y(), block.tag);
+    } else {
+      of_dimension[block.dimension] += fmt::format("{} {} 1 {} 0\n", block.tag, box, block.tag);
+    }
   }
-  return fmt::format("$Entities\n0 {} {} 0\n{}{}$EndEntities\n", counts[0], counts[1], curves, faces);
+  return fmt::format("$Entities\n{} {} {} 0\n{}{}{}$EndEntities\n", counts[0], counts[1], counts[2],
+                     of_dimension[0], of_dimension[1], of_dimension[2]);
 }
 
 // A mesh file is a mesh: what else the deck says must be given anew.

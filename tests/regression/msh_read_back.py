@@ -31,6 +31,7 @@ CASES = [
     (FRICTION, ["--element", "quad8"], {16, 8}, NAMES),
     ("structures/raft/deck.dat", [], {16, 8}, {"raft"}),
     ("structures/pile/deck.dat", [], {3, 1}, set()),
+    ("structures/braced_shaft/deck.dat", [], {3, 1, 15}, {"ring at 1 m", "ring at 6 m"}),
     ("smith_griffiths/p51_1.dat", ["--layout", "sg_p51"], {2, 1}, set()),
 ]
 
@@ -67,7 +68,7 @@ class Parsed:
         while at < len(section):
             dimension, _, kind, count = (int(word) for word in section[at].split())
             self.types.add(kind)
-            for row in section[at + 1 : at + 1 + count] if dimension == 1 else []:
+            for row in section[at + 1 : at + 1 + count] if dimension < 2 else []:
                 tag, *nodes = (int(word) for word in row.split())
                 self.lines[tag] = (kind, nodes)
             at += count + 1
