@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sage/record/point_fields.hpp"
+
 namespace sage {
 
 NodalLayout nodal_layout(const Model& model, const Activity& activity) {
@@ -43,12 +45,15 @@ std::vector<double> nodal_average(const Model& model, const Solution& solution, 
   std::vector<double> sum(static_cast<std::size_t>(layout.entries()) * n, 0.0);
   std::vector<int> uses(static_cast<std::size_t>(layout.entries()), 0);
   std::vector<double> at_points, equal;
+  std::vector<std::size_t> carried;
+  for (const FieldEntry* field : fields) carried.push_back(carried_size(*field));
   Eigen::Matrix2Xd x;
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     const GroupData& data = solution.groups()[g];
     if (layout.of_group[g].empty()) continue;
     const Group& group = *data.group;
     const auto points = static_cast<std::size_t>(group.element->traits().points);
+    const PointFields reader(fields, data);
     at_points.resize(points * n);
     equal.assign(points * group.node_count(), 1.0 / static_cast<double>(points));
     for (int e = 0; e < group.elements(); ++e) {
@@ -56,9 +61,9 @@ std::vector<double> nodal_average(const Model& model, const Solution& solution, 
       for (std::size_t p = 0; p < points; ++p) {
         const PointState point(model.mesh, data, eu * points + p);
         double* to = at_points.data() + p * n;
-        for (const FieldEntry* field : fields) {
-          carry(*field, point, to);
-          to += carried_size(*field);
+        for (std::size_t f = 0; f < fields.size(); ++f) {
+          reader.carry(f, point, to);
+          to += carried[f];
         }
       }
       element_coordinates(model.mesh, group, e, x);
@@ -84,14 +89,14 @@ std::vector<double> nodal_average(const Model& model, const Solution& solution, 
 namespace {
 
 // Adds one of `points` points to the mean over its element; what a field of_mean adds is what it carries.
-void add_share(const FieldList& fields, const PointState& point, double points, std::vector<double>& one,
-               double* sum) {
-  for (const FieldEntry* field : fields) {
-    const std::size_t n = field->of_mean ? carried_size(*field) : field->size();
-    if (field->of_mean)
-      carry(*field, point, one.data());
+void add_share(const FieldList& fields, const PointFields& reader, const PointState& point, double points,
+               std::vector<double>& one, double* sum) {
+  for (std::size_t f = 0; f < fields.size(); ++f) {
+    const std::size_t n = fields[f]->of_mean ? carried_size(*fields[f]) : fields[f]->size();
+    if (fields[f]->of_mean)
+      reader.carry(f, point, one.data());
     else
-      read_field(*field, point, one.data());
+      reader.read(f, point, one.data());
     for (std::size_t c = 0; c < n; ++c) sum[c] += one[c] / points;
     sum += n;
   }
@@ -109,10 +114,11 @@ std::vector<double> element_average(const Mesh& mesh, const GroupData& data, con
   const auto points = static_cast<std::size_t>(data.group->element->traits().points);
   const auto elements = static_cast<std::size_t>(data.group->elements());
   std::vector<double> mean(elements * n, 0.0), sum(summed), one(most);
+  const PointFields reader(fields, data);
   for (std::size_t e = 0; e < elements; ++e) {
     std::ranges::fill(sum, 0.0);
     for (std::size_t p = 0; p < points; ++p)
-      add_share(fields, {mesh, data, e * points + p}, static_cast<double>(points), one, sum.data());
+      add_share(fields, reader, {mesh, data, e * points + p}, static_cast<double>(points), one, sum.data());
     const double* from = sum.data();
     double* to = mean.data() + e * n;
     for (const FieldEntry* field : fields) {

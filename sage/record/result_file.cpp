@@ -11,6 +11,7 @@
 #include "sage/model/fingerprint.hpp"
 #include "sage/record/data_file.hpp"
 #include "sage/record/in_order.hpp"
+#include "sage/record/point_fields.hpp"
 #include "sage/record/state_time.hpp"
 #include "sage/record/stored_result.hpp"
 #include "sage/record/values.hpp"
@@ -389,19 +390,11 @@ class OwnPart {
       first = last;
     }
   }
-  // As read_field, of a field that applies to the point.
-  static void read_applying(const FieldEntry& field, const PointState& point, double* value) {
-    if (const auto* stress = std::get_if<StressField>(&field.value))
-      stress->of(point.stress, value);
-    else if (const auto* strain = std::get_if<StrainField>(&field.value))
-      strain->of(point.strain, value);
-    else
-      std::get<PointField>(field.value).of(point.view, value);
-  }
   // Fields that are read together: what a point has is looked up once for all of them.
   void add_fields(const GroupData& data, const FieldList& fields) {
     const Group& group = *data.group;
     const std::size_t points = points_of(group);
+    const PointFields reader(fields, data);
     std::vector<std::vector<double>> values;
     for (const FieldEntry* field : fields) values.push_back(out_.room(points * field->size()));
     if (!data.active)
@@ -410,7 +403,7 @@ class OwnPart {
       for (std::size_t p = 0; p < points; ++p) {
         const PointState point(model_.mesh, data, p);
         for (std::size_t f = 0; f < fields.size(); ++f)
-          read_applying(*fields[f], point, values[f].data() + p * fields[f]->size());
+          reader.read(f, point, values[f].data() + p * fields[f]->size());
       }
     for (std::size_t f = 0; f < fields.size(); ++f) {
       if (Frame::follows_from_fields(data) && (fields[f]->name == "stress" || fields[f]->name == "strain"))

@@ -108,7 +108,8 @@ class Views:
 
 def check_against_csv(found, out, stem):
     nodes = {int(row["node"]): row for row in last_step(rows(out / f"{stem}.nodes.csv"))}
-    expect(set(found.places) == set(nodes), "other nodes than the deck's")
+    # Of what was dug away there are nodes, but no values at the end.
+    expect(set(found.places) == set(nodes) or "shaft" in stem and set(found.places) > set(nodes), "other nodes than the deck's")
     near([found.places[n] for n in nodes], [[number(r["x"]), number(r["y"]), 0.0] for r in nodes.values()], "places")
     for name, columns in (("displacement", ("ux", "uy")), ("reaction", ("reaction_x", "reaction_y"))):
         view = next(v for key, v in found.views.items() if key.startswith(name))
