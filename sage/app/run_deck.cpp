@@ -66,7 +66,7 @@ std::vector<std::unique_ptr<Output>> make_outputs(const RunRequest& request, con
   }
   if (options.result)
     outputs.push_back(std::make_unique<ResultOutput>(options.folder, stem, source, threads_for(request.threads),
-                                                     options.fields));
+                                                     ResultFields{options.fields}));
   if (!options.pictures.empty())
     outputs.push_back(std::make_unique<Pictures>(options.folder, stem, options.pictures));
   return outputs;

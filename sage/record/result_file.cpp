@@ -428,11 +428,10 @@ bool is_left_out(const FieldEntry& field, const std::vector<std::string>& asked)
   return follows && field.shape != FieldShape::tensor && std::ranges::find(asked, field.name) == asked.end();
 }
 
-bool is_large(const Model& model) {
-  constexpr int kMostPoints = 100000;
+int points_of(const Model& model) {
   int points = 0;
   for (const Group& group : model.groups) points += group.elements() * group.element->traits().points;
-  return points > kMostPoints;
+  return points;
 }
 
 // What StoredResult reads: the model's sources, and of every state what no field has.
@@ -477,8 +476,11 @@ class SourcePart {
 }  // namespace
 
 ResultOutput::ResultOutput(std::filesystem::path folder, const std::string& stem, RunSource source, int threads,
-                           std::vector<std::string> asked)
-    : path_(folder / (stem + ".h5")), source_(std::move(source)), threads_(threads), asked_(std::move(asked)) {
+                           ResultFields fields)
+    : path_(folder / (stem + ".h5")),
+      source_(std::move(source)),
+      threads_(threads),
+      fields_(std::move(fields)) {
   expect_data_module();
   expect_no_input(path_);
   std::error_code ignored;
@@ -557,10 +559,10 @@ void ResultOutput::on_finish(const Model& model, const RunResult& result) {
   file.written_by([&](const std::filesystem::path& partial) {
     FieldTable fields = fields_of(model);
     std::vector<std::string> left_out;
-    if (is_large(model))
+    if (points_of(model) > fields_.most_points)
       fields = fields.without([&](const FieldEntry& field) {
-        if (is_left_out(field, asked_)) left_out.push_back(field.name);
-        return is_left_out(field, asked_);
+        if (is_left_out(field, fields_.asked)) left_out.push_back(field.name);
+        return is_left_out(field, fields_.asked);
       });
     TableFile out(partial, path_, threads_ > 1);
     out.text("/sage", "title", model.title);

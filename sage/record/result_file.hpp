@@ -17,16 +17,21 @@ struct RunSource {
   std::string options;      // how the model differs from the deck, as words of a command line
 };
 
+// Fields that follow from the stress of a point by itself are left out of the files of large models.
+struct ResultFields {
+  std::vector<std::string> asked = {};  // names of those that are there all the same
+  int most_points = 100000;             // integration points of a model that is not large
+};
+
 // While the run goes, its states wait in memory, and where they are many or a checkpoint is made in
 // STEM.h5.states.partial, from which --restart goes on.  STEM.h5 is written when the run has ended, whole, or not at
 // all.
 class ResultOutput final : public Output {
  public:
   // threads: with more than one the file is written while its fields are computed; its bytes are the same.
-  // asked: names of fields that large groups have too, though they follow from the stress of a point.
   // Throws OutputError, also where the module that writes such files can't be loaded.
   ResultOutput(std::filesystem::path folder, const std::string& stem, RunSource source = {}, int threads = 1,
-               std::vector<std::string> asked = {});
+               ResultFields fields = {});
   // Once the file is written nobody needs the states; until then only a checkpoint may name them.
   ~ResultOutput() override;
   ResultOutput(const ResultOutput&) = delete;
@@ -52,7 +57,7 @@ class ResultOutput final : public Output {
   std::filesystem::path path_;
   RunSource source_;
   int threads_;
-  std::vector<std::string> asked_;
+  ResultFields fields_;
   OutFile states_;
   bool in_checkpoint_ = false;          // --restart goes on from the states
   std::vector<std::uint64_t> written_;  // to states_, bytes of each

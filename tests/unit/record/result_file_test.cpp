@@ -271,6 +271,25 @@ TEST(ResultFile, GivesBackTheStatesThatItWasMadeOf) {
   EXPECT_FALSE(bytes_of(stored.frame(specimen.model, 0)) == bytes_of(last));
 }
 
+// What a reader makes of the stress by itself stands in small files, and where it was asked for.
+TEST(ResultFile, LargeModelsLackWhatFollowsFromTheStress) {
+  Specimen specimen;
+  const auto folder = fresh_folder("result_large");
+  ResultOutput result(folder, "t", {"a deck", "", "", ""}, 1, {{"deviator"}, 9});
+  specimen.run(result, 0.01, 2);
+  const Hdf5 file(folder / "t.h5");
+  const std::string left_out = file.text("/sage", "left_out");
+  EXPECT_EQ(left_out,
+            "mean_stress principal_stress stress_difference principal_angle principal_direction_1 "
+            "principal_direction_3");
+  EXPECT_FALSE(file.has("/sage/groups/1/principal_stress"));
+  EXPECT_FALSE(file.has("/VTKHDF/CellData/principal_stress"));
+  EXPECT_EQ(file.shape("/sage/groups/1/deviator"), (Shape{2, 8}));
+  EXPECT_EQ(file.shape("/sage/groups/1/stress"), (Shape{2, 8, 4}));
+  const Frame last(specimen.model, specimen.step(2, 2), specimen.solution());
+  EXPECT_TRUE(bytes_of(StoredResult(folder / "t.h5").frame(specimen.model, 1)) == bytes_of(last));
+}
+
 // A damaged number of a field is one of the state.
 TEST(ResultFile, StatesOfDamagedFieldsAreRefused) {
   Specimen specimen;
