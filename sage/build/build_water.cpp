@@ -1,4 +1,5 @@
 // Water cards: pore pressures of solids stage by stage, and groups whose water can't leave.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -124,6 +125,37 @@ void read_file(Builder& b, const CardView& card) {
     b.stored_heads.push_back({b.model.water.size(), file, card.where("file"), static_cast<int>(stage)});
 }
 
+// Beams, all of whose ends go where their nodes go.
+bool bears_water(const ElementEntry& entry) {
+  const auto has = [&](auto what) {
+    return std::ranges::any_of(entry.unknowns, [&](const ElementUnknown& one) { return what(one.field); });
+  };
+  return has([](const UnknownField& field) { return field.turns; }) &&
+         !has([](const UnknownField& field) { return !field.turns && !field.displacement(); });
+}
+
+// Cards about structures: free water on their sides, or none.
+bool free_water_fits(Builder& b, const CardView& card, const Group& group) {
+  const std::string name = "group " + std::to_string(group.number) + " (" + group.element_name + ")";
+  const int kind = card.integer("kind");
+  const auto refuse = [&](const char* field, const std::string& text) {
+    b.error("S248", card.where(field), name + text);
+    return false;
+  };
+  if (kind != 0 && kind != 1)
+    return refuse("kind",
+                  ": structures have no pores; the water that stands beside them is kind 1 (its level) or 0");
+  if (!bears_water(*group.entry))
+    return refuse("group",
+                  ": water can't stand on it; beams bear it whose ends don't slide against their nodes");
+  if (card.integer("action") != 0)
+    return refuse("action", ": the water beside a structure presses on it (action 0)");
+  const double side = card.real("value1");
+  if (side != 0.0 && side != 1.0 && side != -1.0)
+    return refuse("value1", ": value 1 is the side, 1 left of the way from node 1 to node 2, -1 right, 0 both");
+  return true;
+}
+
 // Groups that a card is about.
 std::vector<int> groups_of(Builder& b, const CardView& card) {
   const int number = card.integer("group");
@@ -133,13 +165,17 @@ std::vector<int> groups_of(Builder& b, const CardView& card) {
     const Group& group = b.model.groups[g];
     if (group.number != number) continue;
     groups.push_back(static_cast<int>(g));
-    if (group.entry != nullptr && !group.solid()) {
-      b.error("S248", card.where("group"),
-              "group " + std::to_string(number) +
-                  " is no solid: pore pressures are those of solids, and joints "
-                  "take that of the solids beside them");
+    if (group.entry == nullptr || group.solid()) continue;
+    if (group.structure()) {
+      if (free_water_fits(b, card, group)) continue;
       return {};
     }
+    b.error(
+        "S248", card.where("group"),
+        "group " + std::to_string(number) +
+            " is neither a solid nor a structure: pore pressures are those of solids, joints take that of the "
+            "solids beside them, and free water stands on structures");
+    return {};
   }
   if (groups.empty()) b.group_missing(card.where("group"), number);
   return groups;

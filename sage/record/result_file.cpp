@@ -306,13 +306,13 @@ class OwnPart {
   // NaN where no active element has the node.
   void add_nodes(const Solution& now) {
     const std::vector<char> active = active_nodes(model_, *now.activity);
+    const NodeViews views(model_, now);
     for (const FieldEntry& field : fields_.rows()) {
       if (!own_node_field(field)) continue;
       std::vector<double> values = out_.room(active.size() * field.size());
       std::ranges::fill(values, std::nan(""));
       for (std::size_t n = 0; n < active.size(); ++n)
-        if (active[n])
-          read_field(field, node_view(model_, now, static_cast<int>(n)), values.data() + n * field.size());
+        if (active[n]) read_field(field, views.at(static_cast<int>(n)), values.data() + n * field.size());
       append(nodes(field.name), field, std::move(values));
     }
   }
@@ -414,6 +414,10 @@ class SourcePart {
     if (!kept_) return;
     bytes("deck", source.deck);
     bytes("layout", source.layout_text);
+    if (!source.heads.empty()) {
+      bytes(kStoredHeads, source.heads);
+      out_.text(kStoredFolder, kStoredHeads, "doubles");
+    }
     out_.text(kStoredFolder, "name", model.file);
     out_.text(kStoredFolder, "layout", source.layout);
     out_.text(kStoredFolder, "options", source.options);

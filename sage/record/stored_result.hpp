@@ -13,7 +13,8 @@ namespace sage {
 // Where it lies in the file.  The states are bytes of Frame::exchange_state(): another format is another program's.
 inline constexpr const char* kStoredFolder = "/sage/run";
 inline constexpr const char* kStoredFormat = "frames-1";
-inline constexpr std::size_t kStoredColumns = 4;  // stage, increment, increments, checksum
+inline constexpr const char* kStoredHeads = "heads";  // of runs that took some from another run
+inline constexpr std::size_t kStoredColumns = 4;      // stage, increment, increments, checksum
 inline std::string stored_path(const std::string& name) {
   return std::string(kStoredFolder) + "/" + name;
 }

@@ -143,8 +143,9 @@ std::vector<double> element_values(const Model& model, const Solution& s, const 
 std::vector<double> node_values(const Model& model, const Solution& s, const NodalLayout& layout,
                                 const FieldEntry& field) {
   std::vector<double> values(layout.node.size() * field.size());
+  const NodeViews views(model, s);
   for (std::size_t i = 0; i < layout.node.size(); ++i)
-    read_field(field, node_view(model, s, layout.node[i]), values.data() + i * field.size());
+    read_field(field, views.at(layout.node[i]), values.data() + i * field.size());
   if (field.shape == FieldShape::vector)
     for (double& value : values)
       if (std::isnan(value)) value = 0.0;  // the reaction where nothing is held
