@@ -261,6 +261,36 @@ void check_undrained(Builder& b) {
   }
 }
 
+// Of two cards of one stage about the same the last stands; a card that drains what was never shut in does nothing.
+void warn_of_water_cards(Builder& b) {
+  const auto name = [&](int group) {
+    return group < 0 ? std::string("all solids")
+                     : "group " + std::to_string(b.model.groups[static_cast<std::size_t>(group)].number);
+  };
+  const auto same = [&](const WaterCard& a, const WaterCard& c) {
+    const bool structure = a.group >= 0 && b.model.groups[static_cast<std::size_t>(a.group)].structure();
+    return a.stage == c.stage && a.group == c.group && a.pressure() == c.pressure() &&
+           (!structure || c.value == 0.0 || a.value == c.value);
+  };
+  const std::vector<WaterCard>& cards = b.model.water;
+  for (auto card = cards.begin(); card != cards.end(); ++card) {
+    const auto before =
+        std::find_if(cards.begin(), card, [&](const WaterCard& one) { return same(one, *card); });
+    if (before != card)
+      b.warning("S320", card->where,
+                "two water cards say of " + name(card->group) + " how it is in stage " +
+                    std::to_string(card->stage + 1) + "; this one stands, that of line " +
+                    std::to_string(before->where.line) + " does not");
+    if (card->kind != WaterKind::drained) continue;
+    const bool shut = std::any_of(cards.begin(), cards.end(), [&](const WaterCard& one) {
+      return one.kind == WaterKind::undrained && one.stage <= card->stage &&
+             (card->group < 0 || one.group == card->group);
+    });
+    if (!shut)
+      b.warning("S332", card->where, name(card->group) + " is drained: no card before shuts its water in");
+  }
+}
+
 // Nodes of the solids that a water card is about, each once, and a place within an element of each.
 void list_nodes(const Model& model, const WaterCard& card, HeadRequest& request) {
   std::vector<char> listed(static_cast<std::size_t>(model.mesh.nodes()), 0);
@@ -368,6 +398,7 @@ void build_water(Builder& b) {
     }
   }
   check_undrained(b);
+  warn_of_water_cards(b);
   if (!b.model.water.empty())
     for (FieldEntry& row : water_fields())
       if (b.model.fields.clash(row).empty()) b.model.fields.add(std::move(row));

@@ -956,6 +956,19 @@ TEST(Water, WhatContradictsIsNamed) {
   EXPECT_EQ(code_of([](DeckWriter& d) { d.water(5, 0, 1, 0, {}, 1e5, 0.4); }), "S248");
   EXPECT_EQ(code_of([](DeckWriter& d) { d.water(8, 0, 1, 0, {}); }), "S210");
   EXPECT_EQ(code_of([](DeckWriter& d) {
+              d.water(2, 0, 1, 0, {}, 0.3);
+              d.water(1, 0, 1, 0, {0.0, 3.0});
+            }),
+            "S320")
+      << "r_u and a line at once";
+  EXPECT_EQ(code_of([](DeckWriter& d) {
+              d.water(2, 0, 1, 0, {}, 0.3);
+              d.water(1, 1, 1, 0, {0.0, 3.0});
+            }),
+            "none")
+      << "a group of its own within all";
+  EXPECT_EQ(code_of([](DeckWriter& d) { d.water(6, 0, 2, 0, {}); }), "S332") << "never shut in";
+  EXPECT_EQ(code_of([](DeckWriter& d) {
               d.water_unit_weight = 0.0;
               d.water(1, 0, 1, 0, {0.0, 3.0});
             }),

@@ -241,9 +241,9 @@ TEST_F(StoredHeads, OfASpoiltDeckAreNamedByTheirFile) {
 
 // The result file of a run that took heads keeps them: it is shown when theirs is gone.
 TEST_F(StoredHeads, AreKeptInTheResultFile) {
-  ASSERT_EQ(run("flow", flow(block_of(Cell::quad4, 3, 2), 1, 0.1)).exit_code, kOk);
+  ASSERT_EQ(run("kept_flow", flow(block_of(Cell::quad4, 3, 2), 1, 0.1)).exit_code, kOk);
   DeckWriter deck = soil(block_of(Cell::quad8, 4, 3));
-  add_water(deck, "flow.h5");
+  add_water(deck, "kept_flow.h5");
   std::ofstream(folder_ / "takes.dat") << deck.text();
   RunRequest request;
   request.deck = (folder_ / "takes.dat").string();
@@ -253,7 +253,7 @@ TEST_F(StoredHeads, AreKeptInTheResultFile) {
   request.input.build.heads = stored_heads(catalogue_);
   request.input.build.refine = 1;
   ASSERT_EQ(run_deck(request, catalogue_).exit_code, kOk);
-  fs::remove(folder_ / "flow.h5");
+  fs::remove(folder_ / "kept_flow.h5");
   const StoredResult stored(folder_ / "takes.h5");
   const Model model = model_of(stored.source(), stored.deck_name(), catalogue_);
   stored.expect_model(model);
