@@ -110,6 +110,7 @@ class Frontal final : public MatrixSolver {
       }
       if (once_) give_back_entries(s);
     };
+    given_back_ = once_;  // also where a pivot ends it: the lists of some subtrees have gone then
     pool_->run(static_cast<int>(tree_.subtrees.size()), eliminate_subtree);
     if (once_) give_back_subtrees();
     for (const int f : tree_.top) {
@@ -205,7 +206,6 @@ class Frontal final : public MatrixSolver {
   }
   // What only the subtrees needed goes before the largest fronts come: the run is largest at its last front.
   void give_back_subtrees() {
-    given_back_ = true;
     for (Lane& lane : lanes_) lane.workspace = {};
     if (is_large()) return_freed_memory();
   }

@@ -79,61 +79,32 @@ class Dissection {
   static constexpr int kOutside = std::numeric_limits<int>::max();
 
   void make_room(std::size_t groups) {
-    for (Levels* levels : {&levels_, &from_end_, &back_}) levels->room.resize(groups);
+    levels_.room.resize(groups);
+    others_.room.resize(groups);
   }
 
   // Divides groups that nothing but what is outside separates from others into connected pieces and each of them
   // further.  Returns the tree nodes that have no parent yet.  `near` are groups that touch the separator above.
   std::vector<int> dissect(std::span<const int> groups, std::span<const int> near, int threads) {
-    if (is_one_piece(groups, near)) return {divide(threads)};
     std::vector<int> tops, roots;
     const int before = stamp_;
     for (const int seed : groups) {
       if (mark_[at(seed)] > before) continue;  // already in another piece
       search({&seed, 1}, levels_);
-      if (is_leaf(levels_.all())) {
-        tops.push_back(add_node(levels_.all(), {}));
-        continue;
-      }
       roots.clear();
       for (const int g : near)
         if (mark_[at(g)] == stamp_) roots.push_back(g);
-      search_from_far_end();
-      if (!roots.empty()) search(roots, levels_);
-      tops.push_back(divide(threads));
+      tops.push_back(divide(roots, threads));
     }
     return tops;
   }
 
-  // As a rule a side of a separator is one piece.  That the searches which divide it reach all of it shows this: then
-  // they are not done again.
-  bool is_one_piece(std::span<const int> groups, std::span<const int> near) {
-    if (near.empty() || is_leaf(groups)) return false;
-    search(near, levels_);
-    if (levels_.all().size() < groups.size()) return false;
-    search_from_far_end();
-    return from_end_.all().size() == groups.size();
-  }
-
-  bool is_leaf(std::span<const int> groups) const {
+  // Divides the piece that levels_ holds.
+  int divide(std::span<const int> near, int threads) {
     int equations = 0;
-    for (const int g : groups) {
-      equations += static_cast<int>(graph_.members.of(g).size());
-      if (equations > leaf_equations_) return false;
-    }
-    return true;
-  }
-
-  // Divides a piece that levels_ and from_end_ hold.  Their levels and those of the way back from all that is farthest
-  // compete for the best cut.
-  int divide(int threads) {
-    search(from_end_.of(from_end_.count() - 1), back_);
-    Cut cut = best_cut(levels_);
-    for (Levels* other : {&from_end_, &back_})
-      if (const Cut of_other = best_cut(*other); of_other.cost < cut.cost) {
-        cut = of_other;
-        std::swap(levels_, *other);
-      }
+    for (const int g : levels_.all()) equations += static_cast<int>(graph_.members.of(g).size());
+    if (equations <= leaf_equations_) return add_node(levels_.all(), {});
+    const Cut cut = find_best_levels(near);
     if (cut.level < 0) return add_node(levels_.all(), {});  // everything touches everything
 
     std::vector<int> first, second, separator;
@@ -225,11 +196,29 @@ class Dissection {
     return list;
   }
 
-  // From an end of the pseudo-diameter of the piece in levels_.
-  void search_from_far_end() {
-    const int end = *std::ranges::min_element(levels_.of(levels_.count() - 1), {},
-                                              [&](int g) { return graph_.neighbours.of(g).size(); });
-    search({&end, 1}, from_end_);
+  // Searches the piece in levels_ from all sides; the levels that hold the best cut stay there.
+  Cut find_best_levels(std::span<const int> near) {
+    // From an end of the pseudo-diameter to its other end, and back from all that is farthest.
+    const int end = far_end(levels_);
+    search({&end, 1}, levels_);
+    search(levels_.of(levels_.count() - 1), others_);
+    Cut best = best_cut(others_);
+    if (const Cut cut = best_cut(levels_); cut.cost < best.cost)
+      best = cut;
+    else
+      std::swap(levels_, others_);
+    if (near.empty()) return best;
+    search(near, others_);
+    if (const Cut cut = best_cut(others_); cut.cost < best.cost) {
+      best = cut;
+      std::swap(levels_, others_);
+    }
+    return best;
+  }
+
+  int far_end(const Levels& levels) const {
+    return *std::ranges::min_element(levels.of(levels.count() - 1), {},
+                                     [&](int g) { return graph_.neighbours.of(g).size(); });
   }
 
   // Levels of the breadth-first search from some groups of a piece; its groups are marked by stamp_.
@@ -272,7 +261,7 @@ class Dissection {
   SeparatorTree tree_;
   std::vector<int> tops_;  // nodes of a part that have no parent
   std::span<int> mark_;
-  Levels levels_, from_end_, back_;  // of the piece in hand
+  Levels levels_, others_;  // of the piece in hand
   int stamp_;
 };
 

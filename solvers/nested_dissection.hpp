@@ -19,8 +19,8 @@ struct SeparatorTree {
 inline constexpr std::size_t kGroupsWorthAThread = 5000;
 
 // Parts of at most `leaf_equations` equations are not divided further.  George & Liu (1981), chapter 8: a level
-// of the search separates what lies before it from what lies behind.  Three searches compete: from the separator above,
-// from the end of a pseudo-diameter, and from all that is farthest from it; the smaller balanced separator wins.
+// of the search separates what lies before it from what lies behind.  Two searches compete: from the end of a
+// pseudo-diameter, and from the separator above; the smaller balanced separator wins.
 // The groups of the last `border` equations are the last part, and the parent of all that had none: what is before
 // them is divided as if they were not there.
 // The tree is the same for any number of threads.

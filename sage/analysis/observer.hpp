@@ -1,6 +1,7 @@
 // What a run shows to those who watch: listing, CSV, VTU, pictures, tests.  Observers change nothing.
 #pragma once
 
+#include <memory>
 #include <span>
 
 #include "sage/analysis/assembly.hpp"
@@ -10,6 +11,8 @@
 
 namespace sage {
 
+struct StreamFunction;
+
 // Committed state at the end of an increment.
 struct Solution {
   const Eigen::VectorXd* u = nullptr;         // every dof: displacement since the start of the run
@@ -17,9 +20,10 @@ struct Solution {
   const Eigen::VectorXd* external = nullptr;  // every dof: applied load
   const Assembly* assembly = nullptr;         // of a run that goes on; null of a state that was kept
   const Activity* activity = nullptr;
-  std::span<const GroupData> kept{};  // without an assembly
-  int stage = -1;                     // from 0; -1 = not known
-  double load_factor = 1.0;           // of the stage
+  std::span<const GroupData> kept{};                       // without an assembly
+  int stage = -1;                                          // from 0; -1 = not known
+  double load_factor = 1.0;                                // of the stage
+  mutable std::shared_ptr<const StreamFunction> stream{};  // once somebody has asked for it
 
   // Stresses, strains and histories of all points, by Model::groups.
   std::span<const GroupData> groups() const {

@@ -630,6 +630,8 @@ void Run::end_stage(int s, double last_force) {
         {result_.motion, sums.out_of_balance, system_.digits(), path_.path_error, path_.loose_part, last_force},
         assembly_));
     warn(free_surface_warnings(model_, model_.stages[static_cast<std::size_t>(s)], assembly_));
+    if (settings_.stream_function)
+      warn(stream_warnings(model_, model_.stages[static_cast<std::size_t>(s)], solution()));
   }
   audience_.tell([&](Observer& o) { o.on_stage_end(model_, s, sums, solution()); });
 }

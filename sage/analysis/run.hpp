@@ -20,6 +20,7 @@ struct RunSettings {
   Kernels kernels = Kernels::automatic;  // of the linear solver, likewise
   int refinement = 0;                    // steps of iterative refinement in every solution
   bool condition = false;                // say the condition number of the equations at the end of each stage
+  bool stream_function = false;          // results are to have it: say where there is none (S540)
   int max_cuts = 12;  // a step is given up when 2^-max_cuts of its increment finds no equilibrium
   bool line_search = true;
   Skips skips;

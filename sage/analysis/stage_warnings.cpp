@@ -2,6 +2,7 @@
 
 #include "sage/analysis/explain.hpp"
 #include "sage/analysis/free_surface.hpp"
+#include "sage/analysis/stream_function.hpp"
 #include "sage/analysis/uniqueness.hpp"
 
 namespace sage {
@@ -70,6 +71,13 @@ std::vector<Diagnostic> free_surface_warnings(const Model& model, const Stage& s
   if (blur.dry_flow > kMuchDry)
     messages.add("S538",
                  short_number(100.0 * blur.dry_flow) + " % of the flow goes through soil that should be dry");
+  return std::move(messages).list();
+}
+
+std::vector<Diagnostic> stream_warnings(const Model& model, const Stage& stage, const Solution& solution) {
+  Messages messages(stage);
+  if (const std::string& reason = stream_function(model, solution).reason; !reason.empty())
+    messages.add("S540", "no stream function: " + reason);
   return std::move(messages).list();
 }
 

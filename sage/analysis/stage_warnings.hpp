@@ -6,6 +6,7 @@
 
 #include "sage/analysis/assembly.hpp"
 #include "sage/analysis/condition.hpp"
+#include "sage/analysis/observer.hpp"
 #include "sage/analysis/records.hpp"
 
 namespace sage {
@@ -28,6 +29,9 @@ struct StageFindings {
 
 // Answers about a free surface that depend on how it is smoothed.
 std::vector<Diagnostic> free_surface_warnings(const Model& model, const Stage& stage, const Assembly& assembly);
+
+// Where the flow has no stream function, and why.
+std::vector<Diagnostic> stream_warnings(const Model& model, const Stage& stage, const Solution& solution);
 
 std::vector<Diagnostic> stage_warnings(const Stage& stage, const StageFindings& findings,
                                        const Assembly& assembly);

@@ -71,7 +71,7 @@ void list_fields(const Catalogue& catalogue) {
       "      at nodes, where water flows: head, head_inflow, head_reaction, pressure_head (and of any other "
       "unknown "
       "the\n"
-      "      same three, by its name)\n"
+      "      same three, by its name), stream_function\n"
       "      at integration points, where there is water: pore_pressure, total_stress (xx yy zz xy)\n"
       "      at integration points the history variables of the deck's laws, by their names\n"
       "pictures, besides NAME and NAME_COMPONENT:\n"

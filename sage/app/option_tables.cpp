@@ -49,7 +49,7 @@ std::vector<std::string> choices_of_name(const std::string& name, const Catalogu
   if (name == "field") return fields(catalogue);
   if (name == "picture") {
     std::vector<std::string> names = fields(catalogue);
-    for (const char* other : {"conf", "dev", "SL", "head", "flow_net", "pore_pressure"})
+    for (const char* other : {"conf", "dev", "SL", "head", "flow_net", "stream_function", "pore_pressure"})
       names.emplace_back(other);
     return names;
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "sage/analysis/stream_function.hpp"
 #include "sage/app/input.hpp"
 #include "sage/app/run_source.hpp"
 #include "sage/app/state_choice.hpp"
@@ -147,12 +148,27 @@ void expect_same_units(const StoredRun& a, const StoredRun& b) {
                             a.file, of_a, b.file, of_b));
 }
 
+// A flow may have none, in all of the states.
+void expect_stream_function(const StoredRun& run, const std::vector<std::size_t>& states,
+                            const FieldChoice& field) {
+  if (field.entry->name != kStreamFunction) return;
+  std::string reason;
+  for (const std::size_t state : states) {
+    const Frame frame = run.stored.frame(run.model, state);
+    const StreamFunction stream = stream_function(run.model, frame.view());
+    if (std::ranges::any_of(stream.unique, [](char unique) { return unique != 0; })) return;
+    reason = stream.reason;
+  }
+  throw UsageError("S644", fmt::format("{}: no node has a number of {} in these states{}{}", run.file,
+                                       kStreamFunction, reason.empty() ? "" : ": ", reason));
+}
+
 }  // namespace
 
 void expect_numbers(const StoredRun& run, const std::vector<std::size_t>& states, const FieldChoice& field,
                     const std::string& name, ElementKind kind) {
   const bool areas = fills_area(kind);
-  if (areas && field.entry->place() == FieldPlace::node) return;
+  if (areas && field.entry->place() == FieldPlace::node) return expect_stream_function(run, states, field);
   const auto in_any = [&](bool of_areas) {
     return std::ranges::any_of(states, [&](std::size_t state) {
       return has_number(run.model, run.stored.frame(run.model, state), field, of_areas);

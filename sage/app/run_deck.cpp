@@ -10,6 +10,7 @@
 #include <map>
 #include <thread>
 
+#include "sage/analysis/stream_function.hpp"
 #include "sage/app/checkpoint.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
@@ -270,9 +271,12 @@ std::unique_ptr<Model> model_of(RunRequest& request, const Catalogue& catalogue,
   const Profile::Scope scope(profile, phase::kModel);
   BuildOptions build = request.input.build;
   if (!request.solver.empty()) build.solver = solver_code(catalogue, request.solver);
+  std::string heads;
+  if (request.output.result && build.heads) build.heads = keeping_heads(build.heads, heads);
   auto model = std::make_unique<Model>(build_model(deck, catalogue, build));
   owner.deck_sum = checksum(*deck.source.text());
   if (request.output.result) source = source_of(*deck.source.text(), deck.layout, request.input.layout, build);
+  source.heads = std::move(heads);
   if (request.output.vtu || request.output.result) warn_of_vtu(*model, model->diagnostics);
   if (request.output.msh) msh_mesh(*model, model->diagnostics);
   request.output.fields = require_fields(request.output.pictures, request.output.fields, {fields_of(*model)});
@@ -295,6 +299,10 @@ RunSettings settings_for(const RunRequest& request) {
   settings.kernels = request.kernels;
   settings.refinement = request.refinement;
   settings.condition = request.condition;
+  const auto named = [](const std::vector<std::string>& names) {
+    return std::ranges::find(names, kStreamFunction) != names.end();
+  };
+  settings.stream_function = named(request.output.fields) || named(request.output.pictures);
   settings.profile_memory = request.profile;
   settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
   return settings;

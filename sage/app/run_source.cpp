@@ -6,6 +6,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <cstring>
 #include <sstream>
 
 #include "sage/deck/read_deck.hpp"
@@ -56,6 +57,19 @@ BuildOptions build_options_of(const std::string& text, const Catalogue& catalogu
   return build;
 }
 
+// As the run got them, in the same order.
+HeadReader kept_heads(const std::string& kept) {
+  return [&kept, at = std::size_t{0}](const HeadRequest& request) mutable {
+    std::vector<double> heads(request.nodes.size());
+    const std::size_t bytes = heads.size() * sizeof(double);
+    if (at + bytes > kept.size())
+      throw InputError("S640", {request.file, 0, 0, 0}, "the result file has not kept the heads of all nodes");
+    if (bytes > 0) std::memcpy(heads.data(), kept.data() + at, bytes);
+    at += bytes;
+    return heads;
+  };
+}
+
 }  // namespace
 
 RunSource source_of(const std::string& deck, const std::string& layout, const std::string& asked_layout,
@@ -71,8 +85,19 @@ RunSource source_of(const std::string& deck, const std::string& layout, const st
 Model model_of(const RunSource& source, const std::string& deck_name, const Catalogue& catalogue) {
   const Layout layout = source.layout_text.empty() ? load_layout(source.layout)
                                                    : load_layout_text(source.layout_text, source.layout);
-  return build_model(read_deck_text(source.deck, deck_name, layout), catalogue,
-                     build_options_of(source.options, catalogue));
+  BuildOptions build = build_options_of(source.options, catalogue);
+  if (!source.heads.empty()) build.heads = kept_heads(source.heads);
+  return build_model(read_deck_text(source.deck, deck_name, layout), catalogue, build);
+}
+
+HeadReader keeping_heads(HeadReader heads, std::string& kept) {
+  return [heads = std::move(heads), &kept](const HeadRequest& request) {
+    std::vector<double> found = heads(request);
+    const std::size_t before = kept.size(), bytes = found.size() * sizeof(double);
+    kept.resize(before + bytes);
+    if (bytes > 0) std::memcpy(kept.data() + before, found.data(), bytes);
+    return found;
+  };
 }
 
 }  // namespace sage::app

@@ -6,6 +6,9 @@
 
 namespace sage::app {
 
+// Hands on what it is asked for, and keeps it for RunSource::heads.
+HeadReader keeping_heads(HeadReader heads, std::string& kept);
+
 // deck: its characters; layout: the one that read it, asked_layout: as the command line names it.
 RunSource source_of(const std::string& deck, const std::string& layout, const std::string& asked_layout,
                     const BuildOptions& build);

@@ -89,6 +89,20 @@ std::size_t state_of(const HeadRequest& request, const StoredResult& stored) {
                                                states.back().stage + 1));
 }
 
+// What its deck lacks is of no use to a reader of this one: lines and cards are those of the other.
+Model model_in(const HeadRequest& request, const StoredResult& stored, const Catalogue& catalogue) {
+  try {
+    return app::model_of(stored.source(), stored.deck_name(), catalogue);
+  } catch (const InputError& error) {
+    std::string first;
+    for (const Diagnostic& d : error.diagnostics().list())
+      if (d.severity == Severity::error && first.empty()) first = d.message;
+    refuse(request, "the deck that it keeps, " + stored.deck_name() +
+                        ", makes no model: the file is damaged, or of another version of the program (there: " +
+                        first + ")");
+  }
+}
+
 void expect_same_kind(const HeadRequest& request, const Model& model) {
   const auto words = [](const Model& m) {
     return m.geometry == Geometry::axisymmetric ? "axisymmetric" : "in plane strain";
@@ -104,7 +118,7 @@ void expect_same_kind(const HeadRequest& request, const Model& model) {
 std::vector<double> read_heads(const HeadRequest& request, const Catalogue& catalogue) {
   keep_input(request.file);
   const StoredResult stored(request.file);
-  const Model model = app::model_of(stored.source(), stored.deck_name(), catalogue);
+  const Model model = model_in(request, stored, catalogue);
   stored.expect_model(model);
   expect_same_kind(request, model);
   const Frame frame = stored.frame(model, state_of(request, stored));

@@ -1,4 +1,5 @@
 // Water cards: pore pressures of solids stage by stage, and groups whose water can't leave.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -124,6 +125,37 @@ void read_file(Builder& b, const CardView& card) {
     b.stored_heads.push_back({b.model.water.size(), file, card.where("file"), static_cast<int>(stage)});
 }
 
+// Beams, all of whose ends go where their nodes go.
+bool bears_water(const ElementEntry& entry) {
+  const auto has = [&](auto what) {
+    return std::ranges::any_of(entry.unknowns, [&](const ElementUnknown& one) { return what(one.field); });
+  };
+  return has([](const UnknownField& field) { return field.turns; }) &&
+         !has([](const UnknownField& field) { return !field.turns && !field.displacement(); });
+}
+
+// Cards about structures: free water on their sides, or none.
+bool free_water_fits(Builder& b, const CardView& card, const Group& group) {
+  const std::string name = "group " + std::to_string(group.number) + " (" + group.element_name + ")";
+  const int kind = card.integer("kind");
+  const auto refuse = [&](const char* field, const std::string& text) {
+    b.error("S248", card.where(field), name + text);
+    return false;
+  };
+  if (kind != 0 && kind != 1)
+    return refuse("kind",
+                  ": structures have no pores; the water that stands beside them is kind 1 (its level) or 0");
+  if (!bears_water(*group.entry))
+    return refuse("group",
+                  ": water can't stand on it; beams bear it whose ends don't slide against their nodes");
+  if (card.integer("action") != 0)
+    return refuse("action", ": the water beside a structure presses on it (action 0)");
+  const double side = card.real("value1");
+  if (side != 0.0 && side != 1.0 && side != -1.0)
+    return refuse("value1", ": value 1 is the side, 1 left of the way from node 1 to node 2, -1 right, 0 both");
+  return true;
+}
+
 // Groups that a card is about.
 std::vector<int> groups_of(Builder& b, const CardView& card) {
   const int number = card.integer("group");
@@ -133,13 +165,17 @@ std::vector<int> groups_of(Builder& b, const CardView& card) {
     const Group& group = b.model.groups[g];
     if (group.number != number) continue;
     groups.push_back(static_cast<int>(g));
-    if (group.entry != nullptr && !group.solid()) {
-      b.error("S248", card.where("group"),
-              "group " + std::to_string(number) +
-                  " is no solid: pore pressures are those of solids, and joints "
-                  "take that of the solids beside them");
+    if (group.entry == nullptr || group.solid()) continue;
+    if (group.structure()) {
+      if (free_water_fits(b, card, group)) continue;
       return {};
     }
+    b.error(
+        "S248", card.where("group"),
+        "group " + std::to_string(number) +
+            " is neither a solid nor a structure: pore pressures are those of solids, joints take that of the "
+            "solids beside them, and free water stands on structures");
+    return {};
   }
   if (groups.empty()) b.group_missing(card.where("group"), number);
   return groups;
@@ -222,6 +258,36 @@ void check_undrained(Builder& b) {
                     " is undrained in stage " + std::to_string(given.stage + 1) +
                     ": its pressure follows from the change of volume and can't be given as well");
     }
+  }
+}
+
+// Of two cards of one stage about the same the last stands; a card that drains what was never shut in does nothing.
+void warn_of_water_cards(Builder& b) {
+  const auto name = [&](int group) {
+    return group < 0 ? std::string("all solids")
+                     : "group " + std::to_string(b.model.groups[static_cast<std::size_t>(group)].number);
+  };
+  const auto same = [&](const WaterCard& a, const WaterCard& c) {
+    const bool structure = a.group >= 0 && b.model.groups[static_cast<std::size_t>(a.group)].structure();
+    return a.stage == c.stage && a.group == c.group && a.pressure() == c.pressure() &&
+           (!structure || c.value == 0.0 || a.value == c.value);
+  };
+  const std::vector<WaterCard>& cards = b.model.water;
+  for (auto card = cards.begin(); card != cards.end(); ++card) {
+    const auto before =
+        std::find_if(cards.begin(), card, [&](const WaterCard& one) { return same(one, *card); });
+    if (before != card)
+      b.warning("S320", card->where,
+                "two water cards say of " + name(card->group) + " how it is in stage " +
+                    std::to_string(card->stage + 1) + "; this one stands, that of line " +
+                    std::to_string(before->where.line) + " does not");
+    if (card->kind != WaterKind::drained) continue;
+    const bool shut = std::any_of(cards.begin(), cards.end(), [&](const WaterCard& one) {
+      return one.kind == WaterKind::undrained && one.stage <= card->stage &&
+             (card->group < 0 || one.group == card->group);
+    });
+    if (!shut)
+      b.warning("S332", card->where, name(card->group) + " is drained: no card before shuts its water in");
   }
 }
 
@@ -332,6 +398,7 @@ void build_water(Builder& b) {
     }
   }
   check_undrained(b);
+  warn_of_water_cards(b);
   if (!b.model.water.empty())
     for (FieldEntry& row : water_fields())
       if (b.model.fields.clash(row).empty()) b.model.fields.add(std::move(row));

@@ -184,6 +184,10 @@ void note_unused_nodes(Builder& b) {
 void note_unused_materials(Builder& b) {
   std::vector<char> used(b.model.materials.size(), 0);
   for (const Group& group : b.model.groups) used[static_cast<std::size_t>(group.material)] = 1;
+  // Undrained groups have a twin of their material, which bears its number.
+  for (std::size_t m = 0; m < used.size(); ++m)
+    for (std::size_t k = 0; k < used.size(); ++k)
+      if (used[k] != 0 && b.model.materials[k].number == b.model.materials[m].number) used[m] = 1;
   for (std::size_t m = 0; m < used.size(); ++m)
     if (!used[m])
       b.note("S329", b.model.materials[m].where,

@@ -1,5 +1,7 @@
 // What only decks with flow of water can have wrong.
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 #include "sage/build/builder.hpp"
 #include "sage/deck/text.hpp"
@@ -75,11 +77,11 @@ bool follows_mesh(Builder& b) {
 }
 
 // Edges with water behind them that the card says not to stand outside.
-void warn_of_open_edges(Builder& b, const Activity& activity, const PorePressure& water, const Stage& stage) {
+void warn_of_open_edges(Builder& b, const Activity& activity, const std::vector<FreeEdge>& all,
+                        const PorePressure& water, const Stage& stage) {
   int edges = 0;
   const FreeEdge* first = nullptr;
   const WaterCard* card = nullptr;
-  const std::vector<FreeEdge> all = free_edges(b.model, activity.group);
   for (const FreeEdge& edge : all) {
     const WaterCard* const own = water.card(static_cast<std::size_t>(edge.group));
     if (own == nullptr || own->kind != WaterKind::line || own->action != WaterAction::none || edge.on_structure)
@@ -146,10 +148,87 @@ void warn_of_uplift(Builder& b, const Activity& activity, const PorePressure& wa
                 std::to_string(worst_element) + ", by " + rounded_text(worst, 4) + " " + model.units.stress);
 }
 
+// Ends of free edges that water stands at, by their places: walls in joints have nodes of their own there.
+struct WetEnd {
+  Vector2 other = Vector2::Zero();  // the edge's other end
+  double level = 0.0;
+};
+using WetEnds = std::map<std::pair<double, double>, std::vector<WetEnd>>;
+
+WetEnds wet_ends(const Model& model, const std::vector<FreeEdge>& edges, const PorePressure& water) {
+  WetEnds ends;
+  for (const FreeEdge& edge : edges) {
+    const WaterCard* const own = water.card(static_cast<std::size_t>(edge.group));
+    if (own == nullptr || own->kind != WaterKind::line || own->action == WaterAction::none || edge.on_structure)
+      continue;
+    const Group& group = model.groups[static_cast<std::size_t>(edge.group)];
+    const std::vector<int>& local = group.element->edges()[static_cast<std::size_t>(edge.edge)];
+    const int* const nodes = group.nodes_of(edge.element);
+    const Vector2 a = model.mesh.x.col(nodes[local[0]]), c = model.mesh.x.col(nodes[local[1]]);
+    const auto add = [&](const Vector2& end, const Vector2& other) {
+      const double level = water_level(*own, end.x());
+      if (level > end.y() + model.mesh.reach) ends[{end.x(), end.y()}].push_back({other, level});
+    };
+    add(a, c);
+    add(c, a);
+  }
+  return ends;
+}
+
+// Ground under open water beside a beam whose side there has none: the wall would bear the water behind it alone.
+bool warn_of_dry_walls(Builder& b, const std::vector<FreeEdge>& free, const PorePressure& water,
+                       const std::vector<BesideStructure>& walls, const Stage& stage) {
+  const Model& model = b.model;
+  const WetEnds ends = wet_ends(model, free, water);
+  if (ends.empty()) return false;
+  for (const BesideStructure& one : walls) {
+    const auto g = static_cast<std::size_t>(one.group);
+    const Group& group = model.groups[g];
+    const std::vector<int>& edge = group.element->edges().front();
+    const int* const nodes = group.nodes_of(one.element);
+    const Vector2 a = model.mesh.x.col(nodes[edge[0]]), c = model.mesh.x.col(nodes[edge[1]]);
+    for (const Vector2& end : {a, c}) {
+      const auto found = ends.find({end.x(), end.y()});
+      if (found == ends.end()) continue;
+      for (const WetEnd& wet : found->second) {
+        const Vector2 along = c - a, to = wet.other - end;
+        const double across = along.x() * to.y() - along.y() * to.x();
+        if (std::abs(across) <= 1e-6 * along.norm() * to.norm()) continue;
+        const WaterSide side = across > 0.0 ? WaterSide::left : WaterSide::right;
+        const bool open = side == WaterSide::left ? one.left : one.right;
+        if (!open || water.card(g, side) != nullptr || !(0.5 * (a.y() + c.y()) < wet.level)) continue;
+        b.warning("S341", group.where,
+                  "stage " + std::to_string(stage.number) + ": water stands on the ground beside element " +
+                      std::to_string(group.element_numbers[static_cast<std::size_t>(one.element)]) +
+                      " of group " + std::to_string(group.number) + ", up to " + rounded_text(wet.level, 6) +
+                      ", and none on its " + (side == WaterSide::left ? "left" : "right") +
+                      " side: a water card of kind 1 that names the group puts it there");
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+// Cards about sides of structures that are free in this stage.
+void mark_used_sides(const Builder& b, const PorePressure& water, const std::vector<BesideStructure>& walls,
+                     std::vector<char>& used) {
+  for (std::size_t i = 0; i < b.model.water.size(); ++i) {
+    const WaterCard& card = b.model.water[i];
+    if (card.group < 0 || !b.model.groups[static_cast<std::size_t>(card.group)].structure()) continue;
+    for (const BesideStructure& one : walls)
+      for (const auto& [side, open] : {std::pair{WaterSide::left, one.left}, {WaterSide::right, one.right}})
+        if (open && one.group == card.group && water.card(static_cast<std::size_t>(one.group), side) == &card)
+          used[i] = 1;
+  }
+}
+
 void check_pressures(Builder& b) {
   if (b.model.water.empty() || !follows_mesh(b)) return;
   Activity activity(b.model);
   double gravity = 0.0;
+  bool warned = false;
+  std::vector<char> used(b.model.water.size(), 0);
   for (std::size_t s = 0; s < b.model.stages.size(); ++s) {
     const Stage& stage = b.model.stages[s];
     activity.enter(stage);
@@ -160,8 +239,22 @@ void check_pressures(Builder& b) {
     if (!changes) continue;
     const PorePressure water(b.model, static_cast<int>(s), activity.group, activity.dof_map, nullptr);
     if (!water.any()) continue;
-    warn_of_open_edges(b, activity, water, stage);
+    const std::vector<FreeEdge> free = free_edges(b.model, activity.group);
+    warn_of_open_edges(b, activity, free, water, stage);
     warn_of_uplift(b, activity, water, stage, gravity);
+    const std::vector<BesideStructure> walls = structures_beside_water(b.model, activity.group);
+    mark_used_sides(b, water, walls, used);
+    if (!warned) warned = warn_of_dry_walls(b, free, water, walls, stage);
+  }
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    const WaterCard& card = b.model.water[i];
+    if (used[i] != 0 || card.group < 0 || card.kind != WaterKind::line) continue;
+    const Group& group = b.model.groups[static_cast<std::size_t>(card.group)];
+    if (group.structure())
+      b.warning(
+          "S332", card.where,
+          "group " + std::to_string(group.number) +
+              ": no side of it is free for this water in any stage; soil and joints bring theirs themselves");
   }
 }
 

@@ -44,6 +44,9 @@ struct NodeView {
   Vector2 displacement = Vector2::Zero(), load = Vector2::Zero();
   Vector2 reaction = Vector2::Zero();               // what supports do to the mesh; NaN where nothing is held
   std::array<UnknownView, kMostFields> unknowns{};  // by place in Model::unknowns; 0 is not filled in
+  // What takes the whole state to find is found when a field asks for it.
+  int index = 0;                                                      // within the mesh, from 0
+  const std::function<double(int index)>* stream_function = nullptr;  // NaN where the flow has none
 };
 
 // An integration point.  This alone is as the law keeps it: tension positive, radians.

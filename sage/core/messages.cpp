@@ -598,6 +598,14 @@ constexpr MessageEntry kMessages[] = {
      "The pore pressure is more than the weight of soil and water above: the vertical effective stress is "
      "negative, as in the floor of an excavation over an artesian layer.",
      "Lower the pressure (dewatering), leave more ground, or check the level of water and the unit weights."},
+    {"S341", "open water beside a wall that has none on it",
+     "Water stands on the ground in front of a wall or beside a slab, and on the beams themselves there is "
+     "none: "
+     "they would bear the water behind them without what stands in front.",
+     "A water card of kind 1 that names the group of the beams, with the side in value 1: "
+     "docs/manual/water.md. "
+     "Nothing, where the wall is meant to keep its water in and a pressure card or nothing stands there on "
+     "purpose."},
     {"S345", "a structure is held by joints alone",
      "A wall, raft or lining shares no node with solids, no support holds it, and its joints carry no "
      "tension: what holds it is pressure and friction. Where joints lie on one side only it can lift off.",
@@ -778,6 +786,13 @@ constexpr MessageEntry kMessages[] = {
      "A larger ramp or a larger 'least' in the material, smaller elements, more iterations in the stage. Look "
      "whether "
      "the soil may let water out where it must (exits, code 2)."},
+    {"S540", "the flow has no stream function",
+     "What flows between two places is one number only where nothing comes in or goes out inside the flow: "
+     "around "
+     "a well, a drain or a held head inside, and around a hole whose edge takes water, each turn adds what is "
+     "taken. "
+     "The field is left blank in that part of the flow.",
+     "Take discharge through lines of nodes (report 4), or --picture flow_net, whose lines jump along a line."},
 
     // S6: results, checkpoints and result files.
     {"S601", "a result can't be written",

@@ -76,7 +76,6 @@ double square_tube(const Model& model, double drop) {
 }  // namespace
 
 std::string draw_flow_net(std::string& out, Scenery& scenery, int drops) {
-  constexpr double kJump = 1e-6;
   constexpr int kMostTubes = 200;
   const Model& model = scenery.model;
   const Solution& solution = scenery.solution;
@@ -98,7 +97,7 @@ std::string draw_flow_net(std::string& out, Scenery& scenery, int drops) {
       high = std::max(high, c.value);
     }
   if (!(high - low > 1e-9 * std::max(std::abs(low), std::abs(high)))) return "no head is lost: no flow net";
-  const StreamFunction stream = stream_function(model, solution.activity->group, solution.groups());
+  const StreamFunction& stream = stream_function(model, solution);
   const double drop = (high - low) / drops;
   double tube = square_tube(model, drop);
   const bool squares = tube > 0.0 && stream.largest / tube > 1.0 && stream.largest / tube < kMostTubes;
@@ -116,7 +115,7 @@ std::string draw_flow_net(std::string& out, Scenery& scenery, int drops) {
     draw_lines(out, flow_patches(scenery, pressure, wet), {0.0}, kSurfaceColour, 2.2);
     note += "; red: the free surface, pressure 0";
   }
-  if (stream.sources > kJump)
+  if (stream.jump > StreamFunction::kLeastJump)
     note += "; stream lines jump along a line from what is put in or taken out inside";
   return note;
 }

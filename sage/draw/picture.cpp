@@ -8,6 +8,7 @@
 #include <iterator>
 #include <span>
 
+#include "sage/analysis/stream_function.hpp"
 #include "sage/draw/colour_map.hpp"
 #include "sage/draw/contour.hpp"
 #include "sage/draw/diagram.hpp"
@@ -476,6 +477,9 @@ std::string draw_mesh_and_field(Draft& draft, const std::vector<double>& limits,
   if (options.arrows) notes.push_back(draw_arrows(out, scenery));
   if (draft.has_diagram()) notes.push_back(draw_diagram(out, scenery, draft.diagram));
   if (draft.net) notes.push_back(draw_flow_net(out, scenery, options.levels));
+  if (scenery.field.entry->name == kStreamFunction)
+    if (const std::string& reason = stream_function(scenery.model, scenery.solution).reason; !reason.empty())
+      notes.push_back("no stream function: " + reason);
   return out;
 }
 

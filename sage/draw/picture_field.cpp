@@ -64,8 +64,9 @@ FieldParts field_parts(const Model& model, const Solution& s, const NodalLayout&
   parts.components = static_cast<int>(carried_size(field));
   if (field.place() == FieldPlace::node) {
     parts.at.resize(parts.components, entries);
+    const NodeViews nodes(model, s);
     for (Eigen::Index e = 0; e < entries; ++e)
-      carry(field, node_view(model, s, layout.node[static_cast<std::size_t>(e)]), parts.at.col(e).data());
+      carry(field, nodes.at(layout.node[static_cast<std::size_t>(e)]), parts.at.col(e).data());
   } else {
     const std::vector<double> values = nodal_average(model, s, layout, {&field}, rule);
     parts.at = Eigen::Map<const Eigen::MatrixXd>(values.data(), parts.components, entries);

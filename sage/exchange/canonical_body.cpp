@@ -2,6 +2,7 @@
 
 #include <numbers>
 #include <set>
+#include <stdexcept>
 
 namespace sage::canonical {
 
@@ -18,8 +19,18 @@ struct Kind {
   int element, formulation;
 };
 
+int flow_code(const Catalogue& catalogue, ParentShape shape, int nodes) {
+  for (const auto& [code, entry] : catalogue.elements.entries())
+    if (entry.flow() && entry.shape == shape && entry.nodes == nodes) return code;
+  throw std::logic_error("the catalogue has no element of flow with " + std::to_string(nodes) + " nodes");
+}
+
 // The integration that the deck asks for; blank = 4 points of the 8-node quadrilateral.
 Kind element_kind(const Body& body) {
+  if (body.flows())
+    return {flow_code(body.catalogue, body.triangles ? ParentShape::triangle : ParentShape::square,
+                      body.nodes_per_element),
+            0};
   const int points = body.card.integer("integration_points", 4);
   const int code = solid_code(body.catalogue, body.triangles ? ParentShape::triangle : ParentShape::square,
                               body.nodes_per_element);
@@ -36,6 +47,11 @@ Kind element_kind(const Body& body) {
 
 // The law that the columns of a material row tell, and its parameters.
 std::string law_of(const CardView& row, std::vector<NewField>& values) {
+  if (!row.blank("permeability_x")) {
+    values = {take(row, "permeability_x", "values"), take(row, "permeability_y", "values")};
+    return "darcy";
+  }
+  values = {take(row, "youngs_modulus", "values"), take(row, "poissons_ratio", "values")};
   if (!row.blank("undrained_strength")) {
     // von Mises: sqrt(J2) = c, which is cone 3 at phi = 0.
     values.push_back(take(row, "undrained_strength", "values"));
@@ -51,7 +67,7 @@ std::string law_of(const CardView& row, std::vector<NewField>& values) {
 void add_materials(const Body& body, CardWriter& out) {
   int number = 0;
   for (const CardView& row : body.deck.all("material_values")) {
-    std::vector<NewField> values{take(row, "youngs_modulus", "values"), take(row, "poissons_ratio", "values")};
+    std::vector<NewField> values;
     const std::string law = law_of(row, values);
     if (row.real("bulk_modulus") < 0.0)
       refuse(body, row, "bulk_modulus", "the bulk modulus of the water must not be negative (0: drained)");
@@ -110,6 +126,10 @@ bool any_value(const Deck& deck, std::string_view field) {
 }
 
 }  // namespace
+
+bool Body::flows() const {
+  return deck.has("heads");
+}
 
 std::vector<int> element_materials(const Body& body) {
   std::vector<int> of_element(body.elements.size(), 1);

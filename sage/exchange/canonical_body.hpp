@@ -29,6 +29,8 @@ struct Body {
   int nodes_per_element = 8;
   std::vector<BodyNode> nodes = {};
   std::vector<BodyElement> elements = {};  // number 1, 2, ...
+
+  bool flows() const;  // water flows through it: heads are held, not displacements
 };
 
 [[noreturn]] void refuse(const Body& body, const CardView& card, std::string_view field,

@@ -1,6 +1,7 @@
 // Decks whose mesh is a rectangle numbered by rule (Smith and Griffiths): nodes, elements, supports, and the
 // stages of two programs that go ways of their own.
 #include <algorithm>
+#include <numbers>
 
 #include "sage/exchange/canonical_body.hpp"
 #include "sage/exchange/rectangle.hpp"
@@ -39,7 +40,7 @@ void read_mesh(Source& s) {
   if (card.integer("columns") < 1 || card.integer("rows") < 1 || cells > kMostCells)
     refuse(s, card, "columns", "the mesh needs columns and rows of 1 or more, at most 5000000 cells");
   s.mesh.triangles = card.integer("shape", 2) == 1;
-  s.mesh.nodes_per_element = card.integer("nodes_per_element", 8);
+  s.mesh.nodes_per_element = card.integer("nodes_per_element", s.flows() ? 4 : 8);
   s.mesh.along_x = card.integer("direction", 2) == 1;
   s.axisymmetric = card.integer("geometry", s.deck.one("material_values").blank("consolidation") ? 1 : 2) == 2;
   if (s.mesh.intervals() == 0)
@@ -180,6 +181,19 @@ void add_triaxial(const Source& s, CardWriter& out) {
              nodes);
 }
 
+// Program 7.2: heads and wells of steady seepage.
+void add_flow(const Source& s, CardWriter& out) {
+  const double circle = s.axisymmetric ? 2.0 * std::numbers::pi : 1.0;
+  const NewField head{"unknown", 0.0, {}, "head"}, none{"y_code", 0.0};
+  const int stage = add_stage(s, out, "steady flow", 1);
+  for (const CardView& card : s.deck.all("head"))
+    out.add("fixity", card.where(),
+            {take(card, "first"), {"x_code", 1.0}, none, take(card, "head", "x_value"), head}, stage);
+  for (const CardView& card : s.deck.all("inflow"))
+    out.add("load", card.where(),
+            {take(card, "first"), take(card, "inflow", "x_force", circle), {"y_force", 0.0}, head}, stage);
+}
+
 }  // namespace
 
 Deck rectangle_deck(const Deck& deck, const Catalogue& catalogue) {
@@ -192,6 +206,10 @@ Deck rectangle_deck(const Deck& deck, const Catalogue& catalogue) {
   number_mesh(s);
   CardWriter out(deck);
   add_body(s, materials_by_place(s), "mesh numbered by rule", out);
+  if (s.flows()) {
+    add_flow(s, out);
+    return out.take();
+  }
   add_fixities(s, out);
   if (!s.card.blank("footing"))
     add_footing(s, out);

@@ -86,6 +86,7 @@ Outline outline_of(const Model& model) {
   std::vector<BoundaryEdge> all;
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     const Group& group = model.groups[g];
+    if (!group.interface() && !counts_for_outline(group)) continue;
     const auto& edges = group.element->edges();
     for (int e = 0; e < group.elements(); ++e) {
       const int* n = group.nodes_of(e);

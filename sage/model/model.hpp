@@ -153,10 +153,11 @@ enum class WaterAction {
 // From its stage on, until a later card of the same group: pore pressure, or (undrained, drained) how it moves.
 struct WaterCard {
   int stage = 0;   // 0-based
-  int group = -1;  // index; -1 = all solids
+  int group = -1;  // index; -1 = all solids.  Of structures: the free water on their sides
   WaterKind kind = WaterKind::dry;
   WaterAction action = WaterAction::edges;
-  double value = 0.0;                         // ratio: r_u.  undrained: bulk of the water over the porosity
+  double value =
+      0.0;  // ratio: r_u.  undrained: bulk of water / porosity.  structures: > 0 left side, < 0 right, 0 both
   std::vector<Vector2> line;                  // by rising x
   std::vector<std::pair<int, double>> nodes;  // node index and pressure
   SourcePosition where;

@@ -106,6 +106,16 @@ const WaterCard* water_card(const Model& model, int stage, int group) {
   return found != nullptr && found->kind != WaterKind::dry ? found : nullptr;
 }
 
+const WaterCard* water_card(const Model& model, int stage, int group, WaterSide side) {
+  const WaterCard* found = nullptr;
+  for (const WaterCard& card : model.water) {
+    const bool here = card.value == 0.0 || (card.value > 0.0) == (side == WaterSide::left);
+    if (!card.pressure() || card.stage > stage || card.group != group || !here) continue;
+    if (found == nullptr || card.stage >= found->stage) found = &card;
+  }
+  return found != nullptr && found->kind == WaterKind::line ? found : nullptr;
+}
+
 double water_level(const WaterCard& card, double x) {
   const std::vector<Vector2>& line = card.line;
   if (x <= line.front().x()) return line.front().y();
@@ -187,7 +197,11 @@ Overburden::Above Overburden::above(const Vector2& place) const {
 PorePressure::PorePressure(const Model& model, int stage, const std::vector<char>& groups, const DofMap& map,
                            const Eigen::VectorXd* unknowns)
     : model_(&model), groups_(groups), cards_(model.groups.size(), nullptr), nodes_(model.groups.size()) {
+  for (auto& side : beside_) side.assign(model.groups.size(), nullptr);
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    if (groups[g] && model.groups[g].structure())
+      for (const WaterSide side : {WaterSide::left, WaterSide::right})
+        beside_[side == WaterSide::left ? 0 : 1][g] = water_card(model, stage, static_cast<int>(g), side);
     if (!groups[g] || !model.groups[g].solid()) continue;
     const WaterCard* const card = water_card(model, stage, static_cast<int>(g));
     if (card == nullptr || (card->kind == WaterKind::heads && unknowns == nullptr)) continue;
@@ -200,7 +214,9 @@ PorePressure::PorePressure(const Model& model, int stage, const std::vector<char
 }
 
 bool PorePressure::any() const {
-  return std::ranges::any_of(cards_, [](const WaterCard* card) { return card != nullptr; });
+  const auto is_any = [](const WaterCard* card) { return card != nullptr; };
+  return std::ranges::any_of(cards_, is_any) || std::ranges::any_of(beside_[0], is_any) ||
+         std::ranges::any_of(beside_[1], is_any);
 }
 
 void PorePressure::take_nodes(const WaterCard& card, std::size_t group) {
@@ -318,6 +334,95 @@ std::vector<FreeEdge> free_edges(const Model& model, const std::vector<char>& gr
 
 namespace {
 
+// Directed edges, from corner to corner, on whose left an active solid lies, or a joint with one behind it.
+std::set<std::pair<int, int>> covered_edges(const Model& model, const std::vector<char>& groups) {
+  std::set<std::pair<int, int>> covered;
+  const auto each = [&](auto is_kind, auto act) {
+    for (std::size_t g = 0; g < model.groups.size(); ++g)
+      if (groups[g] && is_kind(model.groups[g]))
+        for (int e = 0; e < model.groups[g].elements(); ++e) act(model.groups[g], model.groups[g].nodes_of(e));
+  };
+  each([](const Group& group) { return group.solid(); },
+       [&](const Group& group, const int* nodes) {
+         for (const std::vector<int>& edge : group.element->edges())
+           covered.emplace(nodes[edge[0]], nodes[edge[1]]);
+       });
+  std::vector<std::pair<int, int>> joints;
+  each([](const Group& group) { return group.interface(); },
+       [&](const Group&, const int* n) {
+         // Its sides go from 1 to 2 and from 3 to 4; what lies behind one has it the other way round.
+         if (covered.contains({n[3], n[2]})) joints.emplace_back(n[0], n[1]);
+         if (covered.contains({n[1], n[0]})) joints.emplace_back(n[2], n[3]);
+       });
+  covered.insert(joints.begin(), joints.end());
+  return covered;
+}
+
+}  // namespace
+
+std::vector<BesideStructure> structures_beside_water(const Model& model, const std::vector<char>& groups) {
+  const std::set<std::pair<int, int>> covered = covered_edges(model, groups);
+  std::vector<BesideStructure> list;
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const Group& group = model.groups[g];
+    if (!groups[g] || !group.structure() || group.element->edges().empty()) continue;
+    const std::vector<int>& edge = group.element->edges().front();
+    for (int e = 0; e < group.elements(); ++e) {
+      const int a = group.nodes_of(e)[edge[0]], b = group.nodes_of(e)[edge[1]];
+      list.push_back({static_cast<int>(g), e, !covered.contains({a, b}), !covered.contains({b, a})});
+    }
+  }
+  return list;
+}
+
+namespace {
+
+// The line of a structure's element through its two or three nodes, by xi from -1 to 1.
+struct StructureLine {
+  Eigen::Matrix<double, 2, 3> x = Eigen::Matrix<double, 2, 3>::Zero();
+  bool curved = false;
+
+  StructureLine(const Mesh& mesh, const int* nodes, const std::vector<int>& edge) : curved(edge.size() > 2) {
+    for (std::size_t i = 0; i < std::min<std::size_t>(edge.size(), 3); ++i)
+      x.col(static_cast<Eigen::Index>(i)) = mesh.x.col(nodes[edge[i]]);
+  }
+  Eigen::Vector3d N(double xi) const {
+    if (curved) return {0.5 * xi * (xi - 1.0), 0.5 * xi * (xi + 1.0), 1.0 - xi * xi};
+    return {0.5 * (1.0 - xi), 0.5 * (1.0 + xi), 0.0};
+  }
+  Vector2 along(double xi) const {
+    return x * (curved ? Eigen::Vector3d(xi - 0.5, xi + 0.5, -2.0 * xi) : Eigen::Vector3d(-0.5, 0.5, 0.0));
+  }
+  Vector2 at(double xi) const { return x * N(xi); }
+};
+
+// Between a and b, where f has other signs.
+template <class F>
+double zero_between(const F& f, double a, double b) {
+  const bool below = f(a) < 0.0;
+  for (int step = 0; step < 60; ++step) {
+    const double middle = 0.5 * (a + b);
+    ((f(middle) < 0.0) == below ? a : b) = middle;
+  }
+  return 0.5 * (a + b);
+}
+
+// xi where the depth below the water begins or bends: pieces between them have a smooth pressure.
+std::vector<double> pieces(const StructureLine& line, const WaterCard& card) {
+  constexpr int kLooks = 8;
+  std::vector<double> at{-1.0, 1.0};
+  const auto add_zeros = [&](const auto& f) {
+    for (int i = 0; i < kLooks; ++i) {
+      const double a = -1.0 + 2.0 * i / kLooks, b = -1.0 + 2.0 * (i + 1) / kLooks;
+      if ((f(a) < 0.0) != (f(b) < 0.0)) at.push_back(zero_between(f, a, b));
+    }
+  };
+  add_zeros([&](double xi) { return water_level(card, line.at(xi).x()) - line.at(xi).y(); });
+  for (const Vector2& point : card.line) add_zeros([&](double xi) { return line.at(xi).x() - point.x(); });
+  std::ranges::sort(at);
+  return at;
+}
+
 // The force of water, put together.
 class WaterForce {
  public:
@@ -330,6 +435,7 @@ class WaterForce {
     for (std::size_t g = 0; g < model_.groups.size(); ++g)
       if (water_.card(g) != nullptr) add_group(g);
     add_edges();
+    add_structures();
     return std::move(force_);
   }
 
@@ -428,6 +534,46 @@ class WaterForce {
         at(nodes[i]) += f;
         if (behind == nullptr) continue;
         if (const auto opposite = behind->find(nodes[i]); opposite != behind->end()) at(opposite->second) -= f;
+      }
+    }
+  }
+
+  void add_structures() {
+    const auto any = [&](std::size_t g) {
+      return water_.card(g, WaterSide::left) != nullptr || water_.card(g, WaterSide::right) != nullptr;
+    };
+    bool wanted = false;
+    for (std::size_t g = 0; g < model_.groups.size(); ++g) wanted = wanted || any(g);
+    if (!wanted) return;
+    for (const BesideStructure& one : structures_beside_water(model_, activity_.group)) {
+      const auto g = static_cast<std::size_t>(one.group);
+      if (one.left && water_.card(g, WaterSide::left) != nullptr)
+        add_structure(model_.groups[g], one.element, *water_.card(g, WaterSide::left), -1.0);
+      if (one.right && water_.card(g, WaterSide::right) != nullptr)
+        add_structure(model_.groups[g], one.element, *water_.card(g, WaterSide::right), 1.0);
+    }
+  }
+
+  // sense: 1 pushes to the left of the way from node 1 to node 2.  The shape functions are those of the edges of solids
+  // beside it, so that water on both sides, in the soil and free, adds up to nothing at each node.
+  void add_structure(const Group& group, int element, const WaterCard& card, double sense) {
+    const GaussRule rule(4);
+    const std::vector<int>& edge = group.element->edges().front();
+    const int* const nodes = group.nodes_of(element);
+    const StructureLine line(model_.mesh, nodes, edge);
+    const std::vector<double> ends = pieces(line, card);
+    for (std::size_t piece = 1; piece < ends.size(); ++piece) {
+      const double half = 0.5 * (ends[piece] - ends[piece - 1]);
+      for (std::size_t q = 0; q < rule.x.size(); ++q) {
+        const double xi = ends[piece - 1] + half * (1.0 + rule.x[q]);
+        const Vector2 place = line.at(xi), along = line.along(xi);
+        const double u = model_.units.water_unit_weight * (water_level(card, place.x()) - place.y());
+        if (!(u > 0.0)) continue;
+        const Vector2 f =
+            sense * half * rule.w[q] * measure(model_, place) * u * Vector2(-along.y(), along.x());
+        const Eigen::Vector3d N = line.N(xi);
+        for (std::size_t i = 0; i < std::min<std::size_t>(edge.size(), 3); ++i)
+          at(nodes[edge[i]]) += N[static_cast<Eigen::Index>(i)] * f;
       }
     }
   }

@@ -2,6 +2,7 @@
 // places.  docs/theory/effective_stress.md
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "sage/model/activity.hpp"
@@ -11,6 +12,12 @@ namespace sage {
 // The card that holds for a group's pore pressure in a stage (0-based): the last of the deck that is about the
 // group or about all and begins no later.  nullptr = dry.
 const WaterCard* water_card(const Model& model, int stage, int group);
+
+// Of the way from an element's first node to its second.
+enum class WaterSide { left, right };
+// The card that holds for the free water on a side of a group of structures: the last of the deck that is about that
+// very group and that side.  nullptr = none stands there.
+const WaterCard* water_card(const Model& model, int stage, int group, WaterSide side);
 
 // u of solids, compression positive, at the end of a stage; never negative (no suction).
 class PorePressure {
@@ -23,6 +30,10 @@ class PorePressure {
   bool any() const;
   // nullptr where the group is dry, no solid or not active.
   const WaterCard* card(std::size_t group) const { return cards_[group]; }
+  // The same of a group of structures, on one side of them.
+  const WaterCard* card(std::size_t group, WaterSide side) const {
+    return beside_[side == WaterSide::left ? 0 : 1][group];
+  }
 
   // At a place of an element, with its shape functions there.
   double at(std::size_t group, int element, const Vector2& place, std::span<const double> N) const;
@@ -41,6 +52,7 @@ class PorePressure {
   const Model* model_;
   std::vector<char> groups_;
   std::vector<const WaterCard*> cards_;
+  std::array<std::vector<const WaterCard*>, 2> beside_;  // left and right of structures
   std::vector<std::vector<double>> nodes_;  // by group: u of every node of the mesh, of cards about nodes
   std::shared_ptr<const class Overburden> overburden_;
 };
@@ -69,9 +81,17 @@ class Overburden {
 double water_level(const WaterCard& card, double x);
 
 // What water does to the mesh at the end of a stage, one entry a dof: its pressure in the solids (sum of B^T u),
-// and on their free edges and in their joints; or, of cards that say so, seepage force and buoyancy (-grad u).
+// and on their free edges and in their joints, and on free sides of structures that have a card; or, of cards that say so, seepage force and buoyancy (-grad u).
 // Shape functions are taken as they are, without B-bar, by a rule that is exact on straight-sided elements.
 Eigen::VectorXd water_force(const Model& model, const Activity& activity, const PorePressure& water);
+
+// An edge of an active structure, and on which sides neither an active solid nor a joint to one lies: water can stand
+// there.
+struct BesideStructure {
+  int group = 0, element = 0;
+  bool left = true, right = true;
+};
+std::vector<BesideStructure> structures_beside_water(const Model& model, const std::vector<char>& groups);
 
 // Edges of active solids that no other active solid shares, by group, element and edge.
 struct FreeEdge {

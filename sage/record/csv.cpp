@@ -83,9 +83,10 @@ void node_rows(const Cells& cells, const Model& model, const StepReport& report,
                const FieldList& fields) {
   const std::vector<char> active = active_nodes(model, *s.activity);
   std::vector<double> values(most_values(fields));
+  const NodeViews views(model, s);
   for (int node = 0; node < model.mesh.nodes(); ++node) {
     if (!active[static_cast<std::size_t>(node)]) continue;
-    const NodeView view = node_view(model, s, node);
+    const NodeView view = views.at(node);
     cells.begin(report);
     cells.integer(view.number);
     for (int c = 0; c < 2; ++c) cells.result(view.place[c]);

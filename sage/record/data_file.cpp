@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 
 #include "sage/core/error.hpp"
@@ -55,6 +56,12 @@ std::unique_ptr<DataFile> make_data_file(const std::string& path) {
 std::unique_ptr<DataFile> open_data_file(const std::string& path) {
   const MakeDataFile make = loaded();
   errno = 0;
+  // A pipe would be waited for without end, a device has none.
+  std::error_code unknown;
+  if (const auto status = std::filesystem::status(path, unknown);
+      std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw InputError("S101", {path, 0, 0, 0},
+                     std::filesystem::is_directory(status) ? "is a folder, not a file" : "is no ordinary file");
   if (!std::ifstream(path))
     throw InputError("S101", {path, 0, 0, 0}, std::string("can't be opened: ") + std::strerror(errno));
   std::unique_ptr<DataFile> file(make(path.c_str(), true));

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "sage/analysis/shown_status.hpp"
+#include "sage/analysis/stream_function.hpp"
 #include "sage/record/values.hpp"
 
 namespace sage {
@@ -90,9 +91,22 @@ std::vector<FieldEntry> unknown_fields(const Model& model) {
   return rows;
 }
 
+std::vector<FieldEntry> flow_fields(const Model& model) {
+  if (find_unknown(model.unknowns, "head") < 0) return {};
+  return {{.name = std::string(kStreamFunction),
+           .meaning = "stream function: what flows between two places",
+           .dimension = Dimension::discharge,
+           .value = NodeField{[](const NodeView& node, double* v) {
+             *v = node.stream_function != nullptr ? (*node.stream_function)(node.index) : kNone;
+           }},
+           .optional = true}};
+}
+
 FieldTable fields_of(const Model& model) {
   FieldTable table = model.fields;
   for (FieldEntry& row : unknown_fields(model))
+    if (table.clash(row).empty()) table.add(std::move(row));
+  for (FieldEntry& row : flow_fields(model))
     if (table.clash(row).empty()) table.add(std::move(row));
   for (FieldEntry& row : history_fields(model))
     if (table.clash(row).empty()) table.add(std::move(row));
@@ -211,16 +225,23 @@ void view_unknowns(const Solution& solution, int node, NodeView& view) {
 
 }  // namespace
 
-NodeView node_view(const Model& model, const Solution& solution, int node) {
+NodeViews::NodeViews(const Model& model, const Solution& solution)
+    : model_(model),
+      solution_(solution),
+      stream_function_([this](int node) { return sage::stream_function(model_, solution_).value(node); }) {}
+
+NodeView NodeViews::at(int node) const {
   NodeView view;
-  view.number = model.mesh.number[static_cast<std::size_t>(node)];
-  view.place = model.mesh.x.col(node);
+  view.number = model_.mesh.number[static_cast<std::size_t>(node)];
+  view.place = model_.mesh.x.col(node);
   const int first = DofMap::displacement(node);
-  view.displacement = solution.u->segment<2>(first);
-  view.load = solution.external->segment<2>(first);
+  view.displacement = solution_.u->segment<2>(first);
+  view.load = solution_.external->segment<2>(first);
   for (int c = 0; c < 2; ++c)
-    view.reaction[c] = solution.activity->holds(node, c) ? reaction(solution, first + c) : kNone;
-  view_unknowns(solution, node, view);
+    view.reaction[c] = solution_.activity->holds(node, c) ? reaction(solution_, first + c) : kNone;
+  view_unknowns(solution_, node, view);
+  view.index = node;
+  view.stream_function = &stream_function_;
   return view;
 }
 
@@ -293,7 +314,7 @@ std::vector<double> field_at(const FieldEntry& entry, const Model& model, const 
   };
   if (place == FieldPlace::node)
     for (const Probe::Node& n : probe.nodes) {
-      carry(entry, node_view(model, solution, n.node), one.data());
+      carry(entry, NodeViews(model, solution).at(n.node), one.data());
       add(n.weight);
     }
   else

@@ -14,7 +14,9 @@ std::vector<FieldEntry> history_fields(const Model& model, std::optional<Element
 // Rows for the unknowns besides displacement: of one named "c" whose load is "flux", "c", "c_flux" and
 // "c_reaction".
 std::vector<FieldEntry> unknown_fields(const Model& model);
-// The model's table, and behind it the rows of unknowns and histories that clash with none of it.
+// Rows of what is found from heads: the stream function.  Empty where no water flows.
+std::vector<FieldEntry> flow_fields(const Model& model);
+// The model's table, and behind it the rows of unknowns, of flow and of histories that clash with none of it.
 FieldTable fields_of(const Model& model);
 
 // Rows of a table by name.  Throws std::logic_error for a name that it lacks.
@@ -44,7 +46,19 @@ void read_field(const FieldEntry& entry, const NodeView& node, double* value);
 void read_field(const FieldEntry& entry, const ElementView& element, double* value);
 void read_field(const FieldEntry& entry, const IncrementView& increment, double* value);
 
-NodeView node_view(const Model& model, const Solution& solution, int node);
+// Nodes as their fields see them.  Model and solution must outlive it, and it the views.
+class NodeViews {
+ public:
+  NodeViews(const Model& model, const Solution& solution);
+  NodeViews(const NodeViews&) = delete;
+  NodeViews& operator=(const NodeViews&) = delete;
+  NodeView at(int node) const;
+
+ private:
+  const Model& model_;
+  const Solution& solution_;
+  const std::function<double(int)> stream_function_;
+};
 // x: coordinates of the element's nodes; they and the group must outlive the view.
 ElementView element_view(const Model& model, const Group& group, int element, const Eigen::Matrix2Xd& x);
 // `worst_node` and the like are NaN where the step has none.

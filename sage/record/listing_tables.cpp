@@ -164,7 +164,9 @@ void nodes(std::string& text, const Model& model, const Solution& solution,
            const std::vector<std::string>& asked) {
   const AxisNames axes = axis_names(model.geometry);
   const std::vector<char> active = active_nodes(model, *solution.activity);
-  const FieldTable table = model.fields;
+  FieldTable table = model.fields;
+  for (FieldEntry& row : flow_fields(model))
+    if (table.clash(row).empty()) table.add(std::move(row));
   const FieldEntry &moved = *table.find("displacement"), &reaction = *table.find("reaction");
   const std::vector<FieldEntry> unknowns = unknown_fields(model);
   FieldList wide;
@@ -186,9 +188,10 @@ void nodes(std::string& text, const Model& model, const Solution& solution,
   wide_columns(text, wide, model.units);
   text += '\n';
   std::vector<double> values(most);
+  const NodeViews views(model, solution);
   for (int node = 0; node < model.mesh.nodes(); ++node) {
     if (!active[static_cast<std::size_t>(node)]) continue;
-    const NodeView view = node_view(model, solution, node);
+    const NodeView view = views.at(node);
     append_integer(text, view.number, 9);
     for (int c = 0; c < 2; ++c) put(text, view.place[c]);
     read_field(moved, view, values.data());

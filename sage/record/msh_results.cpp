@@ -46,6 +46,7 @@ std::string view_name(const FieldEntry& field, const std::string& name, const Un
 
 void add_node_views(std::string& out, const Model& model, const Solution& now, const FieldTable& table,
                     const Step& step) {
+  const NodeViews views(model, now);
   for (const FieldEntry& field : table.rows()) {
     if (field.place() != FieldPlace::node || field.form != FieldForm::number) continue;
     const bool vector = field.shape == FieldShape::vector;
@@ -53,7 +54,7 @@ void add_node_views(std::string& out, const Model& model, const Solution& now, c
     open_view(out, "NodeData", view_name(field, field.name, model.units), step, vector ? 3 : 1, nodes);
     std::vector<double> value(std::max<std::size_t>(field.size(), 3), 0.0);
     for (int node = 0; node < model.mesh.nodes(); ++node) {
-      read_field(field, node_view(model, now, node), value.data());
+      read_field(field, views.at(node), value.data());
       fmt::format_to(std::back_inserter(out), "{}", model.mesh.number[static_cast<std::size_t>(node)]);
       // A support that is not there gives no reaction.
       for (std::size_t c = 0; c < (vector ? 3u : 1u); ++c)

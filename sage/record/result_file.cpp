@@ -305,6 +305,7 @@ class OwnPart {
   // NaN where no active element has the node.
   void add_nodes(const Solution& now) {
     const std::vector<char> active = active_nodes(model_, *now.activity);
+    const NodeViews views(model_, now);
     FieldList fields;
     std::vector<std::vector<double>> values;
     for (const FieldEntry& field : fields_.rows()) {
@@ -313,7 +314,7 @@ class OwnPart {
       values.push_back(out_.room(active.size() * field.size()));
     }
     for (std::size_t n = 0; n < active.size(); ++n) {
-      const NodeView view = node_view(model_, now, static_cast<int>(n));
+      const NodeView view = views.at(static_cast<int>(n));
       for (std::size_t f = 0; f < fields.size(); ++f) {
         double* const to = values[f].data() + n * fields[f]->size();
         if (active[n])
@@ -442,6 +443,10 @@ class SourcePart {
     if (!kept_) return;
     bytes("deck", source.deck);
     bytes("layout", source.layout_text);
+    if (!source.heads.empty()) {
+      bytes(kStoredHeads, source.heads);
+      out_.text(kStoredFolder, kStoredHeads, "doubles");
+    }
     out_.text(kStoredFolder, "name", model.file);
     out_.text(kStoredFolder, "layout", source.layout);
     out_.text(kStoredFolder, "options", source.options);

@@ -15,6 +15,8 @@ struct RunSource {
   std::string layout;       // name of a built-in layout, or empty
   std::string layout_text;  // of a layout of the user's own
   std::string options;      // how the model differs from the deck, as words of a command line
+  // Heads of earlier runs, as its water cards asked for them: doubles one behind the other.
+  std::string heads{};
 };
 
 // Fields that follow from the stress of a point by itself are left out of the files of large models.

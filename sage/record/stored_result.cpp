@@ -22,6 +22,8 @@ StoredResult::StoredResult(const std::filesystem::path& file)
     fail("its states are written as " + format + ", this program reads " + kStoredFormat +
          ": run the deck again");
   source_ = {bytes("deck"), text("layout"), bytes("layout"), text("options")};
+  if (std::string form; file_->read_text(kStoredFolder, kStoredHeads, form))
+    source_.heads = bytes(kStoredHeads);
   deck_name_ = text("name");
   failure_ = text("failure");
   model_ = text("model");

@@ -14,6 +14,7 @@ namespace sage {
 // In frames-1 they are whole; now they lack what Frame::follows_from_fields.
 inline constexpr const char* kStoredFolder = "/sage/run";
 inline constexpr const char *kStoredFormat = "frames-2", *kWholeFormat = "frames-1";
+inline constexpr const char* kStoredHeads = "heads";  // of runs that took some from another run
 // stage, increment, increments, checksum of the bytes, checksum of the fields that they lack (not in frames-1)
 inline constexpr std::size_t kStoredColumns = 5, kWholeColumns = 4;
 inline std::string stored_path(const std::string& name) {

@@ -151,9 +151,10 @@ std::vector<double> element_values(const Model& model, const Solution& s, const 
 std::vector<double> node_values(const Model& model, const Solution& s, const NodalLayout& layout,
                                 const FieldList& fields) {
   std::vector<double> values(layout.node.size() * size_of(fields));
+  const NodeViews views(model, s);
   double* to = values.data();
   for (int node : layout.node) {
-    const NodeView view = node_view(model, s, node);
+    const NodeView view = views.at(node);
     for (const FieldEntry* field : fields) {
       read_field(*field, view, to);
       if (field->shape == FieldShape::vector)

@@ -277,10 +277,12 @@ TEST_P(OwnSolvers, GrowthIsRefined) {
 }
 
 // A wish to stop is heard before every long call, and within the factorisations that are this program's own;
-// the answer afterwards is the same to the last bit, also where room has been given back meanwhile.
+// the answer afterwards is the same to the last bit, also where room has been given back meanwhile.  The large mesh is
+// work for several threads.
 TEST_P(OwnSolvers, StopsAsAskedAndWorksAgain) {
-  const System system = q4_mesh({.columns = 12, .rows = 20});
-  for (const auto& [threads, once] : {std::pair{1, false}, {3, false}, {1, true}, {3, true}}) {
+  for (const auto& [threads, once, columns] :
+       {std::tuple{1, false, 12}, {3, false, 12}, {1, true, 12}, {3, true, 12}, {3, true, 60}}) {
+    const System system = q4_mesh({.columns = columns, .rows = columns + 8});
     const auto solver = make();
     if (once) solver->expect_one_factorisation();
     std::atomic<long> asked{0}, yes{1L << 60};

@@ -1,15 +1,20 @@
 // Water cards of kind 7: heads that an earlier run left in its result file.
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <iterator>
 
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/run_deck.hpp"
+#include "sage/app/run_source.hpp"
 #include "sage/app/stored_heads.hpp"
 #include "sage/exchange/convert.hpp"
+#include "sage/record/stored_result.hpp"
 #include "sage/scenes/deck_writer.hpp"
 #include "sage/scenes/seepage.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -199,11 +204,61 @@ TEST_F(StoredHeads, WhatCannotServeIsNamedAtItsField) {
   expect("ring.h5", 0, "axisymmetric, this deck in plane strain");
   expect("flow.h5", 2, "it has no stage 2; its last is 1");
   expect("narrow.h5", 0, "3 node(s) lie outside");
+  // A pipe that nobody writes to would be waited for, a device without end be read.
+  ASSERT_EQ(mkfifo((folder_ / "pipe.h5").c_str(), 0600), 0);
+  fs::create_symlink("/dev/zero", folder_ / "zero.h5");
+  fs::create_directory(folder_ / "folder.h5");
+  expect("pipe.h5", 0, "is no ordinary file");
+  expect("zero.h5", 0, "is no ordinary file");
+  expect("folder.h5", 0, "is a folder");
   DeckWriter deck = soil(block);
   add_water(deck, "");
   const Diagnostics unnamed = refusal(deck);
   ASSERT_FALSE(unnamed.list().empty());
   EXPECT_EQ(to_string(unnamed.list().front().code), "S248");
+}
+
+// A file whose deck is spoilt: the message is of the file, not of cards and lines that the reader's deck has not.
+TEST_F(StoredHeads, OfASpoiltDeckAreNamedByTheirFile) {
+  DeckWriter other = flow(block_of(Cell::quad4, 3, 2), 1, 1.0);
+  run("spoilt", other);
+  const fs::path file = folder_ / "spoilt.h5";
+  std::ifstream in(file, std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  in.close();
+  const std::string text = other.text(), card = text.substr(text.find("\n", text.find("m       kN")) + 1, 70);
+  for (std::size_t at = bytes.find(card); at != std::string::npos; at = bytes.find(card, at + 1))
+    bytes.replace(at, 5, "    7");  // the geometry of the control card
+  std::ofstream(file, std::ios::binary) << bytes;
+  DeckWriter deck = soil(block_of(Cell::quad4, 2, 2));
+  add_water(deck, "spoilt.h5");
+  const Diagnostics all = refusal(deck);
+  ASSERT_FALSE(all.list().empty());
+  EXPECT_EQ(to_string(all.list().front().code), "S250");
+  EXPECT_NE(all.list().front().message.find("the file is damaged"), std::string::npos)
+      << all.list().front().message;
+}
+
+// The result file of a run that took heads keeps them: it is shown when theirs is gone.
+TEST_F(StoredHeads, AreKeptInTheResultFile) {
+  ASSERT_EQ(run("kept_flow", flow(block_of(Cell::quad4, 3, 2), 1, 0.1)).exit_code, kOk);
+  DeckWriter deck = soil(block_of(Cell::quad8, 4, 3));
+  add_water(deck, "kept_flow.h5");
+  std::ofstream(folder_ / "takes.dat") << deck.text();
+  RunRequest request;
+  request.deck = (folder_ / "takes.dat").string();
+  request.quiet = true;
+  request.output.result = true;
+  request.output.folder = folder_;
+  request.input.build.heads = stored_heads(catalogue_);
+  request.input.build.refine = 1;
+  ASSERT_EQ(run_deck(request, catalogue_).exit_code, kOk);
+  fs::remove(folder_ / "kept_flow.h5");
+  const StoredResult stored(folder_ / "takes.h5");
+  const Model model = model_of(stored.source(), stored.deck_name(), catalogue_);
+  stored.expect_model(model);
+  EXPECT_EQ(model.water.size(), 1u);
+  EXPECT_FALSE(model.water[0].nodes.empty());
 }
 
 #endif
@@ -227,6 +282,39 @@ TEST(WaterInSoil, SharesNodesThatAreMade) {
     }
     ASSERT_EQ(nodes.size(), 2u);
     EXPECT_EQ(nodes[0], nodes[1]) << static_cast<int>(cell) << " " << refine;
+  }
+}
+
+// Water that does not say that it lies on soil is refused, whatever shapes both have.
+TEST(WaterInSoil, SaysSoWhateverShapesBothHave) {
+  const Catalogue catalogue = full_catalogue();
+  const auto code_of = [&](Cell soil_cell, Cell water_cell, bool beside) {
+    Block block = block_of(soil_cell, 2, 2);
+    DeckWriter deck = soil(block);
+    deck.material(2, scenes::kDarcyLaw, {1.0});
+    deck.group(2, scenes::flow_element(water_cell), 0, 2);
+    Block water = block;
+    water.cell = water_cell;
+    water.first_element = 1001;
+    if (beside) {
+      water.first_node = 501;
+      water.place = scenes::rectangle(4.0, 8.0, 0.0, 3.0);
+      water.write_nodes(deck);
+    }
+    water.write_elements(deck, 2);
+    const fs::path file = test::scratch_folder("water_on_soil") / "deck.dat";
+    std::ofstream(file) << deck.text();
+    try {
+      build_model(read_input(file.string(), {}), catalogue);
+    } catch (const InputError& error) {
+      return to_string(error.diagnostics().list().front().code);
+    }
+    return std::string("none");
+  };
+  for (const auto& [soil_cell, water_cell] :
+       {std::pair{Cell::quad4, Cell::tri3}, {Cell::tri3, Cell::quad4}, {Cell::quad4, Cell::quad4}}) {
+    EXPECT_EQ(code_of(soil_cell, water_cell, false), "S326");
+    EXPECT_EQ(code_of(soil_cell, water_cell, true), "none");
   }
 }
 

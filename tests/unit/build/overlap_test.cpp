@@ -279,7 +279,7 @@ TEST(Overlap, WaterInSoilSaysSo) {
   const std::vector<int> corners{pieces.node(0, 0), pieces.node(1, 0), pieces.node(1, 1), pieces.node(0, 1)};
   pieces.element(1, corners);
   pieces.element(4, {corners[2], corners[3], corners[0], corners[1]});
-  EXPECT_NE(refusal(pieces).find("water flows through element 2 on the corners of a solid"), std::string::npos);
+  EXPECT_NE(refusal(pieces).find("water flows through element 2 on the nodes of a solid"), std::string::npos);
   std::string& card = pieces.deck.groups[3];
   card.resize(60, ' ');
   card += "    1";
