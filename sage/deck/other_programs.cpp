@@ -57,8 +57,6 @@ constexpr Program kPrograms[] = {
          "(nxa*(nya+nyb)+nyb*nxb)*nze") "/ r i i:ns / r*ns "},
     {"7.1", "steady seepage along a line",
      "i:nels i:nn i:np / r*np " SAGE_TYPES("nels") "/ r*nels / i*2*nels " SAGE_POTENTIALS},
-    {"7.2", "steady seepage",
-     "t t i:nxe i:nye i:np / r*2*np " SAGE_TYPES("nxe*nye") "/ r*nxe+nye+2 " SAGE_POTENTIALS "/ i "},
     {"7.3", "seepage with a free surface",
      "i:nxe i:nye r i i:np / r*2*np " SAGE_TYPES(
          "nxe*nye") "/ r*nxe+1 / r*nxe+1 / r / r i:nu / i*nu / r i:nv / i*nv / i "},
