@@ -92,6 +92,91 @@ BeamOnSprings::State BeamOnSprings::at(double x) const {
   return under_load(x) + (shapes_ * growth(x).cwiseProduct(shares_)).real();
 }
 
+double ClampedSphere::along(double x) const {
+  return 0.5 * (1.0 + x) * opening * kPi / 180.0;
+}
+
+// With ' along the meridian, t along it and n to its left (inwards), F = N t + Q n:
+//   u' = axial t + (shear + rotation) n, rotation' = bending,
+//   (r F)' = N_hoop e_r - r q, (r M)' = M_hoop t_r - r Q.
+void ClampedSphere::solve() {
+  const double C = E * t / (1.0 - nu * nu), B = C * t * t / 12.0, G = shear_share * E * t / (2.0 * (1.0 + nu));
+  const int points = degree + 1;
+  arc_ = Eigen::VectorXd::NullaryExpr(
+      points, [&](Eigen::Index i) { return -std::cos(kPi * static_cast<double>(i) / degree); });
+  // d/dx of the polynomial through the points (Trefethen 2000, chapter 6).
+  Eigen::MatrixXd D = Eigen::MatrixXd::Zero(points, points);
+  const auto weight = [&](int i) { return (i == 0 || i == degree ? 2.0 : 1.0) * (i % 2 == 0 ? 1.0 : -1.0); };
+  for (int i = 0; i < points; ++i)
+    for (int j = 0; j < points; ++j)
+      if (i != j) {
+        D(i, j) = weight(i) / weight(j) / (arc_[i] - arc_[j]);
+        D(i, i) -= D(i, j);
+      }
+  const double per_length = 2.0 / (a * opening * kPi / 180.0);
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(6 * points, 6 * points);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(6 * points);
+  for (int i = 0; i < points; ++i) {
+    const double angle = along(arc_[i]), c = std::cos(angle), s = std::sin(angle), r = a * c;
+    const Vector2 tangent(-s, c), normal(-c, -s);
+    using Row = Eigen::Matrix<double, 1, 6>;  // of a quantity in (u_r, u_z, rotation, r F_r, r F_z, r M)
+    const Row hoop = Row::Unit(0) / r, hoop_bending = Row::Unit(2) * tangent.x() / r;
+    const Row N = (tangent.x() * Row::Unit(3) + tangent.y() * Row::Unit(4)) / r,
+              Q = (normal.x() * Row::Unit(3) + normal.y() * Row::Unit(4)) / r, M = Row::Unit(5) / r;
+    const Row axial = N / C - nu * hoop, bending = M / B - nu * hoop_bending, turned = Q / G + Row::Unit(2);
+    Eigen::Matrix<double, 6, 6> A;
+    A.row(0) = tangent.x() * axial + normal.x() * turned;
+    A.row(1) = tangent.y() * axial + normal.y() * turned;
+    A.row(2) = bending;
+    A.row(3) = C * (hoop + nu * axial);
+    A.row(4).setZero();
+    A.row(5) = B * (hoop_bending + nu * bending) * tangent.x() - r * Q;
+    for (int k = 0; k < 6; ++k) {
+      for (int j = 0; j < points; ++j) all(6 * i + k, 6 * j + k) = per_length * D(i, j);
+      all.block<1, 6>(6 * i + k, 6 * i) -= A.row(k);
+    }
+    right.segment<2>(6 * i + 3) = r * pressure * normal;
+  }
+  // Three equations at either end give way to what is known there: no motion, and no force.
+  for (int k = 0; k < 3; ++k)
+    for (const int row : {k, 6 * degree + 3 + k}) {
+      all.row(row).setZero();
+      all(row, row) = 1.0;
+      right[row] = 0.0;
+    }
+  // Displacements and forces differ by the stiffness.
+  const Eigen::VectorXd scale = Eigen::VectorXd::NullaryExpr(6 * points, [&](Eigen::Index i) {
+    return i % 6 < 3 ? 1.0 / C : i % 6 < 5 ? 1.0 : t;
+  });
+  all = all * scale.asDiagonal();
+  for (int row = 0; row < 6 * points; ++row) {
+    const double size = all.row(row).cwiseAbs().maxCoeff();
+    all.row(row) /= size;
+    right[row] /= size;
+  }
+  const Eigen::VectorXd x = scale.cwiseProduct(all.fullPivLu().solve(right));
+  y_ = Eigen::Map<const Eigen::MatrixXd>(x.data(), 6, points);
+}
+
+// Barycentric interpolation.
+ClampedSphere::State ClampedSphere::at(double angle) const {
+  const double x = 2.0 * angle / opening - 1.0;
+  Eigen::VectorXd w(arc_.size());
+  for (Eigen::Index i = 0; i < w.size(); ++i) {
+    w[i] = (i == 0 || i == degree ? 0.5 : 1.0) * (i % 2 == 0 ? 1.0 : -1.0);
+    const double away = x - arc_[i];
+    if (std::abs(away) < 1e-12) {
+      w.setZero();
+      w[i] = 1.0;
+      break;
+    }
+    w[i] /= away;
+  }
+  const Eigen::VectorXd y = y_ * w / w.sum();
+  const double up = along(x), c = std::cos(up), s = std::sin(up), r = a * c;
+  return {y[0], y[2], (-s * y[3] + c * y[4]) / r, (-c * y[3] - s * y[4]) / r, y[5] / r};
+}
+
 void RingInGround::solve() {
   const double G = E / (2.0 * (1.0 + nu)), kappa = 3.0 - 4.0 * nu, far = excavation ? 0.0 : 1.0;
   const double P = -0.5 * sv * (1.0 + K0), S = 0.5 * sv * (1.0 - K0);  // sigma_r = P + S cos 2 angle

@@ -65,6 +65,30 @@ struct BeamOnSprings {
   Eigen::Matrix<std::complex<double>, 4, 1> growth(double x) const;
 };
 
+// A sphere's shell from the equator, where it is clamped, up to a round opening with a free edge, pressed from inside: the
+// equations of a shell of revolution that shears (Reissner), as six of first order along the meridian, by collocation at
+// Chebyshev's points.  Nothing is integrated by parts, and no element stands behind it.
+struct ClampedSphere {
+  // Displacement from the axis, rotation counter-clockwise, meridian's force, shear and moment of a unit of circumference;
+  // signs as of beams that go up from the equator.
+  struct State {
+    double u = 0.0, rotation = 0.0, N = 0.0, Q = 0.0, M = 0.0;
+  };
+  double a = 1.0, t = 0.05, E = 1000.0, nu = 0.3, pressure = 1.0;
+  double shear_share = 5.0 / 6.0;  // of E t/(2 (1 + nu))
+  double opening = 60.0;           // degrees above the equator
+  int degree = 60;                 // of the polynomials
+
+  void solve();
+  // Degrees above the equator.
+  State at(double angle) const;
+
+ private:
+  Eigen::MatrixXd y_;            // six rows: u_r, u_z, rotation, r F_r, r F_z, r M; a column a point
+  Eigen::VectorXd arc_;          // of the points, from -1 (the equator) to 1
+  double along(double x) const;  // radians above the equator
+};
+
 // A ring (EA, EI, GA) of radius a in an infinite plane of E, nu, joined by springs of kn across and ks along for each
 // unit of area; 0 is none along, infinity bonded.  The plane is under sv (vertical) and K0 sv, compression positive:
 // overpressure turns that on with the ring in place, excavation digs the hole and puts the ring in at once, while the

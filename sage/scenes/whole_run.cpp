@@ -89,7 +89,7 @@ Model Workbench::build(const std::string& deck, const BuildOptions& options) con
   return build_model(read_deck_text(deck, "deck", layout_), catalogue_, options);
 }
 
-WholeRun Workbench::run(Model model, const RunSettings& settings) const {
+WholeRun Workbench::run(Model model, const RunSettings& settings, std::span<Observer* const> others) const {
   WholeRun run;
   run.model = std::make_unique<Model>(std::move(model));
   for (const Diagnostic& d : run.model->diagnostics.list())
@@ -97,7 +97,8 @@ WholeRun Workbench::run(Model model, const RunSettings& settings) const {
   RunSettings with_choice = settings;
   with_choice.choose_solver = choose_solver_;
   Keeper keeper(run);
-  Observer* observers[] = {&keeper};
+  std::vector<Observer*> observers{&keeper};
+  observers.insert(observers.end(), others.begin(), others.end());
   run.result = sage::run(*run.model, catalogue_, with_choice, observers);
   if (run.result.status == RunStatus::failed) run.failure = run.result.reason;
   return run;

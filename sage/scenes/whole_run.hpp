@@ -67,7 +67,7 @@ class Workbench {
   // Throws InputError for a deck with mistakes.
   Model build(const std::string& deck, const BuildOptions& options = {}) const;
   // A built model, perhaps with loads or places that a card's ten columns can't hold.
-  WholeRun run(Model model, const RunSettings& settings = {}) const;
+  WholeRun run(Model model, const RunSettings& settings = {}, std::span<Observer* const> others = {}) const;
   WholeRun run(const std::string& deck, const BuildOptions& options = {},
                const RunSettings& settings = {}) const;
   // With observers of one's own, and nothing kept besides.

@@ -8,6 +8,7 @@
 
 #include "elements/lobatto.hpp"
 #include "elements/shapes.hpp"
+#include "sage/record/end_forces.hpp"
 
 namespace sage::verify {
 
@@ -177,6 +178,14 @@ double largest_stress_error(const WholeRun& run, std::size_t group, const Tensor
     size = std::max(size, exact.norm());
   }
   return error / size;
+}
+
+void EndReader::on_increment(const Model& model, const StepReport&, const Solution& now) {
+  ends_.clear();
+  for (const ElementEnd& end : element_ends(model, now, group_))
+    ends_.push_back({-end.value[sage::kAxialForce] * end.along +
+                         end.value[sage::kShearForce] * Vector2(-end.along.y(), end.along.x()),
+                     end.place, end.value[kBendingMoment]});
 }
 
 Vector4 stress_at_node(const WholeRun& run, std::size_t group, int number) {

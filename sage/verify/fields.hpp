@@ -38,6 +38,29 @@ double largest_stress_error(const WholeRun& run, std::size_t group, const Tensor
 // Position of a point of a group, points counted through all its elements.
 Vector2 point_position(const Model& model, std::size_t group, Eigen::Index point);
 
+// What the part towards node 2 puts on the part towards node 1 at an end of a structure's element, from the forces of its
+// nodes; M is positive where it pulls the right-hand side of the way from node 1 to node 2.  N and Q are its parts along
+// the line and to the left of it: of the true line, which a polygon has not.
+struct EndForces {
+  Vector2 force = Vector2::Zero(), place = Vector2::Zero();
+  double M = 0.0;
+
+  double N(const Vector2& along) const { return force.dot(along); }
+  double Q(const Vector2& along) const { return force.y() * along.x() - force.x() * along.y(); }
+};
+
+// Reads them of one group at the end of every increment; the last stay.
+class EndReader final : public Observer {
+ public:
+  explicit EndReader(std::size_t group) : group_(group) {}
+  void on_increment(const Model& model, const StepReport&, const Solution& now) override;
+  const std::vector<EndForces>& ends() const { return ends_; }  // two an element, in order
+
+ private:
+  std::size_t group_;
+  std::vector<EndForces> ends_;
+};
+
 // Stress at a node: mean of what the elements of the group around it extrapolate.
 Vector4 stress_at_node(const WholeRun& run, std::size_t group, int number);
 

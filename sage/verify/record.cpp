@@ -61,8 +61,8 @@ WholeRun Record::run(const DeckWriter& deck) const {
   return completed(bench_.run(deck.text()));
 }
 
-WholeRun Record::run(Model model) const {
-  return completed(bench_.run(std::move(model)));
+WholeRun Record::run(Model model, std::span<Observer* const> others) const {
+  return completed(bench_.run(std::move(model), {}, others));
 }
 
 WholeRun Record::try_run(const DeckWriter& deck, int max_cuts) const {

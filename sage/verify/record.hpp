@@ -5,6 +5,7 @@
 #include <chrono>
 #include <functional>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -61,7 +62,7 @@ class Record {
   const Workbench& bench() const { return bench_; }
   // Throws std::runtime_error with the program's reason where a run is not completed.
   WholeRun run(const DeckWriter& deck) const;
-  WholeRun run(Model model) const;
+  WholeRun run(Model model, std::span<Observer* const> others = {}) const;
   // Stopping short of the whole load is an answer too: for collapse loads.
   WholeRun try_run(const DeckWriter& deck, int max_cuts = 12) const;
 

@@ -113,7 +113,7 @@ double table_value(const fs::path& path, const std::vector<std::string>& keys, c
   return std::nan("");
 }
 
-double quantity_of(const RunOutcome& outcome, const fs::path& deck, const Expected& row) {
+double one_quantity(const RunOutcome& outcome, const fs::path& deck, const Expected& row) {
   std::vector<std::string> part;
   std::stringstream stream(row.quantity);
   for (std::string p; std::getline(stream, p, '.');) part.push_back(p);
@@ -144,6 +144,38 @@ double quantity_of(const RunOutcome& outcome, const fs::path& deck, const Expect
   if (part[0] == "step")  // step.NUMBER.column: what the increment adds
     return table_value(nodes, {stage, increment, part[1]}, part[2]) -
            table_value(nodes, {stage, std::to_string(row.increment - 1), part[1]}, part[2]);
+  if (part[0] == "end")  // end.ELEMENT.END.column, of a structure
+    return table_value(scratch() / (case_name(deck.string()) + ".ends.csv"),
+                       {stage, increment, "", part[1], part[2]}, part[3]);
+  if (part[0] == "sum") {  // sum.FIRST.LAST.STEP.column: over nodes
+    double sum = 0.0;
+    for (int node = std::stoi(part[1]); node <= std::stoi(part[2]); node += std::stoi(part[3]))
+      sum += table_value(nodes, {stage, increment, std::to_string(node)}, part[4]);
+    return sum;
+  }
+  if (part[0] == "level") {  // level.Y.column: over all nodes at a height
+    const auto& rows = table_cells(nodes);
+    const auto at = [&](const std::string& name) {
+      const auto found = std::ranges::find_if(
+          rows.front(), [&](const std::string& cell) { return cell.substr(0, cell.find('[')) == name; });
+      return static_cast<std::size_t>(found - rows.front().begin());
+    };
+    const std::size_t y = at("y"), column = at(part[2]);
+    double sum = 0.0;
+    for (const auto& cells : rows)
+      if (cells[0] == stage && cells[1] == increment && std::stod(cells[y]) == std::stod(part[1]))
+        sum += std::stod(cells[column]);
+    return sum;
+  }
+  // pressed.FIRST.LAST.column: over interface4 of length 1, each of whose points stands for a half.
+  if (part[0] == "pressed") {
+    const fs::path table = scratch() / (case_name(deck.string()) + ".interfaces.csv");
+    double sum = 0.0;
+    for (int element = std::stoi(part[1]); element <= std::stoi(part[2]); ++element)
+      for (const char* point : {"1", "2"})
+        sum += 0.5 * table_value(table, {stage, increment, "", std::to_string(element), point}, part[3]);
+    return sum;
+  }
   if (part[0] == "strength") {  // strength.ROW.largest: displacement of one strength factor
     const std::vector<StrengthRow>& factors = outcome.record.strength.rows();
     const auto at = static_cast<std::size_t>(std::stoi(part[1])) - 1;
@@ -179,6 +211,33 @@ double quantity_of(const RunOutcome& outcome, const fs::path& deck, const Expect
   // interface.ELEMENT.POINT.column
   const fs::path table = scratch() / (case_name(deck.string()) + ".interfaces.csv");
   return table_value(table, {stage, increment, "", part[1], part[2]}, part[3]);
+}
+
+// "a + 2*b - c@4.1": terms with factors, each of the row's stage and increment or of its own.
+double quantity_of(const RunOutcome& outcome, const fs::path& deck, const Expected& row) {
+  double sum = 0.0, sign = 1.0;
+  std::stringstream stream(row.quantity);
+  for (std::string term; stream >> term;) {
+    if (term == "+" || term == "-") {
+      sign = term == "+" ? 1.0 : -1.0;
+      continue;
+    }
+    Expected one = row;
+    double factor = sign;
+    if (const std::size_t times = term.find('*'); times != std::string::npos) {
+      factor *= std::stod(term.substr(0, times));
+      term.erase(0, times + 1);
+    }
+    if (const std::size_t at = term.find('@'); at != std::string::npos) {
+      const std::size_t dot = term.find('.', at);
+      one.stage = std::stoi(term.substr(at + 1, dot - at - 1));
+      one.increment = std::stoi(term.substr(dot + 1));
+      term.erase(at);
+    }
+    one.quantity = term;
+    sum += factor * one_quantity(outcome, deck, one);
+  }
+  return sum;
 }
 
 // deck.dat beside expected.csv, STEM.anything beside STEM.expected.csv.
