@@ -11,6 +11,9 @@ constexpr double kRounding = 1e-13;  // relative to the strength: below this a s
 // A gap is rounding of a joint without stress if this share of the largest shear stress, or of the stress
 // floor, would close it.
 constexpr double kNoGap = 1e-5, kNoGapOfFloor = 1e-2;
+// Of the stiffness of contact, in the tangent of open joints that keep a share in slip: enough for a body that floats
+// between them for an iteration, and nothing beside any soil.
+constexpr double kOpenTangent = 1e-11;
 // Rule 0 has one stiffness for a whole increment: a joint this close to its memory loads.  After slip the
 // stress is the strength, which falls by rounding too (1e-11 with a stiff k_nc).
 constexpr double kOnMemory = 1e-6;
@@ -172,6 +175,10 @@ Outcome CloughDuncan::update(const PointIn<2>& in, PointOut<2>& out) const {
   if (normal.open) {
     out.sigma.setZero();
     out.D.setZero();
+    if (p_.slip_tangent > 0.0) {
+      out.D(0, 0) = kOpenTangent * initial_stiffness(0.0).v;
+      out.D(1, 1) = kOpenTangent * p_.k_nc;
+    }
     out.h1[kBroken] = 1.0;
     out.h1[kMemory] = out.h1[kHardening] = 0.0;  // a new contact starts afresh
     out.status = PointStatus::open;

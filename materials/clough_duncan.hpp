@@ -28,8 +28,9 @@ struct CloughDuncanParameters {
   double floor;             // k_s sees at least sigma_n = floor * p_a   [-]
   double nothing;           // an opening that so little would close is none [stress]
   ShearRule rule;
-  bool memory;                // reloading is linear up to the largest |tau| so far
-  double slip_tangent = 0.0;  // share of k_s in the tangent of a joint that slips, not in its stress
+  bool memory;  // reloading is linear up to the largest |tau| so far
+  // Share of k_s in the tangent of a joint that slips, not in its stress; above 0 an open one keeps a trace too.
+  double slip_tangent = 0.0;
 };
 
 // In compression-positive sigma_n:                                          [Clough & Duncan 1971; chapter 7]

@@ -9,11 +9,14 @@ namespace {
 
 constexpr double kStiffer = 1e4;  // contact, than elastic soil
 constexpr double kStifferThanSoft =
-    30.0;                              // and than soil at atmospheric pressure, whose lifts begin far softer
-constexpr double kShearShare = 0.1;    // of the normal stiffness, before slip, in such soil
-constexpr double kSlipTangent = 1e-4;  // of the shear stiffness, in the tangent of what slips
-constexpr double kAtOnePlace = 1e-6;   // of the mesh's reach
-constexpr double kSlant = 0.2;  // of the way to its soil that a normal shows at least, to be taken for wrong
+    30.0;                            // and than soil at atmospheric pressure, whose lifts begin far softer
+constexpr double kShearShare = 0.1;  // of the normal stiffness, before slip, in such soil
+// Of the shear stiffness, in the tangent of what slips: without it a pipe that slips all around can spin.  In elastic
+// soil, where shear is as stiff as contact, it comes to 1e-4 of the soil.
+constexpr double kSlipTangent = 1e-4, kSlipTangentInElastic = 1e-8;
+constexpr double kAtOnePlace = 1e-6;  // of the mesh's reach
+constexpr double kSlant =
+    0.2;  // of the way to its soil that a normal shows at least, or it lies along the surface
 
 }  // namespace
 
@@ -44,6 +47,11 @@ CandeJoints::CandeJoints(const Deck& deck, CardWriter& out) {
                 "the normal of " + std::to_string(turned_) +
                     " interface(s) points from node 2 to node 1 by the soil around them, and is turned: an "
                     "interface opens where its second node moves along the normal");
+  if (along_ > 0)
+    out.warning("S704", first_along_,
+                "the normal of " + std::to_string(along_) +
+                    " interface(s) lies nearly along the surface of the soil there (angle from x, to the side "
+                    "of the second node): they hold along it and slip across");
 }
 
 void CandeJoints::look_around(const Deck& deck) {
@@ -93,6 +101,7 @@ void CandeJoints::read_materials(const Deck& deck) {
       return value;
     };
     const Material one{
+        card.where("angle"),
         checked("angle", -360.0, 360.0),
         {checked("friction", 0.0, 100.0), checked("tension", 0.0, 1e9), checked("gap", 0.0, 1e6), false}};
     if (!materials_.emplace(material.integer("number"), one).second)
@@ -134,16 +143,20 @@ CandeJoints::Joint CandeJoints::start(const Deck& deck, const CardView& element,
   return joint;
 }
 
-// Whether the soil at the second node, or the way from that at the first, lies against the normal.
-bool CandeJoints::backwards(const Joint& joint, const Vector2& normal) const {
+// How far the way to the soil at the second node, or from that at the first, goes along the normal: 1 all of it, negative
+// where the normal is turned round; 1 too where there is no soil to tell.
+double CandeJoints::towards_soil(const Joint& joint, const Vector2& normal) const {
   double shown = 0.0;
+  int sides = 0;
   for (const auto& [node, sense] : {std::pair{joint.first, -1.0}, std::pair{joint.second, 1.0}}) {
     const Around& here = around_.at(node);
     if (here.soils == 0) continue;
     const Vector2 way = here.soil / here.soils - nodes_.at(node);
-    if (way.norm() > 0.0) shown += sense * normal.dot(way.normalized());
+    if (way.norm() == 0.0) continue;
+    shown += sense * normal.dot(way.normalized());
+    ++sides;
   }
-  return shown < -kSlant;
+  return sides == 0 ? 1.0 : shown / sides;
 }
 
 void CandeJoints::add_interface(const Deck& deck, const CardView& element) {
@@ -156,7 +169,9 @@ void CandeJoints::add_interface(const Deck& deck, const CardView& element) {
   joint.law = material->second.law;
   const double angle = material->second.angle * kRadiansPerDegree;
   Vector2 normal(std::cos(angle), std::sin(angle));
-  if (backwards(joint, normal)) {
+  const double towards = towards_soil(joint, normal);
+  if (std::abs(towards) < kSlant && ++along_ == 1) first_along_ = material->second.where;
+  if (towards < -kSlant) {
     if (++turned_ == 1) first_turned_ = element.where();
     normal = -normal;
   }
@@ -230,7 +245,7 @@ void CandeJoints::add(const Catalogue& catalogue, const SoilStiffness& soils, do
       values = {
           0.0,     std::atan(l.friction) / kRadiansPerDegree, l.tension, 0.0, shear / kCandeWaterWeight, 0.0,
           contact, l.tension > 0.0 ? contact : 0.0,           0.0};
-    if (!l.bonded && soft) values.insert(values.end(), {0.0, 1e-6, 0.0, kSlipTangent});
+    if (!l.bonded) values.insert(values.end(), {0.0, 1e-6, 0.0, soft ? kSlipTangent : kSlipTangentInElastic});
     std::vector<NewField> fields;
     for (const double value : values) fields.push_back({"values", value});
     out.add("parameters", joint.card.where(), fields, card);

@@ -408,6 +408,9 @@ void add_materials(const Deck& deck, const Catalogue& catalogue, const Soils& so
   const StandIn other = stand_in(deck, out);
   for (const CardView& material : deck.all("material")) {
     if (material.integer("law") == 6 || material.integer("law") == 7) continue;  // interfaces and links
+    if (!(material.real("unit_weight") >= 0.0))
+      fail(deck, material.where("unit_weight"),
+           "the " + material.label("unit_weight") + " of a soil can't be negative: it would pull upwards");
     const int number = material.integer("number");
     std::map<double, int> numbers;  // by load factor
     for (const auto& [key, own] : soils.number)
@@ -612,12 +615,31 @@ void add_boundary(const Deck& deck, const LoadFactors& factors, CardWriter& out,
   }
 }
 
-// The control card's number, or more where an element is born or removed later.
+// Elements live within the deck's load steps, at least from one to the next.
+void check_life(const Deck& deck, const CardView& element, int given) {
+  const std::string name = "element " + element.text("number");
+  const int birth = element.integer("birth"), death = element.integer("death");
+  if (birth < 0) fail(deck, element.where("birth"), name + ": its load step of birth is negative");
+  if (death < 0) fail(deck, element.where("death"), name + ": its load step of death is negative");
+  if (given > 0 && birth > given)
+    fail(deck, element.where("birth"),
+         name + " is born in load step " + std::to_string(birth) + ", after the last of the " +
+             std::to_string(given) + " that card C-2 has: it would never be there");
+  if (element.integer("class") <= 1 && death > 0 && death <= birth_of(element))
+    fail(deck, element.where("death"),
+         name + " is taken away in load step " + std::to_string(death) + ", and is born in " +
+             std::to_string(birth_of(element)) + ": it would never be there");
+}
+
+// The control card's number; without one the last step in which an element is born or taken away.
 int load_steps(const Deck& deck, const CandeJoints& joints) {
-  int steps = std::max({1, deck.one("control").integer("load_steps"), joints.last_step()});
-  for (const CardView& element : deck.all("element"))
-    if (is_soil(element) || is_beam(element))
+  const int given = deck.one("control").integer("load_steps");
+  int steps = std::max({1, given, given > 0 ? 0 : joints.last_step()});
+  for (const CardView& element : deck.all("element")) {
+    check_life(deck, element, given);
+    if (given <= 0 && (is_soil(element) || is_beam(element)))
       steps = std::max({steps, birth_of(element), element.integer("death")});
+  }
   if (steps > kMostSteps)
     fail(deck, deck.one("control").where("load_steps"),
          std::to_string(steps) + " load steps; at most " + std::to_string(kMostSteps) + " are taken");

@@ -80,6 +80,7 @@ class CandeJoints {
     Vector2 far;  // place of the third and fourth node
   };
   struct Material {
+    SourcePosition where;  // of the angle
     double angle;
     Law law;
   };
@@ -94,7 +95,7 @@ class CandeJoints {
   Joint start(const Deck& deck, const CardView& element, const char* what);
   void add_interface(const Deck& deck, const CardView& element);
   void add_link(const Deck& deck, const CardView& element, CardWriter& out);
-  bool backwards(const Joint& joint, const Vector2& normal) const;
+  double towards_soil(const Joint& joint, const Vector2& normal) const;
 
   std::map<int, Vector2> nodes_;
   std::map<int, Around> around_;
@@ -103,8 +104,8 @@ class CandeJoints {
   std::vector<Joint> joints_;
   std::set<int> known_, moved_;
   std::vector<Group> groups_;
-  int last_step_ = 0, highest_node_ = 0, turned_ = 0;
-  SourcePosition first_turned_;
+  int last_step_ = 0, highest_node_ = 0, turned_ = 0, along_ = 0;
+  SourcePosition first_turned_, first_along_;
 };
 
 }  // namespace sage::canonical

@@ -188,7 +188,8 @@ struct RingInGround {
             2 * N / a - 2 * M / a2 - (2 * A2 - 6 * C2 / a4 - 2 * D2 / a2)};
   }
   // interface: of card D-2.Interface what follows the angle; empty: the pipe and the ground share nodes.
-  std::string deck(int around, int layers, const std::string& interface = "") const {
+  // held: a support against spinning, which nothing in the deck asks for.
+  std::string deck(int around, int layers, const std::string& interface = "", bool held = true) const {
     const int ground = (layers + 1) * around, pipe = interface.empty() ? 0 : ground;
     const int nodes = interface.empty() ? ground : ground + 2 * around;
     std::string text =
@@ -225,8 +226,8 @@ struct RingInGround {
                                                  i == layers - 1 && j == around - 1 ? "L" : " ", number, n,
                                                  n + around, m + around, m));
       }
-    // A ring that slips could spin.
-    if (pipe > 0) text += cande_line("C-5.L3", fmt::format(" {:>4}    0       0.0    1       0.0", pipe + 1));
+    if (pipe > 0 && held)
+      text += cande_line("C-5.L3", fmt::format(" {:>4}    0       0.0    1       0.0", pipe + 1));
     for (int j = 0; j < around; ++j) {
       const double t = 2 * M_PI * j / around;
       const Eigen::Vector2d two = mode(b, A, C, D);
@@ -293,6 +294,39 @@ TEST(Cande, RingWithInterfacesIsBondedOrSlips) {
   EXPECT_LT(fine[1], 0.35 * smooth[1]);
   // Slip is another answer than bond: the moment differs by far more than these errors.
   EXPECT_GT(ring_errors(RingInGround(), 48, 6, "       0.0       0.0       0.0")[1], 0.05);
+}
+
+// Force and moment of all points of the pipe, of a ring with interfaces whose beams are the only group of so many points.
+scenes::PointStresses pipe_of(const scenes::WholeRun& run, int around) {
+  for (const auto& group : run.stress)
+    if (group.cols() == 3 * around && group.rows() == 5) return group;
+  return {};
+}
+
+// Nothing pushes a smooth pipe round, and what it carries does not depend on how it is turned: as with a support.
+TEST(Cande, ASmoothPipeNeedsNoSupportAgainstSpinning) {
+  const RingInGround ring(true);
+  const std::string smooth = "       0.0       0.0       0.0";
+  const scenes::WholeRun held = run_cande(ring.deck(24, 3, smooth)),
+                         free = run_cande(ring.deck(24, 3, smooth, false));
+  ASSERT_TRUE(held.completed() && free.completed()) << free.failure;
+  const scenes::PointStresses a = pipe_of(held, 24), b = pipe_of(free, 24);
+  ASSERT_EQ(a.size(), b.size());
+  ASSERT_GT(a.row(0).cwiseAbs().maxCoeff(), 1.0);
+  for (const int row : {0, 3})
+    EXPECT_LT((a - b).row(row).cwiseAbs().maxCoeff(), 1e-6 * a.row(row).cwiseAbs().maxCoeff()) << row;
+}
+
+// Ground that moves away from a pipe without weight, all around: the pipe stays where it is, and carries nothing.
+TEST(Cande, APipeThatTouchesNothingFloats) {
+  RingInGround away;
+  away.alpha = 1e-3;
+  away.A = away.beta = away.C = away.D = 0.0;
+  const scenes::WholeRun run = run_cande(away.deck(24, 3, "       0.3       0.0       0.0", false));
+  ASSERT_TRUE(run.completed()) << run.failure;
+  const scenes::PointStresses pipe = pipe_of(run, 24);
+  ASSERT_GT(pipe.size(), 0);
+  EXPECT_LT(pipe.cwiseAbs().maxCoeff(), 1e-9) << "of 20 where it is pressed by as much";
 }
 
 // Two squares of 100, the second on the first, with nodes of their own where they meet: lower 1 2 3 4, upper 5 6 7 8
@@ -398,6 +432,14 @@ TEST(Cande, FixedLinkWeldsTwoBeams) {
   ASSERT_TRUE(run.completed()) << run.failure;
   const double bent = 2.0 * 1e6 / (48 * 1e5);
   EXPECT_NEAR(-run.u(2).y(), bent, 2e-3 * bent);
+}
+
+// A normal along the surface is taken as it is, with a word to its card.
+TEST(Cande, InterfacesWhoseNormalLiesAlongTheSurfaceAreNamed) {
+  const Model model =
+      cande_model(two_squares(kTwoInterfaces, "       2.0       0.3", moved_top(0, -0.02, 1, true)));
+  EXPECT_TRUE(mentions(model.diagnostics, Severity::warning, "the normal of 2 interface(s) lies nearly along"));
+  EXPECT_FALSE(mentions(model.diagnostics, Severity::warning, "is turned"));
 }
 
 // Every field of the cards that joints need, wrong: an error at its line and columns.
@@ -549,6 +591,37 @@ TEST(Cande, LoadFactorsMultiplyTheLoadsOfTheirSteps) {
       EXPECT_NEAR(run.reaction(run.increments[step], {1, 2}, 1), expected, 1e-9 * expected) << step + 1;
     }
   }
+}
+
+// Lives of elements and weights that can't be, at their fields; the small deck has three load steps.
+TEST(Cande, LivesAndWeightsThatMakeNoSenseAreErrorsOfTheirFields) {
+  const std::string second = "L   2    3    4    6    5    1    2";
+  struct Case {
+    std::string from, to, words;
+  };
+  for (const Case& c :
+       {Case{second, "L   2    3    4    6    5    1    4", "is born in load step 4, after the last of the 3"},
+        Case{second, "L   2    3    4    6    5    199999", "is born in load step 99999"},
+        Case{second, "L   2    3    4    6    5    1   -2", "birth is negative"},
+        Case{second, second + "    0    0    0    0    2", "is taken away in load step 2, and is born in 2"},
+        Case{"     120.0soil", "    -120.0soil", "can't be negative"}}) {
+    SCOPED_TRACE(c.words);
+    std::string text = small_cande("");
+    ASSERT_NE(text.find(c.from), std::string::npos);
+    text.replace(text.find(c.from), c.from.size(), c.to);
+    try {
+      run_cande(text);
+      ADD_FAILURE() << "taken";
+    } catch (const InputError& error) {
+      const Diagnostic& d = error.diagnostics().list().back();
+      EXPECT_NE(d.message.find(c.words), std::string::npos) << d.message;
+      EXPECT_GT(d.where.first_column, 0);
+    }
+  }
+  // Taken away after the last step: it stays.
+  std::string text = small_cande("");
+  text.replace(text.find(second), second.size(), second + "    0    0    0    0    9");
+  EXPECT_TRUE(run_cande(text).completed());
 }
 
 TEST(Cande, LoadFactorsThatMakeNoSenseAreErrors) {

@@ -140,6 +140,12 @@ TEST(CloughDuncan, SlipTangentIsNotInTheStress) {
   EXPECT_EQ(b.D(0, 1), a.D(0, 1));
   EXPECT_EQ(test::update<2>(*held, start, {-0.001, 0.0}, history).D,
             test::update<2>(*plain, start, {-0.001, 0.0}, history).D);
+  // Open: a trace in D, nothing in the stress.
+  const auto open = test::update<2>(*held, start, {0.0, 0.1}, history);
+  EXPECT_TRUE(open.sigma.isZero(0.0));
+  EXPECT_EQ(open.h, test::update<2>(*plain, start, {0.0, 0.1}, history).h);
+  EXPECT_GT(open.D(0, 0), 0.0);
+  EXPECT_NEAR(open.D(1, 1), 1e-11 * 1e9, 1e-13 * 1e9) << "k_nc is 1e9";
 }
 
 // Unload and reload with k_si, then on along the same hyperbola.
