@@ -52,6 +52,8 @@ class Step {
   void take_prescribed(const Eigen::VectorXd& rate);
   bool wants_line_search(double old_norm) const;
   bool search_line();
+  bool chatters(double old_norm) const;
+  bool halve_step(double old_norm);
   IterationRecord measure(int field) const;
   IterationRecord measure();
   bool converged(const IterationRecord& record) const;
@@ -460,6 +462,27 @@ bool Step::search_line() {
   return true;
 }
 
+// Joints that touch without pressure may be found open by one tangent and closed by the next, for good: late iterations
+// whose correction throws away what earlier ones have won.
+constexpr int kLate = 10;
+
+bool Step::chatters(double old_norm) const {
+  constexpr double kThrown = 5.0;
+  return settings_.line_search && !accelerated() && !assembly_.symmetric() &&
+         residual_size() > kThrown * old_norm;
+}
+
+bool Step::halve_step(double old_norm) {
+  constexpr int kTrials = 4;
+  for (int trial = 0; trial < kTrials && residual_size() > old_norm; ++trial) {
+    move(-0.5 * step_length_);
+    step_length_ *= 0.5;
+    if (evaluate(new_K_each_iteration()) == Outcome::cut_step) return false;
+    form_residual();
+  }
+  return true;
+}
+
 // True once converged.
 bool Step::record_iteration() {
   constexpr double kNear = 10.0;  // iterations of a condensed region know the scale of its forces roughly
@@ -503,6 +526,7 @@ NewtonStep& Step::iterate_with_line_search() {
     step_length_ = 1.0;
     if (settings_.line_search && !accelerated() && i > 1 && wants_line_search(old_norm) && !search_line())
       return result_;
+    if (i > kLate && chatters(old_norm) && !halve_step(old_norm)) return result_;
     if (hopeless()) {
       result_.flows = settings_.stop_at_flow;
       return result_;

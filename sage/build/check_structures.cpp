@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -124,23 +125,87 @@ void check_faces(Builder& b) {
       }
 }
 
-// A joint that opens carries nothing: asked with an opening too small to break anything.
-bool carries_tension(const Model& model, const Group& group) {
-  const LawRef ref = model.material_of(group).law_ref();
-  const auto* law = std::get_if<const Law<2>*>(&ref);
-  if (law == nullptr) return true;
-  std::vector<double> before((*law)->history().size(), 0.0), after = before;
+// What a joint without stress answers to a displacement of its upper side; nothing where it gives no answer.
+struct Answer {
+  Vector2 sigma;
+  PointStatus status;
+};
+
+std::optional<Answer> answer(const Law<2>& law, const Vector2& displacement) {
+  std::vector<double> before(law.history().size(), 0.0), after = before;
   PointIn<2> in;
   PointOut<2> out;
   PointContext context;
   in.sigma0.setZero();
   in.eps0.setZero();
-  if (!(*law)->initialise(in.sigma0, before)) return false;
-  in.deps = {0.0, 1e-12};
+  if (!law.initialise(in.sigma0, before)) return Answer{Vector2::Zero(), PointStatus::open};
+  in.deps = displacement;
   in.h0 = before;
   out.h1 = after;
   in.context = &context;
-  return (*law)->update(in, out) != Outcome::ok || out.sigma[1] > 0.0;
+  if (law.update(in, out) != Outcome::ok) return {};
+  return Answer{out.sigma, out.status};
+}
+
+const Law<2>* joint_law(const Model& model, const Group& group) {
+  const LawRef ref = model.material_of(group).law_ref();
+  const auto* law = std::get_if<const Law<2>*>(&ref);
+  return law == nullptr ? nullptr : *law;
+}
+
+// A joint that opens carries nothing: asked with an opening too small to break anything.
+bool carries_tension(const Model& model, const Group& group) {
+  const Law<2>* law = joint_law(model, group);
+  if (law == nullptr) return true;
+  const std::optional<Answer> opened = answer(*law, {0.0, 1e-12});
+  return !opened || opened->sigma[1] > 0.0;
+}
+
+// Whether a joint slips, or yields to shear, long before it gives way across: pressed together by a tenth of its slip.
+bool may_slip(const Model& model, const Group& group) {
+  constexpr double kSoft = 0.01, kWay = 1e-6;
+  const Law<2>* law = joint_law(model, group);
+  if (law == nullptr) return false;
+  const std::optional<Answer> moved = answer(*law, {kWay, -0.1 * kWay});
+  return moved && (moved->status == PointStatus::slipping ||
+                   std::abs(moved->sigma[0]) < kSoft * 10.0 * std::abs(moved->sigma[1]));
+}
+
+// Interfaces of two pairs along a curve: each follows a chord, and at a node that two chords share slip along the one opens
+// or closes the other, so that a smooth pipe is held as if it were bonded.
+void check_curved_joints(Builder& b) {
+  constexpr double kStraight = 0.5, kCorner = 60.0;  // degrees from one to the next
+  constexpr int kCurve = 3;                          // turns that make one
+  const Model& model = b.model;
+  for (const Group& group : model.groups) {
+    if (!group.interface() || group.node_count() != 4 || !may_slip(model, group)) continue;
+    std::map<int, int> from;  // elements by their first node
+    for (int e = 0; e < group.elements(); ++e) from.emplace(group.nodes_of(e)[0], e);
+    const auto way = [&](int e) -> Vector2 {
+      const int* n = group.nodes_of(e);
+      return model.mesh.x.col(n[1]) - model.mesh.x.col(n[0]);
+    };
+    int turns = 0, first = -1;
+    double sharpest = 0.0;
+    for (int e = 0; e < group.elements(); ++e) {
+      const auto next = from.find(group.nodes_of(e)[1]);
+      if (next == from.end()) continue;
+      const Vector2 a = way(e), c = way(next->second);
+      const double turn = std::abs(std::atan2(a.x() * c.y() - a.y() * c.x(), a.dot(c))) / kRadiansPerDegree;
+      if (turn < kStraight || turn > kCorner) continue;
+      if (++turns == 1) first = e;
+      sharpest = std::max(sharpest, turn);
+    }
+    if (turns < kCurve) continue;
+    b.warning(
+        "S348", b.at_line(line_of(group, first)),
+        "interface set " + std::to_string(group.number) + " follows a curve from element " +
+            element_number(group, first) + " on, by " + rounded_text(sharpest, 3) + " degrees from one " +
+            group.element_name +
+            " to the next, and its law lets the bodies slip: along a polygon they can't, since a node that "
+            "slides along one side opens or closes the next; take interface6 with quad8 and beam3, their "
+            "nodes on the curve");
+  }
 }
 
 // What a connected part of structures has to hold it.
@@ -337,6 +402,7 @@ void check_structures(Builder& b) {
   if (std::ranges::none_of(b.model.groups, [](const Group& group) { return group.structure(); })) return;
   check_faces(b);
   check_releases(b);
+  check_curved_joints(b);
 }
 
 void check_held_structures(Builder& b) {

@@ -620,6 +620,12 @@ constexpr MessageEntry kMessages[] = {
      "A beam whose end is released along its line (or across it) has one more unknown at that node, along its "
      "own line. Two such beams would share it.",
      "List the nodes of one of them the other way round, so that its released end is at its other node."},
+    {"S348", "a joint that slips follows a polygon",
+     "Interfaces of two pairs of nodes stand for a curve, as around a pipe. A node that slides along one chord "
+     "opens or closes the next, so that the smooth pipe is held as if it were bonded: thrust and moment are "
+     "those of the bonded one.",
+     "interface6 with quad8 and beam3 and the nodes in the middle on the curve (docs/manual/structures.md); or "
+     "nothing, where the joint does not slip under the loads of the deck."},
     {"S401", "elements of different degree meet",
      "One element has nodes inside the common edge, the other has not: the mesh would gape there.",
      "Give both the same number of nodes an edge; --element quad8 turns all of the mesh."},

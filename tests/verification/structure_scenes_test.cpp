@@ -34,6 +34,18 @@ TEST(StructureDecks, AreTheScenes) {
   }
 }
 
+// Interfaces of two pairs around a pipe: a warning where they let it slip, none where they bond it or have nodes on the curve.
+TEST(StructureDecks, ASmoothPipeOfChordsIsNamed) {
+  const std::string words = "interface set 3 follows a curve", stiffness = "10000000. 10000000.";
+  std::string text = shipped("culvert_bonded");
+  EXPECT_FALSE(run_text(text).warns(words));
+  const std::size_t at = text.find(stiffness);
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, 9, "    0.001");
+  EXPECT_TRUE(run_text(text).warns(words));
+  EXPECT_FALSE(run_text(shipped("culvert_slipping")).warns(words));
+}
+
 struct WallNumbers {
   std::string name;
   WallInGround scene;
