@@ -468,8 +468,9 @@ constexpr int kLate = 10;
 
 bool Step::chatters(double old_norm) const {
   constexpr double kThrown = 5.0;
-  return settings_.line_search && !accelerated() && !assembly_.symmetric() &&
-         residual_size() > kThrown * old_norm;
+  if (!settings_.line_search || accelerated() || assembly_.symmetric()) return false;
+  return residual_size() > kThrown * old_norm &&
+         std::ranges::any_of(assembly_.groups(), [](const GroupData& data) { return data.group->interface(); });
 }
 
 bool Step::halve_step(double old_norm) {

@@ -631,6 +631,46 @@ void check_life(const Deck& deck, const CardView& element, int given) {
              std::to_string(birth_of(element)) + ": it would never be there");
 }
 
+// Ends of a pipe that a card C-5 keeps on a line across it, free along that line, are where a half mesh has been cut: by
+// symmetry they don't turn.  Card C-5 has no rotation; without this the pipe would have a hinge there.
+void hold_ends_on_symmetry(const Deck& deck, const Pipes& pipes, const CandeJoints& joints, CardWriter& out) {
+  std::map<int, Vector2> place;
+  for (const CardView& node : deck.all("node"))
+    place.insert_or_assign(node.integer("number"), Vector2(node.real("x"), node.real("y")));
+  std::map<int, std::vector<int>> others;  // of a beam's node: the other ends of its beams
+  for (const CardView& element : deck.all("element")) {
+    if (!is_beam(element) || pipes.wall(element) < 0) continue;
+    others[joints.node(element.integer("n1"))].push_back(element.integer("n2"));
+    others[joints.node(element.integer("n2"))].push_back(element.integer("n1"));
+  }
+  std::vector<int> held;
+  SourcePosition first;
+  for (const CardView& card : deck.all("fixity")) {
+    const bool x = card.integer("x_code") == 1, y = card.integer("y_code") == 1;
+    if (x == y || card.integer("load_step") > 1 || card.real(x ? "x_value" : "y_value") != 0.0) continue;
+    const int from = card.integer("first"), to = std::max(from, card.integer("last")),
+              step = std::max(1, card.integer("step"));
+    for (int node = from; node <= to; node += step) {
+      const auto found = others.find(joints.node(node));
+      if (found == others.end() || found->second.size() != 1) continue;
+      const auto here = place.find(node), there = place.find(found->second.front());
+      if (here == place.end() || there == place.end()) continue;
+      const Vector2 along = there->second - here->second;
+      if (std::abs(x ? along.x() : along.y()) <= std::abs(x ? along.y() : along.x())) continue;
+      if (held.empty()) first = card.where("first");
+      held.push_back(found->first);
+      out.add(
+          "fixity", card.where("first"),
+          {{"first", static_cast<double>(found->first)}, {"x_code", 1.0}, {"unknown", 0.0, {}, "rotation"}});
+    }
+  }
+  if (!held.empty())
+    out.warning(
+        "S704", first,
+        std::to_string(held.size()) + " end(s) of the pipe, the first at node " + std::to_string(held.front()) +
+            ", are kept on a line across the pipe: taken for a line of symmetry, where it does not turn");
+}
+
 // The control card's number; without one the last step in which an element is born or taken away.
 int load_steps(const Deck& deck, const CandeJoints& joints) {
   const int given = deck.one("control").integer("load_steps");
@@ -760,6 +800,7 @@ Deck cande_deck(const Deck& deck, const Catalogue& catalogue) {
              soils.highest + static_cast<int>(pipes.walls().size()), static_cast<int>(groups.size()), out);
   joints.add_gaps(1, -1, out);
   add_boundary(deck, factors, out, 0, -1);
+  hold_ends_on_symmetry(deck, pipes, joints, out);
   explain_factors(deck, factors, out);
   add_stages(deck, factors, out, groups, joints);
   return out.take();

@@ -317,6 +317,59 @@ TEST(Cande, ASmoothPipeNeedsNoSupportAgainstSpinning) {
     EXPECT_LT((a - b).row(row).cwiseAbs().maxCoeff(), 1e-6 * a.row(row).cwiseAbs().maxCoeff()) << row;
 }
 
+// The right half of a ring, cut at x = 0, is the whole one: its ends don't turn, though no card can say so.
+TEST(Cande, HalfAMeshIsTheWholeOne) {
+  const int around = 24, layers = 3;
+  const RingInGround ring;
+  const std::string text = ring.deck(around, layers);
+  // Nodes j of a circle from -90 to 90 degrees, which have the numbers of the whole: 18 ... 23, 0 ... 6 of 24.
+  const auto kept = [&](int number) {
+    const int j = (number - 1) % around;
+    return j >= 18 || j <= 6;
+  };
+  std::string half;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const std::string record = line.size() > 27 ? line.substr(27) : "";
+    const bool boundary = line.find("C-5.L3!!") != std::string::npos;
+    if (line.find("C-3.L3!!") != std::string::npos && !kept(std::stoi(record.substr(1, 4)))) continue;
+    if (boundary && !kept(std::stoi(record.substr(1, 4)))) continue;
+    if (line.find("C-4.L3!!") != std::string::npos) continue;
+    if (line.find("A-2.L3!!") != std::string::npos) line = line.substr(0, 27) + "STEEL        12";
+    if (line.find("C-3.L3!!") != std::string::npos) line[27] = ' ';
+    if (boundary && line[27] == 'L') line[27] = ' ';
+    const bool first_boundary = boundary && half.find("C-5.L3!!") == std::string::npos;
+    if (first_boundary) {
+      int number = 0;
+      const auto element = [&](int a, int b, int c, int d) {
+        half += cande_line("C-4.L3",
+                           fmt::format("{}{:>4}{:>5}{:>5}{:>5}{:>5}    1    1",
+                                       number + 1 == 12 * (layers + 1) ? "L" : " ", number + 1, a, b, c, d));
+        ++number;
+      };
+      for (int k = 18; k < 30; ++k) element(k % around + 1, (k + 1) % around + 1, 0, 0);
+      for (int i = 0; i < layers; ++i)
+        for (int k = 18; k < 30; ++k) {
+          const int n = i * around + k % around + 1, m = i * around + (k + 1) % around + 1;
+          element(n, n + around, m + around, m);
+        }
+      for (int i = 0; i < layers; ++i)
+        for (const int j : {6, 18})
+          half += cande_line("C-5.L3", fmt::format(" {:>4}    1       0.0    0       0.0", i * around + j + 1));
+    }
+    half += line + "\n";
+  }
+  const scenes::WholeRun whole = run_cande(text), run = run_cande(half);
+  ASSERT_TRUE(whole.completed() && run.completed()) << run.failure;
+  const scenes::PointStresses a = pipe_of(whole, around), b = pipe_of(run, 12);
+  ASSERT_EQ(b.cols(), 36);
+  for (int e = 0; e < 12; ++e)  // beam 18 + e of the whole
+    for (int p = 0; p < 3; ++p)
+      for (const int row : {0, 3})
+        EXPECT_NEAR(b(row, 3 * e + p), a(row, 3 * ((18 + e) % around) + p),
+                    1e-6 * a.row(row).cwiseAbs().maxCoeff());
+}
+
 // Ground that moves away from a pipe without weight, all around: the pipe stays where it is, and carries nothing.
 TEST(Cande, APipeThatTouchesNothingFloats) {
   RingInGround away;
