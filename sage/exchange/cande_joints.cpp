@@ -14,9 +14,12 @@ constexpr double kShearShare = 0.1;  // of the normal stiffness, before slip, in
 // Of the shear stiffness, in the tangent of what slips: without it a pipe that slips all around can spin.  In elastic
 // soil, where shear is as stiff as contact, it comes to 1e-4 of the soil.
 constexpr double kSlipTangent = 1e-4, kSlipTangentInElastic = 1e-8;
+// Of the shear stiffness, without friction: an elastic trace that never slips.  Coordinates and angles with the decimals of
+// their cards leave a round pipe a moment that nothing else could balance.
+constexpr double kSmooth = 1e-10;
 constexpr double kAtOnePlace = 1e-6;  // of the mesh's reach
-constexpr double kSlant =
-    0.2;  // of the way to its soil that a normal shows at least, or it lies along the surface
+// Of the way to its soil that a normal shows at least, or it lies along the surface.
+constexpr double kSlant = 0.2;
 
 }  // namespace
 
@@ -241,11 +244,20 @@ void CandeJoints::add(const Catalogue& catalogue, const SoilStiffness& soils, do
                               {"law", as_number(law_code(catalogue, l.bonded ? "goodman" : "clough_duncan"))},
                               {"name", 0.0, {}, l.bonded ? "link" : "interface"}});
     std::vector<double> values{bond, bond, 1.0};
+    const double along = l.friction > 0.0 ? shear : kSmooth * shear;
     if (!l.bonded)
-      values = {
-          0.0,     std::atan(l.friction) / kRadiansPerDegree, l.tension, 0.0, shear / kCandeWaterWeight, 0.0,
-          contact, l.tension > 0.0 ? contact : 0.0,           0.0};
-    if (!l.bonded) values.insert(values.end(), {0.0, 1e-6, 0.0, soft ? kSlipTangent : kSlipTangentInElastic});
+      values = {0.0,
+                std::atan(l.friction) / kRadiansPerDegree,
+                l.tension,
+                0.0,
+                along / kCandeWaterWeight,
+                0.0,
+                contact,
+                l.tension > 0.0 ? contact : 0.0,
+                l.friction > 0.0 ? 0.0 : along};
+    const double in_slip =
+        l.friction > 0.0 ? (soft ? kSlipTangent : kSlipTangentInElastic) : kSlipTangentInElastic;
+    if (!l.bonded) values.insert(values.end(), {0.0, 1e-6, 0.0, in_slip});
     std::vector<NewField> fields;
     for (const double value : values) fields.push_back({"values", value});
     out.add("parameters", joint.card.where(), fields, card);

@@ -370,6 +370,13 @@ TEST(Cande, HalfAMeshIsTheWholeOne) {
                     1e-6 * a.row(row).cwiseAbs().maxCoeff());
 }
 
+// An odd polygon is not its own mirror image: the decimals of its cards leave it a moment.
+TEST(Cande, ASmoothPipeOfAnOddNumberOfBeamsRuns) {
+  const scenes::WholeRun run =
+      run_cande(RingInGround(true).deck(25, 3, "       0.0       0.0       0.0", false));
+  EXPECT_TRUE(run.completed()) << run.failure;
+}
+
 // Ground that moves away from a pipe without weight, all around: the pipe stays where it is, and carries nothing.
 TEST(Cande, APipeThatTouchesNothingFloats) {
   RingInGround away;
