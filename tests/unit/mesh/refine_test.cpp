@@ -359,6 +359,12 @@ TEST(GradeAuto, FindsWhereSupportsAndLoadsMakeTheSolutionSingular) {
   rough.stages.front().pressures.clear();
   for (const int node : {7, 8, 9}) rough.stages.front().fix(node, 1, 1, 0.0, -0.01);
   EXPECT_EQ(graded_nodes(build(rough.text(), with(0, 0, automatic))), "9 ");
+  // Bars along it are no sides of the soil.
+  rough.material(2, 31, {1e5, 1.0});
+  rough.group(2, 31, 0, 2);
+  rough.element(20, 2, {7, 8});
+  rough.element(21, 2, {8, 9});
+  EXPECT_EQ(graded_nodes(build(rough.text(), with(0, 0, automatic))), "9 ");
 
   // A smooth punch on half the top: where it ends.
   DeckWriter punch = block_deck();
