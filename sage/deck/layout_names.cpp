@@ -111,8 +111,12 @@ constexpr KnownCard kKnown[] = {
     {"mesh", "mesh_nodes", true, "coordinates", "", ""},
     {"mesh", "mesh_elements", true, "nodes", "", ""},
 
-    {"body", "material_values", true, "youngs_modulus poissons_ratio",
-     "undrained_strength friction_angle cohesion dilation_angle bulk_modulus unit_weight consolidation k0", ""},
+    {"body", "material_values", true, "youngs_modulus|permeability_x poissons_ratio|permeability_y",
+     "youngs_modulus poissons_ratio undrained_strength friction_angle cohesion dilation_angle bulk_modulus "
+     "unit_weight consolidation k0 permeability_x permeability_y",
+     ""},
+    {"body", "head", false, "first head", "", ""},
+    {"body", "inflow", false, "first inflow", "", ""},
     {"body", "element_materials", false, "materials", "", ""},
     {"body", "restraints", false, "", "count", ""},
     {"body", "fixity", false, "first x_code|y_code", "last step x_code y_code x_value y_value", ""},

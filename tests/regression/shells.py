@@ -92,7 +92,7 @@ def check_bash(folder):
     solvers = [one["name"] for one in json.loads(output("list", "solvers", "--json"))["result"]["solvers"]]
     expect(bash.offers("sagefe run --solver ") == sorted(solvers), "solvers", bash.offers("sagefe run --solver "))
     fields = [one["name"] for one in json.loads(output("list", "fields", "--json"))["result"]["fields"]]
-    short = ["conf", "dev", "SL", "head", "flow_net", "pore_pressure"]
+    short = ["conf", "dev", "SL", "head", "flow_net", "stream_function", "pore_pressure"]
     expect(set(bash.offers("sagefe run --picture ")) == set(fields + short), "fields", bash.offers("sagefe run --picture "))
     expect(bash.offers("sagefe run --solver=umf") == ["--solver=umfpack"], "behind =", bash.offers("sagefe run --solver=umf"))
     for line in ("sagefe run col", "sagefe check --strict col", "sagefe plot -o out col"):
