@@ -49,6 +49,8 @@ RunWithEnds run_with_ends(const Record& record, const DeckWriter& deck, std::siz
 struct Errors {
   std::string what;
   double theory, gate;
+  double rounding =
+      0.0;  // errors below it show no order: meshes beyond the second that have them are left out of it
   std::vector<double> size = {}, error = {};
 
   void add(double h, double computed, double exact) {
@@ -56,23 +58,25 @@ struct Errors {
     error.push_back(std::abs(computed / exact - 1.0));
   }
   void rows(Record& record, Where where, double slack = 0.15) const {
-    record.order(where, what, size, error, theory, slack);
+    std::size_t shown = size.size();
+    while (shown > 2 && error[shown - 1] < rounding) --shown;
+    record.order(where, what, {size.begin(), size.begin() + static_cast<std::ptrdiff_t>(shown)},
+                 {error.begin(), error.begin() + static_cast<std::ptrdiff_t>(shown)}, theory, slack);
     record.small(where, what + ", finest mesh, relative", error.back(), gate);
   }
 };
 
 void slender(Record& record) {
-  const double h = 1e-3, exact = 1000.0 / (3.0 * 1e4 * h * h * h / 12.0);
+  const double h = 1e-3, E = 1e4, EI = E * h * h * h / 12.0, GA = 5.0 / 6.0 * 0.5 * E * h;
+  const double exact = 1000.0 / (3.0 * EI) + 10.0 / GA;
   const auto deflection = [&](int code, int n) {
-    BeamRow row(1, code, n, {0.0, 0.0}, {10.0, 0.0}, kPlate, {1e4, 0.0, h, 0.0});
+    BeamRow row(1, code, n, {0.0, 0.0}, {10.0, 0.0}, kPlate, {E, 0.0, h, 0.0});
     row.clamp(1);
     row.deck.stage().load(row.last(), 0.0, 1e-9);
     return 1e9 * record.run(row.deck).u(row.last()).y();
   };
   record.near(Where::plane_strain, "deflection, L/h = 1e4, beam2", deflection(kBeam2, 4), exact, 1e-6);
-  Errors quadratic{"deflection, L/h = 1e4, beam3", 4.0, 1e-6};
-  for (const int n : {4, 8, 16}) quadratic.add(10.0 / n, deflection(kBeam3, n), exact);
-  quadratic.rows(record, Where::plane_strain);
+  record.near(Where::plane_strain, "deflection, L/h = 1e4, beam3", deflection(kBeam3, 16), exact, 1e-6);
 }
 
 // B2 of the numbers: EI = 1000, length 10 with free ends, on springs of 100 for each unit of length and width; force 1 down
@@ -342,6 +346,7 @@ void ring(Record& record) {
                 exact.moment(0.5 * kPi), r.moment, 1e-7);
     exact.of_curvature = false;
     exact.solve();
+    const double rounding = r.bonded ? 0.0 : 5e-7;  // springs of 1e6 across and 1e-3 along: nine digits apart
     const double between = std::max(std::abs(r.crown), std::abs(r.springline)) * r.EI / r.EA;  // N EI/(EA a)
     record.within(Where::plane_strain, "moment from theta' and from curvature, " + name,
                   exact.moment(0.5 * kPi), r.moment, between);
@@ -351,11 +356,12 @@ void ring(Record& record) {
       exact.kn = 1e6;
       exact.solve();
     }
-    Errors down{"displacement of the crown, " + name, 4.0, 1e-6},
-        out{"displacement of the springline, " + name, 4.0, 1e-6};
-    Errors thrust{"thrust at nodes, " + name, 4.0, 1e-6}, moment{"moment at nodes, " + name, 4.0, 1e-6};
-    Errors thrust_inside{"thrust at all points, " + name, 3.0, 1e-6},
-        moment_inside{"moment at all points, " + name, 3.0, 1e-6};
+    Errors down{"displacement of the crown, " + name, 4.0, 1e-6, rounding},
+        out{"displacement of the springline, " + name, 4.0, 1e-6, rounding};
+    Errors thrust{"thrust at nodes, " + name, 4.0, 1e-6, rounding},
+        moment{"moment at nodes, " + name, 4.0, 1e-6, rounding};
+    Errors thrust_inside{"thrust at all points, " + name, 3.0, 1e-6, rounding},
+        moment_inside{"moment at all points, " + name, 3.0, 1e-6, rounding};
     for (const int n : {15, 30, 60}) {
       scene.around = n;
       scene.out = 2 * n / 3;
@@ -615,7 +621,7 @@ Section structure_cases() {
           {{"structures.cantilever", "cantilever of plates and of strips, one element as eight", by_hand,
             Grade::exact, "rounding times the condition number", cantilever},
            {"structures.slender", "cantilever of L/h = 1e4: no locking", by_hand, Grade::exact,
-            "rounding times the condition number, 1e10; of beam3 its discretisation", slender},
+            "rounding times the condition number, 1e10", slender},
            {"structures.propped_wall", "wall under a triangle of pressure, propped, its prop rigid or a spring",
             "force method", Grade::exact, "exact at nodes: rounding", propped},
            {"structures.hetenyi", "beam with free ends on springs (interface elements)", "Hetenyi 1946",
