@@ -1,17 +1,19 @@
-#include "sage/build/solid_edges.hpp"
+#include "sage/model/solid_edges.hpp"
 
 #include <algorithm>
 
-namespace sage::build {
+namespace sage {
 
 namespace {
 
+using Wanted = std::function<bool(std::size_t group)>;
+
 // act(group, element, local, from, to) for every edge of every solid.
 template <class Act>
-void for_edges(const Model& model, const Act& act) {
+void for_edges(const Model& model, const Wanted& wanted, const Act& act) {
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     const Group& group = model.groups[g];
-    if (!group.solid()) continue;
+    if (!wanted(g)) continue;
     const auto& edges = group.element->edges();
     for (int e = 0; e < group.elements(); ++e) {
       const int* nodes = group.nodes_of(e);
@@ -23,14 +25,18 @@ void for_edges(const Model& model, const Act& act) {
 
 }  // namespace
 
-SolidEdges::SolidEdges(const Model& model) : first_(static_cast<std::size_t>(model.mesh.nodes()) + 1, 0) {
-  for_edges(model, [&](int, int, std::int16_t, int from, int to) {
+SolidEdges::SolidEdges(const Model& model)
+    : SolidEdges(model, [&](std::size_t g) { return model.groups[g].solid(); }) {}
+
+SolidEdges::SolidEdges(const Model& model, const Wanted& wanted)
+    : first_(static_cast<std::size_t>(model.mesh.nodes()) + 1, 0) {
+  for_edges(model, wanted, [&](int, int, std::int16_t, int from, int to) {
     ++first_[static_cast<std::size_t>(std::min(from, to)) + 1];
   });
   for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
   edges_.resize(first_.back());
   std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-  for_edges(model, [&](int group, int element, std::int16_t local, int from, int to) {
+  for_edges(model, wanted, [&](int group, int element, std::int16_t local, int from, int to) {
     edges_[next[static_cast<std::size_t>(std::min(from, to))]++] = {std::max(from, to), group, element, local,
                                                                     from > to};
   });
@@ -47,4 +53,10 @@ SolidEdges::SolidEdges(const Model& model) : first_(static_cast<std::size_t>(mod
   }
 }
 
-}  // namespace sage::build
+bool SolidEdges::has(int from, int to) const {
+  return std::ranges::any_of(at(std::min(from, to)), [&](const SolidEdge& edge) {
+    return edge.other == std::max(from, to) && edge.reversed == (from > to);
+  });
+}
+
+}  // namespace sage
