@@ -399,9 +399,7 @@ void build_water(Builder& b) {
   }
   check_undrained(b);
   warn_of_water_cards(b);
-  if (!b.model.water.empty())
-    for (FieldEntry& row : water_fields())
-      if (b.model.fields.clash(row).empty()) b.model.fields.add(std::move(row));
+  if (!b.model.water.empty()) b.model.fields.add_free(water_fields());
   b.water_nodes = b.model.mesh.nodes();
 }
 

@@ -351,9 +351,7 @@ std::vector<Component> components_of(const FieldList& fields, const UnitSystem& 
 // The rows that either side's results have.
 FieldTable table_of(const Side& a, const Side& b) {
   FieldTable table = a.has_model() ? fields_of(a.model()) : FieldTable();
-  const FieldTable of_b = b.has_model() ? fields_of(b.model()) : FieldTable();
-  for (const FieldEntry& row : of_b.rows())
-    if (table.clash(row).empty()) table.add(row);
+  table.add_free((b.has_model() ? fields_of(b.model()) : FieldTable()).rows());
   return table;
 }
 

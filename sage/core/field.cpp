@@ -90,6 +90,11 @@ void FieldTable::add(FieldEntry entry) {
   rows_->push_back(std::move(entry));
 }
 
+void FieldTable::add_free(std::span<const FieldEntry> rows) {
+  for (const FieldEntry& row : rows)
+    if (clash(row).empty()) add(row);
+}
+
 FieldTable FieldTable::without(const std::function<bool(const FieldEntry&)>& left_out) const {
   FieldTable table;
   table.rows_ = std::make_shared<std::vector<FieldEntry>>();

@@ -160,6 +160,8 @@ class FieldTable {
  public:
   // Throws std::logic_error on a row without a name, and on one that clashes.
   void add(FieldEntry entry);
+  // The rows that clash with none of it.
+  void add_free(std::span<const FieldEntry> rows);
   // The same without some of its rows.
   FieldTable without(const std::function<bool(const FieldEntry&)>& left_out) const;
   // Why results can't have the row too: its name is taken, or some file would have two columns (or tables) of one

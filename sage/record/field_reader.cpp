@@ -104,12 +104,9 @@ std::vector<FieldEntry> flow_fields(const Model& model) {
 
 FieldTable fields_of(const Model& model) {
   FieldTable table = model.fields;
-  for (FieldEntry& row : unknown_fields(model))
-    if (table.clash(row).empty()) table.add(std::move(row));
-  for (FieldEntry& row : flow_fields(model))
-    if (table.clash(row).empty()) table.add(std::move(row));
-  for (FieldEntry& row : history_fields(model))
-    if (table.clash(row).empty()) table.add(std::move(row));
+  table.add_free(unknown_fields(model));
+  table.add_free(flow_fields(model));
+  table.add_free(history_fields(model));
   return table;
 }
 
@@ -175,9 +172,14 @@ bool applies(const FieldEntry& entry, const GroupData& data) {
 }
 
 void read_field(const FieldEntry& entry, const PointState& point, double* value) {
-  if (!applies(entry, point.kind, point.view.law))
+  if (applies(entry, point.kind, point.view.law))
+    read_applying(entry, point, value);
+  else
     set_none(entry, value);
-  else if (const auto* stress = std::get_if<StressField>(&entry.value))
+}
+
+void read_applying(const FieldEntry& entry, const PointState& point, double* value) {
+  if (const auto* stress = std::get_if<StressField>(&entry.value))
     stress->of(point.stress, value);
   else if (const auto* strain = std::get_if<StrainField>(&entry.value))
     strain->of(point.strain, value);

@@ -42,6 +42,8 @@ bool applies(const FieldEntry& entry, const GroupData& data);
 
 // entry.size() numbers.  At a point where the row does not apply: NaN.
 void read_field(const FieldEntry& entry, const PointState& point, double* value);
+// The same of a field that applies.
+void read_applying(const FieldEntry& entry, const PointState& point, double* value);
 void read_field(const FieldEntry& entry, const NodeView& node, double* value);
 void read_field(const FieldEntry& entry, const ElementView& element, double* value);
 void read_field(const FieldEntry& entry, const IncrementView& increment, double* value);

@@ -165,8 +165,7 @@ void nodes(std::string& text, const Model& model, const Solution& solution,
   const AxisNames axes = axis_names(model.geometry);
   const std::vector<char> active = active_nodes(model, *solution.activity);
   FieldTable table = model.fields;
-  for (FieldEntry& row : flow_fields(model))
-    if (table.clash(row).empty()) table.add(std::move(row));
+  table.add_free(flow_fields(model));
   const FieldEntry &moved = *table.find("displacement"), &reaction = *table.find("reaction");
   const std::vector<FieldEntry> unknowns = unknown_fields(model);
   FieldList wide;

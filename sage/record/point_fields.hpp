@@ -12,40 +12,32 @@ class PointFields {
  public:
   // The fields must outlive it.
   PointFields(const FieldList& fields, const GroupData& data) {
-    for (const FieldEntry* field : fields)
-      rows_.push_back({field, applies(*field, data), std::get_if<StressField>(&field->value),
-                       std::get_if<StrainField>(&field->value), std::get_if<PointField>(&field->value)});
+    for (const FieldEntry* field : fields) {
+      const bool tensor = std::holds_alternative<StressField>(field->value) ||
+                          std::holds_alternative<StrainField>(field->value);
+      rows_.push_back({field, applies(*field, data), tensor});
+    }
   }
 
-  // As read_field() of the field at this place of the list.
+  // As read_field() and carry() of the field at this place of the list.
   void read(std::size_t field, const PointState& point, double* value) const {
     const Row& row = rows_[field];
-    if (!row.applies)
+    if (row.applies)
+      read_applying(*row.entry, point, value);
+    else
       std::fill_n(value, row.entry->size(), std::numeric_limits<double>::quiet_NaN());
-    else if (row.stress != nullptr)
-      row.stress->of(point.stress, value);
-    else if (row.strain != nullptr)
-      row.strain->of(point.strain, value);
-    else
-      row.point->of(point.view, value);
   }
-  // As carry().
   void carry(std::size_t field, const PointState& point, double* parts) const {
-    const Row& row = rows_[field];
-    if (row.stress == nullptr && row.strain == nullptr) return read(field, point, parts);
-    if (point.solid)
-      Vector4::Map(parts) = row.stress != nullptr ? point.stress : point.strain;
+    if (rows_[field].of_tensor)
+      sage::carry(*rows_[field].entry, point, parts);
     else
-      std::fill_n(parts, 4, std::numeric_limits<double>::quiet_NaN());
+      read(field, point, parts);
   }
 
  private:
   struct Row {
     const FieldEntry* entry;
-    bool applies;
-    const StressField* stress;
-    const StrainField* strain;
-    const PointField* point;
+    bool applies, of_tensor;  // of stress or strain
   };
   std::vector<Row> rows_;
 };
