@@ -3,12 +3,6 @@
 
 namespace sage {
 
-// A factorisation costs a dozen force passes and solutions there.
-inline bool contraction_pays(int equations) {
-  constexpr int kLarge = 20000;
-  return equations > kLarge;
-}
-
 // Forces out of balance after a correction and before it.
 inline bool contracts_poorly(double norm, double old_norm) {
   constexpr double kGoodContraction = 0.2;

@@ -9,13 +9,6 @@
 
 namespace sage {
 
-// In a linear scene: a correction with kept factors costs little in small meshes, and mends the rounding of the steps
-// before, which repetitions keep.
-inline bool repeats_pay(int equations) {
-  constexpr int kLarge = 20000;
-  return equations > kLarge;
-}
-
 class Repeats {
  public:
   // After a step that was solved.  size: its share of the stage.  linear: one correction, and the very same K at its

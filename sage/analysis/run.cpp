@@ -264,12 +264,14 @@ void Run::prepare_stage(int s) {
 
 bool Run::contracts(const Stage& stage) const {
   return settings_.skips.contraction && stage.method == Method::newton && !tangent_.constant() &&
-         contraction_pays(assembly_.equations());
+         is_large(assembly_.equations());
 }
 
 bool Run::can_repeat(const Stage& stage, double size) const {
   const bool newton = stage.method == Method::newton || stage.method == Method::dogleg;
-  const bool pays = !tangent_.constant() || (!water_alone_ && repeats_pay(assembly_.equations()));
+  // In a small linear scene a correction with kept factors costs little, and mends the rounding of the steps before, which
+  // repetitions keep.
+  const bool pays = !tangent_.constant() || (!water_alone_ && is_large(assembly_.equations()));
   return settings_.skips.repeats && newton && pays && path_.repeats.due(size);
 }
 

@@ -8,6 +8,12 @@
 
 namespace sage {
 
+// From here on a factorisation costs a dozen force passes and solutions, and a solution more than a force pass.
+inline bool is_large(int equations) {
+  constexpr int kLarge = 20000;
+  return equations > kLarge;
+}
+
 struct Skips {
   bool factors = true;       // factors are kept while K has not changed
   bool elements = true;      // linear elements: K once, one for congruent elements; forces by K u

@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "sage/build/builder.hpp"
 #include "sage/deck/text.hpp"
@@ -182,16 +183,13 @@ void note_unused_nodes(Builder& b) {
 
 // Materials that no group refers to are read and then ignored.
 void note_unused_materials(Builder& b) {
-  std::vector<char> used(b.model.materials.size(), 0);
-  for (const Group& group : b.model.groups) used[static_cast<std::size_t>(group.material)] = 1;
-  // Undrained groups have a twin of their material, which bears its number.
-  for (std::size_t m = 0; m < used.size(); ++m)
-    for (std::size_t k = 0; k < used.size(); ++k)
-      if (used[k] != 0 && b.model.materials[k].number == b.model.materials[m].number) used[m] = 1;
-  for (std::size_t m = 0; m < used.size(); ++m)
-    if (!used[m])
-      b.note("S329", b.model.materials[m].where,
-             "material " + std::to_string(b.model.materials[m].number) + " is used by no group and is ignored");
+  // By numbers: undrained groups have a twin of their material, which bears its number.
+  std::set<int> used;
+  for (const Group& group : b.model.groups) used.insert(b.model.material_of(group).number);
+  for (const Material& material : b.model.materials)
+    if (!used.contains(material.number))
+      b.note("S329", material.where,
+             "material " + std::to_string(material.number) + " is used by no group and is ignored");
 }
 
 // What the laws themselves find worth a warning, once a group.

@@ -156,8 +156,8 @@ struct WaterCard {
   int group = -1;  // index; -1 = all solids.  Of structures: the free water on their sides
   WaterKind kind = WaterKind::dry;
   WaterAction action = WaterAction::edges;
-  double value =
-      0.0;  // ratio: r_u.  undrained: bulk of water / porosity.  structures: > 0 left side, < 0 right, 0 both
+  // ratio: r_u.  undrained: bulk of the water over the porosity.  structures: > 0 left side, < 0 right, 0 both
+  double value = 0.0;
   std::vector<Vector2> line;                  // by rising x
   std::vector<std::pair<int, double>> nodes;  // node index and pressure
   SourcePosition where;
