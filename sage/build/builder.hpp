@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "sage/build/build_model.hpp"
-#include "sage/build/solid_edges.hpp"
 #include "sage/deck/deck.hpp"
 #include "sage/mesh/work.hpp"
 #include "sage/model/dof_map.hpp"
+#include "sage/model/solid_edges.hpp"
 
 namespace sage::build {
 

@@ -459,17 +459,6 @@ void refuse_overlaps(Builder& b, const std::vector<std::pair<Solid, Solid>>& fou
           text + " (a group that lies on others on purpose says so: overlay 1)");
 }
 
-using Edge = std::pair<int, int>;  // from corner to corner, its element on the left
-
-// act(edge) for all edges of an element, until one is what is looked for.
-template <class Act>
-bool any_edge(const Group& group, int element, const Act& act) {
-  const int* const nodes = group.nodes_of(element);
-  return std::ranges::any_of(group.element->edges(), [&](const std::vector<int>& edge) {
-    return act(Edge{nodes[edge[0]], nodes[edge[1]]});
-  });
-}
-
 // Elements of water on those of soil, of a group that does not say so: its edges would count as the neighbours of the
 // soil's, none of them be a free one, and nodes made on them not be held.  Where they have an edge in common with the
 // soil on the same hand, they cover it, whatever shapes both have.
@@ -477,17 +466,15 @@ void refuse_water_in_soil(Builder& b) {
   const std::vector<Group>& groups = b.model.groups;
   const auto unnamed = [](const Group& group) { return group.flow() && !group.overlay; };
   if (std::ranges::none_of(groups, unnamed)) return;
-  std::vector<Edge> solids;
-  for (const Group& group : groups)
-    for (int e = 0; group.solid() && e < group.elements(); ++e)
-      any_edge(group, e, [&](const Edge& edge) {
-        solids.push_back(edge);
-        return false;
-      });
-  std::ranges::sort(solids);
+  const SolidEdges& solids = b.solid_edges();
+  const auto on_solid = [&](const Group& group, const int* nodes) {
+    return std::ranges::any_of(group.element->edges(), [&](const std::vector<int>& edge) {
+      return solids.has(nodes[edge[0]], nodes[edge[1]]);
+    });
+  };
   for (const Group& group : groups)
     for (int e = 0; unnamed(group) && e < group.elements(); ++e)
-      if (any_edge(group, e, [&](const Edge& edge) { return std::ranges::binary_search(solids, edge); })) {
+      if (on_solid(group, group.nodes_of(e))) {
         b.error("S326", group.where,
                 "group " + std::to_string(group.number) + ": water flows through element " +
                     std::to_string(group.element_numbers[static_cast<std::size_t>(e)]) +

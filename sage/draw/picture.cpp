@@ -17,6 +17,7 @@
 #include "sage/draw/plot.hpp"
 #include "sage/draw/scenery.hpp"
 #include "sage/draw/svg.hpp"
+#include "sage/model/solid_edges.hpp"
 #include "sage/record/values.hpp"
 
 namespace sage {
@@ -87,57 +88,21 @@ void append_line(std::string& path, const Eigen::Matrix2Xd& places) {
     fmt::format_to(std::back_inserter(path), "{}{:.2f} {:.2f}", i == 0 ? 'M' : 'L', places(0, i), places(1, i));
 }
 
-// An edge of an element of a group; by the numbers of its end nodes.
-struct Edge {
-  std::pair<int, int> ends;
-  int group = 0, element = 0, edge = 0;
-};
-
-// By their ends; a list of all would take long to sort, of those at one node are few.
-std::vector<Edge> sorted(const std::vector<Edge>& edges, int nodes) {
-  std::vector<std::size_t> next(static_cast<std::size_t>(nodes) + 1, 0);
-  for (const Edge& edge : edges) ++next[static_cast<std::size_t>(edge.ends.first) + 1];
-  for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
-  const std::vector<std::size_t> first(next);
-  std::vector<Edge> result(edges.size());
-  for (const Edge& edge : edges) result[next[static_cast<std::size_t>(edge.ends.first)]++] = edge;
-  for (std::size_t i = 0; i + 1 < first.size(); ++i)
-    std::sort(result.begin() + static_cast<std::ptrdiff_t>(first[i]),
-              result.begin() + static_cast<std::ptrdiff_t>(first[i + 1]),
-              [](const Edge& a, const Edge& b) { return a.ends.second < b.ends.second; });
-  return result;
-}
-
 // Edges of solids that only one element has, undeformed; not those along a line of symmetry.
 void draw_outline(std::string& out, Scenery& scenery) {
-  std::vector<Edge> edges;
-  for (std::size_t g = 0; g < scenery.model.groups.size(); ++g) {
-    if (!scenery.draws(g, ElementKind::solid)) continue;
-    const Group& group = scenery.model.groups[g];
-    const auto& sides = group.element->edges();
-    edges.reserve(edges.size() + static_cast<std::size_t>(group.elements()) * sides.size());
-    for (int e = 0; e < group.elements(); ++e)
-      for (std::size_t k = 0; k < sides.size(); ++k) {
-        const auto [low, high] = std::minmax(group.nodes_of(e)[sides[k][0]], group.nodes_of(e)[sides[k][1]]);
-        edges.push_back({{low, high}, static_cast<int>(g), e, static_cast<int>(k)});
-      }
-  }
-  edges = sorted(edges, scenery.model.mesh.nodes());
+  const Model& model = scenery.model;
+  const auto on_seam = [&](int node) { return scenery.view.on_seam(model.mesh.x.col(node)); };
   out += "<g fill=\"none\" stroke=\"#666666\" stroke-width=\"1\" stroke-dasharray=\"5 4\">\n";
-  for (std::size_t first = 0, next = 0; first < edges.size(); first = next) {
-    const Edge& edge = edges[first];
-    while (next < edges.size() && edges[next].ends == edge.ends) ++next;
-    const Eigen::Matrix2Xd& x = scenery.model.mesh.x;
-    if (next - first != 1 ||
-        (scenery.view.on_seam(x.col(edge.ends.first)) && scenery.view.on_seam(x.col(edge.ends.second))))
-      continue;
-    const Group& group = scenery.model.groups[static_cast<std::size_t>(edge.group)];
+  const SolidEdges edges(model, [&](std::size_t g) { return scenery.draws(g, ElementKind::solid); });
+  edges.for_single([&](int node, const SolidEdge& edge) {
+    if (on_seam(node) && on_seam(edge.other)) return;
+    const Group& group = model.groups[static_cast<std::size_t>(edge.group)];
     const Eigen::Matrix2Xd nodes = scenery.nodes_of(group, edge.element, 0.0);
     const SubGrid& grid = grid_for(scenery, group, nodes);
     std::string path;
-    append_line(path, nodes * grid.N(grid.edges[static_cast<std::size_t>(edge.edge)], Eigen::all).transpose());
+    append_line(path, nodes * grid.N(grid.edges[static_cast<std::size_t>(edge.local)], Eigen::all).transpose());
     fmt::format_to(std::back_inserter(out), "<path d=\"{}\"/>\n", path);
-  }
+  });
   out += "</g>\n";
 }
 

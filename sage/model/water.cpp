@@ -7,6 +7,8 @@
 #include <numbers>
 #include <set>
 
+#include "sage/model/solid_edges.hpp"
+
 namespace sage {
 
 namespace {
@@ -309,67 +311,63 @@ double PorePressure::at_point(std::size_t group, int element, int point) const {
   return at(group, element, place, mapped.N);
 }
 
+namespace {
+
+SolidEdges edges_of_active(const Model& model, const std::vector<char>& groups) {
+  return SolidEdges(model, [&](std::size_t g) { return groups[g] && model.groups[g].solid(); });
+}
+
+}  // namespace
+
 std::vector<FreeEdge> free_edges(const Model& model, const std::vector<char>& groups) {
-  std::map<std::pair<int, int>, std::pair<FreeEdge, int>> seen;
   std::set<int> structures;
-  for (std::size_t g = 0; g < model.groups.size(); ++g) {
-    const Group& group = model.groups[g];
-    if (groups[g] && group.structure()) structures.insert(group.nodes.begin(), group.nodes.end());
-    if (!groups[g] || !group.solid()) continue;
-    for (int e = 0; e < group.elements(); ++e)
-      for (std::size_t k = 0; k < group.element->edges().size(); ++k) {
-        const std::vector<int>& edge = group.element->edges()[k];
-        auto& [first, count] = seen[edge_key(group.nodes_of(e)[edge[0]], group.nodes_of(e)[edge[1]])];
-        if (count++ == 0) first = {static_cast<int>(g), e, static_cast<int>(k)};
-      }
-  }
+  for (std::size_t g = 0; g < model.groups.size(); ++g)
+    if (groups[g] && model.groups[g].structure())
+      structures.insert(model.groups[g].nodes.begin(), model.groups[g].nodes.end());
   std::vector<FreeEdge> free;
-  for (auto& [nodes, edge] : seen) {
-    if (edge.second != 1) continue;
-    edge.first.on_structure = structures.contains(nodes.first) && structures.contains(nodes.second);
-    free.push_back(edge.first);
-  }
+  edges_of_active(model, groups).for_single([&](int node, const SolidEdge& edge) {
+    const bool on_structure = structures.contains(node) && structures.contains(edge.other);
+    free.push_back({edge.group, edge.element, edge.local, on_structure});
+  });
   return free;
 }
 
 namespace {
 
-// Directed edges, from corner to corner, on whose left an active solid lies, or a joint with one behind it.
-std::set<std::pair<int, int>> covered_edges(const Model& model, const std::vector<char>& groups) {
-  std::set<std::pair<int, int>> covered;
-  const auto each = [&](auto is_kind, auto act) {
-    for (std::size_t g = 0; g < model.groups.size(); ++g)
-      if (groups[g] && is_kind(model.groups[g]))
-        for (int e = 0; e < model.groups[g].elements(); ++e) act(model.groups[g], model.groups[g].nodes_of(e));
-  };
-  each([](const Group& group) { return group.solid(); },
-       [&](const Group& group, const int* nodes) {
-         for (const std::vector<int>& edge : group.element->edges())
-           covered.emplace(nodes[edge[0]], nodes[edge[1]]);
-       });
-  std::vector<std::pair<int, int>> joints;
-  each([](const Group& group) { return group.interface(); },
-       [&](const Group&, const int* n) {
-         // Its sides go from 1 to 2 and from 3 to 4; what lies behind one has it the other way round.
-         if (covered.contains({n[3], n[2]})) joints.emplace_back(n[0], n[1]);
-         if (covered.contains({n[1], n[0]})) joints.emplace_back(n[2], n[3]);
-       });
-  covered.insert(joints.begin(), joints.end());
-  return covered;
+// Sides of active joints, from corner to corner, with an active solid behind the other side.
+std::set<std::pair<int, int>> backed_joints(const Model& model, const std::vector<char>& groups,
+                                            const SolidEdges& solids) {
+  std::set<std::pair<int, int>> joints;
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const Group& group = model.groups[g];
+    if (!groups[g] || !group.interface()) continue;
+    for (int e = 0; e < group.elements(); ++e) {
+      // Its sides go from 1 to 2 and from 3 to 4; what lies behind one has it the other way round.
+      const int* const n = group.nodes_of(e);
+      if (solids.has(n[3], n[2])) joints.emplace(n[0], n[1]);
+      if (solids.has(n[1], n[0])) joints.emplace(n[2], n[3]);
+    }
+  }
+  return joints;
 }
 
 }  // namespace
 
 std::vector<BesideStructure> structures_beside_water(const Model& model, const std::vector<char>& groups) {
-  const std::set<std::pair<int, int>> covered = covered_edges(model, groups);
   std::vector<BesideStructure> list;
+  bool any = false;
+  for (std::size_t g = 0; g < model.groups.size(); ++g) any = any || (groups[g] && model.groups[g].structure());
+  if (!any) return list;
+  const SolidEdges solids = edges_of_active(model, groups);
+  const std::set<std::pair<int, int>> joints = backed_joints(model, groups, solids);
+  const auto covered = [&](int from, int to) { return solids.has(from, to) || joints.contains({from, to}); };
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     const Group& group = model.groups[g];
     if (!groups[g] || !group.structure() || group.element->edges().empty()) continue;
     const std::vector<int>& edge = group.element->edges().front();
     for (int e = 0; e < group.elements(); ++e) {
       const int a = group.nodes_of(e)[edge[0]], b = group.nodes_of(e)[edge[1]];
-      list.push_back({static_cast<int>(g), e, !covered.contains({a, b}), !covered.contains({b, a})});
+      list.push_back({static_cast<int>(g), e, !covered(a, b), !covered(b, a)});
     }
   }
   return list;

@@ -81,7 +81,8 @@ class Overburden {
 double water_level(const WaterCard& card, double x);
 
 // What water does to the mesh at the end of a stage, one entry a dof: its pressure in the solids (sum of B^T u),
-// and on their free edges and in their joints, and on free sides of structures that have a card; or, of cards that say so, seepage force and buoyancy (-grad u).
+// and on their free edges and in their joints, and on free sides of structures that have a card; or, of cards that say
+// so, seepage force and buoyancy (-grad u).
 // Shape functions are taken as they are, without B-bar, by a rule that is exact on straight-sided elements.
 Eigen::VectorXd water_force(const Model& model, const Activity& activity, const PorePressure& water);
 

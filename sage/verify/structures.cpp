@@ -525,27 +525,33 @@ void edge_loads(Record& record) {
   }
 }
 
-// A sphere, a = 1, t = .1, E = 1000, nu = .3, under a pressure of 1 inside: membrane alone.
+// A meridian of a sphere, a = 1, from the equator (node 1) up to an angle in degrees, under a pressure of 1 inside; plate:
+// E, nu, t.
+DeckWriter sphere_deck(int code, int n, double angle, const std::vector<double>& plate) {
+  DeckWriter deck(2);
+  const int order = code == kBeam2 ? 1 : 2, last = order * n + 1;
+  for (int i = 0; i < last; ++i) deck.node(i + 1, 1.0, angle * i / (last - 1), true);
+  deck.material(1, kPlate, plate);
+  deck.group(1, code, 0, 1);
+  StageCards& stage = deck.stage();
+  for (int e = 0; e < n; ++e) {
+    std::vector<int> nodes{order * e + 1, order * (e + 1) + 1};
+    if (order == 2) nodes.push_back(2 * e + 2);
+    deck.element(e + 1, 1, nodes);
+    stage.pressure(e + 1, 1, -1.0, -1.0);
+  }
+  deck.fixities.push_back(rotation_held(1));
+  return deck;
+}
+
+// t = .1, E = 1000, nu = .3: membrane alone.
 void spherical_shell(Record& record) {
   for (const auto& [code, name, theory] : {std::tuple{kBeam2, "beam2", 2.0}, {kBeam3, "beam3", 4.0}}) {
     Errors w{fmt::format("radial displacement of the equator, {}", name), theory, 1e-6};
     for (const int n : code == kBeam2 ? std::vector{250, 500, 1000} : std::vector{16, 32, 64}) {
-      DeckWriter deck(2);
-      const int order = code == kBeam2 ? 1 : 2, last = order * n + 1;
-      for (int i = 0; i < last; ++i) deck.node(i + 1, 1.0, 90.0 * i / (last - 1), true);
-      deck.material(1, kPlate, {1000.0, 0.3, 0.1});
-      deck.group(1, code, 0, 1);
-      StageCards stage;
-      for (int e = 0; e < n; ++e) {
-        std::vector<int> nodes{order * e + 1, order * (e + 1) + 1};
-        if (order == 2) nodes.push_back(2 * e + 2);
-        deck.element(e + 1, 1, nodes);
-        stage.pressure(e + 1, 1, -1.0, -1.0);
-      }
+      DeckWriter deck = sphere_deck(code, n, 90.0, {1000.0, 0.3, 0.1});
       deck.fix(1, 0, 1);
-      deck.fixities.push_back(rotation_held(1));
-      deck.fix(last, 1, 0);
-      deck.stages.push_back(stage);
+      deck.fix(static_cast<int>(deck.nodes.size()), 1, 0);
       w.add(1.0 / n, record.run(deck).u(1).x(), 0.0035);
     }
     w.rows(record, Where::axisymmetric);
@@ -584,23 +590,11 @@ void sphere_edge(Record& record) {
            shear = errors("shear force at the clamp");
     double thrust = 0.0;
     for (const int n : code == kBeam2 ? std::vector{600, 1200, 2400} : std::vector{24, 48, 96}) {
-      DeckWriter deck(2);
-      const int order = code == kBeam2 ? 1 : 2, last = order * n + 1;
-      for (int i = 0; i < last; ++i) deck.node(i + 1, 1.0, exact.opening * i / (last - 1), true);
-      deck.material(1, kPlate, {exact.E, exact.nu, exact.t});
-      deck.group(1, code, 0, 1);
-      StageCards stage;
-      for (int e = 0; e < n; ++e) {
-        std::vector<int> nodes{order * e + 1, order * (e + 1) + 1};
-        if (order == 2) nodes.push_back(2 * e + 2);
-        deck.element(e + 1, 1, nodes);
-        stage.pressure(e + 1, 1, -1.0, -1.0);
-      }
+      DeckWriter deck = sphere_deck(code, n, exact.opening, {exact.E, exact.nu, exact.t});
       deck.fix(1, 1, 1);
-      deck.fixities.push_back(rotation_held(1));
-      deck.stages.push_back(stage);
+      const int last = static_cast<int>(deck.nodes.size());
       const auto [run, ends] = run_with_ends(record, deck);
-      near.add(1.0 / n, run.u(order * n / 6 + 1).x(), exact.at(10.0).u);
+      near.add(1.0 / n, run.u((last - 1) / 6 + 1).x(), exact.at(10.0).u);
       opening.add(1.0 / n, run.u(last).x(), exact.at(60.0).u);
       moment.add(1.0 / n, ends.front().M, exact.at(0.0).M);
       shear.add(1.0 / n, ends.front().Q(Vector2::UnitY()), exact.at(0.0).Q);

@@ -325,19 +325,28 @@ TEST(Skips, AreTaken) {
   EXPECT_LE(strong.factorisations, 3);
 }
 
+// A square that is held below and pushed down above, in so many increments.
+struct PushedSquare {
+  DeckWriter deck{1};
+  Block block;
+
+  PushedSquare(int columns, int rows, int increments)
+      : block{columns, rows, Cell::quad4, 1, 1, rectangle(0.0, 1.0, 0.0, 1.0)} {
+    block.write_nodes(deck);
+    deck.material(1, 1, {1e4, 0.3});
+    deck.group(1, 1, 1, 1);
+    block.write_elements(deck, 1);
+    for (int n : block.bottom()) deck.fix(n, 1, 1);
+    StageCards& push = deck.stage(increments);
+    for (int n : block.top()) push.fix(n, 0, 1, 0.0, -0.01);
+  }
+};
+
 // Factors that serve a second stage, in which nothing moves a support: the displacements of the first one have no
 // part in its first correction, which is the whole answer.
 TEST(Skips, KeptFactorsForgetWhatMovedBefore) {
-  DeckWriter deck(1);
-  Block block{4, 4, Cell::quad4, 1, 1, rectangle(0.0, 1.0, 0.0, 1.0)};
-  block.write_nodes(deck);
-  deck.material(1, 1, {1e4, 0.3});
-  deck.group(1, 1, 1, 1);
-  block.write_elements(deck, 1);
-  for (int n : block.bottom()) deck.fix(n, 1, 1);
+  auto [deck, block] = PushedSquare(4, 4, 1);
   for (int n : block.top()) deck.fix(n, 0, 1);
-  StageCards& move = deck.stage(1);
-  for (int n : block.top()) move.fix(n, 0, 1, 0.0, -0.01);
   deck.stage(1).pressure(block.element(3, 1), 2, 20.0, 20.0);
   const WholeRun run = run_text(deck.text());
   EXPECT_EQ(run.last().stage, 1);
@@ -348,16 +357,8 @@ TEST(Skips, KeptFactorsForgetWhatMovedBefore) {
 // Increments of a large linear scene are one step again and again; what that leaves out of balance does not grow with
 // them.
 TEST(Skips, LinearIncrementsAreRepeatedInLargeMeshes) {
-  DeckWriter deck(1);
-  Block block{110, 100, Cell::quad4, 1, 1, rectangle(0.0, 1.0, 0.0, 1.0)};
-  block.write_nodes(deck);
-  deck.material(1, 1, {1e4, 0.3});
-  deck.group(1, 1, 1, 1);
-  block.write_elements(deck, 1);
-  for (int n : block.bottom()) deck.fix(n, 1, 1);
-  StageCards& push = deck.stage(5);
-  for (int n : block.top()) push.fix(n, 0, 1, 0.0, -0.01);
-  push.pressure(block.element(109, 50), 1, 20.0, 20.0);
+  auto [deck, block] = PushedSquare(110, 100, 5);
+  deck.stages.front().pressure(block.element(109, 50), 1, 20.0, 20.0);
   RunSettings solved;
   solved.skips.repeats = false;
   const WholeRun one = run_text(deck.text()), other = run_text(deck.text(), {}, solved);
