@@ -643,6 +643,7 @@ bool Run::run_stage(int s, int done) {
   const Stage& stage = model_.stages[static_cast<std::size_t>(s)];
   if (done == 0) begin_stage(s);
   const bool whole_stages_only = stage.method == Method::initial_stiffness && !tangent_.constant();
+  const bool is_last = settings_.trials == nullptr && s + 1 == static_cast<int>(model_.stages.size());
   double last_force = 0.0;  // out of balance at the end of the last increment, relative
   double reached = static_cast<double>(done) / stage.increments;
   for (int i = done + 1; i <= stage.increments; ++i) {
@@ -653,6 +654,7 @@ bool Run::run_stage(int s, int done) {
     report.load_factor = reached;
     if (!run_increment(stage, report, reached)) return false;
     if (!report.iterations.empty()) last_force = report.iterations.back().force;
+    if (is_last && i == stage.increments) system_.release_solver();
     end_increment(report);
     if (i == stage.increments) break;
     if (!whole_stages_only) offer_checkpoint({s, i});
@@ -793,7 +795,7 @@ RunResult Run::execute() {
     result_.reason = with_code(error.what(), *result_.code);
     return result_;
   }
-  result_.kernels = tangent_.solver().kernels();
+  result_.kernels = system_.kernels();
   audience_.tell([&](Observer& o) { o.on_finish(model_, result_); });
   return result_;
 }

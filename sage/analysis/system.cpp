@@ -122,7 +122,17 @@ int System::equations() const {
   return assembly_.equations() + (assembly_.condensation() ? assembly_.condensation()->condensed() : 0);
 }
 
+void System::release_solver() {
+  last_ = {smallest_pivot(), digits(), kernels()};
+  tangent_.release();
+}
+
+std::string System::kernels() const {
+  return last_ ? last_->kernels : std::string(tangent_.solver().kernels());
+}
+
 double System::smallest_pivot() const {
+  if (last_) return last_->smallest_pivot;
   const double own = tangent_.solver().report().smallest_pivot_ratio;
   if (!assembly_.condensation()) return own;
   const double inner = assembly_.condensation()->report().smallest_pivot_ratio;
@@ -130,6 +140,7 @@ double System::smallest_pivot() const {
 }
 
 DigitsReport System::digits() const {
+  if (last_) return last_->digits;
   if (!tangent_.factorised()) return {};
   return report_digits(tangent_.solver(), assembly_.equations(), smallest_pivot(), settings_.condition);
 }

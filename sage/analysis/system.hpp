@@ -1,6 +1,9 @@
 // What a run computes with: the parts of the model that take part in a stage, their equations and the solver.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "sage/analysis/condition.hpp"
 #include "sage/analysis/exits.hpp"
 #include "sage/analysis/newton.hpp"
@@ -38,6 +41,11 @@ class System {
   int equations() const;  // condensed ones too
   double smallest_pivot() const;
   DigitsReport digits() const;  // of the factorisation at hand, if there is one
+  std::string kernels() const;  // of the solver
+
+  // The last step of the run is done: K and its factors, most of the memory of a large run, go before its outputs ask
+  // for theirs.  Those above answer as before.
+  void release_solver();
 
  private:
   void enter(const Stage& stage);
@@ -58,6 +66,12 @@ class System {
   Eigen::VectorXd rate_;
   Tangent tangent_;
   std::vector<char> held_before_, groups_before_, lived_;
+  struct Last {
+    double smallest_pivot = -1.0;
+    DigitsReport digits;
+    std::string kernels;
+  };
+  std::optional<Last> last_;  // what the solver said before it was released
 };
 
 }  // namespace sage

@@ -45,6 +45,11 @@ class Tangent {
   const Eigen::VectorXd& coupling() const { return coupling_; }  // K(free, prescribed) rate, every dof
 
   void forget() { state_ = State::empty; }
+  // K and its factors are of no more use: their memory serves others.
+  void release() {
+    solver_.reset();
+    state_ = State::empty;
+  }
   // What follows starts elsewhere: K and its factors serve no more, unless an assembly there finds the same K.
   void set_aside() {
     if (current()) state_ = State::stale;
