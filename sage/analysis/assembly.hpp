@@ -95,7 +95,7 @@ class Assembly {
   void commit_again();
   // Brings the states of constant groups up to date; others always are.  Until it is called, stress and strain
   // of constant groups may have no room at all.
-  void recover_states() { late_.recover(groups_, element_, *work_); }
+  void recover_states() { late_.recover(groups_, element_, *work_, threads_); }
   // Those of structures alone.
   void recover_structures() { late_.recover_structures(groups_, element_, *work_); }
 

@@ -26,8 +26,9 @@ class LateStates {
     is_behind_ = true;
   }
   bool behind() const { return is_behind_; }
-  // Brings the states of active constant groups up to date, and makes their room where there was none.
-  void recover(std::vector<GroupData>& groups, ElementWork& element, WorkCounters& work);
+  // Brings the states of active constant groups up to date, and makes their room where there was none.  Large groups
+  // take so many threads; answers do not depend on it.
+  void recover(std::vector<GroupData>& groups, ElementWork& element, WorkCounters& work, int threads);
   // The same of structures alone.
   void recover_structures(std::vector<GroupData>& groups, ElementWork& element, WorkCounters& work);
   void exchange(Archive& archive) {

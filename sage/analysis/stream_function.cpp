@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <unordered_map>
 
 #include "sage/analysis/explain.hpp"
@@ -293,6 +294,8 @@ StreamFunction stream_function(const Model& model, const std::vector<char>& acti
 }
 
 const StreamFunction& stream_function(const Model& model, const Solution& solution) {
+  static std::mutex one_at_a_time;  // outputs read nodes on several threads
+  const std::lock_guard lock(one_at_a_time);
   if (solution.stream == nullptr)
     solution.stream = std::make_shared<const StreamFunction>(
         stream_function(model, solution.activity->group, solution.groups()));

@@ -117,7 +117,8 @@ struct FourPointsOut {
   bool constant_D = false;
 };
 
-// A constitutive law: immutable, shared by all points of a material; `update` is a pure function.
+// A constitutive law: immutable, shared by all points of a material; `update` is a pure function, which several
+// threads may call at once.
 template <int N>
 class Law {
  public:

@@ -1,7 +1,9 @@
 // A few threads that wait for work, so that those who have some neither start threads nor allocate.
 #pragma once
 
+#include <algorithm>
 #include <condition_variable>
+#include <cstddef>
 #include <exception>
 #include <memory>
 #include <mutex>
@@ -49,5 +51,17 @@ class ThreadPool {
   int failed_ = -1;  // smallest index that threw
   std::exception_ptr error_;
 };
+
+// Calls work(first, last) for pieces of 0 .. count - 1 that do not depend on each other: on the pool's threads where there
+// is one and the rows are many, else once.
+template <class Work>
+void in_pieces(ThreadPool* pool, std::size_t count, const Work& work) {
+  constexpr std::size_t kPiece = 4096;
+  if (pool == nullptr || count < 2 * kPiece) return work(std::size_t{0}, count);
+  pool->run(static_cast<int>((count + kPiece - 1) / kPiece), [&](int piece, int /*thread*/) {
+    const std::size_t first = static_cast<std::size_t>(piece) * kPiece;
+    work(first, std::min(first + kPiece, count));
+  });
+}
 
 }  // namespace sage

@@ -12,7 +12,7 @@
 namespace sage {
 
 // Changes with DataFile.
-#define SAGE_DATA_MODULE_VERSION "sage-data-3"
+#define SAGE_DATA_MODULE_VERSION "sage-data-4"
 
 enum class DataType : std::uint8_t { float64, int64, int32, uint8 };
 
@@ -22,10 +22,14 @@ class DataFile {
  public:
   virtual ~DataFile() = default;
   // A table of rows of this shape (empty: of one number), to which append() adds.  chunk: rows that are stored
-  // together; such of zeros alone take no room.
+  // together; such of zeros alone take no room.  piece: of a row that is long, so many of its lines (its first
+  // dimension) are stored together; 0 = all.  Then chunk is 1.
   virtual bool table(const char* path, DataType type, const std::vector<std::uint64_t>& row,
-                     std::uint64_t chunk) = 0;
+                     std::uint64_t chunk, std::uint64_t piece = 0) = 0;
   virtual bool append(const char* path, const void* rows, std::uint64_t count) = 0;
+  // The last row's lines from `first` on, where a piece begins: a whole piece, or what is left.  first = 0 begins
+  // another row.
+  virtual bool append_piece(const char* path, const void* lines, std::uint64_t first, std::uint64_t count) = 0;
   // Of a folder or table.
   virtual bool text(const char* path, const char* name, const char* value) = 0;
   virtual bool numbers(const char* path, const char* name, const std::int64_t* values, std::uint64_t count) = 0;

@@ -1,6 +1,7 @@
 #include "sage/record/nodal_values.hpp"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "sage/record/point_fields.hpp"
 
@@ -39,50 +40,64 @@ std::size_t carried_size_of(const FieldList& fields) {
   return size;
 }
 
-std::vector<double> nodal_average(const Model& model, const Solution& solution, const NodalLayout& layout,
-                                  const FieldList& fields, NodalRule rule) {
-  const std::size_t n = carried_size_of(fields);
-  std::vector<double> sum(static_cast<std::size_t>(layout.entries()) * n, 0.0);
-  std::vector<int> uses(static_cast<std::size_t>(layout.entries()), 0);
-  std::vector<double> at_points, equal;
-  std::vector<std::size_t> carried;
-  for (const FieldEntry* field : fields) carried.push_back(carried_size(*field));
+namespace {
+
+// What the entries `first` to `last` - 1 have of the group's elements, added in the order of elements.
+void add_to_entries(const Model& model, const GroupData& data, const std::vector<int>& entries,
+                    const FieldList& fields, NodalRule rule, int first, int last, double* sum, int* uses) {
+  const Group& group = *data.group;
+  const auto points = static_cast<std::size_t>(group.element->traits().points);
+  const std::size_t nodes = group.node_count(), n = carried_size_of(fields);
+  const PointFields reader(fields, data);
+  std::vector<double> at_points(points * n);
+  const std::vector<double> equal(points * nodes, 1.0 / static_cast<double>(points));
+  const auto is_here = [&](int entry) { return entry >= first && entry < last; };
   Eigen::Matrix2Xd x;
-  for (std::size_t g = 0; g < model.groups.size(); ++g) {
-    const GroupData& data = solution.groups()[g];
-    if (layout.of_group[g].empty()) continue;
-    const Group& group = *data.group;
-    const auto points = static_cast<std::size_t>(group.element->traits().points);
-    const PointFields reader(fields, data);
-    at_points.resize(points * n);
-    equal.assign(points * group.node_count(), 1.0 / static_cast<double>(points));
-    for (int e = 0; e < group.elements(); ++e) {
-      const auto eu = static_cast<std::size_t>(e);
+  for (std::size_t e = 0; e < static_cast<std::size_t>(group.elements()); ++e) {
+    const std::span<const int> own(entries.data() + e * nodes, nodes);
+    if (std::ranges::none_of(own, is_here)) continue;
+    for (std::size_t p = 0; p < points; ++p)
+      reader.carry_all({model.mesh, data, e * points + p}, at_points.data() + p * n);
+    element_coordinates(model.mesh, group, static_cast<int>(e), x);
+    const std::span<const double> map =
+        rule == NodalRule::element_means ? std::span<const double>(equal) : group.element->point_to_node_at(x);
+    for (std::size_t i = 0; i < nodes; ++i) {
+      if (!is_here(own[i])) continue;
+      ++uses[own[i]];
+      double* const to = sum + static_cast<std::size_t>(own[i]) * n;
       for (std::size_t p = 0; p < points; ++p) {
-        const PointState point(model.mesh, data, eu * points + p);
-        double* to = at_points.data() + p * n;
-        for (std::size_t f = 0; f < fields.size(); ++f) {
-          reader.carry(f, point, to);
-          to += carried[f];
-        }
-      }
-      element_coordinates(model.mesh, group, e, x);
-      const std::span<const double> map = rule == NodalRule::element_means ? std::span<const double>(equal)
-                                                                           : group.element->point_to_node_at(x);
-      for (std::size_t i = 0; i < group.node_count(); ++i) {
-        const auto entry = static_cast<std::size_t>(layout.of_group[g][eu * group.node_count() + i]);
-        ++uses[entry];
-        double* const to = sum.data() + entry * n;
-        for (std::size_t p = 0; p < points; ++p) {
-          const double part = map[i * points + p];
-          const double* const from = at_points.data() + p * n;
+        const double part = map[i * points + p];
+        const double* const from = at_points.data() + p * n;
 #pragma GCC ivdep
-          for (std::size_t c = 0; c < n; ++c) to[c] += part * from[c];
-        }
+        for (std::size_t c = 0; c < n; ++c) to[c] += part * from[c];
       }
     }
   }
-  for (std::size_t k = 0; k < sum.size(); ++k) sum[k] /= std::max(uses[k / n], 1);
+}
+
+}  // namespace
+
+std::vector<double> nodal_average(const Model& model, const Solution& solution, const NodalLayout& layout,
+                                  const FieldList& fields, NodalRule rule, ThreadPool* pool) {
+  const std::size_t n = carried_size_of(fields);
+  std::vector<double> sum(static_cast<std::size_t>(layout.entries()) * n, 0.0);
+  std::vector<int> uses(static_cast<std::size_t>(layout.entries()), 0);
+  const auto average = [&](int first, int last) {
+    for (std::size_t g = 0; g < model.groups.size(); ++g)
+      if (!layout.of_group[g].empty())
+        add_to_entries(model, solution.groups()[g], layout.of_group[g], fields, rule, first, last, sum.data(),
+                       uses.data());
+    for (auto e = static_cast<std::size_t>(first); e < static_cast<std::size_t>(last); ++e)
+      for (std::size_t c = 0; c < n; ++c) sum[e * n + c] /= std::max(uses[e], 1);
+  };
+  const int parts = pool != nullptr ? pool->threads() : 1, entries = layout.entries();
+  if (parts == 1)
+    average(0, entries);
+  else
+    pool->run(parts, [&](int part, int /*thread*/) {
+      average(static_cast<int>(std::int64_t{entries} * part / parts),
+              static_cast<int>(std::int64_t{entries} * (part + 1) / parts));
+    });
   return sum;
 }
 
@@ -102,9 +117,24 @@ void add_share(const FieldList& fields, const PointFields& reader, const PointSt
   }
 }
 
+// The values of one element from such sums.
+void take_means(const FieldList& fields, const GroupData& data, const double* from, double* to) {
+  for (const FieldEntry* field : fields) {
+    if (field->of_mean && !applies(*field, data))  // the mean of no stress has an angle, 0, all the same
+      std::fill_n(to, field->size(), std::nan(""));
+    else if (field->of_mean)
+      value_of_carried(*field, from, to);
+    else
+      std::copy_n(from, field->size(), to);
+    from += field->of_mean ? carried_size(*field) : field->size();
+    to += field->size();
+  }
+}
+
 }  // namespace
 
-std::vector<double> element_average(const Mesh& mesh, const GroupData& data, const FieldList& fields) {
+std::vector<double> element_average(const Mesh& mesh, const GroupData& data, const FieldList& fields,
+                                    ThreadPool* pool) {
   const std::size_t n = size_of(fields);
   std::size_t summed = 0, most = 0;
   for (const FieldEntry* field : fields) {
@@ -113,25 +143,17 @@ std::vector<double> element_average(const Mesh& mesh, const GroupData& data, con
   }
   const auto points = static_cast<std::size_t>(data.group->element->traits().points);
   const auto elements = static_cast<std::size_t>(data.group->elements());
-  std::vector<double> mean(elements * n, 0.0), sum(summed), one(most);
+  std::vector<double> mean(elements * n, 0.0);
   const PointFields reader(fields, data);
-  for (std::size_t e = 0; e < elements; ++e) {
-    std::ranges::fill(sum, 0.0);
-    for (std::size_t p = 0; p < points; ++p)
-      add_share(fields, reader, {mesh, data, e * points + p}, static_cast<double>(points), one, sum.data());
-    const double* from = sum.data();
-    double* to = mean.data() + e * n;
-    for (const FieldEntry* field : fields) {
-      if (field->of_mean && !applies(*field, data))  // the mean of no stress has an angle, 0, all the same
-        std::fill_n(to, field->size(), std::nan(""));
-      else if (field->of_mean)
-        value_of_carried(*field, from, to);
-      else
-        std::copy_n(from, field->size(), to);
-      from += field->of_mean ? carried_size(*field) : field->size();
-      to += field->size();
+  in_pieces(pool, elements, [&](std::size_t first, std::size_t last) {
+    std::vector<double> sum(summed), one(most);
+    for (std::size_t e = first; e < last; ++e) {
+      std::ranges::fill(sum, 0.0);
+      for (std::size_t p = 0; p < points; ++p)
+        add_share(fields, reader, {mesh, data, e * points + p}, static_cast<double>(points), one, sum.data());
+      take_means(fields, data, sum.data(), mean.data() + e * n);
     }
-  }
+  });
   return mean;
 }
 

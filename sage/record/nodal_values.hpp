@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "sage/core/thread_pool.hpp"
 #include "sage/record/field_reader.hpp"
 
 namespace sage {
@@ -24,13 +25,16 @@ NodalLayout nodal_layout(const Model& model, const Activity& activity);
 enum class NodalRule { extrapolated, element_means };
 
 // What is carried (carry()) of fields that live at points, one field behind the other.  entries x numbers: the
-// plain mean over the elements that share the entry of what each gives there.
+// plain mean over the elements that share the entry of what each gives there.  pool: threads that share the work, if
+// there are; values do not depend on them, to the last bit.
 std::vector<double> nodal_average(const Model& model, const Solution& solution, const NodalLayout& layout,
-                                  const FieldList& fields, NodalRule rule = NodalRule::extrapolated);
+                                  const FieldList& fields, NodalRule rule = NodalRule::extrapolated,
+                                  ThreadPool* pool = nullptr);
 
 // Values of fields that live at points, one field behind the other.  elements x numbers of a group: the plain
-// mean over an element's points; of a field of_mean, the value of the mean of what is carried.
-std::vector<double> element_average(const Mesh& mesh, const GroupData& data, const FieldList& fields);
+// mean over an element's points; of a field of_mean, the value of the mean of what is carried.  pool: as above.
+std::vector<double> element_average(const Mesh& mesh, const GroupData& data, const FieldList& fields,
+                                    ThreadPool* pool = nullptr);
 
 // Numbers of all these fields together.
 std::size_t size_of(const FieldList& fields);

@@ -15,7 +15,7 @@ class PointFields {
     for (const FieldEntry* field : fields) {
       const bool tensor = std::holds_alternative<StressField>(field->value) ||
                           std::holds_alternative<StrainField>(field->value);
-      rows_.push_back({field, applies(*field, data), tensor});
+      rows_.push_back({field, applies(*field, data), tensor, carried_size(*field)});
     }
   }
 
@@ -33,11 +33,19 @@ class PointFields {
     else
       read(field, point, parts);
   }
+  // Of all fields, one behind the other.
+  void carry_all(const PointState& point, double* parts) const {
+    for (std::size_t f = 0; f < rows_.size(); ++f) {
+      carry(f, point, parts);
+      parts += rows_[f].carried;
+    }
+  }
 
  private:
   struct Row {
     const FieldEntry* entry;
     bool applies, of_tensor;  // of stress or strain
+    std::size_t carried;      // numbers
   };
   std::vector<Row> rows_;
 };

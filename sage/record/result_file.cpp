@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <fstream>
+#include <optional>
 
 #include "sage/core/checksum.hpp"
 #include "sage/model/fingerprint.hpp"
@@ -30,13 +31,25 @@ class TableFile {
   TableFile(const std::filesystem::path& partial, std::filesystem::path path, bool own_thread)
       : path_(std::move(path)), file_(make_data_file(partial.string())), writer_(own_thread, kMostWaiting) {}
 
-  void table(const std::string& name, DataType type, const Shape& row = {}, std::uint64_t chunk = 1) {
-    later(0, [=, this] { return file_->table(name.c_str(), type, row, std::max<std::uint64_t>(chunk, 1)); });
+  void table(const std::string& name, DataType type, const Shape& row = {}, std::uint64_t chunk = 1,
+             std::uint64_t piece = 0) {
+    later(0, [=, this] {
+      return file_->table(name.c_str(), type, row, std::max<std::uint64_t>(chunk, 1), piece);
+    });
   }
   template <class T>
   void append(const std::string& name, std::vector<T> values, std::uint64_t rows) {
     later(values.size() * sizeof(T), [=, this, values = std::move(values)]() mutable {
       const bool done = file_->append(name.c_str(), values.data(), rows);
+      if constexpr (std::is_same_v<T, double>) numbers_.give(std::move(values));
+      return done;
+    });
+  }
+  // A piece of a row, as DataFile::append_piece takes it.
+  template <class T>
+  void append_piece(const std::string& name, std::vector<T> values, std::uint64_t first, std::uint64_t count) {
+    later(values.size() * sizeof(T), [=, this, values = std::move(values)]() mutable {
+      const bool done = file_->append_piece(name.c_str(), values.data(), first, count);
       if constexpr (std::is_same_v<T, double>) numbers_.give(std::move(values));
       return done;
     });
@@ -120,8 +133,8 @@ void describe_table(TableFile& out, const std::string& path, const FieldEntry& f
 // behind the other.
 class VtkPart {
  public:
-  VtkPart(TableFile& out, const Model& model, const FieldTable& fields)
-      : out_(out), model_(model), fields_(fields), time_(model) {
+  VtkPart(TableFile& out, const Model& model, const FieldTable& fields, ThreadPool* pool)
+      : out_(out), model_(model), fields_(fields), pool_(pool), time_(model) {
     out_.numbers(kRoot, "Version", {2, 0});
     out_.text(kRoot, "Type", "UnstructuredGrid");
     out_.table(root("Points"), DataType::float64, {3}, kChunk);
@@ -149,8 +162,9 @@ class VtkPart {
     one("PointOffsets", here_.points);
     one("CellOffsets", here_.cells);
     one("ConnectivityIdOffsets", here_.ids);
-    add_arrays("PointData", vtk_point_data(model_, now, layout_, fields_), layout_.node.size(), point_rows_);
-    add_arrays("CellData", vtk_cell_data(model_, now, fields_), cells_, cell_rows_);
+    add_arrays("PointData", vtk_point_data(model_, now, layout_, fields_, pool_), layout_.node.size(),
+               point_rows_);
+    add_arrays("CellData", vtk_cell_data(model_, now, fields_, pool_), cells_, cell_rows_);
     ++count_;
   }
 
@@ -170,18 +184,19 @@ class VtkPart {
   void add_grid(const Solution& now) {
     active_ = now.activity->group;
     layout_ = nodal_layout(model_, *now.activity);
-    const VtkGrid grid = vtk_grid(model_, layout_);
+    VtkGrid grid = vtk_grid(model_, layout_);
     cells_ = grid.types.size();
     std::vector<std::int64_t> ends{0};
+    ends.reserve(cells_ + 1);
     ends.insert(ends.end(), grid.offsets.begin(), grid.offsets.end());
     here_ = next_;
     const auto points = static_cast<std::int64_t>(layout_.node.size()),
                cells = static_cast<std::int64_t>(cells_),
                ids = static_cast<std::int64_t>(grid.connectivity.size());
-    out_.append(root("Points"), grid.points, layout_.node.size());
-    out_.append(root("Types"), grid.types, cells_);
-    out_.append(root("Connectivity"), grid.connectivity, grid.connectivity.size());
-    out_.append(root("Offsets"), ends, ends.size());
+    out_.append(root("Points"), std::move(grid.points), layout_.node.size());
+    out_.append(root("Types"), std::move(grid.types), cells_);
+    out_.append(root("Connectivity"), std::move(grid.connectivity), static_cast<std::uint64_t>(ids));
+    out_.append(root("Offsets"), std::move(ends), cells_ + 1);
     out_.append(root("NumberOfPoints"), std::vector{points}, 1);
     out_.append(root("NumberOfCells"), std::vector{cells}, 1);
     out_.append(root("NumberOfConnectivityIds"), std::vector{ids}, 1);
@@ -213,6 +228,7 @@ class VtkPart {
   TableFile& out_;
   const Model& model_;
   const FieldTable& fields_;
+  ThreadPool* const pool_;
   const StateTime time_;
   std::int64_t count_ = 0, parts_ = 0, point_rows_ = 0, cell_rows_ = 0;
   std::vector<char> active_;
@@ -224,8 +240,8 @@ class VtkPart {
 // Everything by its own place: increments, nodes, integration points of every group.
 class OwnPart {
  public:
-  OwnPart(TableFile& out, const Model& model, const FieldTable& fields)
-      : out_(out), model_(model), fields_(fields) {
+  OwnPart(TableFile& out, const Model& model, const FieldTable& fields, ThreadPool* pool)
+      : out_(out), model_(model), fields_(fields), pool_(pool) {
     start_increments();
     start_nodes();
     for (const Group& group : model.groups) start_group(group);
@@ -256,19 +272,29 @@ class OwnPart {
   }
 
   // Words are stored by their places in `words`.
-  void start(const std::string& path, const FieldEntry& field, const Shape& rows) {
-    out_.table(path, whole_numbers(field) ? DataType::int32 : DataType::float64, with_size(rows, field));
+  void start(const std::string& path, const FieldEntry& field, const Shape& rows, std::uint64_t piece = 0) {
+    out_.table(path, whole_numbers(field) ? DataType::int32 : DataType::float64, with_size(rows, field), 1,
+               piece);
     describe_table(out_, path, field, model_);
   }
+  static std::vector<std::int32_t> whole(const std::vector<double>& values) {
+    std::vector<std::int32_t> numbers;
+    numbers.reserve(values.size());
+    for (double value : values) numbers.push_back(std::isnan(value) ? -1 : static_cast<std::int32_t>(value));
+    return numbers;
+  }
   void append(const std::string& path, const FieldEntry& field, std::vector<double> values) {
-    if (!whole_numbers(field)) {
+    if (whole_numbers(field))
+      out_.append(path, whole(values), 1);
+    else
       out_.append(path, std::move(values), 1);
-      return;
-    }
-    std::vector<std::int32_t> whole;
-    whole.reserve(values.size());
-    for (double value : values) whole.push_back(std::isnan(value) ? -1 : static_cast<std::int32_t>(value));
-    out_.append(path, whole, 1);
+  }
+  void append_piece(const std::string& path, const FieldEntry& field, std::vector<double> values,
+                    std::size_t first, std::size_t count) {
+    if (whole_numbers(field))
+      out_.append_piece(path, whole(values), first, count);
+    else
+      out_.append_piece(path, std::move(values), first, count);
   }
 
   void start_increments() {
@@ -293,12 +319,10 @@ class OwnPart {
     return field.place() == FieldPlace::node && field.name != "node";
   }
   void start_nodes() {
-    std::vector<double> places;
-    for (int n = 0; n < model_.mesh.nodes(); ++n)
-      places.insert(places.end(), {model_.mesh.x(0, n), model_.mesh.x(1, n)});
-    const std::vector<std::int32_t> numbers(model_.mesh.number.begin(), model_.mesh.number.end());
+    const std::vector<std::int32_t>& numbers = model_.mesh.number;
     out_.whole(nodes("node"), numbers);
-    out_.whole(nodes("place"), places, {2});
+    out_.whole(nodes("place"),
+               std::vector<double>(model_.mesh.x.data(), model_.mesh.x.data() + model_.mesh.x.size()), {2});
     for (const FieldEntry& field : fields_.rows())
       if (own_node_field(field)) start(nodes(field.name), field, {numbers.size()});
   }
@@ -313,16 +337,18 @@ class OwnPart {
       fields.push_back(&field);
       values.push_back(out_.room(active.size() * field.size()));
     }
-    for (std::size_t n = 0; n < active.size(); ++n) {
-      const NodeView view = views.at(static_cast<int>(n));
-      for (std::size_t f = 0; f < fields.size(); ++f) {
-        double* const to = values[f].data() + n * fields[f]->size();
-        if (active[n])
-          read_field(*fields[f], view, to);
-        else
-          std::fill_n(to, fields[f]->size(), std::nan(""));
+    in_pieces(pool_, active.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t n = first; n < last; ++n) {
+        const NodeView view = views.at(static_cast<int>(n));
+        for (std::size_t f = 0; f < fields.size(); ++f) {
+          double* const to = values[f].data() + n * fields[f]->size();
+          if (active[n])
+            read_field(*fields[f], view, to);
+          else
+            std::fill_n(to, fields[f]->size(), std::nan(""));
+        }
       }
-    }
+    });
     for (std::size_t f = 0; f < fields.size(); ++f)
       append(nodes(fields[f]->name), *fields[f], std::move(values[f]));
   }
@@ -337,19 +363,21 @@ class OwnPart {
     return static_cast<std::size_t>(group.elements() * group.element->traits().points);
   }
   void start_group(const Group& group) {
-    std::vector<double> places;
-    std::vector<std::int32_t> nodes_of;
-    Eigen::Matrix2Xd x;
-    for (int e = 0; e < group.elements(); ++e) {
-      element_coordinates(model_.mesh, group, e, x);
-      for (int p = 0; p < group.element->traits().points; ++p) {
-        const Vector2 at = group.element->position(x, p);
-        places.insert(places.end(), {at.x(), at.y()});
+    std::vector<double> places(2 * points_of(group));
+    in_pieces(pool_, static_cast<std::size_t>(group.elements()), [&](std::size_t first, std::size_t last) {
+      const int points = group.element->traits().points;
+      double* to = places.data() + first * static_cast<std::size_t>(2 * points);
+      Eigen::Matrix2Xd x;
+      for (std::size_t e = first; e < last; ++e) {
+        element_coordinates(model_.mesh, group, static_cast<int>(e), x);
+        for (int p = 0; p < points; ++p, to += 2) Vector2::Map(to) = group.element->position(x, p);
       }
-    }
+    });
+    std::vector<std::int32_t> nodes_of;
+    nodes_of.reserve(group.nodes.size());
     for (int node : group.nodes) nodes_of.push_back(model_.mesh.number[static_cast<std::size_t>(node)]);
-    out_.whole(in(group, "place"), places, {2});
-    out_.whole(in(group, "nodes"), nodes_of, {group.node_count()});
+    out_.whole(in(group, "place"), std::move(places), {2});
+    out_.whole(in(group, "nodes"), std::move(nodes_of), {group.node_count()});
     out_.whole(in(group, "active"), std::vector<std::uint8_t>{});
     out_.text(in(group), "name", group.name);
     out_.text(in(group), "element", group.element_name);
@@ -358,21 +386,23 @@ class OwnPart {
     for (const FieldEntry& field : fields_.rows())
       if (field.place() == FieldPlace::element) add_element_field(group, field);
     for (const FieldEntry* field : point_fields(group))
-      start(in(group, field->name), *field, {points_of(group)});
+      start(in(group, field->name), *field, {points_of(group)}, piece_of(points_of(group)));
   }
   void add_element_field(const Group& group, const FieldEntry& field) {
     std::vector<double> values(static_cast<std::size_t>(group.elements()) * field.size());
-    Eigen::Matrix2Xd x;
-    for (int e = 0; e < group.elements(); ++e) {
-      element_coordinates(model_.mesh, group, e, x);
-      read_field(field, element_view(model_, group, e, x),
-                 values.data() + static_cast<std::size_t>(e) * field.size());
-    }
+    in_pieces(pool_, static_cast<std::size_t>(group.elements()), [&](std::size_t first, std::size_t last) {
+      Eigen::Matrix2Xd x;
+      for (std::size_t e = first; e < last; ++e) {
+        element_coordinates(model_.mesh, group, static_cast<int>(e), x);
+        read_field(field, element_view(model_, group, static_cast<int>(e), x),
+                   values.data() + e * field.size());
+      }
+    });
     const std::string path = in(group, field.name);
     if (whole_numbers(field)) {
       out_.whole(path, std::vector<std::int32_t>(values.begin(), values.end()), with_size({}, field));
     } else {
-      out_.whole(path, values, with_size({}, field));
+      out_.whole(path, std::move(values), with_size({}, field));
     }
     describe_table(out_, path, field, model_);
   }
@@ -380,44 +410,68 @@ class OwnPart {
   void add_group(const GroupData& data) {
     const Group& group = *data.group;
     out_.append(in(group, "active"), std::vector<std::uint8_t>{static_cast<std::uint8_t>(data.active)}, 1);
-    const FieldList all = point_fields(group);
-    const std::size_t points = points_of(group);
-    for (std::size_t first = 0; first < all.size();) {
-      std::size_t last = first, numbers = 0;
-      do numbers += points * all[last++]->size();
-      while (last < all.size() && numbers + points * all[last]->size() <= kAtOnce);
-      add_fields(data, {all.begin() + static_cast<std::ptrdiff_t>(first),
-                        all.begin() + static_cast<std::ptrdiff_t>(last)});
-      first = last;
+    FieldList others;
+    for (const FieldEntry* field : point_fields(group)) {
+      const bool stress = field->name == "stress";
+      if (Frame::follows_from_fields(data) && (stress || field->name == "strain"))
+        add_tensor(data, *field, stress ? data.state.committed.sigma : data.state.committed.eps);
+      else
+        others.push_back(field);
     }
+    add_fields(data, others);
   }
-  // Fields that are read together: what a point has is looked up once for all of them.
+  // What the state's stress or strain follows from, and its checksum is of.
+  void add_tensor(const GroupData& data, const FieldEntry& field, const std::vector<double>& internal) {
+    const std::size_t size = field.size();
+    each_piece(points_of(*data.group), [&](std::size_t first, std::size_t count) {
+      std::vector<double> values = out_.room(count * size);
+      in_pieces(pool_, values.size(), [&](std::size_t from, std::size_t to) {
+        const double* const at = internal.data() + first * size;
+        for (std::size_t i = from; i < to; ++i) values[i] = outward(at[i]);
+      });
+      sum_.add({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)});
+      append_piece(in(*data.group, field.name), field, std::move(values), first, count);
+    });
+  }
+  // Together: what a point has is looked up once for all of them.
   void add_fields(const GroupData& data, const FieldList& fields) {
-    const Group& group = *data.group;
-    const std::size_t points = points_of(group);
     const PointFields reader(fields, data);
-    std::vector<std::vector<double>> values;
-    for (const FieldEntry* field : fields) values.push_back(out_.room(points * field->size()));
-    if (!data.active)
-      for (std::vector<double>& one : values) std::ranges::fill(one, std::nan(""));
-    else
-      for (std::size_t p = 0; p < points; ++p) {
-        const PointState point(model_.mesh, data, p);
-        for (std::size_t f = 0; f < fields.size(); ++f)
-          reader.read(f, point, values[f].data() + p * fields[f]->size());
-      }
-    for (std::size_t f = 0; f < fields.size(); ++f) {
-      if (Frame::follows_from_fields(data) && (fields[f]->name == "stress" || fields[f]->name == "strain"))
-        sum_.add({reinterpret_cast<const char*>(values[f].data()), values[f].size() * sizeof(double)});
-      append(in(group, fields[f]->name), *fields[f], std::move(values[f]));
-    }
+    each_piece(points_of(*data.group), [&](std::size_t first, std::size_t count) {
+      std::vector<std::vector<double>> values;
+      for (const FieldEntry* field : fields) values.push_back(out_.room(count * field->size()));
+      if (!data.active)
+        for (std::vector<double>& one : values) std::ranges::fill(one, std::nan(""));
+      else
+        in_pieces(pool_, count, [&](std::size_t from, std::size_t to) {
+          for (std::size_t p = from; p < to; ++p) {
+            const PointState point(model_.mesh, data, first + p);
+            for (std::size_t f = 0; f < fields.size(); ++f)
+              reader.read(f, point, values[f].data() + p * fields[f]->size());
+          }
+        });
+      for (std::size_t f = 0; f < fields.size(); ++f)
+        append_piece(in(*data.group, fields[f]->name), *fields[f], std::move(values[f]), first, count);
+    });
   }
 
-  static constexpr std::size_t kAtOnce = std::size_t{1} << 21;  // numbers
+  // Points whose numbers are stored together: what a piece needs stays near the processor.
+  static std::size_t piece_of(std::size_t points) {
+    constexpr std::size_t kMost = std::size_t{1} << 16;
+    const std::size_t pieces = std::max<std::size_t>((points + kMost - 1) / kMost, 1);
+    return (points + pieces - 1) / pieces;
+  }
+  // Of no points one piece, which is empty.
+  template <class Work>
+  static void each_piece(std::size_t points, const Work& work) {
+    const std::size_t piece = piece_of(points);
+    for (std::size_t first = 0; first == 0 || first < points; first += piece)
+      work(first, std::min(piece, points - first));
+  }
 
   TableFile& out_;
   const Model& model_;
   const FieldTable& fields_;
+  ThreadPool* const pool_;
   Checksum sum_;
 };
 
@@ -428,6 +482,8 @@ bool is_left_out(const FieldEntry& field, const std::vector<std::string>& asked)
       std::holds_alternative<StressField>(field.value) || std::holds_alternative<StrainField>(field.value);
   return follows && field.shape != FieldShape::tensor && std::ranges::find(asked, field.name) == asked.end();
 }
+
+constexpr int kWorthThreads = 20000;  // points
 
 int points_of(const Model& model) {
   int points = 0;
@@ -578,8 +634,10 @@ void ResultOutput::on_finish(const Model& model, const RunResult& result) {
     out.text("/sage", "signs", sign_convention(model, ""));
     out.text("/sage", "geometry", model.geometry == Geometry::axisymmetric ? "axisymmetric" : "plane strain");
     if (!left_out.empty()) out.text("/sage", "left_out", joined(left_out));
-    VtkPart vtk(out, model, fields);
-    OwnPart own(out, model, fields);
+    std::optional<ThreadPool> pool;
+    if (threads_ > 1 && points_of(model) > kWorthThreads) pool.emplace(threads_);
+    VtkPart vtk(out, model, fields, pool ? &*pool : nullptr);
+    OwnPart own(out, model, fields, pool ? &*pool : nullptr);
     SourcePart source(out, source_, model, failure_);
     each_state(model, [&](Frame& frame) {
       vtk.add(frame);

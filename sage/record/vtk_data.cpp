@@ -126,43 +126,51 @@ FieldList cell_fields(const Model& model, const FieldTable& table) {
 }
 
 // Rows of all these fields, one behind the other.
-std::vector<double> element_values(const Model& model, const Solution& s, const FieldList& fields) {
+std::vector<double> element_values(const Model& model, const Solution& s, const FieldList& fields,
+                                   ThreadPool* pool) {
   std::size_t elements = 0;
   for (const GroupData& data : s.groups())
     if (data.active) elements += static_cast<std::size_t>(data.group->elements());
   std::vector<double> values(elements * size_of(fields));
-  double* to = values.data();
-  Eigen::Matrix2Xd x;
+  double* begin = values.data();
   for (const GroupData& data : s.groups()) {
     if (!data.active) continue;
     const Group& group = *data.group;
-    for (int e = 0; e < group.elements(); ++e) {
-      element_coordinates(model.mesh, group, e, x);
-      const ElementView view = element_view(model, group, e, x);
-      for (const FieldEntry* field : fields) {
-        read_field(*field, view, to);
-        to += field->size();
+    const auto count = static_cast<std::size_t>(group.elements());
+    in_pieces(pool, count, [&](std::size_t first, std::size_t last) {
+      double* to = begin + first * size_of(fields);
+      Eigen::Matrix2Xd x;
+      for (std::size_t e = first; e < last; ++e) {
+        element_coordinates(model.mesh, group, static_cast<int>(e), x);
+        const ElementView view = element_view(model, group, static_cast<int>(e), x);
+        for (const FieldEntry* field : fields) {
+          read_field(*field, view, to);
+          to += field->size();
+        }
       }
-    }
+    });
+    begin += count * size_of(fields);
   }
   return values;
 }
 
 std::vector<double> node_values(const Model& model, const Solution& s, const NodalLayout& layout,
-                                const FieldList& fields) {
+                                const FieldList& fields, ThreadPool* pool) {
   std::vector<double> values(layout.node.size() * size_of(fields));
   const NodeViews views(model, s);
-  double* to = values.data();
-  for (int node : layout.node) {
-    const NodeView view = views.at(node);
-    for (const FieldEntry* field : fields) {
-      read_field(*field, view, to);
-      if (field->shape == FieldShape::vector)
-        for (std::size_t c = 0; c < field->size(); ++c)
-          if (std::isnan(to[c])) to[c] = 0.0;  // the reaction where nothing is held
-      to += field->size();
+  in_pieces(pool, layout.node.size(), [&](std::size_t first, std::size_t last) {
+    double* to = values.data() + first * size_of(fields);
+    for (std::size_t i = first; i < last; ++i) {
+      const NodeView view = views.at(layout.node[i]);
+      for (const FieldEntry* field : fields) {
+        read_field(*field, view, to);
+        if (field->shape == FieldShape::vector)
+          for (std::size_t c = 0; c < field->size(); ++c)
+            if (std::isnan(to[c])) to[c] = 0.0;  // the reaction where nothing is held
+        to += field->size();
+      }
     }
-  }
+  });
   return values;
 }
 
@@ -198,15 +206,15 @@ VtkGrid vtk_grid(const Model& model, const NodalLayout& layout) {
 }
 
 std::vector<VtkArray> vtk_point_data(const Model& model, const Solution& s, const NodalLayout& layout,
-                                     const FieldTable& table) {
+                                     const FieldTable& table, ThreadPool* pool) {
   std::vector<VtkArray> arrays;
   FieldList of_nodes, tensors;
   for (const FieldEntry& field : table.rows()) {
     if (field.place() == FieldPlace::node && field.form != FieldForm::word) of_nodes.push_back(&field);
     if (field.place() == FieldPlace::point && field.shape == FieldShape::tensor) tensors.push_back(&field);
   }
-  add_fields(of_nodes, node_values(model, s, layout, of_nodes), arrays);
-  const std::vector<double> carried = nodal_average(model, s, layout, tensors);
+  add_fields(of_nodes, node_values(model, s, layout, of_nodes, pool), arrays);
+  const std::vector<double> carried = nodal_average(model, s, layout, tensors, NodalRule::extrapolated, pool);
   const std::size_t stride = carried_size_of(tensors);
   std::size_t at = 0;
   for (const FieldEntry* field : tensors) {
@@ -219,17 +227,18 @@ std::vector<VtkArray> vtk_point_data(const Model& model, const Solution& s, cons
   return arrays;
 }
 
-std::vector<VtkArray> vtk_cell_data(const Model& model, const Solution& s, const FieldTable& table) {
+std::vector<VtkArray> vtk_cell_data(const Model& model, const Solution& s, const FieldTable& table,
+                                    ThreadPool* pool) {
   std::vector<VtkArray> arrays;
   FieldList of_elements;
   for (const FieldEntry& field : table.rows())
     if (field.place() == FieldPlace::element && field.form != FieldForm::word) of_elements.push_back(&field);
-  add_fields(of_elements, element_values(model, s, of_elements), arrays);
+  add_fields(of_elements, element_values(model, s, of_elements, pool), arrays);
   const FieldList fields = cell_fields(model, table);
   std::vector<double> rows;
   for (const GroupData& data : s.groups()) {
     if (!data.active) continue;
-    const std::vector<double> more = element_average(model.mesh, data, fields);
+    const std::vector<double> more = element_average(model.mesh, data, fields, pool);
     rows.insert(rows.end(), more.begin(), more.end());
   }
   add_fields(fields, rows, arrays);

@@ -26,12 +26,14 @@ struct VtkArray {
   std::variant<std::vector<double>, std::vector<std::int32_t>> values;
 };
 
-// Fields of nodes; stress, strain and other tensors, extrapolated to them.
+// Fields of nodes; stress, strain and other tensors, extrapolated to them.  pool: threads that share the work, if there
+// are; arrays do not depend on them.
 std::vector<VtkArray> vtk_point_data(const Model& model, const Solution& solution, const NodalLayout& layout,
-                                     const FieldTable& table);
+                                     const FieldTable& table, ThreadPool* pool = nullptr);
 // Fields of elements, and those of integration points that are no tensors and no words: means over an element's
 // points, NaN where they do not apply; and NAME_ends of structures, the values at both ends of an element.  Which
 // arrays there are depends on the model alone.
-std::vector<VtkArray> vtk_cell_data(const Model& model, const Solution& solution, const FieldTable& table);
+std::vector<VtkArray> vtk_cell_data(const Model& model, const Solution& solution, const FieldTable& table,
+                                    ThreadPool* pool = nullptr);
 
 }  // namespace sage

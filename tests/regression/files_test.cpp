@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <map>
 #include <set>
 
 #include "sage/scenes/specimen_deck.hpp"
@@ -405,6 +406,33 @@ TEST(Files, AnyFileNameGivesAPvdThatReadersTake) {
   for (const char byte : pvd) EXPECT_TRUE((byte >= ' ' && byte < 127) || byte == '\n');
   ASSERT_EQ(sagefe(folder, "run '" + stem + ".dat' -q -o r").exit_code, 0);
   EXPECT_FALSE(fs::exists(folder / "r/caf%E9 & %01<1>_0001.vtu"));
+}
+
+// 10 400 elements: their states, tables and pictures are made on all threads.
+TEST(Files, OfALargeModelHaveTheSameBytesOnAnyNumberOfThreads) {
+  const fs::path folder = empty_folder("files_threads");
+  scenes::SpecimenDeck deck;
+  deck.columns = 80;
+  deck.rows = 130;
+  deck.increments = 1;
+  write(folder / "x.dat", deck.text());
+  std::map<std::string, std::string> first;
+  for (const std::string threads : {"1", "2", "3"}) {
+    const Finished run =
+        sagefe(folder, "run x.dat -q --result --vtu --msh --points --picture conf --picture SL -o on" +
+                           threads + " --threads " + threads);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    int files = 0;
+    for (const auto& entry : fs::directory_iterator(folder / ("on" + threads))) {
+      const std::string name = entry.path().filename().string();
+      if (name.ends_with(".files")) continue;  // has the number of the process
+      ++files;
+      const std::string bytes = read(entry.path());
+      const auto [same, added] = first.emplace(name, bytes);
+      EXPECT_TRUE(same->second == bytes) << name << " on " << threads << " threads";
+    }
+    EXPECT_GE(files, 8);
+  }
 }
 
 }  // namespace

@@ -68,10 +68,12 @@ herr_t first_message(unsigned, const H5E_error2_t* error, void* text) {
 
 struct Table {
   hid_t id = H5I_INVALID_HID;
-  std::size_t packed_row = 0;  // bytes of a row that is compressed by itself; 0: there are none such
+  std::size_t packed_row =
+      0;  // bytes of a row, or of a piece of one, that is compressed by itself; 0: there are none
   std::size_t width = 0;       // of a number
   std::size_t row = 0;         // bytes of one
   hsize_t chunk = 0;           // rows
+  std::vector<hsize_t> piece;  // what is stored together, in every dimension
 };
 
 // What was never written reads as zeros.
@@ -89,12 +91,12 @@ std::vector<unsigned char> shuffled(const unsigned char* numbers, std::size_t by
   return turned;
 }
 
-// A long row whose middle hardly becomes smaller.  Compressing stress and strain of 200 000 elements took as long
+// A long row, or a piece of one, whose middle hardly becomes smaller.  Compressing stress and strain of 200 000 elements took as long
 // as computing them, for half of their size; tables of zeros, directions and states pay a hundred times more.
 bool left_as_it_is(const Table& table, const void* row) {
   constexpr std::size_t kLong = std::size_t{1} << 20, kSample = std::size_t{1} << 14;
   constexpr uLongf kWorth = 4;  // times smaller
-  if (table.packed_row < kLong) return false;
+  if (table.packed_row == 0 || table.row < kLong) return false;
   const std::size_t middle = table.packed_row / table.width / 2 * table.width;
   const auto sample = shuffled(static_cast<const unsigned char*>(row) + middle, kSample, table.width);
   uLongf size = compressBound(kSample);
@@ -133,8 +135,8 @@ class Hdf5File final : public DataFile {
   ~Hdf5File() override { close(); }
   bool is_open() const { return file_ >= 0; }
 
-  bool table(const char* path, DataType type, const std::vector<std::uint64_t>& row,
-             std::uint64_t chunk) override {
+  bool table(const char* path, DataType type, const std::vector<std::uint64_t>& row, std::uint64_t chunk,
+             std::uint64_t part) override {
     const Calls calls;
     const int rank = static_cast<int>(row.size()) + 1;
     std::vector<hsize_t> size{0}, most{H5S_UNLIMITED}, piece{chunk};
@@ -143,8 +145,10 @@ class Hdf5File final : public DataFile {
       most.push_back(n == 0 ? H5S_UNLIMITED : n);  // a group without elements: its rows are empty,
       piece.push_back(n == 0 ? 1 : n);             // and neither a chunk nor what is fixed may be
     }
-    std::uint64_t numbers = 1;
+    if (part > 0 && piece.size() > 1) piece[1] = std::min<hsize_t>(piece[1], part);
+    std::uint64_t numbers = 1, together = 1;
     for (std::uint64_t n : row) numbers *= n;
+    for (std::size_t i = 1; i < piece.size(); ++i) together *= piece[i];
     const Id space(H5Screate_simple(rank, size.data(), most.data()), H5Sclose);
     const Id how(H5Pcreate(H5P_DATASET_CREATE), H5Pclose), links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
     H5Pset_obj_track_times(how.get(), false);  // equal runs, equal bytes
@@ -156,38 +160,47 @@ class Hdf5File final : public DataFile {
         H5Dcreate2(file_, path, hdf5_type(type), space.get(), links.get(), how.get(), H5P_DEFAULT);
     if (set < 0) return failed(path);
     const std::size_t width = size_of(type);
-    sets_[path] = {set, numbers > 16 && chunk == 1 ? numbers * width : 0, width, numbers * width, chunk};
+    const std::size_t packed = numbers > 16 && chunk == 1 ? together * width : 0;
+    sets_[path] = {set, packed, width, numbers * width, chunk, piece};
     return true;
   }
 
   bool append(const char* path, const void* rows, std::uint64_t count) override {
     const Calls calls;
-    const auto set = sets_.find(path);
-    if (set == sets_.end()) {
-      error_ = std::string("no table ") + path;
-      return false;
-    }
+    const Table* const table = find(path);
+    if (table == nullptr) return false;
     if (count == 0) return true;
-    const hid_t id = set->second.id;
-    const Id before(H5Dget_space(id), H5Sclose), type(H5Dget_type(id), H5Tclose);
-    std::vector<hsize_t> size(static_cast<std::size_t>(H5Sget_simple_extent_ndims(before.get())));
-    H5Sget_simple_extent_dims(before.get(), size.data(), nullptr);
-    std::vector<hsize_t> start(size.size(), 0), more = size;
+    std::vector<hsize_t> size = extent_of(*table), start(size.size(), 0), more = size;
     start[0] = size[0];
     more[0] = count;
     size[0] += count;
     errno = 0;
-    if (H5Dset_extent(id, size.data()) < 0) return failed();
-    if (std::find(more.begin(), more.end(), 0) != more.end()) return true;
-    const bool whole_chunks = start[0] % set->second.chunk == 0 && count % set->second.chunk == 0;
-    if (whole_chunks && only_zeros(rows, count * set->second.row)) return true;
-    if (count == 1 && left_as_it_is(set->second, rows))
-      return H5Dwrite_chunk(id, H5P_DEFAULT, kNoFilters, start.data(), set->second.packed_row, rows) >= 0 ||
-             failed();
-    const Id file_space(H5Dget_space(id), H5Sclose);
-    const Id memory(H5Screate_simple(static_cast<int>(more.size()), more.data(), nullptr), H5Sclose);
-    H5Sselect_hyperslab(file_space.get(), H5S_SELECT_SET, start.data(), nullptr, more.data(), nullptr);
-    return H5Dwrite(id, type.get(), memory.get(), file_space.get(), H5P_DEFAULT, rows) >= 0 || failed();
+    if (H5Dset_extent(table->id, size.data()) < 0) return failed();
+    const bool whole_chunks = start[0] % table->chunk == 0 && count % table->chunk == 0;
+    return write(*table, start, more, rows, whole_chunks, count == 1 && table->packed_row == table->row);
+  }
+
+  bool append_piece(const char* path, const void* lines, std::uint64_t first, std::uint64_t count) override {
+    const Calls calls;
+    const Table* const table = find(path);
+    if (table == nullptr) return false;
+    std::vector<hsize_t> size = extent_of(*table), start(size.size(), 0), more = size;
+    if (first == 0) ++size[0];
+    start[0] = size[0] - 1;
+    start[1] = first;
+    more[0] = 1;
+    more[1] = count;
+    errno = 0;
+    if (first == 0 && H5Dset_extent(table->id, size.data()) < 0) return failed();
+    if (count == table->piece[1]) return write(*table, start, more, lines, true, true);
+    // What is left is stored as a whole piece, and so it takes the same way as the others.
+    const std::size_t bytes = count * (table->row / size[1]);
+    if (only_zeros(lines, bytes)) return true;
+    std::vector<char> padded(table->packed_row, 0);
+    if (padded.size() < bytes) return write(*table, start, more, lines, true, false);
+    std::memcpy(padded.data(), lines, bytes);
+    return left_as_it_is(*table, padded.data()) ? write_packed(*table, start, padded.data())
+                                                : write(*table, start, more, lines, true, false);
   }
 
   // Of a fixed length: VTK reads no other.
@@ -275,6 +288,40 @@ class Hdf5File final : public DataFile {
   const char* error() const override { return error_.c_str(); }
 
  private:
+  const Table* find(const char* path) {
+    const auto set = sets_.find(path);
+    if (set != sets_.end()) return &set->second;
+    error_ = std::string("no table ") + path;
+    return nullptr;
+  }
+
+  static std::vector<hsize_t> extent_of(const Table& table) {
+    const Id space(H5Dget_space(table.id), H5Sclose);
+    std::vector<hsize_t> size(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space.get())));
+    H5Sget_simple_extent_dims(space.get(), size.data(), nullptr);
+    return size;
+  }
+
+  bool write_packed(const Table& table, const std::vector<hsize_t>& start, const void* values) {
+    return H5Dwrite_chunk(table.id, H5P_DEFAULT, kNoFilters, start.data(), table.packed_row, values) >= 0 ||
+           failed();
+  }
+
+  // From the numbers `start` on so many in every dimension.  whole: nothing else is or will be stored with them.  piece:
+  // they are what is compressed by itself.
+  bool write(const Table& table, const std::vector<hsize_t>& start, const std::vector<hsize_t>& more,
+             const void* values, bool whole, bool piece) {
+    std::size_t bytes = table.width;
+    for (hsize_t n : more) bytes *= n;
+    if (bytes == 0) return true;
+    if (whole && only_zeros(values, bytes)) return true;
+    if (piece && left_as_it_is(table, values)) return write_packed(table, start, values);
+    const Id space(H5Dget_space(table.id), H5Sclose), type(H5Dget_type(table.id), H5Tclose);
+    const Id memory(H5Screate_simple(static_cast<int>(more.size()), more.data(), nullptr), H5Sclose);
+    H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, more.data(), nullptr);
+    return H5Dwrite(table.id, type.get(), memory.get(), space.get(), H5P_DEFAULT, values) >= 0 || failed();
+  }
+
   // Groups without times, which intermediate groups of HDF5's own making have not.
   bool make_folders(const std::string& path) {
     for (std::size_t at = path.find('/', 1); at != std::string::npos; at = path.find('/', at + 1)) {

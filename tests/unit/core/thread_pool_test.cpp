@@ -1,5 +1,6 @@
 #include "sage/core/thread_pool.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <stdexcept>
 #include <vector>
@@ -24,6 +25,18 @@ TEST(ThreadPool, EveryIndexRunsOnceInEveryRound) {
     const auto nothing = [](int, int) { FAIL(); };
     pool.run(0, nothing);
   }
+}
+
+TEST(ThreadPool, PiecesCoverAllRowsOnce) {
+  ThreadPool three(3);
+  for (ThreadPool* pool : {static_cast<ThreadPool*>(nullptr), &three})
+    for (const std::size_t rows : {std::size_t{0}, std::size_t{1}, std::size_t{8191}, std::size_t{20001}}) {
+      std::vector<int> runs(rows, 0);
+      in_pieces(pool, rows, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) ++runs[i];
+      });
+      EXPECT_EQ(std::ranges::count(runs, 1), static_cast<std::ptrdiff_t>(rows));
+    }
 }
 
 TEST(ThreadPool, TheExceptionOfTheSmallestIndexArrivesAndAllOthersRun) {

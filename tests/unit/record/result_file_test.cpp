@@ -139,6 +139,45 @@ TEST(ResultFile, LongRowsComeBackCompressedOrNot) {
   EXPECT_GT(size, 2 * kNumbers * sizeof(double));            // the other is not compressed
 }
 
+// Rows that come piece by piece, the last one shorter than the others; the same where a reader asks for rows.
+TEST(ResultFile, PiecesOfRowsComeBack) {
+  const auto path = fresh_folder("result_pieces") / "t.h5";
+  constexpr std::size_t kLines = 100000, kPiece = 30000, kRow = 2 * kLines;
+  std::vector<double> mixed(2 * kRow), zeros(2 * kRow, 0.0);
+  for (std::size_t i = 0; i < mixed.size(); ++i) mixed[i] = std::sin(1e4 * static_cast<double>(i));
+  std::vector<std::int32_t> words(2 * kLines, 7);
+  const auto file = make_data_file(path.string());
+  const auto add = [&](const char* name, DataType type, const std::vector<std::uint64_t>& row,
+                       const auto& values) {
+    ASSERT_TRUE(file->table(name, type, row, 1, kPiece)) << file->error();
+    const std::size_t line = values.size() / 2 / kLines;
+    for (std::size_t step = 0; step < 2; ++step)
+      for (std::size_t first = 0; first < kLines; first += kPiece)
+        ASSERT_TRUE(file->append_piece(name, values.data() + (step * kLines + first) * line, first,
+                                       std::min(kPiece, kLines - first)))
+            << file->error();
+  };
+  add("/mixed", DataType::float64, {kLines, 2}, mixed);
+  add("/zeros", DataType::float64, {kLines, 2}, zeros);
+  add("/words", DataType::int32, {kLines}, words);
+  ASSERT_TRUE(file->close());
+  const auto back = open_data_file(path.string());
+  const auto expect = [&](const char* name, const auto& values) {
+    const std::size_t row = values.size() / 2 * sizeof values[0];
+    std::string all, second(row, ' ');
+    ASSERT_TRUE(back->read(name, all)) << back->error();
+    ASSERT_EQ(all.size(), 2 * row);
+    EXPECT_EQ(std::memcmp(all.data(), values.data(), all.size()), 0) << name;
+    ASSERT_TRUE(back->read_row(name, 1, second.data(), row)) << back->error();
+    EXPECT_EQ(std::memcmp(second.data(), values.data() + values.size() / 2, row), 0) << name;
+  };
+  expect("/mixed", mixed);
+  expect("/zeros", zeros);
+  expect("/words", words);
+  // Four pieces of 480 000 bytes a row of the first alone.
+  EXPECT_LT(std::filesystem::file_size(path), 2u * 4u * kPiece * 2u * sizeof(double) + 100000u);
+}
+
 // As the triangles among the quadrilaterals of a card.
 TEST(ResultFile, TwoGroupsMayHaveOneNumber) {
   Specimen specimen;
