@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "sage/model/solid_edges.hpp"
 
@@ -319,15 +320,46 @@ SolidEdges edges_of_active(const Model& model, const std::vector<char>& groups) 
 
 }  // namespace
 
+namespace {
+
+// Pairs of nodes that an active bar or beam goes along, whole elements and their halves.
+std::set<std::pair<int, int>> lines_of_structures(const Model& model, const std::vector<char>& groups) {
+  std::set<std::pair<int, int>> lines;
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const Group& group = model.groups[g];
+    if (!groups[g] || !group.structure() || group.element->edges().empty()) continue;
+    const std::vector<int>& edge = group.element->edges().front();
+    for (int e = 0; e < group.elements(); ++e) {
+      const int* const nodes = group.nodes_of(e);
+      for (std::size_t i = 0; i < edge.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k) lines.insert(edge_key(nodes[edge[i]], nodes[edge[k]]));
+    }
+  }
+  return lines;
+}
+
+// An element of a structure lies along the whole edge, or one along each part of it.
+bool carries_structure(const std::set<std::pair<int, int>>& lines, const int* nodes,
+                       const std::vector<int>& edge) {
+  if (lines.empty()) return false;
+  if (lines.contains(edge_key(nodes[edge[0]], nodes[edge[1]]))) return true;
+  int last = nodes[edge[0]];
+  const auto goes_on = [&](int next) { return lines.contains(edge_key(std::exchange(last, next), next)); };
+  for (std::size_t i = 2; i < edge.size(); ++i)
+    if (!goes_on(nodes[edge[i]])) return false;
+  return edge.size() > 2 && goes_on(nodes[edge[1]]);
+}
+
+}  // namespace
+
 std::vector<FreeEdge> free_edges(const Model& model, const std::vector<char>& groups) {
-  std::set<int> structures;
-  for (std::size_t g = 0; g < model.groups.size(); ++g)
-    if (groups[g] && model.groups[g].structure())
-      structures.insert(model.groups[g].nodes.begin(), model.groups[g].nodes.end());
+  const std::set<std::pair<int, int>> lines = lines_of_structures(model, groups);
   std::vector<FreeEdge> free;
-  edges_of_active(model, groups).for_single([&](int node, const SolidEdge& edge) {
-    const bool on_structure = structures.contains(node) && structures.contains(edge.other);
-    free.push_back({edge.group, edge.element, edge.local, on_structure});
+  edges_of_active(model, groups).for_single([&](int, const SolidEdge& edge) {
+    const Group& group = model.groups[static_cast<std::size_t>(edge.group)];
+    const std::vector<int>& local = group.element->edges()[static_cast<std::size_t>(edge.local)];
+    free.push_back(
+        {edge.group, edge.element, edge.local, carries_structure(lines, group.nodes_of(edge.element), local)});
   });
   return free;
 }

@@ -339,6 +339,39 @@ void add_wall(DeckWriter& deck, int group, std::vector<int> row, int order, int 
   }
 }
 
+// A trench one element wide: both ends of its floor belong to walls, and no wall lies along it, so that water stands on
+// it.  With water all around what the bottom bears is the soil's weight under water.
+TEST(Water, StandsOnAFloorBetweenTwoWalls) {
+  for (const Cell cell : {Cell::quad4, Cell::quad8}) {
+    Block block = cells(3, 2, cell);
+    block.place = rectangle(0.0, 3.0, 0.0, 2.0);
+    DeckWriter deck(1);
+    block.write_nodes(deck);
+    deck.material(1, 1, {1e4, 0.3}, 20.0);
+    deck.material(2, kPlateLaw, {3e7, 0.2, 0.1, 1.0});
+    deck.group(1, static_cast<int>(cell), 0, 1);
+    deck.group(2, 35, 0, 2);
+    block.write_elements(deck, 1);
+    const std::vector<int> top = block.top();
+    const auto order = static_cast<std::size_t>(block.order());
+    for (const std::size_t column : {std::size_t{1}, std::size_t{2}}) {
+      const int tip = 1000 + static_cast<int>(column);
+      deck.node(tip, static_cast<double>(column), 3.0);
+      deck.fix(tip, 1, 0);
+      deck.element(500 + static_cast<int>(column), 2, {top[column * order], tip});
+    }
+    for (const int node : block.left()) deck.fix(node, 1, 0);
+    for (const int node : block.right()) deck.fix(node, 1, 0);
+    for (const int node : block.bottom()) deck.fix(node, 1, 1);
+    deck.stage().gravity_y = -1.0;
+    deck.water(1, 1, 1, 0, {0.0, 5.0});
+    deck.water(1, 2, 1, 0, {0.0, 5.0});
+    const WholeRun run = bench().run(deck.text());
+    ASSERT_TRUE(run.completed()) << run.failure;
+    EXPECT_NEAR(run.reaction(run.last(), block.bottom(), 1), 6.0 * (20.0 - kWater), 1e-9);
+  }
+}
+
 // A wall from y = 0 to 6 at x = 2 in open water, 5.3 high on its left and 2.2 on its right (levels within elements):
 // the water presses with gamma_w (h^2 - k^2) / 2 and turns about the foot with gamma_w (h^3 - k^3) / 6, around the
 // full circle where the wall is a ring.
