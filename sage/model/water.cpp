@@ -503,14 +503,39 @@ class WaterForce {
     std::set<std::pair<int, int>> keys;
     for (const FreeEdge& edge : free_edges(model_, activity_.group)) {
       const WaterCard* const card = water_.card(static_cast<std::size_t>(edge.group));
-      const bool loads =
-          card != nullptr && card->action == WaterAction::edges && card->kind != WaterKind::ratio;
-      if (!loads || edge.on_structure) continue;
+      if (card == nullptr || card->kind == WaterKind::ratio) continue;
+      // Seepage force and buoyancy have the water at their edges in them.
+      if (card->action == WaterAction::force) keys.insert(key_of(edge));
+      if (card->action != WaterAction::edges || edge.on_structure) continue;
       wet.push_back(edge);
       keys.insert(key_of(edge));
     }
     take_joints();
     for (const FreeEdge& edge : wet) add_edge(edge, keys);
+    take_back_shared();
+  }
+
+  // Where solids with seepage force meet such with pressures, no water stands between them: what the seepage force has
+  // of it goes.
+  void take_back_shared() {
+    const auto card_of = [&](const SolidEdge& edge) {
+      return water_.card(static_cast<std::size_t>(edge.group));
+    };
+    bool forces = false, pressures = false;
+    for (std::size_t g = 0; g < model_.groups.size(); ++g)
+      if (const WaterCard* const card = water_.card(g); card != nullptr)
+        (card->action == WaterAction::force ? forces : pressures) = true;
+    if (!forces || !pressures) return;
+    const SolidEdges solids = edges_of_active(model_, activity_.group);
+    for (int node = 0; node < model_.mesh.nodes(); ++node)
+      for (const SolidEdge& edge : solids.at(node)) {
+        if (card_of(edge) == nullptr || card_of(edge)->action != WaterAction::force) continue;
+        const bool meets = std::ranges::any_of(solids.at(node), [&](const SolidEdge& one) {
+          const WaterCard* const card = card_of(one);
+          return one.other == edge.other && card != nullptr && card->action != WaterAction::force;
+        });
+        if (meets) press_edge({edge.group, edge.element, edge.local, false}, -1.0, nullptr);
+      }
   }
 
   std::pair<int, int> key_of(const FreeEdge& edge) const {
@@ -539,6 +564,20 @@ class WaterForce {
 
   // -u n on the solid; what lies behind a joint gets the opposite unless it is wet itself.
   void add_edge(const FreeEdge& edge, const std::set<std::pair<int, int>>& wet) {
+    const Group& group = model_.groups[static_cast<std::size_t>(edge.group)];
+    const int* const nodes = group.nodes_of(edge.element);
+    const std::vector<int>& local = group.element->edges()[static_cast<std::size_t>(edge.edge)];
+    const auto joint = joints_.find(key_of(edge));
+    const std::map<int, int>* behind = joint == joints_.end() ? nullptr : &joint->second;
+    if (behind != nullptr) {
+      const auto other = [&](int corner) { return behind->at(nodes[local[static_cast<std::size_t>(corner)]]); };
+      if (wet.contains(edge_key(other(0), other(1)))) behind = nullptr;
+    }
+    press_edge(edge, 1.0, behind);
+  }
+
+  // -u n on the solid, times sense, and the opposite on the nodes behind.
+  void press_edge(const FreeEdge& edge, double sense, const std::map<int, int>* behind) {
     const auto g = static_cast<std::size_t>(edge.group);
     const Group& group = model_.groups[g];
     const bool triangle = group.entry->triangle();
@@ -546,17 +585,11 @@ class WaterForce {
     const int* const nodes = group.nodes_of(edge.element);
     const std::vector<int>& local = group.element->edges()[static_cast<std::size_t>(edge.edge)];
     const Vector2 from = parent_corner(triangle, local[0]), to = parent_corner(triangle, local[1]);
-    const auto joint = joints_.find(key_of(edge));
-    const std::map<int, int>* behind = joint == joints_.end() ? nullptr : &joint->second;
-    if (behind != nullptr) {
-      const auto other = [&](int corner) { return behind->at(nodes[local[static_cast<std::size_t>(corner)]]); };
-      if (wet.contains(edge_key(other(0), other(1)))) behind = nullptr;
-    }
     const GaussRule line(group.element->degree() + 2);
     for (std::size_t q = 0; q < line.x.size(); ++q) {
       mapped_.take(*group.element, x_, from + 0.5 * (1.0 + line.x[q]) * (to - from));
       const Vector2 along = 0.5 * mapped_.J * (to - from);
-      const double w = line.w[q] * measure(model_, mapped_.place);
+      const double w = sense * line.w[q] * measure(model_, mapped_.place);
       const double u = water_.at(g, edge.element, mapped_.place, mapped_.N);
       if (!(u > 0.0)) continue;
       for (const int i : local) {

@@ -604,6 +604,26 @@ TEST(Water, PressureOrSeepageForce) {
     }
 }
 
+// A layer with pressures under one with seepage force: no water stands between them, and all is as if both had pressures.
+TEST(Water, PressuresBesideSeepageForce) {
+  for (const int geometry : {1, 2})
+    for (const Cell cell : {Cell::quad4, Cell::quad8}) {
+      const Block block = sloping(cell);
+      const auto layers = [&](int action_below, int action_above) {
+        DeckWriter deck = slope(block, geometry, 20.0);
+        deck.group(2, static_cast<int>(cell), 0, 1);
+        for (std::string& card : deck.elements)
+          if (std::stoi(card.substr(0, 5)) > 4) card.replace(5, 5, "    2");
+        deck.water(1, 1, 1, action_below, {0.0, 9.0});
+        deck.water(1, 2, 1, action_above, {0.0, 9.0});
+        return bench().run(deck.text());
+      };
+      const WholeRun pressures = layers(0, 0);
+      EXPECT_LT(difference(layers(0, 2), pressures), 1e-10);
+      EXPECT_LT(difference(layers(2, 0), pressures), 1e-10);
+    }
+}
+
 // Pressures at nodes that are those of a level give what the level gives.
 TEST(Water, PressuresAtNodes) {
   const Block block = sloping(Cell::quad8);
