@@ -414,8 +414,9 @@ constexpr MessageEntry kMessages[] = {
      "0.036111 pci."},
     {"S248", "a water card does not fit",
      "The card lacks what its kind needs (points of a line, pairs of node and pressure, r_u, a bulk of water), "
-     "names "
-     "a stage that is not there or a group that is no solid, or asks for heads where none are solved for.",
+     "has numbers where its kind reads none, names a stage that is not there or a group that is no solid, or "
+     "asks "
+     "for heads where none are solved for.",
      "Complete the card: docs/manual/deck_format.md, card water; docs/manual/water.md."},
     {"S249", "undrained, and a pressure is given",
      "The pore pressure of an undrained group follows from its change of volume. A card that changes it in the "

@@ -1008,6 +1008,16 @@ TEST(Water, WhatContradictsIsNamed) {
   EXPECT_EQ(code_of([](DeckWriter& d) { d.water(4, 0, 2, 0, {}); }), "S248");
   EXPECT_EQ(code_of([](DeckWriter& d) { d.water(5, 0, 1, 0, {}, 1e5, 0.4); }), "S248");
   EXPECT_EQ(code_of([](DeckWriter& d) { d.water(8, 0, 1, 0, {}); }), "S210");
+  EXPECT_EQ(code_of([](DeckWriter& d) { d.water(2, 0, 1, 0, {0.3}, 0.2); }), "S248")
+      << "values that no one reads";
+  EXPECT_EQ(code_of([](DeckWriter& d) { d.water(2, 0, 1, 0, {}, 0.0, 0.3); }), "S248")
+      << "r_u in the next field";
+  EXPECT_EQ(code_of([](DeckWriter& d) { d.water(1, 0, 1, 0, {0.0, 3.0}, 5.0); }), "S248") << "a level there";
+  EXPECT_EQ(code_of([](DeckWriter& d) {
+              d.water(3, 0, 1, 1, {7.0, 2.0, 7.0, 5.0});
+            }),
+            "S248")
+      << "a node twice";
   EXPECT_EQ(code_of([](DeckWriter& d) {
               d.water(2, 0, 1, 0, {}, 0.3);
               d.water(1, 0, 1, 0, {0.0, 3.0});
