@@ -321,6 +321,39 @@ TEST(Water, WallsTakeTheWater) {
   }
 }
 
+// A wall in joints beside soil that is shut in: the joint bears what the soil and its water bear together, and a
+// warning says so; beside soil with a given pressure it bears the grains' part alone, without a word.
+TEST(Water, JointsBesideUndrainedSoilBearItsExcess) {
+  Block block = cells(2, 1, Cell::quad4);
+  block.place = rectangle(0.0, 2.0, 0.0, 1.0);
+  DeckWriter deck(1);
+  block.write_nodes(deck);
+  deck.material(1, 1, {1e4, 0.3}, 0.0);
+  deck.material(2, 21, {0.0, 1e9, 1.0});
+  deck.group(1, static_cast<int>(Cell::quad4), 0, 1);
+  deck.group(2, 11, 0, 2);
+  block.write_elements(deck, 1);
+  const std::vector<int> wall = copy_row(deck, block, block.right(), 1001);
+  join(deck, 501, 2, wall, block.right(), block.order());
+  for (const int node : block.left()) deck.fix(node, 1, 0);
+  for (const int node : block.bottom()) deck.fix(node, 0, 1);
+  for (const int node : wall) deck.fix(node, 1, 1);
+  StageCards& stage = deck.stage();
+  for (const int column : {0, 1}) stage.pressure(block.element(column, 0), 3, 100.0, 100.0);
+  DeckWriter given = deck;
+  const double M = 1e4 * 0.7 / (1.3 * 0.4), bulk = 1e5;
+  deck.water(5, 1, 1, 0, {}, bulk);
+  given.water(1, 1, 1, 0, {0.0, -1.0});
+  const WholeRun shut = bench().run(deck.text()), open = bench().run(given.text());
+  ASSERT_TRUE(shut.completed() && open.completed()) << shut.failure << open.failure;
+  EXPECT_TRUE(shut.warns("its excess pressure is in their traction"));
+  EXPECT_FALSE(open.warns("excess"));
+  // The joint gives way by 1e-5 of what the soil does.
+  const double grains = 100.0 * M / (M + bulk) * 0.3 / 0.7, excess = 100.0 * bulk / (M + bulk);
+  EXPECT_NEAR(shut.reaction(shut.last(), wall, 0), -(grains + excess), 1e-2);
+  EXPECT_NEAR(open.reaction(open.last(), wall, 0), -100.0 * 0.3 / 0.7, 1e-2);
+}
+
 // ---- Free water on beams
 
 constexpr int kPlateLaw = 35;
