@@ -505,7 +505,10 @@ class WaterForce {
       const WaterCard* const card = water_.card(static_cast<std::size_t>(edge.group));
       if (card == nullptr || card->kind == WaterKind::ratio) continue;
       // Seepage force and buoyancy have the water at their edges in them.
-      if (card->action == WaterAction::force) keys.insert(key_of(edge));
+      if (card->action == WaterAction::force) {
+        keys.insert(key_of(edge));
+        if (edge.on_structure) in_forces_.emplace(key_of(edge), edge);
+      }
       if (card->action != WaterAction::edges || edge.on_structure) continue;
       wet.push_back(edge);
       keys.insert(key_of(edge));
@@ -610,11 +613,23 @@ class WaterForce {
     if (!wanted) return;
     for (const BesideStructure& one : structures_beside_water(model_, activity_.group)) {
       const auto g = static_cast<std::size_t>(one.group);
-      if (one.left && water_.card(g, WaterSide::left) != nullptr)
-        add_structure(model_.groups[g], one.element, *water_.card(g, WaterSide::left), -1.0);
-      if (one.right && water_.card(g, WaterSide::right) != nullptr)
-        add_structure(model_.groups[g], one.element, *water_.card(g, WaterSide::right), 1.0);
+      const WaterCard* const left = one.left ? water_.card(g, WaterSide::left) : nullptr;
+      const WaterCard* const right = one.right ? water_.card(g, WaterSide::right) : nullptr;
+      if (left != nullptr) add_structure(model_.groups[g], one.element, *left, -1.0);
+      if (right != nullptr) add_structure(model_.groups[g], one.element, *right, 1.0);
+      if (left != nullptr || right != nullptr) take_back_behind(model_.groups[g], one.element);
     }
+  }
+
+  // Seepage force has water at the edge that carries the structure; what the card says of its other side stands in its
+  // place.
+  void take_back_behind(const Group& group, int element) {
+    const std::vector<int>& edge = group.element->edges().front();
+    const int* const nodes = group.nodes_of(element);
+    const auto behind = in_forces_.find(edge_key(nodes[edge[0]], nodes[edge[1]]));
+    if (behind == in_forces_.end()) return;
+    press_edge(behind->second, -1.0, nullptr);
+    in_forces_.erase(behind);
   }
 
   // sense: 1 pushes to the left of the way from node 1 to node 2.  The shape functions are those of the edges of solids
@@ -650,6 +665,7 @@ class WaterForce {
   Eigen::Matrix2Xd x_;
   Mapped mapped_;
   std::map<std::pair<int, int>, std::map<int, int>> joints_;
+  std::map<std::pair<int, int>, FreeEdge> in_forces_;  // that carry structures, of solids with seepage force
 };
 
 }  // namespace

@@ -372,6 +372,30 @@ void add_wall(DeckWriter& deck, int group, std::vector<int> row, int order, int 
   }
 }
 
+// A wall along soil whose water acts as seepage force, and water on its free side: as with pressures in the soil.
+TEST(Water, FreeWaterBesideSeepageForce) {
+  for (const Cell cell : {Cell::quad4, Cell::quad8})
+    for (const bool turned : {false, true}) {
+      Block block = cells(2, 4, cell);
+      block.place = rectangle(1.0, 3.0, 0.0, 4.0);
+      const auto walled = [&](int action) {
+        DeckWriter deck = slope(block, 2, 20.0);
+        deck.fixities.clear();
+        for (const int node : block.left()) deck.fix(node, 1, 0);
+        for (const int node : block.bottom()) deck.fix(node, 1, 1);
+        deck.material(2, kPlateLaw, {3e7, 0.2, 0.1, 1.0});
+        deck.group(2, beam_for(cell), 0, 2);
+        add_wall(deck, 2, block.right(), block.order(), 500, turned);
+        deck.water(1, 1, 1, action, {0.0, 4.0});
+        deck.water(1, 2, 1, 0, {0.0, 2.5});
+        return bench().run(deck.text());
+      };
+      const WholeRun pressures = walled(0), force = walled(2);
+      ASSERT_TRUE(pressures.completed() && force.completed()) << pressures.failure << force.failure;
+      EXPECT_LT(difference(force, pressures), 1e-10);
+    }
+}
+
 // A trench one element wide: both ends of its floor belong to walls, and no wall lies along it, so that water stands on
 // it.  With water all around what the bottom bears is the soil's weight under water.
 TEST(Water, StandsOnAFloorBetweenTwoWalls) {
