@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "sage/build/builder.hpp"
 #include "sage/deck/text.hpp"
@@ -54,6 +55,7 @@ void read_nodes(Builder& b, const CardView& card, WaterCard& water) {
                 std::to_string(values.size()) + " values");
     return;
   }
+  std::set<int> seen;
   for (std::size_t i = 0; i < values.size(); i += 2) {
     if (!(values[i] >= 1.0 && values[i] < 2e9 && values[i] == std::floor(values[i])) || values[i + 1] < 0.0) {
       b.error("S248", card.where("values"),
@@ -62,6 +64,11 @@ void read_nodes(Builder& b, const CardView& card, WaterCard& water) {
     }
     const int node = b.node(card, "values", static_cast<std::int64_t>(values[i]));
     if (node < 0) return;
+    if (!seen.insert(node).second) {
+      b.error("S248", card.where("values"),
+              "node " + rounded_text(values[i], 10) + " stands twice on the card of pressures at nodes");
+      return;
+    }
     water.nodes.emplace_back(node, values[i + 1]);
   }
 }
@@ -111,6 +118,25 @@ void read_kind(Builder& b, const CardView& card, WaterCard& water) {
   }
 }
 
+// A number in a field that the card's kind has no use for stands there by mistake, for another field or kind.
+void refuse_unread(Builder& b, const CardView& card, bool structure) {
+  const int kind = card.integer("kind");
+  const auto refuse = [&](const char* field, const std::string& what, const std::string& who) {
+    b.error("S248", card.where(field),
+            "a water card of kind " + std::to_string(kind) + " reads no " + what + "; " + who);
+  };
+  const auto among = [kind](std::initializer_list<int> kinds) {
+    return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
+  };
+  if (card.integer("listed") > 0 && !among({1, 3}))
+    refuse("listed", "values listed", "a phreatic line (kind 1) and pressures at nodes (kind 3) do");
+  if (card.real("value1") != 0.0 && !among({2, 5, kStored}) && !structure)
+    refuse("value1", "value 1",
+           "r_u, the bulk of water and the stage of an earlier run stand there, and sides of beams");
+  if (card.real("value2") != 0.0 && !among({5}))
+    refuse("value2", "value 2", "an undrained Poisson's ratio (kind 5) stands there");
+}
+
 void read_file(Builder& b, const CardView& card) {
   const double stage = card.real("value1");
   const std::string file = b.text(card, "file");
@@ -132,6 +158,10 @@ bool bears_water(const ElementEntry& entry) {
   };
   return has([](const UnknownField& field) { return field.turns; }) &&
          !has([](const UnknownField& field) { return !field.turns && !field.displacement(); });
+}
+
+bool is_structure(const Group& group) {
+  return group.entry != nullptr && group.structure();
 }
 
 // Cards about structures: free water on their sides, or none.
@@ -268,7 +298,7 @@ void warn_of_water_cards(Builder& b) {
                      : "group " + std::to_string(b.model.groups[static_cast<std::size_t>(group)].number);
   };
   const auto same = [&](const WaterCard& a, const WaterCard& c) {
-    const bool structure = a.group >= 0 && b.model.groups[static_cast<std::size_t>(a.group)].structure();
+    const bool structure = a.group >= 0 && is_structure(b.model.groups[static_cast<std::size_t>(a.group)]);
     return a.stage == c.stage && a.group == c.group && a.pressure() == c.pressure() &&
            (!structure || c.value == 0.0 || a.value == c.value);
   };
@@ -383,6 +413,8 @@ void build_water(Builder& b) {
     water.stage = read_first_stage(b, card);
     const std::vector<int> groups = groups_of(b, card);
     if (water.stage < 0 || groups.empty() || !b.materials_known || !b.groups_known) continue;
+    refuse_unread(
+        b, card, groups.front() >= 0 && is_structure(b.model.groups[static_cast<std::size_t>(groups.front())]));
     if (water.kind == WaterKind::undrained) {
       read_undrained(b, card, water, twins, groups);
       continue;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "sage/build/builder.hpp"
 #include "sage/deck/text.hpp"
@@ -258,10 +259,33 @@ void check_pressures(Builder& b) {
   }
 }
 
+// Joints take pressures that are given, not those that follow from a change of volume: their traction beside soil that
+// is shut in is the total one.
+void warn_of_joints_beside_undrained(Builder& b) {
+  const Model& model = b.model;
+  for (const WaterCard& card : model.water) {
+    if (card.kind != WaterKind::undrained) continue;
+    const Group& soil = model.groups[static_cast<std::size_t>(card.group)];
+    const std::set<int> shut(soil.nodes.begin(), soil.nodes.end());
+    const auto joint = std::ranges::find_if(model.groups, [&](const Group& group) {
+      return group.interface() &&
+             std::ranges::any_of(group.nodes, [&](int node) { return shut.contains(node); });
+    });
+    if (joint == model.groups.end()) continue;
+    b.warning(
+        "S349", card.where,
+        "joints of group " + std::to_string(joint->number) + " touch group " + std::to_string(soil.number) +
+            ", which is undrained from stage " + std::to_string(card.stage + 1) +
+            " on: its excess pressure is in their traction, and counts for friction, until it is drained");
+    return;
+  }
+}
+
 }  // namespace
 
 void check_water(Builder& b) {
   check_pressures(b);
+  warn_of_joints_beside_undrained(b);
   if (find_unknown(b.model.unknowns, "head") >= 0) {
     const DofMap map(b.model);  // with the nodes in the middle of sides, which the deck's own map lacks
     const std::vector<bool> moves = moving_nodes(b.model);

@@ -414,8 +414,9 @@ constexpr MessageEntry kMessages[] = {
      "0.036111 pci."},
     {"S248", "a water card does not fit",
      "The card lacks what its kind needs (points of a line, pairs of node and pressure, r_u, a bulk of water), "
-     "names "
-     "a stage that is not there or a group that is no solid, or asks for heads where none are solved for.",
+     "has numbers where its kind reads none, names a stage that is not there or a group that is no solid, or "
+     "asks "
+     "for heads where none are solved for.",
      "Complete the card: docs/manual/deck_format.md, card water; docs/manual/water.md."},
     {"S249", "undrained, and a pressure is given",
      "The pore pressure of an undrained group follows from its change of volume. A card that changes it in the "
@@ -626,6 +627,13 @@ constexpr MessageEntry kMessages[] = {
      "those of the bonded one.",
      "interface6 with quad8 and beam3 and the nodes in the middle on the curve (docs/manual/structures.md); or "
      "nothing, where the joint does not slip under the loads of the deck."},
+    {"S349", "a joint beside undrained soil bears its water",
+     "A joint's traction is effective where the pore pressure is given. The excess pressure of an undrained "
+     "group "
+     "follows from its change of volume and is not taken off: the traction there is the total one, and "
+     "friction "
+     "counts water as grains.",
+     "A joint with friction 0 and the undrained adhesion as cohesion; or nothing, where the joint is elastic."},
     {"S401", "elements of different degree meet",
      "One element has nodes inside the common edge, the other has not: the mesh would gape there.",
      "Give both the same number of nodes an edge; --element quad8 turns all of the mesh."},

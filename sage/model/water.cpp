@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "sage/model/solid_edges.hpp"
 
@@ -319,15 +320,46 @@ SolidEdges edges_of_active(const Model& model, const std::vector<char>& groups) 
 
 }  // namespace
 
+namespace {
+
+// Pairs of nodes that an active bar or beam goes along, whole elements and their halves.
+std::set<std::pair<int, int>> lines_of_structures(const Model& model, const std::vector<char>& groups) {
+  std::set<std::pair<int, int>> lines;
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const Group& group = model.groups[g];
+    if (!groups[g] || !group.structure() || group.element->edges().empty()) continue;
+    const std::vector<int>& edge = group.element->edges().front();
+    for (int e = 0; e < group.elements(); ++e) {
+      const int* const nodes = group.nodes_of(e);
+      for (std::size_t i = 0; i < edge.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k) lines.insert(edge_key(nodes[edge[i]], nodes[edge[k]]));
+    }
+  }
+  return lines;
+}
+
+// An element of a structure lies along the whole edge, or one along each part of it.
+bool carries_structure(const std::set<std::pair<int, int>>& lines, const int* nodes,
+                       const std::vector<int>& edge) {
+  if (lines.empty()) return false;
+  if (lines.contains(edge_key(nodes[edge[0]], nodes[edge[1]]))) return true;
+  int last = nodes[edge[0]];
+  const auto goes_on = [&](int next) { return lines.contains(edge_key(std::exchange(last, next), next)); };
+  for (std::size_t i = 2; i < edge.size(); ++i)
+    if (!goes_on(nodes[edge[i]])) return false;
+  return edge.size() > 2 && goes_on(nodes[edge[1]]);
+}
+
+}  // namespace
+
 std::vector<FreeEdge> free_edges(const Model& model, const std::vector<char>& groups) {
-  std::set<int> structures;
-  for (std::size_t g = 0; g < model.groups.size(); ++g)
-    if (groups[g] && model.groups[g].structure())
-      structures.insert(model.groups[g].nodes.begin(), model.groups[g].nodes.end());
+  const std::set<std::pair<int, int>> lines = lines_of_structures(model, groups);
   std::vector<FreeEdge> free;
-  edges_of_active(model, groups).for_single([&](int node, const SolidEdge& edge) {
-    const bool on_structure = structures.contains(node) && structures.contains(edge.other);
-    free.push_back({edge.group, edge.element, edge.local, on_structure});
+  edges_of_active(model, groups).for_single([&](int, const SolidEdge& edge) {
+    const Group& group = model.groups[static_cast<std::size_t>(edge.group)];
+    const std::vector<int>& local = group.element->edges()[static_cast<std::size_t>(edge.local)];
+    free.push_back(
+        {edge.group, edge.element, edge.local, carries_structure(lines, group.nodes_of(edge.element), local)});
   });
   return free;
 }
@@ -471,14 +503,42 @@ class WaterForce {
     std::set<std::pair<int, int>> keys;
     for (const FreeEdge& edge : free_edges(model_, activity_.group)) {
       const WaterCard* const card = water_.card(static_cast<std::size_t>(edge.group));
-      const bool loads =
-          card != nullptr && card->action == WaterAction::edges && card->kind != WaterKind::ratio;
-      if (!loads || edge.on_structure) continue;
+      if (card == nullptr || card->kind == WaterKind::ratio) continue;
+      // Seepage force and buoyancy have the water at their edges in them.
+      if (card->action == WaterAction::force) {
+        keys.insert(key_of(edge));
+        if (edge.on_structure) in_forces_.emplace(key_of(edge), edge);
+      }
+      if (card->action != WaterAction::edges || edge.on_structure) continue;
       wet.push_back(edge);
       keys.insert(key_of(edge));
     }
     take_joints();
     for (const FreeEdge& edge : wet) add_edge(edge, keys);
+    take_back_shared();
+  }
+
+  // Where solids with seepage force meet such with pressures, no water stands between them: what the seepage force has
+  // of it goes.
+  void take_back_shared() {
+    const auto card_of = [&](const SolidEdge& edge) {
+      return water_.card(static_cast<std::size_t>(edge.group));
+    };
+    bool forces = false, pressures = false;
+    for (std::size_t g = 0; g < model_.groups.size(); ++g)
+      if (const WaterCard* const card = water_.card(g); card != nullptr)
+        (card->action == WaterAction::force ? forces : pressures) = true;
+    if (!forces || !pressures) return;
+    const SolidEdges solids = edges_of_active(model_, activity_.group);
+    for (int node = 0; node < model_.mesh.nodes(); ++node)
+      for (const SolidEdge& edge : solids.at(node)) {
+        if (card_of(edge) == nullptr || card_of(edge)->action != WaterAction::force) continue;
+        const bool meets = std::ranges::any_of(solids.at(node), [&](const SolidEdge& one) {
+          const WaterCard* const card = card_of(one);
+          return one.other == edge.other && card != nullptr && card->action != WaterAction::force;
+        });
+        if (meets) press_edge({edge.group, edge.element, edge.local, false}, -1.0, nullptr);
+      }
   }
 
   std::pair<int, int> key_of(const FreeEdge& edge) const {
@@ -507,6 +567,20 @@ class WaterForce {
 
   // -u n on the solid; what lies behind a joint gets the opposite unless it is wet itself.
   void add_edge(const FreeEdge& edge, const std::set<std::pair<int, int>>& wet) {
+    const Group& group = model_.groups[static_cast<std::size_t>(edge.group)];
+    const int* const nodes = group.nodes_of(edge.element);
+    const std::vector<int>& local = group.element->edges()[static_cast<std::size_t>(edge.edge)];
+    const auto joint = joints_.find(key_of(edge));
+    const std::map<int, int>* behind = joint == joints_.end() ? nullptr : &joint->second;
+    if (behind != nullptr) {
+      const auto other = [&](int corner) { return behind->at(nodes[local[static_cast<std::size_t>(corner)]]); };
+      if (wet.contains(edge_key(other(0), other(1)))) behind = nullptr;
+    }
+    press_edge(edge, 1.0, behind);
+  }
+
+  // -u n on the solid, times sense, and the opposite on the nodes behind.
+  void press_edge(const FreeEdge& edge, double sense, const std::map<int, int>* behind) {
     const auto g = static_cast<std::size_t>(edge.group);
     const Group& group = model_.groups[g];
     const bool triangle = group.entry->triangle();
@@ -514,17 +588,11 @@ class WaterForce {
     const int* const nodes = group.nodes_of(edge.element);
     const std::vector<int>& local = group.element->edges()[static_cast<std::size_t>(edge.edge)];
     const Vector2 from = parent_corner(triangle, local[0]), to = parent_corner(triangle, local[1]);
-    const auto joint = joints_.find(key_of(edge));
-    const std::map<int, int>* behind = joint == joints_.end() ? nullptr : &joint->second;
-    if (behind != nullptr) {
-      const auto other = [&](int corner) { return behind->at(nodes[local[static_cast<std::size_t>(corner)]]); };
-      if (wet.contains(edge_key(other(0), other(1)))) behind = nullptr;
-    }
     const GaussRule line(group.element->degree() + 2);
     for (std::size_t q = 0; q < line.x.size(); ++q) {
       mapped_.take(*group.element, x_, from + 0.5 * (1.0 + line.x[q]) * (to - from));
       const Vector2 along = 0.5 * mapped_.J * (to - from);
-      const double w = line.w[q] * measure(model_, mapped_.place);
+      const double w = sense * line.w[q] * measure(model_, mapped_.place);
       const double u = water_.at(g, edge.element, mapped_.place, mapped_.N);
       if (!(u > 0.0)) continue;
       for (const int i : local) {
@@ -545,11 +613,23 @@ class WaterForce {
     if (!wanted) return;
     for (const BesideStructure& one : structures_beside_water(model_, activity_.group)) {
       const auto g = static_cast<std::size_t>(one.group);
-      if (one.left && water_.card(g, WaterSide::left) != nullptr)
-        add_structure(model_.groups[g], one.element, *water_.card(g, WaterSide::left), -1.0);
-      if (one.right && water_.card(g, WaterSide::right) != nullptr)
-        add_structure(model_.groups[g], one.element, *water_.card(g, WaterSide::right), 1.0);
+      const WaterCard* const left = one.left ? water_.card(g, WaterSide::left) : nullptr;
+      const WaterCard* const right = one.right ? water_.card(g, WaterSide::right) : nullptr;
+      if (left != nullptr) add_structure(model_.groups[g], one.element, *left, -1.0);
+      if (right != nullptr) add_structure(model_.groups[g], one.element, *right, 1.0);
+      if (left != nullptr || right != nullptr) take_back_behind(model_.groups[g], one.element);
     }
+  }
+
+  // Seepage force has water at the edge that carries the structure; what the card says of its other side stands in its
+  // place.
+  void take_back_behind(const Group& group, int element) {
+    const std::vector<int>& edge = group.element->edges().front();
+    const int* const nodes = group.nodes_of(element);
+    const auto behind = in_forces_.find(edge_key(nodes[edge[0]], nodes[edge[1]]));
+    if (behind == in_forces_.end()) return;
+    press_edge(behind->second, -1.0, nullptr);
+    in_forces_.erase(behind);
   }
 
   // sense: 1 pushes to the left of the way from node 1 to node 2.  The shape functions are those of the edges of solids
@@ -585,6 +665,7 @@ class WaterForce {
   Eigen::Matrix2Xd x_;
   Mapped mapped_;
   std::map<std::pair<int, int>, std::map<int, int>> joints_;
+  std::map<std::pair<int, int>, FreeEdge> in_forces_;  // that carry structures, of solids with seepage force
 };
 
 }  // namespace

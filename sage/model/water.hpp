@@ -97,7 +97,7 @@ std::vector<BesideStructure> structures_beside_water(const Model& model, const s
 // Edges of active solids that no other active solid shares, by group, element and edge.
 struct FreeEdge {
   int group = 0, element = 0, edge = 0;
-  bool on_structure = false;  // both of its corners belong to an active structure
+  bool on_structure = false;  // a bar or beam lies along it
 };
 std::vector<FreeEdge> free_edges(const Model& model, const std::vector<char>& groups);
 

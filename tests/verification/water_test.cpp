@@ -321,6 +321,39 @@ TEST(Water, WallsTakeTheWater) {
   }
 }
 
+// A wall in joints beside soil that is shut in: the joint bears what the soil and its water bear together, and a
+// warning says so; beside soil with a given pressure it bears the grains' part alone, without a word.
+TEST(Water, JointsBesideUndrainedSoilBearItsExcess) {
+  Block block = cells(2, 1, Cell::quad4);
+  block.place = rectangle(0.0, 2.0, 0.0, 1.0);
+  DeckWriter deck(1);
+  block.write_nodes(deck);
+  deck.material(1, 1, {1e4, 0.3}, 0.0);
+  deck.material(2, 21, {0.0, 1e9, 1.0});
+  deck.group(1, static_cast<int>(Cell::quad4), 0, 1);
+  deck.group(2, 11, 0, 2);
+  block.write_elements(deck, 1);
+  const std::vector<int> wall = copy_row(deck, block, block.right(), 1001);
+  join(deck, 501, 2, wall, block.right(), block.order());
+  for (const int node : block.left()) deck.fix(node, 1, 0);
+  for (const int node : block.bottom()) deck.fix(node, 0, 1);
+  for (const int node : wall) deck.fix(node, 1, 1);
+  StageCards& stage = deck.stage();
+  for (const int column : {0, 1}) stage.pressure(block.element(column, 0), 3, 100.0, 100.0);
+  DeckWriter given = deck;
+  const double M = 1e4 * 0.7 / (1.3 * 0.4), bulk = 1e5;
+  deck.water(5, 1, 1, 0, {}, bulk);
+  given.water(1, 1, 1, 0, {0.0, -1.0});
+  const WholeRun shut = bench().run(deck.text()), open = bench().run(given.text());
+  ASSERT_TRUE(shut.completed() && open.completed()) << shut.failure << open.failure;
+  EXPECT_TRUE(shut.warns("its excess pressure is in their traction"));
+  EXPECT_FALSE(open.warns("excess"));
+  // The joint gives way by 1e-5 of what the soil does.
+  const double grains = 100.0 * M / (M + bulk) * 0.3 / 0.7, excess = 100.0 * bulk / (M + bulk);
+  EXPECT_NEAR(shut.reaction(shut.last(), wall, 0), -(grains + excess), 1e-2);
+  EXPECT_NEAR(open.reaction(open.last(), wall, 0), -100.0 * 0.3 / 0.7, 1e-2);
+}
+
 // ---- Free water on beams
 
 constexpr int kPlateLaw = 35;
@@ -336,6 +369,63 @@ void add_wall(DeckWriter& deck, int group, std::vector<int> row, int order, int 
     std::vector<int> nodes{row[i], row[i + step]};
     if (order == 2) nodes.push_back(row[i + 1]);
     deck.element(first++, group, nodes);
+  }
+}
+
+// A wall along soil whose water acts as seepage force, and water on its free side: as with pressures in the soil.
+TEST(Water, FreeWaterBesideSeepageForce) {
+  for (const Cell cell : {Cell::quad4, Cell::quad8})
+    for (const bool turned : {false, true}) {
+      Block block = cells(2, 4, cell);
+      block.place = rectangle(1.0, 3.0, 0.0, 4.0);
+      const auto walled = [&](int action) {
+        DeckWriter deck = slope(block, 2, 20.0);
+        deck.fixities.clear();
+        for (const int node : block.left()) deck.fix(node, 1, 0);
+        for (const int node : block.bottom()) deck.fix(node, 1, 1);
+        deck.material(2, kPlateLaw, {3e7, 0.2, 0.1, 1.0});
+        deck.group(2, beam_for(cell), 0, 2);
+        add_wall(deck, 2, block.right(), block.order(), 500, turned);
+        deck.water(1, 1, 1, action, {0.0, 4.0});
+        deck.water(1, 2, 1, 0, {0.0, 2.5});
+        return bench().run(deck.text());
+      };
+      const WholeRun pressures = walled(0), force = walled(2);
+      ASSERT_TRUE(pressures.completed() && force.completed()) << pressures.failure << force.failure;
+      EXPECT_LT(difference(force, pressures), 1e-10);
+    }
+}
+
+// A trench one element wide: both ends of its floor belong to walls, and no wall lies along it, so that water stands on
+// it.  With water all around what the bottom bears is the soil's weight under water.
+TEST(Water, StandsOnAFloorBetweenTwoWalls) {
+  for (const Cell cell : {Cell::quad4, Cell::quad8}) {
+    Block block = cells(3, 2, cell);
+    block.place = rectangle(0.0, 3.0, 0.0, 2.0);
+    DeckWriter deck(1);
+    block.write_nodes(deck);
+    deck.material(1, 1, {1e4, 0.3}, 20.0);
+    deck.material(2, kPlateLaw, {3e7, 0.2, 0.1, 1.0});
+    deck.group(1, static_cast<int>(cell), 0, 1);
+    deck.group(2, 35, 0, 2);
+    block.write_elements(deck, 1);
+    const std::vector<int> top = block.top();
+    const auto order = static_cast<std::size_t>(block.order());
+    for (const std::size_t column : {std::size_t{1}, std::size_t{2}}) {
+      const int tip = 1000 + static_cast<int>(column);
+      deck.node(tip, static_cast<double>(column), 3.0);
+      deck.fix(tip, 1, 0);
+      deck.element(500 + static_cast<int>(column), 2, {top[column * order], tip});
+    }
+    for (const int node : block.left()) deck.fix(node, 1, 0);
+    for (const int node : block.right()) deck.fix(node, 1, 0);
+    for (const int node : block.bottom()) deck.fix(node, 1, 1);
+    deck.stage().gravity_y = -1.0;
+    deck.water(1, 1, 1, 0, {0.0, 5.0});
+    deck.water(1, 2, 1, 0, {0.0, 5.0});
+    const WholeRun run = bench().run(deck.text());
+    ASSERT_TRUE(run.completed()) << run.failure;
+    EXPECT_NEAR(run.reaction(run.last(), block.bottom(), 1), 6.0 * (20.0 - kWater), 1e-9);
   }
 }
 
@@ -568,6 +658,26 @@ TEST(Water, PressureOrSeepageForce) {
       const Eigen::VectorXd a = pressure.last().u.head(n), b = force.last().u.head(n);
       EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 1e-12 * b.cwiseAbs().maxCoeff());
       EXPECT_GT((a - dry.last().u).cwiseAbs().maxCoeff(), 0.1 * b.cwiseAbs().maxCoeff());
+    }
+}
+
+// A layer with pressures under one with seepage force: no water stands between them, and all is as if both had pressures.
+TEST(Water, PressuresBesideSeepageForce) {
+  for (const int geometry : {1, 2})
+    for (const Cell cell : {Cell::quad4, Cell::quad8}) {
+      const Block block = sloping(cell);
+      const auto layers = [&](int action_below, int action_above) {
+        DeckWriter deck = slope(block, geometry, 20.0);
+        deck.group(2, static_cast<int>(cell), 0, 1);
+        for (std::string& card : deck.elements)
+          if (std::stoi(card.substr(0, 5)) > 4) card.replace(5, 5, "    2");
+        deck.water(1, 1, 1, action_below, {0.0, 9.0});
+        deck.water(1, 2, 1, action_above, {0.0, 9.0});
+        return bench().run(deck.text());
+      };
+      const WholeRun pressures = layers(0, 0);
+      EXPECT_LT(difference(layers(0, 2), pressures), 1e-10);
+      EXPECT_LT(difference(layers(2, 0), pressures), 1e-10);
     }
 }
 
@@ -955,6 +1065,16 @@ TEST(Water, WhatContradictsIsNamed) {
   EXPECT_EQ(code_of([](DeckWriter& d) { d.water(4, 0, 2, 0, {}); }), "S248");
   EXPECT_EQ(code_of([](DeckWriter& d) { d.water(5, 0, 1, 0, {}, 1e5, 0.4); }), "S248");
   EXPECT_EQ(code_of([](DeckWriter& d) { d.water(8, 0, 1, 0, {}); }), "S210");
+  EXPECT_EQ(code_of([](DeckWriter& d) { d.water(2, 0, 1, 0, {0.3}, 0.2); }), "S248")
+      << "values that no one reads";
+  EXPECT_EQ(code_of([](DeckWriter& d) { d.water(2, 0, 1, 0, {}, 0.0, 0.3); }), "S248")
+      << "r_u in the next field";
+  EXPECT_EQ(code_of([](DeckWriter& d) { d.water(1, 0, 1, 0, {0.0, 3.0}, 5.0); }), "S248") << "a level there";
+  EXPECT_EQ(code_of([](DeckWriter& d) {
+              d.water(3, 0, 1, 1, {7.0, 2.0, 7.0, 5.0});
+            }),
+            "S248")
+      << "a node twice";
   EXPECT_EQ(code_of([](DeckWriter& d) {
               d.water(2, 0, 1, 0, {}, 0.3);
               d.water(1, 0, 1, 0, {0.0, 3.0});

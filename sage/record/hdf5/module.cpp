@@ -225,7 +225,7 @@ class Hdf5File final : public DataFile {
 
   bool read(const char* path, std::string& bytes) override {
     const Calls calls;
-    errno = 0;
+    forget_failure();
     const Id set(H5Dopen2(file_, path, H5P_DEFAULT), H5Dclose);
     if (!set.ok()) return failed();
     const Id space(H5Dget_space(set.get()), H5Sclose), type(H5Dget_type(set.get()), H5Tclose);
@@ -237,7 +237,7 @@ class Hdf5File final : public DataFile {
 
   bool read_row(const char* path, std::uint64_t row, void* to, std::uint64_t bytes) override {
     const Calls calls;
-    errno = 0;
+    forget_failure();
     const Id set(H5Dopen2(file_, path, H5P_DEFAULT), H5Dclose);
     if (!set.ok()) return failed();
     const Id space(H5Dget_space(set.get()), H5Sclose), type(H5Dget_type(set.get()), H5Tclose);
@@ -260,7 +260,7 @@ class Hdf5File final : public DataFile {
 
   bool read_text(const char* path, const char* name, std::string& value) override {
     const Calls calls;
-    errno = 0;
+    forget_failure();
     const Id attribute(H5Aopen_by_name(file_, path, name, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
     if (!attribute.ok()) return failed();
     const Id type(H5Aget_type(attribute.get()), H5Tclose);
@@ -320,6 +320,12 @@ class Hdf5File final : public DataFile {
     const Id memory(H5Screate_simple(static_cast<int>(more.size()), more.data(), nullptr), H5Sclose);
     H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, more.data(), nullptr);
     return H5Dwrite(table.id, type.get(), memory.get(), space.get(), H5P_DEFAULT, values) >= 0 || failed();
+  }
+
+  // What a read found missing may be no fault: older files lack some tables.
+  void forget_failure() {
+    errno = 0;
+    error_.clear();
   }
 
   // Groups without times, which intermediate groups of HDF5's own making have not.

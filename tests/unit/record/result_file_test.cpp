@@ -347,6 +347,26 @@ TEST(ResultFile, StatesOfDamagedFieldsAreRefused) {
   EXPECT_THROW(stored.frame(specimen.model, 0), InputError);
 }
 
+// The reason is that of the table that can't be read, not of one that files need not have.
+TEST(ResultFile, StatesWithoutTheirFieldsSayWhatIsMissing) {
+  Specimen specimen;
+  const auto folder = fresh_folder("result_lacking");
+  ResultOutput result(folder, "t", {"a deck", "", "", ""});
+  specimen.run(result, 0.01, 1);
+  {
+    const hid_t file = H5Fopen((folder / "t.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    ASSERT_GE(H5Ldelete(file, "/sage/groups/1/strain", H5P_DEFAULT), 0);
+    H5Fclose(file);
+  }
+  const StoredResult stored(folder / "t.h5");
+  try {
+    stored.frame(specimen.model, 0);
+    FAIL() << "no strain";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("strain"), std::string::npos) << error.what();
+  }
+}
+
 // Files of the format before: whole states, rows of four numbers.
 TEST(ResultFile, FilesOfTheFormatBeforeAreRead) {
   Specimen specimen;
