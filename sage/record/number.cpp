@@ -5,13 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <iterator>
 #include <limits>
-#include <string_view>
 
 #include "sage/core/error.hpp"
 
@@ -58,10 +56,25 @@ Decimal decimal_of(double value, int digits) {
   return decimal;
 }
 
+// "00", "01" ... "99".
+constexpr std::array<char, 200> kPairs = [] {
+  std::array<char, 200> pairs{};
+  for (std::size_t k = 0; k < 100; ++k) {
+    pairs[2 * k] = static_cast<char>('0' + k / 10);
+    pairs[2 * k + 1] = static_cast<char>('0' + k % 10);
+  }
+  return pairs;
+}();
+
 // Writes the last `count` digits of `number` before `end`; returns what is left of it.
 template <class Unsigned>
 Unsigned put_digits(char* end, Unsigned number, int count) {
-  for (int i = 0; i < count; ++i) {
+  for (; count >= 2; count -= 2) {
+    end -= 2;
+    std::memcpy(end, &kPairs[2 * (number % 100)], 2);
+    number /= 100;
+  }
+  if (count > 0) {
     *--end = static_cast<char>('0' + number % 10);
     number /= 10;
   }
@@ -92,16 +105,20 @@ char* put_exponent(char* at, int exponent) {
   return at;
 }
 
-// Room for `count` characters, justified to the right in `width`; returns their end.
-char* make_room(std::string& text, int count, int width) {
-  text.append(static_cast<std::size_t>(std::max(count, width)), ' ');
-  return text.data() + text.size();
-}
+// A number that is written from its last character on, with blanks before it.
+struct FromTheRight {
+  static constexpr int kRoom = 48;  // more than any number takes
+  char text[kRoom];
 
-void append_right(std::string& text, std::string_view what, int width) {
-  const int count = static_cast<int>(what.size());
-  std::memcpy(make_room(text, count, width) - count, what.data(), what.size());
-}
+  FromTheRight() { std::memset(text, ' ', kRoom); }
+  char* end() { return text + kRoom; }
+  // Its last `count` characters, justified to the right in `width`.
+  void append_to(std::string& all, int count, int width) {
+    if (width > kRoom) all.append(static_cast<std::size_t>(width - kRoom), ' ');
+    const int size = std::max(count, std::min(width, kRoom));
+    all.append(end() - size, static_cast<std::size_t>(size));
+  }
+};
 
 bool in_range(double size) {
   return size > kSmallest && size < kLargest;
@@ -138,15 +155,16 @@ char* put_plain(char* at, const Decimal& decimal, int digits) {
 
 void append_scientific(std::string& text, double value, int width, int digits) {
   const double size = std::abs(value);
-  if (!in_range(size)) {
-    char buffer[48];
-    const double shown = value == 0.0 ? 0.0 : value;  // no minus sign
-    const char* end = fmt::format_to(buffer, "{:.{}E}", shown, digits - 1);
-    return append_right(text, {buffer, end}, width);
+  FromTheRight room;
+  if (size != 0.0 && !in_range(size)) {
+    char buffer[FromTheRight::kRoom];
+    const auto count = fmt::format_to(buffer, "{:.{}E}", value, digits - 1) - buffer;
+    std::memcpy(room.end() - count, buffer, static_cast<std::size_t>(count));
+    return room.append_to(text, static_cast<int>(count), width);
   }
-  const Decimal decimal = decimal_of(size, digits);
+  const Decimal decimal = size != 0.0 ? decimal_of(size, digits) : Decimal{};
   const int tail = 2 + exponent_digits(decimal.exponent), sign = value < 0.0 ? 1 : 0;
-  char* const end = make_room(text, sign + 1 + digits + tail, width);
+  char* const end = room.end();
   put_exponent_before(end, decimal.exponent);
   char* const point = end - tail - digits;
   const std::uint64_t first = put_digits_before(end - tail, decimal.number, digits - 1);
@@ -154,6 +172,7 @@ void append_scientific(std::string& text, double value, int width, int digits) {
   *point = '.';
   point[-1] = static_cast<char>('0' + first);
   if (sign == 1) point[-2] = '-';
+  room.append_to(text, sign + 1 + digits + tail, width);
 }
 
 void append_plain(std::string& text, double value, int digits) {
@@ -188,8 +207,14 @@ void append_optional_cell(std::string& text, double value, int digits) {
 }
 
 void append_integer(std::string& text, long value, int width) {
-  char buffer[24];
-  append_right(text, {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr}, width);
+  FromTheRight room;
+  char* at = room.end();
+  std::uint64_t left =
+      value < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value);
+  for (; left >= 10; at -= 2) left = put_digits_before(at, left, 2);
+  if (left > 0 || at == room.end()) *--at = static_cast<char>('0' + left);
+  if (value < 0) *--at = '-';
+  room.append_to(text, static_cast<int>(room.end() - at), width);
 }
 
 }  // namespace sage
