@@ -264,7 +264,7 @@ class PatchFits {
   struct Room {
     PatchFitter fitter;
     Eigen::Matrix2Xd places;
-    Eigen::MatrixXd values;
+    Eigen::Matrix4Xd values;
     Fit own;
     std::vector<const Fit*> use;
   };
@@ -328,17 +328,19 @@ class PatchFits {
       degree = std::min(degree, stress_[elements_[k].group].degree);
     }
     room.places.resize(2, count);
-    room.values.resize(count, 4);
+    room.values.resize(4, count);
     Eigen::Index row = 0;
     for (const std::size_t k : patch) {
       const auto& [group, element] = elements_[k];
       const GroupStress& s = stress_[group];
       room.places.middleCols(row, s.samples) = s.sample_places_of(element);
-      room.values.middleRows(row, s.samples) = s.samples_of(element).transpose();
+      room.values.middleCols(row, s.samples) = s.samples_of(element);
       row += s.samples;
     }
     room.fitter.set_places(room.places, degree);
-    return {room.fitter.terms(), room.fitter.fit(room.values).transpose()};
+    Fit fit{room.fitter.terms(), {}};
+    room.fitter.fit(room.values, fit.coefficients);
+    return fit;
   }
 
   const std::vector<ElementRef>& elements_;

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <numeric>
-#include <utility>
+
+#include "sage/model/solid_edges.hpp"
 
 namespace sage {
 
@@ -51,30 +52,27 @@ Patches::Patches(const Model& model, const std::vector<char>& of_these,
   const auto nodes = static_cast<std::size_t>(model.mesh.nodes());
   start_.assign(nodes + 1, 0);
   on_boundary_.assign(nodes, 0);
-  std::vector<std::pair<int, int>> edges;
+  std::vector<char> present(of_these.size(), 0);
   const auto for_edges = [&](auto visit) {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       const Group& group = model.groups[elements[k].group];
       if (!of_these[elements[k].group]) continue;
       const int* node = group.nodes_of(elements[k].element);
-      for (const auto& edge : group.element->edges()) visit(k, node[edge[0]], node[edge[1]]);
+      for (const auto& edge : group.element->edges()) visit(k, node[edge[0]]);
     }
   };
-  for_edges([&](std::size_t, int from, int to) {
+  for_edges([&](std::size_t k, int from) {
     ++start_[static_cast<std::size_t>(from) + 1];
-    edges.emplace_back(std::min(from, to), std::max(from, to));
+    present[elements[k].group] = 1;
   });
   std::partial_sum(start_.begin(), start_.end(), start_.begin());
   items_.resize(start_.back());
   std::vector<std::size_t> end(start_.begin(), start_.end() - 1);
-  for_edges([&](std::size_t k, int from, int) { items_[end[static_cast<std::size_t>(from)]++] = k; });
-  std::sort(edges.begin(), edges.end());
-  for (std::size_t i = 0, next = 0; i < edges.size(); i = next) {
-    while (next < edges.size() && edges[next] == edges[i]) ++next;
-    if (next - i > 1) continue;  // inside
-    for (const int vertex : {edges[i].first, edges[i].second})
-      on_boundary_[static_cast<std::size_t>(vertex)] = 1;
-  }
+  for_edges([&](std::size_t k, int from) { items_[end[static_cast<std::size_t>(from)]++] = k; });
+  const SolidEdges edges(model, [&](std::size_t group) { return present[group] != 0; });
+  edges.for_single([&](int node, const SolidEdge& edge) {
+    for (const int vertex : {node, edge.other}) on_boundary_[static_cast<std::size_t>(vertex)] = 1;
+  });
 }
 
 std::vector<std::size_t> Patches::neighbours(const Element& element, const int* nodes) const {

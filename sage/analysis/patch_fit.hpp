@@ -34,8 +34,11 @@ class PatchFitter {
   void set_places(const Eigen::Ref<const Eigen::Matrix2Xd>& places, int degree);
 
   const PolynomialTerms& terms() const { return terms_; }
-  // terms x columns: coefficients of least squares of values at the places (places x columns).
-  Eigen::MatrixXd fit(const Eigen::MatrixXd& values) const { return qr_.least_squares(values); }
+  // Coefficients (values x terms) of least squares of values at the places (values x places), which are used up.
+  template <class Values>
+  void fit(Values& values, Values& coefficients) const {
+    qr_.least_squares(values, coefficients);
+  }
 
  private:
   void fill(const Eigen::Ref<const Eigen::Matrix2Xd>& places);

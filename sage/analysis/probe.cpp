@@ -127,10 +127,11 @@ void ProbeMaker::add_patch(Probe& probe, std::span<const std::size_t> patch, con
   }
   PatchFitter fitter;
   fitter.set_places(places, degree);
-  const Eigen::MatrixXd fit = fitter.fit(Eigen::MatrixXd::Identity(places.cols(), places.cols()));
-  Eigen::RowVectorXd terms(fitter.terms().count());
+  Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(places.cols(), places.cols()), fit;
+  fitter.fit(unit, fit);
+  Eigen::VectorXd terms(fitter.terms().count());
   fitter.terms().at(place, [&](Eigen::Index k, double term) { terms(k) = term; });
-  const Eigen::RowVectorXd weights = part * terms * fit;
+  const Eigen::RowVectorXd weights = part * (fit * terms).transpose();
   Eigen::Index row = 0;
   for (std::size_t k : patch) {
     const ElementRef& ref = elements_[k];

@@ -3,25 +3,26 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
+#include <vector>
 
 namespace sage::dense_matrix {
 
-// Householder QR with column pivoting.
+// Orthogonal columns of a matrix of few rows by Gram & Schmidt (modified), the longest column that is left first.
 class PivotedQr {
  public:
-  PivotedQr();
-  ~PivotedQr();
-  // Takes the place of what was there; keeps its room where the size stays.
+  // V: rows x columns, no more columns than rows.  Takes the place of what was there; keeps its room where the
+  // size stays.
   void factorise(const Eigen::MatrixXd& V);
   // Of V.  What is less certain by `threshold` than the rest does not count.
-  Eigen::Index rank(double threshold);
-  // X of the least |V X - B|, column by column.
-  Eigen::MatrixXd least_squares(const Eigen::MatrixXd& B) const;
+  Eigen::Index rank(double threshold) const;
+  // X (values x columns of V) of the least |V x - b| of each row x of X and b of B (values x rows of V); V of full
+  // rank.  B is used up: what is left in it is the part that no x meets.
+  template <class Values>
+  void least_squares(Values& B, Values& X) const;
 
  private:
-  struct Factors;
-  std::unique_ptr<Factors> factors_;
+  Eigen::MatrixXd Q_, R_;            // V = Q R; columns of both, and rows of R, where they are in V
+  std::vector<Eigen::Index> order_;  // of columns
 };
 
 // The smallest of the x of the least |A x - b|; A of any rank (complete orthogonal decomposition).
@@ -34,5 +35,23 @@ struct Eigensystem {
 
 // Of a symmetric matrix; its lower triangle is read.
 Eigensystem symmetric_eigensystem(const Eigen::MatrixXd& A);
+
+template <class Values>
+void PivotedQr::least_squares(Values& B, Values& X) const {
+  using Value = Eigen::Matrix<double, Values::RowsAtCompileTime, 1>;
+  X.resize(B.rows(), Q_.cols());
+  for (const Eigen::Index j : order_) {
+    Value part = Q_(0, j) * B.col(0);
+    for (Eigen::Index i = 1; i < B.cols(); ++i) part += Q_(i, j) * B.col(i);
+    for (Eigen::Index i = 0; i < B.cols(); ++i) B.col(i) -= Q_(i, j) * part;
+    X.col(j) = part;
+  }
+  for (std::size_t k = order_.size(); k-- > 0;) {
+    const Eigen::Index j = order_[k];
+    for (std::size_t later = k + 1; later < order_.size(); ++later)
+      X.col(j) -= R_(j, order_[later]) * X.col(order_[later]);
+    X.col(j) /= R_(j, j);
+  }
+}
 
 }  // namespace sage::dense_matrix

@@ -14,6 +14,7 @@ namespace sage::listing {
 namespace {
 
 constexpr int kWidth = 12, kDigits = 5;
+constexpr int kPoint = 4;  // width of the number of a point
 
 void put(std::string& text, double value) {
   append_scientific(text, value, kWidth, kDigits);
@@ -28,22 +29,24 @@ void left(std::string& text, std::string_view word, std::size_t width) {
   if (word.size() < width) text.append(width - word.size(), ' ');
 }
 
-// "   0.725": three decimals of a number that stands between 0 and 1.
+// "   0.725  ": three decimals of a number that stands between 0 and 1.
 void append_level(std::string& text, double level) {
   if (std::isnan(level)) {  // of water
-    text += "       -";
+    text += "       -  ";
     return;
   }
   if (!(level >= 0.0 && level < 999.0)) {
-    fmt::format_to(to(text), "{:8.3g}", level);
+    fmt::format_to(to(text), "{:8.3g}  ", level);
     return;
   }
   const long thousandths = std::lround(1000.0 * level);
-  append_integer(text, thousandths / 1000, 4);
-  const char digits[4] = {'.', static_cast<char>('0' + thousandths / 100 % 10),
-                          static_cast<char>('0' + thousandths / 10 % 10),
-                          static_cast<char>('0' + thousandths % 10)};
-  text.append(digits, 4);
+  const auto digit = [&](long unit) { return static_cast<char>('0' + thousandths / unit % 10); };
+  const char digits[] = {digit(1000), '.', digit(100), digit(10), digit(1), ' ', ' '};
+  if (thousandths < 10'000)
+    text += "   ";
+  else
+    append_integer(text, thousandths / 10'000, 3);
+  text.append(digits, sizeof digits);
 }
 
 // History and fields that were asked for: wide enough for their names.
@@ -53,7 +56,8 @@ constexpr int kWide = 22;
 struct GroupColumns {
   FieldList components, wide;
   const FieldEntry *level, *status;
-  std::size_t most = 1;  // values of a field
+  std::size_t most = 1;   // values of a field
+  std::size_t first = 2;  // values of a place and of all components
 };
 
 GroupColumns columns_of(const GroupData& data, const FieldTable& table, const std::vector<FieldEntry>& history,
@@ -83,6 +87,7 @@ GroupColumns columns_of(const GroupData& data, const FieldTable& table, const st
                        std::ranges::any_of(columns.wide, [&](const FieldEntry* w) { return w->name == name; });
     if (!there && applies(*row, data)) columns.wide.push_back(row);
   }
+  for (const FieldEntry* row : columns.components) columns.first += row->size();
   for (const FieldList* list : {&columns.components, &columns.wide})
     for (const FieldEntry* row : *list) columns.most = std::max(columns.most, row->size());
   return columns;
@@ -121,7 +126,7 @@ void point_columns(std::string& text, const Model& model, const GroupData& data,
       break;
   }
   column(text, "element", 9);
-  column(text, "pt", 4);
+  column(text, "pt", kPoint);
   column(text, axis_names(model.geometry).x);
   column(text, axis_names(model.geometry).y);
   for (const FieldEntry* field : columns.components)
@@ -139,16 +144,19 @@ void put_wide(std::string& text, double value) {
     append_scientific(text, value, kWide, kDigits);
 }
 
-// Components, stress level, status, history and what was asked for, of one point.
-void point_values(std::string& text, const PointState& point, const GroupColumns& columns,
+// Place, components, stress level, status, history and what was asked for, of one point.
+void point_values(std::string& text, const Vector2& at, const PointState& point, const GroupColumns& columns,
                   std::vector<double>& values) {
+  values[0] = at.x();
+  values[1] = at.y();
+  std::size_t filled = 2;
   for (const FieldEntry* field : columns.components) {
-    read_field(*field, point, values.data());
-    for (std::size_t c = 0; c < field->size(); ++c) put(text, values[c]);
+    read_field(*field, point, values.data() + filled);
+    filled += field->size();
   }
+  append_scientific(text, {values.data(), filled}, kWidth, kDigits);
   read_field(*columns.level, point, values.data());
   append_level(text, values[0]);
-  text += "  ";
   read_field(*columns.status, point, values.data());
   left(text, word_of(*columns.status, values[0]), columns.wide.empty() ? 0 : 10);
   for (const FieldEntry* field : columns.wide) {
@@ -221,17 +229,19 @@ void points(std::string& text, const Model& model, const Solution& solution,
     text.reserve(text.size() + static_cast<std::size_t>(group.elements() * count) * kRow);
     const std::vector<FieldEntry> history = history_fields(data.law);
     const GroupColumns columns = columns_of(data, table, history, asked);
-    std::vector<double> values(columns.most);
+    std::vector<double> values(std::max(columns.first, columns.most));
     point_columns(text, model, data, columns);
+    std::string number, numbers;  // of the element, and of its points
+    for (int p = 0; p < count; ++p) append_integer(numbers, p + 1, kPoint);
     for (int e = 0; e < group.elements(); ++e) {
       element_coordinates(model.mesh, group, e, x);
+      number.clear();
+      append_integer(number, group.element_numbers[static_cast<std::size_t>(e)], 9);
       for (int p = 0; p < count; ++p) {
         const Vector2 at = group.element->position(x, p);
-        append_integer(text, group.element_numbers[static_cast<std::size_t>(e)], 9);
-        append_integer(text, p + 1, 4);
-        put(text, at.x());
-        put(text, at.y());
-        point_values(text, {model.mesh, data, static_cast<std::size_t>(e * count + p)}, columns, values);
+        text += number;
+        text.append(numbers, static_cast<std::size_t>(p * kPoint), kPoint);
+        point_values(text, at, {model.mesh, data, static_cast<std::size_t>(e * count + p)}, columns, values);
       }
     }
   }

@@ -5,13 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <iterator>
 #include <limits>
-#include <string_view>
 
 #include "sage/core/error.hpp"
 
@@ -25,6 +23,7 @@ struct Decimal {
   int exponent = 0;
 };
 
+constexpr int kBesidesDigits = 7;                       // sign, point, E, its sign and three digits
 constexpr int kFastDigits = 15;                         // more don't survive the scaling by a power of ten
 constexpr double kSmallest = 1e-280, kLargest = 1e280;  // beyond them the library's formatter is used
 
@@ -38,7 +37,7 @@ const std::array<double, 309>& powers_of_ten() {
 }
 
 // value x 10^power, which is 1 or more, to the nearest integer; one rounding before.
-std::uint64_t scaled(double value, int power) {
+inline std::uint64_t scaled(double value, int power) {
   const auto& ten = powers_of_ten();
   const double half = 0.5 + (power >= 0 ? value * ten[static_cast<std::size_t>(power)]
                                         : value / ten[static_cast<std::size_t>(-power)]);
@@ -46,7 +45,7 @@ std::uint64_t scaled(double value, int power) {
 }
 
 // value in (kSmallest, kLargest).
-Decimal decimal_of(double value, int digits) {
+inline Decimal decimal_of(double value, int digits) {
   // value in [2^binary, 2^(binary + 1)): the first guess is right or one too small.
   const std::int64_t binary = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(value) >> 52) - 1023;
   constexpr std::int64_t kLog2 = 1292913986;  // log10(2) 2^32
@@ -58,10 +57,25 @@ Decimal decimal_of(double value, int digits) {
   return decimal;
 }
 
+// "00", "01" ... "99".
+constexpr std::array<char, 200> kPairs = [] {
+  std::array<char, 200> pairs{};
+  for (std::size_t k = 0; k < 100; ++k) {
+    pairs[2 * k] = static_cast<char>('0' + k / 10);
+    pairs[2 * k + 1] = static_cast<char>('0' + k % 10);
+  }
+  return pairs;
+}();
+
 // Writes the last `count` digits of `number` before `end`; returns what is left of it.
 template <class Unsigned>
-Unsigned put_digits(char* end, Unsigned number, int count) {
-  for (int i = 0; i < count; ++i) {
+inline Unsigned put_digits(char* end, Unsigned number, int count) {
+  for (; count >= 2; count -= 2) {
+    end -= 2;
+    std::memcpy(end, &kPairs[2 * (number % 100)], 2);
+    number /= 100;
+  }
+  if (count > 0) {
     *--end = static_cast<char>('0' + number % 10);
     number /= 10;
   }
@@ -69,7 +83,7 @@ Unsigned put_digits(char* end, Unsigned number, int count) {
 }
 
 // In 32 bits where they do: a division there costs a third.
-std::uint64_t put_digits_before(char* end, std::uint64_t number, int count) {
+inline std::uint64_t put_digits_before(char* end, std::uint64_t number, int count) {
   if (number <= std::numeric_limits<std::uint32_t>::max())
     return put_digits(end, static_cast<std::uint32_t>(number), count);
   return put_digits(end, number, count);
@@ -80,8 +94,13 @@ int exponent_digits(int exponent) {
 }
 
 // "+07" before `end`.
-void put_exponent_before(char* end, int exponent) {
+inline void put_exponent_before(char* end, int exponent) {
   const int size = exponent_digits(exponent);
+  if (size == 2) {
+    std::memcpy(end - 2, &kPairs[2 * static_cast<std::size_t>(std::abs(exponent))], 2);
+    end[-3] = exponent < 0 ? '-' : '+';
+    return;
+  }
   put_digits(end, static_cast<std::uint32_t>(std::abs(exponent)), size);
   end[-size - 1] = exponent < 0 ? '-' : '+';
 }
@@ -92,19 +111,44 @@ char* put_exponent(char* at, int exponent) {
   return at;
 }
 
-// Room for `count` characters, justified to the right in `width`; returns their end.
-char* make_room(std::string& text, int count, int width) {
-  text.append(static_cast<std::size_t>(std::max(count, width)), ' ');
-  return text.data() + text.size();
-}
+// A number that is written from its last character on, with blanks before it.
+struct FromTheRight {
+  static constexpr int kRoom = 48;  // more than any number takes
+  char text[kRoom];
 
-void append_right(std::string& text, std::string_view what, int width) {
-  const int count = static_cast<int>(what.size());
-  std::memcpy(make_room(text, count, width) - count, what.data(), what.size());
-}
+  FromTheRight() { std::memset(text, ' ', kRoom); }
+  char* end() { return text + kRoom; }
+  // Its last `count` characters, justified to the right in `width`.
+  void append_to(std::string& all, int count, int width) {
+    if (width > kRoom) all.append(static_cast<std::size_t>(width - kRoom), ' ');
+    const int size = std::max(count, std::min(width, kRoom));
+    all.append(end() - size, static_cast<std::size_t>(size));
+  }
+};
 
 bool in_range(double size) {
   return size > kSmallest && size < kLargest;
+}
+
+// Writes it before `end`; returns the number of its characters, at most `digits` + kBesidesDigits.
+int put_scientific_before(char* end, double value, int digits) {
+  const double size = std::abs(value);
+  if (size != 0.0 && !in_range(size)) {
+    char buffer[FromTheRight::kRoom];
+    const auto count = fmt::format_to(buffer, "{:.{}E}", value, digits - 1) - buffer;
+    std::memcpy(end - count, buffer, static_cast<std::size_t>(count));
+    return static_cast<int>(count);
+  }
+  const Decimal decimal = size != 0.0 ? decimal_of(size, digits) : Decimal{};
+  put_exponent_before(end, decimal.exponent);
+  char* at = end - 2 - exponent_digits(decimal.exponent);
+  *at = 'E';
+  const auto first = static_cast<char>('0' + put_digits_before(at, decimal.number, digits - 1));
+  at -= digits;
+  *at = '.';
+  *--at = first;
+  if (value < 0.0) *--at = '-';
+  return static_cast<int>(end - at);
 }
 
 // ddd.ddd for exponents near zero, d.ddde-07 beyond; trailing zeros of the digits dropped.
@@ -137,23 +181,19 @@ char* put_plain(char* at, const Decimal& decimal, int digits) {
 }  // namespace
 
 void append_scientific(std::string& text, double value, int width, int digits) {
-  const double size = std::abs(value);
-  if (!in_range(size)) {
-    char buffer[48];
-    const double shown = value == 0.0 ? 0.0 : value;  // no minus sign
-    const char* end = fmt::format_to(buffer, "{:.{}E}", shown, digits - 1);
-    return append_right(text, {buffer, end}, width);
+  FromTheRight room;
+  const int count = put_scientific_before(room.end(), value, digits);
+  room.append_to(text, count, width);
+}
+
+void append_scientific(std::string& text, std::span<const double> values, int width, int digits) {
+  if (width < digits + kBesidesDigits) {  // some may be wider
+    for (const double value : values) append_scientific(text, value, width, digits);
+    return;
   }
-  const Decimal decimal = decimal_of(size, digits);
-  const int tail = 2 + exponent_digits(decimal.exponent), sign = value < 0.0 ? 1 : 0;
-  char* const end = make_room(text, sign + 1 + digits + tail, width);
-  put_exponent_before(end, decimal.exponent);
-  char* const point = end - tail - digits;
-  const std::uint64_t first = put_digits_before(end - tail, decimal.number, digits - 1);
-  end[-tail] = 'E';
-  *point = '.';
-  point[-1] = static_cast<char>('0' + first);
-  if (sign == 1) point[-2] = '-';
+  text.append(values.size() * static_cast<std::size_t>(width), ' ');
+  char* end = text.data() + text.size();
+  for (std::size_t k = values.size(); k-- > 0; end -= width) put_scientific_before(end, values[k], digits);
 }
 
 void append_plain(std::string& text, double value, int digits) {
@@ -188,8 +228,14 @@ void append_optional_cell(std::string& text, double value, int digits) {
 }
 
 void append_integer(std::string& text, long value, int width) {
-  char buffer[24];
-  append_right(text, {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr}, width);
+  FromTheRight room;
+  char* at = room.end();
+  std::uint64_t left =
+      value < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value);
+  for (; left >= 10; at -= 2) left = put_digits_before(at, left, 2);
+  if (left > 0 || at == room.end()) *--at = static_cast<char>('0' + left);
+  if (value < 0) *--at = '-';
+  room.append_to(text, static_cast<int>(room.end() - at), width);
 }
 
 }  // namespace sage

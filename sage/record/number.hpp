@@ -2,6 +2,7 @@
 // each.  Six digits take about 20 ns here.
 #pragma once
 
+#include <span>
 #include <string>
 
 namespace sage {
@@ -9,6 +10,8 @@ namespace sage {
 // "  1.2345E+01", right-justified in `width`: one digit, point, `digits` - 1 digits, two-digit exponent (three
 // if needed).  digits 2 .. 15.  Zero (of either sign) is 0.0000E+00.
 void append_scientific(std::string& text, double value, int width, int digits);
+// The same of several, one after the other.
+void append_scientific(std::string& text, std::span<const double> values, int width, int digits);
 
 // Up to `digits` significant digits without trailing zeros, for files that programs read: 0.25, 1.5e-07, nan.
 // 17 digits give back every number as it is.

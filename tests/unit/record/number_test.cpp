@@ -30,6 +30,18 @@ TEST(Scientific, FillsItsColumn) {
   EXPECT_EQ(scientific(1.5e-120, 12, 5), " 1.5000E-120");
 }
 
+// Also where a column has no room for the widest number, and where the library's formatter writes it.
+TEST(Scientific, SeveralAreWrittenAsOneAfterTheOther) {
+  const double values[] = {12.345, -1.5e-120, 0.0, -0.0, -1e-300, std::numeric_limits<double>::infinity(),
+                           9.99996};
+  for (const int width : {3, 11, 12, 60}) {
+    std::string one_by_one, together;
+    for (const double value : values) append_scientific(one_by_one, value, width, 5);
+    append_scientific(together, values, width, 5);
+    EXPECT_EQ(together, one_by_one);
+  }
+}
+
 TEST(Scientific, IsWhatPrintfWrites) {
   // 20000 numbers over 40 decades; %E rounds correctly, so every difference is ours.
   double value = 1.2345678901234e-20;
@@ -74,7 +86,10 @@ TEST(Integer, FillsItsColumn) {
   std::string text;
   append_integer(text, -42, 6);
   append_integer(text, 7, 0);
-  EXPECT_EQ(text, "   -427");
+  append_integer(text, 0, 2);
+  append_integer(text, 100, 4);
+  append_integer(text, std::numeric_limits<long>::min(), 0);
+  EXPECT_EQ(text, "   -427 0 100" + std::to_string(std::numeric_limits<long>::min()));
 }
 
 }  // namespace
