@@ -328,10 +328,16 @@ bool Step::converged(const IterationRecord& record) const {
 //
 // So do the fields together: a beam that is bent by moments alone has forces that are the rounding of its rotations,
 // and one that is moved as a whole has moments that are the rounding of its displacements.
+//
+// So where all displacements are prescribed: moments are forces of the elements times lengths.
 bool Step::even(int field) const {
   constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon(), kNothing = 1e3;
   const double largest = fields_.largest(residual_, field);
   if (field != 0 && largest <= kRounding * stiffness_norm(field) * size_of_unknown(field)) return true;
+  if (settings_.unknowns != nullptr && (*settings_.unknowns)[static_cast<std::size_t>(field)].turns) {
+    const double moments = kRounding * assembly_.force_scale(0) * settings_.size;
+    if (largest <= moments && scale(field) <= kNothing * moments) return true;
+  }
   if (tangent_.norm1() < 0.0) return false;
   double together = 0.0;
   for (int f = 0; f < fields_.count(); ++f)

@@ -20,6 +20,9 @@ struct NewtonSettings {
   bool from_here = false;  // du holds a place nearby, all but what supports prescribe: iterate from there
   bool refine = false;     // a first correction does not do, even if all that is left is rounding
   bool contract = false;   // factors are kept while they contract well; K may then be behind du at the end
+  // Of the model: its unknowns, and its size, the longest arm that a force has; null: moments have no measure in forces.
+  const std::vector<UnknownField>* unknowns = nullptr;
+  double size = 0.0;
 };
 
 enum class StepOutcome { converged, not_converged, law_cut, singular };

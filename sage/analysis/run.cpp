@@ -291,6 +291,8 @@ NewtonStep Run::attempt(const Stage& stage, double from, double to, bool from_he
   newton.pulse = settings_.pulse;
   newton.stop_at_flow = settings_.trials != nullptr;
   newton.committed = &state_.u;
+  newton.unknowns = &model_.unknowns;
+  newton.size = extent_.size();
   if (path_.u_start.size() > 0) newton.so_far = {from, &path_.u_start, &state_.u};
   const Profile::Scope scope(profile(), phase::kIteration);
   return newton_step(assembly_, tangent_, target_, system_.rate(), to - from, newton, result_.work, state_.du);

@@ -77,10 +77,9 @@ struct IncrementView {
   double motion = 0.0;
 };
 
-// Where a field lives, and its value: as many numbers as it has components, from what the function gets alone; several
-// threads may call it at once.  Between the points of an element
+// Where a field lives, and its value: as many numbers as it has components.  Between the points of an element
 // stress and strain themselves are carried, and the value is made of what arrives: the deviator of a mean
-// stress is no mean of deviators.  PointField's values are carried as they are.
+// stress is no mean of deviators.  PointField's values are carried as they are.  Several threads may call.
 struct DisplacementField {  // nodes
   std::function<void(const Vector2& u, double* value)> of;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
@@ -130,6 +131,38 @@ TEST(Structures, BeamsThatNothingHoldsAreNamed) {
   EXPECT_NE(refusal(deck).find("no element of the deck solves for rotations"), std::string::npos);
   deck.fixities.back() = held(2);
   EXPECT_EQ(refusal(deck), "accepted");
+}
+
+// A polygon that shrinks evenly, all its nodes held: thrust EA e and no moment but rounding, which no iteration can
+// balance.
+TEST(Structures, AHeldPolygonIsInEquilibrium) {
+  constexpr double kRadius = 10.0, kStrain = 2e-3, kE = 3e7, kThickness = 0.2, kNu = 0.3;
+  for (const int n : {3, 6, 12})
+    for (const double load : {1.0, 1e-3}) {
+      DeckWriter deck(1);
+      deck.material(1, kPlate, {kE, kNu, kThickness, 1.0});
+      deck.group(1, kBeam2, 0, 1);
+      for (int i = 0; i < n; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / n, x = kRadius * std::cos(angle),
+                     y = kRadius * std::sin(angle);
+        deck.node(i + 1, x, y);
+        deck.element(i + 1, 1, {i + 1, i + 1 < n ? i + 2 : 1});
+      }
+      StageCards& stage = deck.stage();
+      for (int i = 0; i < n; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / n;
+        stage.fix(i + 1, 1, 1, -load * kStrain * kRadius * std::cos(angle),
+                  -load * kStrain * kRadius * std::sin(angle));
+      }
+      const WholeRun run = run_text(deck.text());
+      ASSERT_EQ(run.result.status, RunStatus::completed) << n << ": " << run.failure;
+      // Fields of ten columns hold seven digits of a displacement, of the smaller one fewer.
+      const double thrust = kE / (1.0 - kNu * kNu) * kThickness * load * kStrain;
+      const DofMap map(*run.model);
+      const int dof = map.of(run.index(1), 0, 0);
+      const double beside = std::sin(std::numbers::pi / n);  // both sides pull at the node
+      EXPECT_NEAR(std::abs(run.last().internal[dof]), 2.0 * thrust * beside, 1e-3 * thrust) << n;
+    }
 }
 
 TEST(Structures, ARingIsForAxisymmetry) {
