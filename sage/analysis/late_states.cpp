@@ -9,8 +9,8 @@ namespace sage {
 
 namespace {
 
-constexpr int kWorthThreads = 10000,
-              kUnit = 1024;  // elements: from which on threads gain, and that one takes at a time
+constexpr int kWorthThreads = 10000;  // elements from which on threads gain
+constexpr int kUnit = 1024;           // that one of them takes at a time
 
 // Of elements first to last - 1.
 void update_states(GroupData& data, int first, int last, const Eigen::VectorXd& behind, ElementWork& element) {

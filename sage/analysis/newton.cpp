@@ -329,7 +329,8 @@ bool Step::converged(const IterationRecord& record) const {
 // So do the fields together: a beam that is bent by moments alone has forces that are the rounding of its rotations,
 // and one that is moved as a whole has moments that are the rounding of its displacements.
 //
-// So where all displacements are prescribed: moments are forces of the elements times lengths.
+// Where all displacements are prescribed, moments that are the rounding of the elements' forces times lengths count as
+// none.
 bool Step::even(int field) const {
   constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon(), kNothing = 1e3;
   const double largest = fields_.largest(residual_, field);

@@ -656,7 +656,10 @@ bool Run::run_stage(int s, int done) {
     report.load_factor = reached;
     if (!run_increment(stage, report, reached)) return false;
     if (!report.iterations.empty()) last_force = report.iterations.back().force;
-    if (is_last && i == stage.increments) system_.release_solver();
+    if (is_last && i == stage.increments) {
+      const Profile::Scope scope(profile(), phase::kChecks);
+      system_.release_solver();
+    }
     end_increment(report);
     if (i == stage.increments) break;
     if (!whole_stages_only) offer_checkpoint({s, i});
