@@ -39,7 +39,8 @@ class TableFile {
   }
   template <class T>
   void append(const std::string& name, std::vector<T> values, std::uint64_t rows) {
-    later(values.size() * sizeof(T), [=, this, values = std::move(values)]() mutable {
+    const std::size_t bytes = values.size() * sizeof(T);
+    later(bytes, [=, this, values = std::move(values)]() mutable {
       const bool done = file_->append(name.c_str(), values.data(), rows);
       if constexpr (std::is_same_v<T, double>) numbers_.give(std::move(values));
       return done;
@@ -48,7 +49,8 @@ class TableFile {
   // A piece of a row, as DataFile::append_piece takes it.
   template <class T>
   void append_piece(const std::string& name, std::vector<T> values, std::uint64_t first, std::uint64_t count) {
-    later(values.size() * sizeof(T), [=, this, values = std::move(values)]() mutable {
+    const std::size_t bytes = values.size() * sizeof(T);
+    later(bytes, [=, this, values = std::move(values)]() mutable {
       const bool done = file_->append_piece(name.c_str(), values.data(), first, count);
       if constexpr (std::is_same_v<T, double>) numbers_.give(std::move(values));
       return done;
