@@ -538,8 +538,8 @@ class SourcePart {
 
 }  // namespace
 
-ResultOutput::ResultOutput(std::filesystem::path folder, const std::string& stem, RunSource source, int threads,
-                           ResultFields fields)
+ResultOutput::ResultOutput(const std::filesystem::path& folder, const std::string& stem, RunSource source,
+                           int threads, ResultFields fields)
     : path_(folder / (stem + ".h5")),
       source_(std::move(source)),
       threads_(threads),

@@ -32,8 +32,8 @@ class ResultOutput final : public Output {
  public:
   // threads: with more than one the file is written while its fields are computed; its bytes are the same.
   // Throws OutputError, also where the module that writes such files can't be loaded.
-  ResultOutput(std::filesystem::path folder, const std::string& stem, RunSource source = {}, int threads = 1,
-               ResultFields fields = {});
+  ResultOutput(const std::filesystem::path& folder, const std::string& stem, RunSource source = {},
+               int threads = 1, ResultFields fields = {});
   // Once the file is written nobody needs the states; until then only a checkpoint may name them.
   ~ResultOutput() override;
   ResultOutput(const ResultOutput&) = delete;
