@@ -466,8 +466,11 @@ class OwnPart {
   template <class Work>
   static void each_piece(std::size_t points, const Work& work) {
     const std::size_t piece = piece_of(points);
-    for (std::size_t first = 0; first == 0 || first < points; first += piece)
+    std::size_t first = 0;
+    do {
       work(first, std::min(piece, points - first));
+      first += piece;
+    } while (first < points);
   }
 
   TableFile& out_;

@@ -26,6 +26,15 @@ std::string block() {
   return block_deck().text();
 }
 
+// So many elements across and along the specimen, one increment.
+std::string specimen(int columns, int rows) {
+  scenes::SpecimenDeck deck;
+  deck.columns = columns;
+  deck.rows = rows;
+  deck.increments = 1;
+  return deck.text();
+}
+
 // A run of some seconds at least: it is stopped before its end.
 std::string long_deck() {
   scenes::SpecimenDeck deck;
@@ -334,11 +343,7 @@ TEST(Files, OutOfMemoryIsOneLineAndACode) {
   GTEST_SKIP() << "the address sanitizer reserves more than any limit";
 #endif
   const fs::path folder = empty_folder("memory");
-  scenes::SpecimenDeck deck;
-  deck.columns = 120;
-  deck.rows = 240;
-  deck.increments = 1;
-  write(folder / "x.dat", deck.text());
+  write(folder / "x.dat", specimen(120, 240));
   int refused = 0;
   for (const std::string solver : {"skyline_lu", "frontal", "umfpack"})
     for (int megabytes : {20, 40, 60, 80, 100, 140, 200}) {
@@ -362,9 +367,7 @@ TEST(Files, ADeckWithoutMemoryHarmsNoOtherOfTheCall) {
   scenes::SpecimenDeck deck;
   deck.increments = 1;
   for (const char* name : {"a.dat", "c.dat", "d.dat"}) write(folder / name, deck.text());
-  deck.columns = 120;
-  deck.rows = 240;
-  write(folder / "b.dat", deck.text());
+  write(folder / "b.dat", specimen(120, 240));
   const Finished run = sagefe(folder, "run a.dat b.dat c.dat d.dat -q --solver skyline_lu --jobs 2",
                               "bash -c 'ulimit -v 81920; exec timeout 60 \"$0\" \"$@\"'");
   EXPECT_EQ(run.exit_code, 3) << run.err;
@@ -408,14 +411,24 @@ TEST(Files, AnyFileNameGivesAPvdThatReadersTake) {
   EXPECT_FALSE(fs::exists(folder / "r/caf%E9 & %01<1>_0001.vtu"));
 }
 
+// A group that no element belongs to has tables without lines.
+TEST(Files, ResultOfAGroupWithoutElements) {
+  const fs::path folder = empty_folder("files_empty_group");
+  write(folder / "x.dat",
+        block_deck()
+            .with("control", card({"1", "0", "4", "1", "1", "2", "1", "2", "1", "1", "1", "9", "4"}))
+            .behind("group", "empty", card({"2", "1", "1", "1"}) + "nothing")
+            .text());
+  const Finished run = sagefe(folder, "run x.dat -q --result -o r", "timeout 60");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Finished picture = sagefe(folder, "plot r/x.h5 --picture stress_yy -o p", "timeout 60");
+  EXPECT_EQ(picture.exit_code, 0) << picture.err;
+}
+
 // 10 400 elements: their states, tables and pictures are made on all threads.
 TEST(Files, OfALargeModelHaveTheSameBytesOnAnyNumberOfThreads) {
   const fs::path folder = empty_folder("files_threads");
-  scenes::SpecimenDeck deck;
-  deck.columns = 80;
-  deck.rows = 130;
-  deck.increments = 1;
-  write(folder / "x.dat", deck.text());
+  write(folder / "x.dat", specimen(80, 130));
   std::map<std::string, std::string> first;
   for (const std::string threads : {"1", "2", "3"}) {
     const Finished run =

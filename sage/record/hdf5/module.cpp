@@ -177,7 +177,8 @@ class Hdf5File final : public DataFile {
     errno = 0;
     if (H5Dset_extent(table->id, size.data()) < 0) return failed();
     const bool whole_chunks = start[0] % table->chunk == 0 && count % table->chunk == 0;
-    return write(*table, start, more, rows, whole_chunks, count == 1 && table->packed_row == table->row);
+    const bool by_itself = count == 1 && table->packed_row == table->row;
+    return write(*table, start, more, rows, whole_chunks, by_itself ? rows : nullptr);
   }
 
   bool append_piece(const char* path, const void* lines, std::uint64_t first, std::uint64_t count) override {
@@ -192,15 +193,15 @@ class Hdf5File final : public DataFile {
     more[1] = count;
     errno = 0;
     if (first == 0 && H5Dset_extent(table->id, size.data()) < 0) return failed();
-    if (count == table->piece[1]) return write(*table, start, more, lines, true, true);
-    // What is left is stored as a whole piece, and so it takes the same way as the others.
+    if (count == 0) return true;
+    // What is left of a row is stored as a whole piece, too.
     const std::size_t bytes = count * (table->row / size[1]);
-    if (only_zeros(lines, bytes)) return true;
-    std::vector<char> padded(table->packed_row, 0);
-    if (padded.size() < bytes) return write(*table, start, more, lines, true, false);
-    std::memcpy(padded.data(), lines, bytes);
-    return left_as_it_is(*table, padded.data()) ? write_packed(*table, start, padded.data())
-                                                : write(*table, start, more, lines, true, false);
+    std::vector<char> padded;
+    if (bytes < table->packed_row) {
+      padded.assign(table->packed_row, 0);
+      std::memcpy(padded.data(), lines, bytes);
+    }
+    return write(*table, start, more, lines, true, padded.empty() ? lines : padded.data());
   }
 
   // Of a fixed length: VTK reads no other.
@@ -302,20 +303,18 @@ class Hdf5File final : public DataFile {
     return size;
   }
 
-  bool write_packed(const Table& table, const std::vector<hsize_t>& start, const void* values) {
-    return H5Dwrite_chunk(table.id, H5P_DEFAULT, kNoFilters, start.data(), table.packed_row, values) >= 0 ||
-           failed();
-  }
-
-  // From the numbers `start` on so many in every dimension.  whole: nothing else is or will be stored with them.  piece:
-  // they are what is compressed by itself.
+  // From the numbers `start` on so many in every dimension.  whole: nothing else is or will be stored with them.
+  // by_itself: the bytes that are compressed by themselves, or not at all; null: they are not all that is stored there.
   bool write(const Table& table, const std::vector<hsize_t>& start, const std::vector<hsize_t>& more,
-             const void* values, bool whole, bool piece) {
+             const void* values, bool whole, const void* by_itself) {
     std::size_t bytes = table.width;
     for (hsize_t n : more) bytes *= n;
     if (bytes == 0) return true;
     if (whole && only_zeros(values, bytes)) return true;
-    if (piece && left_as_it_is(table, values)) return write_packed(table, start, values);
+    if (by_itself != nullptr && left_as_it_is(table, by_itself))
+      return H5Dwrite_chunk(table.id, H5P_DEFAULT, kNoFilters, start.data(), table.packed_row, by_itself) >=
+                 0 ||
+             failed();
     const Id space(H5Dget_space(table.id), H5Sclose), type(H5Dget_type(table.id), H5Tclose);
     const Id memory(H5Screate_simple(static_cast<int>(more.size()), more.data(), nullptr), H5Sclose);
     H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, more.data(), nullptr);

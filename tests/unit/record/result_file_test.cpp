@@ -198,11 +198,15 @@ TEST(ResultFile, RowsMayBeEmpty) {
   const auto file = make_data_file(path.string());
   ASSERT_TRUE(file->table("/none", DataType::float64, {0, 2}, 1)) << file->error();
   ASSERT_TRUE(file->append("/none", nullptr, 1)) << file->error();
+  ASSERT_TRUE(file->table("/no_piece", DataType::float64, {0, 2}, 1, 0)) << file->error();
+  ASSERT_TRUE(file->append_piece("/no_piece", nullptr, 0, 0)) << file->error();
   ASSERT_TRUE(file->close());
-  std::string bytes = "x";
   const auto back = open_data_file(path.string());
-  ASSERT_TRUE(back->read("/none", bytes)) << back->error();
-  EXPECT_EQ(bytes, "");
+  for (const char* name : {"/none", "/no_piece"}) {
+    std::string bytes = "x";
+    ASSERT_TRUE(back->read(name, bytes)) << back->error();
+    EXPECT_EQ(bytes, "");
+  }
 }
 
 // What ParaView's reader asks for: parts, steps and where each array of a step begins.
