@@ -1,6 +1,7 @@
 #include "sage/analysis/late_states.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "sage/core/thread_pool.hpp"
@@ -9,33 +10,22 @@ namespace sage {
 
 namespace {
 
-constexpr int kWorthThreads = 10000;  // elements from which on threads gain
-constexpr int kUnit = 1024;           // that one of them takes at a time
+constexpr std::size_t kWorthThreads = 10000;  // elements from which on threads gain
 
-// Of elements first to last - 1.
-void update_states(GroupData& data, int first, int last, const Eigen::VectorXd& behind, ElementWork& element) {
+void bring_up_to_date(GroupData& data, const Eigen::VectorXd& behind, const ElementWork& element,
+                      WorkCounters& work, int threads) {
   const auto size = static_cast<std::size_t>(data.group->element->traits().points * data.state.law_size());
-  for (int e = first; e < last; ++e) {
-    element.evaluate(data, e, &behind, nullptr);
-    const std::size_t at = static_cast<std::size_t>(e) * size;
-    std::copy_n(element.sigma(), size, data.state.committed.sigma.data() + at);
-    std::copy_n(element.eps(), size, data.state.committed.eps.data() + at);
-  }
-}
-
-void bring_up_to_date(GroupData& data, const Eigen::VectorXd& behind, ElementWork& element, WorkCounters& work,
-                      int threads) {
-  const int elements = data.group->elements();
-  if (threads > 1 && elements >= kWorthThreads) {
-    ThreadPool pool(threads);
-    std::vector<ElementWork> rooms(static_cast<std::size_t>(pool.threads()), element);
-    pool.run((elements + kUnit - 1) / kUnit, [&](int unit, int thread) {
-      update_states(data, unit * kUnit, std::min((unit + 1) * kUnit, elements), behind,
-                    rooms[static_cast<std::size_t>(thread)]);
-    });
-  } else {
-    update_states(data, 0, elements, behind, element);
-  }
+  const auto elements = static_cast<std::size_t>(data.group->elements());
+  std::optional<ThreadPool> pool;
+  if (threads > 1 && elements >= kWorthThreads) pool.emplace(threads);
+  in_pieces(pool ? &*pool : nullptr, elements, [&](std::size_t first, std::size_t last) {
+    ElementWork room = element;
+    for (std::size_t e = first; e < last; ++e) {
+      room.evaluate(data, static_cast<int>(e), &behind, nullptr);
+      std::copy_n(room.sigma(), size, data.state.committed.sigma.data() + e * size);
+      std::copy_n(room.eps(), size, data.state.committed.eps.data() + e * size);
+    }
+  });
   std::swap(data.state.committed.h, data.state.trial.h);
   std::swap(data.state.committed.status, data.state.trial.status);
   work.element_evaluations += data.group->elements();

@@ -160,8 +160,11 @@ bool bears_water(const ElementEntry& entry) {
          !has([](const UnknownField& field) { return !field.turns && !field.displacement(); });
 }
 
-bool is_structure(const Group& group) {
-  return group.entry != nullptr && group.structure();
+// group: its place, -1 = all of the model.
+bool is_structure(const Builder& b, int group) {
+  if (group < 0) return false;
+  const Group& own = b.model.groups[static_cast<std::size_t>(group)];
+  return own.entry != nullptr && own.structure();
 }
 
 // Cards about structures: free water on their sides, or none.
@@ -298,7 +301,7 @@ void warn_of_water_cards(Builder& b) {
                      : "group " + std::to_string(b.model.groups[static_cast<std::size_t>(group)].number);
   };
   const auto same = [&](const WaterCard& a, const WaterCard& c) {
-    const bool structure = a.group >= 0 && is_structure(b.model.groups[static_cast<std::size_t>(a.group)]);
+    const bool structure = is_structure(b, a.group);
     return a.stage == c.stage && a.group == c.group && a.pressure() == c.pressure() &&
            (!structure || c.value == 0.0 || a.value == c.value);
   };
@@ -413,8 +416,7 @@ void build_water(Builder& b) {
     water.stage = read_first_stage(b, card);
     const std::vector<int> groups = groups_of(b, card);
     if (water.stage < 0 || groups.empty() || !b.materials_known || !b.groups_known) continue;
-    refuse_unread(
-        b, card, groups.front() >= 0 && is_structure(b.model.groups[static_cast<std::size_t>(groups.front())]));
+    refuse_unread(b, card, is_structure(b, groups.front()));
     if (water.kind == WaterKind::undrained) {
       read_undrained(b, card, water, twins, groups);
       continue;

@@ -7,7 +7,9 @@
 
 namespace sage::dense_matrix {
 
-// Orthogonal columns of a matrix of few rows by Gram & Schmidt (modified), the longest column that is left first.
+// Orthogonal columns of a matrix of few rows by Gram & Schmidt (modified), the longest column that is left first.  Values
+// go through the same steps as columns: then it is as stable as Householder's reflections (Bjorck, BIT 7, 1967), and for
+// the small fits of patches quicker than Eigen's.
 class PivotedQr {
  public:
   // V: rows x columns, no more columns than rows.  Takes the place of what was there; keeps its room where the

@@ -56,8 +56,8 @@ class ThreadPool {
 // is one and the rows are many, else once.
 template <class Work>
 void in_pieces(ThreadPool* pool, std::size_t count, const Work& work) {
-  constexpr std::size_t kPiece = 4096;
-  if (pool == nullptr || count < 2 * kPiece) return work(std::size_t{0}, count);
+  constexpr std::size_t kPiece = 1024, kMany = 8 * kPiece;
+  if (pool == nullptr || count < kMany) return work(std::size_t{0}, count);
   pool->run(static_cast<int>((count + kPiece - 1) / kPiece), [&](int piece, int /*thread*/) {
     const std::size_t first = static_cast<std::size_t>(piece) * kPiece;
     work(first, std::min(first + kPiece, count));

@@ -318,10 +318,6 @@ SolidEdges edges_of_active(const Model& model, const std::vector<char>& groups) 
   return SolidEdges(model, [&](std::size_t g) { return groups[g] && model.groups[g].solid(); });
 }
 
-}  // namespace
-
-namespace {
-
 // Pairs of nodes that an active bar or beam goes along, whole elements and their halves.
 std::set<std::pair<int, int>> lines_of_structures(const Model& model, const std::vector<char>& groups) {
   std::set<std::pair<int, int>> lines;
