@@ -58,7 +58,7 @@ Assembly::Assembly(const Model& model, const Scene& scene, const Skips& skips, W
       element_(model, !scene.linear),
       changing_(groups_, element_, work),
       constant_(model, groups_, element_, work),
-      late_(dof_map_.dofs(), std::ranges::any_of(model.groups, &Group::structure)) {
+      late_(std::ranges::any_of(model.groups, &Group::structure)) {
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     GroupData data;
     data.group = &model.groups[g];

@@ -170,24 +170,21 @@ class ElementPoints {
     at.resize(2, traits_.points);
     w.resize(traits_.points);
     if (data.geometry.empty()) made_.resize(static_cast<std::size_t>(traits_.geometry_size()));
+    if (data.keeps_matrices() && data.geometry.empty()) take_shapes();
   }
 
   void take(int e) {
     const Element& element = *data_.group->element;
     element_coordinates(model_.mesh, *data_.group, e, x);
-    if (data_.geometry.empty()) element.geometry(x, made_);
-    const auto size = static_cast<std::size_t>(traits_.geometry_size());
-    const double* geometry =
-        data_.geometry.empty() ? made_.data() : data_.geometry.data() + static_cast<std::size_t>(e) * size;
-    const auto stride = static_cast<std::size_t>(1 + traits_.law_size * traits_.dofs);
+    if (of_shape_.size() > 0)
+      w = of_shape_.col(data_.matrix[static_cast<std::size_t>(e)]);
+    else
+      make_weights(e);
     const auto first = 4 * static_cast<std::size_t>(e) * static_cast<std::size_t>(traits_.points);
     stress = Eigen::Map<const Eigen::Matrix4Xd>(data_.state.committed.sigma.data() + first, 4, traits_.points);
     if (start_ != nullptr)
       stress -= Eigen::Map<const Eigen::Matrix4Xd>(start_->data() + first, 4, traits_.points);
-    for (int p = 0; p < traits_.points; ++p) {
-      at.col(p) = element.position(x, p);
-      w(p) = geometry[static_cast<std::size_t>(p) * stride];
-    }
+    for (int p = 0; p < traits_.points; ++p) at.col(p) = element.position(x, p);
   }
 
   Eigen::Matrix2Xd x, at;  // of its nodes, of its points
@@ -195,11 +192,35 @@ class ElementPoints {
   Eigen::VectorXd w;
 
  private:
+  // Where few shapes make up the group, the weights of each are made once, of the first element that has it.
+  void take_shapes() {
+    constexpr std::size_t kFewer = 4;
+    const std::size_t shapes = data_.K.size() / data_.matrix_size();
+    if (!data_.constant || data_.matrix.size() < kFewer * shapes) return;
+    of_shape_.resize(traits_.points, static_cast<Eigen::Index>(shapes));
+    for (int e = 0, made = 0; e < data_.group->elements(); ++e) {
+      if (data_.matrix[static_cast<std::size_t>(e)] != made) continue;
+      element_coordinates(model_.mesh, *data_.group, e, x);
+      make_weights(e);
+      of_shape_.col(made++) = w;
+    }
+  }
+
+  void make_weights(int e) {
+    const auto size = static_cast<std::size_t>(traits_.geometry_size());
+    const auto stride = static_cast<std::size_t>(1 + traits_.law_size * traits_.dofs);
+    if (data_.geometry.empty()) data_.group->element->geometry(x, made_);
+    const double* geometry =
+        data_.geometry.empty() ? made_.data() : data_.geometry.data() + static_cast<std::size_t>(e) * size;
+    for (int p = 0; p < traits_.points; ++p) w(p) = geometry[static_cast<std::size_t>(p) * stride];
+  }
+
   const Model& model_;
   const GroupData& data_;
   const std::vector<double>* start_;
   const ElementTraits& traits_;
   std::vector<double> made_;
+  Eigen::MatrixXd of_shape_;  // weights, a shape a column; empty = every element has its own
 };
 
 // to_samples: sample_map of the element.
@@ -356,12 +377,40 @@ struct ElementSquares {
   double error = 0.0, size = 0.0;
 };
 
+// The mean of some fits.  Linear ones are added up first: as their value at a place and their slopes.
+class MeanFit {
+ public:
+  MeanFit(const std::vector<const Fit*>& fits, const Vector2& place) : fits_(fits), place_(place) {
+    linear_ = std::ranges::all_of(fits, [](const Fit* fit) { return fit->terms.degree == 1; });
+    if (!linear_) return;
+    for (const Fit* fit : fits) {
+      value_ += fit->at(place);
+      slope_.col(0) += fit->coefficients.col(1) / fit->terms.scale.x();
+      slope_.col(1) += fit->coefficients.col(2) / fit->terms.scale.y();
+    }
+  }
+
+  Vector4 at(const Vector2& x) const {
+    Vector4 sum = value_ + slope_ * (x - place_);
+    if (!linear_)
+      for (const Fit* fit : fits_) sum += fit->at(x);
+    return sum / static_cast<double>(fits_.size());
+  }
+
+ private:
+  const std::vector<const Fit*>& fits_;
+  Vector2 place_;
+  bool linear_ = false;
+  Vector4 value_ = Vector4::Zero();
+  Eigen::Matrix<double, 4, 2> slope_ = Eigen::Matrix<double, 4, 2>::Zero();
+};
+
 // |sigma* - sigma|^2 and |sigma|^2 over an element, sigma* the mean of the fits.
 ElementSquares fitted_error(const GroupStress& s, int e, const std::vector<const Fit*>& fits) {
   ElementSquares sum;
+  const MeanFit mean(fits, s.point_at.col(e * s.points));
   for (Eigen::Index p = e * s.points; p < (e + 1) * s.points; ++p) {
-    Vector4 smooth = Vector4::Zero();
-    for (const Fit* fit : fits) smooth += fit->at(s.point_at.col(p)) / static_cast<double>(fits.size());
+    const Vector4 smooth = mean.at(s.point_at.col(p));
     const Vector4 own_stress = s.point.col(p), difference = smooth - own_stress;
     sum.error += s.w(p) * difference.dot(s.C * difference);
     sum.size += s.w(p) * own_stress.dot(s.C * own_stress);

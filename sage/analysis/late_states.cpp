@@ -38,23 +38,25 @@ void LateStates::recover(std::vector<GroupData>& groups, ElementWork& element, W
   for (GroupData& data : groups) data.state.make_room();
   if (!is_behind_) return;
   const Profile::Scope scope(work.profile, phase::kAssembly);
-  for (GroupData& data : groups)
-    if (data.active && data.constant)
-      bring_up_to_date(data, data.group->structure() ? structures_ : others_, element, work, threads);
-  others_.setZero();
-  structures_.setZero();
+  for (GroupData& data : groups) {
+    const Eigen::VectorXd& behind = data.group->structure() ? structures_ : others_;
+    if (data.active && data.constant && behind.size() > 0)
+      bring_up_to_date(data, behind, element, work, threads);
+  }
+  others_.resize(0);
+  structures_.resize(0);
   is_behind_ = false;
 }
 
 void LateStates::recover_structures(std::vector<GroupData>& groups, ElementWork& element, WorkCounters& work) {
   for (GroupData& data : groups)
     if (data.group->structure()) data.state.make_room();
-  if (structures_.isZero(0.0)) return;
+  if (structures_.size() == 0) return;
   const Profile::Scope scope(work.profile, phase::kAssembly);
   for (GroupData& data : groups)
     if (data.active && data.constant && data.group->structure())
       bring_up_to_date(data, structures_, element, work, 1);
-  structures_.setZero();
+  structures_.resize(0);
 }
 
 }  // namespace sage

@@ -14,15 +14,12 @@ class LateStates {
  public:
   // The displacement since the states were last up to date, every dof.
   // structures: some group is one.
-  LateStates(int dofs, bool structures) {
-    others_.setZero(dofs);
-    if (structures) structures_.setZero(dofs);
-  }
+  explicit LateStates(bool structures) : has_structures_(structures) {}
 
   // A step was committed.
   void move(const Eigen::VectorXd& du) {
-    others_ += du;
-    if (structures_.size() > 0) structures_ += du;
+    add(du, others_);
+    if (has_structures_) add(du, structures_);
     is_behind_ = true;
   }
   bool behind() const { return is_behind_; }
@@ -34,12 +31,17 @@ class LateStates {
   void exchange(Archive& archive) {
     archive(others_);
     archive(is_behind_);
-    if (structures_.size() > 0) archive(structures_);
+    if (has_structures_) archive(structures_);
   }
 
  private:
-  Eigen::VectorXd others_, structures_;
-  bool is_behind_ = false;
+  static void add(const Eigen::VectorXd& du, Eigen::VectorXd& sum) {
+    if (sum.size() == 0) sum.setZero(du.size());
+    sum += du;
+  }
+
+  Eigen::VectorXd others_, structures_;  // no entries before the first step
+  bool has_structures_ = false, is_behind_ = false;
 };
 
 }  // namespace sage

@@ -28,8 +28,7 @@ class Step {
         work_(work),
         du_(du),
         fields_(assembly),
-        residual_(assembly.equations()),
-        correction_(assembly.equations()) {}
+        residual_(assembly.equations()) {}
 
   NewtonStep solve(const Eigen::VectorXd& rate);
 
@@ -42,6 +41,7 @@ class Step {
   bool repeats();
   void accelerate(double old_norm);
   NewtonStep& iterate_with_line_search();
+  NewtonStep& polished();
   NewtonStep& iterate_with_dogleg();
   bool record_iteration();
   IterationRecord measure_whole();
@@ -63,7 +63,11 @@ class Step {
   bool at_rounding(int field, const IterationRecord& record) const;
   double couplings(int field) const;
   double stiffness_norm(int field) const;
-  double own_forces(int field) const;
+  double own_forces(const Eigen::VectorXd& correction, int field) const;
+  Eigen::VectorXd free_part_of_du() const;
+  bool start_from_committed();
+  bool start_from_du(const Eigen::VectorXd& rate);
+  void take_first_scales(const Eigen::VectorXd& way, const Eigen::VectorXd& force);
   bool even(int field) const;
   double size_of_unknown(int field) const;
   double scale(int field) const;
@@ -71,6 +75,7 @@ class Step {
   double work_left() const;
   bool hopeless() const;
   bool flows();
+  bool strays() const;
   bool outgrown(int field, const IterationRecord& record) const;
   double load_size(int field) const;
   void take_start_scales();
@@ -113,8 +118,10 @@ void Step::form_residual() {
   }
 }
 
+// The run is largest while it factorises: room for the correction comes behind it.
 void Step::correct() {
   tangent_.factorise(work_);
+  correction_.resize(assembly_.equations());
   tangent_.solve(residual_, correction_, work_);
 }
 
@@ -132,7 +139,7 @@ bool Step::repeats() {
   start_known_ = true;
   if (evaluate(false) == Outcome::cut_step) return false;
   form_residual();
-  correction_.setZero();
+  correction_.setZero(assembly_.equations());
   if (!(measure().force <= settings_.repeat)) return false;
   const IterationRecord record = measure_whole();
   if (!(record.force <= settings_.repeat)) return false;
@@ -144,30 +151,53 @@ bool Step::repeats() {
   return true;
 }
 
-// First correction: prescribed displacements enter through K(free, prescribed).
+// First correction, from the place where the iterations begin.
 bool Step::predict(const Eigen::VectorXd& rate) {
-  if (settings_.from_here) {
-    take_prescribed(rate);
-    if (evaluate(true) == Outcome::cut_step) return false;
+  const bool committed = settings_.start == NewtonStart::committed;
+  if (!(committed ? start_from_committed() : start_from_du(rate))) return false;
+  correct();
+  if (settings_.start == NewtonStart::last_way && tangent_.norm1() >= 0.0) {  // the solver keeps K
+    const Eigen::VectorXd way = free_part_of_du();
+    take_first_scales(way, tangent_.times(way));
   } else {
-    du_.setZero();
-    if (!tangent_.current() && evaluate(true) == Outcome::cut_step) return false;
+    take_first_scales(correction_, residual_);
   }
+  if (committed) du_ = rate_part_ * rate;
+  for (int f = 0; f < fields_.count(); ++f) at(prescribed_, f) = fields_.largest_of_dofs(du_, f);
+  move(1.0);
+  return true;
+}
+
+// Prescribed displacements enter through K(free, prescribed).
+bool Step::start_from_committed() {
+  du_.setZero();
+  if (!tangent_.current() && evaluate(true) == Outcome::cut_step) return false;
   if (start_known_) {
     residual_ = start_residual_;
   } else {
     take_start_scales();  // a step may end without any stress
     form_residual();
   }
-  if (!settings_.from_here) {
-    const Eigen::VectorXd& coupling = tangent_.coupling();
-    for (int eq = 0; eq < assembly_.equations(); ++eq)
-      residual_[eq] -= rate_part_ * coupling[assembly_.dof_of(eq)];
-  }
-  correct();
+  const Eigen::VectorXd& coupling = tangent_.coupling();
+  for (int eq = 0; eq < assembly_.equations(); ++eq)
+    residual_[eq] -= rate_part_ * coupling[assembly_.dof_of(eq)];
+  return true;
+}
+
+// du is a place nearby, or the way of the step before: forces at the committed state are those before a pass at du.
+bool Step::start_from_du(const Eigen::VectorXd& rate) {
+  if (settings_.start == NewtonStart::last_way && !start_known_) take_start_scales();
+  take_prescribed(rate);
+  if (evaluate(true) == Outcome::cut_step) return false;
+  if (settings_.start == NewtonStart::nearby) take_start_scales();
+  form_residual();
+  return true;
+}
+
+// Of the whole step: what its first correction moves by, and the forces that this balances.
+void Step::take_first_scales(const Eigen::VectorXd& way, const Eigen::VectorXd& force) {
   double work = 0.0;
-  for (int f = 0; f < fields_.count(); ++f)
-    work += at(energy_scale_, f) = std::abs(fields_.dot(correction_, residual_, f));
+  for (int f = 0; f < fields_.count(); ++f) work += at(energy_scale_, f) = std::abs(fields_.dot(way, force, f));
   if (const Condensation* region = assembly_.condensation()) {
     energy_scale_[0] += std::abs(region->held_work());
     work = energy_scale_[0];
@@ -175,11 +205,7 @@ bool Step::predict(const Eigen::VectorXd& rate) {
   result_.predicted_work = work;
   for (int f = 0; f < fields_.count(); ++f)
     at(first_force_, f) =
-        std::max({fields_.norm(residual_, f), at(start_scale_, f), at(load_scale_, f), own_forces(f)});
-  if (!settings_.from_here) du_ = rate_part_ * rate;
-  for (int f = 0; f < fields_.count(); ++f) at(prescribed_, f) = fields_.largest_of_dofs(du_, f);
-  move(1.0);
-  return true;
+        std::max({fields_.norm(force, f), at(start_scale_, f), at(load_scale_, f), own_forces(way, f)});
 }
 
 // Of du: all that has no equation.
@@ -190,10 +216,17 @@ void Step::take_prescribed(const Eigen::VectorXd& rate) {
   for (int eq = 0; eq < assembly_.equations(); ++eq) du_[assembly_.dof_of(eq)] = free[assembly_.dof_of(eq)];
 }
 
+// By equation.
+Eigen::VectorXd Step::free_part_of_du() const {
+  Eigen::VectorXd free(assembly_.equations());
+  for (int eq = 0; eq < assembly_.equations(); ++eq) free[eq] = du_[assembly_.dof_of(eq)];
+  return free;
+}
+
 // What the first correction of a field makes in its own equations, where another field balances it.
-double Step::own_forces(int field) const {
+double Step::own_forces(const Eigen::VectorXd& correction, int field) const {
   if (fields_.count() == 1 || tangent_.norm1() < 0.0) return 0.0;
-  return fields_.norm(tangent_.times(fields_.part(correction_, field)), field);
+  return fields_.norm(tangent_.times(fields_.part(correction, field)), field);
 }
 
 void Step::take_start_scales() {
@@ -408,6 +441,15 @@ bool Step::flows() {
   return result_.flows;
 }
 
+// The way of the step before is a guess: one that does not come ten times nearer in five corrections is given up.
+bool Step::strays() const {
+  constexpr std::size_t kPatience = 5;
+  constexpr double kNearer = 0.1;
+  const std::vector<IterationRecord>& done = result_.iterations;
+  if (settings_.start != NewtonStart::last_way || done.size() % kPatience != 0) return false;
+  return !(done.back().force <= kNearer * done[done.size() - kPatience].force);
+}
+
 // Stress that balances itself is made by the motion and grows with it (mean stress near nu = 1/2): beside that
 // of an iteration that runs away any load is small.  What is left out of balance must be small beside what the
 // step has to balance, too.
@@ -539,8 +581,8 @@ NewtonStep& Step::iterate_with_line_search() {
       result_.flows = settings_.stop_at_flow;
       return result_;
     }
-    if (record_iteration()) return result_;
-    if (flows() || i == settings_.max_iterations) break;
+    if (record_iteration()) return polished();
+    if (flows() || strays() || i == settings_.max_iterations) break;
     const double norm = residual_size();
     if (settings_.contract && contracts_poorly(norm, old_norm) && evaluate(true) == Outcome::cut_step)
       return result_;
@@ -552,6 +594,24 @@ NewtonStep& Step::iterate_with_line_search() {
     move(1.0);
   }
   result_.outcome = StepOutcome::not_converged;
+  return result_;
+}
+
+// From the way of the last step some iterations end just within the tolerance, where those from the committed state
+// jump far below it.  One more correction with the factors at hand makes them as good, for a solution and a force pass.
+NewtonStep& Step::polished() {
+  constexpr double kFar = 1e-3;
+  if (settings_.start != NewtonStart::last_way || result_.iterations.back().force <= kFar * settings_.tolerance)
+    return result_;
+  const double old_norm = residual_size();
+  tangent_.solve(residual_, correction_, work_);
+  for (const double way : {1.0, -1.0}) {  // back again, if it helps nothing
+    move(way);
+    if (evaluate(false) == Outcome::cut_step) continue;
+    form_residual();
+    if (residual_size() <= old_norm) break;
+  }
+  record_iteration();
   return result_;
 }
 

@@ -6,6 +6,13 @@
 
 namespace sage {
 
+// Where the iterations of a step begin.
+enum class NewtonStart {
+  committed,  // at the state before the step, with the tangent at hand
+  nearby,     // du holds a place near the answer, all but what supports prescribe
+  last_way,   // du holds the way that the step before took, scaled to the size of this one
+};
+
 struct NewtonSettings {
   Method method = Method::newton;
   int max_iterations = 25;
@@ -17,9 +24,9 @@ struct NewtonSettings {
   StageSoFar so_far{};                         // a condensed region moves on in its direction
   Pulse* pulse = nullptr;                      // hears of every iteration; null = nobody looks
   bool stop_at_flow = false;                   // a step that turns into flow is given up (NewtonStep::flows)
-  bool from_here = false;  // du holds a place nearby, all but what supports prescribe: iterate from there
-  bool refine = false;     // a first correction does not do, even if all that is left is rounding
-  bool contract = false;   // factors are kept while they contract well; K may then be behind du at the end
+  NewtonStart start = NewtonStart::committed;
+  bool refine = false;    // a first correction does not do, even if all that is left is rounding
+  bool contract = false;  // factors are kept while they contract well; K may then be behind du at the end
   // Of the model: its unknowns, and its size, the longest arm that a force has; null: moments have no measure in forces.
   const std::vector<UnknownField>* unknowns = nullptr;
   double size = 0.0;

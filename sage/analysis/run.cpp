@@ -74,6 +74,8 @@ class Run {
   NewtonStep settle_free_surface(const Stage& stage, double from, double to);
   void renew_tangent();
   bool contracts(const Stage& stage) const;
+  bool predicts(const Stage& stage) const;
+  bool goes_on(const Stage& stage, double size) const;
   bool can_repeat(const Stage& stage, double size) const;
   void accept(double reached);
   void reject(const Stage& stage, double reached, double next);
@@ -239,6 +241,7 @@ void Run::prepare_stage(int s) {
   path_.repeats.forget();
   place_ = {s, 0};
   reached_ = 0.0;
+  path_.goes_on = false;
   evaluate_start();
   assembly_.commit(state_.du);
   path_.force_start = assembly_.internal_force();
@@ -252,7 +255,8 @@ void Run::prepare_stage(int s) {
     path_.u_start = state_.u;
     assembly_.set_stage_loads(path_.force_end - path_.force_start);
   }
-  path_.external_start = state_.external;
+  path_.external_start.resize(0);
+  if (!state_.external.isZero(0.0)) path_.external_start = state_.external;
   const InitialImbalance imbalance =
       initial_imbalance(model_, system_.activity(), s, path_.force_start, path_.force_end);
   if (imbalance.counts())
@@ -275,12 +279,27 @@ bool Run::can_repeat(const Stage& stage, double size) const {
   return settings_.skips.repeats && newton && pays && path_.repeats.due(size);
 }
 
+// In these stages a step that was not linear is followed by one much like it (the skip 'prediction'); but not where
+// steps are cut, near a limit.
+bool Run::predicts(const Stage& stage) const {
+  return settings_.skips.prediction && stage.method == Method::newton && !tangent_.constant() &&
+         assembly_.condensation() == nullptr && assembly_.dof_map().only_displacement();
+}
+
+bool Run::goes_on(const Stage& stage, double size) const {
+  return path_.goes_on && predicts(stage) && !path_.repeats.due(size);
+}
+
 // from_here: state_.du is near the answer, but for what is prescribed.
 NewtonStep Run::attempt(const Stage& stage, double from, double to, bool from_here) {
   target_ = (1.0 - to) * path_.force_start + to * path_.force_end;
   set_moment(to, to - from);
   NewtonSettings newton{stage.method, stage.max_iterations, stage.tolerance, settings_.line_search};
-  newton.from_here = from_here;
+  if (from_here) newton.start = NewtonStart::nearby;
+  if (!from_here && goes_on(stage, to - from)) {
+    newton.start = NewtonStart::last_way;
+    state_.du *= (to - from) / path_.last_size;
+  }
   // What is put in comes out to ten digits.  The rounding of many heads is all on one side and adds up.
   if (water_alone_ && easing_ == 1.0) {
     newton.tolerance = std::min(stage.tolerance, kWaterBalance);
@@ -370,7 +389,10 @@ void Run::accept(double reached) {
   if (assembly_.sees_unknowns()) state_.u_before = state_.u;
   state_.u += state_.du;
   reached_ = reached;
-  state_.external = (1.0 - reached) * path_.external_start + reached * path_.force_end;
+  if (path_.external_start.size() > 0)
+    state_.external = (1.0 - reached) * path_.external_start + reached * path_.force_end;
+  else
+    state_.external = reached * path_.force_end;
   if (!path_.pore_end.empty()) set_water(reached);
   result_.motion = std::max(result_.motion, extent_.motion(state_.u));
 }
@@ -381,7 +403,7 @@ void Run::accept(double reached) {
 // reached: load factor of that state.  next: share of the stage of the attempt; 0 = from there all the same.
 void Run::reject(const Stage& stage, double reached, double next) {
   path_.repeats.forget();
-  on_last_way_ = false;
+  on_last_way_ = path_.goes_on = false;
   const bool keep_K = tangent_.constant() || stage.method == Method::initial_stiffness;
   if (!keep_K) {
     tangent_.set_aside();
@@ -482,6 +504,7 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
   while (reached < end) {
     const double to = size >= end - reached - 1e-12 * whole ? end : reached + size;
     show(report, reached);
+    const bool went_on = goes_on(stage, to - reached);
     const NewtonStep step = attempt_with_exits(stage, reached, to);
     report.iterations = step.iterations;
     report.total_iterations += static_cast<int>(step.iterations.size());
@@ -497,7 +520,7 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
         continue;
       }
       path_.path_error = std::max(path_.path_error, error);
-      if (stage.method == Method::modified_newton || contracts(stage)) renew_tangent();
+      if (stage.method == Method::modified_newton || (contracts(stage) && !predicts(stage))) renew_tangent();
       const bool same_K = tangent_.constant() || !tangent_.changed();
       const bool linear = step.iterations.size() == 1 && same_K;
       if (!step.repeated) path_.repeats.take(linear, to - reached, step.iterations.back().force);
@@ -505,10 +528,16 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
       measure_stiffness(reached, to);
       accept(to);
       keep_way(to - reached);
+      path_.goes_on = report.cuts == 0;
       reached = to;
       report.load_factor = reached;
       ++report.substeps;
       if (step.iterations.size() <= 6 && 8.0 * error <= kPathTolerance) size *= 2.0;
+      continue;
+    }
+    // The way of the last step may lead nowhere where the committed state's does.
+    if (went_on) {
+      reject(stage, reached, to - reached);
       continue;
     }
     // Half way along a collapse mechanism the matrix may be singular where the committed state's is not.

@@ -112,7 +112,9 @@ void failed_step(Sweep& s) {
         whole.max_iterations = most;
         TriaxialDeck halves = whole;
         halves.increments = 2;
-        const Ran a = s.run(whole.text()), b = s.run(halves.text());
+        RunSettings settings;
+        settings.skips.prediction = false;  // the second half step would start elsewhere
+        const Ran a = s.run(whole.text(), {}, settings), b = s.run(halves.text(), {}, settings);
         if (!a.completed() || !b.completed()) continue;
         const bool cut_once = a.run->last().cuts == 1;
         if (!cut_once || b.run->increments[0].cuts + b.run->increments[1].cuts > 0) continue;
