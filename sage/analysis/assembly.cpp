@@ -60,8 +60,7 @@ Assembly::Assembly(const Model& model, const Scene& scene, const Skips& skips, W
       constant_(model, groups_, element_, work),
       late_(std::ranges::any_of(model.groups, &Group::structure)) {
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
-    GroupData data;
-    data.group = &model.groups[g];
+    GroupData data(model.groups[g]);
     data.law = model.material_of(model.groups[g]).law_ref();
     data.wants_context = wants_context(data.law);
     eases_ = eases_ || (data.wants_context && data.group->flow());
@@ -263,8 +262,11 @@ std::array<long, kStatuses> Assembly::count_points() const {
   std::array<long, kStatuses> counts{};
   for (const GroupData& data : groups_) {
     if (!data.active) continue;
-    for (std::size_t p = 0; p < data.state.committed.status.size(); ++p)
-      ++counts[static_cast<std::size_t>(shown_status(model_->mesh, data, p))];
+    const std::vector<PointStatus>& status = data.state.committed.status;
+    for (std::size_t p = 0; p < status.size(); ++p) {
+      const bool open = status[p] == PointStatus::open;
+      ++counts[static_cast<std::size_t>(open ? shown_status(model_->mesh, data, p) : status[p])];
+    }
   }
   return counts;
 }

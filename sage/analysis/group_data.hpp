@@ -11,7 +11,11 @@
 namespace sage {
 
 struct GroupData {
-  const Group* group = nullptr;
+  explicit GroupData(const Group& its_group)
+      : group(&its_group), dof_count(static_cast<std::size_t>(its_group.element->traits().dofs)) {}
+
+  const Group* group;
+  std::size_t dof_count;  // of an element
   LawRef law;
   bool active = false;
   bool wants_context = false;  // its law does
@@ -39,7 +43,7 @@ struct GroupData {
 
   bool keeps_matrices() const { return !matrix.empty(); }
   std::size_t matrix_size() const { return dofs() * dofs(); }
-  std::size_t dofs() const { return static_cast<std::size_t>(group->element->traits().dofs); }
+  std::size_t dofs() const { return dof_count; }
   ElementDofs dofs_of(int element) const {
     if (!dof_list.empty())
       return ElementDofs::listed({dof_list.data() + static_cast<std::size_t>(element) * dofs(), dofs()});

@@ -76,6 +76,7 @@ class Step {
   bool hopeless() const;
   bool flows();
   bool strays() const;
+  bool ends_next() const;
   bool outgrown(int field, const IterationRecord& record) const;
   double load_size(int field) const;
   void take_start_scales();
@@ -101,12 +102,14 @@ class Step {
   FieldSums first_force_{};  // largest of the step's start, its loads, and what its first correction balances
   FieldSums energy_scale_{}, start_scale_{};
   std::array<IterationRecord, kMostFields> measured_{};
+  bool K_is_here_ = false;  // the last pass made it
   double slope_ = 0.0, step_length_ = 1.0;
   double best_ = std::numeric_limits<double>::infinity();  // smallest residual_size() so far
   NewtonStep result_;
 };
 
 Outcome Step::evaluate(bool with_K) {
+  K_is_here_ = with_K;
   return pass_.iterate(du_, with_K ? &tangent_ : nullptr);
 }
 
@@ -163,7 +166,8 @@ bool Step::predict(const Eigen::VectorXd& rate) {
     take_first_scales(correction_, residual_);
   }
   if (committed) du_ = rate_part_ * rate;
-  for (int f = 0; f < fields_.count(); ++f) at(prescribed_, f) = fields_.largest_of_dofs(du_, f);
+  for (int f = 0; f < fields_.count(); ++f)
+    at(prescribed_, f) = std::abs(rate_part_) * fields_.largest_of_dofs(rate, f);
   move(1.0);
   return true;
 }
@@ -441,6 +445,13 @@ bool Step::flows() {
   return result_.flows;
 }
 
+// Quadratic convergence leaves less than the tolerance then: a K at that place would serve nobody, as the next step
+// starts with its own, and the factors at hand are still those of the K that the solver holds.
+bool Step::ends_next() const {
+  return settings_.start == NewtonStart::last_way && !result_.iterations.empty() &&
+         result_.iterations.back().force <= std::sqrt(settings_.tolerance);
+}
+
 // The way of the step before is a guess: one that does not come ten times nearer in five corrections is given up.
 bool Step::strays() const {
   constexpr std::size_t kPatience = 5;
@@ -571,7 +582,7 @@ NewtonStep& Step::iterate_with_line_search() {
   double old_norm = residual_size();
   if (accelerated()) acceleration_.improve(correction_);
   for (int i = 1; i <= settings_.max_iterations; ++i) {
-    if (evaluate(new_K_each_iteration()) == Outcome::cut_step) return result_;
+    if (evaluate(new_K_each_iteration() && !ends_next()) == Outcome::cut_step) return result_;
     form_residual();
     step_length_ = 1.0;
     if (settings_.line_search && !accelerated() && i > 1 && wants_line_search(old_norm) && !search_line())
@@ -584,8 +595,8 @@ NewtonStep& Step::iterate_with_line_search() {
     if (record_iteration()) return polished();
     if (flows() || strays() || i == settings_.max_iterations) break;
     const double norm = residual_size();
-    if (settings_.contract && contracts_poorly(norm, old_norm) && evaluate(true) == Outcome::cut_step)
-      return result_;
+    const bool wants_K = settings_.contract ? contracts_poorly(norm, old_norm) : full_newton() && !K_is_here_;
+    if (wants_K && evaluate(true) == Outcome::cut_step) return result_;
     correct();
     if (accelerated()) accelerate(old_norm);
     old_norm = norm;
@@ -598,13 +609,12 @@ NewtonStep& Step::iterate_with_line_search() {
 }
 
 // From the way of the last step some iterations end just within the tolerance, where those from the committed state
-// jump far below it.  One more correction with the factors at hand makes them as good, for a solution and a force pass.
+// jump far below it.  One more correction makes them as good: where factors are at hand for a solution and a force pass.
 NewtonStep& Step::polished() {
-  constexpr double kFar = 1e-3;
-  if (settings_.start != NewtonStart::last_way || result_.iterations.back().force <= kFar * settings_.tolerance)
-    return result_;
+  const double far = (tangent_.factorised() ? 1e-3 : 1e-2) * settings_.tolerance;
+  if (settings_.start != NewtonStart::last_way || result_.iterations.back().force <= far) return result_;
   const double old_norm = residual_size();
-  tangent_.solve(residual_, correction_, work_);
+  correct();
   for (const double way : {1.0, -1.0}) {  // back again, if it helps nothing
     move(way);
     if (evaluate(false) == Outcome::cut_step) continue;

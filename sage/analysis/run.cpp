@@ -242,6 +242,8 @@ void Run::prepare_stage(int s) {
   place_ = {s, 0};
   reached_ = 0.0;
   path_.goes_on = false;
+  path_.pause = 0;
+  path_.next_pause = 1;
   evaluate_start();
   assembly_.commit(state_.du);
   path_.force_start = assembly_.internal_force();
@@ -528,15 +530,18 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
       measure_stiffness(reached, to);
       accept(to);
       keep_way(to - reached);
-      path_.goes_on = report.cuts == 0;
+      path_.goes_on = report.cuts == 0 && path_.pause == 0;
+      path_.pause = std::max(0, path_.pause - 1);
       reached = to;
       report.load_factor = reached;
       ++report.substeps;
       if (step.iterations.size() <= 6 && 8.0 * error <= kPathTolerance) size *= 2.0;
       continue;
     }
-    // The way of the last step may lead nowhere where the committed state's does.
+    // The way of the last step may lead nowhere where that from the committed state does not.
     if (went_on) {
+      path_.pause = path_.next_pause;
+      path_.next_pause *= 2;
       reject(stage, reached, to - reached);
       continue;
     }

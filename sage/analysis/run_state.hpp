@@ -23,6 +23,7 @@ struct StagePath {
   Repeats repeats;
   double last_size = 0.0;                       // of the last step, as a share of the stage; 0 = there is none
   bool goes_on = false;                         // the next step may go on the way of the last one, RunState::du
+  int pause = 0, next_pause = 1;                // steps for which none does, after one that found nothing
   double stiffest = 0.0, last_stiffness = 0.0;  // along the motion: largest so far, of the last step
   double path_error = 0.0;                      // largest so far
   std::string loose_part;                       // the first; empty = none
@@ -46,6 +47,8 @@ struct RunState {
     path.repeats.exchange(archive);
     archive(path.last_size);
     archive(path.goes_on);
+    archive(path.pause);
+    archive(path.next_pause);
     archive(path.stiffest);
     archive(path.last_stiffness);
     archive(path.path_error);

@@ -263,8 +263,8 @@ bool ResultFiles::remove(const std::string& name, const Earlier& earlier) const 
       // The user has made it an input since.
     }
   };
-  if (earlier.begun) unlink_result(partial);
   const auto own = files_.find(name);
+  if (earlier.begun && own == files_.end()) unlink_result(partial);  // what this run left is for its restart
   if (!earlier.sum || !is_ordinary(file) || (own != files_.end() && own->second.complete)) return true;
   const std::optional<Checksum> now = checksum_of(file);
   if (!now || now->bytes() != *earlier.bytes || now->value() != *earlier.sum) return false;

@@ -9,8 +9,7 @@ namespace {
 
 // A group's committed states without what is kept of its elements.
 GroupData states_of(const GroupData& data) {
-  GroupData copy;
-  copy.group = data.group;
+  GroupData copy(*data.group);
   copy.law = data.law;
   copy.active = data.active;
   const auto history = history_of(data.law);
@@ -37,8 +36,7 @@ Frame::Frame(const Model& model, const StepReport& report, const Solution& now)
 
 Frame::Frame(const Model& model) : activity_(model) {
   for (const Group& group : model.groups) {
-    GroupData data;
-    data.group = &group;
+    GroupData data(group);
     data.law = model.material_of(group).law_ref();
     const auto history = history_of(data.law);
     data.state = StateStore(0, group.element->traits().law_size, history, false);

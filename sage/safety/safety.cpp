@@ -337,8 +337,7 @@ void Finder::keep_mechanism(const TrialResult& result, const Solution& now) {
   std::vector<GroupData> groups;
   for (std::size_t g = 0; g < now.groups().size(); ++g) {
     const GroupData& from = now.groups()[g];
-    GroupData& data = groups.emplace_back();
-    data.group = from.group;
+    GroupData& data = groups.emplace_back(*from.group);
     data.law = from.law;
     data.active = from.active;
     data.state = from.state;

@@ -113,6 +113,29 @@ TEST(Fault, KilledAtRandomMomentsAndRestarted) {
   EXPECT_GE(resumed, 6);
 }
 
+#ifdef SAGE_HAVE_HDF5
+// The program gets the signal once it has saved a checkpoint.
+std::string ended_after_a_checkpoint(const std::string& signal) {
+  return R"(sh -c 'last=$(stat -c %y out/deck.restart 2>/dev/null); "$0" "$@" & run=$!; for i in $(seq 1000); do )"
+         R"(now=$(stat -c %y out/deck.restart 2>/dev/null); test "$now" != "$last" && break; sleep 0.01; done; )"
+         "kill -" +
+         signal + R"( $run; wait $run; exit $?')";
+}
+
+// States that a killed run has begun and a stopped one goes on with belong to the restart, not to what was left over.
+TEST(Fault, KilledThenStoppedAndRestarted) {
+  const fs::path folder = empty_folder("killed_then_stopped");
+  write(folder / "deck.dat", deck_text(300));
+  const std::string run = "run deck.dat -q --points --result --checkpoint 0";
+  ASSERT_EQ(sagefe(folder, run + " -o whole").exit_code, 0);
+  for (const char* signal : {"KILL", "TERM", "KILL", "TERM"})
+    ASSERT_NE(sagefe(folder, run + " --restart", ended_after_a_checkpoint(signal)).exit_code, 0) << signal;
+  const Finished last = sagefe(folder, run + " --restart");
+  ASSERT_EQ(last.exit_code, 0) << last.err;
+  expect_equal(results(folder / "out"), results(folder / "whole"));
+}
+#endif
+
 // A limit on the size of files stands for the disk: the write that passes it fails in the same way.
 TEST(Fault, FullDiskAndRestart) {
   const fs::path folder = folder_with_deck("full_disk");
