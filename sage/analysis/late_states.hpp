@@ -12,7 +12,6 @@ namespace sage {
 // Structures have a date of their own: tables of their forces are asked for where nobody looks at the soil.
 class LateStates {
  public:
-  // The displacement since the states were last up to date, every dof.
   // structures: some group is one.
   explicit LateStates(bool structures) : has_structures_(structures) {}
 
@@ -40,7 +39,7 @@ class LateStates {
     sum += du;
   }
 
-  Eigen::VectorXd others_, structures_;  // no entries before the first step
+  Eigen::VectorXd others_, structures_;  // the displacement since then, every dof; no entries: nothing moved
   bool has_structures_ = false, is_behind_ = false;
 };
 

@@ -93,7 +93,7 @@ def run_parts(bench, names):
 def header(kept, versions):
     text = ["# Benchmarks: run time against error", ""]
     text += ["Written by `scripts/bench` (`tests/bench/bench.py`); every number comes from there.", ""]
-    text += ["Whole processes; programs take turns, and ratios are between medians of one command. Only ratios carry over to other machines.", ""]
+    text += ["Whole processes; programs take turns, and ratios are between medians of one command. Only ratios carry over to other machines. What bounds them: `docs/theory/speed.md`.", ""]
     text += [f"- Machine: {name}" for name in sorted({table["machine"] for table in kept.values()})]
     speeds = [table["dgemm"] for table in kept.values() if table["dgemm"]]
     if speeds:

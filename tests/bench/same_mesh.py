@@ -122,6 +122,6 @@ def plastic(bench):
     note = (
         "The specimen above with the Drucker-Prager law of `dp_285` (phi = 36.87, c = 0, flow without volume change, nu = .495) at a cell pressure of 50 psi, to 15 % in "
         f"{specimen.STEPS} increments. Milliseconds, wall / processor. dolfinx has the same law, return and consistent tangent, in kernels compiled for this processor; its ratio agrees to 1e-6, or the bench fails. "
-        "sagefe: whole process with listing; dolfinx: as above, with MUMPS or PETSc's own LU, whichever is the faster. dolfinx begins an increment with the change of the one before, sagefe with the tangent at its start."
+        "sagefe: whole process with listing; dolfinx: as above, with MUMPS or PETSc's own LU, whichever is the faster. Both begin an increment with the change of the one before; sagefe's iterations count corrections with kept factors."
     )
     return {"plastic": Table("The same mesh, Drucker-Prager", note, "`sagefe run --threads N`.", head, rows)}
