@@ -21,11 +21,11 @@ int whole_tiles(int n) {
   return (n + kTile - 1) / kTile;
 }
 
-// Of each equation in the elimination.
-std::vector<int> positions(const std::vector<int>& order) {
-  std::vector<int> position(order.size());
-  for (std::size_t p = 0; p < order.size(); ++p) position[at(order[p])] = static_cast<int>(p);
-  return position;
+void number_equations(const EquationGraph& graph, const SeparatorTree& tree, FrontTree& fronts) {
+  fronts.order = expand(graph, tree.groups.item);
+  fronts.position.resize(fronts.order.size());
+  for (std::size_t p = 0; p < fronts.order.size(); ++p)
+    fronts.position[at(fronts.order[p])] = static_cast<int>(p);
 }
 
 void list_children(const std::vector<int>& parent, IndexLists& children) {
@@ -67,7 +67,6 @@ void lay_out_fronts(const EquationGraph& graph, const SeparatorTree& tree, bool 
                     FrontTree& fronts) {
   std::vector<int> rank(at(graph.members.count()));
   for (std::size_t r = 0; r < rank.size(); ++r) rank[at(tree.groups.item[r])] = static_cast<int>(r);
-  const std::vector<int> position = positions(fronts.order);
   const IndexLists borders = border_groups(graph, tree, fronts.children, rank);
   std::size_t border = 0;  // equations of all borders
   for (const int r : borders.item) border += graph.members.of(tree.groups.item[at(r)]).size();
@@ -83,7 +82,7 @@ void lay_out_fronts(const EquationGraph& graph, const SeparatorTree& tree, bool 
     front.border_begin = static_cast<int>(fronts.border.size());
     for (const int r : borders.of(f))
       for (const int equation : graph.members.of(tree.groups.item[at(r)]))
-        fronts.border.push_back(position[at(equation)]);
+        fronts.border.push_back(fronts.position[at(equation)]);
     front.border = static_cast<int>(fronts.border.size()) - front.border_begin;
     front.pivot_tiles = whole_tiles(front.pivots);
     front.border_tiles = whole_tiles(front.border);
@@ -255,7 +254,6 @@ void sort_entries(const AssembledMatrix& matrix, FrontTree& tree) {
 
 void list_entries(const AssembledMatrix& matrix, FrontTree& tree) {
   sort_entries(matrix, tree);
-  const std::vector<int> position = positions(tree.order);
   std::vector<int> local(tree.order.size());
   for (std::size_t f = 0; f < tree.fronts.size(); ++f) {
     const Front& front = tree.fronts[f];
@@ -264,7 +262,7 @@ void list_entries(const AssembledMatrix& matrix, FrontTree& tree) {
     Entries& list = tree.entries[at(range.list)];
     for (auto s = at(range.begin); s < at(range.end); ++s) {
       const int row = matrix.row()[at(list.source[s])], column = list.target[s];
-      int i = local[at(position[at(row)])], j = local[at(position[at(column)])];
+      int i = local[at(tree.position[at(row)])], j = local[at(tree.position[at(column)])];
       if (matrix.symmetric() && i > j) std::swap(i, j);
       list.target[s] = static_cast<int>(arm_target(front, i, j));
     }
@@ -295,7 +293,7 @@ FrontTree make_front_tree(const EquationGraph& graph, const AssembledMatrix& mat
   FrontTree fronts;
   const SeparatorTree tree = nested_dissection(graph, leaf_equations, border, threads);
   if (border > 0) fronts.kept = tree.groups.count() - 1;
-  fronts.order = expand(graph, tree.groups.item);
+  number_equations(graph, tree, fronts);
   list_children(tree.parent, fronts.children);
   lay_out_fronts(graph, tree, matrix.symmetric(), width, fronts);
   divide_work(fronts);

@@ -33,11 +33,11 @@ struct EntryRange {
 };
 
 struct FrontTree {
-  std::vector<int> order;      // position in the elimination -> equation
-  std::vector<Front> fronts;   // in the order of elimination
-  IndexLists children;         // front -> fronts
-  std::vector<int> border;     // positions of every front's border, ascending
-  std::vector<int> in_parent;  // their local indices in the parent front
+  std::vector<int> order, position;  // position in the elimination -> equation, and back
+  std::vector<Front> fronts;         // in the order of elimination
+  IndexLists children;               // front -> fronts
+  std::vector<int> border;           // positions of every front's border, ascending
+  std::vector<int> in_parent;        // their local indices in the parent front
   std::int64_t factor_terms = 0;
   int kept = -1;  // the front of a border that stays: the last one, whose pivots are not eliminated; -1 = none
 

@@ -162,7 +162,7 @@ class Frontal final : public MatrixSolver {
     report_.solve_operations = (traits().symmetric ? 4.0 : 2.0) * static_cast<double>(tree_.factor_terms);
     report_.memory_bytes =
         (factors_.size() + shared_.size() + reciprocal_.size() + position_values_.size()) * sizeof(double) +
-        (2 * matrix().row().size() + 2 * tree_.border.size() + tree_.order.size()) * sizeof(int);
+        (2 * matrix().row().size() + 2 * tree_.border.size() + 2 * tree_.order.size()) * sizeof(int);
     for (const Lane& lane : lanes_)
       report_.memory_bytes += (lane.workspace.size() + lane.scratch.size()) * sizeof(double);
   }

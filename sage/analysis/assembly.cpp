@@ -262,11 +262,8 @@ std::array<long, kStatuses> Assembly::count_points() const {
   std::array<long, kStatuses> counts{};
   for (const GroupData& data : groups_) {
     if (!data.active) continue;
-    const std::vector<PointStatus>& status = data.state.committed.status;
-    for (std::size_t p = 0; p < status.size(); ++p) {
-      const bool open = status[p] == PointStatus::open;
-      ++counts[static_cast<std::size_t>(open ? shown_status(model_->mesh, data, p) : status[p])];
-    }
+    for (std::size_t p = 0; p < data.state.committed.status.size(); ++p)
+      ++counts[static_cast<std::size_t>(shown_status(model_->mesh, data, p))];
   }
   return counts;
 }

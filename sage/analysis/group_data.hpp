@@ -12,10 +12,9 @@ namespace sage {
 
 struct GroupData {
   explicit GroupData(const Group& its_group)
-      : group(&its_group), dof_count(static_cast<std::size_t>(its_group.element->traits().dofs)) {}
+      : group(&its_group), dofs_(static_cast<std::size_t>(its_group.element->traits().dofs)) {}
 
   const Group* group;
-  std::size_t dof_count;  // of an element
   LawRef law;
   bool active = false;
   bool wants_context = false;  // its law does
@@ -43,7 +42,7 @@ struct GroupData {
 
   bool keeps_matrices() const { return !matrix.empty(); }
   std::size_t matrix_size() const { return dofs() * dofs(); }
-  std::size_t dofs() const { return dof_count; }
+  std::size_t dofs() const { return dofs_; }  // of an element
   ElementDofs dofs_of(int element) const {
     if (!dof_list.empty())
       return ElementDofs::listed({dof_list.data() + static_cast<std::size_t>(element) * dofs(), dofs()});
@@ -55,6 +54,9 @@ struct GroupData {
   const double* shift_of(int element) const {
     return shift.data() + static_cast<std::size_t>(matrix[static_cast<std::size_t>(element)]) * dofs();
   }
+
+ private:
+  std::size_t dofs_;
 };
 
 // The equations of all elements of a group, behind those that are listed.  equation_of: by dof; -1 = none.

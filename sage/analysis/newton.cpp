@@ -214,10 +214,9 @@ void Step::take_first_scales(const Eigen::VectorXd& way, const Eigen::VectorXd& 
 
 // Of du: all that has no equation.
 void Step::take_prescribed(const Eigen::VectorXd& rate) {
-  Eigen::VectorXd free = Eigen::VectorXd::Zero(du_.size());
-  for (int eq = 0; eq < assembly_.equations(); ++eq) free[assembly_.dof_of(eq)] = du_[assembly_.dof_of(eq)];
+  const Eigen::VectorXd free = free_part_of_du();
   du_ = rate_part_ * rate;
-  for (int eq = 0; eq < assembly_.equations(); ++eq) du_[assembly_.dof_of(eq)] = free[assembly_.dof_of(eq)];
+  for (int eq = 0; eq < assembly_.equations(); ++eq) du_[assembly_.dof_of(eq)] = free[eq];
 }
 
 // By equation.

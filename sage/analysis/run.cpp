@@ -241,9 +241,7 @@ void Run::prepare_stage(int s) {
   path_.repeats.forget();
   place_ = {s, 0};
   reached_ = 0.0;
-  path_.goes_on = false;
-  path_.pause = 0;
-  path_.next_pause = 1;
+  path_.prediction = {};
   evaluate_start();
   assembly_.commit(state_.du);
   path_.force_start = assembly_.internal_force();
@@ -257,8 +255,7 @@ void Run::prepare_stage(int s) {
     path_.u_start = state_.u;
     assembly_.set_stage_loads(path_.force_end - path_.force_start);
   }
-  path_.external_start.resize(0);
-  if (!state_.external.isZero(0.0)) path_.external_start = state_.external;
+  path_.external_start = state_.external;
   const InitialImbalance imbalance =
       initial_imbalance(model_, system_.activity(), s, path_.force_start, path_.force_end);
   if (imbalance.counts())
@@ -281,15 +278,14 @@ bool Run::can_repeat(const Stage& stage, double size) const {
   return settings_.skips.repeats && newton && pays && path_.repeats.due(size);
 }
 
-// In these stages a step that was not linear is followed by one much like it (the skip 'prediction'); but not where
-// steps are cut, near a limit.
+// Whether steps of the stage may start from the way of the one before.
 bool Run::predicts(const Stage& stage) const {
   return settings_.skips.prediction && stage.method == Method::newton && !tangent_.constant() &&
          assembly_.condensation() == nullptr && assembly_.dof_map().only_displacement();
 }
 
 bool Run::goes_on(const Stage& stage, double size) const {
-  return path_.goes_on && predicts(stage) && !path_.repeats.due(size);
+  return path_.prediction.due() && predicts(stage) && !path_.repeats.due(size);
 }
 
 // from_here: state_.du is near the answer, but for what is prescribed.
@@ -391,10 +387,7 @@ void Run::accept(double reached) {
   if (assembly_.sees_unknowns()) state_.u_before = state_.u;
   state_.u += state_.du;
   reached_ = reached;
-  if (path_.external_start.size() > 0)
-    state_.external = (1.0 - reached) * path_.external_start + reached * path_.force_end;
-  else
-    state_.external = reached * path_.force_end;
+  state_.external = (1.0 - reached) * path_.external_start + reached * path_.force_end;
   if (!path_.pore_end.empty()) set_water(reached);
   result_.motion = std::max(result_.motion, extent_.motion(state_.u));
 }
@@ -405,7 +398,8 @@ void Run::accept(double reached) {
 // reached: load factor of that state.  next: share of the stage of the attempt; 0 = from there all the same.
 void Run::reject(const Stage& stage, double reached, double next) {
   path_.repeats.forget();
-  on_last_way_ = path_.goes_on = false;
+  path_.prediction.forget();
+  on_last_way_ = false;
   const bool keep_K = tangent_.constant() || stage.method == Method::initial_stiffness;
   if (!keep_K) {
     tangent_.set_aside();
@@ -530,8 +524,7 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
       measure_stiffness(reached, to);
       accept(to);
       keep_way(to - reached);
-      path_.goes_on = report.cuts == 0 && path_.pause == 0;
-      path_.pause = std::max(0, path_.pause - 1);
+      path_.prediction.take(report.cuts > 0);
       reached = to;
       report.load_factor = reached;
       ++report.substeps;
@@ -540,8 +533,7 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
     }
     // The way of the last step may lead nowhere where that from the committed state does not.
     if (went_on) {
-      path_.pause = path_.next_pause;
-      path_.next_pause *= 2;
+      path_.prediction.fail();
       reject(stage, reached, to - reached);
       continue;
     }

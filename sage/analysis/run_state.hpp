@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "sage/analysis/prediction.hpp"
 #include "sage/analysis/repeats.hpp"
 #include "sage/core/archive.hpp"
 
@@ -17,13 +18,12 @@ struct Place {
 
 // The way through a stage.  Vectors have one entry a dof.
 struct StagePath {
-  Eigen::VectorXd external_start, force_start;  // loads (no entries = none) and internal forces at its start
+  Eigen::VectorXd external_start, force_start;  // loads and internal forces at its start
   Eigen::VectorXd force_end;                    // loads at its end
   Eigen::VectorXd u_start;                      // unknowns at its start, where a region is condensed
   Repeats repeats;
+  Prediction prediction;                        // the way of the last step is RunState::du
   double last_size = 0.0;                       // of the last step, as a share of the stage; 0 = there is none
-  bool goes_on = false;                         // the next step may go on the way of the last one, RunState::du
-  int pause = 0, next_pause = 1;                // steps for which none does, after one that found nothing
   double stiffest = 0.0, last_stiffness = 0.0;  // along the motion: largest so far, of the last step
   double path_error = 0.0;                      // largest so far
   std::string loose_part;                       // the first; empty = none
@@ -45,10 +45,8 @@ struct RunState {
     archive(du);
     archive(u_before);
     path.repeats.exchange(archive);
+    path.prediction.exchange(archive);
     archive(path.last_size);
-    archive(path.goes_on);
-    archive(path.pause);
-    archive(path.next_pause);
     archive(path.stiffest);
     archive(path.last_stiffness);
     archive(path.path_error);

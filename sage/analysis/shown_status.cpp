@@ -2,11 +2,9 @@
 
 namespace sage {
 
-PointStatus shown_status(const Mesh& mesh, const GroupData& data, std::size_t point) {
+PointStatus shown_opening(const Mesh& mesh, const GroupData& data, std::size_t point) {
   constexpr double kRounding = 1e-12;
   const PointStates& state = data.state.committed;
-  const PointStatus status = state.status[point];
-  if (status != PointStatus::open) return status;
   const auto history = history_of(data.law);
   const int element = static_cast<int>(point) / data.group->element->traits().points;
   const int* nodes = data.group->nodes_of(element);
@@ -14,7 +12,7 @@ PointStatus shown_status(const Mesh& mesh, const GroupData& data, std::size_t po
   for (std::size_t i = 0; i < history.size(); ++i)
     if (history[i].name == "gap" && state.h[point * history.size() + i] < kRounding * length)
       return PointStatus::elastic;
-  return status;
+  return PointStatus::open;
 }
 
 }  // namespace sage

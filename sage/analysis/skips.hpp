@@ -1,7 +1,7 @@
 // What a run leaves out because the scene does not need it.  Every skip can be switched off; the results with
 // and without it then differ by rounding only, or where it changes the iteration by what that leaves out of balance.
-// Each has a file: kept_matrices (factors), constant_region (elements), late_states, condensation, repeats, contraction;
-// the prediction is in run and newton.
+// Each has a file: kept_matrices (factors), constant_region (elements), late_states, condensation, repeats, contraction,
+// prediction.
 #pragma once
 
 #include <array>

@@ -80,6 +80,7 @@ LastState solve(const std::string& text, How how, bool keep_matrices, int thread
   settings.choose_solver = choose_solver;
   settings.threads = threads;
   settings.skips.factors = keep_matrices;
+  settings.skips.prediction = false;  // as many iterations as a step can have
   LastState last;
   Observer* observers[] = {&last};
   EXPECT_EQ(run(model, catalogue, settings, observers).status, RunStatus::completed);
@@ -124,7 +125,7 @@ TEST(ByFour, GivesTheSameBitsOnAnyNumberOfThreads) {
   const std::string text = punch(31, 27, test::Cell::quad4, 1);
   for (const bool keep : {true, false}) {
     const LastState one = solve(text, How::by_itself, keep);
-    ASSERT_GT(one.iterations, 4);
+    ASSERT_GT(one.iterations, 6);
     EXPECT_GT(std::ranges::count(one.points.status, PointStatus::yielded), 0);
     EXPECT_GT(std::ranges::count(one.points.status, PointStatus::elastic), 0);
     for (const int threads : {2, 3, 4}) {

@@ -1,0 +1,36 @@
+// The skip 'prediction': a step that was not linear is followed by one much like it, which starts from its way.  Where
+// that found nothing the next 1, 2, 4, ... steps of the stage start from the committed state.
+#pragma once
+
+#include <algorithm>
+
+#include "sage/core/archive.hpp"
+
+namespace sage {
+
+class Prediction {
+ public:
+  // After a step that was solved.  cut: steps of its increment were, as near a limit.
+  void take(bool cut) {
+    due_ = !cut && pause_ == 0;
+    pause_ = std::max(0, pause_ - 1);
+  }
+  void forget() { due_ = false; }
+  // The step that started from the way of the last one was not solved.
+  void fail() {
+    pause_ = next_pause_;
+    next_pause_ *= 2;
+  }
+  bool due() const { return due_; }
+  void exchange(Archive& archive) {
+    archive(due_);
+    archive(pause_);
+    archive(next_pause_);
+  }
+
+ private:
+  bool due_ = false;
+  int pause_ = 0, next_pause_ = 1;  // steps
+};
+
+}  // namespace sage
