@@ -6,6 +6,8 @@
 #include <future>
 #include <system_error>
 
+#include "sage/core/large_pages.hpp"
+
 namespace sage {
 
 // The first touch of a page costs as much as filling it: a fifth of the factorisation of 800 000 equations.
@@ -22,7 +24,6 @@ class EarlyPages {
     stopped_ = false;
     try {
       work_ = std::async(std::launch::async, [this, first = static_cast<char*>(block), bytes] {
-        constexpr std::size_t kPage = 4096;
         for (std::size_t at = 0; at < bytes && !stopped_; at += kPage) first[at] = 0;
       });
     } catch (const std::system_error&) {

@@ -26,7 +26,7 @@ struct Front {
   int pivot_tiles = 0, border_tiles = 0;
   bool symmetric = false;      // of the border matrix only the upper triangle is there
   int width = 1;               // panels of the border that the kernels take side by side
-  std::int64_t arms = 0;       // first term of its arms in the factors: U, then L
+  std::int64_t arms = 0;       // first term of its arms in the factors: U, then L; twins share them
   std::int64_t border_at = 0;  // first term of its border matrix: in the workspace of its subtree, or
   bool shared = false;         // in the one that all share
 

@@ -90,7 +90,6 @@ void lay_out_fronts(const EquationGraph& graph, const SeparatorTree& tree, bool 
     front.width = width;
     if (2 * front.arm_terms() > std::numeric_limits<int>::max())
       throw std::length_error("a front of the matrix has more than 2^31 terms");
-    front.arms = fronts.factor_terms;
     fronts.factor_terms += (symmetric ? 1 : 2) * front.arm_terms();
     fronts.fronts.push_back(front);
   }
@@ -206,6 +205,19 @@ void set_local(const FrontTree& tree, const Front& front, std::vector<int>& loca
     local[at(tree.border[at(front.border_begin + k)])] = front.pivot_tiles * kTile + k;
 }
 
+void place_borders_in_parents(FrontTree& tree) {
+  tree.in_parent.resize(tree.border.size());
+  std::vector<int> local(tree.order.size());
+  for (std::size_t f = 0; f < tree.fronts.size(); ++f) {
+    set_local(tree, tree.fronts[f], local);
+    for (const int child : tree.children.of(static_cast<int>(f))) {
+      const Front& c = tree.fronts[at(child)];
+      for (int k = c.border_begin; k < c.border_begin + c.border; ++k)
+        tree.in_parent[at(k)] = local[at(tree.border[at(k)])];
+    }
+  }
+}
+
 // Room for all entries.  Ranges are empty still.
 void make_lists(const std::vector<int>& entries, FrontTree& tree) {
   tree.entries.assign(tree.subtrees.size() + 1, {});
@@ -266,11 +278,6 @@ void list_entries(const AssembledMatrix& matrix, FrontTree& tree) {
       if (matrix.symmetric() && i > j) std::swap(i, j);
       list.target[s] = static_cast<int>(arm_target(front, i, j));
     }
-    for (const int child : tree.children.of(static_cast<int>(f))) {
-      const Front& c = tree.fronts[at(child)];
-      for (int k = c.border_begin; k < c.border_begin + c.border; ++k)
-        tree.in_parent[at(k)] = local[at(tree.border[at(k)])];
-    }
   }
 }
 
@@ -298,7 +305,7 @@ FrontTree make_front_tree(const EquationGraph& graph, const AssembledMatrix& mat
   lay_out_fronts(graph, tree, matrix.symmetric(), width, fronts);
   divide_work(fronts);
   place_borders(fronts);
-  fronts.in_parent.resize(fronts.border.size());
+  place_borders_in_parents(fronts);
   return fronts;
 }
 

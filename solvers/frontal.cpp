@@ -8,6 +8,7 @@
 #include "solvers/early_pages.hpp"
 #include "solvers/front_tree.hpp"
 #include "solvers/matrix_solver.hpp"
+#include "solvers/twin_fronts.hpp"
 
 namespace sage {
 
@@ -83,6 +84,9 @@ void add_transposed(const Arms& a, const double* source, const int* to, int begi
   }
 }
 
+// The thread that was to make a border has given up, with an error of its own that comes first.
+struct NoBorder {};
+
 // K = L U, or K = U^T D^-1 U with D the diagonal of U where K is symmetric.
 class Frontal final : public MatrixSolver {
  public:
@@ -93,30 +97,29 @@ class Frontal final : public MatrixSolver {
   std::string_view kernels() const override { return wanted_kernels_->name; }
 
   void expect_one_factorisation() override { once_ = true; }
+  void set_twins(bool wanted) override { wanted_twins_ = wanted; }
 
   void factorise_matrix() override {
     early_.stop();
     if (given_back_) take_room();
+    place_factors();
     const std::span<const double> maxima = row_maxima();
     for (Lane& lane : lanes_) {
       lane.check = PivotCheck(traits().name, maxima);
       std::ranges::fill(lane.maximum, 0.0);
     }
-    const auto eliminate_subtree = [this](int s, int thread) {
-      const Subtree& subtree = tree_.subtrees[at(s)];
-      for (int f = subtree.begin; f < subtree.end; ++f) {
-        assemble(f, lanes_[at(thread)]);
-        if (f != tree_.kept) eliminate(f, lanes_[at(thread)]);
-      }
-      if (once_) give_back_entries(s);
-    };
     given_back_ = once_;  // also where a pivot ends it: the lists of some subtrees have gone then
-    pool_->run(static_cast<int>(tree_.subtrees.size()), eliminate_subtree);
+    pool_->run(static_cast<int>(tree_.subtrees.size()), [this](int s, int thread) {
+      eliminate_subtree(tree_.subtrees[at(s)], lanes_[at(thread)]);
+      if (once_) give_back_entries(s);
+    });
     if (once_) give_back_subtrees();
     for (const int f : tree_.top) {
+      if (!twins_.is_first(f)) continue;
       assemble(f, lanes_[0]);
       if (once_) give_back_borders(f);
       if (f != tree_.kept) eliminate_together(f);
+      if (lent_.lends(f)) lent_.publish(f);
     }
     take_report();
     if (once_) give_back_rest();
@@ -141,18 +144,19 @@ class Frontal final : public MatrixSolver {
         make_front_tree(graph, matrix(), kLeafEquations, kernels_->width, border_equations(), wanted_threads_);
     early_.stop();
     factors_ = AlignedArray(static_cast<std::size_t>(tree_.factor_terms));
+    twins_.analyse(tree_, once_ && wanted_twins_);
+    lent_ = {};
     touch_subtrees_early();
     list_entries(matrix(), tree_);
-    first_pivot_.assign(1, 0);
+    first_pivot_.resize(tree_.fronts.size());
     widest_ = 0;
-    report_.factor_operations = 0.0;
+    int pivots = 0;
     for (const Front& front : tree_.fronts) {
-      if (&front - tree_.fronts.data() != tree_.kept)
-        report_.factor_operations += elimination_operations(front, traits().symmetric);
-      first_pivot_.push_back(first_pivot_.back() + front.pivot_tiles * kTile);
+      pivots += front.pivot_tiles * kTile;
       widest_ = std::max(widest_, front.pivot_tiles + front.border_tiles);
     }
-    reciprocal_.assign(at(first_pivot_.back()), 1.0);
+    report_.factor_operations = operations();
+    reciprocal_.assign(at(pivots), 1.0);
     position_values_ = AlignedArray(at(matrix().equations()));
     list_outside();
     sweeps_.clear();
@@ -169,11 +173,49 @@ class Frontal final : public MatrixSolver {
 
  private:
   // Their room is needed first.  That of the largest fronts comes when the workspaces of the subtrees have gone: the
-  // run is largest then.
+  // run is largest then.  No more than what there is if all fronts of one shape turn out to be the same.
   void touch_subtrees_early() {
     if (wanted_threads_ == 1 || tree_.subtrees.empty()) return;
-    const Front& last = tree_.fronts[at(tree_.subtrees.back().end - 1)];
-    early_.start(factors_.data(), static_cast<std::size_t>(last.arms) * sizeof(double));
+    std::int64_t terms = 0;
+    for (int f = 0; f < tree_.subtrees.back().end; ++f)
+      if (!twins_.may_repeat(f)) terms += terms_of(f);
+    early_.start(factors_.data(), static_cast<std::size_t>(terms) * sizeof(double));
+  }
+
+  std::int64_t terms_of(int f) const { return (traits().symmetric ? 1 : 2) * tree_.fronts[at(f)].arm_terms(); }
+
+  // Where the factors of every front stand: one after the other, twins where the first of them does.
+  void place_factors() {
+    if (once_) {
+      twins_.find(tree_, matrix().value());
+      lent_.plan(tree_, twins_.first());
+    }
+    std::int64_t next = 0;
+    int pivots = 0;
+    report_.twin_equations = 0;
+    for (int f = 0; at(f) < tree_.fronts.size(); ++f) {
+      Front& front = tree_.fronts[at(f)];
+      const auto first = at(twins_.first(f));
+      front.arms = twins_.is_first(f) ? next : tree_.fronts[first].arms;
+      first_pivot_[at(f)] = twins_.is_first(f) ? pivots : first_pivot_[first];
+      if (!twins_.is_first(f)) {
+        report_.twin_equations += front.pivots;
+        continue;
+      }
+      next += terms_of(f);
+      pivots += front.pivot_tiles * kTile;
+    }
+    report_.factor_operations = operations();
+    report_.memory_bytes -= static_cast<std::size_t>(report_.factor_entries - next) * sizeof(double);
+    report_.factor_entries = next;
+  }
+
+  double operations() const {
+    double count = 0.0;
+    for (int f = 0; at(f) < tree_.fronts.size(); ++f)
+      if (f != tree_.kept && twins_.is_first(f))
+        count += elimination_operations(tree_.fronts[at(f)], traits().symmetric);
+    return count;
   }
 
   // The first thread works on the fronts above the subtrees too, and all others in the arms of the first.
@@ -251,18 +293,27 @@ class Frontal final : public MatrixSolver {
     return {tree_.border.data() + front.border_begin, at(front.border)};
   }
 
+  // Pivots of fronts that were eliminated, and of those that are like one of them.
+  int negative_pivots() const {
+    int count = 0;
+    for (int f = 0; at(f) < tree_.fronts.size(); ++f) {
+      if (f == tree_.kept) continue;
+      const double* const reciprocal = reciprocal_.data() + first_pivot_[at(f)];
+      for (int k = 0; k < tree_.fronts[at(f)].pivots; ++k) count += reciprocal[k] < 0.0;
+    }
+    return count;
+  }
+
   void take_report() {
     const bool any = matrix().equations() > border_equations();
     double ratio = any ? 1e300 : 1.0, size = 0.0;
-    int negative = 0;
     for (const Lane& lane : lanes_) {
       ratio = std::min(ratio, any ? lane.check.smallest_ratio() : 1.0);
       size = std::max(size, *std::ranges::max_element(lane.maximum));
-      negative += lane.check.negative();
     }
     report_.smallest_pivot_ratio = ratio;
     report_.growth = any ? size / lanes_[0].check.largest_term() : 1.0;
-    if (traits().symmetric) report_.negative_pivots = negative;
+    if (traits().symmetric) report_.negative_pivots = negative_pivots();
   }
 
   Arms arms(int f, Lane& lane) {
@@ -271,8 +322,31 @@ class Frontal final : public MatrixSolver {
     double* lower = traits().symmetric ? lane.scratch.data() : upper + front.arm_terms();
     return {front, upper, lower, reciprocal_.data() + first_pivot_[at(f)]};
   }
-  double* border(const Front& front, Lane& lane) {
+  double* border(int f, Lane& lane) {
+    if (lent_.lends(f)) return lent_.room(f);
+    const Front& front = tree_.fronts[at(f)];
     return (front.shared ? shared_ : lane.workspace).data() + front.border_at;
+  }
+  // A border that is complete.  Throws NoBorder.
+  const double* border_of_child(int child, Lane& lane) {
+    if (!lent_.lends(child)) return border(child, lane);
+    const double* const terms = lent_.wait_for(child);
+    if (terms == nullptr) throw NoBorder();
+    return terms;
+  }
+
+  void eliminate_subtree(const Subtree& subtree, Lane& lane) {
+    try {
+      for (int f = subtree.begin; f < subtree.end; ++f) {
+        if (!twins_.is_first(f)) continue;
+        assemble(f, lane);
+        if (f != tree_.kept) eliminate(f, lane);
+        if (lent_.lends(f)) lent_.publish(f);
+      }
+    } catch (...) {
+      lent_.give_up(subtree.begin, subtree.end);  // others may wait for one
+      throw;
+    }
   }
 
   // Original terms and the border matrices of the children.  Of a symmetric matrix only the upper triangle is
@@ -281,14 +355,18 @@ class Frontal final : public MatrixSolver {
     const Front& front = tree_.fronts[at(f)];
     double* terms = factors_.data() + front.arms;
     std::fill_n(terms, (traits().symmetric ? 1 : 2) * front.arm_terms(), 0.0);
-    std::fill_n(border(front, lane), front.border_terms(), 0.0);
+    if (lent_.lends(f)) lent_.make(f, static_cast<std::size_t>(front.border_terms()));
+    std::fill_n(border(f, lane), front.border_terms(), 0.0);
     const double* value = matrix().value().data();
     const EntryRange& range = tree_.entries_of[at(f)];
     const Entries& list = tree_.entries[at(range.list)];
     for (auto s = at(range.begin); s < at(range.end); ++s) terms[list.target[s]] = value[list.source[s]];
     const Arms a = arms(f, lane);
-    for (const int child : tree_.children.of(f))
-      add_border(tree_.fronts[at(child)], border(tree_.fronts[at(child)], lane), a, border(front, lane));
+    for (const int child : tree_.children.of(f)) {
+      const int like = twins_.first(child);
+      add_border(tree_.fronts[at(child)], border_of_child(like, lane), a, border(f, lane));
+      if (lent_.lends(like)) lent_.release(like);
+    }
   }
 
   // Extended addition of a child's border matrix, eight columns at a time.
@@ -325,7 +403,7 @@ class Frontal final : public MatrixSolver {
     const Arms a = arms(f, lane);
     eliminate_pivots(a, lane);
     reduce_border_columns(a, 0, a.front.border_tiles, lane);
-    update_border(a, border(a.front, lane), 0, a.front.border_tiles);
+    update_border(a, border(f, lane), 0, a.front.border_tiles);
   }
 
   // The same with the columns of the border divided among all threads.
@@ -338,7 +416,7 @@ class Frontal final : public MatrixSolver {
       reduce_border_columns(a, part * kReduced, std::min(Q, (part + 1) * kReduced), lanes_[at(thread)]);
     };
     pool_->run((Q + kReduced - 1) / kReduced, reduce);
-    double* const border_matrix = border(a.front, lanes_[0]);
+    double* const border_matrix = border(f, lanes_[0]);
     const auto update = [&](int part, int) {
       update_border(a, border_matrix, part * kUpdated, std::min(Q, (part + 1) * kUpdated));
     };
@@ -402,6 +480,9 @@ class Frontal final : public MatrixSolver {
   std::unique_ptr<ThreadPool> pool_;
   std::vector<int> first_pivot_;  // of every front, in reciprocal_
   std::vector<double> reciprocal_;
+  bool wanted_twins_ = true;
+  TwinFronts twins_;
+  LentBorders lent_;
   bool once_ = false, given_back_ = false;
   int widest_ = 0;                  // tiles of the widest front
   std::vector<int> outside_begin_;  // of every front, in outside_values_

@@ -21,9 +21,10 @@ struct WorkCounts {
   long element_evaluations = 0;  // elements whose law was called
   long linear_products = 0;      // elements answered by a stored K instead
   long analyses = 0, factorisations = 0, solves = 0;
-  long kept_factors = 0;  // corrections with factors that were there already
-  long repeats = 0;       // increments that were the one before once more
-  long condensed = 0;     // equations removed once for all from the iterations
+  long kept_factors = 0;    // corrections with factors that were there already
+  long repeats = 0;         // increments that were the one before once more
+  long condensed = 0;       // equations removed once for all from the iterations
+  long twin_equations = 0;  // equations that took the factors of others, because they are the same
 };
 
 // Names of the phases of a run, and of the analysis within it.

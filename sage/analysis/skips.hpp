@@ -1,7 +1,7 @@
 // What a run leaves out because the scene does not need it.  Every skip can be switched off; the results with
 // and without it then differ by rounding only, or where it changes the iteration by what that leaves out of balance.
 // Each has a file: kept_matrices (factors), constant_region (elements), late_states, condensation, repeats, contraction,
-// prediction.
+// prediction, and in solvers/ twin_fronts.
 #pragma once
 
 #include <array>
@@ -22,6 +22,7 @@ struct Skips {
   bool condensation = true;  // a large linear region leaves the iterations: only its border stays
   bool repeats = true;       // after an increment that was linear to the last digit, the next is its repetition
   bool contraction = true;   // large systems: Newton keeps its factors while they contract well
+  bool twins = true;         // parts of the matrix that repeat are eliminated once
   bool prediction = true;  // the first correction of an increment: it starts from the change of the one before
 };
 
@@ -31,13 +32,14 @@ struct SkipName {
   std::string_view what;
 };
 
-inline constexpr std::array<SkipName, 7> kSkipNames{{
+inline constexpr std::array<SkipName, 8> kSkipNames{{
     {"factors", &Skips::factors, "factors are kept while K has not changed"},
     {"elements", &Skips::elements, "linear elements: K once, one for congruent elements; forces by K u"},
     {"states", &Skips::states, "linear elements: stress only where an output asks"},
     {"condensation", &Skips::condensation, "a large linear region leaves the iterations"},
     {"repeats", &Skips::repeats, "an increment like the linear one before it"},
     {"contraction", &Skips::contraction, "large systems: factors kept while Newton contracts well"},
+    {"twins", &Skips::twins, "parts of the matrix that repeat are eliminated once"},
     {"prediction", &Skips::prediction, "increments start from the change of the one before"},
 }};
 

@@ -44,6 +44,7 @@ std::unique_ptr<LinearSolver> System::make(const SolverEntry& entry) const {
   auto solver = entry.make();
   solver->set_threads(settings_.threads);
   solver->set_kernels(settings_.kernels);
+  solver->set_twins(settings_.skips.twins);
   solver->set_refinement(settings_.refinement);
   solver->set_stop(settings_.stop_asked);
   return solver;

@@ -73,6 +73,7 @@ void Tangent::factorise(WorkCounters& work) {
   ++work.factorisations;
   solver_->factorise();
   scope.add_operations(solver_->report().factor_operations);
+  work.twin_equations += solver_->report().twin_equations;
   state_ = State::factorised;
 }
 

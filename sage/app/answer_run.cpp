@@ -73,7 +73,8 @@ Json work_json(const WorkCounters& w) {
   return {{"assemblies", w.assemblies},         {"force_passes", w.residuals},
           {"factorisations", w.factorisations}, {"solves", w.solves},
           {"condensed_equations", w.condensed}, {"linear_products", w.linear_products},
-          {"kept_factors", w.kept_factors},     {"repeated_increments", w.repeats}};
+          {"kept_factors", w.kept_factors},     {"repeated_increments", w.repeats},
+          {"twin_equations", w.twin_equations}};
 }
 
 // Extremes of each stage and of all, and the envelope at the ends of elements; compression positive.

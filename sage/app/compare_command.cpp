@@ -17,6 +17,7 @@
 #include "sage/app/umat_output.hpp"
 #include "sage/compare/comparison.hpp"
 #include "sage/compare/pair_picture.hpp"
+#include "sage/core/large_pages.hpp"
 #include "sage/model/locate.hpp"
 #include "sage/record/out_file.hpp"
 #include "solvers/choose_solver.hpp"
@@ -346,6 +347,7 @@ int compare_decks(const CompareOptions& asked, const Catalogue& catalogue) {
   for (const SideOptions& side : options) keep_input(side.deck);
   ResultFiles results(o.folder, stem + ".compare", {options[0].deck, 0, "comparison"});
   const Place place{o.folder, results, catalogue};
+  keep_heap_in_large_pages();
   const InterruptWatch watch;
   ConvergeOptions converge = o.converge;
   converge.screen = stderr;  // the answer comes first on the other one

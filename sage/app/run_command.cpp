@@ -18,6 +18,7 @@
 #include "sage/app/run_deck.hpp"
 #include "sage/app/screen.hpp"
 #include "sage/app/state_choice.hpp"
+#include "sage/core/large_pages.hpp"
 #include "sage/record/out_file.hpp"
 #include "sage/record/profile_text.hpp"
 #include "sage/record/sketch.hpp"
@@ -221,6 +222,7 @@ int run_all(const RunOptions& options, const Catalogue& catalogue) {
                 "S602");
       return kUsage;
     }
+  keep_heap_in_large_pages();
   for (const std::string& deck : options.decks) keep_input(deck);  // of those too that come later
   const InterruptWatch watch;
   const int jobs = threads_for(options.jobs);

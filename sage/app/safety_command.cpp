@@ -14,6 +14,7 @@
 #include "sage/app/run_deck.hpp"
 #include "sage/app/screen.hpp"
 #include "sage/app/umat_output.hpp"
+#include "sage/core/large_pages.hpp"
 #include "sage/record/csv.hpp"
 #include "sage/safety/safety_text.hpp"
 #include "solvers/choose_solver.hpp"
@@ -200,6 +201,7 @@ int run_safety(const SafetyOptions& options, const Catalogue& catalogue) {
     if (options.converge > 0.0) require_file(options.deck, "--converge");
     keep_input(options.deck);
     ResultFiles results(options.folder, case_name(options.deck) + ".safety", {options.deck, 0, "safety"});
+    keep_heap_in_large_pages();
     const InterruptWatch watch;
     const Meshes meshes = find_on_meshes(options, catalogue);
     const MeshResult& last = meshes.done.back();

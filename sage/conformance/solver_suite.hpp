@@ -12,23 +12,12 @@
 #include <cmath>
 #include <limits>
 #include <ostream>
-#include <random>
 
 #include "sage/conformance/solver_systems.hpp"
 #include "sage/core/catalogue.hpp"
 #include "sage/core/error.hpp"
 
 namespace sage::conformance {
-
-inline Eigen::VectorXd random_vector(int n, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> term(-1.0, 1.0);
-  return Eigen::VectorXd::NullaryExpr(n, [&] { return term(random); });
-}
-
-inline std::span<double> span_of(Eigen::VectorXd& v) {
-  return {v.data(), static_cast<std::size_t>(v.size())};
-}
 
 // A solver of a catalogue, which must outlive the tests.
 struct SolverSubject {

@@ -1,6 +1,8 @@
 // Linear systems for tests and benchmarks of solvers, made so that neither elements nor laws are needed.
 #pragma once
 
+#include <random>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -55,6 +57,17 @@ Eigen::MatrixXd dense(const System& system);
 // |K|.
 Eigen::VectorXd product(const System& system, const Eigen::VectorXd& x);
 double norm1(const System& system);
+
+// Terms between -1 and 1.
+inline Eigen::VectorXd random_vector(int n, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> term(-1.0, 1.0);
+  return Eigen::VectorXd::NullaryExpr(n, [&] { return term(random); });
+}
+
+inline std::span<double> span_of(Eigen::VectorXd& v) {
+  return {v.data(), static_cast<std::size_t>(v.size())};
+}
 
 // analyse, clear and add.
 void load(LinearSolver& solver, const System& system);

@@ -45,6 +45,7 @@ struct FactorReport {
   double backward_error = -1.0;        // largest |b - K x| / (||K|| |x| + |b|) of the refined answers so far
   int negative_pivots = -1;            // LDL^T only
   std::int64_t factor_entries = -1;    // stored terms of the factors
+  int twin_equations = 0;              // that took the factors of others, because they are the same (set_twins)
   std::size_t memory_bytes = 0;
   double factor_operations = -1.0;  // floating-point, of one factorisation; known from analyse() on
   double solve_operations = -1.0;   // and of one solution without refinement
@@ -96,6 +97,10 @@ class LinearSolver {
   // From the next analyse() on one factorise() is expected, no more: room that only factorise() needs may be given
   // back as soon as it has served.  Another one takes it again.
   virtual void expect_one_factorisation() {}
+
+  // Whether a factorise() that is expected to be the only one may do what repeats in the matrix once, from the next
+  // analyse() on; as a rule it may.  Answers do not depend on it, to the last bit.
+  virtual void set_twins(bool /*wanted*/) {}
 
   // Numbering, symbolic work and storage for a pattern.  Called once per pattern.
   virtual void analyse(int equations, ElementEquations elements) = 0;

@@ -358,21 +358,6 @@ TEST(Skips, ABorderOrderedLastPaysInFewIncrements) {
   }
 }
 
-// Each skip does something where it should: counters, not clocks.
-TEST(Skips, AreTaken) {
-  const WorkCounters friction_work = run_text(friction()).result.work;
-  EXPECT_GT(friction_work.condensed, 200);
-  EXPECT_GT(friction_work.linear_products, 0);
-  const WorkCounters elastic = run_text(staged(1, 0.0)).result.work;
-  EXPECT_GT(elastic.kept_factors, 0);
-  const WorkCounters strong = run_text(staged(4, 500.0)).result.work;
-  EXPECT_GT(strong.repeats, 2);
-  EXPECT_LE(strong.factorisations, 3);
-  const WorkCounters predicted = run_text(plastic()).result.work;
-  const WorkCounters whole = run_text(plastic(), {}, without_prediction()).result.work;
-  EXPECT_LE(predicted.factorisations, whole.factorisations - 5);
-}
-
 // A square that is held below and pushed down above, in so many increments.
 struct PushedSquare {
   DeckWriter deck{1};
@@ -389,6 +374,24 @@ struct PushedSquare {
     for (int n : block.top()) push.fix(n, 0, 1, 0.0, -0.01);
   }
 };
+
+// Each skip does something where it should: counters, not clocks.
+TEST(Skips, AreTaken) {
+  const WorkCounters friction_work = run_text(friction()).result.work;
+  EXPECT_GT(friction_work.condensed, 200);
+  EXPECT_GT(friction_work.linear_products, 0);
+  const WorkCounters elastic = run_text(staged(1, 0.0)).result.work;
+  EXPECT_GT(elastic.kept_factors, 0);
+  const WorkCounters strong = run_text(staged(4, 500.0)).result.work;
+  EXPECT_GT(strong.repeats, 2);
+  EXPECT_LE(strong.factorisations, 3);
+  const WorkCounters fine = run_text(friction(40)).result.work;  // large enough for the multifrontal solver
+  EXPECT_GT(fine.twin_equations, 1500);
+  EXPECT_GT(run_text(PushedSquare(50, 50, 1).deck.text()).result.work.twin_equations, 2000);
+  const WorkCounters predicted = run_text(plastic()).result.work;
+  const WorkCounters whole = run_text(plastic(), {}, without_prediction()).result.work;
+  EXPECT_LE(predicted.factorisations, whole.factorisations - 5);
+}
 
 // Factors that serve a second stage, in which nothing moves a support: the displacements of the first one have no
 // part in its first correction, which is the whole answer.
@@ -427,6 +430,14 @@ TEST(Skips, OffMeansOff) {
   const WorkCounters strong = run_text(staged(4, 500.0), {}, none).result.work;
   EXPECT_EQ(strong.repeats, 0);
   EXPECT_EQ(strong.kept_factors, 0);
+  RunSettings one_by_one;
+  one_by_one.skips.twins = false;
+  for (const std::string& deck : {friction(40), PushedSquare(50, 50, 1).deck.text()}) {
+    const WholeRun with = run_text(deck), without = run_text(deck, {}, one_by_one);
+    EXPECT_EQ(without.result.work.twin_equations, 0);
+    EXPECT_TRUE(with.last().u == without.last().u);
+    EXPECT_TRUE(with.last().internal == without.last().internal);
+  }
 }
 
 // Looks at the stress of linear elements at the start of every stage and after every increment, if it does.

@@ -3,14 +3,13 @@
 
 #include <Eigen/LU>
 
-#include "sage/conformance/solver_suite.hpp"
+#include "sage/conformance/solver_systems.hpp"
 #include "solvers/frontal.hpp"
 #include "solvers/skyline.hpp"
 
 namespace sage::test {
 
 using namespace conformance;
-GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Solvers);  // of the suite only helpers serve here
 
 namespace {
 

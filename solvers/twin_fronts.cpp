@@ -1,0 +1,177 @@
+#include "solvers/twin_fronts.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+namespace sage {
+
+namespace {
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+// Of a row of numbers.  Rows of one hash are compared.
+class Hash {
+ public:
+  void add(std::uint64_t number) { value_ = (std::rotl(value_, 23) ^ number) * 0x9e3779b97f4a7c15U; }
+  void add(int number) { add(static_cast<std::uint64_t>(number)); }
+  std::uint64_t value() const { return value_ ^ (value_ >> 32); }
+
+ private:
+  std::uint64_t value_ = 0;
+};
+
+// Of each front the first one that is `equal`; children come before their parents.  Two rows of one hash that differ are
+// no more than a repetition that goes unnoticed.
+template <class HashOf, class Equal>
+std::vector<int> first_of_equals(const FrontTree& tree, const HashOf& hash_of, const Equal& equal) {
+  std::vector<int> first(tree.fronts.size());
+  std::iota(first.begin(), first.end(), 0);
+  std::unordered_map<std::uint64_t, int> known;
+  for (int f = 0; f < static_cast<int>(first.size()); ++f) {
+    if (f == tree.kept) continue;
+    const auto [entry, is_new] = known.try_emplace(hash_of(f, first), f);
+    if (!is_new && equal(f, entry->second, first)) first[at(f)] = entry->second;
+  }
+  return first;
+}
+
+std::span<const int> places_in_parent(const FrontTree& tree, int child) {
+  const Front& front = tree.fronts[at(child)];
+  return {tree.in_parent.data() + front.border_begin, at(front.border)};
+}
+
+bool same_children(const FrontTree& tree, int f, int g, const std::vector<int>& first) {
+  return std::ranges::equal(
+      tree.children.of(f), tree.children.of(g), {}, [&](int c) { return first[at(c)]; },
+      [&](int c) { return first[at(c)]; });
+}
+
+// Of every front the first one like it by its numbers of equations, and by where the borders below it go.
+std::vector<int> fronts_of_one_shape(const FrontTree& tree) {
+  const auto hash_of = [&](int f, const std::vector<int>& first) {
+    Hash hash;
+    hash.add(tree.fronts[at(f)].pivots);
+    hash.add(tree.fronts[at(f)].border);
+    for (const int child : tree.children.of(f)) {
+      hash.add(first[at(child)]);
+      for (const int place : places_in_parent(tree, child)) hash.add(place);
+    }
+    return hash.value();
+  };
+  const auto equal = [&](int f, int g, const std::vector<int>& first) {
+    const Front &a = tree.fronts[at(f)], &b = tree.fronts[at(g)];
+    if (a.pivots != b.pivots || a.border != b.border || !same_children(tree, f, g, first)) return false;
+    return std::ranges::equal(tree.children.of(f), tree.children.of(g), [&](int c, int d) {
+      return std::ranges::equal(places_in_parent(tree, c), places_in_parent(tree, d));
+    });
+  };
+  return first_of_equals(tree, hash_of, equal);
+}
+
+// And by its terms.
+std::vector<int> fronts_of_one_value(const FrontTree& tree, std::span<const int> shape,
+                                     std::span<const double> values) {
+  const auto bits_of = [&](int source) { return std::bit_cast<std::uint64_t>(values[at(source)]); };
+  const auto range_of = [&](const LargeVector<int>& list, const EntryRange& range) {
+    return std::span<const int>(list.data() + range.begin, at(range.end - range.begin));
+  };
+  const auto sources = [&](int f) {
+    const EntryRange& range = tree.entries_of[at(f)];
+    return range_of(tree.entries[at(range.list)].source, range);
+  };
+  const auto targets = [&](int f) {
+    const EntryRange& range = tree.entries_of[at(f)];
+    return range_of(tree.entries[at(range.list)].target, range);
+  };
+  const auto hash_of = [&](int f, const std::vector<int>& first) {
+    Hash hash;
+    hash.add(shape[at(f)]);
+    for (const int child : tree.children.of(f)) hash.add(first[at(child)]);
+    for (const int target : targets(f)) hash.add(target);
+    for (const int source : sources(f)) hash.add(bits_of(source));
+    return hash.value();
+  };
+  const auto equal = [&](int f, int g, const std::vector<int>& first) {
+    return shape[at(f)] == shape[at(g)] && same_children(tree, f, g, first) &&
+           std::ranges::equal(targets(f), targets(g)) &&
+           std::ranges::equal(sources(f), sources(g), {}, bits_of, bits_of);
+  };
+  return first_of_equals(tree, hash_of, equal);
+}
+
+bool saves_much(const FrontTree& tree, std::span<const int> first) {
+  std::int64_t all = 0, own = 0;
+  for (int f = 0; at(f) < first.size(); ++f) {
+    all += tree.fronts[at(f)].arm_terms();
+    if (first[at(f)] == f) own += tree.fronts[at(f)].arm_terms();
+  }
+  return own < all - all / 10;
+}
+
+}  // namespace
+
+void TwinFronts::analyse(const FrontTree& tree, bool wanted) {
+  first_.resize(tree.fronts.size());
+  std::iota(first_.begin(), first_.end(), 0);
+  shape_.clear();
+  if (wanted) shape_ = fronts_of_one_shape(tree);
+  if (!saves_much(tree, shape_)) shape_.clear();
+}
+
+void TwinFronts::find(const FrontTree& tree, std::span<const double> values) {
+  if (shape_.empty()) return;
+  first_ = fronts_of_one_value(tree, shape_, values);
+  if (!saves_much(tree, first_)) std::iota(first_.begin(), first_.end(), 0);
+}
+
+void LentBorders::plan(const FrontTree& tree, std::span<const int> first) {
+  std::vector<int> takers(first.size(), 0);
+  for (int f = 0; f < static_cast<int>(first.size()); ++f)
+    if (first[at(f)] == f)
+      for (const int child : tree.children.of(f)) ++takers[at(first[at(child)])];
+  slot_.assign(first.size(), -1);
+  int lenders = 0;
+  for (std::size_t f = 0; f < first.size(); ++f)
+    if (takers[f] > 1) slot_[f] = lenders++;
+  borders_ = std::vector<Border>(at(lenders));
+  for (std::size_t f = 0; f < first.size(); ++f)
+    if (slot_[f] >= 0) borders_[at(slot_[f])].takers = takers[f];
+  if (lenders == 0) slot_.clear();
+}
+
+double* LentBorders::make(int front, std::size_t terms) {
+  border_of(front).terms = AlignedArray(terms);
+  return room(front);
+}
+
+void LentBorders::publish(int front) {
+  border_of(front).state = kPublished;
+  border_of(front).state.notify_all();
+}
+
+const double* LentBorders::wait_for(int front) {
+  Border& border = border_of(front);
+  border.state.wait(kPending);
+  return border.state == kPublished ? border.terms.data() : nullptr;
+}
+
+void LentBorders::release(int front) {
+  Border& border = border_of(front);
+  if (--border.takers == 0) border.terms = {};
+}
+
+void LentBorders::give_up(int begin, int end) {
+  for (int f = begin; f < end; ++f) {
+    if (!lends(f) || border_of(f).state != kPending) continue;
+    border_of(f).state = kGivenUp;
+    border_of(f).state.notify_all();
+  }
+}
+
+}  // namespace sage
