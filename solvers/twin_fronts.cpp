@@ -26,17 +26,33 @@ class Hash {
   std::uint64_t value_ = 0;
 };
 
-// Of each front the first one that is `equal`; children come before their parents.  Two rows of one hash that differ are
-// no more than a repetition that goes unnoticed.
-template <class HashOf, class Equal>
-std::vector<int> first_of_equals(const FrontTree& tree, const HashOf& hash_of, const Equal& equal) {
+// Of each front the first one that is `equal`; children come before their parents.  add_kind takes what is known without
+// a look at long lists, and the first fronts of the children: where these differ, as in a mesh without repetition, nothing
+// else is read.  add_rest takes the lists.  Two rows of one hash that differ are no more than a repetition that goes
+// unnoticed.
+template <class AddKind, class AddRest, class Equal>
+std::vector<int> first_of_equals(const FrontTree& tree, const AddKind& add_kind, const AddRest& add_rest,
+                                 const Equal& equal) {
   std::vector<int> first(tree.fronts.size());
   std::iota(first.begin(), first.end(), 0);
   std::unordered_map<std::uint64_t, int> known;
+  known.reserve(first.size());
+  // The front that is known by a hash: this one from now on, if there is none.
+  const auto known_by = [&](const Hash& hash, int f) {
+    return known.try_emplace(hash.value(), f).first->second;
+  };
   for (int f = 0; f < static_cast<int>(first.size()); ++f) {
     if (f == tree.kept) continue;
-    const auto [entry, is_new] = known.try_emplace(hash_of(f, first), f);
-    if (!is_new && equal(f, entry->second, first)) first[at(f)] = entry->second;
+    Hash hash;
+    add_kind(f, hash);
+    for (const int child : tree.children.of(f)) hash.add(first[at(child)]);
+    int like = known_by(hash, f);
+    if (like != f && !equal(f, like, first)) {
+      add_rest(f, hash);
+      like = known_by(hash, f);
+      if (like != f && !equal(f, like, first)) like = f;
+    }
+    first[at(f)] = like;
   }
   return first;
 }
@@ -54,15 +70,13 @@ bool same_children(const FrontTree& tree, int f, int g, const std::vector<int>& 
 
 // Of every front the first one like it by its numbers of equations, and by where the borders below it go.
 std::vector<int> fronts_of_one_shape(const FrontTree& tree) {
-  const auto hash_of = [&](int f, const std::vector<int>& first) {
-    Hash hash;
+  const auto add_kind = [&](int f, Hash& hash) {
     hash.add(tree.fronts[at(f)].pivots);
     hash.add(tree.fronts[at(f)].border);
-    for (const int child : tree.children.of(f)) {
-      hash.add(first[at(child)]);
+  };
+  const auto add_rest = [&](int f, Hash& hash) {
+    for (const int child : tree.children.of(f))
       for (const int place : places_in_parent(tree, child)) hash.add(place);
-    }
-    return hash.value();
   };
   const auto equal = [&](int f, int g, const std::vector<int>& first) {
     const Front &a = tree.fronts[at(f)], &b = tree.fronts[at(g)];
@@ -71,38 +85,29 @@ std::vector<int> fronts_of_one_shape(const FrontTree& tree) {
       return std::ranges::equal(places_in_parent(tree, c), places_in_parent(tree, d));
     });
   };
-  return first_of_equals(tree, hash_of, equal);
+  return first_of_equals(tree, add_kind, add_rest, equal);
 }
 
 // And by its terms.
 std::vector<int> fronts_of_one_value(const FrontTree& tree, std::span<const int> shape,
                                      std::span<const double> values) {
   const auto bits_of = [&](int source) { return std::bit_cast<std::uint64_t>(values[at(source)]); };
-  const auto range_of = [&](const LargeVector<int>& list, const EntryRange& range) {
-    return std::span<const int>(list.data() + range.begin, at(range.end - range.begin));
-  };
-  const auto sources = [&](int f) {
+  const auto part_of = [&](const LargeVector<int> Entries::*list, int f) {
     const EntryRange& range = tree.entries_of[at(f)];
-    return range_of(tree.entries[at(range.list)].source, range);
+    return std::span<const int>((tree.entries[at(range.list)].*list).data() + range.begin,
+                                at(range.end - range.begin));
   };
-  const auto targets = [&](int f) {
-    const EntryRange& range = tree.entries_of[at(f)];
-    return range_of(tree.entries[at(range.list)].target, range);
-  };
-  const auto hash_of = [&](int f, const std::vector<int>& first) {
-    Hash hash;
-    hash.add(shape[at(f)]);
-    for (const int child : tree.children.of(f)) hash.add(first[at(child)]);
-    for (const int target : targets(f)) hash.add(target);
-    for (const int source : sources(f)) hash.add(bits_of(source));
-    return hash.value();
+  const auto add_kind = [&](int f, Hash& hash) { hash.add(shape[at(f)]); };
+  const auto add_rest = [&](int f, Hash& hash) {
+    for (const int target : part_of(&Entries::target, f)) hash.add(target);
+    for (const int source : part_of(&Entries::source, f)) hash.add(bits_of(source));
   };
   const auto equal = [&](int f, int g, const std::vector<int>& first) {
     return shape[at(f)] == shape[at(g)] && same_children(tree, f, g, first) &&
-           std::ranges::equal(targets(f), targets(g)) &&
-           std::ranges::equal(sources(f), sources(g), {}, bits_of, bits_of);
+           std::ranges::equal(part_of(&Entries::target, f), part_of(&Entries::target, g)) &&
+           std::ranges::equal(part_of(&Entries::source, f), part_of(&Entries::source, g), {}, bits_of, bits_of);
   };
-  return first_of_equals(tree, hash_of, equal);
+  return first_of_equals(tree, add_kind, add_rest, equal);
 }
 
 bool saves_much(const FrontTree& tree, std::span<const int> first) {
