@@ -50,7 +50,7 @@ class LentBorders {
   void publish(int front);
   // The border once it is published; nullptr where its maker has given it up.
   const double* wait_for(int front);
-  // The last of those that take it frees it.
+  // The last of those that take it frees it; after an error the rest goes with the next plan().
   void release(int front);
   // What the fronts begin .. end - 1 lend and have not published will not come.
   void give_up(int begin, int end);

@@ -24,7 +24,7 @@ struct WorkCounts {
   long kept_factors = 0;    // corrections with factors that were there already
   long repeats = 0;         // increments that were the one before once more
   long condensed = 0;       // equations removed once for all from the iterations
-  long twin_equations = 0;  // equations that took the factors of others, because they are the same
+  long twin_equations = 0;  // equations that took the factors of others; of the factorisation with most of them
 };
 
 // Names of the phases of a run, and of the analysis within it.

@@ -1,5 +1,6 @@
 #include "sage/analysis/tangent.hpp"
 
+#include <algorithm>
 #include <random>
 #include <utility>
 
@@ -73,7 +74,7 @@ void Tangent::factorise(WorkCounters& work) {
   ++work.factorisations;
   solver_->factorise();
   scope.add_operations(solver_->report().factor_operations);
-  work.twin_equations += solver_->report().twin_equations;
+  work.twin_equations = std::max(work.twin_equations, long{solver_->report().twin_equations});
   state_ = State::factorised;
 }
 

@@ -36,12 +36,14 @@ inline void* allocate_block(std::size_t bytes) {
 
 // For a process that is about to compute: the next blocks of the heap lie in large pages too, and what is freed stays for
 // those that come.  Runs of 3000 to 50 000 equations spent a fifth of their time on small pages.  Not where the address
-// space is limited: it is what this takes.
+// space or the heap of a process is limited: that is what this takes.
 inline void keep_heap_in_large_pages() {
 #if defined(__GLIBC__) && defined(__linux__) && defined(MADV_HUGEPAGE)
   constexpr int kLargestInHeap = 32 * 1024 * 1024, kNever = std::numeric_limits<int>::max();
-  rlimit space{};
-  if (getrlimit(RLIMIT_AS, &space) != 0 || space.rlim_cur != RLIM_INFINITY) return;
+  for (const auto of_process : {RLIMIT_AS, RLIMIT_DATA}) {
+    rlimit limit{};
+    if (getrlimit(of_process, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY) return;
+  }
   mallopt(M_MMAP_THRESHOLD, kLargestInHeap);
   mallopt(M_TRIM_THRESHOLD, kNever);
   std::array<void*, 8> blocks{};  // only to make the heap grow: nothing is touched

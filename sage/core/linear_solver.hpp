@@ -44,11 +44,12 @@ struct FactorReport {
   double growth = -1.0;                // largest term of the factors / largest term of K
   double backward_error = -1.0;        // largest |b - K x| / (||K|| |x| + |b|) of the refined answers so far
   int negative_pivots = -1;            // LDL^T only
-  std::int64_t factor_entries = -1;    // stored terms of the factors
-  int twin_equations = 0;              // that took the factors of others, because they are the same (set_twins)
+  std::int64_t factor_entries = -1;  // stored terms of the factors; fewer after factorise() where parts repeat
+  int twin_equations = 0;            // that took the factors of others, because they are the same (set_twins)
   std::size_t memory_bytes = 0;
-  double factor_operations = -1.0;  // floating-point, of one factorisation; known from analyse() on
-  double solve_operations = -1.0;   // and of one solution without refinement
+  // Floating-point, of one factorisation, and of one solution without refinement.  Known from analyse() on; after
+  // factorise() the first is what was done.
+  double factor_operations = -1.0, solve_operations = -1.0;
 };
 
 // Instructions of the processor that a solver's loops are made of, for those that have several sets of them.
