@@ -102,7 +102,7 @@ class Frontal final : public MatrixSolver {
   void factorise_matrix() override {
     early_.stop();
     if (given_back_) take_room();
-    place_factors();
+    if (once_) look_for_twins();
     const std::span<const double> maxima = row_maxima();
     for (Lane& lane : lanes_) {
       lane.check = PivotCheck(traits().name, maxima);
@@ -148,27 +148,21 @@ class Frontal final : public MatrixSolver {
     lent_ = {};
     touch_subtrees_early();
     list_entries(matrix(), tree_);
-    first_pivot_.resize(tree_.fronts.size());
+    place_factors();
     widest_ = 0;
     int pivots = 0;
     for (const Front& front : tree_.fronts) {
       pivots += front.pivot_tiles * kTile;
       widest_ = std::max(widest_, front.pivot_tiles + front.border_tiles);
     }
-    report_.factor_operations = operations();
     reciprocal_.assign(at(pivots), 1.0);
     position_values_ = AlignedArray(at(matrix().equations()));
     list_outside();
     sweeps_.clear();
     make_workspace();
     given_back_ = false;
-    report_.factor_entries = tree_.factor_terms;
     report_.solve_operations = (traits().symmetric ? 4.0 : 2.0) * static_cast<double>(tree_.factor_terms);
-    report_.memory_bytes =
-        (factors_.size() + shared_.size() + reciprocal_.size() + position_values_.size()) * sizeof(double) +
-        (2 * matrix().row().size() + 2 * tree_.border.size() + 2 * tree_.order.size()) * sizeof(int);
-    for (const Lane& lane : lanes_)
-      report_.memory_bytes += (lane.workspace.size() + lane.scratch.size()) * sizeof(double);
+    report_.memory_bytes = memory_bytes();
   }
 
  private:
@@ -184,15 +178,19 @@ class Frontal final : public MatrixSolver {
 
   std::int64_t terms_of(int f) const { return (traits().symmetric ? 1 : 2) * tree_.fronts[at(f)].arm_terms(); }
 
+  void look_for_twins() {
+    twins_.find(tree_, matrix().value());
+    lent_.plan(tree_, twins_.first());
+    place_factors();
+    report_.memory_bytes = memory_bytes();
+  }
+
   // Where the factors of every front stand: one after the other, twins where the first of them does.
   void place_factors() {
-    if (once_) {
-      twins_.find(tree_, matrix().value());
-      lent_.plan(tree_, twins_.first());
-    }
     std::int64_t next = 0;
     int pivots = 0;
     report_.twin_equations = 0;
+    first_pivot_.resize(tree_.fronts.size());
     for (int f = 0; at(f) < tree_.fronts.size(); ++f) {
       Front& front = tree_.fronts[at(f)];
       const auto first = at(twins_.first(f));
@@ -206,7 +204,6 @@ class Frontal final : public MatrixSolver {
       pivots += front.pivot_tiles * kTile;
     }
     report_.factor_operations = operations();
-    report_.memory_bytes -= static_cast<std::size_t>(report_.factor_entries - next) * sizeof(double);
     report_.factor_entries = next;
   }
 
@@ -216,6 +213,15 @@ class Frontal final : public MatrixSolver {
       if (f != tree_.kept && twins_.is_first(f))
         count += elimination_operations(tree_.fronts[at(f)], traits().symmetric);
     return count;
+  }
+
+  // Of what is touched: of the factors, those that are kept.
+  std::size_t memory_bytes() const {
+    std::size_t terms = static_cast<std::size_t>(report_.factor_entries) + shared_.size() + reciprocal_.size() +
+                        position_values_.size();
+    for (const Lane& lane : lanes_) terms += lane.workspace.size() + lane.scratch.size();
+    return terms * sizeof(double) +
+           (2 * matrix().row().size() + 2 * tree_.border.size() + 2 * tree_.order.size()) * sizeof(int);
   }
 
   // The first thread works on the fronts above the subtrees too, and all others in the arms of the first.

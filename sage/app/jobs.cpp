@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "sage/app/interrupt.hpp"
+#include "sage/app/process_limit.hpp"
 
 namespace sage::app {
 
@@ -60,11 +61,7 @@ class Scratch {
 
 // What the limits of the system count is of a whole process: then each job gets one of its own.
 bool limits_count_a_process() {
-  const auto limited = [](auto what) {
-    rlimit limit = {};
-    return getrlimit(what, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY;
-  };
-  return limited(RLIMIT_CPU) || limited(RLIMIT_AS) || limited(RLIMIT_DATA);
+  return is_limited(RLIMIT_CPU) || is_limited(RLIMIT_AS) || is_limited(RLIMIT_DATA);
 }
 
 // The largest size that the process has had, in kB.

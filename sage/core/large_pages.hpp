@@ -1,17 +1,14 @@
 // Memory in large pages: touching a new page of 4 kB costs more than filling it, and a run touches each once.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <limits>
 #include <new>
 #include <vector>
 
 #ifdef __linux__
 #include <sys/mman.h>
-#include <sys/resource.h>
 #endif
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -32,30 +29,6 @@ inline void* allocate_block(std::size_t bytes) {
   if (large) madvise(p, bytes / kLargePage * kLargePage, MADV_HUGEPAGE);  // a wish: failure costs only time
 #endif
   return p;
-}
-
-// For a process that is about to compute: the next blocks of the heap lie in large pages too, and what is freed stays for
-// those that come.  Runs of 3000 to 50 000 equations spent a fifth of their time on small pages.  Not where the address
-// space or the heap of a process is limited: that is what this takes.
-inline void keep_heap_in_large_pages() {
-#if defined(__GLIBC__) && defined(__linux__) && defined(MADV_HUGEPAGE)
-  constexpr int kLargestInHeap = 32 * 1024 * 1024, kNever = std::numeric_limits<int>::max();
-  for (const auto of_process : {RLIMIT_AS, RLIMIT_DATA}) {
-    rlimit limit{};
-    if (getrlimit(of_process, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY) return;
-  }
-  mallopt(M_MMAP_THRESHOLD, kLargestInHeap);
-  mallopt(M_TRIM_THRESHOLD, kNever);
-  std::array<void*, 8> blocks{};  // only to make the heap grow: nothing is touched
-  constexpr std::size_t kBlock = kLargestInHeap - kLargePage;
-  for (void*& block : blocks) block = std::malloc(kBlock);
-  for (void*& block : blocks) {
-    if (block == nullptr) continue;
-    const std::uintptr_t first = (reinterpret_cast<std::uintptr_t>(block) + kPage - 1) / kPage * kPage;
-    madvise(reinterpret_cast<void*>(first), kBlock - kPage, MADV_HUGEPAGE);  // a wish
-  }
-  for (void* block : blocks) std::free(block);
-#endif
 }
 
 // Gives the system what was freed and is kept for later: before a phase that needs far more than that.

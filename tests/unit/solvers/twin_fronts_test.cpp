@@ -143,8 +143,8 @@ TEST(TwinFronts, FollowNewValues) {
 // and nobody waits for a border that does not come.
 TEST(TwinFronts, NameTheSameSingularEquation) {
   System system = q4_mesh({.columns = 70, .rows = 100});
-  for (const std::size_t first :
-       {1010u, 3010u, 5010u})  // 8 elements without stiffness around a node and beyond
+  // Three times 8 elements without stiffness, around three nodes.
+  for (const std::size_t first : {1010u, 3010u, 5010u})
     for (const std::size_t row : {0u, 70u})
       for (std::size_t e = 0; e < 4; ++e) system.K[first + row + e].setZero();
   std::vector<int> named;
