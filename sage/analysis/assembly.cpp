@@ -112,6 +112,7 @@ void Assembly::enter_stage(const Activity& activity, const Eigen::VectorXd& rate
   }
   equations_.number(*model_, activity);
   condensation_.reset();
+  region_step_ = RegionStep::open;
   number_elements();
 }
 
@@ -133,7 +134,7 @@ void Assembly::enter_stage(const Activity& activity, const Eigen::VectorXd& rate
 
 void Assembly::set_stage_loads(const Eigen::VectorXd& loads) {
   const Profile::Scope scope(work_->profile, phase::kCondensation);
-  if (condensation_) condensation_->begin_stage(loads, rate_);
+  if (condensation_) condensation_->begin_stage(loads, rate_, constant_.sums()[0]);
 }
 
 void Assembly::make_room_for_matrices(std::size_t group) {
@@ -202,42 +203,69 @@ Outcome Assembly::evaluate_changing(const Eigen::VectorXd& du, Tangent* tangent)
   return outcome == Outcome::ok && all_finite(changing_.sums()) ? Outcome::ok : Outcome::cut_step;
 }
 
-void Assembly::add_constant(const Eigen::VectorXd& du) {
+// to: forces of all elements.
+void Assembly::add_constant(const Eigen::VectorXd& du, Eigen::VectorXd& to) {
   if (changing_.forces().size() > 0)
-    internal_ = changing_.forces();
+    to = changing_.forces();
   else
-    internal_.setZero();
-  constant_.add_forces(du, internal_);
+    to.setZero(dof_map_.dofs());
+  if (region_is_behind()) {
+    motion_ = du;
+    condensation_->add_motion(motion_);
+    constant_.add_forces(motion_, to);
+  } else {
+    constant_.add_forces(du, to);
+  }
   force_scale_ = scales_of(changing_.sums(), constant_.sums());
 }
 
 Outcome Assembly::evaluate(const Eigen::VectorXd& du, Tangent* tangent) {
+  const bool behind = region_is_behind() && region_step_ != RegionStep::filled_in;
+  if (behind || region_step_ == RegionStep::waits) return evaluate_with_border(du, tangent);
   const Profile::Scope scope(work_->profile, phase::kAssembly);
   Outcome outcome = evaluate_changing(du, tangent);
   if (outcome == Outcome::ok) {
-    add_constant(du);
+    add_constant(du, internal_);
     if (!all_finite(force_scale_)) outcome = Outcome::cut_step;
   }
   if (tangent != nullptr) tangent->settle(outcome);
   return outcome;
 }
 
+// The force scale of the constant region is that of the last whole evaluation.
+Outcome Assembly::evaluate_with_border(const Eigen::VectorXd& du, Tangent* tangent) {
+  const Profile::Scope scope(work_->profile, phase::kAssembly);
+  const Outcome outcome = evaluate_changing(du, tangent);
+  if (tangent != nullptr) tangent->settle(outcome);
+  if (outcome == Outcome::cut_step) return outcome;
+  internal_ = changing_.forces();
+  condensation_->add_forces(du, internal_);
+  force_scale_ = scales_of(changing_.sums(), constant_.sums());
+  return Outcome::ok;
+}
+
 double Assembly::path_error() const {
   return scene_->linear ? 0.0 : mean_path_error(model_->mesh, groups_, scene_->group_linear, element_.moment());
 }
 
-void Assembly::commit_again() {
+void Assembly::commit_again(const Eigen::VectorXd& du) {
+  const bool waits = region_step_ == RegionStep::waits;
   for (GroupData& data : groups_) {
     if (!data.active) continue;
-    if (data.constant)
-      std::swap(data.force, data.trial_force);
-    else
+    if (!data.constant)
       data.state.commit();
+    else if (!waits)
+      std::swap(data.force, data.trial_force);
   }
+  if (waits)
+    condensation_->accept_border(du);
+  else if (region_step_ == RegionStep::filled_in)
+    condensation_->accept_whole(constant_.sums()[0]);
 }
 
 void Assembly::commit(const Eigen::VectorXd& du) {
-  commit_again();
+  if (region_step_ == RegionStep::waits) ++work_->border_steps;
+  commit_again(du);
   const bool constant =
       std::ranges::any_of(groups_, [](const GroupData& data) { return data.active && data.constant; });
   if (!constant) return;
@@ -246,6 +274,15 @@ void Assembly::commit(const Eigen::VectorXd& du) {
 }
 
 void Assembly::exchange(Archive& archive, bool before_step) {
+  const bool condensed = before_step && condensation_ != nullptr;
+  if (condensed) {
+    archive(region_step_);
+    condensation_->exchange(archive);
+    FieldSums sums = constant_.sums();
+    archive(sums);
+    constant_.set_sums(sums);
+  }
+  const bool forces_before = before_step && region_step_ != RegionStep::waits;
   for (GroupData& data : groups_) {
     const bool trial = before_step && data.active && !data.constant && !archive.reading();
     PointStates& states = trial ? data.state.trial : data.state.committed;
@@ -254,9 +291,15 @@ void Assembly::exchange(Archive& archive, bool before_step) {
     archive(states.h);
     archive(states.status);
     if (data.constant)
-      archive(before_step && data.active && !archive.reading() ? data.trial_force : data.force);
+      archive(forces_before && data.active && !archive.reading() ? data.trial_force : data.force);
   }
   late_.exchange(archive);
+  if (condensed && archive.reading()) take_constant_force();
+}
+
+void Assembly::take_constant_force() {
+  constant_force_.setZero(dof_map_.dofs());
+  constant_.add_committed_forces(constant_force_);
 }
 
 std::array<long, kStatuses> Assembly::count_points() const {
@@ -281,46 +324,87 @@ IteratedStep::IteratedStep(Assembly& assembly, const Eigen::VectorXd& target, do
     : assembly_(&assembly), region_(assembly.condensation_.get()) {
   if (region_ == nullptr) return;
   const Profile::Scope scope(assembly.work_->profile, phase::kCondensation);
-  assembly.constant_force_.setZero(assembly.dof_map_.dofs());
-  assembly.constant_.add_committed_forces(assembly.constant_force_);
+  assembly.region_step_ = Assembly::RegionStep::open;
+  if (!region_->is_behind()) assembly.take_constant_force();
   region_->begin_step(rate_part, so_far, target, assembly.constant_force_, kRounding * assembly.force_scale(0));
   assembly.internal_ = assembly.changing_.forces();
   region_->add_start_forces(assembly.internal_);
 }
 
-// The force scale of the constant region is that of the last whole evaluation: complete() brings it up to date.
 Outcome IteratedStep::iterate(const Eigen::VectorXd& du, Tangent* tangent) {
-  Assembly& all = *assembly_;
-  if (region_ == nullptr) return all.evaluate(du, tangent);
-  const Profile::Scope scope(all.work_->profile, phase::kAssembly);
-  const Outcome outcome = all.evaluate_changing(du, tangent);
-  if (tangent != nullptr) tangent->settle(outcome);
-  if (outcome == Outcome::cut_step) return outcome;
-  all.internal_ = all.changing_.forces();
-  region_->add_forces(du, all.internal_);
-  all.force_scale_ = scales_of(all.changing_.sums(), all.constant_.sums());
-  return Outcome::ok;
+  return region_ == nullptr ? assembly_->evaluate(du, tangent) : assembly_->evaluate_with_border(du, tangent);
 }
 
 void IteratedStep::complete(Eigen::VectorXd& du) {
-  constexpr int kSteps = 3;
   if (region_ == nullptr) return;
   Assembly& all = *assembly_;
   const Profile::Scope scope(all.work_->profile, phase::kCondensation);
-  region_->complete(du);
-  all.add_constant(du);
-  double residual = region_->largest_residual(all.internal_);
-  for (int i = 0; i < kSteps && residual > kRounding * all.force_scale(0); ++i) {
-    region_->refine(all.internal_, du);
-    all.add_constant(du);
-    const double last = std::exchange(residual, region_->largest_residual(all.internal_));
-    if (residual > 0.5 * last) break;
-  }
+  all.fill_in(du, all.internal_);
   region_->set_base(all.internal_, all.changing_.forces(), du);
+  all.region_step_ = Assembly::RegionStep::filled_in;
+}
+
+bool IteratedStep::must_fill_in() const {
+  if (region_ == nullptr) return false;
+  const bool is_filled_in = assembly_->region_step_ == Assembly::RegionStep::filled_in;
+  return is_filled_in || !assembly_->skips_.states || !region_->may_wait();
+}
+
+bool IteratedStep::wait(const Eigen::VectorXd& du, double out_of_balance, double limit) {
+  constexpr double kFarBelow = 1e-3;
+  if (region_ == nullptr || must_fill_in()) return false;
+  Assembly& all = *assembly_;
+  const double most = limit * std::sqrt(all.changing_.sums()[0] + region_->least_force_squares());
+  if (!(out_of_balance <= most) || !(region_->rounding(du) <= kFarBelow * most)) return false;
+  all.region_step_ = Assembly::RegionStep::waits;
+  return true;
 }
 
 double IteratedStep::whole_norm(const Eigen::VectorXd& correction) {
   return region_ != nullptr ? region_->whole_norm(correction) : correction.norm();
+}
+
+// forces: of all elements there.
+void Assembly::fill_in(Eigen::VectorXd& du, Eigen::VectorXd& forces) {
+  constexpr int kSteps = 3;
+  condensation_->complete(du);
+  add_constant(du, forces);
+  double residual = condensation_->largest_residual(forces);
+  for (int i = 0; i < kSteps && residual > kRounding * force_scale(0); ++i) {
+    condensation_->refine(forces, du);
+    add_constant(du, forces);
+    const double last = std::exchange(residual, condensation_->largest_residual(forces));
+    if (residual > 0.5 * last) break;
+  }
+}
+
+void Assembly::catch_up(const Eigen::VectorXd& target, double share, const Eigen::VectorXd& start,
+                        Eigen::VectorXd& u) {
+  region_step_ = RegionStep::open;
+  if (!region_is_behind()) return;
+  Eigen::VectorXd du = Eigen::VectorXd::Zero(u.size());
+  IteratedStep(*this, target, 0.0, {share, &start, &u}).complete(du);
+  for (GroupData& data : groups_)
+    if (data.active && data.constant) std::swap(data.force, data.trial_force);
+  condensation_->accept_whole(constant_.sums()[0]);
+  region_step_ = RegionStep::open;
+  late_.move(du);
+  u += du;
+}
+
+void Assembly::show_region(Eigen::VectorXd& motion, Eigen::VectorXd& forces) {
+  const Profile::Scope scope(work_->profile, phase::kCondensation);
+  const FieldSums scale = force_scale_, sums = constant_.sums();
+  motion.setZero(dof_map_.dofs());
+  fill_in(motion, forces);
+  force_scale_ = scale;
+  constant_.set_sums(sums);
+}
+
+void Assembly::recover_states_at(const Eigen::VectorXd& motion) {
+  late_.move(motion);
+  recover_states();
+  late_.move(-motion);
 }
 
 }  // namespace sage

@@ -85,14 +85,26 @@ class Assembly {
   bool in_use(int dof) const { return equations_.in_use(dof); }
   const Condensation* condensation() const { return condensation_.get(); }
 
-  // Internal forces at committed state + du.  With a tangent, K too.
+  // Internal forces at committed state + du.  With a tangent, K too.  While a condensed region is behind, its forces are
+  // those of its border in the step in hand.
   Outcome evaluate(const Eigen::VectorXd& du, Tangent* tangent);
   // Law::path_error of the trial states, the mean over all points by the work of their stress increments.
   double path_error() const;
   // Trial states become committed; du as in the evaluation before.
   void commit(const Eigen::VectorXd& du);
   // The same for a step that a checkpoint has counted already.
-  void commit_again();
+  void commit_again(const Eigen::VectorXd& du);
+
+  // A condensed region waits to be filled in: forces and displacements of its inner nodes are those of an earlier step.
+  bool region_is_behind() const { return condensation_ != nullptr && condensation_->is_behind(); }
+  // The step in hand is dropped, and the region filled in at the committed state: u, whose loads are `target`, at that
+  // share of the stage, which began with the unknowns `start`.
+  void catch_up(const Eigen::VectorXd& target, double share, const Eigen::VectorXd& start, Eigen::VectorXd& u);
+  // The committed state as if it were filled in: what condensed dofs have to move yet, and internal forces.  The run goes
+  // on as if nobody had asked.  After the commit of the step in hand.
+  void show_region(Eigen::VectorXd& motion, Eigen::VectorXd& forces);
+  // Brings the states of constant groups to where that motion leads.
+  void recover_states_at(const Eigen::VectorXd& motion);
   // Brings the states of constant groups up to date; others always are.  Until it is called, stress and strain
   // of constant groups may have no room at all.
   void recover_states() { late_.recover(groups_, element_, *work_, threads_); }
@@ -119,8 +131,14 @@ class Assembly {
   bool constant_groups_change(const Activity& activity) const;
   void make_room_for_matrices(std::size_t group);
   Outcome evaluate_changing(const Eigen::VectorXd& du, Tangent* tangent);
-  void add_constant(const Eigen::VectorXd& du);
+  void add_constant(const Eigen::VectorXd& du, Eigen::VectorXd& to);
+  Outcome evaluate_with_border(const Eigen::VectorXd& du, Tangent* tangent);
+  void fill_in(Eigen::VectorXd& du, Eigen::VectorXd& forces);
+  void take_constant_force();
   void fill(Tangent& tangent) const;
+
+  // How the step in hand stands to the inner dofs of a condensed region.
+  enum class RegionStep { open, filled_in, waits };
 
   const Model* model_;
   const Scene* scene_;
@@ -134,11 +152,13 @@ class Assembly {
   ConstantRegion constant_;
   LateStates late_;
   std::unique_ptr<Condensation> condensation_;
+  RegionStep region_step_ = RegionStep::open;
   Equations equations_;
   bool wants_moment_ = false, eases_ = false;
   int elements_ = 0;  // of the system
   Eigen::VectorXd rate_, internal_;
-  Eigen::VectorXd constant_force_;  // of a condensed region, at the start of a step
+  Eigen::VectorXd constant_force_;  // of a condensed region, where it was filled in last
+  Eigen::VectorXd motion_;          // work space
   FieldSums force_scale_{};
 };
 
@@ -154,6 +174,13 @@ class IteratedStep {
   // Fills in du of condensed dofs as the last iterate() implies; forces and their scale are then those of all
   // elements, and the next iterate() counts from them.  Nothing where no region is condensed.
   void complete(Eigen::VectorXd& du);
+  // A region is condensed, and must be filled in at the end of the step.
+  bool must_fill_in() const;
+  // Nothing of the stage is behind: a condensed region has only its forces from before.
+  bool begins_stage() const { return region_ != nullptr && region_->begins_stage(); }
+  // Instead of complete(), where the border is enough to tell that the step is in equilibrium: out_of_balance, of the
+  // kept dofs, is at most `limit` times all forces, and rounding far below.
+  bool wait(const Eigen::VectorXd& du, double out_of_balance, double limit);
   // |correction| of all free dofs; correction: an equation each.
   double whole_norm(const Eigen::VectorXd& correction);
 

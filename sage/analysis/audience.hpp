@@ -38,6 +38,9 @@ class Audience {
   bool wants_structures(const Model& model, const StepReport& report) {
     return any([&](const Observer& o) { return o.wants_structures(model, report); });
   }
+  bool wants_nodes(const Model& model, const StepReport& report, std::span<const char> behind) {
+    return any([&](const Observer& o) { return o.wants_nodes(model, report, behind); });
+  }
   void exchange(Archive& archive) {
     outside([&] {
       for (Observer* observer : observers_) observer->exchange(archive);

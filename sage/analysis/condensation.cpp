@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sage {
 
@@ -70,15 +71,40 @@ void Condensation::factorise() {
   solver_->factorise();
 
   const auto n = static_cast<Eigen::Index>(kept_.size()), all = static_cast<Eigen::Index>(dofs_);
-  for (Eigen::VectorXd* x : {&g_, &base_, &kept_du_, &kept_f_}) x->setZero(n);
-  for (Eigen::VectorXd* x : {&target_, &stage_load_, &loads_, &solution_}) x->setZero(condensed());
+  for (Eigen::VectorXd* x : {&g_, &base_, &kept_du_, &kept_f_, &now_.since, &before_.since}) x->setZero(n);
+  for (Eigen::VectorXd* x : {&stage_load_, &loads_, &solution_}) x->setZero(condensed());
   for (Eigen::VectorXd* x : {&stage_, &step_, &from_, &whole_}) x->setZero(condensed() + n);
   for (Eigen::VectorXd* x : {&stage_forces_, &all_dofs_, &all_forces_}) x->setZero(all);
+  now_.force_squares.fill(std::numeric_limits<double>::quiet_NaN());
   S_.resize(n, n);
   if (keeps_border_)
     solver_->border_matrix(S_.data());
   else
     solve_for_border();
+  S_norm_ = S_.cwiseAbs().rowwise().sum().maxCoeff();
+  list_inner_nodes();
+}
+
+void Condensation::list_inner_nodes() {
+  std::vector<char> kept(static_cast<std::size_t>(dofs_), 0);
+  for (const int dof : kept_) kept[static_cast<std::size_t>(dof)] = 1;
+  inner_nodes_.assign(static_cast<std::size_t>(dofs_) / 2, 0);
+  for (const GroupData& data : *groups_) {
+    if (!data.active || !data.constant) continue;
+    for (const int node : data.group->nodes) {
+      const auto first = static_cast<std::size_t>(DofMap::displacement(node));
+      if (!kept[first] || !kept[first + 1]) inner_nodes_[static_cast<std::size_t>(node)] = 1;
+    }
+  }
+}
+
+bool Condensation::reaches_region(const Eigen::VectorXd& motion) const {
+  return std::ranges::any_of(*groups_, [&](const GroupData& data) {
+    return data.active && data.constant && std::ranges::any_of(data.group->nodes, [&](int node) {
+             const int dof = DofMap::displacement(node);
+             return motion[dof] != 0.0 || motion[dof + 1] != 0.0;
+           });
+  });
 }
 
 void Condensation::solve_for_border() {
@@ -149,11 +175,19 @@ void Condensation::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const 
   }
 }
 
-void Condensation::begin_stage(const Eigen::VectorXd& loads, const Eigen::VectorXd& prescribed) {
+void Condensation::Anchor::remember(double its_share, double its_force_squares) {
+  shares = {its_share, shares[0], shares[1]};
+  force_squares = {its_force_squares, force_squares[0], force_squares[1]};
+}
+
+void Condensation::begin_stage(const Eigen::VectorXd& loads, const Eigen::VectorXd& prescribed,
+                               double force_squares) {
   stage_forces_.setZero();
   if (!prescribed.isZero(0.0)) multiply(prescribed, stage_forces_);
   for (Eigen::Index i = 0; i < condensed(); ++i) stage_load_[i] = loads[dof_of(i)] - stage_forces_[dof_of(i)];
   stage_work_ = eliminate_loads(stage_load_, stage_);
+  supports_move_ = reaches_region(prescribed);
+  if (std::isnan(now_.force_squares[0])) now_.remember(0.0, force_squares);
 }
 
 // Returns their work while the border is held.
@@ -169,68 +203,165 @@ double Condensation::eliminate_loads(const Eigen::VectorXd& loads, Eigen::Vector
 
 void Condensation::begin_step(double part, const StageSoFar& so_far, const Eigen::VectorXd& target,
                               const Eigen::VectorXd& f0, double tolerance) {
-  double off = 0.0;  // the line on which the stage's loads grow
-  for (Eigen::Index i = 0; i < condensed(); ++i) {
-    const int dof = dof_of(i);
-    target_[i] = target[dof];
-    loads_[i] = target[dof] - f0[dof] - part * stage_forces_[dof];
-    off = std::max(off, std::abs(loads_[i] - part * stage_load_[i]));
-  }
-  from_.setZero();
-  from_has_loads_ = false;
-  if (off <= tolerance) {
-    border(step_) = part * border(stage_);
+  if (!is_behind()) now_.share = so_far.share;
+  part_ = part;
+  to_ = so_far.share + part;
+  part_since_ = is_behind() ? to_ - now_.share : part;
+  so_far_ = so_far;
+  target_ = &target;
+  f0_ = &f0;
+  from_is_here_ = false;
+  if (!is_behind()) look_at_loads(tolerance);
+  if (now_.on_line) {
+    border(step_) = part_since_ * border(stage_);
     held_work_ = part * part * stage_work_;
-    if (so_far.share > 0.0) {
-      from_has_loads_ = true;
-      const double factor = part / so_far.share;
-      for (Eigen::Index i = 0; i < from_.size(); ++i) {
-        const int dof = dof_of(i);
-        from_[i] = factor * ((*so_far.now)[dof] - (*so_far.start)[dof]);
-      }
-    } else {
-      inner(step_) = part * inner(stage_);
-    }
   } else {
     held_work_ = eliminate_loads(loads_, step_);
   }
   for (Eigen::Index i = 0; i < g_.size(); ++i) {
     const int dof = kept_[static_cast<std::size_t>(i)];
-    g_[i] = f0[dof] + part * stage_forces_[dof] - step_[condensed() + i];
+    g_[i] = f0[dof] + part_since_ * stage_forces_[dof] - step_[condensed() + i];
   }
   base_.setZero();
 }
 
+// Whether those of the step are its part of the stage's.
+void Condensation::look_at_loads(double tolerance) {
+  double off = 0.0;
+  for (Eigen::Index i = 0; i < condensed(); ++i) {
+    const int dof = dof_of(i);
+    loads_[i] = (*target_)[dof] - (*f0_)[dof] - part_since_ * stage_forces_[dof];
+    off = std::max(off, std::abs(loads_[i] - part_since_ * stage_load_[i]));
+  }
+  now_.on_line = off <= tolerance;
+}
+
+// The way through the stage so far, as much longer as its loads are to become: it balances them.
+void Condensation::find_from() {
+  from_is_here_ = true;
+  from_.setZero();
+  from_has_loads_ = now_.on_line && now_.share > 0.0;
+  if (!from_has_loads_) {
+    if (now_.on_line) inner(step_) = part_since_ * inner(stage_);
+    return;
+  }
+  const double factor = part_since_ / now_.share;
+  for (Eigen::Index i = 0; i < from_.size(); ++i) {
+    const int dof = dof_of(i);
+    const double since = i < condensed() ? 0.0 : now_.since[i - condensed()];
+    from_[i] = factor * ((*so_far_.now)[dof] - since - (*so_far_.start)[dof]);
+  }
+}
+
 void Condensation::add_start_forces(Eigen::VectorXd& f) const {
-  for (Eigen::Index i = 0; i < g_.size(); ++i) f[kept_[static_cast<std::size_t>(i)]] += g_[i];
+  kept_du_ = now_.since;
+  add_border_forces(f);
 }
 
 void Condensation::add_forces(const Eigen::VectorXd& du, Eigen::VectorXd& f) const {
-  for (Eigen::Index i = 0; i < g_.size(); ++i) kept_du_[i] = du[kept_[static_cast<std::size_t>(i)]] - base_[i];
+  for (Eigen::Index i = 0; i < g_.size(); ++i)
+    kept_du_[i] = du[kept_[static_cast<std::size_t>(i)]] + now_.since[i] - base_[i];
+  add_border_forces(f);
+}
+
+void Condensation::add_border_forces(Eigen::VectorXd& f) const {
   kept_f_.noalias() = S_ * kept_du_;
   for (Eigen::Index i = 0; i < g_.size(); ++i) f[kept_[static_cast<std::size_t>(i)]] += g_[i] + kept_f_[i];
 }
 
 // A border that moves by u leaves rounding of |K| |u| behind: what is solved for is the way from a place near by.
 void Condensation::complete(Eigen::VectorXd& du) {
+  if (!from_is_here_) find_from();
   if (from_has_loads_)
     inner(whole_).setZero();
   else
     inner(whole_) = inner(step_);
-  for (Eigen::Index i = condensed(); i < whole_.size(); ++i) whole_[i] = du[dof_of(i)] - from_[i];
+  for (Eigen::Index i = condensed(); i < whole_.size(); ++i)
+    whole_[i] = du[dof_of(i)] + now_.since[i - condensed()] - from_[i];
   fill_in(whole_);
   for (Eigen::Index i = 0; i < condensed(); ++i) du[dof_of(i)] = from_[i] + whole_[i];
 }
 
+double Condensation::step_norm(const Eigen::VectorXd& du) const {
+  double inner = 0.0;
+  for (const int dof : condensed_) inner += du[dof] * du[dof];
+  const double part = is_behind() ? part_ / part_since_ : 1.0;
+  return std::sqrt(std::max(0.0, du.squaredNorm() - (1.0 - part * part) * inner));
+}
+
+// The share at which the region is filled in doubles at least, so that its forces, by which others are judged, are known
+// to a factor of about two.
+bool Condensation::may_wait() const {
+  constexpr double kEnd = 1.0 - 1e-9;
+  return now_.on_line && !supports_move_ && to_ < kEnd && to_ < 2.0 * now_.share;
+}
+
+double Condensation::rounding(const Eigen::VectorXd& du) const {
+  constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
+  double motion = 0.0;
+  for (Eigen::Index i = 0; i < base_.size(); ++i)
+    motion = std::max(motion, std::abs(du[kept_[static_cast<std::size_t>(i)]] + now_.since[i] - base_[i]));
+  return kRounding * S_norm_ * motion;
+}
+
+// Forces that grow evenly have squares that are a parabola over the share.  Half of those forces is the careful side.
+double Condensation::least_force_squares() const {
+  constexpr double kCareful = 0.25;  // of a square
+  const auto& [s0, s1, s2] = now_.shares;
+  const auto& [q0, q1, q2] = now_.force_squares;
+  const double slope = (q0 - q1) / (s0 - s1), before = (q1 - q2) / (s1 - s2);
+  const double expected = q0 + (to_ - s0) * (slope + (to_ - s1) * (slope - before) / (s0 - s2));
+  return std::isfinite(expected) ? kCareful * std::clamp(expected, 0.0, q0) : 0.0;
+}
+
+void Condensation::accept_border(const Eigen::VectorXd& du) {
+  before_ = now_;
+  for (Eigen::Index i = 0; i < now_.since.size(); ++i) now_.since[i] += du[kept_[static_cast<std::size_t>(i)]];
+  ++now_.steps;
+}
+
+void Condensation::accept_whole(double force_squares) {
+  before_ = now_;
+  now_.share = to_;
+  now_.since.setZero();
+  now_.steps = 0;
+  now_.remember(to_, force_squares);
+}
+
+void Condensation::add_motion(Eigen::VectorXd& du) const {
+  for (Eigen::Index i = 0; i < now_.since.size(); ++i) du[kept_[static_cast<std::size_t>(i)]] += now_.since[i];
+}
+
+// Of the condensed ones from the border: the stage's loads L there move by part K_ll^-1 L - K_ll^-1 K_ln du_n.
+double Condensation::load_work(const Eigen::VectorXd& loads, const Eigen::VectorXd& du) const {
+  if (!now_.on_line || supports_move_) return loads.dot(du);
+  double work = part_ * stage_work_;
+  for (Eigen::Index i = 0; i < g_.size(); ++i) {
+    const int dof = kept_[static_cast<std::size_t>(i)];
+    work += (loads[dof] + stage_[condensed() + i]) * du[dof];
+  }
+  return work;
+}
+
+void Condensation::exchange(Archive& archive) {
+  Anchor& anchor = archive.reading() ? now_ : before_;
+  archive(anchor.share);
+  archive(anchor.since);
+  archive(anchor.steps);
+  archive(anchor.on_line);
+  archive(anchor.shares);
+  archive(anchor.force_squares);
+  archive(to_);
+}
+
 double Condensation::largest_residual(const Eigen::VectorXd& f) const {
   double largest = 0.0;
-  for (Eigen::Index i = 0; i < target_.size(); ++i)
-    largest = std::max(largest, std::abs(target_[i] - f[condensed_[static_cast<std::size_t>(i)]]));
+  for (const int dof : condensed_) largest = std::max(largest, std::abs((*target_)[dof] - f[dof]));
   return largest;
 }
 
 void Condensation::refine(const Eigen::VectorXd& f, Eigen::VectorXd& du) {
-  for (Eigen::Index i = 0; i < condensed(); ++i) whole_[i] = target_[i] - f[dof_of(i)];
+  for (Eigen::Index i = 0; i < condensed(); ++i) whole_[i] = (*target_)[dof_of(i)] - f[dof_of(i)];
   border(whole_).setZero();
   eliminate(whole_);
   border(whole_).setZero();
@@ -243,10 +374,11 @@ void Condensation::set_base(const Eigen::VectorXd& all, const Eigen::VectorXd& o
   for (Eigen::Index i = 0; i < g_.size(); ++i) {
     const int dof = kept_[static_cast<std::size_t>(i)];
     g_[i] = all[dof] - others[dof];
-    base_[i] = du[dof];
+    base_[i] = du[dof] + now_.since[i];
   }
-  from_has_loads_ = true;
-  for (Eigen::Index i = 0; i < from_.size(); ++i) from_[i] = du[dof_of(i)];
+  from_is_here_ = from_has_loads_ = true;
+  for (Eigen::Index i = 0; i < condensed(); ++i) from_[i] = du[dof_of(i)];
+  border(from_) = base_;
 }
 
 double Condensation::whole_norm(const Eigen::VectorXd& correction) {

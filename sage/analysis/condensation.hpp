@@ -10,13 +10,18 @@
 // grow along a line in a stage, so that they are eliminated once.  Of other solvers S takes a solution a kept dof.
 // Once the region's forces f are known at some du, f_n = f(du)_n + S (change of du_n): S then multiplies small
 // changes, and its rounding counts no more.
+//
+// du_l is filled in now and then, and where somebody looks: steps between two such places are one step for the region,
+// which does not care by which way its border and its loads came to where they are.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <vector>
 
 #include "sage/analysis/group_data.hpp"
+#include "sage/core/archive.hpp"
 #include "sage/core/linear_solver.hpp"
 
 namespace sage {
@@ -24,7 +29,8 @@ namespace sage {
 // Makes a solver for so many equations; symmetric: the matrix is.
 using SolverMaker = std::function<std::unique_ptr<LinearSolver>(int equations, bool symmetric)>;
 
-// How far a stage has come: share of it that is behind, and unknowns of every dof at its start and now.
+// How far a stage has come: share of it that is behind, and unknowns of every dof at its start and now, those of
+// condensed dofs where they were filled in last.
 struct StageSoFar {
   double share = 0.0;
   const Eigen::VectorXd *start = nullptr, *now = nullptr;
@@ -49,10 +55,12 @@ class Condensation {
   FactorReport report() const { return solver_->report(); }
 
   // Over the whole stage, one entry a dof: the loads that are added, and the displacement of every prescribed dof
-  // (others 0).  Before the first step.
-  void begin_stage(const Eigen::VectorXd& loads, const Eigen::VectorXd& prescribed);
-  // part: the step's share of the stage; target: loads at its end; f0: internal forces of the linear region.  One
-  // entry a dof.  f0 may leave that much of a force out of balance.
+  // (others 0).  force_squares: sum over the region's elements of |f_e|^2 now.  Before the first step, or behind
+  // exchange().
+  void begin_stage(const Eigen::VectorXd& loads, const Eigen::VectorXd& prescribed, double force_squares);
+  // part: the step's share of the stage; target: loads at its end; f0: internal forces of the linear region where it was
+  // filled in last.  One entry a dof; all of them must outlive the step.  f0 may leave that much of a force out of
+  // balance.
   void begin_step(double part, const StageSoFar& so_far, const Eigen::VectorXd& target,
                   const Eigen::VectorXd& f0, double tolerance);
   // Work of the step's loads on the region while its border is held (twice that of a ramp).
@@ -60,13 +68,36 @@ class Condensation {
   // f += forces of the linear region on the kept dofs: where the step begins (du = 0), and anywhere.
   void add_start_forces(Eigen::VectorXd& f) const;
   void add_forces(const Eigen::VectorXd& du, Eigen::VectorXd& f) const;
-  // Fills in du of the condensed dofs.
+  // Fills in du of the condensed dofs: what they have moved since they were filled in last.
   void complete(Eigen::VectorXd& du);
+  bool begins_stage() const { return !(now_.share > 0.0); }
+  // |du| of the step in hand once that is done: condensed dofs count by its part of what they have moved.
+  double step_norm(const Eigen::VectorXd& du) const;
+  // Whether the step in hand may end without that.
+  bool may_wait() const;
+  // What rounding may then leave out of balance at a kept dof.
+  double rounding(const Eigen::VectorXd& du) const;
+  // The least that the sum of |f_e|^2 may be at the end of the step in hand, as it has gone in the stage so far; 0 where
+  // little is known.
+  double least_force_squares() const;
+  // The step in hand is committed: by its border alone, or filled in.
+  void accept_border(const Eigen::VectorXd& du);
+  void accept_whole(double force_squares);
+  // Committed steps have moved kept dofs since the others were filled in.
+  bool is_behind() const { return now_.steps > 0; }
+  // du, with what the kept dofs have moved since then.
+  void add_motion(Eigen::VectorXd& du) const;
+  // A flag a node: an element of the region has it, and it has a dof that is not kept.
+  const std::vector<char>& inner_nodes() const { return inner_nodes_; }
+  // Work of the stage's loads along the step du, whose condensed dofs need not be filled in.
+  double load_work(const Eigen::VectorXd& loads, const Eigen::VectorXd& du) const;
+  // The way through the stage as it stood before the last step was accepted, to a checkpoint or back.
+  void exchange(Archive& archive);
   // Largest load that the internal forces f leave unbalanced at condensed dofs.
   double largest_residual(const Eigen::VectorXd& f) const;
   // Corrects du of the condensed dofs for what f leaves there.
   void refine(const Eigen::VectorXd& f, Eigen::VectorXd& du);
-  // all - others: forces of the linear region at du.  Those of other du are taken from there.
+  // all - others: forces of the linear region at du, filled in.  Those of other du are taken from there.
   void set_base(const Eigen::VectorXd& all, const Eigen::VectorXd& others, const Eigen::VectorXd& du);
   // |correction| with what it brings about at the condensed dofs; correction: a kept dof each.
   double whole_norm(const Eigen::VectorXd& correction);
@@ -79,7 +110,12 @@ class Condensation {
     return i < condensed() ? condensed_[static_cast<std::size_t>(i)]
                            : kept_[static_cast<std::size_t>(i - condensed())];
   }
+  void add_border_forces(Eigen::VectorXd& f) const;  // where they have moved by kept_du_
   double eliminate_loads(const Eigen::VectorXd& loads, Eigen::VectorXd& eliminated);
+  void look_at_loads(double tolerance);
+  void list_inner_nodes();
+  bool reaches_region(const Eigen::VectorXd& motion) const;
+  void find_from();
   void eliminate(Eigen::VectorXd& x);
   void fill_in(Eigen::VectorXd& x);
   void find_forces(const Eigen::VectorXd& x, Eigen::Index begin, Eigen::Index end);
@@ -90,19 +126,39 @@ class Condensation {
   bool border_pays(int increments, bool symmetric) const;
   bool solutions_pay(int increments) const;
 
+  // Where the region was filled in last.
+  struct Anchor {
+    double share = 0.0;     // of the stage
+    Eigen::VectorXd since;  // motion of the kept dofs since then
+    int steps = 0;          // committed since then
+    bool on_line = false;   // the region's forces grow from there with the loads of the stage
+    // Sum of |f_e|^2 there and at the two places before, and their shares; NaN = not known.
+    std::array<double, 3> shares{}, force_squares{};
+
+    void remember(double its_share, double its_force_squares);
+  };
+
   const std::vector<GroupData>* groups_;
   int dofs_;  // of the model
   std::vector<int> kept_, condensed_;
   std::unique_ptr<LinearSolver> solver_;
   bool keeps_border_ = false;  // the solver
   Eigen::MatrixXd S_;
-  Eigen::VectorXd g_, base_;               // forces at the place base_ of the kept dofs
-  Eigen::VectorXd target_;                 // F_l
+  double S_norm_ = 0.0;       // largest sum of |terms| of a row
+  Eigen::VectorXd g_, base_;  // forces at the place base_ of the kept dofs
+  Anchor now_, before_;       // before_: the last step was accepted
+  std::vector<char> inner_nodes_;
+  bool supports_move_ = false;  // some dof of the region is given a displacement in the stage
+  // Of the step in hand: its part of the stage, its end, and the part since the region was filled in.
+  double part_ = 0.0, to_ = 0.0, part_since_ = 0.0;
+  StageSoFar so_far_;
+  const Eigen::VectorXd *target_ = nullptr, *f0_ = nullptr;
   Eigen::VectorXd stage_load_, stage_;     // of the whole stage: F_l - f0_l - K_lp du_p, and eliminated
   Eigen::VectorXd stage_forces_;           // K du_p of the whole stage, every dof
   Eigen::VectorXd loads_, step_;           // of the step, likewise; of loads that from_ has, the border alone
   Eigen::VectorXd from_;                   // displacements from which those of the step are counted,
-  bool from_has_loads_ = false;            // and whether they balance its loads
+  bool from_has_loads_ = false;            // whether they balance its loads,
+  bool from_is_here_ = false;              // and whether they are those of this step
   Eigen::VectorXd whole_, solution_;       // work space
   Eigen::VectorXd all_dofs_, all_forces_;  // work space
   double stage_work_ = 0.0, held_work_ = 0.0;

@@ -30,6 +30,7 @@ class ConstantRegion {
   // Adds the internal forces at committed state + du.
   void add_forces(const Eigen::VectorXd& du, Eigen::VectorXd& to);
   const FieldSums& sums() const { return sums_; }  // in the last such pass
+  void set_sums(const FieldSums& sums) { sums_ = sums; }
   // Adds those at the committed state.
   void add_committed_forces(Eigen::VectorXd& to) const;
 

@@ -140,11 +140,14 @@ bool Step::repeats() {
   form_residual();
   start_residual_ = residual_;
   start_known_ = true;
+  if (const Condensation* region = assembly_.condensation())
+    for (const int dof : region->condensed_dofs()) du_[dof] = 0.0;  // complete() says what they move by
   if (evaluate(false) == Outcome::cut_step) return false;
   form_residual();
   correction_.setZero(assembly_.equations());
-  if (!(measure().force <= settings_.repeat)) return false;
-  const IterationRecord record = measure_whole();
+  IterationRecord record = measure();
+  if (!(record.force <= settings_.repeat)) return false;
+  if (!pass_.wait(du_, residual_.norm(), settings_.repeat)) record = measure_whole();
   if (!(record.force <= settings_.repeat)) return false;
   result_.iterations.push_back(record);
   find_worst();
@@ -278,7 +281,7 @@ IterationRecord Step::measure_whole() {
   pass_.complete(du_);
   form_residual();
   IterationRecord record = measure();
-  const double size = fields_.norm_of_dofs(du_, 0);
+  const double size = assembly_.condensation()->step_norm(du_);
   // The displacement counts where the energy does not decide.
   if (record.energy > settings_.tolerance * settings_.tolerance && size > 0.0)
     record.displacement = pass_.whole_norm(correction_) / size;
@@ -545,10 +548,13 @@ bool Step::halve_step(double old_norm) {
 
 // True once converged.
 bool Step::record_iteration() {
-  constexpr double kNear = 10.0;  // iterations of a condensed region know the scale of its forces roughly
+  // The scale of a condensed region's forces is that of an earlier step, or of what was before the stage.
+  const double rough = pass_.begins_stage() ? 10.0 : 2.5;
   IterationRecord record = measure();
-  const bool condensed = assembly_.condensation() != nullptr;
-  if (condensed && (record.force <= kNear * settings_.tolerance || converged(record))) record = measure_whole();
+  const bool balanced = converged(record);
+  const bool near = pass_.must_fill_in() && record.force <= rough * settings_.tolerance;
+  if ((balanced || near) && !(balanced && pass_.wait(du_, residual_.norm(), settings_.tolerance)))
+    record = measure_whole();
   result_.iterations.push_back(record);
   if (settings_.pulse != nullptr)
     settings_.pulse->iterated(static_cast<int>(result_.iterations.size()), record.force);

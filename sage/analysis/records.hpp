@@ -24,6 +24,7 @@ struct WorkCounts {
   long kept_factors = 0;    // corrections with factors that were there already
   long repeats = 0;         // increments that were the one before once more
   long condensed = 0;       // equations removed once for all from the iterations
+  long border_steps = 0;    // steps of condensed regions that their borders alone took
   long twin_equations = 0;  // equations that took the factors of others; of the factorisation with most of them
 };
 
@@ -73,7 +74,9 @@ struct StepReport {
   std::array<long, kStatuses> points{};     // by PointStatus
   WorstDof worst;  // after a failure: of the iteration that came nearest to equilibrium
   double smallest_pivot_ratio = -1.0;
-  double motion = 0.0;   // so far: difference of displacements along an axis over the model's extent along it
+  // So far: difference of displacements along an axis over the model's extent along it; NaN while a condensed region is
+  // behind (Assembly::region_is_behind).
+  double motion = 0.0;
   double refused = 0.0;  // the same of the last step that was refused as flow without end; 0 = none was
 };
 

@@ -90,6 +90,9 @@ class Run {
   Place resume();
   void start();
   void recover_for(const StepReport& report);
+  void show_region_for(const StepReport& report);
+  void catch_up(double reached);
+  double load_work() const;
   void start_first_states();
   void run_stages();
   std::string keep_state();
@@ -120,6 +123,8 @@ class Run {
   Eigen::VectorXd last_du_;          // the last step of the stage, if path_.last_size > 0
   bool on_last_way_ = false;         // the next attempt starts with the tangent of that step
   Eigen::VectorXd committed_force_;  // internal, at the committed state; of scenes that are not linear
+  // With a condensed region that is behind filled in, for observers; no entries: nobody looks.
+  Eigen::VectorXd shown_u_, shown_force_;
   int max_cuts_;
   bool water_alone_ = false;  // flow is all that there is
   double easing_ = 1.0;       // of laws of water, on the way to a free surface
@@ -130,10 +135,15 @@ class Run {
 };
 
 Solution Run::solution() const {
-  return {&state_.u,           &assembly_.internal_force(),
-          &state_.external,    &assembly_,
-          &system_.activity(), {},
-          place_.stage,        reached_};
+  const bool shown = shown_u_.size() > 0;
+  return {shown ? &shown_u_ : &state_.u,
+          shown ? &shown_force_ : &assembly_.internal_force(),
+          &state_.external,
+          &assembly_,
+          &system_.activity(),
+          {},
+          place_.stage,
+          reached_};
 }
 
 // Pore pressures at the end of a stage; nothing where the deck has no water.
@@ -389,7 +399,22 @@ void Run::accept(double reached) {
   reached_ = reached;
   state_.external = (1.0 - reached) * path_.external_start + reached * path_.force_end;
   if (!path_.pore_end.empty()) set_water(reached);
+  if (!assembly_.region_is_behind()) result_.motion = std::max(result_.motion, extent_.motion(state_.u));
+}
+
+// Drops the step in hand; reached: load factor of the committed state.
+void Run::catch_up(double reached) {
+  if (assembly_.condensation() == nullptr) return;
+  target_ = (1.0 - reached) * path_.force_start + reached * path_.force_end;
+  assembly_.catch_up(target_, reached, path_.u_start, state_.u);
   result_.motion = std::max(result_.motion, extent_.motion(state_.u));
+}
+
+// Of the step in hand, along the loads of the stage.
+double Run::load_work() const {
+  const Eigen::VectorXd loads = path_.force_end - path_.force_start;
+  const Condensation* const region = assembly_.condensation();
+  return region != nullptr ? region->load_work(loads, state_.du) : loads.dot(state_.du);
 }
 
 // Back to the committed state, with its own internal forces.  The next attempt starts with the tangent of the
@@ -400,6 +425,7 @@ void Run::reject(const Stage& stage, double reached, double next) {
   path_.repeats.forget();
   path_.prediction.forget();
   on_last_way_ = false;
+  catch_up(reached);
   const bool keep_K = tangent_.constant() || stage.method == Method::initial_stiffness;
   if (!keep_K) {
     tangent_.set_aside();
@@ -438,7 +464,7 @@ void Run::measure_stiffness(double from, double to) {
       if (system_.rate()[dof] != 0.0) work += (f[dof] - committed_force_[dof]) * system_.rate()[dof];
     path_.last_stiffness = work / size;
   } else {
-    work = (path_.force_end - path_.force_start).dot(state_.du);
+    work = load_work();
     path_.last_stiffness = work > 0.0 ? size / work : 0.0;
   }
   path_.stiffest = std::max(path_.stiffest, path_.last_stiffness);
@@ -450,7 +476,7 @@ double Run::stiffness_share(double from, double to, const NewtonStep& step) cons
   const double size = to - from;
   if (!system_.rate().isZero(0.0))
     return path_.stiffest > 0.0 && path_.last_size > 0.0 ? path_.last_stiffness / path_.stiffest : -1.0;
-  const double work = (path_.force_end - path_.force_start).dot(state_.du);
+  const double work = load_work();
   const double attempt = work > 0.0 && std::isfinite(work) ? size / work : 0.0;
   const double elastic = step.predicted_work > 0.0 ? size * size / step.predicted_work : 0.0;
   const double largest = std::max(path_.stiffest, elastic);
@@ -560,17 +586,16 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
 
 bool Run::fail(StepReport& report, const NewtonStep& step) {
   report.converged = false;
-  report.motion = result_.motion;
   if (trial_ != nullptr) {
     trial_->outcome = step.outcome;
     trial_->flows = step.flows;
     trial_->reason = step.outcome == StepOutcome::singular
                          ? explain_singular(model_, system_.activity(), assembly_, report, step)
                          : explain_failure(model_, assembly_, report, step);
+    catch_up(report.load_factor);
     take_motion(state_.u + state_.du, StateSide::trial);
     return false;
   }
-  warn(motion_warnings(model_.stages[static_cast<std::size_t>(report.stage)], result_.motion));
   if (step.outcome == StepOutcome::singular) {
     result_.status = RunStatus::singular;
     result_.code = Code("S502");
@@ -583,6 +608,9 @@ bool Run::fail(StepReport& report, const NewtonStep& step) {
   result_.reason = with_code(result_.reason, *result_.code);
   state_.du.setZero();
   set_moment(report.load_factor, 0.0);
+  catch_up(report.load_factor);
+  report.motion = result_.motion;
+  warn(motion_warnings(model_.stages[static_cast<std::size_t>(report.stage)], result_.motion));
   assembly_.evaluate(state_.du, nullptr);
   assembly_.recover_states();
   audience_.tell([&](Observer& o) { o.on_failure(model_, report, result_.reason, solution()); });
@@ -628,6 +656,16 @@ void Run::recover_for(const StepReport& report) {
     assembly_.recover_structures();
 }
 
+// Those who look at inner nodes of a region that is behind are shown it filled in.
+void Run::show_region_for(const StepReport& report) {
+  const bool states = audience_.wants_states(model_, report) || audience_.wants_structures(model_, report);
+  if (!states && !audience_.wants_nodes(model_, report, assembly_.condensation()->inner_nodes())) return;
+  Eigen::VectorXd motion;
+  assembly_.show_region(motion, shown_force_);
+  shown_u_ = state_.u + motion;
+  if (states) assembly_.recover_states_at(motion);
+}
+
 void Run::begin_stage(int s) {
   StepReport report;
   report.stage = s;
@@ -642,11 +680,15 @@ void Run::begin_stage(int s) {
 void Run::end_increment(StepReport& report) {
   report.points = assembly_.count_points();
   find_loose_part(report);
-  report.motion = result_.motion;
+  report.motion = assembly_.region_is_behind() ? std::numeric_limits<double>::quiet_NaN() : result_.motion;
   report.smallest_pivot_ratio = system_.smallest_pivot();
   ++result_.increments_done;
-  recover_for(report);
+  if (assembly_.region_is_behind())
+    show_region_for(report);
+  else
+    recover_for(report);
   audience_.tell([&](Observer& o) { o.on_increment(model_, report, solution()); });
+  shown_u_.resize(0);
 }
 
 void Run::end_stage(int s, double last_force) {

@@ -51,7 +51,7 @@ void evaluate_again(const Resumable& run, const Place& place, bool factorised) {
   if (within && system.assembly().sees_unknowns()) run.state.u = run.state.u_before;
   if (system.assembly().evaluate(run.state.du, &system.tangent()) == Outcome::cut_step) refuse();
   run.state.u = end;
-  if (within) system.assembly().commit_again();
+  if (within) system.assembly().commit_again(run.state.du);
   if (factorised) system.tangent().factorise(run.result.work);
 }
 

@@ -18,7 +18,7 @@ inline bool is_large(int equations) {
 struct Skips {
   bool factors = true;       // factors are kept while K has not changed
   bool elements = true;      // linear elements: K once, one for congruent elements; forces by K u
-  bool states = true;        // linear elements: stress and strain only where an output asks for them
+  bool states = true;        // linear elements: stress only where an output asks; u of condensed regions
   bool condensation = true;  // a large linear region leaves the iterations: only its border stays
   bool repeats = true;       // after an increment that was linear to the last digit, the next is its repetition
   bool contraction = true;   // large systems: Newton keeps its factors while they contract well
@@ -35,7 +35,8 @@ struct SkipName {
 inline constexpr std::array<SkipName, 8> kSkipNames{{
     {"factors", &Skips::factors, "factors are kept while K has not changed"},
     {"elements", &Skips::elements, "linear elements: K once, one for congruent elements; forces by K u"},
-    {"states", &Skips::states, "linear elements: stress only where an output asks"},
+    {"states", &Skips::states,
+     "linear elements: stress only where an output asks; displacements of condensed regions"},
     {"condensation", &Skips::condensation, "a large linear region leaves the iterations"},
     {"repeats", &Skips::repeats, "an increment like the linear one before it"},
     {"contraction", &Skips::contraction, "large systems: factors kept while Newton contracts well"},

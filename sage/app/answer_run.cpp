@@ -74,7 +74,7 @@ Json work_json(const WorkCounters& w) {
           {"factorisations", w.factorisations}, {"solves", w.solves},
           {"condensed_equations", w.condensed}, {"linear_products", w.linear_products},
           {"kept_factors", w.kept_factors},     {"repeated_increments", w.repeats},
-          {"twin_equations", w.twin_equations}};
+          {"twin_equations", w.twin_equations}, {"border_steps", w.border_steps}};
 }
 
 // Extremes of each stage and of all, and the envelope at the ends of elements; compression positive.

@@ -398,7 +398,10 @@ void add_increment_fields(std::vector<FieldEntry>& rows) {
       [](const View& i) { return i.worst_residual; }, Dimension::force);
   add("smallest_pivot_ratio", "smallest pivot / largest", kNumber, true,
       [](const View& i) { return i.pivot_ratio; });
-  add("displacement_over_extent", "difference of displacements along an axis / the model's extent along it",
+  add("displacement_over_extent",
+      "difference of displacements along an axis / the model's extent along it, so far; blank where nobody "
+      "looked at all "
+      "displacements",
       kNumber, true, [](const View& i) { return i.motion; });
   const auto name_in_csv = [&](const char* name, const char* column) {
     for (FieldEntry& row : rows)

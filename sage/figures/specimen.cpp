@@ -59,6 +59,10 @@ class Watcher final : public Observer {
     return of_loading(model, report) && kept(strain_of(report));
   }
 
+  bool wants_nodes(const Model& model, const StepReport& report, std::span<const char>) const override {
+    return of_loading(model, report);
+  }
+
   void on_increment(const Model& model, const StepReport& report, const Solution& now) override {
     if (!of_loading(model, report)) return;
     const double strain = strain_of(report);

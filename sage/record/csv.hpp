@@ -32,6 +32,9 @@ class Csv final : public Output {
   bool wants_states(const Model& model, const StepReport& report) const override {
     return wants_points_ && is_output_increment(stage_of(model, report.stage), report);
   }
+  bool wants_nodes(const Model& model, const StepReport& report, std::span<const char>) const override {
+    return (wants_points_ || nodes_.file.open()) && is_output_increment(stage_of(model, report.stage), report);
+  }
   void exchange(Archive& archive) override;
   void stop(const std::string& reason) override;
   std::vector<std::filesystem::path> files() const override { return files_; }

@@ -218,6 +218,14 @@ bool Reports::wants_states(const Model& model, const StepReport&) const {
   });
 }
 
+bool Reports::wants_nodes(const Model& model, const StepReport& step, std::span<const char> behind) const {
+  return std::ranges::any_of(model.reports, [&](const Report& report) {
+    return report.stage <= step.stage && std::ranges::any_of(report.nodes, [&](int node) {
+             return behind[static_cast<std::size_t>(node)] != 0;
+           });
+  });
+}
+
 void Reports::on_stage_start(const Model& model, int stage, const Solution& solution) {
   if (series_.empty()) return;
   enter_points(model, solution);

@@ -114,6 +114,7 @@ class Reports final : public Output {
   void on_increment(const Model&, const StepReport&, const Solution&) override;
   void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
   bool wants_states(const Model&, const StepReport&) const override;
+  bool wants_nodes(const Model& model, const StepReport&, std::span<const char> behind) const override;
   void on_finish(const Model&, const RunResult&) override;
   void exchange(Archive& archive) override;
   void stop(const std::string& reason) override;

@@ -201,6 +201,7 @@ std::string skipped(const WorkCounters& w) {
     if (count > 0) parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", count, what);
   };
   add(w.condensed, "equations condensed");
+  add(w.border_steps, "steps by the border of a condensed region");
   add(w.twin_equations, "equations with the factors of others");
   add(w.linear_products, "elements by K u");
   add(w.kept_factors, "solves with kept factors");
