@@ -289,11 +289,11 @@ double Condensation::step_norm(const Eigen::VectorXd& du) const {
   return std::sqrt(std::max(0.0, du.squaredNorm() - (1.0 - part * part) * inner));
 }
 
-// The share at which the region is filled in doubles at least, so that its forces, by which others are judged, are known
-// to a factor of about two.
+// From one filling in to the next the share of the loads at most doubles: then the region's forces, by which others are
+// judged, are known well enough.
 bool Condensation::may_wait() const {
-  constexpr double kEnd = 1.0 - 1e-9;
-  return now_.on_line && !supports_move_ && to_ < kEnd && to_ < 2.0 * now_.share;
+  constexpr double kEnd = 1.0 - 1e-9, kTwice = 2.0 + 1e-9;
+  return now_.on_line && !supports_move_ && to_ < kEnd && to_ <= kTwice * now_.share;
 }
 
 double Condensation::rounding(const Eigen::VectorXd& du) const {
