@@ -135,15 +135,20 @@ void close(ResultFiles& results, const RunRequest& request) {
 }
 
 // When an interrupted run ends: behind the checkpoint of the increment in hand, if there can be one and the
-// increment ends soon.  Asked by the thread that runs the analysis only.
+// increment ends soon.  A run that goes on from a checkpoint ends no sooner than all outputs have gone on with their
+// files: what stands in those would be lost.  Asked by the thread that runs the analysis only; the last observer.
 class EndOfInterrupted final : public Observer {
  public:
   EndOfInterrupted(bool checkpoints, double patience)
       : checkpoints_(checkpoints), patience_(patience), before_start_(interrupted()) {}
 
+  void go_on_from_checkpoint() { outputs_wait_ = true; }
+  void exchange(Archive&) override { outputs_wait_ = false; }
+
   bool checkpoint_wanted() const { return checkpoints_ && interrupted(); }
   void saved() { ready_ = ready_ || interrupted(); }
   bool stop_now() { return interrupted() && (before_start_ || !checkpoints_ || ready_ || waited_enough()); }
+  bool outputs_wait() const { return outputs_wait_; }
 
   // With initial stiffness checkpoints stand between stages only: there is nothing to wait for.
   void on_increment(const Model& model, const StepReport& report, const Solution&) override {
@@ -161,7 +166,7 @@ class EndOfInterrupted final : public Observer {
 
   bool checkpoints_;
   double patience_;  // s
-  bool before_start_;
+  bool before_start_, outputs_wait_ = false;
   std::optional<Clock::time_point> asked_at_;
   std::atomic<bool> ready_{false};
 };
@@ -382,9 +387,12 @@ RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
   Checkpoint checkpoint = checkpoint_of(request, model, catalogue, results);
   bool has_checkpoint = request.restart && std::filesystem::exists(checkpoint.file());
   EndOfInterrupted end(checkpoint.ever_due(), request.interrupt_patience);
-  settings.stop_asked = [&] { return end.stop_now() || (request.stop_asked && request.stop_asked()); };
+  settings.stop_asked = [&] {
+    return !end.outputs_wait() && (end.stop_now() || (request.stop_asked && request.stop_asked()));
+  };
   settings.checkpoint_due = [&] { return end.checkpoint_wanted() || checkpoint.due(); };
   if (request.restart) settings.resume_from = resume_from(checkpoint, request);
+  if (!settings.resume_from.empty()) end.go_on_from_checkpoint();
   outcome.reports =
       std::make_unique<Reports>(request.output.folder, stem_of(request), csv_digits(request.output));
   std::vector<std::unique_ptr<Output>> outputs =

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
@@ -70,6 +72,47 @@ TEST(Interrupt, AnIncrementThatTakesLongIsLeft) {
   };
   EXPECT_LE(polls_after_the_signal(0.0), 1);
   EXPECT_GT(polls_after_the_signal(1e9), 3) << "the increment takes several iterations";
+}
+
+std::string contents(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// The signal comes before a restarted run has gone on with the files of the one before: it stops, and what stands in
+// them is still there for the next restart.
+TEST(Interrupt, ARestartThatIsStoppedAtOnceLosesNothing) {
+  RunRequest request;
+  request.deck = SAGE_SOURCE_DIR "/legacy_inputs/chapter7/friction_285_nu025/deck.dat";
+  request.quiet = true;
+  request.interrupt_patience = 1e9;
+  request.output.folder = test::scratch_folder("restart_never_stopped");
+  ASSERT_EQ(run_deck(request, full_catalogue()).exit_code, kOk);
+  const std::filesystem::path whole = request.output.folder;
+
+  request.output.folder = test::scratch_folder("restart_stopped_at_once");
+  {
+    const InterruptWatch watch;
+    long polls = 0;
+    request.stop_asked = [&polls] {
+      if (++polls == 60) raise(SIGTERM);
+      return false;
+    };
+    ASSERT_EQ(run_deck(request, full_catalogue()).exit_code, kInterrupted);
+  }
+  request.stop_asked = {};
+  request.restart = true;
+  for (int round = 0; round < 2; ++round) {
+    const InterruptWatch watch;
+    raise(SIGTERM);
+    const RunOutcome outcome = run_deck(request, full_catalogue());
+    EXPECT_EQ(outcome.exit_code, kInterrupted);
+    EXPECT_FALSE(outcome.checkpoint.empty());
+    EXPECT_GT(outcome.record.result.increments_done, 0);
+  }
+  ASSERT_EQ(run_deck(request, full_catalogue()).exit_code, kOk);
+  for (const char* name : {"friction_285_nu025.increments.csv", "friction_285_nu025.report1.csv"})
+    EXPECT_EQ(contents(request.output.folder / name), contents(whole / name)) << name;
 }
 
 }  // namespace
