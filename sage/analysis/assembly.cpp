@@ -249,18 +249,19 @@ double Assembly::path_error() const {
 }
 
 void Assembly::commit_again(const Eigen::VectorXd& du) {
-  const bool waits = region_step_ == RegionStep::waits;
-  for (GroupData& data : groups_) {
-    if (!data.active) continue;
-    if (!data.constant)
-      data.state.commit();
-    else if (!waits)
-      std::swap(data.force, data.trial_force);
-  }
-  if (waits)
+  for (GroupData& data : groups_)
+    if (data.active && !data.constant) data.state.commit();
+  if (region_step_ == RegionStep::waits)
     condensation_->accept_border(du);
-  else if (region_step_ == RegionStep::filled_in)
-    condensation_->accept_whole(constant_.sums()[0]);
+  else
+    commit_constant();
+}
+
+// Of constant groups, of which a step has the forces.
+void Assembly::commit_constant() {
+  for (GroupData& data : groups_)
+    if (data.active && data.constant) std::swap(data.force, data.trial_force);
+  if (region_step_ == RegionStep::filled_in) condensation_->accept_whole(constant_.sums()[0]);
 }
 
 void Assembly::commit(const Eigen::VectorXd& du) {
@@ -380,14 +381,10 @@ void Assembly::fill_in(Eigen::VectorXd& du, Eigen::VectorXd& forces) {
 
 void Assembly::catch_up(const Eigen::VectorXd& target, double share, const Eigen::VectorXd& start,
                         Eigen::VectorXd& u) {
-  region_step_ = RegionStep::open;
-  if (!region_is_behind()) return;
   Eigen::VectorXd du = Eigen::VectorXd::Zero(u.size());
   IteratedStep(*this, target, 0.0, {share, &start, &u}).complete(du);
-  for (GroupData& data : groups_)
-    if (data.active && data.constant) std::swap(data.force, data.trial_force);
-  condensation_->accept_whole(constant_.sums()[0]);
-  region_step_ = RegionStep::open;
+  commit_constant();
+  drop_step();
   late_.move(du);
   u += du;
 }

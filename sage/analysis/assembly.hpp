@@ -97,8 +97,10 @@ class Assembly {
 
   // A condensed region waits to be filled in: forces and displacements of its inner nodes are those of an earlier step.
   bool region_is_behind() const { return condensation_ != nullptr && condensation_->is_behind(); }
-  // The step in hand is dropped, and the region filled in at the committed state: u, whose loads are `target`, at that
-  // share of the stage, which began with the unknowns `start`.
+  // The step in hand is not going to be committed.
+  void drop_step() { region_step_ = RegionStep::open; }
+  // Then, where the region is behind: fills it in at the committed state, u, whose loads are `target`, at that share of
+  // the stage, which began with the unknowns `start`.
   void catch_up(const Eigen::VectorXd& target, double share, const Eigen::VectorXd& start, Eigen::VectorXd& u);
   // The committed state as if it were filled in: what condensed dofs have to move yet, and internal forces.  The run goes
   // on as if nobody had asked.  After the commit of the step in hand.
@@ -135,6 +137,7 @@ class Assembly {
   Outcome evaluate_with_border(const Eigen::VectorXd& du, Tangent* tangent);
   void fill_in(Eigen::VectorXd& du, Eigen::VectorXd& forces);
   void take_constant_force();
+  void commit_constant();
   void fill(Tangent& tangent) const;
 
   // How the step in hand stands to the inner dofs of a condensed region.

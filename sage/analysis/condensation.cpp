@@ -209,9 +209,8 @@ void Condensation::begin_step(double part, const StageSoFar& so_far, const Eigen
   part_since_ = is_behind() ? to_ - now_.share : part;
   so_far_ = so_far;
   target_ = &target;
-  f0_ = &f0;
   from_is_here_ = false;
-  if (!is_behind()) look_at_loads(tolerance);
+  if (!is_behind()) look_at_loads(f0, tolerance);
   if (now_.on_line) {
     border(step_) = part_since_ * border(stage_);
     held_work_ = part * part * stage_work_;
@@ -226,11 +225,11 @@ void Condensation::begin_step(double part, const StageSoFar& so_far, const Eigen
 }
 
 // Whether those of the step are its part of the stage's.
-void Condensation::look_at_loads(double tolerance) {
+void Condensation::look_at_loads(const Eigen::VectorXd& f0, double tolerance) {
   double off = 0.0;
   for (Eigen::Index i = 0; i < condensed(); ++i) {
     const int dof = dof_of(i);
-    loads_[i] = (*target_)[dof] - (*f0_)[dof] - part_since_ * stage_forces_[dof];
+    loads_[i] = (*target_)[dof] - f0[dof] - part_since_ * stage_forces_[dof];
     off = std::max(off, std::abs(loads_[i] - part_since_ * stage_load_[i]));
   }
   now_.on_line = off <= tolerance;
@@ -259,9 +258,13 @@ void Condensation::add_start_forces(Eigen::VectorXd& f) const {
 }
 
 void Condensation::add_forces(const Eigen::VectorXd& du, Eigen::VectorXd& f) const {
-  for (Eigen::Index i = 0; i < g_.size(); ++i)
-    kept_du_[i] = du[kept_[static_cast<std::size_t>(i)]] + now_.since[i] - base_[i];
+  find_kept_motion(du);
   add_border_forces(f);
+}
+
+void Condensation::find_kept_motion(const Eigen::VectorXd& du) const {
+  for (Eigen::Index i = 0; i < base_.size(); ++i)
+    kept_du_[i] = du[kept_[static_cast<std::size_t>(i)]] + now_.since[i] - base_[i];
 }
 
 void Condensation::add_border_forces(Eigen::VectorXd& f) const {
@@ -298,10 +301,8 @@ bool Condensation::may_wait() const {
 
 double Condensation::rounding(const Eigen::VectorXd& du) const {
   constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
-  double motion = 0.0;
-  for (Eigen::Index i = 0; i < base_.size(); ++i)
-    motion = std::max(motion, std::abs(du[kept_[static_cast<std::size_t>(i)]] + now_.since[i] - base_[i]));
-  return kRounding * S_norm_ * motion;
+  find_kept_motion(du);
+  return kRounding * S_norm_ * kept_du_.lpNorm<Eigen::Infinity>();
 }
 
 // Forces that grow evenly have squares that are a parabola over the share.  Half of those forces is the careful side.
@@ -317,14 +318,14 @@ double Condensation::least_force_squares() const {
 void Condensation::accept_border(const Eigen::VectorXd& du) {
   before_ = now_;
   for (Eigen::Index i = 0; i < now_.since.size(); ++i) now_.since[i] += du[kept_[static_cast<std::size_t>(i)]];
-  ++now_.steps;
+  now_.behind = true;
 }
 
 void Condensation::accept_whole(double force_squares) {
   before_ = now_;
   now_.share = to_;
   now_.since.setZero();
-  now_.steps = 0;
+  now_.behind = false;
   now_.remember(to_, force_squares);
 }
 
@@ -347,7 +348,7 @@ void Condensation::exchange(Archive& archive) {
   Anchor& anchor = archive.reading() ? now_ : before_;
   archive(anchor.share);
   archive(anchor.since);
-  archive(anchor.steps);
+  archive(anchor.behind);
   archive(anchor.on_line);
   archive(anchor.shares);
   archive(anchor.force_squares);

@@ -59,8 +59,8 @@ class Condensation {
   // exchange().
   void begin_stage(const Eigen::VectorXd& loads, const Eigen::VectorXd& prescribed, double force_squares);
   // part: the step's share of the stage; target: loads at its end; f0: internal forces of the linear region where it was
-  // filled in last.  One entry a dof; all of them must outlive the step.  f0 may leave that much of a force out of
-  // balance.
+  // filled in last.  One entry a dof; target and what so_far points to must outlive the step.  f0 may leave that much of
+  // a force out of balance.
   void begin_step(double part, const StageSoFar& so_far, const Eigen::VectorXd& target,
                   const Eigen::VectorXd& f0, double tolerance);
   // Work of the step's loads on the region while its border is held (twice that of a ramp).
@@ -84,7 +84,7 @@ class Condensation {
   void accept_border(const Eigen::VectorXd& du);
   void accept_whole(double force_squares);
   // Committed steps have moved kept dofs since the others were filled in.
-  bool is_behind() const { return now_.steps > 0; }
+  bool is_behind() const { return now_.behind; }
   // du, with what the kept dofs have moved since then.
   void add_motion(Eigen::VectorXd& du) const;
   // A flag a node: an element of the region has it, and it has a dof that is not kept.
@@ -112,7 +112,8 @@ class Condensation {
   }
   void add_border_forces(Eigen::VectorXd& f) const;  // where they have moved by kept_du_
   double eliminate_loads(const Eigen::VectorXd& loads, Eigen::VectorXd& eliminated);
-  void look_at_loads(double tolerance);
+  void look_at_loads(const Eigen::VectorXd& f0, double tolerance);
+  void find_kept_motion(const Eigen::VectorXd& du) const;  // kept_du_: from base_
   void list_inner_nodes();
   bool reaches_region(const Eigen::VectorXd& motion) const;
   void find_from();
@@ -130,7 +131,7 @@ class Condensation {
   struct Anchor {
     double share = 0.0;     // of the stage
     Eigen::VectorXd since;  // motion of the kept dofs since then
-    int steps = 0;          // committed since then
+    bool behind = false;    // a step has been committed since then
     bool on_line = false;   // the region's forces grow from there with the loads of the stage
     // Sum of |f_e|^2 there and at the two places before, and their shares; NaN = not known.
     std::array<double, 3> shares{}, force_squares{};
@@ -152,7 +153,7 @@ class Condensation {
   // Of the step in hand: its part of the stage, its end, and the part since the region was filled in.
   double part_ = 0.0, to_ = 0.0, part_since_ = 0.0;
   StageSoFar so_far_;
-  const Eigen::VectorXd *target_ = nullptr, *f0_ = nullptr;
+  const Eigen::VectorXd* target_ = nullptr;
   Eigen::VectorXd stage_load_, stage_;     // of the whole stage: F_l - f0_l - K_lp du_p, and eliminated
   Eigen::VectorXd stage_forces_;           // K du_p of the whole stage, every dof
   Eigen::VectorXd loads_, step_;           // of the step, likewise; of loads that from_ has, the border alone

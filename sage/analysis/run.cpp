@@ -404,7 +404,8 @@ void Run::accept(double reached) {
 
 // Drops the step in hand; reached: load factor of the committed state.
 void Run::catch_up(double reached) {
-  if (assembly_.condensation() == nullptr) return;
+  assembly_.drop_step();
+  if (!assembly_.region_is_behind()) return;
   target_ = (1.0 - reached) * path_.force_start + reached * path_.force_end;
   assembly_.catch_up(target_, reached, path_.u_start, state_.u);
   result_.motion = std::max(result_.motion, extent_.motion(state_.u));
