@@ -3,6 +3,7 @@
 
 #include "sage/app/commands.hpp"
 #include "tests/support/run_text.hpp"
+#include "tests/support/same_increments.hpp"
 
 namespace sage::test {
 namespace {
@@ -169,16 +170,7 @@ class Skipping : public testing::TestWithParam<SkipCase> {};
 // the sums are taken in another order.
 void expect_same(const WholeRun& a, const WholeRun& b, double tolerance) {
   ASSERT_TRUE(a.completed()) << a.failure;
-  ASSERT_EQ(a.increments.size(), b.increments.size());
-  const auto close = [&](const Eigen::MatrixXd& x, const Eigen::MatrixXd& y) {
-    return (x - y).cwiseAbs().maxCoeff() <= tolerance * y.cwiseAbs().maxCoeff();
-  };
-  for (std::size_t i = 0; i < a.increments.size(); ++i) {
-    EXPECT_TRUE(close(a.increments[i].u, b.increments[i].u)) << "increment " << i;
-    EXPECT_TRUE(close(a.increments[i].internal, b.increments[i].internal)) << "increment " << i;
-  }
-  for (std::size_t g = 0; g < a.stress.size(); ++g)
-    EXPECT_TRUE(close(a.stress[g], b.stress[g])) << "group " << g;
+  expect_same_increments(a, b, tolerance);
 }
 
 // The same iteration, to its rounding.

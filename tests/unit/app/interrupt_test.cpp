@@ -5,12 +5,12 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/run_deck.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/shipped_decks.hpp"
 
 namespace sage::app {
 namespace {
@@ -74,11 +74,6 @@ TEST(Interrupt, AnIncrementThatTakesLongIsLeft) {
   EXPECT_GT(polls_after_the_signal(1e9), 3) << "the increment takes several iterations";
 }
 
-std::string contents(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 // The signal comes before a restarted run has gone on with the files of the one before: it stops, and what stands in
 // them is still there for the next restart.
 TEST(Interrupt, ARestartThatIsStoppedAtOnceLosesNothing) {
@@ -112,7 +107,7 @@ TEST(Interrupt, ARestartThatIsStoppedAtOnceLosesNothing) {
   }
   ASSERT_EQ(run_deck(request, full_catalogue()).exit_code, kOk);
   for (const char* name : {"friction_285_nu025.increments.csv", "friction_285_nu025.report1.csv"})
-    EXPECT_EQ(contents(request.output.folder / name), contents(whole / name)) << name;
+    EXPECT_EQ(test::bytes_of(request.output.folder / name), test::bytes_of(whole / name)) << name;
 }
 
 }  // namespace
