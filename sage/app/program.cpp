@@ -249,6 +249,7 @@ int sagefe(int argc, char** argv, const AddToCatalogue& add) {
   using namespace app;
   fill_standard_streams();
   take_no_signal_for_large_files();
+  const PrintableOutput filter;
   int code = kOutput;
   try {
     code = run_command_line(argc, argv, add);

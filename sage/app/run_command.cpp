@@ -188,7 +188,7 @@ int run_beside(RunOptions options, int jobs, const Catalogue& catalogue) {
       take_part(options.decks[i], end);
     else
       fmt::print("{}", end.out);
-    print_stderr(end.err);
+    pass_on_stderr(end.err);
     worst = std::max(worst, end.signal != 0 ? kNotConverged : end.exit_code);
     if (end.signal != 0)
       say_error(options.decks[i],

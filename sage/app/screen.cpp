@@ -12,6 +12,7 @@
 
 #include "sage/app/answer.hpp"
 #include "sage/app/progress.hpp"
+#include "sage/deck/printable.hpp"
 
 namespace sage::app {
 
@@ -33,9 +34,9 @@ std::string_view word_of(Severity severity) {
 
 // The severity's word, as to_string() has it behind the place, in its colour.
 std::string with_colour(const Diagnostic& diagnostic) {
-  std::string text = to_string(diagnostic);
+  std::string text = printable(to_string(diagnostic));
   const std::string word = fmt::format("{}:", word_of(diagnostic.severity));
-  const std::size_t place = to_string(diagnostic.where).size();
+  const std::size_t place = printable(to_string(diagnostic.where)).size();
   const std::size_t at = text.find(word, std::min(place, text.size()));
   if (at != std::string::npos) text.replace(at, word.size(), coloured(diagnostic.severity, word));
   return text;
@@ -65,6 +66,10 @@ void set_screen(const ScreenOptions& options) {
 }
 
 void print_stderr(const std::string& text) {
+  pass_on_stderr(printable(text));
+}
+
+void pass_on_stderr(const std::string& text) {
   const ProgressPause pause;
   fmt::print(stderr, "{}", text);
 }
@@ -73,7 +78,7 @@ void say(Severity severity, const std::string& who, const std::string& text, Cod
   keep_message({severity, code, {who, 0, 0, 0}, text, {}});
   const std::string word =
       severity == Severity::error ? "" : coloured(severity, fmt::format("{}:", word_of(severity))) + ' ';
-  print_stderr(fmt::format("{}: {}{}\n", who, word, with_code(text, code)));
+  pass_on_stderr(fmt::format("{}: {}{}\n", printable(who), word, printable(with_code(text, code))));
 }
 
 void say_error(const std::string& who, const std::exception& error) {
@@ -97,12 +102,21 @@ void print_diagnostics(const Diagnostics& diagnostics) {
     text +=
         fmt::format("{} error{}, {} warning{}\n", diagnostics.errors(), diagnostics.errors() == 1 ? "" : "s",
                     diagnostics.warnings(), diagnostics.warnings() == 1 ? "" : "s");
-  if (!text.empty()) print_stderr(text);
+  if (!text.empty()) pass_on_stderr(text);
 }
+
+namespace {
+
+// `stdout` may be a filter without a descriptor of its own.
+int descriptor_of(std::FILE* stream) {
+  return stream == stdout ? STDOUT_FILENO : fileno(stream);
+}
+
+}  // namespace
 
 bool is_screen(std::FILE* stream) {
   const std::string_view kind = environment("TERM");
-  return isatty(fileno(stream)) != 0 && !kind.empty() && kind != "dumb";
+  return isatty(descriptor_of(stream)) != 0 && !kind.empty() && kind != "dumb";
 }
 
 std::string coloured(Severity severity, std::string_view text) {
@@ -114,7 +128,7 @@ std::string coloured(Severity severity, std::string_view text) {
 
 int columns_of(std::FILE* stream) {
   winsize size = {};
-  return ioctl(fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+  return ioctl(descriptor_of(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
 bool unicode_locale() {
@@ -123,6 +137,42 @@ bool unicode_locale() {
       return locale.find("UTF-8") != std::string_view::npos || locale.find("utf8") != std::string_view::npos ||
              locale.find("UTF8") != std::string_view::npos || locale.find("utf-8") != std::string_view::npos;
   return false;
+}
+
+namespace {
+
+bool write_all(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t done = ::write(descriptor, text.data(), text.size());
+    if (done < 0 && errno == EINTR) continue;
+    if (done <= 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(done));
+  }
+  return true;
+}
+
+}  // namespace
+
+// Without memory for it the output stays as it was.
+PrintableOutput::PrintableOutput()
+    : before_(stdout), filter_(fopencookie(this, "w", {nullptr, write, nullptr, nullptr})) {
+  std::fflush(before_);
+  if (filter_ == nullptr) return;
+  if (isatty(STDOUT_FILENO) != 0) std::setvbuf(filter_, nullptr, _IOLBF, BUFSIZ);
+  stdout = filter_;
+}
+
+PrintableOutput::~PrintableOutput() {
+  if (filter_ == nullptr) return;
+  stdout = before_;
+  std::fclose(filter_);
+  write_all(STDOUT_FILENO, printable(cut_));
+}
+
+ssize_t PrintableOutput::write(void* self, const char* text, std::size_t size) {
+  std::string& cut = static_cast<PrintableOutput*>(self)->cut_;
+  const std::string whole = cut + std::string(text, size);
+  return write_all(STDOUT_FILENO, printable(whole, &cut)) ? static_cast<ssize_t>(size) : 0;
 }
 
 MutedOutput::MutedOutput() {
@@ -141,13 +191,7 @@ MutedOutput::~MutedOutput() {
 }
 
 bool MutedOutput::write(std::string_view text) const {
-  while (!text.empty()) {
-    const ssize_t done = ::write(kept_, text.data(), text.size());
-    if (done < 0 && errno == EINTR) continue;
-    if (done <= 0) return false;
-    text.remove_prefix(static_cast<std::size_t>(done));
-  }
-  return true;
+  return write_all(kept_, printable(text));
 }
 
 }  // namespace sage::app

@@ -24,8 +24,11 @@ void add_screen_options(CLI::App& parser, ScreenOptions& options);
 const ScreenOptions& screen();
 void set_screen(const ScreenOptions& options);
 
-// A whole text at once to standard error, where no line of progress stands then.
+// A whole text at once to standard error, where no line of progress stands then; without characters that steer a
+// terminal (printable).
 void print_stderr(const std::string& text);
+// What print_stderr() and say() of a process of this program made.
+void pass_on_stderr(const std::string& text);
 
 // A message to standard error, "who: warning: text [S104]" as a person reads it; an error goes without its word.  It
 // stands in the answer of --json too.
@@ -55,6 +58,22 @@ int columns_of(std::FILE* stream);
 // Whether the locale's characters are those of UTF-8.
 bool unicode_locale();
 
+// While one lives, nothing that is written to `stdout` can steer a terminal: decks, file names and the names in them
+// may hold any characters, which are escaped on their way (printable).  Not nested.
+class PrintableOutput {
+ public:
+  PrintableOutput();
+  ~PrintableOutput();
+  PrintableOutput(const PrintableOutput&) = delete;
+  PrintableOutput& operator=(const PrintableOutput&) = delete;
+
+ private:
+  static ssize_t write(void* self, const char* text, std::size_t size);
+
+  std::FILE *before_, *filter_;
+  std::string cut_;  // of a character whose other bytes are still to come
+};
+
 // While one lives, standard output leads nowhere but through write().  Not nested.
 class MutedOutput {
  public:
@@ -62,7 +81,7 @@ class MutedOutput {
   ~MutedOutput();
   MutedOutput(const MutedOutput&) = delete;
   MutedOutput& operator=(const MutedOutput&) = delete;
-  // To where standard output led before.  False: it could not be written.
+  // To where standard output led before, escaped as all output.  False: it could not be written.
   bool write(std::string_view text) const;
 
  private:
