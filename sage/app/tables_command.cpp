@@ -6,6 +6,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "sage/app/answer.hpp"
@@ -73,6 +74,22 @@ double ratio_of(const RunOutcome& outcome, const ChapterEntry& entry) {
   return std::nan("");
 }
 
+// Decimals of the chapter's ratios, which it prints with four in Table 7.3 and three in Table 7.4, and of computed ones.
+struct Decimals {
+  int chapter, computed;
+};
+
+Decimals decimals_of(const std::string& table) {
+  return table == "7.3" ? Decimals{4, 5} : Decimals{3, 3};
+}
+
+// "+0.00031"; a number that rounds to zero has a plus.
+std::string signed_text(double value, int decimals) {
+  std::string text = fmt::format("{:+.{}f}", value, decimals);
+  if (text.find_first_of("123456789") == std::string::npos && text.front() == '-') text.front() = '+';
+  return text;
+}
+
 void print_header(const std::string& table) {
   fmt::print("\nTable {}: measured / correct axial stress\n", table);
   fmt::print("{:<15} {:<22} {:>8} {:>9} {:>10} {:>10} {:>13}\n", "", "", "chapter", "sagefe", "difference",
@@ -80,11 +97,57 @@ void print_header(const std::string& table) {
 }
 
 void print_entry(const ChapterEntry& entry, double ratio) {
-  fmt::print("{:<15} {:<22} {:8.4f} {:9.5f} {:+10.5f}", entry.row, entry.column, entry.chapter, ratio,
-             ratio - entry.chapter);
+  const auto [chapter, computed] = decimals_of(entry.table);
+  fmt::print("{:<15} {:<22} {:8.{}f} {:9.{}f} {:>10}", entry.row, entry.column, entry.chapter, chapter, ratio,
+             computed, signed_text(ratio - entry.chapter, computed));
   if (entry.converged > 0.0)
-    fmt::print(" {:10.5f} {:+12.2f}%", entry.converged, 100.0 * (entry.chapter / entry.converged - 1.0));
+    fmt::print(" {:10.{}f} {:>12}%", entry.converged, computed,
+               signed_text(100.0 * (entry.chapter / entry.converged - 1.0), 2));
   fmt::print("\n");
+}
+
+// Where in an increment a joint's law takes k_s, in words: " with k_s ..."; empty where the law has no such rule.
+std::string shear_rule_text(const Material& material) {
+  constexpr const char* kRules[] = {"at the start", "in the middle", "by its integral"};
+  const auto& names = material.entry->parameters;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i].name != "shear_rule") continue;
+    const std::size_t rule =
+        i < material.parameters.size() ? static_cast<std::size_t>(material.parameters[i]) : 0;
+    return fmt::format(", k_s {} of each increment (shear_rule {})", kRules[std::min<std::size_t>(rule, 2)],
+                       rule);
+  }
+  return {};
+}
+
+// What the decks are made of: "quad4 full", "interface4 row-sum, k_s ...".
+std::string pieces_text(const std::map<std::string, RunOutcome>& runs, bool joints) {
+  std::set<std::string> pieces;
+  for (const auto& [deck, outcome] : runs) {
+    if (outcome.model == nullptr) continue;
+    for (const Group& group : outcome.model->groups)
+      if (joints ? group.interface() : group.solid())
+        pieces.insert(group.element_name +
+                      (joints
+                           ? shear_rule_text(outcome.model->materials[static_cast<std::size_t>(group.material)])
+                           : ""));
+  }
+  std::string text;
+  for (const std::string& piece : pieces) text += (text.empty() ? "" : "; ") + piece;
+  return text;
+}
+
+void print_footer(const std::map<std::string, RunOutcome>& runs, const std::filesystem::path& folder) {
+  fmt::print("\nCompression positive. Solids: {}.\n", pieces_text(runs, false));
+  if (const std::string joints = pieces_text(runs, true); !joints.empty())
+    fmt::print(
+        "Joints: {}.\nThe chapter prefers Gauss points for joints and does not print where it takes k_s.\n",
+        joints);
+  fmt::print(
+      "Full 2x2 integration gives the chapter's pinned columns. It locks near nu = 1/2; the converged\n"
+      "answer needs b-bar or 8-node elements.\n"
+      "Results of all decks: {}\n",
+      folder.string());
 }
 
 Json entry_json(const ChapterEntry& entry, double ratio) {
@@ -125,12 +188,11 @@ int print_tables(const TableOptions& options, const Catalogue& catalogue) {
     if (entry.table != table) print_header(table = entry.table);
     print_entry(entry, ratio_of(runs.at(entry.deck), entry));
   }
-  fmt::print(
-      "\nsagefe: the deck as the chapter ran it (4-node elements, full 2x2 integration). Compression "
-      "positive.\n"
-      "Full integration locks near nu = 1/2; the converged answer needs b-bar or 8-node elements.\n"
-      "Results of all decks: {}\n",
-      options.folder.string());
+  print_footer(runs, options.folder);
+  if (Json* json = answer()) {
+    (*json)["solids"] = pieces_text(runs, false);
+    (*json)["joints"] = pieces_text(runs, true);
+  }
   if (Json* json = answer()) (*json)["folder"] = json_text(options.folder.string());
   return worst;
 }
