@@ -10,6 +10,7 @@
 
 #include "sage/core/checksum.hpp"
 #include "sage/model/fingerprint.hpp"
+#include "sage/record/apart.hpp"
 #include "sage/record/data_file.hpp"
 #include "sage/record/in_order.hpp"
 #include "sage/record/point_fields.hpp"
@@ -585,7 +586,6 @@ void ResultOutput::write_states() {
 
 // One after the other: of those that were written one alone is in memory.
 void ResultOutput::each_state(const Model& model, const std::function<void(Frame&)>& use) {
-  if (!written_.empty()) states_.flush();
   std::ifstream in;
   if (!written_.empty()) in.open(states_.partial(), std::ios::binary);
   Frame frame(model);
@@ -620,39 +620,50 @@ void ResultOutput::exchange(Archive& archive) {
   archive(written_);
 }
 
+// HDF5 follows null pointers where an allocation fails.
 void ResultOutput::on_finish(const Model& model, const RunResult& result) {
   OutFile file(path_);
+  if (!written_.empty()) states_.flush();
   file.written_by([&](const std::filesystem::path& partial) {
-    FieldTable fields = fields_of(model);
-    std::vector<std::string> left_out;
-    if (points_of(model) > fields_.most_points)
-      fields = fields.without([&](const FieldEntry& field) {
-        if (is_left_out(field, fields_.asked)) left_out.push_back(field.name);
-        return is_left_out(field, fields_.asked);
-      });
-    TableFile out(partial, path_, threads_ > 1);
-    out.text("/sage", "title", model.title);
-    out.text("/sage", "deck", model.file);
-    out.text("/sage", "program", "sagefe " SAGE_VERSION);
-    out.text("/sage", "status",
-             failure_.empty() ? completed_words(model, result.motion) : "NOT CONVERGED: " + failure_);
-    out.text("/sage", "signs", sign_convention(model, ""));
-    out.text("/sage", "geometry", model.geometry == Geometry::axisymmetric ? "axisymmetric" : "plane strain");
-    if (!left_out.empty()) out.text("/sage", "left_out", joined(left_out));
-    std::optional<ThreadPool> pool;
-    if (threads_ > 1 && points_of(model) > kWorthThreads) pool.emplace(threads_);
-    VtkPart vtk(out, model, fields, pool ? &*pool : nullptr);
-    OwnPart own(out, model, fields, pool ? &*pool : nullptr);
-    SourcePart source(out, source_, model, failure_);
-    each_state(model, [&](Frame& frame) {
-      vtk.add(frame);
-      source.add(frame, own.add(frame));
-    });
-    vtk.finish();
-    out.close();
+    const auto write = [&] { write_result(model, result, partial); };
+    if (memory_may_fail())
+      run_apart("cannot write " + path_.string(), write);
+    else
+      write();
   });
   file.finish();
   files_.push_back(path_);
+}
+
+void ResultOutput::write_result(const Model& model, const RunResult& result,
+                                const std::filesystem::path& partial) {
+  FieldTable fields = fields_of(model);
+  std::vector<std::string> left_out;
+  if (points_of(model) > fields_.most_points)
+    fields = fields.without([&](const FieldEntry& field) {
+      if (is_left_out(field, fields_.asked)) left_out.push_back(field.name);
+      return is_left_out(field, fields_.asked);
+    });
+  TableFile out(partial, path_, threads_ > 1);
+  out.text("/sage", "title", model.title);
+  out.text("/sage", "deck", model.file);
+  out.text("/sage", "program", "sagefe " SAGE_VERSION);
+  out.text("/sage", "status",
+           failure_.empty() ? completed_words(model, result.motion) : "NOT CONVERGED: " + failure_);
+  out.text("/sage", "signs", sign_convention(model, ""));
+  out.text("/sage", "geometry", model.geometry == Geometry::axisymmetric ? "axisymmetric" : "plane strain");
+  if (!left_out.empty()) out.text("/sage", "left_out", joined(left_out));
+  std::optional<ThreadPool> pool;
+  if (threads_ > 1 && points_of(model) > kWorthThreads) pool.emplace(threads_);
+  VtkPart vtk(out, model, fields, pool ? &*pool : nullptr);
+  OwnPart own(out, model, fields, pool ? &*pool : nullptr);
+  SourcePart source(out, source_, model, failure_);
+  each_state(model, [&](Frame& frame) {
+    vtk.add(frame);
+    source.add(frame, own.add(frame));
+  });
+  vtk.finish();
+  out.close();
 }
 
 }  // namespace sage

@@ -54,6 +54,7 @@ class ResultOutput final : public Output {
 
   void add(const Model&, const StepReport&, const Solution&);
   void write_states();
+  void write_result(const Model& model, const RunResult& result, const std::filesystem::path& partial);
   void each_state(const Model&, const std::function<void(Frame&)>& use);
 
   std::filesystem::path path_;
