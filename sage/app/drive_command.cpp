@@ -11,6 +11,7 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
+#include "sage/app/screen.hpp"
 #include "sage/app/umat_output.hpp"
 #include "sage/drive/curve_files.hpp"
 #include "sage/drive/fit.hpp"
@@ -240,6 +241,13 @@ Json curve_json(const Curve& curve) {
           {"status", std::move(states)}};
 }
 
+// Also with --quiet, or where the table goes to standard output: the exit code alone does not say which curve.
+void say_failures(const std::vector<Curve>& curves) {
+  for (const Curve& curve : curves)
+    if (!curve.failure.empty())
+      say_error("sagefe drive", fmt::format("the curve {} ends early: {}", curve.name, curve.failure), "S607");
+}
+
 void answer_curves(const Heading& heading, const std::vector<Curve>& curves) {
   Json* json = answer();
   if (json == nullptr) return;
@@ -300,6 +308,7 @@ int fit_law(const DriveOptions& options, const Subject& subject, const LabTest* 
   const Heading heading = heading_of(options, {result.fitted});
   fmt::print("{}",
              options.csv == "-" ? csv_text(heading, result.curves, options.digits) : fit_text(problem, result));
+  say_failures(result.curves);
   answer_curves(heading, result.curves);
   answer_fit(problem, result);
   if (csv.open()) finish(csv, csv_text(heading, result.curves, options.digits));
@@ -352,6 +361,7 @@ int drive_laws(const DriveOptions& options, const Catalogue& catalogue) {
   const Heading heading = heading_of(options, subjects);
   fmt::print("{}",
              to_screen ? csv_text(heading, curves, options.digits) : summary_text(curves, panels.front()));
+  say_failures(curves);
   answer_curves(heading, curves);
   if (csv.open()) finish(csv, csv_text(heading, curves, options.digits));
   if (plot.open()) finish(plot, plot_text(heading, curves, panels));

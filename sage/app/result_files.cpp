@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -29,6 +30,8 @@ void make_folder(const std::filesystem::path& folder) {
     error = std::make_error_code(std::errc::not_a_directory);
   if (error) throw OutputError("S601", "the folder " + folder.string() + " can't be made: " + error.message());
 }
+
+constexpr std::string_view kLines = "# lines ";  // how many the list has, so that a cut one is known
 
 std::optional<std::uint64_t> number_from(std::string_view text, int base) {
   std::uint64_t value = 0;
@@ -69,7 +72,7 @@ ResultFiles::ResultFiles(const std::filesystem::path& folder, const std::string&
                       "cannot write " + list_.string() + ": " + std::generic_category().message(EISDIR));
   while (!lock()) ::close(std::exchange(descriptor_, -1));
   try {
-    if (is_ordinary(list_)) parse(read_file(list_.string()), earlier_);
+    if (is_ordinary(list_)) damaged_ = !parse(read_file(list_.string()), earlier_);
     if (found_) parse(*found_, earlier_);
     std::string text = head();
     if (found_)
@@ -178,19 +181,27 @@ std::string ResultFiles::line(const std::string& name, const Earlier& file) {
 }
 
 // A line that was cut, or names a file outside of the folder, counts for nothing.
-void ResultFiles::parse(const std::string& text, EarlierFiles& files) {
+bool ResultFiles::parse(const std::string& text, EarlierFiles& files) {
   std::string deck;
+  std::uint64_t lines = 0;
+  std::optional<std::uint64_t> promised;
+  bool whole = text.ends_with('\n');
   for (std::size_t at = 0, end = 0; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {
     const std::string one = text.substr(at, end - at);
     constexpr std::string_view kOfDeck = "# of deck ";
     if (one.starts_with(kOfDeck)) deck = one.substr(kOfDeck.size());
+    if (one.starts_with(kLines)) promised = number_from(std::string_view(one).substr(kLines.size()), 10);
     if (one.empty() || one[0] == '#') continue;
+    ++lines;
     std::istringstream parts(one);
     std::string kind, sum, bytes, rest;
     parts >> kind >> sum >> bytes;
-    if (parts.get() != ' ' || !std::getline(parts, rest)) continue;
-    const std::optional<std::string> name = name_from_plain(rest);
-    if (!name || name->empty() || name->find('/') != std::string::npos) continue;
+    const bool has_name = parts.get() == ' ' && std::getline(parts, rest);
+    const std::optional<std::string> name = has_name ? name_from_plain(rest) : std::nullopt;
+    if (!name || name->empty() || name->find('/') != std::string::npos) {
+      whole = false;
+      continue;
+    }
     Earlier& file = files[*name];
     file.kind = kind;
     file.deck = deck;
@@ -200,7 +211,35 @@ void ResultFiles::parse(const std::string& text, EarlierFiles& files) {
     }
     file.sum = number_from(sum, 16);
     file.bytes = number_from(bytes, 10);
+    whole = whole && file.sum && file.bytes;
   }
+  return whole && !deck.empty() && promised.value_or(lines) == lines;
+}
+
+// Files named as those of a run are, which neither this run wrote nor a list has: of the stem and not of a longer one
+// that has a list in the folder.
+std::vector<std::filesystem::path> ResultFiles::unlisted() const {
+  std::vector<std::string> names, others;
+  std::error_code error;
+  for (std::filesystem::directory_iterator at(folder_, error), none; !error && at != none;
+       at.increment(error)) {
+    const std::string name = at->path().filename().string();
+    if (!is_ordinary(at->path())) continue;
+    if (name.ends_with(".files") && name.size() > stem_.size() + 6)
+      others.push_back(name.substr(0, name.size() - 6));
+    if (name.starts_with(stem_ + ".") || name.starts_with(stem_ + "_")) names.push_back(name);
+  }
+  const auto expected = [&](const std::string& name) {
+    const std::filesystem::path path = path_of(name);
+    return path == list_ || path == while_running_ || name == stem_ + ".restart" || files_.contains(name) ||
+           earlier_.contains(name) ||
+           std::ranges::any_of(others, [&](const std::string& stem) { return name.starts_with(stem); });
+  };
+  std::erase_if(names, expected);
+  std::ranges::sort(names);
+  std::vector<std::filesystem::path> paths;
+  for (const std::string& name : names) paths.push_back(path_of(name));
+  return paths;
 }
 
 // Nothing for the checkpoint, which comes and goes by itself.
@@ -272,14 +311,16 @@ bool ResultFiles::remove(const std::string& name, const Earlier& earlier) const 
   return true;
 }
 
-std::vector<std::filesystem::path> ResultFiles::close() {
-  std::vector<std::filesystem::path> left;
+ResultFiles::Left ResultFiles::close() {
+  Left left;
+  left.damaged = damaged_;
+  if (damaged_) left.unlisted = unlisted();
   std::map<std::string, std::string> lines;
   for (const auto& [name, earlier] : earlier_) {
     if (keep(name, earlier))
       lines[name] = line(name, {earlier.kind, earlier.deck, false, earlier.bytes, earlier.sum});
     else if (!remove(name, earlier))
-      left.push_back(path_of(name));
+      left.changed.push_back(path_of(name));
   }
   for (const auto& [name, file] : files_)
     if (file.complete && name.find('/') == std::string::npos)
@@ -294,7 +335,7 @@ std::vector<std::filesystem::path> ResultFiles::close() {
   std::string text =
       "# sagefe: the files of " + plain_name(stem_) +
       ", with checksum and size; the next run of this name removes those that it does not write\n" +
-      "# of deck " + deck_sum_ + "\n";
+      "# of deck " + deck_sum_ + "\n" + std::string(kLines) + std::to_string(lines.size()) + "\n";
   for (const auto& [name, one] : lines) text += one;
   rewrite(text);
   if (::rename(while_running_.c_str(), list_.c_str()) != 0) fail(errno);

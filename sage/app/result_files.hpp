@@ -52,8 +52,14 @@ class ResultFiles final : public ResultLog {
 
   // The run has ended and all its files have their names: writes the list, and removes files that earlier lists
   // name, if they still hold what was written then.  What another kind of run made of the same deck stays.
-  // Gives the files that were left because they have been changed.
-  std::vector<std::filesystem::path> close();
+  // Gives the files that were left because they have been changed, or which may be of an earlier run whose list is
+  // damaged.
+  struct Left {
+    std::vector<std::filesystem::path> changed, unlisted;
+    bool damaged = false;  // the list that was found
+  };
+  Left close();
+  bool may_be_mixed() const override { return !locked_; }
   // Whether the file system of the folder has locks at all.
   bool locked() const { return locked_; }
 
@@ -74,7 +80,9 @@ class ResultFiles final : public ResultLog {
   std::string head() const;
   std::optional<std::string> name_of(const std::filesystem::path& file) const;
   bool keep(const std::string& name, const Earlier& earlier) const;
-  static void parse(const std::string& text, EarlierFiles& files);
+  // False where the text is no whole list.
+  static bool parse(const std::string& text, EarlierFiles& files);
+  std::vector<std::filesystem::path> unlisted() const;
   static std::string line(const std::string& name, const Earlier& file);
   bool remove(const std::string& name, const Earlier& earlier) const;
 
@@ -83,7 +91,7 @@ class ResultFiles final : public ResultLog {
   ResultOwner owner_;
   std::string deck_sum_;  // in hexadecimal digits
   int descriptor_ = -1;
-  bool locked_ = true, closed_ = false;
+  bool locked_ = true, closed_ = false, damaged_ = false;
   std::optional<std::string> found_;  // what while_running_ held before
   EarlierFiles earlier_;
   std::map<std::string, ResultFile> files_;

@@ -826,6 +826,27 @@ constexpr MessageEntry kMessages[] = {
     {"S604", "the picture can't be converted",
      "PDF and PNG are made of SVG by the program rsvg-convert, which is not there or refused.",
      "Install librsvg2-bin, or take --format svg."},
+    {"S605", "the library of result files crashed",
+     "HDF5 crashes where an allocation fails, as it does under a limit on memory (ulimit -v, ulimit -d). The "
+     "program lets it write in a process of its own then, and goes on without that file.",
+     "Raise the limit, or run without --result; --vtu needs less memory."},
+    {"S606", "a cell of a table is no number",
+     "A column that is drawn has words, nan or inf in some rows: the file is damaged, or the cells are no "
+     "numbers "
+     "on purpose.",
+     "Look at the line that the message names; write the table anew if it should have a number there."},
+    {"S607", "a curve of sagefe drive ends early",
+     "The law found no state for the next step, or the test can't be followed with these parameters. The table "
+     "and the plot have the steps before it; the exit code is 3.",
+     "The reason in the message says which step. Smaller steps (--steps) or a shorter path (--to) may help."},
+    {"S608", "the list of an earlier run's files is damaged",
+     "STEM.files, by which a run removes what an earlier run of the same name left, was cut or changed. Files "
+     "of "
+     "that run may stay beside the new ones.",
+     "Remove the files that the message names if you do not need them."},
+    {"S609", "a table may be cut short",
+     "The last line of a table that a run wrote has no end: the file was copied or written in part.",
+     "Copy it again, or run the deck again."},
     {"S610", "a field asked for has no place in the outputs",
      "The field lives at nodes or points, and no output of this run shows values there.",
      "Add --nodes, --points or --result, or take the field out of --field."},

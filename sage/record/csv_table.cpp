@@ -34,11 +34,11 @@ std::string trimmed(const std::string& cell) {
   return cell.substr(first, cell.find_last_not_of(" \t") - first + 1);
 }
 
-// "force[lbf]"
+// "force[lbf]", also "force [lbf]" and "force [ lbf ]" of other programs.
 CsvTable::Column column_of(const std::string& cell) {
   const std::size_t bracket = cell.find('[');
   if (bracket == std::string::npos || cell.back() != ']') return {cell, "", {}};
-  return {cell.substr(0, bracket), cell.substr(bracket + 1, cell.size() - bracket - 2), {}};
+  return {trimmed(cell.substr(0, bracket)), trimmed(cell.substr(bracket + 1, cell.size() - bracket - 2)), {}};
 }
 
 double number_of(const std::string& cell) {
@@ -71,6 +71,7 @@ CsvTable read_csv_table(const std::filesystem::path& file) {
   int number = 0;
   for (std::string line; std::getline(stream, line);) {
     ++number;
+    table.ended = !stream.eof();
     if (number == 1 && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);  // the mark that spreadsheets write
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (line.empty()) continue;
@@ -92,7 +93,7 @@ CsvTable read_csv_table(const std::filesystem::path& file) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const double value = number_of(cells[i]);
       table.columns[i].values.push_back(value);
-      if (!cells[i].empty() && std::isnan(value)) table.words.push_back({number, i, cells[i]});
+      if (!cells[i].empty() && !std::isfinite(value)) table.words.push_back({number, i, cells[i]});
     }
   }
   if (table.columns.empty())

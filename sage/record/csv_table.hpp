@@ -12,7 +12,7 @@ struct CsvTable {
     std::string name, unit;      // "measured_deviator", "psi"; empty = none, "-" of a pure number
     std::vector<double> values;  // one a row; NaN where the cell is blank or no number
   };
-  // A cell that is neither blank nor a number.
+  // A cell that is neither blank nor a finite number.
   struct Word {
     int line = 0;  // of the file, from 1
     std::size_t column = 0;
@@ -23,6 +23,7 @@ struct CsvTable {
   std::vector<Column> columns;        // all of one length
   std::vector<int> lines;             // of the rows in the file, from 1
   std::vector<Word> words;
+  bool ended = true;  // by the end of a line: else the file may be cut short
 
   std::string title() const { return comments.empty() ? "" : comments.front(); }
   // nullptr = there is none.

@@ -156,6 +156,16 @@ void OutFile::expect_in_place() {
     fail(partial_, "it was removed or renamed while the run was writing it");
 }
 
+// Where the file system has no locks a second run may write into the same file.
+void OutFile::expect_own_bytes() {
+  if (partial_ == path_) return;
+  struct stat found {};
+  const bool own = fstat(fileno(file_.get()), &found) == 0 &&
+                   static_cast<std::uint64_t>(found.st_size) == sum_.bytes() &&
+                   (result_log() == nullptr || !result_log()->may_be_mixed() || begins_with(partial_, sum_));
+  if (!own) fail(partial_, "another program has written into it meanwhile");
+}
+
 void OutFile::sync() {
   int result = 0;
   do result = fsync(fileno(file_.get()));
@@ -211,6 +221,7 @@ void OutFile::finish() {
   if (!file_) return;
   write();
   expect_in_place();
+  expect_own_bytes();
   if (sync_) sync();
   errno = 0;
   if (std::fclose(file_.release()) != 0) fail(partial_, errno);

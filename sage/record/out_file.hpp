@@ -40,6 +40,9 @@ class ResultLog {
   virtual void opened(const std::filesystem::path& file) = 0;
   // So much is written, for a checkpoint or (`complete`) because the file is about to get its name.
   virtual void reached(const std::filesystem::path& file, const Checksum& sum, bool complete) = 0;
+  // Whether nothing keeps another program from writing into the same files: they are read back before they get their
+  // names.
+  virtual bool may_be_mixed() const { return false; }
 };
 // Gives the one before; nullptr: nobody is interested.
 ResultLog* exchange_result_log(ResultLog* log);
@@ -67,7 +70,7 @@ class OutFile {
   void checkpoint();
   // Writes all that is waiting.
   void flush() { write(); }
-  // Writes the rest, closes, renames.
+  // Writes the rest, closes, renames.  Throws OutputError where another program has written into the file.
   void finish();
   // A library writes the whole file, under the name that it is given; finish() comes next.  What the library
   // throws goes through, and NAME.partial is removed.
@@ -94,6 +97,7 @@ class OutFile {
   void cut_to(std::uint64_t size);
   void take_over(const Checksum& sum);
   void expect_in_place();
+  void expect_own_bytes();
   void sync();
   [[noreturn]] void fail(const std::filesystem::path& path, int error);
   [[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason);

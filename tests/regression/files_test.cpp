@@ -275,6 +275,30 @@ TEST(Files, ASpoiltListRemovesNothing) {
   EXPECT_FALSE(fs::exists(folder / "r/x.nodes.csv"));
 }
 
+// What such a list should have named is named as what it may be.
+TEST(Files, ADamagedListIsAWarningThatNamesWhatStays) {
+  const fs::path folder = empty_folder("cut_list");
+  write(folder / "x.dat", block());
+  write(folder / "x_other.dat", block());
+  ASSERT_EQ(sagefe(folder, "run x_other.dat -o r -q").exit_code, 0);
+  ASSERT_EQ(sagefe(folder, "run x.dat -o r -q --nodes").exit_code, 0);
+  const std::string good = read(folder / "r/x.files");
+  const std::size_t nodes = good.find(" x.nodes.csv");
+  const std::size_t begin = good.rfind('\n', nodes) + 1, end = good.find('\n', nodes) + 1;
+  for (const std::string& bad :
+       {good.substr(0, begin) + good.substr(end), good.substr(0, nodes), std::string()}) {
+    write(folder / "r/x.nodes.csv", "old");
+    write(folder / "r/x.files", bad);
+    const Finished run = sagefe(folder, "run x.dat -o r");
+    EXPECT_EQ(run.exit_code, 0);
+    EXPECT_NE(run.err.find("was damaged: these may be of that run, and stay: r/x.nodes.csv"), std::string::npos)
+        << bad << "\n"
+        << run.err;
+    EXPECT_EQ(count(run.err, "x_other"), 0) << run.err;
+  }
+  EXPECT_EQ(count(sagefe(folder, "run x.dat -o r").err, "damaged"), 0);
+}
+
 // Neither a run that finds no equilibrium nor one that is killed hides from the next one.
 TEST(Files, ResultsOfFailedAndKilledRunsDoNotStay) {
   const fs::path folder = empty_folder("failed");
@@ -359,6 +383,28 @@ TEST(Files, OutOfMemoryIsOneLineAndACode) {
 }
 
 // The deck that runs out of memory is named, those around it are complete: the limit is one on each.
+// HDF5 crashes where an allocation fails, anywhere in its code.
+TEST(Files, OutOfMemoryUnderAResultFileIsNoCrash) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the address sanitizer reserves more than any limit";
+#endif
+  const fs::path folder = empty_folder("memory_result");
+  write(folder / "x.dat", joint_deck().text());
+  if (sagefe(folder, "run x.dat -q --result").err.find("can't be loaded") != std::string::npos)
+    GTEST_SKIP() << "built without HDF5";
+  int failed = 0;
+  for (int limit = 1000; limit <= 16000; limit += 500) {
+    const std::string under =
+        "bash -c 'ulimit -c 0; ulimit -d " + std::to_string(limit) + "; exec \"$0\" \"$@\"'";
+    const Finished run = sagefe(folder, "run x.dat -q --result", under);
+    EXPECT_TRUE(run.exit_code == 0 || run.exit_code == 3 || run.exit_code == 4)
+        << limit << ": " << run.exit_code;
+    if (run.exit_code != 0) EXPECT_NE(run.err, "") << limit;
+    failed += run.exit_code != 0 ? 1 : 0;
+  }
+  EXPECT_GT(failed, 5) << "limits that were not enough";
+}
+
 TEST(Files, ADeckWithoutMemoryHarmsNoOtherOfTheCall) {
 #if defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "the address sanitizer reserves more than any limit";

@@ -168,6 +168,20 @@ TEST(OutFile, NoticesThatItWasRemovedOrRenamed) {
 }
 
 // What a checkpoint goes on from is compared by its bytes, not by its length.
+// As where the file system has no locks: neither gets the name for what both have written.
+TEST(OutFile, NoticesThatAnotherHasWrittenIntoIt) {
+  const std::filesystem::path file = fresh_folder("out_file_mixed") / "results.csv";
+  OutFile one(file), other(file);
+  one.text() = "of one\n";
+  one.flush();
+  other.text() = "of another, which is longer\n";
+  other.flush();
+  one.text() = "the rest\n";
+  EXPECT_THROW(one.finish(), OutputError);
+  EXPECT_THROW(other.finish(), OutputError);
+  EXPECT_FALSE(exists(file));
+}
+
 TEST(OutFile, GoesOnOnlyFromWhatWasWritten) {
   const auto folder = fresh_folder("resumed");
   Archive saved;
