@@ -77,6 +77,7 @@ Json result_json(const figures::Result& result) {
   Json json = check_json(*result.check);
   json["what"] = json_text(figures::what_of(*result.check));
   json["verdict"] = figures::name_of(result.verdict);
+  json["near_limit"] = result.near_limit;
   json["b_bar_only"] = result.b_bar_only;
   json["outcomes"] = std::move(outcomes);
   return json;

@@ -62,7 +62,7 @@ std::vector<Sample> samples(const SpecimenRun& run, const Source& source, Place 
   std::vector<Sample> list;
   const State& state = run.state(source.strain);
   const std::vector<double>& values = state.values(source.quantity);
-  const std::vector<Spot>& spots = source.quantity == Quantity::level ? run.points : run.cells;
+  const std::vector<Spot>& spots = run.cells;
   const double c = run.scene->correct(source.quantity, source.strain), aspect = run.scene->slenderness;
   for (std::size_t i = 0; i < spots.size(); ++i)
     if (!(away && spots[i].corner) && contains(place, spots[i].r, spots[i].z, aspect))
@@ -270,6 +270,8 @@ double of_values(const Check& check, const std::vector<Sample>& x, const Scene& 
       return largest(x, change) / x[0].c;
     case Measure::change_mean:
       return mean(x, [](const Sample& s) { return s.x - s.c; }) / q;
+    case Measure::percent_mean:
+      return mean(x, [](const Sample& s) { return s.x - s.c; }) / x[0].c;
     case Measure::excess_least:
       return least([](const Sample& s) { return s.x - s.c; }) / q;
     case Measure::nearness:
@@ -454,7 +456,7 @@ void alter_state(State& state, const SpecimenRun& run, Alteration how) {
     state.at_elements[k] = altered_values(state.at_elements[k], how, across,
                                           2.0 * run.scene->correct(quantity, state.strain), 0.1 * q);
   }
-  state.level = altered_values(state.level, how, 4 * across, 1.0, 0.1);
+  state.level = altered_values(state.level, how, across, 1.0, 0.1);
   state.joint_level = altered_values(state.joint_level, how, 1, 1.0, 0.1);
 }
 
@@ -475,7 +477,7 @@ double number_of(const Check& check, const SpecimenRun& a, const SpecimenRun* b,
                  const GetRun& get) {
   switch (check.measure) {
     case Measure::elements:
-      return static_cast<double>(a.points.size()) / 4.0;
+      return static_cast<double>(a.cells.size());
     case Measure::diameter:
       return 2.0 * a.largest_radius;
     case Measure::height:
@@ -494,6 +496,38 @@ double number_of(const Check& check, const SpecimenRun& a, const SpecimenRun* b,
 
 bool passes(const Check& check, double number) {
   return number >= check.low && number <= check.high;
+}
+
+namespace {
+
+// What a measure can't pass, whatever the field: shares and correlations.
+double largest_possible(Measure measure) {
+  switch (measure) {
+    case Measure::rows_at_axis:
+    case Measure::share_close:
+    case Measure::share_below:
+    case Measure::share_above:
+    case Measure::above_in:
+    case Measure::correlation:
+    case Measure::yielded:
+    case Measure::unyielded:
+      return 1.0;
+    default:
+      return kAny;
+  }
+}
+
+}  // namespace
+
+bool is_near_limit(const Check& check, double number) {
+  constexpr double kNear = 0.05, kOfRoom = 0.25;
+  const double room = std::min(check.high, largest_possible(check.measure)) - check.low;
+  const auto near = [&](double limit, double inside) {  // inside: how far the number is on the side that passes
+    const double margin = kNear * std::abs(limit);
+    return inside < 0.0 ? -inside <= margin : inside < std::min(margin, kOfRoom * room);
+  };
+  return (std::isfinite(check.low) && near(check.low, number - check.low)) ||
+         (std::isfinite(check.high) && near(check.high, check.high - number));
 }
 
 const char* name_of(Alteration alteration) {

@@ -19,6 +19,10 @@ double number_of(const Check& check, const SpecimenRun& a, const SpecimenRun* b,
 // NaN never passes.
 bool passes(const Check& check, double number);
 
+// Whether the number lies within 5 percent of a limit of the check, on either side of it.  A number that passes may be
+// so near to a limit because there is little room for it (a share between .99 and 1): then within a quarter of that.
+bool is_near_limit(const Check& check, double number);
+
 // Whether r / R and z / H are of a place; `aspect` = H / R.  How far they are from it, in radii.
 bool contains(Place place, double r, double z, double aspect);
 double distance(Place place, double r, double z, double aspect);

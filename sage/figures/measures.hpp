@@ -2,9 +2,9 @@
 // anything was computed with it: a limit that is changed later needs a commit of its own that says why.
 //
 // Where the numbers come from: the mean stress of every element, which is what full integration of nearly
-// incompressible elements gets right (docs/manual/figures.md); stress levels at integration points; interface stresses
-// at its points. `away from the corner` leaves out the 2 x 2 elements at the rim of the end. Each check is made with 4-node elements of full integration, as published, and
-// with B-bar; those of the lubricated platen with three K_j: 120 (Table 7.2), 5, and the one for which the largest
+// incompressible elements gets right (docs/manual/figures.md); stress levels are those of such means; interface stresses
+// at its points. `away from the corner` leaves out the 2 x 2 elements at the rim of the end. Each check is made with
+// 4-node elements of full integration, as published, and with B-bar; those of the lubricated platen with three K_j: 120 (Table 7.2), 5, and the one for which the largest
 // |conf - 50 psi| of full elements away from the corner is 3 percent of 50 psi at 10 percent of strain (Figure 7.18).
 // Verdicts: holds (full and B-bar alike); holds away from the corner (both, there); artefact (only full elements,
 // everywhere or away from the corner); depends on K_j (the verdict is not the same for all three); does not hold.
@@ -80,6 +80,7 @@ enum class Measure {
   change_most,   // largest |x - c| / q
   percent_most,  // largest |x - c| / c
   change_mean,   // mean (x - c) / q
+  percent_mean,  // mean (x - c) / c
   excess_least,  // smallest (x - c) / q
   nearness,      // (largest x - correct conf) / (correct dev - correct conf): above 1/2 is nearer to the latter
   least,         // smallest x / q
@@ -99,14 +100,14 @@ enum class Measure {
   mean_gap,           // mean x at `place` less mean x in the rest of the section
   mean_step,          // |mean x - mean y|
   range,              // largest x less smallest x
-  // of the yielded points (level >= .999)
+  // of the yielded elements (level of the mean stress >= .999)
   yielded,         // share
   yielded_ratio,   // share in the first over share in the second
   yielded_r,       // mean r / R
   yielded_z,       // mean z / H
   yielded_r_step,  // mean r / R in the first less that in the second
   yielded_z_step,  // z / H below which 95 percent of them lie, first less second
-  yielded_edge,    // z / H above which less than half of every row has yielded
+  yielded_edge,    // z / H of the highest row of elements of which at least half has yielded
   unyielded,       // share
   // of the interface
   joint_most,       // largest level at the strain
@@ -122,7 +123,7 @@ enum class Measure {
   ratio_spread_both,  // the same over both scenes
   normalised,         // largest difference of measured deviator stress / E, over its largest value
   first_above,        // percent of strain from which the ratio stays above p
-  yield_strain,       // percent of strain at which half of the points have yielded
+  yield_strain,       // percent of strain at which half of the specimen's points have yielded
   measured,           // measured deviator stress, psi
   nu_rises,  // smallest rise of the excess from one Poisson's ratio to the next, over its largest value
   nu_bow,    // largest distance from a straight line between nu = 0 and the largest, over its excess

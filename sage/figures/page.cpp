@@ -78,6 +78,8 @@ const char* words_of(Measure measure) {
       return "largest \\|x - c\\| / c";
     case Measure::change_mean:
       return "mean (x - c) / q";
+    case Measure::percent_mean:
+      return "mean (x - c) / c";
     case Measure::excess_least:
       return "smallest (x - c) / q";
     case Measure::nearness:
@@ -190,7 +192,7 @@ std::string with_corner(const std::array<double, 2>& number) {
 }
 
 std::string verdict_text(const Result& result) {
-  return fmt::format("**{}**{}", name_of(result.verdict), result.b_bar_only ? " (with B-bar it does)" : "");
+  return fmt::format("**{}**{}", verdict_words(result), result.b_bar_only ? " (with B-bar it does)" : "");
 }
 
 void append_check(std::string& out, const Result& result) {
@@ -323,13 +325,18 @@ const Caption& caption_of(int figure) {
 }
 
 std::string tally(const std::vector<Result>& results, int figure) {
-  std::array<int, 5> count{};
-  for (const Result& result : results)
-    if (figure == 0 || result.check->figure == figure) ++count[static_cast<std::size_t>(result.verdict)];
+  std::array<int, 5> count{}, near{};
+  for (const Result& result : results) {
+    if (figure != 0 && result.check->figure != figure) continue;
+    ++count[static_cast<std::size_t>(result.verdict)];
+    near[static_cast<std::size_t>(result.verdict)] += result.near_limit ? 1 : 0;
+  }
   std::string text;
-  for (std::size_t v = 0; v < count.size(); ++v)
-    if (count[v] > 0)
-      text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", name_of(static_cast<Verdict>(v)), count[v]);
+  for (std::size_t v = 0; v < count.size(); ++v) {
+    if (count[v] == 0) continue;
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", name_of(static_cast<Verdict>(v)), count[v]);
+    if (near[v] > 0) text += fmt::format(" ({} near the limit)", near[v]);
+  }
   return text;
 }
 
@@ -365,7 +372,8 @@ std::string page_text(const Page& page, const std::string& ending) {
       "# The source chapter's figures\n\nComputed by `sagefe figures`. Compression positive; psi, "
       "inches; conf = sigma_3, dev = sigma_1 - sigma_3; R = radius, H = half height, z from the "
       "mid-height; c = the correct value, q = the correct deviator stress (frictionless ends). Stresses "
-      "are the means of elements, stress levels those of integration points. In brackets: away from the "
+      "are the means of elements, stress levels those of such means. `near the limit`: the verdict would be "
+      "another one if numbers within 5 percent of a limit were on its other side. In brackets: away from the "
       "corner (without the 2 x 2 elements at the rim of the end). `seen to fail`: the scenes that were "
       "put in its place and the alterations of its field with which the check fails; `itself`: it holds "
       "nowhere.\n\n";
@@ -392,7 +400,7 @@ std::string csv_text(const std::vector<Result>& results) {
       out += fmt::format("7.{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{}\n", check.figure,
                          quoted(check.quote), quoted(what_of(check)), check.low, check.high, outcome.k_j,
                          outcome.number[0][0], outcome.number[0][1], outcome.number[1][0], outcome.number[1][1],
-                         name_of(result.verdict), quoted(result.shown_to_fail));
+                         verdict_words(result), quoted(result.shown_to_fail));
     }
   return out;
 }

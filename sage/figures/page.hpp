@@ -18,7 +18,7 @@ std::string file_of(int figure, const std::string& ending = "svg");
 std::string parameters_of(const Scene& scene);
 const Caption& caption_of(int figure);
 
-// "7.4: 9 hold, 2 do not hold", worst last
+// "holds: 9 (1 near the limit), does not hold: 2"; figure 0: of all
 std::string tally(const std::vector<Result>& results, int figure);
 
 // What one K_j of the lubricated platen gives beside what the chapter prints.

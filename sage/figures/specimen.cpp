@@ -149,18 +149,31 @@ class Watcher final : public Observer {
       const double six[] = {mean[0], mean[2], mean[1], mean[3], dev, sigma[2]};
       for (std::size_t q = 0; q < 6; ++q) state.at_elements[q][e] = six[q];
     }
-    const FieldEntry& level = *table.find("stress_level");
-    for (std::size_t p = 0; p < points(); ++p) {
-      double value = 0.0;
-      read_field(level, PointState(model.mesh, now.groups()[0], p), &value);
-      state.level.push_back(std::isnan(value) ? 0.0 : std::min(value, 1.0));
-    }
+    state.level = levels_of_means(model, now.groups()[0], *table.find("stress_level"));
     state.frame = std::make_shared<const Frame>(model, report, now);
     run_->states.push_back(std::move(state));
   }
 
+  // As every stress of a figure: that of the element's mean stress, which is no more than 1 where no point is, since
+  // a yield surface is convex.
+  static std::vector<double> levels_of_means(const Model& model, const GroupData& data,
+                                             const FieldEntry& level) {
+    constexpr std::size_t kPoints = 4;
+    std::vector<double> levels;
+    for (std::size_t e = 0; e < static_cast<std::size_t>(data.group->elements()); ++e) {
+      Vector4 mean = Vector4::Zero();
+      for (std::size_t p = 0; p < kPoints; ++p)
+        mean += Vector4::Map(PointState(model.mesh, data, kPoints * e + p).view.sigma.data()) / kPoints;
+      PointState point(model.mesh, data, kPoints * e);
+      point.view.sigma = {mean.data(), 4};
+      double value = 0.0;
+      read_field(level, point, &value);
+      levels.push_back(std::isnan(value) ? 0.0 : std::min(value, 1.0));
+    }
+    return levels;
+  }
+
   std::size_t nodes() const { return static_cast<std::size_t>((deck_->columns + 1) * (deck_->rows + 1)); }
-  std::size_t points() const { return static_cast<std::size_t>(deck_->columns * deck_->rows * 4); }
 
   bool at_corner(int column, int row) const { return column >= deck_->columns - 2 && row >= deck_->rows - 2; }
 
@@ -169,15 +182,6 @@ class Watcher final : public Observer {
     for (int j = 0; j < rows; ++j)
       for (int i = 0; i < columns; ++i)
         run_->cells.push_back({(i + 0.5) / columns, (j + 0.5) / rows, 1.0 / (columns * rows), at_corner(i, j)});
-    const double gauss = 0.5 / std::sqrt(3.0), share = 0.25 / (columns * rows);
-    const Group& group = model.groups[0];
-    const Eigen::MatrixXd natural = point_places(group);
-    for (int e = 0; e < group.elements(); ++e)
-      for (int p = 0; p < 4; ++p) {
-        const int i = e % columns, j = e / columns;
-        run_->points.push_back({(i + 0.5 + gauss * natural(0, p)) / columns,
-                                (j + 0.5 + gauss * natural(1, p)) / rows, share, at_corner(i, j)});
-      }
     for (int n = 0; n < static_cast<int>(nodes()); ++n) {
       run_->largest_radius = std::max(run_->largest_radius, model.mesh.x(0, n));
       run_->largest_height = std::max(run_->largest_height, model.mesh.x(1, n));
@@ -186,21 +190,6 @@ class Watcher final : public Observer {
     for (int n : loaded_)
       run_->flatness = std::max(run_->flatness, std::abs((*now.u)[DofMap::displacement(n, 1)] / moved - 1.0));
     keep_joint_places(model);
-  }
-
-  // Signs of the natural coordinates of a 2 x 2 element's points, from its extrapolation to the corners: a point is
-  // nearest to the corner to which it gives most.
-  static Eigen::MatrixXd point_places(const Group& group) {
-    constexpr double kXi[] = {-1, 1, 1, -1}, kEta[] = {-1, -1, 1, 1};
-    const std::span<const double> map = group.element->point_to_node();
-    Eigen::MatrixXd signs(2, 4);
-    for (std::size_t p = 0; p < 4; ++p) {
-      std::size_t corner = 0;
-      for (std::size_t i = 1; i < 4; ++i)
-        if (map[i * 4 + p] > map[corner * 4 + p]) corner = i;
-      signs.col(static_cast<Eigen::Index>(p)) << kXi[corner], kEta[corner];
-    }
-    return signs;
   }
 
   // Row-sum integration has its points at the pairs of nodes.

@@ -49,7 +49,7 @@ struct Spot {
 struct State {
   double strain = 0.0;                           // percent
   std::vector<std::vector<double>> at_elements;  // by Quantity from sigma_r (first) to conf: of its mean stress
-  std::vector<double> level;                     // of every point of the specimen; no more than 1
+  std::vector<double> level;                     // of every element's mean stress
   std::vector<double> joint_normal, joint_shear, joint_level;  // of every point of the interface
   std::shared_ptr<const Frame> frame;  // for pictures, which take means of elements (NodalRule)
 
@@ -62,10 +62,10 @@ struct SpecimenRun {
   Elements elements = Elements::full;
   double k_j = 0.0;  // of the lubricated platen
   int columns = 0, rows = 0;
-  std::vector<Spot> cells, points;  // elements, integration points
-  std::vector<double> joint_r;      // in
-  std::vector<double> strain;       // percent, of every increment
-  std::vector<double> measured;     // deviator stress, force / area - cell pressure, psi
+  std::vector<Spot> cells;       // elements
+  std::vector<double> joint_r;   // in
+  std::vector<double> strain;    // percent, of every increment
+  std::vector<double> measured;  // deviator stress, force / area - cell pressure, psi
   std::vector<double> joint_most,
       yielded;  // largest stress level of the interface; share of the points that yield
   std::vector<State> states;

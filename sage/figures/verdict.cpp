@@ -123,6 +123,26 @@ Verdict judge(const std::vector<Outcome>& outcomes) {
   return alike ? first : Verdict::depends_on_k_j;
 }
 
+bool near_limit(const Check& check, const std::vector<Outcome>& outcomes) {
+  const Verdict verdict = judge(outcomes);
+  std::vector<Outcome> others = outcomes;
+  std::vector<std::pair<bool*, bool>> near;  // what may be otherwise, and as it is
+  for (Outcome& outcome : others)
+    for (std::size_t e = 0; e < 2; ++e)
+      for (std::size_t away = 0; away < 2; ++away)
+        if (is_near_limit(check, outcome.number[e][away]))
+          near.emplace_back(&outcome.pass[e][away], outcome.pass[e][away]);
+  for (unsigned long choice = 1; choice < 1ul << near.size(); ++choice) {
+    for (std::size_t i = 0; i < near.size(); ++i) *near[i].first = near[i].second != ((choice >> i & 1ul) != 0);
+    if (judge(others) != verdict) return true;
+  }
+  return false;
+}
+
+std::string verdict_words(const Result& result) {
+  return std::string(name_of(result.verdict)) + (result.near_limit ? " (near the limit)" : "");
+}
+
 double fitted_k_j(const scenes::Workbench& bench, double percent) {
   const Check check{.figure = 18,
                     .quote = "",
@@ -155,6 +175,7 @@ std::vector<Result> evaluate(Runs& runs, std::span<const Check> checks,
     else
       result.outcomes.push_back(outcome_of(runs, check, 0.0));
     result.verdict = judge(result.outcomes);
+    result.near_limit = near_limit(check, result.outcomes);
     result.b_bar_only = result.verdict == Verdict::does_not_hold &&
                         std::ranges::all_of(result.outcomes, [](const Outcome& o) { return o.pass[1][1]; });
     result.shown_to_fail = shown_to_fail(runs, result, copies);

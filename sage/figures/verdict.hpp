@@ -28,8 +28,14 @@ struct Result {
   std::vector<Outcome> outcomes;  // one, or one a K_j
   Verdict verdict = Verdict::does_not_hold;
   bool b_bar_only = false;    // does not hold as published, but with B-bar
+  bool near_limit = false;    // another one, if numbers within 5 percent of a limit lay on its other side
   std::string shown_to_fail;  // the alterations that the check sees; "itself" where it does not hold anywhere
 };
+
+// Whether the verdict is decided by numbers that are near a limit of the check (is_near_limit).
+bool near_limit(const Check& check, const std::vector<Outcome>& outcomes);
+// "holds", "holds (near the limit)"
+std::string verdict_words(const Result& result);
 
 // The lubricated platen's K_j by name.
 struct StiffnessChoice {

@@ -25,11 +25,7 @@ SpecimenRun sloped() {
     for (int i = 0; i < 4; ++i) {
       run.cells.push_back({(i + 0.5) / 4, (j + 0.5) / 4, 1.0 / 16, i >= 2 && j >= 2});
       state.at_elements[at(Quantity::conf)][static_cast<std::size_t>(4 * j + i)] = 30.0 * (j + 0.5) / 4;
-      for (int p = 0; p < 4; ++p) {
-        const double r = (i + (p % 2 == 0 ? 0.25 : 0.75)) / 4, z = (j + (p < 2 ? 0.25 : 0.75)) / 4;
-        run.points.push_back({r, z, 1.0 / 64, false});
-        state.level.push_back(z < 0.6 && r < 0.5 ? 1.0 : 0.5);
-      }
+      state.level.push_back(j < 2 && i < 2 ? 1.0 : 0.5);
     }
   run.states.push_back(state);
   for (int i = 1; i <= 10; ++i) {
@@ -85,13 +81,13 @@ TEST(Measures, OfPlaces) {
   EXPECT_FALSE(contains(Place::below_ends, 1.0, 0.71, 2.0));
 }
 
-TEST(Measures, OfYieldedPoints) {  // level 1 at z < .6 H and r < .5 R: z up to .5625 H, half of each row
+TEST(Measures, OfYieldedElements) {  // level 1 in the lower half, from the axis on half of each row
   const Quantity level = Quantity::level;
-  EXPECT_NEAR(number(Measure::yielded, level), 5.0 / 8 / 2, 1e-12);
-  EXPECT_NEAR(number(Measure::unyielded, level), 1.0 - 5.0 / 16, 1e-12);
+  EXPECT_NEAR(number(Measure::yielded, level), 0.25, 1e-12);
+  EXPECT_NEAR(number(Measure::unyielded, level), 0.75, 1e-12);
   EXPECT_NEAR(number(Measure::yielded_r, level), 0.25, 1e-12);
-  EXPECT_NEAR(number(Measure::yielded_z, level), 0.3125, 1e-12);
-  EXPECT_NEAR(number(Measure::yielded_edge, level), 0.5625, 1e-6);
+  EXPECT_NEAR(number(Measure::yielded_z, level), 0.25, 1e-12);
+  EXPECT_NEAR(number(Measure::yielded_edge, level), 0.375, 1e-6);
   EXPECT_NEAR(number(Measure::yielded_ratio, level), 1.0, 1e-12);
 }
 
@@ -139,6 +135,34 @@ TEST(Verdicts, FollowFromTheNumbers) {
   EXPECT_EQ(judge(std::vector{yes, yes, yes}), Verdict::holds);
   EXPECT_EQ(judge(std::vector{no, yes, yes}), Verdict::depends_on_k_j);
   EXPECT_EQ(judge(std::vector{no, no, no}), Verdict::does_not_hold);
+}
+
+// Within 5 percent of a limit on either side; a share that can't pass 1 has less room above .99 than that.
+TEST(Verdicts, SayWhatIsNearALimit) {
+  const Check third{.measure = Measure::excess_ratio, .a = {}, .high = 1.0 / 3.0},
+      half{.measure = Measure::change_ratio, .a = {}, .low = 0.4, .high = 0.6},
+      all{.measure = Measure::yielded, .a = {}, .low = 0.99},
+      count{.measure = Measure::elements, .a = {}, .low = 392, .high = 392},
+      none{.measure = Measure::yielded, .a = {}, .high = 0.0};
+  EXPECT_TRUE(is_near_limit(third, 0.3407));  // Figure 7.13
+  EXPECT_TRUE(is_near_limit(third, 0.32));
+  EXPECT_FALSE(is_near_limit(third, 0.36));
+  EXPECT_FALSE(is_near_limit(third, 0.3));
+  EXPECT_TRUE(is_near_limit(half, 0.59));
+  EXPECT_TRUE(is_near_limit(half, 0.385));
+  EXPECT_FALSE(is_near_limit(half, 0.5));
+  EXPECT_FALSE(is_near_limit(all, 1.0));
+  EXPECT_TRUE(is_near_limit(all, 0.985));
+  EXPECT_FALSE(is_near_limit(all, 0.9));
+  EXPECT_FALSE(is_near_limit(count, 392.0));
+  EXPECT_FALSE(is_near_limit(none, 0.0));
+  EXPECT_FALSE(is_near_limit(third, std::nan("")));
+  // What decides: of full elements and B-bar alike, one number near the limit is enough.
+  Outcome one = outcome(true, true, true, true);
+  one.number = {{{0.2, 0.2}, {0.33, 0.33}}};
+  EXPECT_TRUE(near_limit(third, {one}));
+  one.number = {{{0.2, 0.2}, {0.2, 0.33}}};  // everywhere it holds clearly
+  EXPECT_FALSE(near_limit(third, {one}));
 }
 
 TEST(Checks, NameWordsScenesAndLimits) {
@@ -194,6 +218,15 @@ void expect_known_verdicts(const Findings& found) {
   EXPECT_EQ(verdict(18, "3 percent"), Verdict::depends_on_k_j);
   EXPECT_EQ(verdict(23, "12 percent"), Verdict::does_not_hold);
   EXPECT_EQ(verdict(32, "none of the interface elements"), Verdict::holds);
+  EXPECT_EQ(verdict(24, "decreases near the specimen ends"), Verdict::holds);
+  EXPECT_EQ(verdict(24, "increases significantly near the ends"), Verdict::holds);
+}
+
+// Decided in the third digit.
+void expect_verdicts_near_their_limits(const Findings& found) {
+  EXPECT_TRUE(found.find(13, "much less significant").near_limit);
+  EXPECT_TRUE(found.find(37, "at yielding (dev)").near_limit);
+  EXPECT_FALSE(found.find(3, "25 percent greater than the correct stress (nu = .495").near_limit);
 }
 
 // The K_j of 3 percent meets 7.18 with full elements by construction; 120 and 5 do not.
@@ -214,6 +247,7 @@ TEST(Chapter, VerdictsOfAllChecks) {
   for (const Result& result : found.results) seen.insert(result.verdict);
   EXPECT_EQ(seen.size(), 5u);
   expect_known_verdicts(found);
+  expect_verdicts_near_their_limits(found);
   expect_fitted_stiffness(found);
 }
 
