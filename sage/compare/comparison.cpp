@@ -9,11 +9,14 @@
 #include <set>
 #include <stdexcept>
 
+#include "sage/record/extremes.hpp"
 #include "sage/record/values.hpp"
 
 namespace sage::compare {
 
 namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 std::vector<double> numbers(const std::string& text, std::size_t count) {
   std::vector<double> values;
@@ -131,6 +134,10 @@ void add_points(Comparison& c, const Side& a, const Side& b) {
     return v;
   };
   Table{c, "points", "-"}.add(fractions(a), fractions(b));
+}
+
+bool one_geometry(const Side& a, const Side& b) {
+  return !a.has_model() || !b.has_model() || a.model().geometry == b.model().geometry;
 }
 
 std::string axis(const Side& a, const Side& b, int component) {
@@ -251,6 +258,22 @@ void add_triaxial(Comparison& c, const Side& a, const Side& b, std::size_t i) {
   }
 }
 
+// What the force of a report along x (component 0) or y acts on, by the places of its nodes: what they span across that
+// direction, or else along it; of a unit of thickness or the full circle.  NaN where they span nothing.  (An area on
+// the card holds for one geometry.)
+double loaded_area(const Model& model, const Report& report, int component) {
+  Vector2 low = Vector2::Constant(kInfinite), high = -low;
+  for (int node : report.nodes) {
+    low = low.cwiseMin(model.mesh.x.col(node));
+    high = high.cwiseMax(model.mesh.x.col(node));
+  }
+  const int other = 1 - component, along = high[other] > low[other] ? other : component;
+  if (!(high[along] > low[along])) return kUnknown;
+  if (model.geometry != Geometry::axisymmetric) return high[along] - low[along];
+  if (along == 0) return kPi * (high.x() * high.x() - low.x() * low.x());
+  return kPi * (high.x() + low.x()) * (high.y() - low.y());
+}
+
 void add_node_report(Comparison& c, const Side& a, const Side& b, std::size_t i) {
   const auto rows = [&](const Side& side) {
     return side.has_model() && i < side.reports().count() ? by_step(side.reports().nodes(i))
@@ -261,10 +284,10 @@ void add_node_report(Comparison& c, const Side& a, const Side& b, std::size_t i)
   for (const auto* map : {&ra, &rb})
     for (const auto& [step, row] : *map) steps.insert(step);
   const auto ends = shown_steps(ra, rb);
-  const auto area = [&](const Side& side) {
-    return side.has_model() && i < side.model().reports.size()
-               ? report_area(side.model(), side.model().reports[i])
-               : kUnknown;
+  const auto area = [&](const Side& side, int k) {
+    if (!side.has_model() || i >= side.model().reports.size()) return kUnknown;
+    const Report& report = side.model().reports[i];
+    return one_geometry(a, b) ? report_area(side.model(), report) : loaded_area(side.model(), report, k);
   };
   const UnitSystem& u = units_of(a, b);
   for (const auto& step : steps) {
@@ -278,7 +301,7 @@ void add_node_report(Comparison& c, const Side& a, const Side& b, std::size_t i)
       };
       const auto moved = [](const NodesRow& row) { return row.displacement; };
       const auto force = [](const NodesRow& row) { return row.force; };
-      const double fa = value(ra, force), fb = value(rb, force), area_a = area(a), area_b = area(b);
+      const double fa = value(ra, force), fb = value(rb, force), area_a = area(a, k), area_b = area(b, k);
       list.push_back({section, "mean displacement along " + axis(a, b, k), u.length, value(ra, moved),
                       value(rb, moved), kUnknown});
       list.push_back({section, "force along " + axis(a, b, k), u.force, fa, fb, kUnknown});
@@ -355,6 +378,44 @@ FieldTable table_of(const Side& a, const Side& b) {
   return table;
 }
 
+// The least and the largest of each force and moment, for each unit of width or circumference in both geometries, by
+// the structures' names.
+void add_structures(Comparison& c, const Side& a, const Side& b) {
+  struct Extreme {
+    std::string section, name, unit;
+    double value;
+  };
+  const auto extremes_of = [](const Side& side) {
+    std::vector<Extreme> list;
+    if (!side.has_state()) return list;
+    const Model& model = side.model();
+    const FieldList fields = structure_forces(model);
+    for (const ExtremeRow& row : extremes(model, 0, side.last())) {
+      if (row.low == 0.0 && row.high == 0.0) continue;  // what the geometry does not have
+      const FieldEntry& field = *fields[static_cast<std::size_t>(row.field)];
+      const std::string section = "structure " +
+                                  structure_name(model.groups[static_cast<std::size_t>(row.group)]) +
+                                  ", end of the run",
+                        unit = unit_text(field.dimension, model.units);
+      list.push_back({section, field.name + ", least", unit, row.low});
+      list.push_back({section, field.name + ", largest", unit, row.high});
+    }
+    return list;
+  };
+  const std::vector<Extreme> of_a = extremes_of(a), of_b = extremes_of(b);
+  const auto find = [](const std::vector<Extreme>& list, const Extreme& one) {
+    const auto at = std::ranges::find_if(
+        list, [&](const Extreme& e) { return e.section == one.section && e.name == one.name; });
+    return at == list.end() ? nullptr : &*at;
+  };
+  for (const Extreme& one : of_a) {
+    const Extreme* other = find(of_b, one);
+    c.rows.push_back({one.section, one.name, one.unit, one.value, other != nullptr ? other->value : kUnknown});
+  }
+  for (const Extreme& one : of_b)
+    if (find(of_a, one) == nullptr) c.rows.push_back({one.section, one.name, one.unit, kUnknown, one.value});
+}
+
 // By the means of its places, which are in the CSV one by one.
 void add_line(Comparison& c, const Side& a, const Side& b, const Line& line, const FieldList& fields) {
   const std::vector<Component> components = components_of(fields, units_of(a, b));
@@ -418,6 +479,17 @@ void set_floors(std::vector<Row>& rows, const Side& a, const Side& b) {
     row.floor_a = floor(a, row.unit);
     row.floor_b = floor(b, row.unit);
   }
+}
+
+// Whether a number is for a unit of thickness in plane strain and for the full circle in axisymmetry.
+bool of_the_whole(const std::string& unit, const UnitSystem& units) {
+  return unit == units.force || unit == unit_text(Dimension::discharge, units);
+}
+
+void set_comparable(std::vector<Row>& rows, const Side& a, const Side& b) {
+  if (one_geometry(a, b)) return;
+  for (Row& row : rows)
+    row.comparable = row.section.starts_with("structure ") || !of_the_whole(row.unit, units_of(a, b));
 }
 
 void set_scales(std::vector<Row>& rows) {
@@ -535,6 +607,31 @@ void use_certain(const std::vector<CertainValue>& certain, const std::string& na
     }
 }
 
+// A force of a unit of thickness and one of a full circle: each over the area of its report; without areas they have
+// no ratio.
+void make_comparable(Answer& answer, const Side& a, const Side& b, std::size_t report, int component) {
+  const double area_a = loaded_area(a.model(), a.model().reports[report], component),
+               area_b = loaded_area(b.model(), b.model().reports[report], component);
+  const UnitSystem& u = units_of(a, b);
+  if (answer.unit != u.force || std::isnan(area_a + area_b)) {
+    answer.comparable = false;
+    answer.why = "A for a unit of thickness, B for the full circle: no ratio";
+    if (a.model().geometry == Geometry::axisymmetric)
+      answer.why = "A for the full circle, B for a unit of thickness: no ratio";
+    answer.expected = kUnknown;
+    return;
+  }
+  answer.name += " / area";
+  answer.unit = u.stress;
+  answer.a /= area_a;
+  answer.error_a /= area_a;
+  answer.b /= area_b;
+  answer.error_b /= area_b;
+  answer.expected *= area_a / area_b;
+  constexpr std::string_view kAreas = " x areas";  // of the forces' ratio
+  if (answer.why.ends_with(kAreas)) answer.why.resize(answer.why.size() - kAreas.size());
+}
+
 // Nothing that is zero in both.
 void add_answers(Comparison& c, const Side& a, const Side& b, const std::vector<CertainValue>& certain_a,
                  const std::vector<CertainValue>& certain_b) {
@@ -571,6 +668,8 @@ void add_answers(Comparison& c, const Side& a, const Side& b, const std::vector<
       answer.why = expected.why;
       if (std::abs(answer.a) <= zero_a) answer.a = 0.0;
       if (std::abs(answer.b) <= zero_b) answer.b = 0.0;
+      if (!one_geometry(a, b) && of_the_whole(answer.unit, u))
+        make_comparable(answer, a, b, i, columns[k].name == "fx" ? 0 : 1);
       c.answers.push_back(answer);
     }
   }
@@ -581,7 +680,7 @@ void add_answers(Comparison& c, const Side& a, const Side& b, const std::vector<
 double Row::relative() const {
   constexpr double kRounding = 1e-10;
   if (difference() == 0.0) return 0.0;
-  return !zero_a() && std::abs(a) > kRounding * scale ? difference() / std::abs(a) : kUnknown;
+  return comparable && !zero_a() && std::abs(a) > kRounding * scale ? difference() / std::abs(a) : kUnknown;
 }
 
 Line line_from_text(const std::string& text) {
@@ -610,6 +709,7 @@ Comparison compare(const Side& a, const Side& b, const std::vector<Line>& lines,
   add_points(c, a, b);
   add_totals(c, a, b);
   add_faces(c, a, b);
+  add_structures(c, a, b);
   add_reports(c, a, b);
   const FieldTable table = table_of(a, b);
   const FieldList on_lines =
@@ -619,6 +719,7 @@ Comparison compare(const Side& a, const Side& b, const std::vector<Line>& lines,
   for (std::vector<Row>* rows : {&c.rows, &c.details}) {
     set_floors(*rows, a, b);
     set_scales(*rows);
+    set_comparable(*rows, a, b);
   }
   c.theory = expectations(a, b);
   add_notes(c, a, b);

@@ -30,16 +30,21 @@ struct Row {
   // What the runs' own tolerance leaves open in `a` and `b`: a number below it is zero, and so is a difference
   // below both together.
   double floor_a = 0.0, floor_b = 0.0;
+  // False for forces of a unit of thickness beside those of a full circle: they have no difference.
+  bool comparable = true;
 
   bool zero_a() const { return std::abs(a) <= floor_a; }
   bool zero_b() const { return std::abs(b) <= floor_b; }
-  double difference() const { return std::abs(b - a) <= floor_a + floor_b ? 0.0 : b - a; }
+  double difference() const {
+    if (!comparable) return std::numeric_limits<double>::quiet_NaN();
+    return std::abs(b - a) <= floor_a + floor_b ? 0.0 : b - a;
+  }
   double relative() const;  // difference / |a|; NaN where `a` is zero and `b` is not
 };
 
 // What a report ends with in both runs, and what theory expects of the ratio.
 struct Answer {
-  std::string name, unit;  // "report1.fy"
+  std::string name, unit;  // "report1.fy", "report1.fy / area" where only that can be compared
   double a = 0.0, b = 0.0;
   double error_a = std::numeric_limits<double>::quiet_NaN();  // of the mesh; NaN = not estimated
   double error_b = std::numeric_limits<double>::quiet_NaN();
@@ -48,7 +53,10 @@ struct Answer {
   bool reached_a = true, reached_b = true;  // as certain as was asked for
 
   // False where `a` is zero, as far as its error lets see.
-  bool ratio_known() const { return a != 0.0 && !(std::isfinite(error_a) && error_a >= std::abs(a)); }
+  bool comparable = true;  // as Row::comparable
+  bool ratio_known() const {
+    return comparable && a != 0.0 && !(std::isfinite(error_a) && error_a >= std::abs(a));
+  }
   double ratio() const { return b / a; }
   double ratio_error() const;  // NaN where one of the two is not estimated
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "sage/draw/diagram.hpp"
 #include "sage/draw/svg.hpp"
 
 namespace sage::compare {
@@ -29,12 +30,28 @@ bool shows(const Side& side, std::string_view field) {
   return side.has_state() && fields_of(side.model()).choose(field).has_value();
 }
 
+// The smaller factor of the displacements and the smaller scale of lengths of the two, for both.
+void set_common_scales(PictureOptions& options, const Side& a, const Side& b, std::string_view field) {
+  const auto lower = [](double& common, double one) {
+    if (one > 0.0) common = common > 0.0 ? std::min(common, one) : one;
+  };
+  double deformation = 0.0, paper = 0.0;
+  for (const Side* side : {&a, &b})
+    if (shows(*side, field))
+      lower(deformation, scales_of(side->model(), side->last(), field, options).deformation);
+  options.scale = deformation;
+  for (const Side* side : {&a, &b})
+    if (shows(*side, field)) lower(paper, scales_of(side->model(), side->last(), field, options).paper);
+  options.paper = paper;
+}
+
 }  // namespace
 
 std::string pair_svg(const Side& a, const Side& b, std::string_view field) {
   constexpr int kTop = 44, kBottom = 30;
   PictureOptions options;
   options.width = 560;
+  set_common_scales(options, a, b, field);
   FieldRange range;
   for (const Side* side : {&a, &b}) {
     if (!shows(*side, field)) continue;
@@ -68,7 +85,10 @@ std::string pair_svg(const Side& a, const Side& b, std::string_view field) {
   svg::text_within(out, 8.0, 38.0, b.label(), svg::kFont, size.width - 16.0, "start");
   if (!missing.empty()) svg::text(out, 8.0, kTop + 16.0, missing, 16, "start", "font-weight=\"bold\"");
   out += fmt::format("<g transform=\"translate(0 {})\">\n{}</g>\n", top, drawing);
-  svg::text(out, 8.0, height - 10.0, "one scale of colours for both", 13, "start");
+  svg::text(out, 8.0, height - 10.0,
+            diagram_of(field) >= 0 ? "one scale for both: of the diagrams, of lengths and of the deformation"
+                                   : "one scale for both: of colours, of lengths and of the deformation",
+            13, "start");
   return out + std::string(svg::kClose);
 }
 

@@ -1,6 +1,9 @@
 // The command line: help, exit codes, several decks in one call, and what is left behind when a run fails.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdio>
+#include <regex>
 #include <sstream>
 
 #include "tests/regression/program.hpp"
@@ -274,6 +277,48 @@ TEST(CommandLine, CompareReportsTheSideThatRuns) {
     expect_words(half.out, {"completed", "NO RESULTS", "mean normal stress"});
   }
   EXPECT_EQ(sagefe(folder, "compare bad.dat --both").exit_code, 2);
+}
+
+// The numbers of a row of STEM.compare.csv, A and B.
+std::pair<double, double> compared(const std::string& csv, const std::string& row) {
+  const std::size_t at = csv.find(row + ",");
+  if (at == std::string::npos) return {NAN, NAN};
+  double a = NAN, b = NAN;
+  std::sscanf(csv.c_str() + at + row.size(), ",%lf,%lf", &a, &b);
+  return {a, b};
+}
+
+// Forces for a unit of thickness and for the full circle: what the reports end with stands over the area, which gives
+// the mean stress of the side; N, Q and M of structures are for a unit of width in both.
+TEST(CommandLine, CompareOfBothGeometriesComparesForcesPerArea) {
+  const fs::path folder = empty_folder("compare_both");
+  write(folder / "deck.dat", block_deck().with("report", card({"2", "", "7", "9", "1", "1"})).text());
+  const Finished both = sagefe(folder, "compare deck.dat --both");
+  ASSERT_EQ(both.exit_code, 0) << both.err;
+  const std::string csv = read(folder / "out/deck.compare.csv");
+  const auto per_area = compared(csv, "reported at the end,report1.fy / area,psi");
+  const auto stress = compared(csv, "\"sides, end of stage 1\",top: mean normal stress,psi");
+  EXPECT_NEAR(-per_area.first, stress.first, 1e-6) << both.out;
+  EXPECT_NEAR(-per_area.second, stress.second, 1e-6) << both.out;
+  const auto shear = compared(csv, "reported at the end,report1.fx / area,psi");
+  const auto mean_shear = compared(csv, "\"sides, end of stage 1\",top: mean shear stress,psi");
+  EXPECT_NEAR(shear.first, mean_shear.first, 1e-6) << both.out;
+  EXPECT_NEAR(shear.second, mean_shear.second, 1e-6) << both.out;
+  EXPECT_EQ(count(csv, "report1.fy,lbf"), 0);
+  expect_words(csv, {"\"forces, end of stage 1\",reactions along y (z),lbf,"});
+  EXPECT_TRUE(std::regex_search(csv, std::regex("reactions along y \\(z\\),lbf,[-0-9.e]+,[-0-9.e]+,,,")))
+      << csv;
+
+  const Finished raft = sagefe(folder, "compare --both " SAGE_SOURCE_DIR
+                                       "/legacy_inputs/structures/raft/deck.dat --picture bending_moment");
+  ASSERT_EQ(raft.exit_code, 0) << raft.err;
+  const auto moment = compared(read(folder / "out/raft.compare.csv"),
+                               "\"structure 5 raft, end of the run\",\"bending_moment, least\",kN m");
+  EXPECT_NEAR(moment.first, -6.27, 0.01) << "docs/manual/structures.md";
+  EXPECT_LT(moment.second, 0.0);
+  const std::string svg = read(folder / "out/raft.compare_bending_moment.svg");
+  EXPECT_EQ(count(svg, "deformation x 20"), 2) << "20 and 50 by themselves";
+  EXPECT_EQ(count(svg, "one scale for both: of the diagrams"), 1);
 }
 
 // What B has instead of A is read as A's own options are.
@@ -723,6 +768,96 @@ TEST(FailedRuns, FrictionlessBlockIsSingularAndNamed) {
         << "not a node of the loose element: " << printed;
     expect_words(read(folder / "out" / "deck.lst"), {"NOT CONVERGED", "singular"});
   }
+}
+
+// What a terminal obeys: controls but for ends of lines and tabs, C1 as bytes or as UTF-8, marks of direction, and
+// bytes that are no UTF-8.
+std::string first_that_steers(const std::string& text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    const std::string_view rest = std::string_view(text).substr(i);
+    const bool control = (c < 0x20 && c != '\n' && c != '\t') || c == 0x7f;
+    const bool c1 = rest.starts_with("\xc2") && rest.size() > 1 && static_cast<unsigned char>(rest[1]) < 0xa0;
+    const bool bidi =
+        rest.starts_with("\xe2\x80\xae") || rest.starts_with("\xe2\x81\xa6") || rest.starts_with("\xd8\x9c");
+    if (control || c1 || bidi || c == 0x9b) return "at " + std::to_string(i) + ": " + text.substr(i, 4);
+  }
+  return "";
+}
+
+// Decks, names of groups, points and files with ESC, CSI (as UTF-8 and as a byte), and marks that turn the direction of
+// writing.
+TEST(CommandLine, NothingSteersTheTerminal) {
+  const fs::path folder = empty_folder("steering");
+  const std::string evil =
+      "\x1b[31m \xc2\x9b"
+      "5m \xe2\x80\xae \xe2\x81\xa6 \x07\x7f\r \xd8\x9c";
+  std::string deck = block_deck().text();
+  deck.replace(0, deck.find('\n'), "title " + evil + " \x9b");
+  const std::string name =
+      "a\x1b[2J\xe2\x80\xae"
+      "b.dat";
+  write(folder / name, deck);
+  write(folder / "bad.dat", deck + evil + "\n");
+  write(folder / "l.toml", read(std::string(SAGE_SOURCE_DIR) + "/legacy_inputs/layouts/sage1.toml"));
+  write(folder / "t.csv", "# " + evil + "\nx" + evil + ",y\n0,1\n1,2\n");
+  const std::string file = "\"" + name + "\"";
+  const std::string commands[] = {"echo " + file,
+                                  "check " + file,
+                                  "run " + file,
+                                  "run " + file + " --json",
+                                  "run " + file + " --point \"0.5,0.5:" + evil + "\"",
+                                  "layout check l.toml " + file,
+                                  "layout guess " + file,
+                                  "echo bad.dat",
+                                  "check bad.dat",
+                                  "convert " + file + " --to out.msh",
+                                  "compare " + file + " --formulation-b 2",
+                                  "plot t.csv --xy " + std::string("\"y:") + evil + "\"",
+                                  "plot " + file + " --xy x:y",
+                                  "run \"no" + evil + "\"",
+                                  "\"" + evil + "\"",
+                                  "run " + file + " --\"" + evil + "\""};
+  for (const std::string& command : commands) {
+    const Finished done = sagefe(folder, command);
+    EXPECT_EQ(first_that_steers(done.out), "") << command;
+    EXPECT_EQ(first_that_steers(done.err), "") << command;
+    EXPECT_NE(done.exit_code, 139) << command;
+  }
+  // Other letters stay as they are.
+  deck.replace(0, deck.find('\n'), "B\xc3\xb6schung \xe6\x96\x9c\xe9\x9d\xa2");
+  write(folder / "good.dat", deck);
+  EXPECT_NE(sagefe(folder, "run good.dat").out.find("B\xc3\xb6schung \xe6\x96\x9c\xe9\x9d\xa2"),
+            std::string::npos);
+}
+
+// Digits as the chapter prints them: four in Table 7.3, three in Table 7.4; the joints' rule by name; no -0.
+TEST(CommandLine, TablesNameTheJointsRuleAndShowPublishedDigits) {
+  const fs::path folder = empty_folder("tables");
+  const Finished tables = sagefe(folder, "tables");
+  ASSERT_EQ(tables.exit_code, 0) << tables.err;
+  const std::size_t second = tables.out.find("Table 7.4"), foot = tables.out.find("Compression positive");
+  ASSERT_NE(second, std::string::npos);
+  ASSERT_NE(foot, std::string::npos);
+  const std::string of_7_4 = tables.out.substr(second, foot - second);
+  EXPECT_FALSE(std::regex_search(of_7_4, std::regex("[0-9]\\.[0-9]{4}"))) << of_7_4;
+  EXPECT_NE(of_7_4.find(" 1.167 "), std::string::npos) << of_7_4;
+  EXPECT_FALSE(std::regex_search(tables.out, std::regex("-0\\.0+[ %\n]"))) << tables.out;
+  EXPECT_NE(tables.out.find("Joints: interface4 row-sum, k_s in the middle of each increment (shear_rule 1)"),
+            std::string::npos)
+      << tables.out;
+  EXPECT_EQ(tables.out.find("as the chapter ran it"), std::string::npos);
+}
+
+// The exit code alone does not say which curve ended where.
+TEST(CommandLine, DriveSaysWhichCurveEndsEarlyAlsoWhenQuiet) {
+  const fs::path folder = empty_folder("drive_quiet");
+  const std::string law = "drive -q --law mohr_coulomb --set E=1e4 --set nu=.3 --set c=1 --set phi=30 ";
+  const Finished stops = sagefe(folder, law + "--test isotropic --pressure 10 --to -100 --steps 10");
+  EXPECT_EQ(stops.exit_code, 3) << stops.err;
+  EXPECT_EQ(stops.out, "");
+  EXPECT_NE(stops.err.find("mohr_coulomb ends early: "), std::string::npos) << stops.err;
+  EXPECT_NE(stops.err.find("[S607]"), std::string::npos) << stops.err;
 }
 
 }  // namespace
