@@ -7,6 +7,8 @@
 
 #include "sage/app/input.hpp"
 #include "sage/app/plot_command.hpp"
+#include "sage/app/screen.hpp"
+#include "sage/core/unit_suffix.hpp"
 #include "sage/draw/plot.hpp"
 #include "sage/record/csv_table.hpp"
 #include "sage/record/out_file.hpp"
@@ -59,6 +61,30 @@ const CsvTable::Column& column_of(const Source& source, const Variable& variable
   return *column;
 }
 
+// Says which cells of the columns that are drawn are no numbers: the curve has gaps there.  A table that a run wrote
+// ends with the end of a line.
+void note_damage(const Source& source, const std::vector<Variable>& variables) {
+  const std::string file = source.file.string();
+  if (!source.table.ended && !source.table.comments.empty())
+    say_warning(file, "the last line has no end: the file may be cut short", "S609");
+  std::vector<std::size_t> seen;
+  for (const Variable& variable : variables) {
+    const CsvTable::Column& column = column_of(source, variable);
+    const auto at = static_cast<std::size_t>(&column - source.table.columns.data());
+    if (std::ranges::find(seen, at) != seen.end()) continue;
+    seen.push_back(at);
+    const auto of_column = [&](const CsvTable::Word& word) { return word.column == at; };
+    const auto first = std::ranges::find_if(source.table.words, of_column);
+    if (first == source.table.words.end()) continue;
+    const auto count = std::ranges::count_if(source.table.words, of_column);
+    say_warning(
+        fmt::format("{}:{}", file, first->line),
+        fmt::format("\"{}\" of column {} is no finite number{}: the curve has a gap", first->text, column.name,
+                    count > 1 ? fmt::format(", and {} more cells are none", count - 1) : std::string()),
+        "S606");
+  }
+}
+
 std::vector<double> values_of(const Source& source, const Variable& variable) {
   std::vector<double> values = column_of(source, variable).values;
   if (variable.negative)
@@ -94,7 +120,7 @@ std::string label_of(const Source& source, const std::vector<Variable>& variable
   for (const Variable& variable : variables) label += (label.empty() ? "" : ", ") + words_of(variable);
   label = quantity_of(variables) + label;
   const std::string& unit = column_of(source, variables.front()).unit;
-  if (!unit.empty()) label += " [" + unit + "]";
+  label += unit == "-" ? " [-]" : unit_suffix(unit);
   if (std::ranges::all_of(variables, [&](const Variable& v) { return compression_positive(source, v); }))
     label += ", compression positive";
   return label;
@@ -183,10 +209,16 @@ std::vector<std::string> usual_panels(const Source& source) {
                                        source.table.names()));
 }
 
-// "dp_285" of dp_285.report1.csv.
+// "dp_285" of dp_285.report1.csv, "phi_28.5" of phi_28.5.report1.csv and of phi_28.5.csv: what a run adds to its deck's
+// name is one of a few words.
 std::string stem_of_table(const fs::path& file) {
-  const std::string name = file.filename().string();
-  return name.substr(0, name.find('.'));
+  const fs::path name = file.filename().stem();
+  std::string word = name.extension().string();
+  while (!word.empty() && std::isdigit(static_cast<unsigned char>(word.back())) != 0) word.pop_back();
+  constexpr std::string_view kAdded[] = {".report",     ".increments",  ".nodes",   ".points",
+                                         ".interfaces", ".structures",  ".flow",    ".ends",
+                                         ".envelope",   ".convergence", ".compare", ".safety"};
+  return (std::ranges::find(kAdded, word) != std::end(kAdded) ? name.stem() : name).string();
 }
 
 // The first report of a result file's run lies beside it.
@@ -269,10 +301,14 @@ void plot_columns(const PlotOptions& options) {
   sheet.note = note_of(sources);
   const bool labelled = sources.size() > 1 || !options.labels.empty();
   std::string name = stem_of_table(sources.front().file);
+  std::vector<Variable> drawn;
   for (const std::string& text : asked) {
     const Panel panel = panel_from(text);
     sheet.panels.push_back(plot_of(sources, panel, labelled));
+    drawn.push_back(panel.x);
+    drawn.insert(drawn.end(), panel.y.begin(), panel.y.end());
   }
+  for (const Source& source : sources) note_damage(source, drawn);
   const Panel first = panel_from(asked.front());
   name += options.xy.empty() ? "_curves" : "_" + name_part(first.y.front().name + "_" + first.x.name);
   write_plot(options, plot_path(options, name), sheet_svg(sheet));

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
 
 #include "sage/app/answer.hpp"
 #include "sage/app/input.hpp"
@@ -9,11 +11,14 @@
 #include "sage/app/plot_command.hpp"
 #include "sage/app/plot_states.hpp"
 #include "sage/app/screen.hpp"
+#include "sage/draw/diagram.hpp"
 #include "sage/record/field_reader.hpp"
 
 namespace sage::app {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 void draw(Pictures& pictures, const StoredRun& run, std::size_t state) {
   const Frame frame = run.stored.frame(run.model, state);
@@ -34,7 +39,6 @@ void say_failure(const StoredRun& run) {
 // Names of the files' pictures before the state: that of the file, and of its folder where others in the same
 // folder of pictures bear the same.  Throws UsageError where that is not enough.
 std::vector<std::string> stems_of(const PlotOptions& options) {
-  namespace fs = std::filesystem;
   const auto same_folder = [&](const std::string& a, const std::string& b) {
     return !options.folder.empty() || fs::weakly_canonical(fs::path(a).parent_path() / ".") ==
                                           fs::weakly_canonical(fs::path(b).parent_path() / ".");
@@ -58,6 +62,24 @@ std::vector<std::string> stems_of(const PlotOptions& options) {
   return stems;
 }
 
+// States that complete a stage.
+std::vector<std::size_t> stage_ends(const StoredRun& run) {
+  std::vector<std::size_t> ends;
+  for (std::size_t state = 0; state < run.stored.states().size(); ++state)
+    if (run.ends_its_stage(state) && !run.failed(state)) ends.push_back(state);
+  return ends;
+}
+
+// Throws UsageError.
+void expect_envelope(const StoredRun& run, const std::string& name) {
+  const std::vector<std::size_t> ends = stage_ends(run);
+  const int reached = ends.empty() ? 0 : run.stored.states()[ends.back()].stage + 1;
+  if (static_cast<std::size_t>(reached) < run.model.stages.size())
+    throw UsageError("S643", fmt::format("{}: {} is of all {} stages, and the run completed {}", run.file, name,
+                                         run.model.stages.size(), reached));
+  expect_diagram(run, ends, name);
+}
+
 // The fields that are drawn, each once.
 std::vector<std::string> fields_to_draw(const PlotOptions& options, const StoredRun& run,
                                         const std::vector<std::size_t>& states) {
@@ -66,27 +88,66 @@ std::vector<std::string> fields_to_draw(const PlotOptions& options, const Stored
   std::vector<std::string> names;
   for (const std::string& name : options.pictures) {
     if (std::ranges::find(names, name) != names.end()) continue;
-    expect_numbers(run, states, picture_field(table, name), name, ElementKind::solid);
+    if (is_envelope(name))
+      expect_envelope(run, name);
+    else if (diagram_of(name) >= 0)
+      expect_diagram(run, states, name);
+    else
+      expect_numbers(run, states, picture_field(table, name), name, ElementKind::solid);
     names.push_back(name);
   }
   return names;
 }
 
+// An envelope is of all stages: an option that chooses states means nothing where nothing else is drawn.
+void expect_states_mean_something(const PlotOptions& options) {
+  if (!options.at.empty() && std::ranges::all_of(options.pictures, is_envelope))
+    throw UsageError("S905", "--at and --increment do not go with envelopes alone, which are of all stages");
+}
+
+std::vector<EnvelopeEnd> envelope_of(const StoredRun& run, const std::vector<std::size_t>& states) {
+  Envelope envelope;
+  for (std::size_t state : states) {
+    const Frame frame = run.stored.frame(run.model, state);
+    envelope.add(run.model, frame.report().stage, frame.view());
+  }
+  return envelope.rows();
+}
+
+// Those of the envelopes at the end of the last stage, each drawn once.
+std::vector<fs::path> draw_envelopes(const PlotOptions& options, const StoredRun& run, const std::string& stem,
+                                     const PictureOptions& look, const std::vector<std::string>& fields) {
+  if (fields.empty()) return {};
+  Pictures pictures(plot_folder(options, run.file), stem, fields, look);
+  const std::vector<std::size_t> ends = stage_ends(run);
+  for (std::size_t state : ends) {
+    const Frame frame = run.stored.frame(run.model, state);
+    pictures.on_stage_end(run.model, frame.report().stage, {}, frame.view());
+  }
+  return pictures.files();
+}
+
 }  // namespace
 
 void plot_pictures(const PlotOptions& options, const Catalogue& catalogue) {
+  expect_states_mean_something(options);
   const std::vector<std::string> stems = stems_of(options);
   for (std::size_t i = 0; i < options.files.size(); ++i) {
     const std::string& file = options.files[i];
     const StoredRun run(file, catalogue);
     const std::vector<std::size_t> states = states_of(run, options.at);
-    const std::vector<std::string> fields = fields_to_draw(options, run, states);
+    std::vector<std::string> fields = fields_to_draw(options, run, states);
     PictureOptions look = options.look;
     look.title = options.title;
     if (i < options.labels.size()) look.title += (look.title.empty() ? "" : ": ") + options.labels[i];
+    const auto envelopes = std::ranges::stable_partition(fields, std::not_fn(is_envelope));
+    const std::vector<std::string> of_stages(envelopes.begin(), envelopes.end());
+    fields.erase(envelopes.begin(), envelopes.end());
     Pictures pictures(plot_folder(options, file), stems[i], fields, look);
     for (std::size_t state : states) draw(pictures, run, state);
-    for (const std::filesystem::path& picture : pictures.files()) {
+    std::vector<fs::path> files = pictures.files();
+    std::ranges::copy(draw_envelopes(options, run, stems[i], look, of_stages), std::back_inserter(files));
+    for (const fs::path& picture : files) {
       answer_file(picture);
       fmt::print("{}\n", picture.string());
       for (const auto& other : convert_picture(picture, options.formats)) {
@@ -101,8 +162,10 @@ void plot_pictures(const PlotOptions& options, const Catalogue& catalogue) {
 void plot_sheet(const PlotOptions& options, const Catalogue& catalogue) {
   StoredRuns runs;
   for (const std::string& file : options.files) runs.push_back(std::make_unique<StoredRun>(file, catalogue));
+  expect_states_mean_something(options);
   const std::vector<std::string> labels = labels_of(runs, options.labels);
   std::vector<std::unique_ptr<Frame>> frames;
+  std::vector<std::unique_ptr<std::vector<EnvelopeEnd>>> envelopes;
   FieldSheet sheet;
   sheet.look = options.look;
   sheet.one_scale = !options.own_scales;
@@ -122,9 +185,23 @@ void plot_sheet(const PlotOptions& options, const Catalogue& catalogue) {
       const Frame& frame = *frames.emplace_back(std::make_unique<Frame>(run.stored.frame(run.model, state)));
       const std::string words = words_of_state(run, state, frame);
       for (const std::string& field : fields) {
+        if (is_envelope(field)) continue;
         FieldPanel& panel = sheet.panels.emplace_back(FieldPanel{&run.model, frame.view(), field});
         panel.title = label_panels ? labels[i] : words;
         panel.state = label_panels ? words : "";
+      }
+    }
+    if (std::ranges::any_of(fields, is_envelope)) {
+      const std::vector<std::size_t> ends = stage_ends(run);
+      envelopes.push_back(std::make_unique<std::vector<EnvelopeEnd>>(envelope_of(run, ends)));
+      const Frame& last =
+          *frames.emplace_back(std::make_unique<Frame>(run.stored.frame(run.model, ends.back())));
+      for (const std::string& field : fields) {
+        if (!is_envelope(field)) continue;
+        FieldPanel& panel = sheet.panels.emplace_back(FieldPanel{&run.model, last.view(), field});
+        panel.envelope = envelopes.back().get();
+        panel.title = label_panels ? labels[i] : "all stages";
+        panel.state = label_panels ? "all stages" : "";
       }
     }
     say_failure(run);

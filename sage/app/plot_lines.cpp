@@ -5,13 +5,14 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "sage/app/input.hpp"
 #include "sage/app/plot_command.hpp"
 #include "sage/app/plot_states.hpp"
+#include "sage/core/unit_suffix.hpp"
 #include "sage/draw/picture_field.hpp"
 #include "sage/draw/plot.hpp"
-#include "sage/record/sampler.hpp"
 #include "sage/record/values.hpp"
 
 namespace sage::app {
@@ -50,9 +51,9 @@ struct Abscissa {
 Abscissa abscissa_of(const Model& model, const Vector2& along) {
   const AxisNames names = axis_names(model.geometry);
   const std::string& unit = model.units.length;
-  if (along.y() == 0.0) return {0, fmt::format("{} [{}]", names.x, unit)};
-  if (along.x() == 0.0) return {1, fmt::format("{} [{}]", names.y, unit)};
-  return {-1, fmt::format("distance along the line [{}]", unit)};
+  if (along.y() == 0.0) return {0, std::string(names.x) + unit_suffix(unit)};
+  if (along.x() == 0.0) return {1, std::string(names.y) + unit_suffix(unit)};
+  return {-1, "distance along the line" + unit_suffix(unit)};
 }
 
 FieldChoice choice_of(const FieldTable& table, const std::string& name) {
@@ -62,27 +63,19 @@ FieldChoice choice_of(const FieldTable& table, const std::string& name) {
   return *choice;
 }
 
-// What the solids, or where they have no number the elements of flow, have along a line; a gap where there are none.
-PlotSeries along_line(const Model& model, const Solution& solution, const FieldChoice& field,
-                      const Line& line) {
+// What a picture shows along a line; a gap where there is nothing that fills an area.
+PlotSeries along_line(const Model& model, const Solution& solution, const FieldChoice& field, const Line& line,
+                      NodalRule rule) {
   constexpr int kSamples = 200;
   PlotSeries series;
-  const Sampler solids(model, solution, {field.entry}), flow(model, solution, {field.entry}, ElementKind::flow);
-  const auto number_at = [&](const Vector2& at) {
-    for (const Sampler* sampler : {&solids, &flow}) {
-      const Sample sample = sampler->at(at);
-      if (sample.element == 0) continue;
-      if (const double value = chosen(field, sample.values.data()); std::isfinite(value)) return value;
-    }
-    return kGap;
-  };
+  const PictureValues values(model, solution, field, rule);
   const Vector2 along = line.to - line.from;
   const int axis = abscissa_of(model, along).axis;
   for (int i = 0; i <= kSamples; ++i) {
     const double part = static_cast<double>(i) / kSamples;
     const Vector2 at = line.from + part * along;
     series.x.push_back(axis < 0 ? part * along.norm() : at[axis]);
-    series.y.push_back(number_at(at));
+    series.y.push_back(values.at(at));
   }
   return series;
 }
@@ -99,28 +92,52 @@ Vector2 extent_of_interfaces(const Model& model) {
   return high - low;
 }
 
-// At the integration points of the interfaces, group after group with a gap between, along x or y.
+// For each element of a group of interfaces the first one of its line: elements follow each other where they have an
+// entry of the layout in common.
+std::vector<int> lines_of_interfaces(const Group& group, const std::vector<int>& entries) {
+  std::vector<int> line(static_cast<std::size_t>(group.elements()));
+  std::map<int, int> at_entry;  // the last element that has it
+  for (int e = 0; e < group.elements(); ++e) {
+    line[static_cast<std::size_t>(e)] = e;
+    for (std::size_t i = 0; i < group.node_count(); ++i) {
+      const auto [at, added] =
+          at_entry.try_emplace(entries[static_cast<std::size_t>(e) * group.node_count() + i], e);
+      if (added) continue;
+      const int a = line[static_cast<std::size_t>(at->second)], b = line[static_cast<std::size_t>(e)];
+      if (a != b) std::ranges::replace(line, std::max(a, b), std::min(a, b));
+    }
+  }
+  return line;
+}
+
+// At the integration points of the interfaces along x or y, with a gap between groups, and between the two sides of a
+// wall in one group.
 PlotSeries along_interfaces(const Model& model, const Solution& solution, const FieldChoice& field, int axis) {
   PlotSeries series;
   const std::span<const GroupData> groups = solution.groups();
+  const NodalLayout layout = nodal_layout(model, *solution.activity);
   Eigen::Matrix2Xd nodes;
   std::vector<double> values(field.entry->size());
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const Group& group = model.groups[g];
     if (group.entry->kind != ElementKind::interface || solution.activity->group[g] == 0) continue;
-    std::vector<std::pair<double, double>> row;
+    std::map<int, std::vector<std::pair<double, double>>> rows;
+    const std::vector<int> line = lines_of_interfaces(group, layout.of_group[g]);
     const int points = group.element->traits().points;
     for (int e = 0; e < group.elements(); ++e) {
       element_coordinates(model.mesh, group, e, nodes);
       for (int p = 0; p < points; ++p) {
         read_field(*field.entry, PointState(model.mesh, groups[g], static_cast<std::size_t>(e * points + p)),
                    values.data());
-        row.emplace_back(group.element->position(nodes, p)[axis], chosen(field, values.data()));
+        rows[line[static_cast<std::size_t>(e)]].emplace_back(group.element->position(nodes, p)[axis],
+                                                             chosen(field, values.data()));
       }
     }
-    std::ranges::sort(row, {}, &std::pair<double, double>::first);
-    if (!series.x.empty()) row.insert(row.begin(), {row.front().first, kGap});
-    for (const auto& [x, y] : row) series.x.push_back(x), series.y.push_back(y);
+    for (auto& [first, row] : rows) {
+      std::ranges::sort(row, {}, &std::pair<double, double>::first);
+      if (!series.x.empty()) row.insert(row.begin(), {row.front().first, kGap});
+      for (const auto& [x, y] : row) series.x.push_back(x), series.y.push_back(y);
+    }
   }
   return series;
 }
@@ -196,10 +213,10 @@ void plot_over_places(const PlotOptions& options, const Catalogue& catalogue,
   const FieldTable first_table = fields_of(first);
   PlotSheet sheet;
   sheet.title = options.title.empty() && runs.size() == 1 ? first.title : options.title;
-  sheet.note = interfaces
-                   ? "at the integration points of the interfaces"
-                   : "along the undeformed mesh; stresses as those of point reports (docs/theory/accuracy.md)";
+  sheet.note = interfaces ? "at the integration points of the interfaces" : "along the undeformed mesh";
   for (const std::string& name : fields) {
+    const std::string rule = rule_text(*choice_of(first_table, name).entry, options.look.rule);
+    if (!interfaces && !rule.empty() && sheet.note.find(rule) == std::string::npos) sheet.note += "; " + rule;
     Plot& plot = sheet.panels.emplace_back();
     plot.x_label = abscissa_of(first, along).label;
     plot.y_label = (interfaces ? "interface " : "") + describe(choice_of(first_table, name), first);
@@ -209,7 +226,7 @@ void plot_over_places(const PlotOptions& options, const Catalogue& catalogue,
       const FieldChoice field = choice_of(table, name);
       PlotSeries series = interfaces
                               ? along_interfaces(model, state.frame.view(), field, along.x() != 0.0 ? 0 : 1)
-                              : along_line(model, state.frame.view(), field, line);
+                              : along_line(model, state.frame.view(), field, line, options.look.rule);
       series.name = state.label;
       series.markers = true;
       plot.series.push_back(std::move(series));

@@ -10,6 +10,7 @@
 #include "sage/app/input.hpp"
 #include "sage/app/run_source.hpp"
 #include "sage/app/state_choice.hpp"
+#include "sage/draw/diagram.hpp"
 
 namespace sage::app {
 
@@ -116,16 +117,15 @@ bool fills_area(ElementKind kind) {
   return kind == ElementKind::solid || kind == ElementKind::flow;
 }
 
-// Whether an active element that fills an area, or an interface, has one at any of its points.
-bool has_number(const Model& model, const Frame& frame, const FieldChoice& field, bool of_areas) {
+// Whether an active element of one of these kinds has one at any of its points.
+template <class OfKind>
+bool has_number(const Model& model, const Frame& frame, const FieldChoice& field, const OfKind& of_kind) {
   const Solution now = frame.view();
   std::vector<double> value(field.entry->size());
   for (std::size_t g = 0; g < now.groups().size(); ++g) {
     const GroupData& data = now.groups()[g];
     const ElementKind kind = data.group->entry->kind;
-    if (!(of_areas ? fills_area(kind) : kind == ElementKind::interface) || now.activity->group[g] == 0 ||
-        !applies(*field.entry, data))
-      continue;
+    if (!of_kind(kind) || now.activity->group[g] == 0 || !applies(*field.entry, data)) continue;
     const std::size_t points =
         static_cast<std::size_t>(data.group->elements() * data.group->element->traits().points);
     for (std::size_t p = 0; p < points; ++p) {
@@ -169,12 +169,14 @@ void expect_numbers(const StoredRun& run, const std::vector<std::size_t>& states
                     const std::string& name, ElementKind kind) {
   const bool areas = fills_area(kind);
   if (areas && field.entry->place() == FieldPlace::node) return expect_stream_function(run, states, field);
-  const auto in_any = [&](bool of_areas) {
+  const auto in_any = [&](const auto& of_kind) {
     return std::ranges::any_of(states, [&](std::size_t state) {
-      return has_number(run.model, run.stored.frame(run.model, state), field, of_areas);
+      return has_number(run.model, run.stored.frame(run.model, state), field, of_kind);
     });
   };
-  if (field.entry->place() == FieldPlace::point && in_any(areas)) return;
+  const auto is_interface = [](ElementKind one) { return one == ElementKind::interface; };
+  const auto is_structure = [](ElementKind one) { return one == ElementKind::structure; };
+  if (field.entry->place() == FieldPlace::point && (areas ? in_any(fills_area) : in_any(is_interface))) return;
   const bool flows = std::ranges::any_of(
       run.model.groups, [](const Group& group) { return group.entry->kind == ElementKind::flow; });
   std::string text = fmt::format("{}: no {} has a number of {} in these states", run.file,
@@ -184,10 +186,27 @@ void expect_numbers(const StoredRun& run, const std::vector<std::size_t>& states
                                  name);
   if (field.entry->place() == FieldPlace::node)
     text += ": it is of nodes; --picture and --line show it";
-  else if (in_any(!areas))
+  else if (areas ? in_any(is_interface) : in_any(fills_area))
     text += areas ? ": it is of interfaces; --interface shows it"
                   : ": it is of solids; --picture and --line show it";
+  else if (in_any(is_structure))
+    text += end_quantity(field.entry->name) >= 0
+                ? ": it is of structures; --picture without --line and --interface draws it along them"
+                : ": it is of structures; sagefe run --points writes it";
   throw UsageError("S644", text);
+}
+
+void expect_diagram(const StoredRun& run, const std::vector<std::size_t>& states, const std::string& name) {
+  const auto quantity = static_cast<std::size_t>(diagram_of(name));
+  const auto has_end = [&](std::size_t state) {
+    const Frame frame = run.stored.frame(run.model, state);
+    for (std::size_t g = 0; g < run.model.groups.size(); ++g)
+      for (const ElementEnd& end : element_ends(run.model, frame.view(), g))
+        if (!std::isnan(end.value[quantity])) return true;
+    return false;
+  };
+  if (std::ranges::none_of(states, has_end))
+    throw UsageError("S644", fmt::format("{}: no structure has {} in these states", run.file, name));
 }
 
 std::vector<std::string> labels_of(const StoredRuns& runs, const std::vector<std::string>& asked) {

@@ -46,6 +46,9 @@ std::vector<std::string> labels_of(const StoredRuns& runs, const std::vector<std
 void expect_numbers(const StoredRun& run, const std::vector<std::size_t>& states, const FieldChoice& field,
                     const std::string& name, ElementKind kind);
 
+// Throws UsageError where no structure has an end with the force of a diagram (diagram_of) in any of these states.
+void expect_diagram(const StoredRun& run, const std::vector<std::size_t>& states, const std::string& name);
+
 // "end of stage 2, axial strain 0.05"
 std::string words_of_state(const StoredRun& run, std::size_t state, const Frame& frame);
 

@@ -4,6 +4,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "sage/core/unit_suffix.hpp"
+
 namespace sage {
 
 FieldPlace FieldEntry::place() const {
@@ -28,7 +30,7 @@ const std::string& FieldEntry::label(std::size_t component, Geometry geometry) c
 
 std::string field_unit(const FieldEntry& entry, const UnitSystem& units) {
   std::string text;
-  if (entry.dimension != Dimension::none) text += " [" + unit_text(entry.dimension, units) + "]";
+  if (entry.dimension != Dimension::none) text += unit_suffix(unit_text(entry.dimension, units));
   if (entry.sign == FieldSign::compression_positive) text += ", compression positive";
   return text;
 }

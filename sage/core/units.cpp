@@ -1,5 +1,7 @@
 #include "sage/core/units.hpp"
 
+#include "sage/core/unit_suffix.hpp"
+
 namespace sage {
 
 std::string unit_text(Dimension dimension, const UnitSystem& units) {
@@ -28,6 +30,12 @@ std::string unit_text(Dimension dimension, const UnitSystem& units) {
       return units.force + " " + units.length + "^2";
   }
   return "-";
+}
+
+std::string unit_suffix(const std::string& unit) {
+  const bool unknown = unit.find_first_not_of(' ') == std::string::npos || unit.starts_with('-') ||
+                       unit.find("/-") != std::string::npos || unit.find(" -") != std::string::npos;
+  return unknown ? "" : " [" + unit + "]";
 }
 
 }  // namespace sage

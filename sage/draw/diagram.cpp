@@ -115,11 +115,12 @@ Diagram make_diagram(const Scenery& scenery, std::string_view picture, const std
       diagram.least = std::min(diagram.least, element.low[i]);
       diagram.largest = std::max(diagram.largest, element.high[i]);
     }
+  diagram.most = std::max(std::abs(diagram.least), std::abs(diagram.largest));
   return diagram;
 }
 
 std::string draw_diagram(std::string& out, const Scenery& scenery, const Diagram& diagram) {
-  const double most = std::max(std::abs(diagram.least), std::abs(diagram.largest));
+  const double most = diagram.most;
   if (diagram.elements.empty()) return "no structure of this state has that force";
   if (!(most > 0.0)) return "diagram: nothing but zeros";
   const View& view = scenery.view;

@@ -23,6 +23,8 @@ struct Diagram {
   bool envelope = false;  // of stages; else low and high are the same
   std::vector<DiagramElement> elements;
   double least = 0.0, largest = 0.0;
+  double most =
+      0.0;  // the size that kDiagramShare of the frame stands for: of the largest in it, or in several
 };
 
 // ends: of an envelope, by group and element.

@@ -4,12 +4,14 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <iterator>
 #include <set>
 #include <vector>
 
+#include "sage/core/unit_suffix.hpp"
 #include "sage/draw/svg.hpp"
 
 namespace sage {
@@ -87,6 +89,32 @@ void append_cross(std::string (&paths)[2], const Cross& cross, double scale) {
   }
 }
 
+struct PointCount {
+  long yielded = 0, all = 0;
+};
+
+// "full points: 3 of 8 integration points at strength", soil, joints and structures apart where there are several.
+std::string count_text(const std::array<PointCount, kElementKinds.size()>& counts) {
+  constexpr std::pair<ElementKind, const char*> kNames[] = {{ElementKind::solid, "soil"},
+                                                            {ElementKind::interface, "interfaces"},
+                                                            {ElementKind::structure, "structures"}};
+  const bool several = std::ranges::count_if(counts, [](const PointCount& c) { return c.all > 0; }) > 1;
+  std::string text;
+  for (const auto& [kind, name] : kNames) {
+    const PointCount& count = counts[static_cast<std::size_t>(kind)];
+    if (count.all == 0) continue;
+    text += text.empty() ? fmt::format("full points: {} of {} integration points", count.yielded, count.all)
+                         : fmt::format(", {} of {}", count.yielded, count.all);
+    if (several) text += std::string(" of ") + name;
+  }
+  return text.empty() ? "full points: none" : text + " at strength";
+}
+
+// " m"; empty where the unit is not known.
+std::string behind_number(const std::string& unit) {
+  return unit_suffix(unit).empty() ? "" : " " + unit;
+}
+
 }  // namespace
 
 std::string draw_arrows(std::string& out, const Scenery& scenery) {
@@ -108,7 +136,8 @@ std::string draw_arrows(std::string& out, const Scenery& scenery) {
   }
   fmt::format_to(std::back_inserter(out),
                  "<path fill=\"none\" stroke=\"#000000\" stroke-width=\"1.2\" d=\"{}\"/>\n", path);
-  return fmt::format("arrows: displacement, the longest {:.4g} {}", largest, scenery.model.units.length);
+  return fmt::format("arrows: displacement, the longest {:.4g}{}", largest,
+                     behind_number(scenery.model.units.length));
 }
 
 std::string draw_crosses(std::string& out, const Scenery& scenery) {
@@ -130,25 +159,27 @@ std::string draw_crosses(std::string& out, const Scenery& scenery) {
   for (int k = 0; k < 2; ++k)
     fmt::format_to(std::back_inserter(out), "<path fill=\"none\" {} stroke-width=\"1.4\" d=\"{}\"/>\n",
                    looks[k], paths[k]);
-  return fmt::format("crosses: principal stresses in the plane, the longest {:.4g} {}; tension dashed", largest,
-                     scenery.model.units.stress);
+  return fmt::format("crosses: principal stresses in the plane, the longest {:.4g}{}; tension dashed", largest,
+                     behind_number(scenery.model.units.stress));
 }
 
 std::string draw_yielded(std::string& out, const Scenery& scenery) {
   std::string full, dots;
-  long yielded = 0, all = 0;
+  std::array<PointCount, kElementKinds.size()> counts{};
   for_each_point(scenery, [&](const Vector2& at, const PointState& point) {
+    if (point.kind == ElementKind::flow) return;  // water has no strength
     const PointStatus status = point.view.status;
     const bool yields = status != PointStatus::elastic && status != PointStatus::unloading;
-    ++all;
-    yielded += yields ? 1 : 0;
+    PointCount& count = counts[static_cast<std::size_t>(point.kind)];
+    ++count.all;
+    count.yielded += yields ? 1 : 0;
     const double radius = yields ? 2.2 : 0.7;
     fmt::format_to(std::back_inserter(yields ? full : dots), "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"/>\n",
                    at.x(), at.y(), radius);
   });
   out += "<g fill=\"#555555\">\n" + dots +
          "</g>\n<g fill=\"#d55e00\" stroke=\"#ffffff\" stroke-width=\"0.6\">\n" + full + "</g>\n";
-  return fmt::format("full points: {} of {} integration points at strength", yielded, all);
+  return count_text(counts);
 }
 
 }  // namespace sage

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "sage/analysis/stream_function.hpp"
+#include "sage/core/unit_suffix.hpp"
 #include "sage/draw/colour_map.hpp"
 #include "sage/draw/contour.hpp"
 #include "sage/draw/diagram.hpp"
@@ -174,9 +175,9 @@ void draw_axes(std::string& out, const Scenery& scenery) {
     svg::line(out, left - 5.0, y, left, y, "#666666", 1.0);
     svg::text(out, left - 8.0, y + 4.0, y_labels[i], svg::kFont - 1, "end");
   }
-  svg::text(out, 0.5 * (kPictureLeft + right), bottom + 38.0, fmt::format("{} [{}]", names.x, unit), svg::kFont,
-            "middle");
-  svg::text(out, 8.0, kPictureTop - 12.0, fmt::format("{} [{}]", names.y, unit), svg::kFont, "start");
+  svg::text(out, 0.5 * (kPictureLeft + right), bottom + 38.0, std::string(names.x) + unit_suffix(unit),
+            svg::kFont, "middle");
+  svg::text(out, 8.0, kPictureTop - 12.0, std::string(names.y) + unit_suffix(unit), svg::kFont, "start");
 }
 
 // Beyond the ends of the scale lies something: a tip in the last colour.
@@ -392,14 +393,6 @@ double width_of(const Heading& heading) {
   return width;
 }
 
-// How values came from the integration points to where they are drawn; empty for what nodes have themselves.
-std::string rule_text(const FieldEntry& entry, NodalRule rule) {
-  if (entry.place() != FieldPlace::point) return "";
-  if (entry.of_mean) return "values: a colour an element, of its mean stress or strain";
-  return rule == NodalRule::element_means ? "values: means of elements, averaged at nodes"
-                                          : "values: extrapolated from points to nodes, averaged there";
-}
-
 // A part of a document, with its size.
 struct Drawing {
   std::string svg;
@@ -541,6 +534,15 @@ std::vector<std::vector<double>> limits_of_panels(const FieldSheet& sheet, const
   return limits;
 }
 
+void share_diagram_scales(const FieldSheet& sheet, std::vector<Draft>& drafts) {
+  if (!sheet.one_scale) return;
+  std::vector<double> most(drafts.size(), 0.0);
+  for (std::size_t k = 0; k < drafts.size(); ++k)
+    for (std::size_t j = 0; j < drafts.size(); ++j)
+      if (share_scale(sheet.panels[j], sheet.panels[k])) most[k] = std::max(most[k], drafts[j].diagram.most);
+  for (std::size_t k = 0; k < drafts.size(); ++k) drafts[k].diagram.most = most[k];
+}
+
 // Rows of at most `columns`, or of what stands side by side in about 1400 px; panels stand below one another.
 struct Grid {
   std::vector<Vector2> at;  // the upper left corner of each drawing
@@ -607,6 +609,12 @@ FieldRange field_range(const Model& model, const Solution& solution, std::string
   return values.empty() ? FieldRange{} : colour_range(std::move(values), options.robust);
 }
 
+PictureScales scales_of(const Model& model, const Solution& solution, std::string_view field,
+                        const PictureOptions& options) {
+  const View view = make_scenery(model, solution, field, options).view;
+  return {view.deformation, view.scale};
+}
+
 std::string field_svg(const Model& model, const Solution& solution, std::string_view field,
                       const PictureOptions& options) {
   Draft draft = make_draft(model, solution, field, options);
@@ -625,9 +633,11 @@ std::string sheet_svg(const FieldSheet& sheet) {
     PictureOptions options = sheet.look;
     options.title = panel.title;
     options.state = panel.state;
+    options.envelope = panel.envelope;
     drafts.push_back(make_draft(*panel.model, panel.solution, panel.field, options));
   }
   const std::vector<std::vector<double>> limits = limits_of_panels(sheet, drafts);
+  share_diagram_scales(sheet, drafts);
   constexpr double kLeastRoom = 300.0;
   std::vector<Heading> headings;
   std::size_t lines = 0;

@@ -27,9 +27,10 @@ struct PictureOptions {
   int width = 760;         // at most, for the mesh; the height follows from it
   bool deformed = true;    // with the undeformed outline dashed
   double scale =
-      0.0;           // of the displacements; 0 = such that the largest is about 5 % of the mesh, but at least 1
-  bool mesh = true;  // element edges (never above 6000 elements)
-  int levels = 10;   // bands of colour, about
+      0.0;  // of the displacements; 0 = such that the largest is about 5 % of the mesh, but at least 1
+  double paper = 0.0;  // px for each unit of length; 0 = such that the mesh fits into `width`
+  bool mesh = true;    // element edges (never above 6000 elements)
+  int levels = 10;     // bands of colour, about
   // Colours leave out what is rare and far off (a singular corner); the picture then says so.  false = the whole
   // range of the field.
   bool robust = true;
@@ -53,6 +54,14 @@ struct FieldRange {
 FieldRange field_range(const Model& model, const Solution& solution, std::string_view field,
                        const PictureOptions& options = {});
 
+// What a picture with these options has: the factor of the displacements (0 where nothing is deformed), and px for
+// each unit of length.
+struct PictureScales {
+  double deformation = 0.0, paper = 0.0;
+};
+PictureScales scales_of(const Model& model, const Solution& solution, std::string_view field,
+                        const PictureOptions& options = {});
+
 // A whole SVG document of the active groups.  Stress at nodes is averaged over the elements of the same
 // material, by options.rule; between the nodes both stress and displacement are what the element's shape functions
 // make of them.  A direction, which is no mean of directions, has one colour an element.  Displacements that are
@@ -68,13 +77,15 @@ struct FieldPanel {
   std::string title = {};  // empty = the model's
   std::string state = {};  // before the name of the field
   std::string scale = {};  // panels of a field share one with those that name the same (FieldSheet::one_scale)
+  const std::vector<EnvelopeEnd>* envelope = nullptr;  // PictureOptions::envelope of this panel
 };
 
 struct FieldSheet {
   std::string title;
   std::vector<FieldPanel> panels;
-  int columns = 0;        // 0 = as many as stand side by side in about 1400 px
-  bool one_scale = true;  // of the colours of all panels that show the same field and name the same scale
+  int columns = 0;  // 0 = as many as stand side by side in about 1400 px
+  bool one_scale =
+      true;  // of colours and diagrams of all panels that show the same field and name the same scale
   PictureOptions look{};  // of each; title and state are those of the panels
 };
 

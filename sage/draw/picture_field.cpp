@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "sage/draw/diagram.hpp"
@@ -26,6 +27,31 @@ double largest_of(const FieldEntry& field, const Eigen::MatrixXd& at) {
     if (one > largest) largest = one;
   }
   return largest;
+}
+
+// The range of what the points of areas have of a field that is carried as it is.
+void set_range(FieldParts& parts, const Model& model, const Solution& s, const NodalLayout& layout,
+               const FieldEntry& field) {
+  if (!std::holds_alternative<PointField>(field.value)) return;
+  const double infinite = std::numeric_limits<double>::infinity();
+  std::vector<double> value(field.size()), least(field.size(), infinite), most(field.size(), -infinite);
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const GroupData& data = s.groups()[g];
+    const Group& group = model.groups[g];
+    if (layout.of_group[g].empty() || drawn_as(group) != ElementKind::solid || !applies(field, data)) continue;
+    const auto points = static_cast<std::size_t>(group.elements() * group.element->traits().points);
+    for (std::size_t p = 0; p < points; ++p) {
+      read_applying(field, PointState(model.mesh, data, p), value.data());
+      for (std::size_t c = 0; c < value.size(); ++c) {
+        if (value[c] < least[c]) least[c] = value[c];
+        if (value[c] > most[c]) most[c] = value[c];
+      }
+    }
+  }
+  for (std::size_t c = 0; c < value.size(); ++c)
+    if (!(least[c] <= most[c])) least[c] = -infinite, most[c] = infinite;  // no number anywhere
+  parts.least = std::move(least);
+  parts.most = std::move(most);
 }
 
 }  // namespace
@@ -70,6 +96,7 @@ FieldParts field_parts(const Model& model, const Solution& s, const NodalLayout&
   } else {
     const std::vector<double> values = nodal_average(model, s, layout, {&field}, rule);
     parts.at = Eigen::Map<const Eigen::MatrixXd>(values.data(), parts.components, entries);
+    set_range(parts, model, s, layout, field);
   }
   parts.largest = largest_of(field, parts.at);
   return parts;
@@ -80,8 +107,51 @@ double field_number(const FieldChoice& field, const FieldParts& parts, const dou
   std::vector<double> more(field.entry->size() > kMost ? field.entry->size() : 0);
   double* values = more.empty() ? room.data() : more.data();
   value_of_carried(*field.entry, at, values);
+  for (std::size_t c = 0; c < parts.least.size(); ++c)
+    values[c] = std::clamp(values[c], parts.least[c], parts.most[c]);
   const double value = chosen(field, values);
   return std::abs(value) < kRoundOff * parts.largest ? 0.0 : value;
+}
+
+std::string rule_text(const FieldEntry& entry, NodalRule rule) {
+  if (entry.place() != FieldPlace::point) return "";
+  if (entry.of_mean) return "values: a colour an element, of its mean stress or strain";
+  return rule == NodalRule::element_means ? "values: means of elements, averaged at nodes"
+                                          : "values: extrapolated from points to nodes, averaged there";
+}
+
+PictureValues::PictureValues(const Model& model, const Solution& solution, const FieldChoice& field,
+                             NodalRule rule)
+    : model_(model),
+      field_(field),
+      layout_(nodal_layout(model, *solution.activity)),
+      parts_(field_parts(model, solution, layout_, *field.entry, rule)),
+      solids_(model),
+      flow_(model, ElementKind::flow) {
+  if (!field.entry->of_mean) return;
+  for (std::size_t g = 0; g < model.groups.size(); ++g)
+    of_elements_.push_back(layout_.of_group[g].empty()
+                               ? std::vector<double>()
+                               : element_average(model.mesh, solution.groups()[g], {field.entry}));
+}
+
+double PictureValues::at(const Vector2& place) const {
+  for (const Locator* locator : {&solids_, &flow_})
+    for (const Location& location : locator->at(place))
+      if (const double value = at(location); std::isfinite(value)) return value;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+double PictureValues::at(const Location& location) const {
+  const std::vector<int>& entries = layout_.of_group[location.group];
+  if (entries.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto e = static_cast<std::size_t>(location.element);
+  if (field_.entry->of_mean)
+    return chosen(field_, of_elements_[location.group].data() + e * field_.entry->size());
+  Eigen::VectorXd at = Eigen::VectorXd::Zero(parts_.components);
+  for (std::size_t i = 0; i < location.N.size(); ++i)
+    at += location.N[i] * parts_.at.col(entries[e * location.N.size() + i]);
+  return field_number(field_, parts_, at.data());
 }
 
 }  // namespace sage

@@ -54,6 +54,7 @@ View make_view(const Model& model, const Solution& s, const NodalLayout& layout,
   if (options.mirror_down) view.low.y() = 2.0 * view.bottom - view.high.y();
   const Vector2 room = (view.high - view.low).cwiseMax(1e-6 * size);
   view.scale = std::min((options.width - kPictureLeft - kRight) / room.x(), kMostHeight / room.y());
+  if (options.paper > 0.0) view.scale = options.paper;
   view.height = std::max(view.scale * room.y(), 60.0);
   return view;
 }

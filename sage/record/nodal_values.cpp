@@ -2,10 +2,112 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
+#include <numeric>
+#include <set>
 
 #include "sage/record/point_fields.hpp"
 
 namespace sage {
+
+namespace {
+
+using NodePair = std::pair<int, int>;
+
+NodePair pair_of(int a, int b) {
+  return {std::min(a, b), std::max(a, b)};
+}
+
+// The active structures: their nodes, and their elements by end nodes.
+struct Walls {
+  std::vector<char> at_node;
+  std::set<NodePair> pairs;
+
+  Walls(const Model& model, const Activity& activity) {
+    for (std::size_t g = 0; g < model.groups.size(); ++g) {
+      const Group& group = model.groups[g];
+      if (!activity.group[g] || !group.structure() || group.entry->corners < 2) continue;
+      if (at_node.empty()) at_node.resize(static_cast<std::size_t>(model.mesh.nodes()), 0);
+      for (int node : group.nodes) at_node[static_cast<std::size_t>(node)] = 1;
+      for (int e = 0; e < group.elements(); ++e)
+        pairs.insert(pair_of(group.nodes_of(e)[0], group.nodes_of(e)[1]));
+    }
+  }
+  bool at(int node) const { return !at_node.empty() && at_node[static_cast<std::size_t>(node)] != 0; }
+  // Also where two structures lie along one edge with a node in its middle.
+  bool along(const int* nodes, const std::vector<int>& edge) const {
+    const auto has = [&](std::size_t end) { return pairs.contains(pair_of(nodes[edge[0]], nodes[edge[end]])); };
+    return has(1) || (edge.size() > 2 && has(2));
+  }
+};
+
+// An element at an entry, and where the entry stands in NodalLayout::of_group.
+struct Use {
+  std::size_t group = 0, item = 0;
+  int element = 0;
+};
+
+// Whether two elements that share a node hang together there.
+bool hang_together(const Model& model, const Walls& walls, int node, const Use& a, const Use& b) {
+  const Group &ga = model.groups[a.group], &gb = model.groups[b.group];
+  const int *na = ga.nodes_of(a.element), *nb = gb.nodes_of(b.element);
+  const std::span<const int> all_a(na, ga.node_count()), all_b(nb, gb.node_count());
+  if (ga.interface())
+    return std::ranges::any_of(all_a, [&](int other) {
+      return other != node && model.mesh.x.col(other) == model.mesh.x.col(node) &&
+             std::ranges::find(all_b, other) != all_b.end();
+    });
+  const auto ends = [](const int* nodes, const std::vector<int>& edge) {
+    return pair_of(nodes[edge[0]], nodes[edge[1]]);
+  };
+  for (const std::vector<int>& edge : ga.element->edges()) {
+    const bool here = std::ranges::any_of(edge, [&](int local) { return na[local] == node; });
+    if (!here || walls.along(na, edge)) continue;
+    for (const std::vector<int>& other : gb.element->edges())
+      if (ends(na, edge) == ends(nb, other)) return true;
+  }
+  return false;
+}
+
+// For each of the elements at a node the first of those that it hangs together with, over others or at once.
+std::vector<std::size_t> first_of_body(const Model& model, const Walls& walls, int node,
+                                       const std::vector<Use>& uses) {
+  std::vector<std::size_t> first(uses.size());
+  std::iota(first.begin(), first.end(), std::size_t{0});
+  for (std::size_t i = 0; i < uses.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      if (first[i] == first[j] || !hang_together(model, walls, node, uses[i], uses[j])) continue;
+      const std::size_t low = std::min(first[i], first[j]), high = std::max(first[i], first[j]);
+      std::ranges::replace(first, high, low);
+    }
+  return first;
+}
+
+// Entries of their own for bodies that a structure or an interface keeps apart.
+void split_entries(const Model& model, const Activity& activity, NodalLayout& layout) {
+  const Walls walls(model, activity);
+  std::map<int, std::vector<Use>> of_entry;
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const Group& group = model.groups[g];
+    const bool area = group.solid() || group.flow();
+    if (layout.of_group[g].empty() || !(area ? !walls.pairs.empty() : group.interface())) continue;
+    for (std::size_t item = 0; item < group.nodes.size(); ++item)
+      if (!area || walls.at(group.nodes[item]))
+        of_entry[layout.of_group[g][item]].push_back({g, item, static_cast<int>(item / group.node_count())});
+  }
+  for (const auto& [entry, uses] : of_entry) {
+    const int node = layout.node[static_cast<std::size_t>(entry)];
+    const std::vector<std::size_t> first = first_of_body(model, walls, node, uses);
+    std::map<std::size_t, int> entries{{first[0], entry}};
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+      const auto [at, added] = entries.try_emplace(first[i], layout.entries());
+      if (added) layout.node.push_back(node);
+      layout.of_group[uses[i].group][uses[i].item] = at->second;
+    }
+  }
+}
+
+}  // namespace
 
 NodalLayout nodal_layout(const Model& model, const Activity& activity) {
   NodalLayout layout;
@@ -25,6 +127,7 @@ NodalLayout nodal_layout(const Model& model, const Activity& activity) {
       layout.of_group[g].push_back(e);
     }
   }
+  split_entries(model, activity, layout);
   return layout;
 }
 

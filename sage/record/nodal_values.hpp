@@ -8,8 +8,9 @@
 
 namespace sage {
 
-// A node that two materials share has two values: an entry is a (node, material) pair in use by an active
-// group. Interfaces have materials of their own, so they stay apart from solids.
+// A node that two bodies share has two values: an entry is a node with the elements of one material that hang together
+// there, of active groups.  Elements of an area hang together by an edge without a structure along it, those of an
+// interface by a pair of nodes: so the two sides of a wall, and of a wall's two interfaces, are apart.
 struct NodalLayout {
   std::vector<int> node;  // of each entry
   std::vector<std::vector<int>>

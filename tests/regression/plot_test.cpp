@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <regex>
+#include <tuple>
 
 #include "sage/record/csv_table.hpp"
 #include "tests/regression/program.hpp"
@@ -587,6 +588,142 @@ TEST(Plot, TablesOfOtherProgramsAreDrawn) {
   if (png.exit_code == 4) GTEST_SKIP() << "no rsvg-convert here";
   EXPECT_EQ(png.out, "p.svg\np.png\n");
   EXPECT_EQ(read((folder / "p.png").string()).substr(1, 3), "PNG");
+}
+
+// Two grounds of one material with a wall between them, which all of their nodes are held with: stresses stay what they
+// are at the start, 100 to the left and 0 to the right.
+std::string wall_deck() {
+  std::string text = "Wall between two grounds\nm       kN      kPa        101.325      9.81\n" +
+                     card({"1", "0", "15", "0", "2", "3", "10", "18", "2", "1", "0"});
+  const auto number = [](int n) { return std::to_string(n); };
+  for (int n = 0; n < 15; ++n)
+    text +=
+        card({number(n + 1).c_str(), "0", "0"}, {(number(n % 5) + ".").c_str(), (number(n / 5) + ".").c_str()});
+  text += card({"1", "1", "2"}, {"0."}) + card({}, {"1000.", "0.3"}) + card({"2", "36", "2"}, {"0."}) +
+          card({}, {"1.E6", "1.E4"}) + card({"1", "1", "1", "1"}) + card({"2", "1", "1", "1"}) +
+          card({"3", "35", "1", "2"});
+  for (int e = 0; e < 8; ++e) {
+    const int a = 1 + e % 4 + 5 * (e / 4);
+    text += card({number(e + 1).c_str(), e % 4 < 2 ? "1" : "2", number(a).c_str(), number(a + 1).c_str(),
+                  number(a + 6).c_str(), number(a + 5).c_str()});
+  }
+  text += card({"9", "3", "3", "8"}) + card({"10", "3", "8", "13"});
+  for (int n = 1; n <= 15; ++n) text += card({number(n).c_str(), "0", "0", "1", "1"});
+  for (const char* n : {"3", "8", "13"}) {
+    std::string rotation = card({n, "0", "0", "1", "0"});
+    rotation.pop_back();
+    text += rotation + std::string(20, ' ') + "rotation\n";
+  }
+  return text + card({"1", "0"}, {"100.", "100.", "100."}) + card({"2", "0"}, {"0.", "0.", "0."}) +
+         "Nothing moves\n" + card({"1", "0", "0", "0", "0", "0", "0", "0", "0", "0"}) + "END\n";
+}
+
+// Nothing is averaged across the wall, in pictures and along lines: 100 up to it, 0 behind it.
+TEST(Plot, NothingIsAveragedAcrossAWall) {
+  const fs::path folder = empty_folder("plot_wall");
+  write(folder / "deck.dat", wall_deck());
+  const Finished run = sagefe(folder, "run deck.dat -q --result");
+  if (without_module(run)) GTEST_SKIP() << "built without HDF5";
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const char* more : {"", " --extrapolate"}) {
+    ASSERT_EQ(sagefe(folder, std::string("plot out/deck.h5 --picture stress_xx --line 0.1,0.5:3.9,0.5") + more)
+                  .exit_code,
+              0);
+    const auto lines = lines_of(read((folder / "out/deck_line.svg").string()));
+    ASSERT_EQ(lines.size(), 1u);
+    ASSERT_EQ(lines[0].size(), 201u);
+    for (std::size_t i = 0; i < 201; ++i)  // the wall is at the middle
+      if (i != 100) EXPECT_EQ(lines[0][i], lines[0][i < 100 ? 0 : 200]) << "place " << i << more;
+    EXPECT_LT(lines[0].front(), lines[0].back() - 100.0) << "px";
+  }
+  ASSERT_EQ(sagefe(folder, "plot out/deck.h5 --picture stress_xx").exit_code, 0);
+  const std::string svg = read((folder / "out/deck_stage1_stress_xx.svg").string());
+  EXPECT_EQ(count(svg, "<path fill=\"#"), 2) << "two colours: of 100 and of 0";
+}
+
+// Serendipity shape functions and extrapolation lead out of what the points have: 1.002 and -0.082 kPa here.
+TEST(Plot, LevelsAndPressuresStayWithinThoseOfThePoints) {
+  const fs::path folder = empty_folder("plot_within");
+  const Finished run = sagefe(
+      folder, "run " + kInputs + "slopes/one_to_one_line/deck.dat -q --result --points --field pore_pressure");
+  if (without_module(run)) GTEST_SKIP() << "built without HDF5";
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const char* more : {"", " --extrapolate"})
+    for (const auto& [field, least, most] : {std::tuple{"SL", 0.0, 1.0}, {"pore_pressure", 0.0, HUGE_VAL}}) {
+      ASSERT_EQ(
+          sagefe(folder, std::string("plot out/one_to_one_line.h5 --range full --picture ") + field + more)
+              .exit_code,
+          0);
+      const auto ranges = ranges_of(
+          read((folder / "out" / (std::string("one_to_one_line_stage1_") + field + ".svg")).string()));
+      ASSERT_EQ(ranges.size(), 1u);
+      EXPECT_GE(ranges[0].first, least) << field << more;
+      EXPECT_LE(ranges[0].second, most) << field << more;
+    }
+}
+
+// Moments and their envelopes are the diagrams that the run draws; a curve over a line they are not.
+TEST(Plot, MomentsOfStructuresAreDiagrams) {
+  const fs::path folder = empty_folder("plot_moments");
+  const std::string moments = " --picture bending_moment --picture bending_moment_envelope";
+  const Finished run =
+      sagefe(folder, "run " + kInputs + "structures/braced_cut/deck.dat -q --result" + moments);
+  if (without_module(run)) GTEST_SKIP() << "built without HDF5";
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto drawn = pictures_in(folder / "out");
+  const Finished plot = sagefe(folder, "plot out/braced_cut.h5 -o again" + moments);
+  ASSERT_EQ(plot.exit_code, 0) << plot.err;
+  const auto again = pictures_in(folder / "again");
+  ASSERT_TRUE(again.contains("braced_cut_stage5_bending_moment_envelope.svg"));
+  for (const auto& [name, svg] : again) EXPECT_EQ(svg, drawn.at(name)) << name;
+  const Finished sheet = sagefe(folder, "plot out/braced_cut.h5 --sheet --at 4 --name sheet" + moments);
+  EXPECT_EQ(sheet.exit_code, 0) << sheet.err;
+  const Finished line = sagefe(folder, "plot out/braced_cut.h5 --picture bending_moment --line 0,0:1,-1");
+  EXPECT_EQ(line.exit_code, 1);
+  EXPECT_NE(line.err.find("it is of structures; --picture without --line"), std::string::npos) << line.err;
+  const Finished none = sagefe(folder, "plot out/braced_cut.h5 --picture hoop_moment");
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_NE(none.err.find("no structure has hoop_moment"), std::string::npos) << none.err;
+  const Finished at = sagefe(folder, "plot out/braced_cut.h5 --picture bending_moment_envelope --at 2");
+  EXPECT_EQ(at.exit_code, 1) << "an envelope is of all stages";
+}
+
+// Units and names of columns as other programs write them; a file's name up to what a run adds to it.
+TEST(Plot, NamesWithDotsAndUnitsBehindBlanks) {
+  const fs::path folder = empty_folder("plot_names");
+  const std::string table = "# a title\nx [m],settlement [ mm ]\n0,0\n1,";
+  write(folder / "phi_28.0.report1.csv", table + "2\n");
+  write(folder / "phi_28.5.report1.csv", table + "3\n");
+  const Finished plot = sagefe(folder, "plot phi_28.0.report1.csv phi_28.5.report1.csv --xy x:settlement");
+  ASSERT_EQ(plot.exit_code, 0) << plot.err;
+  EXPECT_EQ(plot.out, "phi_28.0_settlement_x.svg\n");
+  const std::string svg = read((folder / "phi_28.0_settlement_x.svg").string());
+  for (const char* words : {">phi_28.0<", ">phi_28.5<", ">settlement [mm]<", ">x [m]<"})
+    EXPECT_NE(svg.find(words), std::string::npos) << words;
+  // A deck that does not name its units.
+  std::string deck = wall_deck();
+  deck.replace(deck.find("m       kN      kPa"), 19, "-       -       -  ");
+  write(folder / "deck.dat", deck);
+  const Finished run = sagefe(folder, "run deck.dat -q --picture stress_xx");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(count(read((folder / "out/deck_stage1_stress_xx.svg").string()), "[-]"), 0);
+}
+
+// A cell that is no number is a gap in the curve, and a warning; so is a table whose last line has no end.
+TEST(Plot, DamagedCellsOfTablesAreNamed) {
+  const fs::path folder = empty_folder("plot_damaged");
+  write(folder / "t.csv", "# t\nx[m],y[kN],z[kN]\n0,0,a\n1,1.5x,b\n2,inf,c\n3,4,d\n4,5,e");
+  const Finished plot = sagefe(folder, "plot t.csv --xy x:y");
+  EXPECT_EQ(plot.exit_code, 0);
+  EXPECT_NE(plot.err.find(
+                "t.csv:4: warning: \"1.5x\" of column y is no finite number, and 1 more cells are none: the "
+                "curve has a gap [S606]"),
+            std::string::npos)
+      << plot.err;
+  EXPECT_NE(plot.err.find("may be cut short [S609]"), std::string::npos) << plot.err;
+  EXPECT_EQ(count(plot.err, "column z"), 0) << "which is not drawn";
+  write(folder / "whole.csv", "# t\nx[m],y[kN]\n0,0\n1,\n2,3\n");
+  EXPECT_EQ(sagefe(folder, "plot whole.csv --xy x:y").err, "") << "blank is no damage";
 }
 
 }  // namespace
