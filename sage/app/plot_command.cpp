@@ -74,7 +74,7 @@ constexpr OptionPlace kPlaces[] = {
     {"--line", kLine, "a line, without --interface"},
     {"--range", kDrawn, kOfPictures},
     {"--levels", kDrawn, kOfPictures},
-    {"--extrapolate", kDrawn | kLine, "pictures and lines (--picture)"},
+    {"--extrapolate", kDrawn, kOfPictures},
     {"--no-mesh", kDrawn, kOfPictures},
     {"--undeformed", kDrawn, kOfPictures},
     {"--mirror", kDrawn, kOfPictures},
