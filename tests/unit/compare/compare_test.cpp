@@ -476,7 +476,8 @@ TEST(Compare, TheoryKnowsTheChaptersSpecimen) {
   EXPECT_NE(c.answers[0].why.find("these are restrained"), std::string::npos) << c.answers[0].why;
 }
 
-// A uniform elastic body: the force on its end by moduli and areas, its displacement by the moduli.
+// A uniform elastic body: the force on its end, over the area of a unit of thickness and of the full circle, by the
+// moduli.
 TEST(Compare, TheoryKnowsTheEndsOfUniformBodies) {
   Specimen specimen;
   specimen.report = false;
@@ -491,11 +492,13 @@ TEST(Compare, TheoryKnowsTheEndsOfUniformBodies) {
   ASSERT_EQ(a.error() + b.error(), "");
   const Comparison c = compare(a, b, {});
   const auto fy = std::find_if(c.answers.begin(), c.answers.end(),
-                               [](const Answer& answer) { return answer.name == "report1.fy"; });
+                               [](const Answer& answer) { return answer.name == "report1.fy / area"; });
   ASSERT_NE(fy, c.answers.end());
-  EXPECT_NEAR(fy->expected, (1 - kNu * kNu) * kPi, 1e-9);
+  EXPECT_NEAR(fy->a, -0.01 * kE / (1 - kNu * kNu), 1e-8);
+  EXPECT_NEAR(fy->b, -0.01 * kE, 1e-8);
+  EXPECT_NEAR(fy->expected, 1 - kNu * kNu, 1e-9);
   EXPECT_NEAR(fy->ratio(), fy->expected, 1e-8);
-  EXPECT_NE(fy->why.find("moduli x areas"), std::string::npos);
+  EXPECT_NE(fy->why.find("ratio of moduli"), std::string::npos);
 }
 
 // What the tolerance of equilibrium leaves open is zero, however large it is beside nothing.
