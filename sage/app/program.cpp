@@ -18,6 +18,7 @@
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/plugins.hpp"
 #include "sage/app/screen.hpp"
+#include "sage/deck/printable.hpp"
 
 namespace sage {
 namespace app {
@@ -137,7 +138,7 @@ void say_output_lost() {
 
 // The document of --json; an answer that can't be written is none.
 int with_answer(const std::string& command, int code, const MutedOutput& output) {
-  if (output.write(answer_text(command, code))) return code;
+  if (output.write(printable(answer_text(command, code)))) return code;
   say_output_lost();
   return kOutput;
 }

@@ -191,7 +191,7 @@ MutedOutput::~MutedOutput() {
 }
 
 bool MutedOutput::write(std::string_view text) const {
-  return write_all(kept_, printable(text));
+  return write_all(kept_, text);
 }
 
 }  // namespace sage::app
