@@ -81,7 +81,7 @@ class MutedOutput {
   ~MutedOutput();
   MutedOutput(const MutedOutput&) = delete;
   MutedOutput& operator=(const MutedOutput&) = delete;
-  // To where standard output led before, escaped as all output.  False: it could not be written.
+  // To where standard output led before, the bytes as they are.  False: it could not be written.
   bool write(std::string_view text) const;
 
  private:

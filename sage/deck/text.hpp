@@ -46,11 +46,11 @@ inline std::string rounded_text(double value, int digits = 4) {
   return text.data();
 }
 
-// A text that every output can hold: valid UTF-8 without control characters.
+// A text that every output can hold: valid UTF-8 without characters that steer a terminal (printable.hpp).
 struct WellFormed {
   std::string text;
   bool latin1 = false;  // bytes that are no UTF-8 were read as Latin-1, or replaced by '?' where that has none
-  bool controls = false;  // control characters were replaced by '?', tabs by blanks
+  bool controls = false;  // such characters were replaced by '?', tabs by blanks
 };
 
 // `after`: what follows in the file.  A character that the end of `text` cuts in two is left out.
