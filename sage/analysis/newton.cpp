@@ -58,6 +58,7 @@ class Step {
   IterationRecord measure();
   bool converged(const IterationRecord& record) const;
   bool converged(int field, const IterationRecord& record) const;
+  NewtonStep& finished();
   bool linear_rounding(const IterationRecord& record) const;
   bool falls_no_more() const;
   bool at_rounding(int field, const IterationRecord& record) const;
@@ -490,6 +491,7 @@ void Step::find_worst() {
   result_.worst = {unknown.node, unknown.field, unknown.component, residual_[worst]};
 }
 
+constexpr double kLoose = 1e-6;  // tolerance above which a kept tangent alone ends no step
 constexpr double kAccept = 0.8;  // of the slope at the start
 
 // Crisfield's criterion on the slope correction . residual: the full step is kept while it is below 0.8 of the
@@ -583,6 +585,31 @@ void Step::accelerate(double old_norm) {
   acceleration_.improve(correction_);
 }
 
+// With a tangent that is kept, corrections are small because they are many: a small residual may leave most of the
+// change to come.  The tangent of the place reached tells how much, and Newton's method takes the rest.
+NewtonStep& Step::finished() {
+  constexpr int kMost = 10;
+  constexpr double kRest = 3e-3;  // of the increment
+  result_.finished = true;
+  result_.outcome = StepOutcome::not_converged;
+  for (int i = 0; i < kMost; ++i) {
+    if (evaluate(true) == Outcome::cut_step) break;
+    const double old_norm = residual_size();
+    correct();
+    take_energy(correction_);
+    slope_ = work_left();
+    step_length_ = 1.0;
+    move(1.0);
+    if (evaluate(false) == Outcome::cut_step) break;
+    form_residual();
+    if (settings_.line_search && wants_line_search(old_norm) && !search_line()) break;
+    if (hopeless()) break;
+    if (record_iteration() && result_.iterations.back().displacement * step_length_ <= kRest) return result_;
+    result_.outcome = StepOutcome::not_converged;
+  }
+  return result_;
+}
+
 NewtonStep& Step::iterate_with_line_search() {
   double old_norm = residual_size();
   if (accelerated()) acceleration_.improve(correction_);
@@ -597,7 +624,7 @@ NewtonStep& Step::iterate_with_line_search() {
       result_.flows = settings_.stop_at_flow;
       return result_;
     }
-    if (record_iteration()) return polished();
+    if (record_iteration()) return accelerated() && settings_.tolerance > kLoose ? finished() : polished();
     if (flows() || strays() || i == settings_.max_iterations) break;
     const double norm = residual_size();
     const bool wants_K = settings_.contract ? contracts_poorly(norm, old_norm) : full_newton() && !K_is_here_;

@@ -37,6 +37,7 @@ enum class StepOutcome { converged, not_converged, law_cut, singular };
 struct NewtonStep {
   StepOutcome outcome = StepOutcome::not_converged;
   bool repeated = false;  // the step before once more
+  bool finished = false;  // K of a kept tangent gave way to that of the place reached
   bool flows = false;     // stop_at_flow: corrections only bring more of all stress out of balance
   std::vector<IterationRecord> iterations;
   WorstDof worst;               // of the last iteration, or where none converged, of the best

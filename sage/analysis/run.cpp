@@ -121,6 +121,7 @@ class Run {
   const Extent extent_;
   Eigen::VectorXd target_;
   Eigen::VectorXd last_du_;          // the last step of the stage, if path_.last_size > 0
+  bool by_newton_ = false;           // the next attempt, whatever the method of its stage
   bool on_last_way_ = false;         // the next attempt starts with the tangent of that step
   Eigen::VectorXd committed_force_;  // internal, at the committed state; of scenes that are not linear
   // With a condensed region that is behind filled in, for observers; no entries: nobody looks.
@@ -252,6 +253,7 @@ void Run::prepare_stage(int s) {
   place_ = {s, 0};
   reached_ = 0.0;
   path_.prediction = {};
+  path_.own_tangent = false;
   evaluate_start();
   assembly_.commit(state_.du);
   path_.force_start = assembly_.internal_force();
@@ -302,7 +304,8 @@ bool Run::goes_on(const Stage& stage, double size) const {
 NewtonStep Run::attempt(const Stage& stage, double from, double to, bool from_here) {
   target_ = (1.0 - to) * path_.force_start + to * path_.force_end;
   set_moment(to, to - from);
-  NewtonSettings newton{stage.method, stage.max_iterations, stage.tolerance, settings_.line_search};
+  NewtonSettings newton{by_newton_ ? Method::newton : stage.method, stage.max_iterations, stage.tolerance,
+                        settings_.line_search};
   if (from_here) newton.start = NewtonStart::nearby;
   if (!from_here && goes_on(stage, to - from)) {
     newton.start = NewtonStart::last_way;
@@ -543,11 +546,15 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
         continue;
       }
       path_.path_error = std::max(path_.path_error, error);
-      if (stage.method == Method::modified_newton || (contracts(stage) && !predicts(stage))) renew_tangent();
+      path_.own_tangent = path_.own_tangent || step.finished;
+      by_newton_ = false;
+      const bool modified = stage.method == Method::modified_newton && !path_.own_tangent;
+      if (modified || (contracts(stage) && !predicts(stage))) renew_tangent();
       const bool same_K = tangent_.constant() || !tangent_.changed();
       const bool linear = step.iterations.size() == 1 && same_K;
       if (!step.repeated) path_.repeats.take(linear, to - reached, step.iterations.back().force);
       on_last_way_ = false;
+      if (path_.own_tangent) tangent_.set_aside();
       measure_stiffness(reached, to);
       accept(to);
       keep_way(to - reached);
@@ -564,6 +571,19 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
       reject(stage, reached, to - reached);
       continue;
     }
+    // The tangent of a step whose ground flows everywhere is too soft for points that stop to flow in the next one.
+    if (stage.method == Method::modified_newton && !path_.own_tangent && !tangent_.constant()) {
+      path_.own_tangent = true;
+      reject(stage, reached, 0.0);
+      continue;
+    }
+    // From a place that a kept tangent has reached Newton's method may find nothing where it does from the start.
+    if (step.finished && !by_newton_) {
+      by_newton_ = true;
+      reject(stage, reached, 0.0);
+      continue;
+    }
+    by_newton_ = false;
     // Half way along a collapse mechanism the matrix may be singular where the committed state's is not.
     if (step.outcome == StepOutcome::singular && on_last_way_) {
       reject(stage, reached, 0.0);
@@ -642,6 +662,7 @@ Place Run::resume() {
   const Place place = resume_from(resumable(), settings_.resume_from);
   last_du_ = state_.du;
   committed_force_ = assembly_.internal_force();
+  if (path_.own_tangent) tangent_.set_aside();
   if (place.increment > 0 && assembly_.condensation() != nullptr)
     assembly_.set_stage_loads(path_.force_end - path_.force_start);
   return place;

@@ -26,6 +26,7 @@ struct StagePath {
   double last_size = 0.0;                       // of the last step, as a share of the stage; 0 = there is none
   double stiffest = 0.0, last_stiffness = 0.0;  // along the motion: largest so far, of the last step
   double path_error = 0.0;                      // largest so far
+  bool own_tangent = false;  // modified Newton, initial stiffness: steps begin with K of their start
   std::string loose_part;                       // the first; empty = none
   std::vector<std::vector<double>> pore_start, pore_end;  // pore pressure at points, by group; empty = no water
 };
@@ -50,6 +51,7 @@ struct RunState {
     archive(path.stiffest);
     archive(path.last_stiffness);
     archive(path.path_error);
+    archive(path.own_tangent);
     archive(path.loose_part);
     archive(path.external_start);
     archive(path.force_start);

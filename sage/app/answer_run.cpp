@@ -35,7 +35,8 @@ Json report_json(const Model& model, const Reports& reports, std::size_t index) 
   return {{"title", json_text(report_title(model, index))},
           {"kind", kind_word(report.kind)},
           {"columns", std::move(columns)},
-          {"rows", std::move(rows)}};
+          {"rows", std::move(rows)},
+          {"messages", json_list(reports.messages(index))}};
 }
 
 Json stages_json(const Model& model, const RunRecord& record) {

@@ -63,7 +63,7 @@ Subject subject_of_deck(const DriveOptions& options, const Catalogue& catalogue)
   InputOptions input;
   input.layout = options.layout;
   const Deck deck = read_input(options.deck, input);
-  const Model model = build_model(deck, catalogue, input.build);
+  const Model model = build_materials_alone(deck, catalogue, input.build);
   std::string known;
   for (const Material& material : model.materials) {
     known += fmt::format("{}{} {}", known.empty() ? "" : ", ", material.number, material.name);
@@ -277,6 +277,17 @@ void answer_fit(const FitProblem& problem, const FitResult& result) {
                     {"undetermined", std::move(undetermined)}};
 }
 
+// Whether all paths reach their end.  Where no summary says so, a message does.
+bool are_whole(const std::vector<Curve>& curves) {
+  bool whole = true;
+  for (const Curve& curve : curves) {
+    if (curve.failure.empty()) continue;
+    whole = false;
+    if (screen().quiet || screen().json) say_error(curve.name, curve.failure, "S532");
+  }
+  return whole;
+}
+
 void finish(OutFile& file, std::string text) {
   file.text() = std::move(text);
   file.finish();
@@ -313,9 +324,7 @@ int fit_law(const DriveOptions& options, const Subject& subject, const LabTest* 
   answer_fit(problem, result);
   if (csv.open()) finish(csv, csv_text(heading, result.curves, options.digits));
   if (plot.open()) finish(plot, fit_plot(problem, result));
-  const bool whole =
-      std::ranges::all_of(result.curves, [](const Curve& curve) { return curve.failure.empty(); });
-  return result.converged && whole ? kOk : kNotConverged;
+  return are_whole(result.curves) && result.converged ? kOk : kNotConverged;
 }
 
 int drive_laws(const DriveOptions& options, const Catalogue& catalogue) {
@@ -365,8 +374,7 @@ int drive_laws(const DriveOptions& options, const Catalogue& catalogue) {
   answer_curves(heading, curves);
   if (csv.open()) finish(csv, csv_text(heading, curves, options.digits));
   if (plot.open()) finish(plot, plot_text(heading, curves, panels));
-  const bool whole = std::ranges::all_of(curves, [](const Curve& curve) { return curve.failure.empty(); });
-  return whole ? kOk : kNotConverged;
+  return are_whole(curves) ? kOk : kNotConverged;
 }
 
 std::string finite_number(const std::string& text) {

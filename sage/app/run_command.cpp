@@ -56,6 +56,13 @@ void say_notes(const std::string& deck, const std::string& notes) {
   }
 }
 
+// The same of warnings about reports.
+void say_report_warnings(const std::string& deck, const Reports& reports) {
+  for (std::size_t i = 0; i < reports.count(); ++i)
+    for (const std::string& message : reports.messages(i))
+      say_warning(deck, fmt::format("report {}: {}", i + 1, message), code_in(message).value_or(Code("S530")));
+}
+
 // Where the results go to a terminal with room for it.
 std::string sketch_for_screen(const RunOutcome& outcome) {
   constexpr int kNarrow = 64;
@@ -101,11 +108,13 @@ int compute_deck(const RunOptions& options, const std::string& deck, const Catal
       return outcome.exit_code;
     }
     if (outcome.record.stages.empty()) return outcome.exit_code;  // --strict stopped it
-    if (screen().quiet || screen().json)
+    if (screen().quiet || screen().json) {
       say_notes(deck, outcome.record.notes);
-    else
+      say_report_warnings(deck, *outcome.reports);
+    } else {
       fmt::print("{}\n", summary(*outcome.model, outcome.record, outcome.reports.get(), outcome.files,
                                  outcome.error.get(), request.output.digits, sketch_for_screen(outcome)));
+    }
     if (request.profile) fmt::print("{}\n", profile_table(outcome.record.profile));
     if (outcome.exit_code != kOk) say_error(deck, outcome.record.result.reason, *outcome.record.result.code);
     return outcome.exit_code;

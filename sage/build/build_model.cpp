@@ -329,4 +329,16 @@ Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOp
   return std::move(b.model);
 }
 
+Model build_materials_alone(const Deck& as_read, const Catalogue& catalogue, const BuildOptions& options) {
+  refuse_draft(as_read);
+  const std::optional<Deck> rewritten = canonical_deck(as_read, catalogue);
+  const Deck& deck = rewritten ? *rewritten : as_read;
+  build::Builder b{{deck, catalogue, options}, options};
+  b.model.fields = catalogue.fields;
+  build::build_control(b);
+  build::build_materials(b);
+  if (b.problems.errors() > 0) throw refusal(deck, b.problems);
+  return std::move(b.model);
+}
+
 }  // namespace sage

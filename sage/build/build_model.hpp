@@ -48,4 +48,7 @@ struct BuildOptions : MeshOptions {
 // Throws InputError with every mistake found.  Warnings and notes end up in Model::diagnostics.
 Model build_model(const Deck& deck, const Catalogue& catalogue, const BuildOptions& options = {});
 
+// Units and materials only: the deck may lack everything else, or have it wrong.  Throws InputError for mistakes in those.
+Model build_materials_alone(const Deck& deck, const Catalogue& catalogue, const BuildOptions& options = {});
+
 }  // namespace sage

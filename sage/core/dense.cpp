@@ -49,8 +49,10 @@ Eigen::Index PivotedQr::rank(double threshold) const {
   return (R_.diagonal().array() > least).count();
 }
 
-Eigen::VectorXd smallest_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
-  return Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(A).solve(b);
+Eigen::VectorXd smallest_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double threshold) {
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
+  decomposition.setThreshold(threshold);
+  return decomposition.compute(A).solve(b);
 }
 
 Eigensystem symmetric_eigensystem(const Eigen::MatrixXd& A) {

@@ -27,8 +27,9 @@ class PivotedQr {
   std::vector<Eigen::Index> order_;  // of columns
 };
 
-// The smallest of the x of the least |A x - b|; A of any rank (complete orthogonal decomposition).
-Eigen::VectorXd smallest_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+// The smallest of the x of the least |A x - b|; A of any rank (complete orthogonal decomposition).  Pivots below
+// `threshold` times the largest are zero.
+Eigen::VectorXd smallest_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double threshold);
 
 struct Eigensystem {
   Eigen::VectorXd values;   // rising

@@ -780,6 +780,26 @@ constexpr MessageEntry kMessages[] = {
      "At the nodes that the message names one leads to the other again and again, so that no answer was found.",
      "Smaller elements near the end of the wet face, or fewer exits, where it is known that they stay dry."},
 
+    {"S530", "the correct response of a triaxial report is not known",
+     "The report drives one point of the specimen's law along the strains of the mesh. From the increment that "
+     "the "
+     "message names on no state of that point was found, so that correct values and ratio are blank. The "
+     "message says "
+     "why: mostly a strength that falls more steeply than the point unloads, or a cell pressure beyond the "
+     "strength.",
+     "More increments; for laws that soften a lower rate of softening. Measured values do not depend on it."},
+    {"S531", "the correct test of a triaxial report starts elsewhere than the mesh",
+     "The correct test is that of one point, which starts from the stress and the history of the specimen. "
+     "Here the "
+     "specimen is not uniform at the start of the report's stage.",
+     "Begin the report in the stage in which the specimen is still uniform, or read the ratio with that in "
+     "mind."},
+    {"S532", "a driven path ends early",
+     "sagefe drive found no state of the law for the next step, even in 4096 parts: a stress beyond the "
+     "strength, a "
+     "joint that has lost contact, or a peak that is passed under given stresses. Rows up to there stand.",
+     "Drive strains in place of stresses beyond a peak; shorter legs; check strength and start."},
+
     {"S537", "a free surface is blurred",
      "Soil of law darcy_free_surface falls dry within a ramp of the pressure head, as high as an element where "
      "the "

@@ -23,9 +23,11 @@ class PointDriver {
                        std::span<const double> history = {});
 
   // One step.  target[i] is the strain increment of a strain-controlled component, or the stress that a
-  // stress-controlled one has at the end.  Newton on the law's tangent; a step that fails is halved, up to
-  // 2^12 parts.  Throws AnalysisError when that fails too (the path can't be followed: collapse, lost contact);
-  // the state is then the last one that was reached.  duration: time of the step, for laws that want it.
+  // stress-controlled one has at the end.  Newton on the law's tangent, from the law's stiffness at the start of the
+  // step; a step that fails is halved, up to 2^12 parts.  Held stresses are met to 1e-12 of the largest stress of
+  // start, target or answer, to 1e-9 where the law's own rounding allows no more.  Throws AnalysisError (S501) with
+  // the reason where no state is found (collapse, lost contact); the state is then the last one that was reached.
+  // duration: time of the step, for laws that want it.
   // springs [stress per strain, >= 0]: a stress-controlled component ends at target[i] - springs[i] times its own
   // strain increment, as a joint between rocks that give way does (constant normal stiffness).
   void advance(const std::array<Control, N>& control, const Vector<N>& target, double duration = 1.0,
@@ -42,10 +44,12 @@ class PointDriver {
   int steps() const { return steps_; }  // accepted parts so far
 
  private:
-  bool attempt(const std::array<Control, N>& control, const Vector<N>& target, const Vector<N>& springs,
-               bool may_divide);
+  struct Aim;  // of an attempt: what is controlled, and its targets
+  bool attempt(Aim& aim, bool may_divide);
+  bool search(const Aim& aim, Vector<N>& deps, PointOut<N>& out);
+  bool improve(const Aim& aim, Vector<N>& deps, PointOut<N>& out);
   Outcome call(const Vector<N>& deps, PointOut<N>& out);
-  void put_differences(const std::array<Control, N>& control, const Vector<N>& deps, PointOut<N>& out);
+  void put_differences(const Aim& aim, const Vector<N>& deps, PointOut<N>& out);
   PointIn<N> input(const Vector<N>& deps) const;
 
   const Law<N>& law_;
@@ -54,6 +58,7 @@ class PointDriver {
   PointStatus status_ = PointStatus::elastic;
   int iterations_ = 0, steps_ = 0;
   bool differences_ = false;  // stand for the law's tangent, with which the path went no further
+  double left_ = 0.0;  // of the held stresses after the last attempt, of the largest stress; NaN: no answer
   // Element 1 of size 1, stage 1, an increment for each advance(), at the origin; handed on where the law wants it.
   PointContext context_{.element = 1, .stage = 1, .size = 1.0};
 };

@@ -128,12 +128,7 @@ bool follow_leg(PointDriver<N>& point, const Law<N>& law, const Path& path, int 
       point.advance(controls_of<N>(leg), target, leg.duration / leg.steps, springs);
     } catch (const AnalysisError& error) {
       if (point.steps() > parts) put_row<N>(rows, curve, law, point, start, path, {number, step});
-      const bool lost = error.code() == Code("S501");  // else the law itself says what is wrong
-      curve.failure =
-          fmt::format("ends in leg {}, step {} of {}: {}", number, step, leg.steps,
-                      lost ? "no equilibrium there, even in 4096 parts of the step (a stress beyond "
-                             "the law's strength, or lost contact)"
-                           : error.what());
+      curve.failure = fmt::format("ends in leg {}, step {} of {}: {}", number, step, leg.steps, error.what());
       return false;
     }
     put_row<N>(rows, curve, law, point, start, path, {number, step});

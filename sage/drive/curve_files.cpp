@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sage/core/code.hpp"
 #include "sage/core/error.hpp"
 #include "sage/draw/plot.hpp"
 #include "sage/record/number.hpp"
@@ -89,7 +90,7 @@ std::string csv_text(const Heading& heading, const std::vector<Curve>& curves, i
   std::string text = "# " + heading.title + "\n# " + signs(heading.units) + "\n";
   for (const std::string& note : heading.notes) text += "# " + note + "\n";
   for (const Curve& curve : curves)
-    if (!curve.failure.empty()) text += "# " + curve.name + ": " + curve.failure + "\n";
+    if (!curve.failure.empty()) text += "# " + curve.name + ": " + with_code(curve.failure, "S532") + "\n";
   const std::vector<const Column*> columns = columns_of(curves);
   text += "case";
   for (const Column* column : columns) text += "," + column->name + "[" + column->unit + "]";
@@ -146,7 +147,7 @@ std::string summary_text(const std::vector<Curve>& curves, const std::string& pa
       text += fmt::format("  end      {} = {:.6g} at {} = {:.6g}, {}\n", y, drawn->values.back(), x,
                           over->values.back(), status_name(curve.status.back()));
     }
-    if (!curve.failure.empty()) text += "  STOPPED  " + curve.failure + "\n";
+    if (!curve.failure.empty()) text += "  STOPPED  " + with_code(curve.failure, "S532") + "\n";
   }
   return text;
 }

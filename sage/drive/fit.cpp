@@ -92,7 +92,7 @@ class Comparison {
     } catch (const InputError&) {  // such as a start beyond the strength
       return Eigen::VectorXd::Constant(points_, kRefused);
     }
-    const auto at_points = model(all);
+    const auto at_points = model(all, true);
     Eigen::VectorXd left(points_);
     Eigen::Index next = 0;
     for (std::size_t c = 0; c < all.size(); ++c)
@@ -105,15 +105,19 @@ class Comparison {
     return left;
   }
 
-  // Values at the measured points: curve, response, point.
-  std::vector<std::vector<std::vector<double>>> model(const std::vector<Curve>& all) const {
+  // Values at the measured points: curve, response, point.  Beyond the end of a path NaN, or its last value.
+  std::vector<std::vector<std::vector<double>>> model(const std::vector<Curve>& all, bool go_on) const {
     std::vector<std::vector<std::vector<double>>> values(all.size());
     for (std::size_t c = 0; c < all.size(); ++c)
       for (const Measured::Response& response : problem_.curves[c].responses) {
         const std::vector<double>& column = all[c].find(response.column)->values;
         std::vector<double>& own = values[c].emplace_back();
-        for (std::size_t i = 1; i <= response.values.size(); ++i)
-          own.push_back(column[std::min(i * steps_of(problem_.curves[c]), column.size() - 1)]);
+        for (std::size_t i = 1; i <= response.values.size(); ++i) {
+          const std::size_t row = i * steps_of(problem_.curves[c]);
+          own.push_back(row < column.size() ? column[row]
+                        : go_on             ? column.back()
+                                            : std::numeric_limits<double>::quiet_NaN());
+        }
       }
     return values;
   }
@@ -374,7 +378,7 @@ FitResult fit(const FitProblem& problem) {
   judge(problem, scaled_jacobian(problem, comparison, variables, values), variables, result);
   result.evaluations = comparison.evaluations();
   result.curves = comparison.curves(result.fitted);
-  result.model = comparison.model(result.curves);
+  result.model = comparison.model(result.curves, false);
   for (std::size_t c = 0; c < result.curves.size(); ++c) result.curves[c].name = problem.curves[c].name;
   return result;
 }

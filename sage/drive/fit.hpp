@@ -68,7 +68,7 @@ struct FitResult {
   bool converged = false;
   std::vector<Curve> curves;  // of the fitted law
   std::vector<std::vector<std::vector<double>>>
-      model;  // its values at the measured points: curve, response, point
+      model;  // its values at the measured points: curve, response, point; NaN behind the end of a path
 };
 
 // Levenberg and Marquardt's method (Eigen).  Throws InputError for problems without an answer: fewer points than

@@ -59,7 +59,8 @@ std::string fit_text(const FitProblem& problem, const FitResult& result) {
       result.points, problem.free.size(), result.evaluations, result.rms,
       result.converged ? "" : "; NOT CONVERGED");
   for (const Curve& curve : result.curves)
-    if (!curve.failure.empty()) text += fmt::format("{}: the fitted law {}\n", curve.name, curve.failure);
+    if (!curve.failure.empty())
+      text += fmt::format("{}: the fitted law {}\n", curve.name, with_code(curve.failure, "S532"));
   return text;
 }
 

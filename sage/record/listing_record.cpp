@@ -158,6 +158,7 @@ void report_rows(std::string& text, const Model& model, const Reports& reports) 
       case ReportKind::triaxial:
         heading(text, fmt::format("REPORT {}: TRIAXIAL TEST (COMPRESSION POSITIVE)", i + 1));
         triaxial_rows(text, model, reports.triaxial(i));
+        for (const std::string& message : reports.messages(i)) text += "   warning: " + message + "\n";
         break;
       case ReportKind::nodes:
         heading(text, fmt::format("REPORT {}: NODES", i + 1));

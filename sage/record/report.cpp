@@ -152,12 +152,52 @@ std::string report_title(const Model& model, std::size_t index) {
   return text;
 }
 
-CorrectTest::CorrectTest(const SolidLaw& law, Geometry geometry, double cell_pressure)
-    : geometry_(geometry), cell_pressure_(cell_pressure) {
-  const double p = -cell_pressure;
+namespace {
+
+// The values of the first point, where those of all others differ by no more than `share` of the largest of all.
+std::vector<double> value_of_all(const std::vector<double>& values, std::size_t size, double share) {
+  if (size == 0 || values.size() < size) return {};
+  double largest = 0.0, apart = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    largest = std::max(largest, std::abs(values[i]));
+    apart = std::max(apart, std::abs(values[i] - values[i % size]));
+  }
+  if (!(apart <= share * largest)) return {};
+  return {values.begin(), values.begin() + static_cast<std::ptrdiff_t>(size)};
+}
+
+}  // namespace
+
+SpecimenStart start_of_specimen(const Model& model, const Report& report, const Solution& solution) {
+  constexpr double kAlike = 1e-6;
+  SpecimenStart start;
+  const std::span<const GroupData> groups = solution.groups();
+  const auto at = static_cast<std::size_t>(report.group);
+  if (report.group < 0 || at >= groups.size() || has_constant_stiffness(groups[at].law)) return start;
+  const StateStore& state = groups[at].state;
+  if (state.law_size() != 4) return start;
+  const auto history = static_cast<std::size_t>(state.history_size());
+  start.history = value_of_all(state.committed.h, history, kAlike);
+  if (start.history.empty() && history > 0)
+    start.note =
+        "history differs between the points of the specimen; the correct test starts from the law's own";
+  start.sigma = value_of_all(state.committed.sigma, 4, kAlike);
+  if (start.sigma.empty()) return start;
+  const double off = kAlike * std::max(std::abs(report.cell_pressure), 1e-300);
+  const bool ring = model.geometry == Geometry::axisymmetric;
+  const auto held = [&](std::size_t i) { return std::abs(start.sigma[i] + report.cell_pressure) <= off; };
+  if (!held(0) || (ring && !held(2))) start.sigma.clear();
+  return start;
+}
+
+CorrectTest::CorrectTest(const SolidLaw& law, Geometry geometry, double cell_pressure,
+                         const SpecimenStart& start)
+    : geometry_(geometry), start_(-cell_pressure, -cell_pressure, -cell_pressure, 0.0) {
+  if (!start.sigma.empty()) start_ = Eigen::Map<const Vector4>(start.sigma.data());
   try {
-    driver_ = std::make_unique<PointDriver<4>>(law, Vector4(p, p, p, 0.0));
-  } catch (const AnalysisError&) {  // the law can't carry the cell pressure
+    driver_ = std::make_unique<PointDriver<4>>(law, start_, start.history);
+  } catch (const AnalysisError& error) {
+    failure_ = error.what();
   }
 }
 
@@ -166,16 +206,17 @@ double CorrectTest::deviator_at(double axial_strain, double duration) {
   const bool ring = geometry_ == Geometry::axisymmetric;
   const std::array<Control, 4> control{Control::stress, Control::strain,
                                        ring ? Control::stress : Control::strain, Control::strain};
-  const double lateral = -cell_pressure_, part = -(axial_strain - axial_strain_) / kSubsteps;
-  const Vector4 step(lateral, part, ring ? lateral : 0.0, 0.0);
+  const double part = -(axial_strain - axial_strain_) / kSubsteps;
+  const Vector4 step(start_[0], part, ring ? start_[2] : 0.0, 0.0);
   try {
     for (int i = 0; i < kSubsteps; ++i) driver_->advance(control, step, duration / kSubsteps);
-  } catch (const AnalysisError&) {
+  } catch (const AnalysisError& error) {
     driver_.reset();
+    failure_ = error.what();
     return kUnknown;
   }
   axial_strain_ = axial_strain;
-  return outward(driver_->sigma()[1]) - cell_pressure_;
+  return outward(driver_->sigma()[1]) - outward(start_[1]);
 }
 
 // weight: at the start and the end of the stage, of which load_factor has passed.
@@ -249,6 +290,10 @@ void Reports::on_stage_start(const Model& model, int stage, const Solution& solu
     const NodeSums sums = sum_nodes(model, report, solution, series.weight, 0.0);
     std::copy(sums.displacement, sums.displacement + 2, series.start_displacement);
     series.start_force = -sums.force[1];
+    if (report.kind == ReportKind::triaxial) {
+      series.specimen = start_of_specimen(model, report, solution);
+      if (!series.specimen.note.empty()) add_message(series, series.specimen.note, "S531");
+    }
     begin(series, model, report);
   }
 }
@@ -257,7 +302,23 @@ void Reports::begin(Series& series, const Model& model, const Report& report) {
   if (report.kind != ReportKind::triaxial) return;
   series.area = report_area(model, report);
   if (const SolidLaw* law = specimen_law(model, report))
-    series.correct = std::make_unique<CorrectTest>(*law, model.geometry, report.cell_pressure);
+    series.correct = std::make_unique<CorrectTest>(*law, model.geometry, report.cell_pressure, series.specimen);
+}
+
+// Once, in front of the first row whose correct deviator is not known.
+void Reports::note_blank(Series& series, const TriaxialRow& row) {
+  if (!series.correct || series.correct->failure().empty() || !std::isnan(row.correct_deviator)) return;
+  if (!series.triaxial.empty() && std::isnan(series.triaxial.back().correct_deviator)) return;
+  add_message(
+      series,
+      fmt::format("correct values and ratio are blank from stage {}, increment {} on (axial strain {:.6g}): {}",
+                  row.stage, row.increment, row.axial_strain, series.correct->failure()),
+      "S530");
+}
+
+void Reports::add_message(Series& series, const std::string& words, Code code) {
+  series.messages.push_back(with_code(one_line(words), code));
+  series.file.text() += "# " + series.messages.back() + "\n";
 }
 
 // Once a stage, in front of the first row that is concerned.
@@ -300,7 +361,8 @@ void Reports::count_from_here(Series& series, const Model& model, const Solution
   series.filled = true;
 }
 
-void Reports::add_triaxial(Series& series, const Report& report, const StepReport& step, const NodeSums& sums) {
+void Reports::add_triaxial(Series& series, std::size_t index, const StepReport& step, const NodeSums& sums) {
+  const Report& report = model_->reports[index];
   TriaxialRow r;
   r.stage = step.stage + 1;
   r.increment = step.increment;
@@ -315,6 +377,7 @@ void Reports::add_triaxial(Series& series, const Report& report, const StepRepor
   r.ratio = r.correct_deviator != 0.0 ? r.measured_deviator / r.correct_deviator : kUnknown;
   if (!std::isfinite(r.ratio)) r.ratio = kUnknown;  // of a correct deviator that is next to nothing
   r.held = -(1.0 - step.load_factor) * series.released[1];
+  note_blank(series, r);
   series.triaxial.push_back(r);
 }
 
@@ -431,7 +494,7 @@ void Reports::add_rows(const Model& model, const StepReport& step, const Solutio
     } else {
       const NodeSums sums = sum_nodes(model, report, solution, series.weight, step.load_factor);
       if (report.kind == ReportKind::triaxial)
-        add_triaxial(series, report, step, sums);
+        add_triaxial(series, i, step, sums);
       else
         add_nodes(series, step, sums);
     }
@@ -467,6 +530,17 @@ void Reports::on_finish(const Model&, const RunResult&) {
   finish();
 }
 
+namespace {
+
+void exchange_texts(Archive& archive, std::vector<std::string>& texts) {
+  std::size_t count = texts.size();
+  archive(count);
+  texts.resize(count);
+  for (std::string& text : texts) archive(text);
+}
+
+}  // namespace
+
 // The law's own test is driven again through the strains of the rows so far.
 void Reports::exchange(Archive& archive) {
   for (std::size_t i = 0; i < series_.size(); ++i) {
@@ -479,6 +553,10 @@ void Reports::exchange(Archive& archive) {
     archive(series.last_load_factor);
     archive(series.released);
     archive(series.release_noted);
+    archive(series.specimen.sigma);
+    archive(series.specimen.history);
+    archive(series.specimen.note);
+    exchange_texts(archive, series.messages);
     archive(series.triaxial);
     archive(series.nodes);
     archive(series.points);

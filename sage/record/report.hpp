@@ -74,19 +74,32 @@ std::vector<ReportColumn> report_columns(const Model& model, const Report& repor
 // "report 2", or with the name and place of a point: "report 2, crest at (0.5; 1)".
 std::string report_title(const Model& model, std::size_t index);
 
+// Where a triaxial report's frictionless test starts.  Tension positive, the law's own signs; empty: the isotropic
+// cell pressure, the law's own history.
+struct SpecimenStart {
+  std::vector<double> sigma, history;
+  std::string note;  // why it is not where the mesh starts; empty: it is
+};
+// The stress and history of the specimen's points, where all are alike; the stress only if the lateral stresses that are
+// held are the cell pressure.
+SpecimenStart start_of_specimen(const Model& model, const Report& report, const Solution& solution);
+
 // The frictionless test: axial strain is given, the lateral stress stays at the cell pressure.
 class CorrectTest {
  public:
-  // Starts from the isotropic cell pressure (compression +).
-  CorrectTest(const SolidLaw& law, Geometry geometry, double cell_pressure);
-  // Deviator (compression +) at an axial strain (compression +) since the start, that much time after the call
-  // before; NaN once the law can't follow.
+  CorrectTest(const SolidLaw& law, Geometry geometry, double cell_pressure, const SpecimenStart& start = {});
+  // Growth of the axial stress (compression +) at an axial strain (compression +) since the start, that much time after
+  // the call before; NaN from where no state is found on.
   double deviator_at(double axial_strain, double duration = 1.0);
+  // Why no state was found; empty while there is one.
+  const std::string& failure() const { return failure_; }
 
  private:
   Geometry geometry_;
-  double cell_pressure_, axial_strain_ = 0.0;
+  Vector4 start_;
+  double axial_strain_ = 0.0;
   std::unique_ptr<PointDriver<4>> driver_;  // null: the path can't be followed further
+  std::string failure_;
 };
 
 // STEM.report1.csv, STEM.report2.csv, ... and the same rows in memory.
@@ -102,6 +115,9 @@ class Reports final : public Output {
   const std::vector<PointRow>& points(std::size_t index) const { return series_[index].points; }
   const std::vector<DischargeRow>& discharges(std::size_t index) const { return series_[index].discharges; }
   std::size_t count() const { return series_.size(); }
+
+  // Warnings about a report, with their codes: why values are blank, and from where on.
+  const std::vector<std::string>& messages(std::size_t index) const { return series_[index].messages; }
 
   // The same for reports of any kind: their rows so far, each row's stage and increment (from 1), and its
   // values in the order of report_columns().
@@ -131,7 +147,9 @@ class Reports final : public Output {
                           0};  // forces at the start of the stage that are let go over it; 0 = none to speak of
     bool release_noted = false;  // in the file
     double last_load_factor = 0.0;
+    SpecimenStart specimen;  // of a triaxial report
     std::unique_ptr<CorrectTest> correct;
+    std::vector<std::string> messages;
     std::vector<TriaxialRow> triaxial;
     std::vector<NodesRow> nodes;
     std::vector<PointRow> points;
@@ -145,12 +163,14 @@ class Reports final : public Output {
     FieldList fields;           // of a point
   };
   static void begin(Series& series, const Model& model, const Report& report);
+  static void add_message(Series& series, const std::string& words, Code code);
+  static void note_blank(Series& series, const TriaxialRow& row);
   static void note_release(Series& series, const Model& model, const StepReport& step);
   static NodeSums sum_nodes(const Model&, const Report&, const Solution&, const double (&weight)[2][2],
                             double load_factor);
   void enter_points(const Model&, const Solution&);
   static void count_from_here(Series&, const Model&, const Solution&);
-  void add_triaxial(Series&, const Report&, const StepReport&, const NodeSums&);
+  void add_triaxial(Series&, std::size_t index, const StepReport&, const NodeSums&);
   static void add_nodes(Series&, const StepReport&, const NodeSums&);
   static void add_point(Series&, const Model&, const StepReport&, const Solution&);
   static void add_discharge(Series&, const Model&, const Report&, const StepReport&, const Solution&);

@@ -152,6 +152,8 @@ void report_tables(std::string& text, const Model& model, const Reports& reports
   for (std::size_t i = 0; i < reports.count(); ++i) {
     if (!reports.triaxial(i).empty() && shown++ < kReports)
       triaxial_table(text, model, i, reports.triaxial(i), digits);
+    for (const std::string& message : reports.messages(i))
+      fmt::format_to(to(text), "    warning: report {}: {}\n", i + 1, message);
     if (!reports.nodes(i).empty() && shown++ < kReports) node_table(text, model, i, reports.nodes(i), digits);
     if (!reports.discharges(i).empty() && shown++ < kReports)
       discharge_table(text, model, i, reports.discharges(i), digits);
