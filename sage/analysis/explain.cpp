@@ -90,8 +90,19 @@ bool moves(const Stage& stage) {
          std::ranges::any_of(stage.field_fixities, [](const FieldFixity& f) { return f.value != 0.0; });
 }
 
+// Laws of one stiffness: nothing collapses, and what fails is arithmetic or support.
+bool is_linear(const Assembly& assembly) {
+  return std::ranges::all_of(assembly.groups(), [](const GroupData& data) {
+    return !data.active || std::visit([](const auto* law) { return has_constant_stiffness(*law); }, data.law);
+  });
+}
+
 // What else may find an equilibrium.
-std::string advice(const Stage& stage) {
+std::string advice(const Stage& stage, bool linear) {
+  if (linear)
+    return "the usual skips (without --without factors), another solver, or less stiff stiff parts: in a "
+           "linear model "
+           "what is left out of balance is rounding";
   const std::string control = moves(stage) ? "" : "displacement control if a limit load is near; ";
   const std::string more = control + "more increments; more iterations";
   switch (stage.method) {
@@ -251,9 +262,10 @@ std::string explain_singular(const Model& model, const Activity& activity, const
   const Stage& stage = model.stages[static_cast<std::size_t>(report.stage)];
   const std::string place = "stage " + std::to_string(report.stage + 1) + ", increment " +
                             std::to_string(report.increment) + ": the stiffness matrix is singular";
+  const std::string where_it_ends = is_linear(assembly) ? "" : bracket_line(model, report);
   if (step.singular_equation < 0 || step.singular_equation >= assembly.equations())
     return place + " (" + step.message + "); this solver can't tell where.\n" +
-           likely_anywhere(model, activity, assembly) + bracket_line(model, report) + refused_line(report);
+           likely_anywhere(model, activity, assembly) + where_it_ends + refused_line(report);
   const DofMap::Unknown unknown = assembly.dof_map().at(assembly.dof_of(step.singular_equation));
   const Neighbours near = around(assembly, unknown.node);
   std::string text = place + " at " + unknown_name(model, unknown) + " (" + step.message + ").\n";
@@ -282,7 +294,7 @@ std::string explain_singular(const Model& model, const Activity& activity, const
         "part joined only by\n"
         "  an interface without stiffness in that direction.\n"
         "  try: add a fixity, or full integration (see `sagefe list elements`).";
-  return text + "\n" + bracket_line(model, report) + refused_line(report);
+  return text + "\n" + where_it_ends + refused_line(report);
 }
 
 namespace {
@@ -345,9 +357,9 @@ std::string explain_failure(const Model& model, const Assembly& assembly, const 
                      std::to_string(report.increment) + " of " + std::to_string(report.increments) +
                      ": no equilibrium found after " + std::to_string(report.cuts) + " cuts of the step.\n";
   const Stage& stage = model.stages[static_cast<std::size_t>(report.stage)];
-  // A linear scene has no limit; its stiffness is not followed.
+  const bool linear = is_linear(assembly);
   const bool limit = report.stiffness_share >= 0.0 && report.stiffness_share <= kFlat;
-  text += limit ? bracket_line(model, report) : unknown_end_line(model, report);
+  if (!linear) text += limit ? bracket_line(model, report) : unknown_end_line(model, report);
   text += tried_line(stage, report);
   text += refused_line(report);
   if (step.worst.node >= 0)
@@ -370,7 +382,7 @@ std::string explain_failure(const Model& model, const Assembly& assembly, const 
             std::to_string(unique.lost) + " of " + std::to_string(unique.plastic) +
             " yielding points (flow is not associated): a dilation angle nearer to friction helps\n";
   if (step.outcome == StepOutcome::law_cut) text += "  a law found no answer for the strain it was given.\n";
-  return text + "  try: " + (unique.lost > 0 ? finer_than_helps(model, assembly) : "") + advice(stage);
+  return text + "  try: " + (unique.lost > 0 ? finer_than_helps(model, assembly) : "") + advice(stage, linear);
 }
 
 std::string lost_free_surface(const Stage& stage, double easing, double from) {

@@ -37,7 +37,7 @@ class Step {
     return (settings_.method == Method::newton || settings_.method == Method::dogleg) && !tangent_.constant();
   }
   bool new_K_each_iteration() const { return full_newton() && !settings_.contract; }
-  bool accelerated() const { return !full_newton() && !tangent_.constant(); }
+  bool accelerated() const { return !full_newton() && !tangent_.linear(); }
   bool repeats();
   void accelerate(double old_norm);
   NewtonStep& iterate_with_line_search();
@@ -321,7 +321,7 @@ IterationRecord Step::measure() {
 // of the internal forces themselves, near nu = 1/2 K/G times that of the displacements.  The run warns of it.
 bool Step::linear_rounding(const IterationRecord& record) const {
   const std::size_t done = result_.iterations.size();
-  return tangent_.constant() && done >= 3 && record.force > 0.5 * result_.iterations[done - 2].force &&
+  return tangent_.linear() && done >= 3 && record.force > 0.5 * result_.iterations[done - 2].force &&
          record.force <= std::sqrt(settings_.tolerance);
 }
 

@@ -120,8 +120,9 @@ class Run {
   double reached_ = 0.0;  // of the stage's loads, at the committed state
   const Extent extent_;
   Eigen::VectorXd target_;
-  Eigen::VectorXd last_du_;          // the last step of the stage, if path_.last_size > 0
-  bool by_newton_ = false;           // the next attempt, whatever the method of its stage
+  Eigen::VectorXd last_du_;  // the last step of the stage, if path_.last_size > 0
+  int by_newton_ =
+      0;  // the next attempt, whatever the method of its stage: 1 to a hundredth of its tolerance, 2 to it
   bool on_last_way_ = false;         // the next attempt starts with the tangent of that step
   Eigen::VectorXd committed_force_;  // internal, at the committed state; of scenes that are not linear
   // With a condensed region that is behind filled in, for observers; no entries: nobody looks.
@@ -292,7 +293,7 @@ bool Run::can_repeat(const Stage& stage, double size) const {
 
 // Whether steps of the stage may start from the way of the one before.
 bool Run::predicts(const Stage& stage) const {
-  return settings_.skips.prediction && stage.method == Method::newton && !tangent_.constant() &&
+  return settings_.skips.prediction && stage.method == Method::newton && !tangent_.linear() &&
          assembly_.condensation() == nullptr && assembly_.dof_map().only_displacement();
 }
 
@@ -304,8 +305,13 @@ bool Run::goes_on(const Stage& stage, double size) const {
 NewtonStep Run::attempt(const Stage& stage, double from, double to, bool from_here) {
   target_ = (1.0 - to) * path_.force_start + to * path_.force_end;
   set_moment(to, to - from);
-  NewtonSettings newton{by_newton_ ? Method::newton : stage.method, stage.max_iterations, stage.tolerance,
+  constexpr int kShort = 50;
+  NewtonSettings newton{by_newton_ > 0 ? Method::newton : stage.method, stage.max_iterations, stage.tolerance,
                         settings_.line_search};
+  if (by_newton_ == 1) {
+    newton.tolerance *= 0.01;
+    newton.max_iterations = std::min(newton.max_iterations, kShort);
+  }
   if (from_here) newton.start = NewtonStart::nearby;
   if (!from_here && goes_on(stage, to - from)) {
     newton.start = NewtonStart::last_way;
@@ -443,7 +449,7 @@ void Run::reject(const Stage& stage, double reached, double next) {
 
 // Linear scenes cut no step.
 void Run::keep_way(double size) {
-  if (tangent_.constant()) return;
+  if (tangent_.linear()) return;
   last_du_ = state_.du;
   path_.last_size = size;
   committed_force_ = assembly_.internal_force();
@@ -459,7 +465,7 @@ void Run::start_on_last_way(double size) {
 // Of the step in hand: where supports move, the growth of their forces along their own motion; else the growth
 // of the loads over the motion along them.  Both fall to nothing at a limit load (Bergan's current stiffness).
 void Run::measure_stiffness(double from, double to) {
-  if (tangent_.constant()) return;
+  if (tangent_.linear()) return;
   const double size = to - from;
   double work = 0.0;
   if (!system_.rate().isZero(0.0)) {
@@ -477,6 +483,7 @@ void Run::measure_stiffness(double from, double to) {
 // After a failed attempt: that of the last step, and under loads that of the attempt where it ran away.
 // Before any step the attempt's first correction, which is elastic, stands for the stage.
 double Run::stiffness_share(double from, double to, const NewtonStep& step) const {
+  if (tangent_.linear()) return -1.0;
   const double size = to - from;
   if (!system_.rate().isZero(0.0))
     return path_.stiffest > 0.0 && path_.last_size > 0.0 ? path_.last_stiffness / path_.stiffest : -1.0;
@@ -494,7 +501,7 @@ double Run::stiffness_share(double from, double to, const NewtonStep& step) cons
 double Run::refused_motion(double from, double to, const NewtonStep& step) const {
   constexpr double kFar = 1e3;    // model's sizes
   constexpr double kSoft = 0.01;  // of the stage's largest stiffness, or prescribed motion over the largest
-  if (step.outcome != StepOutcome::converged || tangent_.constant()) return 0.0;
+  if (step.outcome != StepOutcome::converged || tangent_.linear()) return 0.0;
   const int n = assembly_.dof_map().displacements();
   const double motion = n > 0 ? state_.du.head(n).lpNorm<Eigen::Infinity>() : 0.0;
   if (!(motion > kFar * extent_.size()) || !(extent_.size() > 0.0)) return 0.0;
@@ -547,7 +554,7 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
       }
       path_.path_error = std::max(path_.path_error, error);
       path_.own_tangent = path_.own_tangent || step.finished;
-      by_newton_ = false;
+      by_newton_ = 0;
       const bool modified = stage.method == Method::modified_newton && !path_.own_tangent;
       if (modified || (contracts(stage) && !predicts(stage))) renew_tangent();
       const bool same_K = tangent_.constant() || !tangent_.changed();
@@ -572,18 +579,19 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
       continue;
     }
     // The tangent of a step whose ground flows everywhere is too soft for points that stop to flow in the next one.
-    if (stage.method == Method::modified_newton && !path_.own_tangent && !tangent_.constant()) {
+    if (stage.method == Method::modified_newton && !path_.own_tangent && !tangent_.linear()) {
       path_.own_tangent = true;
       reject(stage, reached, 0.0);
       continue;
     }
     // From a place that a kept tangent has reached Newton's method may find nothing where it does from the start.
-    if (step.finished && !by_newton_) {
-      by_newton_ = true;
+    // It comes nearer than the stage asks, if it can.
+    if ((step.finished && by_newton_ == 0) || by_newton_ == 1) {
+      ++by_newton_;
       reject(stage, reached, 0.0);
       continue;
     }
-    by_newton_ = false;
+    by_newton_ = 0;
     // Half way along a collapse mechanism the matrix may be singular where the committed state's is not.
     if (step.outcome == StepOutcome::singular && on_last_way_) {
       reject(stage, reached, 0.0);
@@ -594,7 +602,7 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
     const bool given_up =
         trial_ != nullptr && (step.flows || report.total_iterations >= kMostAttempts * stage.max_iterations);
     const bool shortest = given_up || to - reached < 1.001 * std::ldexp(whole, -max_cuts_);
-    if (shortest || tangent_.constant()) {
+    if (shortest || tangent_.linear()) {
       report.stiffness_share = stiffness_share(reached, to, step);
       return fail(report, step);
     }

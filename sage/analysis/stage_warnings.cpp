@@ -1,5 +1,7 @@
 #include "sage/analysis/stage_warnings.hpp"
 
+#include <algorithm>
+
 #include "sage/analysis/explain.hpp"
 #include "sage/analysis/free_surface.hpp"
 #include "sage/analysis/stream_function.hpp"
@@ -31,14 +33,39 @@ void add_motion(Messages& messages, double motion) {
                            short_number(kLargeMotion) + " times) do not describe this");
 }
 
+// Points at the apex or cut off in tension, and the elements that have them, the first few by number.
+struct PointsWithout {
+  long points = 0;
+  std::string elements;
+};
+
+PointsWithout points_without_stiffness(const Assembly& assembly) {
+  constexpr int kNamed = 8;
+  PointsWithout found;
+  int count = 0;
+  for (const GroupData& data : assembly.groups()) {
+    if (!data.active) continue;
+    const auto points = static_cast<std::size_t>(data.group->element->traits().points);
+    for (std::size_t e = 0; e < data.group->element_numbers.size(); ++e) {
+      const auto first = data.state.committed.status.begin() + static_cast<std::ptrdiff_t>(e * points);
+      const long here = std::count(first, first + static_cast<std::ptrdiff_t>(points), PointStatus::apex);
+      found.points += here;
+      if (here == 0 || ++count > kNamed) continue;
+      found.elements += (count > 1 ? ", " : "") + std::to_string(data.group->element_numbers[e]);
+    }
+  }
+  if (count > kNamed) found.elements += " and " + std::to_string(count - kNamed) + " more";
+  return found;
+}
+
 void add_points(Messages& messages, const Assembly& assembly) {
-  const auto points = assembly.count_points();
-  const long apex = points[static_cast<std::size_t>(PointStatus::apex)];
-  if (apex > 0)
+  const PointsWithout without = points_without_stiffness(assembly);
+  if (without.points > 0)
     messages.add(
-        "S522",
-        std::to_string(apex) +
-            " point(s) at the apex or cut off in tension: results there depend on how the law treats tension");
+        "S522", std::to_string(without.points) + " point(s) at the apex or cut off in tension, in element(s) " +
+                    without.elements +
+                    ": the tangent there has no stiffness; results there depend on how the law treats tension, "
+                    "and on the path of the iteration");
   const UniquenessCount unique = count_loss_of_uniqueness(assembly);
   if (unique.lost > 0)
     messages.add("S523",

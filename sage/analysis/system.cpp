@@ -21,7 +21,7 @@ System::System(const Model& model, const Catalogue& catalogue, const RunSettings
       scene_(analyse_scene(model)),
       assembly_(model, scene_, settings.skips, work),
       activity_(model),
-      tangent_(scene_.linear && settings.skips.factors),
+      tangent_(scene_.linear, settings.skips.factors),
       lived_(model.groups.size(), 0) {
   assembly_.set_stop(settings.stop_asked);
   assembly_.set_threads(settings.threads);

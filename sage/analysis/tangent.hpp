@@ -23,8 +23,8 @@ class Tangent {
     factorised,  // and its factors
   };
 
-  // constant: K can never change while the pattern stands (a linear scene).
-  explicit Tangent(bool constant) : constant_(constant) {}
+  // linear: K can never change while the pattern stands.  keeps: and its factors are kept, as long as it does.
+  Tangent(bool linear, bool keeps) : linear_(linear), constant_(linear && keeps) {}
 
   // A new pattern of equations, and a solver for it.
   void analyse(std::unique_ptr<LinearSolver> solver, const std::string& name, int equations,
@@ -36,6 +36,7 @@ class Tangent {
   }
 
   State state() const { return state_; }
+  bool linear() const { return linear_; }
   bool constant() const { return constant_; }
   bool analysed() const { return solver_ != nullptr; }
   bool current() const { return state_ >= State::current; }
@@ -91,7 +92,7 @@ class Tangent {
   void clear();
   void forget_sizes();
 
-  bool constant_;
+  bool linear_, constant_;
   State state_ = State::empty;
   bool changed_ = true;
   std::unique_ptr<LinearSolver> solver_;

@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(Decks, KeptTangents,
                                          clay("rough_circle", 2, 4, true), clay("von_mises", 1, 3, false),
                                          frictional("associated", 20.0, 20.0),
                                          frictional("dilating_little", 25.0, 5.0)),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& deck) { return deck.param.name; });
 
 }  // namespace
 }  // namespace sage::test

@@ -110,6 +110,27 @@ TEST(CorrectTest, DruckerPragerStopsAtTheMohrCoulombStrength) {
   EXPECT_NEAR(correct.deviator_at(0.2), strength, 1e-6 * strength);  // the driver's tolerance over many steps
 }
 
+// No cell pressure that tension could carry: blank, with the reason.
+TEST(CorrectTest, SaysWhyItHasNoAnswer) {
+  Catalogue catalogue = Specimen().catalogue;
+  const LawPtr law = catalogue.materials.find(3)->make(std::vector<double>{3000.0, 0.3, 0.0, 30.0},
+                                                       {"in", "lbf", "psi", 14.696, 0.036111});
+  CorrectTest correct(*std::get<std::unique_ptr<SolidLaw>>(law), Geometry::axisymmetric, -50.0);
+  EXPECT_TRUE(std::isnan(correct.deviator_at(0.001)));
+  EXPECT_NE(correct.failure().find("can't carry the initial stress"), std::string::npos) << correct.failure();
+}
+
+// From an axial stress of 60 beside a cell pressure of 50 the strength leaves 10 less to come.
+TEST(CorrectTest, StartsFromTheStressOfTheMesh) {
+  Catalogue catalogue = Specimen().catalogue;
+  const LawPtr law = catalogue.materials.find(3)->make(std::vector<double>{3000.0, 0.3, 2.0, 30.0},
+                                                       {"in", "lbf", "psi", 14.696, 0.036111});
+  const double strength = (2.0 * 2.0 * std::cos(kPi / 6.0) + 2.0 * 50.0 * 0.5) / 0.5;
+  CorrectTest correct(*std::get<std::unique_ptr<SolidLaw>>(law), Geometry::axisymmetric, 50.0,
+                      {{-50.0, -60.0, -50.0, 0.0}, {0.0, 0.0}, ""});
+  EXPECT_NEAR(correct.deviator_at(0.2), strength - 10.0, 1e-8 * strength);
+}
+
 TEST(TriaxialReport, UsesAGivenArea) {
   Specimen specimen;
   Report report = top_report();
