@@ -121,8 +121,8 @@ class Run {
   const Extent extent_;
   Eigen::VectorXd target_;
   Eigen::VectorXd last_du_;  // the last step of the stage, if path_.last_size > 0
-  int by_newton_ =
-      0;  // the next attempt, whatever the method of its stage: 1 to a hundredth of its tolerance, 2 to it
+  // The next attempt is Newton's, whatever the method of its stage: 1 to a hundredth of its tolerance, 2 to all of it.
+  int by_newton_ = 0;
   bool on_last_way_ = false;         // the next attempt starts with the tangent of that step
   Eigen::VectorXd committed_force_;  // internal, at the committed state; of scenes that are not linear
   // With a condensed region that is behind filled in, for observers; no entries: nobody looks.

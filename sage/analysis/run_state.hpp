@@ -27,7 +27,7 @@ struct StagePath {
   double stiffest = 0.0, last_stiffness = 0.0;  // along the motion: largest so far, of the last step
   double path_error = 0.0;                      // largest so far
   bool own_tangent = false;  // modified Newton, initial stiffness: steps begin with K of their start
-  std::string loose_part;                       // the first; empty = none
+  std::string loose_part;    // the first; empty = none
   std::vector<std::vector<double>> pore_start, pore_end;  // pore pressure at points, by group; empty = no water
 };
 

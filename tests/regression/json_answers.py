@@ -186,6 +186,31 @@ def check_others(folder):
     expect(both["comparison"]["answers"] and both["a"]["reports"], "comparison")
 
 
+def check_points_without_answer(folder, law):
+    """Blank cells with their reason, and a law of a deck that has no stages."""
+    (folder / "beyond.csv").write_text("stress_xx, stress_yy, stress_zz, steps\n100, 500, 100, 10\n")
+    beyond = answer(folder, *law, "--path", "beyond.csv", "--pressure", "100", code=3)
+    expect([one["code"] for one in beyond["messages"]] == ["S532"], "a stress beyond the strength", beyond["messages"])
+    expect("largest stress" in beyond["result"]["curves"][0]["failure"], "its reason", beyond["result"]["curves"][0]["failure"])
+    cards = (SOURCE / "legacy_inputs/triaxial/dilating_near_incompressible/deck.dat").read_text().splitlines()
+    report = next(i for i, card in enumerate(cards) if card.endswith("100.") and card.startswith("    1    1    3"))
+    cards[report] = cards[report][:-4] + "-90."
+    (folder / "torn.dat").write_text("\n".join(cards) + "\n")
+    torn = answer(folder, "run", "torn.dat", "-o", "out")
+    report = torn["result"]["decks"][0]["reports"][0]
+    expect("S530" in [one["code"] for one in torn["messages"]] and "[S530]" in report["messages"][0], "blank", torn["messages"])
+    expect(all(row["values"][3] is None and row["values"][6] is None for row in report["rows"]), "cells", report["rows"][-1])
+    for file in ("torn.report1.csv", "torn.lst"):
+        expect("[S530]" in (folder / "out" / file).read_text(), "S530 in", file)
+    stage = cards.index("Compression to 5 %")
+    control = cards[2][:45] + "    0    0" + cards[2][55:]
+    (folder / "bare.dat").write_text("\n".join(cards[:2] + [control] + cards[3:stage] + ["END"]) + "\n")
+    bare = answer(folder, "drive", "--deck", "bare.dat", "--test", "triaxial_compression", "--pressure", "100", "--to", ".05")
+    curve = bare["result"]["curves"][0]
+    place = [column["name"] for column in curve["columns"]].index("axial_deviator")
+    expect(abs(curve["rows"][-1][place] - 531.12698) < 1e-4, "law of a deck without stages", curve["rows"][-1])
+
+
 def check_small_commands(folder, plugin):
     clean = lambda name: lambda: shutil.rmtree(folder / name)
     every = answer(folder, "explain")["result"]["codes"]
@@ -221,6 +246,7 @@ def check_small_commands(folder, plugin):
             value = values[at]
             expect(math.isclose(float(row[title]), value, rel_tol=6e-10, abs_tol=1e-12), name, row[title], value)
     answer(folder, *law, "--test", "nonsense", "--to", ".05", code=1)
+    check_points_without_answer(folder, law)
     answer(folder, "drive", code=1)
     answer(folder, "conform", "none.so", code=1)
     answer(folder, "conform", code=1)
