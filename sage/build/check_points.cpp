@@ -50,7 +50,8 @@ void check_points(Builder& b) {
   const Model& model = b.model;
   const auto is_point = [](const Report& r) { return r.kind == ReportKind::point; };
   if (std::none_of(model.reports.begin(), model.reports.end(), is_point)) return;
-  const Locator locator(model);
+  const ElementKind kind = kind_at_points(model);
+  const Locator locator(model, kind);
   for (std::size_t i = 0; i < model.reports.size(); ++i) {
     const Report& report = model.reports[i];
     if (!is_point(report)) continue;
@@ -62,7 +63,8 @@ void check_points(Builder& b) {
       b.error("S243", report.where,
               "the point " + place_text(report.place) +
                   (found.empty()
-                       ? " lies outside the mesh: no solid element holds it"
+                       ? std::string(" lies outside the mesh: no ") +
+                             (kind == ElementKind::flow ? "element of flow" : "solid element") + " holds it"
                        : " does not lie in group " + number_of(model, static_cast<std::size_t>(report.group)) +
                              " but in group " + number_of(model, found.front().group)));
     else if (!placed_from(model, report, found))

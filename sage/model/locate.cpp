@@ -31,6 +31,14 @@ bool share_a_node(const Model& model, const Location& a, const Location& b) {
 
 }  // namespace
 
+ElementKind kind_at_points(const Model& model) {
+  const auto has = [&](ElementKind kind) {
+    return std::ranges::any_of(
+        model.groups, [&](const Group& group) { return group.entry->kind == kind && group.elements() > 0; });
+  };
+  return has(ElementKind::flow) && !has(ElementKind::solid) ? ElementKind::flow : ElementKind::solid;
+}
+
 Locator::Locator(const Model& model, ElementKind kind) : model_(&model) {
   Eigen::Matrix2Xd x;
   for (std::size_t g = 0; g < model.groups.size(); ++g) {

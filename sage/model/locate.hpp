@@ -41,6 +41,9 @@ class Locator {
   double left_ = 0.0, strip_ = 1.0;
 };
 
+// What point reports show: the solids, or the elements of flow where the model has no solid.
+ElementKind kind_at_points(const Model& model);
+
 // Of a mesh as the deck has it: the most by which a place that Locator::at gives to an element lies outside.
 double reach_of(const Model& model);
 

@@ -45,7 +45,7 @@ void DiscretisationError::on_start(const Model& model, const Scene& scene, std::
 
 void DiscretisationError::on_stage_start(const Model& model, int stage, const Solution& solution) {
   if (report_ >= 0 && stage == model.reports[static_cast<std::size_t>(report_)].stage)
-    start_ = stress_state(*solution.assembly);
+    start_ = stress_state(solution);
 }
 
 void DiscretisationError::on_stage_end(const Model& model, int stage, const EquilibriumAudit&,
@@ -59,6 +59,7 @@ void DiscretisationError::on_failure(const Model& model, const StepReport&, cons
 }
 
 void DiscretisationError::compute(const Model& model, const Solution& solution) {
+  if (!locking_groups(model).empty()) return;
   estimate_ = estimate_error(model, solution, start_ ? &*start_ : nullptr);
   if (report_ < 0 || !linear_ || !estimate_->energy) return;
   const Report& report = model.reports[static_cast<std::size_t>(report_)];
@@ -71,15 +72,30 @@ void DiscretisationError::compute(const Model& model, const Solution& solution) 
 }
 
 void DiscretisationError::exchange(Archive& archive) {
-  std::size_t groups = start_ ? start_->size() : 0;
+  std::size_t groups = start_ ? start_->sigma.size() : 0;
   archive(groups);
   if (groups == 0) return;
-  if (archive.reading()) start_.emplace(groups);
-  for (std::vector<double>& sigma : *start_) archive(sigma);
+  if (archive.reading())
+    start_.emplace(std::vector<std::vector<double>>(groups), std::vector<std::vector<double>>(groups));
+  for (std::vector<double>& sigma : start_->sigma) archive(sigma);
+  for (std::vector<double>& eps : start_->eps) archive(eps);
+  archive(start_->u);
+}
+
+std::string DiscretisationError::why_none(const Model& model) {
+  const std::vector<int> locking = locking_groups(model);
+  if (locking.empty()) return {};
+  const Group& group = model.groups[static_cast<std::size_t>(locking.front())];
+  return fmt::format(
+      "not estimated: group {} ({}) locks near nu = 1/2, and an estimate sees only a part of that [S410]",
+      group.number, group.element_name);
 }
 
 std::string DiscretisationError::text(const Model& model) const {
-  if (!estimate_) return {};
+  if (!estimate_) {
+    const std::string why = why_none(model);
+    return why.empty() ? why : "  error       " + why + "\n";
+  }
   std::string text =
       fmt::format("  error       stress {:.2g} % {} (Zienkiewicz-Zhu)", 100.0 * estimate_->relative(),
                   estimate_->energy ? "in the energy norm" : "in the mean-square norm");

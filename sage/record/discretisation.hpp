@@ -33,6 +33,8 @@ class DiscretisationError final : public Observer {
   // The end moves by d, all else is held at zero: F d = a(u, u), and the mesh's
   // F_h d = a(u_h, u_h) = a(u, u) + |e|^2.  So F_h - F = |e|^2 / d, the square of the error in the energy norm of what the report's stages add.
   const std::optional<double>& ratio_error() const { return ratio_error_; }
+  // Why a model has no estimate, for the summary; empty: it has one.
+  static std::string why_none(const Model& model);
   // Lines of the summary.
   std::string text(const Model& model) const;
 

@@ -74,7 +74,19 @@ void discharge_rows(std::string& text, const Model& model, const std::vector<Dis
   }
 }
 
+void flow_point_rows(std::string& text, const Model& model, const std::vector<PointRow>& rows) {
+  fmt::format_to(to(text), "   stage  incr{:>14}{:>14}{:>14}{:>14}    (heads {}, velocity {})\n", "head",
+                 "pressure head", "velocity-x", "velocity-y", model.units.length,
+                 unit_text(Dimension::velocity, model.units));
+  for (const PointRow& r : rows) {
+    fmt::format_to(to(text), "   {:>5}{:>6}", r.stage, r.increment);
+    for (double v : r.flow) put(text, v, 14, 6);
+    text += '\n';
+  }
+}
+
 void point_rows(std::string& text, const Model& model, const std::vector<PointRow>& rows) {
+  if (kind_at_points(model) == ElementKind::flow) return flow_point_rows(text, model, rows);
   text += "   stage  incr";
   const FieldTable table;
   for (const FieldEntry* field : fields_named(table, {"displacement", "strain", "stress"}))

@@ -89,6 +89,11 @@ std::string remarks(const Model& model, std::size_t index) {
         "# gradient: largest fall of the head across the line at its nodes; head: mean of its nodes\n"
         "# fx, fy: what the water presses with from the left of the line on what lies to its right\n",
         per);
+  if (kind_at_points(model) == ElementKind::flow)
+    return fmt::format(
+        "# {}; head, pressure head and velocity of the water; units {}\n# blank while nothing is active "
+        "there\n",
+        report_title(model, index), u.length);
   return fmt::format(
       "# {}; displacement along +x, +y and strain since the start of stage {}; stress and strain compression "
       "positive, shear likewise reversed and engineering; units {}, {}\n"
@@ -132,13 +137,15 @@ std::vector<ReportColumn> report_columns(const Model& model, const Report& repor
             {"fy", u.force, true}};
   const FieldTable table = fields_of(model);
   std::vector<ReportColumn> columns;
-  for (const FieldEntry* field : point_report_fields(table, report))
+  for (const FieldEntry* field : point_report_fields(model, table, report))
     for (std::size_t c = 0; c < field->size(); ++c)
       columns.push_back({field->column(c), unit_text(field->dimension, u), true});
   return columns;
 }
 
-FieldList point_report_fields(const FieldTable& table, const Report& report) {
+FieldList point_report_fields(const Model& model, const FieldTable& table, const Report& report) {
+  if (kind_at_points(model) == ElementKind::flow)
+    return fields_at_places(table, {"head", "pressure_head", "velocity"}, report.fields);
   return fields_at_places(table, {"displacement", "strain", "stress", "mean_stress", "deviator"},
                           report.fields);
 }
@@ -245,7 +252,8 @@ void Reports::on_start(const Model& model, const Scene&, std::string_view, int) 
     series.file = OutFile(folder_ / (stem_ + ".report" + std::to_string(i + 1) + ".csv"));
     series.file.text() = header(model, i);
     if (model.reports[i].kind == ReportKind::point) {
-      series.fields = point_report_fields(fields_, model.reports[i]);
+      series.fields = point_report_fields(model, fields_, model.reports[i]);
+      series.of_flow = kind_at_points(model) == ElementKind::flow;
       series.start.assign(size_of(series.fields), 0.0);
     }
     series_.push_back(std::move(series));
@@ -342,7 +350,7 @@ void Reports::enter_points(const Model& model, const Solution& solution) {
     const Report& report = model.reports[i];
     if (report.kind == ReportKind::discharge) series_[i].line = flow_line(model, probed_, report.nodes);
     if (report.kind != ReportKind::point) continue;
-    if (!maker) maker.emplace(model, probed_);
+    if (!maker) maker.emplace(model, probed_, kind_at_points(model));
     series_[i].probe = maker->at(report.place, report.group);
   }
 }
@@ -398,11 +406,15 @@ void Reports::add_point(Series& series, const Model& model, const StepReport& st
   r.stage = step.stage + 1;
   r.increment = step.increment;
   const double* at = v.data();
-  for (double& displacement : r.displacement) displacement = *at++;
-  for (double& strain : r.strain) strain = *at++;
-  for (double& stress : r.stress) stress = *at++;
-  r.mean = *at++;
-  r.deviator = *at++;
+  if (series.of_flow) {
+    for (double& number : r.flow) number = *at++;
+  } else {
+    for (double& displacement : r.displacement) displacement = *at++;
+    for (double& strain : r.strain) strain = *at++;
+    for (double& stress : r.stress) stress = *at++;
+    r.mean = *at++;
+    r.deviator = *at++;
+  }
   series.more.insert(series.more.end(), v.begin() + (at - v.data()), v.end());
   series.points.push_back(r);
 }
@@ -451,10 +463,15 @@ std::vector<double> Reports::values(std::size_t index, std::size_t row) const {
     return {r.discharge, r.gradient, r.head, r.force[0], r.force[1]};
   }
   const PointRow& r = series.points.at(row);
-  std::vector<double> values(r.displacement, r.displacement + 2);
-  values.insert(values.end(), r.strain, r.strain + 4);
-  values.insert(values.end(), r.stress, r.stress + 4);
-  values.insert(values.end(), {r.mean, r.deviator});
+  std::vector<double> values;
+  if (series.of_flow) {
+    values.assign(r.flow, r.flow + 4);
+  } else {
+    values.assign(r.displacement, r.displacement + 2);
+    values.insert(values.end(), r.strain, r.strain + 4);
+    values.insert(values.end(), r.stress, r.stress + 4);
+    values.insert(values.end(), {r.mean, r.deviator});
+  }
   const std::size_t more = series.more.size() / series.points.size();
   const double* first = series.more.data() + row * more;
   values.insert(values.end(), first, first + more);

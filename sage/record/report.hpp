@@ -51,6 +51,8 @@ struct PointRow {
   double strain[4] = {0, 0, 0, 0};
   double stress[4] = {0, 0, 0, 0};
   double mean = 0.0, deviator = 0.0;  // p = (xx + yy + zz) / 3 and q = sqrt(3 J2) of that stress
+  // Instead, where the model has elements of flow alone: head, pressure head, velocity along x and y.
+  double flow[4] = {0, 0, 0, 0};
 };
 
 // One increment of a discharge report: FlowThrough of the line; NaN while nothing that water flows through is
@@ -62,7 +64,7 @@ struct DischargeRow {
 };
 
 // The usual fields of a point report, whose values are those numbers; then come those of Report::fields.
-FieldList point_report_fields(const FieldTable& table, const Report& report);
+FieldList point_report_fields(const Model& model, const FieldTable& table, const Report& report);
 
 // A column of a report's file, behind stage and increment.
 struct ReportColumn {
@@ -161,6 +163,7 @@ class Reports final : public Output {
     int group = -1;             // that `start` belongs to
     std::vector<double> start;  // numbers of a point that rows count from; 0 = as they are
     FieldList fields;           // of a point
+    bool of_flow = false;       // a point in a model of flow alone
   };
   static void begin(Series& series, const Model& model, const Report& report);
   static void add_message(Series& series, const std::string& words, Code code);

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "sage/model/activity.hpp"
+#include "sage/model/flow_line.hpp"
 #include "sage/model/locate.hpp"
 
 namespace sage {
@@ -81,7 +82,7 @@ void add_point(const Model& model, std::size_t i, const Reports& reports, std::v
   std::map<Dimension, double> largest;
   const FieldTable table = fields_of(model);
   std::vector<Dimension> family;
-  for (const FieldEntry* field : point_report_fields(table, model.reports[i]))
+  for (const FieldEntry* field : point_report_fields(model, table, model.reports[i]))
     family.insert(family.end(), field->size(), field->dimension);
   for (std::size_t row = 0; row < reports.rows(i); ++row) {
     const std::vector<double> values = reports.values(i, row);
@@ -91,9 +92,35 @@ void add_point(const Model& model, std::size_t i, const Reports& reports, std::v
     }
   }
   const std::vector<double> last = reports.values(i, reports.rows(i) - 1);
+  const bool flow = kind_at_points(model) == ElementKind::flow;
   for (std::size_t k = 0; k < columns.size(); ++k)
     all.push_back({name_of(i, columns[k].name), last[k], largest[family[k]],
-                   k < 2 || columns[k].name.starts_with("stress_")});
+                   k < 2 || columns[k].name.starts_with(flow ? "velocity_" : "stress_")});
+}
+
+// The discharge is what converges everywhere: a gradient may have no bound at a corner, and the others come with it.
+void add_discharge(const Model& model, std::size_t i, const Reports& reports,
+                   std::vector<ReportComponent>& all) {
+  const std::vector<std::string> columns = columns_of(model, model.reports[i]);
+  const std::vector<double> last = reports.values(i, reports.rows(i) - 1);
+  std::vector<double> largest(columns.size(), 0.0);
+  for (std::size_t row = 0; row < reports.rows(i); ++row) {
+    const std::vector<double> values = reports.values(i, row);
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      if (std::abs(values[k]) > largest[k]) largest[k] = std::abs(values[k]);
+  }
+  const std::size_t fx = columns.size() - 2;
+  largest[fx] = largest[fx + 1] = std::max(largest[fx], largest[fx + 1]);
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    all.push_back({name_of(i, columns[k]), last[k], largest[k], k == 0});
+}
+
+// Empty where water flows through the line at the end.
+std::string why_no_discharge(const Model& model, const Report& report) {
+  Activity activity(model);
+  for (const Stage& stage : model.stages) activity.enter(stage);
+  const std::string fault = flow_line(model, activity.group, report.nodes).fault;
+  return fault.empty() ? fault : "its line at the end: " + fault;
 }
 
 }  // namespace
@@ -107,9 +134,10 @@ std::vector<std::string> component_names(const Model& model) {
 
 std::string why_no_value(const Model& model, std::size_t index) {
   const Report& report = model.reports[index];
+  if (report.kind == ReportKind::discharge) return why_no_discharge(model, report);
   if (report.kind != ReportKind::point) return {};
   const std::string point = fmt::format("the point ({:.10g}; {:.10g})", report.place.x(), report.place.y());
-  const std::vector<Location> found = Locator(model).at(report.place);
+  const std::vector<Location> found = Locator(model, kind_at_points(model)).at(report.place);
   if (one_body(model, found, {}, report.group).empty()) return point + " lies outside the mesh";
   Activity activity(model);
   int last_holder = -1, removed_in = 0;
@@ -136,6 +164,7 @@ std::vector<ReportComponent> last_components(const Model& model, const Reports& 
     if (report.kind == ReportKind::nodes && !reports.nodes(i).empty())
       add_nodes(model, report, i, reports.nodes(i), all);
     if (report.kind == ReportKind::point && reports.rows(i) > 0) add_point(model, i, reports, all);
+    if (report.kind == ReportKind::discharge && reports.rows(i) > 0) add_discharge(model, i, reports, all);
   }
   return all;
 }

@@ -13,7 +13,7 @@ struct ReportComponent {
   // What a reader of the report looks at first: the ratio of a triaxial test (its measured deviator where no
   // ratio is known); of nodes the force in the directions in which two or more of the deck's nodes are held,
   // and else the displacement (the reaction of one node alone vanishes with its share of the edge); of a point
-  // its displacement and stress.
+  // its displacement and stress, or heads and velocity where water alone flows; of a line the discharge.
   bool main = false;
 };
 
@@ -24,8 +24,8 @@ std::vector<std::string> component_names(const Model& model);
 std::vector<ReportComponent> last_components(const Model& model, const Reports& reports);
 
 // Why a report has no value at the end of a complete run: "group 2, which holds the point (0.5;
-// 1.5), is removed in stage 2".  Empty for reports other than of points, and for a point that an
-// active element holds then.
+// 1.5), is removed in stage 2".  Empty for reports of other kinds than points and discharges, for a point that an
+// active element holds then, and for a line that water flows through.
 std::string why_no_value(const Model& model, std::size_t report);
 
 }  // namespace sage

@@ -120,8 +120,10 @@ void point_table(std::string& text, const Model& model, std::size_t index, const
   const Report& report = model.reports[index];
   fmt::format_to(to(text), "  point {:<11}{} ({:.10g}; {:.10g})\n    {:<13}{:>7}", index + 1, report.name,
                  report.place.x(), report.place.y(), "", "incr");
-  const FieldTable table;
-  for (const FieldEntry* field : fields_named(table, {"displacement", "stress"}))
+  const bool flow = kind_at_points(model) == ElementKind::flow;
+  const FieldTable table = fields_of(model);
+  for (const FieldEntry* field : flow ? fields_named(table, {"head", "pressure_head", "velocity"})
+                                      : fields_named(table, {"displacement", "stress"}))
     for (std::size_t c = 0; c < field->size(); ++c)
       fmt::format_to(
           to(text), "{:>{}}",
@@ -130,8 +132,12 @@ void point_table(std::string& text, const Model& model, std::size_t index, const
   text += '\n';
   for (const PointRow& r : chosen(rows)) {
     fmt::format_to(to(text), "    stage {:<7}{:>7}", r.stage, r.increment);
-    for (double u : r.displacement) text += cell(u, "{:.5g}", kWidth, digits);
-    for (double stress : r.stress) text += cell(stress, "{:.5g}", kWidth, digits);
+    if (flow) {
+      for (double number : r.flow) text += cell(number, "{:.5g}", kWidth, digits);
+    } else {
+      for (double u : r.displacement) text += cell(u, "{:.5g}", kWidth, digits);
+      for (double stress : r.stress) text += cell(stress, "{:.5g}", kWidth, digits);
+    }
     text += '\n';
   }
 }
