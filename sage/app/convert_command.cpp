@@ -36,7 +36,7 @@ Model read_model(const ConvertOptions& options, const Catalogue& catalogue) {
   if (ending(options.from) != ".msh")
     return build_model(read_input(options.from, options.input), catalogue, options.input.build);
   const BuildOptions& build = options.input.build;
-  if (build.element != 0 || build.refine != 0 || !build.gradings.empty())
+  if (build.element != 0 || build.refine != 0 || build.refine_graded != 0 || !build.gradings.empty())
     throw InputError("S905", {options.from, 0, 0, 0},
                      "--element, --refine and --grade are for decks: convert to .dat first");
   std::ifstream in(options.from, std::ios::binary);

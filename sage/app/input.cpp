@@ -212,6 +212,11 @@ void add_build_options(CLI::App& parser, BuildOptions& options, const Catalogue&
           return std::string(error.what());
         }
       });
+  parser
+      .add_option_function<int>(
+          "--refine-graded", [&options](int times) { options.refine_graded = times; },
+          "split every element into four, so many times, after the layers of --grade were made")
+      ->check(CLI::Range(0, 12));
   parser.add_flag(
       "--partial", options.partial,
       "compute what is left of a foreign deck that asks for more than this program has (beams, soils "

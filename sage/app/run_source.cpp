@@ -30,6 +30,7 @@ std::string words_of(const BuildOptions& build) {
   if (build.refine != 0) add("--refine", std::to_string(build.refine));
   for (const Grading& g : build.gradings)
     add("--grade", fmt::format("{}:{}:{}", g.node == 0 ? "auto" : std::to_string(g.node), g.layers, g.ratio));
+  if (build.refine_graded != 0) add("--refine-graded", std::to_string(build.refine_graded));
   if (build.partial) words.emplace_back("--partial");
   // A name that begins with "-" is none of an option: "=" keeps the two together.
   for (const PointRequest& p : build.points)

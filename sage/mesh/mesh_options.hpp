@@ -17,9 +17,10 @@ struct Grading {
 };
 
 struct MeshOptions {
-  bool coarsen = false;           // first: no more elements than the geometry needs
+  bool coarsen = false;           // first: no more elements than the geometry and the corners of gradings need
   int refine = 0;                 // every element into four, so many times
   std::vector<Grading> gradings;  // after refining
+  int refine_graded = 0;          // last: every element into four, layers too
   // Gets a message before a large mesh is made; empty = nobody.
   std::function<void(const std::string&, Code)> say;
 };

@@ -140,16 +140,32 @@ bool has_unusable_shapes(const Model& model) {
   return false;
 }
 
+// Layers fit elements that are about as long as wide.
+bool square_corners(Work& b) {
+  std::vector<int> corners;
+  for (const Grading& grading : b.meshing.gradings) {
+    if (const int* node = b.node_index.find(grading.node); node != nullptr && grading.node != 0)
+      corners.push_back(*node);
+    if (grading.node != 0) continue;
+    const std::vector<int> found = singular_corners(b.model);
+    corners.insert(corners.end(), found.begin(), found.end());
+  }
+  return square_at(b, corners);
+}
+
 }  // namespace
 
 void refine_as_asked(Work& b) {
   const MeshOptions& options = b.meshing;
-  if (options.coarsen && !coarsen(b))
-    b.note("S407", b.at_line(0), "the mesh stays as it is: no coarser one of quadrilaterals means the same");
-  if (options.refine <= 0 && options.gradings.empty()) return;
+  const bool coarser = options.coarsen && coarsen(b);
+  if (!options.coarsen && options.refine <= 0 && options.gradings.empty() && options.refine_graded <= 0) return;
   if (has_unusable_shapes(b.model)) return;
   const std::vector<char> before = used_nodes(b.model);
   const std::map<int, EdgeKey> middles = given_middles(b.model);
+  const bool cut = options.coarsen && square_corners(b);
+  if (options.coarsen && !coarser && !cut)
+    b.note("S407", b.at_line(0), "the mesh stays as it is: no coarser one of quadrilaterals means the same");
+  if (options.refine <= 0 && options.gradings.empty() && options.refine_graded <= 0) return;
   warn_point_loads(b);
   refine(b, options.refine);
   for (const Grading& grading : options.gradings)
@@ -160,6 +176,7 @@ void refine_as_asked(Work& b) {
           "mesh graded towards node " + std::to_string(b.model.mesh.number[static_cast<std::size_t>(node)]) +
               ": where the corner is singular the stress at it does not converge, it grows with every layer");
     }
+  refine(b, options.refine_graded);
   refuse_lost_supports(b, middles, used_nodes(b.model));
   drop_lost_nodes(b, before);
 }

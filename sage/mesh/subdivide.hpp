@@ -71,6 +71,10 @@ void grade(Work& b, int node, int layers, double ratio);
 // corners and mid-side nodes.
 bool coarsen(Work& b);
 
+// Elements at these corners (indices of nodes) that are much longer than wide are cut, and what lies beside them, from
+// one end of the mesh to the other.  False: none was.
+bool square_at(Work& b, const std::vector<int>& corners);
+
 // Corners of the mesh where the solution is singular: see docs/theory/accuracy.md.  Sorted indices.
 std::vector<int> singular_corners(const Model& model);
 

@@ -240,5 +240,34 @@ TEST(Coarsen, OtherMeshesStayAsTheyAre) {
   EXPECT_EQ(same.mesh.nodes(), 25);
 }
 
+// One element of 1 x 3 with rough ends, whose corner above is singular: the part there is cut to 1 x 1, and layers are as
+// long as wide.  From any number of rows the mesh is the same.
+TEST(Coarsen, ElementsAtGradedCornersAreAsLongAsWide) {
+  for (const int rows : {1, 3, 7}) {
+    scenes::DeckWriter deck(1);
+    const scenes::Block block{2, rows, scenes::Cell::quad4, 1, 1, scenes::rectangle(0.0, 1.0, 0.0, 3.0)};
+    block.write_nodes(deck);
+    deck.material(1, 1, {1000.0, 0.3});
+    deck.group(1, 1, 2, 1);
+    block.write_elements(deck, 1);
+    for (int node : block.bottom()) deck.fix(node, 0, 1);
+    for (int node : block.left()) deck.fix(node, 1, 0);
+    scenes::StageCards& stage = deck.stage();
+    for (int node : block.top()) stage.fix(node, 1, 1, 0.0, -0.01);
+    BuildOptions options = coarse();
+    EXPECT_EQ(elements(build(deck.text(), options)), 1) << "without layers nothing is cut";
+    options.gradings = {{0, 1, 0.15}};
+    const Model graded = build(deck.text(), options);
+    EXPECT_EQ(elements(graded), 2 + 2) << rows << " rows";
+    double smallest = 3.0;
+    for (int node = 0; node < graded.mesh.nodes(); ++node)
+      if (graded.mesh.x(0, node) == 1.0 && graded.mesh.x(1, node) < 3.0)
+        smallest = std::min(smallest, 3.0 - graded.mesh.x(1, node));
+    EXPECT_NEAR(smallest, 0.15, 0.01) << "the layer is 0.15 times 1, not 3";
+    options.refine_graded = 1;
+    EXPECT_EQ(elements(build(deck.text(), options)), 16) << "layers too";
+  }
+}
+
 }  // namespace
 }  // namespace sage::test
