@@ -7,9 +7,10 @@
 #include <optional>
 
 #include "sage/analysis/patch_fit.hpp"
-#include "sage/core/dense.hpp"
+#include "sage/analysis/spectrum.hpp"
 #include "sage/core/thread_pool.hpp"
 #include "sage/model/coarse_shape.hpp"
+#include "sage/model/locking.hpp"
 
 namespace sage {
 
@@ -54,13 +55,9 @@ struct Fit {
 };
 
 // What a field at n x n Gauss points (xi fastest) has above degree n - 3 in xi or eta: the identity less the
-// projection onto products of the lower Legendre polynomials.  Points and weights by Golub & Welsch (1969).
+// projection onto products of the lower Legendre polynomials.
 Eigen::MatrixXd highest_degrees(int n) {
-  Eigen::MatrixXd jacobi = Eigen::MatrixXd::Zero(n, n);
-  for (int k = 1; k < n; ++k) jacobi(k, k - 1) = jacobi(k - 1, k) = k / std::sqrt(4.0 * k * k - 1.0);
-  // Row i of the eigenvectors: +-sqrt(w) times the orthonormal Legendre polynomial of degree i at each point;
-  // the sign is that of row 0.
-  const Eigen::MatrixXd Q = dense_matrix::symmetric_eigensystem(jacobi).vectors;
+  const Eigen::MatrixXd Q = legendre_at_gauss(n);
   const Eigen::VectorXd first = Q.row(0).transpose();
   const Eigen::MatrixXd lower = Q.topRows(n - 2);
   const Eigen::MatrixXd line =
@@ -107,66 +104,38 @@ CornerRule corner_rule(const ElementEntry& entry) {
   return rule;
 }
 
-// At the points of a reduced rule the error of a smooth solution vanishes: it is measured at others, where the
-// stress is the linear or bilinear one through those points.
-class PointsBetween {
- public:
-  explicit PointsBetween(const Group& group) : element_(*group.element), rule_(corner_rule(*group.entry)) {
-    const Eigen::Index points = element_.traits().points;
-    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> to_nodes(
-        element_.point_to_node().data(), element_.traits().nodes, points);
-    map_ = rule_.shares * to_nodes.topRows(static_cast<Eigen::Index>(element_.edges().size()));
-  }
-
-  static bool suit(const Group& group) {
-    const Element& element = *group.element;
-    const bool own_places = element.point_to_sample().empty();
-    return own_places && element.degree() <= 2 &&
-           (group.entry->square() || element.traits().points < 3 * element.degree());
-  }
-
-  Eigen::Index count() const { return rule_.w.size(); }
-
-  // Element e of `s` from the stress (4 x points) and weights at its own points; x: its nodes.
-  void put(const Eigen::Matrix2Xd& x, const Eigen::Matrix4Xd& stress, const Eigen::VectorXd& w, int e,
-           GroupStress& s) const {
-    const Eigen::VectorXd density = map_ * w;
-    auto weights = s.w.segment(e * s.points, s.points);
-    weights = (rule_.w.array() * density.array()).matrix();
-    weights *= w.sum() / weights.sum();
-    s.point.middleCols(e * s.points, s.points).noalias() = stress * map_.transpose();
-    CoarseShape shape;
-    shape.corners = s.corners;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(s.corners); ++k) {
-      shape.corner[k] = x.col(static_cast<Eigen::Index>(k));
-      const std::vector<int>& edge = element_.edges()[k];
-      if (edge.size() > 2) shape.middle[k] = x.col(edge[2]);
-    }
-    for (std::size_t i = 0; i < rule_.at.size(); ++i)
-      s.point_at.col(e * s.points + static_cast<Eigen::Index>(i)) = shape.at(rule_.at[i]);
-  }
-
- private:
-  const Element& element_;
-  CornerRule rule_;
-  Eigen::MatrixXd map_;  // from an element's points to these
-};
-
-// D^-1 of a linear law; the unit matrix for the others.
-Matrix4 compliance(const SolidLaw& law) {
-  if (!has_constant_stiffness(law)) return Matrix4::Identity();
+// Of a linear law; nothing for the others.
+std::optional<Matrix4> stiffness(const SolidLaw& law) {
+  if (!has_constant_stiffness(law)) return {};
   PointIn<4> in{Vector4::Zero(), Vector4::Zero(), Vector4::Zero(), {}};
   PointOut<4> out;
   law.update(in, out);
-  return out.D.inverse();
+  return out.D;
+}
+
+// A group that is activated in a later stage strains from the displacements of then.
+bool starts_later(const Model& model, std::size_t group) {
+  for (std::size_t s = 1; s < model.stages.size(); ++s)
+    if (std::ranges::find(model.stages[s].births, static_cast<int>(group)) != model.stages[s].births.end())
+      return true;
+  return false;
 }
 
 // Stress (4 x points), places and weights at an element's own points.
 class ElementPoints {
  public:
-  ElementPoints(const Model& model, const GroupData& data, const std::vector<double>* start)
-      : model_(model), data_(data), start_(start), traits_(data.group->element->traits()) {
+  // start: of the group `index`; null = from nothing.
+  ElementPoints(const Model& model, const Solution& solution, std::size_t index, const StressState* start)
+      : model_(model),
+        data_(solution.groups()[index]),
+        u_(*solution.u),
+        start_(start),
+        index_(index),
+        traits_(data_.group->element->traits()) {
+    const GroupData& data = data_;
     stress.resize(4, traits_.points);
+    strain.resize(4, traits_.points);
+    u.resize(2, traits_.nodes);
     at.resize(2, traits_.points);
     w.resize(traits_.points);
     if (data.geometry.empty()) made_.resize(static_cast<std::size_t>(traits_.geometry_size()));
@@ -181,14 +150,25 @@ class ElementPoints {
     else
       make_weights(e);
     const auto first = 4 * static_cast<std::size_t>(e) * static_cast<std::size_t>(traits_.points);
-    stress = Eigen::Map<const Eigen::Matrix4Xd>(data_.state.committed.sigma.data() + first, 4, traits_.points);
-    if (start_ != nullptr)
-      stress -= Eigen::Map<const Eigen::Matrix4Xd>(start_->data() + first, 4, traits_.points);
+    const auto values = [&](const std::vector<double>& of_points) {
+      return Eigen::Map<const Eigen::Matrix4Xd>(of_points.data() + first, 4, traits_.points);
+    };
+    stress = values(data_.state.committed.sigma);
+    strain = values(data_.state.committed.eps);
+    const int* nodes = data_.group->nodes_of(e);
+    for (int i = 0; i < traits_.nodes; ++i) u.col(i) = u_.segment<2>(DofMap::displacement(nodes[i]));
+    if (start_ != nullptr) {
+      stress -= values(start_->sigma[index_]);
+      strain -= values(start_->eps[index_]);
+      for (int i = 0; i < traits_.nodes; ++i)
+        u.col(i) -= Eigen::Map<const Vector2>(start_->u.data() + DofMap::displacement(nodes[i]));
+    }
     for (int p = 0; p < traits_.points; ++p) at.col(p) = element.position(x, p);
   }
 
   Eigen::Matrix2Xd x, at;  // of its nodes, of its points
-  Eigen::Matrix4Xd stress;
+  Eigen::Matrix4Xd stress, strain;
+  Eigen::Matrix2Xd u;  // of its nodes
   Eigen::VectorXd w;
 
  private:
@@ -217,10 +197,98 @@ class ElementPoints {
 
   const Model& model_;
   const GroupData& data_;
-  const std::vector<double>* start_;
+  const Eigen::VectorXd& u_;
+  const StressState* start_;
+  std::size_t index_;
   const ElementTraits& traits_;
   std::vector<double> made_;
   Eigen::MatrixXd of_shape_;  // weights, a shape a column; empty = every element has its own
+};
+
+// What displacements (two a node) make of an element at places of its parent shape.
+class StrainBetween {
+ public:
+  StrainBetween(const Element& element, const std::vector<Place>& places, Geometry geometry)
+      : nodes_(element.traits().nodes), ring_(geometry == Geometry::axisymmetric) {
+    for (const Place& place : places) {
+      std::vector<double> N(static_cast<std::size_t>(nodes_)), dN(2 * static_cast<std::size_t>(nodes_));
+      known_ = known_ && element.shape_functions({place[0], place[1]}, N, dN);
+      N_.push_back(Eigen::Map<const Eigen::VectorXd>(N.data(), nodes_));
+      dN_.push_back(Eigen::Map<const Eigen::MatrixX2d>(dN.data(), nodes_, 2));
+    }
+  }
+  bool known() const { return known_; }
+  // At place i; u: 2 x nodes.
+  Vector4 at(std::size_t i, const Eigen::Matrix2Xd& x, const Eigen::Matrix2Xd& u) const {
+    const Matrix2 slope = u * dN_[i] * (x * dN_[i]).inverse();
+    const double hoop = ring_ ? u.row(0).dot(N_[i]) / x.row(0).dot(N_[i]) : 0.0;
+    return {slope(0, 0), slope(1, 1), hoop, slope(0, 1) + slope(1, 0)};
+  }
+
+ private:
+  Eigen::Index nodes_;
+  bool ring_, known_ = true;
+  std::vector<Eigen::VectorXd> N_;
+  std::vector<Eigen::MatrixX2d> dN_;
+};
+
+// At the points of a reduced rule the error of a smooth solution vanishes: it is measured at others.  The stress there
+// is that of the displacements, where the law is linear; else the linear or bilinear one through those points.
+class PointsBetween {
+ public:
+  // D: of the law; nothing where it is not linear, or displacements do not begin with the strain.
+  PointsBetween(const Group& group, Geometry geometry, const std::optional<Matrix4>& D)
+      : element_(*group.element),
+        rule_(corner_rule(*group.entry)),
+        strain_(element_, rule_.at, geometry),
+        D_(D) {
+    if (!strain_.known()) D_.reset();
+    const Eigen::Index points = element_.traits().points;
+    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> to_nodes(
+        element_.point_to_node().data(), element_.traits().nodes, points);
+    map_ = rule_.shares * to_nodes.topRows(static_cast<Eigen::Index>(element_.edges().size()));
+  }
+
+  static bool suit(const Group& group) {
+    const Element& element = *group.element;
+    const bool own_places = element.point_to_sample().empty();
+    return own_places && element.degree() <= 2 &&
+           (group.entry->square() || element.traits().points < 3 * element.degree());
+  }
+
+  Eigen::Index count() const { return rule_.w.size(); }
+
+  // Element e of `s` from what is at its own points.
+  void put(const ElementPoints& own, int e, GroupStress& s) const {
+    const Eigen::Matrix2Xd& x = own.x;
+    const Eigen::VectorXd density = map_ * own.w;
+    auto weights = s.w.segment(e * s.points, s.points);
+    weights = (rule_.w.array() * density.array()).matrix();
+    weights *= own.w.sum() / weights.sum();
+    auto between = s.point.middleCols(e * s.points, s.points);
+    between.noalias() = own.stress * map_.transpose();
+    if (D_) {
+      const Eigen::Matrix4Xd strain = own.strain * map_.transpose();
+      for (Eigen::Index i = 0; i < s.points; ++i)
+        between.col(i) += *D_ * (strain_.at(static_cast<std::size_t>(i), x, own.u) - strain.col(i));
+    }
+    CoarseShape shape;
+    shape.corners = s.corners;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(s.corners); ++k) {
+      shape.corner[k] = x.col(static_cast<Eigen::Index>(k));
+      const std::vector<int>& edge = element_.edges()[k];
+      if (edge.size() > 2) shape.middle[k] = x.col(edge[2]);
+    }
+    for (std::size_t i = 0; i < rule_.at.size(); ++i)
+      s.point_at.col(e * s.points + static_cast<Eigen::Index>(i)) = shape.at(rule_.at[i]);
+  }
+
+ private:
+  const Element& element_;
+  CornerRule rule_;
+  StrainBetween strain_;
+  std::optional<Matrix4> D_;
+  Eigen::MatrixXd map_;  // from an element's points to these
 };
 
 // to_samples: sample_map of the element.
@@ -236,13 +304,15 @@ void put_samples(const ElementPoints& own, const Eigen::MatrixXd& to_samples, in
   }
 }
 
-GroupStress group_stress(const Model& model, const GroupData& data, const std::vector<double>* start,
-                         ThreadPool& pool) {
-  const Group& group = *data.group;
+// D: of a linear law.
+GroupStress group_stress(const Model& model, const Solution& solution, std::size_t index,
+                         const StressState* start, std::optional<Matrix4> D, ThreadPool& pool) {
+  const Group& group = *solution.groups()[index].group;
+  if (starts_later(model, index)) D.reset();
   const Element& element = *group.element;
   const Eigen::MatrixXd to_samples = sample_map(element);
   std::optional<PointsBetween> between;
-  if (PointsBetween::suit(group)) between.emplace(group);
+  if (PointsBetween::suit(group)) between.emplace(group, model.geometry, D);
   GroupStress s;
   s.degree = element.degree();
   s.corners = static_cast<int>(element.edges().size());
@@ -255,14 +325,14 @@ GroupStress group_stress(const Model& model, const GroupData& data, const std::v
   s.point.resize(4, elements * s.points);
   s.w.resize(elements * s.points);
   std::vector<ElementPoints> points(static_cast<std::size_t>(pool.threads()),
-                                    ElementPoints(model, data, start));
+                                    ElementPoints(model, solution, index, start));
   in_units(pool, group.elements(), [&](int first, int last, int thread) {
     ElementPoints& own = points[static_cast<std::size_t>(thread)];
     for (int e = first; e < last; ++e) {
       own.take(e);
       put_samples(own, to_samples, e, s);
       if (between) {
-        between->put(own.x, own.stress, own.w, e, s);
+        between->put(own, e, s);
       } else {
         s.point_at.middleCols(e * s.points, s.points) = own.at;
         s.point.middleCols(e * s.points, s.points) = own.stress;
@@ -454,23 +524,21 @@ int solid_elements(const std::vector<GroupData>& groups) {
 // One estimate: stress of all active solids, the fits of each material, then each element's distance from them.
 class Estimation {
  public:
-  Estimation(const Model& model, const Assembly& assembly)
+  Estimation(const Model& model, const Solution& solution)
       : model_(model),
-        groups_(assembly.groups()),
+        solution_(solution),
+        groups_(solution.assembly->groups()),
         count_(solid_elements(groups_)),
-        pool_(count_ >= kWorthThreads ? assembly.threads() : 1),
+        pool_(count_ >= kWorthThreads ? solution.assembly->threads() : 1),
         stress_(groups_.size()),
         rooms_(static_cast<std::size_t>(pool_.threads())) {}
 
   ErrorEstimate compute(const StressState* start) {
     ErrorEstimate result;
     result.element.resize(groups_.size());
-    take_stress(start);
     for (const GroupData& data : groups_)
       if (const SolidLaw* law = solid_law(data)) result.energy = result.energy && law->linear();
-    if (result.energy)
-      for (std::size_t g = 0; g < groups_.size(); ++g)
-        if (const SolidLaw* law = solid_law(groups_[g])) stress_[g].C = compliance(*law);
+    take_stress(start, result.energy);
     make_fits();
     measure();
     for (std::size_t i = 0; i < elements_.size(); ++i) {
@@ -481,10 +549,13 @@ class Estimation {
   }
 
  private:
-  void take_stress(const StressState* start) {
+  void take_stress(const StressState* start, bool energy) {
     for (std::size_t g = 0; g < groups_.size(); ++g) {
-      if (solid_law(groups_[g]) == nullptr) continue;
-      stress_[g] = group_stress(model_, groups_[g], start != nullptr ? &(*start)[g] : nullptr, pool_);
+      const SolidLaw* law = solid_law(groups_[g]);
+      if (law == nullptr) continue;
+      const std::optional<Matrix4> D = energy ? stiffness(*law) : std::nullopt;
+      stress_[g] = group_stress(model_, solution_, g, start, D, pool_);
+      if (D) stress_[g].C = D->inverse();
       for (int e = 0; e < groups_[g].group->elements(); ++e) elements_.push_back({g, e});
       const int line = stress_[g].degree + 1;
       if (shows_its_own_error(stress_[g])) highest_.try_emplace(line, highest_degrees(line));
@@ -519,6 +590,7 @@ class Estimation {
   }
 
   const Model& model_;
+  const Solution& solution_;
   const std::vector<GroupData>& groups_;
   int count_;  // of elements
   ThreadPool pool_;
@@ -536,14 +608,29 @@ double ErrorEstimate::relative() const {
   return size + error > 0.0 ? std::sqrt(error / (size + error)) : 0.0;
 }
 
-StressState stress_state(const Assembly& assembly) {
+std::vector<int> locking_groups(const Model& model) {
+  std::vector<int> found;
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const Group& group = model.groups[g];
+    if (group.solid() && group.elements() > 0 && group.element->traits().locks &&
+        nearly_incompressible(model, group))
+      found.push_back(static_cast<int>(g));
+  }
+  return found;
+}
+
+StressState stress_state(const Solution& solution) {
   StressState state;
-  for (const GroupData& data : assembly.groups()) state.push_back(data.state.committed.sigma);
+  for (const GroupData& data : solution.groups()) {
+    state.sigma.push_back(data.state.committed.sigma);
+    state.eps.push_back(data.state.committed.eps);
+  }
+  state.u.assign(solution.u->begin(), solution.u->end());
   return state;
 }
 
 ErrorEstimate estimate_error(const Model& model, const Solution& solution, const StressState* start) {
-  return Estimation(model, *solution.assembly).compute(start);
+  return Estimation(model, solution).compute(start);
 }
 
 }  // namespace sage

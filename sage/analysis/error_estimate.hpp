@@ -22,10 +22,16 @@ struct ErrorEstimate {
   double relative() const;
 };
 
-// Stress of all points of all groups, as in the state store: to measure from another
+// Stress and strain of all points of all groups, as in the state store, and all displacements: to measure from another
 // state than the unstressed one.
-using StressState = std::vector<std::vector<double>>;
-StressState stress_state(const Assembly& assembly);
+struct StressState {
+  std::vector<std::vector<double>> sigma, eps;
+  std::vector<double> u;
+};
+StressState stress_state(const Solution& solution);
+
+// Groups whose estimate would be far from the error: they lock, for Poisson's ratio is near 1/2.  Indices.
+std::vector<int> locking_groups(const Model& model);
 
 // Of the committed stress of active solids, less `start` where given.  Fitted within each material, so that
 // jumps between materials are not taken for errors.

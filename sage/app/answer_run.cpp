@@ -130,8 +130,9 @@ Json failure_json(const StepReport& failed) {
           {"cuts", failed.cuts}};
 }
 
-Json error_json(const DiscretisationError& error) {
+Json error_json(const Model& model, const DiscretisationError& error) {
   Json json = Json::object();
+  if (const std::string why = DiscretisationError::why_none(model); !why.empty()) json["none"] = json_text(why);
   if (error.estimate()) json["relative"] = error.estimate()->relative();
   if (error.estimate()) json["norm"] = error.estimate()->energy ? "energy" : "stress";
   if (error.ratio_error()) json["ratio"] = *error.ratio_error();
@@ -207,7 +208,7 @@ Json outcome_json(const RunOutcome& outcome) {
   if (!record.strength.rows().empty()) json["strength"] = strength_json(record.strength.rows());
   if (!record.structures.empty()) json["structures"] = structures_json(model, record);
   json["reports"] = outcome.reports ? reports_json(model, *outcome.reports) : Json::array();
-  if (outcome.error) json["mesh_error"] = error_json(*outcome.error);
+  if (outcome.error) json["mesh_error"] = error_json(*outcome.model, *outcome.error);
   json["out_of_balance"] = record.audited > 0 ? Json(record.out_of_balance) : Json(nullptr);
   json["warnings"] = record.warnings;
   json["work"] = work_json(result.work);

@@ -7,6 +7,7 @@
 #include "sage/build/builder.hpp"
 #include "sage/deck/text.hpp"
 #include "sage/model/activity.hpp"
+#include "sage/model/locking.hpp"
 
 namespace sage::build {
 
@@ -243,11 +244,6 @@ void check_supports(Builder& b) {
   }
 }
 
-// nu of a material if its law has one, else 0.
-double poissons_ratio(const Material& material) {
-  return material.parameter(ParameterRole::poissons_ratio).value_or(0.0);
-}
-
 // A solver that would use one half of the matrix for both.
 void check_solver(Builder& b) {
   const SolverEntry* solver = b.catalogue.solvers.find(b.model.solver);
@@ -274,7 +270,7 @@ void warn_locking(Builder& b) {
     if (!group.solid() || !(traits.locks || traits.loses_order)) continue;
     const double nu = poissons_ratio(b.model.material_of(group));
     const bool undrained = group.excess >= 0;
-    if ((nu <= 0.45 && !undrained) || ++found > kShown) continue;
+    if (!nearly_incompressible(b.model, group) || ++found > kShown) continue;
     const std::string& remedy = group.entry->against_locking;
     const std::string what =
         traits.locks

@@ -87,8 +87,8 @@ std::string DiscretisationError::why_none(const Model& model) {
   if (locking.empty()) return {};
   const Group& group = model.groups[static_cast<std::size_t>(locking.front())];
   return fmt::format(
-      "not estimated: group {} ({}) locks near nu = 1/2, and an estimate sees only a part of that [S410]",
-      group.number, group.element_name);
+      "not estimated: group {} ({}) locks near nu = 1/2, and an estimate sees only a part of that [{}]",
+      group.number, group.element_name, "S410");
 }
 
 std::string DiscretisationError::text(const Model& model) const {
