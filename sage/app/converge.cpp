@@ -18,6 +18,7 @@
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/progress.hpp"
 #include "sage/app/screen.hpp"
+#include "sage/app/surroundings.hpp"
 #include "sage/judge/convergence.hpp"
 #include "sage/record/discretisation.hpp"
 #include "sage/record/out_file.hpp"
@@ -59,7 +60,8 @@ std::vector<int> rising_degrees(const Catalogue& catalogue) {
 Ladder halving(const Model& model) {
   int degree = 0;
   for (const Group& group : model.groups)
-    if (group.solid() && group.elements() > 0 && (degree == 0 || group.element->degree() < degree))
+    if ((group.solid() || group.flow()) && group.elements() > 0 &&
+        (degree == 0 || group.element->degree() < degree))
       degree = group.element->degree();
   return {.kind = Ladder::halving, .most = std::pow(4.0, std::max(degree, 1))};
 }
@@ -84,24 +86,19 @@ std::string grade_text(const Grading& g) {
                      g.layers, g.ratio);
 }
 
-// Layers of a rung: 4, 6, 8 ... of the ratio asked for.  Behind the rung of the highest degree the same depth
-// by more and gentler ones, for the error that degree 8 leaves within a layer does not depend on their number;
-// deeper ones than 1e-12 of the mesh would be rounding.
+// Layers of a rung: 4, 6, 8 ... of the ratio asked for.  Behind the rung of the highest degree two in place of each, for
+// the error that degree 8 leaves within a layer does not depend on their number; deeper ones than 1e-12 of the mesh would
+// be rounding.
 void set_layers(Grading& grading, int level, int highest) {
-  constexpr double kDeepest = 1e-10;
-  constexpr int kMostLayers = 30;  // the ratio stays below one half
-  const int layers = 4 + 2 * level;
-  if (level <= highest) {
-    grading.layers = layers;
-    return;
-  }
-  const double depth =
-      std::max(std::ldexp(kDeepest, level), std::pow(grading.ratio, layers));  // of halved elements
-  grading.layers = level == highest + 1 ? 2 * layers : kMostLayers;
-  grading.ratio = std::pow(depth, 1.0 / grading.layers);
+  constexpr int kMostLayers = 30;
+  grading.layers = 4 + 2 * std::min(level, highest + 2);
+  if (level <= highest) return;
+  grading.ratio = std::sqrt(grading.ratio);
+  grading.layers = std::min(2 * grading.layers, kMostLayers);
 }
 
-// Rising degrees (4, 6, 8) with layers at the corners, then halved elements of the highest.
+// Rising degrees (4, 6, 8) with layers at the corners, then halved elements of the highest, and with the layers of those
+// the whole mesh halved: only so no two meshes have the same elements around any place.
 Rung spectral_rung(const BuildOptions& asked, const Catalogue& catalogue, int level) {
   const std::vector<int> degrees = rising_degrees(catalogue);
   const int highest = static_cast<int>(degrees.size()) - 1;
@@ -109,7 +106,8 @@ Rung spectral_rung(const BuildOptions& asked, const Catalogue& catalogue, int le
   rung.build.element = degrees[static_cast<std::size_t>(std::min(level, highest))];
   const std::string& name = catalogue.elements.find(rung.build.element)->name;
   rung.build.formulation = -1;
-  rung.build.refine = asked.refine + std::max(0, level - highest);
+  rung.build.refine = asked.refine + (level > highest ? 1 : 0);
+  rung.build.refine_graded = asked.refine_graded + std::max(0, level - highest - 1);
   if (rung.build.gradings.empty()) rung.build.gradings.push_back({});
   rung.options = (asked.coarsen ? "--coarsen --element " : "--element ") + name;
   if (rung.build.refine > 0) rung.options += fmt::format(" --refine {}", rung.build.refine);
@@ -117,6 +115,8 @@ Rung spectral_rung(const BuildOptions& asked, const Catalogue& catalogue, int le
     set_layers(g, level, highest);
     rung.options += grade_text(g);
   }
+  if (rung.build.refine_graded > 0)
+    rung.options += fmt::format(" --refine-graded {}", rung.build.refine_graded);
   return rung;
 }
 
@@ -125,6 +125,7 @@ Rung halving_rung(const BuildOptions& asked, int level) {
   rung.build.refine = asked.refine + level;
   rung.options = fmt::format("--refine {}", rung.build.refine);
   for (const Grading& g : asked.gradings) rung.options += grade_text(g);
+  if (asked.refine_graded > 0) rung.options += fmt::format(" --refine-graded {}", asked.refine_graded);
   return rung;
 }
 
@@ -136,6 +137,23 @@ double relative(const Limit& limit) {
 struct Quantity {
   std::string name;
   std::vector<double> values, largest;  // one a mesh; largest: of its sisters too, see ReportComponent
+  std::vector<double> around;           // of a point: LocalErrors; NaN = none
+
+  void append(const ReportComponent& now, double local) {
+    name = now.name;
+    values.push_back(now.value);
+    largest.push_back(now.largest);
+    around.push_back(local);
+  }
+  // Displacements and heads converge by themselves; their derivatives do so around the point, and at it by chance.
+  judge::Around errors() const {
+    const std::string column = name.substr(name.find('.') + 1);
+    return {around, column != "ux" && column != "uy" && column != "head" && column != "pressure_head"};
+  }
+  Limit limit(Ladder ladder) const { return judge::limit_of(values, ladder, errors()); }
+  Limit limit_after(std::size_t meshes, Ladder ladder) const {
+    return judge::limit_after(values, meshes, ladder, errors());
+  }
   double share() const { return largest.back() > 0.0 ? std::abs(values.back()) / largest.back() : 0.0; }
 };
 
@@ -146,12 +164,13 @@ class Follower {
   Follower(std::vector<std::string> names, Ladder ladder, double tolerance)
       : names_(std::move(names)), ladder_(ladder), tolerance_(tolerance) {}
 
-  // A mesh's values.  False where one that is followed has none on it.
-  bool append(const std::vector<ReportComponent>& components);
+  // A mesh's values, and what is known of each one's error around its point.  False where one that is followed has none
+  // on it.
+  bool append(const std::vector<ReportComponent>& components, const std::vector<double>& local);
   std::size_t meshes() const { return quantities_.empty() ? 0 : quantities_.front().values.size(); }
   // The one that the table shows.
   const Quantity& shown() const { return quantities_[shown_]; }
-  Limit shown_limit() const { return judge::limit_of(shown().values, ladder_); }
+  Limit shown_limit() const { return shown().limit(ladder_); }
   // Whether a mesh (from 1) is as certain as asked, later ones considered.
   bool certain(std::size_t mesh) const { return enough(worst(mesh)); }
   // The mesh (from 1) whose least certain quantity is the most certain.
@@ -170,7 +189,7 @@ class Follower {
   std::string why_left_out(std::size_t i) const;
   double worst(std::size_t mesh) const;
   void choose_shown();
-  void append_others(const std::vector<ReportComponent>& components);
+  void append_others(const std::vector<ReportComponent>& components, const std::vector<double>& local);
 
   std::vector<std::string> names_;
   Ladder ladder_;
@@ -205,21 +224,20 @@ const ReportComponent* find_component(const std::vector<ReportComponent>& compon
 }
 
 // One without a value on some mesh goes.
-void Follower::append_others(const std::vector<ReportComponent>& components) {
+void Follower::append_others(const std::vector<ReportComponent>& components, const std::vector<double>& local) {
   std::erase_if(others_, [&](Quantity& q) {
     const ReportComponent* now = find_component(components, q.name);
     if (now == nullptr) return true;
-    q.values.push_back(now->value);
-    q.largest.push_back(now->largest);
+    q.append(*now, local[static_cast<std::size_t>(now - components.data())]);
     return false;
   });
 }
 
-bool Follower::append(const std::vector<ReportComponent>& components) {
+bool Follower::append(const std::vector<ReportComponent>& components, const std::vector<double>& local) {
   if (quantities_.empty()) {
-    for (const ReportComponent& c : components)
-      if (std::isfinite(c.value))
-        (follow(c) ? quantities_ : others_).push_back({c.name, {c.value}, {c.largest}});
+    for (std::size_t i = 0; i < components.size(); ++i)
+      if (std::isfinite(components[i].value))
+        (follow(components[i]) ? quantities_ : others_).emplace_back().append(components[i], local[i]);
     for (const std::string& name : names_)
       if (std::none_of(quantities_.begin(), quantities_.end(),
                        [&](const Quantity& q) { return q.name == name; }))
@@ -232,11 +250,9 @@ bool Follower::append(const std::vector<ReportComponent>& components) {
     now.push_back(find_component(components, q.name));
     if (now.back() == nullptr) return false;
   }
-  append_others(components);
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    quantities_[i].values.push_back(now[i]->value);
-    quantities_[i].largest.push_back(now[i]->largest);
-  }
+  append_others(components, local);
+  for (std::size_t i = 0; i < now.size(); ++i)
+    quantities_[i].append(*now[i], local[static_cast<std::size_t>(now[i] - components.data())]);
   return true;
 }
 
@@ -250,7 +266,7 @@ std::string Follower::why_left_out(std::size_t i) const {
   const std::string beside =
       fmt::format("{:.3g} beside {:.3g} in its report", q.values.back(), q.largest.back());
   if (share <= least) return fmt::format("{}, less than {:.1g} of it", beside, least);
-  const double error = relative(judge::limit_of(q.values, ladder_));
+  const double error = relative(q.limit(ladder_));
   if (share <= kSmall && !(error < kCertain)) return beside + ", as small as the error of the mesh";
   const std::size_t n = q.values.size();
   const bool falls = n >= 3 && std::abs(q.values[n - 1]) < std::abs(q.values[n - 2]) &&
@@ -262,8 +278,7 @@ std::string Follower::why_left_out(std::size_t i) const {
 double Follower::worst(std::size_t mesh) const {
   double worst = 0.0;
   for (std::size_t i = 0; i < quantities_.size(); ++i)
-    if (why_left_out(i).empty())
-      worst = std::max(worst, relative(judge::limit_after(quantities_[i].values, mesh, ladder_)));
+    if (why_left_out(i).empty()) worst = std::max(worst, relative(quantities_[i].limit_after(mesh, ladder_)));
   return worst;
 }
 
@@ -284,7 +299,7 @@ std::string Follower::result() const {
   std::string text;
   for (std::size_t i = 0; i < quantities_.size(); ++i) {
     if (!why_left_out(i).empty()) continue;
-    const Limit limit = judge::limit_after(quantities_[i].values, mesh, ladder_);
+    const Limit limit = quantities_[i].limit_after(mesh, ladder_);
     text += (text.empty() ? "result    " : "; ") + quantities_[i].name + " ";
     text += std::isfinite(limit.error) ? with_error(limit.value, limit.error)
                                        : fmt::format("{:.6g}, error unknown", limit.value);
@@ -298,7 +313,7 @@ std::vector<ConvergedValue> Follower::values() const {
   std::vector<ConvergedValue> all;
   const std::size_t mesh = best();
   const auto add = [&](const Quantity& q, bool decides) {
-    const Limit limit = judge::limit_after(q.values, mesh, ladder_);
+    const Limit limit = q.limit_after(mesh, ladder_);
     if (decides || std::isfinite(limit.error))
       all.push_back({q.name, limit.value, limit.error, !decides || enough(relative(limit))});
   };
@@ -366,6 +381,23 @@ std::string bytes_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+// Middle nodes off the straight line: all meshes keep the parabola through them.
+bool has_curved_sides(const Model& model) {
+  constexpr double kStraight = 1e-9;
+  for (const Group& group : model.groups) {
+    if (!group.entry->fills_area()) continue;
+    for (int e = 0; e < group.elements(); ++e)
+      for (const auto& edge : group.element->edges()) {
+        if (edge.size() != 3) continue;
+        const int* nodes = group.nodes_of(e);
+        const Vector2 a = model.mesh.x.col(nodes[edge[0]]), along = model.mesh.x.col(nodes[edge[1]]) - a,
+                      off = model.mesh.x.col(nodes[edge[2]]) - a;
+        if (std::abs(along.x() * off.y() - along.y() * off.x()) > kStraight * along.squaredNorm()) return true;
+      }
+  }
+  return false;
+}
+
 // Meshes of the ladder, one after the other.
 class Climb {
  public:
@@ -375,8 +407,9 @@ class Climb {
  private:
   Ladder choose_ladder();
   std::string why_not_graded(const Deck& deck) const;
-  std::optional<RunOutcome> run_mesh(const Rung& rung);
-  std::string why_unusable(const RunOutcome& outcome, const Rung& rung);
+  int graded_elements(const Deck& deck, bool coarsen) const;
+  std::optional<RunOutcome> run_mesh(const Rung& rung, SurroundingsReader& reader);
+  std::string why_unusable(const RunOutcome& outcome, const Rung& rung, std::vector<Surroundings> around);
   void find_blanks(const Model& model, const std::vector<ReportComponent>& components);
   bool add_mesh(int level);
   bool climb();
@@ -393,11 +426,13 @@ class Climb {
   const Clock::time_point start_ = Clock::now();
   std::string title_;    // of the deck
   std::string partial_;  // what the deck has and the model lacks
+  bool curved_ = false;  // it has curved sides
   std::uint64_t deck_sum_ = 0;
   Ladder ladder_;
   std::optional<ResultFiles> own_;
   ResultFiles& results_;
   Follower follower_;
+  LocalErrors local_errors_;
   std::optional<Table> table_;
   std::vector<Row> rows_;
   std::vector<std::string> blanks_;          // reports without a value at the end, and why
@@ -414,20 +449,23 @@ Climb::Climb(const RunRequest& request, const ConvergeOptions& options, const Ca
       results_(request.results != nullptr ? *request.results
                                           : own_.emplace(request.output.folder, stem_of(request),
                                                          ResultOwner{request.deck, deck_sum_, "convergence"})),
-      follower_(options.follow, ladder_, options.tolerance) {}
+      follower_(options.follow, ladder_, options.tolerance),
+      local_errors_(ladder_) {}
 
 // Degrees and layers start from the coarsest mesh that means the same as the deck's.
 Ladder Climb::choose_ladder() {
   const Deck deck = read_input(request_.deck, request_.input);
   deck_sum_ = checksum(*deck.source.text());
   BuildOptions& build = request_.input.build;
-  const Model first = build_model(deck, catalogue_, build);
+  Model first = build_model(deck, catalogue_, build);
+  for (Report& report : first.reports) report.fields = request_.output.fields;
   print_diagnostics(first.diagnostics);
   // Once, of the deck's mesh: what finer ones warn of is their own.
   if (request_.input.strict && first.diagnostics.warnings() > 0)
     throw InputError("S906", {request_.deck, 0, 0, 0}, "warnings count as errors (--strict)");
   request_.input.strict = false;
   title_ = first.title;
+  curved_ = has_curved_sides(first);
   if (first.reports.empty())
     throw InputError("S907", {request_.deck, 0, 0, 0},
                      "--converge needs a report card: it says which number must be certain");
@@ -451,7 +489,8 @@ Ladder Climb::choose_ladder() {
     BuildOptions coarse = build;
     coarse.coarsen = true;
     coarse.say = {};
-    build.coarsen = build_model(deck, catalogue_, coarse).mesh.deck_nodes < first.mesh.deck_nodes;
+    build.coarsen = build_model(deck, catalogue_, coarse).mesh.deck_nodes < first.mesh.deck_nodes ||
+                    graded_elements(deck, true) != graded_elements(deck, false);
   }
   if (const std::string why = why_not_graded(deck); !why.empty()) {
     build.coarsen = coarsen;
@@ -460,6 +499,20 @@ Ladder Climb::choose_ladder() {
     return halving(first);
   }
   return ladder;
+}
+
+// Of the first mesh of high degree; 0 where it can't be made.
+int Climb::graded_elements(const Deck& deck, bool coarsen) const {
+  BuildOptions build = spectral_rung(request_.input.build, catalogue_, 0).build;
+  build.coarsen = coarsen;
+  build.say = {};
+  int elements = 0;
+  try {
+    const Model model = build_model(deck, catalogue_, build);
+    for (const Group& group : model.groups) elements += group.elements();
+  } catch (const InputError&) {  // why_not_graded says it
+  }
+  return elements;
 }
 
 // Why the first mesh of high degree can't be made of a deck whose own mesh can: a support that its layers would
@@ -486,6 +539,7 @@ RunRequest Climb::request_for(const Rung& rung) {
   one.checkpoint_seconds = -1.0;
   one.output = {};
   one.output.folder = request_.output.folder;
+  one.output.fields = request_.output.fields;
   one.output.listing = one.output.increments = false;
   one.max_dofs = options_.max_dofs;
   one.stop_asked = [asked = request_.stop_asked, start = start_, limit = options_.max_seconds] {
@@ -504,9 +558,11 @@ bool Climb::out_of_time() {
 }
 
 // The first mesh must be possible; what only a finer one can't do is no fault of the deck.
-std::optional<RunOutcome> Climb::run_mesh(const Rung& rung) {
+std::optional<RunOutcome> Climb::run_mesh(const Rung& rung, SurroundingsReader& reader) {
   try {
-    return run_deck(request_for(rung), catalogue_);
+    RunRequest one = request_for(rung);
+    one.watch = &reader;
+    return run_deck(one, catalogue_);
   } catch (const InputError& error) {
     if (rows_.empty()) throw;
     const std::string what = error.what();
@@ -518,7 +574,7 @@ std::optional<RunOutcome> Climb::run_mesh(const Rung& rung) {
   return {};
 }
 
-std::string Climb::why_unusable(const RunOutcome& outcome, const Rung& rung) {
+std::string Climb::why_unusable(const RunOutcome& outcome, const Rung& rung, std::vector<Surroundings> around) {
   const RunResult& result = outcome.record.result;
   if (outcome.too_large)
     return fmt::format("the next mesh has {} dofs, more than the limit of {} (--max-dofs)",
@@ -538,7 +594,8 @@ std::string Climb::why_unusable(const RunOutcome& outcome, const Rung& rung) {
   }
   const std::vector<ReportComponent> components = last_components(*outcome.model, *outcome.reports);
   if (rows_.empty()) find_blanks(*outcome.model, components);
-  if (follower_.append(components)) return {};
+  if (follower_.append(components, local_errors_.after(*outcome.model, components, std::move(around))))
+    return {};
   if (!rows_.empty()) return "the reports of the next mesh lack a value that the others have";
   throw InputError("S907", {request_.deck, 0, 0, 0},
                    "--converge: no report has a value at the end of the run" +
@@ -564,8 +621,9 @@ void Climb::find_blanks(const Model& model, const std::vector<ReportComponent>& 
 bool Climb::add_mesh(int level) {
   const Rung rung = ladder_.kind == Ladder::spectral ? spectral_rung(request_.input.build, catalogue_, level)
                                                      : halving_rung(request_.input.build, level);
-  std::optional<RunOutcome> outcome = run_mesh(rung);
-  if (outcome) stopped_ = why_unusable(*outcome, rung);
+  SurroundingsReader reader(local_errors_.earlier());
+  std::optional<RunOutcome> outcome = run_mesh(rung, reader);
+  if (outcome) stopped_ = why_unusable(*outcome, rung, std::move(reader.found));
   const bool first_without = outcome && without_equilibrium_ && rows_.empty();
   if (!stopped_.empty()) {
     if (first_without && request_.keep_result) without_run_ = std::make_shared<RunOutcome>(std::move(*outcome));
@@ -620,6 +678,9 @@ Convergence Climb::outcome(bool reached) const {
   if (!reached)
     result.not_reached = fmt::format("relative error {:.1g} asked for; {}", options_.tolerance, stopped_);
   if (!rows_.empty()) result.values = follower_.values();
+  if (curved_)
+    result.geometry =
+        "curved sides stay the parabolas of the deck: no error holds their distance from the true curve";
   const Rung* best = !rows_.empty()         ? &rows_[follower_.best() - 1].rung
                      : without_equilibrium_ ? &*without_equilibrium_
                                             : nullptr;
@@ -643,6 +704,7 @@ Convergence Climb::run() {
     last = follower_.result();
   }
   const Convergence result = outcome(reached);
+  if (!result.geometry.empty()) table_->note("geometry  " + result.geometry);
   last += fmt::format("; {:.3g} s", seconds_since(start_));
   if (!partial_.empty()) last += "; PARTIAL: " + partial_;
   if (!reached) last += "; NOT REACHED: " + result.not_reached;
@@ -689,6 +751,7 @@ Json convergence_json(const Convergence& found) {
   return {{"reached", found.not_reached.empty()},
           {"not_reached", json_text(found.not_reached)},
           {"options", json_text(found.options)},
+          {"geometry", json_text(found.geometry)},
           {"values", std::move(values)}};
 }
 

@@ -42,6 +42,7 @@ struct Convergence {
   std::vector<ConvergedValue> values;
   // Of the best mesh, or of the first one where that found no equilibrium; nothing where not even that was run.
   std::string options;                   // what a user would ask for to have that mesh
+  std::string geometry;                  // what no error holds of curved sides; empty where all are straight
   std::shared_ptr<RunOutcome> best_run;  // where the request asks for results to be kept
   std::filesystem::path table;
 };

@@ -358,6 +358,7 @@ std::vector<Observer*> observers_of(const RunRequest& request,
     observers.push_back(outcome.result.get());
   }
   for (const auto& output : outputs) observers.push_back(output.get());
+  if (request.watch != nullptr) observers.push_back(request.watch);
   return observers;
 }
 

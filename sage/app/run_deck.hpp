@@ -50,6 +50,7 @@ struct RunRequest {
   ResultFiles* results = nullptr;    // of the run that this one is a part of; null = it has its own
   bool profile = false;              // STEM.profile.json, and memory in RunRecord::profile
   bool keep_result = false;          // RunOutcome::result is wanted
+  Observer* watch = nullptr;         // sees the run too
 };
 
 // Reports and record stay readable after the run.

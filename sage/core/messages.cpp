@@ -670,7 +670,8 @@ constexpr MessageEntry kMessages[] = {
      "estimates the memory.",
      "--grade at corners, or 8-node elements, give the same accuracy with far fewer elements."},
     {"S410", "the error of the mesh is not estimated",
-     "Elements of the model lock near Poisson's ratio 1/2, or where soil is undrained. Their stresses are smooth and "
+     "Elements of the model lock near Poisson's ratio 1/2, or where soil is undrained. Their stresses are "
+     "smooth and "
      "wrong, and the estimate of --error sees only what is not smooth.",
      "Elements that do not lock: 8-node quadrilaterals (reduced), quad4 b-bar, or those of high degree."},
 

@@ -85,21 +85,24 @@ void extrapolate(std::span<const double> v, Limit& limit) {
 
 }  // namespace
 
-Limit limit_of(std::span<const double> v, Ladder ladder) {
+Limit limit_of(std::span<const double> v, Ladder ladder, Around around) {
   const std::size_t n = v.size();
   if (n == 0) return {0.0, kUnknown, {}};
+  const bool shown = around.error.size() >= n && !std::isnan(around.error[n - 1]);
+  if (shown && around.alone) return {v[n - 1], std::max(around.error[n - 1], least_error(v)), {}};
   Limit limit{v[n - 1], plain_error(v, ladder), {}};
   if (ladder.kind == Ladder::halving && n >= 4) extrapolate(v, limit);
+  if (shown) limit.error = std::max(limit.error, around.error[n - 1]);
   limit.error = std::max(limit.error, least_error(v));
   return limit;
 }
 
-Limit limit_after(std::span<const double> v, std::size_t meshes, Ladder ladder) {
-  Limit limit = limit_of(v.first(meshes), ladder);
+Limit limit_after(std::span<const double> v, std::size_t meshes, Ladder ladder, Around around) {
+  Limit limit = limit_of(v.first(meshes), ladder, around.first(meshes));
   const double own = std::abs(v[meshes - 1] - limit.value), stated = limit.error;
   for (std::size_t n = meshes + 1; n <= v.size(); ++n) {
     limit.error = std::max(limit.error, std::abs(v[n - 1] - limit.value) - own);
-    const Limit later = limit_of(v.first(n), ladder);
+    const Limit later = limit_of(v.first(n), ladder, around.first(n));
     if (later.error < stated) limit.error = std::max(limit.error, std::abs(later.value - limit.value));
   }
   return limit;

@@ -33,10 +33,18 @@ struct Limit {
 // a tenth of the extrapolation itself.  In all other cases the last value stands, with the last difference or, where it falls
 // slowly (r > 1/2), the sum of the geometric series.  A last difference much smaller than the ones before can
 // be chance: the error is no less than what they let expect.
-Limit limit_of(std::span<const double> values, Ladder ladder);
+//
+// around: errors that the surroundings of a point show, a mesh each; empty or NaN: there are none.
+struct Around {
+  std::span<const double> error;
+  bool alone = false;  // they are the error; else the least that is stated
+
+  Around first(std::size_t meshes) const { return {error.empty() ? error : error.first(meshes), alone}; }
+};
+Limit limit_of(std::span<const double> values, Ladder ladder, Around around = {});
 
 // What the first `meshes` of the values show, with an error that holds the later values too, which may lie no
 // further from the limit than the last of the first ones does, and the later limits that are more certain.
-Limit limit_after(std::span<const double> values, std::size_t meshes, Ladder ladder);
+Limit limit_after(std::span<const double> values, std::size_t meshes, Ladder ladder, Around around = {});
 
 }  // namespace sage::judge

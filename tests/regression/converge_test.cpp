@@ -553,11 +553,26 @@ TEST(Converge, NeedsAReport) {
   EXPECT_THROW(converge(request_for(write("none", deck.text())), options, full_catalogue()), InputError);
 }
 
+// Elements that lock are far stiffer than their stresses show: the estimate was 2.8e-2 for 4.1e-2, and is 0.26 of the
+// error at nu = .4999.
+TEST(ErrorOption, NoEstimateOfElementsThatLock) {
+  RunRequest request = request_for(write("locks", cylinder(4, 4, 1.0, 0.495, 1)));
+  request.output.error = true;
+  const RunOutcome outcome = run_deck(request, full_catalogue());
+  ASSERT_EQ(outcome.exit_code, kOk);
+  EXPECT_FALSE(outcome.error->estimate().has_value());
+  EXPECT_FALSE(outcome.error->ratio_error().has_value());
+  EXPECT_NE(outcome.error->text(*outcome.model).find("not estimated: group 1 (quad4 full) locks"),
+            std::string::npos)
+      << outcome.error->text(*outcome.model);
+}
+
 // The energy of the error is the error of the ratio.  A singular corner: within a factor of two for the
 // four-node elements.
 TEST(ErrorOption, RatioOfTheRestrainedCylinder) {
   for (const Known& k : {Known{1, .25, 1.036223}, {2, .495, 1.086254}})
     for (const int formulation : {1, 2}) {
+      if (formulation == 1 && k.nu > 0.45) continue;  // locks
       const int n = 12;
       RunRequest request = request_for(
           write("zz", cylinder(n, static_cast<int>(n * k.slenderness), k.slenderness, k.nu, formulation)));

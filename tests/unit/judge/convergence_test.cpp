@@ -141,6 +141,18 @@ TEST(Limit, GrowingDifferencesAreNoLimit) {
   EXPECT_TRUE(std::isinf(limit_of(std::vector<double>{1.0, 1.1, 0.9}, kSpectral).error));
 }
 
+// Of a point: two meshes that agree by chance say nothing, what is around it does.
+TEST(Limit, WhatIsAroundAPointDecides) {
+  const std::vector<double> values{1.0, 1.1, 1.12, 1.12}, around{NAN, 0.1, 0.03, 0.01};
+  EXPECT_EQ(limit_of(values, kSpectral, {around, true}).error, 0.01);
+  EXPECT_EQ(limit_of(values, kHalving, {around, true}).error, 0.01);
+  EXPECT_EQ(limit_of(values, kHalving, {around, true}).value, 1.12) << "not extrapolated";
+  EXPECT_GE(limit_of(values, kSpectral, {around, false}).error, limit_of(values, kSpectral).error);
+  EXPECT_EQ(limit_after(values, 3, kSpectral, {around, true}).error, 0.03);
+  EXPECT_EQ(limit_of({values.data(), 1}, kSpectral, {around, true}).error,
+            limit_of({values.data(), 1}, kSpectral).error);
+}
+
 TEST(Limit, AlternatingValuesAreNotExtrapolated) {
   const Limit limit = limit_of(std::vector<double>{2.2, 1.9, 2.05, 1.975}, kHalving);
   EXPECT_EQ(limit.value, 1.975);

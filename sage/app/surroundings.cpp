@@ -1,0 +1,282 @@
+#include "sage/app/surroundings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "sage/analysis/spectrum.hpp"
+#include "sage/model/locate.hpp"
+#include "sage/model/locking.hpp"
+#include "sage/record/report.hpp"
+#include "sage/record/sampler.hpp"
+
+namespace sage::app {
+
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::infinity();
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+bool is_last(const Model& model, const StepReport& step) {
+  return step.stage + 1 == static_cast<int>(model.stages.size()) && step.increment == step.increments;
+}
+
+// A place in the parent shape of an element.
+Vector2 place_in(const Model& model, const Location& holder, const Vector2& parent) {
+  const Group& group = model.groups[holder.group];
+  Eigen::Matrix2Xd x;
+  element_coordinates(model.mesh, group, holder.element, x);
+  const auto nodes = static_cast<std::size_t>(x.cols());
+  std::vector<double> N(nodes), dN(2 * nodes);
+  group.element->shape_functions(parent, N, dN);
+  return x * Eigen::Map<const Eigen::VectorXd>(N.data(), x.cols());
+}
+
+// Gauss points: the error of an element, which has the highest degrees, has no mean over them; what comes from elsewhere has.
+void add_grid(const Model& model, const Location& holder, int element,
+              std::vector<Surroundings::Place>& places) {
+  constexpr double kLines[] = {-0.906179845938664, -0.538469310105683, 0.0, 0.538469310105683,
+                               0.906179845938664},
+                   kWeights[] = {0.118463442528095, 0.239314335249683, 0.284444444444444, 0.239314335249683,
+                                 0.118463442528095};
+  const bool triangle = model.groups[holder.group].entry->triangle();
+  for (std::size_t j = 0; j < 5; ++j)
+    for (std::size_t i = 0; i < 5; ++i) {
+      Vector2 parent(kLines[i], kLines[j]);
+      double weight = kWeights[i] * kWeights[j];
+      if (triangle) {  // the square with one side drawn together
+        parent = 0.5 * (parent + Vector2::Ones());
+        weight *= 2.0 * (1.0 - parent.x());
+        parent.y() *= 1.0 - parent.x();
+      }
+      places.push_back({place_in(model, holder, parent), static_cast<int>(holder.group), element, weight});
+    }
+}
+
+double size_of(const Model& model, const Location& holder) {
+  Eigen::Matrix2Xd x;
+  element_coordinates(model.mesh, model.groups[holder.group], holder.element, x);
+  return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
+}
+
+double extent_of(const Model& model) {
+  return (model.mesh.x.rowwise().maxCoeff() - model.mesh.x.rowwise().minCoeff()).maxCoeff();
+}
+
+// Of stress (or strain) components at the points of an element; NaN for elements of low degree.
+Vector4 missing_in(const Group& group, const std::vector<double>& at_points, const Location& holder) {
+  constexpr int kLeastDegree = 4;
+  const int line = group.element->degree() + 1, points = group.element->traits().points;
+  if (!group.entry->square() || line <= kLeastDegree || points != line * line) return Vector4::Constant(kNone);
+  const LegendreParts parts(line);
+  const Eigen::Map<const Eigen::Matrix4Xd> values(
+      at_points.data() + 4 * static_cast<std::size_t>(holder.element) * static_cast<std::size_t>(points), 4,
+      points);
+  Vector4 missing;
+  for (int c = 0; c < 4; ++c) missing[c] = parts.missing(values.row(c).transpose(), holder.parent);
+  return missing;
+}
+
+// Columns of the usual fields of a point report.
+struct Columns {
+  std::vector<const FieldEntry*> field;  // of each column
+  std::vector<int> component;
+};
+
+Columns columns_of(const FieldList& fields) {
+  Columns columns;
+  for (const FieldEntry* field : fields)
+    for (std::size_t c = 0; c < field->size(); ++c) {
+      columns.field.push_back(field);
+      columns.component.push_back(static_cast<int>(c));
+    }
+  return columns;
+}
+
+std::vector<double> missing_of(const Model& model, const Solution& solution,
+                               const std::vector<Location>& holders, const Columns& columns) {
+  Vector4 stress = Vector4::Zero(), strain = Vector4::Zero();
+  for (const Location& holder : holders) {
+    const PointStates& state = solution.groups()[holder.group].state.committed;
+    const Group& group = model.groups[holder.group];
+    if (!group.solid()) return std::vector<double>(columns.field.size(), kNone);
+    stress = stress.cwiseMax(missing_in(group, state.sigma, holder));
+    strain = strain.cwiseMax(missing_in(group, state.eps, holder));
+  }
+  std::vector<double> missing;
+  for (std::size_t k = 0; k < columns.field.size(); ++k) {
+    const std::string& name = columns.field[k]->name;
+    const auto c = columns.component[k];
+    missing.push_back(name == "stress"                              ? stress[c]
+                      : name == "strain"                            ? strain[c]
+                      : name == "mean_stress" || name == "deviator" ? stress.maxCoeff()
+                                                                    : kNone);
+  }
+  return missing;
+}
+
+// What a mesh changed at the places of the one before, column by column; sisters are the components of a field.
+std::vector<LocalErrors::Change> changes_in(const std::vector<const FieldEntry*>& fields,
+                                            const Surroundings& earlier, const Surroundings& now) {
+  std::vector<LocalErrors::Change> changes(fields.size());
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    LocalErrors::Change& change = changes[k];
+    std::map<int, double> squares, means;  // by element
+    for (std::size_t p = 1; p < earlier.places.size(); ++p) {
+      const Surroundings::Place& place = earlier.places[p];
+      const double difference = now.at_earlier[p][k] - earlier.values[p][k];
+      squares[place.element] += place.weight * difference * difference;
+      means[place.element] += place.weight * difference;
+    }
+    change.own = std::abs(now.at_earlier[0][k] - earlier.values[0][k]);
+    for (const auto& [element, square] : squares) change.own = std::max(change.own, std::sqrt(square));
+    for (const auto& [element, mean] : means) change.mean = std::max(change.mean, std::abs(mean));
+    change.missing = now.missing[k];
+  }
+  for (std::size_t k = 0; k < fields.size(); ++k)
+    for (std::size_t s = 0; s < fields.size(); ++s) {
+      if (fields[s] != fields[k]) continue;
+      changes[k].largest = std::max(changes[k].largest, changes[s].own);
+      changes[k].largest_mean = std::max(changes[k].largest_mean, changes[s].mean);
+      changes[k].largest_missing = std::max(changes[k].largest_missing, changes[s].missing);
+      changes[k].size = std::max(changes[k].size, std::abs(now.values[0][s]));
+    }
+  return changes;
+}
+
+}  // namespace
+
+bool SurroundingsReader::wants_states(const Model& model, const StepReport& step) const {
+  return is_last(model, step);
+}
+
+void SurroundingsReader::on_increment(const Model& model, const StepReport& step, const Solution& solution) {
+  if (!is_last(model, step)) return;
+  found.assign(model.reports.size(), {});
+  const ElementKind kind = kind_at_points(model);
+  const FieldTable table = fields_of(model);
+  std::optional<Locator> locator;
+  for (std::size_t i = 0; i < model.reports.size(); ++i) {
+    const Report& report = model.reports[i];
+    if (report.kind != ReportKind::point) continue;
+    if (!locator) locator.emplace(model, kind);
+    const std::vector<Location> holders =
+        one_body(model, locator->at(report.place), solution.activity->group, report.group);
+    if (holders.empty()) continue;
+    const FieldList fields = point_report_fields(model, table, report);
+    const Sampler sampler(model, solution, fields, kind);
+    Surroundings& here = found[i];
+    here.places.push_back({report.place, report.group});
+    here.at_corner = true;
+    int element = 0;
+    for (const Location& holder : holders) {
+      add_grid(model, holder, element++, here.places);
+      here.at_corner = here.at_corner && size_of(model, holder) < 1e-6 * extent_of(model);
+    }
+    for (const Surroundings::Place& place : here.places)
+      here.values.push_back(sampler.at(place.at, place.group).values);
+    here.missing = missing_of(model, solution, holders, columns_of(fields));
+    if (i >= earlier_->size()) continue;
+    for (const Surroundings::Place& place : (*earlier_)[i].places)
+      here.at_earlier.push_back(sampler.at(place.at, place.group).values);
+  }
+}
+
+namespace {
+
+// How the errors of a ladder's meshes follow from what they change: measured on 200 points in ten scenes
+// (docs/theory/accuracy.md), so that next to no error is too small and the median is about ten times the true one.
+struct Shares {
+  double change, missing;  // of what the mesh changed, and of what its elements show to be missing
+  double slow;             // from this ratio of two changes on the series is a slow geometric one
+};
+
+// mesh: from 1.
+Shares shares_of(int mesh, bool nearly_incompressible) {
+  if (mesh == 2) return {0.75, 1.2, kUnknown};
+  if (mesh == 3) return {0.5, 2.0, 0.4};
+  if (mesh == 4) return {1.0 / 14.0, 1.5, 0.45};
+  // Pressures near nu = 1/2 converge less evenly.
+  return {nearly_incompressible ? 0.4 : 1.0 / 48.0, 1.5, 0.2};
+}
+
+// The rest of a geometric series, with caution.
+double rest(double r, double caution) {
+  return r >= 1.0 ? kUnknown : caution * r / (1.0 - r);
+}
+
+bool has_stiff_volume(const Model& model) {
+  return std::ranges::any_of(model.groups, [&](const Group& group) {
+    return group.solid() && group.elements() > 0 && nearly_incompressible(model, group);
+  });
+}
+
+}  // namespace
+
+// Rising degrees and layers, then halved: from what the last mesh changed around the point (`change`, and the largest of
+// the number's sisters) and from what is missing.
+double LocalErrors::spectral_error(const Change& now, const Change* before, bool stiff_volume) const {
+  constexpr double kSisters = 0.3, kMean = 0.25, kMostOff = 1.5;
+  const Shares shares = shares_of(mesh_, stiff_volume);
+  const double change = std::max(now.own, kSisters * now.largest);
+  double missing = std::isnan(now.missing) ? 0.0 : std::max(now.missing, kSisters * now.largest_missing);
+  double part = shares.change;
+  if (before != nullptr && !now.only_rounding()) {
+    const double r = now.largest / before->largest;
+    if (r >= 1.0) return kUnknown;
+    if (r > shares.slow) part = std::max(part, rest(r, 3.0));
+    // What the mesh before showed to be missing can be compared with what this one changed.
+    if (mesh_ == 3 && before->largest_missing > 0.0)
+      missing *= std::max(0.5, std::min(kMostOff, now.largest / before->largest_missing));
+  }
+  const double mean = mesh_ > 4 ? kMean * std::max(now.mean, kSisters * now.largest_mean) : 0.0;
+  return std::max({part * change, mean, shares.missing * missing});
+}
+
+// Halved elements: their degree bounds how fast a change can fall.
+double LocalErrors::halving_error(const Change& now, const Change* before) const {
+  if (now.only_rounding()) return now.own;
+  if (before == nullptr) return kUnknown;
+  return now.own * rest(std::max(now.largest / before->largest, 1.0 / std::sqrt(ladder_.most)), 1.5);
+}
+
+std::vector<double> LocalErrors::errors_of(const Model& model, std::size_t report, const Surroundings& now) {
+  const FieldTable table = fields_of(model);
+  const Columns columns = columns_of(point_report_fields(model, table, model.reports[report]));
+  const std::size_t count = columns.field.size();
+  if (report >= earlier_.size() || now.at_earlier.empty()) return std::vector<double>(count, kUnknown);
+  const std::vector<Change> change = changes_in(columns.field, earlier_[report], now);
+  const bool stiff_volume = has_stiff_volume(model);
+  std::vector<Change>& before = changes_[report];
+  std::vector<double> errors;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Change* earlier = before.empty() ? nullptr : &before[k];
+    double error = ladder_.kind == judge::Ladder::spectral ? spectral_error(change[k], earlier, stiff_volume)
+                                                           : halving_error(change[k], earlier);
+    if (now.at_corner && columns.field[k]->place() != FieldPlace::node) error = kUnknown;
+    errors.push_back(error);
+  }
+  before = change;
+  return errors;
+}
+
+std::vector<double> LocalErrors::after(const Model& model, const std::vector<ReportComponent>& components,
+                                       std::vector<Surroundings> found) {
+  ++mesh_;
+  changes_.resize(model.reports.size());
+  std::vector<double> errors(components.size(), kNone);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i].places.empty()) continue;
+    const std::vector<double> own = errors_of(model, i, found[i]);
+    const std::vector<ReportColumn> columns = report_columns(model, model.reports[i]);
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      for (std::size_t c = 0; c < components.size(); ++c)
+        if (components[c].name == "report" + std::to_string(i + 1) + "." + columns[k].name) errors[c] = own[k];
+  }
+  earlier_ = std::move(found);
+  return errors;
+}
+
+}  // namespace sage::app
