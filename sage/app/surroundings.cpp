@@ -61,8 +61,12 @@ double size_of(const Model& model, const Location& holder) {
   return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
 }
 
-double extent_of(const Model& model) {
-  return (model.mesh.x.rowwise().maxCoeff() - model.mesh.x.rowwise().minCoeff()).maxCoeff();
+// The place is the corner that the layers of a grading shrink to, or next to nothing beside it.
+bool is_last_layer(const Model& model, const Location& holder) {
+  constexpr double kLayer = 1e-3, kDeepLayer = 1e-6;  // of the mesh; four layers are below the first
+  const double extent = (model.mesh.x.rowwise().maxCoeff() - model.mesh.x.rowwise().minCoeff()).maxCoeff();
+  const bool vertex = (holder.parent.cwiseAbs() - Vector2::Ones()).cwiseAbs().maxCoeff() < 1e-6;
+  return size_of(model, holder) < (vertex ? kLayer : kDeepLayer) * extent;
 }
 
 // Of stress (or strain) components at the points of an element; NaN for elements of low degree.
@@ -173,7 +177,7 @@ void SurroundingsReader::on_increment(const Model& model, const StepReport& step
     int element = 0;
     for (const Location& holder : holders) {
       add_grid(model, holder, element++, here.places);
-      here.at_corner = here.at_corner && size_of(model, holder) < 1e-6 * extent_of(model);
+      here.at_corner = here.at_corner && is_last_layer(model, holder);
     }
     for (const Surroundings::Place& place : here.places)
       here.values.push_back(sampler.at(place.at, place.group).values);
@@ -194,12 +198,12 @@ struct Shares {
 };
 
 // mesh: from 1.
-Shares shares_of(int mesh, bool nearly_incompressible) {
+Shares shares_of(int mesh, double stiffness_of_volume) {
   if (mesh == 2) return {0.75, 1.2, kUnknown};
-  if (mesh == 3) return {0.5, 2.0, 0.4};
+  if (mesh == 3) return {0.6, 2.2, 0.4};
   if (mesh == 4) return {1.0 / 14.0, 1.5, 0.45};
   // Pressures near nu = 1/2 converge less evenly.
-  return {nearly_incompressible ? 0.4 : 1.0 / 48.0, 1.5, 0.2};
+  return {std::clamp(std::sqrt(stiffness_of_volume) / 150.0, 1.0 / 48.0, 0.4), 1.5, 0.2};
 }
 
 // The rest of a geometric series, with caution.
@@ -207,19 +211,24 @@ double rest(double r, double caution) {
   return r >= 1.0 ? kUnknown : caution * r / (1.0 - r);
 }
 
-bool has_stiff_volume(const Model& model) {
-  return std::ranges::any_of(model.groups, [&](const Group& group) {
-    return group.solid() && group.elements() > 0 && nearly_incompressible(model, group);
-  });
+// The largest K / G of the solids.
+double stiffness_of_volume(const Model& model) {
+  double most = 0.0;
+  for (const Group& group : model.groups) {
+    if (!group.solid() || group.elements() == 0) continue;
+    const double nu = poissons_ratio(model.material_of(group));
+    most = std::max(most, 2.0 * (1.0 + nu) / (3.0 * (1.0 - 2.0 * nu)));
+  }
+  return most;
 }
 
 }  // namespace
 
 // Rising degrees and layers, then halved: from what the last mesh changed around the point (`change`, and the largest of
 // the number's sisters) and from what is missing.
-double LocalErrors::spectral_error(const Change& now, const Change* before, bool stiff_volume) const {
+double LocalErrors::spectral_error(const Change& now, const Change* before, double stiffness) const {
   constexpr double kSisters = 0.3, kMean = 0.25, kMostOff = 1.5;
-  const Shares shares = shares_of(mesh_, stiff_volume);
+  const Shares shares = shares_of(mesh_, stiffness);
   const double change = std::max(now.own, kSisters * now.largest);
   double missing = std::isnan(now.missing) ? 0.0 : std::max(now.missing, kSisters * now.largest_missing);
   double part = shares.change;
@@ -248,12 +257,12 @@ std::vector<double> LocalErrors::errors_of(const Model& model, std::size_t repor
   const std::size_t count = columns.field.size();
   if (report >= earlier_.size() || now.at_earlier.empty()) return std::vector<double>(count, kUnknown);
   const std::vector<Change> change = changes_in(columns.field, earlier_[report], now);
-  const bool stiff_volume = has_stiff_volume(model);
+  const double stiffness = stiffness_of_volume(model);
   std::vector<Change>& before = changes_[report];
   std::vector<double> errors;
   for (std::size_t k = 0; k < count; ++k) {
     const Change* earlier = before.empty() ? nullptr : &before[k];
-    double error = ladder_.kind == judge::Ladder::spectral ? spectral_error(change[k], earlier, stiff_volume)
+    double error = ladder_.kind == judge::Ladder::spectral ? spectral_error(change[k], earlier, stiffness)
                                                            : halving_error(change[k], earlier);
     if (now.at_corner && columns.field[k]->place() != FieldPlace::node) error = kUnknown;
     errors.push_back(error);

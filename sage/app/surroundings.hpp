@@ -59,7 +59,7 @@ class LocalErrors {
   };
 
  private:
-  double spectral_error(const Change& now, const Change* before, bool stiff_volume) const;
+  double spectral_error(const Change& now, const Change* before, double stiffness) const;
   double halving_error(const Change& now, const Change* before) const;
   std::vector<double> errors_of(const Model& model, std::size_t report, const Surroundings& now);
 

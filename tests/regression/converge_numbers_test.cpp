@@ -81,7 +81,7 @@ std::string rough_circle() {
   deck.group(1, 1, 1, 1);
   deck.element(1, 1, {1, 2, 5, 4});
   deck.element(2, 1, {2, 3, 6, 5});
-  for (const int node : {1, 2, 3}) deck.fix(node, 1, 1);
+  for (const int node : {1, 2, 3}) deck.fix(node, node == 2 ? 0 : 1, 1);
   for (const int node : {4, 6}) deck.fix(node, 1, 0);
   scenes::StageCards& stage = deck.stage();
   for (const int node : {4, 5}) stage.fix(node, 1, 1, 0.0, -1.0);
