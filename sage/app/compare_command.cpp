@@ -195,7 +195,7 @@ FinishedSide climb_side(const char* letter, const SideOptions& options, const Co
 // A point that neither mesh holds is a mistake.
 void require_points(const CompareOptions& o, const Model* a, const Model* b) {
   const auto holds = [](const Model* model, const PointRequest& point) {
-    return model != nullptr && !Locator(*model).at(point.place).empty();
+    return model != nullptr && !Locator(*model, kind_at_points(*model)).at(point.place).empty();
   };
   if ((a == nullptr && b == nullptr) || interrupted()) return;
   for (const PointRequest& point : o.input.build.points)
