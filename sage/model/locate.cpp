@@ -36,7 +36,10 @@ ElementKind kind_at_points(const Model& model) {
     return std::ranges::any_of(
         model.groups, [&](const Group& group) { return group.entry->kind == kind && group.elements() > 0; });
   };
-  return has(ElementKind::flow) && !has(ElementKind::solid) ? ElementKind::flow : ElementKind::solid;
+  // Elements of one's own may flow without a head: reports would not know what to show.
+  const bool heads =
+      std::ranges::any_of(model.unknowns, [](const UnknownField& unknown) { return unknown.name == "head"; });
+  return heads && has(ElementKind::flow) && !has(ElementKind::solid) ? ElementKind::flow : ElementKind::solid;
 }
 
 Locator::Locator(const Model& model, ElementKind kind) : model_(&model) {
