@@ -16,8 +16,8 @@
 
 namespace sage {
 
-// Where the volumetric part of B comes from: each point itself, the element's mean (B-bar), or its centre.
-enum class Volumetric { pointwise, mean, centre };
+// Where the volumetric part of B comes from: each point itself, or the element's mean (B-bar).
+enum class Volumetric { pointwise, mean };
 
 // N and dN/d(xi, eta) at one place of the parent shape.
 template <class Shape>
@@ -77,8 +77,6 @@ class Solid final
     for (std::size_t p = 0; p < Rule::points; ++p) at_points[p] = gradients(x, points_[p]);
     NodePairs b_new;
     if constexpr (volumetric == Volumetric::mean) b_new = mean_volumetric_part(at_points);
-    if constexpr (volumetric == Volumetric::centre)
-      b_new = gradients(x, ShapeAt<Shape>({0.0, 0.0})).volumetric_part();
     double* block = geometry.data();
     for (const Gradients& g : at_points) {
       *block = g.w;

@@ -1,8 +1,8 @@
 #include "sage/conformance/patch.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 namespace sage::conformance {
@@ -124,19 +124,27 @@ Eigen::Matrix2Xd solve(const Eigen::Matrix2Xd& x, const std::vector<Group>& grou
   return u;
 }
 
-std::vector<char> boundary_nodes(const PatchMesh& mesh, const Element& element) {
-  std::map<std::pair<int, int>, int> uses;
-  const auto key = [](const std::vector<int>& nodes, const std::vector<int>& edge) {
-    return std::minmax(nodes[static_cast<std::size_t>(edge[0])], nodes[static_cast<std::size_t>(edge[1])]);
+std::vector<int> own_edges(const PatchMesh& mesh, const Element& element, const std::vector<int>& nodes) {
+  const auto ends = [&](const std::vector<int>& of, const std::vector<int>& edge) {
+    return std::minmax({of[static_cast<std::size_t>(edge[0])], of[static_cast<std::size_t>(edge[1])]});
   };
-  for (const auto& nodes : mesh.elements)
-    for (const auto& edge : element.edges()) ++uses[key(nodes, edge)];
+  std::vector<int> own;
+  for (std::size_t local = 0; local < element.edges().size(); ++local) {
+    int uses = 0;
+    for (const auto& other : mesh.elements)
+      for (const auto& edge : element.edges())
+        uses += ends(other, edge) == ends(nodes, element.edges()[local]) ? 1 : 0;
+    if (uses == 1) own.push_back(static_cast<int>(local));
+  }
+  return own;
+}
+
+std::vector<char> boundary_nodes(const PatchMesh& mesh, const Element& element) {
   std::vector<char> on_boundary(static_cast<std::size_t>(mesh.x.cols()), 0);
   for (const auto& nodes : mesh.elements)
-    for (const auto& edge : element.edges())
-      if (uses[key(nodes, edge)] == 1)
-        for (const int local : edge)
-          on_boundary[static_cast<std::size_t>(nodes[static_cast<std::size_t>(local)])] = 1;
+    for (const int edge : own_edges(mesh, element, nodes))
+      for (const int local : element.edges()[static_cast<std::size_t>(edge)])
+        on_boundary[static_cast<std::size_t>(nodes[static_cast<std::size_t>(local)])] = 1;
   return on_boundary;
 }
 

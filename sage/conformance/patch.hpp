@@ -54,7 +54,10 @@ Eigen::Matrix2Xd solve(const Eigen::Matrix2Xd& x, const std::vector<Group>& grou
                        const std::vector<char>& fixed, const Eigen::Matrix2Xd& prescribed,
                        const Eigen::VectorXd& load);
 
-// Nodes on edges that belong to one element only, one flag a node.
+// Edges of the element with these nodes that no other element of the mesh has.
+std::vector<int> own_edges(const PatchMesh& mesh, const Element& element, const std::vector<int>& nodes);
+
+// Nodes on such edges, one flag a node.
 std::vector<char> boundary_nodes(const PatchMesh& mesh, const Element& element);
 
 }  // namespace sage::conformance
