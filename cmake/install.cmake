@@ -6,7 +6,7 @@ set(SAGE_PACKAGE_TARGETS sage_fmt sage_core sage_umat sage_layout sage_deck sage
                          sage_draw sage_scenes sage_judge sage_safety sage_verify sage_compare sage_drive sage_stress sage_figures sage_app sage_commands
                          sage_elements sage_materials sage_solvers sage_conformance)
 
-install(TARGETS sagefe RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+sage_install(sagefe RUNTIME ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY legacy_inputs DESTINATION ${CMAKE_INSTALL_DATADIR}/sagefe)
 install(DIRECTORY sage/app/templates DESTINATION ${CMAKE_INSTALL_DATADIR}/sagefe)
 
@@ -19,14 +19,17 @@ foreach(folder ${SAGE_PACKAGE_ROOMS} elements materials solvers)
   install(DIRECTORY ${folder}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sagefe/${folder} FILES_MATCHING PATTERN "*.hpp")
 endforeach()
 
+install(FILES ${PROJECT_BINARY_DIR}/generated/sage/core/header_hash.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sagefe/sage/core)
+
 # Of the commands only the function that is the program: the others' headers need CLI11.
 install(FILES sage/app/program.hpp sage/app/exit_codes.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sagefe/sage/app)
 
 install(TARGETS ${SAGE_PACKAGE_TARGETS} EXPORT sagefeTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT sagefeTargets NAMESPACE sagefe:: DESTINATION ${SAGE_PACKAGE_DIR})
+set(SAGE_HEADERS_DIR ${CMAKE_INSTALL_INCLUDEDIR}/sagefe)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/sagefeConfig.cmake.in ${PROJECT_BINARY_DIR}/sagefeConfig.cmake
-                              INSTALL_DESTINATION ${SAGE_PACKAGE_DIR})
+                              INSTALL_DESTINATION ${SAGE_PACKAGE_DIR} PATH_VARS SAGE_HEADERS_DIR)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/sagefeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/sagefeConfig.cmake ${PROJECT_BINARY_DIR}/sagefeConfigVersion.cmake
-              ${CMAKE_CURRENT_LIST_DIR}/sagefePlugin.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/sagefePlugin.cmake ${CMAKE_CURRENT_LIST_DIR}/sagefeHeaderHash.cmake
         DESTINATION ${SAGE_PACKAGE_DIR})

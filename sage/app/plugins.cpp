@@ -25,6 +25,8 @@ namespace sage::app {
 
 namespace {
 
+static_assert(std::string_view(SAGE_HEADER_HASH) != "unknown");
+
 // What a library gives, before any of it goes into the program's catalogue.
 struct Pieces {
   Plugin plugin;

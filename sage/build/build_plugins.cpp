@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "sage/build/builder.hpp"
-#include "sage/core/plugin.hpp"
+#include "sage/core/catalogue.hpp"
 
 namespace sage::build {
 

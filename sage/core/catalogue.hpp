@@ -62,6 +62,14 @@ struct LawTrial {
   bool knows_directions = false;  // as layered soil does: turned axes give another answer
 };
 
+// First values of a material that come from code of its own (SDVINI and SIGINI of a UMAT), not from the deck.
+struct OwnStart {
+  bool stress = false, history = false;  // what it states
+  // Writes the stress (tension +) and the history of a point where they are stated; of context element, point, place
+  // and size are known.  Empty where nothing is stated.  Throws AnalysisError.
+  std::function<void(const PointContext& context, std::span<double> sigma, std::span<double> h)> at{};
+};
+
 // Parameters arrive as the deck writes them: degrees, compression-positive stress.
 struct MaterialEntry {
   std::string name;
@@ -81,6 +89,8 @@ struct MaterialEntry {
   LawPtr law_for(std::span<const double> values, const UnitSystem& units, const std::string& material) const {
     return make_for ? make_for(values, units, material) : make(values, units);
   }
+  // First values that a material states itself; initial cards come after them.  Empty: none does.
+  std::function<OwnStart(std::span<const double> values, const std::string& material)> own_start{};
   bool flow = false;  // a law of water in soil: for elements of ElementKind::flow alone
 
   bool for_solids() const { return law_size == 4; }
@@ -225,6 +235,9 @@ class Registry {
  private:
   std::shared_ptr<std::map<int, Entry>> entries_ = std::make_shared<std::map<int, Entry>>();
 };
+
+// Codes from here on are those of plug-ins.
+inline constexpr int kFirstPluginCode = 1000;
 
 // A plug-in (docs/manual/plugins.md) and what it has brought.
 struct Plugin {

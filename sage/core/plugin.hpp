@@ -15,7 +15,14 @@
 
 #include "sage/core/catalogue.hpp"
 
-// Grows when a function of the seams changes: what the sizes below don't show.
+// Written by sage_add_plugin, and by the build of the program, which rejects plug-ins that have another.
+#if __has_include("sage/core/header_hash.hpp")
+#include "sage/core/header_hash.hpp"
+#else
+#define SAGE_HEADER_HASH "unknown"
+#endif
+
+// Grows when what the functions below mean changes.  Any change of a header shows in its hash.
 #define SAGE_PLUGIN_API 1
 // Where the text stands in the file: it is read before anything of the library runs.
 #define SAGE_PLUGIN_SECTION ".sage_plugin"
@@ -38,8 +45,6 @@ struct SagePlugin {
 }  // extern "C"
 
 namespace sage {
-
-inline constexpr int kFirstPluginCode = 1000;
 
 // "field=value;field=value;": all that program and plug-in must have alike for C++ to pass between them.  A
 // plug-in's compiler writes its own into the plug-in, the program's compiler the program's.
@@ -114,6 +119,7 @@ constexpr std::string_view old_strings() {
 
 constexpr AbiText make() {
   AbiText t;
+  t.field("hash of the headers in sage/core", SAGE_HEADER_HASH);
   t.field("compiler ABI", __GXX_ABI_VERSION);
   t.field("strings", old_strings());
   t.field("checked containers", checked_containers());

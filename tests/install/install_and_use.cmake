@@ -21,6 +21,15 @@ endfunction()
 
 step("install" ${CMAKE_COMMAND} --install ${BUILD} --config "${CONFIG}" --prefix ${prefix})
 
+# Nothing that is installed looks for libraries in the current folder.
+step("read the search paths of what is installed" ${SOURCE}/run_paths ${READELF} ${prefix})
+# Programs of others need the flags that the compiler's faults are avoided by.
+file(GLOB_RECURSE targets ${prefix}/sagefeTargets.cmake)
+file(STRINGS ${targets} flags REGEX "INTERFACE_COMPILE_OPTIONS")
+if(CXX_ID STREQUAL "GNU")
+  expect("${flags}" "-fno-tree-slp-vectorize")
+endif()
+
 # The package: configured from nothing but the prefix.
 # Hardly optimised, which builds and runs in the least time together.
 set(flags -O1)

@@ -231,6 +231,10 @@ TEST(WrongPlugins, OfAnotherBuild) {
                  {"strings is before C++11 in the plug-in and C++11 in the program"});
   expect_refused(folder, kPlugins + "/other_language_plugin.so",
                  {"C++ is 2", " in the plug-in and 202002 in the program"});
+  // One virtual function more in Law changes no size.
+  expect_refused(
+      folder, kPlugins + "/more_virtuals_plugin.so",
+      {"hash of the headers in sage/core is ", " in the plug-in and " SAGE_HEADER_HASH " in the program"});
 }
 
 TEST(WrongPlugins, WhatTheyGive) {
