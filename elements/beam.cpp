@@ -133,8 +133,8 @@ Outcome update_points(const Law<kStrains>& law, const ElementIn& in, double gamm
   const std::size_t history = law.history().size();
   const auto du = Vector<Dofs>::Map(in.du);
   PointIn<kStrains> point;
-  PointOut<kStrains> result;
   for (std::size_t p = 0; p < kPoints; ++p) {
+    PointOut<kStrains> result;
     point.sigma0 = Strains::Map(in.sigma0 + p * kStrains);
     point.eps0 = Strains::Map(in.eps0 + p * kStrains);
     point.deps = points.Bt[p].transpose() * du + gamma * points.G[p];

@@ -12,7 +12,7 @@ namespace sage {
 
 // Four of large elements would leave the cache.
 constexpr bool four_fit(int law_size, int dofs, int points) {
-  return law_size == 4 && dofs <= 18 && points <= 9;
+  return law_size == 4 && dofs <= kMostDofsOfFour && points <= static_cast<int>(kMostFours);
 }
 
 // B^T of one point for four elements side by side.  pointwise: B as Solid::write_operator makes it without its

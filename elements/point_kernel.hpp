@@ -1,4 +1,4 @@
-// The one kernel of every element.  An element is a list of points, each with a weight w and a strain operator
+// The kernel of every element but Beam2, which solves for its shear strain too.  An element is a list of points, each with a weight w and a strain operator
 // B. Full integration, B-bar and interfaces differ only in how geometry() makes w and B.
 #pragma once
 
@@ -88,8 +88,8 @@ Outcome evaluate_points(const ElementIn& in, ElementOut& out) {
   constexpr int kTogether = points_together(Points);
   StackedOperators<LawSize, Dofs, kTogether> some;
   PointIn<LawSize> point;
-  PointOut<LawSize> result;
   for (int p = 0; p < Points; ++p) {
+    PointOut<LawSize> result;  // one a point: a law that leaves its status out must not find the last point's
     const double* const geometry = in.geometry + p * kPointStride<LawSize, Dofs>;
     const double w = *geometry;
     const Eigen::Map<const OperatorT<LawSize, Dofs>> Bt(geometry + 1);
@@ -115,7 +115,7 @@ Outcome evaluate_points(const ElementIn& in, ElementOut& out) {
   return Outcome::ok;
 }
 
-// What all elements share: traits and the kernel.  pointwise: as OperatorOfFour says.
+// What all elements but Beam2 share: traits and the kernel.  pointwise: as OperatorOfFour says.
 template <int LawSize, int Dofs, int Points, bool pointwise = false>
 class PointElement : public Element {
  public:

@@ -7,7 +7,7 @@ namespace sage {
 bool goes_by_four(const GroupData& data) {
   const Element& element = *data.group->element;
   return !data.constant && !data.wants_context && data.dof_list.empty() && element.takes_four() &&
-         !element.traits().sees_unknowns && takes_four(data.law);
+         four_may_go_together(element.traits()) && takes_four(data.law);
 }
 
 void prepare_by_four(const Mesh& mesh, GroupData& data) {
@@ -37,10 +37,9 @@ PassByFour::PassByFour(GroupData& data, const Eigen::VectorXd& du) : data_(&data
 }
 
 Outcome PassByFour::evaluate(int first, double* f, double* K, bool& changed) const {
-  constexpr std::size_t kMostDofs = 18;  // of elements that take four
   const PointStates& committed = data_->state.committed;
   PointStates& trial = data_->state.trial;
-  Four du[kMostDofs];
+  Four du[kMostDofsOfFour];
   std::array<const int*, kAbreast> nodes;
   FourElementsIn in;
   FourElementsOut out;

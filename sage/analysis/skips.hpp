@@ -1,5 +1,7 @@
-// What a run leaves out because the scene does not need it.  Every skip can be switched off; the results with
-// and without it then differ by rounding only, or where it changes the iteration by what that leaves out of balance.
+// What a run leaves out because the scene does not need it.  Every skip can be switched off.  Without factors, elements,
+// states, condensation or twins results differ by rounding.  Without repeats, contraction or prediction the iterations
+// take another path: results differ by what the tolerance allows, and by more where several states are in equilibrium
+// (points at the apex of a yield surface, a singular tangent).
 // Each has a file: kept_matrices (factors), constant_region (elements), late_states, condensation, repeats, contraction,
 // prediction, and in solvers/ twin_fronts.
 #pragma once

@@ -1,6 +1,7 @@
 // A law driven by hand: one update with its own history, and tangents by differences.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "sage/core/law.hpp"
@@ -27,6 +28,14 @@ PointIn<N> point_in(const Law<N>& law, const Vector<N>& sigma0, const Vector<N>&
           law.wants_context() ? &some_context(!deps.isZero(0.0)) : nullptr};
 }
 
+// What stands in the outputs before a call: a field that a law leaves out differs between the two.
+struct Preset {
+  double number = 0.0;
+  PointStatus status = PointStatus::elastic;
+};
+inline constexpr std::array<Preset, 2> kPresets{
+    {{-12345.0, PointStatus::elastic}, {54321.0, PointStatus::apex}}};
+
 // One update with its own history storage.
 template <int N>
 struct Answer {
@@ -37,12 +46,14 @@ struct Answer {
   Outcome outcome;
 };
 template <int N>
-Answer<N> update(const Law<N>& law, const Vector<N>& sigma0, const Vector<N>& deps, std::vector<double> h0) {
+Answer<N> update(const Law<N>& law, const Vector<N>& sigma0, const Vector<N>& deps, std::vector<double> h0,
+                 const Preset& preset = kPresets[0]) {
   Answer<N> a;
-  a.h.assign(h0.size(), -12345.0);  // so that a forgotten history shows
+  a.h.assign(h0.size(), preset.number);
   PointOut<N> out;
-  out.sigma.setConstant(-12345.0);
-  out.D.setConstant(-12345.0);
+  out.sigma.setConstant(preset.number);
+  out.D.setConstant(preset.number);
+  out.status = preset.status;
   out.h1 = a.h;
   a.outcome = law.update(point_in<N>(law, sigma0, deps, h0), out);
   a.sigma = out.sigma;

@@ -66,7 +66,7 @@ class SmoothLaw : public Law<N> {
 
 // A law of solids, four points at once by asking it four times; what it says of its D is up to the test.
 template <class L>
-class InFours final : public L {
+class InFours : public L {
  public:
   using L::L;
   InFours(double first, bool constant_D) : L(first), constant_D_(constant_D) {}
@@ -104,6 +104,19 @@ class InFours final : public L {
   }
 
   bool constant_D_ = false;
+};
+
+// Elastic with D = 1; says that the first point yields, and of the others nothing.
+template <int N>
+class SilentLaw final : public Law<N> {
+ public:
+  bool wants_context() const override { return true; }
+  Outcome update(const PointIn<N>& in, PointOut<N>& out) const override {
+    out.sigma = in.sigma0 + in.deps;
+    out.D.setIdentity();
+    if (in.context->point == 0) out.status = PointStatus::yielded;
+    return Outcome::ok;
+  }
 };
 
 // Elastic with D = 1; writes the number of the point that its context names into its history, -1 without one.

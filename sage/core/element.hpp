@@ -59,6 +59,15 @@ struct ElementOut {
   PointStatus* status = nullptr;  // points
 };
 
+// Largest number of dofs of an element that is evaluated four at a time.
+inline constexpr int kMostDofsOfFour = 18;
+// Whether elements with these traits may be.  Larger ones are evaluated one by one, whatever they offer: callers and
+// laws keep arrays of these sizes.
+inline bool four_may_go_together(const ElementTraits& traits) {
+  return traits.dofs == 2 * traits.nodes && traits.dofs <= kMostDofsOfFour &&
+         traits.points <= static_cast<int>(kMostFours) && !traits.sees_unknowns;
+}
+
 // Four elements of a group at once.  Some may be one and the same: results are written, never added to.
 struct FourElementsIn {
   const double* geometry = nullptr;  // from Element::place_among_four of each
@@ -91,8 +100,8 @@ class Element {
   // f, K and the trial state.  Allocates nothing.
   virtual Outcome evaluate(const ElementIn& in, ElementOut& out) const = 0;
 
-  // The same for four elements, to the same digits: where both the element and its law offer it.  Not for
-  // elements that see unknowns.
+  // The same for four elements, to the same digits: where both the element and its law offer it, and the traits
+  // allow it (four_may_go_together).
   virtual bool takes_four() const { return false; }
   // Of w and B what it then wants, doubles an element: those of a point together, w first.
   virtual int four_geometry_size() const { return traits().geometry_size(); }

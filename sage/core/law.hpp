@@ -112,7 +112,7 @@ struct FourPointsOut {
   std::array<Four, N> sigma;
   std::array<std::array<Four, N>, N> D;  // D[i][j] = d(sigma_i)/d(deps_j)
   std::array<double*, kAbreast> h1;
-  std::array<PointStatus, kAbreast> status;
+  std::array<PointStatus, kAbreast> status{};
   // D of all four is the one that this law has wherever it says so: matrices may be kept.
   bool constant_D = false;
 };

@@ -5,12 +5,14 @@
 #include <memory>
 #include <utility>
 
+#include "sage/analysis/by_four.hpp"
 #include "sage/analysis/run.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/build/build_model.hpp"
 #include "sage/conformance/sample_laws.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "solvers/choose_solver.hpp"
+#include "tests/support/offers_four.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage {
@@ -70,9 +72,12 @@ struct LastState final : Observer {
   }
 };
 
-LastState solve(const std::string& text, How how, bool keep_matrices, int threads = 1) {
+LastState solve(const std::string& text, How how, bool keep_matrices, int threads = 1,
+                bool offers_four = false) {
   static const Catalogue catalogue = app::full_catalogue();
   Model model = build_model(read_deck_text(text, "punch.dat", load_layout("sage1")), catalogue);
+  if (offers_four)
+    for (Group& group : model.groups) group.element = std::make_shared<test::OffersFour>(group.element);
   LawPtr& law = model.materials[0].law;
   if (how == How::one_by_one) law = std::make_unique<OneByOne>(std::move(law));
   if (how == How::in_fours) law = std::make_unique<conformance::InFours<OneByOne>>(std::move(law));
@@ -118,6 +123,24 @@ TEST(ByFour, GivesTheStateOfOneByOne) {
         }
       }
     }
+}
+
+// Elements with more dofs or points than there is room for go one by one, although they offer four: quad25 has 50 and
+// 25.  The same bits as from elements that offer nothing.
+TEST(ByFour, LargeElementsGoOneByOneWhateverTheyOffer) {
+  static const Catalogue catalogue = app::full_catalogue();
+  const std::string text = punch(2, 2, test::Cell::quad8, 7);
+  Model model = build_model(read_deck_text(text, "punch.dat", load_layout("sage1")), catalogue);
+  Group& group = model.groups.front();
+  group.element = std::make_shared<test::OffersFour>(group.element);
+  GroupData data(group);
+  data.law = model.materials[0].law_ref();
+  EXPECT_EQ(group.element->traits().dofs, 50);
+  ASSERT_FALSE(goes_by_four(data));
+  const LastState own = solve(text, How::by_itself, true);
+  const LastState offered = solve(text, How::by_itself, true, 1, true);
+  EXPECT_EQ(offered.u, own.u);
+  EXPECT_EQ(offered.points.sigma, own.points.sigma);
 }
 
 // More elements than one thread takes, and a last four that is not full: the same bits, matrices kept or not.
