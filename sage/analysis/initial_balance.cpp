@@ -19,11 +19,13 @@ std::vector<char> stressed_groups(const Model& model, const Activity& activity, 
     const auto g = static_cast<std::size_t>(initial.group);
     flags[g] = initial.kind != InitialKind::zero && activity.group[g];
   };
-  const auto begins = [&](const InitialStress& initial) {
-    return stage == 0 || std::find(now.births.begin(), now.births.end(), initial.group) != now.births.end();
+  const auto begins = [&](int group) {
+    return stage == 0 || std::find(now.births.begin(), now.births.end(), group) != now.births.end();
   };
+  for (std::size_t g = 0; g < flags.size(); ++g)
+    flags[g] = activity.group[g] && begins(static_cast<int>(g)) && has_own_stress(model, model.groups[g]);
   for (const InitialStress& initial : model.initials)
-    if (begins(initial)) mark(initial);
+    if (begins(initial.group)) mark(initial);
   for (const InitialStress& initial : now.initials) mark(initial);
   return flags;
 }
@@ -68,7 +70,8 @@ InitialImbalance initial_imbalance(const Model& model) {
   const Stage& first = model.stages.front();
   // A history has no forces, but the law may refuse it.
   const auto stressed = [](const InitialStress& initial) { return initial.kind != InitialKind::zero; };
-  if (!std::ranges::any_of(model.initials, stressed) && !std::ranges::any_of(first.initials, stressed))
+  if (!std::ranges::any_of(model.initials, stressed) && !std::ranges::any_of(first.initials, stressed) &&
+      !has_own_start(model))
     return {};
   const Scene scene = analyse_scene(model);
   WorkCounters work;
@@ -81,6 +84,7 @@ InitialImbalance initial_imbalance(const Model& model) {
   if (!model.water.empty()) water.emplace(model, 0, activity.group, activity.dof_map, nullptr);
   const PorePressure* const pressed = water ? &*water : nullptr;
   assembly.start_states(true, [&](std::vector<GroupData>& groups) {
+    apply_own_starts(model, groups);
     for (const std::vector<InitialStress>* list : {&model.initials, &first.initials})
       apply_initials(model, *list, pressed, groups, refused);
   });

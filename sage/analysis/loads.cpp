@@ -4,6 +4,8 @@
 #include <cmath>
 #include <span>
 
+#include "sage/analysis/moment.hpp"
+
 namespace sage {
 
 namespace {
@@ -260,6 +262,46 @@ void apply_initial_history(const Model& model, const InitialStress& initial, Gro
                            std::to_string(p + 1) + " of element " +
                            std::to_string(group.element_numbers[static_cast<std::size_t>(e)]));
     }
+}
+
+namespace {
+
+OwnStart own_start_of(const Model& model, const Group& group) {
+  const Material& material = model.material_of(group);
+  if (material.entry == nullptr || !material.entry->own_start) return {};
+  return material.entry->own_start(material.parameters, material.name);
+}
+
+}  // namespace
+
+bool has_own_start(const Model& model) {
+  return std::ranges::any_of(
+      model.groups, [&](const Group& group) { return static_cast<bool>(own_start_of(model, group).at); });
+}
+
+bool has_own_stress(const Model& model, const Group& group) {
+  return own_start_of(model, group).stress;
+}
+
+void apply_own_starts(const Model& model, std::vector<GroupData>& groups) {
+  Eigen::Matrix2Xd x;
+  for (GroupData& data : groups) {
+    const OwnStart start = own_start_of(model, *data.group);
+    if (!start.at) continue;
+    data.state.make_room();
+    const ElementTraits& traits = data.group->element->traits();
+    const auto size = static_cast<std::size_t>(traits.law_size);
+    const auto history = static_cast<std::size_t>(data.state.history_size());
+    for (int e = 0; e < data.group->elements(); ++e) {
+      element_coordinates(model.mesh, *data.group, e, x);
+      for (int p = 0; p < traits.points; ++p) {
+        const auto point = static_cast<std::size_t>(e * traits.points + p);
+        PointStates& states = data.state.committed;
+        start.at(context_of(data, e, x, p, {.stage = 1}), {states.sigma.data() + point * size, size},
+                 {states.h.data() + point * history, history});
+      }
+    }
+  }
 }
 
 void apply_initials(const Model& model, const std::vector<InitialStress>& initials, const PorePressure* water,

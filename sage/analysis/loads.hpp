@@ -30,6 +30,11 @@ void apply_initial_stress(const Model& model, const InitialStress& initial, cons
 // Sets the history that a card of InitialKind::history states.  Throws InputError where the law refuses it.
 void apply_initial_history(const Model& model, const InitialStress& initial, GroupData& data);
 
+// First values that materials state themselves, before any card (MaterialEntry::own_start).
+bool has_own_start(const Model& model);
+bool has_own_stress(const Model& model, const Group& group);
+void apply_own_starts(const Model& model, std::vector<GroupData>& groups);
+
 // All cards of the model or of a stage: stresses, then histories, which count from what the stresses have made.
 // water: of the stage, where the model has some: the weights of geostatic cards then are total ones.
 void apply_initials(const Model& model, const std::vector<InitialStress>& initials, const PorePressure* water,

@@ -189,8 +189,11 @@ void Run::begin_water(int s, const PorePressure* water) {
       return initial.group == static_cast<int>(g) && initial.kind != InitialKind::history &&
              initial.kind != InitialKind::zero;
     };
+    const bool active_from_here =
+        s == 0 || std::ranges::find(stage.births, static_cast<int>(g)) != stage.births.end();
     const bool begins = (s == 0 && std::ranges::any_of(model_.initials, states_stress)) ||
-                        std::ranges::any_of(stage.initials, states_stress);
+                        std::ranges::any_of(stage.initials, states_stress) ||
+                        (active_from_here && has_own_stress(model_, *data.group));
     if (data.pore.empty()) data.pore.assign(end.size(), 0.0);
     path_.pore_start[g] = begins ? end : data.pore;
   }
@@ -772,6 +775,8 @@ bool Run::run_stage(int s, int done) {
 
 // Who lives at the start only matters to pore pressures.
 void Run::start_first_states() {
+  assembly_.start_states(has_own_start(model_),
+                         [&](std::vector<GroupData>& groups) { apply_own_starts(model_, groups); });
   if (model_.water.empty()) return start_states(0, system_.activity(), model_.initials, false);
   Activity first(model_);
   first.enter(model_.stages.front());

@@ -19,6 +19,7 @@
 #include "sage/drive/subject.hpp"
 #include "sage/record/out_file.hpp"
 #include "sage/record/values.hpp"
+#include "sage/umat/law.hpp"
 
 namespace sage::app {
 
@@ -98,7 +99,7 @@ std::vector<Subject> subjects_of(const DriveOptions& options, const Catalogue& c
   if (!options.deck.empty()) base = std::make_unique<Subject>(subject_of_deck(options, catalogue));
   if (!options.law.empty())
     base = of_command_line(
-        "--law: ", [&] { return std::make_unique<Subject>(subject_of(catalogue, options.law, units)); });
+        "--law: ", [&] { return std::make_unique<Subject>(named_subject(catalogue, options.law, units)); });
   if (base) {
     base->pressure = options.pressure;
     units = base->units;
@@ -327,6 +328,13 @@ int fit_law(const DriveOptions& options, const Subject& subject, const LabTest* 
   return are_whole(result.curves) && result.converged ? kOk : kNotConverged;
 }
 
+// Where a user material returned what is no number, that is the reason, and no strength.
+void name_not_finite(Curve& curve) {
+  const std::string words = umat::take_not_finite();
+  if (curve.failure.empty() || words.empty()) return;
+  curve.failure = curve.failure.substr(0, curve.failure.find(": ") + 2) + words;
+}
+
 int drive_laws(const DriveOptions& options, const Catalogue& catalogue) {
   if (options.list) {
     list_tests();
@@ -358,8 +366,9 @@ int drive_laws(const DriveOptions& options, const Catalogue& catalogue) {
     const LawPtr law = make_law(subject);
     with_umat_output(subject.name, [&] {
       curves.push_back(of_command_line(subject.name + ": ", [&] {
-        return follow(reference(law), subject.units, path_of(options, subject, test));
+        return follow(subject, reference(law), path_of(options, subject, test));
       }));
+      name_not_finite(curves.back());
     });
     curves.back().name = subject.name;
   }
@@ -382,7 +391,8 @@ std::string finite_number(const std::string& text) {
 }
 
 void add_law_options(CLI::App& parser, DriveOptions& options) {
-  parser.add_option("--law", options.law, "a law by name or code (sagefe list materials)");
+  parser.add_option("--law", options.law,
+                    "a law by name or code (sagefe list materials); NAME:LAW names it (CMNAME of a UMAT)");
   parser.add_option("--deck", options.deck, "the law, parameters and units of a deck's material");
   parser.add_option("--material", options.material, "its number in the deck (default: the only one)")
       ->needs("--deck");

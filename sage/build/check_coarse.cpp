@@ -34,7 +34,9 @@ struct GroundSide {
 
 bool can_fail(const Material& material) {
   if (std::visit([](const auto* law) { return law->linear(); }, material.law_ref())) return false;
-  return material.parameter(ParameterRole::strength) || material.parameter(ParameterRole::friction_angle);
+  // Of a user material nobody knows which of its properties is a strength.
+  return material.parameter(ParameterRole::strength) || material.parameter(ParameterRole::friction_angle) ||
+         (material.entry != nullptr && material.entry->open_ended);
 }
 
 // A part of the outline that is pushed in one way, from end to end.

@@ -1014,7 +1014,8 @@ constexpr MessageEntry kMessages[] = {
      "routine that is called otherwise (nm -D LIBRARY lists names). Fortran: gfortran -shared -fPIC."},
     {"S805", "a number of a umat material does not fit",
      "The material card of a UMAT begins with the number of stress components (4 or 6), the number of state "
-     "variables and two marks (symmetric, safe for threads), each 0 or 1; the routine's properties follow.",
+     "variables and two marks: symmetric (0, 1 or 2) and safe for threads (0 or 1); the routine's properties "
+     "follow.",
      "Compare the card with the routine's own documentation: NTENS, NSTATV (the DEPVAR of an Abaqus deck), "
      "PROPS."},
     {"S806", "a UMAT did not do what it must",

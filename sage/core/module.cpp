@@ -15,6 +15,7 @@
 #include <system_error>
 
 #include "sage/core/error.hpp"
+#include "sage/core/float_modes.hpp"
 
 namespace sage {
 
@@ -80,7 +81,10 @@ std::string elf_section(const std::string& file, std::string_view name) {
 }
 
 Library open_library(const std::string& file) {
-  if (void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) return {handle};
+  const FloatModes modes;
+  void* const handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  modes.restore();
+  if (handle != nullptr) return {handle};
   const char* error = dlerror();
   return {nullptr, error != nullptr ? error : "the system gives no reason"};
 }

@@ -34,7 +34,7 @@ struct Library {
   void* handle = nullptr;  // never closed; nullptr: `error` says why
   std::string error{};
 };
-// With all it needs; its names stay its own.  Runs its constructors.
+// With all it needs; its names stay its own.  Runs its constructors, and restores the modes of floating point.
 Library open_library(const std::string& file);
 
 // Bytes of a section of an ELF file of 64 bits, at most 64 KiB of them; empty where there is none.

@@ -195,6 +195,30 @@ LawPtr make_law(const Subject& subject) {
   return subject.entry->law_for(subject.values, subject.units, subject.name);
 }
 
+namespace {
+
+std::vector<FirstValue> own_history(const Subject& subject, const LawRef& law) {
+  if (!subject.entry->own_start) return {};
+  const OwnStart start = subject.entry->own_start(subject.values, subject.name);
+  if (!start.history) return {};
+  std::vector<double> sigma(static_cast<std::size_t>(size_of_law(law))), h;
+  const std::span<const Quantity> quantities = history_of(law);
+  for (const Quantity& quantity : quantities) h.push_back(quantity.initial);
+  start.at({.element = 1, .stage = 1, .size = 1.0}, sigma, h);
+  std::vector<FirstValue> values;
+  for (std::size_t i = 0; i < h.size(); ++i)
+    values.push_back({std::string(quantities[i].name), outward(quantities[i], h[i])});
+  return values;
+}
+
+}  // namespace
+
+Curve follow(const Subject& subject, const LawRef& law, Path path) {
+  const std::vector<FirstValue> own = own_history(subject, law);
+  path.history.insert(path.history.begin(), own.begin(), own.end());
+  return follow(law, subject.units, path);
+}
+
 Curve follow(const LawRef& law, const UnitSystem& units, const Path& path) {
   return std::visit(
       [&]<int N>(const Law<N>* held) -> Curve {

@@ -60,5 +60,7 @@ LawPtr make_law(const Subject& subject);
 // Throws InputError where the law can't carry the start, or has no such path (size of the law); a path that
 // can't be followed is no exception but Curve::failure.
 Curve follow(const LawRef& law, const UnitSystem& units, const Path& path);
+// The same of a subject: what it states of its own history (MaterialEntry::own_start) comes before that of the path.
+Curve follow(const Subject& subject, const LawRef& law, Path path);
 
 }  // namespace sage::drive

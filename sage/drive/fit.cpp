@@ -77,7 +77,7 @@ class Comparison {
     const LawPtr law = make_law(subject);
     std::vector<Curve> all;
     for (const Measured& measured : problem_.curves)
-      all.push_back(follow(reference(law), subject.units, path_of(measured)));
+      all.push_back(follow(subject, reference(law), path_of(measured)));
     return all;
   }
 

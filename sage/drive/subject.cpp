@@ -66,6 +66,12 @@ int open_place(Subject& subject, std::string_view key) {
   return static_cast<int>(place);
 }
 
+void give_name(Subject& subject, std::string_view name, const SourcePosition& where) {
+  subject.name = std::string(trimmed(name));
+  if (subject.name.empty() || subject.name.find('"') != std::string::npos)
+    throw InputError("S651", where, fmt::format("{}: wanted a name without quotes before the colon", name));
+}
+
 }  // namespace
 
 Setting setting_from(std::string_view text, const SourcePosition& where) {
@@ -97,6 +103,15 @@ Subject subject_of(const Catalogue& catalogue, std::string_view law, const UnitS
     }
   throw InputError("S212", where,
                    fmt::format("there is no law {}; known: {}", law, catalogue.materials.known()));
+}
+
+Subject named_subject(const Catalogue& catalogue, std::string_view text, const UnitSystem& units,
+                      const SourcePosition& where) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string_view::npos) return subject_of(catalogue, trimmed(text), units, where);
+  Subject subject = subject_of(catalogue, trimmed(text.substr(colon + 1)), units, where);
+  give_name(subject, text.substr(0, colon), where);
+  return subject;
 }
 
 void apply(Subject& subject, const Setting& setting, const SourcePosition& where) {
@@ -148,9 +163,7 @@ Subject subject_from(const Catalogue& catalogue, std::string_view text, const Un
     throw InputError("S651", where, fmt::format("{}: wanted NAME:LAW,KEY=VALUE,...", text));
   Subject subject = law.empty() ? *base : subject_of(catalogue, law, units, where);
   if (!law.empty()) subject.pressure = pressure;
-  if (named) subject.name = std::string(trimmed(head.substr(0, colon)));
-  if (subject.name.empty() || subject.name.find('"') != std::string::npos)
-    throw InputError("S651", where, fmt::format("{}: wanted a name without quotes before the colon", text));
+  if (named) give_name(subject, head.substr(0, colon), where);
   for (std::size_t at = comma + 1, end = 0; at < text.size(); at = end + 1) {
     end = std::min(text.find(',', at), text.size());
     apply(subject, setting_from(text.substr(at, end - at), where), where);

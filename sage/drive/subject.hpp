@@ -26,6 +26,10 @@ int parameter_place(const MaterialEntry& entry, std::string_view key);
 Subject subject_of(const Catalogue& catalogue, std::string_view law, const UnitSystem& units,
                    const SourcePosition& where = {});
 
+// The same of "NAME:LAW"; NAME is the law's where there is none.  A user material finds its routine by it: CMNAME.
+Subject named_subject(const Catalogue& catalogue, std::string_view text, const UnitSystem& units,
+                      const SourcePosition& where = {});
+
 // Sets a parameter, or the pressure or history.NAME at the start.  Throws InputError with the parameters that there are.
 void apply(Subject& subject, const Setting& setting, const SourcePosition& where = {});
 

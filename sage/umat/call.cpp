@@ -41,8 +41,24 @@ enum Array : std::size_t {
   kDpred,
   kPnewdt,
   kCelent,
+  kNdi,  // integers
+  kNshr,
+  kNtens,
+  kNstatv,
+  kNprops,
+  kNoel,
+  kNpt,
+  kLayer,
+  kKspt,
+  kKinc,
+  kNcrds,
+  kLrebar,
+  kJstep,
+  kCmname,  // texts
+  kNames,
   kArguments
 };
+constexpr std::size_t kCharacters = sizeof(double);  // in the room of a number
 // In front of an array, and behind it: a routine for three dimensions writes 36 terms where there are 16.
 constexpr std::size_t kBefore = 4, kBehind = 8, kBehindMatrix = 32, kBesideNumber = 2;
 // A number of no computation.
@@ -50,8 +66,6 @@ constexpr std::uint64_t kGuardBits = 0x7ff8'dead'5afe'beef;
 const double kGuard = std::bit_cast<double>(kGuardBits);
 // On either side of the arguments.
 constexpr std::size_t kFar = std::size_t{1} << 20;
-
-enum Integer : std::size_t { kNdi, kNshr, kNtens, kNstatv, kNprops, kNoel, kNpt, kLayer, kKspt, kKinc };
 
 bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
@@ -99,15 +113,20 @@ Call::Call(const Setup& setup) : setup_(&setup) {
   const auto n = static_cast<std::size_t>(setup.components), state = static_cast<std::size_t>(setup.statev);
   std::array<std::size_t, kArguments> sizes{n, state, n * n, n, n, n, n, setup.props.size(), 3, 9, 9, 9, 2};
   std::fill(sizes.begin() + kSse, sizes.end(), std::size_t{1});
+  sizes[kJstep] = 4;
+  sizes[kCmname] = name_.size() / kCharacters;
+  sizes[kNames] = 2 * sizes[kCmname];
   constexpr std::array<const char*, kArguments> kNames{
-      "STRESS", "STATEV", "DDSDDE", "DDSDDT", "DRPLDE", "STRAN",  "DSTRAN", "PROPS", "COORDS",
-      "DROT",   "DFGRD0", "DFGRD1", "TIME",   "SSE",    "SPD",    "SCD",    "RPL",   "DRPLDT",
-      "DTIME",  "TEMP",   "DTEMP",  "PREDEF", "DPRED",  "PNEWDT", "CELENT"};
+      "STRESS", "STATEV", "DDSDDE", "DDSDDT", "DRPLDE", "STRAN", "DSTRAN", "PROPS",  "COORDS", "DROT",
+      "DFGRD0", "DFGRD1", "TIME",   "SSE",    "SPD",    "SCD",   "RPL",    "DRPLDT", "DTIME",  "TEMP",
+      "DTEMP",  "PREDEF", "DPRED",  "PNEWDT", "CELENT", "NDI",   "NSHR",   "NTENS",  "NSTATV", "NPROPS",
+      "NOEL",   "NPT",    "LAYER",  "KSPT",   "KINC",   "NCRDS", "LREBAR", "JSTEP",  "CMNAME", "NAMES"};
   std::size_t end = 0;
   for (std::size_t i = 0; i < kArguments; ++i) {
-    const std::size_t before = i > kTime ? kBesideNumber : kBefore;
+    const std::size_t before = i > kTime && i <= kJstep ? kBesideNumber : kBefore;
     const bool large = i == kDdsdde || i == kStatev, last = i + 1 == kArguments;
-    const std::size_t behind = large ? kBehindMatrix : last ? kBefore : i >= kTime ? kBesideNumber : kBehind;
+    const bool number = i >= kTime && i < kJstep;
+    const std::size_t behind = large ? kBehindMatrix : last ? kBefore : number ? kBesideNumber : kBehind;
     if (i == 0)
       guards_.push_back({0, before});
     else
@@ -153,29 +172,34 @@ void Call::load(const PointIn<4>& in, const PointContext& context, Width width) 
   at(kTime)[1] = start;
   *at(kCelent) = context.size;
   *at(kPnewdt) = 1.0;
-  given_name_ = name_;
-  integers_ = {3,
-               setup_->components - 3,
-               setup_->components,
-               setup_->statev,
-               static_cast<std::int64_t>(setup_->props.size()),
-               context.element,
-               context.point + 1,
-               1,
-               1,
-               increment_of(context, start)};
+  std::memcpy(at(kCmname), name_.data(), name_.size());
+  std::memset(at(kNames), ' ', 2 * name_.size());
+  const std::array<std::int64_t, kJstep - kNdi> integers{3,
+                                                         setup_->components - 3,
+                                                         setup_->components,
+                                                         setup_->statev,
+                                                         static_cast<std::int64_t>(setup_->props.size()),
+                                                         context.element,
+                                                         context.point + 1,
+                                                         1,
+                                                         1,
+                                                         increment_of(context, start),
+                                                         2,
+                                                         0};
+  for (std::size_t i = 0; i < integers.size(); ++i) std::memcpy(at(kNdi + i), &integers[i], sizeof integers[i]);
   // Step, procedure (1 static), large deformation (no), perturbation (no).
-  jstep_ = {context.stage, 1, 0, 0};
-  if (width == Width::four) {
-    const std::array<std::int32_t, 4> narrow{context.stage, 1, 0, 0};
-    jstep_ = {};
-    std::memcpy(jstep_.data(), narrow.data(), sizeof narrow);
-  }
+  const std::array<std::int64_t, 4> wide{context.stage, 1, 0, 0};
+  const std::array<std::int32_t, 4> narrow{context.stage, 1, 0, 0};
+  std::memset(at(kJstep), 0, sizeof wide);
+  if (width == Width::four)
+    std::memcpy(at(kJstep), narrow.data(), sizeof narrow);
+  else
+    std::memcpy(at(kJstep), wide.data(), sizeof wide);
 }
 
 CallEnd Call::run(Asked asked) {
   if (asked == Asked::with_wide_integers)
-    for (std::int64_t& value : integers_) value |= ~std::int64_t{0} << 32;
+    for (std::size_t i = kNdi; i < kJstep; ++i) std::memset(text_at(i) + 4, 0xff, 4);
   return call_caught([](void* self) { static_cast<Call*>(self)->call(); }, this, asked != Asked::in_earnest,
                      {memory_->first, memory_->end});
 }
@@ -183,11 +207,33 @@ CallEnd Call::run(Asked asked) {
 void Call::call() {
   setup_->routine.function(at(kStress), at(kStatev), at(kDdsdde), at(kSse), at(kSpd), at(kScd), at(kRpl),
                            at(kDdsddt), at(kDrplde), at(kDrpldt), at(kStran), at(kDstran), at(kTime),
-                           at(kDtime), at(kTemp), at(kDtemp), at(kPredef), at(kDpred), given_name_.data(),
-                           &integers_[kNdi], &integers_[kNshr], &integers_[kNtens], &integers_[kNstatv],
-                           at(kProps), &integers_[kNprops], at(kCoords), at(kDrot), at(kPnewdt), at(kCelent),
-                           at(kDfgrd0), at(kDfgrd1), &integers_[kNoel], &integers_[kNpt], &integers_[kLayer],
-                           &integers_[kKspt], jstep_.data(), &integers_[kKinc], given_name_.size());
+                           at(kDtime), at(kTemp), at(kDtemp), at(kPredef), at(kDpred), text_at(kCmname),
+                           at(kNdi), at(kNshr), at(kNtens), at(kNstatv), at(kProps), at(kNprops), at(kCoords),
+                           at(kDrot), at(kPnewdt), at(kCelent), at(kDfgrd0), at(kDfgrd1), at(kNoel), at(kNpt),
+                           at(kLayer), at(kKspt), at(kJstep), at(kKinc), name_.size());
+}
+
+CallEnd Call::run(First which) {
+  struct Work {
+    Call* call;
+    First which;
+  } work{this, which};
+  return call_caught(
+      [](void* data) {
+        const Work& it = *static_cast<Work*>(data);
+        it.call->call_first(it.which);
+      },
+      &work, false, {memory_->first, memory_->end});
+}
+
+void Call::call_first(First which) {
+  const Routine& routine = setup_->routine;
+  if (which == First::stress)
+    routine.first_stress(at(kStress), at(kCoords), at(kNtens), at(kNcrds), at(kNoel), at(kNpt), at(kLayer),
+                         at(kKspt), at(kLrebar), text_at(kNames), name_.size());
+  else
+    routine.first_history(at(kStatev), at(kCoords), at(kNstatv), at(kNcrds), at(kNoel), at(kNpt), at(kLayer),
+                          at(kKspt));
 }
 
 double Call::pnewdt() const {
@@ -220,16 +266,23 @@ std::string Call::damage_words() const {
       const Place* hit = &places_.front();
       for (const Place& place : places_)
         if (place.first - place.before <= i) hit = &place;
-      const long index = static_cast<long>(i) - static_cast<long>(hit->first) + 1;
-      return std::string("wrote to ") + hit->name + "(" + std::to_string(index) + "), which has " +
-             std::to_string(hit->size) + (hit->size == 1 ? " number," : " numbers,");
+      long index = static_cast<long>(i) - static_cast<long>(hit->first);
+      if (hit < &places_[kCmname])
+        return std::string("wrote to ") + hit->name + "(" + std::to_string(index + 1) + "), which has " +
+               std::to_string(hit->size) + (hit->size == 1 ? " number," : " numbers,");
+      index *= static_cast<long>(kCharacters);
+      for (auto bits = std::bit_cast<std::uint64_t>(memory_->data[i]) ^ kGuardBits; (bits & 0xff) == 0;
+           bits >>= 8)
+        ++index;  // to the first byte that is another
+      return std::string("wrote to ") + hit->name + "(" + std::to_string(index + 1) + "), which has " +
+             std::to_string(hit->size * kCharacters) + " characters,";
     }
   return "changed PROPS, which are an input,";
 }
 
 bool Call::finite() const {
   double sum = 0.0;  // nothing but zeros, or no number
-  for (const Array a : {kStress, kStatev, kDdsdde})
+  for (const Array a : {kStress, kStatev, kDdsdde, kSse, kSpd, kScd})
     for (std::size_t i = 0; i < places_[a].size; ++i) sum += 0.0 * at(a)[i];
   return sum == 0.0;
 }

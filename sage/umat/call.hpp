@@ -37,6 +37,9 @@ enum class Asked : std::uint8_t {
                        // bytes don't see
 };
 
+// SIGINI or SDVINI.
+enum class First : std::uint8_t { stress, history };
+
 class Call {
  public:
   explicit Call(const Setup& setup);
@@ -46,6 +49,8 @@ class Call {
   // Puts in the state at the start of an increment.  h: STATEV, then SSE, SPD and SCD.
   void load(const PointIn<4>& in, const PointContext& context, Width width);
   CallEnd run(Asked asked = Asked::in_earnest);
+  // The routine of first values, which the library has, on what load() has put in.
+  CallEnd run(First which);
 
   // The argument that was written beyond its end or, of an input, changed, in words; empty = there is none.
   std::string damage() const;
@@ -84,14 +89,14 @@ class Call {
   double* at(std::size_t which) { return memory_->data + places_[which].first; }
   const double* at(std::size_t which) const { return memory_->data + places_[which].first; }
   void call();
+  void call_first(First which);
+  char* text_at(std::size_t which) { return reinterpret_cast<char*>(at(which)); }
 
   const Setup* setup_;
   std::vector<Place> places_;
   std::vector<Guards> guards_;  // in fours
   std::optional<Memory> memory_;
-  std::array<std::int64_t, 10> integers_{};
-  std::array<std::int64_t, 4> jstep_{};
-  std::array<char, 80> name_{}, given_name_{};
+  std::array<char, 80> name_{};  // CMNAME
 };
 
 }  // namespace sage::umat

@@ -23,6 +23,7 @@ std::mutex calls;
 
 std::mutex notes_lock;
 std::vector<std::string> notes;
+std::string where_not_finite;
 
 void note(std::string text) {
   const std::lock_guard lock(notes_lock);
@@ -45,6 +46,25 @@ std::string place_words(const PointContext& c) {
   text << " at element " << c.element << ", point " << c.point + 1 << " (" << c.place.x() << ", " << c.place.y()
        << "), stage " << c.stage << ", increment " << c.increment;
   return text.str();
+}
+
+[[noreturn]] void refuse(const std::string& words, const std::string& what, const PointContext& context) {
+  throw AnalysisError("S806", words + " " + what + place_words(context));
+}
+
+// words: the routine that was called.
+void expect_returned(Call& call, const CallEnd& end, const std::string& words, const PointContext& context) {
+  const std::string reason = *end.words != '\0' ? std::string(" (") + end.words + ")" : "";
+  if (end.ending == Ending::xit) refuse(words, "called XIT" + reason, context);
+  if (end.ending == Ending::stop) refuse(words, "executed STOP" + reason, context);
+  if (end.ending == Ending::exit)
+    refuse(words, "ended the program, by exit() or an error of its library" + reason + ",", context);
+  if (end.ending == Ending::crash) refuse(words, "crashed" + reason, context);
+  if (end.ending == Ending::exception) refuse(words, "threw an exception" + reason, context);
+  if (const std::string damage = call.damage(); !damage.empty()) {
+    call.repair();
+    refuse(words, damage, context);
+  }
 }
 
 // Memory for calls that are under way at once.
@@ -116,7 +136,7 @@ class UmatLaw final : public SolidLaw {
   Outcome answer(Call& call, const PointIn<4>& in, const PointContext& context, PointOut<4>& out) const {
     const bool still = in.deps.isZero(0.0) && context.dt == 0.0;
     call.load(in, context, width_);
-    expect_returned(call, call.run(), context);
+    expect_returned(call, call.run(), setup_.routine.words(), context);
     if (still) {
       out.sigma = in.sigma0;
       std::copy(in.h0.begin(), in.h0.end(), out.h1.begin());
@@ -178,37 +198,21 @@ class UmatLaw final : public SolidLaw {
         "taken instead");
   }
 
-  [[noreturn]] void refuse(const std::string& what, const PointContext& context) const {
-    throw AnalysisError("S806", setup_.routine.words() + " " + what + place_words(context));
-  }
-
-  void expect_returned(Call& call, const CallEnd& end, const PointContext& context) const {
-    const std::string words = *end.words != '\0' ? std::string(" (") + end.words + ")" : "";
-    if (end.ending == Ending::xit) refuse("called XIT" + words, context);
-    if (end.ending == Ending::stop) refuse("executed STOP" + words, context);
-    if (end.ending == Ending::exit)
-      refuse("ended the program, by exit() or an error of its library" + words + ",", context);
-    if (end.ending == Ending::crash) refuse("crashed" + words, context);
-    if (end.ending == Ending::exception) refuse("threw an exception" + words, context);
-    if (const std::string damage = call.damage(); !damage.empty()) {
-      call.repair();
-      refuse(damage, context);
-    }
-  }
-
   // A smaller step may have an answer; the state that stands has no other.
   Outcome not_finite(bool still, const PointContext& context) const {
-    if (still) refuse("returned what is no finite number", context);
+    if (still) refuse(setup_.routine.words(), "returned what is no finite number", context);
+    const std::lock_guard lock(notes_lock);
+    where_not_finite = setup_.routine.words() + " returned what is no finite number";
     if (!told_of_nan_.exchange(true))
-      note(setup_.routine.words() + " returned what is no finite number, first" + place_words(context) +
-           ": the step was cut");
+      notes.push_back(where_not_finite + ", first" + place_words(context) + ": the step was cut");
     return Outcome::cut_step;
   }
 
   void expect_symmetric(Matrix4& D, const PointContext& context) const {
     const double largest = D.cwiseAbs().maxCoeff();
     if (!((D - D.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * largest))
-      refuse("returned an unsymmetric DDSDDE, though its card says symmetric,", context);
+      refuse(setup_.routine.words(), "returned an unsymmetric DDSDDE, though its card says symmetric,",
+             context);
     D = (0.5 * (D + D.transpose())).eval();  // what rounding left
   }
 
@@ -226,8 +230,7 @@ class UmatLaw final : public SolidLaw {
     };
     width_known_ = true;
     if (!setup_.routine.not_called.empty())
-      note(setup_.routine.file + " has " + setup_.routine.not_called +
-           " too, which sagefe does not call: first values come from the deck");
+      note(setup_.routine.file + " has " + setup_.routine.not_called + " too, which sagefe does not call");
     const auto first = ask(false);
     if (!first) return;  // the call itself says why
     const auto second = ask(false), poisoned = ask(true);
@@ -252,7 +255,8 @@ class UmatLaw final : public SolidLaw {
     };
     const Vector4 zero = Vector4::Zero(), rest = stress(zero, zero);
     if (stress(in.deps, zero) == rest && stress(zero, in.deps) != rest)
-      refuse("answers DFGRD1 and not DSTRAN: it is for large strains, which sagefe has not,", context);
+      refuse(setup_.routine.words(),
+             "answers DFGRD1 and not DSTRAN: it is for large strains, which sagefe has not,", context);
   }
 
   Setup setup_;
@@ -300,6 +304,23 @@ const Routine& routine_of(const std::vector<Binding>& bindings, const std::strin
   return found->routine;
 }
 
+// values: of the card.
+Setup setup_of(std::span<const double> values, const std::vector<Binding>& bindings,
+               const std::string& material) {
+  Setup setup;
+  setup.material = material;
+  setup.components = whole(values, 0, 4, 6);
+  if (setup.components == 5) throw ParameterError("S805", 0, "4 or 6 is wanted");
+  setup.statev = whole(values, 1, 0, 100000);
+  const int tangent = whole(values, 2, 0, 2);
+  setup.symmetric = tangent == 1;
+  setup.differences = tangent == 2;
+  setup.threads_safe = whole(values, 3, 0, 1) == 1;
+  setup.props.assign(values.begin() + 4, values.end());
+  setup.routine = routine_of(bindings, material);
+  return setup;
+}
+
 }  // namespace
 
 Binding bind(const std::string& text) {
@@ -312,20 +333,12 @@ MaterialEntry umat_entry(std::vector<Binding> bindings) {
   MaterialEntry entry{
       "umat", "a user material of Abaqus/Standard, loaded by --umat; its properties follow", 4, table(), {}};
   entry.open_ended = true;
+  entry.own_start = [bindings](std::span<const double> values, const std::string& material) {
+    return own_start(setup_of(values, bindings, material));
+  };
   entry.make_for = [bindings = std::move(bindings)](std::span<const double> values, const UnitSystem&,
                                                     const std::string& material) -> LawPtr {
-    Setup setup;
-    setup.material = material;
-    setup.components = whole(values, 0, 4, 6);
-    if (setup.components == 5) throw ParameterError("S805", 0, "4 or 6 is wanted");
-    setup.statev = whole(values, 1, 0, 100000);
-    const int tangent = whole(values, 2, 0, 2);
-    setup.symmetric = tangent == 1;
-    setup.differences = tangent == 2;
-    setup.threads_safe = whole(values, 3, 0, 1) == 1;
-    setup.props.assign(values.begin() + 4, values.end());
-    setup.routine = routine_of(bindings, material);
-    return umat_law(std::move(setup));
+    return umat_law(setup_of(values, bindings, material));
   };
   entry.make = [make = entry.make_for](std::span<const double> values, const UnitSystem& units) {
     return make(values, units, "");
@@ -333,8 +346,39 @@ MaterialEntry umat_entry(std::vector<Binding> bindings) {
   return entry;
 }
 
+OwnStart own_start(Setup setup) {
+  OwnStart start{.stress = setup.routine.first_stress != nullptr,
+                 .history = setup.routine.first_history != nullptr && setup.statev > 0};
+  if (!start.stress && !start.history) return start;
+  const auto kept = std::make_shared<const Setup>(std::move(setup));
+  const auto call = std::make_shared<Call>(*kept);
+  start.at = [kept, call, stress = start.stress, history = start.history](
+                 const PointContext& context, std::span<double> sigma, std::span<double> h) {
+    const std::lock_guard lock(calls);
+    const std::vector<double> zeros(static_cast<std::size_t>(kept->statev) + 3, 0.0);
+    call->load({Vector4::Zero(), Vector4::Zero(), Vector4::Zero(), zeros}, context, Width::four);
+    const auto ask = [&](First which, const char* name) {
+      const std::string words = std::string("routine ") + name + " of " + kept->routine.file;
+      expect_returned(*call, call->run(which), words, context);
+      if (!call->finite()) refuse(words, "returned what is no finite number", context);
+    };
+    if (stress) ask(First::stress, "SIGINI");
+    if (history) ask(First::history, "SDVINI");
+    if (stress) Vector4::Map(sigma.data()) = call->stress();
+    std::vector<double> values(zeros.size());
+    call->history(values);
+    if (history) std::copy_n(values.begin(), kept->statev, h.begin());
+  };
+  return start;
+}
+
 std::unique_ptr<SolidLaw> umat_law(Setup setup) {
   return std::make_unique<UmatLaw>(std::move(setup));
+}
+
+std::string take_not_finite() {
+  const std::lock_guard lock(notes_lock);
+  return std::exchange(where_not_finite, {});
 }
 
 std::vector<std::string> take_notes() {

@@ -22,9 +22,16 @@ Binding bind(const std::string& text);
 // Law `umat`; a material finds its routine by its name.
 MaterialEntry umat_entry(std::vector<Binding> bindings);
 
+// What SIGINI and SDVINI of the routine's library state, where it has them.
+OwnStart own_start(Setup setup);
+
 // The law of one routine.  Throws AnalysisError in update() where the routine breaks its contract, calls XIT or
 // executes STOP: with routine, element, point, place and time.
 std::unique_ptr<SolidLaw> umat_law(Setup setup);
+
+// Where a routine last returned what is no finite number, in words behind its name; empty: nowhere since this was
+// asked last.
+std::string take_not_finite();
 
 // What routines did that a user should know, a line each, once a routine; each is given once.
 std::vector<std::string> take_notes();

@@ -1,7 +1,10 @@
 #include "sage/umat/routine.hpp"
 
 #include <dlfcn.h>
+#include <pthread.h>
 #include <setjmp.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -18,6 +21,7 @@
 #include <utility>
 #include <vector>
 
+#include "sage/core/float_modes.hpp"
 #include "sage/core/module.hpp"
 #include "sage/umat/host.h"
 
@@ -81,6 +85,12 @@ void caught_exit() {
   leave(Ending::exit, "", 0);
 }
 
+void caught_quick_exit() {
+  if (under.back == nullptr) return;
+  std::at_quick_exit(caught_quick_exit);  // for the next time
+  leave(Ending::exit, "quick_exit()", 12);
+}
+
 // Signals of a crash.  Outside of a call the program ends by them as it would without this.
 constexpr std::array kCrashes{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
@@ -133,22 +143,32 @@ void load_utilities() {
                             [] { return job_name.c_str(); }};
     reinterpret_cast<void (*)(const SageUmatHost*)>(function)(&host);
     std::atexit(caught_exit);
+    std::at_quick_exit(caught_quick_exit);
     catch_crashes();
+    // A process that a routine begins is not the run: it ends as it likes.
+    pthread_atfork(nullptr, nullptr, [] { under.back = nullptr; });
     return true;
   }();
   (void)loaded;
 }
 
-// They would set first values or share data with the routine.
+// They would share data with the routine.
 std::string routines_not_called(void* handle) {
   std::string names;
-  for (const char* symbol : {"sdvini_", "sigini_", "usdfld_", "uexternaldb_"})
+  for (const char* symbol : {"usdfld_", "uexternaldb_"})
     if (dlsym(handle, symbol) != nullptr) {
       std::string name(symbol, std::strlen(symbol) - 1);
       for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
       names += (names.empty() ? "" : ", ") + name;
     }
   return names;
+}
+
+// As gfortran names a routine, or as C does.
+template <class Function>
+Function optional_routine(void* handle, const char* fortran, const char* c) {
+  void* const found = dlsym(handle, fortran);
+  return reinterpret_cast<Function>(found != nullptr ? found : dlsym(handle, c));
 }
 
 }  // namespace
@@ -170,6 +190,8 @@ Routine open_routine(const std::string& text) {
   if (library.handle == nullptr) throw std::runtime_error(routine.file + " can't be loaded: " + library.error);
   libraries.push_back({routine.file, library.handle});
   routine.not_called = routines_not_called(library.handle);
+  routine.first_history = optional_routine<FirstHistory>(library.handle, "sdvini_", "sdvini");
+  routine.first_stress = optional_routine<FirstStress>(library.handle, "sigini_", "sigini");
   std::string tried;
   for (const std::string& symbol :
        wanted.empty() ? std::vector<std::string>{"umat_", "umat", "UMAT"} : std::vector{wanted, wanted + "_"}) {
@@ -193,6 +215,7 @@ bool may_flush() {
 CallEnd call_caught(void (*call)(void*), void* data, bool may_crash, Pages pages) {
   if (library_left) return when_left.end;
   expect_spare_stack();
+  const FloatModes modes;
   jmp_buf back;
   under.end = {};
   under.back = &back;
@@ -209,6 +232,7 @@ CallEnd call_caught(void (*call)(void*), void* data, bool may_crash, Pages pages
     }
   }
   under.back = nullptr;
+  modes.restore();
   if (library_left) {
     const std::lock_guard lock(when_left_lock);
     when_left.words = under.words;
@@ -217,4 +241,22 @@ CallEnd call_caught(void (*call)(void*), void* data, bool may_crash, Pages pages
   return under.end;
 }
 
+[[noreturn]] static void end_immediately(int code) {
+  leave(Ending::exit, "_exit()", 7);
+  for (;;) syscall(SYS_exit_group, code);
+}
+
 }  // namespace sage::umat
+
+// They run no handler, so that a routine would end the run without a word and, by _exit(0), as if it had succeeded.
+// The linker gives a program's own functions to all libraries that it loads.
+extern "C" {
+
+[[noreturn]] void _exit(int code) {
+  sage::umat::end_immediately(code);
+}
+[[noreturn]] void _Exit(int code) noexcept {
+  sage::umat::end_immediately(code);
+}
+
+}  // extern "C"

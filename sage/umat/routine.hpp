@@ -19,9 +19,17 @@ using Function = void (*)(double* stress, double* statev, double* ddsdde, double
                           double* pnewdt, double* celent, double* dfgrd0, double* dfgrd1, void* noel, void* npt,
                           void* layer, void* kspt, void* jstep, void* kinc, std::size_t cmname_length);
 
+// SDVINI and SIGINI: first values of the state variables and of the stress at a point.
+using FirstHistory = void (*)(double* statev, double* coords, void* nstatv, void* ncrds, void* noel, void* npt,
+                              void* layer, void* kspt);
+using FirstStress = void (*)(double* sigma, double* coords, void* ntens, void* ncrds, void* noel, void* npt,
+                             void* layer, void* kspt, void* lrebar, char* names, std::size_t names_length);
+
 struct Routine {
   std::string file, symbol;
   Function function = nullptr;
+  FirstHistory first_history = nullptr;  // nullptr: the library has none
+  FirstStress first_stress = nullptr;
 
   std::string not_called;  // other user routines of the library, which a user may think are called
 
@@ -59,8 +67,8 @@ struct Pages {
   const char *first = nullptr, *end = nullptr;
 };
 
-// Does `call(data)`.  Where the routine calls XIT, executes STOP, ends the program in another way or crashes, its
-// frames are left by longjmp: what it had allocated or opened stays so.
+// Does `call(data)` and restores the modes of floating point.  Where the routine calls XIT, executes STOP, ends the
+// program in another way or crashes, its frames are left by longjmp: what it had allocated or opened stays so.
 // After an error of the Fortran library or a crash there are no more calls: each ends as that one did.  may_crash: not
 // after this one, which is made to find something out.  pages: of its arguments, for the words of a crash.
 CallEnd call_caught(void (*call)(void*), void* data, bool may_crash = false, Pages pages = {});

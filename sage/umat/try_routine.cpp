@@ -1,9 +1,10 @@
 #include "sage/umat/try_routine.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <optional>
 #include <ostream>
+#include <sstream>
 
 #include "sage/core/error.hpp"
 #include "sage/umat/law.hpp"
@@ -31,10 +32,21 @@ class Driver {
     std::copy_n(trial.statev.begin(), std::min(trial.statev.size(), start_.h.size()), start_.h.begin());
   }
 
+  // SIGINI and SDVINI of the library, where the user has not stated the values.
+  void own_values() {
+    const OwnStart own = own_start(trial_.setup);
+    if (!own.at) return;
+    State state = start_;
+    own.at({.element = 1, .stage = 1, .size = 1.0}, {state.sigma.data(), 4}, state.h);
+    if (trial_.stress.isZero(0.0)) start_.sigma = state.sigma;
+    if (trial_.statev.empty()) start_.h = state.h;
+  }
+
   bool run() {
     out_ << trial_.setup.routine.words() << ": " << trial_.setup.components << " components, "
          << trial_.setup.statev << " state variables, " << trial_.setup.props.size() << " properties\n";
     try {
+      own_values();
       zero_increment();
       for (const auto& [name, direction] : paths()) path(name, direction);
       check("answers twice alike", repeats_);
@@ -115,7 +127,8 @@ class Driver {
     }
   }
 
-  // Against central differences; at a kink one-sided ones differ, so some states may fail.
+  // Against central differences; at a kink one-sided ones differ, so some states may fail.  A tangent that is near the
+  // derivative costs iterations, no answer: kNear of its largest term.
   void look_at_tangent(const State& from, const Vector4& deps, const Answer& a) {
     const double step = 1e-5 * trial_.strain, largest = a.D.cwiseAbs().maxCoeff();
     Matrix4 D;
@@ -130,8 +143,9 @@ class Driver {
     const double scale = std::max(largest, D.cwiseAbs().maxCoeff());
     Eigen::Index row = 0, column = 0;
     const double error = (a.D - D).cwiseAbs().maxCoeff(&row, &column) / scale;
-    if (error <= 1e-4) return;
-    ++wrong_;
+    errors_.push_back(error);
+    if (error <= kExact) return;
+    wrong_ += error <= kNear ? 0 : 1;
     if (error > worst_.error)
       worst_ = {error, static_cast<int>(row), static_cast<int>(column), a.D(row, column), D(row, column)};
     const double shear = a.D(3, 3) / D(3, 3);
@@ -139,10 +153,28 @@ class Driver {
   }
 
   void check_tangent() {
-    check("DDSDDE is the derivative of the stress (" + std::to_string(states_ - wrong_) + " of " +
-              std::to_string(states_) + " states)",
-          states_ > 0 && wrong_ <= states_ / 10);
-    if (wrong_ == 0) return;
+    const auto states_within = [&](double most) {
+      return static_cast<int>(std::ranges::count_if(errors_, [&](double error) { return error <= most; }));
+    };
+    const auto of_states = [&](int states) {
+      return " (" + std::to_string(states) + " of " + std::to_string(states_) + " states)";
+    };
+    const int kinks = states_ / 10, exact = states_within(kExact);
+    if (states_ == 0 || exact >= states_ - kinks || wrong_ > kinks) {
+      check("DDSDDE is the derivative of the stress" + of_states(exact), states_ > 0 && wrong_ <= kinks);
+    } else {
+      std::ranges::sort(errors_);
+      const double most = errors_[errors_.size() - 1 - static_cast<std::size_t>(kinks)];
+      std::ostringstream text;
+      text << std::setprecision(1) << std::scientific << most;
+      check("DDSDDE is near the derivative of the stress: within " + text.str() + " of its largest term" +
+                of_states(states_within(most)),
+            true);
+      out_ << "note   with such a DDSDDE an iteration gains about "
+           << std::max(1L, std::lround(-std::log10(most)))
+           << " digits of equilibrium, where an exact one doubles them\n";
+    }
+    if (exact == states_) return;
     out_ << "       worst: DDSDDE(" << worst_.row + 1 << "," << worst_.column + 1 << ") = " << worst_.given
          << ", differences of the stress give " << worst_.found << "\n";
     if (twice_ > states_ / 2)
@@ -163,6 +195,8 @@ class Driver {
   State start_;
   bool holds_ = true, repeats_ = true;
   double asymmetry_ = 0.0;
+  static constexpr double kExact = 1e-4, kNear = 1e-2;
+  std::vector<double> errors_;  // of DDSDDE, a state each
   int states_ = 0, wrong_ = 0, twice_ = 0;
   Worst worst_;
 };

@@ -73,7 +73,28 @@ C     PROPS(4) on: PROPS are E, nu, fault, increment.
       IF (KIND.EQ.21) CALL DEEP(1,D)
       IF (KIND.EQ.22) TIME(3)=0.D0
       IF (KIND.EQ.23) STATEV(5000)=0.D0
+      IF (KIND.EQ.24) CALL TITLE(CMNAME)
+      IF (KIND.EQ.26) CALL NOWEXT(0)
+      IF (KIND.EQ.27) DDSDDE(1,1)=1.001D0*DDSDDE(1,1)
+      IF (KIND.EQ.28) SPD=SQRT(-1.D0-ABS(STRESS(1)))
       RETURN
+      END
+C     Writes behind a text.
+      SUBROUTINE TITLE(TEXT)
+      CHARACTER*(*) TEXT
+      I=83
+      TEXT(I:I)='X'
+      END
+C     Ends the process without a word.
+      SUBROUTINE NOWEXT(K)
+      USE ISO_C_BINDING
+      INTERFACE
+        SUBROUTINE CEXIT(CODE) BIND(C,NAME='_exit')
+          IMPORT :: C_INT
+          INTEGER(C_INT), VALUE :: CODE
+        END SUBROUTINE
+      END INTERFACE
+      CALL CEXIT(INT(K,C_INT))
       END
 C     Writes far beyond all memory.
       SUBROUTINE NOWHERE(A)

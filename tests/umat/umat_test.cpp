@@ -2,8 +2,10 @@
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
+#include <cfenv>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <sstream>
 #include <thread>
 
@@ -73,6 +75,25 @@ std::vector<double> numbers(const fs::path& file) {
     }
   }
   return found;
+}
+
+// Rows of a CSV file by the names of their columns without units; words are left out.
+std::vector<std::map<std::string, double>> rows_of(const fs::path& file) {
+  std::vector<std::string> names;
+  std::vector<std::map<std::string, double>> rows;
+  std::istringstream lines(read(file));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('#') || line.empty()) continue;
+    std::vector<std::string> cells;
+    std::istringstream stream(line);
+    for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell.substr(0, cell.find('[')));
+    if (std::exchange(names, names.empty() ? cells : names).empty()) continue;
+    auto& row = rows.emplace_back();
+    for (std::size_t i = 0; i < std::min(cells.size(), names.size()); ++i)
+      if (!cells[i].empty() && std::isalpha(static_cast<unsigned char>(cells[i][0])) == 0)
+        row[names[i]] = std::stod(cells[i]);
+  }
+  return rows;
 }
 
 // The reports of two decks of the chapter: 1e-10 of the stress, which is what rounding leaves of two orders of
@@ -194,6 +215,24 @@ TEST(Umat, LibrariesWithoutARoutineAreRefused) {
   }
 }
 
+// Ground of two elements, pressed over one of them: the mesh is far too coarse for a collapse load, and a user material
+// may have one.
+TEST(Umat, ACoarseFootingIsWarnedOf) {
+  const fs::path folder = empty_folder("umat_coarse");
+  write(folder / "deck.dat",
+        "a footing\nm       kN      kPa\n" + card({"1", "0", "6", "0", "1", "1", "2", "4", "0", "1", "0"}) +
+            "\n    1                  0.        0.\n    2                  1.        0.\n"
+            "    3                  2.        0.\n    4                  0.        1.\n"
+            "    5                  1.        1.\n    6                  2.        1.\n" +
+            umat_material({"4", "0", "0", "0", "1000.", "0.25", "5.", "20."}) +
+            "    1    1    2    1\n    1    1    1    2    5    4\n    2    1    2    3    6    5\n"
+            "    1    3    1    1    1\n    4    0    0    1    0\n    6    0    0    1    0\n    5    0    0  "
+            "  0    0\n"
+            "press\n    5    0    0    1    0    0    0\n    1    3                 10.       10.\nEND\n");
+  const Finished check = sagefe(folder, "check deck.dat --umat " + library("drucker_prager"));
+  expect_words(check.out + check.err, {"[S334]", "the mesh is too coarse for a collapse load"});
+}
+
 Finished run_fault(const fs::path& folder, const std::string& fault, const std::string& from = "3.",
                    const std::string& statev = "1") {
   write(folder / "deck.dat", column_deck(umat_material({"4", statev, "0", "0", "1000.", "0.25", fault, from})));
@@ -224,6 +263,7 @@ TEST(Umat, RoutinesThatWriteBeyondTheirArraysAreRefused) {
   expect_refused_in_third(folder, "9.", {"changed PROPS"});
   expect_refused_in_third(folder, "22.", {"wrote to TIME(3), which has 2 numbers"});
   expect_refused_in_third(folder, "23.", {"crashed (an access far beyond one of its arrays)"});
+  expect_refused_in_third(folder, "24.", {"wrote to CMNAME(83), which has 80 characters"});
 }
 
 TEST(Umat, RoutinesThatEndTheProgramAreRefused) {
@@ -233,6 +273,20 @@ TEST(Umat, RoutinesThatEndTheProgramAreRefused) {
   expect_refused_in_third(folder, "11.", {"executed STOP (12)"});
   expect_refused_in_third(folder, "13.", {"called XIT (element 1 of clay has 2.5)"});
   expect_refused_in_third(folder, "14.", {"ended the program"});
+  expect_refused_in_third(folder, "26.", {"ended the program", "(_exit())"});
+}
+
+// _exit(0) runs nothing of the program: in every command it must be no success.
+TEST(Umat, AnImmediateExitIsNoSuccess) {
+  const fs::path folder = empty_folder("umat_immediate_exit");
+  const std::string of = " --umat " + library("faults") + " ";
+  const Finished drive = sagefe(
+      folder, "drive --law umat" + of +
+                  "--set components=4 --set state_variables=0 --set prop1=1000 --set prop2=.25 --set prop3=26 "
+                  "--set prop4=0 --test oedometer --to .01");
+  EXPECT_EQ(drive.exit_code, 3) << drive.out;
+  expect_words(drive.out + drive.err, {"ended the program"});
+  EXPECT_EQ(sagefe(folder, "conform" + of + "--props 1000,.25,26,0").exit_code, 3);
 }
 
 TEST(Umat, RoutinesThatCrashAreRefused) {
@@ -291,6 +345,25 @@ TEST(UmatDrive, CamClayReachesItsCriticalState) {
           << ratio;
     }
   }
+}
+
+// CMNAME: the routine is that of the material named, and sees its name.
+TEST(UmatDrive, CanNameTheMaterial) {
+  const fs::path folder = empty_folder("umat_drive_name");
+  const auto drive = [&](const std::string& law, const std::string& umat) {
+    return sagefe(folder, "drive --law " + law + " --umat " + umat + library("elastic_c") +
+                              " --set components=4 --set state_variables=1 --set prop1=1000 --set prop2=.25"
+                              " --test oedometer --to .01 --csv c.csv");
+  };
+  const Finished clay = drive("clay:umat", "clay=");
+  EXPECT_EQ(clay.exit_code, 0) << clay.err;
+  EXPECT_EQ(last_value(folder / "c.csv", "SDV1"), 1.0);  // the step, where CMNAME begins with C
+  const Finished sand = drive("sand:umat", "");
+  EXPECT_EQ(sand.exit_code, 0) << sand.err;
+  EXPECT_EQ(last_value(folder / "c.csv", "SDV1"), -1.0);
+  const Finished other = drive("sand:umat", "clay=");
+  EXPECT_EQ(other.exit_code, 2);
+  expect_words(other.err, {"no routine is given for the material \"sand\""});
 }
 
 // The native law and the routine in one table and plot, row by row.
@@ -356,6 +429,13 @@ TEST(UmatDrive, FaultsAreNamed) {
   const Finished xit = drive("4");
   EXPECT_EQ(xit.exit_code, 3);
   expect_words(xit.out + xit.err, {"ends in leg 1, step 3 of 10", "called XIT at element 1, point 1"});
+  for (const char* fault : {"8", "28"}) {
+    const Finished nan = drive(fault);
+    EXPECT_EQ(nan.exit_code, 3);
+    expect_words(nan.out,
+                 {"ends in leg 1, step 3 of 10: routine umat_ of ", "returned what is no finite number"});
+    EXPECT_EQ(nan.out.find("beyond the law's strength"), std::string::npos) << nan.out;
+  }
   const Finished flood = drive("7");
   EXPECT_EQ(flood.exit_code, 0) << flood.err;
   EXPECT_EQ(flood.out.find("again and again"), std::string::npos);
@@ -425,6 +505,90 @@ TEST(Umat, ThreadsCallARoutineThatIsSafe) {
   EXPECT_EQ(call(0.002), 1.0);
   second.join();
   EXPECT_EQ(other, 1.0);
+}
+
+// Rounding, flushing to zero and traps are the program's after each call, whatever the routine leaves: also where it is
+// called by several threads.
+TEST(Umat, ModesOfFloatingPointAreRestored) {
+  setenv("SAGE_UMAT_MODULE", SAGE_TEST_UMAT_MODULE, 1);
+  umat::Setup setup;
+  setup.routine = umat::open_routine(library("modes"));
+  setup.props = {1000.0};
+  setup.threads_safe = true;
+  const std::unique_ptr<SolidLaw> law = umat::umat_law(setup);
+  const auto call = [&] {
+    const std::vector<double> start(3, 0.0);
+    std::vector<double> end(3, 0.0);
+    PointOut<4> out;
+    out.h1 = end;
+    for (int i = 0; i < 2; ++i)
+      law->update({Vector4::Zero(), Vector4::Zero(), 0.001 * Vector4::Unit(0), start, nullptr}, out);
+    EXPECT_EQ(out.sigma[0], 1.0);
+    EXPECT_EQ(fegetround(), FE_TONEAREST);
+    EXPECT_EQ(fegetexcept(), 0);
+    volatile double small = 3e-308;
+    small = small / 16.0;
+    EXPECT_GT(small, 0.0);  // not flushed
+    fesetenv(FE_DFL_ENV);   // for the other tests, where it was not
+  };
+  call();
+  std::thread(call).join();
+}
+
+// SIGINI: sigma_yy = -20 (2 - y), sigma_xx half and sigma_zz a quarter of it; SDVINI: x + 100 y and 10 element + point.
+// The deck holds the sides (K0 = nu / (1 - nu) = 1/3) and presses with 100.  What of the first stress nothing holds, its
+// mean over each element, is let go in proportion over the stage while the pressure grows.
+TEST(Umat, FirstValuesComeFromTheLibrary) {
+  const fs::path folder = empty_folder("umat_first_values");
+  const std::string material = umat_material({"4", "3", "1", "0", "1000.", "0.25"});
+  const auto points = [&](const std::string& initial, int initials) {
+    write(folder / "deck.dat", column_deck(material, initial, initials));
+    fs::remove_all(folder / "out");
+    const Finished run =
+        sagefe(folder, "run deck.dat -o out --points --digits 12 --umat " + library("first_values"));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.err.find("does not call"), std::string::npos) << run.err;
+    expect_words(run.err, {"the initial stress is out of balance by up to "});
+    return rows_of(folder / "out/deck.points.csv");
+  };
+  const auto start = points("", 0);
+  ASSERT_EQ(start.size(), 80u);  // ten increments of eight points
+  for (const auto& row : start) {
+    const double y = row.at("y"), share = 0.1 * row.at("increment");
+    const double first = 20.0 * (2.0 - y);
+    EXPECT_NEAR(row.at("SDV1"), row.at("x") + 100.0 * y, 1e-9);
+    EXPECT_NEAR(row.at("SDV2"), 10.0 * row.at("element") + row.at("point"), 1e-12);
+    EXPECT_EQ(row.at("SDV3"), 7.0);
+    const double mean = row.at("element") == 1.0 ? 30.0 : 10.0;
+    EXPECT_NEAR(row.at("stress_yy"), first + share * (100.0 - mean), 1e-6);
+    EXPECT_NEAR(row.at("stress_xx") - 0.5 * first, (row.at("stress_yy") - first) / 3.0, 1e-8);
+    EXPECT_NEAR(row.at("stress_zz") - 0.25 * first, (row.at("stress_yy") - first) / 3.0, 1e-8);
+  }
+  // Cards of the deck come after them: a history of kind 4 and a uniform stress of kind 2.
+  const auto stated =
+      points(card({"1", "4"}, {"3.", "5."}) + "\n" + card({"1", "0"}, {"30.", "60.", "30.", "0."}) + "\n", 2);
+  ASSERT_EQ(stated.size(), 80u);
+  for (const auto& row : stated) {
+    EXPECT_EQ(row.at("SDV3"), 5.0);
+    EXPECT_NEAR(row.at("SDV2"), 10.0 * row.at("element") + row.at("point"), 1e-12);
+    EXPECT_NEAR(row.at("stress_yy"), 60.0 + 4.0 * row.at("increment"), 1e-6);
+  }
+}
+
+TEST(Umat, FirstValuesAreWatched) {
+  const fs::path folder = empty_folder("umat_first_faults");
+  write(folder / "deck.dat", column_deck(umat_material({"4", "4", "1", "0", "1000.", "0.25"})));
+  const Finished run = sagefe(folder, "run deck.dat -o out --umat " + library("first_values"));
+  EXPECT_EQ(run.exit_code, 3) << run.out;
+  expect_words(run.err,
+               {"routine SDVINI of ", "wrote to STATEV(5), which has 4 numbers", "at element 1, point 1"});
+  const Finished drive =
+      sagefe(folder, "drive --law umat --umat " + library("first_values") +
+                         " --set components=4 --set state_variables=3 --set prop1=1000 --set prop2=.25 --set "
+                         "history.SDV2=4 --test oedometer --to .01 --csv c.csv");
+  EXPECT_EQ(drive.exit_code, 0) << drive.err;
+  EXPECT_EQ(last_value(folder / "c.csv", "SDV3"), 7.0);
+  EXPECT_EQ(last_value(folder / "c.csv", "SDV2"), 4.0);
 }
 
 TEST(Umat, NotANumberCutsTheStepAndIsNamed) {
@@ -498,6 +662,12 @@ TEST(UmatConform, SaysWhatIsWrong) {
     EXPECT_EQ(run.exit_code, 3) << run.out << run.err;
     expect_words(run.out, {words, "verdict: does NOT conform"});
   }
+  // A tangent that is 1e-3 off (of 1200) is slow, not wrong.
+  const Finished near = conform("faults", "--statev 1 --props 1000,.25,27,0");
+  EXPECT_EQ(near.exit_code, 0) << near.out;
+  expect_words(near.out,
+               {"holds  DDSDDE is near the derivative of the stress: within 1.0e-03 of its largest term",
+                "an iteration gains about 3 digits", "verdict: conforms"});
   const Finished counts = conform("faults", "--statev 1 --props 1000,.25,15,0");
   expect_words(counts.out, {"note   state variables change under no strain"});
   const Finished unsymmetric = conform("faults", "--statev 1 --symmetric --props 1000,.25,18,0");
