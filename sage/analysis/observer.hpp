@@ -44,11 +44,10 @@ class Observer {
   virtual bool wants_states(const Model&, const StepReport&) const { return true; }
   // The same of those that don't: whether it looks at stresses of structures.
   virtual bool wants_structures(const Model&, const StepReport&) const { return false; }
-  // Whether it looks at displacements or forces of a node that is flagged (a flag a node): those of an increment before
-  // stand there otherwise.  Never asked for the last increment of a stage, which is up to date.
-  virtual bool wants_nodes(const Model& model, const StepReport& report,
-                           std::span<const char> /*behind*/) const {
-    return wants_states(model, report);
+  // Whether it reads displacements or forces of a flagged node (a flag a node) after this increment.  An observer that
+  // returns false finds values of an earlier increment there; the last increment of a stage is always up to date.
+  virtual bool wants_nodes(const Model&, const StepReport&, std::span<const char> /*behind*/) const {
+    return true;
   }
   virtual void on_stage_end(const Model&, int /*stage*/, const EquilibriumAudit&, const Solution&) {}
   virtual void on_failure(const Model&, const StepReport&, const std::string& /*reason*/, const Solution&) {}

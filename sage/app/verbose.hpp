@@ -12,6 +12,7 @@ class Verbose final : public Observer {
   void on_start(const Model& model, const Scene& scene, std::string_view solver, int equations) override;
   void on_increment(const Model& model, const StepReport& report, const Solution&) override;
   bool wants_states(const Model&, const StepReport&) const override { return false; }
+  bool wants_nodes(const Model&, const StepReport&, std::span<const char>) const override { return false; }
   // At the end: the phases.
   void say_times(const Profile& profile) const;
 

@@ -25,6 +25,9 @@ class DiscretisationError final : public Observer {
   bool wants_states(const Model&, const StepReport& report) const override {
     return report.increment == 0 || report.increment == report.increments;
   }
+  bool wants_nodes(const Model& model, const StepReport& report, std::span<const char>) const override {
+    return wants_states(model, report);
+  }
   void exchange(Archive&) override;
 
   const std::optional<ErrorEstimate>& estimate() const { return estimate_; }

@@ -11,6 +11,10 @@ namespace sage {
 
 class Output : public Observer {
  public:
+  // Files show nodes in the states that they show points in.
+  bool wants_nodes(const Model& model, const StepReport& report, std::span<const char>) const override {
+    return wants_states(model, report);
+  }
   // The complete files, in the order of writing.
   virtual std::vector<std::filesystem::path> files() const = 0;
   // For a run that an exception ended, so that on_finish never comes: the file says so and gets its name.

@@ -56,6 +56,9 @@ class Result final : public Observer {
   bool wants_states(const Model&, const StepReport& report) const override {
     return report.increment == 0 || report.increment == report.increments;
   }
+  bool wants_nodes(const Model& model, const StepReport& report, std::span<const char>) const override {
+    return wants_states(model, report);
+  }
 
   // One a stage that has begun.  An end that was not reached has none.
   const std::vector<Frame>& starts() const { return starts_; }

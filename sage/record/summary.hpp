@@ -28,6 +28,7 @@ class RunRecord final : public Observer {
   void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
   // At the ends of stages, for the extremes of structures.
   bool wants_states(const Model&, const StepReport&) const override { return false; }
+  bool wants_nodes(const Model&, const StepReport&, std::span<const char>) const override { return false; }
   bool wants_structures(const Model& model, const StepReport& report) const override {
     return has_structures(model) &&
            report.increment == model.stages[static_cast<std::size_t>(report.stage)].increments;

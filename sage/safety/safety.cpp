@@ -92,6 +92,7 @@ std::string why(const FactorTrial& trial, double tolerance) {
 class LastState final : public Observer {
  public:
   bool wants_states(const Model&, const StepReport&) const override { return false; }
+  bool wants_nodes(const Model&, const StepReport&, std::span<const char>) const override { return false; }
   void on_increment(const Model&, const StepReport& step, const Solution& now) override { keep(step, now); }
   void on_failure(const Model&, const StepReport& step, const std::string&, const Solution& now) override {
     keep(step, now);

@@ -165,6 +165,34 @@ TEST(BorderSteps, WhoeverLooksChangesNoBit) {
   EXPECT_EQ(passers[0].inner_nodes, 9 * 17 - 8);  // the pair on the axis moves down alone
 }
 
+// Reads displacements and forces after every increment and needs no stresses, as a host program may.
+class Follower final : public Observer {
+ public:
+  bool wants_states(const Model&, const StepReport&) const override { return false; }
+  void on_increment(const Model&, const StepReport&, const Solution& now) override {
+    u.push_back(*now.u);
+    internal.push_back(*now.internal);
+  }
+
+  std::vector<Eigen::VectorXd> u, internal;
+};
+
+TEST(BorderSteps, AnObserverWithoutStressesReadsThisIncrement) {
+  const WholeRun kept = run_text(pressed_specimen(20));  // its observer reads stresses after every increment
+  Follower follower;
+  Observer* observers[] = {&follower};
+  RunSettings settings;
+  settings.solver = 1;
+  const RunResult result = run(*kept.model, app::full_catalogue(), settings, observers);
+  ASSERT_EQ(result.status, RunStatus::completed);
+  EXPECT_EQ(result.work.border_steps, 15);
+  ASSERT_EQ(follower.u.size(), kept.increments.size());
+  for (std::size_t i = 0; i < follower.u.size(); ++i) {
+    EXPECT_LT(far_apart(follower.u[i], kept.increments[i].u), 1e-10) << i;
+    EXPECT_LT(far_apart(follower.internal[i], kept.increments[i].internal), 1e-10) << i;
+  }
+}
+
 // Sums over inner nodes in every row; those over the joint's other side need nothing filled in.
 TEST(BorderSteps, ReportsAreUpToDate) {
   const Catalogue all = app::full_catalogue();
