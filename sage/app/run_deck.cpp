@@ -6,7 +6,6 @@
 #include <CLI/Validators.hpp>
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <map>
 #include <thread>
 
@@ -16,6 +15,7 @@
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/interrupt.hpp"
 #include "sage/app/progress.hpp"
+#include "sage/app/run_key.hpp"
 #include "sage/app/run_source.hpp"
 #include "sage/app/screen.hpp"
 #include "sage/app/state_choice.hpp"
@@ -85,23 +85,12 @@ std::string plugin_words(const Catalogue& catalogue) {
   return text;
 }
 
-Checkpoint checkpoint_of(const RunRequest& request, const Model& model, const Catalogue& catalogue,
-                         ResultFiles& results) {
-  const OutputOptions& o = request.output;
-  std::string run =
-      fmt::format("{:016x} {} {} {}{}{}{}{}{}", fingerprint(model), request.solver, static_cast<int>(o.tables),
-                  o.listing, o.increments, o.nodes, o.points, o.vtu, o.error);
-  for (const SkipName& skip : kSkipNames)
-    if (!(request.skips.*skip.flag)) run += fmt::format(" without {}", skip.name);
-  if (request.refinement > 0) run += fmt::format(" refined {}", request.refinement);
-  if (o.digits > 0) run += fmt::format(" digits {}", o.digits);
-  if (o.result) run += " result";
-  if (o.msh) run += " msh";
-  for (const std::string& picture : o.pictures) run += " " + picture;
-  for (const std::string& field : o.fields) run += " field " + field;
-  for (const std::string& state : o.states) run += " state " + state;
-  run += plugin_words(catalogue);
-  return {o.folder / (stem_of(request) + ".restart"), request.checkpoint_seconds, run,
+// deck_sum: of its text, so that what a fingerprint of the model may not know counts too.
+Checkpoint checkpoint_of(const RunRequest& request, const Model& model, std::uint64_t deck_sum,
+                         const Catalogue& catalogue, ResultFiles& results) {
+  const std::string run = fmt::format("{:016x} {:016x}{}{}", deck_sum, fingerprint(model), options_key(request),
+                                      plugin_words(catalogue));
+  return {request.output.folder / (stem_of(request) + ".restart"), request.checkpoint_seconds, run,
           choose_kernels(request.kernels).name, results};
 }
 
@@ -127,7 +116,7 @@ std::string resume_from(Checkpoint& checkpoint, const RunRequest& request) {
 }
 
 // What an earlier run left is removed; a note names what can't be, because it has been changed.
-void close(ResultFiles& results, const RunRequest& request) {
+void close_results(ResultFiles& results, const RunRequest& request) {
   const ResultFiles::Left left = results.close();
   if (request.quiet) return;
   for (const std::filesystem::path& file : left.changed)
@@ -164,18 +153,14 @@ class EndOfInterrupted final : public Observer {
     if (stage.method == Method::initial_stiffness && report.increment < report.increments) saved();
   }
   bool wants_states(const Model&, const StepReport&) const override { return false; }
+  bool wants_nodes(const Model&, const StepReport&, std::span<const char>) const override { return false; }
 
  private:
-  using Clock = std::chrono::steady_clock;
-  bool waited_enough() {
-    if (!asked_at_) asked_at_ = Clock::now();
-    return std::chrono::duration<double>(Clock::now() - *asked_at_).count() >= patience_;
-  }
+  bool waited_enough() const { return seconds_since_interrupt() >= patience_; }
 
   bool checkpoints_;
   double patience_;  // s
   bool before_start_, outputs_wait_ = false;
-  std::optional<Clock::time_point> asked_at_;
   std::atomic<bool> ready_{false};
 };
 
@@ -345,9 +330,10 @@ bool may_run(const RunRequest& request, const Model& model, RunOutcome& outcome)
   return outcome.exit_code == kOk && !outcome.too_large;
 }
 
-// Record, reports, what was asked to be kept, and the outputs.
+// Record, reports, what was asked to be kept, the outputs, and the end behind all of them.
 std::vector<Observer*> observers_of(const RunRequest& request,
-                                    const std::vector<std::unique_ptr<Output>>& outputs, RunOutcome& outcome) {
+                                    const std::vector<std::unique_ptr<Output>>& outputs, Verbose& verbose,
+                                    EndOfInterrupted& end, RunOutcome& outcome) {
   std::vector<Observer*> observers{&outcome.record, outcome.reports.get()};
   if (request.output.error) {
     outcome.error = std::make_unique<DiscretisationError>(*outcome.reports);
@@ -359,7 +345,33 @@ std::vector<Observer*> observers_of(const RunRequest& request,
   }
   for (const auto& output : outputs) observers.push_back(output.get());
   if (request.watch != nullptr) observers.push_back(request.watch);
+  if (screen().verbose) observers.push_back(&verbose);
+  observers.push_back(&end);
   return observers;
+}
+
+RunResult analyse(const RunRequest& request, const Model& model, const Catalogue& catalogue,
+                  const RunSettings& settings, const std::vector<Observer*>& observers, Profile& profile) {
+  const Profile::Scope scope(profile, phase::kAnalysis);
+  RunResult result;
+  with_umat_output(request, [&] { result = run(model, catalogue, settings, observers); });
+  profile.add(result.work.profile);
+  return result;
+}
+
+// The files of a run that did not come to its end say why.
+void stop(const std::vector<std::unique_ptr<Output>>& outputs, Reports& reports, const std::string& reason) {
+  for (const auto& output : outputs) output->stop(reason);
+  reports.stop(reason);
+}
+
+// The arguments but the settings outlive the run.
+void listen_to(EndOfInterrupted& end, const RunRequest& request, const Checkpoint& checkpoint,
+               RunSettings& settings) {
+  settings.stop_asked = [&] {
+    return !end.outputs_wait() && (end.stop_now() || (request.stop_asked && request.stop_asked()));
+  };
+  settings.checkpoint_due = [&] { return end.checkpoint_wanted() || checkpoint.due(); };
 }
 
 // After all others: only then is it known what they took.
@@ -369,6 +381,16 @@ void write_profile(const RunRequest& request, int threads, RunOutcome& outcome) 
                              outcome.record.result.kernels);
   file.finish();
   outcome.files.push_back(file.path());
+}
+
+void tell_times(const RunRequest& request, int threads, const Verbose& verbose, Profile& profile,
+                RunOutcome& outcome) {
+  profile.stop();
+  outcome.record.seconds = profile.seconds_with_all(0);
+  profile.show_in(nullptr);
+  outcome.record.profile = std::move(profile);
+  if (screen().verbose) verbose.say_times(outcome.record.profile);
+  if (request.profile) write_profile(request, threads, outcome);
 }
 
 }  // namespace
@@ -393,13 +415,10 @@ RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
   if (request.results == nullptr) own.emplace(request.output.folder, stem_of(request), owner);
   ResultFiles& results = own ? *own : *request.results;
   if (!results.locked() && !request.quiet) note_missing_locks(request);
-  Checkpoint checkpoint = checkpoint_of(request, model, catalogue, results);
+  Checkpoint checkpoint = checkpoint_of(request, model, owner.deck_sum, catalogue, results);
   bool has_checkpoint = request.restart && std::filesystem::exists(checkpoint.file());
   EndOfInterrupted end(checkpoint.ever_due(), request.interrupt_patience);
-  settings.stop_asked = [&] {
-    return !end.outputs_wait() && (end.stop_now() || (request.stop_asked && request.stop_asked()));
-  };
-  settings.checkpoint_due = [&] { return end.checkpoint_wanted() || checkpoint.due(); };
+  listen_to(end, request, checkpoint, settings);
   if (request.restart) settings.resume_from = resume_from(checkpoint, request);
   if (!settings.resume_from.empty()) end.go_on_from_checkpoint();
   outcome.reports =
@@ -411,19 +430,11 @@ RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
     end.saved();
     has_checkpoint = true;
   };
-  std::vector<Observer*> observers = observers_of(request, outputs, outcome);
   Verbose verbose(request);
-  if (screen().verbose) observers.push_back(&verbose);
-  observers.push_back(&end);
+  const std::vector<Observer*> observers = observers_of(request, outputs, verbose, end, outcome);
   opening.reset();
   try {
-    const RunResult result = [&] {
-      const Profile::Scope scope(profile, phase::kAnalysis);
-      RunResult done;
-      with_umat_output(request, [&] { done = run(model, catalogue, settings, observers); });
-      profile.add(done.work.profile);
-      return done;
-    }();
+    const RunResult result = analyse(request, model, catalogue, settings, observers, profile);
     outcome.record.result.work = result.work;
     if (result.status == RunStatus::failed) throw AnalysisError(*result.code, result.reason);
     outcome.exit_code = result.status == RunStatus::completed ? kOk : kNotConverged;
@@ -431,28 +442,21 @@ RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
       outcome.record.result = result;
       if (interrupted()) outcome.exit_code = kInterrupted;
       if (interrupted() && has_checkpoint) outcome.checkpoint = checkpoint.file();
-      for (const auto& output : outputs) output->stop(result.reason);
-      outcome.reports->stop(result.reason);
+      stop(outputs, *outcome.reports, result.reason);
     } else {
       checkpoint.remove();
     }
   } catch (const std::exception& error) {
-    for (const auto& output : outputs) output->stop(error.what());
-    outcome.reports->stop(error.what());
-    if (own) close(*own, request);
+    stop(outputs, *outcome.reports, error.what());
+    if (own) close_results(*own, request);
     throw;
   }
   if (own) {
     const Profile::Scope scope(profile, phase::kFiles);
-    close(*own, request);
+    close_results(*own, request);
   }
   outcome.files = files_of(*outcome.reports, outputs);
-  profile.stop();
-  outcome.record.seconds = profile.seconds_with_all(0);
-  profile.show_in(nullptr);
-  outcome.record.profile = std::move(profile);
-  if (screen().verbose) verbose.say_times(outcome.record.profile);
-  if (request.profile) write_profile(request, settings.threads, outcome);
+  tell_times(request, settings.threads, verbose, profile, outcome);
   return outcome;
 }
 

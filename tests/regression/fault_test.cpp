@@ -225,8 +225,10 @@ TEST(Fault, ACheckpointOfAnotherRunIsRefused) {
   EXPECT_NE(other_output.err.find("belongs to another run"), std::string::npos) << other_output.err;
   EXPECT_EQ(read(folder / "out/deck.restart"), before);
 
-  for (const std::string without : {" --without elements", " --without all"})
-    EXPECT_EQ(sagefe(folder, std::string("run deck.dat -q --restart ") + kOptions + without).exit_code, 2);
+  for (const std::string other : {" --without elements", " --without all", " --condition", " --digits 9",
+                                  " --refine-solves 1", " --error"})
+    EXPECT_EQ(sagefe(folder, std::string("run deck.dat -q --restart ") + kOptions + other).exit_code, 2)
+        << other;
   write(folder / "deck.dat", deck_text(31));
   EXPECT_EQ(sagefe(folder, std::string("run deck.dat -q --restart ") + kOptions).exit_code, 2);
 
