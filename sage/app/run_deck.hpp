@@ -45,7 +45,7 @@ struct RunRequest {
   int max_dofs = 0;                  // larger models are built but not run; 0 = no limit
   bool restart = false;              // go on from STEM.restart, if there is one
   double checkpoint_seconds = 30.0;  // between checkpoints; 0 = after every increment, negative = none
-  double interrupt_patience = 10.0;  // s that an interrupted run gives the increment in hand to end
+  double interrupt_patience = 7.0;   // s that an interrupted run gives the increment in hand to end
   StopAsked stop_asked;              // ends the run early, see RunSettings
   ResultFiles* results = nullptr;    // of the run that this one is a part of; null = it has its own
   bool profile = false;              // STEM.profile.json, and memory in RunRecord::profile
