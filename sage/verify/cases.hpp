@@ -22,5 +22,6 @@ Section law_cases();
 Section structure_cases();
 Section soil_structure_cases();
 Section seepage_cases();
+Section water_cases();
 
 }  // namespace sage::verify

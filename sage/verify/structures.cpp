@@ -322,6 +322,7 @@ RunWithEnds run_ring(const Record& record, const RingDeck& ring) {
   return run_with_ends(record, std::move(model), 1);
 }
 
+// NOLINTNEXTLINE(readability-function-size): one table of numbers after the other
 void ring(Record& record) {
   for (const RingNumbers& r : kRings) {
     RingDeck scene;
@@ -389,7 +390,8 @@ void ring(Record& record) {
       see(ends.back().place, ends.back().N(-Vector2::UnitY()), ends.back().M);
       add(thrust, moment);
       for (Eigen::Index p = 0; p < run.stress[1].cols(); ++p)
-        see(point_position(*run.model, 1, p), run.stress[1](kAxialForce, p), run.stress[1](kMoment, p));
+        see(point_position(*run.model, 1, p), run.stress[1](scenes::kAxialForce, p),
+            run.stress[1](scenes::kMoment, p));
       add(thrust_inside, moment_inside);
     }
     down.rows(record, Where::plane_strain);
