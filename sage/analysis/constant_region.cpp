@@ -8,8 +8,8 @@ namespace sage {
 
 namespace {
 
-constexpr int kUnit = 512;            // elements that a thread takes at a time
-constexpr int kWorthThreads = 10000;  // elements from which on threads gain
+constexpr int kLinearUnit = 512;            // elements that a thread takes at a time
+constexpr int kWorthLinearThreads = 10000;  // elements from which on threads gain
 
 bool stress_free(const GroupData& data) {
   const std::vector<double>& sigma = data.state.committed.sigma;
@@ -134,11 +134,12 @@ void ConstantRegion::add_group(GroupData& data, const Eigen::VectorXd& du, Eigen
   const int elements = data.group->elements();
   data.trial_force.resize(static_cast<std::size_t>(elements) * data.dofs());
   // Threads make what belongs to one element alone; sums have the order that they have on one thread.
-  const bool divided = pool_ != nullptr && elements >= kWorthThreads;
+  const bool divided = pool_ != nullptr && elements >= kWorthLinearThreads;
   if (divided)
-    pool_->run((elements + kUnit - 1) / kUnit, [&](int unit, int thread) {
+    pool_->run((elements + kLinearUnit - 1) / kLinearUnit, [&](int unit, int thread) {
       double* const u = room_[static_cast<std::size_t>(thread)].data();
-      for (int e = unit * kUnit; e < std::min((unit + 1) * kUnit, elements); ++e) make_force(data, e, du, u);
+      for (int e = unit * kLinearUnit; e < std::min((unit + 1) * kLinearUnit, elements); ++e)
+        make_force(data, e, du, u);
     });
   for (int e = 0; e < elements; ++e) {
     if (!divided) make_force(data, e, du, element_->du());
@@ -161,8 +162,9 @@ void ConstantRegion::make_force(GroupData& data, int e, const Eigen::VectorXd& d
 }
 
 void ConstantRegion::set_threads(int threads) {
-  const bool useful = std::ranges::any_of(
-      *groups_, [](const GroupData& data) { return data.constant && data.group->elements() >= kWorthThreads; });
+  const bool useful = std::ranges::any_of(*groups_, [](const GroupData& data) {
+    return data.constant && data.group->elements() >= kWorthLinearThreads;
+  });
   pool_ = useful && threads > 1 ? std::make_unique<ThreadPool>(threads) : nullptr;
   if (pool_ == nullptr) return;
   std::size_t most = 0;

@@ -16,13 +16,13 @@ namespace sage {
 
 namespace {
 
-constexpr int kUnit = 64;            // elements or patches that a thread takes at a time
-constexpr int kWorthThreads = 2000;  // elements from which on threads gain
+constexpr int kWorthPatchThreads = 2000;  // elements from which on threads gain
 
 // Calls work(first, last, thread) for pieces of 0 ... count.  Each makes what belongs to its own elements alone:
 // the estimate does not depend on the number of threads.
 template <class Work>
 void in_units(ThreadPool& pool, int count, const Work& work) {
+  constexpr int kUnit = 64;  // elements or patches that a thread takes at a time
   pool.run((count + kUnit - 1) / kUnit,
            [&](int unit, int thread) { work(unit * kUnit, std::min((unit + 1) * kUnit, count), thread); });
 }
@@ -529,7 +529,7 @@ class Estimation {
         solution_(solution),
         groups_(solution.assembly->groups()),
         count_(solid_elements(groups_)),
-        pool_(count_ >= kWorthThreads ? solution.assembly->threads() : 1),
+        pool_(count_ >= kWorthPatchThreads ? solution.assembly->threads() : 1),
         stress_(groups_.size()),
         rooms_(static_cast<std::size_t>(pool_.threads())) {}
 

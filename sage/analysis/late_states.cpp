@@ -10,12 +10,11 @@ namespace sage {
 
 namespace {
 
-constexpr std::size_t kWorthThreads = 10000;  // elements from which on threads gain
-
 void bring_up_to_date(GroupData& data, const Eigen::VectorXd& behind, const ElementWork& element,
                       WorkCounters& work, int threads) {
   const auto size = static_cast<std::size_t>(data.group->element->traits().points * data.state.law_size());
   const auto elements = static_cast<std::size_t>(data.group->elements());
+  constexpr std::size_t kWorthThreads = 10000;  // elements from which on threads gain
   std::optional<ThreadPool> pool;
   if (threads > 1 && elements >= kWorthThreads) pool.emplace(threads);
   in_pieces(pool ? &*pool : nullptr, elements, [&](std::size_t first, std::size_t last) {

@@ -331,10 +331,11 @@ bool Step::falls_no_more() const {
   constexpr std::size_t kLook = 8;
   const auto& all = result_.iterations;
   if (all.size() < kLook + 2) return false;
-  const auto force = [](const IterationRecord& record) { return record.force; };
+  const auto least_force = [](auto first, auto last) {
+    return std::ranges::min_element(first, last, {}, &IterationRecord::force)->force;
+  };
   const auto recent = all.end() - kLook;
-  return std::ranges::min(std::ranges::subrange(recent, all.end()), {}, force).force >
-         0.5 * std::ranges::min(std::ranges::subrange(all.begin(), recent), {}, force).force;
+  return least_force(recent, all.end()) > 0.5 * least_force(all.begin(), recent);
 }
 
 // Equilibrium and energy to the tolerance; the last correction to its root, unless the energy is smaller still

@@ -86,8 +86,8 @@ class Run {
   double refused_motion(double from, double to, const NewtonStep& step) const;
   bool fail(StepReport& report, const NewtonStep& step);
   void find_loose_part(const StepReport& report);
-  void offer_checkpoint(Place place);
-  Place resume();
+  void offer_checkpoint(RunPlace place);
+  RunPlace resume();
   void start();
   void recover_for(const StepReport& report);
   void show_region_for(const StepReport& report);
@@ -116,7 +116,7 @@ class Run {
   Assembly& assembly_ = system_.assembly();
   Tangent& tangent_ = system_.tangent();
   StagePath& path_ = state_.path;
-  Place place_;           // the increment in hand
+  RunPlace place_;        // the increment in hand
   double reached_ = 0.0;  // of the stage's loads, at the committed state
   const Extent extent_;
   Eigen::VectorXd target_;
@@ -662,15 +662,15 @@ void Run::start() {
       [&](Observer& o) { o.on_start(model_, system_.scene(), tangent_.name(), system_.equations()); });
 }
 
-void Run::offer_checkpoint(Place place) {
+void Run::offer_checkpoint(RunPlace place) {
   if (!settings_.checkpoint_due || !settings_.checkpoint_due()) return;
   const Profile::Scope scope(profile(), phase::kCheckpoint);
   const std::string bytes = checkpoint_bytes(resumable(), place);
   audience_.outside([&] { settings_.save_checkpoint(bytes); });
 }
 
-Place Run::resume() {
-  const Place place = resume_from(resumable(), settings_.resume_from);
+RunPlace Run::resume() {
+  const RunPlace place = resume_from(resumable(), settings_.resume_from);
   last_du_ = state_.du;
   committed_force_ = assembly_.internal_force();
   if (path_.own_tangent) tangent_.set_aside();
@@ -784,7 +784,7 @@ void Run::start_first_states() {
 }
 
 void Run::run_stages() {
-  Place place;
+  RunPlace place;
   if (settings_.resume_from.empty())
     start_first_states();
   else

@@ -22,7 +22,7 @@ void exchange_water(const Resumable& run, Archive& archive) {
 
 // Within a stage the states before the last step are kept beside that step, because the tangent that the next
 // step starts with was taken there.  factorised: the solver holds factors.
-void exchange(const Resumable& run, Archive& archive, const Place& place, bool& factorised) {
+void exchange(const Resumable& run, Archive& archive, const RunPlace& place, bool& factorised) {
   const bool within = place.increment > 0;
   run.state.exchange_totals(archive);
   archive(run.result.stages_done);
@@ -37,7 +37,7 @@ void exchange(const Resumable& run, Archive& archive, const Place& place, bool& 
 
 // The last step's end is evaluated once more: that gives its tangent too.  What the run still had in hand is
 // made again, so that the counters and the pivots on the record go on as if nothing had happened.
-void evaluate_again(const Resumable& run, const Place& place, bool factorised) {
+void evaluate_again(const Resumable& run, const RunPlace& place, bool factorised) {
   System& system = run.system;
   const bool within = place.increment > 0;
   if (!within && !factorised) return;
@@ -57,7 +57,7 @@ void evaluate_again(const Resumable& run, const Place& place, bool factorised) {
 
 }  // namespace
 
-std::string checkpoint_bytes(const Resumable& run, Place place) {
+std::string checkpoint_bytes(const Resumable& run, RunPlace place) {
   Archive archive;
   archive(place);
   bool factorised = run.system.tangent().factorised();
@@ -66,9 +66,9 @@ std::string checkpoint_bytes(const Resumable& run, Place place) {
   return archive.take();
 }
 
-Place resume_from(const Resumable& run, const std::string& bytes) {
+RunPlace resume_from(const Resumable& run, const std::string& bytes) {
   Archive archive(bytes);
-  Place place;
+  RunPlace place;
   archive(place);
   const bool within = place.increment > 0;
   const int opened = within ? place.stage : place.stage - 1;  // the last stage that was opened

@@ -17,9 +17,9 @@ struct Resumable {
 };
 
 // After an increment (place.increment > 0), or between two stages.
-std::string checkpoint_bytes(const Resumable& run, Place place);
+std::string checkpoint_bytes(const Resumable& run, RunPlace place);
 
 // To the state of a checkpoint, and on_start.  Throws InputError where the bytes are not those of this model.
-Place resume_from(const Resumable& run, const std::string& bytes);
+RunPlace resume_from(const Resumable& run, const std::string& bytes);
 
 }  // namespace sage

@@ -12,7 +12,7 @@
 namespace sage {
 
 // Where a run stands: increments of a stage that are done.
-struct Place {
+struct RunPlace {
   int stage = 0, increment = 0;
 };
 

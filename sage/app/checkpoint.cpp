@@ -156,7 +156,7 @@ std::optional<std::string> Checkpoint::load() {
     if (const std::uintmax_t size = std::filesystem::file_size(partial, ignored); size > file.sum.bytes())
       cut_.push_back({partial, size - file.sum.bytes()});
   }
-  results_->restore(std::move(files));
+  results_->restore(files);
   used_ = true;
   return state;
 }

@@ -321,24 +321,29 @@ int exit_code_of(const FinishedSide& a, const FinishedSide& b) {
   return code;
 }
 
-int compare_decks(const CompareOptions& asked, const Catalogue& catalogue) {
-  CompareOptions o = asked;
-  if (o.decks.size() == 1 && !o.both && !o.changes_b()) {
-    say_error("sagefe compare", "one deck needs --both or an option that ends in -b", "S903");
-    return kUsage;
-  }
-  if (o.both && o.geometry_b) {
-    say_error("sagefe compare", "--both sets the geometries itself, --geometry-b does not go with it", "S905");
-    return kUsage;
-  }
+// Whether the options go together; says why not.  The lines that they name are added to `lines`.
+bool go_together(const CompareOptions& o, std::vector<compare::Line>& lines) {
+  const auto wrong = [](const char* what, Code code) {
+    say_error("sagefe compare", what, code);
+    return false;
+  };
+  if (o.decks.size() == 1 && !o.both && !o.changes_b())
+    return wrong("one deck needs --both or an option that ends in -b", "S903");
+  if (o.both && o.geometry_b)
+    return wrong("--both sets the geometries itself, --geometry-b does not go with it", "S905");
   if (o.decks.size() == 1) require_file(o.decks.front(), "compare of one deck in two ways");
-  std::vector<compare::Line> lines;
   try {
     for (const std::string& text : o.lines) lines.push_back(compare::line_from_text(text));
   } catch (const std::invalid_argument& error) {
-    say_error("sagefe compare", error.what(), "S904");
-    return kUsage;
+    return wrong(error.what(), "S904");
   }
+  return true;
+}
+
+int compare_decks(const CompareOptions& asked, const Catalogue& catalogue) {
+  CompareOptions o = asked;
+  std::vector<compare::Line> lines;
+  if (!go_together(o, lines)) return kUsage;
   SideOptions options[2] = {side_a(o), side_b(o)};
   o.fields = fields_asked(o, options, catalogue);
   for (SideOptions& side : options) side.fields = o.fields;

@@ -85,7 +85,8 @@ std::string synopsis(const CommandRow& command) {
 
 // What stands without a dash first.
 std::vector<OptionRow> in_order(std::vector<OptionRow> options) {
-  std::ranges::stable_partition(options, [](const OptionRow& option) { return option.positional; });
+  std::stable_partition(options.begin(), options.end(),
+                        [](const OptionRow& option) { return option.positional; });
   return options;
 }
 

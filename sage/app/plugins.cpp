@@ -234,9 +234,9 @@ void expect_free(const Registry<Entry>& there, const Registry<Entry>& pieces, co
         throw PluginError("S803", std::string("brings ") + kind + " " + std::to_string(code) + " " +
                                       entry.name + ", which clashes with " + kind + " " +
                                       std::to_string(other_code) + " " + other.name + " of " +
-                                      owner(catalogue, [&](const Plugin& plugin) {
+                                      owner(catalogue, [codes, taken = other_code](const Plugin& plugin) {
                                         const std::vector<int>& own = plugin.*codes;
-                                        return std::ranges::find(own, other_code) != own.end();
+                                        return std::ranges::find(own, taken) != own.end();
                                       }));
 }
 

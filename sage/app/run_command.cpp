@@ -251,6 +251,7 @@ constexpr const char* kRunExamples =
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-function-size): one option after the other
 Command run_command(CLI::App& parser, const Catalogue& catalogue) {
   parser.footer(std::string(kRunExamples) + "\n\n" + parser.get_footer());
   auto options = std::make_shared<RunOptions>();

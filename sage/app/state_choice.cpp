@@ -160,8 +160,7 @@ std::vector<std::string> ask_for_states(Model& model, const std::vector<std::str
     }
   for (Stage& stage : model.stages) {
     std::ranges::sort(stage.output_at);
-    const auto repeated = std::ranges::unique(stage.output_at);
-    stage.output_at.erase(repeated.begin(), repeated.end());
+    stage.output_at.erase(std::unique(stage.output_at.begin(), stage.output_at.end()), stage.output_at.end());
   }
   return notes;
 }

@@ -362,9 +362,9 @@ std::string sheet_svg(const PlotSheet& sheet) {
                 svg::kBold);
   for (int k = 0; k < count; ++k) {
     const Plot& plot = sheet.panels[static_cast<std::size_t>(k)];
-    const Panel panel =
-        make_panel(plot, k % columns * layout.panel_width, layout.top + k / columns * layout.panel_height,
-                   layout.panel_width, layout.panel_height);
+    const int row = k / columns, column = k % columns;
+    const Panel panel = make_panel(plot, column * layout.panel_width, layout.top + row * layout.panel_height,
+                                   layout.panel_width, layout.panel_height);
     draw_axes(out, panel);
     for (std::size_t i = 0; i < plot.series.size(); ++i)
       draw_series(out, plot.series[i], panel.x, panel.y, styles.of(plot, i));

@@ -357,7 +357,8 @@ class CardBuilder {
 
   void end_run(std::size_t i, CardGuess& card) {
     const Run& run = runs_[i];
-    const auto lines = static_cast<double>(run.lines.size() / run.records);
+    const std::size_t cards = run.lines.size() / run.records;
+    const auto lines = static_cast<double>(cards);
     if (run.lines.size() == 1 && !run.words) count_one(card);
     if (run.lines.size() > 1) {
       if (static_cast<int>(i) == nodes_.run) end_by_number(run, card);

@@ -10,7 +10,7 @@ namespace sage {
 
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 constexpr double kOnAxis = 1e-9;  // of the largest radius of an element
 
 // Loads spread along the elements of a group, at a state: for each element a force a dof.
@@ -104,7 +104,7 @@ using Section = std::array<double, 5>;
 // Of the stress of a law of bars or beams.
 Section section_of(std::span<const double> sigma) {
   Section section;
-  section.fill(kNone);
+  section.fill(kNoValue);
   section[kAxialForce] = sigma[0];
   if (sigma.size() == 3) section[kShearForce] = sigma[1], section[kBendingMoment] = sigma[2];
   if (sigma.size() == 5) {
@@ -144,7 +144,7 @@ class EndReader {
       one.place = x_.col(end - 1);
       one.along = along_at(x_, end);
       const Section section = section_at(element, end, ring);
-      one.value.fill(kNone);
+      one.value.fill(kNoValue);
       for (const std::size_t q : {kAxialForce, kHoopForce}) one.value[q] = 0.0 - section[q];
       for (const std::size_t q : {kShearForce, kBendingMoment, kHoopMoment}) one.value[q] = 0.0 + section[q];
       if (spacing_ != 1.0) one.value[kForceEach] = spacing_ * one.value[kAxialForce];
@@ -271,8 +271,8 @@ void Envelope::add(const Model& model, int stage, const Solution& solution) {
         made.element = end.element;
         made.end = end.end;
         made.node = end.node;
-        made.low.fill(kNone);
-        made.high.fill(kNone);
+        made.low.fill(kNoValue);
+        made.high.fill(kNoValue);
       }
       row = rows_.begin() + static_cast<std::ptrdiff_t>(first);
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 namespace sage {
 
@@ -131,7 +132,9 @@ std::string envelope_table(const Model& model, const std::vector<EnvelopeEnd>& r
   const auto unit = [&](std::size_t q) { return unit_text(end_field(q).dimension, model.units); };
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     const Group& group = model.groups[g];
-    const auto own = std::ranges::equal_range(rows, static_cast<std::int64_t>(g), {}, &EnvelopeEnd::group);
+    const auto number = static_cast<std::int64_t>(g);
+    const std::span<const EnvelopeEnd> own(std::ranges::lower_bound(rows, number, {}, &EnvelopeEnd::group),
+                                           std::ranges::upper_bound(rows, number, {}, &EnvelopeEnd::group));
     if (own.empty()) continue;
     std::vector<std::size_t> quantities;
     for (std::size_t q = 0; q < kEndQuantities.size(); ++q)

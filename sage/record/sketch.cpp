@@ -60,7 +60,7 @@ class Area {
   static constexpr unsigned kCross = 1u << 8;
 
   static int place(double share, int count) {
-    return std::clamp(static_cast<int>(share * (count - 1) + 0.5), 0, count - 1);
+    return std::clamp(static_cast<int>(std::lround(share * (count - 1))), 0, count - 1);
   }
   unsigned& cell_at(int column, int row) { return dots_[static_cast<std::size_t>(row * width_ + column)]; }
 

@@ -12,9 +12,9 @@ namespace sage {
 
 namespace {
 
-constexpr std::size_t kRows = 6;     // of a report's table
-constexpr std::size_t kReports = 2;  // triaxial and node reports shown; the others are in their files
-constexpr std::size_t kPoints = 4;   // the same of points
+constexpr std::size_t kReportRows = 6;  // of a report's table
+constexpr std::size_t kReports = 2;     // triaxial and node reports shown; the others are in their files
+constexpr std::size_t kPoints = 4;      // the same of points
 
 auto to(std::string& text) {
   return std::back_inserter(text);
@@ -52,13 +52,13 @@ int wide(int width, int digits) {
 // Rows spread evenly over the path; the last of each stage is kept.
 template <class Row>
 std::vector<Row> chosen(const std::vector<Row>& rows) {
-  if (rows.size() <= kRows) return rows;
+  if (rows.size() <= kReportRows) return rows;
   std::vector<std::size_t> ends;
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (i + 1 == rows.size() || rows[i + 1].stage != rows[i].stage) ends.push_back(i);
-  const std::size_t stages = std::min(ends.size(), kRows);
+  const std::size_t stages = std::min(ends.size(), kReportRows);
   std::vector<std::size_t> take(ends.end() - static_cast<std::ptrdiff_t>(stages), ends.end());
-  const std::size_t between = kRows - take.size();
+  const std::size_t between = kReportRows - take.size();
   for (std::size_t k = 1; k <= between; ++k) take.push_back(k * rows.size() / (between + 1) - 1);
   std::sort(take.begin(), take.end());
   take.erase(std::unique(take.begin(), take.end()), take.end());

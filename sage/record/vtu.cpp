@@ -83,7 +83,7 @@ class VtuText {
     std::iota(list.begin(), list.end(), 0);
     for (std::size_t i = 0; i < list.size(); ++i) {
       if (const auto found = order_from(list)) return *found;
-      std::ranges::rotate(list, list.begin() + 1);
+      std::rotate(list.begin(), list.begin() + 1, list.end());
     }
     return list;
   }

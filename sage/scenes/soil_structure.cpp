@@ -79,6 +79,7 @@ int WallInGround::stages() const {
   return last;
 }
 
+// NOLINTNEXTLINE(readability-function-size): one kind of card after the other
 DeckWriter WallInGround::deck(int last_stage) const {
   DeckWriter deck(geometry);
   const double bottom = -depth;
@@ -260,12 +261,13 @@ WallForces wall_forces(const WallInGround& scene, const WholeRun& run) {
   for (Eigen::Index p = 0; p < wall.cols(); ++p) {
     f.largest_moment = std::max(f.largest_moment, std::abs(wall(kMoment, p)));
     if (scene.geometry != 2) continue;
-    const Eigen::Index part = p % 3;  // Simpson: an end, the middle, the other end, from the toe up
+    const Eigen::Index element = p / 3,
+                       part = p % 3;  // Simpson: an end, the middle, the other end, from the toe up
     const double weight[] = {1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
     const double place[] = {0.0, 0.5, 1.0};
     const double towards = wall(kHoopForce, p) / scene.half_width * weight[part];
     f.hoop -= towards;
-    f.hoop_moment -= towards * (scene.toe - static_cast<double>(p / 3) - place[part]);
+    f.hoop_moment -= towards * (scene.toe - static_cast<double>(element) - place[part]);
   }
   f.top = run.u(scene.wall(0)).x();
   return f;
@@ -302,6 +304,7 @@ WallInGround anchored_sheet_pile() {
   return scene;
 }
 
+// NOLINTNEXTLINE(readability-function-size): one kind of card after the other
 DeckWriter Culvert::deck(int last_stage) const {
   DeckWriter deck(1);
   const int last = last_stage == 0 ? 1 + lifts : last_stage, raised = last - 1;

@@ -30,7 +30,7 @@ Eigen::Matrix3d tensor(const double* s, int lstr, int ndi, int nshr) {
   return t;
 }
 
-void leave(int who, const std::string& words) {
+[[noreturn]] void leave(int who, const std::string& words) {
   if (host.leave != nullptr) host.leave(who, words.data(), words.size());
   std::exit(who == 0 ? 0 : 1);  // no routine is under way: a program of somebody else's
 }
@@ -39,7 +39,7 @@ void leave(int who, const std::string& words) {
 void put_text(const char* from, char* to, int* length, std::size_t room) {
   const std::size_t size = std::min(std::strlen(from), room);
   std::memset(to, ' ', room);
-  std::memcpy(to, from, size);
+  std::copy_n(from, size, to);
   *length = static_cast<int>(size);
 }
 
