@@ -249,7 +249,8 @@ void undrained_ratio(Record& record) {
     WholeRun runs[2];
     for (const bool shut : {true, false}) {
       Ground ground(geometry, Cell::quad8, 4, 4);
-      const double E = shut ? kSoilE : kSoilE * (1.0 + kUndrained) / (1.0 + kSoilNu);
+      const double G = 5000.0,
+                   E = 2.0 * G * (1.0 + (shut ? kSoilNu : kUndrained));  // of few digits: a card has ten
       ground.deck.material(1, 1, {E, shut ? kSoilNu : kUndrained}, kSoilWeight);
       ground.deck.group(1, static_cast<int>(Cell::quad8), 1, 1);
       ground.block.write_elements(ground.deck, 1);
