@@ -887,12 +887,11 @@ constexpr MessageEntry kMessages[] = {
      "Nothing: the results are those of a run without interruption. Remove a file that stays if it is "
      "not needed."},
     {"S633", "an interrupted run could not stop by itself",
-     "Ten seconds after Ctrl-C, or a request of the system to end, the program had still not stopped: a user "
-     "routine, "
-     "or the reading or writing of a file, did not return. The program then ended itself with exit code 5.",
-     "Look for an endless loop in the user routine, or for a pipe (FIFO) that nobody reads or writes. sagefe "
-     "run "
-     "--restart goes on from the last checkpoint, if there is one."},
+     "Ten seconds after Ctrl-C, or a request of the system to end, the program had still not stopped: a "
+     "user routine, or the reading or writing of a file, did not return. The program then ended itself with "
+     "exit code 5.",
+     "Look for an endless loop in the user routine, or for a pipe (FIFO) that nobody reads or writes. "
+     "sagefe run --restart goes on from the last checkpoint, if there is one."},
     {"S640", "a result file can't be used",
      "It is no result file of this program, damaged, or of a version in which its deck means another "
      "model.",
