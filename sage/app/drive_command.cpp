@@ -11,7 +11,6 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
-#include "sage/app/screen.hpp"
 #include "sage/app/umat_output.hpp"
 #include "sage/drive/curve_files.hpp"
 #include "sage/drive/fit.hpp"
@@ -278,15 +277,8 @@ void answer_fit(const FitProblem& problem, const FitResult& result) {
                     {"undetermined", std::move(undetermined)}};
 }
 
-// Whether all paths reach their end.  Where no summary says so, a message does.
 bool are_whole(const std::vector<Curve>& curves) {
-  bool whole = true;
-  for (const Curve& curve : curves) {
-    if (curve.failure.empty()) continue;
-    whole = false;
-    if (screen().quiet || screen().json) say_error(curve.name, curve.failure, "S532");
-  }
-  return whole;
+  return std::ranges::all_of(curves, [](const Curve& curve) { return curve.failure.empty(); });
 }
 
 void finish(OutFile& file, std::string text) {

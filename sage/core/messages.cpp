@@ -799,11 +799,6 @@ constexpr MessageEntry kMessages[] = {
      "specimen is not uniform at the start of the report's stage.",
      "Begin the report in the stage in which the specimen is still uniform, or read the ratio with that in "
      "mind."},
-    {"S532", "a driven path ends early",
-     "sagefe drive found no state of the law for the next step, even in 4096 parts: a stress beyond the "
-     "strength, a "
-     "joint that has lost contact, or a peak that is passed under given stresses. Rows up to there stand.",
-     "Drive strains in place of stresses beyond a peak; shorter legs; check strength and start."},
 
     {"S537", "a free surface is blurred",
      "Soil of law darcy_free_surface falls dry within a ramp of the pressure head, as high as an element where "

@@ -90,7 +90,7 @@ std::string csv_text(const Heading& heading, const std::vector<Curve>& curves, i
   std::string text = "# " + heading.title + "\n# " + signs(heading.units) + "\n";
   for (const std::string& note : heading.notes) text += "# " + note + "\n";
   for (const Curve& curve : curves)
-    if (!curve.failure.empty()) text += "# " + curve.name + ": " + with_code(curve.failure, "S532") + "\n";
+    if (!curve.failure.empty()) text += "# " + curve.name + ": " + with_code(curve.failure, "S607") + "\n";
   const std::vector<const Column*> columns = columns_of(curves);
   text += "case";
   for (const Column* column : columns) text += "," + column->name + "[" + column->unit + "]";
@@ -147,7 +147,7 @@ std::string summary_text(const std::vector<Curve>& curves, const std::string& pa
       text += fmt::format("  end      {} = {:.6g} at {} = {:.6g}, {}\n", y, drawn->values.back(), x,
                           over->values.back(), status_name(curve.status.back()));
     }
-    if (!curve.failure.empty()) text += "  STOPPED  " + with_code(curve.failure, "S532") + "\n";
+    if (!curve.failure.empty()) text += "  STOPPED  " + with_code(curve.failure, "S607") + "\n";
   }
   return text;
 }

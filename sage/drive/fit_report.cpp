@@ -60,7 +60,7 @@ std::string fit_text(const FitProblem& problem, const FitResult& result) {
       result.converged ? "" : "; NOT CONVERGED");
   for (const Curve& curve : result.curves)
     if (!curve.failure.empty())
-      text += fmt::format("{}: the fitted law {}\n", curve.name, with_code(curve.failure, "S532"));
+      text += fmt::format("{}: the fitted law {}\n", curve.name, with_code(curve.failure, "S607"));
   return text;
 }
 
