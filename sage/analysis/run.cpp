@@ -84,6 +84,7 @@ class Run {
   void measure_stiffness(double from, double to);
   double stiffness_share(double from, double to, const NewtonStep& step) const;
   double refused_motion(double from, double to, const NewtonStep& step) const;
+  bool tries_otherwise(const Stage& stage, const NewtonStep& step, bool went_on, double reached, double size);
   bool fail(StepReport& report, const NewtonStep& step);
   void find_loose_part(const StepReport& report);
   void offer_checkpoint(RunPlace place);
@@ -531,6 +532,37 @@ void Run::show(const StepReport& report, double reached) const {
   pulse->iterated(0, std::numeric_limits<double>::quiet_NaN());
 }
 
+// Whether a step that failed is tried once more in another way before it is cut.  size: of the step.
+bool Run::tries_otherwise(const Stage& stage, const NewtonStep& step, bool went_on, double reached,
+                          double size) {
+  // The way of the last step may lead nowhere where that from the committed state does not.
+  if (went_on) {
+    path_.prediction.fail();
+    reject(stage, reached, size);
+    return true;
+  }
+  // The tangent of a step whose ground flows everywhere is too soft for points that stop to flow in the next one.
+  if (stage.method == Method::modified_newton && !path_.own_tangent && !tangent_.linear()) {
+    path_.own_tangent = true;
+    reject(stage, reached, 0.0);
+    return true;
+  }
+  // From a place that a kept tangent has reached Newton's method may find nothing where it does from the start.
+  // It comes nearer than the stage asks, if it can.
+  if ((step.finished && by_newton_ == 0) || by_newton_ == 1) {
+    ++by_newton_;
+    reject(stage, reached, 0.0);
+    return true;
+  }
+  by_newton_ = 0;
+  // Half way along a collapse mechanism the matrix may be singular where the committed state's is not.
+  if (step.outcome == StepOutcome::singular && on_last_way_) {
+    reject(stage, reached, 0.0);
+    return true;
+  }
+  return false;
+}
+
 bool Run::run_increment(const Stage& stage, StepReport& report, double& reached) {
   const double end = static_cast<double>(report.increment) / report.increments;
   const double whole = 1.0 / report.increments;
@@ -575,31 +607,7 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
       if (step.iterations.size() <= 6 && 8.0 * error <= kPathTolerance) size *= 2.0;
       continue;
     }
-    // The way of the last step may lead nowhere where that from the committed state does not.
-    if (went_on) {
-      path_.prediction.fail();
-      reject(stage, reached, to - reached);
-      continue;
-    }
-    // The tangent of a step whose ground flows everywhere is too soft for points that stop to flow in the next one.
-    if (stage.method == Method::modified_newton && !path_.own_tangent && !tangent_.linear()) {
-      path_.own_tangent = true;
-      reject(stage, reached, 0.0);
-      continue;
-    }
-    // From a place that a kept tangent has reached Newton's method may find nothing where it does from the start.
-    // It comes nearer than the stage asks, if it can.
-    if ((step.finished && by_newton_ == 0) || by_newton_ == 1) {
-      ++by_newton_;
-      reject(stage, reached, 0.0);
-      continue;
-    }
-    by_newton_ = 0;
-    // Half way along a collapse mechanism the matrix may be singular where the committed state's is not.
-    if (step.outcome == StepOutcome::singular && on_last_way_) {
-      reject(stage, reached, 0.0);
-      continue;
-    }
+    if (tries_otherwise(stage, step, went_on, reached, to - reached)) continue;
     report.points = assembly_.count_points();
     report.failed_at = to;  // beyond `reached`, which may have passed an earlier failure
     const bool given_up =

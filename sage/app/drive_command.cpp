@@ -11,6 +11,7 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
+#include "sage/app/screen.hpp"
 #include "sage/app/umat_output.hpp"
 #include "sage/drive/curve_files.hpp"
 #include "sage/drive/fit.hpp"
