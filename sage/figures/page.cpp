@@ -62,6 +62,7 @@ const char* name_of(Place place) {
 }
 
 // x and y: values of the first and the second source; c: correct; q: correct deviator stress.
+// NOLINTNEXTLINE(readability-function-size): a row a measure
 const char* words_of(Measure measure) {
   switch (measure) {
     case Measure::elements:
