@@ -375,7 +375,7 @@ int compare_decks(const CompareOptions& asked, const Catalogue& catalogue) {
     files.push_back(o.folder / fmt::format("{}.compare_{}.svg", stem, name));
     write_file(files.back(), compare::pair_svg(a, b, name));
   }
-  results.close();
+  say_left(o.decks.front(), results.close());
   const ProgressPause pause;
   fmt::print("{}", compare::to_text(comparison, a, b));
   for (const FinishedSide* one : {&side_a, &side_b}) {

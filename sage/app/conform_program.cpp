@@ -11,9 +11,11 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/plugins.hpp"
+#include "sage/app/screen.hpp"
 #include "sage/conformance/element_suite.hpp"
 #include "sage/conformance/law_suite.hpp"
 #include "sage/conformance/solver_suite.hpp"
+#include "sage/deck/printable.hpp"
 
 namespace sage::app {
 namespace {
@@ -183,10 +185,11 @@ int try_all(const std::string& only) {
 }
 
 int conform(int argc, char** argv) {
+  const PrintableOutput filter;
   try {
     load(argc, argv, subjects());
   } catch (const std::exception& error) {
-    fmt::print(stderr, "sagefe: {}\n", message_of(error));
+    fmt::print(stderr, "sagefe: {}\n", printable(message_of(error)));
     return kUsage;
   }
   return try_all(argc > 1 ? argv[1] : "");

@@ -709,7 +709,7 @@ Convergence Climb::run() {
   if (!partial_.empty()) last += "; PARTIAL: " + partial_;
   if (!reached) last += "; NOT REACHED: " + result.not_reached;
   table_->finish(last);
-  if (own_) own_->close();
+  if (own_) say_left(request_.deck, own_->close());
   return result;
 }
 

@@ -16,6 +16,7 @@
 #include <thread>
 #include <utility>
 
+#include "sage/app/screen.hpp"
 #include "sage/deck/source.hpp"
 #include "sage/record/values.hpp"
 
@@ -340,6 +341,18 @@ ResultFiles::Left ResultFiles::close() {
   rewrite(text);
   if (::rename(while_running_.c_str(), list_.c_str()) != 0) fail(errno);
   return left;
+}
+
+void say_left(const std::string& who, const ResultFiles::Left& left) {
+  for (const std::filesystem::path& file : left.changed)
+    say_note(who, file.string() + " is of an earlier run, but has been changed since: it stays", "S632");
+  if (!left.damaged) return;
+  std::string names;
+  for (const std::filesystem::path& file : left.unlisted) names += (names.empty() ? "" : ", ") + file.string();
+  say_warning(who,
+              "the list of the earlier run's files was damaged: " +
+                  (names.empty() ? "nothing of it is left" : "these may be of that run, and stay: " + names),
+              "S608");
 }
 
 }  // namespace sage::app

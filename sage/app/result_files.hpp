@@ -98,4 +98,7 @@ class ResultFiles final : public ResultLog {
   ResultLog* log_before_ = nullptr;
 };
 
+// A note for each file that was changed, and a warning where the list was damaged.
+void say_left(const std::string& who, const ResultFiles::Left& left);
+
 }  // namespace sage::app

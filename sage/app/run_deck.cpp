@@ -115,20 +115,10 @@ std::string resume_from(Checkpoint& checkpoint, const RunRequest& request) {
   return state.value_or("");
 }
 
-// What an earlier run left is removed; a note names what can't be, because it has been changed.
+// What an earlier run left is removed.
 void close_results(ResultFiles& results, const RunRequest& request) {
   const ResultFiles::Left left = results.close();
-  if (request.quiet) return;
-  for (const std::filesystem::path& file : left.changed)
-    say_note(request.deck, file.string() + " is of an earlier run, but has been changed since: it stays",
-             "S632");
-  if (!left.damaged) return;
-  std::string names;
-  for (const std::filesystem::path& file : left.unlisted) names += (names.empty() ? "" : ", ") + file.string();
-  say_warning(request.deck,
-              "the list of the earlier run's files was damaged: " +
-                  (names.empty() ? "nothing of it is left" : "these may be of that run, and stay: " + names),
-              "S608");
+  if (!request.quiet) say_left(request.deck, left);
 }
 
 // When an interrupted run ends: behind the checkpoint of the increment in hand, if there can be one and the

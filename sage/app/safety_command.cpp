@@ -208,7 +208,7 @@ int run_safety(const SafetyOptions& options, const Catalogue& catalogue) {
     std::string text = safety::to_text(*last.model, options.search, last.found);
     if (options.converge > 0.0) text += mesh_table(options, meshes);
     const std::vector<std::filesystem::path> files = write_files(options, last, text);
-    results.close();
+    say_left(options.deck, results.close());
     const ProgressPause pause;
     fmt::print("{}", text);
     for (std::size_t i = 0; i < files.size(); ++i)
