@@ -566,6 +566,10 @@ bool Step::record_iteration() {
   if (done || size <= best_) find_worst();
   best_ = std::min(best_, size);
   if (!done) return false;
+  result_.force_left = fields_.count() == 1 ? record.force : 0.0;
+  for (int f = 0; fields_.count() > 1 && f < fields_.count(); ++f)
+    if (!even(f))
+      result_.force_left = std::max(result_.force_left, measured_[static_cast<std::size_t>(f)].force);
   result_.outcome = StepOutcome::converged;
   return true;
 }

@@ -42,6 +42,8 @@ struct NewtonStep {
   std::vector<IterationRecord> iterations;
   WorstDof worst;               // of the last iteration, or where none converged, of the best
   double predicted_work = 0.0;  // forces out of balance at the start times the first correction
+  // Relative residual at the end, of the fields that have more to balance than rounding: moments that are zero have not.
+  double force_left = 0.0;
   int singular_equation = -1;
   std::string message;
 };

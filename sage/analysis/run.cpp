@@ -121,6 +121,7 @@ class Run {
   double reached_ = 0.0;  // of the stage's loads, at the committed state
   const Extent extent_;
   Eigen::VectorXd target_;
+  double force_left_ = 0.0;  // NewtonStep::force_left of the last step
   Eigen::VectorXd last_du_;  // the last step of the stage, if path_.last_size > 0
   // The next attempt is Newton's, whatever the method of its stage: 1 to a hundredth of its tolerance, 2 to all of it.
   int by_newton_ = 0;
@@ -588,10 +589,15 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
         continue;
       }
       path_.path_error = std::max(path_.path_error, error);
+<<<<<<< HEAD
       path_.own_tangent = path_.own_tangent || step.finished;
       by_newton_ = 0;
       const bool modified = stage.method == Method::modified_newton && !path_.own_tangent;
       if (modified || (contracts(stage) && !predicts(stage))) renew_tangent();
+=======
+      force_left_ = step.repeated ? step.iterations.back().force : step.force_left;
+      if (stage.method == Method::modified_newton || (contracts(stage) && !predicts(stage))) renew_tangent();
+>>>>>>> 30f3f17 (Report S525 only for fields with more than rounding to balance)
       const bool same_K = tangent_.constant() || !tangent_.changed();
       const bool linear = step.iterations.size() == 1 && same_K;
       if (!step.repeated) path_.repeats.take(linear, to - reached, step.iterations.back().force);
@@ -764,7 +770,7 @@ bool Run::run_stage(int s, int done) {
     report.increments = stage.increments;
     report.load_factor = reached;
     if (!run_increment(stage, report, reached)) return false;
-    if (!report.iterations.empty()) last_force = report.iterations.back().force;
+    last_force = force_left_;
     if (is_last && i == stage.increments) {
       const Profile::Scope scope(profile(), phase::kChecks);
       system_.release_solver();
