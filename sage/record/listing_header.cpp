@@ -1,6 +1,11 @@
 // What was read: the part of the listing before the first stage.
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
 #include <fmt/format.h>
 
+#include "sage/model/spread_loads.hpp"
 #include "sage/record/listing_parts.hpp"
 #include "sage/record/number.hpp"
 #include "sage/record/output.hpp"
@@ -43,6 +48,121 @@ std::string group_numbers(const Model& model, const std::vector<int>& groups) {
   for (int g : groups)
     text += (text.empty() ? "" : ", ") + std::to_string(model.groups[static_cast<std::size_t>(g)].number);
   return text;
+}
+
+// "name value, name value", by a list of names.
+std::string named(std::initializer_list<std::string_view> names, const double* values) {
+  std::string text;
+  for (const std::string_view name : names)
+    text += fmt::format("{}{} {:.6g}", text.empty() ? "" : ", ", name, *values++ + 0.0);
+  return text;
+}
+
+std::string initial_text(const Group& group, const InitialStress& initial) {
+  const double* const v = initial.value.data();
+  switch (initial.kind) {
+    case InitialKind::uniform:
+      if (group.interface()) return named({"shear", "normal"}, v);
+      if (!group.structure()) return named({"xx", "yy", "zz", "xy"}, v);
+      if (group.entry->law_size == 1) return named({"axial force"}, v);
+      if (group.entry->law_size == 3) return named({"axial force", "shear force", "moment"}, v);
+      return named({"axial force", "hoop force", "shear force", "moment", "hoop moment"}, v);
+    case InitialKind::geostatic:
+      return named({"geostatic: surface", "unit weight", "K0", "stress at the surface"}, v);
+    case InitialKind::zero:
+      return "none";
+    case InitialKind::traction:
+      return fmt::format("traction of the initial stress of group {:.0f}", v[0]);
+    case InitialKind::history:
+      break;
+  }
+  std::string text = fmt::format("history from quantity {:.0f} on:", v[0]);
+  for (std::size_t i = 1; i < initial.value.size() && !std::isnan(v[i]); ++i)
+    text += fmt::format(" {:.6g}", v[i]);
+  return text;
+}
+
+std::string water_text(const Model& model, const WaterCard& card) {
+  std::string text;
+  switch (card.kind) {
+    case WaterKind::dry:
+      return "none";
+    case WaterKind::line:
+      text = "phreatic line";
+      for (const Vector2& x : card.line) text += fmt::format(" ({:.6g}, {:.6g})", x.x(), x.y());
+      break;
+    case WaterKind::ratio:
+      return fmt::format("r_u {:.6g}", card.value);
+    case WaterKind::nodes:
+      text = fmt::format("pressures at {} nodes", card.nodes.size());
+      break;
+    case WaterKind::heads:
+      text = "from the heads at the start of the stage";
+      break;
+    case WaterKind::undrained:
+      return fmt::format("undrained, bulk modulus over porosity {:.6g} {}", card.value, model.units.stress);
+    case WaterKind::drained:
+      return "drained, what was undrained lets its excess go";
+  }
+  if (card.group >= 0 && model.groups[static_cast<std::size_t>(card.group)].structure())
+    return text + (card.value > 0.0 ? ", left side" : card.value < 0.0 ? ", right side" : ", both sides");
+  if (card.action == WaterAction::none) text += ", none at free edges";
+  if (card.action == WaterAction::force) text += ", as seepage force and buoyancy";
+  return text;
+}
+
+// A long line goes on indented.
+void wrapped(std::string& text, std::string line) {
+  constexpr std::size_t kWidth = 97;
+  while (line.size() > kWidth) {
+    std::size_t at = line.rfind(' ', kWidth);
+    if (at == std::string::npos || at < 8) break;
+    text += line.substr(0, at) + '\n';
+    line = "        " + line.substr(at + 1);
+  }
+  text += line + '\n';
+}
+
+// Prestress, initial stress and water that begin with a stage.
+void states_of_stage(std::string& text, const Model& model, int index) {
+  const auto name = [&](int g) {
+    const Group& group = model.groups[static_cast<std::size_t>(g)];
+    return fmt::format("group {}{}{}", group.number, group.name.empty() ? "" : " ", group.name);
+  };
+  const auto initial = [&](const InitialStress& card) {
+    const Group& group = model.groups[static_cast<std::size_t>(card.group)];
+    wrapped(text,
+            fmt::format("   {}, {}: {}",
+                        group.structure() && card.kind == InitialKind::uniform ? "prestress" : "initial stress",
+                        name(card.group), initial_text(group, card)));
+  };
+  if (index == 0) std::ranges::for_each(model.initials, initial);
+  std::ranges::for_each(stage_of(model, index).initials, initial);
+  for (const WaterCard& card : model.water)
+    if (card.stage == index)
+      wrapped(text, fmt::format("   water, {}: {}", card.group < 0 ? "all solids" : name(card.group),
+                                water_text(model, card)));
+}
+
+// Dimension of a weight on a material's card, as its law counts it.
+std::string weight_unit(const Material& material, const UnitSystem& units) {
+  if (material.entry != nullptr && material.entry->flow) return unit_text(Dimension::unit_weight, units);
+  const int size = size_of_law(material.law_ref());
+  if (size == 1) return units.force + "/" + units.length;
+  if ((size == 3 || size == 5) && !material.parameter(ParameterRole::thickness))
+    return units.force + "/" + units.length + "^2";
+  return unit_text(Dimension::unit_weight, units);
+}
+
+// What of it is the weight along a line.
+void weight_of_line(std::string& text, const Material& material, const UnitSystem& units) {
+  const std::string each = units.force + "/" + units.length + "^2";
+  if (const auto thickness = material.parameter(ParameterRole::thickness))
+    fmt::format_to(to(text), "     {:<28}{:>14.8g} {:<12} times the thickness\n", "weight",
+                   material.unit_weight * *thickness, each);
+  if (const double spacing = spacing_of(material.law_ref()); spacing != 1.0)
+    fmt::format_to(to(text), "     {:<28}{:>14.8g} {:<12} over the spacing\n", "weight",
+                   material.unit_weight / spacing, each);
 }
 
 }  // namespace
@@ -116,7 +236,8 @@ void materials(std::string& text, const Model& model, const Catalogue& catalogue
       parameter(text, model, material, entry, i);
     if (material.unit_weight != 0.0)
       fmt::format_to(to(text), "     {:<28}{:>14.8g} {}\n", "unit_weight", material.unit_weight,
-                     unit_text(Dimension::unit_weight, model.units));
+                     weight_unit(material, model.units));
+    if (material.unit_weight != 0.0) weight_of_line(text, material, model.units);
   }
 }
 
@@ -150,6 +271,7 @@ void stage(std::string& text, const Model& model, int index) {
   if (const auto n = fixity_count(s.fixities, FixityCode::released))
     add(fmt::format("{} directions released", n));
   if (!parts.empty()) fmt::format_to(to(text), "   {}\n", parts);
+  states_of_stage(text, model, index);
 }
 
 }  // namespace sage::listing
