@@ -39,6 +39,8 @@ class Beam3 final : public PointElement<5, 9 + slip_dofs(released), 2> {
   const std::vector<std::vector<int>>& edges() const override;
   void edge_load(const NodeCoordinates& x, int edge, const Vector2& normal, const Vector2& shear,
                  std::span<double> f) const override;
+  // ElementEntry::force_at.
+  static void force_at(const NodeCoordinates& x, double xi, const Vector2& force, std::span<double> f);
   std::span<const double> point_to_node() const override { return to_nodes_; }
   int degree() const override { return 2; }
 
@@ -48,7 +50,8 @@ class Beam3 final : public PointElement<5, 9 + slip_dofs(released), 2> {
 
 // Two nodes, straight.  One shear strain for the element, found from its own equilibrium, and the deflection and
 // rotation that follow from it: of a beam of one section the stiffness matrix is the exact one, however slender it
-// is.  Points: the two ends and the middle (Simpson), so that results stand where designers want them.
+// is.  Points: the two ends and the middle (Simpson), so that results stand where designers want them.  Laws that are not
+// linear see at the ends the axial force and the moment that the ends put on their nodes.
 template <class Kinematics, Release released = Release::none>
 class Beam2 final : public Element {
   static constexpr int kDofs = 6 + slip_dofs(released);
@@ -63,6 +66,8 @@ class Beam2 final : public Element {
   const std::vector<std::vector<int>>& edges() const override;
   void edge_load(const NodeCoordinates& x, int edge, const Vector2& normal, const Vector2& shear,
                  std::span<double> f) const override;
+  // ElementEntry::force_at.
+  static void force_at(const NodeCoordinates& x, double xi, const Vector2& force, std::span<double> f);
   std::span<const double> point_to_node() const override {
     static constexpr std::array<double, 6> ends{1.0, 0.0, 0.0, 0.0, 0.0, 1.0};
     return ends;

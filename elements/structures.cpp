@@ -3,6 +3,7 @@
 
 #include "elements/bar.hpp"
 #include "elements/beam.hpp"
+#include "elements/beam_halves.hpp"
 #include "elements/entries.hpp"
 
 namespace sage {
@@ -29,6 +30,19 @@ ElementEntry line_entry(ElementEntry entry, int nodes, int law_size) {
   return entry;
 }
 
+template <auto force_at>
+Choice with_force_at(Choice choice) {
+  choice.formulation.force_at = force_at;
+  return choice;
+}
+
+// Of a bar its nodes share a force by its shape functions.
+template <class Line>
+void bar_force_at(const NodeCoordinates& /*x*/, double xi, const Vector2& force, std::span<double> f) {
+  const Vector<Line::nodes> N = Line::N(xi);
+  for (int i = 0; i < Line::nodes; ++i) Vector2::Map(f.data() + 2 * i) += N(i) * force;
+}
+
 template <template <class> class Made>
 Choice in_both(Formulation formulation, std::string_view full_name, int points) {
   formulation.points = points;
@@ -51,17 +65,24 @@ struct Released {
   using Two = Beam2<Kinematics, released>;
   template <class Kinematics>
   using Three = Beam3<Kinematics, released>;
+  template <class Kinematics>
+  using Halves = BeamHalves<Kinematics, released>;
 };
 
 template <Release released = Release::none>
 Choice beam2_choice(std::string_view full_name) {
-  return in_both<Released<released>::template Two>(
-      {1, "exact", "exact at its nodes for one section and even loads; results at both ends"}, full_name, 3);
+  return with_force_at<Beam2<PlaneStrain, released>::force_at>(in_both<Released<released>::template Two>(
+      {1, "exact", "exact at its nodes for one section and even loads; results at both ends"}, full_name, 3));
 }
 template <Release released = Release::none>
-Choice beam3_choice(std::string_view full_name) {
-  return in_both<Released<released>::template Three>(
-      {1, "reduced", "two Gauss points: does not lock; may be curved"}, full_name, 2);
+std::vector<Choice> beam3_choices(std::string_view full_name) {
+  Choice halves =
+      with_force_at<BeamHalves<PlaneStrain, released>::force_at>(in_both<Released<released>::template Halves>(
+          {2, "halves", "two beam2 in a row: what every section that may yield gets"}, full_name, 6));
+  halves.formulation.yields = true;
+  return {with_force_at<Beam3<PlaneStrain, released>::force_at>(in_both<Released<released>::template Three>(
+              {1, "reduced", "two Gauss points: does not lock; may be curved"}, full_name, 2)),
+          std::move(halves)};
 }
 
 // Displacement and rotation of every node.
@@ -101,15 +122,18 @@ ElementEntry slipping(ElementEntry entry, int nodes, std::string unknown) {
 }  // namespace
 
 ElementEntry bar2_entry() {
-  return element_entry(
-      line_entry({.name = "bar2", .summary = "bar of two nodes: strut, anchor, tie, geotextile"}, 2, 1),
-      {in_both<Bar2>({1, "one point", "exact for a straight bar of one section"}, "bar2", 1)});
+  ElementEntry entry =
+      line_entry({.name = "bar2", .summary = "bar of two nodes: strut, anchor, tie, geotextile"}, 2, 1);
+  return element_entry(std::move(entry),
+                       {with_force_at<bar_force_at<Line2>>(in_both<Bar2>(
+                           {1, "one point", "exact for a straight bar of one section"}, "bar2", 1))});
 }
 
 ElementEntry bar3_entry() {
-  return element_entry(
-      line_entry({.name = "bar3", .summary = "bar of three nodes, beside eight-node elements"}, 3, 1),
-      {in_both<Bar3>({1, "two points", "linear strain; may be curved"}, "bar3", 2)});
+  ElementEntry entry =
+      line_entry({.name = "bar3", .summary = "bar of three nodes, beside eight-node elements"}, 3, 1);
+  return element_entry(std::move(entry), {with_force_at<bar_force_at<Line3>>(in_both<Bar3>(
+                                             {1, "two points", "linear strain; may be curved"}, "bar3", 2))});
 }
 
 ElementEntry spring2_entry() {
@@ -142,7 +166,7 @@ ElementEntry beam2_entry() {
 }
 
 ElementEntry beam3_entry() {
-  return element_entry(beam({.name = "beam3", .summary = kBeamSummary}, 3), {beam3_choice("beam3")});
+  return element_entry(beam({.name = "beam3", .summary = kBeamSummary}, 3), beam3_choices("beam3"));
 }
 
 ElementEntry beam2_hinged_entry() {
@@ -152,7 +176,7 @@ ElementEntry beam2_hinged_entry() {
 
 ElementEntry beam3_hinged_entry() {
   return element_entry(hinged({.name = "beam3_hinged", .summary = "beam3 with a hinge at its first node"}, 3),
-                       {beam3_choice("beam3_hinged")});
+                       beam3_choices("beam3_hinged"));
 }
 
 ElementEntry beam2_pinned_entry() {
@@ -162,7 +186,7 @@ ElementEntry beam2_pinned_entry() {
 
 ElementEntry beam3_pinned_entry() {
   return element_entry(pinned({.name = "beam3_pinned", .summary = "beam3 with a hinge at both ends"}, 3),
-                       {beam3_choice("beam3_pinned")});
+                       beam3_choices("beam3_pinned"));
 }
 
 ElementEntry beam2_axial_release_entry() {
@@ -178,7 +202,7 @@ ElementEntry beam3_axial_release_entry() {
       slipping({.name = "beam3_axial_release",
                 .summary = "beam3 whose first end slides along its line: no axial force there"},
                3, "axial_slip"),
-      {beam3_choice<Release::axial>("beam3_axial_release")});
+      beam3_choices<Release::axial>("beam3_axial_release"));
 }
 
 ElementEntry beam2_shear_release_entry() {
@@ -194,7 +218,7 @@ ElementEntry beam3_shear_release_entry() {
       slipping({.name = "beam3_shear_release",
                 .summary = "beam3 whose first end slides across its line: no shear force there"},
                3, "shear_slip"),
-      {beam3_choice<Release::shear>("beam3_shear_release")});
+      beam3_choices<Release::shear>("beam3_shear_release"));
 }
 
 }  // namespace sage

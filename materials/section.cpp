@@ -14,7 +14,7 @@ const std::vector<Parameter>& plate_rows() {
   static const std::vector<Parameter> rows{
       required("youngs_modulus", Dimension::stress, "Young's modulus E", ParameterRole::youngs_modulus),
       required("poissons_ratio", Dimension::none, "Poisson's ratio nu", ParameterRole::poissons_ratio),
-      required("thickness", Dimension::length, "thickness t"),
+      required("thickness", Dimension::length, "thickness t", ParameterRole::thickness),
       optional(
           "across", Dimension::none,
           "1 plate that goes on across the section: E/(1-nu^2), and hoop stiffness in axisymmetry; 0 strips "

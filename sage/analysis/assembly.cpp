@@ -7,6 +7,7 @@
 #include "sage/analysis/path_error.hpp"
 #include "sage/analysis/shown_status.hpp"
 #include "sage/analysis/tangent.hpp"
+#include "sage/model/spread_loads.hpp"
 
 namespace sage {
 
@@ -63,8 +64,10 @@ Assembly::Assembly(const Model& model, const Scene& scene, const Skips& skips, W
     GroupData data(model.groups[g]);
     data.law = model.material_of(model.groups[g]).law_ref();
     data.wants_context = wants_context(data.law);
+    data.sees_spread = sees_spread_loads(*data.group, data.law);
     eases_ = eases_ || (data.wants_context && data.group->flow());
-    wants_moment_ = wants_moment_ || data.wants_context || data.group->element->traits().sees_unknowns;
+    wants_moment_ =
+        wants_moment_ || data.wants_context || data.sees_spread || data.group->element->traits().sees_unknowns;
     data.constant =
         scene.group_linear[g] != 0 && skips.elements && ConstantRegion::suits(*data.group, data.law);
     list_dofs(data, dof_map_);
@@ -74,6 +77,17 @@ Assembly::Assembly(const Model& model, const Scene& scene, const Skips& skips, W
   }
   internal_.setZero(dof_map_.dofs());
   if (!std::ranges::all_of(groups_, &GroupData::constant)) changing_.size_forces(dof_map_.dofs());
+}
+
+void Assembly::set_moment(const Moment& moment) {
+  element_.set_moment(moment);
+  if (moment.stage == spread_stage_) return;
+  spread_stage_ = moment.stage;
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    if (!groups_[g].sees_spread) continue;
+    groups_[g].spread_start = spread_loads(*model_, moment.stage - 2, g);
+    groups_[g].spread_end = spread_loads(*model_, moment.stage - 1, g);
+  }
 }
 
 bool Assembly::sees_unknowns() const {

@@ -25,13 +25,14 @@ class Assembly {
   Assembly(const Assembly&) = delete;
   Assembly& operator=(const Assembly&) = delete;
 
-  // When what is evaluated from now on takes place; asked for only where a law wants it.
+  // When what is evaluated from now on takes place; asked for only where a law wants it, or an element the loads along
+  // it.
   bool wants_moment() const { return wants_moment_; }
   // Water flows by a law that is eased (PointContext::easing).
   bool eases() const { return eases_; }
   // Of K, whatever the laws' states.
   bool symmetric() const { return scene_->symmetric; }
-  void set_moment(const Moment& moment) { element_.set_moment(moment); }
+  void set_moment(const Moment& moment);
   const Moment& moment() const { return element_.moment(); }
   const Mesh& mesh() const { return model_->mesh; }
 
@@ -158,7 +159,8 @@ class Assembly {
   RegionStep region_step_ = RegionStep::open;
   Equations equations_;
   bool wants_moment_ = false, eases_ = false;
-  int elements_ = 0;  // of the system
+  int spread_stage_ = 0;  // that the groups have the loads along their elements of, from 1
+  int elements_ = 0;      // of the system
   Eigen::VectorXd rate_, internal_;
   Eigen::VectorXd constant_force_;  // of a condensed region, where it was filled in last
   Eigen::VectorXd motion_;          // work space

@@ -24,6 +24,7 @@ ElementWork::ElementWork(const Model& model, bool keep_geometry)
   f_.resize(dofs);
   du_.resize(dofs);
   u0_.resize(dofs);
+  spread_.resize(2 * dofs);
 }
 
 void ElementWork::stop_if_asked_at(int element) const {
@@ -82,6 +83,10 @@ Outcome ElementWork::evaluate(GroupData& data, int element, const Eigen::VectorX
     in.u0 = committed_of(dofs);
     in.dt = moment_.dt;
   }
+  if (data.sees_spread) {
+    in.spread = spread_of(data, element, moment_.load_factor, spread_.data());
+    in.spread0 = spread_of(data, element, moment_.load_factor - moment_.share, spread_.data() + data.dofs());
+  }
   ElementOut out;
   out.K = K;
   out.f = f_.data();
@@ -90,6 +95,17 @@ Outcome ElementWork::evaluate(GroupData& data, int element, const Eigen::VectorX
   out.h1 = data.state.trial.h.data() + e * points * history;
   out.status = data.state.trial.status.data() + e * points;
   return data.group->element->evaluate(in, out);
+}
+
+// At a load factor of the stage.
+const double* ElementWork::spread_of(const GroupData& data, int element, double load_factor, double* to) {
+  const std::size_t dofs = data.dofs(), first = static_cast<std::size_t>(element) * dofs;
+  for (std::size_t i = 0; i < dofs; ++i) {
+    const double start = data.spread_start.empty() ? 0.0 : data.spread_start[first + i];
+    const double end = data.spread_end.empty() ? 0.0 : data.spread_end[first + i];
+    to[i] = (1.0 - load_factor) * start + load_factor * end;
+  }
+  return to;
 }
 
 // Elements of a model that stands by itself have not moved yet.

@@ -40,6 +40,7 @@ class ElementWork {
 
  private:
   const double* committed_of(const ElementDofs& dofs);
+  static const double* spread_of(const GroupData& data, int element, double load_factor, double* to);
   const double* geometry_of(GroupData& data, int element);
   const PointContext* contexts_of(const GroupData& data, int element);
 
@@ -47,7 +48,7 @@ class ElementWork {
   bool keep_geometry_;
   StopAsked stop_asked_;
   const Eigen::VectorXd* committed_ = nullptr;
-  std::vector<double> geometry_, K_, f_, du_, u0_, sigma_, eps_;
+  std::vector<double> geometry_, K_, f_, du_, u0_, spread_, sigma_, eps_;
   std::vector<double> no_stress_;  // zeros, of one element
   Eigen::Matrix2Xd x_;
   Moment moment_;

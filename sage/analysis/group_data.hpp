@@ -10,6 +10,12 @@
 
 namespace sage {
 
+// Sections of beams that may yield see the loads along their elements.
+inline bool sees_spread_loads(const Group& group, const LawRef& law) {
+  return group.structure() && size_of_law(law) > 1 &&
+         !std::visit([](const auto* held) { return held->linear(); }, law);
+}
+
 struct GroupData {
   explicit GroupData(const Group& its_group)
       : group(&its_group), dofs_(static_cast<std::size_t>(its_group.element->traits().dofs)) {}
@@ -39,6 +45,10 @@ struct GroupData {
   std::vector<int> matrix;  // of each element: its place in K, counted in matrices; empty = none are kept
   // Constant: internal force of each element at the committed state, and tried; empty = zero.
   std::vector<double> force, trial_force;
+  // Structures whose law is not linear: loads spread along the elements at both ends of the stage, a force a dof, element
+  // after element; empty = none.
+  bool sees_spread = false;
+  std::vector<double> spread_start, spread_end;
 
   bool keeps_matrices() const { return !matrix.empty(); }
   std::size_t matrix_size() const { return dofs() * dofs(); }

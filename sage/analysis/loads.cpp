@@ -5,6 +5,7 @@
 #include <span>
 
 #include "sage/analysis/moment.hpp"
+#include "sage/model/spread_loads.hpp"
 
 namespace sage {
 
@@ -47,7 +48,7 @@ void add_edge_loads(const Model& model, const std::vector<char>& active, const S
 }
 
 void add_body_forces(const Model& model, const Group& group, const Vector2& gravity, LoadSum& sum) {
-  const Vector2 b = gravity * model.material_of(group).unit_weight;
+  const Vector2 b = gravity * weight_density(model, group);
   if (b.isZero(0.0)) return;
   for (int e = 0; e < group.elements(); ++e)
     sum.add(group, e,

@@ -22,7 +22,8 @@ Moment moment_at(const Model& model, int stage, int increment, double load_facto
   double before = 0.0;
   for (int s = 0; s < stage; ++s) before += model.stages[static_cast<std::size_t>(s)].duration;
   const double duration = model.stages[static_cast<std::size_t>(stage)].duration;
-  return {stage + 1, increment, before + load_factor * duration, share * duration, before, easing};
+  return {stage + 1,   increment, before + load_factor * duration, share * duration, before, easing,
+          load_factor, share};
 }
 
 PointContext context_of(const GroupData& data, int element, const Eigen::Matrix2Xd& x, int point,

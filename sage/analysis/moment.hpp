@@ -10,6 +10,7 @@ struct Moment {
   int stage = 1, increment = 0;
   double time = 0.0, dt = 0.0, stage_start = 0.0;
   double easing = 1.0;
+  double load_factor = 0.0, share = 0.0;  // of the stage: at the end of the step, and what the step takes of it
 };
 
 // At a load factor of a stage (0-based), at the end of a step of that share of the stage (0: a state that stands).

@@ -589,15 +589,11 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
         continue;
       }
       path_.path_error = std::max(path_.path_error, error);
-<<<<<<< HEAD
+      force_left_ = step.repeated ? step.iterations.back().force : step.force_left;
       path_.own_tangent = path_.own_tangent || step.finished;
       by_newton_ = 0;
       const bool modified = stage.method == Method::modified_newton && !path_.own_tangent;
       if (modified || (contracts(stage) && !predicts(stage))) renew_tangent();
-=======
-      force_left_ = step.repeated ? step.iterations.back().force : step.force_left;
-      if (stage.method == Method::modified_newton || (contracts(stage) && !predicts(stage))) renew_tangent();
->>>>>>> 30f3f17 (Report S525 only for fields with more than rounding to balance)
       const bool same_K = tangent_.constant() || !tangent_.changed();
       const bool linear = step.iterations.size() == 1 && same_K;
       if (!step.repeated) path_.repeats.take(linear, to - reached, step.iterations.back().force);

@@ -12,6 +12,13 @@ namespace sage::build {
 
 namespace {
 
+// The formulation of a group of that material: sections of beams that may yield have one of their own.
+int for_law(const ElementEntry& entry, const Formulation& named, const Material& material) {
+  const auto yielding = std::ranges::find(entry.formulations, true, &Formulation::yields);
+  const bool linear = std::visit([](const auto& law) { return law == nullptr || law->linear(); }, material.law);
+  return linear || yielding == entry.formulations.end() ? named.code : yielding->code;
+}
+
 std::string formulations_of(const ElementEntry& entry) {
   std::string text;
   for (const Formulation& f : entry.formulations)
@@ -416,7 +423,12 @@ void build_groups(Builder& b) {
                     " is unknown; 0 default, " + formulations_of(*entry));
       } else {
         try {
-          set_element(group, b.catalogue, group.element_code, found->code, b.model.geometry);
+          set_element(
+              group, b.catalogue, group.element_code,
+              material == b.material_index.end()
+                  ? found->code
+                  : for_law(*entry, *found, b.model.materials[static_cast<std::size_t>(group.material)]),
+              b.model.geometry);
         } catch (const ParameterError& error) {
           b.error(error.code(), card.where("element"), name + ": " + error.what());
         }

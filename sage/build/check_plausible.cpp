@@ -13,6 +13,7 @@
 #include "sage/deck/text.hpp"
 #include "sage/mesh/edges.hpp"
 #include "sage/model/activity.hpp"
+#include "sage/model/spread_loads.hpp"
 
 namespace sage::build {
 
@@ -385,6 +386,24 @@ void check_gravity(Builder& b) {
   }
 }
 
+// A plate's weight is its unit weight times its thickness; it was the unit weight alone in earlier versions.
+void check_plate_weights(Builder& b) {
+  const auto acts = [](const Stage& stage) { return !stage.gravity.isZero(0.0); };
+  if (std::ranges::none_of(b.model.stages, acts)) return;
+  std::set<int> done;
+  for (const Group& group : b.model.groups) {
+    const Material& material = b.model.material_of(group);
+    const double thickness = material.parameter(ParameterRole::thickness).value_or(1.0);
+    if (!group.structure() || material.unit_weight == 0.0 || thickness == 1.0) continue;
+    if (!done.insert(group.material).second) continue;
+    b.warning("S350", material.where,
+              "material " + std::to_string(material.number) +
+                  ": the weight of a plate is its unit weight times " + "its thickness, " +
+                  rounded_text(weight_density(b.model, group)) + " " + b.model.units.stress +
+                  "; earlier versions took " + rounded_text(material.unit_weight));
+  }
+}
+
 // What is out of balance by more than this can carry a run past its limit load.
 void check_tolerance(Builder& b, const Stage& stage) {
   constexpr double kLoose = 1e-3;
@@ -475,6 +494,7 @@ void check_plausible(Builder& b) {
     for (const InitialStress& initial : stage.initials) check_initial(b, initial);
   }
   check_gravity(b);
+  check_plate_weights(b);
   check_reports(b, size);
 }
 

@@ -396,6 +396,29 @@ void check_releases(Builder& b) {
     }
 }
 
+// Prestress that the law can't carry: a tension-only anchor that is pushed, a force beyond the strength.
+void check_prestress(Builder& b, const InitialStress& initial) {
+  const Group& group = b.model.groups[static_cast<std::size_t>(initial.group)];
+  if (!group.structure() || initial.kind != InitialKind::uniform) return;
+  const Material& material = b.model.material_of(group);
+  const bool carried = std::visit(
+      [&]<int N>(const Law<N>* law) {
+        Vector<N> sigma = Vector<N>::Zero();
+        for (int i = 0; i < N; ++i) sigma[i] = 0.0 - initial.value[static_cast<std::size_t>(i)];
+        std::vector<double> history;
+        for (const Quantity& quantity : law->history()) history.push_back(quantity.initial);
+        return law->initialise(sigma, history);
+      },
+      material.law_ref());
+  if (carried) return;
+  const double force = initial.value[0];
+  b.error("S351", initial.where,
+          "group " + std::to_string(group.number) + ": " + material.law_name +
+              " can't carry this prestress, an axial " + (force < 0.0 ? "tension of " : "compression of ") +
+              rounded_text(std::abs(force)) + " " + b.model.units.force +
+              "; values are compression positive, for each unit of width");
+}
+
 }  // namespace
 
 void check_structures(Builder& b) {
@@ -403,6 +426,9 @@ void check_structures(Builder& b) {
   check_faces(b);
   check_releases(b);
   check_curved_joints(b);
+  for (const InitialStress& initial : b.model.initials) check_prestress(b, initial);
+  for (const Stage& stage : b.model.stages)
+    for (const InitialStress& initial : stage.initials) check_prestress(b, initial);
 }
 
 void check_held_structures(Builder& b) {

@@ -35,6 +35,7 @@ enum class ParameterRole {
   dilation_angle,  // degrees; of the friction angle before it in the table
   tension_limit,   // stress; -1 = none
   friction_loss,   // degrees by which that friction angle falls when the pressure grows tenfold
+  thickness,       // of a plate, length
 };
 
 struct Parameter {
@@ -117,6 +118,11 @@ struct Formulation {
   std::string summary;
   int points = 0;     // integration points
   bool plain = true;  // every point has its own strain; other programs mean such a one by a number of points
+  // Of a line: f += what a force at xi, between -1 at its first end and 1 at its second, does to the element's dofs.
+  // nullptr: loads between its nodes go to them by the shape functions of its edge.
+  void (*force_at)(const NodeCoordinates& x, double xi, const Vector2& force, std::span<double> f) = nullptr;
+  // Of a beam: taken for laws that are not linear, whichever the card names.
+  bool yields = false;
 };
 
 // What an element is the map of.  Its corners come first among its nodes, in this order.

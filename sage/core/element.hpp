@@ -48,6 +48,10 @@ struct ElementIn {
   // For elements that see them: committed unknowns (dofs), and the time of the step; 0 at a state that stands.
   const double* u0 = nullptr;
   double dt = 0.0;
+  // Of lines whose law is not linear: loads spread along the element, a force a dof, at the end of the step and at the
+  // committed state; nullptr = there are none.
+  const double* spread = nullptr;
+  const double* spread0 = nullptr;
 };
 
 struct ElementOut {

@@ -634,6 +634,21 @@ constexpr MessageEntry kMessages[] = {
      "friction "
      "counts water as grains.",
      "A joint with friction 0 and the undrained adhesion as cohesion; or nothing, where the joint is elastic."},
+    {"S350", "the weight of a plate is its unit weight times its thickness",
+     "Of the law plate the unit weight is a force per volume, as for soil: 25 kN/m^3 and 0.5 m weigh 12.5 "
+     "kN/m^2. "
+     "Earlier versions of sagefe took the unit weight itself as the weight of a unit of area.",
+     "Nothing, where the card gives a force per volume. In a deck of an earlier version, divide the number by "
+     "the "
+     "thickness. Sections state a weight per length and width, bars that of one bar per length "
+     "(docs/manual/structures.md)."},
+    {"S351", "prestress that a structure can't carry",
+     "The initial card gives a force that the law of the bars or beams does not allow: compression in an "
+     "anchor that "
+     "carries tension alone, tension in a strut that carries compression alone, or more than the strength.",
+     "Initial values are compression positive and count for each unit of width: -150/2.5 for anchors that are "
+     "pulled "
+     "with 150 every 2.5. Change the sign, the size or the law."},
     {"S401", "elements of different degree meet",
      "One element has nodes inside the common edge, the other has not: the mesh would gape there.",
      "Give both the same number of nodes an edge; --element quad8 turns all of the mesh."},

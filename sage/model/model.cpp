@@ -25,6 +25,12 @@ void set_element(Group& group, const Catalogue& catalogue, int code, int formula
   group.element_name = group.entry->name + " " + made.name;
 }
 
+const Formulation& Group::formulation_entry() const {
+  const auto& known = entry->formulations;
+  const auto found = std::ranges::find(known, formulation, &Formulation::code);
+  return found == known.end() ? known.front() : *found;
+}
+
 std::optional<double> Material::parameter(ParameterRole role) const {
   const int i = entry == nullptr ? -1 : entry->find(role);
   if (i < 0 || static_cast<std::size_t>(i) >= parameters.size()) return std::nullopt;

@@ -63,6 +63,7 @@ struct Group {
   int elements() const { return static_cast<int>(element_numbers.size()); }
   const int* nodes_of(int e) const { return nodes.data() + static_cast<std::size_t>(e) * node_count(); }
   std::size_t node_count() const { return static_cast<std::size_t>(element->traits().nodes); }
+  const Formulation& formulation_entry() const;
   bool solid() const { return entry->solid(); }
   bool interface() const { return entry->interface(); }
   bool structure() const { return entry->structure(); }

@@ -199,12 +199,15 @@ Overburden::Above Overburden::above(const Vector2& place) const {
 
 PorePressure::PorePressure(const Model& model, int stage, const std::vector<char>& groups, const DofMap& map,
                            const Eigen::VectorXd* unknowns)
-    : model_(&model), groups_(groups), cards_(model.groups.size(), nullptr), nodes_(model.groups.size()) {
-  for (auto& side : beside_) side.assign(model.groups.size(), nullptr);
+    : model_(&model),
+      stage_(stage),
+      groups_(groups),
+      cards_(model.groups.size(), nullptr),
+      nodes_(model.groups.size()) {
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     if (groups[g] && model.groups[g].structure())
       for (const WaterSide side : {WaterSide::left, WaterSide::right})
-        beside_[side == WaterSide::left ? 0 : 1][g] = water_card(model, stage, static_cast<int>(g), side);
+        beside_ = beside_ || water_card(model, stage, static_cast<int>(g), side) != nullptr;
     if (!groups[g] || !model.groups[g].solid()) continue;
     const WaterCard* const card = water_card(model, stage, static_cast<int>(g));
     if (card == nullptr || (card->kind == WaterKind::heads && unknowns == nullptr)) continue;
@@ -218,8 +221,7 @@ PorePressure::PorePressure(const Model& model, int stage, const std::vector<char
 
 bool PorePressure::any() const {
   const auto is_any = [](const WaterCard* card) { return card != nullptr; };
-  return std::ranges::any_of(cards_, is_any) || std::ranges::any_of(beside_[0], is_any) ||
-         std::ranges::any_of(beside_[1], is_any);
+  return beside_ || std::ranges::any_of(cards_, is_any);
 }
 
 void PorePressure::take_nodes(const WaterCard& card, std::size_t group) {
@@ -362,40 +364,68 @@ std::vector<FreeEdge> free_edges(const Model& model, const std::vector<char>& gr
 
 namespace {
 
-// Sides of active joints, from corner to corner, with an active solid behind the other side.
-std::set<std::pair<int, int>> backed_joints(const Model& model, const std::vector<char>& groups,
-                                            const SolidEdges& solids) {
-  std::set<std::pair<int, int>> joints;
-  for (std::size_t g = 0; g < model.groups.size(); ++g) {
-    const Group& group = model.groups[g];
-    if (!groups[g] || !group.interface()) continue;
-    for (int e = 0; e < group.elements(); ++e) {
-      // Its sides go from 1 to 2 and from 3 to 4; what lies behind one has it the other way round.
-      const int* const n = group.nodes_of(e);
-      if (solids.has(n[3], n[2])) joints.emplace(n[0], n[1]);
-      if (solids.has(n[1], n[0])) joints.emplace(n[2], n[3]);
+// Groups of active solids by the sides of elements of structures that they lie on, with or without a joint between.
+class SolidsBeside {
+ public:
+  SolidsBeside(const Model& model, const std::vector<char>& groups) : solids_(edges_of_active(model, groups)) {
+    for (std::size_t g = 0; g < model.groups.size(); ++g) {
+      const Group& group = model.groups[g];
+      if (!groups[g] || !group.interface()) continue;
+      for (int e = 0; e < group.elements(); ++e) {
+        // Its sides go from 1 to 2 and from 3 to 4; what lies behind one has it the other way round.
+        const int* const n = group.nodes_of(e);
+        if (const int behind = touching(n[3], n[2]); behind >= 0) joints_[{n[0], n[1]}] = behind;
+        if (const int behind = touching(n[1], n[0]); behind >= 0) joints_[{n[2], n[3]}] = behind;
+      }
     }
   }
-  return joints;
+
+  // The group on the left of the way from node to node; -1 = there is none.
+  int on(int from, int to) const {
+    if (const int group = touching(from, to); group >= 0) return group;
+    const auto joint = joints_.find({from, to});
+    return joint == joints_.end() ? -1 : joint->second;
+  }
+
+ private:
+  int touching(int from, int to) const {
+    for (const SolidEdge& edge : solids_.at(std::min(from, to)))
+      if (edge.other == std::max(from, to) && edge.reversed == (from > to)) return edge.group;
+    return -1;
+  }
+
+  SolidEdges solids_;
+  std::map<std::pair<int, int>, int> joints_;  // solids behind joints
+};
+
+// Pore pressure stands, or may stand, in solids of the group on the line between two nodes.
+bool is_wet(const Model& model, int stage, int group, int from, int to) {
+  const WaterCard* const card = group < 0 ? nullptr : water_card(model, stage, group);
+  if (card == nullptr || card->kind != WaterKind::line) return card != nullptr;
+  const auto covered = [&](int node) {
+    return water_level(*card, model.mesh.x(0, node)) > model.mesh.x(1, node);
+  };
+  return covered(from) || covered(to);
 }
 
 }  // namespace
 
-std::vector<BesideStructure> structures_beside_water(const Model& model, const std::vector<char>& groups) {
+std::vector<BesideStructure> structures_beside_water(const Model& model, int stage,
+                                                     const std::vector<char>& groups) {
   std::vector<BesideStructure> list;
   bool any = false;
   for (std::size_t g = 0; g < model.groups.size(); ++g) any = any || (groups[g] && model.groups[g].structure());
   if (!any) return list;
-  const SolidEdges solids = edges_of_active(model, groups);
-  const std::set<std::pair<int, int>> joints = backed_joints(model, groups, solids);
-  const auto covered = [&](int from, int to) { return solids.has(from, to) || joints.contains({from, to}); };
+  const SolidsBeside solids(model, groups);
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     const Group& group = model.groups[g];
     if (!groups[g] || !group.structure() || group.element->edges().empty()) continue;
     const std::vector<int>& edge = group.element->edges().front();
     for (int e = 0; e < group.elements(); ++e) {
       const int a = group.nodes_of(e)[edge[0]], b = group.nodes_of(e)[edge[1]];
-      list.push_back({static_cast<int>(g), e, !covered(a, b), !covered(b, a)});
+      const int left = solids.on(a, b), right = solids.on(b, a);
+      list.push_back({static_cast<int>(g), e, left < 0, right < 0,
+                      is_wet(model, stage, left, a, b) || is_wet(model, stage, right, a, b)});
     }
   }
   return list;
@@ -448,6 +478,66 @@ std::vector<double> pieces(const StructureLine& line, const WaterCard& card) {
   std::ranges::sort(at);
   return at;
 }
+
+// f += free water of a card on an element.  sense: 1 pushes to the left of the way from node 1 to node 2.  at_nodes: by
+// the shape functions of the edges of solids beside it.
+void add_free_water(const Model& model, const Group& group, int element, const WaterCard& card, double sense,
+                    bool at_nodes, std::span<double> f) {
+  const GaussRule rule(4);
+  const std::vector<int>& edge = group.element->edges().front();
+  const StructureLine line(model.mesh, group.nodes_of(element), edge);
+  const std::vector<double> ends = pieces(line, card);
+  Eigen::Matrix2Xd x;
+  element_coordinates(model.mesh, group, element, x);
+  const auto force_at = at_nodes ? nullptr : group.formulation_entry().force_at;
+  for (std::size_t piece = 1; piece < ends.size(); ++piece) {
+    const double half = 0.5 * (ends[piece] - ends[piece - 1]);
+    for (std::size_t q = 0; q < rule.x.size(); ++q) {
+      const double xi = ends[piece - 1] + half * (1.0 + rule.x[q]);
+      const Vector2 place = line.at(xi), along = line.along(xi);
+      const double u = model.units.water_unit_weight * (water_level(card, place.x()) - place.y());
+      if (!(u > 0.0)) continue;
+      const Vector2 force =
+          sense * half * rule.w[q] * measure(model, place) * u * Vector2(-along.y(), along.x());
+      if (force_at != nullptr) {
+        force_at(x, xi, force, f);
+        continue;
+      }
+      const Eigen::Vector3d N = line.N(xi);
+      for (std::size_t i = 0; i < std::min<std::size_t>(edge.size(), 3); ++i)
+        Vector2::Map(f.data() + 2 * edge[i]) += N[static_cast<Eigen::Index>(i)] * force;
+    }
+  }
+}
+
+}  // namespace
+
+void water_on_structures(const Model& model, int stage, const std::vector<char>& groups, int only,
+                         const AddWater& add) {
+  const auto card = [&](int group, WaterSide side) { return water_card(model, stage, group, side); };
+  const auto any = [&](int group) {
+    return (only < 0 || group == only) && groups[static_cast<std::size_t>(group)] &&
+           model.groups[static_cast<std::size_t>(group)].structure() &&
+           (card(group, WaterSide::left) != nullptr || card(group, WaterSide::right) != nullptr);
+  };
+  bool wanted = false;
+  for (std::size_t g = 0; g < model.groups.size(); ++g) wanted = wanted || any(static_cast<int>(g));
+  if (!wanted) return;
+  std::vector<double> f;
+  for (const BesideStructure& one : structures_beside_water(model, stage, groups)) {
+    if (!any(one.group)) continue;
+    const WaterCard* const left = one.left ? card(one.group, WaterSide::left) : nullptr;
+    const WaterCard* const right = one.right ? card(one.group, WaterSide::right) : nullptr;
+    if (left == nullptr && right == nullptr) continue;
+    const Group& group = model.groups[static_cast<std::size_t>(one.group)];
+    f.assign(static_cast<std::size_t>(group.element->traits().dofs), 0.0);
+    if (left != nullptr) add_free_water(model, group, one.element, *left, -1.0, one.wet, f);
+    if (right != nullptr) add_free_water(model, group, one.element, *right, 1.0, one.wet, f);
+    add(one.group, one.element, f);
+  }
+}
+
+namespace {
 
 // The force of water, put together.
 class WaterForce {
@@ -601,20 +691,14 @@ class WaterForce {
   }
 
   void add_structures() {
-    const auto any = [&](std::size_t g) {
-      return water_.card(g, WaterSide::left) != nullptr || water_.card(g, WaterSide::right) != nullptr;
+    std::vector<int> dofs;
+    const auto add = [&](int g, int element, std::span<const double> f) {
+      const Group& group = model_.groups[static_cast<std::size_t>(g)];
+      activity_.dof_map.list(group, element, dofs);
+      for (std::size_t i = 0; i < dofs.size(); ++i) force_[dofs[i]] += f[i];
+      take_back_behind(group, element);
     };
-    bool wanted = false;
-    for (std::size_t g = 0; g < model_.groups.size(); ++g) wanted = wanted || any(g);
-    if (!wanted) return;
-    for (const BesideStructure& one : structures_beside_water(model_, activity_.group)) {
-      const auto g = static_cast<std::size_t>(one.group);
-      const WaterCard* const left = one.left ? water_.card(g, WaterSide::left) : nullptr;
-      const WaterCard* const right = one.right ? water_.card(g, WaterSide::right) : nullptr;
-      if (left != nullptr) add_structure(model_.groups[g], one.element, *left, -1.0);
-      if (right != nullptr) add_structure(model_.groups[g], one.element, *right, 1.0);
-      if (left != nullptr || right != nullptr) take_back_behind(model_.groups[g], one.element);
-    }
+    water_on_structures(model_, water_.stage(), activity_.group, -1, add);
   }
 
   // Seepage force has water at the edge that carries the structure; what the card says of its other side stands in its
@@ -626,30 +710,6 @@ class WaterForce {
     if (behind == in_forces_.end()) return;
     press_edge(behind->second, -1.0, nullptr);
     in_forces_.erase(behind);
-  }
-
-  // sense: 1 pushes to the left of the way from node 1 to node 2.  The shape functions are those of the edges of solids
-  // beside it, so that water on both sides, in the soil and free, adds up to nothing at each node.
-  void add_structure(const Group& group, int element, const WaterCard& card, double sense) {
-    const GaussRule rule(4);
-    const std::vector<int>& edge = group.element->edges().front();
-    const int* const nodes = group.nodes_of(element);
-    const StructureLine line(model_.mesh, nodes, edge);
-    const std::vector<double> ends = pieces(line, card);
-    for (std::size_t piece = 1; piece < ends.size(); ++piece) {
-      const double half = 0.5 * (ends[piece] - ends[piece - 1]);
-      for (std::size_t q = 0; q < rule.x.size(); ++q) {
-        const double xi = ends[piece - 1] + half * (1.0 + rule.x[q]);
-        const Vector2 place = line.at(xi), along = line.along(xi);
-        const double u = model_.units.water_unit_weight * (water_level(card, place.x()) - place.y());
-        if (!(u > 0.0)) continue;
-        const Vector2 f =
-            sense * half * rule.w[q] * measure(model_, place) * u * Vector2(-along.y(), along.x());
-        const Eigen::Vector3d N = line.N(xi);
-        for (std::size_t i = 0; i < std::min<std::size_t>(edge.size(), 3); ++i)
-          at(nodes[edge[i]]) += N[static_cast<Eigen::Index>(i)] * f;
-      }
-    }
   }
 
   Eigen::VectorBlock<Eigen::VectorXd, 2> at(int node) { return force_.segment<2>(DofMap::displacement(node)); }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "sage/model/activity.hpp"
@@ -30,10 +32,7 @@ class PorePressure {
   bool any() const;
   // nullptr where the group is dry, no solid or not active.
   const WaterCard* card(std::size_t group) const { return cards_[group]; }
-  // The same of a group of structures, on one side of them.
-  const WaterCard* card(std::size_t group, WaterSide side) const {
-    return beside_[side == WaterSide::left ? 0 : 1][group];
-  }
+  int stage() const { return stage_; }
 
   // At a place of an element, with its shape functions there.
   double at(std::size_t group, int element, const Vector2& place, std::span<const double> N) const;
@@ -50,9 +49,10 @@ class PorePressure {
   void fill_middles(std::size_t group);
 
   const Model* model_;
+  int stage_;
   std::vector<char> groups_;
   std::vector<const WaterCard*> cards_;
-  std::array<std::vector<const WaterCard*>, 2> beside_;  // left and right of structures
+  bool beside_ = false;                     // free water stands on structures
   std::vector<std::vector<double>> nodes_;  // by group: u of every node of the mesh, of cards about nodes
   std::shared_ptr<const class Overburden> overburden_;
 };
@@ -87,12 +87,20 @@ double water_level(const WaterCard& card, double x);
 Eigen::VectorXd water_force(const Model& model, const Activity& activity, const PorePressure& water);
 
 // An edge of an active structure, and on which sides neither an active solid nor a joint to one lies: water can stand
-// there.
+// there.  wet: pore pressure stands in a solid that lies on one.
 struct BesideStructure {
   int group = 0, element = 0;
-  bool left = true, right = true;
+  bool left = true, right = true, wet = false;
 };
-std::vector<BesideStructure> structures_beside_water(const Model& model, const std::vector<char>& groups);
+std::vector<BesideStructure> structures_beside_water(const Model& model, int stage,
+                                                     const std::vector<char>& groups);
+
+// add(group, element, f): free water on the sides of active structures at the end of a stage, of one group or of all
+// (-1); f: a force a dof.  It is spread along the element, as a pressure on its edge is.  Where wet soil lies on the
+// other side, whose water acts at the nodes alone, so does the free one: equal water on both sides adds up to nothing.
+using AddWater = std::function<void(int group, int element, std::span<const double> f)>;
+void water_on_structures(const Model& model, int stage, const std::vector<char>& groups, int group,
+                         const AddWater& add);
 
 // Edges of active solids that no other active solid shares, by group, element and edge.
 struct FreeEdge {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sage/core/spaced.hpp"
+#include "sage/model/spread_loads.hpp"
 
 namespace sage {
 
@@ -13,68 +13,18 @@ namespace {
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 constexpr double kOnAxis = 1e-9;  // of the largest radius of an element
 
-// Loads spread along the elements of a group, at a state: for each element a force a dof.
-class SpreadLoads {
- public:
-  SpreadLoads(const Model& model, const Solution& solution, std::size_t group)
-      : model_(model),
-        group_(model.groups[group]),
-        dofs_(static_cast<std::size_t>(group_.element->traits().dofs)) {
-    if (solution.stage < 0) return;
-    add_until(solution.stage - 1, group, 1.0 - solution.load_factor);
-    add_until(solution.stage, group, solution.load_factor);
-  }
-
-  // Empty: there are none.
-  std::span<const double> of(int element) const {
-    return loads_.empty() ? std::span<const double>()
-                          : std::span(loads_).subspan(static_cast<std::size_t>(element) * dofs_, dofs_);
-  }
-
- private:
-  // What acts at the end of stage `last`, times a factor.
-  void add_until(int last, std::size_t group, double factor) {
-    if (last < 0 || factor == 0.0) return;
-    const int index = static_cast<int>(group);
-    const auto listed = [&](const std::vector<int>& list) { return std::ranges::count(list, index) > 0; };
-    bool active = std::ranges::none_of(model_.stages, [&](const Stage& stage) { return listed(stage.births); });
-    std::vector<const EdgeLoad*> edges;
-    Vector2 gravity = Vector2::Zero();
-    for (int s = 0; s <= last; ++s) {
-      const Stage& stage = model_.stages[static_cast<std::size_t>(s)];
-      active = (active || listed(stage.births)) && !listed(stage.deaths);
-      gravity += stage.gravity;
-      for (const EdgeLoad& load : stage.pressures)
-        if (active && load.group == index) edges.push_back(&load);
-    }
-    if (!active) return;
-    for (const EdgeLoad* load : edges)
-      add(load->element, factor, [&](const Eigen::Matrix2Xd& x, std::span<double> f) {
-        group_.element->edge_load(x, load->edge, load->normal, load->shear, f);
-      });
-    const Vector2 weight = gravity * model_.material_of(group_).unit_weight;
-    if (weight.isZero(0.0)) return;
-    for (int e = 0; e < group_.elements(); ++e)
-      add(e, factor,
-          [&](const Eigen::Matrix2Xd& x, std::span<double> f) { group_.element->body_load(x, weight, f); });
-  }
-
-  template <class Load>
-  void add(int element, double factor, const Load& load) {
-    if (loads_.empty()) loads_.assign(static_cast<std::size_t>(group_.elements()) * dofs_, 0.0);
-    element_coordinates(model_.mesh, group_, element, x_);
-    one_.assign(dofs_, 0.0);
-    load(x_, one_);
-    for (std::size_t i = 0; i < dofs_; ++i)
-      loads_[static_cast<std::size_t>(element) * dofs_ + i] += factor * one_[i];
-  }
-
-  const Model& model_;
-  const Group& group_;
-  std::size_t dofs_;
-  std::vector<double> loads_, one_;
-  Eigen::Matrix2Xd x_;
-};
+// Loads spread along the elements of a group, at a state: a force a dof, element after element; empty: there are none.
+std::vector<double> spread_at(const Model& model, const Solution& solution, std::size_t group) {
+  if (solution.stage < 0) return {};
+  std::vector<double> end = spread_loads(model, solution.stage, group);
+  const double part = solution.load_factor;
+  if (part == 1.0) return end;
+  const std::vector<double> start = spread_loads(model, solution.stage - 1, group);
+  end.resize(std::max(end.size(), start.size()), 0.0);
+  for (std::size_t i = 0; i < end.size(); ++i)
+    end[i] = part * end[i] + (start.empty() ? 0.0 : (1.0 - part) * start[i]);
+  return end;
+}
 
 // Unit vector along the line at an end, from node 1 to node 2; the line through three nodes is a parabola.
 Vector2 along_at(const Eigen::Matrix2Xd& x, int end) {
@@ -124,12 +74,15 @@ class EndReader {
         data_(solution.groups()[group]),
         group_(*data_.group),
         traits_(group_.element->traits()),
-        loads_(model, solution, group),
+        loads_(spread_at(model, solution, group)),
         geometry_(static_cast<std::size_t>(traits_.geometry_size())),
         force_(static_cast<std::size_t>(traits_.dofs)),
-        sigma_(static_cast<std::size_t>(traits_.law_size)) {
-    if (const auto* one = std::get_if<const Law<1>*>(&data_.law))
-      if (const auto* spaced = dynamic_cast<const Spaced*>(*one)) spacing_ = spaced->spacing();
+        sigma_(static_cast<std::size_t>(traits_.law_size)),
+        spacing_(spacing_of(data_.law)) {
+    const auto points = static_cast<std::size_t>(traits_.points);
+    stress_.resize(2 * points * sigma_.size());
+    history_.resize(points * history_of(data_.law).size());
+    status_.resize(points);
   }
 
   void read(int element, std::vector<ElementEnd>& ends) {
@@ -158,9 +111,31 @@ class EndReader {
            static_cast<std::size_t>(element * traits_.points + point) * sigma_.size();
   }
 
-  // sum w B^T sigma less the loads along the element.
-  void node_forces(int element) {
-    group_.element->geometry(x_, geometry_);
+  // Of sections that may yield: what the element itself makes of its state and the loads along it.
+  bool evaluate(int element) {
+    if (!sees_spread_loads(group_, data_.law) || wants_context(data_.law)) return false;
+    const auto e = static_cast<std::size_t>(element);
+    const StateStore& state = data_.state;
+    ElementIn in;
+    in.geometry = geometry_.data();
+    const std::vector<double> none(force_.size(), 0.0);
+    in.du = none.data();
+    in.law = data_.law;
+    in.sigma0 = sigma_at(element, 0);
+    in.eps0 = state.committed.eps.data() + e * stress_.size() / 2;
+    in.h0 = state.committed.h.data() + e * history_.size();
+    in.spread = in.spread0 = loads_.empty() ? none.data() : loads_.data() + e * force_.size();
+    ElementOut out;
+    out.f = force_.data();
+    out.sigma1 = stress_.data();
+    out.eps1 = stress_.data() + stress_.size() / 2;
+    out.h1 = history_.data();
+    out.status = status_.data();
+    return group_.element->evaluate(in, out) == Outcome::ok;
+  }
+
+  // sum w B^T sigma.
+  void sum_points(int element) {
     std::ranges::fill(force_, 0.0);
     const std::size_t n = force_.size(), size = sigma_.size();
     const double* block = geometry_.data();
@@ -169,8 +144,15 @@ class EndReader {
       for (std::size_t c = 0; c < size; ++c)
         for (std::size_t i = 0; i < n; ++i) force_[i] += *block * sigma[c] * block[1 + c * n + i];
     }
-    const std::span<const double> load = loads_.of(element);
-    for (std::size_t i = 0; i < load.size(); ++i) force_[i] -= load[i];
+  }
+
+  // Internal forces less the loads along the element.
+  void node_forces(int element) {
+    group_.element->geometry(x_, geometry_);
+    if (!evaluate(element)) sum_points(element);
+    if (loads_.empty()) return;
+    for (std::size_t i = 0; i < force_.size(); ++i)
+      force_[i] -= loads_[static_cast<std::size_t>(element) * force_.size() + i];
   }
 
   // What the points say of a node.
@@ -208,9 +190,10 @@ class EndReader {
   const GroupData& data_;
   const Group& group_;
   const ElementTraits& traits_;
-  SpreadLoads loads_;
-  std::vector<double> geometry_, force_, sigma_;
-  double spacing_ = 1.0;
+  std::vector<double> loads_, geometry_, force_, sigma_;
+  double spacing_;
+  std::vector<double> stress_, history_;  // room for what an element makes of its state
+  std::vector<PointStatus> status_;
   Eigen::Matrix2Xd x_;
 };
 

@@ -12,7 +12,7 @@ namespace sage::scenes {
 
 // Codes of the catalogue.
 inline constexpr int kInterface4 = 11, kInterface6 = 12, kBar2 = 31, kRing1 = 34, kBeam2 = 35, kBeam3 = 36;
-inline constexpr int kGoodman = 21, kAxial = 31, kPlate = 35, kSection = 36;
+inline constexpr int kGoodman = 21, kAxial = 31, kPlate = 35, kSection = 36, kSectionPlastic = 37;
 // Rows of a beam's results.
 inline constexpr int kAxialForce = 0, kHoopForce = 1, kShearForce = 2, kMoment = 3;
 

@@ -609,39 +609,151 @@ void sphere_edge(Record& record) {
   }
 }
 
+// M_p = 10 and N_p of a section with EA = 1e6 and EI = 1e3; 0: no limit.
+constexpr double kMp = 10.0, kStrong = 100.0;
+std::vector<double> yielding(double axial_strength = 0.0) {
+  return {1e6, 1e3, axial_strength, kMp, 1e9};
+}
+
+// The largest |M| at ends and middles of elements, and within them, where a parabola goes through the three.
+struct LargestMoment {
+  double at_points = 0.0, within = 0.0;
+
+  explicit LargestMoment(const PointStresses& stress) {
+    for (Eigen::Index e = 0; e + 2 < stress.cols(); e += 3) {
+      const double a = stress(kMoment, e), b = stress(kMoment, e + 1), c = stress(kMoment, e + 2);
+      const double bend = a - 2.0 * b + c, slope = 0.5 * (c - a), xi = bend != 0.0 ? -slope / bend : 2.0;
+      at_points = std::max({at_points, std::abs(a), std::abs(b), std::abs(c)});
+      if (std::abs(xi) <= 1.0) within = std::max(within, std::abs(b + 0.5 * slope * xi));
+    }
+    within = std::max(within, at_points);
+  }
+};
+
+// A node is pushed until a mechanism forms, in one direction; what that takes.
+double collapse_force(Record& record, DeckWriter deck, int node, int component, double by,
+                      const std::string& what, double exact, std::size_t groups = 1) {
+  StageCards& stage = deck.stage(12);
+  stage.fix(node, component == 0 ? 1 : 0, component, component == 0 ? by : 0.0, component == 1 ? by : 0.0);
+  const WholeRun run = record.run(deck);
+  const double force = run.reaction(node)[component];
+  record.near(Where::plane_strain, what, force, exact, 1e-9);
+  for (std::size_t g = 0; g < groups; ++g)
+    record.near(Where::plane_strain, "largest moment, " + what,
+                std::max(LargestMoment(run.stress[g]).within, kMp), kMp, 1e-11);
+  return force;
+}
+
+// Frames that collapse by hinges of plasticity where forces act: two elements a member.
+void plastic_frames(Record& record) {
+  const double L = 4.0;
+  for (const int code : {kBeam2, kBeam3}) {
+    const std::string name = code == kBeam2 ? ", beam2" : ", beam3";
+    BeamRow cantilever(1, code, 2, {0.0, 0.0}, {0.8 * L, 0.6 * L}, kSectionPlastic, yielding());
+    cantilever.clamp(1);
+    collapse_force(record, cantilever.deck, cantilever.last(), 1, 3.0, "cantilever, force at its tip" + name,
+                   kMp / (0.8 * L));
+    BeamRow propped(1, code, 2, {0.0, 0.0}, {L, 0.0}, kSectionPlastic, yielding());
+    propped.clamp(1);
+    propped.deck.fix(propped.last(), 0, 1);
+    collapse_force(record, propped.deck, propped.node(1), 1, -1.0,
+                   "propped cantilever, force in the middle" + name, -6.0 * kMp / L);
+    for (const double N : {-0.8, -0.5, 0.5, 0.8}) {
+      BeamRow row(1, code, 2, {0.0, 0.0}, {L, 0.0}, kSectionPlastic, yielding(kStrong));
+      row.clamp(1);
+      row.deck.stage().load(row.last(), N * kStrong, 0.0);
+      StageCards& stage = row.deck.stage(12);
+      stage.fix(row.last(), 0, 1, 0.0, 1.0);
+      const WholeRun run = record.run(row.deck);
+      record.near(Where::plane_strain, fmt::format("moment of a cantilever under N = {} N_p{}", N, name),
+                  run.reaction(row.last()).y() * L, (1.0 - N * N) * kMp, 1e-9);
+    }
+  }
+  // Columns 3 high, a beam of 4, feet clamped: sway, then with a load of 15 in the middle of the beam.
+  for (const double load : {0.0, 15.0}) {
+    BeamRow row(1, kBeam2, 6, {0.0, 0.0}, {1.0, 0.0}, kSectionPlastic, yielding());
+    row.deck.nodes.clear();
+    const Vector2 at[] = {{0.0, 0.0}, {0.0, 1.5}, {0.0, 3.0}, {2.0, 3.0}, {4.0, 3.0}, {4.0, 1.5}, {4.0, 0.0}};
+    for (int i = 0; i < 7; ++i) row.deck.node(i + 1, at[i].x(), at[i].y());
+    row.clamp(1);
+    row.clamp(7);
+    row.deck.stage().load(4, 0.0, -load);
+    collapse_force(record, row.deck, 3, 0, 1.0,
+                   load == 0.0 ? "portal that sways" : "portal that sways, loaded beam",
+                   load == 0.0 ? 4.0 * kMp / 3.0 : (6.0 * kMp - 2.0 * load) / 3.0);
+  }
+}
+
+// An even load moves the hinge within a member to 0.586 of its length from the clamp: q = 11.657 M_p/L^2.  A triangle of
+// water, largest at the clamp, makes q L^2/6 there, also where elements take an uneven part of it.
+void plastic_loads(Record& record) {
+  const double L = 4.0;
+  BeamRow propped(1, kBeam2, 8, {0.0, 0.0}, {L, 0.0}, kSectionPlastic, yielding());
+  propped.clamp(1);
+  propped.deck.fix(propped.last(), 0, 1);
+  StageCards& stage = propped.deck.stage(16);
+  const double q = 12.0 * kMp / (L * L);
+  for (int e = 0; e < 8; ++e) stage.pressure(e + 1, 1, -q, -q);
+  const WholeRun run = record.try_run(propped.deck);
+  record.near(Where::plane_strain, "propped cantilever under an even load, q L^2/M_p, 8 elements",
+              printed_bracket(run).from * 12.0, 6.0 + 4.0 * std::sqrt(2.0), 1e-2);
+  const LargestMoment largest(run.stress[0]);
+  record.near(Where::plane_strain, "largest moment at ends and middles", largest.at_points, kMp, 1e-9);
+  record.near(Where::plane_strain, "largest moment within elements", largest.within, kMp, 1e-2);
+  for (const int n : {1, 2}) {
+    BeamRow row(1, kBeam2, n, {0.0, 0.0}, {L, 0.0}, kSectionPlastic, yielding());
+    row.clamp(1);
+    StageCards& loads = row.deck.stage(8);
+    const double all = 1.25 * 6.0 * kMp / (L * L);
+    for (int e = 0; e < n; ++e) loads.pressure(e + 1, 1, all * (n - e) / n, all * (n - e - 1) / n);
+    const WholeRun fails = record.try_run(row.deck);
+    record.near(Where::plane_strain,
+                fmt::format("cantilever under a triangle of load, share of q L^2/6, {} element(s)", n),
+                printed_bracket(fails).from * 1.25, 1.0, 2e-3);
+    record.near(Where::plane_strain, "moment at its clamp", std::abs(fails.stress[0](kMoment, 0)), kMp, 2e-3);
+  }
+}
+
 }  // namespace
 
 Section structure_cases() {
   const std::string by_hand = "Timoshenko 1921", order = "order of convergence";
-  return {"Beams and shells",
-          {{"structures.cantilever", "cantilever of plates and of strips, one element as eight", by_hand,
-            Grade::exact, "rounding times the condition number", cantilever},
-           {"structures.slender", "cantilever of L/h = 1e4: no locking", by_hand, Grade::exact,
-            "rounding times the condition number, 1e10", slender},
-           {"structures.propped_wall", "wall under a triangle of pressure, propped, its prop rigid or a spring",
-            "force method", Grade::exact, "exact at nodes: rounding", propped},
-           {"structures.hetenyi", "beam with free ends on springs (interface elements)", "Hetenyi 1946",
-            Grade::exact, order, hetenyi},
-           {"structures.hetenyi_long", "infinite and semi-infinite beam on springs, with and without shear",
-            "Hetenyi 1946; roots of the differential equation", Grade::exact, order, hetenyi_long},
-           {"structures.composite", "two beams one on the other that slip along an elastic joint",
-            "Newmark 1951", Grade::exact, order, composite},
-           {"structures.ring", "ring in infinite ground, bonded and slipping, overpressure and excavation",
-            "Michell's solution, modes 0 and 2 (Burns and Richard 1964; Einstein and Schwartz 1979)",
-            Grade::exact, order, ring},
-           {"structures.plates", "circular plates under pressure, from the axis on, with shear",
-            "Timoshenko and Woinowsky-Krieger 1959", Grade::exact, order, plates},
-           {"structures.tank", "wall of a cylindrical tank, base clamped, top free",
-            "Timoshenko and Woinowsky-Krieger 1959, in 30 digits; with shear the differential equation",
-            Grade::exact, order, tank},
-           {"structures.edge_loads", "cylinder under a force or a moment around its edge",
-            "Timoshenko and Woinowsky-Krieger 1959; with shear the differential equation", Grade::exact, order,
-            edge_loads},
-           {"structures.sphere", "sphere under pressure inside", "membrane theory", Grade::exact, order,
-            spherical_shell},
-           {"structures.sphere_edge", "sphere clamped at its equator, with an opening: bending at its edges",
-            "equations of the shell by Chebyshev collocation, against Geckeler 1926", Grade::computed, order,
-            sphere_edge}}};
+  return {
+      "Beams and shells",
+      {{"structures.cantilever", "cantilever of plates and of strips, one element as eight", by_hand,
+        Grade::exact, "rounding times the condition number", cantilever},
+       {"structures.slender", "cantilever of L/h = 1e4: no locking", by_hand, Grade::exact,
+        "rounding times the condition number, 1e10", slender},
+       {"structures.plastic_frames", "cantilevers and a portal that collapse; axial force and moment together",
+        "theorems of plastic collapse; |M|/M_p + (N/N_p)^2 = 1", Grade::exact,
+        "exact: yield at the elements' ends, where moments are", plastic_frames},
+       {"structures.plastic_loads", "collapse under loads along the elements",
+        "theorems of plastic collapse: q = (6 + 4 sqrt 2) M_p/L^2", Grade::exact,
+        "the hinge within a member stands at the nearest end or middle of an element", plastic_loads},
+       {"structures.propped_wall", "wall under a triangle of pressure, propped, its prop rigid or a spring",
+        "force method", Grade::exact, "exact at nodes: rounding", propped},
+       {"structures.hetenyi", "beam with free ends on springs (interface elements)", "Hetenyi 1946",
+        Grade::exact, order, hetenyi},
+       {"structures.hetenyi_long", "infinite and semi-infinite beam on springs, with and without shear",
+        "Hetenyi 1946; roots of the differential equation", Grade::exact, order, hetenyi_long},
+       {"structures.composite", "two beams one on the other that slip along an elastic joint", "Newmark 1951",
+        Grade::exact, order, composite},
+       {"structures.ring", "ring in infinite ground, bonded and slipping, overpressure and excavation",
+        "Michell's solution, modes 0 and 2 (Burns and Richard 1964; Einstein and Schwartz 1979)", Grade::exact,
+        order, ring},
+       {"structures.plates", "circular plates under pressure, from the axis on, with shear",
+        "Timoshenko and Woinowsky-Krieger 1959", Grade::exact, order, plates},
+       {"structures.tank", "wall of a cylindrical tank, base clamped, top free",
+        "Timoshenko and Woinowsky-Krieger 1959, in 30 digits; with shear the differential equation",
+        Grade::exact, order, tank},
+       {"structures.edge_loads", "cylinder under a force or a moment around its edge",
+        "Timoshenko and Woinowsky-Krieger 1959; with shear the differential equation", Grade::exact, order,
+        edge_loads},
+       {"structures.sphere", "sphere under pressure inside", "membrane theory", Grade::exact, order,
+        spherical_shell},
+       {"structures.sphere_edge", "sphere clamped at its equator, with an opening: bending at its edges",
+        "equations of the shell by Chebyshev collocation, against Geckeler 1926", Grade::computed, order,
+        sphere_edge}}};
 }
 
 }  // namespace sage::verify
