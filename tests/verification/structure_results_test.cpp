@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kBar2 = 31, kBeam2 = 35, kBeam3 = 36, kPinned2 = 51, kPinned3 = 52, kAxialRelease2 = 53,
               kAxialRelease3 = 54, kShearRelease2 = 55, kShearRelease3 = 56;
-constexpr int kAxial = 31, kSection = 36, kGoodman = 21;
+constexpr int kAxial = 31, kPlateLaw = 35, kSection = 36, kPlasticLaw = 37, kGoodman = 21;
 constexpr double kEI = 1e4, kGA = 4e5;
 
 std::string held(int node, const std::string& unknown = "rotation") {
@@ -55,6 +55,18 @@ struct Kept {
 void clamp(DeckWriter& deck, int node) {
   deck.fix(node, 1, 1);
   deck.fixities.push_back(held(node));
+}
+
+// What the build says of a deck.
+std::string refusal(const DeckWriter& deck) {
+  try {
+    const Model model = bench().build(deck.text());
+    std::string words;
+    for (const Diagnostic& d : model.diagnostics.list()) words += to_string(d) + "\n";
+    return words;
+  } catch (const InputError& error) {
+    return error.what();
+  }
 }
 
 // Elements of a group in a row from node 1 to node n + 1, those of three nodes with others in the middle, along
@@ -120,6 +132,97 @@ TEST(EndForces, BalanceTheWeight) {
     EXPECT_NEAR(ends[1].value[kShearForce], across, 1e-9);
     for (const ElementEnd& end : ends) EXPECT_NEAR(end.value[kBendingMoment], 0.0, 1e-8);
   }
+}
+
+// A plate of 25 kN/m^3 and 0.5 m over 4 m: q L^2/8 = 25 in the middle, and a warning for those who meant 12.5 kN/m^3.  Of
+// bars 2 apart each has half the weight of one for a unit of width.
+TEST(EndForces, PlatesWeighByTheirThicknessAndBarsByTheirSpacing) {
+  DeckWriter deck(1);
+  for (int i = 0; i < 3; ++i) deck.node(i + 1, 2.0 * i, 0.0);
+  deck.material(1, kPlateLaw, {3e7, 0.2, 0.5, 1.0}, 25.0);
+  deck.group(1, kBeam2, 0, 1);
+  for (int i = 0; i < 2; ++i) deck.element(i + 1, 1, {i + 1, i + 2});
+  deck.fix(1, 1, 1);
+  deck.fix(3, 0, 1);
+  deck.stage().gravity_y = -1.0;
+  const Kept kept(deck);
+  ASSERT_TRUE(kept.completed());
+  EXPECT_NEAR(kept.ends(0)[1].value[kBendingMoment], 25.0, 1e-9);
+  EXPECT_NE(refusal(deck).find("times its thickness, 12.5 kPa; earlier versions took 25 [S350]"),
+            std::string::npos)
+      << refusal(deck);
+  deck.materials.clear();
+  deck.material(1, kPlateLaw, {3e7, 0.2, 1.0, 1.0}, 25.0);
+  EXPECT_EQ(refusal(deck).find("S350"), std::string::npos) << "a metre thick it means the same";
+
+  DeckWriter bars(1);
+  bars.node(1, 0.0, 0.0);
+  bars.node(2, 3.0, 0.0);
+  bars.material(1, kAxial, {1e5, 2.0}, 5.0);
+  bars.group(1, kBar2, 0, 1);
+  bars.element(1, 1, {1, 2});
+  bars.fix(1, 1, 1);
+  bars.fix(2, 0, 1);
+  bars.stage().gravity_y = -1.0;
+  const WholeRun run = bench().run(bars.text());
+  EXPECT_NEAR(run.reaction(1).y(), 5.0 / 2.0 * 3.0 / 2.0, 1e-12);
+}
+
+// A beam that is pulled along its line has no moments but rounding: they are none to warn of.
+TEST(EndForces, MomentsOfZeroLoseNoDigits) {
+  for (const int law : {kSection, kPlasticLaw}) {
+    DeckWriter deck(1);
+    for (int i = 0; i < 4; ++i) deck.node(i + 1, 1.3 * i, 0.7 * i);
+    deck.material(1, law, law == kSection ? std::vector{1e6, kEI, kGA} : std::vector{1e6, kEI, 0.0, 10.0, kGA});
+    deck.group(1, kBeam2, 0, 1);
+    for (int i = 0; i < 3; ++i) deck.element(i + 1, 1, {i + 1, i + 2});
+    clamp(deck, 1);
+    deck.stage(3).load(4, 3.9, 2.1);
+    const WholeRun run = bench().run(deck.text());
+    ASSERT_TRUE(run.completed()) << run.failure;
+    EXPECT_FALSE(run.warns("no correction improves it")) << law;
+  }
+}
+
+// Prestress that the law can't carry stops before the run; what it can is in the listing of its stage.
+TEST(StructureChecks, PrestressThatTheLawCannotCarry) {
+  const auto anchored = [](int law, const std::vector<double>& parameters, double force) {
+    DeckWriter deck(1);
+    deck.node(1, 0.0, 0.0);
+    deck.node(2, 5.0, 0.0);
+    deck.material(1, law, parameters);
+    deck.group(1, kBar2, 0, 1);
+    deck.element(1, 1, {1, 2});
+    deck.fix(1, 1, 1);
+    deck.fix(2, 1, 1);
+    deck.initial(1, 0, force);
+    deck.stage();
+    return deck;
+  };
+  constexpr int kOneWay = 32, kAxialPlastic = 33;
+  const auto wrong = [&](int law, const std::vector<double>& parameters, double force) {
+    return refusal(anchored(law, parameters, force)).find("S351") != std::string::npos;
+  };
+  EXPECT_TRUE(wrong(kOneWay, {1e5, 1.0}, 40.0)) << "a pushed anchor";
+  EXPECT_FALSE(wrong(kOneWay, {1e5, 1.0}, -40.0));
+  EXPECT_TRUE(wrong(kOneWay, {1e5, -1.0}, -40.0)) << "a pulled strut";
+  EXPECT_FALSE(wrong(kOneWay, {1e5, -1.0}, 40.0));
+  EXPECT_TRUE(wrong(kAxialPlastic, {1e5, 30.0, 10.0, 1.0}, -40.0)) << "beyond its strength";
+  EXPECT_FALSE(wrong(kAxialPlastic, {1e5, 50.0, 10.0, 1.0}, -40.0));
+  EXPECT_NE(refusal(anchored(kOneWay, {1e5, 1.0}, 40.0)).find("an axial compression of 40 kN"),
+            std::string::npos);
+
+  const std::filesystem::path folder = scratch_folder("prestress");
+  std::ofstream(folder / "deck.dat") << anchored(kOneWay, {1e5, 1.0}, -40.0).text();
+  app::RunRequest request;
+  request.deck = (folder / "deck.dat").string();
+  request.quiet = true;
+  request.stem = "deck";
+  request.output.folder = folder;
+  ASSERT_EQ(app::run_deck(request, app::full_catalogue()).exit_code, app::kOk);
+  std::ifstream in(folder / "deck.lst");
+  const std::string listing(std::istreambuf_iterator<char>(in), {});
+  EXPECT_NE(listing.find("prestress, group 1: axial force -40\n"), std::string::npos) << listing;
 }
 
 // A wall with soil on one side, sharing its nodes, and a strut: what the ends of the elements at a node do to it is
@@ -369,17 +472,6 @@ TEST(Releases, PinnedBeamsHaveNoMomentAtTheirEnds) {
     for (const ElementEnd& end : ends) EXPECT_NEAR(end.value[kBendingMoment], 0.0, 1e-8);
     EXPECT_NEAR(ends[0].value[kShearForce], 6.0, 1e-8);
     EXPECT_NEAR(ends[1].value[kShearForce], -6.0, 1e-8);
-  }
-}
-
-std::string refusal(const DeckWriter& deck) {
-  try {
-    const Model model = bench().build(deck.text());
-    std::string words;
-    for (const Diagnostic& d : model.diagnostics.list()) words += to_string(d) + "\n";
-    return words;
-  } catch (const InputError& error) {
-    return error.what();
   }
 }
 

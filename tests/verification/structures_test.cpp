@@ -232,12 +232,12 @@ TEST(Structures, ATieDoesNotPush) {
 
 // Clamped at both ends under an even load the beam fails at q = 16 M_p/L^2.
 TEST(Structures, ABeamFailsAtItsPlasticLoad) {
-  for (const double share : {0.97, 1.03}) {
-    DeckWriter deck = cantilever(64, 4.0, kPlastic, {1e6, 1e4, 0.0, 30.0});
-    deck.fix(65, 1, 1);
-    deck.fixities.push_back(held(65));
+  for (const double share : {0.999, 1.001}) {
+    DeckWriter deck = cantilever(8, 4.0, kPlastic, {1e6, 1e4, 0.0, 30.0});
+    deck.fix(9, 1, 1);
+    deck.fixities.push_back(held(9));
     StageCards& stage = deck.stage(10);
-    for (int e = 1; e <= 64; ++e) stage.pressure(e, 1, -share * 30.0, -share * 30.0);
+    for (int e = 1; e <= 8; ++e) stage.pressure(e, 1, -share * 30.0, -share * 30.0);
     EXPECT_EQ(run_text(deck.text()).completed(), share < 1.0);
   }
 }

@@ -11,6 +11,7 @@
 #include "sage/analysis/observer.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/exchange/convert.hpp"
+#include "sage/record/end_forces.hpp"
 #include "sage/record/field_reader.hpp"
 #include "sage/safety/safety.hpp"
 #include "tests/support/run_text.hpp"
@@ -57,6 +58,15 @@ Block sloping(Cell cell) {
 double difference(const WholeRun& a, const WholeRun& b) {
   return (a.last().u - b.last().u).cwiseAbs().maxCoeff() / b.largest_u();
 }
+
+// Forces at the ends of the first group's elements, at the end.
+class Ends final : public Observer {
+ public:
+  void on_increment(const Model& model, const StepReport&, const Solution& now) override {
+    ends = element_ends(model, now, 0);
+  }
+  std::vector<ElementEnd> ends;
+};
 
 // Fields of the points at the end of every increment.
 class Fields final : public Observer {
@@ -459,6 +469,9 @@ TEST(Water, WallsInOpenWaterBearWhatStandsOnBothSides) {
           thrust += f.x();
           up += f.y();
           moment += f.x() * run.position(node).y();
+          const int turn =
+              DofMap(*run.model).of(run.index(node), find_unknown(run.model->unknowns, "rotation"));
+          moment -= run.last().external[turn];  // counter-clockwise, as a push to the right far up is clockwise
         }
         const double around = geometry == 2 ? 2.0 * std::numbers::pi * 2.0 : 1.0;
         EXPECT_NEAR(thrust / around, 0.5 * kWater * (5.3 * 5.3 - 2.2 * 2.2), 1e-9);
@@ -468,6 +481,100 @@ TEST(Water, WallsInOpenWaterBearWhatStandsOnBothSides) {
           EXPECT_NEAR(run.reaction(1).x(), -thrust, 1e-8);
         }
       }
+}
+
+// A pile in open water, clamped at y = 0, 6 high on its left and 2.5 on its right: gamma_w (h^2 - k^2)/2 and gamma_w
+// (h^3 - k^3)/6 at its foot, whatever the elements are, levels within them; ends that slide have their part too.
+TEST(Water, BaseShearAndMomentOfAWallInWaterDoNotDependOnTheMesh) {
+  for (const int geometry : {1, 2})
+    for (const int n : {1, 3, 4, 12}) {
+      DeckWriter deck(geometry);
+      std::vector<int> row;
+      for (int i = 0; i <= n; ++i) {
+        deck.node(i + 1, 3.0, 8.0 * i / n);
+        row.push_back(i + 1);
+      }
+      deck.material(1, 36, {1e12, 1e5, 1e12});
+      deck.group(1, 35, 0, 1);
+      add_wall(deck, 1, row, 1, 1);
+      deck.fix(1, 1, 1);
+      deck.fixities.push_back("    1    0    0    1    0" + std::string(20, ' ') + "rotation");
+      deck.stage();
+      deck.water(1, 1, 1, 0, {0.0, 6.0}, 1.0);
+      deck.water(1, 1, 1, 0, {0.0, 2.5}, -1.0);
+      Ends reader;
+      Observer* const observers[] = {&reader};
+      const WholeRun run = bench().run(bench().build(deck.text()), {}, observers);
+      ASSERT_TRUE(run.completed()) << run.failure;
+      const ElementEnd& foot = reader.ends.front();
+      EXPECT_NEAR(std::abs(foot.value[kShearForce]), 0.5 * kWater * (36.0 - 6.25), 1e-8) << n;
+      EXPECT_NEAR(std::abs(foot.value[kBendingMoment]), kWater / 6.0 * (216.0 - 15.625), 1e-8) << n;
+    }
+}
+
+// A long casing with rings as stiff as the water's thrust asks for moves evenly: no moment where the pressure is linear.
+TEST(Water, AThinCasingHasNoFalseMoments) {
+  constexpr int n = 8;
+  DeckWriter deck(2);
+  std::vector<int> row;
+  for (int i = 0; i <= n; ++i) {
+    deck.node(i + 1, 2.0, static_cast<double>(i));
+    row.push_back(i + 1);
+  }
+  deck.material(1, 36, {1e6, 1.0, 1e6, 1e6});  // hoop stiffness: u_r = p r^2/EA, linear along z
+  deck.group(1, 35, 0, 1);
+  add_wall(deck, 1, row, 1, 1);
+  deck.fix(1, 0, 1);
+  deck.stage();
+  deck.water(1, 1, 1, 0, {0.0, 8.0}, 1.0);
+  Ends reader;
+  Observer* const observers[] = {&reader};
+  const WholeRun run = bench().run(bench().build(deck.text()), {}, observers);
+  ASSERT_TRUE(run.completed()) << run.failure;
+  for (const ElementEnd& end : reader.ends) {
+    EXPECT_NEAR(end.value[kBendingMoment], 0.0, 1e-6 * kWater * 8.0);
+    EXPECT_NEAR(end.value[kShearForce], 0.0, 1e-6 * kWater * 8.0);
+  }
+}
+
+// Ground under 4 of water, a slab on it that its card of water loads, or does not: u is more than what lies above, unless
+// the slab weighs enough.
+TEST(Water, UpliftOfGroundBelowAStructure) {
+  const auto uplift = [](double slab_weight, double water_on_slab, double pressure) {
+    Block block;
+    block.columns = 2;
+    block.rows = 4;
+    block.cell = Cell::quad4;
+    block.place = rectangle(0.0, 2.0, -10.0, -4.0);
+    DeckWriter deck(1);
+    block.write_nodes(deck);
+    deck.material(1, 1, {2e4, 0.3}, 19.0);
+    deck.material(2, kPlateLaw, {1e7, 0.2, 0.5, 1.0}, slab_weight);
+    deck.group(1, 1, 0, 1);
+    deck.group(2, 35, 0, 2);
+    block.write_elements(deck, 1);
+    add_wall(deck, 2, block.top(), 1, 101);
+    for (const int node : block.bottom()) deck.fix(node, 1, 1);
+    StageCards& stage = deck.stage();
+    stage.gravity_y = -1.0;
+    if (pressure != 0.0)
+      for (const int element : {101, 102}) stage.pressure(element, 1, -pressure, -pressure);
+    deck.water(1, 1, 1, 0, {0.0, 0.0});
+    if (water_on_slab > 0.0) deck.water(1, 2, 1, 0, {0.0, water_on_slab - 4.0}, 1.0);
+    const Model model = bench().build(deck.text());
+    std::string words;
+    for (const Diagnostic& d : model.diagnostics.list())
+      if (to_string(d.code) == "S340") words += d.message;
+    return words;
+  };
+  EXPECT_NE(uplift(0.0, 0.0, 0.0).find("stage 1: uplift"), std::string::npos);
+  // The uppermost points, 0.317 below the slab: 9.81 * 4.317 - 19 * 0.317 = 36.33 of the slab are enough.
+  const double point = 0.75 * (1.0 - 1.0 / std::sqrt(3.0)), wanted = kWater * (4.0 + point) - 19.0 * point;
+  EXPECT_NE(uplift(1.98 * wanted, 0.0, 0.0), "");
+  EXPECT_EQ(uplift(2.02 * wanted, 0.0, 0.0), "") << "half a metre of it";
+  EXPECT_NE(uplift(0.0, 0.0, 0.99 * wanted), "");
+  EXPECT_EQ(uplift(0.0, 0.0, 1.01 * wanted), "") << "loads on the slab count";
+  EXPECT_EQ(uplift(0.0, 4.0, 0.0), "") << "free water on it up to the same level";
 }
 
 // A closed pipe under water is lifted by the weight of the water that it keeps out.
