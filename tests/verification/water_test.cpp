@@ -568,8 +568,8 @@ TEST(Water, UpliftOfGroundBelowAStructure) {
     return words;
   };
   EXPECT_NE(uplift(0.0, 0.0, 0.0).find("stage 1: uplift"), std::string::npos);
-  // The uppermost points, 0.317 below the slab: 9.81 * 4.317 - 19 * 0.317 = 36.33 of the slab are enough.
-  const double point = 0.75 * (1.0 - 1.0 / std::sqrt(3.0)), wanted = kWater * (4.0 + point) - 19.0 * point;
+  // The first points of the uppermost elements, 1.183 below the slab: 9.81 * 5.183 - 19 * 1.183 = 28.37 of the slab are enough.
+  const double point = 0.75 * (1.0 + 1.0 / std::sqrt(3.0)), wanted = kWater * (4.0 + point) - 19.0 * point;
   EXPECT_NE(uplift(1.98 * wanted, 0.0, 0.0), "");
   EXPECT_EQ(uplift(2.02 * wanted, 0.0, 0.0), "") << "half a metre of it";
   EXPECT_NE(uplift(0.0, 0.0, 0.99 * wanted), "");
