@@ -13,6 +13,11 @@ namespace sage {
 
 namespace {
 
+template <int N>
+void initialise(const Law<N>& law, const double* sigma, std::span<double> h) {
+  law.initialise(Eigen::Map<const Vector<N>>(sigma), h);
+}
+
 // Dofs and fields of elements with unknowns of their own.
 void list_dofs(GroupData& data, const DofMap& dof_map) {
   if (data.group->entry->unknowns.empty()) return;
@@ -36,6 +41,27 @@ void mark_moved(GroupData& data, const Eigen::VectorXd& rate) {
     for (std::size_t i = 0; i < dofs.size(); ++i)
       if (rate[dofs[i]] != 0.0) data.moved[e] = 1;
   }
+}
+
+// Interfaces pressed by their mean pressure, structures without force.
+void make_elastic(GroupData& data) {
+  PointStates& states = data.state.committed;
+  const auto history = static_cast<std::size_t>(data.state.history_size());
+  const auto size = static_cast<std::size_t>(data.state.law_size());
+  double pressure = 0.0;
+  for (std::size_t p = 0; data.group->interface() && p < states.status.size(); ++p)
+    pressure += std::abs(states.sigma[p * size + 1]) / static_cast<double>(states.status.size());
+  std::ranges::fill(states.sigma, 0.0);
+  std::visit(
+      [&](const auto* law) {
+        const std::span<const Quantity> names = law->history();
+        for (std::size_t p = 0; p < states.status.size(); ++p) {
+          if (data.group->interface()) states.sigma[p * size + 1] = pressure > 0.0 ? -pressure : -1.0;
+          for (std::size_t i = 0; i < history; ++i) states.h[p * history + i] = names[i].initial;
+          initialise(*law, states.sigma.data() + p * size, {states.h.data() + p * history, history});
+        }
+      },
+      data.law);
 }
 
 bool all_finite(const FieldSums& values) {
@@ -244,6 +270,17 @@ Outcome Assembly::evaluate(const Eigen::VectorXd& du, Tangent* tangent) {
   }
   if (tangent != nullptr) tangent->settle(outcome);
   return outcome;
+}
+
+void Assembly::take_elastic(Tangent& tangent) {
+  std::vector<PointStates> committed;
+  for (GroupData& data : groups_) {
+    committed.push_back(data.state.committed);
+    if (data.active && !data.constant && !data.group->solid() && !data.group->flow()) make_elastic(data);
+  }
+  tangent.begin_elastic();
+  tangent.end_elastic(evaluate(Eigen::VectorXd::Zero(dof_map_.dofs()), &tangent));
+  for (std::size_t g = 0; g < groups_.size(); ++g) std::swap(groups_[g].state.committed, committed[g]);
 }
 
 // The force scale of the constant region is that of the last whole evaluation.

@@ -89,6 +89,9 @@ class Assembly {
   // Internal forces at committed state + du.  With a tangent, K too.  While a condensed region is behind, its forces are
   // those of its border in the step in hand.
   Outcome evaluate(const Eigen::VectorXd& du, Tangent* tangent);
+  // Takes the elastic matrices of damped corrections (Tangent::damp): solids at the committed state, interfaces closed
+  // and stuck, structures without force.
+  void take_elastic(Tangent& tangent);
   // Law::path_error of the trial states, the mean over all points by the work of their stress increments.
   double path_error() const;
   // Trial states become committed; du as in the evaluation before.

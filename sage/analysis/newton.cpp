@@ -7,6 +7,7 @@
 #include "sage/analysis/acceleration.hpp"
 #include "sage/analysis/by_field.hpp"
 #include "sage/analysis/contraction.hpp"
+#include "sage/analysis/creep.hpp"
 #include "sage/analysis/dogleg.hpp"
 #include "sage/analysis/repeats.hpp"
 
@@ -43,6 +44,9 @@ class Step {
   NewtonStep& iterate_with_line_search();
   NewtonStep& polished();
   NewtonStep& iterate_with_dogleg();
+  NewtonStep& iterate_damped();
+  bool evaluate_or_halve();
+  double damping_growth(const Eigen::VectorXd& old_residual, double old_norm) const;
   bool record_iteration();
   IterationRecord measure_whole();
   Outcome evaluate(bool with_K);
@@ -106,6 +110,7 @@ class Step {
   bool K_is_here_ = false;  // the last pass made it
   double slope_ = 0.0, step_length_ = 1.0;
   double best_ = std::numeric_limits<double>::infinity();  // smallest residual_size() so far
+  double damping_ = 1.0;  // share of the elastic stiffness
   NewtonStep result_;
 };
 
@@ -124,9 +129,11 @@ void Step::form_residual() {
 
 // The run is largest while it factorises: room for the correction comes behind it.
 void Step::correct() {
+  if (settings_.damped) tangent_.damp(damping_);
   tangent_.factorise(work_);
   correction_.resize(assembly_.equations());
   tangent_.solve(residual_, correction_, work_);
+  if (settings_.damped) tangent_.forget();
 }
 
 void Step::move(double factor) {
@@ -493,6 +500,7 @@ void Step::find_worst() {
 }
 
 constexpr double kLoose = 1e-6;  // tolerance above which a kept tangent alone ends no step
+constexpr double kLeastDamping = 1e-13;
 constexpr double kAccept = 0.8;  // of the slope at the start
 
 // Crisfield's criterion on the slope correction . residual: the full step is kept while it is below 0.8 of the
@@ -580,6 +588,7 @@ NewtonStep Step::solve(const Eigen::VectorXd& rate) {
   result_.iterations.reserve(static_cast<std::size_t>(settings_.max_iterations));
   if (settings_.repeat > 0.0 && repeats()) return result_;
   if (!predict(rate)) return result_;
+  if (settings_.damped) return iterate_damped();
   return settings_.method == Method::dogleg ? iterate_with_dogleg() : iterate_with_line_search();
 }
 
@@ -689,6 +698,56 @@ NewtonStep& Step::iterate_with_dogleg() {
   }
   result_.outcome = StepOutcome::not_converged;
   return result_;
+}
+
+// The elastic stiffness is above every tangent: corrections held back by all of it lead towards equilibrium where Newton's
+// own jump to and fro between states of joints, or find a matrix without stiffness in a direction.  Its share falls as
+// long as corrections go on in one direction, so that they end as Newton's; what nothing holds runs away with it.  It
+// grows where the residual grows by half, or turns while a correction goes too far.
+NewtonStep& Step::iterate_damped() {
+  Creep creep(*settings_.of_solids, settings_.size);
+  creep.take(du_, residual_size());
+  slope_ = work_left();
+  for (int i = 1; i <= settings_.max_iterations; ++i) {
+    const double old_norm = residual_size();
+    const Eigen::VectorXd old_residual = residual_;
+    if (!evaluate_or_halve()) return result_;
+    form_residual();
+    if (i > 1) damping_ *= damping_growth(old_residual, old_norm);
+    damping_ = std::clamp(damping_, kLeastDamping, 1.0);
+    creep.take(du_, residual_size());
+    result_.flows = hopeless() || creep.flows();
+    if (!result_.flows && record_iteration()) return result_;
+    if (result_.flows || creep.is_shaken() || i == settings_.max_iterations) break;
+    correct();
+    take_energy(correction_);
+    slope_ = work_left();
+    move(1.0);
+  }
+  result_.spares_ground = creep.spares_ground();
+  result_.outcome = StepOutcome::not_converged;
+  return result_;
+}
+
+double Step::damping_growth(const Eigen::VectorXd& old_residual, double old_norm) const {
+  constexpr double kSlower = 0.7, kGrows = 1.5, kJump = 4.0, kBeyond = 0.5, kStays = 0.95, kTurned = 0.9;
+  const double norm = residual_size(), ratio = old_norm > 0.0 ? norm / old_norm : 1.0;
+  const bool turned = residual_.dot(old_residual) < kTurned * residual_.norm() * old_residual.norm();
+  const bool beyond = work_left() < -kBeyond * slope_;
+  if (beyond && turned && ratio > kStays) return kJump;
+  return ratio > kGrows ? std::min(ratio, kJump) : std::min(ratio, kSlower);
+}
+
+// A law may have no answer so far away.
+bool Step::evaluate_or_halve() {
+  constexpr int kTrials = 6;
+  step_length_ = 1.0;
+  for (int trial = 0; evaluate(true) == Outcome::cut_step; ++trial) {
+    if (trial == kTrials) return false;
+    move(-0.5 * step_length_);
+    step_length_ *= 0.5;
+  }
+  return true;
 }
 
 }  // namespace

@@ -67,6 +67,8 @@ struct StepReport {
   // After a failure: stiffness along the motion, as a share of the largest in the stage; negative = not known.
   double stiffness_share = -1.0;
   bool converged = true;
+  // After a failure of the last attempt: the ground moved on and on, and nothing but what hangs on joints did.
+  bool flows = false, spares_ground = false;
   int cuts = 0;  // halvings needed within this increment
   int substeps = 1;
   std::vector<IterationRecord> iterations;  // of the last substep

@@ -25,6 +25,8 @@ enum class StateSide { committed, trial };
 
 // Attempts of a trial, of so many iterations each at most.
 constexpr int kMostAttempts = 3;
+// Damped iterations of an attempt, at least.
+constexpr int kDamped = 200;
 
 constexpr double kWaterBalance = 1e-11;
 constexpr int kManyHeads = 20000;
@@ -59,6 +61,7 @@ class Run {
   void start_states(int s, const Activity& activity, const std::vector<InitialStress>& initials, bool drainage);
   void begin_water(int s, const PorePressure* water);
   void set_water(double reached);
+  void find_solids();
   void evaluate_start();
   void prepare_stage(int s);
   void begin_stage(int s);
@@ -68,7 +71,11 @@ class Run {
   void set_moment(double load_factor, double share);
   void show(const StepReport& report, double reached) const;
   bool run_increment(const Stage& stage, StepReport& report, double& reached);
-  NewtonStep attempt(const Stage& stage, double from, double to, bool from_here = false);
+  enum class Begin { committed, here, damped };
+  NewtonStep attempt(const Stage& stage, double from, double to, Begin begin = Begin::committed);
+  bool can_damp(const NewtonStep& step) const;
+  NewtonStep attempt_damped(const Stage& stage, StepReport& report, double from, double to,
+                            const NewtonStep& failed);
   NewtonStep attempt_with_exits(const Stage& stage, double from, double to);
   NewtonStep settle_exits(const Stage& stage, double from, double to, bool from_here);
   NewtonStep settle_free_surface(const Stage& stage, double from, double to);
@@ -130,6 +137,8 @@ class Run {
   // With a condensed region that is behind filled in, for observers; no entries: nobody looks.
   Eigen::VectorXd shown_u_, shown_force_;
   int max_cuts_;
+  std::vector<char> of_solids_;  // by dof: some solid of the stage has it
+  bool has_walls_ = false;       // interfaces or structures
   bool water_alone_ = false;  // flow is all that there is
   double easing_ = 1.0;       // of laws of water, on the way to a free surface
   // Of a trial: what it comes to, and where it began.
@@ -203,6 +212,19 @@ void Run::begin_water(int s, const PorePressure* water) {
   set_water(0.0);
 }
 
+// Whose dofs move the ground.
+void Run::find_solids() {
+  of_solids_.assign(static_cast<std::size_t>(assembly_.dof_map().displacements()), 0);
+  has_walls_ = false;
+  for (const GroupData& data : assembly_.groups()) {
+    if (!data.active) continue;
+    has_walls_ = has_walls_ || data.group->interface() || data.group->structure();
+    if (!data.group->solid()) continue;
+    for (const int node : data.group->nodes)
+      for (int c = 0; c < 2; ++c) of_solids_[static_cast<std::size_t>(DofMap::displacement(node, c))] = 1;
+  }
+}
+
 void Run::set_water(double reached) {
   for (std::size_t g = 0; g < path_.pore_end.size(); ++g) {
     std::vector<double>& now = assembly_.groups()[g].pore;
@@ -253,9 +275,11 @@ void Run::prepare_stage(int s) {
   const Profile::Scope scope(profile(), phase::kStart);
   start_new_nodes();
   system_.open_stage(s);
+  find_solids();
   start_states(s, system_.activity(), model_.stages[static_cast<std::size_t>(s)].initials, true);
   state_.du.setZero();
   path_.repeats.forget();
+  on_last_way_ = false;
   place_ = {s, 0};
   reached_ = 0.0;
   path_.prediction = {};
@@ -306,8 +330,8 @@ bool Run::goes_on(const Stage& stage, double size) const {
   return path_.prediction.due() && predicts(stage) && !path_.repeats.due(size);
 }
 
-// from_here: state_.du is near the answer, but for what is prescribed.
-NewtonStep Run::attempt(const Stage& stage, double from, double to, bool from_here) {
+// here: state_.du is near the answer, but for what is prescribed.
+NewtonStep Run::attempt(const Stage& stage, double from, double to, Begin begin) {
   target_ = (1.0 - to) * path_.force_start + to * path_.force_end;
   set_moment(to, to - from);
   constexpr int kShort = 50;
@@ -317,8 +341,17 @@ NewtonStep Run::attempt(const Stage& stage, double from, double to, bool from_he
     newton.tolerance *= 0.01;
     newton.max_iterations = std::min(newton.max_iterations, kShort);
   }
-  if (from_here) newton.start = NewtonStart::nearby;
-  if (!from_here && goes_on(stage, to - from)) {
+  newton.pulse = settings_.pulse;
+  newton.committed = &state_.u;
+  newton.unknowns = &model_.unknowns;
+  newton.size = extent_.size();
+  if (begin != Begin::committed) newton.start = NewtonStart::nearby;
+  if (begin == Begin::damped) {
+    newton.damped = true;
+    newton.of_solids = &of_solids_;
+    newton.max_iterations = std::max(kDamped, 5 * stage.max_iterations);
+  }
+  if (begin == Begin::committed && goes_on(stage, to - from)) {
     newton.start = NewtonStart::last_way;
     state_.du *= (to - from) / path_.last_size;
   }
@@ -327,16 +360,44 @@ NewtonStep Run::attempt(const Stage& stage, double from, double to, bool from_he
     newton.tolerance = std::min(stage.tolerance, kWaterBalance);
     newton.refine = assembly_.equations() >= kManyHeads;
   }
-  if (can_repeat(stage, to - from)) newton.repeat = path_.repeats.limit(newton.tolerance, tangent_.constant());
-  newton.contract = contracts(stage);
-  newton.pulse = settings_.pulse;
-  newton.stop_at_flow = settings_.trials != nullptr;
-  newton.committed = &state_.u;
-  newton.unknowns = &model_.unknowns;
-  newton.size = extent_.size();
+  if (begin != Begin::damped) {
+    if (can_repeat(stage, to - from)) newton.repeat = path_.repeats.limit(newton.tolerance, tangent_.constant());
+    newton.contract = contracts(stage);
+    newton.stop_at_flow = settings_.trials != nullptr;
+  }
   if (path_.u_start.size() > 0) newton.so_far = {from, &path_.u_start, &state_.u};
   const Profile::Scope scope(profile(), phase::kIteration);
   return newton_step(assembly_, tangent_, target_, system_.rate(), to - from, newton, result_.work, state_.du);
+}
+
+// Whether a step that failed is tried once more with damped corrections.  Walls in joints lose their hold in single
+// iterations, without a limit of the ground.
+bool Run::can_damp(const NewtonStep& step) const {
+  if (step.outcome == StepOutcome::converged || tangent_.linear() || assembly_.condensation() != nullptr ||
+      assembly_.dof_map().displacements() == 0)
+    return false;
+  // These are tried again otherwise first.
+  if (step.finished || by_newton_ == 1 || (step.outcome == StepOutcome::singular && on_last_way_)) return false;
+  if (settings_.trials != nullptr) return has_walls_ || !step.flows;
+  return has_walls_;
+}
+
+// failed: Newton's attempt at the same step.
+NewtonStep Run::attempt_damped(const Stage& stage, StepReport& report, double from, double to,
+                               const NewtonStep& failed) {
+  report.total_iterations += static_cast<int>(failed.iterations.size());
+  path_.repeats.forget();
+  path_.prediction.forget();
+  on_last_way_ = false;
+  assembly_.drop_step();
+  state_.du.setZero();
+  set_moment(from, 0.0);
+  if (!tangent_.has_elastic()) assembly_.take_elastic(tangent_);
+  tangent_.forget();
+  if (!tangent_.has_elastic()) return failed;
+  const NewtonStep step = attempt(stage, from, to, Begin::damped);
+  const bool says_more = step.outcome == StepOutcome::converged || settings_.trials != nullptr;
+  return says_more ? step : failed;
 }
 
 NewtonStep Run::attempt_with_exits(const Stage& stage, double from, double to) {
@@ -352,7 +413,7 @@ NewtonStep Run::settle_exits(const Stage& stage, double from, double to, bool fr
   constexpr int kMostRounds = 50;
   std::vector<IterationRecord> iterations;  // of a free surface, all
   for (int round = 0; round < kMostRounds; ++round) {
-    NewtonStep step = attempt(stage, from, to, from_here);
+    NewtonStep step = attempt(stage, from, to, from_here ? Begin::here : Begin::committed);
     if (assembly_.eases()) {
       iterations.insert(iterations.end(), step.iterations.begin(), step.iterations.end());
       step.iterations = iterations;
@@ -568,13 +629,17 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
   const double end = static_cast<double>(report.increment) / report.increments;
   const double whole = 1.0 / report.increments;
   double size = end - reached;
+  int iterations = 0;  // of Newton's attempts
   report.substeps = 0;
   place_ = {report.stage, report.increment};
   while (reached < end) {
     const double to = size >= end - reached - 1e-12 * whole ? end : reached + size;
     show(report, reached);
     const bool went_on = goes_on(stage, to - reached);
-    const NewtonStep step = attempt_with_exits(stage, reached, to);
+    NewtonStep step = attempt_with_exits(stage, reached, to);
+    iterations += static_cast<int>(step.iterations.size());
+    const bool last_cut = to - reached < 1.001 * std::ldexp(whole, -max_cuts_);
+    if (!went_on && can_damp(step)) step = attempt_damped(stage, report, reached, to, step);
     report.iterations = step.iterations;
     report.total_iterations += static_cast<int>(step.iterations.size());
     report.worst = step.worst;
@@ -613,9 +678,8 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
     report.points = assembly_.count_points();
     report.failed_at = to;  // beyond `reached`, which may have passed an earlier failure
     const bool given_up =
-        trial_ != nullptr && (step.flows || report.total_iterations >= kMostAttempts * stage.max_iterations);
-    const bool shortest = given_up || to - reached < 1.001 * std::ldexp(whole, -max_cuts_);
-    if (shortest || tangent_.linear()) {
+        trial_ != nullptr && (step.flows || iterations >= kMostAttempts * stage.max_iterations);
+    if (given_up || last_cut || tangent_.linear()) {
       report.stiffness_share = stiffness_share(reached, to, step);
       return fail(report, step);
     }
@@ -628,9 +692,10 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
 
 bool Run::fail(StepReport& report, const NewtonStep& step) {
   report.converged = false;
+  report.flows = step.flows || (step.outcome == StepOutcome::singular && !tangent_.has_elastic());
+  report.spares_ground = step.spares_ground;
   if (trial_ != nullptr) {
     trial_->outcome = step.outcome;
-    trial_->flows = step.flows;
     trial_->reason = step.outcome == StepOutcome::singular
                          ? explain_singular(model_, system_.activity(), assembly_, report, step)
                          : explain_failure(model_, assembly_, report, step);
@@ -744,6 +809,7 @@ void Run::end_stage(int s, double last_force) {
         model_.stages[static_cast<std::size_t>(s)],
         {result_.motion, sums.out_of_balance, system_.digits(), path_.path_error, path_.loose_part, last_force},
         assembly_));
+    warn(gradient_warnings(model_, model_.stages[static_cast<std::size_t>(s)], system_.activity()));
     warn(free_surface_warnings(model_, model_.stages[static_cast<std::size_t>(s)], assembly_));
     if (settings_.stream_function)
       warn(stream_warnings(model_, model_.stages[static_cast<std::size_t>(s)], solution()));

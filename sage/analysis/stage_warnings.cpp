@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sage/analysis/explain.hpp"
+#include "sage/analysis/flow_through.hpp"
 #include "sage/analysis/free_surface.hpp"
 #include "sage/analysis/stream_function.hpp"
 #include "sage/analysis/uniqueness.hpp"
@@ -98,6 +99,20 @@ std::vector<Diagnostic> free_surface_warnings(const Model& model, const Stage& s
   if (blur.dry_flow > kMuchDry)
     messages.add("S538",
                  short_number(100.0 * blur.dry_flow) + " % of the flow goes through soil that should be dry");
+  return std::move(messages).list();
+}
+
+std::vector<Diagnostic> gradient_warnings(const Model& model, const Stage& stage, const Activity& activity) {
+  Messages messages(stage);
+  for (std::size_t i = 0; i < model.reports.size(); ++i) {
+    const Report& report = model.reports[i];
+    if (report.kind != ReportKind::discharge) continue;
+    const std::vector<int> corners = unbounded_corners(model, activity, report.nodes);
+    if (corners.empty()) continue;
+    messages.add("S542", "report " + std::to_string(i + 1) + ": the gradient across the line has no bound at node " +
+                             std::to_string(model.mesh.number[static_cast<std::size_t>(corners.front())]) +
+                             ", where the edge of the flow makes a corner: it is left blank");
+  }
   return std::move(messages).list();
 }
 

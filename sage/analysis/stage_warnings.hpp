@@ -30,6 +30,9 @@ struct StageFindings {
 // Answers about a free surface that depend on how it is smoothed.
 std::vector<Diagnostic> free_surface_warnings(const Model& model, const Stage& stage, const Assembly& assembly);
 
+// Reports of lines whose largest gradient has no bound.
+std::vector<Diagnostic> gradient_warnings(const Model& model, const Stage& stage, const Activity& activity);
+
 // Where the flow has no stream function, and why.
 std::vector<Diagnostic> stream_warnings(const Model& model, const Stage& stage, const Solution& solution);
 

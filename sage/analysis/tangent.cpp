@@ -30,6 +30,12 @@ void Tangent::analyse(std::unique_ptr<LinearSolver> solver, const std::string& n
   solver_ = std::move(solver);
   name_ = name;
   if (constant_) solver_->expect_one_factorisation();
+  elastic_.clear();
+  elastic_from_.assign(1, 0);
+  for (int e = 0; e < elements.count(); ++e) {
+    const std::size_t dofs = elements.of(e).size();
+    elastic_from_.push_back(elastic_from_.back() + dofs * dofs);
+  }
   solver_->analyse(equations, std::move(elements));
 }
 
@@ -45,8 +51,36 @@ void Tangent::clear() {
 }
 
 void Tangent::add(int element, const ElementDofs& dofs, const double* K) {
-  solver_->add(element, K);
+  add(element, K);
   couple(dofs, K);
+}
+
+void Tangent::begin_elastic() {
+  forget();
+  elastic_.assign(elastic_from_.back(), 0.0);
+  takes_elastic_ = true;
+}
+
+void Tangent::end_elastic(Outcome pass) {
+  takes_elastic_ = false;
+  if (pass == Outcome::cut_step) elastic_.clear();
+  forget();
+}
+
+void Tangent::keep_elastic(int element, const double* K) {
+  const auto e = static_cast<std::size_t>(element);
+  std::copy_n(K, elastic_from_[e + 1] - elastic_from_[e], elastic_.data() + elastic_from_[e]);
+}
+
+void Tangent::damp(double share) {
+  std::vector<double> scaled;
+  for (std::size_t e = 0; e + 1 < elastic_from_.size(); ++e) {
+    scaled.assign(elastic_.data() + elastic_from_[e], elastic_.data() + elastic_from_[e + 1]);
+    for (double& term : scaled) term *= share;
+    solver_->add(static_cast<int>(e), scaled.data());
+  }
+  forget_sizes();
+  state_ = State::current;
 }
 
 void Tangent::couple(const ElementDofs& dofs, const double* K) {

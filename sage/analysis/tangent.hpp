@@ -64,9 +64,17 @@ class Tangent {
   // From within: the element's matrix, column-major.
   void add(int element, const ElementDofs& dofs, const double* K);
   // The same where none of its dofs is prescribed.
-  void add(int element, const double* K) { solver_->add(element, K); }
+  void add(int element, const double* K) {
+    solver_->add(element, K);
+    if (takes_elastic_) keep_elastic(element, K);
+  }
   // LinearSolver::add_part of many; couple() is then for those with prescribed dofs.
-  void add_part(const ElementMatrices& some, int part, int parts) { solver_->add_part(some, part, parts); }
+  void add_part(const ElementMatrices& some, int part, int parts) {
+    solver_->add_part(some, part, parts);
+    if (takes_elastic_ && part == 0)
+      for (int e = 0; e < some.count; ++e)
+        keep_elastic(some.first + e, some.K + static_cast<std::size_t>(e) * some.size);
+  }
   void couple(const ElementDofs& dofs, const double* K);
   void differs() { changed_ = true; }
   // After it: whether the forces of the same pass are numbers.  K of a pass that failed serves nobody.
@@ -78,6 +86,13 @@ class Tangent {
   void factorise(WorkCounters& work);
   // Needs factors.
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, WorkCounters& work) const;
+
+  // The element matrices of the next assembly are those of damp(), until the pattern changes; then K serves nobody.
+  void begin_elastic();
+  void end_elastic(Outcome pass);
+  bool has_elastic() const { return !elastic_.empty() && !takes_elastic_; }
+  // Adds that share of them to the K of the last assembly.  It serves one correction; then forget().
+  void damp(double share);
 
   // Sizes of K, kept while it stands; they need an assembly.
   // Of the solver: the largest column sum of |K|, negative = not known.
@@ -91,6 +106,7 @@ class Tangent {
  private:
   void clear();
   void forget_sizes();
+  void keep_elastic(int element, const double* K);
 
   bool linear_, constant_;
   State state_ = State::empty;
@@ -100,6 +116,9 @@ class Tangent {
   int equations_ = 0;
   const Eigen::VectorXd* rate_ = nullptr;
   Eigen::VectorXd coupling_;
+  bool takes_elastic_ = false;
+  std::vector<double> elastic_;            // matrices of all elements, one after the other; empty = not known
+  std::vector<std::size_t> elastic_from_;  // of each element, and the end
   mutable std::optional<double> norm1_;
   mutable std::vector<double> sizes_;  // coupling_of() all fields, column by column
 };

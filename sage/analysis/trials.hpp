@@ -15,7 +15,6 @@ struct TrialResult {
   // Of the last attempt.
   StepOutcome outcome = StepOutcome::not_converged;
   StepReport report;   // load_factor: share of what the new laws no longer carry that was let go in equilibrium
-  bool flows = false;  // given up because corrections only brought more of all stress out of balance
   std::string reason;  // without equilibrium: a page for a person
   Eigen::VectorXd
       motion;  // since the start of the trial, every dof: at its end, or where the last attempt stood

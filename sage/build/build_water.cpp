@@ -130,9 +130,13 @@ void refuse_unread(Builder& b, const CardView& card, bool structure) {
   };
   if (card.integer("listed") > 0 && !among({1, 3}))
     refuse("listed", "values listed", "a phreatic line (kind 1) and pressures at nodes (kind 3) do");
-  if (card.real("value1") != 0.0 && !among({2, 5, kStored}) && !structure)
+  if (kind == 1 && !structure && card.real("value1") != 0.0 && card.real("value1") != 1.0)
+    b.error("S248", card.where("value1"),
+            "value 1 of a phreatic line is 0 (all of the vertical depth counts) or 1 (cos^2 of the line's slope)");
+  if (card.real("value1") != 0.0 && !among({1, 2, 5, kStored}) && !structure)
     refuse("value1", "value 1",
-           "r_u, the bulk of water and the stage of an earlier run stand there, and sides of beams");
+           "r_u, the rule of a phreatic line, the bulk of water and the stage of an earlier run stand there, and "
+           "sides of beams");
   if (card.real("value2") != 0.0 && !among({5}))
     refuse("value2", "value 2", "an undrained Poisson's ratio (kind 5) stands there");
 }
@@ -324,6 +328,24 @@ void warn_of_water_cards(Builder& b) {
   }
 }
 
+// Which rule the pressures below a sloping line follow: the two differ.
+void note_rule_of_line(Builder& b, const WaterCard& card) {
+  constexpr double kSlopes = 0.1;  // 1 % of the pressure
+  double steepest = 0.0;
+  for (std::size_t i = 1; i < card.line.size(); ++i) {
+    const Vector2 way = card.line[i] - card.line[i - 1];
+    steepest = std::max(steepest, std::abs(way.y() / way.x()));
+  }
+  if (!(steepest > kSlopes)) return;
+  const double share = 1.0 / (1.0 + steepest * steepest);
+  b.note("S541", card.where,
+         std::string("pore pressure below the phreatic line: gamma_w times the vertical depth") +
+             (card.value == 1.0 ? " times cos^2 of the line's slope" : "") + "; its steepest part slopes by " +
+             rounded_text(std::atan(steepest) / kRadiansPerDegree, 3) + " degrees, where " +
+             (card.value == 1.0 ? "this is " : "seepage along the slope has ") + rounded_text(share, 3) +
+             (card.value == 1.0 ? " of the full depth" : " of that (value 1 = 1: cos^2 of the slope)"));
+}
+
 // Nodes of the solids that a water card is about, each once, and a place within an element of each.
 void list_nodes(const Model& model, const WaterCard& card, HeadRequest& request) {
   std::vector<char> listed(static_cast<std::size_t>(model.mesh.nodes()), 0);
@@ -425,6 +447,7 @@ void build_water(Builder& b) {
       require_unit_weight(b, card);
     else
       read_kind(b, card, water);
+    if (water.kind == WaterKind::line && !is_structure(b, groups.front())) note_rule_of_line(b, water);
     for (const int g : groups) {
       water.group = g;
       if (kind == kStored) read_file(b, card);

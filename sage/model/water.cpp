@@ -140,6 +140,14 @@ double water_slope(const WaterCard& card, double x) {
   return 0.0;
 }
 
+// Part of the hydrostatic pressure at a depth below a line: all of it, or by the card cos^2 of the line's slope, as in
+// seepage along a slope, whose lines of equal head stand at right angles to it.
+double share_of_depth(const WaterCard& card, double x) {
+  if (card.value != 1.0) return 1.0;
+  const double slope = water_slope(card, x);
+  return 1.0 / (1.0 + slope * slope);
+}
+
 }  // namespace
 
 Overburden::Overburden(const Model& model, const std::vector<char>& groups) {
@@ -271,7 +279,8 @@ double PorePressure::at(std::size_t group, int element, const Vector2& place, st
   if (card == nullptr) return 0.0;
   switch (card->kind) {
     case WaterKind::line:
-      return std::max(0.0, model_->units.water_unit_weight * (water_level(*card, place.x()) - place.y()));
+      return std::max(0.0, share_of_depth(*card, place.x()) * model_->units.water_unit_weight *
+                               (water_level(*card, place.x()) - place.y()));
     case WaterKind::ratio:
       return card->value * overburden_->above(place).stress;
     default:
@@ -285,7 +294,8 @@ Vector2 PorePressure::gradient(std::size_t group, int element, const Vector2& pl
   const WaterCard* const card = cards_[group];
   if (card == nullptr || !(at(group, element, place, N) > 0.0)) return slope;
   if (card->kind == WaterKind::line)
-    return model_->units.water_unit_weight * Vector2(water_slope(*card, place.x()), -1.0);
+    return share_of_depth(*card, place.x()) * model_->units.water_unit_weight *
+           Vector2(water_slope(*card, place.x()), -1.0);
   const int* const nodes = model_->groups[group].nodes_of(element);
   for (Eigen::Index i = 0; i < dN.rows(); ++i)
     slope += nodes_[group][static_cast<std::size_t>(nodes[i])] * dN.row(i).transpose();

@@ -424,7 +424,7 @@ void Reports::add_discharge(Series& series, const Model& model, const Report& re
   DischargeRow r{step.stage + 1, step.increment, kUnknown, kUnknown, kUnknown, {kUnknown, kUnknown}};
   if (series.line.fault.empty()) {
     const FlowThrough through = flow_through(model, series.line, report.nodes, solution.groups(),
-                                             solution.activity->dof_map, *solution.u);
+                                             *solution.activity, *solution.u);
     r.discharge = through.discharge;
     r.gradient = through.gradient;
     r.head = through.head;

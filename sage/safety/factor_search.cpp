@@ -22,6 +22,10 @@ void FactorSearch::falls(double factor) {
   falls_.push_back(factor);
 }
 
+void FactorSearch::drop(double factor) {
+  std::erase(falls_, factor);
+}
+
 std::optional<double> FactorSearch::upper() const {
   if (falls_.empty()) return {};
   return *std::ranges::min_element(falls_);

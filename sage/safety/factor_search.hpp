@@ -19,6 +19,8 @@ class FactorSearch {
   // A factor may be tried twice: what stands the second time does not fall any more.
   void stands(double factor);
   void falls(double factor);
+  // A factor of which nothing is known counts as an end no more.
+  void drop(double factor);
 
   // The largest factor that stands, and the smallest above it that does not.
   std::optional<double> lower() const { return lower_; }

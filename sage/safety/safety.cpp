@@ -14,12 +14,16 @@ namespace sage::safety {
 
 namespace {
 
-// Stiffness along the motion, as a share of the first, from which on a body gives way.
-constexpr double kGivesWay = 0.1;
 // A trial that began farther below its factor is repeated before its factor counts as an end of the bracket.
 constexpr double kFarBelow = 2.5;  // tolerances
 constexpr int kSecondEffort = 3;   // times the iterations, with all cuts
 constexpr int kFirstCuts = 1;
+// Of stages with divided strengths, relative force, at most; that of trials where a factor is tried again.
+constexpr double kStageTolerance = 1e-5;
+constexpr int kFiner = 3;  // times the increments of the stages; Start::anew
+// Ends of the bracket that stay undecided before the search is given up: another factor beside them may find its end.
+constexpr int kMostUndecided = 6;
+constexpr double kBeside = 0.6;  // of the way to a factor that stayed undecided
 // Of the stages with the first factor: a lower one follows, and it is tried again.
 constexpr int kCutsOfFirstRun = 3;
 
@@ -48,14 +52,8 @@ long inelastic(const std::array<long, kStatuses>& points) {
 // What is known of the last attempt of a factor, whether it was a trial or a run.
 struct Attempt {
   const StepReport& report;
-  bool singular = false, law_refused = false, flows = false;
+  bool law_refused = false;
 };
-
-Verdict judge(const Attempt& last) {
-  const double share = last.report.stiffness_share;
-  const bool gives_way = last.flows || last.singular || (share >= 0.0 && share <= kGivesWay);
-  return gives_way ? Verdict::falls : Verdict::undecided;
-}
 
 std::string percent(double share) {
   return fmt::format("{:.2g} %", 100.0 * share);
@@ -68,20 +66,17 @@ std::string moved_words(const Model& model, const FactorTrial& trial) {
 }
 
 std::string why_not(const Model& model, const FactorTrial& trial, const Attempt& last) {
-  if (last.singular) return "no equilibrium: the stiffness matrix is singular, a mechanism";
-  if (last.flows)
-    return fmt::format("no equilibrium: it flows; after {} iterations {} of all forces are out of balance, {}",
+  const std::string moved = moved_words(model, trial);
+  if (trial.verdict == Verdict::falls)
+    return fmt::format("no equilibrium: it flows; after {} iterations {} of all forces are out of balance{}{}",
                        trial.iterations, percent(std::min(trial.out_of_balance, 1.0)),
-                       moved_words(model, trial));
-  const double share = last.report.stiffness_share;
+                       moved.empty() ? "" : ", ", moved);
   const std::string tried =
       fmt::format("no equilibrium in {} iterations, {} let go", trial.iterations, percent(trial.released));
-  if (trial.verdict == Verdict::falls)
-    return tried + fmt::format("; it gives way, stiffness along the motion {} of the first", percent(share));
   if (last.law_refused) return tried + "; a law has no answer, which proves nothing";
-  return tried + fmt::format("; nothing gives way{}: the iterations failed, which proves nothing",
-                             share >= 0.0 ? ", stiffness along the motion " + percent(share) + " of the first"
-                                          : std::string());
+  if (last.report.spares_ground)
+    return tried + "; structures move in their joints, but the ground does not, which proves nothing";
+  return tried + "; the ground does not go on moving: the iterations failed, which proves nothing";
 }
 
 std::string why(const FactorTrial& trial, double tolerance) {
@@ -130,6 +125,7 @@ class Finder final : public Trials {
   void insert_trial_stage();
   Stage& trial_stage() { return model_.stages[static_cast<std::size_t>(safety_.stages)]; }
   void set_factor(double factor);
+  void prepare_stages();
   void run_from_start(double factor);
   void take(FactorTrial trial);
   void take_run(const RunResult& result, const LastState& last);
@@ -151,6 +147,9 @@ class Finder final : public Trials {
   Eigen::VectorXd u_start_;                    // when the strengths began to fall
   double factor_ = 0.0, from_ = 0.0;           // in hand; whose state it begins with
   double repeated_ = 0.0;                      // the last factor that was tried again
+  std::vector<double> undecided_;              // that stayed so when they were
+  std::vector<int> increments_;                // of the deck's stages
+  std::vector<double> tolerances_;             // likewise
 };
 
 bool Finder::chosen(const Group& group) const {
@@ -278,23 +277,43 @@ void Finder::take_run(const RunResult& result, const LastState& last) {
   if (result.status == RunStatus::completed) {
     trial.reason = fmt::format("equilibrium at the end of stage {}", safety_.stages);
   } else {
-    const Attempt attempt{last.report, result.status == RunStatus::singular, false, false};
+    const Attempt attempt{last.report, false};
     trial.released = last.report.load_factor;
-    trial.verdict = judge(attempt);
+    trial.verdict = last.report.flows ? Verdict::falls : Verdict::undecided;
     trial.reason = fmt::format("stage {}: {}", last.report.stage + 1, why_not(model_, trial, attempt));
   }
   take(std::move(trial));
+}
+
+// Start::anew: the equilibrium of trials, and where an end is tried again smaller increments.
+void Finder::prepare_stages() {
+  if (options_.start != Start::anew) return;
+  if (increments_.empty())
+    for (const Stage& stage : model_.stages) {
+      increments_.push_back(stage.increments);
+      tolerances_.push_back(stage.tolerance);
+    }
+  for (std::size_t s = 0; s < increments_.size(); ++s) {
+    Stage& stage = model_.stages[s];
+    const bool again = repeated_ == factor_;
+    const double enough = again ? safety_.tolerance : std::min(safety_.tolerance, kStageTolerance);
+    stage.tolerance = std::max(tolerances_[s], enough);
+    stage.increments = increments_[s] * (again ? kFiner : 1);
+  }
 }
 
 // The stages with these strengths; from their end trials go on.
 void Finder::run_from_start(double factor) {
   set_factor(factor);
   from_ = 0.0;
+  prepare_stages();
   LastState last;
   Observer* observers[] = {&last};
   settings_.trials = this;
   const std::size_t before = safety_.trials.size();
   RunSettings settings = settings_;
+  if (options_.start == Start::anew && repeated_ != factor)
+    settings.max_cuts = std::min(settings.max_cuts, options_.cuts);
   if (safety_.trials.empty() && options_.start == Start::carried)
     settings.max_cuts = std::min(settings.max_cuts, kCutsOfFirstRun);
   const RunResult result = run(model_, catalogue_, settings, observers);
@@ -319,10 +338,9 @@ void Finder::take_trial(const TrialResult& result) {
   if (result.equilibrium) {
     trial.reason = why(trial, safety_.tolerance);
   } else {
-    const Attempt attempt{result.report, result.outcome == StepOutcome::singular,
-                          result.outcome == StepOutcome::law_cut, result.flows};
+    const Attempt attempt{result.report, result.outcome == StepOutcome::law_cut};
     trial.released = result.report.load_factor;
-    trial.verdict = judge(attempt);
+    trial.verdict = result.report.flows ? Verdict::falls : Verdict::undecided;
     trial.reason = why_not(model_, trial, attempt);
   }
   take(std::move(trial));
@@ -354,19 +372,31 @@ void Finder::keep_mechanism(const TrialResult& result, const Solution& now) {
 
 // An end that was tried from far below, or whose iterations failed, deserves a second trial from the other end.
 bool Finder::must_repeat(const FactorTrial& end) const {
-  if (repeated_ == end.factor || options_.start == Start::anew) return false;
-  return end.verdict == Verdict::undecided || end.factor - end.from > kFarBelow * options_.limits.tolerance;
+  if (repeated_ == end.factor) return false;
+  const bool far = options_.start == Start::carried && end.factor - end.from > kFarBelow * options_.limits.tolerance;
+  return end.verdict == Verdict::undecided || far;
 }
 
 std::optional<double> Finder::next_factor() {
   trial_stage().max_iterations = options_.iterations;
-  if (!search_.bracketed()) return search_.next();
-  if (const FactorTrial* end = safety_.at(search_.upper()); end != nullptr && must_repeat(*end)) {
+  const bool at_once = options_.start == Start::anew && !safety_.trials.empty() &&
+                       safety_.trials.back().verdict == Verdict::undecided;
+  const FactorTrial* end = at_once                ? &safety_.trials.back()
+                           : search_.bracketed() ? safety_.at(search_.upper())
+                                                 : nullptr;
+  if (end != nullptr && must_repeat(*end)) {
     repeated_ = end->factor;
     trial_stage().max_iterations = kSecondEffort * options_.iterations;
     return repeated_;
   }
-  return {};
+  if (search_.bracketed() && end != nullptr && end->verdict == Verdict::undecided && undecided_.size() < kMostUndecided) {
+    undecided_.push_back(end->factor);
+    search_.drop(end->factor);
+  }
+  std::optional<double> factor = search_.next();
+  if (factor && search_.lower() && std::ranges::find(undecided_, *factor) != undecided_.end())
+    factor = *search_.lower() + kBeside * (*factor - *search_.lower());
+  return factor;
 }
 
 bool Finder::next(const TrialResult* last, const Solution& now) {
@@ -402,6 +432,8 @@ bool Finder::next(const TrialResult* last, const Solution& now) {
 }
 
 void Finder::conclude() {
+  if (!search_.bracketed())
+    for (const double factor : undecided_) search_.falls(factor);
   safety_.lower = search_.lower();
   safety_.upper = search_.upper();
   const SearchLimits& limits = options_.limits;
@@ -415,7 +447,7 @@ void Finder::conclude() {
     safety_.incomplete = "the search ended early";
   else if (safety_.at(safety_.upper)->verdict == Verdict::undecided)
     safety_.incomplete =
-        "at the upper end no equilibrium was found, but nothing gives way there: F may be larger";
+        "at the upper end no equilibrium was found, but the ground does not go on moving there: F may be larger";
 }
 
 Safety Finder::find() {
@@ -426,7 +458,7 @@ Safety Finder::find() {
   keep_other_strengths();
   const auto go_on = [&] { return !safety_.stopped && (options_.start == Start::anew || !search_.lower()); };
   while (go_on()) {
-    const std::optional<double> factor = search_.next();
+    const std::optional<double> factor = next_factor();
     if (!factor) break;
     run_from_start(*factor);
   }

@@ -33,8 +33,8 @@ struct Options {
 
 enum class Verdict {
   stands,     // equilibrium
-  falls,      // none, and the body gives way
-  undecided,  // none, but nothing gives way: perhaps only the iterations failed
+  falls,      // none, and the ground goes on moving
+  undecided,  // none, but the ground rests, or is only shaken: perhaps only the iterations failed
 };
 
 // One factor that was tried.  Relative forces: beside the sum of what all elements hold, root mean square.
@@ -57,7 +57,7 @@ struct FactorTrial {
 struct Safety {
   std::vector<FactorTrial> trials;     // as they were tried
   std::optional<double> lower, upper;  // ends of the bracket, where there are
-  // Why the answer is not the bracket that was asked for; empty = it is, and its upper end gives way.
+  // Why the answer is not the bracket that was asked for; empty = it is, and its upper end falls.
   std::string incomplete;
   bool stopped = false;  // as RunSettings::stop_asked wanted
   std::vector<std::string> reduced,

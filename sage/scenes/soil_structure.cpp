@@ -109,6 +109,7 @@ DeckWriter WallInGround::deck(int last_stage) const {
     return std::any_of(struts.begin(), struts.end(), [&](const Strut& s) { return s.anchor == anchor; });
   };
   if (some(false)) deck.material(4, kAxial, tie, 0.0, rings ? "rings" : "struts");
+  if (tip_spring > 0.0) deck.material(9, kAxial, {tip_spring, 1.0}, 0.0, "spring of length 1");
   if (some(true)) deck.material(5, kOneWay, {strut_stiffness, 1.0, spacing}, 0.0, "anchors");
 
   Numbers numbers;
@@ -186,6 +187,12 @@ DeckWriter WallInGround::deck(int last_stage) const {
       deck.element(numbers(1), group, {wall(strut.level), rings ? wall(strut.level) : node(0, strut.level)});
     }
     ++group;
+  }
+  if (tip_spring > 0.0) {
+    deck.group(90, kBar2, 0, 9, "spring below the tip");
+    deck.node(7990, half_width, -toe - 1.0);
+    deck.fix(7990, 1, 1);
+    deck.element(numbers(1), 90, {wall(toe), 7990});
   }
   deck.fix_row(node(0, depth), node(c + outside, depth), 1, 1, 1);
   deck.fix_row(node(0, depth), node(0, 0), s, 1, 0);

@@ -24,6 +24,7 @@ struct WallInGround {
   bool goes_around =
       true;  // a plate; else strips side by side, without hoop force: of a shaft the rings then carry all
   double weight = 18.0, K0 = 0.5;
+  double tip_spring = 0.0;  // stiffness of a vertical spring below the wall's tip; 0 = none
 
   struct Strut {
     int level;               // depth

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "sage/safety/safety.hpp"
 #include "sage/scenes/soil_structure.hpp"
 #include "sage/scenes/structures.hpp"
 #include "sage/verify/cases.hpp"
@@ -155,6 +156,27 @@ void raft(Record& record) {
               -run.u(wide.surface(2)).y(), 2.5 / M + 2.5 / (4.0 * M), 1e-7);
 }
 
+// Joints that slip on both faces leave the wall without a hold along its own axis.  A spring below its tip holds it
+// there: stiff enough for every single iterate, and too soft to carry a part of a thousandth of the earth.
+void walls_by_safety(Record& record) {
+  const auto factor = [&](double spring) {
+    WallInGround scene = cantilever_sheet_pile();
+    scene.tip_spring = spring;
+    safety::Options options;
+    options.limits.start = 1.5;
+    options.limits.tolerance = 0.004;
+    Model model = record.bench().build(scene.deck().text());
+    const safety::Safety found =
+        safety::find_safety(model, record.bench().catalogue(), record.bench().settings(), options);
+    if (!found.complete()) throw AnalysisError("S515", found.incomplete);
+    return 0.5 * (*found.lower + *found.upper);
+  };
+  const double held = factor(100.0);
+  record.near(Where::plane_strain, "factor of safety, tip held by 100 kN/m", held, 1.8475, 4e-3);
+  record.near(Where::plane_strain, "factor of safety, tip on nothing", factor(0.0), held, 4e-3);
+  record.near(Where::plane_strain, "factor of safety, tip held by 0.01 kN/m", factor(0.01), held, 4e-3);
+}
+
 }  // namespace
 
 Section soil_structure_cases() {
@@ -182,6 +204,9 @@ Section soil_structure_cases() {
            "the rigid raft's edge is singular: 1 % and less with 5 and 10 elements", raft},
           {"soil_structure.pile", "closed pipe pile pushed into clay: shaft at its adhesion, and its tip",
            "adhesion times area; " + balance, Grade::exact, rounding, pile},
+          {"soil_structure.safety_with_walls", "cantilever sheet pile by strength reduction",
+           "the same wall held at its tip, and 1.84 to 1.855 by stages with divided strengths", Grade::twofold,
+           "brackets of .004", walls_by_safety},
       }};
 }
 

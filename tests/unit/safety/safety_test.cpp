@@ -7,11 +7,14 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <ostream>
 #include <tuple>
 
 #include "elements/register_elements.hpp"
 #include "materials/register_materials.hpp"
+#include "sage/safety/safety_text.hpp"
 #include "sage/scenes/deck_writer.hpp"
+#include "sage/scenes/soil_structure.hpp"
 #include "sage/scenes/whole_run.hpp"
 #include "solvers/choose_solver.hpp"
 #include "solvers/register_solvers.hpp"
@@ -236,6 +239,54 @@ TEST(Safety, BothWaysAndBothLawsAgree) {
     expect_around(find(column({1e4, 0.3, c, phi, phi}), options), F, 1e-3);
     expect_around(find(column({1e4, 0.3, c, phi, phi, 3.0}, 3), options), F, 1e-3);
   }
+}
+
+// Walls in joints that all slip in single iterates.  1.84 to 1.855 and 2.28 to 2.31: the stages run anew with divided
+// strengths, and walls that a spring of 100 kN/m below the tip holds along their axis.
+struct Wall {
+  const char* name;
+  scenes::WallInGround scene;
+  double spring, start, low, high;
+  bool interfaces = false;
+  Start from = Start::carried;
+};
+
+void PrintTo(const Wall& wall, std::ostream* out) {
+  *out << wall.name;
+}
+
+class WallsInJoints : public testing::TestWithParam<Wall> {};
+
+TEST_P(WallsInJoints, CollapseIsThatOfTheGround) {
+  Wall wall = GetParam();
+  wall.scene.tip_spring = wall.spring;
+  Options options;
+  options.limits.start = wall.start;
+  options.interfaces = wall.interfaces;
+  options.start = wall.from;
+  const Safety found = find(wall.scene.deck(), options);
+  ASSERT_TRUE(found.complete()) << bracket_words(found) << ": " << found.incomplete;
+  EXPECT_GE(*found.lower, wall.low);
+  EXPECT_LE(*found.upper, wall.high);
+  EXPECT_EQ(found.at(found.upper)->verdict, Verdict::falls);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Safety, WallsInJoints,
+    testing::Values(Wall{"cantilever", scenes::cantilever_sheet_pile(), 0.0, 1.0, 1.84, 1.855},
+                    Wall{"cantilever on a soft spring", scenes::cantilever_sheet_pile(), 0.01, 1.5, 1.84, 1.855},
+                    Wall{"anchored", scenes::anchored_sheet_pile(), 0.0, 1.0, 2.28, 2.31},
+                    Wall{"anchored, joints divided", scenes::anchored_sheet_pile(), 0.0, 2.0, 2.25, 2.27, true}));
+
+// Stage 3, dug to 4 m with one strut, fails before the last one does.
+TEST(Safety, ALaterStageMayBeSafer) {
+  Options options;
+  options.limits.start = 5.0;
+  options.stage = 2;
+  const Safety third = find(scenes::braced_excavation(1).deck(), options);
+  ASSERT_TRUE(third.complete()) << third.incomplete;
+  EXPECT_GE(*third.lower, 5.15);
+  EXPECT_LE(*third.upper, 5.19);
 }
 
 TEST(Safety, NothingToDivideIsRefused) {
