@@ -378,8 +378,8 @@ bool Run::can_damp(const NewtonStep& step) const {
     return false;
   // These are tried again otherwise first.
   if (step.finished || by_newton_ == 1 || (step.outcome == StepOutcome::singular && on_last_way_)) return false;
-  if (settings_.trials != nullptr) return has_walls_ || !step.flows;
-  return has_walls_;
+  if (settings_.trials == nullptr) return has_walls_;
+  return has_walls_ || (!step.flows && step.outcome != StepOutcome::singular);
 }
 
 // failed: Newton's attempt at the same step.
@@ -692,7 +692,7 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
 
 bool Run::fail(StepReport& report, const NewtonStep& step) {
   report.converged = false;
-  report.flows = step.flows || (step.outcome == StepOutcome::singular && !tangent_.has_elastic());
+  report.flows = step.flows || (step.outcome == StepOutcome::singular && !has_walls_);
   report.spares_ground = step.spares_ground;
   if (trial_ != nullptr) {
     trial_->outcome = step.outcome;
