@@ -749,8 +749,8 @@ constexpr MessageEntry kMessages[] = {
      "deck, the command and the message helps to mend it."},
     {"S515", "the safety factor is not proved",
      "The search for the factor ended without the bracket that was asked for: no factor stands, every factor "
-     "stands, or at the upper end no equilibrium was found although nothing gives way there, so that the "
-     "iterations may have failed and not the soil.",
+     "stands, or at the upper end no equilibrium was found although the ground does not go on moving there, "
+     "so that the iterations may have failed and not the soil.",
      "Read the reasons of both ends. Move --smallest or --largest; for an end that is not proved more "
      "--iterations and --cuts, --from anew, or --dilation reduced with a dilation angle nearer to friction."},
     {"S520", "the initial stress is outside the yield surface",

@@ -52,7 +52,7 @@ class Discharges final : public Observer {
       const FlowLine line = flow_line(model, solution.activity->group, report.nodes);
       EXPECT_EQ(line.fault, "");
       through.push_back(
-          flow_through(model, line, report.nodes, solution.groups(), solution.activity->dof_map, *solution.u));
+          flow_through(model, line, report.nodes, solution.groups(), *solution.activity, *solution.u));
     }
     u = *solution.u;
     internal = *solution.internal;
@@ -494,6 +494,23 @@ TEST(Seepage, ContradictionsAreNamed) {
   const WholeRun run = run_text(floating.deck.text());
   EXPECT_FALSE(run.completed());
   EXPECT_NE(run.failure.find("nothing determines the level of the head"), std::string::npos) << run.failure;
+}
+
+// A floor that lies on half of the ground: the gradient beside its edge grows as the root of the distance falls, so that no
+// mesh has its value.  Beside a pile, at a right angle, it is .2995 of h/s (above).
+TEST(ExitGradient, WithoutBoundAtTheEdgeOfAFloor) {
+  for (const int finer : {1, 2}) {
+    Flow flow(cells(4 * finer, 2 * finer, Cell::quad8));
+    std::vector<int> top = flow.block.top(), ground(top.begin() + 4 * finer, top.end());
+    flow.hold(ground, 0.0);
+    flow.hold(flow.block.left(), 1.0);
+    flow.deck.reports.push_back(discharge_card(ground));
+    flow.deck.reports.push_back(discharge_card(flow.block.left()));
+    const Seepage run = seep(flow.deck.text());
+    EXPECT_TRUE(std::isnan(run.seen.through[0].gradient)) << run.seen.through[0].gradient;
+    EXPECT_TRUE(std::isfinite(run.seen.through[1].gradient));
+    EXPECT_NE(run.discharge(0), 0.0);
+  }
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "elements/register_elements.hpp"
 #include "materials/register_materials.hpp"
+#include "sage/model/water.hpp"
 #include "sage/safety/safety_text.hpp"
 #include "sage/scenes/deck_writer.hpp"
 #include "sage/scenes/soil_structure.hpp"
@@ -182,6 +183,39 @@ TEST(Safety, SlabWithSeepageAlongTheSlope) {
     const Safety found = find(deck, options);
     ASSERT_TRUE(found.complete()) << found.incomplete;
     EXPECT_NEAR(0.5 * (*found.lower + *found.upper), row.factor, 1e-6) << row.beta;
+  }
+}
+
+// Pore pressure below a line that slopes by 20 degrees: gamma_w times the vertical depth, and cos(20)^2 = .88302 of it as
+// in seepage along the slope.
+TEST(Water, DepthBelowASlopingLine) {
+  Block block;
+  block.cell = Cell::quad4;
+  block.columns = block.rows = 2;
+  block.place = scenes::rectangle(0.0, 2.0, 0.0, 2.0);
+  for (const double rule : {0.0, 1.0}) {
+    DeckWriter deck(1);
+    block.write_nodes(deck);
+    deck.material(1, 1, {1e4, 0.3}, 20.0);
+    deck.group(1, 1, 1, 1);
+    block.write_elements(deck, 1);
+    for (const int node : block.bottom()) deck.fix(node, 1, 1);
+    deck.stage();
+    deck.water_unit_weight = 10.0;
+    const double slope = -std::tan(20.0 * kDegree);
+    deck.water(1, 0, 1, 0, {0.0, 4.0, 2.0, 4.0 + 2.0 * slope}, rule);
+    const Model model = make_workbench().build(deck.text());
+    const PorePressure water(model, 0, std::vector<char>(1, 1), DofMap(model), nullptr);
+    const Vector2 x = model.groups[0].element->position(
+        [&] {
+          Eigen::Matrix2Xd nodes;
+          element_coordinates(model.mesh, model.groups[0], 3, nodes);
+          return nodes;
+        }(),
+        0);
+    const double full = 10.0 * (model.water[0].line[0].y() +
+                                x.x() * (model.water[0].line[1].y() - model.water[0].line[0].y()) / 2.0 - x.y());
+    EXPECT_NEAR(water.at_point(0, 3, 0) / full, rule == 1.0 ? 0.8830222 : 1.0, 1e-6);
   }
 }
 
