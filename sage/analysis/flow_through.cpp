@@ -126,7 +126,8 @@ std::map<int, FlowCorner> corners_at(const Model& model, const std::vector<char>
 
 }  // namespace
 
-std::vector<int> unbounded_corners(const Model& model, const Activity& activity, const std::vector<int>& nodes) {
+std::vector<int> unbounded_corners(const Model& model, const Activity& activity,
+                                   const std::vector<int>& nodes) {
   constexpr double kMore = 10.0 * kRadiansPerDegree;
   const int field = find_unknown(model.unknowns, "head");
   const auto held = [&](int node) {
@@ -163,7 +164,8 @@ Eigen::VectorXd taken_in(const Model& model, const GroupData& data, int element)
 }
 
 FlowThrough flow_through(const Model& model, const FlowLine& line, const std::vector<int>& nodes,
-                         std::span<const GroupData> groups, const Activity& activity, const Eigen::VectorXd& u) {
+                         std::span<const GroupData> groups, const Activity& activity,
+                         const Eigen::VectorXd& u) {
   FlowThrough through;
   const DofMap& dof_map = activity.dof_map;
   for (const FlowLine::Corner& corner : line.corners)

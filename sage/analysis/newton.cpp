@@ -110,7 +110,7 @@ class Step {
   bool K_is_here_ = false;  // the last pass made it
   double slope_ = 0.0, step_length_ = 1.0;
   double best_ = std::numeric_limits<double>::infinity();  // smallest residual_size() so far
-  double damping_ = 1.0;  // share of the elastic stiffness
+  double damping_ = 1.0;                                   // share of the elastic stiffness
   NewtonStep result_;
 };
 

@@ -25,7 +25,7 @@ struct NewtonSettings {
   Pulse* pulse = nullptr;                      // hears of every iteration; null = nobody looks
   bool stop_at_flow = false;                   // a step that turns into flow is given up (NewtonStep::flows)
   NewtonStart start = NewtonStart::committed;
-  bool refine = false;    // a first correction does not do, even if all that is left is rounding
+  bool refine = false;  // a first correction does not do, even if all that is left is rounding
   // Every correction is held back by a share of the elastic stiffness (Tangent::has_elastic), which falls with the
   // residual: for steps that Newton's corrections find no end of.
   bool damped = false;
@@ -42,7 +42,8 @@ struct NewtonStep {
   StepOutcome outcome = StepOutcome::not_converged;
   bool repeated = false;  // the step before once more
   bool finished = false;  // K of a kept tangent gave way to that of the place reached
-  bool flows = false;     // stop_at_flow: corrections only bring more of all stress out of balance; damped: Creep::flows
+  bool flows =
+      false;  // stop_at_flow: corrections only bring more of all stress out of balance; damped: Creep::flows
   bool spares_ground = false;  // damped, not converged: Creep::spares_ground
   std::vector<IterationRecord> iterations;
   WorstDof worst;               // of the last iteration, or where none converged, of the best

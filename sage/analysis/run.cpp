@@ -139,8 +139,8 @@ class Run {
   int max_cuts_;
   std::vector<char> of_solids_;  // by dof: some solid of the stage has it
   bool has_walls_ = false;       // interfaces or structures
-  bool water_alone_ = false;  // flow is all that there is
-  double easing_ = 1.0;       // of laws of water, on the way to a free surface
+  bool water_alone_ = false;     // flow is all that there is
+  double easing_ = 1.0;          // of laws of water, on the way to a free surface
   // Of a trial: what it comes to, and where it began.
   TrialResult* trial_ = nullptr;
   Eigen::VectorXd trial_u_;
@@ -361,7 +361,8 @@ NewtonStep Run::attempt(const Stage& stage, double from, double to, Begin begin)
     newton.refine = assembly_.equations() >= kManyHeads;
   }
   if (begin != Begin::damped) {
-    if (can_repeat(stage, to - from)) newton.repeat = path_.repeats.limit(newton.tolerance, tangent_.constant());
+    if (can_repeat(stage, to - from))
+      newton.repeat = path_.repeats.limit(newton.tolerance, tangent_.constant());
     newton.contract = contracts(stage);
     newton.stop_at_flow = settings_.trials != nullptr;
   }

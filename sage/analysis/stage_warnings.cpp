@@ -109,7 +109,8 @@ std::vector<Diagnostic> gradient_warnings(const Model& model, const Stage& stage
     if (report.kind != ReportKind::discharge) continue;
     const std::vector<int> corners = unbounded_corners(model, activity, report.nodes);
     if (corners.empty()) continue;
-    messages.add("S542", "report " + std::to_string(i + 1) + ": the gradient across the line has no bound at node " +
+    messages.add("S542", "report " + std::to_string(i + 1) +
+                             ": the gradient across the line has no bound at node " +
                              std::to_string(model.mesh.number[static_cast<std::size_t>(corners.front())]) +
                              ", where the edge of the flow makes a corner: it is left blank");
   }

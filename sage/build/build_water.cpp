@@ -131,12 +131,14 @@ void refuse_unread(Builder& b, const CardView& card, bool structure) {
   if (card.integer("listed") > 0 && !among({1, 3}))
     refuse("listed", "values listed", "a phreatic line (kind 1) and pressures at nodes (kind 3) do");
   if (kind == 1 && !structure && card.real("value1") != 0.0 && card.real("value1") != 1.0)
-    b.error("S248", card.where("value1"),
-            "value 1 of a phreatic line is 0 (all of the vertical depth counts) or 1 (cos^2 of the line's slope)");
+    b.error(
+        "S248", card.where("value1"),
+        "value 1 of a phreatic line is 0 (all of the vertical depth counts) or 1 (cos^2 of the line's slope)");
   if (card.real("value1") != 0.0 && !among({1, 2, 5, kStored}) && !structure)
-    refuse("value1", "value 1",
-           "r_u, the rule of a phreatic line, the bulk of water and the stage of an earlier run stand there, and "
-           "sides of beams");
+    refuse(
+        "value1", "value 1",
+        "r_u, the rule of a phreatic line, the bulk of water and the stage of an earlier run stand there, and "
+        "sides of beams");
   if (card.real("value2") != 0.0 && !among({5}))
     refuse("value2", "value 2", "an undrained Poisson's ratio (kind 5) stands there");
 }

@@ -844,16 +844,22 @@ constexpr MessageEntry kMessages[] = {
      "Take discharge through lines of nodes (report 4), or --picture flow_net, whose lines jump along a line."},
 
     {"S541", "the rule of a sloping phreatic line",
-     "The pore pressure at a depth below a phreatic line is hydrostatic only where the line is level. In seepage "
-     "along a slope, whose lines of equal head stand at right angles to it, it is cos^2 of the slope times that: 12 % "
+     "The pore pressure at a depth below a phreatic line is hydrostatic only where the line is level. In "
+     "seepage "
+     "along a slope, whose lines of equal head stand at right angles to it, it is cos^2 of the slope times "
+     "that: 12 % "
      "less at 20 degrees. The note says which of the two the deck has.",
-     "Value 1 of the water card: 0 counts the vertical depth (the safe side below a slope), 1 multiplies it by cos^2 "
+     "Value 1 of the water card: 0 counts the vertical depth (the safe side below a slope), 1 multiplies it by "
+     "cos^2 "
      "of the line's slope. Flow elements (kind 4) solve for the pressure instead."},
     {"S542", "an exit gradient without bound",
-     "Where an impervious edge meets one with given heads at more than a right angle, or the edge of the flow turns "
-     "inwards, the velocity has no bound: the gradient that is computed there grows with every refinement. Reports of "
+     "Where an impervious edge meets one with given heads at more than a right angle, or the edge of the flow "
+     "turns "
+     "inwards, the velocity has no bound: the gradient that is computed there grows with every refinement. "
+     "Reports of "
      "lines through such a node leave the largest gradient blank.",
-     "End the line before that node, and judge the exit by the mean gradient over a length that matters (Terzaghi: half "
+     "End the line before that node, and judge the exit by the mean gradient over a length that matters "
+     "(Terzaghi: half "
      "of the embedment), or by the force on it."},
 
     // S6: results, checkpoints and result files.

@@ -423,8 +423,8 @@ void Reports::add_discharge(Series& series, const Model& model, const Report& re
                             const Solution& solution) {
   DischargeRow r{step.stage + 1, step.increment, kUnknown, kUnknown, kUnknown, {kUnknown, kUnknown}};
   if (series.line.fault.empty()) {
-    const FlowThrough through = flow_through(model, series.line, report.nodes, solution.groups(),
-                                             *solution.activity, *solution.u);
+    const FlowThrough through =
+        flow_through(model, series.line, report.nodes, solution.groups(), *solution.activity, *solution.u);
     r.discharge = through.discharge;
     r.gradient = through.gradient;
     r.head = through.head;

@@ -373,7 +373,8 @@ void Finder::keep_mechanism(const TrialResult& result, const Solution& now) {
 // An end that was tried from far below, or whose iterations failed, deserves a second trial from the other end.
 bool Finder::must_repeat(const FactorTrial& end) const {
   if (repeated_ == end.factor) return false;
-  const bool far = options_.start == Start::carried && end.factor - end.from > kFarBelow * options_.limits.tolerance;
+  const bool far =
+      options_.start == Start::carried && end.factor - end.from > kFarBelow * options_.limits.tolerance;
   return end.verdict == Verdict::undecided || far;
 }
 
@@ -381,7 +382,7 @@ std::optional<double> Finder::next_factor() {
   trial_stage().max_iterations = options_.iterations;
   const bool at_once = options_.start == Start::anew && !safety_.trials.empty() &&
                        safety_.trials.back().verdict == Verdict::undecided;
-  const FactorTrial* end = at_once                ? &safety_.trials.back()
+  const FactorTrial* end = at_once               ? &safety_.trials.back()
                            : search_.bracketed() ? safety_.at(search_.upper())
                                                  : nullptr;
   if (end != nullptr && must_repeat(*end)) {
@@ -389,7 +390,8 @@ std::optional<double> Finder::next_factor() {
     trial_stage().max_iterations = kSecondEffort * options_.iterations;
     return repeated_;
   }
-  if (search_.bracketed() && end != nullptr && end->verdict == Verdict::undecided && undecided_.size() < kMostUndecided) {
+  if (search_.bracketed() && end != nullptr && end->verdict == Verdict::undecided &&
+      undecided_.size() < kMostUndecided) {
     undecided_.push_back(end->factor);
     search_.drop(end->factor);
   }
@@ -447,7 +449,8 @@ void Finder::conclude() {
     safety_.incomplete = "the search ended early";
   else if (safety_.at(safety_.upper)->verdict == Verdict::undecided)
     safety_.incomplete =
-        "at the upper end no equilibrium was found, but the ground does not go on moving there: F may be larger";
+        "at the upper end no equilibrium was found, but the ground does not go on moving there: F may be "
+        "larger";
 }
 
 Safety Finder::find() {

@@ -1,6 +1,8 @@
 // sagefe safety as a user meets it: what it prints and writes, and what it refuses.
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "tests/regression/program.hpp"
 
 namespace sage::test {
@@ -69,6 +71,18 @@ TEST(SafetyCommand, ConvergeSaysTheEffectOfTheMesh) {
   const Finished small = sagefe(folder, "safety weak.dat --converge .01 --max-dofs 10");
   EXPECT_EQ(small.exit_code, 3);
   EXPECT_TRUE(has(small.out, "NOT REACHED: the next mesh has")) << small.out;
+}
+
+// Walls in joints on finer meshes than their own: joints that all slip in one iterate leave a singular matrix there.
+TEST(RefinedStructures, EndAsOnTheirOwnMeshes) {
+  const fs::path folder = empty_folder("refined");
+  const std::string decks = SAGE_SOURCE_DIR "/legacy_inputs/structures/";
+  for (const auto& [deck, refine] :
+       {std::pair{"anchored_sheet_pile", 2}, {"sheet_pile", 1}, {"braced_cut", 1}}) {
+    const Finished run =
+        sagefe(folder, "run " + decks + deck + "/deck.dat -q -o out --refine " + std::to_string(refine));
+    EXPECT_EQ(run.exit_code, 0) << deck << " --refine " << refine << ": " << run.err;
+  }
 }
 
 }  // namespace

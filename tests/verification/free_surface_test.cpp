@@ -127,8 +127,8 @@ class Last final : public Observer {
   void on_increment(const Model& model, const StepReport&, const Solution& solution) override {
     psi = stream_function(model, solution.activity->group, solution.groups());
     const FlowLine line = flow_line(model, solution.activity->group, model.reports[0].nodes);
-    through = flow_through(model, line, model.reports[0].nodes, solution.groups(), *solution.activity,
-                           *solution.u);
+    through =
+        flow_through(model, line, model.reports[0].nodes, solution.groups(), *solution.activity, *solution.u);
   }
   StreamFunction psi;
   FlowThrough through;

@@ -213,8 +213,9 @@ TEST(Water, DepthBelowASlopingLine) {
           return nodes;
         }(),
         0);
-    const double full = 10.0 * (model.water[0].line[0].y() +
-                                x.x() * (model.water[0].line[1].y() - model.water[0].line[0].y()) / 2.0 - x.y());
+    const double full =
+        10.0 * (model.water[0].line[0].y() +
+                x.x() * (model.water[0].line[1].y() - model.water[0].line[0].y()) / 2.0 - x.y());
     EXPECT_NEAR(water.at_point(0, 3, 0) / full, rule == 1.0 ? 0.8830222 : 1.0, 1e-6);
   }
 }
@@ -305,12 +306,14 @@ TEST_P(WallsInJoints, CollapseIsThatOfTheGround) {
   EXPECT_EQ(found.at(found.upper)->verdict, Verdict::falls);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Safety, WallsInJoints,
-    testing::Values(Wall{"cantilever", scenes::cantilever_sheet_pile(), 0.0, 1.0, 1.84, 1.855},
-                    Wall{"cantilever on a soft spring", scenes::cantilever_sheet_pile(), 0.01, 1.5, 1.84, 1.855},
-                    Wall{"anchored", scenes::anchored_sheet_pile(), 0.0, 1.0, 2.28, 2.31},
-                    Wall{"anchored, joints divided", scenes::anchored_sheet_pile(), 0.0, 2.0, 2.25, 2.27, true}));
+INSTANTIATE_TEST_SUITE_P(Safety, WallsInJoints,
+                         testing::Values(Wall{"cantilever", scenes::cantilever_sheet_pile(), 0.0, 1.0, 1.84,
+                                              1.855},
+                                         Wall{"cantilever on a soft spring", scenes::cantilever_sheet_pile(),
+                                              0.01, 1.5, 1.84, 1.855},
+                                         Wall{"anchored", scenes::anchored_sheet_pile(), 0.0, 1.0, 2.28, 2.31},
+                                         Wall{"anchored, joints divided", scenes::anchored_sheet_pile(), 0.0,
+                                              2.0, 2.25, 2.27, true}));
 
 // Stage 3, dug to 4 m with one strut, fails before the last one does.
 TEST(Safety, ALaterStageMayBeSafer) {
