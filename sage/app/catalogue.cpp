@@ -1,6 +1,8 @@
 #include "elements/register_elements.hpp"
 #include "materials/register_materials.hpp"
 #include "sage/app/commands.hpp"
+#include "sage/app/input.hpp"
+#include "sage/core/near_names.hpp"
 #include "solvers/choose_solver.hpp"
 #include "solvers/register_solvers.hpp"
 
@@ -18,7 +20,9 @@ Catalogue full_catalogue(std::vector<umat::Binding> umats) {
 int solver_code(const Catalogue& catalogue, const std::string& name) {
   if (name.empty()) return -1;
   if (const int code = catalogue.solvers.code_of(name); code != 0) return code;
-  throw InputError("S213", {}, "unknown solver " + name + "; known: " + catalogue.solvers.known());
+  throw InputError("S213", {},
+                   "unknown solver " + name + "; known: " + catalogue.solvers.known() +
+                       did_you_mean(name, names_of(catalogue.solvers)));
 }
 
 std::function<std::string(const std::string&)> known_solver(const Catalogue& catalogue) {

@@ -14,6 +14,7 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/screen.hpp"
 #include "sage/app/stored_heads.hpp"
+#include "sage/core/near_names.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "sage/draw/picture.hpp"
 #include "sage/record/out_file.hpp"
@@ -127,8 +128,10 @@ std::vector<std::string> require_fields(const std::vector<std::string>& pictures
     if (field == nullptr) {
       std::string known;
       for (const FieldEntry& row : tables.front().rows()) known += (known.empty() ? "" : ", ") + row.name;
-      throw UsageError("S644",
-                       "--field: unknown field " + name + "; known: " + known + ", or a component of one");
+      std::vector<std::string> near;
+      for (const FieldEntry& row : tables.front().rows()) near.push_back(row.name);
+      throw UsageError("S644", "--field: unknown field " + name + "; known: " + known +
+                                   ", or a component of one" + did_you_mean(name, near));
     }
     if (std::ranges::find(names, field->name) == names.end()) names.push_back(field->name);
   }
@@ -167,7 +170,9 @@ void add_element_option(CLI::App& parser, const Catalogue& catalogue, const std:
           flag, [set, &catalogue](const std::string& text) { set(element_code(catalogue, text)); }, words)
       ->check([&catalogue](const std::string& text) {
         const int code = element_code(catalogue, text);
-        if (code < 0) return "unknown element " + text + "; known: " + catalogue.elements.known();
+        if (code < 0)
+          return "unknown element " + text + "; known: " + catalogue.elements.known() +
+                 did_you_mean(text, names_of(catalogue.elements));
         const ElementEntry* entry = catalogue.elements.find(code);  // codes are checked with the model
         return entry == nullptr || (entry->solid() && entry->square())
                    ? std::string()

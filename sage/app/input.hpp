@@ -25,6 +25,14 @@ struct InputOptions {
   BuildOptions build;
 };
 
+// Of a registry's entries, for "did you mean".
+template <class Entry>
+std::vector<std::string> names_of(const Registry<Entry>& registry) {
+  std::vector<std::string> names;
+  for (const auto& [code, entry] : registry.entries()) names.push_back(entry.name);
+  return names;
+}
+
 void add_input_options(CLI::App& parser, InputOptions& options);
 // NODE[:layers[:ratio]] or auto[:layers[:ratio]].  Throws std::invalid_argument that says what is wanted.
 Grading grading_from(const std::string& text);

@@ -18,6 +18,7 @@
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/plugins.hpp"
 #include "sage/app/screen.hpp"
+#include "sage/core/near_names.hpp"
 #include "sage/deck/printable.hpp"
 
 namespace sage {
@@ -100,8 +101,27 @@ Code code_of(const CLI::Error& error) {
   }
 }
 
-std::string complaint(const CLI::App*, const CLI::Error& error) {
-  return with_code(error.what(), code_of(error)) + "\nRun with --help for more information.\n";
+// Options and subcommands of the commands that the line names.
+void gather_names(const CLI::App& app, std::vector<std::string>& options, std::vector<std::string>& commands) {
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+  for (const CLI::App* below : app.get_subcommands([](const CLI::App*) { return true; }))
+    commands.push_back(below->get_name());
+  for (const CLI::App* below : app.get_subcommands()) gather_names(*below, options, commands);
+}
+
+// The parser's message, and for words that it did not expect the names that are near.
+std::string message_of(const CLI::App& root, const CLI::Error& error) {
+  std::string text = error.what();
+  std::vector<std::string> options, commands;
+  gather_names(root, options, commands);
+  for (const std::string& word : root.remaining(true))
+    text += did_you_mean(word.substr(0, word.find('=')), word.starts_with('-') ? options : commands);
+  return text;
+}
+
+std::string complaint(const CLI::App* root, const CLI::Error& error) {
+  return with_code(message_of(*root, error), code_of(error)) + "\nRun with --help for more information.\n";
 }
 
 // The command that the first word which is no option names, whose options alone are made; nullptr, with a
@@ -113,7 +133,10 @@ const Entry* find_command(const std::string& word) {
     known += std::string(" ") + entry.name;
   }
   // The parser itself would only ask for one.
-  say_error("sagefe", fmt::format("unknown command {}; known:{}", word, known), "S901");
+  std::vector<std::string> names;
+  for (const Entry& entry : kCommands) names.emplace_back(entry.name);
+  say_error("sagefe", fmt::format("unknown command {}; known:{}{}", word, known, did_you_mean(word, names)),
+            "S901");
   return nullptr;
 }
 
@@ -128,7 +151,8 @@ int say_parse_error(const CLI::App& root, const CLI::ParseError& error) {
   const int code = root.exit(error, out, err);
   std::fputs(out.str().c_str(), stdout);  // what could not be written shows at the end
   print_stderr(err.str());
-  if (code != 0) keep_message({Severity::error, code_of(error), {"sagefe", 0, 0, 0}, error.what(), {}});
+  if (code != 0)
+    keep_message({Severity::error, code_of(error), {"sagefe", 0, 0, 0}, message_of(root, error), {}});
   return code == 0 ? kOk : kUsage;
 }
 

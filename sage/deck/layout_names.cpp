@@ -1,10 +1,11 @@
 #include "sage/deck/layout_names.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <set>
 #include <utility>
 #include <vector>
+
+#include "sage/core/near_names.hpp"
 
 namespace sage {
 
@@ -60,7 +61,7 @@ constexpr KnownCard kKnown[] = {
     {"sage1", "point", false, "x y", "name", "report"},
     {"sage1", "water", false, "kind", "group stage action value1 value2 listed values file", ""},
 
-    {"any", "left_out", false, "what", "of partial", ""},
+    {"any", "left_out", false, "what", "of partial instead", ""},
 
     {"quad4m", "title", false, "", "title", ""},
     {"quad4m", "units", true, "system", "", ""},
@@ -158,21 +159,6 @@ std::vector<std::string_view> known_fields(const KnownCard& card) {
   for (const std::string_view group : words(card.needed))
     for (const std::string_view name : words(group, '|')) all.push_back(name);
   return all;
-}
-
-// Letters to change, insert or leave out.
-std::size_t distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t corner = row[0]++;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t changed = corner + (a[i] == b[j] ? 0 : 1);
-      corner = row[j + 1];
-      row[j + 1] = std::min({changed, row[j] + 1, corner + 1});
-    }
-  }
-  return row.back();
 }
 
 std::string nearest(std::string_view name, const std::vector<std::string_view>& known) {
@@ -279,15 +265,22 @@ class NameCheck {
     return std::any_of(card.spec.fields.begin(), card.spec.fields.end(),
                        [&](const FieldSpec& f) { return f.name == name; });
   }
+  // A card of that name in another sense has none of these fields.
+  bool has_body(std::string_view name, std::string_view field, std::string_view other) const {
+    return std::ranges::any_of(layout_.cards, [&](const CardRule& c) {
+      return c.spec.name == name && (has_field(c, field) || has_field(c, other));
+    });
+  }
   bool element_has(std::string_view field) const {
     return std::any_of(layout_.cards.begin(), layout_.cards.end(),
                        [&](const CardRule& c) { return c.spec.name == "element" && has_field(c, field); });
   }
   // As the model builder tells them apart.
   std::string_view family() const {
-    if (has_card("foundation")) return "embankment";
-    for (const std::string_view body : kBodies)
-      if (has_card(body)) return body;
+    if (has_body("foundation", "columns", "rows")) return "embankment";
+    if (has_body("rectangle", "columns", "rows")) return "rectangle";
+    if (has_body("slope", "crest", "toe")) return "slope";
+    if (has_body("mesh", "nodes", "elements")) return "mesh";
     if (element_has("shear_modulus")) return "quad4m";
     return element_has("class") ? "cande" : "sage1";
   }

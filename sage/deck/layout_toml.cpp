@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "sage/core/near_names.hpp"
 #include "sage/deck/layout.hpp"
 #include "sage/deck/layout_names.hpp"
 #include "sage/deck/text.hpp"
@@ -511,9 +512,21 @@ class LayoutReader : private TomlFile {
            field >= computed_field_;
   }
 
+  std::string near_card(std::string_view card) const {
+    std::vector<std::string> names;
+    for (const auto& [name, index] : index_of_) names.push_back(name);
+    return did_you_mean(card, names);
+  }
+  static std::string near_field(const CardRule& rule, std::string_view field) {
+    std::vector<std::string> names;
+    for (const FieldSpec& one : rule.spec.fields) names.push_back(one.name);
+    return did_you_mean(field, names);
+  }
+
   void resolve(std::string_view card, std::string_view field, int bare, ExpressionNode& found) const {
     int index = card.empty() ? bare : find_card(card);
-    if (index < 0) throw ExpressionError("no card \"" + std::string(card) + "\" stands before this");
+    if (index < 0)
+      throw ExpressionError("no card \"" + std::string(card) + "\" stands before this" + near_card(card));
     found.card = index;
     if (field.empty()) return;
     int place = field_place(index, field);
@@ -527,7 +540,8 @@ class LayoutReader : private TomlFile {
     }
     const CardRule& rule = layout_.cards[static_cast<std::size_t>(index)];
     if (place < 0)
-      throw ExpressionError("card \"" + rule.key + "\" has no field \"" + std::string(field) + "\"");
+      throw ExpressionError("card \"" + rule.key + "\" has no field \"" + std::string(field) + "\"" +
+                            near_field(rule, field));
     if (!before && is_later(index, place))
       throw ExpressionError("field \"" + std::string(field) + "\" of card \"" + rule.key +
                             "\" is computed later than this");

@@ -19,6 +19,7 @@
 #include <string>
 
 #include "sage/core/error.hpp"
+#include "sage/core/near_names.hpp"
 
 namespace sage {
 
@@ -37,7 +38,8 @@ class TomlFile {
   void known_keys(const toml::table& table, std::initializer_list<std::string_view> keys) const {
     for (const auto& [key, value] : table)
       if (std::find(keys.begin(), keys.end(), key.str()) == keys.end())
-        fail(value, "unknown key \"" + std::string(key.str()) + "\"");
+        fail(value, "unknown key \"" + std::string(key.str()) + "\"" +
+                        did_you_mean(key.str(), std::vector<std::string>(keys.begin(), keys.end())));
   }
 
   std::string text(const toml::table& table, std::string_view key, bool required = false) const {

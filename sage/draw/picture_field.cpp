@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "sage/core/near_names.hpp"
 #include "sage/draw/diagram.hpp"
 #include "sage/draw/flow_net.hpp"
 
@@ -61,8 +62,10 @@ std::string unknown_field(const FieldTable& table, std::string_view name, bool p
   if (name == kFlowNet)
     return pictures ? "flow_net is of heads, and the model has none: it has no elements of flow"
                     : "flow_net is a picture; head is its field";
+  std::vector<std::string> names{"conf", "dev", "SL"};
+  for (const FieldEntry& row : table.rows()) names.push_back(row.name);
   return "unknown field " + std::string(name) + "; known: conf, dev, SL, " +
-         (pictures && heads ? "flow_net, " : "") + table.known();
+         (pictures && heads ? "flow_net, " : "") + table.known() + did_you_mean(name, names);
 }
 
 FieldChoice picture_field(const FieldTable& table, std::string_view name) {
