@@ -333,13 +333,15 @@ bool DeckReader::read_formatted(const CardRule& rule, Card& card) {
     const std::size_t last_field_end = read.last_field_end();
     read.finish();
     const bool list = records_.line() != card.line;
+    if (complete && !stopped_ && is_doubtful_line(rule, card.line) && take_moved(rule, card.line)) continue;
     const bool cut = complete && list && cut_list(rule, card);
     Misplaced misplaced = Misplaced::no;
     if (complete && !stopped_ && !list && is_doubtful(rule)) misplaced = check_place(rule, card);
     if (misplaced == Misplaced::no) {
+      // Before the errors that a slip causes.
+      const bool slip = complete && !stopped_ && !cut && !seams_.empty() && check_seams(rule);
       close_card(rule, card, complete);
       if (!complete || stopped_ || cut) return complete;
-      const bool slip = !seams_.empty() && check_seams(rule);
       check_rest(rule, last_field_end, slip);
       return complete;
     }

@@ -90,10 +90,23 @@ class DeckReader : private ExpressionScope {
   void apply_map(const CardRule& rule, std::size_t field, FieldValue& value);
   void check_allowed(const CardRule& rule, std::size_t field, std::size_t value);
   void report_flaws(const CardRule& rule);
+  // A card that reads well once it, or what follows a gap in it, is moved back into its columns.
+  struct MovedCard {
+    std::string line;      // as it reads then
+    std::size_t word = 0;  // first character that is moved, of the line as it is
+    int columns = 0;       // that it stands too far to the right; negative: to the left
+    bool whole = true;     // the card as a whole
+  };
+  bool is_doubtful_line(const CardRule& rule, int line) const;
+  std::optional<MovedCard> moved_back(const CardRule& rule, int line) const;
+  bool reads_in_columns(const CardRule& rule, int line, std::string_view text) const;
+  bool reads_as_neighbour(const CardRule& rule, int line) const;
+  bool take_moved(const CardRule& rule, int line);
   // Numbers that the end of a field cuts, or that a shift moved into the next field.
   bool check_seams(const CardRule& rule);
   void check_rest(const CardRule& rule, std::size_t last_field_end, bool slip_found);
   bool begins_with_number(std::string_view text) const;
+  bool all_numbers(std::string_view text) const;
   void check_sequence_number(const CardRule& rule);
   // Is this line a card of another kind?  Then the counts are wrong; reading goes on where it can.
   enum class Misplaced { no, left_over, belongs_later };

@@ -230,6 +230,11 @@ bool DeckReader::check_seams(const CardRule& rule) {
     case Slip::cut_word:
       message = word + " is cut in two: the text ends at column " + column + ", and the rest begins the next";
       break;
+    case Slip::cut_text:
+      log_.add(Severity::warning, "S133", {deck_.file, slip->line, slip->first_column, slip->last_column},
+               word + " runs on beyond column " + column + ", and the field behind it reads the rest" + place,
+               "shorten the text, or leave a blank before the field");
+      return true;
     case Slip::lost_end:
       message =
           word + " is cut: the field ends at column " + column + ", and what stands behind it is not read";
@@ -247,6 +252,17 @@ bool DeckReader::check_seams(const CardRule& rule) {
            message + place,
            "is the card shifted by a column? Fields may stand side by side where each is full");
   return true;
+}
+
+// Words that all are numbers.
+bool DeckReader::all_numbers(std::string_view text) const {
+  for (;;) {
+    const std::size_t first = text.find_first_not_of(" \t,\x1a");
+    if (first == std::string_view::npos) return true;
+    text.remove_prefix(first);
+    if (!begins_with_number(text)) return false;
+    text.remove_prefix(std::min(text.find_first_of(" \t,"), text.size()));
+  }
 }
 
 bool DeckReader::begins_with_number(std::string_view text) const {
@@ -285,6 +301,11 @@ void DeckReader::check_rest(const CardRule& rule, std::size_t last_field_end, bo
                     "a number stands behind the last field of the " + card_text(rule.spec.label) +
                         ", which is blank: it is not read " + field_text(rule, rule.spec.fields[field]),
                     "is the card shifted?");
+  if (last.kind != FieldKind::text && all_numbers(record.substr(first)))
+    return log_.add(
+        Severity::warning, "S134", where,
+        "numbers stand behind the last field of the " + card_text(rule.spec.label) + " and are not read",
+        "is a value too many on the card, or the card shifted? Words may stand there as a remark");
   log_.add(Severity::note, "S129", where,
            "characters behind the last field of the " + card_text(rule.spec.label) + " are ignored");
 }

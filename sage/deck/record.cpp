@@ -31,7 +31,7 @@ bool RecordSource::next() {
     record_ = {};
     return false;
   }
-  record_ = source_->line(line_);
+  record_ = line_ == replaced_line_ ? replacement_ : source_->line(line_);
   beyond_ = {};
   const auto length = static_cast<std::size_t>(rules_.record_length);
   if (length > 0 && record_.size() > length) {

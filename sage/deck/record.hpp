@@ -51,6 +51,12 @@ class RecordSource {
   const SourceText& source() const { return *source_; }
   // Goes back so that `next` gives this line again.
   void rewind_to(int line) { line_ = line - 1; }
+  // This line reads as `text`, which must outlive the source; one line at a time.
+  void replace(int line, std::string_view text) {
+    replaced_line_ = line;
+    replacement_ = text;
+  }
+  int replaced_line() const { return replaced_line_; }
 
  private:
   int skip_comments(int line) const;
@@ -59,6 +65,8 @@ class RecordSource {
   int line_ = 0;
   std::string_view record_, beyond_;
   int skipped_ = 0;
+  int replaced_line_ = 0;  // 0 = none
+  std::string_view replacement_;
 };
 
 inline bool edit_fits(Edit edit, FieldKind kind) {

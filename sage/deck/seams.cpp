@@ -1,6 +1,7 @@
 #include "sage/deck/seams.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "sage/deck/text.hpp"
 
@@ -15,6 +16,23 @@ bool is_of_number(char c) {
 bool is_rest_of_number(std::string_view text) {
   const std::string_view word = text.substr(0, text.find(' '));
   return std::all_of(word.begin(), word.end(), is_of_number);
+}
+
+// "E9", "d-05 clay": the exponent of a number that the end of a field cut before it.
+bool is_exponent(std::string_view text) {
+  constexpr std::string_view letters = "eEdDqQ";
+  if (text.empty() || letters.find(text[0]) == std::string_view::npos) return false;
+  std::size_t i = text.size() > 1 && (text[1] == '+' || text[1] == '-') ? 2 : 1;
+  const std::size_t first = i;
+  while (i < text.size() && is_digit(text[i])) ++i;
+  return i > first && (i == text.size() || text[i] == ' ' || text[i] == ',');
+}
+
+// "1.E", "2.5D-": an exponent that is not complete.
+bool ends_in_exponent(std::string_view text) {
+  if (text.size() > 1 && (text.back() == '+' || text.back() == '-')) text.remove_suffix(1);
+  return text.size() > 1 && std::string_view("eEdD").find(text.back()) != std::string_view::npos &&
+         is_of_number(text[text.size() - 2]);
 }
 
 // "      0.30" and "33.0E3    ": a number that ends its field beside one that begins its own.  Not where a
@@ -64,6 +82,15 @@ class SlipSearch {
   bool goes_on(const Seam& seam) const {
     return is_of_number(seam.behind) && is_of_number(value(seam).text.back());
   }
+  // The end of the field stands before an exponent, or within it.
+  bool cuts_exponent(const Seam& seam) const {
+    const FieldValue& v = value(seam);
+    if (v.kind != FieldKind::real || v.blank) return false;
+    const std::string_view line = source_.line(v.line);
+    const std::string_view rest = line.substr(std::min<std::size_t>(v.last_column, line.size()));
+    if (is_of_number(v.text.back())) return is_exponent(rest);
+    return !rest.empty() && (is_digit(rest[0]) || rest[0] == '+' || rest[0] == '-') && ends_in_exponent(v.text);
+  }
   // The field behind begins where this one ends: what goes on is read there.
   bool is_shared(std::size_t i) const {
     if (i + 1 == seams_.size()) return false;
@@ -90,8 +117,8 @@ class SlipSearch {
   bool is_lost_behind(const Seam& seam) const {
     const FieldValue& v = value(seam);
     const std::size_t behind = v.last_column + std::size_t{1};
-    return is_of_number(seam.behind) && v.kind != FieldKind::text && !is_read(v.line, behind) &&
-           !is_sequence_number(v.line, behind);
+    return (is_of_number(seam.behind) || cuts_exponent(seam)) && v.kind != FieldKind::text &&
+           !is_read(v.line, behind) && !is_sequence_number(v.line, behind);
   }
 
   // Every number of the card begins in the first column of its field.
@@ -123,7 +150,8 @@ class SlipSearch {
     if (is_of_number(seam.before) && is_of_number(v.text.front()) && v.kind != FieldKind::text &&
         !is_read(v.line, v.first_column - std::size_t{1}))
       return found(Slip::lost_head, seam, v.first_column - 1);
-    if (seam.lone && is_digit(v.text.front()) && seam.value > first_read() && is_moved(seam))
+    if (seam.lone && is_digit(v.text.front()) && seam.value > first_read() && !is_free_text(spec(seam)) &&
+        is_moved(seam))
       return found(Slip::moved, seam, v.first_column);
     return std::nullopt;
   }
@@ -132,9 +160,14 @@ class SlipSearch {
     const Seam& seam = seams_[i];
     const FieldValue& v = value(seam);
     if (!is_shared(i))
-      return is_of_number(v.text.back()) && is_lost_behind(seam) ? found(Slip::lost_end, seam, v.last_column)
-                                                                 : std::nullopt;
+      return (is_of_number(v.text.back()) || cuts_exponent(seam)) && is_lost_behind(seam)
+                 ? found(Slip::lost_end, seam, v.last_column)
+                 : std::nullopt;
     const Seam& next = seams_[i + 1];
+    if (cuts_exponent(seam)) return found(Slip::cut, seam, v.last_column);
+    if (is_free_text(spec(seam)))
+      return goes_on(seam) && value(next).kind != FieldKind::text ? found(Slip::cut_text, seam, v.last_column)
+                                                                  : std::nullopt;
     if (v.kind == FieldKind::text && value(next).kind == FieldKind::text) {
       const bool one_word = seam.behind != ' ' && !is_full(seam) && &spec(seam) != &spec(next);
       return one_word ? found(Slip::cut_word, seam, v.last_column) : std::nullopt;
@@ -177,6 +210,11 @@ class SlipSearch {
 };
 
 }  // namespace
+
+bool is_free_text(const FieldSpec& spec) {
+  constexpr std::array<std::string_view, 4> names{"name", "title", "comment", "text"};
+  return spec.kind == FieldKind::text && std::ranges::find(names, spec.name) != names.end();
+}
 
 std::optional<SlipFound> find_slip(const SourceText& source, const CardSpec& spec,
                                    std::span<const FieldValue> values, std::vector<Seam>& seams,

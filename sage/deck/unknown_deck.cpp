@@ -47,15 +47,22 @@ std::string ways_on(const SourceText& source) {
          " makes a first layout for a program that has none";
 }
 
-// Names of the layouts other than `tried` that read the whole deck without an error or a warning.
-std::vector<std::string> layouts_that_read(const SourceText& source, const std::string& tried) {
+// Names of the layouts other than `tried` that read the whole deck without an error or a warning.  `rejecting`: of
+// those that read it and say that it asks for what is not computed, with that.
+std::vector<std::string> layouts_that_read(const SourceText& source, const std::string& tried,
+                                           std::string* rejecting = nullptr) {
   std::vector<std::string> names;
   if (source.text()->size() > kTrialSize) return names;
   for (const std::string& name : built_in_layouts()) {
     if (name == tried) continue;
     try {
       const Layout layout = load_layout(name);
-      if (DeckReader(source, layout, {}).read().diagnostics.warnings() == 0) names.push_back(name);
+      const Deck deck = DeckReader(source, layout, {}).read();
+      if (deck.diagnostics.warnings() > 0) continue;
+      if (!deck.has("left_out"))
+        names.push_back(name);
+      else if (rejecting != nullptr && rejecting->empty())
+        *rejecting = name + ", which asks for " + deck.all("left_out").front().text("what", "more");
     } catch (const InputError&) {
     }
   }
@@ -101,16 +108,36 @@ std::optional<Diagnostic> read_as_standard(const SourceText& source, const Layou
       {}};
 }
 
+// What the program has for the decks of another one that no layout reads; empty = nothing.
+std::string own_means(const std::string& program) {
+  for (const char* of_flow : {"program 7.1 ", "program 7.3 ", "program 7.4 ", "program 7.5 "})
+    if (program.starts_with(of_flow))
+      return "flow through soil is computed by elements of flow, docs/manual/water.md";
+  for (const char* of_bars : {"program 4.1 ", "program 4.2 ", "program 4.3 ", "program 4.4 "})
+    if (program.starts_with(of_bars))
+      return "bars and beams in the plane are elements of their own, docs/manual/structures.md";
+  return {};
+}
+
 std::optional<Diagnostics> outside_of_scope(const SourceText& source) {
   const std::string program = other_program(source);
   if (program.empty()) return std::nullopt;
   Diagnostics alone;
+  if (const std::string means = own_means(program); !means.empty()) {
+    alone.add({Severity::error,
+               "S105",
+               {source.name(), 0, 0, 0},
+               "this looks like a deck of " + program + ", which no layout reads; " + means +
+                   "; name a layout with --layout, or make one: sagefe layout guess " + source.name(),
+               {}});
+    return alone;
+  }
   alone.add({Severity::error,
              "S106",
              {source.name(), 0, 0, 0},
              "this looks like a deck of " + program +
-                 ": outside of what this program does, solids in plane strain and axisymmetry in equilibrium; "
-                 "if it is another kind of deck, name its layout with --layout",
+                 ": outside of what this program does, solids, structures and steady flow in plane strain and "
+                 "axisymmetry; if it is another kind of deck, name its layout with --layout",
              {}});
   return alone;
 }
@@ -118,19 +145,32 @@ std::optional<Diagnostics> outside_of_scope(const SourceText& source) {
 std::optional<Diagnostics> no_layout_fits(const SourceText& source, const Layout& standard,
                                           const Diagnostics& problems) {
   if (!looks_foreign(first_lines(source, standard), problems)) return std::nullopt;
-  Diagnostic first{Severity::error,
-                   "S105",
-                   {source.name(), 0, 0, 0},
-                   "no layout fits this deck: it has the marks of none, and its first cards are not those of " +
-                       standard.name + "; name its layout: " + ways_on(source),
-                   {}};
-  if (const std::vector<std::string> fitting = layouts_that_read(source, standard.name); fitting.empty()) {
-    if (std::optional<Diagnostics> outside = outside_of_scope(source)) return outside;
-  } else {
-    first.detail.push_back("note: " + fitting_words(fitting));
-  }
+  std::string rejecting;
+  const std::vector<std::string> fitting = layouts_that_read(source, standard.name, &rejecting);
   Diagnostics all;
-  all.add(std::move(first));
+  if (!fitting.empty()) {  // then mistakes as the standard layout mean nothing
+    all.add({Severity::error,
+             "S105",
+             {source.name(), 0, 0, 0},
+             "the deck has the marks of no layout; " + fitting_words(fitting),
+             {}});
+    return all;
+  }
+  if (!rejecting.empty()) {
+    all.add({Severity::error,
+             "S106",
+             {source.name(), 0, 0, 0},
+             "without a mistake it reads as " + rejecting + ": that is not computed here",
+             {}});
+    return all;
+  }
+  if (std::optional<Diagnostics> outside = outside_of_scope(source)) return outside;
+  all.add({Severity::error,
+           "S105",
+           {source.name(), 0, 0, 0},
+           "no layout fits this deck: it has the marks of none, and its first cards are not those of " +
+               standard.name + "; name its layout: " + ways_on(source),
+           {}});
   std::size_t shown = 0;
   for (const Diagnostic& problem : problems.list()) {
     if (problem.severity != Severity::error || problem.where.line == 0) continue;
