@@ -3,6 +3,7 @@
 
 #include <CLI/Option.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -79,6 +80,53 @@ void answer_cards(const Deck& deck) {
   for (const Card& card : deck.cards) cards.push_back(card_json(deck, card));
 }
 
+// Up to and including the card of the first mistake, and where no card was read from its line, the line.
+void print_up_to_mistake(Deck& deck, const Diagnostics& problems) {
+  int line = 0;
+  for (const Diagnostic& one : problems.list())
+    if (one.severity == Severity::error && one.where.line > 0 && (line == 0 || one.where.line < line))
+      line = one.where.line;
+  const auto behind = std::ranges::find_if(deck.cards, [&](const Card& card) { return card.line > line; });
+  const bool read = behind != deck.cards.begin() && std::prev(behind)->line == line;
+  deck.cut_back(static_cast<std::size_t>(behind - deck.cards.begin()));
+  answer_cards(deck);
+  fmt::print("{}", echo(deck));
+  if (line > 0 && !read)
+    fmt::print("\nnot read as a card\n      | {}\n{:5} | {}\n",
+               "....+....1....+....2....+....3....+....4....+....5....+....6....+....7....+....8", line,
+               well_formed(deck.line_text(line)).text);
+}
+
+// The deck, or, of one with mistakes, the cards before them; the error goes on.
+int echo_broken(const EchoOptions& options, const InputError& error) {
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(options.deck, ignored)) {
+    const std::string text = read_file(options.deck);
+    const std::string name = options.input.layout.empty() ? detect_layout(text) : options.input.layout;
+    ReadOptions read;
+    read.strict = options.input.strict;
+    read.shown = 1'000'000;
+    Diagnostics problems;
+    Deck deck = read_what_can_be(text, options.deck, load_layout(name, false), read, problems);
+    if (problems.errors() > 0) print_up_to_mistake(deck, problems);
+  }
+  print_diagnostics(error.diagnostics());
+  return kInput;
+}
+
+int echo_deck(const EchoOptions& options) {
+  try {
+    const Deck deck = read_input(options.deck, options.input, false);
+    answer_cards(deck);
+    fmt::print("{}", echo(deck));
+    print_diagnostics(deck.diagnostics);
+  } catch (const InputError& error) {
+    return echo_broken(options, error);
+  }
+  note_half_layout(options.input.layout);
+  return kOk;
+}
+
 }  // namespace
 
 Command echo_command(CLI::App& parser, const Catalogue&) {
@@ -96,12 +144,7 @@ Command echo_command(CLI::App& parser, const Catalogue&) {
       fmt::print("{}", names);
       return kOk;
     }
-    const Deck deck = read_input(options->deck, options->input, false);
-    answer_cards(deck);
-    fmt::print("{}", echo(deck));
-    print_diagnostics(deck.diagnostics);
-    note_half_layout(options->input.layout);
-    return kOk;
+    return echo_deck(*options);
   };
 }
 
