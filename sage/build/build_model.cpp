@@ -239,7 +239,10 @@ std::vector<LeftOut> left_out_cards(Builder& b, const Deck& as_read) {
   for (const CardView& card : as_read.all("left_out")) {
     const std::string what = card.text("what", "something");
     const SourcePosition where = card.blank("of") ? card.where() : card.where("of");
-    const std::string message = "the deck asks for " + what + ", which this program does not compute";
+    const std::string instead = card.text("instead");
+    const std::string message = "the deck asks for " + what +
+                                (instead.empty() ? ", which this program does not compute"
+                                                 : ", which its layout does not translate: " + instead);
     if (card.integer("partial") == 0)
       b.problems.add(card_diagnostic(as_read, Severity::error, "S229", where, message));
     else
@@ -323,6 +326,7 @@ Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOp
   build::check_model(b);
   build::check_stages(b);
   build::check_points(b);
+  if (b.problems.errors() == 0) build::check_units(b);
   if (b.problems.errors() == 0) build::check_plausible(b);
   if (b.problems.errors() == 0) build::check_coarse(b);
   if (b.problems.errors() > 0) throw refusal(deck, b.problems);

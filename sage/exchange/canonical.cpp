@@ -116,6 +116,11 @@ bool has_field(const Deck& deck, std::string_view card, std::string_view field) 
   return false;
 }
 
+// The card of a body that is made by rule, not a card of that name in another sense.
+bool has_body(const Deck& deck, std::string_view card, std::string_view field, std::string_view other) {
+  return deck.has(card) && (has_field(deck, card, field) || has_field(deck, card, other));
+}
+
 }  // namespace
 
 int solid_code(const Catalogue& catalogue, ParentShape shape, int nodes) {
@@ -134,10 +139,12 @@ int law_code(const Catalogue& catalogue, std::string_view name) {
 
 // The cards decide, not the layout's name: a layout file of the user's own gets the same meaning.
 std::optional<Deck> canonical_deck(const Deck& deck, const Catalogue& catalogue) {
-  if (deck.has("foundation")) return canonical::embankment_deck(deck, catalogue);
-  if (deck.has("rectangle")) return canonical::rectangle_deck(deck, catalogue);
-  if (deck.has("slope")) return canonical::slope_deck(deck, catalogue);
-  if (deck.has("mesh")) return canonical::listed_deck(deck, catalogue);
+  if (canonical::has_body(deck, "foundation", "columns", "rows"))
+    return canonical::embankment_deck(deck, catalogue);
+  if (canonical::has_body(deck, "rectangle", "columns", "rows"))
+    return canonical::rectangle_deck(deck, catalogue);
+  if (canonical::has_body(deck, "slope", "crest", "toe")) return canonical::slope_deck(deck, catalogue);
+  if (canonical::has_body(deck, "mesh", "nodes", "elements")) return canonical::listed_deck(deck, catalogue);
   if (canonical::has_field(deck, "element", "shear_modulus")) return canonical::quad4m_deck(deck, catalogue);
   if (canonical::has_field(deck, "element", "class")) return canonical::cande_deck(deck, catalogue);
   return std::nullopt;

@@ -1,9 +1,13 @@
 #include "sage/exchange/msh_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
+#include <cstdlib>
 
 #include "sage/core/error.hpp"
+#include "sage/deck/text.hpp"
 
 namespace sage::msh {
 
@@ -113,16 +117,16 @@ void read_entities(Scanner& in, MshFile& msh) {
     for (int i = 0; i < counts[dimension]; ++i) {
       const int tag = in.integer();
       for (int c = 0; c < (dimension == 0 ? 3 : 6); ++c) in.real();
-      for (int p = in.count(), first = 1; p > 0; --p, first = 0) {
-        const int physical = in.integer();
-        if (first) msh.physical[{dimension, tag}] = physical;
-      }
+      // A tag below zero is that of an entity turned round.
+      for (int p = in.count(); p > 0; --p) msh.physical[{dimension, tag}].push_back(std::abs(in.integer()));
       if (dimension > 0)
         for (int b = in.count(); b > 0; --b) in.integer();
     }
 }
 
-void read_nodes(Scanner& in, MshFile& msh) {
+using Heights = std::map<int, double>;  // z of nodes, by tag
+
+void read_nodes(Scanner& in, MshFile& msh, Heights& heights) {
   const int blocks = in.count();
   for (int i = 0; i < 3; ++i) in.integer();
   for (int b = 0; b < blocks; ++b) {
@@ -133,7 +137,7 @@ void read_nodes(Scanner& in, MshFile& msh) {
     for (int& tag : tags) tag = in.integer();
     for (int tag : tags) {
       const double x = in.real(), y = in.real();
-      in.real();
+      heights[tag] = in.real();
       for (int p = 0; p < (parametric ? dimension : 0); ++p) in.real();
       if (!msh.nodes.try_emplace(tag, Vector2(x, y)).second)
         in.fail("node " + std::to_string(tag) + " stands twice");
@@ -170,6 +174,67 @@ void read_elements(Scanner& in, MshFile& msh, const Registry<ElementEntry>& elem
   }
 }
 
+struct Extent {
+  double low = 0.0, high = 0.0;
+  double size() const { return high - low; }
+};
+
+// Nodes of elements that fill an area alone: points of the geometry may lie anywhere.
+std::array<Extent, 3> extents(const MshFile& msh, const std::vector<double>& z) {
+  std::array<Extent, 3> all;
+  bool first = true;
+  std::vector<Vector2> x;
+  for (const auto& [tag, place] : msh.nodes) x.push_back(place);
+  for (const MshBlock& block : msh.blocks) {
+    if (block.shape.dimension != 2) continue;
+    for (const MshElement& element : block.elements)
+      for (const int node : element.nodes) {
+        const auto n = static_cast<std::size_t>(node);
+        const std::array<double, 3> at{x[n].x(), x[n].y(), z[n]};
+        for (std::size_t c = 0; c < 3; ++c)
+          all[c] =
+              first ? Extent{at[c], at[c]} : Extent{std::min(all[c].low, at[c]), std::max(all[c].high, at[c])};
+        first = false;
+      }
+  }
+  return all;
+}
+
+// The plane of the mesh must be that of x and y.
+void check_plane(const MshFile& msh, const Heights& heights, const std::string& file) {
+  constexpr double kFlat = 1e-9;  // of the mesh's size
+  std::vector<double> z;
+  for (const auto& [tag, height] : heights) z.push_back(height);
+  const std::array<Extent, 3> all = extents(msh, z);
+  const double size = std::max({all[0].size(), all[1].size(), all[2].size()});
+  if (std::max(std::abs(all[2].low), std::abs(all[2].high)) <= kFlat * size) return;
+  static constexpr std::array<const char*, 3> kNames{"y-z", "x-z", "x-y"}, kNormals{"x", "y", "z"};
+  std::string where =
+      "in no plane of two axes: z goes from " + number_text(all[2].low) + " to " + number_text(all[2].high);
+  for (std::size_t c = 0; c < 3; ++c)
+    if (all[c].size() <= kFlat * size)
+      where = std::string("in the ") + kNames[c] + " plane " + kNormals[c] + " = " + rounded_text(all[c].low);
+  throw InputError("S251", {file, 0, 0, 0},
+                   "the mesh lies " + where + "; it must lie in the x-y plane z = 0, with y upwards");
+}
+
+// A surface belongs to one group.
+void check_surfaces(const MshFile& msh, const std::string& file) {
+  for (const MshBlock& block : msh.blocks) {
+    const auto found = msh.physical.find(block.entity);
+    if (block.shape.dimension != 2 || found == msh.physical.end() || found->second.size() < 2) continue;
+    std::string names;
+    for (const int physical : found->second) {
+      const auto name = msh.names.find({2, physical});
+      names += (names.empty() ? "" : " and ") +
+               (name == msh.names.end() ? "physical " + std::to_string(physical) : "'" + name->second + "'");
+    }
+    throw InputError("S252", {file, 0, 0, 0},
+                     "surface " + std::to_string(block.entity.second) + " belongs to " + names +
+                         ", and each surface must belong to one physical group");
+  }
+}
+
 }  // namespace
 
 int line_type(std::size_t nodes) {
@@ -179,6 +244,7 @@ int line_type(std::size_t nodes) {
 MshFile read_msh(std::string_view text, const std::string& file, const Registry<ElementEntry>& elements) {
   Scanner in(text, file);
   MshFile msh;
+  Heights heights;
   bool format = false;
   while (!in.end()) {
     const std::string section(in.word());
@@ -195,13 +261,15 @@ MshFile read_msh(std::string_view text, const std::string& file, const Registry<
     } else if (section == "$Entities") {
       read_entities(in, msh);
     } else if (section == "$Nodes") {
-      read_nodes(in, msh);
+      read_nodes(in, msh, heights);
     } else if (section == "$Elements") {
       read_elements(in, msh, elements);
     }
     in.pass_section(section);
   }
   if (msh.nodes.empty() || msh.blocks.empty()) in.fail("the file holds no mesh");
+  check_plane(msh, heights, file);
+  check_surfaces(msh, file);
   return msh;
 }
 

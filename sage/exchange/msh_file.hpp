@@ -35,10 +35,10 @@ struct MshBlock {
 };
 
 struct MshFile {
-  std::map<EntityKey, std::string> names;  // of physical groups
-  std::map<EntityKey, int> physical;       // entity -> physical tag
-  std::map<int, Vector2> nodes;            // by tag
-  std::map<int, int> index;                // tag -> index
+  std::map<EntityKey, std::string> names;          // of physical groups
+  std::map<EntityKey, std::vector<int>> physical;  // entity -> physical tags
+  std::map<int, Vector2> nodes;                    // by tag
+  std::map<int, int> index;                        // tag -> index
   std::vector<MshBlock> blocks;
 };
 

@@ -61,7 +61,8 @@ class Skeleton {
     if (model_.groups.empty())
       throw InputError("S711", {model_.file, 0, 0, 0}, "the mesh holds no surface elements");
     for (const MshBlock& block : msh_.blocks)
-      if (block.shape.dimension == 1) curve(block);
+      if (block.shape.dimension == 1)
+        for (const std::string& name : names_of(block)) curve(block, name);
     for (const auto& [name, sides] : joints_) join(name, sides);
     collect_unknowns(model_);
     if (turned_ > 0)
@@ -74,11 +75,16 @@ class Skeleton {
   void message(Severity severity, Code code, const std::string& text) {
     model_.diagnostics.add({severity, code, {model_.file, 0, 0, 0}, text, {}});
   }
-  std::string name_of(const MshBlock& block) const {
+  // Of the physical groups that it belongs to.
+  std::vector<std::string> names_of(const MshBlock& block) const {
+    std::vector<std::string> names;
     const auto physical = msh_.physical.find(block.entity);
-    if (physical == msh_.physical.end()) return {};
-    const auto name = msh_.names.find({block.entity.first, physical->second});
-    return name == msh_.names.end() ? "physical " + std::to_string(physical->second) : name->second;
+    if (physical == msh_.physical.end()) return names;
+    for (const int tag : physical->second) {
+      const auto name = msh_.names.find({block.entity.first, tag});
+      names.push_back(name == msh_.names.end() ? "physical " + std::to_string(tag) : name->second);
+    }
+    return names;
   }
 
   void nodes() {
@@ -123,8 +129,8 @@ class Skeleton {
   }
 
   void surface(const MshBlock& block) {
-    std::string name = name_of(block);
-    if (name.empty()) name = "surface " + std::to_string(block.entity.second);
+    const std::vector<std::string> names = names_of(block);
+    const std::string name = names.empty() ? "surface " + std::to_string(block.entity.second) : names.front();
     Group& target = group(name, block.shape.code);
     const int g = static_cast<int>(&target - model_.groups.data());
     for (const MshElement& element : block.elements) {
@@ -144,8 +150,7 @@ class Skeleton {
     }
   }
 
-  void curve(const MshBlock& block) {
-    const std::string name = name_of(block);
+  void curve(const MshBlock& block, const std::string& name) {
     for (const bool top : {false, true}) {
       const std::string_view mark = top ? msh::kInterfaceTop : msh::kInterfaceBottom;
       if (!name.starts_with(mark)) continue;
