@@ -59,6 +59,33 @@ int chosen_structure(const Builder& b, const ElementEntry& entry, int deck_code)
   return code != 0 ? code : deck_code;
 }
 
+// Whether the card of another quadrilateral gives this one its nodes, those inside made.
+bool takes_cards_of(const ElementEntry& wanted, const ElementEntry& other) {
+  return other.solid() && other.square() && wanted.solid() && wanted.square() &&
+         other.nodes <= wanted.card_nodes;
+}
+
+// Quadrilaterals that have more nodes on their cards than the element in their place.
+void check_replaced(Builder& b, const Group& group) {
+  const ElementEntry* wanted = b.catalogue.elements.find(b.options.element);
+  if (wanted == nullptr || group.entry == nullptr || group.element_code == b.options.element) return;
+  if (!group.entry->solid() || !group.entry->square() || !group.entry->unknowns.empty()) return;
+  b.error("S253", group.where,
+          "group " + std::to_string(group.number) + " is of " + group.entry->name + ", and " + wanted->name +
+              " (--element) can't take its place: its cards give more nodes than that has");
+}
+
+// The option must find something to replace.
+void check_any_replaced(Builder& b) {
+  const ElementEntry* wanted = b.catalogue.elements.find(b.options.element);
+  if (b.options.element == 0 || wanted == nullptr || b.model.groups.empty()) return;
+  const bool any = std::ranges::any_of(
+      b.model.groups, [&](const Group& group) { return group.element_code == b.options.element; });
+  if (!any)
+    b.error("S253", b.model.groups.front().where,
+            "the option --element: the deck has no quadrilaterals that " + wanted->name + " could replace");
+}
+
 // The deck's element, or the one that BuildOptions puts in its place.
 int chosen_element(const Builder& b, int deck_code) {
   const ElementEntry* deck_entry = b.catalogue.elements.find(deck_code);
@@ -68,6 +95,7 @@ int chosen_element(const Builder& b, int deck_code) {
   const ElementEntry* wanted = b.catalogue.elements.find(b.options.element);
   if (can_replace(wanted, *deck_entry)) return b.options.element;
   if (wanted == nullptr) return deck_code;
+  if (takes_cards_of(*wanted, *deck_entry)) return b.options.element;
   // Quadratic solids need quadratic interfaces beside them.
   const int beside = b.catalogue.elements.code_of(wanted->side_interface);
   return deck_entry->interface() && deck_entry->only_corners() && beside != 0 ? beside : deck_code;
@@ -442,8 +470,10 @@ void build_groups(Builder& b) {
                       std::to_string(m.number) + " is " + law->name);
       }
     }
+    if (b.problems.errors() == before) check_replaced(b, group);
     b.model.groups.push_back(std::move(group));
   }
+  if (b.problems.errors() == before) check_any_replaced(b);
   if (b.model.groups.empty())
     b.error("S214", b.deck.one("control").where(), "the deck defines no element groups");
   b.groups_known = b.problems.errors() == before;

@@ -350,10 +350,16 @@ void read_initial(Builder& b, const CardView& card, std::vector<InitialStress>& 
 void check_traction(Builder& b, const CardView& card) {
   if (card.integer("kind") != static_cast<int>(InitialKind::traction)) return;
   const int wanted = card.integer("v1");
-  for (const InitialStress& initial : b.model.initials) {
-    const Group& group = b.model.groups[static_cast<std::size_t>(initial.group)];
-    if (initial.kind != InitialKind::history && group.number == wanted && group.element && group.solid())
-      return;
+  const auto stated = [&](const std::vector<InitialStress>& list) {
+    return std::ranges::any_of(list, [&](const InitialStress& initial) {
+      const Group& group = b.model.groups[static_cast<std::size_t>(initial.group)];
+      return initial.kind != InitialKind::history && group.number == wanted && group.element && group.solid();
+    });
+  };
+  if (stated(b.model.initials)) return;
+  for (const Stage& stage : b.model.stages) {
+    if (stated(stage.initials)) return;
+    if (stage.where.line > card.card().line) break;  // its soil comes later
   }
   if (b.groups_known)
     b.error("S236", card.where("v1"),
@@ -484,7 +490,6 @@ void build_stages(Builder& b) {
     if (outside_stages(b.deck, card)) read_fixity(b, card, nullptr, b.model.fixities, b.model.field_fixities);
   for (const CardView& card : b.deck.all("initial"))
     if (outside_stages(b.deck, card)) read_initial(b, card, b.model.initials);
-  for (const CardView& card : b.deck.all("initial")) check_traction(b, card);
   int number = 0;
   const std::vector<CardView> titles = b.deck.all("stage_title");
   for (const CardView& card : b.deck.all("stage")) {
@@ -493,6 +498,7 @@ void build_stages(Builder& b) {
       b.model.stages.back().title = b.text(titles[static_cast<std::size_t>(number)], "title");
     ++number;
   }
+  for (const CardView& card : b.deck.all("initial")) check_traction(b, card);
   build_steps(b);
   build_strength_stages(b);
   if (b.model.stages.empty())

@@ -131,6 +131,8 @@ void check_points(Builder& b);
 void check_totals(Builder& b);
 // Numbers that are valid and yet unlikely: warnings and notes.
 void check_plausible(Builder& b);
+// Units and magnitudes: warnings where a number is likely in another unit than the deck's.
+void check_units(Builder& b);
 // Footings on meshes that can't tell their collapse load: warnings.
 void check_coarse(Builder& b);
 // Solids that cover the same ground: an error; on the same hand of a common edge: a warning.

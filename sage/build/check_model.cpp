@@ -288,6 +288,50 @@ void warn_locking(Builder& b) {
                   " more groups whose elements lock or lose accuracy near nu = 1/2");
 }
 
+// What makes the ground of a material grow while it flows, as words; empty = nothing.
+std::string dilation_words(const Material& material) {
+  if (material.entry == nullptr || !material.entry->for_solids()) return {};
+  const auto& rows = material.entry->parameters;
+  const std::size_t count = std::min(rows.size(), material.parameters.size());
+  // A code for flow: beside an angle 1 means none, without one it is the share of the associated flow.
+  const int at = material.entry->find("flow");
+  const double flow =
+      at >= 0 && static_cast<std::size_t>(at) < count ? material.parameters[static_cast<std::size_t>(at)] : 0.0;
+  double angle = 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+    if (rows[i].role == ParameterRole::dilation_angle) angle = std::max(angle, material.parameters[i]);
+  if (material.entry->find(ParameterRole::dilation_angle) < 0)
+    return flow > 0.0 ? "a flow that dilates, " + rounded_text(flow) + " of the associated one" : std::string();
+  return angle > 0.0 && flow == 0.0 ? "a dilation angle of " + rounded_text(angle) + " degrees" : std::string();
+}
+
+// Four-node elements resist a flow that dilates, on the unsafe side.  Numbers: docs/theory/accuracy.md.
+void warn_dilation(Builder& b) {
+  constexpr int kShown = 6;
+  const Group* first = nullptr;
+  std::string numbers, words;
+  int found = 0;
+  bool locks = false;
+  for (const Group& group : b.model.groups) {
+    if (!group.solid() || !group.entry->square() || !group.entry->only_corners() || group.elements() == 0)
+      continue;
+    const std::string dilation = dilation_words(b.model.material_of(group));
+    if (dilation.empty()) continue;
+    if (first == nullptr) first = &group, words = dilation;
+    locks = locks || group.element->traits().locks;
+    if (++found <= kShown) numbers += (numbers.empty() ? "" : ", ") + std::to_string(group.number);
+  }
+  if (first == nullptr) return;
+  const bool several = found > 1;
+  if (found > kShown) numbers += " and " + std::to_string(found - kShown) + " more";
+  b.warning("S355", first->where,
+            (several ? "groups " : "group ") + numbers + " of 4-node elements (" + first->element_name + ") " +
+                (several ? "have a flow that dilates, the first " : "has ") + words +
+                ": they collapse too late, a slope with psi = 20 degrees at F = " +
+                (locks ? "1.58 for 1.38 (14" : "1.52 for 1.38 (10") +
+                " % too high); 8-node elements (--element quad8) are within 2 %");
+}
+
 }  // namespace
 
 void check_model(Builder& b) {
@@ -306,6 +350,7 @@ void check_model(Builder& b) {
   if (b.problems.errors() == 0) check_held_structures(b);
   check_solver(b);
   warn_locking(b);
+  warn_dilation(b);
 }
 
 }  // namespace sage::build

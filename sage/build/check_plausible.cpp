@@ -1,6 +1,5 @@
-// Valid numbers that are unlikely to be meant: a unit system whose atmosphere is not one, gravity
-// without weight, a pressure beyond Young's modulus.  Warnings and notes only; thresholds are far
-// from what sound decks hold.
+// Valid numbers that are unlikely to be meant: gravity without weight, a pressure beyond Young's modulus.
+// Warnings and notes only; thresholds are far from what sound decks hold.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,55 +19,6 @@ namespace sage::build {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-
-struct NamedUnit {
-  const char* name;
-  double si;  // in m, N, Pa
-};
-
-constexpr NamedUnit kLengths[] = {{"m", 1.0},     {"cm", 0.01},   {"mm", 0.001},
-                                  {"km", 1000.0}, {"in", 0.0254}, {"ft", 0.3048}};
-constexpr NamedUnit kForces[] = {{"n", 1.0},        {"kn", 1e3},        {"mn", 1e6},      {"lbf", 4.4482216},
-                                 {"lb", 4.4482216}, {"kip", 4448.2216}, {"kgf", 9.80665}, {"tf", 9806.65}};
-constexpr NamedUnit kStresses[] = {{"pa", 1.0},        {"kpa", 1e3},       {"mpa", 1e6},
-                                   {"kn/m2", 1e3},     {"n/mm2", 1e6},     {"psi", 6894.7573},
-                                   {"psf", 47.880259}, {"ksf", 47880.259}, {"ksi", 6894757.3},
-                                   {"bar", 1e5},       {"tsf", 95760.518}, {"kgf/cm2", 98066.5}};
-constexpr double kAtmosphere = 101325.0, kWater = 9806.65;
-
-// 0 = a unit that isn't known here.
-template <std::size_t n>
-double si(const NamedUnit (&units)[n], const std::string& name) {
-  const std::string lower = lower_case(name);
-  for (const NamedUnit& unit : units)
-    if (lower == unit.name) return unit.si;
-  return 0.0;
-}
-
-// The atmosphere and water are the same everywhere: a deck of known units can be checked.
-void check_units(Builder& b) {
-  if (!b.deck.has("units")) return;
-  const CardView card = b.deck.one("units");
-  const UnitSystem& units = b.model.units;
-  const double length = si(kLengths, units.length), force = si(kForces, units.force);
-  const double stress = si(kStresses, units.stress);
-  const auto check = [&](const char* field, double given, double unit, double right, const std::string& name) {
-    if (given == 0.0 || unit == 0.0 || std::abs(given * unit / right - 1.0) < 0.1) return;
-    b.warning("S301", card.where(field),
-              "the " + card.label(field) + " is " + rounded_text(given) + "; in these units it is about " +
-                  rounded_text(right / unit) + " " + name);
-  };
-  check("atmospheric_pressure", units.atmospheric_pressure, stress, kAtmosphere, units.stress);
-  check("water_unit_weight", units.water_unit_weight, length > 0.0 ? force / (length * length * length) : 0.0,
-        kWater, unit_text(Dimension::unit_weight, units));
-  if (stress > 0.0 && force > 0.0 && length > 0.0) {
-    const double ratio = stress / (force / (length * length));
-    if (std::abs(ratio - 1.0) > 0.01)
-      b.warning("S302", card.where("stress"),
-                "1 " + units.stress + " is " + rounded_text(ratio) + " " + units.force + "/" + units.length +
-                    "^2: forces, lengths and stresses of a deck must belong together");
-  }
-}
 
 // act(parameter, value) for each number that a material's law reads.
 template <class Act>
@@ -339,9 +289,6 @@ void check_gravity(Builder& b) {
     const Vector2 before = total;
     total += stage.gravity;
     const std::string name = "stage " + std::to_string(stage.number) + ": ";
-    if (stage.gravity.norm() > 1000.0)
-      b.warning("S311", stage.where,
-                name + "gravity is " + rounded_text(stage.gravity.norm()) + " times the unit weights");
     if (stage.gravity.x() != 0.0 && b.model.geometry == Geometry::axisymmetric)
       b.warning("S311", stage.where,
                 name + "gravity_x is " + rounded_text(stage.gravity.x()) +
@@ -473,7 +420,6 @@ void check_reports(Builder& b, const Size& size) {
 
 void check_plausible(Builder& b) {
   const Size size = size_of(b);
-  check_units(b);
   check_slender(b);
   check_overlap(b);
   note_missing_numbers(b);

@@ -1,5 +1,6 @@
 // What only decks with flow of water can have wrong.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -280,12 +281,118 @@ void mark_used_sides(const Builder& b, const PorePressure& water, const std::vec
   }
 }
 
+struct LevelJump {
+  int edges = 0;
+  double largest = 0.0, sideways = 0.0;  // stress; force
+  int first = 0, second = 0;             // groups
+  int element = 0;                       // of the first, where the jump is largest
+  Vector2 place = Vector2::Zero();
+};
+
+// Ends of structures' edges, by node, as pairs of smaller and larger.
+std::set<std::pair<int, int>> structure_edges(const Model& model, const Activity& activity) {
+  std::set<std::pair<int, int>> edges;
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const Group& group = model.groups[g];
+    if (!activity.group[g] || !group.structure() || group.entry->corners < 2) continue;
+    for (int e = 0; e < group.elements(); ++e)
+      edges.insert(std::minmax(group.nodes_of(e)[0], group.nodes_of(e)[1]));
+  }
+  return edges;
+}
+
+// Pore pressure that the cards of an edge's own group give at its ends.
+std::array<double, 2> pressures_of(const Model& model, const PorePressure& water, const SolidEdge& edge,
+                                   int node) {
+  std::array<double, 2> pressures{};
+  const Group& group = model.groups[static_cast<std::size_t>(edge.group)];
+  const int* const nodes = group.nodes_of(edge.element);
+  const std::array<int, 2> ends{node, edge.other};
+  for (std::size_t end = 0; end < 2; ++end) {
+    std::vector<double> N(static_cast<std::size_t>(group.node_count()), 0.0);
+    for (std::size_t i = 0; i < N.size(); ++i)
+      if (nodes[i] == ends[end]) N[i] = 1.0;
+    if (water.card(static_cast<std::size_t>(edge.group)) != nullptr)
+      pressures[end] =
+          water.at(static_cast<std::size_t>(edge.group), edge.element, model.mesh.x.col(ends[end]), N);
+  }
+  return pressures;
+}
+
+// Whether a card states pressures by a level; r_u and heads may differ from group to group.
+bool has_level(const WaterCard* card) {
+  return card == nullptr || card->kind == WaterKind::line || card->kind == WaterKind::dry;
+}
+
+// Solids of two groups with a common edge, where their levels give different pressures.
+std::map<std::pair<int, int>, LevelJump> level_jumps(Builder& b, const Activity& activity,
+                                                     const PorePressure& water) {
+  constexpr double kSame = 1e-6;  // of p_a's worth: rounding
+  const Model& model = b.model;
+  std::map<std::pair<int, int>, LevelJump> jumps;
+  const std::set<std::pair<int, int>> walls = structure_edges(model, activity);
+  const SolidEdges& solids = b.solid_edges();
+  for (int node = 0; node < model.mesh.nodes(); ++node) {
+    const auto edges = solids.at(node);
+    for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+      const SolidEdge &one = edges[i], &two = edges[i + 1];
+      if (one.other != two.other || one.group == two.group || walls.contains({node, one.other})) continue;
+      const auto g1 = static_cast<std::size_t>(one.group), g2 = static_cast<std::size_t>(two.group);
+      if (!activity.group[g1] || !activity.group[g2]) continue;
+      const WaterCard *const c1 = water.card(g1), *const c2 = water.card(g2);
+      if (c1 == c2 || !has_level(c1) || !has_level(c2)) continue;
+      const std::array<double, 2> u1 = pressures_of(model, water, one, node),
+                                  u2 = pressures_of(model, water, two, node);
+      const double start = std::abs(u1[0] - u2[0]), end = std::abs(u1[1] - u2[1]), most = std::max(start, end);
+      if (most <= kSame * std::max({u1[0], u1[1], u2[0], u2[1]})) continue;
+      LevelJump& jump = jumps[std::minmax(one.group, two.group)];
+      const Vector2 x = model.mesh.x.col(node), y = model.mesh.x.col(one.other);
+      const double width =
+          model.geometry == Geometry::axisymmetric ? 3.14159265358979323846 * (x.x() + y.x()) : 1.0;
+      jump.sideways += 0.5 * (start + end) * std::abs(x.y() - y.y()) * width;
+      ++jump.edges;
+      if (most <= jump.largest) continue;
+      jump.largest = most;
+      jump.first = one.group;
+      jump.second = two.group;
+      jump.element = model.groups[g1].element_numbers[static_cast<std::size_t>(one.element)];
+      jump.place = start >= end ? x : y;
+    }
+  }
+  return jumps;
+}
+
+// Once for every pair of groups: the stage in which it begins.
+void warn_of_level_jumps(Builder& b, const Activity& activity, const PorePressure& water, const Stage& stage,
+                         std::set<std::pair<int, int>>& reported) {
+  const Model& model = b.model;
+  for (const auto& [pair, jump] : level_jumps(b, activity, water)) {
+    if (!reported.insert(pair).second) continue;
+    const Group &one = model.groups[static_cast<std::size_t>(jump.first)],
+                &two = model.groups[static_cast<std::size_t>(jump.second)];
+    const WaterCard* const card = water.card(static_cast<std::size_t>(jump.first)) != nullptr
+                                      ? water.card(static_cast<std::size_t>(jump.first))
+                                      : water.card(static_cast<std::size_t>(jump.second));
+    b.warning("S360", card->where,
+              "stage " + std::to_string(stage.number) + ": the pore pressures of groups " +
+                  std::to_string(one.number) + " and " + std::to_string(two.number) + " jump by up to " +
+                  rounded_text(jump.largest) + " " + model.units.stress + " at " + std::to_string(jump.edges) +
+                  (jump.edges == 1 ? " common edge" : " common edges") + " without a wall, most at element " +
+                  std::to_string(jump.element) + ", (" + rounded_text(jump.place.x()) + ", " +
+                  rounded_text(jump.place.y()) + ")" +
+                  (jump.sideways > 0.0
+                       ? ": this pushes " + rounded_text(jump.sideways) + " " + model.units.force + " sideways"
+                       : std::string()));
+  }
+}
+
 void check_pressures(Builder& b) {
   if (b.model.water.empty() || !follows_mesh(b)) return;
   Activity activity(b.model);
   double gravity = 0.0;
   bool warned = false;
   std::vector<char> used(b.model.water.size(), 0);
+  std::set<std::pair<int, int>> jumps;
   for (std::size_t s = 0; s < b.model.stages.size(); ++s) {
     const Stage& stage = b.model.stages[s];
     activity.enter(stage);
@@ -299,6 +406,7 @@ void check_pressures(Builder& b) {
     const std::vector<FreeEdge> free = free_edges(b.model, activity.group);
     warn_of_open_edges(b, activity, free, water, stage);
     warn_of_uplift(b, activity, water, stage, gravity);
+    warn_of_level_jumps(b, activity, water, stage, jumps);
     const std::vector<BesideStructure> walls = structures_beside_water(b.model, water.stage(), activity.group);
     mark_used_sides(b, water, walls, used);
     if (!warned) warned = warn_of_dry_walls(b, free, water, walls, stage);
