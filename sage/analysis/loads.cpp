@@ -88,13 +88,24 @@ Vector4 solid_stress(const InitialStress& initial, const Vector2& x, double u) {
   return Vector4::Zero();
 }
 
-// The initial stress stated for a group (by deck number), for the traction on its interfaces.
-const InitialStress* initial_of_group(const Model& model, int number) {
-  for (const InitialStress& initial : model.initials)
-    if (initial.kind != InitialKind::history &&
-        model.groups[static_cast<std::size_t>(initial.group)].number == number)
-      return &initial;
-  return nullptr;
+// The initial stress stated for the group (by deck number) whose traction an interface takes.  Of several cards the
+// last one stands, as in the group itself; the last are those of the stage that the interface's own card belongs to.
+const InitialStress* neighbour_of(const Model& model, const InitialStress& joint) {
+  const int number = static_cast<int>(joint.value[0]);
+  const InitialStress* found = nullptr;
+  const auto look = [&](const std::vector<InitialStress>& list) {
+    bool own = false;
+    for (const InitialStress& initial : list) {
+      own = own || &initial == &joint;
+      const Group& group = model.groups[static_cast<std::size_t>(initial.group)];
+      if (initial.kind != InitialKind::history && group.number == number && group.solid()) found = &initial;
+    }
+    return own;
+  };
+  if (look(model.initials)) return found;
+  for (const Stage& stage : model.stages)
+    if (look(stage.initials)) break;
+  return found;
 }
 
 // Shear and normal traction of a solid stress on the interface through nodes 1 and 2; [shear, normal].
@@ -216,9 +227,8 @@ void apply_initial_stress(const Model& model, const InitialStress& initial, cons
                           GroupData& data, Diagnostics& diagnostics) {
   const Group& group = *data.group;
   const ElementTraits& traits = group.element->traits();
-  const InitialStress* neighbour = initial.kind == InitialKind::traction
-                                       ? initial_of_group(model, static_cast<int>(initial.value[0]))
-                                       : nullptr;
+  const InitialStress* neighbour =
+      initial.kind == InitialKind::traction ? neighbour_of(model, initial) : nullptr;
   if (initial.kind == InitialKind::traction && neighbour == nullptr)
     throw InputError("S236", initial.where,
                      "group " + std::to_string(static_cast<int>(initial.value[0])) +

@@ -68,11 +68,18 @@ void add_points(Messages& messages, const Assembly& assembly) {
                     ": the tangent there has no stiffness; results there depend on how the law treats tension, "
                     "and on the path of the iteration");
   const UniquenessCount unique = count_loss_of_uniqueness(assembly);
-  if (unique.lost > 0)
+  if (unique.lost == 0) return;
+  const std::string count =
+      std::to_string(unique.lost) + " of " + std::to_string(unique.plastic) + " yielding points";
+  if (unique.softening > 0)
+    messages.add("S523", "loss of uniqueness at " + count + ", and the strength falls at " +
+                             std::to_string(unique.softening) +
+                             " of them: the answer depends on mesh and steps");
+  else
     messages.add("S523",
-                 "loss of uniqueness: the determinant of the acoustic tensor is negative at " +
-                     std::to_string(unique.lost) + " of " + std::to_string(unique.plastic) +
-                     " yielding points (flow is not associated): the answer can depend on mesh and steps");
+                 "loss of uniqueness: the determinant of the acoustic tensor is negative at " + count +
+                     " (flow is not associated): the answer can depend on mesh and steps",
+                 Severity::note);
 }
 
 }  // namespace

@@ -14,6 +14,9 @@ namespace sage {
 Diagnostic stage_message(const Stage& stage, Code code, const std::string& message,
                          Severity severity = Severity::warning);
 
+// A note of this code is for the listing and for -v alone.
+inline constexpr Code kDetailNote{"S523"};
+
 // Displacements beyond those that small strains describe; motion: RunResult::motion.
 std::vector<Diagnostic> motion_warnings(const Stage& stage, double motion);
 

@@ -14,6 +14,11 @@ Vector4 vector_at(const std::vector<double>& values, std::size_t point) {
   return Eigen::Map<const Vector4>(values.data() + 4 * point);
 }
 
+// det D = det D_e H/(H + n D_e m): zero in perfect plasticity whatever the flow, negative where the strength falls.
+bool softens(const Matrix4& D, const Matrix4& elastic) {
+  return D.determinant() < kNegative * elastic.determinant();
+}
+
 double acoustic_determinant(const Matrix4& D, double c, double s) {
   // Q = N^T D N with N the strain of a jump: columns [c 0 0 s], [0 s 0 c]
   Eigen::Matrix<double, 4, 2> N;
@@ -66,7 +71,9 @@ UniquenessCount count_loss_of_uniqueness(const Assembly& assembly, StepKind step
       const Matrix4 elastic = out.D;
       in.deps = vector_at(now.eps, p) - vector_at(before.eps, p);
       if ((*law)->update(in, out) != Outcome::ok || out.status != PointStatus::yielded) continue;
-      if (smallest_acoustic_ratio(out.D, elastic) < kNegative) ++count.lost;
+      if (smallest_acoustic_ratio(out.D, elastic) >= kNegative) continue;
+      ++count.lost;
+      if (softens(out.D, elastic)) ++count.softening;
     }
   }
   return count;

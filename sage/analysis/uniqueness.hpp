@@ -11,6 +11,7 @@ double smallest_acoustic_ratio(const Matrix4& D, const Matrix4& elastic);
 
 struct UniquenessCount {
   long lost = 0, plastic = 0;  // points with a negative ratio, of those that yield
+  long softening = 0;          // of those that lost it: the tangent itself has a negative determinant
 };
 
 // Which step: the last one that was committed (right after it the trial states hold what stood before), or the

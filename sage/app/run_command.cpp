@@ -116,7 +116,8 @@ int compute_deck(const RunOptions& options, const std::string& deck, const Catal
                                  outcome.error.get(), request.output.digits, sketch_for_screen(outcome)));
     }
     if (request.profile) fmt::print("{}\n", profile_table(outcome.record.profile));
-    if (outcome.exit_code != kOk) say_error(deck, outcome.record.result.reason, *outcome.record.result.code);
+    if (const std::optional<Code>& code = outcome.record.result.code; code && outcome.exit_code != kOk)
+      say_error(deck, outcome.record.result.reason, *code);
     return outcome.exit_code;
   });
 }

@@ -17,6 +17,7 @@
 #include "sage/app/progress.hpp"
 #include "sage/app/run_key.hpp"
 #include "sage/app/run_source.hpp"
+#include "sage/app/run_warnings.hpp"
 #include "sage/app/screen.hpp"
 #include "sage/app/state_choice.hpp"
 #include "sage/app/umat_output.hpp"
@@ -421,7 +422,9 @@ RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
     has_checkpoint = true;
   };
   Verbose verbose(request);
-  const std::vector<Observer*> observers = observers_of(request, outputs, verbose, end, outcome);
+  RunWarnings warnings(request);
+  std::vector<Observer*> observers = observers_of(request, outputs, verbose, end, outcome);
+  observers.insert(observers.begin(), &warnings);
   opening.reset();
   try {
     const RunResult result = analyse(request, model, catalogue, settings, observers, profile);
@@ -436,6 +439,7 @@ RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
     } else {
       checkpoint.remove();
     }
+    if (outcome.exit_code == kOk && !free_of_warnings(request, outcome.record)) outcome.exit_code = kInput;
   } catch (const std::exception& error) {
     stop(outputs, *outcome.reports, error.what());
     if (own) close_results(*own, request);

@@ -48,6 +48,16 @@ struct MeshResult {
   double middle() const { return 0.5 * (*found.lower + *found.upper); }
 };
 
+// What was found in the deck, without what --dilation none takes away.  Throws InputError where warnings count.
+void report(const SafetyOptions& options, const Diagnostics& found) {
+  Diagnostics all;
+  for (const Diagnostic& one : found.list())
+    if (options.search.dilation != DilationRule::none || !(one.code == Code("S355"))) all.add(one);
+  print_diagnostics(all);
+  if (options.input.strict && all.warnings() > 0)
+    throw InputError("S906", {options.deck, 0, 0, 0}, "warnings count as errors (--strict)");
+}
+
 MeshResult find_on_mesh(const SafetyOptions& options, const Catalogue& catalogue, int refine, Task& task) {
   const Deck deck = read_input(options.deck, options.input);
   BuildOptions build = options.input.build;
@@ -56,7 +66,7 @@ MeshResult find_on_mesh(const SafetyOptions& options, const Catalogue& catalogue
   MeshResult result;
   if (refine > 0) result.options = fmt::format("--refine {}", build.refine);
   result.model = std::make_unique<Model>(build_model(deck, catalogue, build));
-  if (refine == 0) print_diagnostics(result.model->diagnostics);
+  if (refine == 0) report(options, result.model->diagnostics);
   for (const Group& group : result.model->groups) result.elements += group.elements();
   result.dofs = DofMap(*result.model).dofs();
   if (refine > 0 && result.dofs > options.max_dofs) return result;

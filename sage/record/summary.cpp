@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "sage/analysis/stage_warnings.hpp"
 #include "sage/record/values.hpp"
 
 namespace sage {
@@ -259,7 +260,7 @@ void file_lines(std::string& text, const std::vector<std::filesystem::path>& fil
 void RunRecord::on_warning(const Diagnostic& d) {
   if (d.severity == Severity::warning)
     ++warnings;
-  else
+  else if (d.code != kDetailNote)
     notes += with_code(d.message, d.code) + "\n";
 }
 
