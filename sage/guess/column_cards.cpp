@@ -74,6 +74,7 @@ class CardBuilder {
   // All integers of single lines further up.
   void join_counted() {
     Counts counts;
+    std::vector<std::size_t> control;  // counts of the control card, in its order
     std::vector<Run> joined;
     for (Run& run : runs_) {
       if (!joined.empty() && may_join(joined.back(), run)) {
@@ -85,15 +86,57 @@ class CardBuilder {
           continue;
         }
       }
-      if (run.lines.size() == 1)
+      if (run.lines.size() == 1) {
+        std::vector<std::size_t> integers;
         for (const ColumnFacts& column : run.columns)
-          if (column.count == 1 && column.integers) counts.add(0, 0, 0, column.low, "");
+          if (column.count == 1 && column.integers) {
+            counts.add(0, 0, 0, column.low, "");
+            if (column.low >= 1.0 && column.low < 1e8) integers.push_back(static_cast<std::size_t>(column.low));
+          }
+        if (control.empty() && integers.size() >= 2 && integers.size() == run.columns.size())
+          control = integers;
+      }
+      while (const std::size_t lines = counted_head(run, counts, control))
+        joined.push_back(cut_behind(run, lines));
       if (const std::size_t cards = set_records(run, counts);
           cards * run.records < run.lines.size() && cards > 0)
         joined.push_back(cut_behind(run, cards * run.records));
       joined.push_back(std::move(run));
     }
     runs_ = std::move(joined);
+  }
+
+  // Lines at the head of a run that a count of the control card gives, where the run as a whole agrees with none and
+  // another kind of line begins behind them, or another of its counts gives the rest; 0 = none.
+  std::size_t counted_head(const Run& run, const Counts& counts,
+                           const std::vector<std::size_t>& control) const {
+    const std::size_t lines = run.lines.size();
+    if (run.words || !run.format.empty() || lines < 3 || counts.has(static_cast<double>(lines))) return 0;
+    const auto is_count = [&](std::size_t n) { return std::ranges::find(control, n) != control.end(); };
+    std::size_t found = 0;
+    for (const std::size_t head : control) {
+      if (head < 2 || head >= lines) continue;
+      const std::size_t rest = lines - head;
+      const bool change = changes_at(run, head);
+      if (change && is_count(rest)) return head;
+      if (found == 0 && (change || (is_count(rest) && head > 3 && rest > 3))) found = head;
+    }
+    return found;
+  }
+
+  // All lines before this one are of one pattern of kinds, and it and those behind are of another.
+  bool changes_at(const Run& run, std::size_t at) const {
+    const auto pattern = [&](std::size_t i) {
+      std::string kinds;
+      for (const Token& token : scan_.lines[run.lines[i]].tokens)
+        kinds += static_cast<char>('a' + static_cast<int>(token.kind));
+      return kinds;
+    };
+    const std::string before = pattern(0), behind = pattern(at);
+    if (before == behind) return false;
+    for (std::size_t i = 0; i < run.lines.size(); ++i)
+      if (pattern(i) != (i < at ? before : behind)) return false;
+    return true;
   }
 
   // Like lines that no count fits, but every second or third of which begins with the next number: how many such
