@@ -45,8 +45,8 @@ constexpr MessageEntry kMessages[] = {
      "Name the layout if you know it (--layout NAME or a file). If nobody knows it, sagefe layout guess "
      "DECK writes a first layout, and docs/manual/own_layout.md says how to finish it."},
     {"S106", "a deck of a program with another purpose",
-     "The words at its top are those of a program for structures, seepage, heat or three dimensions, "
-     "which this program does not compute.",
+     "Its cards are those of a program for heat, vibration, consolidation, plates or three dimensions, which "
+     "this program does not compute.",
      "If the guess is wrong, name the layout with --layout. Otherwise only its mesh can be used: export "
      "it to Gmsh (.msh) and take it from there with sagefe convert."},
     {"S107", "another layout reads the deck without mistakes",
@@ -168,6 +168,14 @@ constexpr MessageEntry kMessages[] = {
      "After a mistake by which all that follows would be misread, the rest of the deck is not looked at, "
      "in order not to print a page of messages that mean nothing.",
      "Mend the mistake reported before, then check again."},
+    {"S133", "a name or title runs into the next field",
+     "The text is longer than its field, and a number field behind it reads what runs over.",
+     "Shorten the text so that it ends with its field."},
+    {"S134", "numbers behind the last field",
+     "The card has fewer fields than numbers: the last ones are not read. A value too many stands on the card, "
+     "it "
+     "is shifted, or it is of another program's layout.",
+     "Take the numbers out or move them into their fields. A remark that is meant there begins with a word."},
     {"S140", "there is no layout of this name",
      "--layout takes the name of a layout that is built in or the path of a layout file. Neither was "
      "found.",
@@ -431,6 +439,19 @@ constexpr MessageEntry kMessages[] = {
      "Run the deck of the flow with --result, name its STEM.h5 as seen from this deck's folder, and let its "
      "mesh hold "
      "all solids that the card is about."},
+    {"S251", "a mesh lies in another plane",
+     "A model in two dimensions lies in the plane of x and y, z = 0. The nodes of this mesh have other heights "
+     "z: it was drawn in the x-z or y-z plane, lies at another height, or is a surface in space.",
+     "Draw the geometry with z = 0 and y upwards, or turn or move it in the program that made the mesh (Gmsh: "
+     "Rotate, Translate)."},
+    {"S252", "a surface belongs to two physical groups",
+     "Each surface of a mesh becomes part of one element group with one material, and this one has two names.",
+     "Give the surface one physical group. Curves may belong to several."},
+    {"S253", "an element can't take the place of the deck's",
+     "--element and --element-b replace quadrilaterals by others with as many nodes or more: the middle nodes "
+     "that the cards lack are made. Nodes that the cards give are never dropped, and triangles stay.",
+     "Choose an element with enough nodes (sagefe list elements), or write the deck with 4-node "
+     "quadrilaterals."},
     {"S260", "there is nothing to divide for a safety factor",
      "sagefe safety divides the strengths of the chosen groups. The deck has no such stage or group, or no "
      "chosen group has a law whose entry names a strength: elastic laws have none, interfaces and structures "
@@ -481,7 +502,8 @@ constexpr MessageEntry kMessages[] = {
      "as it is in that stage."},
     {"S311", "gravity acts in an unusual way",
      "Gravity is a factor on unit weights, added to what earlier stages have; -1 in y is the usual one, "
-     "once. Other factors, an upward or radial direction, or a second one are told.",
+     "once. Factors above 3 (9.81 is the acceleration in m/s^2), an upward or radial direction, or a second "
+     "one are reported. Models of a centrifuge, up to about 3 m high, may have 15 to 500.",
      "Give gravity_y = -1 in one stage. A stage that shall leave gravity as it is has 0."},
     {"S312", "gravity and unit weights do not go together",
      "Gravity acts, but no material has a unit weight, one is blank, or the weight of a column as high "
@@ -649,6 +671,35 @@ constexpr MessageEntry kMessages[] = {
      "Initial values are compression positive and count for each unit of width: -150/2.5 for anchors that are "
      "pulled "
      "with 150 every 2.5. Change the sign, the size or the law."},
+    {"S355", "4-node elements dilate",
+     "A group of 4-node quadrilaterals has a law whose plastic flow increases the volume. These elements can't "
+     "follow that flow and resist too long: on a slope of 1:2 with phi = psi = 20 degrees the factor of safety "
+     "is 1.52 with b-bar and 1.58 with full integration, where 8-node elements give 1.39 and 1.36 to 1.37 is "
+     "right. With psi = 5 degrees the error is the same. docs/theory/accuracy.md has the measurement.",
+     "Use 8-node elements (--element quad8), or a dilation angle of 0 (sagefe safety --dilation none), with "
+     "which 4-node b-bar elements are about 3 % high."},
+    {"S356", "a unit weight is not one of soil",
+     "In the deck's units the number is less than a quarter or more than 3.5 times the unit weight of water "
+     "(8.5 times for a law without strength, which may be steel). Likely it is a density (kg/m^3, t/m^3), or "
+     "in "
+     "the unit of another program.",
+     "Give the unit weight in the deck's force per cubed length: 18 to 21 kN/m^3, 115 to 130 lb/ft^3 or 0.066 "
+     "to 0.075 lb/in^3. Correct the units card where that is wrong."},
+    {"S358", "a modulus or cohesion is not one of soil",
+     "As a multiple of the atmosphere in the deck's units the number is far from what soils have: a modulus "
+     "below 0.5 or, for a law with strength, above 100000 times; a cohesion above 10 times, or without "
+     "friction "
+     "below 0.005 times. Likely it is in another unit (Pa, MPa).",
+     "Give moduli and strengths in the stress unit of the units card. A warning for rock, concrete or a peat "
+     "is "
+     "no mistake of the deck."},
+    {"S360", "water levels differ between neighbours",
+     "Two groups that share edges have different phreatic lines (or one is dry), and no structure or joint "
+     "lies "
+     "between them. The pore pressure jumps there, and the difference acts as a force that no ground water "
+     "has.",
+     "Give both groups one line that falls from level to level, put the wall or joint between them that holds "
+     "the water back, or compute the heads by elements of flow."},
     {"S401", "elements of different degree meet",
      "One element has nodes inside the common edge, the other has not: the mesh would gape there.",
      "Give both the same number of nodes an edge; --element quad8 turns all of the mesh."},
@@ -768,9 +819,10 @@ constexpr MessageEntry kMessages[] = {
      "Look where they are (--points). At a free surface they mostly do no harm; compare with another "
      "tension limit or apex code."},
     {"S523", "the answer may not be the only one",
-     "Flow is not associated, and the acoustic tensor has lost its positive determinant at yielding "
-     "points: shear bands may form, whose width is that of an element. Peak loads then depend on mesh "
-     "and steps.",
+     "The acoustic tensor has lost its positive determinant at yielding points: shear bands may form, whose "
+     "width is that of an element. Where the strength falls with strain (a law that softens), peak loads and "
+     "what comes behind them depend on mesh and steps: a warning. Where it does not, flow is merely not "
+     "associated (dilation below friction), which most sands are: a note, in the listing and with -v.",
      "Compare two meshes (--refine 1) and twice the increments. Dilation equal to friction bounds the "
      "load from above."},
     {"S524", "the sums of forces are out of balance",
@@ -1094,7 +1146,10 @@ constexpr MessageEntry kMessages[] = {
      "The message says what is wanted; values with blanks need quotes."},
     {"S905", "options do not go together", "Two options exclude each other, or one needs another.",
      "Give one of them, or both that belong together; the help of the command says which."},
-    {"S906", "a warning counts as an error", "--strict was given, and the deck has warnings.",
+    {"S906", "a warning counts as an error",
+     "--strict was given, and the deck or its run has warnings. Those of a run come while it computes; its "
+     "results are "
+     "complete then, and the exit code is 2.",
      "Mend what they say, or leave out --strict."},
     {"S907", "the command needs what the deck lacks",
      "--converge and --follow work on numbers of reports, compare on points of both meshes; the deck has "
