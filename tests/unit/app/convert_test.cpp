@@ -302,6 +302,49 @@ $Elements
 $EndElements
 )";
 
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+std::string refusal(const std::string& msh) {
+  try {
+    model_from_msh(msh, "square.msh", full_catalogue(), {});
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+// The nodes in other planes: x-z, y-z, another height, and a roof.
+TEST(Convert, AMeshInAnotherPlaneIsRejectedByName) {
+  const std::string nodes = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n", mesh(kMesh);
+  EXPECT_NE(refusal(with(mesh, nodes, "0 0 0\n1 0 0\n1 0 1\n0 0 1\n")).find("lies in the x-z plane y = 0"),
+            std::string::npos);
+  EXPECT_NE(refusal(with(mesh, nodes, "2 0 0\n2 1 0\n2 1 1\n2 0 1\n")).find("lies in the y-z plane x = 2"),
+            std::string::npos);
+  EXPECT_NE(refusal(with(mesh, nodes, "0 0 5\n1 0 5\n1 1 5\n0 1 5\n")).find("lies in the x-y plane z = 5"),
+            std::string::npos);
+  EXPECT_NE(refusal(with(mesh, nodes, "0 0 0\n1 0 0\n1 1 1\n0 1 1\n")).find("z goes from 0 to 1"),
+            std::string::npos);
+  EXPECT_EQ(refusal(with(mesh, nodes, "0 0 0\n1 0 1e-12\n1 1 0\n0 1 0\n")), "none");
+}
+
+TEST(Convert, ASurfaceHasOnePhysicalGroupAndACurveMayHaveSeveral) {
+  const std::string named = with(with(kMesh, "$PhysicalNames\n4\n", "$PhysicalNames\n6\n"), "2 4 \"sand\"\n",
+                                 "2 4 \"sand\"\n2 5 \"clay\"\n1 6 \"fix_y\"\n");
+  EXPECT_NE(refusal(with(named, "1 0 0 0 1 1 0 1 4 0\n", "1 0 0 0 1 1 0 2 4 5 0\n"))
+                .find("surface 1 belongs to 'sand' and 'clay'"),
+            std::string::npos);
+  // Curve 2 is pressed and held.
+  const Model both = model_from_msh(with(named, "2 0 1 0 1 1 0 1 2 2 1 -1\n", "2 0 1 0 1 1 0 2 2 6 2 1 -1\n"),
+                                    "square.msh", full_catalogue(), {});
+  const Model one = model_from_msh(kMesh, "square.msh", full_catalogue(), {});
+  EXPECT_EQ(both.stages[0].pressures.size(), one.stages[0].pressures.size());
+  EXPECT_EQ(both.fixities.size(), one.fixities.size() + 2);
+}
+
 TEST(Convert, GmshMeshBecomesASkeletonThatCheckExplains) {
   Model skeleton = model_from_msh(kMesh, "square.msh", full_catalogue(), {});
   ASSERT_EQ(skeleton.groups.size(), 1u);

@@ -94,11 +94,14 @@ TEST(PlausibleRoles, AreSeenInALawThatTheProgramDoesNotKnow) {
     return text;
   };
   EXPECT_EQ(printed({18.0, 10.0, 30.0, 0.3, 1e4}), "");
-  EXPECT_EQ(printed({-18.0, 2e4, 0.5, -0.1, 1e4}),
-            "material 1: Poisson's ratio is negative, -0.1\n"
-            "material 1: the friction angle is 0.5 degrees; was it meant in radians, 28.65 degrees?\n"
-            "material 1: own_weight, -18, is a negative unit weight\n"
-            "material 1: grip, 2e+04, exceeds the material's modulus, 1e+04\n");
+  EXPECT_EQ(
+      printed({-18.0, 2e4, 0.5, -0.1, 1e4}),
+      "material 1: grip is 2e+04, 197 times the atmosphere; soils have up to 5 times: is it in Pa? 2e+04 Pa "
+      "are 20 kPa\n"
+      "material 1: Poisson's ratio is negative, -0.1\n"
+      "material 1: the friction angle is 0.5 degrees; was it meant in radians, 28.65 degrees?\n"
+      "material 1: own_weight, -18, is a negative unit weight\n"
+      "material 1: grip, 2e+04, exceeds the material's modulus, 1e+04\n");
   const std::string soft = printed({18.0, 10.0, 30.0, 0.3, 15.0});
   EXPECT_NE(soft.find("the weight of a column as high as the mesh, 40, exceeds its modulus, 15"),
             std::string::npos)
@@ -282,6 +285,74 @@ TEST(Elements, EightNodesOnTheCardOfANineNodeElementAreAllThatItHolds) {
   EXPECT_EQ(messages(deck).find("left blank"), std::string::npos) << messages(deck);
 }
 
+// The lower half (group 1) dry, or with a level of its own; the right half of a block of 2 x 2 has another group.
+DeckWriter two_levels(double left, double right) {
+  DeckWriter deck = sound();
+  deck.group(2, 1, 0, 1);
+  for (std::size_t e : {1, 3}) deck.elements[e].replace(5, 5, "    2");
+  deck.initial(2, 0, 1.0, 1.0, 1.0, 0.0);
+  deck.water(1, 1, 1, 0, {0.0, left, 2.0, left});
+  deck.water(1, 2, 1, 0, {0.0, right, 2.0, right});
+  return deck;
+}
+
+// Levels 1.5 and 1 at the common edges x = 1, y = 0 to 1 and 1 to 2: u differs by 9.81 * .5 = 4.905 up to y = 1 and
+// by nothing at y = 2. Force of the two trapezia at the nodes' values: 4.905 * 1 + 4.905/2.
+TEST(WaterLevels, ThatDifferBetweenNeighboursAreWarnedOfWithJumpAndEdges) {
+  const std::string text = messages(two_levels(1.5, 1.0));
+  EXPECT_NE(
+      text.find(
+          "the pore pressures of groups 1 and 2 jump by up to 4.905 kPa at 2 common edges without a wall, "
+          "most at element 1, (1, 0): this pushes 7.358 kN sideways"),
+      std::string::npos)
+      << text;
+  EXPECT_EQ(messages(two_levels(1.5, 1.5)).find("jump"), std::string::npos);
+  DeckWriter walled = two_levels(1.5, 1.0);
+  walled.material(2, 36, {1e6, 1e4});
+  walled.group(3, 35, 0, 2);
+  walled.element(11, 3, {2, 5});
+  walled.element(12, 3, {5, 8});
+  EXPECT_EQ(messages(walled).find("jump"), std::string::npos) << messages(walled);
+}
+
+// A joint between two blocks that are activated together: its traction is that of the stage's card, of two cards the
+// last one's, as in the soil: 30.
+TEST(Joints, TakeTheTractionOfTheLastCardOfTheirStage) {
+  const auto traction = [](bool at_once, bool twice) {
+    DeckWriter deck(1);
+    for (int i = 0; i < 8; ++i) deck.node(i + 1, i % 2, i / 2 < 2 ? i / 2 : i / 2 - 1);
+    deck.material(1, 1, {1e4, 0.3});
+    deck.material(2, 21, {1e4, 1e4});
+    deck.group(1, 1, 0, 1);
+    deck.group(2, 1, 0, 1);
+    deck.group(3, 11, 0, 2);
+    deck.element(1, 1, {1, 2, 4, 3});
+    deck.element(2, 2, {5, 6, 8, 7});
+    deck.element(3, 3, {3, 4, 6, 5});
+    for (int n = 1; n <= 8; ++n) deck.fix(n, 1, n <= 6 ? 1 : 0);
+    StageCards* stage = &deck.stage();
+    if (!at_once) {
+      stage = &deck.stage();
+      stage->births = {2, 3};
+    }
+    const auto add = [&](int group, int kind, double v1, double v2, double v3) {
+      if (at_once)
+        deck.initial(group, kind, v1, v2, v3, 0.0);
+      else
+        stage->initial(group, kind, v1, v2, v3, 0.0);
+    };
+    if (twice) add(2, 0, 5.0, 7.0, 5.0);
+    add(2, 0, 20.0, 30.0, 20.0);
+    add(3, 3, 2.0, 0.0, 0.0);
+    const WholeRun run = run_text(deck.text());
+    EXPECT_TRUE(run.completed()) << run.failure;
+    return run.stress[2](1, 0);
+  };
+  for (const bool at_once : {true, false})
+    for (const bool twice : {false, true})
+      EXPECT_NEAR(traction(at_once, twice), -30.0, 1e-9) << at_once << twice;
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Numbers, Plausible,
     testing::Values(
@@ -307,6 +378,57 @@ INSTANTIATE_TEST_SUITE_P(
                    d.material(1, 1, {1e4, 0.3}, 2e4);
                  },
                  "the weight of a column as high as the mesh, 4e+04, exceeds its modulus, 1e+04"},
+        Unlikely{
+            "DensityInTonnes",
+            [](DeckWriter& d) {
+              d.materials.clear();
+              d.material(1, 1, {1e4, 0.3}, 1.9);
+            },
+            "the unit weight is 1.9, 0.194 times that of water; soils have 1 to 2.5 times: is it in t/m^3? 1.9 "
+            "t/m^3 are 18.6 kN/m^3"},
+        Unlikely{"ModulusInMegapascals",
+                 [](DeckWriter& d) {
+                   d.materials.clear();
+                   d.material(1, 4, {20.0, 0.3, 10.0, 30.0}, 19.0);
+                 },
+                 "youngs_modulus is 20, 0.197 times the atmosphere; soils have 5 to 10000 times: is it in MPa? "
+                 "20 MPa "
+                 "are 2e+04 kPa"},
+        Unlikely{"ModulusInPascals",
+                 [](DeckWriter& d) {
+                   d.materials.clear();
+                   d.material(1, 4, {2e7, 0.3, 10.0, 30.0}, 19.0);
+                 },
+                 "is it in Pa? 2e+07 Pa are 2e+04 kPa"},
+        Unlikely{
+            "CohesionInPascals",
+            [](DeckWriter& d) {
+              d.materials.clear();
+              d.material(1, 4, {2e4, 0.3, 5000.0, 30.0}, 19.0);
+            },
+            "cohesion is 5000, 49.3 times the atmosphere; soils have up to 5 times: is it in Pa? 5000 Pa are 5 "
+            "kPa"},
+        Unlikely{"WeightOfTheInitialStress",
+                 [](DeckWriter& d) {
+                   d.initials.clear();
+                   d.initial(1, 1, 2.0, 1900.0, 0.5, 0.0);
+                 },
+                 "initial stress: the unit weight is 1900, 194 times that of water"},
+        Unlikely{"Acceleration", [](DeckWriter& d) { d.stages[0].gravity_y = -9.81; },
+                 "warning: stage 1: gravity is 9.81 times the unit weights, and 1 is the full weight"},
+        Unlikely{"DensitiesUnderAcceleration",
+                 [](DeckWriter& d) {
+                   d.materials.clear();
+                   d.material(1, 1, {1e4, 0.3}, 1.9);
+                   d.stages[0].gravity_y = -9.81;
+                 },
+                 "note: stage 1: gravity is 9.81 times the unit weights, which then look like densities"},
+        Unlikely{"DilatantFourNodeElements",
+                 [](DeckWriter& d) {
+                   d.materials.clear();
+                   d.material(1, 4, {1e4, 0.3, 10.0, 30.0, 5.0}, 20.0);
+                 },
+                 "warning: group 1 of 4-node elements (quad4 b-bar) has a dilation angle of 5 degrees"},
         Unlikely{"NegativeNu",
                  [](DeckWriter& d) {
                    d.materials.clear();

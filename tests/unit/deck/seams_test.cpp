@@ -55,6 +55,68 @@ TEST(Slip, ABlankTooManyBeforeTheLastNumber) {
   EXPECT_EQ(warning(parameters, "    20000.           stiff clay"), "");
 }
 
+// 1.E9 one or two columns to the right of its place read 1.
+TEST(Slip, ANumberCutBeforeItsExponent) {
+  const Layout two = one_card("(2F10.0)", "ab");
+  EXPECT_EQ(warning(two, "       1.0      1.E9"), "");
+  EXPECT_EQ(
+      warning(two, "       1.0        1.E9"),
+      "19-22: \"1.E9\" is cut: the field ends at column 20, and what stands behind it is not read (c card, b)");
+  EXPECT_EQ(
+      warning(two, "       1.0        1.d+05"),
+      "19-24: \"1.d+05\" is cut: the field ends at column 20, and what stands behind it is not read (c card, "
+      "b)");
+  EXPECT_NE(warning(one_card("(F10.0,A20)", "at"), "        1.E9 clay"), "");
+  EXPECT_EQ(warning(one_card("(F10.0,A20)", "at"), "        1.East clay"), "");
+  // Within the card the exponent would be the next number.
+  EXPECT_THROW(read_deck_text("        1.E9       2.0\n", "deck", two), InputError);
+}
+
+TEST(Slip, NumbersBehindTheLastField) {
+  const Layout two = one_card("(2F10.0)", "ab");
+  EXPECT_EQ(warning(two, "       1.0       2.0       3.0"),
+            "28-30: numbers stand behind the last field of the c card and are not read");
+  EXPECT_EQ(warning(two, "       1.0       2.0   3 layers"), "");
+  ReadOptions strict;
+  strict.strict = true;
+  EXPECT_THROW(read_deck_text("       1.0       2.0       3.0\n", "deck", two, strict), InputError);
+}
+
+// A name that begins or ends with digits is no slip; one that a number field reads the rest of is told as that.
+TEST(Slip, NamesAndTitlesAreNone) {
+  const std::string head = "name = 'x'\n[[card]]\nname = 'c'\n";
+  const Layout name = load_layout_text(
+      head +
+          "format = '(I5,F10.0,A20,I5)'\nfields = [{ name = 'n' }, { name = 'w' }, { name = 'name' }, "
+          "{ name = 'overlay' }]\n",
+      "my.toml");
+  EXPECT_EQ(warning(name, "    1          2 clay"), "");
+  EXPECT_EQ(warning(name, "    1      19.5 section 12"), "");
+  const std::string runs_over = warning(name, "    1      19.5 sand of section 1234");
+  EXPECT_NE(runs_over.find("runs on beyond column 35"), std::string::npos) << runs_over;
+}
+
+// The message of the first error; "" where there is none.
+std::string error(const Layout& layout, const std::string& text) {
+  try {
+    read_deck_text(text, "deck", layout);
+  } catch (const InputError& e) {
+    for (const Diagnostic& d : e.diagnostics().list())
+      if (d.severity == Severity::error) return d.message;
+  }
+  return "";
+}
+
+TEST(Slip, ACardBesideItsColumnsIsNamedBeforeItsFields) {
+  const Layout node = one_card("(3I5,2F10.0)", "abcxy");
+  EXPECT_EQ(error(node, "    12   0    0       1.0      -4.0\n"), "");
+  EXPECT_EQ(error(node, "    1    0    0        1.0      -4.0\n"),
+            "the c card is shifted 1 column to the right from \"1.0\" on");
+  EXPECT_EQ(error(node, "       1    0    0       1.0      -4.0\n"),
+            "the c card is shifted 3 columns to the right");
+  EXPECT_EQ(error(node, "    1    0    0    1 5\n"), "");  // a blank within a number: a warning
+}
+
 TEST(Slip, WarningsAreErrorsWhereThatIsAsked) {
   ReadOptions strict;
   strict.strict = true;

@@ -256,7 +256,9 @@ TEST(Stap, DiscOfTriangles) {
 
 TEST(Stap, WhatIsNotComputedIsNamed) {
   EXPECT_EQ(errors_of(text_of(kInputs + "stap/trusses.dat"), "stap"),
-            "8:1 the deck asks for truss elements (NPAR(1) = 1), which this program does not compute\n");
+            "8:1 the deck asks for truss elements (NPAR(1) = 1), which its layout does not translate: bars in "
+            "the plane "
+            "are element 31 (bar2) of a sage1 deck\n");
   const std::string disc = text_of(kInputs + "stap/disc.dat");
   EXPECT_NE(
       errors_of(changed(disc, "    3    2    1    0", "    3    2    1    2"), "stap").find("plane stress"),

@@ -128,7 +128,7 @@ TEST(SlippedDeckMessages, OtherLayoutsThatReadItAreNamed) {
 TEST(SlippedDeckMessages, WhereSeveralFitNoneIsTaken) {
   expect_said(
       said_of("1 1 1\n100. 1.e5 .3\n0. 1.\n0. -1.\n0\n0\n1\n1\n1\n1\n", ""),
-      {"error: no layout fits this deck",
+      {"error: the deck has the marks of no layout",
        "reads as each of sg_p61, sg_p66, which are different programs: name the one that it was written for"});
 }
 

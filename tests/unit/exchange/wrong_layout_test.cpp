@@ -156,7 +156,11 @@ TEST(OtherPrograms, AreRefusedByWhatTheyAre) {
     } catch (const InputError& error) {
       const std::string& message = error.diagnostics().list().front().message;
       EXPECT_NE(message.find(std::string("program ") + other.program), std::string::npos) << message;
-      EXPECT_NE(message.find("outside of what this program does"), std::string::npos) << message;
+      // Bars, beams and steady flow are computed here, and no layout reads those decks.
+      const std::string program = other.program;
+      const bool computed = program.starts_with("7.") || (program.starts_with("4.") && program < "4.5");
+      EXPECT_EQ(message.find("outside of what this program does") == std::string::npos, computed) << message;
+      EXPECT_EQ(message.find("which no layout reads") != std::string::npos, computed) << message;
     }
   }
 }

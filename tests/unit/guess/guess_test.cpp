@@ -240,6 +240,25 @@ TEST(Guess, FeapBlocks) {
   EXPECT_EQ(deck.all("element")[3].integer("n4"), 8);
 }
 
+// Elements go on where the nodes end, in the same columns: the control card's counts, 6 and 4, tell them apart.
+TEST(Guess, CountsOfTheControlCardWinOverALongerBlock) {
+  const std::string text =
+      "nodes and elements\n    6    4    2\n"
+      "    1    0   10    0\n    2    0   20    0\n    3    0   30    0\n    4    0   40    5\n"
+      "    5    0   50    5\n    6    0   60    5\n"
+      "    7    1    2    4\n    8    2    3    5\n    9    3    4    6\n   10    1    5    6\n";
+  const Deck deck = read_as_guessed(text, "merged.dat");
+  std::map<int, std::pair<int, int>> lines;  // of each kind: first and last
+  for (const Card& card : deck.cards) {
+    const auto [at, added] = lines.try_emplace(card.spec, card.line, card.line);
+    if (!added) at->second.second = card.line;
+  }
+  std::set<std::pair<int, int>> blocks;
+  for (const auto& [spec, block] : lines) blocks.insert(block);
+  EXPECT_TRUE(blocks.contains({3, 8})) << guess_layout(text, "merged.dat", "merged").toml;
+  EXPECT_TRUE(blocks.contains({9, 12}));
+}
+
 // The node block of PLAST ends at the node whose number the control card gives; codes 10, 01 and 11.
 TEST(Guess, PlastCards) {
   const std::string toml = guess_layout(data("plast_like.dat"), "plast_like.dat", "plast").toml;

@@ -1,0 +1,200 @@
+// What sagefe says of decks that read and yet are wrong, and of runs whose answer depends on more than the deck.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "sage/scenes/deck_writer.hpp"
+#include "tests/regression/program.hpp"
+
+namespace sage::test {
+namespace {
+
+namespace fs = std::filesystem;
+using scenes::Block;
+using scenes::DeckWriter;
+using scenes::StageCards;
+
+fs::path with_deck(const std::string& name) {
+  const fs::path folder = empty_folder("warn_" + name);
+  fs::copy(fs::path(SAGE_SOURCE_DIR) / "tests/regression/data" / (name + ".dat"), folder / "deck.dat");
+  return folder;
+}
+
+bool says(const Finished& run, const std::string& words) {
+  return run.err.find(words) != std::string::npos;
+}
+
+std::string first_line(const std::string& text) {
+  return text.substr(0, text.find('\n'));
+}
+
+// The title is longer than 80 columns, which is the only message before the slip.
+TEST(Slips, AreTheFirstErrorAndTheirFollowersAreNone) {
+  const Finished nodes = sagefe(with_deck("nodes_one_column_right"), "check deck.dat");
+  EXPECT_EQ(nodes.exit_code, 2);
+  const std::size_t first = nodes.err.find(": error: ");
+  EXPECT_EQ(first_line(nodes.err.substr(first)),
+            ": error: the node card is shifted 1 column to the right from \"0.0\" on [S128]");
+  EXPECT_EQ(count(nodes.err, ": error: "), 6) << nodes.err;
+  EXPECT_FALSE(says(nodes, "S111")) << nodes.err;
+
+  const Finished water = sagefe(with_deck("water_count_two_columns_right"), "check deck.dat");
+  EXPECT_EQ(water.exit_code, 2);
+  EXPECT_EQ(first_line(water.err),
+            "deck.dat:68:47: error: the water card is shifted 2 columns to the right from \"4\" on [S128]");
+  EXPECT_FALSE(says(water, "S111")) << water.err;
+}
+
+TEST(Echo, OfABrokenDeckEndsWithTheBrokenCard) {
+  const fs::path folder = empty_folder("warn_echo");
+  const DeckText deck = block_deck();
+  write(folder / "deck.dat", deck.text());
+  const std::string whole = sagefe(folder, "echo deck.dat").out;
+  std::string text = deck.text();
+  const std::size_t at = text.find("1.");
+  text.replace(at, 2, "1x");
+  write(folder / "deck.dat", text);
+  const Finished broken = sagefe(folder, "echo deck.dat");
+  const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+  EXPECT_EQ(broken.exit_code, 2);
+  EXPECT_TRUE(says(broken, "deck.dat:" + std::to_string(line) + ":")) << broken.err;
+  const std::size_t shown = broken.out.find("1x");
+  ASSERT_NE(shown, std::string::npos) << broken.out;
+  EXPECT_EQ(count(broken.out.substr(shown), " | "), 0) << broken.out;  // nothing behind the broken card
+  EXPECT_EQ(broken.out.substr(0, broken.out.rfind('\n', shown)),
+            whole.substr(0, broken.out.rfind('\n', shown)));
+}
+
+TEST(DidYouMean, NamesTheNearestCommandOptionFieldAndCard) {
+  const fs::path folder = empty_folder("warn_near");
+  write(folder / "deck.dat", block_deck().text());
+  EXPECT_TRUE(says(sagefe(folder, "chek deck.dat"), "; did you mean check?"));
+  EXPECT_TRUE(says(sagefe(folder, "run deck.dat --ouput out"), "; did you mean --output?"));
+  EXPECT_TRUE(says(sagefe(folder, "layout ges deck.dat"), "; did you mean guess?"));
+  EXPECT_TRUE(
+      says(sagefe(folder, "run deck.dat -o out --nodes --field displacment"), "; did you mean displacement?"));
+  EXPECT_TRUE(says(sagefe(folder, "run deck.dat -o out --element quda8"), "; did you mean quad8?"));
+  write(folder / "my.toml",
+        "name = 'my'\n[[card]]\nname = 'control'\nformat = '(I5)'\nfields = [{ name = 'nodes' }]\n"
+        "[[card]]\nname = 'node'\nrepeat = 'contrl.nodes'\nformat = '(I5)'\nfields = [{ name = 'number' }]\n");
+  EXPECT_TRUE(says(sagefe(folder, "check deck.dat --layout my.toml"), "; did you mean control?"));
+}
+
+TEST(Magnitudes, OfAnotherUnitAreNamedWithTheLikelyOne) {
+  const Finished weight = sagefe(with_deck("unit_weight_1900"), "check deck.dat");
+  EXPECT_TRUE(says(weight,
+                   "the unit weight is 1900, 194 times that of water; soils have 1 to 2.5 times: is it in "
+                   "kg/m^3? 1900 kg/m^3 are 18.6 kN/m^3 [S356]"))
+      << weight.err;
+  EXPECT_FALSE(says(weight, "S311"));
+  const Finished gravity = sagefe(with_deck("gravity_981"), "check deck.dat");
+  EXPECT_TRUE(says(gravity,
+                   "gravity is 9.81 times the unit weights, and 1 is the full weight: is an acceleration "
+                   "meant?"))
+      << gravity.err;
+  EXPECT_FALSE(says(gravity, "S356"));
+}
+
+// F = 1.517 to 1.522 with 4-node b-bar elements, 1.384 to 1.391 with 8-node ones; 1.380 by Bishop & Morgenstern.
+TEST(Dilation, OfFourNodeElementsIsWarnedOfByEveryCommand) {
+  const fs::path folder = with_deck("slope_2to1_quad4");
+  const std::string words =
+      "group 1 of 4-node elements (quad4 b-bar) has a dilation angle of 20 degrees: they collapse too late, a "
+      "slope "
+      "with psi = 20 degrees at F = 1.52 for 1.38 (10 % too high)";
+  EXPECT_TRUE(says(sagefe(folder, "check deck.dat"), words));
+  EXPECT_TRUE(says(sagefe(folder, "run deck.dat -o out"), words));
+  EXPECT_TRUE(says(sagefe(folder, "safety deck.dat -o out --tolerance 1"), words));
+  EXPECT_EQ(sagefe(folder, "check deck.dat --strict").exit_code, 2);
+  EXPECT_EQ(sagefe(folder, "safety deck.dat -o strict --strict").exit_code, 2);
+  EXPECT_TRUE(says(sagefe(folder, "check deck.dat --formulation 1"), "F = 1.58 for 1.38 (14 % too high)"));
+  EXPECT_FALSE(says(sagefe(folder, "check deck.dat --element quad8"), "S355"));
+  EXPECT_FALSE(says(sagefe(folder, "safety deck.dat -o out --tolerance 1 --dilation none"), "S355"));
+}
+
+// Pulled apart beyond its tension cut-off: every point is cut off.
+TEST(RunTimeWarnings, ReachScreenJsonAndStrict) {
+  DeckWriter deck(1);
+  Block block;
+  block.place = scenes::rectangle(0.0, 1.0, 0.0, 1.0);
+  block.write_nodes(deck);
+  deck.material(1, 4, {1e4, 0.3, 10.0, 30.0, 0.0, 1.0});
+  deck.group(1, 1, 0, 1);
+  block.write_elements(deck, 1);
+  for (int n : block.bottom()) deck.fix(n, 1, 1);
+  StageCards& stage = deck.stage(2);
+  for (int n : block.top()) stage.fix(n, 1, 1, 0.0, 0.001);
+  const fs::path folder = empty_folder("warn_run_time");
+  write(folder / "deck.dat", deck.text());
+  const Finished run = sagefe(folder, "run deck.dat -o out");
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(count(run.err, "[S522]"), 1) << run.err;
+  const Finished strict = sagefe(folder, "run deck.dat -o strict --strict");
+  EXPECT_EQ(strict.exit_code, 2);
+  EXPECT_TRUE(says(strict, ": error: stage 1: ") && says(strict, "[S522]") && says(strict, "[S906]"))
+      << strict.err;
+  EXPECT_TRUE(fs::exists(folder / "strict/deck.lst"));
+  const nlohmann::json answer = nlohmann::json::parse(sagefe(folder, "run deck.dat -o out --json").out);
+  EXPECT_EQ(std::ranges::count_if(answer["messages"], [](const auto& m) { return m["code"] == "S522"; }), 1);
+}
+
+// Compressed far beyond yield in plane strain: with psi < phi uniqueness is lost without any softening.
+TEST(RunTimeWarnings, LossOfUniquenessIsANoteWhereNothingSoftens) {
+  const std::vector<double> perfect{3000.0, 0.3, 1.0, 35.0, 0.0},
+      softening{3000.0, 0.3, 10.0, 35.0, 0.0, 0.05, 1.0, 20.0, 0.0};
+  for (const bool softens : {false, true}) {
+    DeckWriter deck(1);
+    Block block;
+    block.place = scenes::rectangle(0.0, 1.0, 0.0, 1.0);
+    block.write_nodes(deck);
+    deck.material(1, softens ? 8 : 4, softens ? softening : perfect);
+    deck.group(1, 1, 0, 1);
+    block.write_elements(deck, 1);
+    for (int n : block.bottom()) deck.fix(n, 0, 1);
+    for (int n : block.left()) deck.fix(n, 1, 0);
+    StageCards& stage = deck.stage(20);
+    for (int n : block.top()) stage.fix(n, 0, 1, 0.0, -0.03);
+    const fs::path folder = empty_folder("warn_uniqueness");
+    write(folder / "deck.dat", deck.text());
+    const Finished run = sagefe(folder, "run deck.dat -o out");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(
+        says(run,
+             "warning: stage 1: loss of uniqueness at 4 of 4 yielding points, and the strength falls at 4"),
+        softens)
+        << run.err;
+    EXPECT_EQ(says(run, "[S523]"), softens);
+    EXPECT_EQ(run.out.find("S523"), std::string::npos) << run.out;
+    EXPECT_EQ(sagefe(folder, "run deck.dat -o out --strict").exit_code, softens ? 2 : 0);
+    EXPECT_TRUE(says(sagefe(folder, "run deck.dat -o out -v"), "[S523]"));
+  }
+}
+
+TEST(ElementOption, ConvertsEightNodeElementsOrIsAnError) {
+  DeckWriter deck(1);
+  Block block;
+  block.cell = scenes::Cell::quad8;
+  block.columns = block.rows = 2;
+  block.place = scenes::rectangle(0.0, 2.0, 0.0, 2.0);
+  block.write_nodes(deck);
+  deck.material(1, 1, {1e4, 0.3});
+  deck.group(1, 2, 0, 1);
+  block.write_elements(deck, 1);
+  for (int n : block.bottom()) deck.fix(n, 1, 1);
+  deck.stage().load(block.top().front(), 0.0, -1.0);
+  const fs::path folder = empty_folder("warn_element");
+  write(folder / "deck.dat", deck.text());
+  const Finished nine = sagefe(folder, "check deck.dat --element quad9");
+  EXPECT_EQ(nine.exit_code, 0) << nine.err;
+  EXPECT_NE(nine.out.find("25 nodes, 4 elements"), std::string::npos) << nine.out;
+  const Finished both = sagefe(folder, "compare deck.dat --element-b quad9 -o out");
+  EXPECT_NE(both.out.find("quad9"), std::string::npos) << both.out << both.err;
+  for (const char* command : {"check deck.dat --element quad4", "compare deck.dat --element-b quad4 -o out2"}) {
+    const Finished four = sagefe(folder, command);
+    EXPECT_EQ(four.exit_code, 2) << command;
+    EXPECT_TRUE(says(four, "group 1 is of quad8, and quad4 (--element) can't take its place")) << four.err;
+  }
+}
+
+}  // namespace
+}  // namespace sage::test
