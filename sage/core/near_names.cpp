@@ -32,6 +32,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }
 
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known) {
+  if (name.size() < 3) return {};  // chance
   const std::string wanted = lower(name);
   const std::string* best = nullptr;
   std::size_t least = std::max<std::size_t>(1, name.size() / 3) + 1;

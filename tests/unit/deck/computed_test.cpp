@@ -426,7 +426,7 @@ format = "(3I5)"
 fields = [{ name = "a" }, { name = "x", value = "a" }, { name = "b" }, { name = "y", value = "'t'" }, { name = "c" },
           { name = "z", value = "b" }]
 )toml";
-  const Deck shifted = read(toml, "   12   34   56   78\n");
+  const Deck shifted = read(toml, "   12   34   56\n");
   const Deck cut = read(toml, "    1  1234567   56\n");
   const Deck moved = read(toml, "    1     7    3\n");
   EXPECT_EQ(shifted.diagnostics.warnings(), 0);
