@@ -24,7 +24,8 @@ namespace sage::app {
 void add_input_options(CLI::App& parser, InputOptions& options) {
   parser.add_option("--layout", options.layout,
                     "card layout: a built-in name or a .toml file (default: found from the deck)");
-  parser.add_flag("--strict", options.strict, "treat warnings as errors; those of a run count when it is complete");
+  parser.add_flag("--strict", options.strict,
+                  "treat warnings as errors; those of a run count when it is complete");
 }
 
 namespace {
