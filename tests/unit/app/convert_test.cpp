@@ -130,7 +130,7 @@ TEST(Convert, DeckToDeckGivesTheSameResultsBitForBit) {
   const std::string first = write("strip.dat", kDeck);
   Model model = model_of(first);
   const std::string text = sage1_text(model, model.diagnostics);
-  EXPECT_EQ(model.diagnostics.warnings(), 0);
+  EXPECT_EQ(model.diagnostics.warnings(), 1);  // 4-node elements with a dilation angle (S355)
   const std::string before = results(first);
   const std::string second = write("strip.dat", text);
   EXPECT_EQ(results(second), before);
