@@ -156,9 +156,11 @@ void check_weight(Builder& b, const SourcePosition& where, const std::string& na
                 unit_question(kWeights, std::abs(weight), water, kUsualWeight, unit));
 }
 
+constexpr double kLargestGravity = 3.0;  // more is an acceleration, or that of a centrifuge
+
 // Densities under gravity as an acceleration have the right weight, in units that belong together.
 bool are_densities(const Builder& b, const Scale& scale, double gravity) {
-  if (scale.water == 0.0) return false;
+  if (scale.water == 0.0 || gravity <= kLargestGravity) return false;
   bool any = false;
   for (const Group& group : b.model.groups) {
     const Material& material = b.model.material_of(group);
@@ -189,7 +191,7 @@ void check_weights(Builder& b, double water) {
 
 // 1 is the full weight.  Models for a centrifuge are small.
 void check_gravity_factor(Builder& b, const Scale& scale) {
-  constexpr double kLargest = 3.0, kSmallModel = 0.3, kLeastSpin = 15.0, kLargestSpin = 500.0;
+  constexpr double kSmallModel = 0.3, kLeastSpin = 15.0, kLargestSpin = 500.0;
   const double height = b.model.mesh.x.row(1).maxCoeff() - b.model.mesh.x.row(1).minCoeff();
   const bool small =
       scale.atmosphere > 0.0 && scale.water > 0.0 && height < kSmallModel * scale.atmosphere / scale.water;
@@ -198,7 +200,7 @@ void check_gravity_factor(Builder& b, const Scale& scale) {
     const double before = total.norm();
     total += stage.gravity;
     const double factor = total.norm();
-    if (factor <= kLargest || factor <= before) continue;
+    if (factor <= kLargestGravity || factor <= before) continue;
     if (small && factor >= kLeastSpin && factor <= kLargestSpin) continue;
     const std::string name = "stage " + std::to_string(stage.number) + ": gravity is ";
     if (are_densities(b, scale, factor)) {

@@ -327,7 +327,7 @@ bool has_level(const WaterCard* card) {
 // Solids of two groups with a common edge, where their levels give different pressures.
 std::map<std::pair<int, int>, LevelJump> level_jumps(Builder& b, const Activity& activity,
                                                      const PorePressure& water) {
-  constexpr double kSame = 1e-6;  // of p_a's worth: rounding
+  constexpr double kSame = 1e-6;  // rounding
   const Model& model = b.model;
   std::map<std::pair<int, int>, LevelJump> jumps;
   const std::set<std::pair<int, int>> walls = structure_edges(model, activity);
@@ -351,12 +351,12 @@ std::map<std::pair<int, int>, LevelJump> level_jumps(Builder& b, const Activity&
           model.geometry == Geometry::axisymmetric ? 3.14159265358979323846 * (x.x() + y.x()) : 1.0;
       jump.sideways += 0.5 * (start + end) * std::abs(x.y() - y.y()) * width;
       ++jump.edges;
-      if (most <= jump.largest) continue;
+      if (most <= jump.largest * (1.0 + kSame)) continue;
       jump.largest = most;
       jump.first = one.group;
       jump.second = two.group;
       jump.element = model.groups[g1].element_numbers[static_cast<std::size_t>(one.element)];
-      jump.place = start >= end ? x : y;
+      jump.place = end > start * (1.0 + kSame) ? y : x;
     }
   }
   return jumps;
