@@ -17,7 +17,7 @@ namespace sage::app {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoStress = std::numeric_limits<double>::quiet_NaN();
 
 bool is_last(const Model& model, const StepReport& step) {
   return step.stage + 1 == static_cast<int>(model.stages.size()) && step.increment == step.increments;
@@ -73,7 +73,7 @@ bool is_last_layer(const Model& model, const Location& holder) {
 Vector4 missing_in(const Group& group, const std::vector<double>& at_points, const Location& holder) {
   constexpr int kLeastDegree = 4;
   const int line = group.element->degree() + 1, points = group.element->traits().points;
-  if (!group.entry->square() || line <= kLeastDegree || points != line * line) return Vector4::Constant(kNone);
+  if (!group.entry->square() || line <= kLeastDegree || points != line * line) return Vector4::Constant(kNoStress);
   const LegendreParts parts(line);
   const Eigen::Map<const Eigen::Matrix4Xd> values(
       at_points.data() + 4 * static_cast<std::size_t>(holder.element) * static_cast<std::size_t>(points), 4,
@@ -105,7 +105,7 @@ std::vector<double> missing_of(const Model& model, const Solution& solution,
   for (const Location& holder : holders) {
     const PointStates& state = solution.groups()[holder.group].state.committed;
     const Group& group = model.groups[holder.group];
-    if (!group.solid()) return std::vector<double>(columns.field.size(), kNone);
+    if (!group.solid()) return std::vector<double>(columns.field.size(), kNoStress);
     stress = stress.cwiseMax(missing_in(group, state.sigma, holder));
     strain = strain.cwiseMax(missing_in(group, state.eps, holder));
   }
@@ -116,7 +116,7 @@ std::vector<double> missing_of(const Model& model, const Solution& solution,
     missing.push_back(name == "stress"                              ? stress[c]
                       : name == "strain"                            ? strain[c]
                       : name == "mean_stress" || name == "deviator" ? stress.maxCoeff()
-                                                                    : kNone);
+                                                                    : kNoStress);
   }
   return missing;
 }
@@ -275,7 +275,7 @@ std::vector<double> LocalErrors::after(const Model& model, const std::vector<Rep
                                        std::vector<Surroundings> found) {
   ++mesh_;
   changes_.resize(model.reports.size());
-  std::vector<double> errors(components.size(), kNone);
+  std::vector<double> errors(components.size(), kNoStress);
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (found[i].places.empty()) continue;
     const std::vector<double> own = errors_of(model, i, found[i]);
