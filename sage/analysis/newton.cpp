@@ -129,11 +129,11 @@ void Step::form_residual() {
 
 // The run is largest while it factorises: room for the correction comes behind it.
 void Step::correct() {
-  if (settings_.damped) tangent_.damp(damping_);
+  if (settings_.damping_fall > 0.0) tangent_.damp(damping_);
   tangent_.factorise(work_);
   correction_.resize(assembly_.equations());
   tangent_.solve(residual_, correction_, work_);
-  if (settings_.damped) tangent_.forget();
+  if (settings_.damping_fall > 0.0) tangent_.forget();
 }
 
 void Step::move(double factor) {
@@ -588,7 +588,7 @@ NewtonStep Step::solve(const Eigen::VectorXd& rate) {
   result_.iterations.reserve(static_cast<std::size_t>(settings_.max_iterations));
   if (settings_.repeat > 0.0 && repeats()) return result_;
   if (!predict(rate)) return result_;
-  if (settings_.damped) return iterate_damped();
+  if (settings_.damping_fall > 0.0) return iterate_damped();
   return settings_.method == Method::dogleg ? iterate_with_dogleg() : iterate_with_line_search();
 }
 
@@ -730,12 +730,12 @@ NewtonStep& Step::iterate_damped() {
 }
 
 double Step::damping_growth(const Eigen::VectorXd& old_residual, double old_norm) const {
-  constexpr double kSlower = 0.7, kGrows = 1.5, kJump = 4.0, kBeyond = 0.5, kStays = 0.95, kTurned = 0.9;
+  constexpr double kGrows = 1.5, kJump = 4.0, kBeyond = 0.5, kStays = 0.95, kTurned = 0.9;
   const double norm = residual_size(), ratio = old_norm > 0.0 ? norm / old_norm : 1.0;
   const bool turned = residual_.dot(old_residual) < kTurned * residual_.norm() * old_residual.norm();
   const bool beyond = work_left() < -kBeyond * slope_;
   if (beyond && turned && ratio > kStays) return kJump;
-  return ratio > kGrows ? std::min(ratio, kJump) : std::min(ratio, kSlower);
+  return ratio > kGrows ? std::min(ratio, kJump) : std::min(ratio, settings_.damping_fall);
 }
 
 // A law may have no answer so far away.

@@ -27,8 +27,9 @@ struct NewtonSettings {
   NewtonStart start = NewtonStart::committed;
   bool refine = false;  // a first correction does not do, even if all that is left is rounding
   // Every correction is held back by a share of the elastic stiffness (Tangent::has_elastic), which falls with the
-  // residual: for steps that Newton's corrections find no end of.
-  bool damped = false;
+  // residual: for steps that Newton's corrections find no end of.  The largest part of the share that a correction
+  // leaves to the next one; 0 = no damping.
+  double damping_fall = 0.0;
   const std::vector<char>* of_solids = nullptr;  // by dof: a solid has it; damped alone
   bool contract = false;  // factors are kept while they contract well; K may then be behind du at the end
   // Of the model: its unknowns, and its size, the longest arm that a force has; null: moments have no measure in forces.

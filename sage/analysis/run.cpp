@@ -72,7 +72,8 @@ class Run {
   void show(const StepReport& report, double reached) const;
   bool run_increment(const Stage& stage, StepReport& report, double& reached);
   enum class Begin { committed, here, damped };
-  NewtonStep attempt(const Stage& stage, double from, double to, Begin begin = Begin::committed);
+  NewtonStep attempt(const Stage& stage, double from, double to, Begin begin = Begin::committed,
+                     double damping_fall = 0.0);
   bool can_damp(const NewtonStep& step) const;
   NewtonStep attempt_damped(const Stage& stage, StepReport& report, double from, double to,
                             const NewtonStep& failed);
@@ -331,7 +332,7 @@ bool Run::goes_on(const Stage& stage, double size) const {
 }
 
 // here: state_.du is near the answer, but for what is prescribed.
-NewtonStep Run::attempt(const Stage& stage, double from, double to, Begin begin) {
+NewtonStep Run::attempt(const Stage& stage, double from, double to, Begin begin, double damping_fall) {
   target_ = (1.0 - to) * path_.force_start + to * path_.force_end;
   set_moment(to, to - from);
   constexpr int kShort = 50;
@@ -347,7 +348,7 @@ NewtonStep Run::attempt(const Stage& stage, double from, double to, Begin begin)
   newton.size = extent_.size();
   if (begin != Begin::committed) newton.start = NewtonStart::nearby;
   if (begin == Begin::damped) {
-    newton.damped = true;
+    newton.damping_fall = damping_fall;
     newton.of_solids = &of_solids_;
     newton.max_iterations = std::max(kDamped, 5 * stage.max_iterations);
   }
@@ -383,20 +384,33 @@ bool Run::can_damp(const NewtonStep& step) const {
   return has_walls_ || (!step.flows && step.outcome != StepOutcome::singular);
 }
 
+// Whether ground that ran away shows a collapse.  At a collapse the loads exceed what the ground carries by little, since
+// factors are tried from near; corrections that damping let go too early leave most forces without balance.
+bool shows_collapse(const NewtonStep& step) {
+  constexpr double kExcess = 0.01;  // of all forces
+  return step.flows && !step.iterations.empty() && step.iterations.back().force <= kExcess;
+}
+
 // failed: Newton's attempt at the same step.
 NewtonStep Run::attempt_damped(const Stage& stage, StepReport& report, double from, double to,
                                const NewtonStep& failed) {
-  report.total_iterations += static_cast<int>(failed.iterations.size());
-  path_.repeats.forget();
-  path_.prediction.forget();
-  on_last_way_ = false;
-  assembly_.drop_step();
-  state_.du.setZero();
-  set_moment(from, 0.0);
-  if (!tangent_.has_elastic()) assembly_.take_elastic(tangent_);
-  tangent_.forget();
-  if (!tangent_.has_elastic()) return failed;
-  const NewtonStep step = attempt(stage, from, to, Begin::damped);
+  constexpr std::array<double, 3> kFalls{0.7, 0.9, 0.97};
+  NewtonStep step = failed;
+  for (const double fall : kFalls) {
+    report.total_iterations += static_cast<int>(step.iterations.size());
+    path_.repeats.forget();
+    path_.prediction.forget();
+    on_last_way_ = false;
+    assembly_.drop_step();
+    state_.du.setZero();
+    set_moment(from, 0.0);
+    if (!tangent_.has_elastic()) assembly_.take_elastic(tangent_);
+    tangent_.forget();
+    if (!tangent_.has_elastic()) return failed;
+    step = attempt(stage, from, to, Begin::damped, fall);
+    if (!step.flows || shows_collapse(step)) break;
+  }
+  step.flows = shows_collapse(step);
   const bool says_more = step.outcome == StepOutcome::converged || settings_.trials != nullptr;
   return says_more ? step : failed;
 }
