@@ -654,7 +654,8 @@ bool Run::run_increment(const Stage& stage, StepReport& report, double& reached)
     NewtonStep step = attempt_with_exits(stage, reached, to);
     iterations += static_cast<int>(step.iterations.size());
     const bool last_cut = to - reached < 1.001 * std::ldexp(whole, -max_cuts_);
-    if (!went_on && can_damp(step)) step = attempt_damped(stage, report, reached, to, step);
+    const bool damps = settings_.trials != nullptr || last_cut;
+    if (damps && !went_on && can_damp(step)) step = attempt_damped(stage, report, reached, to, step);
     report.iterations = step.iterations;
     report.total_iterations += static_cast<int>(step.iterations.size());
     report.worst = step.worst;

@@ -47,9 +47,11 @@ void on_alarm(int) {
   end_progress_at_signal();
   say_at_signal(
       "sagefe: interrupted, and ended within 10 s because it could not stop by itself: a user routine, a file "
-      "or a "
-      "module does not return; files being written keep the name NAME.partial [S633]\n");
-  _exit(kInterrupted);
+      "or a module does not return; files being written keep the name NAME.partial ["
+      "S633"
+      "]\n");
+  // Not _exit(), which is a routine's own where the signal interrupts one (sage/umat/routine.cpp).
+  for (;;) syscall(SYS_exit_group, kInterrupted);
 }
 
 void on_signal(int number) {

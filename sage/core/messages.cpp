@@ -659,7 +659,7 @@ constexpr MessageEntry kMessages[] = {
     {"S350", "the weight of a plate is its unit weight times its thickness",
      "Of the law plate the unit weight is a force per volume, as for soil: 25 kN/m^3 and 0.5 m weigh 12.5 "
      "kN/m^2. "
-     "Earlier versions of sagefe took the unit weight itself as the weight of a unit of area.",
+     "Earlier versions took the unit weight itself as the weight of a unit of area.",
      "Nothing, where the card gives a force per volume. In a deck of an earlier version, divide the number by "
      "the "
      "thickness. Sections state a weight per length and width, bars that of one bar per length "

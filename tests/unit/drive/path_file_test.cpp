@@ -76,7 +76,7 @@ TEST(PathFile, RefusalsNameTheLineAndTheColumn) {
   says("strain_yy\n", "has no row");
   says("strain_yy,steps\n0.1,2.5\n", "steps: wanted a whole number");
   says("strain_yy,duration\n0.1,0\n", "duration: must be above 0");
-  says("strain_yy\ninf\n", "wanted finite numbers");
+  says("strain_yy\ninf\n", "column strain_yy: inf is no number");
   says("strain_yy\n0.1\n", "two of strain_xx, strain_yy and strain_zz", 4, true);
   says("strain_xx,stress_yy\n0.1,1\n", "an undrained path is one of strains", 4, true);
   says("strain_yy\n0.1\n", "none of shear, relative_shear, normal, relative_normal", 2);
