@@ -108,6 +108,13 @@ TEST(PlausibleRoles, AreSeenInALawThatTheProgramDoesNotKnow) {
       << soft;
 }
 
+TEST(PlausibleDeck, MayHaveAModulusOfOneForResultsAsItsMultiples) {
+  DeckWriter deck = sound();
+  deck.materials.clear();
+  deck.material(1, 1, {1.0, 0.3}, 0.0);
+  EXPECT_EQ(messages(deck).find("youngs_modulus"), std::string::npos) << messages(deck);
+}
+
 TEST(PlausibleDeck, HasNothingToSay) {
   EXPECT_EQ(messages(sound()), "");
 }
