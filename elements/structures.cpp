@@ -75,10 +75,10 @@ Choice beam2_choice(std::string_view full_name) {
       {1, "exact", "exact at its nodes for one section and even loads; results at both ends"}, full_name, 3));
 }
 template <Release released = Release::none>
-std::vector<Choice> beam3_choices(std::string_view full_name) {
+std::vector<Choice> beam3_choices(std::string_view full_name, std::string_view halves_name) {
   Choice halves =
       with_force_at<BeamHalves<PlaneStrain, released>::force_at>(in_both<Released<released>::template Halves>(
-          {2, "halves", "two beam2 in a row: what every section that may yield gets"}, full_name, 6));
+          {2, "halves", "two beam2 in a row: what every section that may yield gets"}, halves_name, 6));
   halves.formulation.yields = true;
   return {with_force_at<Beam3<PlaneStrain, released>::force_at>(in_both<Released<released>::template Three>(
               {1, "reduced", "two Gauss points: does not lock; may be curved"}, full_name, 2)),
@@ -166,7 +166,8 @@ ElementEntry beam2_entry() {
 }
 
 ElementEntry beam3_entry() {
-  return element_entry(beam({.name = "beam3", .summary = kBeamSummary}, 3), beam3_choices("beam3"));
+  return element_entry(beam({.name = "beam3", .summary = kBeamSummary}, 3),
+                       beam3_choices("beam3", "beam3 halves"));
 }
 
 ElementEntry beam2_hinged_entry() {
@@ -176,7 +177,7 @@ ElementEntry beam2_hinged_entry() {
 
 ElementEntry beam3_hinged_entry() {
   return element_entry(hinged({.name = "beam3_hinged", .summary = "beam3 with a hinge at its first node"}, 3),
-                       beam3_choices("beam3_hinged"));
+                       beam3_choices("beam3_hinged", "beam3_hinged halves"));
 }
 
 ElementEntry beam2_pinned_entry() {
@@ -186,7 +187,7 @@ ElementEntry beam2_pinned_entry() {
 
 ElementEntry beam3_pinned_entry() {
   return element_entry(pinned({.name = "beam3_pinned", .summary = "beam3 with a hinge at both ends"}, 3),
-                       beam3_choices("beam3_pinned"));
+                       beam3_choices("beam3_pinned", "beam3_pinned halves"));
 }
 
 ElementEntry beam2_axial_release_entry() {
@@ -202,7 +203,7 @@ ElementEntry beam3_axial_release_entry() {
       slipping({.name = "beam3_axial_release",
                 .summary = "beam3 whose first end slides along its line: no axial force there"},
                3, "axial_slip"),
-      beam3_choices<Release::axial>("beam3_axial_release"));
+      beam3_choices<Release::axial>("beam3_axial_release", "beam3_axial_release halves"));
 }
 
 ElementEntry beam2_shear_release_entry() {
@@ -218,7 +219,7 @@ ElementEntry beam3_shear_release_entry() {
       slipping({.name = "beam3_shear_release",
                 .summary = "beam3 whose first end slides across its line: no shear force there"},
                3, "shear_slip"),
-      beam3_choices<Release::shear>("beam3_shear_release"));
+      beam3_choices<Release::shear>("beam3_shear_release", "beam3_shear_release halves"));
 }
 
 }  // namespace sage

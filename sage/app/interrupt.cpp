@@ -1,5 +1,6 @@
 #include "sage/app/interrupt.hpp"
 
+#include <sys/syscall.h>
 #include <sys/time.h>
 #include <unistd.h>
 

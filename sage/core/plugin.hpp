@@ -119,7 +119,6 @@ constexpr std::string_view old_strings() {
 
 constexpr AbiText make() {
   AbiText t;
-  t.field("hash of the headers in sage/core", SAGE_HEADER_HASH);
   t.field("compiler ABI", __GXX_ABI_VERSION);
   t.field("strings", old_strings());
   t.field("checked containers", checked_containers());
@@ -144,6 +143,8 @@ constexpr AbiText make() {
   t.field("size of a solver entry", sizeof(SolverEntry));
   t.field("size of a field entry", sizeof(FieldEntry));
   t.field("size of a catalogue", sizeof(Catalogue));
+  // Last: a compiler that differs is the better reason.
+  t.field("hash of the headers in sage/core", SAGE_HEADER_HASH);
   return t;
 }
 

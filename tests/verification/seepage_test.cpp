@@ -500,7 +500,9 @@ TEST(Seepage, ContradictionsAreNamed) {
 // mesh has its value.  Beside a pile, at a right angle, it is .2995 of h/s (above).
 TEST(ExitGradient, WithoutBoundAtTheEdgeOfAFloor) {
   for (const int finer : {1, 2}) {
-    Flow flow(cells(4 * finer, 2 * finer, Cell::quad8));
+    Block block = cells(4 * finer, 2 * finer, Cell::quad8);
+    block.place = [](double s, double t) { return Vector2(2.0 * s, t); };
+    Flow flow(block);
     std::vector<int> top = flow.block.top(), ground(top.begin() + 4 * finer, top.end());
     flow.hold(ground, 0.0);
     flow.hold(flow.block.left(), 1.0);
