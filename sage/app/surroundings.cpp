@@ -73,7 +73,8 @@ bool is_last_layer(const Model& model, const Location& holder) {
 Vector4 missing_in(const Group& group, const std::vector<double>& at_points, const Location& holder) {
   constexpr int kLeastDegree = 4;
   const int line = group.element->degree() + 1, points = group.element->traits().points;
-  if (!group.entry->square() || line <= kLeastDegree || points != line * line) return Vector4::Constant(kNoStress);
+  if (!group.entry->square() || line <= kLeastDegree || points != line * line)
+    return Vector4::Constant(kNoStress);
   const LegendreParts parts(line);
   const Eigen::Map<const Eigen::Matrix4Xd> values(
       at_points.data() + 4 * static_cast<std::size_t>(holder.element) * static_cast<std::size_t>(points), 4,

@@ -252,10 +252,10 @@ CallEnd call_caught(void (*call)(void*), void* data, bool may_crash, Pages pages
 // The linker gives a program's own functions to all libraries that it loads.
 extern "C" {
 
-[[noreturn]] void _exit(int code) {
+void _exit(int code) {
   sage::umat::end_immediately(code);
 }
-[[noreturn]] void _Exit(int code) noexcept {
+void _Exit(int code) noexcept {
   sage::umat::end_immediately(code);
 }
 
