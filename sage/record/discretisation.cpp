@@ -75,8 +75,11 @@ void DiscretisationError::exchange(Archive& archive) {
   std::size_t groups = start_ ? start_->sigma.size() : 0;
   archive(groups);
   if (groups == 0) return;
-  if (archive.reading())
-    start_.emplace(std::vector<std::vector<double>>(groups), std::vector<std::vector<double>>(groups));
+  if (archive.reading()) {
+    start_.emplace();
+    start_->sigma.resize(groups);
+    start_->eps.resize(groups);
+  }
   for (std::vector<double>& sigma : start_->sigma) archive(sigma);
   for (std::vector<double>& eps : start_->eps) archive(eps);
   archive(start_->u);
