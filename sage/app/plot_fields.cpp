@@ -140,9 +140,9 @@ void plot_pictures(const PlotOptions& options, const Catalogue& catalogue) {
     PictureOptions look = options.look;
     look.title = options.title;
     if (i < options.labels.size()) look.title += (look.title.empty() ? "" : ": ") + options.labels[i];
-    const auto envelopes = std::ranges::stable_partition(fields, std::not_fn(is_envelope));
-    const std::vector<std::string> of_stages(envelopes.begin(), envelopes.end());
-    fields.erase(envelopes.begin(), envelopes.end());
+    const auto envelopes = std::stable_partition(fields.begin(), fields.end(), std::not_fn(is_envelope));
+    const std::vector<std::string> of_stages(envelopes, fields.end());
+    fields.erase(envelopes, fields.end());
     Pictures pictures(plot_folder(options, file), stems[i], fields, look);
     for (std::size_t state : states) draw(pictures, run, state);
     std::vector<fs::path> files = pictures.files();
