@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "sage/app/screen.hpp"
+#include "sage/app/write_all.hpp"
 #include "sage/deck/source.hpp"
 #include "sage/record/values.hpp"
 
@@ -44,16 +45,6 @@ std::optional<std::uint64_t> number_from(std::string_view text, int base) {
 bool is_ordinary(const std::filesystem::path& file) {
   std::error_code error;
   return std::filesystem::is_regular_file(std::filesystem::symlink_status(file, error));
-}
-
-bool write_all(int descriptor, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t done = ::write(descriptor, text.data(), text.size());
-    if (done < 0 && errno == EINTR) continue;
-    if (done <= 0) return false;
-    text.remove_prefix(static_cast<std::size_t>(done));
-  }
-  return true;
 }
 
 }  // namespace

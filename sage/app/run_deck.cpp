@@ -384,6 +384,24 @@ void tell_times(const RunRequest& request, int threads, const Verbose& verbose, 
   if (request.profile) write_profile(request, threads, outcome);
 }
 
+// Exit code, record and checkpoint of a run that has ended.  Throws where it failed.
+void take_result(const RunRequest& request, const RunResult& result, Checkpoint& checkpoint,
+                 bool has_checkpoint, const std::vector<std::unique_ptr<Output>>& outputs,
+                 RunOutcome& outcome) {
+  outcome.record.result.work = result.work;
+  if (result.status == RunStatus::failed) throw AnalysisError(*result.code, result.reason);
+  outcome.exit_code = result.status == RunStatus::completed ? kOk : kNotConverged;
+  if (result.status == RunStatus::stopped) {
+    outcome.record.result = result;
+    if (interrupted()) outcome.exit_code = kInterrupted;
+    if (interrupted() && has_checkpoint) outcome.checkpoint = checkpoint.file();
+    stop(outputs, *outcome.reports, result.reason);
+  } else {
+    checkpoint.remove();
+  }
+  if (outcome.exit_code == kOk && !free_of_warnings(request, outcome.record)) outcome.exit_code = kInput;
+}
+
 }  // namespace
 
 RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
@@ -428,18 +446,7 @@ RunOutcome run_deck(const RunRequest& asked, const Catalogue& catalogue) {
   opening.reset();
   try {
     const RunResult result = analyse(request, model, catalogue, settings, observers, profile);
-    outcome.record.result.work = result.work;
-    if (result.status == RunStatus::failed) throw AnalysisError(*result.code, result.reason);
-    outcome.exit_code = result.status == RunStatus::completed ? kOk : kNotConverged;
-    if (result.status == RunStatus::stopped) {
-      outcome.record.result = result;
-      if (interrupted()) outcome.exit_code = kInterrupted;
-      if (interrupted() && has_checkpoint) outcome.checkpoint = checkpoint.file();
-      stop(outputs, *outcome.reports, result.reason);
-    } else {
-      checkpoint.remove();
-    }
-    if (outcome.exit_code == kOk && !free_of_warnings(request, outcome.record)) outcome.exit_code = kInput;
+    take_result(request, result, checkpoint, has_checkpoint, outputs, outcome);
   } catch (const std::exception& error) {
     stop(outputs, *outcome.reports, error.what());
     if (own) close_results(*own, request);

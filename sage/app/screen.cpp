@@ -12,6 +12,7 @@
 
 #include "sage/app/answer.hpp"
 #include "sage/app/progress.hpp"
+#include "sage/app/write_all.hpp"
 #include "sage/deck/printable.hpp"
 
 namespace sage::app {
@@ -138,20 +139,6 @@ bool unicode_locale() {
              locale.find("UTF8") != std::string_view::npos || locale.find("utf-8") != std::string_view::npos;
   return false;
 }
-
-namespace {
-
-bool write_all(int descriptor, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t done = ::write(descriptor, text.data(), text.size());
-    if (done < 0 && errno == EINTR) continue;
-    if (done <= 0) return false;
-    text.remove_prefix(static_cast<std::size_t>(done));
-  }
-  return true;
-}
-
-}  // namespace
 
 // Without memory for it the output stays as it was.
 PrintableOutput::PrintableOutput()
