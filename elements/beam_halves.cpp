@@ -7,7 +7,7 @@ namespace sage {
 
 namespace {
 
-constexpr int kStrains = 5, kHalfPoints = 3, kPoints = 2 * kHalfPoints;
+constexpr int kSectionStrains = 5, kHalfPoints = 3, kBothPoints = 2 * kHalfPoints;
 
 // Places of a half's dofs among those of the whole.
 template <int Dofs>
@@ -78,15 +78,15 @@ template <int Dofs, int All, std::size_t Count>
 Outcome evaluate_half(const Element& element, const std::array<std::size_t, Count>& places,
                       std::size_t first_point, const ElementIn& in, const double* geometry,
                       const std::array<const double*, 2>& spread, ElementOut& out) {
-  const std::size_t history = std::get<const Law<kStrains>*>(in.law)->history().size();
+  const std::size_t history = std::get<const Law<kSectionStrains>*>(in.law)->history().size();
   std::array<double, Dofs> du{}, f{};
   std::array<double, Dofs * Dofs> K{};
   for (std::size_t i = 0; i < Dofs; ++i) du[i] = in.du[places[i]];
   ElementIn half = in;
   half.geometry = geometry;
   half.du = du.data();
-  half.sigma0 += first_point * kStrains;
-  half.eps0 += first_point * kStrains;
+  half.sigma0 += first_point * kSectionStrains;
+  half.eps0 += first_point * kSectionStrains;
   half.h0 += first_point * history;
   if (half.contexts != nullptr) half.contexts += first_point;
   half.spread = spread[0];
@@ -94,8 +94,8 @@ Outcome evaluate_half(const Element& element, const std::array<std::size_t, Coun
   ElementOut one = out;
   one.K = out.K != nullptr ? K.data() : nullptr;
   one.f = f.data();
-  one.sigma1 += first_point * kStrains;
-  one.eps1 += first_point * kStrains;
+  one.sigma1 += first_point * kSectionStrains;
+  one.eps1 += first_point * kSectionStrains;
   one.h1 += first_point * history;
   one.status += first_point;
   if (element.evaluate(half, one) != Outcome::ok) return Outcome::cut_step;
@@ -113,7 +113,7 @@ BeamHalves<Kinematics, released>::BeamHalves(std::string_view name) : first_(nam
   traits_ = first_.traits();
   traits_.nodes = 3;
   traits_.dofs = kDofs;
-  traits_.points = kPoints;
+  traits_.points = kBothPoints;
   // The ends' places besides: loads along the element are divided by them.
   traits_.own_doubles = first_.traits().geometry_size() + second_.traits().geometry_size() + 4;
 }
@@ -122,8 +122,8 @@ template <class Kinematics, Release released>
 void BeamHalves<Kinematics, released>::geometry(const NodeCoordinates& x, std::span<double> out) const {
   constexpr int kHalfDofs = 6 + slip_dofs(released);
   check_line<Line3, Kinematics>(x, "beam");
-  constexpr std::size_t kStride = kPointStride<kStrains, kDofs>;
-  const std::span<double> own = out.subspan(kPoints * kStride);
+  constexpr std::size_t kStride = kPointStride<kSectionStrains, kDofs>;
+  const std::span<double> own = out.subspan(kBothPoints * kStride);
   const auto size = static_cast<std::size_t>(first_.traits().geometry_size());
   first_.geometry(half_of(x, 0), own.first(size));
   second_.geometry(half_of(x, 1),
@@ -133,14 +133,14 @@ void BeamHalves<Kinematics, released>::geometry(const NodeCoordinates& x, std::s
     double* const to = out.data() + p * kStride;
     std::fill(to, to + kStride, 0.0);
     *to = *from;
-    for (int c = 0; c < kStrains; ++c)
+    for (int c = 0; c < kSectionStrains; ++c)
       for (int i = 0; i < dofs; ++i)
         to[1 + static_cast<std::size_t>(c * kDofs) + places[static_cast<std::size_t>(i)]] =
             from[1 + c * dofs + i];
   };
   for (std::size_t p = 0; p < kHalfPoints; ++p) {
-    place(p, own.data() + p * kPointStride<kStrains, kHalfDofs>, kFirst, kHalfDofs);
-    place(kHalfPoints + p, own.data() + size + p * kPointStride<kStrains, 6>, kSecond, 6);
+    place(p, own.data() + p * kPointStride<kSectionStrains, kHalfDofs>, kFirst, kHalfDofs);
+    place(kHalfPoints + p, own.data() + size + p * kPointStride<kSectionStrains, 6>, kSecond, 6);
   }
 }
 
@@ -149,7 +149,7 @@ Outcome BeamHalves<Kinematics, released>::evaluate(const ElementIn& in, ElementO
   constexpr int kHalfDofs = 6 + slip_dofs(released);
   std::fill(out.f, out.f + kDofs, 0.0);
   if (out.K != nullptr) std::fill(out.K, out.K + kDofs * kDofs, 0.0);
-  const double* const own = in.geometry + kPoints * kPointStride<kStrains, kDofs>;
+  const double* const own = in.geometry + kBothPoints * kPointStride<kSectionStrains, kDofs>;
   const auto size = static_cast<std::size_t>(first_.traits().geometry_size());
   const double* const chords = in.geometry + traits_.geometry_size() - 4;
   std::array<std::array<double, 7>, 4> spread{};  // of both halves, now and before

@@ -6,6 +6,7 @@ Usage: msh_read_back.py SAGEFE SOURCE_FOLDER       exit code 77: a package is mi
 """
 import math
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -123,7 +124,7 @@ def check_against_csv(found, out, stem):
     near([values[e][0] for e in mean], [mean[e].mean() for e in mean], "mean_stress", scale)
     expect(all(math.isnan(v[0]) for e, v in values.items() if e not in mean), "a line has a mean stress")
     check_structures(found, out, stem)
-    kind, values, _ = next(v for key, v in found.views.items() if key.split(" ")[0] == "stress")
+    kind, values, _ = next(v for key, v in found.views.items() if re.split("[ ,]", key)[0] == "stress")
     expect(kind == "ElementNodeData" and set(values) == set(mean), "stress is not at the nodes of the solids")
     tables = out / f"{stem}.interfaces.csv"
     if not tables.exists():
