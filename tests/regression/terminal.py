@@ -84,7 +84,7 @@ def check_progress(folder):
 
 
 def check_nonlinear(folder):
-    text, status = on_terminal(folder, "run", str(CASES / "dp_285/deck.dat"), "--refine", str(2 - COARSER), "-o", "out",
+    text, status = on_terminal(folder, "run", str(CASES / "dp_285/deck.dat"), "--refine", str(3 - COARSER), "-o", "out",
                                 columns=200)
     shown = lines_of_progress(text)
     expect(any(re.search(r"iteration [0-9]+, residual [0-9.]+e", line) for line in shown), "iterations", shown)
