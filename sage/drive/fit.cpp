@@ -18,6 +18,7 @@ namespace {
 constexpr double kDifference = 1e-5;    // of a parameter's size, on either side
 constexpr double kUndetermined = 1e-5;  // singular values below this share of the largest are rounding
 constexpr double kNamed = 0.1;          // share of a combination from which a parameter is named
+constexpr double kHeld = 1e-9;          // weight of the way from the start, far below kUndetermined
 constexpr double kRefused = 1e3;        // residual where the law refuses the parameters
 constexpr double kAtBound = 1e-6;       // of the way between the bounds
 constexpr double kHighestAngle = 89.0, kHighestRatio = 0.4999;
@@ -162,13 +163,19 @@ Subject with_values(const FitProblem& problem, const Eigen::VectorXd& values) {
   return subject;
 }
 
-// What Eigen's Levenberg-Marquardt asks for.
+// What Eigen's Levenberg-Marquardt asks for.  The residuals and, below them, the way from the start with a weight that
+// holds combinations without influence at the start; without it rounding alone would move them, anywhere.
 class Functor {
  public:
   Functor(const FitProblem& problem, const Comparison& comparison, const std::vector<Variable>& variables)
-      : problem_(problem), comparison_(comparison), variables_(variables) {}
+      : problem_(problem), comparison_(comparison), variables_(variables), start_(variables.size()) {
+    for (std::size_t k = 0; k < variables.size(); ++k)
+      start_[static_cast<Eigen::Index>(k)] = variables[k].start();
+  }
+  const Eigen::VectorXd& start() const { return start_; }
   int operator()(const Eigen::VectorXd& x, Eigen::VectorXd& left) const {
-    left = comparison_.residuals(with_values(problem_, values(x)));
+    left.resize(values());
+    left << comparison_.residuals(with_values(problem_, values(x))), kHeld * (x - start_);
     return 0;
   }
   int df(const Eigen::VectorXd& x, Eigen::MatrixXd& J) const {
@@ -189,12 +196,13 @@ class Functor {
     return all;
   }
   int inputs() const { return static_cast<int>(variables_.size()); }
-  int values() const { return comparison_.points(); }
+  int values() const { return comparison_.points() + inputs(); }
 
  private:
   const FitProblem& problem_;
   const Comparison& comparison_;
   const std::vector<Variable>& variables_;
+  Eigen::VectorXd start_;
 };
 
 // d(residuals)/d(parameter), each parameter in units of its size.
@@ -352,10 +360,8 @@ FitResult fit(const FitProblem& problem) {
   std::vector<Variable> variables;
   for (const FreeParameter& parameter : problem.free)
     variables.emplace_back(parameter, problem.subject.values[static_cast<std::size_t>(parameter.place)]);
-  Eigen::VectorXd x(static_cast<Eigen::Index>(variables.size()));
-  for (std::size_t k = 0; k < variables.size(); ++k) x[static_cast<Eigen::Index>(k)] = variables[k].start();
-
   Functor functor(problem, comparison, variables);
+  Eigen::VectorXd x = functor.start();
   Eigen::LevenbergMarquardt<Functor> search(functor);
   search.parameters.xtol = search.parameters.ftol = 1e-14;
   search.parameters.gtol = 0.0;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "materials/register_materials.hpp"
@@ -144,6 +145,27 @@ TEST(Fit, CohesionAndFrictionFromOnePressureAreNamed) {
   ASSERT_EQ(little.undetermined.size(), 1u);
   EXPECT_EQ(little.undetermined[0].names, (std::vector<std::string>{"cohesion", "friction_angle"}))
       << fit_text(problem, little);
+}
+
+// What the curve leaves open stays at its start: rounding, here of the start's last digits, doesn't choose it.
+TEST(Fit, WhatTheCurveLeavesOpenStaysAtItsStart) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> rounding(-1e-12, 1e-12);
+  FitProblem problem =
+      problem_of(subject("mohr_coulomb,E=2e4,nu=.3,c=5,phi=32"),
+                 subject("mohr_coulomb,E=1.5e4,nu=.3,c=8,phi=28"), {100.0}, {"axial_deviator"});
+  set_free(problem, {"E", "c", "phi"});
+  const std::vector<double> start = problem.subject.values;
+  for (int trial = 0; trial < 20; ++trial) {
+    for (std::size_t k = 0; k < 4; ++k) problem.subject.values[k] = start[k] * (1.0 + rounding(random));
+    const FitResult result = fit(problem);
+    EXPECT_NEAR(result.values[1], 8.0, 0.05) << "cohesion";
+    // The strength of the curve: 2 c cos(phi) + 2 x 100 sin(phi), over 1 - sin(phi), is that of c = 5, phi = 32.
+    const double phi = result.values[2] * std::numbers::pi / 180.0;
+    const double strength =
+        (2.0 * result.values[1] * std::cos(phi) + 200.0 * std::sin(phi)) / (1.0 - std::sin(phi));
+    EXPECT_NEAR(strength, 243.49930788, 243.5e-6);
+  }
 }
 
 // Poisson's ratio says nothing about the deviator.
