@@ -279,7 +279,7 @@ void DruckerPrager::return_to_cap(const FourInvariants& trial, const FourMask& h
       out.D[i][j] = here ? D : out.D[i][j];
     }
   }
-  set_status(here, PointStatus::apex, out);
+  set_status(here, at_apex ? PointStatus::apex : PointStatus::cut_off, out);
 }
 
 // Point by point, in place of the return to the cone.

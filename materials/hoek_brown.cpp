@@ -156,7 +156,9 @@ Outcome HoekBrown::update(const PointIn<4>& in, PointOut<4>& out) const {
   out.sigma = back.sigma;
   const Vector4 growth = -(back.R.transpose() * last.moved.first) / last.lack.slope;
   out.D = (back.R + last.moved.rate * growth.transpose()) * D_elastic_;
-  out.status = back.status == PointStatus::apex ? PointStatus::apex : PointStatus::yielded;
+  out.status = back.status == PointStatus::yielded || back.status == PointStatus::elastic ? PointStatus::yielded
+               : to_tip                                                                   ? PointStatus::apex
+                        : PointStatus::cut_off;
   out.h1[kShear] += sqrt_j2(trial - back.sigma) / elastic_.G;
   out.h1[kVolume] += mean_stress(trial - back.sigma) / elastic_.K;
   return Outcome::ok;

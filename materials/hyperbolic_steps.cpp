@@ -262,7 +262,7 @@ HyperbolicAnswer integrate(const HyperbolicSteps& steps, const Vector4& sigma0, 
     ++substeps;
   }
   if (at.status == PointStatus::elastic && extremes(at.sigma, steps.in_plane).sigma_3 < 0.0)
-    at.status = PointStatus::apex;
+    at.status = PointStatus::cut_off;
   if (at.status == PointStatus::elastic && unloading) at.status = PointStatus::unloading;
   const double memory1 = deps.isZero(0.0) ? memory0 : memory.value;
   return {at.sigma, at.J, D, memory1, at.status, !(remaining.v > 0.0)};

@@ -190,9 +190,11 @@ MohrCoulombReturn in_place(const MohrCoulombPlanes& planes, const InAxes& trial,
   result.sigma = T * sigma;
   result.R = T * R * T_back;
   if (answer.vertex) result.R += kApexStiffness * Matrix4::Identity();
-  const double tip = std::min(planes.T, planes.apex());
-  const bool cut_off = answer.sigma[0] >= tip - kRounding * trial.value.cwiseAbs().maxCoeff();
-  result.status = answer.vertex || cut_off ? PointStatus::apex : PointStatus::yielded;
+  const double apex = planes.apex(), tip = std::min(planes.T, apex);
+  const bool at_tip = answer.sigma[0] >= tip - kRounding * trial.value.cwiseAbs().maxCoeff();
+  result.status = !answer.vertex && !at_tip ? PointStatus::yielded
+                  : planes.T < apex         ? PointStatus::cut_off
+                                            : PointStatus::apex;
   return result;
 }
 

@@ -32,8 +32,7 @@ Neighbours around(const Assembly& assembly, int node) {
       for (std::size_t p = 0; p < points; ++p) {
         const PointStatus status = data.state.trial.status[static_cast<std::size_t>(e) * points + p];
         result.open_point = result.open_point || status == PointStatus::open;
-        result.yielded_point = result.yielded_point || status == PointStatus::yielded ||
-                               status == PointStatus::apex || status == PointStatus::slipping;
+        result.yielded_point = result.yielded_point || is_plastic(status);
       }
       if (++shown > 4) continue;
       result.elements += (shown > 1 ? ", " : "") +
@@ -75,8 +74,8 @@ bool behind_open_joint(const Model& model, const Activity& activity, const Assem
 }
 
 std::string counts_line(const std::array<long, kStatuses>& points) {
-  static constexpr const char* kNames[] = {"elastic",  "unloading", "yielded",
-                                           "slipping", "open",      "at the apex"};
+  static constexpr const char* kNames[kStatuses] = {"elastic", "unloading",   "yielded",           "slipping",
+                                                    "open",    "at the apex", "cut off in tension"};
   std::string text;
   for (std::size_t s = 0; s < points.size(); ++s)
     if (points[s] > 0) text += (text.empty() ? "" : ", ") + std::to_string(points[s]) + " " + kNames[s];
@@ -230,8 +229,9 @@ std::string likely_anywhere(const Model& model, const Activity& activity, const 
       text = "  likely: interfaces are open and nothing holds the " + part_name(model, part, loose[0].part) +
              " against " + loose[0].motion + ".\n";
   }
-  const long plastic = count(PointStatus::yielded) + count(PointStatus::apex) + count(PointStatus::slipping);
-  if (text.empty() && plastic > 0) text = "  likely: a collapse mechanism.\n";
+  if (text.empty() &&
+      std::ranges::any_of(kAtStrength, [&](PointStatus s) { return is_plastic(s) && count(s) > 0; }))
+    text = "  likely: a collapse mechanism.\n";
   if (text.empty())
     text =
         "  likely: a rigid motion or an hourglass mode (too few fixities, reduced integration on a single "

@@ -12,7 +12,14 @@
 
 namespace sage {
 
-inline constexpr int kStatuses = 6;  // values of PointStatus
+inline constexpr int kStatuses = 7;  // values of PointStatus
+// Those of points that have reached their strength, in the order of outputs.
+inline constexpr std::array kAtStrength = {PointStatus::yielded, PointStatus::slipping, PointStatus::open,
+                                           PointStatus::apex, PointStatus::cut_off};
+// Flow or slip: an interface without contact is at its strength, but not plastic.
+constexpr bool is_plastic(PointStatus status) {
+  return status != PointStatus::elastic && status != PointStatus::unloading && status != PointStatus::open;
+}
 
 // How often each kind of work ran.
 struct WorkCounts {

@@ -1,6 +1,7 @@
 #include "sage/analysis/stage_warnings.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "sage/analysis/explain.hpp"
 #include "sage/analysis/flow_through.hpp"
@@ -36,8 +37,15 @@ void add_motion(Messages& messages, double motion) {
 
 // Points at the apex or cut off in tension, and the elements that have them, the first few by number.
 struct PointsWithout {
-  long points = 0;
+  long apex = 0, cut_off = 0;
   std::string elements;
+
+  std::string words() const {
+    std::string text = apex > 0 ? std::to_string(apex) + " point(s) at the apex" : "";
+    if (apex > 0 && cut_off > 0) text += " and ";
+    if (cut_off > 0) text += std::to_string(cut_off) + (apex > 0 ? "" : " point(s)") + " cut off in tension";
+    return text + ", in element(s) " + elements;
+  }
 };
 
 PointsWithout points_without_stiffness(const Assembly& assembly) {
@@ -48,10 +56,12 @@ PointsWithout points_without_stiffness(const Assembly& assembly) {
     if (!data.active) continue;
     const auto points = static_cast<std::size_t>(data.group->element->traits().points);
     for (std::size_t e = 0; e < data.group->element_numbers.size(); ++e) {
-      const auto first = data.state.committed.status.begin() + static_cast<std::ptrdiff_t>(e * points);
-      const long here = std::count(first, first + static_cast<std::ptrdiff_t>(points), PointStatus::apex);
-      found.points += here;
-      if (here == 0 || ++count > kNamed) continue;
+      const std::span status(data.state.committed.status.data() + e * points, points);
+      const long apex = std::ranges::count(status, PointStatus::apex),
+                 cut_off = std::ranges::count(status, PointStatus::cut_off);
+      found.apex += apex;
+      found.cut_off += cut_off;
+      if (apex + cut_off == 0 || ++count > kNamed) continue;
       found.elements += (count > 1 ? ", " : "") + std::to_string(data.group->element_numbers[e]);
     }
   }
@@ -61,10 +71,9 @@ PointsWithout points_without_stiffness(const Assembly& assembly) {
 
 void add_points(Messages& messages, const Assembly& assembly) {
   const PointsWithout without = points_without_stiffness(assembly);
-  if (without.points > 0)
+  if (without.apex + without.cut_off > 0)
     messages.add(
-        "S522", std::to_string(without.points) + " point(s) at the apex or cut off in tension, in element(s) " +
-                    without.elements +
+        "S522", without.words() +
                     ": the tangent there has no stiffness; results there depend on how the law treats tension, "
                     "and on the path of the iteration");
   const UniquenessCount unique = count_loss_of_uniqueness(assembly);

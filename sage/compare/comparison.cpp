@@ -126,7 +126,8 @@ void add_points(Comparison& c, const Side& a, const Side& b) {
     if (!side.has_state()) return v;
     const PointCounts n = count_points(side.model().mesh, side.last());
     v.emplace_back("solids: yielded", part(n.yielded, n.solids));
-    v.emplace_back("solids: at the apex or cut off", part(n.apex, n.solids));
+    v.emplace_back("solids: at the apex", part(n.apex, n.solids));
+    v.emplace_back("solids: cut off in tension", part(n.cut_off, n.solids));
     if (n.interfaces > 0) {
       v.emplace_back("interfaces: slipping", part(n.slipping, n.interfaces));
       v.emplace_back("interfaces: open", part(n.open, n.interfaces));

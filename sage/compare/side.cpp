@@ -72,8 +72,10 @@ PointCounts count_points(const Mesh& mesh, const Solution& solution) {
       const PointStatus status = shown_status(mesh, data, p);
       ++(solid ? counts.solids : counts.interfaces);
       if (solid) {
-        counts.yielded += status == PointStatus::yielded || status == PointStatus::apex ? 1 : 0;
-        counts.apex += status == PointStatus::apex ? 1 : 0;
+        const bool apex = status == PointStatus::apex, cut_off = status == PointStatus::cut_off;
+        counts.yielded += status == PointStatus::yielded || apex || cut_off ? 1 : 0;
+        counts.apex += apex ? 1 : 0;
+        counts.cut_off += cut_off ? 1 : 0;
       } else {
         counts.slipping += status == PointStatus::slipping ? 1 : 0;
         counts.open += status == PointStatus::open ? 1 : 0;

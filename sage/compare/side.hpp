@@ -60,7 +60,7 @@ struct StageState {
 
 // Numbers of integration points.
 struct PointCounts {
-  long solids = 0, yielded = 0, apex = 0;  // yielded: apex included
+  long solids = 0, yielded = 0, apex = 0, cut_off = 0;  // yielded: apex and cut_off included
   long interfaces = 0, slipping = 0, open = 0;
 };
 PointCounts count_points(const Mesh& mesh, const Solution& solution);

@@ -47,7 +47,8 @@ enum class PointStatus : std::uint8_t {
   yielded,    // on the yield surface, plastic flow in this increment
   slipping,   // interface at its shear strength
   open,       // interface without contact
-  apex,       // at the tip of the yield surface, or cut off in tension
+  apex,       // at the tip of the yield surface
+  cut_off,    // at a tension limit short of the tip, or where a law gives up its stiffness in tension
 };
 
 // cut_step: no answer for this increment, a smaller one may have one.  Everything else throws.

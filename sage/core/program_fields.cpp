@@ -338,9 +338,9 @@ void add_state_fields(std::vector<FieldEntry>& rows) {
        .meaning = "what the point does",
        .value = PointField{[](const PointView& p, double* v) { *v = static_cast<double>(p.status); }},
        .form = FieldForm::word,
-       .words = {"elastic", "unloading", "yielded", "slipping", "open", "apex"}});
+       .words = {"elastic", "unloading", "yielded", "slipping", "open", "apex", "cut_off"}});
   rows.push_back({.name = "yielded",
-                  .meaning = "part of the points that yield, slip, are open or at the apex",
+                  .meaning = "part of the points that yield, slip, are open, at the apex or cut off in tension",
                   .value = PointField{[](const PointView& p, double* v) {
                     *v = p.status == PointStatus::elastic || p.status == PointStatus::unloading ? 0.0 : 1.0;
                   }},
@@ -384,7 +384,8 @@ void add_increment_fields(std::vector<FieldEntry>& rows) {
   add("relative_energy", "energy / first energy", kNumber, true, [](const View& i) { return i.energy; });
   add("cuts", "halvings of the step", kInteger, false, [](const View& i) { return i.cuts; });
   add("substeps", "parts of the increment", kInteger, false, [](const View& i) { return i.substeps; });
-  constexpr const char* kStates[] = {"elastic", "unloading", "yielded_points", "slipping", "open", "apex"};
+  constexpr const char* kStates[] = {"elastic", "unloading", "yielded_points", "slipping",
+                                     "open",    "apex",      "cut_off"};
   for (std::size_t k = 0; k < std::size(kStates); ++k)
     add(kStates[k], "integration points in that state", kInteger, false,
         [k](const View& i) { return i.points[k]; });

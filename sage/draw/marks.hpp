@@ -13,7 +13,7 @@ inline constexpr double kLongestArrow = 44.0;  // px
 std::string draw_arrows(std::string& out, const Scenery& scenery);
 // At integration points of solids, thinned out likewise; a pull is dashed.
 std::string draw_crosses(std::string& out, const Scenery& scenery);
-// All integration points: full where they yield (slip, are open, at the apex), else dots.
+// All integration points: full where they yield (slip, are open, at the apex, cut off), else dots.
 std::string draw_yielded(std::string& out, const Scenery& scenery);
 
 }  // namespace sage

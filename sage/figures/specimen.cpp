@@ -73,7 +73,8 @@ class Watcher final : public Observer {
     for (const Group& group : model.groups)
       if (group.solid()) solid += group.elements() * group.element->traits().points;
     const auto count = [&](PointStatus status) { return points[static_cast<std::size_t>(status)]; };
-    run_->yielded.push_back(static_cast<double>(count(PointStatus::yielded) + count(PointStatus::apex)) /
+    run_->yielded.push_back(static_cast<double>(count(PointStatus::yielded) + count(PointStatus::apex) +
+                                                count(PointStatus::cut_off)) /
                             static_cast<double>(solid));
     State state;
     keep_joint(model, now, state);

@@ -39,7 +39,7 @@ std::string status_words(const Model& model, const RunResult& result) {
 
 std::string point_words(const std::array<long, kStatuses>& points) {
   std::string text;
-  for (PointStatus s : {PointStatus::yielded, PointStatus::slipping, PointStatus::open, PointStatus::apex}) {
+  for (PointStatus s : kAtStrength) {
     const long count = points[static_cast<std::size_t>(s)];
     if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, status_name(s));
   }

@@ -44,8 +44,7 @@ Largest largest_of(const Model& model, const Eigen::VectorXd& u) {
 
 long inelastic(const std::array<long, kStatuses>& points) {
   long count = 0;
-  for (PointStatus s : {PointStatus::yielded, PointStatus::slipping, PointStatus::open, PointStatus::apex})
-    count += points[static_cast<std::size_t>(s)];
+  for (PointStatus s : kAtStrength) count += points[static_cast<std::size_t>(s)];
   return count;
 }
 

@@ -51,7 +51,7 @@ struct FactorTrial {
       0.0;        // largest along an axis since the strengths began to fall; Start::anew: since the run began
   int node = -1;  // where: index
   int iterations = 0, cuts = 0;
-  long yielded = 0;  // points that yield, slip, are open or at the apex
+  long yielded = 0;  // points that yield, slip, are open, at the apex or cut off in tension
 };
 
 struct Safety {

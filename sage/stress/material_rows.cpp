@@ -282,7 +282,7 @@ void apex(Sweep& s) {
             fmt::format("{}, phi = {:g}, psi = {:g}: five cycles", law == 4 ? "Mohr-Coulomb" : "Drucker-Prager",
                         phi, associated ? phi : 0.0);
         s.right(label, kUnknown, ran, error, 1e-8);
-        if (!associated && phi == 30.0) s.says(label, kUnknown, ran, "at the apex or cut off in tension");
+        if (!associated && phi == 30.0) s.says(label, kUnknown, ran, "point(s) at the apex, in element(s)");
       }
 }
 

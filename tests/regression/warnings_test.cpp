@@ -130,6 +130,7 @@ TEST(RunTimeWarnings, ReachScreenJsonAndStrict) {
   const Finished run = sagefe(folder, "run deck.dat -o out");
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_EQ(count(run.err, "[S522]"), 1) << run.err;
+  EXPECT_TRUE(says(run, "16 point(s) cut off in tension, in element(s) 1, 2, 3, 4")) << run.err;
   const Finished strict = sagefe(folder, "run deck.dat -o strict --strict");
   EXPECT_EQ(strict.exit_code, 2);
   EXPECT_TRUE(says(strict, ": error: stage 1: ") && says(strict, "[S522]") && says(strict, "[S906]"))
@@ -137,6 +138,9 @@ TEST(RunTimeWarnings, ReachScreenJsonAndStrict) {
   EXPECT_TRUE(fs::exists(folder / "strict/deck.lst"));
   const nlohmann::json answer = nlohmann::json::parse(sagefe(folder, "run deck.dat -o out --json").out);
   EXPECT_EQ(std::ranges::count_if(answer["messages"], [](const auto& m) { return m["code"] == "S522"; }), 1);
+  const nlohmann::json points = answer["result"]["decks"][0]["integration_points"];
+  EXPECT_EQ(points["cut_off"], 16);
+  EXPECT_EQ(points["apex"], 0);
 }
 
 // Compressed far beyond yield in plane strain: with psi < phi uniqueness is lost without any softening.

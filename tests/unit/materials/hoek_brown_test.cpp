@@ -70,6 +70,7 @@ TEST(HoekBrown, TipAndCutOff) {
   const auto cut =
       test::update<4>(*test::solid(9, {kE, kNu, kIntact, kM, kS, 0.5, 0, 100}), {-5, -5, -5, 0}, apart, {0, 0});
   EXPECT_NEAR((cut.sigma - 100 * Vector4(1, 1, 1, 0)).norm(), 0.0, 1e-9);
+  EXPECT_EQ(cut.status, PointStatus::cut_off);
 }
 
 // a = 1 is Mohr-Coulomb with N = 1 + m and unconfined strength s sigma_ci, found by the other law's own way.

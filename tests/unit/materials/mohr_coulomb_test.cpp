@@ -70,7 +70,7 @@ TEST(MohrCoulomb, TensionOutOfPlaneLeavesTheShearStiffness) {
   const double out = 2.0 * G * 0.01 + lambda * 0.004, flow = (out - T) / (lambda + 2.0 * G);
   const double in = -20.0 - 2.0 * G * 0.003 + lambda * 0.004 - lambda * flow;
   EXPECT_NEAR((a.sigma - Vector4(in, in, T, 0.0)).norm(), 0.0, 1e-10);
-  EXPECT_EQ(a.status, PointStatus::apex);
+  EXPECT_EQ(a.status, PointStatus::cut_off);
   EXPECT_NEAR(a.D(3, 3), G, 1e-9 * G);
 }
 
@@ -132,12 +132,27 @@ TEST(MohrCoulomb, Apex) {
   }
 }
 
+// A limit at c cot phi or beyond is no limit: the tip is reached, not the cut-off.
+TEST(MohrCoulomb, CutOffBeyondTheApexIsNone) {
+  const double apex = 10.0 / std::tan(30.0 * kRadiansPerDegree);
+  const auto status = [](double limit) {
+    const auto law = test::solid(4, {1e4, 0.3, 10.0, 30.0, 0.0, limit});
+    return test::update<4>(*law, Vector4::Zero(), {0.02, 0.021, 0.019, 0.001}, {0.0, 0.0}).status;
+  };
+  EXPECT_EQ(status(1.5 * apex), PointStatus::apex);
+  EXPECT_EQ(status(0.9 * apex), PointStatus::cut_off);  // all three principal stresses at the limit
+  EXPECT_EQ(status(0.0), PointStatus::cut_off);
+  const auto soil = test::solid(4, {1e4, 0.3, 0.0, 30.0, 0.0, 0.0});  // c = 0: the tip is at zero too
+  EXPECT_EQ(test::update<4>(*soil, Vector4::Zero(), {0.02, 0.021, 0.019, 0.001}, {0.0, 0.0}).status,
+            PointStatus::apex);
+}
+
 // Cut-off at 3: uniaxial stretch holds sigma_1 = 3, the others follow nu/(1-nu) of ... the elastic part: they
 // keep sigma_2 = sigma_3 = lambda-free value sigma_tr - D b lambda: 3 nu/(1-nu).
 TEST(MohrCoulomb, TensionCutOff) {
   const auto law = test::solid(4, {1e4, 0.25, 50.0, 30.0, 0.0, 3.0});
   const auto a = test::update<4>(*law, Vector4::Zero(), {1e-3, 0.0, 0.0, 0.0}, {0.0, 0.0});
-  EXPECT_EQ(a.status, PointStatus::apex);
+  EXPECT_EQ(a.status, PointStatus::cut_off);
   EXPECT_NEAR(a.sigma[0], 3.0, 1e-12);
   EXPECT_NEAR(a.sigma[1], 1.0, 1e-12);  // 3 * 0.25/0.75
   EXPECT_NEAR(a.sigma[2], 1.0, 1e-12);
