@@ -116,6 +116,21 @@ void Assembly::set_moment(const Moment& moment) {
   }
 }
 
+void Assembly::take_spread_loads(double load_factor) {
+  const double t = load_factor;
+  for (std::size_t g = 0; g < groups_.size() && spread_stage_ > 0; ++g) {
+    if (!groups_[g].sees_spread) continue;
+    std::vector<double>&start = groups_[g].spread_start, &end = groups_[g].spread_end;
+    const std::vector<double> last = std::exchange(end, spread_loads(*model_, spread_stage_ - 1, g));
+    const std::size_t size = std::max({start.size(), last.size(), end.size()});
+    for (std::vector<double>* list : {&start, &end}) list->resize(size);
+    for (std::size_t i = 0; i < size; ++i) {
+      const double now = (1.0 - t) * start[i] + (i < last.size() ? t * last[i] : 0.0);
+      start[i] = (now - t * end[i]) / (1.0 - t);
+    }
+  }
+}
+
 bool Assembly::sees_unknowns() const {
   return std::ranges::any_of(groups_,
                              [](const GroupData& data) { return data.group->element->traits().sees_unknowns; });
@@ -377,7 +392,7 @@ IteratedStep::IteratedStep(Assembly& assembly, const Eigen::VectorXd& target, do
   if (region_ == nullptr) return;
   const Profile::Scope scope(assembly.work_->profile, phase::kCondensation);
   assembly.region_step_ = Assembly::RegionStep::open;
-  if (!region_->is_behind()) assembly.take_constant_force();
+  if (!region_->predictor().is_behind()) assembly.take_constant_force();
   region_->begin_step(rate_part, so_far, target, assembly.constant_force_, kRounding * assembly.force_scale(0));
   assembly.internal_ = assembly.changing_.forces();
   region_->add_start_forces(assembly.internal_);
@@ -399,14 +414,14 @@ void IteratedStep::complete(Eigen::VectorXd& du) {
 bool IteratedStep::must_fill_in() const {
   if (region_ == nullptr) return false;
   const bool is_filled_in = assembly_->region_step_ == Assembly::RegionStep::filled_in;
-  return is_filled_in || !assembly_->skips_.states || !region_->may_wait();
+  return is_filled_in || !assembly_->skips_.states || !region_->predictor().may_wait();
 }
 
 bool IteratedStep::wait(const Eigen::VectorXd& du, double out_of_balance, double limit) {
   constexpr double kFarBelow = 1e-3;
   if (region_ == nullptr || must_fill_in()) return false;
   Assembly& all = *assembly_;
-  const double most = limit * std::sqrt(all.changing_.sums()[0] + region_->least_force_squares());
+  const double most = limit * std::sqrt(all.changing_.sums()[0] + region_->predictor().least_force_squares());
   if (!(out_of_balance <= most) || !(region_->rounding(du) <= kFarBelow * most)) return false;
   all.region_step_ = Assembly::RegionStep::waits;
   return true;

@@ -34,6 +34,9 @@ class Assembly {
   bool symmetric() const { return scene_->symmetric; }
   void set_moment(const Moment& moment);
   const Moment& moment() const { return element_.moment(); }
+  // The loads along elements at the end of the stage in hand have changed: they grow there from what acts at this load
+  // factor, below 1.
+  void take_spread_loads(double load_factor);
   const Mesh& mesh() const { return model_->mesh; }
 
   // Passes over the elements ask it now and then and throw Stopped.
@@ -100,7 +103,7 @@ class Assembly {
   void commit_again(const Eigen::VectorXd& du);
 
   // A condensed region waits to be filled in: forces and displacements of its inner nodes are those of an earlier step.
-  bool region_is_behind() const { return condensation_ != nullptr && condensation_->is_behind(); }
+  bool region_is_behind() const { return condensation_ != nullptr && condensation_->predictor().is_behind(); }
   // The step in hand is not going to be committed.
   void drop_step() { region_step_ = RegionStep::open; }
   // Then, where the region is behind: fills it in at the committed state, u, whose loads are `target`, at that share of
@@ -185,7 +188,7 @@ class IteratedStep {
   // A region is condensed, and must be filled in at the end of the step.
   bool must_fill_in() const;
   // Nothing of the stage is behind: a condensed region has only its forces from before.
-  bool begins_stage() const { return region_ != nullptr && region_->begins_stage(); }
+  bool begins_stage() const { return region_ != nullptr && region_->predictor().begins_stage(); }
   // Instead of complete(), where the border is enough to tell that the step is in equilibrium: out_of_balance, of the
   // kept dofs, is at most `limit` times all forces, and rounding far below.
   bool wait(const Eigen::VectorXd& du, double out_of_balance, double limit);

@@ -71,11 +71,11 @@ void Condensation::factorise() {
   solver_->factorise();
 
   const auto n = static_cast<Eigen::Index>(kept_.size()), all = static_cast<Eigen::Index>(dofs_);
-  for (Eigen::VectorXd* x : {&g_, &base_, &kept_du_, &kept_f_, &now_.since, &before_.since}) x->setZero(n);
+  for (Eigen::VectorXd* x : {&g_, &base_, &kept_du_, &kept_f_}) x->setZero(n);
+  predictor_.begin(n);
   for (Eigen::VectorXd* x : {&stage_load_, &loads_, &solution_}) x->setZero(condensed());
   for (Eigen::VectorXd* x : {&stage_, &step_, &from_, &whole_}) x->setZero(condensed() + n);
   for (Eigen::VectorXd* x : {&stage_forces_, &all_dofs_, &all_forces_}) x->setZero(all);
-  now_.force_squares.fill(std::numeric_limits<double>::quiet_NaN());
   S_.resize(n, n);
   if (keeps_border_)
     solver_->border_matrix(S_.data());
@@ -175,19 +175,13 @@ void Condensation::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const 
   }
 }
 
-void Condensation::Anchor::remember(double its_share, double its_force_squares) {
-  shares = {its_share, shares[0], shares[1]};
-  force_squares = {its_force_squares, force_squares[0], force_squares[1]};
-}
-
 void Condensation::begin_stage(const Eigen::VectorXd& loads, const Eigen::VectorXd& prescribed,
                                double force_squares) {
   stage_forces_.setZero();
   if (!prescribed.isZero(0.0)) multiply(prescribed, stage_forces_);
   for (Eigen::Index i = 0; i < condensed(); ++i) stage_load_[i] = loads[dof_of(i)] - stage_forces_[dof_of(i)];
   stage_work_ = eliminate_loads(stage_load_, stage_);
-  supports_move_ = reaches_region(prescribed);
-  if (std::isnan(now_.force_squares[0])) now_.remember(0.0, force_squares);
+  predictor_.begin_stage(reaches_region(prescribed), force_squares);
 }
 
 // Returns their work while the border is held.
@@ -203,57 +197,38 @@ double Condensation::eliminate_loads(const Eigen::VectorXd& loads, Eigen::Vector
 
 void Condensation::begin_step(double part, const StageSoFar& so_far, const Eigen::VectorXd& target,
                               const Eigen::VectorXd& f0, double tolerance) {
-  if (!is_behind()) now_.share = so_far.share;
-  part_ = part;
-  to_ = so_far.share + part;
-  part_since_ = is_behind() ? to_ - now_.share : part;
-  so_far_ = so_far;
+  predictor_.begin_step(part, so_far);
   target_ = &target;
   from_is_here_ = false;
-  if (!is_behind()) look_at_loads(f0, tolerance);
-  if (now_.on_line) {
-    border(step_) = part_since_ * border(stage_);
+  if (!predictor_.is_behind()) look_at_loads(f0, tolerance);
+  const double part_since = predictor_.part_since();
+  if (predictor_.on_line()) {
+    border(step_) = part_since * border(stage_);
     held_work_ = part * part * stage_work_;
   } else {
     held_work_ = eliminate_loads(loads_, step_);
   }
   for (Eigen::Index i = 0; i < g_.size(); ++i) {
     const int dof = kept_[static_cast<std::size_t>(i)];
-    g_[i] = f0[dof] + part_since_ * stage_forces_[dof] - step_[condensed() + i];
+    g_[i] = f0[dof] + part_since * stage_forces_[dof] - step_[condensed() + i];
   }
   base_.setZero();
 }
 
 // Whether those of the step are its part of the stage's.
 void Condensation::look_at_loads(const Eigen::VectorXd& f0, double tolerance) {
+  const double part_since = predictor_.part_since();
   double off = 0.0;
   for (Eigen::Index i = 0; i < condensed(); ++i) {
     const int dof = dof_of(i);
-    loads_[i] = (*target_)[dof] - f0[dof] - part_since_ * stage_forces_[dof];
-    off = std::max(off, std::abs(loads_[i] - part_since_ * stage_load_[i]));
+    loads_[i] = (*target_)[dof] - f0[dof] - part_since * stage_forces_[dof];
+    off = std::max(off, std::abs(loads_[i] - part_since * stage_load_[i]));
   }
-  now_.on_line = off <= tolerance;
-}
-
-// The way through the stage so far, as much longer as its loads are to become: it balances them.
-void Condensation::find_from() {
-  from_is_here_ = true;
-  from_.setZero();
-  from_has_loads_ = now_.on_line && now_.share > 0.0;
-  if (!from_has_loads_) {
-    if (now_.on_line) inner(step_) = part_since_ * inner(stage_);
-    return;
-  }
-  const double factor = part_since_ / now_.share;
-  for (Eigen::Index i = 0; i < from_.size(); ++i) {
-    const int dof = dof_of(i);
-    const double since = i < condensed() ? 0.0 : now_.since[i - condensed()];
-    from_[i] = factor * ((*so_far_.now)[dof] - since - (*so_far_.start)[dof]);
-  }
+  predictor_.set_on_line(off <= tolerance);
 }
 
 void Condensation::add_start_forces(Eigen::VectorXd& f) const {
-  kept_du_ = now_.since;
+  kept_du_ = predictor_.since();
   add_border_forces(f);
 }
 
@@ -263,8 +238,9 @@ void Condensation::add_forces(const Eigen::VectorXd& du, Eigen::VectorXd& f) con
 }
 
 void Condensation::find_kept_motion(const Eigen::VectorXd& du) const {
+  const Eigen::VectorXd& since = predictor_.since();
   for (Eigen::Index i = 0; i < base_.size(); ++i)
-    kept_du_[i] = du[kept_[static_cast<std::size_t>(i)]] + now_.since[i] - base_[i];
+    kept_du_[i] = du[kept_[static_cast<std::size_t>(i)]] + since[i] - base_[i];
 }
 
 void Condensation::add_border_forces(Eigen::VectorXd& f) const {
@@ -274,13 +250,17 @@ void Condensation::add_border_forces(Eigen::VectorXd& f) const {
 
 // A border that moves by u leaves rounding of |K| |u| behind: what is solved for is the way from a place near by.
 void Condensation::complete(Eigen::VectorXd& du) {
-  if (!from_is_here_) find_from();
+  if (!from_is_here_) {
+    from_is_here_ = true;
+    from_has_loads_ = predictor_.extrapolate(condensed_, kept_, from_);
+    if (!from_has_loads_ && predictor_.on_line()) inner(step_) = predictor_.part_since() * inner(stage_);
+  }
   if (from_has_loads_)
     inner(whole_).setZero();
   else
     inner(whole_) = inner(step_);
   for (Eigen::Index i = condensed(); i < whole_.size(); ++i)
-    whole_[i] = du[dof_of(i)] + now_.since[i - condensed()] - from_[i];
+    whole_[i] = du[dof_of(i)] + predictor_.since()[i - condensed()] - from_[i];
   fill_in(whole_);
   for (Eigen::Index i = 0; i < condensed(); ++i) du[dof_of(i)] = from_[i] + whole_[i];
 }
@@ -288,15 +268,8 @@ void Condensation::complete(Eigen::VectorXd& du) {
 double Condensation::step_norm(const Eigen::VectorXd& du) const {
   double inner = 0.0;
   for (const int dof : condensed_) inner += du[dof] * du[dof];
-  const double part = is_behind() ? part_ / part_since_ : 1.0;
+  const double part = predictor_.is_behind() ? predictor_.part() / predictor_.part_since() : 1.0;
   return std::sqrt(std::max(0.0, du.squaredNorm() - (1.0 - part * part) * inner));
-}
-
-// From one filling in to the next the share of the loads at most doubles: then the region's forces, by which others are
-// judged, are known well enough.
-bool Condensation::may_wait() const {
-  constexpr double kEnd = 1.0 - 1e-9, kTwice = 2.0 + 1e-9;
-  return now_.on_line && !supports_move_ && to_ < kEnd && to_ <= kTwice * now_.share;
 }
 
 double Condensation::rounding(const Eigen::VectorXd& du) const {
@@ -305,54 +278,20 @@ double Condensation::rounding(const Eigen::VectorXd& du) const {
   return kRounding * S_norm_ * kept_du_.lpNorm<Eigen::Infinity>();
 }
 
-// Forces that grow evenly have squares that are a parabola over the share.  Half of those forces is the careful side.
-double Condensation::least_force_squares() const {
-  constexpr double kCareful = 0.25;  // of a square
-  const auto& [s0, s1, s2] = now_.shares;
-  const auto& [q0, q1, q2] = now_.force_squares;
-  const double slope = (q0 - q1) / (s0 - s1), before = (q1 - q2) / (s1 - s2);
-  const double expected = q0 + (to_ - s0) * (slope + (to_ - s1) * (slope - before) / (s0 - s2));
-  return std::isfinite(expected) ? kCareful * std::clamp(expected, 0.0, q0) : 0.0;
-}
-
-void Condensation::accept_border(const Eigen::VectorXd& du) {
-  before_ = now_;
-  for (Eigen::Index i = 0; i < now_.since.size(); ++i) now_.since[i] += du[kept_[static_cast<std::size_t>(i)]];
-  now_.behind = true;
-}
-
-void Condensation::accept_whole(double force_squares) {
-  before_ = now_;
-  now_.share = to_;
-  now_.since.setZero();
-  now_.behind = false;
-  now_.remember(to_, force_squares);
-}
-
 void Condensation::add_motion(Eigen::VectorXd& du) const {
-  for (Eigen::Index i = 0; i < now_.since.size(); ++i) du[kept_[static_cast<std::size_t>(i)]] += now_.since[i];
+  const Eigen::VectorXd& since = predictor_.since();
+  for (Eigen::Index i = 0; i < since.size(); ++i) du[kept_[static_cast<std::size_t>(i)]] += since[i];
 }
 
 // Of the condensed ones from the border: the stage's loads L there move by part K_ll^-1 L - K_ll^-1 K_ln du_n.
 double Condensation::load_work(const Eigen::VectorXd& loads, const Eigen::VectorXd& du) const {
-  if (!now_.on_line || supports_move_) return loads.dot(du);
-  double work = part_ * stage_work_;
+  if (!predictor_.on_line() || predictor_.supports_move()) return loads.dot(du);
+  double work = predictor_.part() * stage_work_;
   for (Eigen::Index i = 0; i < g_.size(); ++i) {
     const int dof = kept_[static_cast<std::size_t>(i)];
     work += (loads[dof] + stage_[condensed() + i]) * du[dof];
   }
   return work;
-}
-
-void Condensation::exchange(Archive& archive) {
-  Anchor& anchor = archive.reading() ? now_ : before_;
-  archive(anchor.share);
-  archive(anchor.since);
-  archive(anchor.behind);
-  archive(anchor.on_line);
-  archive(anchor.shares);
-  archive(anchor.force_squares);
-  archive(to_);
 }
 
 double Condensation::largest_residual(const Eigen::VectorXd& f) const {
@@ -375,7 +314,7 @@ void Condensation::set_base(const Eigen::VectorXd& all, const Eigen::VectorXd& o
   for (Eigen::Index i = 0; i < g_.size(); ++i) {
     const int dof = kept_[static_cast<std::size_t>(i)];
     g_[i] = all[dof] - others[dof];
-    base_[i] = du[dof] + now_.since[i];
+    base_[i] = du[dof] + predictor_.since()[i];
   }
   from_is_here_ = from_has_loads_ = true;
   for (Eigen::Index i = 0; i < condensed(); ++i) from_[i] = du[dof_of(i)];

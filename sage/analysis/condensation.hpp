@@ -11,30 +11,22 @@
 // Once the region's forces f are known at some du, f_n = f(du)_n + S (change of du_n): S then multiplies small
 // changes, and its rounding counts no more.
 //
-// du_l is filled in now and then, and where somebody looks: steps between two such places are one step for the region,
-// which does not care by which way its border and its loads came to where they are.
+// du_l is recovered now and then, and where output needs it.  Steps between two recoveries are one step for the region, as
+// it is linear: the load path of its border between them does not matter (RegionPredictor).
 #pragma once
 
-#include <array>
 #include <functional>
 #include <memory>
 #include <vector>
 
 #include "sage/analysis/group_data.hpp"
-#include "sage/core/archive.hpp"
+#include "sage/analysis/region_predictor.hpp"
 #include "sage/core/linear_solver.hpp"
 
 namespace sage {
 
 // Makes a solver for so many equations; symmetric: the matrix is.
 using SolverMaker = std::function<std::unique_ptr<LinearSolver>(int equations, bool symmetric)>;
-
-// How far a stage has come: share of it that is behind, and unknowns of every dof at its start and now, those of
-// condensed dofs where they were filled in last.
-struct StageSoFar {
-  double share = 0.0;
-  const Eigen::VectorXd *start = nullptr, *now = nullptr;
-};
 
 class Condensation {
  public:
@@ -70,21 +62,15 @@ class Condensation {
   void add_forces(const Eigen::VectorXd& du, Eigen::VectorXd& f) const;
   // Fills in du of the condensed dofs: what they have moved since they were filled in last.
   void complete(Eigen::VectorXd& du);
-  bool begins_stage() const { return !(now_.share > 0.0); }
   // |du| of the step in hand once that is done: condensed dofs count by its part of what they have moved.
   double step_norm(const Eigen::VectorXd& du) const;
-  // Whether the step in hand may end without that.
-  bool may_wait() const;
   // What rounding may then leave out of balance at a kept dof.
   double rounding(const Eigen::VectorXd& du) const;
-  // The least that the sum of |f_e|^2 may be at the end of the step in hand, as it has gone in the stage so far; 0 where
-  // little is known.
-  double least_force_squares() const;
-  // The step in hand is committed: by its border alone, or filled in.
-  void accept_border(const Eigen::VectorXd& du);
-  void accept_whole(double force_squares);
-  // Committed steps have moved kept dofs since the others were filled in.
-  bool is_behind() const { return now_.behind; }
+  // When the region was recovered last, and what follows from that for the step in hand.
+  const RegionPredictor& predictor() const { return predictor_; }
+  // The step in hand is committed: by its border alone, or recovered.
+  void accept_border(const Eigen::VectorXd& du) { predictor_.accept_border(kept_, du); }
+  void accept_whole(double force_squares) { predictor_.accept_whole(force_squares); }
   // du, with what the kept dofs have moved since then.
   void add_motion(Eigen::VectorXd& du) const;
   // A flag a node: an element of the region has it, and it has a dof that is not kept.
@@ -92,7 +78,7 @@ class Condensation {
   // Work of the stage's loads along the step du, whose condensed dofs need not be filled in.
   double load_work(const Eigen::VectorXd& loads, const Eigen::VectorXd& du) const;
   // The way through the stage as it stood before the last step was accepted, to a checkpoint or back.
-  void exchange(Archive& archive);
+  void exchange(Archive& archive) { predictor_.exchange(archive); }
   // Largest load that the internal forces f leave unbalanced at condensed dofs.
   double largest_residual(const Eigen::VectorXd& f) const;
   // Corrects du of the condensed dofs for what f leaves there.
@@ -116,7 +102,6 @@ class Condensation {
   void find_kept_motion(const Eigen::VectorXd& du) const;  // kept_du_: from base_
   void list_inner_nodes();
   bool reaches_region(const Eigen::VectorXd& motion) const;
-  void find_from();
   void eliminate(Eigen::VectorXd& x);
   void fill_in(Eigen::VectorXd& x);
   void find_forces(const Eigen::VectorXd& x, Eigen::Index begin, Eigen::Index end);
@@ -127,18 +112,6 @@ class Condensation {
   bool border_pays(int increments, bool symmetric) const;
   bool solutions_pay(int increments) const;
 
-  // Where the region was filled in last.
-  struct Anchor {
-    double share = 0.0;     // of the stage
-    Eigen::VectorXd since;  // motion of the kept dofs since then
-    bool behind = false;    // a step has been committed since then
-    bool on_line = false;   // the region's forces grow from there with the loads of the stage
-    // Sum of |f_e|^2 there and at the two places before, and their shares; NaN = not known.
-    std::array<double, 3> shares{}, force_squares{};
-
-    void remember(double its_share, double its_force_squares);
-  };
-
   const std::vector<GroupData>* groups_;
   int dofs_;  // of the model
   std::vector<int> kept_, condensed_;
@@ -147,12 +120,8 @@ class Condensation {
   Eigen::MatrixXd S_;
   double S_norm_ = 0.0;       // largest sum of |terms| of a row
   Eigen::VectorXd g_, base_;  // forces at the place base_ of the kept dofs
-  Anchor now_, before_;       // before_: the last step was accepted
+  RegionPredictor predictor_;
   std::vector<char> inner_nodes_;
-  bool supports_move_ = false;  // some dof of the region is given a displacement in the stage
-  // Of the step in hand: its part of the stage, its end, and the part since the region was filled in.
-  double part_ = 0.0, to_ = 0.0, part_since_ = 0.0;
-  StageSoFar so_far_;
   const Eigen::VectorXd* target_ = nullptr;
   Eigen::VectorXd stage_load_, stage_;     // of the whole stage: F_l - f0_l - K_lp du_p, and eliminated
   Eigen::VectorXd stage_forces_;           // K du_p of the whole stage, every dof

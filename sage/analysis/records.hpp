@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sage/core/code.hpp"
 #include "sage/core/law.hpp"
 #include "sage/core/profile.hpp"
 

@@ -8,7 +8,7 @@ namespace {
   throw InputError("S630", {}, "the checkpoint does not belong to this model");
 }
 
-void exchange_water(const Resumable& run, Archive& archive) {
+void exchange_water(const RunParts& run, Archive& archive) {
   std::vector<GroupData>& groups = run.system.assembly().groups();
   StagePath& path = run.state.path;
   path.pore_start.resize(groups.size());
@@ -18,11 +18,12 @@ void exchange_water(const Resumable& run, Archive& archive) {
     archive(path.pore_start[g]);
     archive(path.pore_end[g]);
   }
+  archive(path.water_force);
 }
 
 // Within a stage the states before the last step are kept beside that step, because the tangent that the next
 // step starts with was taken there.  factorised: the solver holds factors.
-void exchange(const Resumable& run, Archive& archive, const RunPlace& place, bool& factorised) {
+void exchange(const RunParts& run, Archive& archive, const RunPlace& place, bool& factorised) {
   const bool within = place.increment > 0;
   run.state.exchange_totals(archive);
   archive(run.result.stages_done);
@@ -37,7 +38,7 @@ void exchange(const Resumable& run, Archive& archive, const RunPlace& place, boo
 
 // The last step's end is evaluated once more: that gives its tangent too.  What the run still had in hand is
 // made again, so that the counters and the pivots on the record go on as if nothing had happened.
-void evaluate_again(const Resumable& run, const RunPlace& place, bool factorised) {
+void evaluate_again(const RunParts& run, const RunPlace& place, bool factorised) {
   System& system = run.system;
   const bool within = place.increment > 0;
   if (!within && !factorised) return;
@@ -57,7 +58,7 @@ void evaluate_again(const Resumable& run, const RunPlace& place, bool factorised
 
 }  // namespace
 
-std::string checkpoint_bytes(const Resumable& run, RunPlace place) {
+std::string checkpoint_bytes(const RunParts& run, RunPlace place) {
   Archive archive;
   archive(place);
   bool factorised = run.system.tangent().factorised();
@@ -66,7 +67,7 @@ std::string checkpoint_bytes(const Resumable& run, RunPlace place) {
   return archive.take();
 }
 
-RunPlace resume_from(const Resumable& run, const std::string& bytes) {
+RunPlace resume_from(const RunParts& run, const std::string& bytes) {
   Archive archive(bytes);
   RunPlace place;
   archive(place);
@@ -83,6 +84,8 @@ RunPlace resume_from(const Resumable& run, const std::string& bytes) {
   run.audience.tell(
       [&](Observer& o) { o.on_start(run.model, system.scene(), system.tangent().name(), system.equations()); });
   run.audience.exchange(archive);
+  run.state.place = place;
+  if (within) run.state.reached = static_cast<double>(place.increment) / run.stage().increments;
   if (!archive.at_end()) throw InputError("S630", {}, "the checkpoint is longer than it should be");
   static_cast<WorkCounts&>(run.result.work) = work;
   return place;

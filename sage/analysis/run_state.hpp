@@ -20,6 +20,7 @@ struct RunPlace {
 struct StagePath {
   Eigen::VectorXd external_start, force_start;  // loads and internal forces at its start
   Eigen::VectorXd force_end;                    // loads at its end
+  Eigen::VectorXd water_force;                  // of them, those of water; empty = no water
   Eigen::VectorXd u_start;                      // unknowns at its start, where a region is condensed
   Repeats repeats;
   Prediction prediction;                        // the way of the last step is RunState::du
@@ -29,13 +30,31 @@ struct StagePath {
   bool own_tangent = false;  // modified Newton, initial stiffness: steps begin with K of their start
   std::string loose_part;    // the first; empty = none
   std::vector<std::vector<double>> pore_start, pore_end;  // pore pressure at points, by group; empty = no water
+
+  // No step of the stage has been taken yet; loads and pore pressures stay.
+  void begin() {
+    forget_steps();
+    path_error = 0.0;
+    own_tangent = false;
+    loose_part.clear();
+  }
+  // What is known of the last steps.
+  void forget_steps() {
+    repeats.forget();
+    prediction = {};
+    last_size = stiffest = last_stiffness = 0.0;
+  }
 };
 
 struct RunState {
   Eigen::VectorXd u, external;  // displacements and loads at the committed state, every dof
   Eigen::VectorXd du;           // the step in hand or just taken
   Eigen::VectorXd u_before;     // before that step, where elements see unknowns
+  Eigen::VectorXd target;       // loads at the end of that step
   StagePath path;
+  RunPlace place;        // the increment in hand
+  double reached = 0.0;  // load factor of the stage in hand at the committed state
+  double easing = 1.0;   // of laws of water, while a free surface is searched for
 
   // To a checkpoint or back: as it stands after an increment (within a stage), or between two stages.
   void exchange_totals(Archive& archive) {

@@ -110,9 +110,13 @@ bool System::switch_exits(const Eigen::VectorXd& u, const Eigen::VectorXd& du, c
   return true;
 }
 
-// Equations for the dofs that are held now, within a stage.
 void System::take_exits(const Eigen::VectorXd& u, double part) {
   exits_.set_rates(u, part, activity_.held, rate_);
+  leave_condensation();
+}
+
+// Equations for the dofs that are held now, within a stage.
+void System::leave_condensation() {
   assembly_.enter_stage(activity_, rate_);
   tangent_.set_rate(rate_);
   analyse();

@@ -21,6 +21,9 @@ class System {
   // What takes part, equations and numbering.  K and its factors stay where they can serve.
   void open_stage(int s);
 
+  // The rest of the stage goes on with all equations.
+  void leave_condensation();
+
   // Where water may leave into air.  Before a step from the unknowns u, a part of the stage: those at their limit
   // are held there.
   bool has_exits() const { return exits_.any(); }

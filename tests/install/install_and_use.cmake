@@ -64,6 +64,10 @@ if(NOT from_deck STREQUAL from_arrays)
   message(FATAL_ERROR "the model from arrays settles ${settlement}, its deck ${last}")
 endif()
 
+# 60 kPa are the first of ten parts of 100 kPa under which the layer settles by more than 5.5 mm: p H / E = 60 * 2 / 20000 m.
+step("step through an analysis" ${SCRATCH}/consumer/stepping)
+expect("${output}" "after increment 6: 6\\.0000 mm\nwith 30 kPa: 3\\.0000 mm\n")
+
 step("run the program within a shared object" ${SCRATCH}/consumer/host list materials)
 expect("${output}" "1  linear_elastic \\(solid\\)")
 

@@ -1,0 +1,68 @@
+#include "sage/analysis/run_parts.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace sage {
+
+Solution RunParts::solution() const {
+  return {&state.u,           &assembly().internal_force(),
+          &state.external,    &assembly(),
+          &system.activity(), {},
+          state.place.stage,  state.reached};
+}
+
+void RunParts::warn(const std::vector<Diagnostic>& list) const {
+  for (const Diagnostic& diagnostic : list) audience.warn(diagnostic);
+}
+
+void RunParts::set_moment(double load_factor, double share) const {
+  if (assembly().wants_moment())
+    assembly().set_moment(
+        moment_at(model, state.place.stage, state.place.increment, load_factor, share, state.easing));
+}
+
+void RunParts::set_water(double load_factor) const {
+  const StagePath& path = state.path;
+  for (std::size_t g = 0; g < path.pore_end.size(); ++g) {
+    std::vector<double>& now = assembly().groups()[g].pore;
+    for (std::size_t p = 0; p < path.pore_end[g].size(); ++p)
+      now[p] = (1.0 - load_factor) * path.pore_start[g][p] + load_factor * path.pore_end[g][p];
+  }
+}
+
+std::optional<PorePressure> RunParts::water_at(int stage, const Activity& activity,
+                                               const Eigen::VectorXd* u) const {
+  std::optional<PorePressure> water;
+  if (!model.water.empty()) water.emplace(model, stage, activity.group, activity.dof_map, u);
+  return water;
+}
+
+Eigen::VectorXd RunParts::loads_at(double load_factor) const {
+  return (1.0 - load_factor) * state.path.force_start + load_factor * state.path.force_end;
+}
+
+void RunParts::show_progress(const StepReport& report, double load_factor) const {
+  Pulse* const pulse = settings.pulse;
+  if (pulse == nullptr) return;
+  double all = 0.0, before = 0.0;
+  for (int s = 0; s < static_cast<int>(model.stages.size()); ++s) {
+    const int increments = model.stages[static_cast<std::size_t>(s)].increments;
+    all += increments;
+    if (s < report.stage) before += increments;
+  }
+  pulse->share = (before + load_factor * report.increments) / all;
+  pulse->stage = report.stage + 1;
+  pulse->stages = static_cast<int>(model.stages.size());
+  pulse->increment = report.increment;
+  pulse->increments = report.increments;
+  pulse->iterated(0, std::numeric_limits<double>::quiet_NaN());
+}
+
+bool is_flow_alone(const Model& model) {
+  return !model.groups.empty() && std::ranges::all_of(model.groups, [](const Group& group) {
+    return group.entry != nullptr && group.flow();
+  });
+}
+
+}  // namespace sage

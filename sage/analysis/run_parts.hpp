@@ -1,0 +1,50 @@
+// What the parts of a run share: the model, its equations, the state, the result and the observers.
+#pragma once
+
+#include <optional>
+
+#include "sage/analysis/audience.hpp"
+#include "sage/analysis/extent.hpp"
+#include "sage/analysis/run_state.hpp"
+#include "sage/analysis/system.hpp"
+#include "sage/model/water.hpp"
+
+namespace sage {
+
+// References only: all that they refer to must outlive it.
+struct RunParts {
+  const Model& model;
+  const RunSettings& settings;
+  const Extent& extent;
+  System& system;
+  RunState& state;
+  RunResult& result;
+  Audience& audience;
+
+  Assembly& assembly() const { return system.assembly(); }
+  Tangent& tangent() const { return system.tangent(); }
+  Profile& profile() const { return result.work.profile; }
+  // The stage in hand.
+  const Stage& stage() const { return model.stages[static_cast<std::size_t>(state.place.stage)]; }
+
+  // The committed state.
+  Solution solution() const;
+  void warn(const std::vector<Diagnostic>& list) const;
+
+  // Laws and elements that depend on time are evaluated at this load factor of the stage in hand, after a step of that
+  // share of the stage; share 0 = a state at rest.
+  void set_moment(double load_factor, double share) const;
+  // Pore pressures at points, at this load factor of the stage in hand.
+  void set_water(double load_factor) const;
+  // Pore pressures at the end of a stage; nothing where the model has no water.  u: unknowns of an earlier flow, or null.
+  std::optional<PorePressure> water_at(int stage, const Activity& activity, const Eigen::VectorXd* u) const;
+  // Loads at this load factor of the stage in hand (A1), every dof.
+  Eigen::VectorXd loads_at(double load_factor) const;
+  // Shows the progress of the run where somebody watches (RunSettings::pulse).
+  void show_progress(const StepReport& report, double load_factor) const;
+};
+
+// All groups of the model are flow elements.
+bool is_flow_alone(const Model& model);
+
+}  // namespace sage

@@ -1,0 +1,138 @@
+#include "sage/analysis/stage_start.hpp"
+
+#include <algorithm>
+
+#include "sage/analysis/initial_balance.hpp"
+#include "sage/analysis/loads.hpp"
+#include "sage/analysis/stage_warnings.hpp"
+#include "sage/model/active_dofs.hpp"
+
+namespace sage {
+
+// Activity at the start matters only to pore pressures.
+void StageStart::start_first_states() {
+  const Model& model = run_.model;
+  run_.assembly().start_states(has_own_start(model),
+                               [&](std::vector<GroupData>& groups) { apply_own_starts(model, groups); });
+  if (model.water.empty()) return start_states(0, run_.system.activity(), model.initials, false);
+  Activity first(model);
+  first.enter(model.stages.front());
+  start_states(0, first, model.initials, false);
+}
+
+void StageStart::open(int stage) {
+  const Profile::Scope scope(run_.profile(), phase::kStart);
+  RunState& state = run_.state;
+  start_new_nodes();
+  run_.system.open_stage(stage);
+  start_states(stage, run_.system.activity(), run_.model.stages[static_cast<std::size_t>(stage)].initials,
+               true);
+  state.du.setZero();
+  state.place = {stage, 0};
+  state.reached = 0.0;
+  state.path.begin();
+  evaluate();
+  run_.assembly().commit(state.du);
+  find_loads(stage);
+  note_imbalance(stage);
+}
+
+// New nodes have not moved, even where a node of a removed group was.  Before the groups of the stage are activated.
+void StageStart::start_new_nodes() {
+  if (std::ranges::all_of(run_.system.activity().group, [](char active) { return active != 0; })) return;
+  const std::vector<char> borne = active_dofs(run_.model, run_.system.activity());
+  for (std::size_t dof = 0; dof < borne.size(); ++dof)
+    if (!borne[dof]) run_.state.u[static_cast<Eigen::Index>(dof)] = 0.0;
+}
+
+// drainage: apply that of the stage, too.
+void StageStart::start_states(int stage, const Activity& activity, const std::vector<InitialStress>& initials,
+                              bool drainage) {
+  Diagnostics warnings;
+  const bool changes = drainage && changes_drainage(run_.model, stage);
+  const std::optional<PorePressure> water =
+      initials.empty() ? std::nullopt : run_.water_at(stage, activity, stage > 0 ? &run_.state.u : nullptr);
+  run_.assembly().start_states(!initials.empty() || changes, [&](std::vector<GroupData>& groups) {
+    apply_initials(run_.model, initials, water ? &*water : nullptr, groups, warnings);
+    if (changes) apply_drainage(run_.model, stage, groups);
+  });
+  run_.warn(warnings.list());
+}
+
+// The tangent of laws that depend on time is that of the first increment, where they have an answer for it; the forces
+// are those at its start.
+void StageStart::evaluate() {
+  Assembly& assembly = run_.assembly();
+  const double increment = 1.0 / run_.stage().increments;
+  Tangent* tangent = run_.tangent().current() ? nullptr : &run_.tangent();
+  if (assembly.wants_moment() && tangent != nullptr) {
+    run_.set_moment(increment, increment);
+    if (assembly.evaluate(run_.state.du, tangent) == Outcome::ok) tangent = nullptr;
+  }
+  run_.set_moment(0.0, 0.0);
+  if (assembly.evaluate(run_.state.du, tangent) == Outcome::cut_step)
+    throw AnalysisError("S503", "stage " + std::to_string(run_.state.place.stage + 1) +
+                                    ": a law cannot start from the state it is given");
+}
+
+void StageStart::find_loads(int stage) {
+  RunState& state = run_.state;
+  StagePath& path = state.path;
+  path.force_start = run_.assembly().internal_force();
+  path.force_end = external_force(run_.model, stage);
+  path.external_start = state.external;
+  const std::optional<PorePressure> water = run_.water_at(stage, run_.system.activity(), &state.u);
+  begin_water(stage, water ? &*water : nullptr);
+  path.u_start.resize(0);
+  if (run_.assembly().condensation() == nullptr) return;
+  path.u_start = state.u;
+  run_.assembly().set_stage_loads(path.force_end - path.force_start);
+}
+
+// The pore pressure at points goes from its last value to that of the stage.  What starts with stress has the pressure of
+// the stage from its start: its effective stress is that beside this pressure.
+void StageStart::begin_water(int stage, const PorePressure* water) {
+  Assembly& assembly = run_.assembly();
+  StagePath& path = run_.state.path;
+  path.water_force.resize(0);
+  if (water == nullptr) return;
+  const std::size_t groups = assembly.groups().size();
+  path.pore_start.assign(groups, {});
+  path.pore_end.assign(groups, {});
+  for (std::size_t g = 0; g < groups; ++g) {
+    GroupData& data = assembly.groups()[g];
+    if (!data.group->solid()) continue;
+    const int points = data.group->element->traits().points;
+    std::vector<double>& end = path.pore_end[g];
+    for (int e = 0; e < data.group->elements(); ++e)
+      for (int p = 0; p < points; ++p) end.push_back(water->at_point(g, e, p));
+    if (data.pore.empty()) data.pore.assign(end.size(), 0.0);
+    path.pore_start[g] = begins_with_stress(stage, g) ? end : data.pore;
+  }
+  path.water_force = water_of(run_.model, run_.system.activity(), water);
+  path.force_end += path.water_force;
+  run_.set_water(0.0);
+}
+
+bool StageStart::begins_with_stress(int stage, std::size_t group) const {
+  const int g = static_cast<int>(group);
+  const Stage& here = run_.model.stages[static_cast<std::size_t>(stage)];
+  const auto states_stress = [&](const InitialStress& initial) {
+    return initial.group == g && initial.kind != InitialKind::history && initial.kind != InitialKind::zero;
+  };
+  const bool active_from_here = stage == 0 || std::ranges::find(here.births, g) != here.births.end();
+  return (stage == 0 && std::ranges::any_of(run_.model.initials, states_stress)) ||
+         std::ranges::any_of(here.initials, states_stress) ||
+         (active_from_here && has_own_stress(run_.model, run_.model.groups[group]));
+}
+
+void StageStart::note_imbalance(int stage) {
+  const StagePath& path = run_.state.path;
+  const InitialImbalance imbalance =
+      initial_imbalance(run_.model, run_.system.activity(), stage, path.force_start, path.force_end);
+  if (!imbalance.counts()) return;
+  run_.audience.warn(
+      stage_message(run_.stage(), "S528", explain_imbalance(run_.model, stage, imbalance), Severity::note));
+}
+
+}  // namespace sage

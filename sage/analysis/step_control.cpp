@@ -1,0 +1,310 @@
+#include "sage/analysis/step_control.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sage/analysis/explain.hpp"
+
+namespace sage {
+
+StepControl::StepControl(const RunParts& run)
+    : run_(run), stepper_(run), search_(run, stepper_), stiffness_(run), max_cuts_(run.settings.max_cuts) {}
+
+void StepControl::open_stage() {
+  find_solids();
+  on_last_way_ = false;
+  if (!run_.tangent().constant()) stiffness_.set_committed(run_.state.path.force_start);
+}
+
+void StepControl::resume() {
+  StagePath& path = run_.state.path;
+  find_solids();
+  last_du_ = run_.state.du;
+  stiffness_.set_committed(run_.assembly().internal_force());
+  if (path.own_tangent) run_.tangent().set_aside();
+  if (run_.assembly().condensation() != nullptr)
+    run_.assembly().set_stage_loads(path.force_end - path.force_start);
+}
+
+// A condensed region relies on loads that grow along one line: the rest of the stage does without it.
+void StepControl::take_loads() {
+  StagePath& path = run_.state.path;
+  path.forget_steps();
+  path.u_start.resize(0);
+  on_last_way_ = false;
+  if (run_.assembly().condensation() == nullptr) return;
+  run_.system.leave_condensation();
+  run_.state.du.setZero();
+  run_.set_moment(run_.state.reached, 0.0);
+  run_.assembly().evaluate(run_.state.du, nullptr);
+}
+
+void StepControl::begin_trial(int max_cuts) {
+  is_trial_ = true;
+  max_cuts_ = max_cuts;
+}
+
+// Whose dofs move the ground.
+void StepControl::find_solids() {
+  of_solids_.assign(static_cast<std::size_t>(run_.assembly().dof_map().displacements()), 0);
+  has_walls_ = false;
+  for (const GroupData& data : run_.assembly().groups()) {
+    if (!data.active) continue;
+    has_walls_ = has_walls_ || data.group->interface() || data.group->structure();
+    if (!data.group->solid()) continue;
+    for (const int node : data.group->nodes)
+      for (int c = 0; c < 2; ++c) of_solids_[static_cast<std::size_t>(DofMap::displacement(node, c))] = 1;
+  }
+}
+
+bool StepControl::take_increment(StepReport& report) {
+  constexpr int kMostAttempts = 3;  // of a trial, of so many iterations each at most
+  constexpr std::size_t kEasy = 6;  // iterations
+  RunState& state = run_.state;
+  const double end = static_cast<double>(report.increment) / report.increments;
+  const double whole = 1.0 / report.increments;
+  double size = end - state.reached;
+  int iterations = 0;  // of Newton's attempts
+  report.substeps = 0;
+  state.place = {report.stage, report.increment};
+  while (state.reached < end) {
+    const double to = size >= end - state.reached - 1e-12 * whole ? end : state.reached + size;
+    const double tried = to - state.reached;
+    run_.show_progress(report, state.reached);
+    const bool went_on = stepper_.starts_from_last_step(tried);
+    NewtonStep step = search_.attempt(state.reached, to);
+    iterations += static_cast<int>(step.iterations.size());
+    const bool last_cut = tried < 1.001 * std::ldexp(whole, -max_cuts_);
+    const bool damps = run_.settings.trials != nullptr || last_cut;
+    if (damps && !went_on && can_damp(step)) step = attempt_damped(report, state.reached, to, step);
+    if (record(report, step, tried)) {
+      const double error = run_.assembly().path_error();
+      if (error > kPathTolerance && tried > 1.001 * kSmallestPart * whole) {
+        size = tried * std::clamp(0.9 * std::cbrt(kPathTolerance / error), 0.25, 0.75);
+        size = std::max(size, kSmallestPart * whole);
+        reject(0.0);
+        continue;
+      }
+      state.path.path_error = std::max(state.path.path_error, error);
+      accept(report, step, to);
+      if (step.iterations.size() <= kEasy && 8.0 * error <= kPathTolerance) size *= 2.0;
+      continue;
+    }
+    if (tries_otherwise(step, went_on, tried)) continue;
+    report.points = run_.assembly().count_points();
+    report.failed_at = to;  // beyond `reached`, which may have passed an earlier failure
+    const bool given_up =
+        is_trial_ && (step.flows || iterations >= kMostAttempts * run_.stage().max_iterations);
+    if (given_up || last_cut || run_.tangent().linear()) return fail(report, step, tried);
+    ++report.cuts;
+    size = 0.5 * tried;
+    reject(size);
+  }
+  return true;
+}
+
+// True where the step may be committed.
+bool StepControl::record(StepReport& report, const NewtonStep& step, double size) const {
+  report.iterations = step.iterations;
+  report.total_iterations += static_cast<int>(step.iterations.size());
+  report.worst = step.worst;
+  const double refused = refused_motion(size, step);
+  if (refused > 0.0) report.refused = refused;
+  return step.outcome == StepOutcome::converged && refused == 0.0;
+}
+
+void StepControl::accept(StepReport& report, const NewtonStep& step, double to) {
+  StagePath& path = run_.state.path;
+  Tangent& tangent = run_.tangent();
+  const double size = to - run_.state.reached;
+  force_left_ = step.repeated ? step.iterations.back().force : step.force_left;
+  path.own_tangent = path.own_tangent || step.finished;
+  stepper_.set_newton(Stepper::Newton::by_stage);
+  const bool modified = run_.stage().method == Method::modified_newton && !path.own_tangent;
+  if (modified || (stepper_.contracts() && !stepper_.predicts())) renew_tangent();
+  const bool same_K = tangent.constant() || !tangent.changed();
+  const bool linear = step.iterations.size() == 1 && same_K;
+  if (!step.repeated) path.repeats.take(linear, size, step.iterations.back().force);
+  on_last_way_ = false;
+  if (path.own_tangent) tangent.set_aside();
+  stiffness_.measure(size);
+  move_to(to);
+  keep_step(size);
+  path.prediction.take(report.cuts > 0);
+  report.load_factor = to;
+  ++report.substeps;
+}
+
+bool StepControl::fail(StepReport& report, const NewtonStep& step, double size) {
+  report.stiffness_share = stiffness_.share(size, step);
+  report.converged = false;
+  report.flows = step.flows || (step.outcome == StepOutcome::singular && !has_walls_);
+  report.spares_ground = step.spares_ground;
+  failed_ = step;
+  return false;
+}
+
+// Modified Newton: the tangent at the end of a step serves the next one.  It must be evaluated with the step still in
+// hand: at du = 0 a law on its yield surface answers elastically.
+void StepControl::renew_tangent() {
+  if (!run_.tangent().constant()) run_.assembly().evaluate(run_.state.du, &run_.tangent());
+}
+
+void StepControl::move_to(double load_factor) {
+  RunState& state = run_.state;
+  Assembly& assembly = run_.assembly();
+  assembly.commit(state.du);
+  if (assembly.sees_unknowns()) state.u_before = state.u;
+  state.u += state.du;
+  state.reached = load_factor;
+  state.external = (1.0 - load_factor) * state.path.external_start + load_factor * state.path.force_end;
+  if (!state.path.pore_end.empty()) run_.set_water(load_factor);
+  if (!assembly.region_is_behind())
+    run_.result.motion = std::max(run_.result.motion, run_.extent.motion(state.u));
+}
+
+void StepControl::drop_step() {
+  RunState& state = run_.state;
+  run_.assembly().drop_step();
+  if (!run_.assembly().region_is_behind()) return;
+  state.target = run_.loads_at(state.reached);
+  run_.assembly().catch_up(state.target, state.reached, state.path.u_start, state.u);
+  run_.result.motion = std::max(run_.result.motion, run_.extent.motion(state.u));
+}
+
+// Back to the committed state, with its own internal forces.  The next attempt starts with the tangent in the middle of the
+// last step.  At du = 0 points on their yield surfaces answer elastically: from there a cut step would have to find the
+// whole plastic zone anew, however short it is.
+// next: share of the stage of the next attempt; 0 = it starts at the committed state all the same.
+void StepControl::reject(double next) {
+  RunState& state = run_.state;
+  state.path.repeats.forget();
+  state.path.prediction.forget();
+  on_last_way_ = false;
+  drop_step();
+  const bool keep_K = run_.tangent().constant() || run_.stage().method == Method::initial_stiffness;
+  if (!keep_K) {
+    run_.tangent().set_aside();
+    run_.set_moment(state.reached + next, next);
+    if (next > 0.0) start_on_last_way(next);
+  }
+  state.du.setZero();
+  run_.set_moment(state.reached, 0.0);
+  run_.assembly().evaluate(state.du, nullptr);
+}
+
+// Linear scenes cut no step.
+void StepControl::keep_step(double size) {
+  if (run_.tangent().linear()) return;
+  last_du_ = run_.state.du;
+  run_.state.path.last_size = size;
+  stiffness_.set_committed(run_.assembly().internal_force());
+}
+
+// K in the middle of the last step, taken once more in its direction, for a step of this share of the stage.
+void StepControl::start_on_last_way(double size) {
+  RunState& state = run_.state;
+  if (!(state.path.last_size > 0.0)) return;
+  state.du = (0.5 * size / state.path.last_size) * last_du_;
+  on_last_way_ = run_.assembly().evaluate(state.du, &run_.tangent()) == Outcome::ok;
+}
+
+// Whether a step that failed is tried once more with damped corrections.  Walls in joints lose their hold in single
+// iterations, without a limit of the ground.
+bool StepControl::can_damp(const NewtonStep& step) const {
+  if (step.outcome == StepOutcome::converged || run_.tangent().linear() ||
+      run_.assembly().condensation() != nullptr || run_.assembly().dof_map().displacements() == 0)
+    return false;
+  // These are tried again otherwise first.
+  if (step.finished || stepper_.newton() == Stepper::Newton::finer ||
+      (step.outcome == StepOutcome::singular && on_last_way_))
+    return false;
+  if (run_.settings.trials == nullptr) return has_walls_;
+  return has_walls_ || (!step.flows && step.outcome != StepOutcome::singular);
+}
+
+namespace {
+
+// Whether ground that ran away shows a collapse.  At a collapse the loads exceed what the ground carries by little, since
+// factors are tried from near; corrections that damping let go too early leave most forces without balance.
+bool shows_collapse(const NewtonStep& step) {
+  constexpr double kExcess = 0.01;  // of all forces
+  return step.flows && !step.iterations.empty() && step.iterations.back().force <= kExcess;
+}
+
+}  // namespace
+
+// failed: Newton's attempt at the same step.
+NewtonStep StepControl::attempt_damped(StepReport& report, double from, double to, const NewtonStep& failed) {
+  constexpr std::array<double, 3> kFalls{0.7, 0.9, 0.97};
+  RunState& state = run_.state;
+  NewtonStep step = failed;
+  for (const double fall : kFalls) {
+    report.total_iterations += static_cast<int>(step.iterations.size());
+    state.path.repeats.forget();
+    state.path.prediction.forget();
+    on_last_way_ = false;
+    run_.assembly().drop_step();
+    state.du.setZero();
+    run_.set_moment(from, 0.0);
+    if (!run_.tangent().has_elastic()) run_.assembly().take_elastic(run_.tangent());
+    run_.tangent().forget();
+    if (!run_.tangent().has_elastic()) return failed;
+    step = stepper_.attempt_damped(from, to, {fall, &of_solids_});
+    if (!step.flows || shows_collapse(step)) break;
+  }
+  step.flows = shows_collapse(step);
+  const bool says_more = step.outcome == StepOutcome::converged || run_.settings.trials != nullptr;
+  return says_more ? step : failed;
+}
+
+// Whether a step that failed is tried once more in another way before it is cut.
+bool StepControl::tries_otherwise(const NewtonStep& step, bool went_on, double size) {
+  StagePath& path = run_.state.path;
+  // The direction of the last step may lead nowhere where the start from the committed state does not.
+  if (went_on) {
+    path.prediction.fail();
+    reject(size);
+    return true;
+  }
+  // The tangent of a step whose ground flows everywhere is too soft for points that stop to flow in the next one.
+  if (run_.stage().method == Method::modified_newton && !path.own_tangent && !run_.tangent().linear()) {
+    path.own_tangent = true;
+    reject(0.0);
+    return true;
+  }
+  // From a place that a kept tangent has reached Newton's method may find nothing where it does from the start.
+  // It comes nearer than the stage requires, if it can.
+  const Stepper::Newton tried = stepper_.newton();
+  if ((step.finished && tried == Stepper::Newton::by_stage) || tried == Stepper::Newton::finer) {
+    stepper_.set_newton(tried == Stepper::Newton::finer ? Stepper::Newton::yes : Stepper::Newton::finer);
+    reject(0.0);
+    return true;
+  }
+  stepper_.set_newton(Stepper::Newton::by_stage);
+  // Half way along a collapse mechanism the matrix may be singular where the committed state's is not.
+  if (step.outcome == StepOutcome::singular && on_last_way_) {
+    reject(0.0);
+    return true;
+  }
+  return false;
+}
+
+// A step that moves a node by a thousand times the model's size while hardly anything resists is flow at a
+// limit load: an equilibrium far away that rounding and the mesh's own faults give (reduced integration, nu
+// near 1/2). Returns its motion as a share of that size; 0 = the step may be committed.
+double StepControl::refused_motion(double size, const NewtonStep& step) const {
+  constexpr double kFar = 1e3;    // model's sizes
+  constexpr double kSoft = 0.01;  // of the stage's largest stiffness, or prescribed motion over the largest
+  if (step.outcome != StepOutcome::converged || run_.tangent().linear()) return 0.0;
+  const int n = run_.assembly().dof_map().displacements();
+  const double motion = n > 0 ? run_.state.du.head(n).lpNorm<Eigen::Infinity>() : 0.0;
+  const double extent = run_.extent.size();
+  if (!(motion > kFar * extent) || !(extent > 0.0)) return 0.0;
+  const double prescribed = size * run_.system.rate().head(n).lpNorm<Eigen::Infinity>();
+  const double share = prescribed > 0.0 ? prescribed / motion : stiffness_.share(size, step);
+  return share >= 0.0 && share < kSoft ? motion / extent : 0.0;
+}
+
+}  // namespace sage

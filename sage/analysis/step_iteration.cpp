@@ -1,0 +1,159 @@
+#include "sage/analysis/step_iteration.hpp"
+
+#include <algorithm>
+
+namespace sage {
+
+StepIteration::StepIteration(Assembly& assembly_of_step, Tangent& tangent_of_step,
+                             const Eigen::VectorXd& target_of_step, double part,
+                             const NewtonSettings& settings_of_step, WorkCounters& counters,
+                             Eigen::VectorXd& step)
+    : assembly(assembly_of_step),
+      tangent(tangent_of_step),
+      target(target_of_step),
+      settings(settings_of_step),
+      work(counters),
+      du(step),
+      pass(assembly, target, part, settings.so_far),
+      rate_part(part),
+      measures(assembly, tangent, target, settings, du),
+      criterion(settings.tolerance, settings.refine, tangent.linear()),
+      residual(assembly.equations()) {
+  result.outcome = StepOutcome::law_cut;
+  result.iterations.reserve(static_cast<std::size_t>(settings.max_iterations));
+}
+
+Outcome StepIteration::assemble(bool with_K) {
+  K_is_here = with_K;
+  const Outcome outcome = pass.iterate(du, with_K ? &tangent : nullptr);
+  if (outcome == Outcome::ok) form_residual();
+  return outcome;
+}
+
+Outcome StepIteration::form_tangent() {
+  K_is_here = true;
+  return pass.iterate(du, &tangent);
+}
+
+void StepIteration::form_residual() {
+  const Eigen::VectorXd& f = assembly.internal_force();
+  for (int eq = 0; eq < assembly.equations(); ++eq) {
+    const int dof = assembly.dof_of(eq);
+    residual[eq] = target[dof] - f[dof];
+  }
+}
+
+// The run is largest while it factorises: room for the correction comes behind it.
+void StepIteration::solve() {
+  if (settings.damping_fall > 0.0) tangent.damp(damping);
+  tangent.factorise(work);
+  correction.resize(assembly.equations());
+  tangent.solve(residual, correction, work);
+  if (settings.damping_fall > 0.0) tangent.forget();
+}
+
+void StepIteration::move(double factor) {
+  for (int eq = 0; eq < assembly.equations(); ++eq) du[assembly.dof_of(eq)] += factor * correction[eq];
+}
+
+void StepIteration::advance() {
+  measures.take_energy(correction, residual);
+  slope = work_left();
+  step_length = 1.0;
+  move(1.0);
+}
+
+bool StepIteration::predict(const Eigen::VectorXd& rate) {
+  const bool committed = settings.start == NewtonStart::committed;
+  if (!(committed ? start_from_committed() : start_from_du(rate))) return false;
+  solve();
+  if (settings.start == NewtonStart::last_way && tangent.norm1() >= 0.0) {  // the solver keeps K
+    const Eigen::VectorXd way = free_part_of_du();
+    result.predicted_work = measures.take_first(way, tangent.times(way));
+  } else {
+    result.predicted_work = measures.take_first(correction, residual);
+  }
+  if (committed) du = rate_part * rate;
+  measures.take_prescribed(rate, rate_part);
+  move(1.0);
+  return true;
+}
+
+// Prescribed displacements enter through K(free, prescribed).
+bool StepIteration::start_from_committed() {
+  du.setZero();
+  if (!tangent.current() && form_tangent() == Outcome::cut_step) return false;
+  if (start_known) {
+    residual = start_residual;
+  } else {
+    measures.take_start();
+    form_residual();
+  }
+  const Eigen::VectorXd& coupling = tangent.coupling();
+  for (int eq = 0; eq < assembly.equations(); ++eq) residual[eq] -= rate_part * coupling[assembly.dof_of(eq)];
+  return true;
+}
+
+// du is near the answer, or the direction of the step before: forces at the committed state are those before a pass at du.
+bool StepIteration::start_from_du(const Eigen::VectorXd& rate) {
+  if (settings.start == NewtonStart::last_way && !start_known) measures.take_start();
+  take_prescribed(rate);
+  if (form_tangent() == Outcome::cut_step) return false;
+  if (settings.start == NewtonStart::nearby) measures.take_start();
+  form_residual();
+  return true;
+}
+
+void StepIteration::take_prescribed(const Eigen::VectorXd& rate) {
+  const Eigen::VectorXd free = free_part_of_du();
+  du = rate_part * rate;
+  for (int eq = 0; eq < assembly.equations(); ++eq) du[assembly.dof_of(eq)] = free[eq];
+}
+
+Eigen::VectorXd StepIteration::free_part_of_du() const {
+  Eigen::VectorXd free(assembly.equations());
+  for (int eq = 0; eq < assembly.equations(); ++eq) free[eq] = du[assembly.dof_of(eq)];
+  return free;
+}
+
+IterationRecord StepIteration::measure_whole() {
+  if (assembly.condensation() == nullptr) return measure();
+  pass.complete(du);
+  form_residual();
+  IterationRecord record = measure();
+  const double size = assembly.condensation()->step_norm(du);
+  // The displacement counts where the energy does not decide.
+  if (record.energy > settings.tolerance * settings.tolerance && size > 0.0)
+    record.displacement = pass.whole_norm(correction) / size;
+  return record;
+}
+
+bool StepIteration::converged() {
+  const auto is_met = [&](const IterationRecord& record) {
+    return criterion.is_met(measures.measured(), record, result.iterations, measures);
+  };
+  // The scale of a condensed region's forces is that of an earlier step, or of what was before the stage.
+  const double rough = pass.begins_stage() ? 10.0 : 2.5;
+  IterationRecord record = measure();
+  const bool balanced = is_met(record);
+  const bool near = pass.must_fill_in() && record.force <= rough * settings.tolerance;
+  if ((balanced || near) && !(balanced && pass.wait(du, residual.norm(), settings.tolerance)))
+    record = measure_whole();
+  result.iterations.push_back(record);
+  if (settings.pulse != nullptr)
+    settings.pulse->iterated(static_cast<int>(result.iterations.size()), record.force);
+  const double size = residual_size();
+  const bool done = is_met(record);
+  if (done || size <= best) result.worst = measures.worst(residual);
+  best = std::min(best, size);
+  if (!done) return false;
+  const std::span<const FieldMeasure> fields = measures.measured();
+  result.force_left = fields.size() == 1 ? record.force : 0.0;
+  for (std::size_t f = 0; fields.size() > 1 && f < fields.size(); ++f)
+    if (!criterion.is_even(fields[f], static_cast<int>(f), measures))
+      result.force_left = std::max(result.force_left, fields[f].record.force);
+  result.outcome = StepOutcome::converged;
+  return true;
+}
+
+}  // namespace sage
