@@ -1,6 +1,6 @@
 // Passes over the elements: internal forces, element matrices into the tangent, states of all points.
-// Active groups form two regions: those that change, whose laws are asked, and constant ones (skip 'elements');
-// in a step a constant region may act by its border alone (skip 'condensation').
+// Active groups form two regions: changing ones, whose laws are evaluated, and constant ones (skip 'elements').
+// In a step a constant region may act by its interface dofs alone (skip 'condensation').
 #pragma once
 
 #include <memory>
@@ -25,12 +25,12 @@ class Assembly {
   Assembly(const Assembly&) = delete;
   Assembly& operator=(const Assembly&) = delete;
 
-  // When what is evaluated from now on takes place; asked for only where a law wants it, or an element the loads along
-  // it.
+  // The time and load factor of the evaluations that follow: needed only where a law depends on them, or an element on the
+  // loads along it.
   bool wants_moment() const { return wants_moment_; }
   // Water flows by a law that is eased (PointContext::easing).
   bool eases() const { return eases_; }
-  // Of K, whatever the laws' states.
+  // K is symmetric in every state of the laws.
   bool symmetric() const { return scene_->symmetric; }
   void set_moment(const Moment& moment);
   const Moment& moment() const { return element_.moment(); }
@@ -39,10 +39,10 @@ class Assembly {
   void take_spread_loads(double load_factor);
   const Mesh& mesh() const { return model_->mesh; }
 
-  // Passes over the elements ask it now and then and throw Stopped.
+  // Passes over the elements call it now and then and throw Stopped.
   void set_stop(StopAsked asked) { element_.set_stop(std::move(asked)); }
 
-  // Passes over many elements may use so many threads; answers do not depend on it.
+  // Passes over many elements may use so many threads.  Results do not depend on it.
   void set_threads(int threads) {
     threads_ = threads;
     changing_.set_threads(threads);
@@ -52,21 +52,21 @@ class Assembly {
 
   // Equations and element order of a stage.  rate: displacement of every prescribed dof over the stage.
   void enter_stage(const Activity& activity, const Eigen::VectorXd& rate);
-  // The same, and takes the constant region out of the iterations where that pays in so many increments.
+  // The same, and condenses the constant region where that pays in so many increments.
   void enter_stage(const Activity& activity, const Eigen::VectorXd& rate, int increments,
                    const SolverMaker& make);
-  // Loads that the stage adds, every dof; before its first step, and only asked for with a condensed region.
+  // Loads that the stage adds, every dof.  Needed before its first step, and only with a condensed region.
   void set_stage_loads(const Eigen::VectorXd& loads);
-  // Birth of a group: free of stress, with its first history.
+  // A group is activated: free of stress, with its first history.
   void reset_group(std::size_t group);
-  // The laws of the model's materials are others now, each of the kind that it was before: same history, same
-  // stiffness as long as nothing yields.
+  // The laws of the model's materials have been replaced, each by one of the same kind: same history, same stiffness as
+  // long as nothing yields.
   void take_laws();
-  // Sets committed states from outside (initial stress): `set` gets all groups.  any: it is going to set some.
+  // Sets committed states from outside (initial stress): `set` gets all groups.  any: it will set some.
   template <class Set>
   void start_states(bool any, Set set) {
     if (late_.behind()) {
-      if (!any) return;  // the forces of constant groups stand
+      if (!any) return;  // the forces of constant groups stay
       recover_states();
     }
     set(groups_);
@@ -102,22 +102,23 @@ class Assembly {
   // The same for a step that a checkpoint has counted already.
   void commit_again(const Eigen::VectorXd& du);
 
-  // A condensed region waits to be filled in: forces and displacements of its inner nodes are those of an earlier step.
+  // The recovery of a condensed region is deferred: forces and displacements of its inner nodes are those of an earlier
+  // step.
   bool region_is_behind() const { return condensation_ != nullptr && condensation_->predictor().is_behind(); }
-  // The step in hand is not going to be committed.
+  // The step in hand will not be committed.
   void drop_step() { region_step_ = RegionStep::open; }
-  // Then, where the region is behind: fills it in at the committed state, u, whose loads are `target`, at that share of
-  // the stage, which began with the unknowns `start`.
+  // Then, where the region is behind: recovers it at the committed state u, whose loads are `target`, at that load factor
+  // of the stage, which started with the unknowns `start`.
   void catch_up(const Eigen::VectorXd& target, double share, const Eigen::VectorXd& start, Eigen::VectorXd& u);
-  // The committed state as if it were filled in: what condensed dofs have to move yet, and internal forces.  The run goes
-  // on as if nobody had asked.  After the commit of the step in hand.
+  // The committed state as if it were recovered: the motion that condensed dofs still lack, and internal forces.  A copy:
+  // it changes nothing in the run.  After the commit of the step in hand.
   void show_region(Eigen::VectorXd& motion, Eigen::VectorXd& forces);
-  // Brings the states of constant groups to where that motion leads.
+  // Recovers the states of constant groups at the committed state plus that motion.
   void recover_states_at(const Eigen::VectorXd& motion);
-  // Brings the states of constant groups up to date; others always are.  Until it is called, stress and strain
-  // of constant groups may have no room at all.
+  // Brings the states of constant groups up to date; those of others always are.  Before the first call, stress and strain
+  // of constant groups may not be allocated.
   void recover_states() { late_.recover(groups_, element_, *work_, threads_); }
-  // Those of structures alone.
+  // The same for structures alone.
   void recover_structures() { late_.recover_structures(groups_, element_, *work_); }
 
   const Eigen::VectorXd& internal_force() const { return internal_; }  // every dof
@@ -147,7 +148,7 @@ class Assembly {
   void commit_constant();
   void fill(Tangent& tangent) const;
 
-  // How the step in hand stands to the inner dofs of a condensed region.
+  // What the step in hand has for the inner dofs of a condensed region.
   enum class RegionStep { open, filled_in, waits };
 
   const Model* model_;
@@ -168,12 +169,12 @@ class Assembly {
   int spread_stage_ = 0;  // that the groups have the loads along their elements of, from 1
   int elements_ = 0;      // of the system
   Eigen::VectorXd rate_, internal_;
-  Eigen::VectorXd constant_force_;  // of a condensed region, where it was filled in last
+  Eigen::VectorXd constant_force_;  // of a condensed region, at its last recovery
   Eigen::VectorXd motion_;          // work space
   FieldSums force_scale_{};
 };
 
-// One step of the stage and its iterations.  A condensed region acts by its border alone in it.
+// One step of the stage and its iterations.  A condensed region acts by its interface dofs alone in it.
 class IteratedStep {
  public:
   // target: loads at the step's end, every dof.  rate_part: its part of the prescribed displacements.  The
@@ -182,15 +183,15 @@ class IteratedStep {
 
   // As Assembly::evaluate.
   Outcome iterate(const Eigen::VectorXd& du, Tangent* tangent);
-  // Fills in du of condensed dofs as the last iterate() implies; forces and their scale are then those of all
-  // elements, and the next iterate() counts from them.  Nothing where no region is condensed.
+  // Recovers du of condensed dofs as the last iterate() implies.  Forces and their scale are then those of all elements,
+  // and the next iterate() counts from them.  Does nothing where no region is condensed.
   void complete(Eigen::VectorXd& du);
-  // A region is condensed, and must be filled in at the end of the step.
+  // A region is condensed, and must be recovered at the end of the step.
   bool must_fill_in() const;
-  // Nothing of the stage is behind: a condensed region has only its forces from before.
+  // No step of the stage is complete: of a condensed region only the forces from before are known.
   bool begins_stage() const { return region_ != nullptr && region_->predictor().begins_stage(); }
-  // Instead of complete(), where the border is enough to tell that the step is in equilibrium: out_of_balance, of the
-  // kept dofs, is at most `limit` times all forces, and rounding far below.
+  // Instead of complete(), where the interface dofs prove that the step is in equilibrium: the residual of the kept dofs is
+  // at most `limit` times all forces, and its rounding is far below.  False: the region must be recovered.
   bool wait(const Eigen::VectorXd& du, double out_of_balance, double limit);
   // |correction| of all free dofs; correction: an equation each.
   double whole_norm(const Eigen::VectorXd& correction);

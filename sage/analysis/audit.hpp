@@ -7,7 +7,7 @@
 namespace sage {
 
 // Of the committed state.  external: loads now; force_start: internal forces at the start of the stage, because
-// a stage may end without any force; u: unknowns.  All one entry a dof.
+// a stage may end without any force; u: unknowns.  All have one entry per dof.
 EquilibriumAudit audit_equilibrium(const Model& model, const Assembly& assembly,
                                    const Eigen::VectorXd& external, const Eigen::VectorXd& force_start,
                                    const Eigen::VectorXd& u);

@@ -17,7 +17,7 @@ inline double at(const FieldSums& values, int field) {
   return values[static_cast<std::size_t>(field)];
 }
 
-// Dofs and equations of a field stand together, fields in their order: a field is a piece of a vector.
+// Dofs and equations of a field are contiguous, fields in their order: a field is a piece of a vector.
 class ByField {
  public:
   struct Piece {
@@ -41,7 +41,7 @@ class ByField {
   int count() const { return count_; }
   Piece equations_of(int field) const { return piece(equation_end_, field); }
 
-  // Of vectors with an entry an equation.
+  // Of vectors with one entry per equation.
   double norm(const Eigen::VectorXd& v, int field) const {
     return count_ == 1 ? v.norm() : std::sqrt(sum_of(v, v, equations_of(field)));
   }
@@ -69,7 +69,7 @@ class ByField {
     return all;
   }
 
-  // Of vectors with an entry a dof.
+  // Of vectors with one entry per dof.
   double norm_of_dofs(const Eigen::VectorXd& u, int field) const {
     return count_ == 1 ? u.norm() : std::sqrt(sum_of(u, u, dofs_of(field)));
   }

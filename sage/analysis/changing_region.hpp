@@ -1,4 +1,4 @@
-// The active elements whose law is asked in every pass.
+// The active elements whose law is evaluated in every pass.
 #pragma once
 
 #include <memory>
@@ -19,7 +19,7 @@ class ChangingRegion {
   ChangingRegion(std::vector<GroupData>& groups, ElementWork& element, WorkCounters& work);
 
   void size_forces(int dofs) { forces_.setZero(dofs); }
-  // How many threads passes over large groups may use.  Answers do not depend on it, to the last bit.
+  // Passes over large groups may use so many threads.  Results do not depend on it, to the last bit.
   void set_threads(int threads);
 
   // Internal forces at committed state + du.  With a tangent, within Tangent::assemble, matrices too.

@@ -1,5 +1,5 @@
 // The skip 'condensation'.  Static condensation: free dofs that belong to constant (linear) elements only are eliminated once for all;
-// the iterations see the others, the kept ones, and one dense matrix that stands for the whole linear region.
+// the iterations have the others, the kept ones, and one dense matrix for the whole linear region.
 //
 // With l = condensed, n = kept, p = prescribed dofs of the linear region, f0 its internal forces at the start
 // of a step and F the loads at its end:
@@ -7,7 +7,7 @@
 //   f_n = g + S du_n,   S = K_nn - K_nl K_ll^-1 K_ln,
 //   g = f0_n + K_np du_p + K_nl K_ll^-1 (F_l - f0_l - K_lp du_p)
 // A solver that keeps a border has S when K_ll is factorised, and an increment then costs one back substitution: loads
-// grow along a line in a stage, so that they are eliminated once.  Of other solvers S takes a solution a kept dof.
+// grow along a line in a stage, so that they are eliminated once.  With other solvers S costs one solution per kept dof.
 // Once the region's forces f are known at some du, f_n = f(du)_n + S (change of du_n): S then multiplies small
 // changes, and its rounding counts no more.
 //
@@ -30,7 +30,7 @@ using SolverMaker = std::function<std::unique_ptr<LinearSolver>(int equations, b
 
 class Condensation {
  public:
-  // dofs: all free ones.  keep: a flag a dof, for those that belong to other elements too.
+  // dofs: all free ones.  keep: one flag per dof, for those that belong to other elements, too.
   Condensation(const std::vector<GroupData>& groups, const std::vector<int>& dofs,
                const std::vector<char>& keep, const SolverMaker& make);
 
@@ -46,13 +46,13 @@ class Condensation {
   const Eigen::MatrixXd& S() const { return S_; }
   FactorReport report() const { return solver_->report(); }
 
-  // Over the whole stage, one entry a dof: the loads that are added, and the displacement of every prescribed dof
+  // Over the whole stage, one entry per dof: the loads that are added, and the displacement of every prescribed dof
   // (others 0).  force_squares: sum over the region's elements of |f_e|^2 now.  Before the first step, or behind
   // exchange().
   void begin_stage(const Eigen::VectorXd& loads, const Eigen::VectorXd& prescribed, double force_squares);
   // part: the step's share of the stage; target: loads at its end; f0: internal forces of the linear region where it was
-  // filled in last.  One entry a dof; target and what so_far points to must outlive the step.  f0 may leave that much of
-  // a force out of balance.
+  // recovered last.  One entry per dof; target and what so_far points to must outlive the step.  tolerance: force that f0
+  // may leave unbalanced.
   void begin_step(double part, const StageSoFar& so_far, const Eigen::VectorXd& target,
                   const Eigen::VectorXd& f0, double tolerance);
   // Work of the step's loads on the region while its border is held (twice that of a ramp).
@@ -60,11 +60,11 @@ class Condensation {
   // f += forces of the linear region on the kept dofs: where the step begins (du = 0), and anywhere.
   void add_start_forces(Eigen::VectorXd& f) const;
   void add_forces(const Eigen::VectorXd& du, Eigen::VectorXd& f) const;
-  // Fills in du of the condensed dofs: what they have moved since they were filled in last.
+  // Recovers du of the condensed dofs: their motion since they were recovered last.
   void complete(Eigen::VectorXd& du);
   // |du| of the step in hand once that is done: condensed dofs count by its part of what they have moved.
   double step_norm(const Eigen::VectorXd& du) const;
-  // What rounding may then leave out of balance at a kept dof.
+  // Force that rounding may then leave unbalanced at a kept dof.
   double rounding(const Eigen::VectorXd& du) const;
   // When the region was recovered last, and what follows from that for the step in hand.
   const RegionPredictor& predictor() const { return predictor_; }
@@ -73,19 +73,19 @@ class Condensation {
   void accept_whole(double force_squares) { predictor_.accept_whole(force_squares); }
   // du, with what the kept dofs have moved since then.
   void add_motion(Eigen::VectorXd& du) const;
-  // A flag a node: an element of the region has it, and it has a dof that is not kept.
+  // One flag per node: an element of the region has it, and it has a dof that is not kept.
   const std::vector<char>& inner_nodes() const { return inner_nodes_; }
-  // Work of the stage's loads along the step du, whose condensed dofs need not be filled in.
+  // Work of the stage's loads along the step du, whose condensed dofs need not be recovered.
   double load_work(const Eigen::VectorXd& loads, const Eigen::VectorXd& du) const;
-  // The way through the stage as it stood before the last step was accepted, to a checkpoint or back.
+  // What is known of the stage before the last step was committed, to a checkpoint or back.
   void exchange(Archive& archive) { predictor_.exchange(archive); }
   // Largest load that the internal forces f leave unbalanced at condensed dofs.
   double largest_residual(const Eigen::VectorXd& f) const;
   // Corrects du of the condensed dofs for what f leaves there.
   void refine(const Eigen::VectorXd& f, Eigen::VectorXd& du);
-  // all - others: forces of the linear region at du, filled in.  Those of other du are taken from there.
+  // all - others: forces of the linear region at du, recovered.  Those at other du count from them.
   void set_base(const Eigen::VectorXd& all, const Eigen::VectorXd& others, const Eigen::VectorXd& du);
-  // |correction| with what it brings about at the condensed dofs; correction: a kept dof each.
+  // |correction| with what it brings about at the condensed dofs; correction: one entry per kept dof.
   double whole_norm(const Eigen::VectorXd& correction);
 
  private:

@@ -13,9 +13,8 @@ namespace sage {
 // multiplies and solves transposed.
 double reciprocal_condition(const LinearSolver& solver, int equations);
 
-// What a reader should know about lost digits; empty if there is nothing to say.  The condition is estimated
-// where a small pivot or growth gives suspicion, or where it is asked for (then there is always something to
-// say).  smallest_pivot: of all factorisations, over the largest term of its row; that of equations condensed
+// What a reader should know about lost digits; empty if nothing is wrong.  The condition is estimated where a small pivot or
+// growth is suspicious, or where it is requested (then the report is never empty).  smallest_pivot: of all factorisations, over the largest term of its row; that of equations condensed
 // before shows in no other number.  Needs a factorised solver.
 struct DigitsReport {
   std::string words;

@@ -1,5 +1,5 @@
-// The skip 'elements': groups of linear laws whose matrices are made once, one for all congruent elements; their
-// forces are K u, and no law is asked.
+// The skip 'elements': groups of linear laws whose matrices are computed once, one for all congruent elements.  Their
+// forces are K u, and no law is evaluated.
 #pragma once
 
 #include <memory>
@@ -16,10 +16,10 @@ class ConstantRegion {
   // All arguments must outlive it.
   ConstantRegion(const Model& model, std::vector<GroupData>& groups, ElementWork& element, WorkCounters& work);
 
-  // Those of large groups are made on so many.
+  // Matrices of large groups are computed on so many threads.
   void set_threads(int threads);
 
-  // Whether displacements are all that the elements solve for, and K u keeps the digits that B u has.
+  // The elements solve for displacements only, and K u keeps the digits that B u has.
   static bool suits(const Group& group, const LawRef& law);
 
   // K of every shape of a group's elements (shapes_of).

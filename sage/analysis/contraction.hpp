@@ -3,7 +3,7 @@
 
 namespace sage {
 
-// Forces out of balance after a correction and before it.
+// Residuals after a correction and before it.
 inline bool contracts_poorly(double norm, double old_norm) {
   constexpr double kGoodContraction = 0.2;
   return norm > kGoodContraction * old_norm;

@@ -1,4 +1,4 @@
-// One element at a time: room for what goes into it and what comes out.
+// Evaluates one element at a time: buffers for its input and output.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ class ElementWork {
   // Every so many elements, the first included.  Throws Stopped.
   void stop_if_asked_at(int element) const;
 
-  // Of all evaluations from now on, for laws that want it.
+  // Of all evaluations that follow, for laws that need it.
   void set_moment(const Moment& moment) { moment_ = moment; }
   const Moment& moment() const { return moment_; }
   // Committed unknowns, for elements that see them; they must stay there.

@@ -38,7 +38,7 @@ class Equations {
       of_dof_[static_cast<std::size_t>(dofs_[eq])] = static_cast<int>(eq);
   }
 
-  std::vector<char> used_;  // a flag a dof
+  std::vector<char> used_;  // one flag per dof
   std::vector<int> dofs_, of_dof_;
 };
 

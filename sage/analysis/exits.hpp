@@ -1,5 +1,5 @@
-// Where water may leave into air: seepage faces and drains.  At each of these nodes either the head stands at its
-// limit and water flows out, or it stands lower and nothing flows.  Which of the two is found by switching.
+// Where water may leave into air: seepage faces and drains.  At each of these nodes either the head is at its
+// limit and water flows out, or it is lower and nothing flows.  Which of the two is found by switching.
 #pragma once
 
 #include <Eigen/Core>

@@ -12,7 +12,7 @@ class Extent {
   explicit Extent(const Model& model);
 
   double size() const { return size_; }  // its longer side
-  // u: one entry a dof.  How much displacements along an axis differ, as a share of the extent along it: about
+  // u: one entry per dof.  How much displacements along an axis differ, as a share of the extent along it: about
   // the mean strain, and none for a translation.  Around an axis of symmetry the radial displacement itself
   // strains.
   double motion(const Eigen::VectorXd& u) const;

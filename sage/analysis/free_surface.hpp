@@ -11,7 +11,7 @@ namespace sage {
 bool has_free_surface(const GroupData& data);
 
 // Where the pressure head passes through 0 along edges of elements, each edge once; sorted by x, then y.
-// active: a flag a group.  u: all unknowns.
+// active: one flag per group.  u: all unknowns.
 std::vector<Vector2> free_surface(const Model& model, const std::vector<char>& active,
                                   std::span<const GroupData> groups, const DofMap& dof_map,
                                   const Eigen::VectorXd& u);

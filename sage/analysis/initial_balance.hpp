@@ -9,10 +9,10 @@
 
 namespace sage {
 
-// From this share of the largest force that it puts on a node an initial stress counts as out of balance.
+// From this share of the largest force that it puts on a node an initial stress counts as unbalanced.
 inline constexpr double kUnbalancedStress = 1e-3;
 
-// Where the forces of an initial stress stand farthest from balance.
+// Where the forces of an initial stress are farthest from balance.
 struct InitialImbalance {
   int dof = -1;          // a displacement; -1: no group starts with stress in this stage
   double force = 0.0;    // what nothing balances there, along +x (r) or +y (z)

@@ -1,4 +1,4 @@
-// The skip 'states': stress and strain of constant groups are computed where an output asks for them.
+// The skip 'states': stress and strain of constant groups are computed where an output needs them.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace sage {
 
-// Structures have a date of their own: tables of their forces are asked for where nobody looks at the soil.
+// Structures have a motion of their own: tables of their forces are written where no output needs the soil.
 class LateStates {
  public:
   // structures: some group is one.
@@ -22,8 +22,8 @@ class LateStates {
     is_behind_ = true;
   }
   bool behind() const { return is_behind_; }
-  // Brings the states of active constant groups up to date, and makes their room where there was none.  Large groups
-  // take so many threads; answers do not depend on it.
+  // Brings the states of active constant groups up to date, and allocates them at the first call.  Large groups use so many
+  // threads; results do not depend on it.
   void recover(std::vector<GroupData>& groups, ElementWork& element, WorkCounters& work, int threads);
   // The same of structures alone.
   void recover_structures(std::vector<GroupData>& groups, ElementWork& element, WorkCounters& work);

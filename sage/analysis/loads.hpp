@@ -9,14 +9,14 @@
 namespace sage {
 
 // All loads that act at the end of stage `last` (0-based): nodal loads, edge loads and body forces of the
-// stages up to it.  A load acts as long as what bears it: not where that isn't active in the load's own stage,
-// nor, once that was removed, on what is born there later.  One entry a dof, tension-positive axes (x, y).
+// stages up to it.  A load acts as long as the group that carries it: not where that is not active in the load's own
+// stage, nor, once it was removed, on what is activated there later.  One entry per dof, axes (x, y).
 Eigen::VectorXd external_force(const Model& model, int last);
 
-// Weight of groups (a flag each) under gravity, in multiples of the materials' unit weight.  One entry a dof.
+// Weight of groups (one flag each) under gravity, in multiples of the materials' unit weight.  One entry per dof.
 Eigen::VectorXd weight_of(const Model& model, const std::vector<char>& groups, const Vector2& gravity);
 
-// Nodal and edge loads that a stage (0-based) itself adds to what is active in it.  One entry a dof.
+// Nodal and edge loads that a stage (0-based) itself adds to what is active in it.  One entry per dof.
 Eigen::VectorXd stage_loads(const Model& model, int stage, const Activity& activity);
 
 // Displacement that each prescribed dof gets over a stage.
@@ -45,7 +45,7 @@ void apply_initials(const Model& model, const std::vector<InitialStress>& initia
 bool changes_drainage(const Model& model, int stage);
 void apply_drainage(const Model& model, int stage, std::vector<GroupData>& groups);
 
-// Force of the water at the end of a stage, one entry a dof; zero without water cards.
+// Force of the water at the end of a stage, one entry per dof; zero without water cards.
 Eigen::VectorXd water_of(const Model& model, const Activity& activity, const PorePressure* water);
 
 }  // namespace sage

@@ -1,4 +1,4 @@
-// When a step takes place, and what a law that asks is handed of it.
+// The time and load factor of an evaluation, and what laws that depend on them receive.
 #pragma once
 
 #include "sage/analysis/group_data.hpp"
@@ -13,7 +13,7 @@ struct Moment {
   double load_factor = 0.0, share = 0.0;  // of the stage: at the end of the step, and what the step takes of it
 };
 
-// At a load factor of a stage (0-based), at the end of a step of that share of the stage (0: a state that stands).
+// At a load factor of a stage (0-based), at the end of a step of that share of the stage (0: a state at rest).
 Moment moment_at(const Model& model, int stage, int increment, double load_factor, double share,
                  double easing = 1.0);
 

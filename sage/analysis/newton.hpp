@@ -9,8 +9,8 @@ namespace sage {
 // Where the iterations of a step begin.
 enum class NewtonStart {
   committed,  // at the state before the step, with the tangent at hand
-  nearby,     // du holds a place near the answer, all but what supports prescribe
-  last_way,   // du holds the way that the step before took, scaled to the size of this one
+  nearby,     // du is near the answer, except for what supports prescribe
+  last_way,   // du is the step before, scaled to the size of this one
 };
 
 struct NewtonSettings {
@@ -18,14 +18,14 @@ struct NewtonSettings {
   int max_iterations = 25;
   double tolerance = 1e-8;  // force and energy; displacement sqrt(tolerance)
   bool line_search = true;
-  // What the step before, in du, may leave out of balance if it is taken once more; 0 = that is not tried.
+  // Relative residual that the step before, in du, may leave if it is taken once more; 0 = that is not tried.
   double repeat = 0.0;
   const Eigen::VectorXd* committed = nullptr;  // unknowns at the start of the step, every dof; null = zero
-  StageSoFar so_far{};                         // a condensed region moves on in its direction
-  Pulse* pulse = nullptr;                      // hears of every iteration; null = nobody looks
-  bool stop_at_flow = false;                   // a step that turns into flow is given up (NewtonStep::flows)
+  StageSoFar so_far{};                         // from which a condensed region extrapolates
+  Pulse* pulse = nullptr;                      // receives every iteration; null = none does
+  bool stop_at_flow = false;                   // gives up a step that turns into flow (NewtonStep::flows)
   NewtonStart start = NewtonStart::committed;
-  bool refine = false;  // a first correction does not do, even if all that is left is rounding
+  bool refine = false;  // a first correction is not enough, even if it leaves only rounding
   // Every correction is held back by a share of the elastic stiffness (Tangent::has_elastic), which falls with the
   // residual: for steps that Newton's corrections find no end of.  The largest part of the share that a correction
   // leaves to the next one; 0 = no damping.
@@ -41,14 +41,14 @@ enum class StepOutcome { converged, not_converged, law_cut, singular };
 
 struct NewtonStep {
   StepOutcome outcome = StepOutcome::not_converged;
-  bool repeated = false;  // the step before once more
-  bool finished = false;  // K of a kept tangent gave way to that of the place reached
+  bool repeated = false;  // the step is a copy of the one before
+  bool finished = false;  // a kept tangent was replaced by the consistent one at the end
   bool flows =
-      false;  // stop_at_flow: corrections only bring more of all stress out of balance; damped: Creep::flows
+      false;  // stop_at_flow: corrections only increase the residual, beyond a good part of all stress; damped: Creep::flows
   bool spares_ground = false;  // damped, not converged: Creep::spares_ground
   std::vector<IterationRecord> iterations;
   WorstDof worst;               // of the last iteration, or where none converged, of the best
-  double predicted_work = 0.0;  // forces out of balance at the start times the first correction
+  double predicted_work = 0.0;  // residual at the start times the first correction
   // Relative residual at the end, of the fields that have more to balance than rounding: moments that are zero have not.
   double force_left = 0.0;
   int singular_equation = -1;

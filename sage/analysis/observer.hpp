@@ -1,4 +1,4 @@
-// What a run shows to those who watch: listing, CSV, VTU, pictures, tests.  Observers change nothing.
+// What a run gives to its outputs: listing, CSV, VTU, pictures, tests.  Observers change nothing.
 #pragma once
 
 #include <memory>
@@ -23,7 +23,7 @@ struct Solution {
   std::span<const GroupData> kept{};                       // without an assembly
   int stage = -1;                                          // from 0; -1 = not known
   double load_factor = 1.0;                                // of the stage
-  mutable std::shared_ptr<const StreamFunction> stream{};  // once somebody has asked for it
+  mutable std::shared_ptr<const StreamFunction> stream{};  // from the first use on
 
   // Stresses, strains and histories of all points, by Model::groups.
   std::span<const GroupData> groups() const {
@@ -36,15 +36,15 @@ class Observer {
   virtual ~Observer() = default;
   virtual void on_warning(const Diagnostic&) {}
   virtual void on_start(const Model&, const Scene&, std::string_view /*solver*/, int /*equations*/) {}
-  // The state before the first increment of a stage: initial stress, births and deaths done.
+  // The state before the first increment of a stage: initial stress, activation and removal are done.
   virtual void on_stage_start(const Model&, int /*stage*/, const Solution&) {}
   virtual void on_increment(const Model&, const StepReport&, const Solution&) {}
-  // Whether the observer looks at stresses and strains after this increment (0: at the start of the stage; the
-  // last: at its end too); those of linear elements are there only then.  After a failure they always are.
+  // Whether the observer reads stresses and strains after this increment (0: at the start of the stage; the last: at its
+  // end, too).  Those of linear elements are up to date only then, and after a failure.
   virtual bool wants_states(const Model&, const StepReport&) const { return true; }
-  // The same of those that don't: whether it looks at stresses of structures.
+  // For observers that do not: whether they read stresses of structures.
   virtual bool wants_structures(const Model&, const StepReport&) const { return false; }
-  // Whether it reads displacements or forces of a flagged node (a flag a node) after this increment.  An observer that
+  // Whether it reads displacements or forces of a flagged node (one flag per node) after this increment.  An observer that
   // returns false finds values of an earlier increment there; the last increment of a stage is always up to date.
   virtual bool wants_nodes(const Model&, const StepReport&, std::span<const char> /*behind*/) const {
     return true;
@@ -53,7 +53,7 @@ class Observer {
   virtual void on_failure(const Model&, const StepReport&, const std::string& /*reason*/, const Solution&) {}
   virtual void on_finish(const Model&, const RunResult&) {}
   // What the observer has gathered, to a checkpoint or back from it.  Reading comes after on_start of the
-  // resumed run and takes the place of everything that was seen before.
+  // resumed run and replaces all that was gathered before.
   virtual void exchange(Archive&) {}
 };
 

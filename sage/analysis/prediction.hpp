@@ -1,5 +1,5 @@
-// The skip 'prediction': a step that was not linear is followed by one much like it, which starts from its way.  Where
-// that found nothing the next 1, 2, 4, ... steps of the stage start from the committed state.
+// The skip 'prediction': a step that was not linear is followed by one much like it, which starts in its direction.  Where
+// that fails, the next 1, 2, 4, ... steps of the stage start from the committed state.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ class Prediction {
     pause_ = std::max(0, pause_ - 1);
   }
   void forget() { due_ = false; }
-  // The step that started from the way of the last one was not solved.
+  // The step that started in the direction of the last one was not solved.
   void fail() {
     pause_ = next_pause_;
     next_pause_ *= 2;

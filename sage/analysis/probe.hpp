@@ -59,7 +59,7 @@ class ProbeMaker {
   std::vector<int> zone_;  // of each group
   Locator locator_;
   std::vector<ElementRef> elements_;        // active ones
-  mutable std::map<int, Patches> patches_;  // by zone, made when asked for
+  mutable std::map<int, Patches> patches_;  // by zone, computed at the first use
 };
 
 }  // namespace sage

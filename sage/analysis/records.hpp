@@ -1,4 +1,4 @@
-// What a run tells about itself: iterations, increments, work counters.  Plain data for listings and tests.
+// What a run reports about itself: iterations, increments, work counters.  Plain data for listings and tests.
 #pragma once
 
 #include <array>
@@ -29,10 +29,10 @@ struct WorkCounts {
   long element_evaluations = 0;  // elements whose law was called
   long linear_products = 0;      // elements answered by a stored K instead
   long analyses = 0, factorisations = 0, solves = 0;
-  long kept_factors = 0;    // corrections with factors that were there already
-  long repeats = 0;         // increments that were the one before once more
+  long kept_factors = 0;    // corrections with factors of an earlier one
+  long repeats = 0;         // increments that are a copy of the one before
   long condensed = 0;       // equations removed once for all from the iterations
-  long border_steps = 0;    // steps of condensed regions that their borders alone took
+  long border_steps = 0;    // steps without a recovery of condensed regions
   long twin_equations = 0;  // equations that took the factors of others; of the factorisation with most of them
 };
 
@@ -58,7 +58,7 @@ struct IterationRecord {
   double step_length = 1.0;   // line search: factor on the correction; dogleg: |step| / |Newton step|
 };
 
-// Where the largest out-of-balance force stands.
+// The dof with the largest unbalanced force.
 struct WorstDof {
   int node = -1;
   int field = 0;          // of Model::unknowns, 0 = displacement
@@ -109,7 +109,7 @@ struct EquilibriumAudit {
 // around its nodes): what the change of shape does to the strains is then of the order of a tenth of them.
 inline constexpr double kLargeMotion = 0.2;
 
-// stopped: somebody asked for it (RunSettings::stop_asked); the last increment that observers saw stands.
+// stopped: by RunSettings::stop_asked, or closed early; the last increment that observers received is complete.
 enum class RunStatus { completed, not_converged, singular, failed, stopped };
 
 struct RunResult {

@@ -1,5 +1,5 @@
-// The skip 'repeats': after a step that was linear to the last digit, the next one of the same size is tried as
-// its repetition, which costs one force pass.  All steps of a stage of a linear scene are such.
+// The skip 'repeats': after a step that was linear to the last digit, the next one of the same size is tried as its
+// repetition, which costs one force pass.  In a linear scene all steps of a stage are such.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace sage {
 class Repeats {
  public:
   // After a step that was solved.  size: its share of the stage.  linear: one correction, and the very same K at its
-  // end.  force: share of the forces that it left out of balance.
+  // end.  force: its relative residual.
   void take(bool linear, double size, double force) {
     size_ = linear ? size : 0.0;
     force_ = force;

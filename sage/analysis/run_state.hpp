@@ -11,19 +11,19 @@
 
 namespace sage {
 
-// Where a run stands: increments of a stage that are done.
+// How far a run has come: complete increments of a stage.
 struct RunPlace {
   int stage = 0, increment = 0;
 };
 
-// The way through a stage.  Vectors have one entry a dof.
+// The load path of a stage.  Vectors have one entry per dof.
 struct StagePath {
   Eigen::VectorXd external_start, force_start;  // loads and internal forces at its start
   Eigen::VectorXd force_end;                    // loads at its end
   Eigen::VectorXd water_force;                  // of them, those of water; empty = no water
   Eigen::VectorXd u_start;                      // unknowns at its start, where a region is condensed
   Repeats repeats;
-  Prediction prediction;                        // the way of the last step is RunState::du
+  Prediction prediction;                        // the last step is RunState::du
   double last_size = 0.0;                       // of the last step, as a share of the stage; 0 = there is none
   double stiffest = 0.0, last_stiffness = 0.0;  // along the motion: largest so far, of the last step
   double path_error = 0.0;                      // largest so far
@@ -56,7 +56,7 @@ struct RunState {
   double reached = 0.0;  // load factor of the stage in hand at the committed state
   double easing = 1.0;   // of laws of water, while a free surface is searched for
 
-  // To a checkpoint or back: as it stands after an increment (within a stage), or between two stages.
+  // To a checkpoint or back: after an increment (within a stage), or between two stages.
   void exchange_totals(Archive& archive) {
     archive(u);
     archive(external);

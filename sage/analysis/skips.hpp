@@ -20,7 +20,7 @@ inline bool is_large(int equations) {
 struct Skips {
   bool factors = true;       // factors are kept while K has not changed
   bool elements = true;      // linear elements: K once, one for congruent elements; forces by K u
-  bool states = true;        // linear elements: stress only where an output asks; u of condensed regions
+  bool states = true;        // linear elements: stress only where an output needs it; u of condensed regions
   bool condensation = true;  // a large linear region leaves the iterations: only its border stays
   bool repeats = true;       // after an increment that was linear to the last digit, the next is its repetition
   bool contraction = true;   // large systems: Newton keeps its factors while they contract well

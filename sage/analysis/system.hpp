@@ -16,15 +16,15 @@ class System {
   // All arguments but the catalogue's entries must outlive it.
   System(const Model& model, const Catalogue& catalogue, const RunSettings& settings, WorkCounters& work);
 
-  // A stage (0-based) that a checkpoint has behind it: only what it leaves to later ones.
+  // A stage (0-based) that was complete before a checkpoint: only what it leaves to later ones.
   void pass_stage(int s);
-  // What takes part, equations and numbering.  K and its factors stay where they can serve.
+  // Activity, equations and numbering.  K and its factors are kept where they still hold.
   void open_stage(int s);
 
   // The rest of the stage goes on with all equations.
   void leave_condensation();
 
-  // Where water may leave into air.  Before a step from the unknowns u, a part of the stage: those at their limit
+  // Seepage faces and drains.  Before a step from the unknowns u that takes this part of the stage: exits at their limit
   // are held there.
   bool has_exits() const { return exits_.any(); }
   void start_exits(const Eigen::VectorXd& u, double part);
@@ -46,8 +46,8 @@ class System {
   DigitsReport digits() const;  // of the factorisation at hand, if there is one
   std::string kernels() const;  // of the solver
 
-  // The last step of the run is done: K and its factors, most of the memory of a large run, go before its outputs ask
-  // for theirs.  Those above answer as before.
+  // The last step of the run is complete: K and its factors, most of the memory of a large run, are freed before its
+  // outputs allocate theirs.  The functions above return the same as before.
   void release_solver();
 
  private:
@@ -74,7 +74,7 @@ class System {
     DigitsReport digits;
     std::string kernels;
   };
-  std::optional<Last> last_;  // what the solver said before it was released
+  std::optional<Last> last_;  // what the solver reported before it was released
 };
 
 }  // namespace sage

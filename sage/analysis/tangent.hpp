@@ -1,4 +1,4 @@
-// K of the equations in use: the solver that holds it, and what is known of it.
+// K of the equations in use: the solver that holds it, and the state of what it holds.
 #pragma once
 
 #include <memory>
@@ -17,13 +17,13 @@ class ByField;
 class Tangent {
  public:
   enum class State {
-    empty,       // the solver holds no K that could serve
-    stale,       // K as it was last assembled, for a place that no correction starts from any more
-    current,     // K that the next correction may be made with
+    empty,       // the solver holds no K that could be used
+    stale,       // K as it was last assembled, at a state from which no correction starts any more
+    current,     // K for the next correction
     factorised,  // and its factors
   };
 
-  // linear: K can never change while the pattern stands.  keeps: and its factors are kept, as long as it does.
+  // linear: K can never change while the pattern stays.  keeps: its factors are kept as long.
   Tangent(bool linear, bool keeps) : linear_(linear), constant_(linear && keeps) {}
 
   // A new pattern of equations, and a solver for it.
@@ -46,19 +46,19 @@ class Tangent {
   const Eigen::VectorXd& coupling() const { return coupling_; }  // K(free, prescribed) rate, every dof
 
   void forget() { state_ = State::empty; }
-  // K and its factors are of no more use: their memory serves others.
+  // K and its factors are no longer needed: their memory is freed.
   void release() {
     solver_.reset();
     state_ = State::empty;
   }
-  // What follows starts elsewhere: K and its factors serve no more, unless an assembly there finds the same K.
+  // The next correction starts at another state: K and its factors hold only if an assembly there finds the same K.
   void set_aside() {
     if (current()) state_ = State::stale;
   }
 
-  // One assembly.  `elements` makes all matrices that can change: it adds those that nobody keeps, and says
-  // where one differs from the one that is kept; `kept` adds all that are kept, and is called only if the
-  // solver does not hold them already.  all_kept: none are of the first kind.
+  // One assembly.  `elements` computes all matrices that can change.  It adds those that are not stored, and calls differs()
+  // where one is not equal to the stored one.  `kept` adds all stored ones, and is called only if the solver does not hold
+  // them already.  all_kept: all are stored.
   template <class Elements, class Kept>
   Outcome assemble(bool all_kept, Elements elements, Kept kept);
   // From within: the element's matrix, column-major.
@@ -77,24 +77,24 @@ class Tangent {
   }
   void couple(const ElementDofs& dofs, const double* K);
   void differs() { changed_ = true; }
-  // After it: whether the forces of the same pass are numbers.  K of a pass that failed serves nobody.
+  // After it: K of a pass that failed, or whose forces are not finite, is dropped.
   void settle(Outcome pass);
   // False: the last assembly found the very K that the solver holds, and left it alone.
   bool changed() const { return changed_; }
 
-  // Nothing where there are factors already.  Throws SingularMatrix.
+  // Does nothing where there are factors already.  Throws SingularMatrix.
   void factorise(WorkCounters& work);
   // Needs factors.
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, WorkCounters& work) const;
 
-  // The element matrices of the next assembly are those of damp(), until the pattern changes; then K serves nobody.
+  // The element matrices of the assembly in between are kept for damp() until the pattern changes.  K is dropped.
   void begin_elastic();
   void end_elastic(Outcome pass);
   bool has_elastic() const { return !elastic_.empty() && !takes_elastic_; }
-  // Adds that share of them to the K of the last assembly.  It serves one correction; then forget().
+  // Adds that share of them to the K of the last assembly, for one correction; then forget().
   void damp(double share);
 
-  // Sizes of K, kept while it stands; they need an assembly.
+  // Sizes of K, kept until it changes; they need an assembly.
   // Of the solver: the largest column sum of |K|, negative = not known.
   double norm1() const;
   // Largest size, in the equations of the field `to`, of K times signs without an order in those of the field

@@ -1,4 +1,5 @@
-// A stage of a model, tried again and again with other laws from the last state that stood: strength reduction.
+// A stage of a model that is tried with other laws again and again, from the last state in equilibrium: strength
+// reduction.
 #pragma once
 
 #include <string>
@@ -9,15 +10,15 @@
 
 namespace sage {
 
-// What a trial came to.
+// The result of a trial.
 struct TrialResult {
   bool equilibrium = false;
   // Of the last attempt.
   StepOutcome outcome = StepOutcome::not_converged;
-  StepReport report;   // load_factor: share of what the new laws no longer carry that was let go in equilibrium
-  std::string reason;  // without equilibrium: a page for a person
-  Eigen::VectorXd
-      motion;  // since the start of the trial, every dof: at its end, or where the last attempt stood
+  StepReport
+      report;  // load_factor: share of what the new laws no longer carry that was released in equilibrium
+  std::string reason;      // without equilibrium: a page for a person
+  Eigen::VectorXd motion;  // since the start of the trial, every dof: at its end, or of the last attempt
   std::vector<std::vector<double>>
       strain;  // the same of strain, of each group: law_size x points; empty = none
 };
@@ -28,7 +29,7 @@ class Trials {
   // Which stage of the model, from 0: without loads, in one increment.  Those before it are run first.
   virtual int stage() const = 0;
   // Puts the next laws into the model of the run; false = enough.  last: nullptr before the first trial.  now: the
-  // state that stands, from which the next one starts; it is gone when the call returns.
+  // last state in equilibrium, from which the next one starts; it is gone when the call returns.
   virtual bool next(const TrialResult* last, const Solution& now) = 0;
   // The trial is given up when 2^-max_cuts of it finds no equilibrium, after three times the iterations of its stage,
   // and at once where it flows.

@@ -14,7 +14,7 @@ struct UniquenessCount {
   long softening = 0;          // of those that lost it: the tangent itself has a negative determinant
 };
 
-// Which step: the last one that was committed (right after it the trial states hold what stood before), or the
+// Which step: the last one that was committed (right after it the trial states hold the state before), or the
 // attempt that the trial states hold.
 enum class StepKind { committed, attempted };
 
