@@ -15,7 +15,7 @@
 
 namespace sage {
 
-// Stages and their increments, and what observers hear of them.
+// Stages and their increments, and what observers receive of them.
 class Analysis::Stages {
  public:
   Stages(const Model& model, const Catalogue& catalogue, RunSettings settings,
@@ -65,7 +65,7 @@ class Analysis::Stages {
   bool is_open_ = false;         // a next increment may be taken
   bool has_tried_ = false;       // all trials are done
   bool is_interrupted_ = false;  // an exception left a step in hand
-  // With a condensed region that is behind filled in, for those who look at it; no entries: nobody does.
+  // With the inside of a condensed region recovered, for output that needs it; no entries: none does.
   Eigen::VectorXd shown_u_, shown_force_;
 };
 

@@ -248,7 +248,7 @@ void Condensation::add_border_forces(Eigen::VectorXd& f) const {
   for (Eigen::Index i = 0; i < g_.size(); ++i) f[kept_[static_cast<std::size_t>(i)]] += g_[i] + kept_f_[i];
 }
 
-// A border that moves by u leaves rounding of |K| |u| behind: what is solved for is the way from a place near by.
+// Interface dofs that move by u leave rounding of |K| |u|: the solution is the motion from a state near by.
 void Condensation::complete(Eigen::VectorXd& du) {
   if (!from_is_here_) {
     from_is_here_ = true;
@@ -370,7 +370,7 @@ std::unique_ptr<Condensation> condense_if_it_pays(const std::vector<GroupData>& 
     if (report.smallest_pivot_ratio < kPoorPivot || report.growth > kLargeGrowth) return nullptr;
     return region;
   } catch (const SingularMatrix&) {
-    return nullptr;  // a region that only its border holds: the whole system says what is wrong, or solves it
+    return nullptr;  // a region that is held by its interface dofs alone: the whole system reports the fault, or solves it
   }
 }
 

@@ -16,7 +16,7 @@ std::span<double> view(Eigen::VectorXd& v) {
 
 }  // namespace
 
-// Where the way from the Cauchy point (inside) to `to` (outside) leaves the region: part of the way.
+// Where the line from the Cauchy point (inside) to `to` (outside) leaves the region: share of the line.
 double Dogleg::exit_of_region(const Eigen::VectorXd& to) const {
   const double a = (to - cauchy_).squaredNorm(), b = cauchy_.dot(to - cauchy_);
   const double c = cauchy_.squaredNorm() - radius_ * radius_;

@@ -108,7 +108,7 @@ const double* ElementWork::spread_of(const GroupData& data, int element, double 
   return to;
 }
 
-// Elements of a model that stands by itself have not moved yet.
+// Without committed unknowns the elements have not moved yet.
 const double* ElementWork::committed_of(const ElementDofs& dofs) {
   u0_.assign(u0_.size(), 0.0);
   if (committed_ != nullptr) dofs.gather(*committed_, u0_.data());

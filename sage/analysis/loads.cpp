@@ -177,7 +177,7 @@ Eigen::VectorXd external_force(const Model& model, int last) {
     add_point_loads(stage, activity.dof_map, force);
     if (!lasting) drop_inactive(active_dofs(model, activity), force);
   }
-  // A group is born once: what it had in the stage of the card and has at the end, it had between.
+  // A group is activated once: what it had in the stage of the card and has at the end, it had between.
   LoadSum sum(model, activity.dof_map, force);
   for (std::size_t s = 0; s < active_groups.size(); ++s) {
     std::vector<char>& groups = active_groups[s];

@@ -43,7 +43,7 @@ void StepIteration::form_residual() {
   }
 }
 
-// The run is largest while it factorises: room for the correction comes behind it.
+// The run needs most memory while it factorises: the correction is allocated after that.
 void StepIteration::solve() {
   if (settings.damping_fall > 0.0) tangent.damp(damping);
   tangent.factorise(work);

@@ -69,7 +69,7 @@ void System::analyse() {
   groups_before_ = activity_.group;
 }
 
-// A group that has lived before comes back without stress and history.
+// A group that has been active before is activated again without stress and history.
 void System::enter(const Stage& stage) {
   activity_.enter(stage);
   for (int g : stage.births)
