@@ -170,7 +170,7 @@ bool Analysis::Stages::take_increment() {
   report.stage = done_.stage;
   report.increment = done_.increment + 1;
   report.increments = stage.increments;
-  report.load_factor = state_.reached;
+  report.load_factor = report.started_at = state_.reached;
   if (!control_.take_increment(report)) {
     fail(report);
     return false;

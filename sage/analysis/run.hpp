@@ -7,6 +7,7 @@
 #include "sage/analysis/observer.hpp"
 #include "sage/core/catalogue.hpp"
 #include "sage/core/stop.hpp"
+#include "sage/core/time_scheme.hpp"
 
 namespace sage {
 
@@ -23,6 +24,7 @@ struct RunSettings {
   bool stream_function = false;  // results need it: warn where there is none (S540)
   int max_cuts = 12;             // a step is given up when 2^-max_cuts of its increment finds no equilibrium
   bool line_search = true;
+  const TimeScheme* time_scheme = nullptr;  // of the increments of all stages; null = equal ones
   Skips skips;
   bool profile_memory = false;  // the profile also measures where the process grew
   Pulse* pulse = nullptr;       // receives the progress of the run; null = none does

@@ -43,8 +43,7 @@ void evaluate_again(const RunParts& run, const RunPlace& place, bool factorised)
   const bool within = place.increment > 0;
   if (!within && !factorised) return;
   if (within && system.assembly().wants_moment()) {
-    const int increments = run.model.stages[static_cast<std::size_t>(place.stage)].increments;
-    const double reached = static_cast<double>(place.increment) / increments;
+    const double reached = run.end_of(place);
     system.assembly().set_moment(
         moment_at(run.model, place.stage, place.increment, reached, run.state.path.last_size));
   }
@@ -85,7 +84,7 @@ RunPlace resume_from(const RunParts& run, const std::string& bytes) {
       [&](Observer& o) { o.on_start(run.model, system.scene(), system.tangent().name(), system.equations()); });
   run.audience.exchange(archive);
   run.state.place = place;
-  if (within) run.state.reached = static_cast<double>(place.increment) / run.stage().increments;
+  if (within) run.state.reached = run.end_of(place);
   if (!archive.at_end()) throw InputError("S630", {}, "the checkpoint is longer than it should be");
   static_cast<WorkCounts&>(run.result.work) = work;
   return place;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 
 namespace sage {
 
@@ -36,6 +37,17 @@ std::optional<PorePressure> RunParts::water_at(int stage, const Activity& activi
   std::optional<PorePressure> water;
   if (!model.water.empty()) water.emplace(model, stage, activity.group, activity.dof_map, u);
   return water;
+}
+
+double RunParts::end_of(const RunPlace& place) const {
+  const int increments = model.stages[static_cast<std::size_t>(place.stage)].increments;
+  if (settings.time_scheme == nullptr) return static_cast<double>(place.increment) / increments;
+  if (place.increment == 0) return 0.0;
+  const double end = settings.time_scheme->load_factor(place.stage, place.increment, increments);
+  const bool is_last = place.increment == increments;
+  if (is_last ? end != 1.0 : !(end > end_of({place.stage, place.increment - 1}) && end < 1.0))
+    throw std::logic_error("the load factors of a time scheme do not increase from 0 to 1");
+  return end;
 }
 
 Eigen::VectorXd RunParts::loads_at(double load_factor) const {

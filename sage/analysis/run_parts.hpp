@@ -38,6 +38,9 @@ struct RunParts {
   void set_water(double load_factor) const;
   // Pore pressures at the end of a stage; nothing where the model has no water.  u: unknowns of an earlier flow, or null.
   std::optional<PorePressure> water_at(int stage, const Activity& activity, const Eigen::VectorXd* u) const;
+  // Load factor of a stage at the end of an increment (0 = its start).  Throws std::logic_error where a time scheme breaks
+  // its contract.
+  double end_of(const RunPlace& place) const;
   // Loads at this load factor of the stage in hand (A1), every dof.
   Eigen::VectorXd loads_at(double load_factor) const;
   // Shows the progress of the run where somebody watches (RunSettings::pulse).

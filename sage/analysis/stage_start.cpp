@@ -63,7 +63,7 @@ void StageStart::start_states(int stage, const Activity& activity, const std::ve
 // are those at its start.
 void StageStart::evaluate() {
   Assembly& assembly = run_.assembly();
-  const double increment = 1.0 / run_.stage().increments;
+  const double increment = run_.end_of({run_.state.place.stage, 1});
   Tangent* tangent = run_.tangent().current() ? nullptr : &run_.tangent();
   if (assembly.wants_moment() && tangent != nullptr) {
     run_.set_moment(increment, increment);

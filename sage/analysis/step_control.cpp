@@ -62,8 +62,10 @@ bool StepControl::take_increment(StepReport& report) {
   constexpr int kMostAttempts = 3;  // of a trial, of so many iterations each at most
   constexpr std::size_t kEasy = 6;  // iterations
   RunState& state = run_.state;
-  const double end = static_cast<double>(report.increment) / report.increments;
-  const double whole = 1.0 / report.increments;
+  const double end = run_.end_of({report.stage, report.increment});
+  const double whole = run_.settings.time_scheme == nullptr
+                           ? 1.0 / report.increments
+                           : end - run_.end_of({report.stage, report.increment - 1});
   double size = end - state.reached;
   int iterations = 0;  // of Newton's attempts
   report.substeps = 0;

@@ -377,7 +377,8 @@ void Reports::add_triaxial(Series& series, std::size_t index, const StepReport& 
   r.axial_strain = -(sums.displacement[1] - series.start_displacement[1]) / report.height;
   r.force = -sums.force[1];
   r.measured_deviator = (r.force - series.start_force) / series.area;
-  const double before = static_cast<double>(step.increment - 1) / step.increments;
+  const double before =
+      step.started_at >= 0.0 ? step.started_at : static_cast<double>(step.increment - 1) / step.increments;
   r.duration = (step.load_factor - before) * model_->stages[static_cast<std::size_t>(step.stage)].duration;
   r.correct_deviator = series.correct ? series.correct->deviator_at(r.axial_strain, r.duration) : kUnknown;
   r.measured_axial = report.cell_pressure + r.measured_deviator;

@@ -1,6 +1,7 @@
 // An analysis that a host program takes from increment to increment.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <thread>
 
 #include "sage/analysis/analysis.hpp"
@@ -188,6 +189,57 @@ TEST(Stepping, AnAnalysisThatIsStoppedStillHasItsLastState) {
   EXPECT_LT((*analysis.state().internal - whole.increments[1].internal).norm(),
             1e-9 * whole.increments[1].internal.norm());
   EXPECT_EQ(analysis.close().status, RunStatus::stopped);
+}
+
+// Increments of 1, 2, 4 and 8 parts of 15.
+TEST(Stepping, GradedIncrementsDivideTheLoadPath) {
+  Model model = workbench().build(pressed_square(150.0, 4));
+  const GradedIncrements graded(2.0);
+  RunSettings settings = workbench().settings();
+  settings.time_scheme = &graded;
+  Analysis analysis(model, workbench().catalogue(), settings);
+  ASSERT_TRUE(analysis.open());
+  for (const double pressure : {10.0, 30.0, 70.0, 150.0}) {
+    ASSERT_TRUE(analysis.advance());
+    EXPECT_NEAR(settlement_of(analysis, model), pressure / kYoung, 1e-12);
+  }
+  EXPECT_TRUE(analysis.is_complete());
+}
+
+// Of a scheme of one's own, too, and from a checkpoint within the stage.
+TEST(Stepping, ASchemeOfOnesOwnIsResumed) {
+  struct Rooted final : TimeScheme {
+    double load_factor(int, int increment, int increments) const override {
+      return std::sqrt(static_cast<double>(increment) / increments);
+    }
+  } const rooted;
+  std::string saved;
+  int increments = 0;
+  RunSettings settings;
+  settings.time_scheme = &rooted;
+  settings.checkpoint_due = [&] { return ++increments == 3; };
+  settings.save_checkpoint = [&](const std::string& state) { saved = state; };
+  const std::string deck = stepped_specimen(true, 6);
+  const WholeRun whole = run_text(deck, {}, settings);
+  ASSERT_TRUE(whole.completed()) << whole.failure;
+  EXPECT_DOUBLE_EQ(whole.increments[2].load_factor, std::sqrt(0.5));
+  RunSettings resumed;
+  resumed.time_scheme = &rooted;
+  resumed.resume_from = saved;
+  const WholeRun rest = run_text(deck, {}, resumed);
+  EXPECT_TRUE(rest.last().u == whole.last().u);
+  EXPECT_TRUE(rest.last().internal == whole.last().internal);
+}
+
+TEST(Stepping, ASchemeThatDoesNotReachTheEndOfItsStageIsAMistake) {
+  struct Short final : TimeScheme {
+    double load_factor(int, int increment, int increments) const override {
+      return 0.9 * increment / increments;
+    }
+  } const too_short;
+  RunSettings settings;
+  settings.time_scheme = &too_short;
+  EXPECT_THROW(run_text(pressed_square(100.0, 2), {}, settings), std::logic_error);
 }
 
 }  // namespace
