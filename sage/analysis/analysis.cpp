@@ -1,6 +1,7 @@
 #include "sage/analysis/analysis.hpp"
 
 #include <limits>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -60,8 +61,9 @@ class Analysis::Stages {
   const RunParts run_{model_, settings_, extent_, system_, state_, result_, audience_};
   StageStart start_{run_};
   StepControl control_{run_};
-  RunPlace done_;                // increments that are complete
-  bool has_begun_ = false;       // the stage of done_ is open
+  RunPlace done_;           // increments that are complete
+  bool has_begun_ = false;  // the stage of done_ is open
+  bool was_opened_ = false, is_closed_ = false;
   bool is_open_ = false;         // a next increment may be taken
   bool has_tried_ = false;       // all trials are done
   bool is_interrupted_ = false;  // an exception left a step in hand
@@ -119,6 +121,8 @@ bool Analysis::Stages::guard(Work work) {
 }
 
 bool Analysis::Stages::open() {
+  if (was_opened_ || is_closed_) throw std::logic_error("Analysis::open: it has been opened before");
+  was_opened_ = true;
   return guard([&] {
     if (settings_.resume_from.empty()) {
       start_.start_first_states();
@@ -133,6 +137,7 @@ bool Analysis::Stages::open() {
 }
 
 bool Analysis::Stages::advance() {
+  if (!was_opened_ || is_closed_) throw std::logic_error("Analysis::advance: it is not open");
   if (!is_open_) return false;
   return guard([&] {
     if (!is_complete()) {
@@ -331,6 +336,8 @@ void Analysis::Stages::take_loads() {
 }
 
 RunResult Analysis::Stages::close() {
+  if (is_closed_) throw std::logic_error("Analysis::close: it has been closed before");
+  is_closed_ = true;
   is_open_ = false;
   const bool is_done = is_complete() && (settings_.trials == nullptr || has_tried_);
   if (result_.status == RunStatus::completed && !is_done) result_.status = RunStatus::stopped;

@@ -18,7 +18,8 @@ namespace sage {
 // share nothing but what they only read (the catalogue, and a model where they have the same).  One analysis must not be
 // used by two threads at once.
 //
-// All functions throw what run() throws.  After an exception only the destructor may be called.
+// All functions throw what run() throws, and std::logic_error where they are called out of order.  After another exception
+// only the destructor may be called.
 class Analysis {
  public:
   // The model, the catalogue and the observers must outlive it.  Observers may be none: state() is there for the host.

@@ -191,6 +191,17 @@ TEST(Stepping, AnAnalysisThatIsStoppedStillHasItsLastState) {
   EXPECT_EQ(analysis.close().status, RunStatus::stopped);
 }
 
+TEST(Stepping, FunctionsOutOfOrderAreMistakes) {
+  Model model = workbench().build(pressed_square(100.0, 2));
+  Analysis analysis(model, workbench().catalogue(), workbench().settings());
+  EXPECT_THROW(analysis.advance(), std::logic_error);
+  ASSERT_TRUE(analysis.open());
+  EXPECT_THROW(analysis.open(), std::logic_error);
+  EXPECT_EQ(analysis.close().status, RunStatus::stopped);
+  EXPECT_THROW(analysis.advance(), std::logic_error);
+  EXPECT_THROW(analysis.close(), std::logic_error);
+}
+
 // Increments of 1, 2, 4 and 8 parts of 15.
 TEST(Stepping, GradedIncrementsDivideTheLoadPath) {
   Model model = workbench().build(pressed_square(150.0, 4));
