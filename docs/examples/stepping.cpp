@@ -19,7 +19,8 @@ sage::ModelInput layer() {
   input.materials = {{"linear_elastic", {{"youngs_modulus", 20e3}, {"poissons_ratio", 0.0}}}};
   input.groups = {{.element = "quad4", .elements = {}}};
   sage::SupportInput sides{.x = sage::FixityCode::fixed};
-  sage::SupportInput base{.x = sage::FixityCode::fixed, .y = sage::FixityCode::fixed, .nodes = {1, 2}};
+  sage::SupportInput base{.x = sage::FixityCode::fixed, .y = sage::FixityCode::fixed};
+  base.nodes = {1, 2};
   for (int j = 0; j <= kRows; ++j) {
     input.nodes.emplace_back(0.0, 0.5 * j);
     input.nodes.emplace_back(1.0, 0.5 * j);
