@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "sage/analysis/analysis.hpp"
 #include "sage/app/commands.hpp"
@@ -139,6 +141,60 @@ TEST(Stepping, AHostChangesALoadAndGoesOn) {
   const RunResult result = analysis.close();
   EXPECT_EQ(result.status, RunStatus::completed);
   EXPECT_EQ(result.increments_done, 10);
+}
+
+// Ground 4 m x 8 m under a strip load at its surface, plastic in the rows below it and elastic further down.
+std::string loaded_ground(int plastic_rows, const std::vector<std::pair<double, int>>& pressures) {
+  constexpr int kColumns = 8, kRows = 16, kAcross = kColumns + 1;
+  DeckWriter deck(1);
+  Block block;
+  block.columns = kColumns;
+  block.rows = kRows;
+  block.place = rectangle(0.0, 4.0, 0.0, 8.0);
+  block.write_nodes(deck);
+  deck.material(1, 1, {1e4, 0.3}, 0.0, "base");
+  deck.material(2, 3, {1e4, 0.3, plastic_rows == 1 ? 4.0 : 10.0, 20.0}, 0.0, "ground");
+  deck.group(1, 1, 2, 1);
+  deck.group(2, 1, 2, 2);
+  const int elastic_rows = kRows - plastic_rows, first = elastic_rows * kAcross + 1;
+  if (elastic_rows > 0)
+    deck.elements_block(1, 1, {1, 2, 2 + kAcross, 1 + kAcross}, kColumns, elastic_rows, 1, kAcross);
+  deck.elements_block(elastic_rows * kColumns + 1, 2, {first, first + 1, first + 1 + kAcross, first + kAcross},
+                      kColumns, plastic_rows, 1, kAcross);
+  for (const int node : block.bottom()) deck.fix(node, 1, 1);
+  for (int j = 1; j <= kRows; ++j)
+    for (const int i : {0, kColumns}) deck.fix(block.node(i, j), 1, 0);
+  for (const auto& [pressure, increments] : pressures) {
+    StageCards& stage = deck.stage(increments);
+    for (int i = 0; i < 3; ++i) stage.pressure(block.element(i, kRows - 1), 3, pressure, pressure);
+  }
+  return deck.text();
+}
+
+// 4 of 10 increments of 100 kPa and then 6 towards 70 kPa are the load path of two stages: to 40 kPa, and 30 kPa more.
+// With one plastic row the base is condensed, and in the rest of the stage no longer.
+TEST(Stepping, ChangedLoadsAreTheLoadPathOfTwoStages) {
+  for (const int plastic_rows : {1, 15}) {
+    SCOPED_TRACE(plastic_rows);
+    const WholeRun stages = run_text(loaded_ground(plastic_rows, {{40.0, 4}, {30.0, 6}}));
+    ASSERT_TRUE(stages.completed()) << stages.failure;
+    EXPECT_GT(stages.last().points[static_cast<std::size_t>(PointStatus::yielded)], 0);
+    Model model = workbench().build(loaded_ground(plastic_rows, {{100.0, 10}}));
+    Host host(model);
+    for (int i = 0; i < 4; ++i) ASSERT_TRUE(host.advance());
+    set_pressures(model.stages[0], 70.0);
+    host.analysis().take_loads();
+    while (host.advance()) {
+    }
+    ASSERT_EQ(host.readings().size(), 10U);
+    for (std::size_t i = 0; i < 10; ++i) {
+      const Snapshot& expected = stages.increments[i];
+      EXPECT_LT((host.readings()[i].u - expected.u).norm(), 1e-6 * expected.u.norm()) << "increment " << i;
+    }
+    const RunResult result = host.analysis().close();
+    EXPECT_EQ(result.status, RunStatus::completed);
+    EXPECT_EQ(result.work.condensed > 0, plastic_rows == 1);
+  }
 }
 
 // The whole pressure is then that of the last stage whose card was changed, as in a deck with those loads.
