@@ -77,22 +77,22 @@ CloughDuncan::Real CloughDuncan::initial_stiffness(const Real& sigma_n) const {
   return Real(p_.k_unit) * pow(max(sigma_n / p_.p_a, Real(p_.floor)), p_.n);
 }
 
-// sigma_n from the opening w, measured from the unstressed contact: k_nc w, k_nt w up to sigma_t, then nothing.
+// sigma_n from the opening w, measured from the unstressed contact: k_nc w, k_nt w up to sigma_t, then nothing.  Shear
+// strength without normal stress fades over a gap: if it went at once, forces between those of the closed and of the
+// open joint would have no equilibrium.
 CloughDuncan::Normal CloughDuncan::normal_response(const PointIn<2>& in) const {
   const double sigma0 = in.sigma0[1];
   const double w0 = sigma0 > 0.0 ? sigma0 / p_.k_nt : sigma0 < 0.0 ? sigma0 / p_.k_nc : in.h0[kGap];
   const Real dw = Real::variable(in.deps[1], 1);
   const Real w = w0 + dw;
   const bool bonded = in.h0[kGap] == 0.0 && in.h0[kBroken] == 0.0 && p_.sigma_t > 0.0;
-  // Without stress rounding must not decide whether the joint is open, loose and without memory.  With adhesion
-  // opening is an event: the shear stress drops.
-  const bool fades = !bonded && p_.c == 0.0 && in.h0[kHardening] == 0.0;
-  const double no_gap = fades ? (kNoGap * in.h0[kMemory] + p_.nothing) / p_.k_nc : 0.0;
+  // Without stress rounding must not decide whether the joint is open, loose and without memory.
+  const double within = reach(in.h0);
+  const double no_gap = !bonded && within == 0.0 ? (kNoGap * in.h0[kMemory] + p_.nothing) / p_.k_nc : 0.0;
   Normal normal;
   normal.sliding = 1.0;
   if (w.v <= 0.0) {
-    const bool was_open = in.h0[kGap] > no_gap;
-    if (was_open) normal.sliding = w / dw;
+    if (in.h0[kGap] > no_gap + within) normal.sliding = (w - within) / dw;
     normal.sigma = sigma0 < 0.0 ? sigma0 + p_.k_nc * dw : p_.k_nc * w;
     return normal;
   }
@@ -106,8 +106,11 @@ CloughDuncan::Normal CloughDuncan::normal_response(const PointIn<2>& in) const {
     normal.sigma = Real(0.0, p_.k_nc * dw.d);
     return normal;
   }
-  normal.open = true;
   normal.gap = w.v;
+  normal.open = !(w.v < within * (1.0 - kRounding));
+  if (normal.open) return normal;
+  if (in.h0[kGap] > within) normal.sliding = (w - within) / dw;
+  normal.lost = p_.k_nc * w;
   return normal;
 }
 
@@ -161,10 +164,15 @@ bool CloughDuncan::initialise(const Vector2& sigma, std::span<double> h) const {
   return sigma[1] <= p_.sigma_t && std::abs(sigma[0]) <= tau_f * (1.0 + 1e-8);
 }
 
-// A gap stands between bodies that don't touch, and only once their bond is broken.
+double CloughDuncan::limit(double sigma_n, std::span<const double> h) const {
+  return std::max(strength(sigma_n).v + h[kHardening] - p_.k_nc * h[kGap], 0.0);
+}
+
+// A gap stands between bodies that don't touch, and only once their bond is broken; adhesion may act across it.
 bool CloughDuncan::accepts_history(const Vector2& sigma, std::span<const double> h) const {
   const bool open = h[kGap] > 0.0, broken = h[kBroken] == 1.0;
-  return h[kGap] >= 0.0 && (broken || (h[kBroken] == 0.0 && !open)) && (!open || sigma.isZero(0.0)) &&
+  const bool apart = sigma[1] == 0.0 && std::abs(sigma[0]) <= limit(0.0, h) * (1.0 + 1e-8);
+  return h[kGap] >= 0.0 && (broken || (h[kBroken] == 0.0 && !open)) && (!open || apart) &&
          h[kMemory] >= std::abs(sigma[0]) * (1.0 - 1e-8) && h[kHardening] >= 0.0;
 }
 
@@ -172,6 +180,7 @@ Outcome CloughDuncan::update(const PointIn<2>& in, PointOut<2>& out) const {
   const Normal normal = normal_response(in);
   std::copy(in.h0.begin(), in.h0.end(), out.h1.begin());
   out.h1[kGap] = normal.gap;
+  if (normal.lost.v > 0.0) out.h1[kBroken] = 1.0;
   if (normal.open) {
     out.sigma.setZero();
     out.D.setZero();
@@ -196,12 +205,13 @@ Outcome CloughDuncan::update(const PointIn<2>& in, PointOut<2>& out) const {
 
   // Slip: back to the strength at the end of the increment, plus k_sf times the displacement since slip.
   const double side = tau.v < 0.0 ? -1.0 : 1.0;
-  const Real limit = strength(sigma_n) + in.h0[kHardening];
+  const Real limit = strength(sigma_n) + in.h0[kHardening] - normal.lost;
   const Real excess = side * tau - limit;
   if (excess.v > kRounding * limit.v) {
     const Real& k = trial.stiffness;
     const Real r = k.v > 0.0 ? min(Real(p_.k_sf) / k, Real(1.0)) : Real(0.0);
-    const Real hardening = r * excess;
+    Real hardening = r * excess;
+    if (normal.lost.v > 0.0) hardening = hardening * (1.0 - normal.lost / (p_.c + in.h0[kHardening]));
     tau = side * (limit + hardening);
     out.h1[kHardening] += hardening.v;
     out.h1[kSlip] += k.v > 0.0 ? (excess.v - hardening.v) / k.v : w.v;
@@ -217,9 +227,9 @@ Outcome CloughDuncan::update(const PointIn<2>& in, PointOut<2>& out) const {
 
 double CloughDuncan::stress_level(const Vector2& sigma, std::span<const double> h) const {
   const double tau = std::abs(sigma[0]);
-  const double limit = strength(-sigma[1]).v + h[kHardening];
+  const double most = limit(-sigma[1], h);
   if (tau == 0.0) return 0.0;
-  return limit > 0.0 ? tau / limit : std::numeric_limits<double>::infinity();
+  return most > 0.0 ? tau / most : std::numeric_limits<double>::infinity();
 }
 
 MaterialEntry clough_duncan_entry() {

@@ -68,6 +68,7 @@ class CloughDuncan final : public InterfaceLaw {
     Real sliding;  // share of the increment that found the joint in contact
     double gap = 0.0;
     bool open = false;
+    Real lost;  // of the strength: over a gap so small that adhesion acts across it
   };
   struct Shear {
     Real tau;        // in the direction of the increment
@@ -75,9 +76,12 @@ class CloughDuncan final : public InterfaceLaw {
     bool unloading = false;
   };
   Normal normal_response(const PointIn<2>& in) const;
+  // Gap at which adhesion, and what hardening has added to it, is gone.
+  double reach(std::span<const double> h) const { return (p_.c + h[kHardening]) / p_.k_nc; }
   Shear shear_trial(const PointIn<2>& in, const Real& sigma_n, const Real& w, double direction) const;
   Shear primary(const Real& tau0, const Real& w, const Real& k_i, const Real& tau_f) const;
   Real strength(const Real& sigma_n) const;
+  double limit(double sigma_n, std::span<const double> h) const;  // of |tau|, at a state
   Real initial_stiffness(const Real& sigma_n) const;
 
   CloughDuncanParameters p_;

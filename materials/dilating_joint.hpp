@@ -17,6 +17,7 @@ struct DilatingJointParameters {
 };
 
 // With sigma_n compression positive: |tau| <= c + sigma_n tan phi; slip lambda opens the joint by lambda tan psi.
+// Apart by a gap g there is no normal stress, and |tau| <= c - k_n g: cohesion is gone at g = c/k_n.
 class DilatingJoint final : public InterfaceLaw {
  public:
   explicit DilatingJoint(const DilatingJointParameters& parameters) : p_(parameters) {}
@@ -36,7 +37,15 @@ class DilatingJoint final : public InterfaceLaw {
   struct Slip {
     Real slip, opening;  // plastic, of the increment
   };
-  Slip slip_of(const Real& excess, double slip0) const;
+  // Back to a strength that falls with this slope over the normal stress, if the trial is outside.
+  struct Return {
+    Real tau, sigma;
+    Slip slip;
+    bool slips;
+  };
+  Return return_to(double slope, const Real& tau, const Real& sigma, double slip0) const;
+  Slip slip_of(const Real& excess, double slope, double slip0) const;
+  double strength(double sigma, double gap) const;  // sigma: tension positive
 
   DilatingJointParameters p_;
 };

@@ -174,7 +174,8 @@ TEST(CloughDuncan, UnloadingWithoutMemory) {
   EXPECT_LT(point.sigma()[0], hyperbola(0.03, 0.8) - 1.0);
 }
 
-// Opens at sigma_n = 0, closes when the gap is used up; only sliding in contact counts: half of 0.02 here.
+// Opens at sigma_n = 0, closes when the gap is used up; only sliding within the reach of adhesion, c/k_nc = 0.002,
+// counts: 22 of 40 parts of 0.02 here.
 TEST(CloughDuncan, OpensAndCloses) {
   std::vector<double> values = joint(0.0, 1);
   values[6] = values[7] = 1000.0;
@@ -188,11 +189,11 @@ TEST(CloughDuncan, OpensAndCloses) {
   EXPECT_NEAR(point.history()[0], 0.02, 1e-15);
   point.advance(kStrain, {0.02, -0.04});
   EXPECT_NEAR(point.sigma()[1], -20.0, 1e-12);
-  EXPECT_NEAR(point.sigma()[0], 100.0 * 0.036111 * 0.01, 1e-12);
+  EXPECT_NEAR(point.sigma()[0], 100.0 * 0.036111 * 0.011, 1e-12);
 }
 
 // Unloaded to nothing without adhesion: a gap that 1e-5 of the largest shear stress would close is none; memory
-// stays and the tangent is that of contact.  A larger one opens, and adhesion makes opening an event.
+// stays and the tangent is that of contact.  A larger one opens; adhesion fades over c/k_nc.
 TEST(CloughDuncan, RoundingDoesNotOpen) {
   const auto unloaded = [](double cohesion, double gap) {
     std::vector<double> values = joint(0.8, 2);
@@ -211,7 +212,11 @@ TEST(CloughDuncan, RoundingDoesNotOpen) {
   const auto opened = unloaded(0.0, 2e-5 * tau / 1e9).second;
   EXPECT_EQ(opened.status, PointStatus::open);
   EXPECT_EQ(opened.h[2], 0.0);
-  EXPECT_EQ(unloaded(2.0, 1e-15).second.status, PointStatus::open);
+  const auto adheres = unloaded(2.0, 1e-9).second;
+  EXPECT_EQ(adheres.status, PointStatus::slipping);
+  EXPECT_NEAR(adheres.sigma[0], 1.0, 1e-6);  // c - k_nc 1e-9
+  EXPECT_EQ(adheres.sigma[1], 0.0);
+  EXPECT_EQ(unloaded(2.0, 2.1e-9).second.status, PointStatus::open);
 
   // Gap by gap, each too small alone.
   std::vector<double> values = joint(0.8, 2);
@@ -220,6 +225,25 @@ TEST(CloughDuncan, RoundingDoesNotOpen) {
   test::Answer<2> step = rounding;
   for (int i = 0; i < 3; ++i) step = test::update<2>(*law, step.sigma, {0.0, 0.4e-5 * tau / 1e9}, step.h);
   EXPECT_EQ(step.status, PointStatus::open);
+}
+
+// With adhesion and hardening the shear stress has no jump on the way from contact to open and back.
+TEST(CloughDuncan, OpensAndClosesWithoutAJump) {
+  std::vector<double> values = joint(0.0, 2);
+  values[6] = values[7] = 1e6;
+  values[8] = 20.0;
+  const auto law = test::interface(22, values);
+  const double step = 1e-7, reach = 3.0 / 1e6;  // c and the hardening below, 2 + 1
+  for (const bool closes : {false, true}) {
+    const Vector2 start = closes ? Vector2(0.0, 0.0) : Vector2(6.0, -8.0);
+    const std::vector<double> h{closes ? 2e-5 : 0.0, 1.0, closes ? 0.0 : 6.0, closes ? 0.0 : 1.0, 0.0};
+    const auto stress = [&](double w) {
+      return test::update<2>(*law, start, {0.05, closes ? w - 3e-5 : w}, h).sigma;
+    };
+    for (double w = step; w < 3e-5; w += step)
+      EXPECT_LT((stress(w) - stress(w - step)).norm(), 3.0 * 1e6 * step) << closes << " " << w;
+    EXPECT_GT(stress(closes ? 1.1e-5 : 8e-6 + 0.5 * reach)[0], 0.0) << closes;  // across a gap
+  }
 }
 
 // Never loaded: a gap that 1e-8 p_a would close is none where p_a is known (n > 0).

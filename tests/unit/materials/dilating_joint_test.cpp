@@ -67,8 +67,51 @@ TEST(DilatingJoint, BothDirectionsOpenIt) {
   EXPECT_NEAR(point.sigma()[0], -(kC + kPressure * kPhi), 1e-9);
 }
 
-// It opens without stress, remembers the gap, and slides only after it has closed: of the closing increment the
-// second half.
+// Apart by g the strength is c - k_n g, with or without dilation: tau = that, k_s w = tau + k_s lambda, and the gap is
+// what lambda tan(psi) leaves of the opening.
+TEST(DilatingJoint, CohesionFadesOverAGap) {
+  const Vector2 start{4.0, -10.0};
+  const double slide = 1e-3;
+  for (const double psi : {0.0, 10.0}) {
+    const auto law = test::interface(23, {kS, kN, kC, 30, psi}, test::kpa_units());
+    const double slope = std::tan(psi * kRadiansPerDegree);
+    const double w = psi == 0.0 ? 1.2e-5 : 2.07e-4;  // opening: the gap is below c/k_n = 5e-6
+    const double slip = (start[0] + kS * slide + start[1] + kN * w - kC) / (kS + kN * slope);
+    const double gap = w + start[1] / kN - slope * slip;
+    ASSERT_TRUE(gap > 0.0 && gap < kC / kN) << psi << " " << gap;
+    const auto a = test::update<2>(*law, start, {slide, w}, {0.0, 0.0, 0.0});
+    EXPECT_NEAR(a.sigma[0], kC - kN * gap, 1e-9);
+    EXPECT_EQ(a.sigma[1], 0.0);
+    EXPECT_EQ(a.status, PointStatus::slipping);
+    EXPECT_NEAR(a.h[0], gap, 1e-15);
+    EXPECT_NEAR(a.h[1], slip, 1e-12);
+    EXPECT_NEAR(law->stress_level(a.sigma, a.h), 1.0, 1e-9);
+    EXPECT_TRUE(law->accepts_history(a.sigma, a.h));
+    EXPECT_FALSE(law->accepts_history({1.01 * a.sigma[0], 0.0}, a.h));
+    const auto same = test::update<2>(*law, a.sigma, Vector2::Zero(), a.h);
+    EXPECT_EQ(same.sigma, a.sigma);
+    EXPECT_EQ(same.h, a.h);
+  }
+}
+
+// No jump on the way from contact to open and back: the stress moves by no more than k_n of the step.
+TEST(DilatingJoint, OpensAndClosesWithoutAJump) {
+  const auto law = joint();
+  const double step = 1e-7;
+  for (const bool closes : {false, true}) {
+    const Vector2 start = closes ? Vector2(0.0, 0.0) : Vector2(9.0, -8.0);
+    const std::vector<double> h{closes ? 2e-5 : 0.0, 0.0, 0.0};
+    Vector2 last = test::update<2>(*law, start, {8e-4, closes ? -3e-5 : 0.0}, h).sigma;
+    for (double w = step; w < 3e-5; w += step) {
+      const Vector2 sigma = test::update<2>(*law, start, {8e-4, closes ? w - 3e-5 : w}, h).sigma;
+      EXPECT_LT((sigma - last).norm(), 3.0 * kN * step) << closes << " " << w;
+      last = sigma;
+    }
+  }
+}
+
+// It opens without stress, remembers the gap, and slides only once cohesion reaches over it again, from c/k_n = 5e-6 on:
+// five eighths of the closing increment.
 TEST(DilatingJoint, OpensAndCloses) {
   const auto law = joint();
   const auto open = test::update<2>(*law, {0.0, -10.0}, {0.0, 3e-5}, {0.0, 0.0, 0.0});
@@ -77,7 +120,7 @@ TEST(DilatingJoint, OpensAndCloses) {
   EXPECT_NEAR(open.h[0], 2e-5, 1e-18);
   const auto closed = test::update<2>(*law, open.sigma, {4e-4, -4e-5}, open.h);
   EXPECT_NEAR(closed.sigma[1], -20.0, 1e-10);
-  EXPECT_NEAR(closed.sigma[0], kS * 2e-4, 1e-12);
+  EXPECT_NEAR(closed.sigma[0], kS * 2.5e-4, 1e-12);
   EXPECT_EQ(closed.h[0], 0.0);
   const auto still = test::update<2>(*law, open.sigma, {1e-3, -1e-5}, open.h);
   EXPECT_EQ(still.status, PointStatus::open);
