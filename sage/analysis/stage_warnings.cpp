@@ -1,7 +1,7 @@
 #include "sage/analysis/stage_warnings.hpp"
 
 #include <algorithm>
-#include <span>
+#include <vector>
 
 #include "sage/analysis/explain.hpp"
 #include "sage/analysis/flow_through.hpp"
@@ -35,47 +35,58 @@ void add_motion(Messages& messages, double motion) {
                            short_number(kLargeMotion) + " times) do not describe this");
 }
 
-// Points at the apex or cut off in tension, and the elements that have them, the first few by number.
-struct PointsWithout {
-  long apex = 0, cut_off = 0;
-  std::string elements;
+// Points at the apex, cut off in tension, or otherwise without stiffness in the tangent of the last iteration, and the
+// elements that have them, the first few by number.
+struct WeakPoints {
+  static constexpr int kNamed = 8;
+  long apex = 0, cut_off = 0, others = 0;
+  int elements = 0;
+  std::string named;
 
   std::string words() const {
-    std::string text = apex > 0 ? std::to_string(apex) + " point(s) at the apex" : "";
-    if (apex > 0 && cut_off > 0) text += " and ";
-    if (cut_off > 0) text += std::to_string(cut_off) + (apex > 0 ? "" : " point(s)") + " cut off in tension";
-    return text + ", in element(s) " + elements;
+    std::string text;
+    const auto add = [&](long count, const char* what) {
+      if (count == 0) return;
+      text += (text.empty() ? "" : ", ") + std::to_string(count) + (text.empty() ? " point(s) " : " ") + what;
+    };
+    add(apex, "at the apex");
+    add(cut_off, "cut off in tension");
+    add(others, "with a tangent that has no stiffness");
+    text += ", in element(s) " + named;
+    return elements > kNamed ? text + " and " + std::to_string(elements - kNamed) + " more" : text;
+  }
+  void count_element(int number) {
+    if (++elements <= kNamed) named += (elements > 1 ? ", " : "") + std::to_string(number);
   }
 };
 
-PointsWithout points_without_stiffness(const Assembly& assembly) {
-  constexpr int kNamed = 8;
-  PointsWithout found;
-  int count = 0;
-  for (const GroupData& data : assembly.groups()) {
-    if (!data.active) continue;
-    const auto points = static_cast<std::size_t>(data.group->element->traits().points);
-    for (std::size_t e = 0; e < data.group->element_numbers.size(); ++e) {
-      const std::span status(data.state.committed.status.data() + e * points, points);
-      const long apex = std::ranges::count(status, PointStatus::apex),
-                 cut_off = std::ranges::count(status, PointStatus::cut_off);
-      found.apex += apex;
-      found.cut_off += cut_off;
-      if (apex + cut_off == 0 || ++count > kNamed) continue;
-      found.elements += (count > 1 ? ", " : "") + std::to_string(data.group->element_numbers[e]);
-    }
+void add_weak_points(WeakPoints& weak, const Assembly& assembly, const GroupData& data) {
+  const std::vector<PointStatus>& status = data.state.committed.status;
+  const std::vector<std::size_t> without = points_without_stiffness(assembly, data);
+  const auto points = static_cast<std::size_t>(data.group->element->traits().points);
+  auto next = without.begin();
+  std::size_t last = data.group->element_numbers.size();  // element that is counted
+  for (std::size_t p = 0; p < status.size(); ++p) {
+    const bool singular = next != without.end() && *next == p;
+    if (singular) ++next;
+    const bool apex = status[p] == PointStatus::apex, cut_off = status[p] == PointStatus::cut_off;
+    if (!singular && !apex && !cut_off) continue;
+    ++(apex ? weak.apex : cut_off ? weak.cut_off : weak.others);
+    if (p / points == last) continue;
+    last = p / points;
+    weak.count_element(data.group->element_numbers[last]);
   }
-  if (count > kNamed) found.elements += " and " + std::to_string(count - kNamed) + " more";
-  return found;
 }
 
 void add_points(Messages& messages, const Assembly& assembly) {
-  const PointsWithout without = points_without_stiffness(assembly);
-  if (without.apex + without.cut_off > 0)
-    messages.add(
-        "S522", without.words() +
-                    ": the tangent there has no stiffness; results there depend on how the law treats tension, "
-                    "and on the path of the iteration");
+  WeakPoints weak;
+  for (const GroupData& data : assembly.groups())
+    if (data.active) add_weak_points(weak, assembly, data);
+  if (weak.elements > 0)
+    messages.add("S522",
+                 weak.words() +
+                     ": the tangent there has little stiffness or none; results there depend on how the "
+                     "law treats tension, and on the path of the iteration");
   const UniquenessCount unique = count_loss_of_uniqueness(assembly);
   if (unique.lost == 0) return;
   const std::string count =

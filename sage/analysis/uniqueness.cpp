@@ -41,42 +41,98 @@ double smallest_acoustic_ratio(const Matrix4& D, const Matrix4& elastic) {
   return least;
 }
 
+namespace {
+
+// A point of a solid at the end of a step, as its law has it.
+struct StepEnd {
+  std::size_t point;  // of the group
+  PointStatus status;
+  Matrix4 D;
+};
+
+// Calls visit(end, start) for the points of a group that are wanted(status); start() is the tangent where the step
+// began, or D where the law has none.
+template <class Wanted, class Visit>
+void visit_tangents(const Assembly& assembly, const GroupData& data, StepKind step, const Wanted& wanted,
+                    const Visit& visit) {
+  const SolidLaw& law = *std::get<const SolidLaw*>(data.law);
+  const bool done = step == StepKind::committed;
+  const PointStates& now = done ? data.state.committed : data.state.trial;
+  const PointStates& before = done ? data.state.trial : data.state.committed;
+  const auto history = static_cast<std::size_t>(data.state.history_size());
+  const int points = data.group->element->traits().points;
+  std::vector<double> h(history);
+  Eigen::Matrix2Xd x;
+  for (std::size_t p = 0; p < now.status.size(); ++p) {
+    if (!wanted(now.status[p])) continue;
+    const std::span<const double> h0(before.h.data() + p * history, history);
+    const Vector4 eps0 = vector_at(before.eps, p);
+    PointIn<4> in{vector_at(before.sigma, p), eps0, vector_at(now.eps, p) - eps0, h0, nullptr};
+    PointContext context;
+    if (data.wants_context) {
+      const int element = static_cast<int>(p) / points;
+      element_coordinates(assembly.mesh(), *data.group, element, x);
+      context = context_of(data, element, x, static_cast<int>(p) % points, assembly.moment());
+      in.context = &context;
+    }
+    PointOut<4> out;
+    out.h1 = h;
+    if (law.update(in, out) != Outcome::ok) continue;
+    const StepEnd end{p, out.status, out.D};
+    visit(end, [&]() -> Matrix4 {
+      in.deps.setZero();
+      return law.update(in, out) == Outcome::ok ? out.D : end.D;
+    });
+  }
+}
+
+bool is_active_solid(const GroupData& data) {
+  const auto* law = std::get_if<const SolidLaw*>(&data.law);
+  return data.active && law != nullptr;
+}
+
+}  // namespace
+
 UniquenessCount count_loss_of_uniqueness(const Assembly& assembly, StepKind step) {
   UniquenessCount count;
-  Eigen::Matrix2Xd x;
+  const auto yielded = [&](PointStatus status) {
+    count.plastic += status == PointStatus::yielded ? 1 : 0;
+    return status == PointStatus::yielded;
+  };
   for (const GroupData& data : assembly.groups()) {
-    const auto* law = std::get_if<const SolidLaw*>(&data.law);
-    if (!data.active || law == nullptr || (*law)->symmetric()) continue;
-    const bool done = step == StepKind::committed;
-    const PointStates& now = done ? data.state.committed : data.state.trial;
-    const PointStates& before = done ? data.state.trial : data.state.committed;
-    const auto history = static_cast<std::size_t>(data.state.history_size());
-    std::vector<double> h(history);
-    for (std::size_t p = 0; p < now.status.size(); ++p) {
-      if (now.status[p] != PointStatus::yielded) continue;
-      ++count.plastic;
-      const std::span<const double> h0(before.h.data() + p * history, history);
-      PointIn<4> in{vector_at(before.sigma, p), vector_at(before.eps, p), Vector4::Zero(), h0, nullptr};
-      PointContext context;
-      if (data.wants_context) {
-        const int points = data.group->element->traits().points;
-        element_coordinates(assembly.mesh(), *data.group, static_cast<int>(p) / points, x);
-        context =
-            context_of(data, static_cast<int>(p) / points, x, static_cast<int>(p) % points, assembly.moment());
-        in.context = &context;
-      }
-      PointOut<4> out;
-      out.h1 = h;
-      if ((*law)->update(in, out) != Outcome::ok) continue;
-      const Matrix4 elastic = out.D;
-      in.deps = vector_at(now.eps, p) - vector_at(before.eps, p);
-      if ((*law)->update(in, out) != Outcome::ok || out.status != PointStatus::yielded) continue;
-      if (smallest_acoustic_ratio(out.D, elastic) >= kNegative) continue;
+    if (!is_active_solid(data) || std::get<const SolidLaw*>(data.law)->symmetric()) continue;
+    visit_tangents(assembly, data, step, yielded, [&](const StepEnd& end, const auto& start) {
+      if (end.status != PointStatus::yielded) return;
+      const Matrix4 elastic = start();
+      if (smallest_acoustic_ratio(end.D, elastic) >= kNegative) return;
       ++count.lost;
-      if (softens(out.D, elastic)) ++count.softening;
-    }
+      if (softens(end.D, elastic)) ++count.softening;
+    });
   }
   return count;
+}
+
+std::vector<std::size_t> points_without_stiffness(const Assembly& assembly, const GroupData& data) {
+  constexpr double kNothing = 1e-5;  // laws keep 1e-7 of the elastic tangent where the true one is zero
+  std::vector<std::size_t> found;
+  if (!is_active_solid(data) || std::get<const SolidLaw*>(data.law)->linear()) return found;
+  double largest = 0.0;
+  std::vector<std::pair<std::size_t, double>> of_context;
+  const auto any = [](PointStatus) { return true; };
+  visit_tangents(assembly, data, StepKind::committed, any, [&](const StepEnd& end, const auto& start) {
+    const double left = end.D.cwiseAbs().maxCoeff();
+    if (data.wants_context) {  // user routines are not asked for a step of time without strain
+      largest = std::max(largest, left);
+      of_context.emplace_back(end.point, left);
+    } else if (largest == 0.0 || left <= 1e-3 * largest) {
+      const double before = start().cwiseAbs().maxCoeff();
+      largest = std::max({largest, left, before});
+      if (left < kNothing * before) found.push_back(end.point);
+    }
+  });
+  for (const auto& [point, left] : of_context)
+    if (left < kNothing * largest) found.push_back(point);
+  return found;
 }
 
 }  // namespace sage

@@ -1,6 +1,8 @@
 // Points whose tangent has lost uniqueness: a band of shear may form there at no cost.
 #pragma once
 
+#include <vector>
+
 #include "sage/analysis/assembly.hpp"
 
 namespace sage {
@@ -20,5 +22,9 @@ enum class StepKind { committed, attempted };
 
 // Laws with a symmetric tangent are left out, and so are interfaces.               [Rudnicki & Rice 1975]
 UniquenessCount count_loss_of_uniqueness(const Assembly& assembly, StepKind step = StepKind::committed);
+
+// Points of a group (numbered through it) whose tangent in the last committed step has next to no stiffness in any
+// direction, in increasing order.  Right after the commit, as above; none where the law is linear.
+std::vector<std::size_t> points_without_stiffness(const Assembly& assembly, const GroupData& data);
 
 }  // namespace sage
