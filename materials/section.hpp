@@ -48,6 +48,12 @@ class SectionPlastic final : public Law<5> {
   bool initialise(const Vector<5>& sigma, std::span<double> h) const override;
   Outcome update(const PointIn<5>& in, PointOut<5>& out) const override;
   double stress_level(const Vector<5>& sigma, std::span<const double> h) const override;
+  std::string caution() const override {
+    if (s_.EA_around == 0.0 && s_.EI_around == 0.0) return {};
+    return "only the force and the moment along the line are limited: those around the axis stay elastic, so "
+           "that a "
+           "plate or shell that needs them to fail has no collapse load";
+  }
 
  private:
   enum { kAxial = 0, kBending = 3 };

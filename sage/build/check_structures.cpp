@@ -396,6 +396,46 @@ void check_releases(Builder& b) {
     }
 }
 
+// Whether a section bends along the line alone, with nothing around the axis.
+bool is_strip(const LawRef& ref) {
+  constexpr int kBending = 3, kHoopBending = 4;  // docs/theory/structures.md
+  const auto* const law = std::get_if<const Law<5>*>(&ref);
+  if (law == nullptr) return false;
+  std::vector<double> before;
+  for (const Quantity& quantity : (*law)->history()) before.push_back(quantity.initial);
+  std::vector<double> after = before;
+  PointIn<5> in;
+  PointOut<5> out;
+  PointContext context;
+  in.sigma0 = in.eps0 = in.deps = Vector<5>::Zero();
+  in.h0 = before;
+  out.h1 = after;
+  in.context = &context;
+  return (*law)->update(in, out) == Outcome::ok && out.D(kBending, kBending) > 0.0 &&
+         out.D(kHoopBending, kHoopBending) == 0.0;
+}
+
+// Strips that meet on the axis have no width there: their moment grows as 1/r towards it.
+void check_strips(Builder& b) {
+  const Model& model = b.model;
+  if (model.geometry != Geometry::axisymmetric) return;
+  const double on_axis = 1e-9 * model.mesh.x.row(0).cwiseAbs().maxCoeff();
+  for (const Group& group : model.groups) {
+    if (!group.structure() || !is_strip(model.material_of(group).law_ref())) continue;
+    for (int e = 0; e < group.elements(); ++e) {
+      const int* const nodes = group.nodes_of(e);
+      if (model.mesh.x(0, nodes[0]) > on_axis && model.mesh.x(0, nodes[1]) > on_axis) continue;
+      b.warning(
+          "S352", b.at_line(line_of(group, e)),
+          "group " + std::to_string(group.number) + ": element " + element_number(group, e) +
+              " ends on the axis and bends along the radius alone, without hoop_bending_stiffness: strips "
+              "that meet there have no width, and their moment grows as 1/r towards the axis, without "
+              "bound as elements get smaller");
+      break;
+    }
+  }
+}
+
 // Prestress that the law can't carry: a tension-only anchor that is pushed, a force beyond the strength.
 void check_prestress(Builder& b, const InitialStress& initial) {
   const Group& group = b.model.groups[static_cast<std::size_t>(initial.group)];
@@ -425,6 +465,7 @@ void check_structures(Builder& b) {
   if (std::ranges::none_of(b.model.groups, [](const Group& group) { return group.structure(); })) return;
   check_faces(b);
   check_releases(b);
+  check_strips(b);
   check_curved_joints(b);
   for (const InitialStress& initial : b.model.initials) check_prestress(b, initial);
   for (const Stage& stage : b.model.stages)

@@ -671,6 +671,14 @@ constexpr MessageEntry kMessages[] = {
      "Initial values are compression positive and count for each unit of width: -150/2.5 for anchors that are "
      "pulled "
      "with 150 every 2.5. Change the sign, the size or the law."},
+    {"S352", "strips meet on the axis of symmetry",
+     "A beam without hoop bending stiffness is one of many strips side by side. Where they meet on the axis "
+     "their width is nothing: "
+     "with the rotation held there, as symmetry wants it, the moment grows as 1/r, and its value at the axis "
+     "is set by the size of "
+     "the elements.",
+     "Give a plate its thickness (law plate), or a section its hoop stiffnesses. Spokes that end on a hub are "
+     "held at its radius."},
     {"S355", "4-node elements dilate",
      "A group of 4-node quadrilaterals has a law whose plastic flow increases the volume. These elements can't "
      "follow that flow and resist too long: on a slope of 1:2 with phi = psi = 20 degrees the factor of safety "
@@ -694,7 +702,8 @@ constexpr MessageEntry kMessages[] = {
      "is "
      "no mistake of the deck."},
     {"S360", "water levels differ between neighbours",
-     "Two groups that share edges have different phreatic lines (or one is dry), and no structure or joint "
+     "Two groups that share edges have different phreatic lines (or one is dry, or has r_u or pressures of "
+     "nodes), and no structure or joint "
      "lies "
      "between them. The pore pressure jumps there, and the difference acts as a force that no ground water "
      "has.",
@@ -814,8 +823,11 @@ constexpr MessageEntry kMessages[] = {
      "size change the geometry: the numbers describe something else.",
      "Read results up to a displacement of about a tenth of the body; smaller loads."},
     {"S522", "points are at the apex or cut off in tension",
-     "There the law has no shear strength left, and the stress depends on how tension is treated (to the "
-     "apex, cut off, stress free).",
+     "There the law has little shear strength left or none, and the stress depends on how tension is treated "
+     "(to the "
+     "apex, cut off, stress free). The message counts them apart, with points of any status whose tangent in "
+     "the last "
+     "iteration has no stiffness in any direction. Several states may be in equilibrium there.",
      "Look where they are (--points). At a free surface they mostly do no harm; compare with another "
      "tension limit or apex code."},
     {"S523", "the answer may not be the only one",
