@@ -319,9 +319,20 @@ std::array<double, 2> pressures_of(const Model& model, const PorePressure& water
   return pressures;
 }
 
-// Whether a card states pressures by a level; r_u and heads may differ from group to group.
-bool has_level(const WaterCard* card) {
-  return card == nullptr || card->kind == WaterKind::line || card->kind == WaterKind::dry;
+// How much of a pressure two cards may differ by.  Those of layers with their own r_u differ by nature, excess pressures
+// are no level, heads of flow elements are not known yet, and pressures given at nodes carry the error of a mesh.
+std::optional<double> allowed_jump(const WaterCard* one, const WaterCard* two) {
+  constexpr double kRounding = 1e-6, kMesh = 0.02;
+  const auto kind = [](const WaterCard* card) { return card == nullptr ? WaterKind::dry : card->kind; };
+  bool exact = true;
+  int ratios = 0;
+  for (const WaterKind k : {kind(one), kind(two)}) {
+    if (k == WaterKind::undrained || k == WaterKind::drained || k == WaterKind::heads) return {};
+    exact = exact && (k == WaterKind::line || k == WaterKind::dry);
+    ratios += k == WaterKind::ratio ? 1 : 0;
+  }
+  if (ratios == 2) return {};
+  return exact ? kRounding : kMesh;
 }
 
 // Solids of two groups with a common edge, where their levels give different pressures.
@@ -340,11 +351,12 @@ std::map<std::pair<int, int>, LevelJump> level_jumps(Builder& b, const Activity&
       const auto g1 = static_cast<std::size_t>(one.group), g2 = static_cast<std::size_t>(two.group);
       if (!activity.group[g1] || !activity.group[g2]) continue;
       const WaterCard *const c1 = water.card(g1), *const c2 = water.card(g2);
-      if (c1 == c2 || !has_level(c1) || !has_level(c2)) continue;
+      const std::optional<double> allowed = allowed_jump(c1, c2);
+      if (c1 == c2 || !allowed) continue;
       const std::array<double, 2> u1 = pressures_of(model, water, one, node),
                                   u2 = pressures_of(model, water, two, node);
       const double start = std::abs(u1[0] - u2[0]), end = std::abs(u1[1] - u2[1]), most = std::max(start, end);
-      if (most <= kSame * std::max({u1[0], u1[1], u2[0], u2[1]})) continue;
+      if (most <= *allowed * std::max({u1[0], u1[1], u2[0], u2[1]})) continue;
       LevelJump& jump = jumps[std::minmax(one.group, two.group)];
       const Vector2 x = model.mesh.x.col(node), y = model.mesh.x.col(one.other);
       const double width =

@@ -314,6 +314,16 @@ TEST(WaterLevels, ThatDifferBetweenNeighboursAreWarnedOfWithJumpAndEdges) {
       std::string::npos)
       << text;
   EXPECT_EQ(messages(two_levels(1.5, 1.5)).find("jump"), std::string::npos);
+  // r_u beside a level jumps by what it differs; layers that each have their r_u do so by nature.
+  DeckWriter ratio = two_levels(1.5, 1.0);
+  ratio.waters.pop_back();
+  ratio.water(2, 2, 1, 0, {}, 0.3);
+  EXPECT_NE(messages(ratio).find("the pore pressures of groups 1 and 2 jump by"), std::string::npos)
+      << messages(ratio);
+  ratio.waters.clear();
+  ratio.water(2, 1, 1, 0, {}, 0.1);
+  ratio.water(2, 2, 1, 0, {}, 0.3);
+  EXPECT_EQ(messages(ratio).find("jump"), std::string::npos) << messages(ratio);
   DeckWriter walled = two_levels(1.5, 1.0);
   walled.material(2, 36, {1e6, 1e4});
   walled.group(3, 35, 0, 2);
