@@ -14,6 +14,7 @@
 #include "sage/app/large_heap.hpp"
 #include "sage/app/progress.hpp"
 #include "sage/app/run_deck.hpp"
+#include "sage/app/run_warnings.hpp"
 #include "sage/app/screen.hpp"
 #include "sage/app/umat_output.hpp"
 #include "sage/compare/comparison.hpp"
@@ -144,7 +145,12 @@ compare::Side run_model(Model model, const std::string& label, const SideOptions
   Task task("compare " + stem);
   settings.pulse = task.pulse();
   compare::Side side(label, std::move(model), place.folder, stem);
-  with_umat_output(label, [&] { side.run(place.catalogue, settings); });
+  RunRequest request;
+  request.deck = options.deck;
+  request.input.strict = options.input.strict;
+  RunWarnings warnings(request);
+  with_umat_output(label, [&] { side.run(place.catalogue, settings, &warnings); });
+  side.set_strict_failure(!free_of_warnings(request, side.record(), side.reports()));
   if (!side.error().empty())
     say_error(options.deck, side.error(), code_in(side.error()).value_or(Code("S511")));
   return side;
@@ -317,6 +323,8 @@ int exit_code_of(const FinishedSide& a, const FinishedSide& b) {
     if (!one->side.has_model() && !one->convergence) return kInput;
     if (!one->side.error().empty() || (one->convergence && !one->convergence->not_reached.empty()))
       code = kNotConverged;
+    else if (one->side.strict_failure() && code == kOk)
+      code = kInput;
   }
   return code;
 }

@@ -242,11 +242,16 @@ Json curve_json(const Curve& curve) {
           {"status", std::move(states)}};
 }
 
-// Also with --quiet, or where the table goes to standard output: the exit code alone does not say which curve.
-void say_failures(const std::vector<Curve>& curves) {
-  for (const Curve& curve : curves)
-    if (!curve.failure.empty())
-      say_error("sagefe drive", fmt::format("the curve {} ends early: {}", curve.name, curve.failure), "S607");
+// False: a curve ends early, and a message names it.  Also with --quiet, or where the table goes to standard output: the
+// exit code alone does not say which curve.
+bool are_whole(const std::vector<Curve>& curves) {
+  bool whole = true;
+  for (const Curve& curve : curves) {
+    if (curve.failure.empty()) continue;
+    whole = false;
+    say_error("sagefe drive", fmt::format("the curve {} ends early: {}", curve.name, curve.failure), "S607");
+  }
+  return whole;
 }
 
 void answer_curves(const Heading& heading, const std::vector<Curve>& curves) {
@@ -276,10 +281,6 @@ void answer_fit(const FitProblem& problem, const FitResult& result) {
                     {"points", result.points},
                     {"parameters", std::move(parameters)},
                     {"undetermined", std::move(undetermined)}};
-}
-
-bool are_whole(const std::vector<Curve>& curves) {
-  return std::ranges::all_of(curves, [](const Curve& curve) { return curve.failure.empty(); });
 }
 
 void finish(OutFile& file, std::string text) {
@@ -313,12 +314,12 @@ int fit_law(const DriveOptions& options, const Subject& subject, const LabTest* 
   const Heading heading = heading_of(options, {result.fitted});
   fmt::print("{}",
              options.csv == "-" ? csv_text(heading, result.curves, options.digits) : fit_text(problem, result));
-  say_failures(result.curves);
+  const bool whole = are_whole(result.curves);
   answer_curves(heading, result.curves);
   answer_fit(problem, result);
   if (csv.open()) finish(csv, csv_text(heading, result.curves, options.digits));
   if (plot.open()) finish(plot, fit_plot(problem, result));
-  return are_whole(result.curves) && result.converged ? kOk : kNotConverged;
+  return whole && result.converged ? kOk : kNotConverged;
 }
 
 // Where a user material returned what is no number, that is the reason, and no strength.
@@ -372,11 +373,11 @@ int drive_laws(const DriveOptions& options, const Catalogue& catalogue) {
   const Heading heading = heading_of(options, subjects);
   fmt::print("{}",
              to_screen ? csv_text(heading, curves, options.digits) : summary_text(curves, panels.front()));
-  say_failures(curves);
+  const bool whole = are_whole(curves);
   answer_curves(heading, curves);
   if (csv.open()) finish(csv, csv_text(heading, curves, options.digits));
   if (plot.open()) finish(plot, plot_text(heading, curves, panels));
-  return are_whole(curves) ? kOk : kNotConverged;
+  return whole ? kOk : kNotConverged;
 }
 
 std::string finite_number(const std::string& text) {

@@ -17,6 +17,7 @@
 #include "sage/app/large_heap.hpp"
 #include "sage/app/progress.hpp"
 #include "sage/app/run_deck.hpp"
+#include "sage/app/run_warnings.hpp"
 #include "sage/app/screen.hpp"
 #include "sage/app/state_choice.hpp"
 #include "sage/record/out_file.hpp"
@@ -54,13 +55,6 @@ void say_notes(const std::string& deck, const std::string& notes) {
     const std::string note = notes.substr(at, end - at);
     say_note(deck, note, code_in(note).value_or(Code("S513")));
   }
-}
-
-// The same of warnings about reports.
-void say_report_warnings(const std::string& deck, const Reports& reports) {
-  for (std::size_t i = 0; i < reports.count(); ++i)
-    for (const std::string& message : reports.messages(i))
-      say_warning(deck, fmt::format("report {}: {}", i + 1, message), code_in(message).value_or(Code("S530")));
 }
 
 // Where the results go to a terminal with room for it.
@@ -110,8 +104,9 @@ int compute_deck(const RunOptions& options, const std::string& deck, const Catal
     if (outcome.record.stages.empty()) return outcome.exit_code;  // --strict stopped it
     if (screen().quiet || screen().json) {
       say_notes(deck, outcome.record.notes);
-      say_report_warnings(deck, *outcome.reports);
+      say_report_messages(request, *outcome.reports);
     } else {
+      if (request.input.strict) say_report_messages(request, *outcome.reports);
       fmt::print("{}\n", summary(*outcome.model, outcome.record, outcome.reports.get(), outcome.files,
                                  outcome.error.get(), request.output.digits, sketch_for_screen(outcome)));
     }

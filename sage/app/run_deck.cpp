@@ -399,7 +399,8 @@ void take_result(const RunRequest& request, const RunResult& result, Checkpoint&
   } else {
     checkpoint.remove();
   }
-  if (outcome.exit_code == kOk && !free_of_warnings(request, outcome.record)) outcome.exit_code = kInput;
+  if (outcome.exit_code == kOk && !free_of_warnings(request, outcome.record, *outcome.reports))
+    outcome.exit_code = kInput;
 }
 
 }  // namespace

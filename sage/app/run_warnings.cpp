@@ -24,11 +24,22 @@ void RunWarnings::on_warning(const Diagnostic& diagnostic) {
     say_detail(request_->deck, fmt::format("more messages {} are in the listing alone", to_string(shown.code)));
 }
 
-bool free_of_warnings(const RunRequest& request, const RunRecord& record) {
-  if (!request.input.strict || record.warnings == 0) return true;
+void say_report_messages(const RunRequest& request, const Reports& reports) {
+  for (std::size_t i = 0; i < reports.count(); ++i)
+    for (const std::string& message : reports.messages(i)) {
+      const std::string words = fmt::format("report {}: {}", i + 1, message);
+      const Code code = code_in(message).value_or(Code("S530"));
+      request.input.strict ? say_error(request.deck, words, code) : say_warning(request.deck, words, code);
+    }
+}
+
+bool free_of_warnings(const RunRequest& request, const RunRecord& record, const Reports& reports) {
+  long warnings = record.warnings;
+  for (std::size_t i = 0; i < reports.count(); ++i) warnings += std::ssize(reports.messages(i));
+  if (!request.input.strict || warnings == 0) return true;
   say_error(request.deck,
             fmt::format("{} warning{} of the run count{} as errors (--strict); the results are complete",
-                        record.warnings, record.warnings == 1 ? "" : "s", record.warnings == 1 ? "s" : ""),
+                        warnings, warnings == 1 ? "" : "s", warnings == 1 ? "s" : ""),
             "S906");
   return false;
 }

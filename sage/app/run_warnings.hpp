@@ -21,7 +21,10 @@ class RunWarnings final : public Observer {
   std::map<int, int> counts_;  // by the numbers of codes
 };
 
-// Of --strict: false, and a message, where the record has warnings.
-bool free_of_warnings(const RunRequest& request, const RunRecord& record);
+// Of --strict: false, and a message, where the record or a report has warnings; those of reports are printed as errors.
+bool free_of_warnings(const RunRequest& request, const RunRecord& record, const Reports& reports);
+
+// Messages of reports, as warnings or, with --strict, as errors.
+void say_report_messages(const RunRequest& request, const Reports& reports);
 
 }  // namespace sage::app

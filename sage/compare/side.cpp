@@ -103,9 +103,10 @@ Side::Side(std::string label, std::unique_ptr<Model> model, std::unique_ptr<Repo
   read_result();
 }
 
-void Side::run(const Catalogue& catalogue, const RunSettings& settings) {
+void Side::run(const Catalogue& catalogue, const RunSettings& settings, Observer* watch) {
   const auto start = std::chrono::steady_clock::now();
-  Observer* observers[] = {&record_, reports_.get(), &result_};
+  std::vector<Observer*> observers{&record_, reports_.get(), &result_};
+  if (watch != nullptr) observers.push_back(watch);
   try {
     const RunResult result = sage::run(*model_, catalogue, settings, observers);
     if (result.status != RunStatus::completed) error_ = result.reason;

@@ -76,7 +76,8 @@ class Side {
   Side(std::string label, std::string error) : label_(std::move(label)), error_(std::move(error)) {}
 
   // Runs the model; what is thrown ends in error().
-  void run(const Catalogue& catalogue, const RunSettings& settings);
+  // watch: one more observer, or none.
+  void run(const Catalogue& catalogue, const RunSettings& settings, Observer* watch = nullptr);
 
   const std::string& label() const { return label_; }
   // Empty when the run is complete; otherwise why not.  The last state in equilibrium may still be there.
@@ -84,6 +85,9 @@ class Side {
   // Where finer and finer meshes were asked for and left the side less certain than wanted: why; else empty.
   const std::string& not_reached() const { return not_reached_; }
   void set_not_reached(std::string why) { not_reached_ = std::move(why); }
+  // Where warnings count as errors: its run had some.
+  bool strict_failure() const { return strict_failure_; }
+  void set_strict_failure(bool failed) { strict_failure_ = failed; }
   bool has_model() const { return model_ != nullptr; }
   bool has_state() const { return !result_.ends().empty(); }
   const Model& model() const { return *model_; }
@@ -102,6 +106,7 @@ class Side {
   void raise_floors(const Stage& stage, const Frame& end);
 
   std::string label_, error_, not_reached_;
+  bool strict_failure_ = false;
   std::unique_ptr<Model> model_;
   std::unique_ptr<Reports> reports_;
   RunRecord record_;

@@ -141,6 +141,42 @@ TEST(RunTimeWarnings, ReachScreenJsonAndStrict) {
   const nlohmann::json points = answer["result"]["decks"][0]["integration_points"];
   EXPECT_EQ(points["cut_off"], 16);
   EXPECT_EQ(points["apex"], 0);
+  const Finished both = sagefe(folder, "compare deck.dat deck.dat -o pair");
+  EXPECT_EQ(count(both.err, "[S522]"), 2) << both.err;
+  EXPECT_EQ(sagefe(folder, "compare deck.dat deck.dat -o pair --strict").exit_code, 2);
+}
+
+// A triaxial report that begins on a specimen that is not uniform: a warning, which --strict counts.
+TEST(RunTimeWarnings, OfReportsCountAsErrorsWithStrict) {
+  const fs::path folder = with_deck("report_begins_late");
+  const Finished run = sagefe(folder, "run deck.dat -o out -q");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE(says(run, ": warning: report 1: ") && says(run, "[S531]")) << run.err;
+  for (const char* quiet : {"", " -q"}) {
+    const Finished strict = sagefe(folder, std::string("run deck.dat -o out --strict") + quiet);
+    EXPECT_EQ(strict.exit_code, 2) << strict.err;
+    EXPECT_EQ(count(strict.err, "deck.dat: report 1: "), 1) << strict.err;
+    EXPECT_TRUE(says(strict, "1 warning of the run counts as errors")) << strict.err;
+  }
+}
+
+// Strips that meet on the axis, and a section whose hoop moment has no limit.
+TEST(Structures, ThatMeanLittleInAxisymmetryAreWarnedOf) {
+  const fs::path folder = empty_folder("warn_axis");
+  const std::string raft = SAGE_SOURCE_DIR "/legacy_inputs/structures/raft/deck.dat";
+  const Finished round = sagefe(folder, "check " + raft + " --geometry 2");
+  EXPECT_TRUE(says(round, "group 5: element 81 ends on the axis") && says(round, "[S352]")) << round.err;
+  EXPECT_FALSE(says(sagefe(folder, "check " + raft), "S352"));
+  std::string text = read(raft);
+  const std::string strip = "    5   36    2        0. raft\n  1000000.    10000.\n";
+  ASSERT_NE(text.find(strip), std::string::npos);
+  text.replace(text.find(strip), strip.size(),
+               "    5   37    7        0. raft\n  1000000.    10000.        0.      100.        0.  1000000.   "
+               " 10000.\n");
+  write(folder / "plate.dat", text);
+  const Finished plate = sagefe(folder, "check plate.dat --geometry 2");
+  EXPECT_FALSE(says(plate, "S352")) << plate.err;
+  EXPECT_TRUE(says(plate, "those around the axis stay elastic")) << plate.err;
 }
 
 // Compressed far beyond yield in plane strain: with psi < phi uniqueness is lost without any softening.
