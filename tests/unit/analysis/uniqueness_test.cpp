@@ -99,7 +99,7 @@ TEST(PointsWithoutStiffness, AreCountedByTheirTangent) {
     block.write_nodes(deck);
     deck.material(1, 90, {1.0});
     deck.material(2, 90, {stretch});
-    deck.material(3, 1, {1000.0, 0.0});
+    deck.material(3, 1, {1000.0, 0.3});
     for (int group : {1, 2, 3}) {
       deck.group(group, 1, 0, group);
       deck.element(
