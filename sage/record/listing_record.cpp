@@ -120,8 +120,8 @@ void free_surface(std::string& text, const Model& model, const Solution& solutio
 
 void increment_columns(std::string& text) {
   text +=
-      "\n    incr  load factor  iter  rel. force  rel. displ  rel. energy  cuts   yielded  slipping      open  "
-      "    apex   cut off\n";
+      "\n    incr  load factor  iter  rel. force  rel. displ  rel. energy  cuts  yielded slipping     open     "
+      "apex  cut off\n";
 }
 
 void increment(std::string& text, const StepReport& report) {
@@ -133,7 +133,7 @@ void increment(std::string& text, const StepReport& report) {
   append_scientific(text, last.displacement, 12, 3);
   append_scientific(text, last.energy, 13, 3);
   append_integer(text, report.cuts, 6);
-  for (PointStatus s : kAtStrength) append_integer(text, report.points[static_cast<std::size_t>(s)], 10);
+  for (PointStatus s : kAtStrength) append_integer(text, report.points[static_cast<std::size_t>(s)], 9);
   text += report.converged ? "\n" : "   NOT CONVERGED\n";
 }
 
