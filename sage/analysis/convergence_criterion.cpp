@@ -42,7 +42,7 @@ bool ConvergenceCriterion::is_met(std::span<const FieldMeasure> fields, const It
   return true;
 }
 
-// (C1) to (C4).
+// (C1) with one of (C2) to (C7).
 bool ConvergenceCriterion::is_met(const FieldMeasure& measure, const IterationRecord& record, int field,
                                   int fields, const std::vector<IterationRecord>& history,
                                   const RoundingBounds& rounding) const {
@@ -75,7 +75,7 @@ bool ConvergenceCriterion::stopped_falling_linear(const IterationRecord& record,
          record.force <= std::sqrt(tolerance_);
 }
 
-// (C6), (C7).  Forces are K times displacements: what the rounding of those makes can't be balanced (stiff joints, nu near
+// (C4), (C6), (C7).  Forces are K times displacements: what the rounding of those makes can't be balanced (stiff joints, nu near
 // 1/2).  A residual of that size ends the step once corrections are tiny, if it is small beside the forces; or if all
 // forces are no more than the rounding of a prescribed motion (a loose part, moved without stress).  The sum over all
 // fields is a bound from above, so that it ends a step only where corrections help no more.

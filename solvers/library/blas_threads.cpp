@@ -10,7 +10,12 @@ extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 
 namespace sage {
 
-void set_blas_threads(int equations) {
+std::mutex& LibraryCall::mutex() {
+  static std::mutex of_process;
+  return of_process;
+}
+
+LibraryCall::LibraryCall(int equations) : lock_(mutex()) {
   constexpr int kThreadedEquations = 50000;
   const int all = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   if (!openblas_set_num_threads) return;

@@ -34,7 +34,7 @@ class CholmodSolver final : public MatrixSolver {
 
   void factorise_matrix() override {
     if (matrix().equations() == 0) return;
-    set_blas_threads(matrix().equations());
+    const LibraryCall call(matrix().equations());
     cholmod_sparse K = view();
     if (!factor_->is_super || !factorise_definite(K)) factorise_indefinite(K);
     report_.factor_operations = common_.fl;
@@ -45,6 +45,7 @@ class CholmodSolver final : public MatrixSolver {
   void solve_matrix(std::span<const double> b, std::span<double> x) const override {
     const auto n = static_cast<std::size_t>(matrix().equations());
     if (n == 0) return;
+    const LibraryCall call(matrix().equations());
     cholmod_dense right_side{};
     right_side.nrow = right_side.d = right_side.nzmax = n;
     right_side.ncol = 1;

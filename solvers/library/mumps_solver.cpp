@@ -18,6 +18,7 @@ namespace {
 class MumpsSolver final : public MatrixSolver {
  public:
   MumpsSolver() : MatrixSolver({"mumps", false}) {
+    const std::lock_guard lock(LibraryCall::mutex());
     mumps_.par = 1;
     mumps_.sym = 0;
     mumps_.comm_fortran = -987654;  // the guide's number for MPI_COMM_WORLD
@@ -27,6 +28,7 @@ class MumpsSolver final : public MatrixSolver {
     control(24) = 1;  // find null pivots
   }
   ~MumpsSolver() override {
+    const std::lock_guard lock(LibraryCall::mutex());
     mumps_.job = kEnd;
     dmumps_c(&mumps_);
   }
@@ -42,7 +44,7 @@ class MumpsSolver final : public MatrixSolver {
     const std::span<const double> maxima = row_maxima();
     for (int i = 0; i < n; ++i)
       if (maxima[static_cast<std::size_t>(i)] == 0.0) throw_singular(i, 0.0, traits().name);
-    set_blas_threads(n);
+    const LibraryCall call(n);
     mumps_.cntl[2] = singular_pivot_ratio(n);
     control(14) = 30;  // per cent of working space beyond the estimate
     while (!run(kFactorise)) control(14) *= 2;
@@ -75,7 +77,8 @@ class MumpsSolver final : public MatrixSolver {
     mumps_.irn = row_.data();
     mumps_.jcn = column_.data();
     mumps_.a = const_cast<double*>(matrix().value().data());  // the interface has no const; it only reads
-    control(6) = 0;                                           // no permutation to a heavy diagonal: it is heavy
+    const LibraryCall call(n);
+    control(6) = 0;  // no permutation to a heavy diagonal: it is heavy
     run(kAnalyse);
   }
 
@@ -98,6 +101,7 @@ class MumpsSolver final : public MatrixSolver {
   void solve_system(int original, std::span<const double> b, std::span<double> x) const {
     if (matrix().equations() == 0) return;
     if (b.data() != x.data()) std::ranges::copy(b, x.begin());
+    const LibraryCall call(matrix().equations());
     control(9) = original;
     mumps_.nrhs = 1;
     mumps_.lrhs = mumps_.n;

@@ -32,7 +32,7 @@ class UmfpackSolver final : public MatrixSolver {
   void factorise_matrix() override {
     const int n = matrix().equations();
     if (n == 0) return;
-    set_blas_threads(n);
+    const LibraryCall call(n);
     numeric_.reset();
     void* numeric = nullptr;
     double info[UMFPACK_INFO];
@@ -100,6 +100,7 @@ class UmfpackSolver final : public MatrixSolver {
   void solve_system(SuiteSparse_long system, std::span<const double> b, std::span<double> x) const {
     if (matrix().equations() == 0) return;
     const std::vector<double> right_side(b.begin(), b.end());  // b and x may be the same vector
+    const LibraryCall call(matrix().equations());
     throw_unless_ok(umfpack_dl_solve(system, columns_.start.data(), columns_.row.data(),
                                      matrix().value().data(), x.data(), right_side.data(), numeric_.get(),
                                      control_, nullptr));

@@ -1,6 +1,7 @@
 // An analysis that a host program takes from increment to increment.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <thread>
 #include <utility>
@@ -92,6 +93,33 @@ TEST(Stepping, TwoThreadsWithAnAnalysisEachAreThoseOfTheirRuns) {
   thread.join();
   expect_the_run(deck, first);
   expect_the_run(deck, second);
+}
+
+// Libraries have variables of their own that belong to the process.
+TEST(Stepping, ThreadsMayUseLibrarySolvers) {
+  const std::string deck = stepped_specimen(true, 4);
+  Model model = workbench().build(deck);
+  for (const char* solver : {"umfpack", "mumps"}) {
+    SCOPED_TRACE(solver);
+    RunSettings settings = workbench().settings();
+    settings.solver = workbench().catalogue().solvers.code_of(solver);
+    if (settings.solver == 0) continue;  // MUMPS is optional
+    const WholeRun whole = run_text(deck, {}, settings);
+    ASSERT_TRUE(whole.completed()) << whole.failure;
+    std::array<Eigen::VectorXd, 2> ends;
+    const auto finish = [&](Eigen::VectorXd& end) {
+      Analysis analysis(model, workbench().catalogue(), settings);
+      analysis.open();
+      while (analysis.advance()) {
+      }
+      end = *analysis.state().u;
+    };
+    std::thread thread(finish, std::ref(ends[0]));
+    finish(ends[1]);
+    thread.join();
+    EXPECT_TRUE(ends[0] == whole.last().u);
+    EXPECT_TRUE(ends[1] == whole.last().u);
+  }
 }
 
 // A square of 1 m between smooth sides, E = 1000 kPa and nu = 0, under a pressure q: it sinks by q H / E.
