@@ -358,10 +358,10 @@ int compare_decks(const CompareOptions& asked, const Catalogue& catalogue) {
   const std::string name_a = case_name(options[0].deck), name_b = case_name(options[1].deck);
   const std::string stem = name_a == name_b ? name_a : name_a + "_" + name_b;
   for (const SideOptions& side : options) keep_input(side.deck);
+  const InterruptWatch watch;  // before the first file, so that none stays behind under a temporary name
   ResultFiles results(o.folder, stem + ".compare", {options[0].deck, 0, "comparison"});
   const Place place{o.folder, results, catalogue};
   keep_heap_in_large_pages();
-  const InterruptWatch watch;
   ConvergeOptions converge = o.converge;
   converge.screen = stderr;  // the answer comes first on the other one
   if (converge.asked()) require_points_of_decks(o, options, catalogue);

@@ -210,9 +210,9 @@ int run_safety(const SafetyOptions& options, const Catalogue& catalogue) {
   return guarded(options.deck, [&] {
     if (options.converge > 0.0) require_file(options.deck, "--converge");
     keep_input(options.deck);
+    const InterruptWatch watch;  // before the first file, so that none stays behind under a temporary name
     ResultFiles results(options.folder, case_name(options.deck) + ".safety", {options.deck, 0, "safety"});
     keep_heap_in_large_pages();
-    const InterruptWatch watch;
     const Meshes meshes = find_on_meshes(options, catalogue);
     const MeshResult& last = meshes.done.back();
     std::string text = safety::to_text(*last.model, options.search, last.found);

@@ -494,7 +494,7 @@ TEST(Fault, ComparisonsAreInterruptedToo) {
   write(folder / "deck.dat", deck);
   const Finished run = sagefe(folder, "compare deck.dat --both",
                               R"(timeout 120 sh -c '"$0" "$@" & child=$!
-                                 while ! ls out/*.partial > /dev/null 2>&1; do sleep 0.02; done
+                                 while ! ls out/deck.a.*.partial > /dev/null 2>&1; do sleep 0.02; done
                                  sleep 0.2; kill -TERM $child; wait $child')");
   EXPECT_EQ(run.exit_code, 5) << run.err;
   EXPECT_NE(run.err.find("sagefe compare: interrupted"), std::string::npos) << run.err;
