@@ -88,41 +88,41 @@ void add_transposed(const Arms& a, const double* source, const int* to, int begi
 struct NoBorder {};
 
 // K = L U, or K = U^T D^-1 U with D the diagonal of U where K is symmetric.
-class Frontal final : public MatrixSolver {
+class Frontal final : public MatrixSolver, public BorderSolver, public RepeatedParts {
  public:
   explicit Frontal(SolverTraits solver_traits) : MatrixSolver(solver_traits) {}
 
-  void set_threads(int threads) override { wanted_threads_ = std::max(1, threads); }
-  void set_kernels(Kernels wanted) override { wanted_kernels_ = &choose_kernels(wanted); }
-  std::string_view kernels() const override { return wanted_kernels_->name; }
-
-  void expect_one_factorisation() override { once_ = true; }
-  void set_twins(bool wanted) override { wanted_twins_ = wanted; }
+  void configure(const SolverSettings& settings) override {
+    MatrixSolver::configure(settings);
+    wanted_kernels_ = &choose_kernels(settings.kernels);
+  }
+  void use_repeated_parts(bool wanted) override { wanted_twins_ = wanted; }
+  int repeated_equations() const override { return repeated_equations_; }
 
   void factorise_matrix() override {
     early_.stop();
     if (given_back_) take_room();
-    if (once_) look_for_twins();
+    if (once()) look_for_twins();
     const std::span<const double> maxima = row_maxima();
     for (Lane& lane : lanes_) {
       lane.check = PivotCheck(traits().name, maxima);
       std::ranges::fill(lane.maximum, 0.0);
     }
-    given_back_ = once_;  // also where a pivot ends it: the lists of some subtrees have gone then
+    given_back_ = once();  // also where a pivot ends it: the lists of some subtrees have gone then
     pool_->run(static_cast<int>(tree_.subtrees.size()), [this](int s, int thread) {
       eliminate_subtree(tree_.subtrees[at(s)], lanes_[at(thread)]);
-      if (once_) give_back_entries(s);
+      if (once()) give_back_entries(s);
     });
-    if (once_) give_back_subtrees();
+    if (once()) give_back_subtrees();
     for (const int f : tree_.top) {
       if (!twins_.is_first(f)) continue;
       assemble(f, lanes_[0]);
-      if (once_) give_back_borders(f);
+      if (once()) give_back_borders(f);
       if (f != tree_.kept) eliminate_together(f);
       if (lent_.lends(f)) lent_.publish(f);
     }
     take_report();
-    if (once_) give_back_rest();
+    if (once()) give_back_rest();
   }
 
   void solve_matrix(std::span<const double> b, std::span<double> x) const override {
@@ -135,16 +135,16 @@ class Frontal final : public MatrixSolver {
   bool set_border(int equations) override { return take_border(equations); }
   void border_matrix(double* S) const override;
   void eliminate(std::span<const double> b, std::span<double> y) const override;
-  void fill_in(std::span<double> x) const override;
+  void recover(std::span<double> x) const override;
 
  protected:
   void analyse_matrix(const EquationGraph& graph) override {
     kernels_ = wanted_kernels_;
     tree_ =
-        make_front_tree(graph, matrix(), kLeafEquations, kernels_->width, border_equations(), wanted_threads_);
+        make_front_tree(graph, matrix(), kLeafEquations, kernels_->width, border_equations(), threads());
     early_.stop();
     factors_ = AlignedArray(static_cast<std::size_t>(tree_.factor_terms));
-    twins_.analyse(tree_, once_ && wanted_twins_);
+    twins_.analyse(tree_, once() && wanted_twins_);
     lent_ = {};
     touch_subtrees_early();
     list_entries(matrix(), tree_);
@@ -161,15 +161,19 @@ class Frontal final : public MatrixSolver {
     sweeps_.clear();
     make_workspace();
     given_back_ = false;
+    report_.kernels = kernels_->name;
     report_.solve_operations = (traits().symmetric ? 4.0 : 2.0) * static_cast<double>(tree_.factor_terms);
     report_.memory_bytes = memory_bytes();
   }
 
  private:
+  int threads() const { return std::max(1, settings().threads); }
+  bool once() const { return settings().one_factorisation; }
+
   // Their room is needed first.  That of the largest fronts comes when the workspaces of the subtrees have gone: the
   // run is largest then.  No more than what there is if all fronts of one shape turn out to be the same.
   void touch_subtrees_early() {
-    if (wanted_threads_ == 1 || tree_.subtrees.empty()) return;
+    if (threads() == 1 || tree_.subtrees.empty()) return;
     std::int64_t terms = 0;
     for (int f = 0; f < tree_.subtrees.back().end; ++f)
       if (!twins_.may_repeat(f)) terms += terms_of(f);
@@ -189,7 +193,7 @@ class Frontal final : public MatrixSolver {
   void place_factors() {
     std::int64_t next = 0;
     int pivots = 0;
-    report_.twin_equations = 0;
+    repeated_equations_ = 0;
     first_pivot_.resize(tree_.fronts.size());
     for (int f = 0; at(f) < tree_.fronts.size(); ++f) {
       Front& front = tree_.fronts[at(f)];
@@ -197,7 +201,7 @@ class Frontal final : public MatrixSolver {
       front.arms = twins_.is_first(f) ? next : tree_.fronts[first].arms;
       first_pivot_[at(f)] = twins_.is_first(f) ? pivots : first_pivot_[first];
       if (!twins_.is_first(f)) {
-        report_.twin_equations += front.pivots;
+        repeated_equations_ += front.pivots;
         continue;
       }
       next += terms_of(f);
@@ -228,8 +232,8 @@ class Frontal final : public MatrixSolver {
   void make_workspace() {
     shared_ = AlignedArray(static_cast<std::size_t>(tree_.shared_terms));
     const int useful = std::max(1, static_cast<int>(tree_.subtrees.size()));
-    const int threads = std::min(wanted_threads_, useful);
-    if (!pool_ || pool_->threads() != threads) pool_ = std::make_unique<ThreadPool>(threads);
+    const int used = std::min(threads(), useful);
+    if (!pool_ || pool_->threads() != used) pool_ = std::make_unique<ThreadPool>(used);
     std::int64_t largest_below = 0, largest_arm = 0;
     for (const Subtree& subtree : tree_.subtrees)
       for (int f = subtree.begin; f < subtree.end; ++f)
@@ -237,14 +241,14 @@ class Frontal final : public MatrixSolver {
     for (int f = 0; f < tree_.children.count(); ++f)
       if (f != tree_.kept) largest_arm = std::max(largest_arm, tree_.fronts[at(f)].arm_terms());
     lanes_.clear();
-    for (int t = 0; t < threads; ++t) {
+    for (int t = 0; t < used; ++t) {
       Lane lane;
       lane.workspace = AlignedArray(static_cast<std::size_t>(tree_.subtree_terms));
       if (traits().symmetric)
         lane.scratch = AlignedArray(static_cast<std::size_t>(t == 0 ? largest_arm : largest_below));
       lanes_.push_back(std::move(lane));
     }
-    while (sweeps_.size() < at(threads))
+    while (sweeps_.size() < at(used))
       sweeps_.push_back({AlignedArray(at(widest_) * kTile), AlignedArray(at(widest_) * kTile * kMostSums)});
   }
 
@@ -476,7 +480,6 @@ class Frontal final : public MatrixSolver {
     for (std::int64_t t = 0; t < terms; t += kLine) __builtin_prefetch(arm + t, 0, 2);
   }
 
-  int wanted_threads_ = 1;
   const TileKernels* wanted_kernels_ = &choose_kernels(Kernels::automatic);
   const TileKernels* kernels_ = wanted_kernels_;  // since analyse(): the tree is laid out for them
   FrontTree tree_;
@@ -489,7 +492,8 @@ class Frontal final : public MatrixSolver {
   bool wanted_twins_ = true;
   TwinFronts twins_;
   LentBorders lent_;
-  bool once_ = false, given_back_ = false;
+  int repeated_equations_ = 0;
+  bool given_back_ = false;
   int widest_ = 0;                  // tiles of the widest front
   std::vector<int> outside_begin_;  // of every front, in outside_values_
   // Used by one solution at a time:
@@ -589,7 +593,7 @@ void Frontal::eliminate(std::span<const double> b, std::span<double> y) const {
   for (std::size_t p = 0; p < tree_.order.size(); ++p) y[at(tree_.order[p])] = w[p];
 }
 
-void Frontal::fill_in(std::span<double> x) const {
+void Frontal::recover(std::span<double> x) const {
   stop_here_if_asked();
   double* const w = position_values_.data();
   for (std::size_t p = 0; p < tree_.order.size(); ++p) w[p] = x[at(tree_.order[p])];

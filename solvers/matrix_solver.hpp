@@ -5,6 +5,7 @@
 
 #include "sage/core/error.hpp"
 #include "sage/core/linear_solver.hpp"
+#include "sage/core/solver_extensions.hpp"
 #include "solvers/assembled_matrix.hpp"
 
 namespace sage {
@@ -14,7 +15,7 @@ namespace sage {
 // to 1.9e-14 sqrt(n) with every solver; the factor 3e-14 stands above that (docs/theory/solvers.md).
 double singular_pivot_ratio(int equations);
 
-class MatrixSolver : public LinearSolver {
+class MatrixSolver : public LinearSolver, public ParallelAssembly, public KeptMatrix {
  public:
   explicit MatrixSolver(SolverTraits traits) : traits_(traits) {}
   const SolverTraits& traits() const final { return traits_; }
@@ -29,12 +30,11 @@ class MatrixSolver : public LinearSolver {
   }
   double norm1() const final { return matrix_.norm1(); }
   FactorReport report() const final;
-  void set_refinement(int steps) final { wanted_steps_ = steps; }
-  void set_stop(const StopAsked& asked) final { stop_asked_ = asked; }
+  void configure(const SolverSettings& settings) override { settings_ = settings; }
   // Where terms grew in an elimination without pivoting, answers are refined even if nobody asked.
   void factorise() final;
-  // Throws AnalysisError where refinement cannot mend what growth has spoilt: no answer without digits.
-  void solve(std::span<const double> b, std::span<double> x) const final;
+  // Inaccurate where refinement can not mend what growth has spoilt.
+  SolveStatus solve(std::span<const double> b, std::span<double> x) const final;
 
  protected:
   // Numbering, symbolic work and storage once matrix() has its pattern.
@@ -45,12 +45,14 @@ class MatrixSolver : public LinearSolver {
   const AssembledMatrix& matrix() const { return matrix_; }
   // For those that keep one: set_border() of the next analyse(), where answers are not refined.
   bool take_border(int equations) {
-    border_ = wanted_steps_ == 0 ? equations : 0;
-    return wanted_steps_ == 0;
+    const bool possible = settings_.refinement_steps == 0;
+    border_ = possible ? equations : 0;
+    return possible;
   }
   int border_equations() const { return border_; }
+  const SolverSettings& settings() const { return settings_; }
   // Throws Stopped.  To be called every thousand operations or so, from any thread.
-  void stop_here_if_asked() const { stop_if_asked(stop_asked_); }
+  void stop_here_if_asked() const { stop_if_asked(settings_.stop_asked); }
   // Largest |term| of every row of the matrix as it stands; the same array at every call.
   std::span<const double> row_maxima() {
     matrix_.row_maxima(row_maxima_);
@@ -59,13 +61,13 @@ class MatrixSolver : public LinearSolver {
   mutable FactorReport report_;  // its memory: all but the matrix
 
  private:
-  void refine(std::span<double> x) const;
+  SolveStatus refine(std::span<double> x) const;
 
   SolverTraits traits_;
-  StopAsked stop_asked_;
+  SolverSettings settings_;
   AssembledMatrix matrix_;
   std::vector<double> row_maxima_;
-  int wanted_steps_ = 0, steps_ = 0;
+  int steps_ = 0;
   int border_ = 0;
   double norm_ = 0.0;
   mutable std::vector<double> right_side_, residual_, low_;  // of the refinement

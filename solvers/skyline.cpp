@@ -23,8 +23,10 @@ class Skyline final : public MatrixSolver {
  public:
   Skyline() : MatrixSolver({symmetric ? "skyline_ldlt" : "skyline_lu", symmetric}) {}
 
-  void set_kernels(Kernels wanted) override { kernels_ = &choose_kernels(wanted); }
-  std::string_view kernels() const override { return kernels_->name; }
+  void configure(const SolverSettings& settings) override {
+    MatrixSolver::configure(settings);
+    kernels_ = &choose_kernels(settings.kernels);
+  }
 
   void factorise_matrix() override {
     PivotCheck check(traits().name, row_maxima());
@@ -73,6 +75,7 @@ class Skyline final : public MatrixSolver {
     }
     reciprocal_.assign(at(profile_.tiles) * kTile, 1.0);
     work_ = AlignedArray(at(profile_.tiles) * kTile);
+    report_.kernels = kernels_->name;
     report_.factor_entries = static_cast<std::int64_t>(tiles_.size());
     report_.factor_operations = factor_operations(profile_, symmetric);
     report_.solve_operations = (symmetric ? 4.0 : 2.0) * static_cast<double>(report_.factor_entries);

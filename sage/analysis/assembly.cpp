@@ -182,7 +182,7 @@ void Assembly::enter_stage(const Activity& activity, const Eigen::VectorXd& rate
   rate_ = rate;
   scope.add_operations(condensation_->report().factor_operations);
   work_->condensed = condensation_->condensed();
-  work_->twin_equations = std::max(work_->twin_equations, long{condensation_->report().twin_equations});
+  work_->twin_equations = std::max(work_->twin_equations, long{condensation_->repeated_equations()});
   equations_.keep(condensation_->kept());
   number_elements();
 }

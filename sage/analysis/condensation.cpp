@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sage/analysis/checked_solve.hpp"
+
 namespace sage {
 
 namespace {
@@ -22,23 +24,24 @@ Condensation::Condensation(const std::vector<GroupData>& groups, const std::vect
   for (const GroupData& data : groups)
     if (data.active && data.constant) all_symmetric = all_symmetric && symmetric(data.law);
   solver_ = make(condensed(), all_symmetric);
-  keeps_border_ = solver_->set_border(static_cast<int>(kept_.size()));
+  border_solver_ = dynamic_cast<BorderSolver*>(solver_.get());
+  if (border_solver_ != nullptr && !border_solver_->set_border(static_cast<int>(kept_.size())))
+    border_solver_ = nullptr;
 }
 
 bool Condensation::analyse_if_it_pays(int increments, bool symmetric) {
-  if (!keeps_border_ && !solutions_pay(increments)) return false;
+  if (border_solver_ == nullptr && !solutions_pay(increments)) return false;
   analyse();
-  return !keeps_border_ || border_pays(increments, symmetric);
+  return border_solver_ == nullptr || border_pays(increments, symmetric);
 }
 
 void Condensation::analyse() {
-  const int equations = condensed() + (keeps_border_ ? static_cast<int>(kept_.size()) : 0);
+  const int equations = condensed() + (border_solver_ != nullptr ? static_cast<int>(kept_.size()) : 0);
   std::vector<int> equation(static_cast<std::size_t>(dofs_), -1);
   for (int i = 0; i < equations; ++i) equation[static_cast<std::size_t>(dof_of(i))] = i;
   ElementEquations elements;
   for (const GroupData& data : *groups_)
     if (data.active && data.constant) append_equations(data, equation, elements);
-  solver_->expect_one_factorisation();
   solver_->analyse(equations, std::move(elements));
 }
 
@@ -61,6 +64,11 @@ bool Condensation::border_pays(int increments, bool symmetric) const {
   return region + increments * 2.0 * dense < increments * whole;
 }
 
+int Condensation::repeated_equations() const {
+  const auto* repeated = dynamic_cast<const RepeatedParts*>(solver_.get());
+  return repeated != nullptr ? repeated->repeated_equations() : 0;
+}
+
 void Condensation::factorise() {
   solver_->clear();
   int element = 0;
@@ -77,8 +85,8 @@ void Condensation::factorise() {
   for (Eigen::VectorXd* x : {&stage_, &step_, &from_, &whole_}) x->setZero(condensed() + n);
   for (Eigen::VectorXd* x : {&stage_forces_, &all_dofs_, &all_forces_}) x->setZero(all);
   S_.resize(n, n);
-  if (keeps_border_)
-    solver_->border_matrix(S_.data());
+  if (border_solver_ != nullptr)
+    border_solver_->border_matrix(S_.data());
   else
     solve_for_border();
   S_norm_ = S_.cwiseAbs().rowwise().sum().maxCoeff();
@@ -112,7 +120,7 @@ void Condensation::solve_for_border() {
   for (Eigen::Index j = 0; j < n; ++j) {
     whole_.setZero();
     border(whole_)[j] = 1.0;
-    fill_in(whole_);
+    recover(whole_);
     find_forces(whole_, 0, whole_.size());
     for (Eigen::Index i = 0; i < n; ++i) S_(i, j) = all_forces_[kept_[static_cast<std::size_t>(i)]];
   }
@@ -125,21 +133,21 @@ void Condensation::find_forces(const Eigen::VectorXd& x, Eigen::Index begin, Eig
   multiply(all_dofs_, all_forces_);
 }
 
-// As LinearSolver::eliminate and fill_in.  Of a solver without a border x_l is K_ll^-1 b_l in between.
+// As BorderSolver::eliminate and recover.  Of a solver without a border x_l is K_ll^-1 b_l in between.
 void Condensation::eliminate(Eigen::VectorXd& x) {
-  const auto n = static_cast<std::size_t>(condensed());
-  if (keeps_border_) return solver_->eliminate({x.data(), n + kept_.size()}, {x.data(), n + kept_.size()});
-  solver_->solve({x.data(), n}, {x.data(), n});
+  const auto n = static_cast<std::size_t>(condensed()), all = n + kept_.size();
+  if (border_solver_ != nullptr) return border_solver_->eliminate({x.data(), all}, {x.data(), all});
+  checked_solve(*solver_, {x.data(), n}, {x.data(), n});
   find_forces(x, 0, condensed());
   for (Eigen::Index i = condensed(); i < x.size(); ++i) x[i] -= all_forces_[dof_of(i)];
 }
 
-void Condensation::fill_in(Eigen::VectorXd& x) {
+void Condensation::recover(Eigen::VectorXd& x) {
   const auto n = static_cast<std::size_t>(condensed());
-  if (keeps_border_) return solver_->fill_in({x.data(), n + kept_.size()});
+  if (border_solver_ != nullptr) return border_solver_->recover({x.data(), n + kept_.size()});
   find_forces(x, condensed(), x.size());
   for (Eigen::Index i = 0; i < condensed(); ++i) solution_[i] = all_forces_[dof_of(i)];
-  solver_->solve({solution_.data(), n}, {solution_.data(), n});
+  checked_solve(*solver_, {solution_.data(), n}, {solution_.data(), n});
   inner(x) -= solution_;
 }
 
@@ -191,7 +199,7 @@ double Condensation::eliminate_loads(const Eigen::VectorXd& loads, Eigen::Vector
   eliminate(eliminated);
   inner(whole_) = inner(eliminated);
   border(whole_).setZero();
-  fill_in(whole_);
+  recover(whole_);
   return loads.dot(inner(whole_));
 }
 
@@ -261,7 +269,7 @@ void Condensation::complete(Eigen::VectorXd& du) {
     inner(whole_) = inner(step_);
   for (Eigen::Index i = condensed(); i < whole_.size(); ++i)
     whole_[i] = du[dof_of(i)] + predictor_.since()[i - condensed()] - from_[i];
-  fill_in(whole_);
+  recover(whole_);
   for (Eigen::Index i = 0; i < condensed(); ++i) du[dof_of(i)] = from_[i] + whole_[i];
 }
 
@@ -305,7 +313,7 @@ void Condensation::refine(const Eigen::VectorXd& f, Eigen::VectorXd& du) {
   border(whole_).setZero();
   eliminate(whole_);
   border(whole_).setZero();
-  fill_in(whole_);
+  recover(whole_);
   for (Eigen::Index i = 0; i < condensed(); ++i) du[dof_of(i)] += whole_[i];
 }
 
@@ -324,7 +332,7 @@ void Condensation::set_base(const Eigen::VectorXd& all, const Eigen::VectorXd& o
 double Condensation::whole_norm(const Eigen::VectorXd& correction) {
   inner(whole_).setZero();
   border(whole_) = correction;
-  fill_in(whole_);
+  recover(whole_);
   return whole_.norm();
 }
 

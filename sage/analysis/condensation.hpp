@@ -22,10 +22,11 @@
 #include "sage/analysis/group_data.hpp"
 #include "sage/analysis/region_predictor.hpp"
 #include "sage/core/linear_solver.hpp"
+#include "sage/core/solver_extensions.hpp"
 
 namespace sage {
 
-// Makes a solver for so many equations; symmetric: the matrix is.
+// Makes a solver for so many equations that factorises once; symmetric: the matrix is.
 using SolverMaker = std::function<std::unique_ptr<LinearSolver>(int equations, bool symmetric)>;
 
 class Condensation {
@@ -45,6 +46,7 @@ class Condensation {
   int condensed() const { return static_cast<int>(condensed_.size()); }
   const Eigen::MatrixXd& S() const { return S_; }
   FactorReport report() const { return solver_->report(); }
+  int repeated_equations() const;
 
   // Over the whole stage, one entry per dof: the loads that are added, and the displacement of every prescribed dof
   // (others 0).  force_squares: sum over the region's elements of |f_e|^2 now.  Before the first step, or behind
@@ -89,7 +91,7 @@ class Condensation {
   double whole_norm(const Eigen::VectorXd& correction);
 
  private:
-  // Vectors of condensed dofs with kept ones behind them, as in LinearSolver.
+  // Vectors of condensed dofs with kept ones behind them, as in BorderSolver.
   auto inner(Eigen::VectorXd& x) const { return x.head(condensed()); }
   auto border(Eigen::VectorXd& x) const { return x.tail(static_cast<Eigen::Index>(kept_.size())); }
   int dof_of(Eigen::Index i) const {
@@ -103,7 +105,7 @@ class Condensation {
   void list_inner_nodes();
   bool reaches_region(const Eigen::VectorXd& motion) const;
   void eliminate(Eigen::VectorXd& x);
-  void fill_in(Eigen::VectorXd& x);
+  void recover(Eigen::VectorXd& x);
   void find_forces(const Eigen::VectorXd& x, Eigen::Index begin, Eigen::Index end);
 
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;  // y = K x of the linear region
@@ -116,7 +118,7 @@ class Condensation {
   int dofs_;  // of the model
   std::vector<int> kept_, condensed_;
   std::unique_ptr<LinearSolver> solver_;
-  bool keeps_border_ = false;  // the solver
+  BorderSolver* border_solver_ = nullptr;  // the same one, where it keeps the border
   Eigen::MatrixXd S_;
   double S_norm_ = 0.0;       // largest sum of |terms| of a row
   Eigen::VectorXd g_, base_;  // forces at the place base_ of the kept dofs

@@ -5,6 +5,9 @@
 #include <cstdio>
 #include <vector>
 
+#include "sage/analysis/checked_solve.hpp"
+#include "sage/core/solver_extensions.hpp"
+
 namespace sage {
 
 namespace {
@@ -29,7 +32,7 @@ double alternating_estimate(const LinearSolver& solver, std::size_t n) {
     const double size = 1.0 + static_cast<double>(i) / static_cast<double>(std::max<std::size_t>(n - 1, 1));
     x[i] = i % 2 == 0 ? size : -size;
   }
-  solver.solve(x, x);
+  checked_solve(solver, x, x);
   return 2.0 * sum_of_sizes(x) / (3.0 * static_cast<double>(n));
 }
 
@@ -43,22 +46,24 @@ std::string power_of_ten(double value) {
 
 double reciprocal_condition(const LinearSolver& solver, int equations) {
   if (equations == 0) return 1.0;
+  const auto* matrix = dynamic_cast<const KeptMatrix*>(&solver);
+  if (matrix == nullptr) return 0.0;
   const auto n = static_cast<std::size_t>(equations);
   Values x(n, 1.0 / static_cast<double>(n)), z(n);
   double estimate = 0.0;
   for (int step = 0; step < 5; ++step) {
-    solver.solve(x, x);
+    checked_solve(solver, x, x);
     const double size = sum_of_sizes(x);
     if (step > 0 && size <= estimate) break;
     estimate = size;
     for (std::size_t i = 0; i < n; ++i) z[i] = std::signbit(x[i]) ? -1.0 : 1.0;
-    solver.solve_transposed(z, z);
+    matrix->solve_transposed(z, z);
     const std::size_t place = largest_place(z);
     std::ranges::fill(x, 0.0);
     x[place] = 1.0;
   }
   estimate = std::max(estimate, alternating_estimate(solver, n));
-  const double condition = estimate * solver.norm1();
+  const double condition = estimate * matrix->norm1();
   return std::isfinite(condition) && condition > 0.0 ? 1.0 / condition : 0.0;
 }
 
@@ -68,6 +73,10 @@ DigitsReport report_digits(const LinearSolver& solver, int equations, double sma
   const bool small_pivot = smallest_pivot > 0.0 && smallest_pivot < kPoorPivot;
   const bool grown = factors.growth > kLargeGrowth;
   if (!asked && !small_pivot && !grown) return {};
+  if (dynamic_cast<const KeptMatrix*>(&solver) == nullptr)
+    return {"the condition number is not known: the solver " + std::string(solver.traits().name) +
+                " keeps no matrix",
+            false};
   const double reciprocal = reciprocal_condition(solver, equations);
   double lost = reciprocal > 0.0 ? std::max(0.0, -std::log10(reciprocal)) : kDigits;
   if (small_pivot) lost = std::max(lost, -std::log10(smallest_pivot));

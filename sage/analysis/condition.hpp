@@ -9,8 +9,8 @@ namespace sage {
 
 // 1 / (||K||_1 ||K^-1||_1), with the norm of the inverse estimated from below by Hager (1984) and
 // Higham (1988), as LAPACK's xGECON does: a few solutions with K and K^T.  1 for no equations; 0 where
-// the estimate overflows.  About -log10 of it digits are lost.  Needs a factorised solver that
-// multiplies and solves transposed.
+// the estimate overflows.  About -log10 of it digits are lost.  Needs a factorised solver; 0
+// where it keeps no matrix.
 double reciprocal_condition(const LinearSolver& solver, int equations);
 
 // What a reader should know about lost digits; empty if nothing is wrong.  The condition is estimated where a small pivot or

@@ -23,7 +23,7 @@ double Dogleg::exit_of_region(const Eigen::VectorXd& to) const {
   return (-b + std::sqrt(std::max(0.0, b * b - a * c))) / a;
 }
 
-void Dogleg::choose(const LinearSolver& solver, const Eigen::VectorXd& residual, const Eigen::VectorXd& newton,
+void Dogleg::choose(const KeptMatrix& K, const Eigen::VectorXd& residual, const Eigen::VectorXd& newton,
                     Eigen::VectorXd& step) {
   const double newton_size = newton.norm();
   if (radius_ < 0.0) radius_ = newton_size;
@@ -31,15 +31,15 @@ void Dogleg::choose(const LinearSolver& solver, const Eigen::VectorXd& residual,
   if (newton_size <= radius_) {
     step = newton;
   } else {
-    solver.multiply_transposed(view(residual), view(descent_));  // -d(|R|^2 / 2) / du
-    solver.multiply(view(descent_), view(product_));
+    K.multiply_transposed(view(residual), view(descent_));  // -d(|R|^2 / 2) / du
+    K.multiply(view(descent_), view(product_));
     cauchy_ = descent_ * (descent_.squaredNorm() / product_.squaredNorm());
     if (cauchy_.norm() >= radius_)
       step = cauchy_ * (radius_ / cauchy_.norm());
     else
       step = cauchy_ + exit_of_region(newton) * (newton - cauchy_);
   }
-  solver.multiply(view(step), view(product_));
+  K.multiply(view(step), view(product_));
   predicted_ = (residual - product_).norm();
   size_ = step.norm();
   step_length_ = newton_size > 0.0 ? size_ / newton_size : 1.0;

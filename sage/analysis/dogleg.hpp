@@ -3,14 +3,16 @@
 // ch. 6.
 #pragma once
 
-#include "sage/core/linear_solver.hpp"
+#include <Eigen/Core>
+
+#include "sage/core/solver_extensions.hpp"
 
 namespace sage {
 
 class Dogleg {
  public:
-  // newton = K^-1 R; the solver still knows K.  Writes the step to take.
-  void choose(const LinearSolver& solver, const Eigen::VectorXd& residual, const Eigen::VectorXd& newton,
+  // newton = K^-1 R.  Writes the step to take.
+  void choose(const KeptMatrix& K, const Eigen::VectorXd& residual, const Eigen::VectorXd& newton,
               Eigen::VectorXd& step);
   // After the residual at the step is known.  True: the step stays.  False: take it back and choose again.
   bool accept(double old_norm, double new_norm);

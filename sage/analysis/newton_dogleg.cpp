@@ -7,6 +7,9 @@ namespace sage {
 
 // A rejected correction leaves K and its factors as they were: only the residual is computed anew.
 void iterate_with_dogleg(StepIteration& step) {
+  const KeptMatrix* const K = step.tangent.matrix();
+  if (K == nullptr)
+    throw AnalysisError("the solver " + step.tangent.name() + " keeps no matrix, which method 3 (dogleg) needs");
   Dogleg dogleg;
   if (step.assemble(step.full_newton()) == Outcome::cut_step) return;
   Eigen::VectorXd newton(step.residual.size()), old_residual(step.residual.size());
@@ -16,7 +19,7 @@ void iterate_with_dogleg(StepIteration& step) {
     newton = step.correction;
     step.measures.take_energy(newton, step.residual);
     old_residual = step.residual;
-    dogleg.choose(step.tangent.solver(), step.residual, newton, step.correction);
+    dogleg.choose(*K, step.residual, newton, step.correction);
     step.step_length = dogleg.step_length();
     step.move(1.0);
     const bool computed = step.assemble(false) == Outcome::ok;

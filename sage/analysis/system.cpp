@@ -4,6 +4,7 @@
 
 #include "sage/analysis/loads.hpp"
 #include "sage/core/large_pages.hpp"
+#include "sage/core/solver_extensions.hpp"
 
 namespace sage {
 
@@ -40,13 +41,15 @@ const SolverEntry* System::choose_solver(int equations, bool symmetric) const {
   return entry;
 }
 
-std::unique_ptr<LinearSolver> System::make(const SolverEntry& entry) const {
+std::unique_ptr<LinearSolver> System::make(const SolverEntry& entry, bool one_factorisation) const {
   auto solver = entry.make();
-  solver->set_threads(settings_.threads);
-  solver->set_kernels(settings_.kernels);
-  solver->set_twins(settings_.skips.twins);
-  solver->set_refinement(settings_.refinement);
-  solver->set_stop(settings_.stop_asked);
+  solver->configure({.threads = settings_.threads,
+                     .kernels = settings_.kernels,
+                     .refinement_steps = settings_.refinement,
+                     .one_factorisation = one_factorisation,
+                     .stop_asked = settings_.stop_asked});
+  if (auto* repeated = dynamic_cast<RepeatedParts*>(solver.get()))
+    repeated->use_repeated_parts(settings_.skips.twins);
   return solver;
 }
 
@@ -61,8 +64,8 @@ std::vector<EquationPlace> System::places() const {
 
 void System::analyse() {
   const SolverEntry* entry = choose_solver(assembly_.equations(), scene_.symmetric);
-  std::unique_ptr<LinearSolver> solver = make(*entry);
-  if (solver->traits().wants_places) solver->set_places(places());
+  std::unique_ptr<LinearSolver> solver = make(*entry, tangent_.constant());
+  if (auto* placed = dynamic_cast<PlacedSolver*>(solver.get())) placed->set_places(places());
   tangent_.analyse(std::move(solver), entry->name, assembly_.equations(), assembly_.element_equations(), work_);
   if (assembly_.equations() >= kManyEquations) return_freed_memory();
   held_before_ = activity_.held;
@@ -87,7 +90,7 @@ void System::open_stage(int s) {
   enter(stage);
   const bool condensed_before = assembly_.condensation() != nullptr;
   assembly_.enter_stage(activity_, rate_, stage.increments, [&](int equations, bool symmetric) {
-    return make(*choose_solver(equations, symmetric));
+    return make(*choose_solver(equations, symmetric), true);
   });
   tangent_.set_rate(rate_);
   exits_.enter(model_, activity_, s);
@@ -133,7 +136,7 @@ void System::release_solver() {
 }
 
 std::string System::kernels() const {
-  return last_ ? last_->kernels : std::string(tangent_.solver().kernels());
+  return last_ ? last_->kernels : std::string(tangent_.solver().report().kernels);
 }
 
 double System::smallest_pivot() const {

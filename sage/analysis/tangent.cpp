@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "sage/analysis/by_field.hpp"
+#include "sage/analysis/checked_solve.hpp"
 
 namespace sage {
 
@@ -29,7 +30,9 @@ void Tangent::analyse(std::unique_ptr<LinearSolver> solver, const std::string& n
   equations_ = equations;
   solver_ = std::move(solver);
   name_ = name;
-  if (constant_) solver_->expect_one_factorisation();
+  parallel_ = dynamic_cast<ParallelAssembly*>(solver_.get());
+  matrix_ = dynamic_cast<const KeptMatrix*>(solver_.get());
+  repeated_ = dynamic_cast<const RepeatedParts*>(solver_.get());
   elastic_.clear();
   elastic_from_.assign(1, 0);
   for (int e = 0; e < elements.count(); ++e) {
@@ -37,6 +40,11 @@ void Tangent::analyse(std::unique_ptr<LinearSolver> solver, const std::string& n
     elastic_from_.push_back(elastic_from_.back() + dofs * dofs);
   }
   solver_->analyse(equations, std::move(elements));
+}
+
+void Tangent::add_one_by_one(const ElementMatrices& some) {
+  for (int e = 0; e < some.count; ++e)
+    solver_->add(some.first + e, some.K + static_cast<std::size_t>(e) * some.size);
 }
 
 void Tangent::forget_sizes() {
@@ -108,7 +116,8 @@ void Tangent::factorise(WorkCounters& work) {
   ++work.factorisations;
   solver_->factorise();
   scope.add_operations(solver_->report().factor_operations);
-  work.twin_equations = std::max(work.twin_equations, long{solver_->report().twin_equations});
+  if (repeated_ != nullptr)
+    work.twin_equations = std::max(work.twin_equations, long{repeated_->repeated_equations()});
   state_ = State::factorised;
 }
 
@@ -116,19 +125,19 @@ void Tangent::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, WorkCounters& 
   Profile::Scope scope(work.profile, phase::kSolution);
   ++work.solves;
   const auto n = static_cast<std::size_t>(b.size());
-  solver_->solve({b.data(), n}, {x.data(), n});
+  checked_solve(*solver_, {b.data(), n}, {x.data(), n});
   scope.add_operations(solver_->report().solve_operations);
 }
 
 double Tangent::norm1() const {
-  if (!norm1_) norm1_ = solver_->norm1();
+  if (!norm1_) norm1_ = matrix_ != nullptr ? matrix_->norm1() : -1.0;
   return *norm1_;
 }
 
 Eigen::VectorXd Tangent::times(const Eigen::VectorXd& x) const {
   Eigen::VectorXd product(x.size());
   const auto n = static_cast<std::size_t>(x.size());
-  solver_->multiply({x.data(), n}, {product.data(), n});
+  matrix_->multiply({x.data(), n}, {product.data(), n});
   return product;
 }
 

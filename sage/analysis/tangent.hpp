@@ -9,6 +9,7 @@
 #include "sage/analysis/group_data.hpp"
 #include "sage/analysis/records.hpp"
 #include "sage/core/linear_solver.hpp"
+#include "sage/core/solver_extensions.hpp"
 
 namespace sage {
 
@@ -42,6 +43,7 @@ class Tangent {
   bool current() const { return state_ >= State::current; }
   bool factorised() const { return state_ == State::factorised; }
   const LinearSolver& solver() const { return *solver_; }
+  const KeptMatrix* matrix() const { return matrix_; }  // of the solver; nullptr where it keeps none
   const std::string& name() const { return name_; }
   const Eigen::VectorXd& coupling() const { return coupling_; }  // K(free, prescribed) rate, every dof
 
@@ -49,6 +51,7 @@ class Tangent {
   // K and its factors are no longer needed: their memory is freed.
   void release() {
     solver_.reset();
+    matrix_ = nullptr;
     state_ = State::empty;
   }
   // The next correction starts at another state: K and its factors hold only if an assembly there finds the same K.
@@ -68,9 +71,12 @@ class Tangent {
     solver_->add(element, K);
     if (takes_elastic_) keep_elastic(element, K);
   }
-  // LinearSolver::add_part of many; couple() is then for those with prescribed dofs.
+  // ParallelAssembly::add_part of many; couple() is then for those with prescribed dofs.
   void add_part(const ElementMatrices& some, int part, int parts) {
-    solver_->add_part(some, part, parts);
+    if (parallel_ != nullptr)
+      parallel_->add_part(some, part, parts);
+    else if (part == 0)
+      add_one_by_one(some);
     if (takes_elastic_ && part == 0)
       for (int e = 0; e < some.count; ++e)
         keep_elastic(some.first + e, some.K + static_cast<std::size_t>(e) * some.size);
@@ -95,23 +101,28 @@ class Tangent {
   void damp(double share);
 
   // Sizes of K, kept until it changes; they need an assembly.
-  // Of the solver: the largest column sum of |K|, negative = not known.
+  // The largest column sum of |K|; -1 where the solver keeps no matrix.
   double norm1() const;
   // Largest size, in the equations of the field `to`, of K times signs without an order in those of the field
   // `from`: of the block's row sums from below.
   double coupling_of(const ByField& fields, int to, int from) const;
-  // K x, of the solver.
+  // K x, where the solver keeps its matrix.
   Eigen::VectorXd times(const Eigen::VectorXd& x) const;
 
  private:
   void clear();
   void forget_sizes();
+  void add_one_by_one(const ElementMatrices& some);
   void keep_elastic(int element, const double* K);
 
   bool linear_, constant_;
   State state_ = State::empty;
   bool changed_ = true;
   std::unique_ptr<LinearSolver> solver_;
+  // What the solver offers beyond a solution; nullptr: it does not.
+  ParallelAssembly* parallel_ = nullptr;
+  const KeptMatrix* matrix_ = nullptr;
+  const RepeatedParts* repeated_ = nullptr;
   std::string name_;
   int equations_ = 0;
   const Eigen::VectorXd* rate_ = nullptr;

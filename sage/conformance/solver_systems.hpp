@@ -9,6 +9,7 @@
 #include <Eigen/Dense>
 
 #include "sage/core/linear_solver.hpp"
+#include "sage/core/solver_extensions.hpp"
 
 namespace sage::conformance {
 
@@ -67,6 +68,16 @@ inline Eigen::VectorXd random_vector(int n, unsigned seed) {
 
 inline std::span<double> span_of(Eigen::VectorXd& v) {
   return {v.data(), static_cast<std::size_t>(v.size())};
+}
+
+// An optional interface of a solver.  Throws std::bad_cast where the solver does not offer it.
+template <class Extension>
+Extension& offered_by(LinearSolver& solver) {
+  return dynamic_cast<Extension&>(solver);
+}
+template <class Extension>
+const Extension& offered_by(const LinearSolver& solver) {
+  return dynamic_cast<const Extension&>(solver);
 }
 
 // analyse, clear and add.

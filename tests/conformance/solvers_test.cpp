@@ -34,20 +34,8 @@ class OwnSolvers : public Solvers {
 INSTANTIATE_TEST_SUITE_P(Catalogue, OwnSolvers, testing::ValuesIn(solver_subjects(solver_catalogue())),
                          name_of_solver);
 
-TEST_P(OwnSolvers, MultipliesNormsAndSolvesTransposed) {
-  const System system = random_system(60, symmetric(), 3);
-  const auto solver = make();
-  load(*solver, system);
-  solver->factorise();
-  const MatrixXd K = dense(system);
-  VectorXd x = random_vector(60, 1), y(60), z(60);
-  solver->multiply(span_of(x), span_of(y));
-  EXPECT_LE((y - K * x).cwiseAbs().maxCoeff(), 1e-13 * y.cwiseAbs().maxCoeff());
-  solver->multiply_transposed(span_of(x), span_of(y));
-  EXPECT_LE((y - K.transpose() * x).cwiseAbs().maxCoeff(), 1e-13 * y.cwiseAbs().maxCoeff());
-  EXPECT_NEAR(solver->norm1(), K.cwiseAbs().colwise().sum().maxCoeff(), 1e-13 * solver->norm1());
-  solver->solve_transposed(span_of(x), span_of(z));
-  expect_solved(K.transpose(), z, x);
+TEST_P(OwnSolvers, KeepTheirMatrix) {
+  EXPECT_NE(dynamic_cast<const KeptMatrix*>(make().get()), nullptr);
 }
 
 // Answers, transposed answers and the report; the last mesh is large enough to be divided among threads.
@@ -63,12 +51,12 @@ TEST_P(OwnSolvers, ThreadsChangeNoBit) {
     FactorReport first_report;
     for (const int threads : {1, 2, 3}) {
       const auto solver = make();
-      solver->set_threads(threads);
+      solver->configure({.threads = threads});
       load(*solver, system);
       for (int again = 0; again < 2; ++again) solver->factorise();
       const VectorXd x = solve(*solver, b);
       VectorXd z(system.equations);
-      solver->solve_transposed(span_of(b), span_of(z));
+      offered_by<KeptMatrix>(*solver).solve_transposed(span_of(b), span_of(z));
       const FactorReport report = solver->report();
       if (threads == 1) {
         first = x;
@@ -92,7 +80,7 @@ TEST_P(OwnSolvers, ThreadsNameTheSameSingularEquation) {
   std::vector<int> named;
   for (const int threads : {1, 2, 3}) {
     const auto solver = make();
-    solver->set_threads(threads);
+    solver->configure({.threads = threads});
     load(*solver, system);
     try {
       solver->factorise();
@@ -104,8 +92,9 @@ TEST_P(OwnSolvers, ThreadsNameTheSameSingularEquation) {
     solver->factorise();
     VectorXd b = random_vector(sound.equations, 2), r(sound.equations);
     VectorXd x = solve(*solver, b);
-    solver->multiply(span_of(x), span_of(r));
-    EXPECT_LE((r - b).cwiseAbs().maxCoeff(), 1e-12 * (solver->norm1() * x.cwiseAbs().maxCoeff()));
+    const auto& matrix = offered_by<KeptMatrix>(*solver);
+    matrix.multiply(span_of(x), span_of(r));
+    EXPECT_LE((r - b).cwiseAbs().maxCoeff(), 1e-12 * (matrix.norm1() * x.cwiseAbs().maxCoeff()));
   }
   ASSERT_EQ(named.size(), 3u);
   EXPECT_EQ(named[0], named[1]);
@@ -251,7 +240,7 @@ TEST_P(OwnSolvers, RefinementRecoversDigits) {
   const VectorXd b = dense(system) * exact;  // whole numbers below 2^53
   const auto error = [&](int steps) {
     const auto solver = make();
-    solver->set_refinement(steps);
+    solver->configure({.refinement_steps = steps});
     load(*solver, system);
     solver->factorise();
     const VectorXd x = solve(*solver, b);
@@ -284,10 +273,9 @@ TEST_P(OwnSolvers, StopsAsAskedAndWorksAgain) {
        {std::tuple{1, false, 12}, {3, false, 12}, {1, true, 12}, {3, true, 12}, {3, true, 60}}) {
     const System system = q4_mesh({.columns = columns, .rows = columns + 8});
     const auto solver = make();
-    if (once) solver->expect_one_factorisation();
     std::atomic<long> asked{0}, yes{1L << 60};
-    solver->set_threads(threads);
-    solver->set_stop([&] { return ++asked > yes; });
+    solver->configure(
+        {.threads = threads, .one_factorisation = once, .stop_asked = [&] { return ++asked > yes; }});
     load(*solver, system);
     EXPECT_GE(asked, 1) << "numbering";
     asked = 0;

@@ -8,10 +8,11 @@
 #include "sage/core/catalogue.hpp"
 #include "sage/core/error.hpp"
 #include "sage/core/linear_solver.hpp"
+#include "sage/core/solver_extensions.hpp"
 
 namespace own {
 
-class SparseLu final : public sage::LinearSolver {
+class SparseLu final : public sage::LinearSolver, public sage::KeptMatrix {
  public:
   const sage::SolverTraits& traits() const override { return traits_; }
 
@@ -44,10 +45,11 @@ class SparseLu final : public sage::LinearSolver {
     if (!(left > kRounding)) throw sage::SingularMatrix(-1, left, "no digit of K is left in its inverse");
   }
 
-  void solve(std::span<const double> b, std::span<double> x) const override {
-    if (K_.rows() == 0) return;
+  sage::SolveStatus solve(std::span<const double> b, std::span<double> x) const override {
+    if (K_.rows() == 0) return sage::SolveStatus::ok;
     const Eigen::Map<const Eigen::VectorXd> right(b.data(), K_.rows());
     Eigen::Map<Eigen::VectorXd>(x.data(), K_.rows()) = lu_.solve(right);
+    return sage::SolveStatus::ok;
   }
 
   void multiply(std::span<const double> x, std::span<double> y) const override {
@@ -55,14 +57,24 @@ class SparseLu final : public sage::LinearSolver {
     Eigen::Map<Eigen::VectorXd>(y.data(), K_.rows()) = K_ * from;
   }
 
+  void multiply_transposed(std::span<const double> x, std::span<double> y) const override {
+    const Eigen::Map<const Eigen::VectorXd> from(x.data(), K_.rows());
+    Eigen::Map<Eigen::VectorXd>(y.data(), K_.rows()) = K_.transpose() * from;
+  }
+
   double norm1() const override { return (Eigen::RowVectorXd::Ones(K_.rows()) * K_.cwiseAbs()).maxCoeff(); }
+
+  void solve_transposed(std::span<const double> b, std::span<double> x) const override {
+    const Eigen::Map<const Eigen::VectorXd> right(b.data(), K_.rows());
+    Eigen::Map<Eigen::VectorXd>(x.data(), K_.rows()) = lu_.transpose().solve(right);
+  }
 
  private:
   sage::SolverTraits traits_{.name = "sparse_lu", .symmetric = false};
   sage::ElementEquations elements_;
   std::vector<Eigen::Triplet<double>> terms_;
   Eigen::SparseMatrix<double> K_;
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> lu_;
+  mutable Eigen::SparseLU<Eigen::SparseMatrix<double>> lu_;  // its transpose() is not const
 };
 
 inline sage::SolverEntry sparse_lu() {

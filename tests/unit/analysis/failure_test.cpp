@@ -33,7 +33,9 @@ class FaultySolver final : public LinearSolver {
     if (++count_ >= fault_.at) fault_.act();
     solver_.factorise();
   }
-  void solve(std::span<const double> b, std::span<double> x) const override { solver_.solve(b, x); }
+  SolveStatus solve(std::span<const double> b, std::span<double> x) const override {
+    return solver_.solve(b, x);
+  }
 
  private:
   own::SparseLu solver_;

@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 
+#include "sage/analysis/checked_solve.hpp"
 #include "sage/analysis/dogleg.hpp"
 #include "sage/analysis/run.hpp"
 #include "sage/app/commands.hpp"
@@ -14,45 +15,69 @@
 namespace sage {
 namespace {
 
-// Dense matrix behind the seam, for the dogleg alone.
-class DenseSolver final : public LinearSolver {
+// Dense matrix for the dogleg alone.
+class DenseMatrix final : public KeptMatrix {
  public:
-  explicit DenseSolver(Matrix2 K) : K_(K) {}
-  const SolverTraits& traits() const override { return traits_; }
-  void analyse(int, ElementEquations) override {}
-  void clear() override {}
-  void add(int, const double*) override {}
-  void factorise() override {}
-  void solve(std::span<const double>, std::span<double>) const override {}
+  explicit DenseMatrix(Matrix2 K) : K_(K) {}
   void multiply(std::span<const double> x, std::span<double> y) const override {
     Vector2::Map(y.data()) = K_ * Vector2::Map(x.data());
   }
   void multiply_transposed(std::span<const double> x, std::span<double> y) const override {
     Vector2::Map(y.data()) = K_.transpose() * Vector2::Map(x.data());
   }
+  double norm1() const override { return K_.cwiseAbs().colwise().sum().maxCoeff(); }
+  void solve_transposed(std::span<const double>, std::span<double>) const override {}
 
  private:
-  SolverTraits traits_{"dense", false};
   Matrix2 K_;
 };
+
+// A solver whose answers have lost their digits.
+class LostDigits final : public LinearSolver {
+ public:
+  const SolverTraits& traits() const override { return traits_; }
+  void analyse(int, ElementEquations) override {}
+  void clear() override {}
+  void add(int, const double*) override {}
+  void factorise() override {}
+  SolveStatus solve(std::span<const double>, std::span<double>) const override {
+    return SolveStatus::inaccurate;
+  }
+  FactorReport report() const override { return {.growth = 1e12, .backward_error = 0.5}; }
+
+ private:
+  SolverTraits traits_{"lost_digits", false};
+};
+
+TEST(CheckedSolve, AnInaccurateAnswerIsAnErrorThatNamesTheRemedy) {
+  const double b[] = {1.0};
+  double x[] = {0.0};
+  try {
+    checked_solve(LostDigits(), b, x);
+    ADD_FAILURE() << "no error";
+  } catch (const AnalysisError& error) {
+    EXPECT_NE(std::string(error.what()).find("wrong by 5.0e-01 of the forces"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("choose a solver that pivots"), std::string::npos) << error.what();
+  }
+}
 
 TEST(Dogleg, StaysInTheTrustRegionAndBendsTowardsDescent) {
   Matrix2 K;
   K << 1.0, 0.5, 0.0, 100.0;
-  const DenseSolver solver(K);
+  const DenseMatrix matrix(K);
   const Eigen::VectorXd R = Vector2(1.0, 1.0);
   const Eigen::VectorXd newton = K.inverse() * R;
   Eigen::VectorXd step;
   Dogleg dogleg;
-  dogleg.choose(solver, R, newton, step);
+  dogleg.choose(matrix, R, newton, step);
   EXPECT_NEAR((step - newton).norm(), 0.0, 1e-15) << "the first step is Newton's";
   EXPECT_FALSE(dogleg.accept(R.norm(), 10.0 * R.norm()));
-  dogleg.choose(solver, R, newton, step);
+  dogleg.choose(matrix, R, newton, step);
   EXPECT_NEAR(step.norm(), 0.25 * newton.norm(), 1e-14) << "a quarter of the rejected step";
   EXPECT_LT((R - K * step).norm(), R.norm()) << "and downhill";
   for (int i = 0; i < 12; ++i) {
     EXPECT_FALSE(dogleg.accept(R.norm(), 2.0 * R.norm()));
-    dogleg.choose(solver, R, newton, step);
+    dogleg.choose(matrix, R, newton, step);
   }
   const Vector2 descent = (K.transpose() * R).normalized();
   EXPECT_NEAR(descent.dot(step.normalized()), 1.0, 1e-12) << "a tiny region leaves steepest descent";

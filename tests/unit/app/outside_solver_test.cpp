@@ -71,7 +71,7 @@ TEST(OutsideSolver, OneThatGivesUpEndsTheCommandWithItsWords) {
     void clear() override {}
     void add(int, const double*) override {}
     void factorise() override { throw AnalysisError("out of digits"); }
-    void solve(std::span<const double>, std::span<double>) const override {}
+    SolveStatus solve(std::span<const double>, std::span<double>) const override { return SolveStatus::ok; }
 
    private:
     SolverTraits traits_{.name = "gives_up"};

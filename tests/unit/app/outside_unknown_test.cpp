@@ -455,7 +455,7 @@ TEST(OutsideUnknown, DecksThatAreWrittenKeepIt) {
 }
 
 // A solver that asks where its equations stand, in front of another one.
-class Surveyor final : public LinearSolver {
+class Surveyor final : public LinearSolver, public PlacedSolver {
  public:
   Surveyor(std::unique_ptr<LinearSolver> inner, std::vector<EquationPlace>& seen)
       : inner_(std::move(inner)), seen_(&seen) {}
@@ -469,12 +469,12 @@ class Surveyor final : public LinearSolver {
   void clear() override { inner_->clear(); }
   void add(int element, const double* K) override { inner_->add(element, K); }
   void factorise() override { inner_->factorise(); }
-  void solve(std::span<const double> b, std::span<double> x) const override { inner_->solve(b, x); }
-  void multiply(std::span<const double> x, std::span<double> y) const override { inner_->multiply(x, y); }
-  double norm1() const override { return inner_->norm1(); }
+  SolveStatus solve(std::span<const double> b, std::span<double> x) const override {
+    return inner_->solve(b, x);
+  }
 
  private:
-  SolverTraits traits_{.name = "surveyor", .symmetric = false, .wants_places = true};
+  SolverTraits traits_{.name = "surveyor", .symmetric = false};
   std::unique_ptr<LinearSolver> inner_;
   std::vector<EquationPlace>* seen_;
 };

@@ -19,8 +19,8 @@ using Eigen::VectorXd;
 std::unique_ptr<LinearSolver> solver_with_border(const System& system, int border, bool symmetric,
                                                  int threads = 1) {
   std::unique_ptr<LinearSolver> solver = symmetric ? make_frontal_ldlt() : make_frontal();
-  solver->set_threads(threads);
-  EXPECT_TRUE(solver->set_border(border));
+  solver->configure({.threads = threads});
+  EXPECT_TRUE(offered_by<BorderSolver>(*solver).set_border(border));
   load(*solver, system);
   solver->factorise();
   return solver;
@@ -28,7 +28,7 @@ std::unique_ptr<LinearSolver> solver_with_border(const System& system, int borde
 
 MatrixXd border_of(const LinearSolver& solver, int border) {
   MatrixXd S = MatrixXd::Constant(border, border, std::numeric_limits<double>::quiet_NaN());
-  solver.border_matrix(S.data());
+  offered_by<BorderSolver>(solver).border_matrix(S.data());
   return S;
 }
 
@@ -54,12 +54,13 @@ void expect_border(const System& system, int border, bool symmetric) {
   expect_close(border_of(*solver, border), closed, size);
 
   VectorXd b = random_vector(system.equations, 7), y(system.equations);
-  solver->eliminate(span_of(b), span_of(y));
+  const auto& with_border = offered_by<BorderSolver>(*solver);
+  with_border.eliminate(span_of(b), span_of(y));
   const VectorXd from_loads = inner > 0 ? VectorXd(A_ll.solve(b.head(inner))) : VectorXd(0);
   expect_close(y.tail(border), b.tail(border) - A_nl * from_loads, size * system.equations);
   const VectorXd x_n = random_vector(border, 8);
   y.tail(border) = x_n;
-  solver->fill_in(span_of(y));
+  with_border.recover(span_of(y));
   EXPECT_EQ(y.tail(border), x_n);
   const VectorXd x_l = inner > 0 ? VectorXd(A_ll.solve(b.head(inner) - A_ln * x_n)) : VectorXd(0);
   expect_close(y.head(inner), x_l, 1.0 + x_l.norm());
@@ -100,8 +101,8 @@ TEST(Border, ThatIsEmptyLeavesAnOrdinarySolver) {
     load(*without, system);
     without->factorise();
     VectorXd b = random_vector(60, 1), x(60), z(60);
-    with->solve(span_of(b), span_of(x));
-    without->solve(span_of(b), span_of(z));
+    EXPECT_EQ(with->solve(span_of(b), span_of(x)), SolveStatus::ok);
+    EXPECT_EQ(without->solve(span_of(b), span_of(z)), SolveStatus::ok);
     EXPECT_EQ(x, z);
   }
 }
@@ -120,7 +121,7 @@ TEST(Border, ASingularInteriorIsNamedAsWithoutIt) {
   const System loose = q4_mesh({.columns = 6, .rows = 6, .supports = Supports::none});
   const auto named = [](const System& system, int border) {
     const auto solver = make_frontal_ldlt();
-    solver->set_border(border);
+    offered_by<BorderSolver>(*solver).set_border(border);
     load(*solver, system);
     try {
       solver->factorise();
@@ -147,8 +148,8 @@ TEST(Border, ThreadsChangeNoBit) {
     for (const int threads : {1, 2, 3}) {
       const auto solver = solver_with_border(system, border, symmetric, threads);
       VectorXd x = b;
-      solver->eliminate(span_of(x), span_of(x));
-      solver->fill_in(span_of(x));
+      offered_by<BorderSolver>(*solver).eliminate(span_of(x), span_of(x));
+      offered_by<BorderSolver>(*solver).recover(span_of(x));
       const MatrixXd S = border_of(*solver, border);
       if (threads == 1) {
         first = S;
@@ -160,15 +161,12 @@ TEST(Border, ThreadsChangeNoBit) {
   }
 }
 
-// Answers that are to be refined, and solvers that can't: no border, and no answer where there is none.
+// Answers that are to be refined, and solvers without the interface: no border.
 TEST(Border, IsRefusedWhereItCantBeKept) {
   const auto refined = make_frontal();
-  refined->set_refinement(2);
-  EXPECT_FALSE(refined->set_border(3));
-  const auto skyline = make_skyline_lu();
-  EXPECT_FALSE(skyline->set_border(3));
-  double S = 0.0;
-  EXPECT_THROW(skyline->border_matrix(&S), std::logic_error);
+  refined->configure({.refinement_steps = 2});
+  EXPECT_FALSE(offered_by<BorderSolver>(*refined).set_border(3));
+  EXPECT_THROW(offered_by<BorderSolver>(*make_skyline_lu()), std::bad_cast);
 }
 
 }  // namespace

@@ -32,24 +32,24 @@ struct Answers {
 
 Answers answers(const SolverEntry& entry, const System& system, int border, int threads, Kernels kernels) {
   const auto solver = entry.make();
-  solver->set_threads(threads);
-  solver->set_kernels(kernels);
-  EXPECT_EQ(solver->kernels(), choose_kernels(kernels).name);
-  EXPECT_TRUE(border == 0 || solver->set_border(border));
+  solver->configure({.threads = threads, .kernels = kernels});
+  EXPECT_TRUE(border == 0 || offered_by<BorderSolver>(*solver).set_border(border));
   load(*solver, system);
+  EXPECT_EQ(solver->report().kernels, choose_kernels(kernels).name);
   solver->factorise();
   Answers a;
   VectorXd b = VectorXd::LinSpaced(system.equations, 1.0, 50.0).array().sin();
   for (VectorXd* x : {&a.x, &a.transposed, &a.eliminated}) x->setZero(system.equations);
   if (border > 0) {
     a.border.resize(border, border);
-    solver->border_matrix(a.border.data());
-    solver->eliminate(span_of(b), span_of(a.eliminated));
+    const auto& with_border = offered_by<BorderSolver>(*solver);
+    with_border.border_matrix(a.border.data());
+    with_border.eliminate(span_of(b), span_of(a.eliminated));
     a.filled = a.eliminated;
-    solver->fill_in(span_of(a.filled));
+    with_border.recover(span_of(a.filled));
   } else {
-    solver->solve(span_of(b), span_of(a.x));
-    solver->solve_transposed(span_of(b), span_of(a.transposed));
+    EXPECT_EQ(solver->solve(span_of(b), span_of(a.x)), SolveStatus::ok);
+    offered_by<KeptMatrix>(*solver).solve_transposed(span_of(b), span_of(a.transposed));
   }
   a.report = solver->report();
   return a;
@@ -118,7 +118,7 @@ TEST(Kernels, NameTheSameSingularEquation) {
     std::vector<int> named;
     for (const Kernels kernels : {Kernels::avx2, Kernels::avx512}) {
       const auto solver = entry.make();
-      solver->set_kernels(kernels);
+      solver->configure({.kernels = kernels});
       load(*solver, free);
       try {
         solver->factorise();

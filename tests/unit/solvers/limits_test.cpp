@@ -99,10 +99,10 @@ TEST(Frontal, TakesAnotherNumberOfThreadsAtTheNextAnalysis) {
     const auto solver = entry.make();
     std::vector<double> first, x(b.size());
     for (const int threads : {2, 2, 3, 1}) {
-      solver->set_threads(threads);
+      solver->configure({.threads = threads});
       load(*solver, system);
       solver->factorise();
-      solver->solve(b, x);
+      EXPECT_EQ(solver->solve(b, x), SolveStatus::ok);
       if (first.empty()) first = x;
       EXPECT_EQ(x, first) << entry.name << ", " << threads << " threads";
     }
@@ -121,27 +121,27 @@ std::unique_ptr<LinearSolver> make(const char* name) {
 TEST(Refinement, OfNothingIsNothing) {
   for (const char* name : {"skyline_lu", "skyline_ldlt", "frontal", "frontal_ldlt"}) {
     const auto solver = make(name);
-    solver->set_refinement(3);
+    solver->configure({.refinement_steps = 3});
     System empty;
     add_spring(empty, -1, -1, 4.0);
     load(*solver, empty);
     solver->factorise();
-    EXPECT_NO_THROW(solver->solve({}, {}));
+    EXPECT_EQ(solver->solve({}, {}), SolveStatus::ok);
     const System system = q4_mesh({.columns = 3, .rows = 3});
     load(*solver, system);
     solver->factorise();
     const std::vector<double> b(static_cast<std::size_t>(system.equations), 0.0);
     std::vector<double> x(b.size(), 1.0);
-    solver->solve(b, x);
+    EXPECT_EQ(solver->solve(b, x), SolveStatus::ok);
     EXPECT_EQ(x, b) << name;
     EXPECT_EQ(solver->report().backward_error, 0.0) << name;
   }
 }
 
 // [d A; A d] with d = 1e-12 and Hilbert's A: without pivoting the first half of the elimination leaves A A / d,
-// with the square of A's condition: 3e5 for three rows, 2e14 for six.  The answer is right, or refused by words
-// that help.
-TEST(Refinement, AnAnswerThatItCanNotMendIsRefused) {
+// with the square of A's condition: 3e5 for three rows, 2e14 for six.  The answer is right, or the status says that it
+// is not.
+TEST(Refinement, AnAnswerThatItCanNotMendIsInaccurate) {
   for (const char* name : {"skyline_lu", "skyline_ldlt", "frontal", "frontal_ldlt"})
     for (const int half : {2, 3, 6, 7}) {
       SCOPED_TRACE(name + std::to_string(half));
@@ -159,14 +159,11 @@ TEST(Refinement, AnAnswerThatItCanNotMendIsRefused) {
       const auto solver = make(name);
       load(*solver, system);
       solver->factorise();
-      try {
-        solver->solve({b.data(), x.size()}, x);
+      const SolveStatus status = solver->solve({b.data(), x.size()}, x);
+      EXPECT_EQ(status, half <= 3 ? SolveStatus::ok : SolveStatus::inaccurate);
+      EXPECT_EQ(solver->report().backward_error > 1e-10, status == SolveStatus::inaccurate);
+      if (status == SolveStatus::ok) {
         EXPECT_LE((Eigen::Map<Eigen::VectorXd>(x.data(), n) - expected).norm(), 1e-12 * expected.norm());
-        EXPECT_LE(half, 3);
-      } catch (const AnalysisError& error) {
-        EXPECT_GE(half, 6) << error.what();
-        EXPECT_NE(std::string(error.what()).find("choose a solver that pivots"), std::string::npos)
-            << error.what();
       }
     }
 }
@@ -187,8 +184,8 @@ TEST(Cholmod, FactorisesALargeIndefiniteMatrixAgain) {
     }
     solver->factorise();
     EXPECT_GT(solver->report().negative_pivots, 0);
-    solver->solve(b, x);
-    solver->multiply(x, r);
+    EXPECT_EQ(solver->solve(b, x), SolveStatus::ok);
+    offered_by<KeptMatrix>(*solver).multiply(x, r);
     for (std::size_t i = 0; i < r.size(); ++i) EXPECT_NEAR(r[i], 1.0, 1e-9);
   }
 }
