@@ -8,6 +8,7 @@
 
 #include "sage/core/large_pages.hpp"
 #include "sage/core/linear_solver.hpp"
+#include "sage/core/solver_extensions.hpp"
 #include "solvers/equation_graph.hpp"
 
 namespace sage {
