@@ -4,16 +4,12 @@
 #include <cmath>
 #include <limits>
 
-#include "materials/dual.hpp"
+#include "materials/drucker_prager_four.hpp"
 #include "materials/stress_measures.hpp"
 
 namespace sage {
 
 namespace {
-
-constexpr double kRounding = 1e-12;  // relative to DruckerPrager::scale
-constexpr double kApexStiffness =
-    1e-7;  // share of D_elastic left in the tangent where the true one is singular
 
 const std::vector<Parameter>& rows() {
   static const std::vector<Parameter> table = [] {
@@ -55,30 +51,7 @@ LawPtr make(std::span<const double> values, const UnitSystem& units) {
     p.refuse("apex", "can be 1 only for flow without volume change and without a tension limit");
   law.exact = p.code("integration", {0, 1}) == 1;
   if (law.exact && law.beta != 0.0) p.refuse("integration", "can be 1 only for flow without volume change");
-  return std::make_unique<DruckerPrager>(law);
-}
-
-Eigen::Index at(std::size_t i) {
-  return static_cast<Eigen::Index>(i);
-}
-
-// unit_tensor() and deviatoric_projection(), as constants that loops over their terms fold.
-constexpr double kUnit[4] = {1.0, 1.0, 1.0, 0.0};
-constexpr double kThird = 1.0 / 3.0;
-constexpr double kProjection[4][4] = {{2.0 * kThird, -kThird, -kThird, 0.0},
-                                      {-kThird, 2.0 * kThird, -kThird, 0.0},
-                                      {-kThird, -kThird, 2.0 * kThird, 0.0},
-                                      {0.0, 0.0, 0.0, 0.5}};
-
-// Whether the elastic D has a term there.
-constexpr bool couples(std::size_t i, std::size_t j) {
-  return (i < 3) == (j < 3);
-}
-
-void set_status(const FourMask& here, PointStatus status, FourPointsOut<4>& out) {
-  const int places = bits_of_four(here);
-#pragma GCC unroll 4
-  for (std::size_t l = 0; l < kAbreast; ++l) out.status[l] = (places >> l & 1) != 0 ? status : out.status[l];
+  return std::make_unique<DruckerPragerFour>(law);
 }
 
 }  // namespace
@@ -139,225 +112,87 @@ bool DruckerPrager::accepts_history(const Vector4& /*sigma*/, std::span<const do
   return h[kShear] >= 0.0;
 }
 
+// Numbers of equations: docs/theory/drucker_prager.md.
 Outcome DruckerPrager::update(const PointIn<4>& in, PointOut<4>& out) const {
-  return update_as_four(*this, in, out);
-}
-
-// Roots and quotients make a chain of each of the two halves: chains of several points go side by side.
-Outcome DruckerPrager::update_four(std::span<const FourPointsIn<4>> in, std::span<FourPointsOut<4>> out) const {
-  std::array<Trial, kMostFours> trial;
-  for (std::size_t p = 0; p < in.size(); ++p) predict(in[p], trial[p]);
-  for (std::size_t p = 0; p < in.size(); ++p) finish(in[p], trial[p], out[p]);
+  const auto [K, G] = p_.elastic;
+  // Elastic predictor.  The initial stress is part of sigma0.
+  const Vector4 stress = in.sigma0 + D_elastic_ * in.deps;
+  const Trial trial = invariants(stress);
+  const double f = trial.q + 3.0 * p_.cone.alpha * trial.p - p_.cone.k;  // (D1)
+  const double rounding = kRounding * scale(std::abs(trial.p), trial.q);
+  out.h1[kShear] = in.h0[kShear];
+  out.h1[kVolume] = in.h0[kVolume];
+  if (f <= rounding && trial.p <= p_max_ + rounding) {
+    out.sigma = stress;
+    out.D = D_elastic_;
+    out.status = PointStatus::elastic;
+    return Outcome::ok;
+  }
+  // To the cone, if that is in front of its tip and of the tension limit (D2).
+  const double dlambda = f / (G + 9.0 * K * p_.cone.alpha * p_.beta);
+  const double p_cone = trial.p - 3.0 * K * p_.beta * dlambda;
+  if (f > rounding && p_cone <= p_max_ + rounding) {
+    if (!p_.exact || !integrate_exactly(in, out)) return_to_cone(trial, p_cone, out);
+  } else if (p_.free_mean) {
+    drop_deviator(trial, out);
+  } else {
+    return_to_cap(trial, out);
+  }
+  const Trial fall = invariants(stress - out.sigma);  // plastic strain times the elastic moduli
+  out.h1[kShear] += fall.q / G;
+  out.h1[kVolume] += fall.p / K;
   return Outcome::ok;
 }
 
-// The initial stress is part of sigma0.
-void DruckerPrager::predict(const FourPointsIn<4>& in, Trial& trial) const {
-#pragma GCC unroll 4
-  for (std::size_t i = 0; i < 4; ++i) {
-    Four change{};
-#pragma GCC unroll 4
-    for (std::size_t j = 0; j < 4; ++j)
-      if (couples(i, j)) change = multiply_add(all_four(D_elastic_(at(i), at(j))), in.deps[j], change);
-    trial.stress[i] = in.sigma0[i] + change;
-  }
-  trial.of = invariants(trial.stress);
-  const auto& [s, p, q] = trial.of;
-  trial.f = q + 3.0 * p_.cone.alpha * p - p_.cone.k;  // Equation 7.25
-  trial.rounding = kRounding * scale(abs_of_four(p), q);
-  trial.elastic = (trial.f <= trial.rounding) & (p <= p_max_ + trial.rounding);
-}
-
-void DruckerPrager::finish(const FourPointsIn<4>& in, const Trial& trial, FourPointsOut<4>& out) const {
-  const auto [K, G] = p_.elastic;
-  const FourMask elastic = trial.elastic;
-  out.constant_D = bits_of_four(elastic) == kAllOfFour;
-  Four shear, volume;
-  load_pairs_of_four(in.h0[0], in.h0[1], in.h0[2], in.h0[3], shear, volume);
-  if (!out.constant_D) {
-    // Return: to the cone, if that is in front of its tip and of the tension limit.
-    const Four dlambda = trial.f / (G + 9.0 * K * p_.cone.alpha * p_.beta);
-    const Four p_cone = trial.of.p - 3.0 * K * p_.beta * dlambda;
-    const FourMask in_front = (trial.f > trial.rounding) & (p_cone <= p_max_ + trial.rounding);  // theta >= 0
-    const FourMask on_cone = in_front & ~elastic, beyond = ~(in_front | elastic);
-    return_to_cone(trial.of, p_cone, out);
-    if (p_.exact) take_exact_answers(in, on_cone, out);
-    if (bits_of_four(beyond) != 0)
-      p_.free_mean ? drop_deviator(trial.of, beyond, out) : return_to_cap(trial.of, beyond, out);
-
-    FourTensors fall;
-#pragma GCC unroll 4
-    for (std::size_t i = 0; i < 4; ++i) fall[i] = trial.stress[i] - out.sigma[i];
-    const FourInvariants plastic = invariants(fall);
-    shear += elastic ? Four{} : plastic.q / G;
-    volume += elastic ? Four{} : plastic.p / K;
-  }
-  if (bits_of_four(elastic) != 0) stay_elastic(trial.stress, elastic, out);
-  static_assert(kShear == 0 && kVolume == 1);
-  store_pairs_of_four(shear, volume, out.h1[0], out.h1[1], out.h1[2], out.h1[3]);
-}
-
-void DruckerPrager::stay_elastic(const FourTensors& trial, const FourMask& here, FourPointsOut<4>& out) const {
-#pragma GCC unroll 4
-  for (std::size_t i = 0; i < 4; ++i) {
-    out.sigma[i] = here ? trial[i] : out.sigma[i];
-#pragma GCC unroll 4
-    for (std::size_t j = 0; j < 4; ++j) out.D[i][j] = here ? all_four(D_elastic_(at(i), at(j))) : out.D[i][j];
-  }
-  set_status(here, PointStatus::elastic, out);
-}
-
-// s = theta s_tr,  p = p_tr - 3 K beta dlambda; tangent: de Souza Neto, Peric & Owen (2008), ch. 8.
-void DruckerPrager::return_to_cone(const FourInvariants& trial, const Four& p, FourPointsOut<4>& out) const {
+// s = theta s_tr; the tangent is (D3): de Souza Neto, Peric & Owen (2008), ch. 8.
+void DruckerPrager::return_to_cone(const Trial& trial, double p, PointOut<4>& out) const {
   const auto [K, G] = p_.elastic;
   const auto [alpha, k] = p_.cone;
   const double beta = p_.beta, A = 1.0 / (G + 9.0 * K * alpha * beta);
-  const Four room = k - 3.0 * alpha * p, q = room > 0.0 ? room : Four{};  // on the surface to the last digit
-  const Four theta = q / trial.q, length = std::sqrt(2.0) * trial.q;
-  const Four shear = 2.0 * G * theta, turning = 2.0 * G * multiply_add(all_four(-G), all_four(A), 1.0 - theta);
-  FourTensors n;
-#pragma GCC unroll 4
-  for (std::size_t i = 0; i < 4; ++i) {
-    n[i] = trial.s[i] / length;
-    out.sigma[i] = multiply_add(all_four(kUnit[i]), p, theta * trial.s[i]);
-  }
+  const double theta = std::max(k - 3.0 * alpha * p, 0.0) / trial.q;  // on the surface to the last digit
+  const Vector4 n = trial.s / (std::sqrt(2.0) * trial.q);
+  const double shear = 2.0 * G * theta, turning = 2.0 * G * multiply_add(-G, A, 1.0 - theta);
   const double coupling = 3.0 * std::sqrt(2.0) * G * K * A, volume = K * (1.0 - 9.0 * K * alpha * beta * A);
-#pragma GCC unroll 4
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Four turned = turning * n[i], pushed = alpha * n[i];
-#pragma GCC unroll 4
-    for (std::size_t j = 0; j < 4; ++j) {
-      Four D = turned * n[j];
-      if (couples(i, j)) D = multiply_add(shear, all_four(kProjection[i][j]), D);
-      Four mixed = j < 3 ? pushed : Four{};  // beta n_j 1_i + alpha n_i 1_j
-      if (i < 3) mixed = multiply_add(n[j], all_four(beta), mixed);
-      D = multiply_add(mixed, all_four(-coupling), D);
-      out.D[i][j] = i < 3 && j < 3 ? D + volume : D;
+  for (int i = 0; i < 4; ++i) {
+    out.sigma[i] = multiply_add(kUnit[i], p, theta * trial.s[i]);
+    const double turned = turning * n[i], pushed = alpha * n[i];
+    for (int j = 0; j < 4; ++j) {
+      const double mixed = multiply_add(n[j], beta * kUnit[i], pushed * kUnit[j]);
+      const double along = multiply_add(shear, kProjection[i][j], turned * n[j]);
+      out.D(i, j) = multiply_add(mixed, -coupling, along) + volume * kUnit[i] * kUnit[j];
     }
   }
-  out.status.fill(PointStatus::yielded);
+  out.status = PointStatus::yielded;
 }
 
 // s = 0,  p = p_trial.
-void DruckerPrager::drop_deviator(const FourInvariants& trial, const FourMask& here,
-                                  FourPointsOut<4>& out) const {
-#pragma GCC unroll 4
-  for (std::size_t i = 0; i < 4; ++i) {
-    out.sigma[i] = here ? kUnit[i] * trial.p : out.sigma[i];
-#pragma GCC unroll 4
-    for (std::size_t j = 0; j < 4; ++j) {
-      const double D = p_.elastic.K * kUnit[i] * kUnit[j] + kApexStiffness * D_elastic_(at(i), at(j));
-      out.D[i][j] = here ? all_four(D) : out.D[i][j];
-    }
-  }
-  set_status(here, PointStatus::apex, out);
+void DruckerPrager::drop_deviator(const Trial& trial, PointOut<4>& out) const {
+  out.sigma = trial.p * unit_tensor();
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      out.D(i, j) = multiply_add(kApexStiffness, D_elastic_(i, j), p_.elastic.K * kUnit[i] * kUnit[j]);
+  out.status = PointStatus::apex;
 }
 
 // p = p_max; the deviator is cut to what the cone leaves there, which is nothing at the apex.
-void DruckerPrager::return_to_cap(const FourInvariants& trial, const FourMask& here,
-                                  FourPointsOut<4>& out) const {
+void DruckerPrager::return_to_cap(const Trial& trial, PointOut<4>& out) const {
   const double left = std::max(p_.cone.k - 3.0 * p_.cone.alpha * p_max_, 0.0);
   const bool at_apex = p_max_ < p_.mean_tension || left <= kRounding * p_.cone.k;
-  const Four none{}, whole = all_four(1.0);
-  const FourMask corner = trial.q > left;
-  const Four theta = at_apex ? none : corner ? left / trial.q : whole;
-  const FourMask cut = corner & (theta > 0.0);
-  const Four shear = 2.0 * p_.elastic.G * theta, length = std::sqrt(2.0) * trial.q;
-  FourTensors n;
-#pragma GCC unroll 4
-  for (std::size_t i = 0; i < 4; ++i) n[i] = trial.s[i] / length;
-#pragma GCC unroll 4
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Four sigma = multiply_add(all_four(p_max_), all_four(kUnit[i]), theta * trial.s[i]);
-    const Four turned = -shear * n[i];
-    out.sigma[i] = here ? sigma : out.sigma[i];
-#pragma GCC unroll 4
-    for (std::size_t j = 0; j < 4; ++j) {
-      Four D = shear * kProjection[i][j];
-      D = cut ? multiply_add(turned, n[j], D) : D;
-      D = multiply_add(all_four(kApexStiffness), all_four(D_elastic_(at(i), at(j))), D);
-      out.D[i][j] = here ? D : out.D[i][j];
-    }
-  }
-  set_status(here, at_apex ? PointStatus::apex : PointStatus::cut_off, out);
-}
-
-// Point by point, in place of the return to the cone.
-void DruckerPrager::take_exact_answers(const FourPointsIn<4>& in, const FourMask& here,
-                                       FourPointsOut<4>& out) const {
-  const int places = bits_of_four(here);
-  for (std::size_t l = 0; l < kAbreast; ++l) {
-    if ((places >> l & 1) == 0) continue;
-    PointIn<4> point;
-    PointOut<4> answer;
-    for (std::size_t i = 0; i < 4; ++i) {
-      point.sigma0[at(i)] = one_of_four(in.sigma0[i], l);
-      point.deps[at(i)] = one_of_four(in.deps[i], l);
-    }
-    if (!integrate_exactly(point, answer)) continue;
-    for (std::size_t i = 0; i < 4; ++i) {
-      one_of_four(out.sigma[i], l) = answer.sigma[at(i)];
-      for (std::size_t j = 0; j < 4; ++j) one_of_four(out.D[i][j], l) = answer.D(at(i), at(j));
-    }
-  }
-}
-
-// The increment taken at constant rate, beta = 0: elastic up to the cone, then R = |s| changes linearly
-// while s turns towards the strain rate, tan(psi/2) = exp(-kappa) tan(psi0/2), kappa = 2 G |de| /
-// logarithmic mean of R. Krieg & Krieg (1977), Loret & Prevost (1986), Szabo & Kossa (2012).  False where
-// the formula doesn't apply.
-bool DruckerPrager::integrate_exactly(const PointIn<4>& in, PointOut<4>& out) const {
-  using Real = Dual<4>;
-  using Tensor = Real[4];
-  const auto [K, G] = p_.elastic;
-  const auto [alpha, k] = p_.cone;
-  const auto dot = [](const Tensor& a, const Tensor& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2.0 * a[3] * b[3];
-  };
-
-  // Start, and the elastic change of the whole increment: ds = 2 G de, and of the radius sqrt2 (k - 3 alpha p).
-  const Vector4 s0 = deviator(in.sigma0);
-  const double p0 = mean_stress(in.sigma0), R0 = std::sqrt(2.0) * (k - 3.0 * alpha * p0);
-  const Vector4 change = 2.0 * G * deviatoric_projection() * in.deps;
-  const Matrix4 dchange = 2.0 * G * deviatoric_projection();
-  Tensor start, ds;
+  const bool corner = trial.q > left;
+  const double theta = at_apex ? 0.0 : corner ? left / trial.q : 1.0;
+  const bool cut = corner && theta > 0.0;
+  const double shear = 2.0 * p_.elastic.G * theta;
+  const Vector4 n = trial.s / (std::sqrt(2.0) * trial.q);
   for (int i = 0; i < 4; ++i) {
-    start[i] = s0[i];
-    ds[i] = Real(change[i], dchange.row(i).transpose());
+    out.sigma[i] = multiply_add(p_max_, kUnit[i], theta * trial.s[i]);
+    const double turned = -shear * n[i];
+    for (int j = 0; j < 4; ++j) {
+      double D = shear * kProjection[i][j];
+      if (cut) D = multiply_add(turned, n[j], D);
+      out.D(i, j) = multiply_add(kApexStiffness, D_elastic_(i, j), D);
+    }
   }
-  const Real dp(K * unit_tensor().dot(in.deps), K * unit_tensor());
-  const Real dR = -3.0 * std::sqrt(2.0) * alpha * dp;
-  const Real length = sqrt(dot(ds, ds));
-  if (!(length.v > kRounding * R0) || !(R0 + dR.v > kRounding * R0)) return false;
-
-  // Share t of the increment until |s0 + t ds| = R0 + t dR.
-  const Real a = dot(ds, ds) - dR * dR, b = dot(start, ds) - R0 * dR, c = dot(start, start) - R0 * R0;
-  Real t = 0.0;
-  if (c.v < -kRounding * R0 * R0 || b.v < 0.0) {
-    const Real discriminant = b * b - a * c;
-    if (!(discriminant.v > 0.0)) return false;
-    const Real root = sqrt(discriminant);
-    t = b.v > 0.0 ? -c / (b + root) : (root - b) / a;
-    if (!(t.v >= 0.0 && t.v <= 1.0)) return false;
-  }
-  const Real R_start = R0 + t * dR, R_end = R0 + dR, ratio = R_end / R_start;
-  const Real change_of_R = R_end - R_start;
-  const Real mean_R = std::abs(ratio.v - 1.0) > 1e-5 ? change_of_R / log(ratio) : 0.5 * (R_start + R_end);
-  const Real E = exp(-((1.0 - t) * length / mean_R));
-  Tensor m;
-  for (int i = 0; i < 4; ++i) m[i] = (start[i] + t * ds[i]) / R_start;
-  const Real C = dot(m, ds) / length;
-  const Real toward = ((1.0 - E) * (1.0 - E) * C + 1.0 - E * E) / length;
-  const Real whole = (1.0 + E * E) + C * (1.0 - E * E);
-  if (!(whole.v > 0.0)) return false;
-  for (int i = 0; i < 4; ++i) {
-    const Real s = R_end * (2.0 * E * m[i] + toward * ds[i]) / whole;
-    const double on_diagonal = i < 3 ? 1.0 : 0.0;
-    out.sigma[i] = s.v + on_diagonal * (p0 + dp.v);
-    out.D.row(i) = (s.d + on_diagonal * dp.d).transpose();
-  }
-  out.status = PointStatus::yielded;
-  return true;
+  out.status = at_apex ? PointStatus::apex : PointStatus::cut_off;
 }
 
 MaterialEntry drucker_prager_entry() {

@@ -38,7 +38,7 @@ struct DruckerPragerParameters {
 // the mean stress is held there and the deviator is what the cone leaves: zero at the apex, whatever beta is.
 // With free_mean the flow stays without volume change there too: only the deviator goes, the mean stress may be
 // tensile.  That is what a program does which knows no apex, the source chapter's among them.
-class DruckerPrager final : public SolidLaw {
+class DruckerPrager : public SolidLaw {
  public:
   explicit DruckerPrager(const DruckerPragerParameters& parameters);
   // Sums of sqrt(2 de_p:de_p), the plastic shear gamma of simple shear, and of the plastic
@@ -51,42 +51,41 @@ class DruckerPrager final : public SolidLaw {
   bool initialise(const Vector4& sigma, std::span<double> h) const override;
   bool accepts_history(const Vector4& sigma, std::span<const double> h) const override;
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override;
-  bool takes_four() const override { return true; }
-  Outcome update_four(std::span<const FourPointsIn<4>> in, std::span<FourPointsOut<4>> out) const override;
   // A cone that reaches beyond Mohr-Coulomb's tension limit in triaxial extension, or no strength at all.
   std::string caution() const override;
   // sqrt(J2D) / (alpha J1 + K) of the source chapter, J1 compression positive.
   double stress_level(const Vector4& sigma, std::span<const double> h) const override;
 
- private:
+ protected:
   enum { kShear, kVolume };
+  static constexpr double kRounding = 1e-12;  // relative to scale()
+  // Share of D_elastic left in the tangent where the true one is singular.
+  static constexpr double kApexStiffness = 1e-7;
+  // unit_tensor() and deviatoric_projection(), as constants that loops over their terms fold.
+  static constexpr double kUnit[4] = {1.0, 1.0, 1.0, 0.0};
+  static constexpr double kThird = 1.0 / 3.0;
+  static constexpr double kProjection[4][4] = {{2.0 * kThird, -kThird, -kThird, 0.0},
+                                               {-kThird, 2.0 * kThird, -kThird, 0.0},
+                                               {-kThird, -kThird, 2.0 * kThird, 0.0},
+                                               {0.0, 0.0, 0.0, 0.5}};
 
   // The stress that tolerances are relative to, from |p| and q.
   template <class Real>
   Real scale(const Real& p, const Real& q) const {
     return p_.cone.k + 3.0 * p_.cone.alpha * p + q + 0.01 * p;  // the last: rounding of s
   }
-  // Elastic predictor of four points.
-  struct Trial {
-    FourTensors stress;
-    FourInvariants of;
-    Four f, rounding;  // of the yield function
-    FourMask elastic;  // points that stay inside
-  };
-  void predict(const FourPointsIn<4>& in, Trial& trial) const;
-  void finish(const FourPointsIn<4>& in, const Trial& trial, FourPointsOut<4>& out) const;
-  // Where the trial states end: on the cone all four, whether they should or not; then what is right for others.
-  // here: the points that a branch is for; it leaves the others alone.
-  void return_to_cone(const FourInvariants& trial, const Four& p, FourPointsOut<4>& out) const;
-  void stay_elastic(const FourTensors& trial, const FourMask& here, FourPointsOut<4>& out) const;
-  void drop_deviator(const FourInvariants& trial, const FourMask& here, FourPointsOut<4>& out) const;
-  void return_to_cap(const FourInvariants& trial, const FourMask& here, FourPointsOut<4>& out) const;
-  void take_exact_answers(const FourPointsIn<4>& in, const FourMask& here, FourPointsOut<4>& out) const;
+  // False where the formula does not apply; out.h1 is left alone.
   bool integrate_exactly(const PointIn<4>& in, PointOut<4>& out) const;
 
   DruckerPragerParameters p_;
   double p_max_;  // mean stress of the apex or of the tension limit
   Matrix4 D_elastic_;
+
+ private:
+  using Trial = StressInvariants;  // of the elastic predictor
+  void return_to_cone(const Trial& trial, double p, PointOut<4>& out) const;
+  void drop_deviator(const Trial& trial, PointOut<4>& out) const;
+  void return_to_cap(const Trial& trial, PointOut<4>& out) const;
 };
 
 MaterialEntry drucker_prager_entry();

@@ -30,6 +30,16 @@ inline double sqrt_j2(const Vector4& sigma) {
   return std::sqrt(0.5 * contract(s, s));
 }
 
+// Mean stress p, deviator s and q = sqrt(J2D) at once.
+struct StressInvariants {
+  Vector4 s;
+  double p, q;
+};
+inline StressInvariants invariants(const Vector4& sigma) {
+  const Vector4 s = deviator(sigma);
+  return {s, mean_stress(sigma), std::sqrt(0.5 * contract(s, s))};
+}
+
 // The same of four stresses side by side.
 using FourTensors = std::array<Four, 4>;
 struct FourInvariants {

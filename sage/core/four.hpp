@@ -75,6 +75,14 @@ inline Four multiply_add(const Four& a, const Four& b, const Four& c) {
 #endif
 }
 
+inline double multiply_add(double a, double b, double c) {
+#ifdef __FMA__
+  return __builtin_fma(a, b, c);
+#else
+  return a * b + c;
+#endif
+}
+
 // Rows become columns.
 inline void transpose_four(Four& a, Four& b, Four& c, Four& d) {
   const Four ab_low = __builtin_shufflevector(a, b, 0, 4, 2, 6),
