@@ -13,6 +13,7 @@ Bar<Line, Kinematics>::Bar(std::string_view name)
                                             .nodes = kNodes,
                                             .dofs = 2 * kNodes,
                                             .points = kPoints,
+                                            .degree = Line::nodes - 1,
                                             .law_size = 1}) {
   if (kPoints == 1) {
     to_nodes_.assign(2, 1.0);

@@ -31,8 +31,7 @@ class Bar final : public PointElement<1, 2 * Line::nodes, Line::nodes - 1> {
   const std::vector<std::vector<int>>& edges() const override;
   void edge_load(const NodeCoordinates& x, int edge, const Vector2& normal, const Vector2& shear,
                  std::span<double> f) const override;
-  std::span<const double> point_to_node() const override { return to_nodes_; }
-  int degree() const override { return Line::nodes - 1; }
+  std::span<const double> point_to_node(const NodeCoordinates& /*x*/) const override { return to_nodes_; }
 
  private:
   std::vector<double> to_nodes_;
@@ -54,7 +53,7 @@ class Spring final : public PointElement<1, 4, 1> {
   Vector2 position(const NodeCoordinates& x, int /*point*/) const override {
     return 0.5 * (x.col(0) + x.col(1));
   }
-  std::span<const double> point_to_node() const override {
+  std::span<const double> point_to_node(const NodeCoordinates& /*x*/) const override {
     static constexpr std::array<double, 2> same{1.0, 1.0};
     return same;
   }
@@ -73,7 +72,7 @@ class Ring final : public PointElement<1, 2, 1> {
   void geometry(const NodeCoordinates& x, std::span<double> out) const override;
   Vector2 position(const NodeCoordinates& x, int /*point*/) const override { return x.col(0); }
   void body_load(const NodeCoordinates& x, const Vector2& b, std::span<double> f) const override;
-  std::span<const double> point_to_node() const override {
+  std::span<const double> point_to_node(const NodeCoordinates& /*x*/) const override {
     static constexpr std::array<double, 1> same{1.0};
     return same;
   }

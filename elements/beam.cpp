@@ -148,7 +148,7 @@ struct Points {
 template <int Dofs, class Inner>
 Outcome update_points(const Law<kStrains>& law, const ElementIn& in, const Inner& inner, Points<Dofs>& points,
                       ElementOut& out) {
-  const std::size_t history = law.history().size();
+  const std::size_t history = law.traits().history.size();
   const auto du = Vector<Dofs>::Map(in.du);
   PointIn<kStrains> point;
   for (std::size_t p = 0; p < kPoints; ++p) {
@@ -250,7 +250,7 @@ struct Along {
 
 // The law's stiffness where nothing has happened.  The history at the points' ends is room for it.
 Outcome first_stiffness(const Law<kStrains>& law, const ElementIn& in, ElementOut& out, Matrix<kStrains>& D) {
-  const std::span<const Quantity> history = law.history();
+  const std::span<const Quantity> history = law.traits().history;
   for (std::size_t i = 0; i < history.size(); ++i) out.h1[i] = history[i].initial;
   PointIn<kStrains> point;
   PointOut<kStrains> result;
@@ -533,7 +533,7 @@ template <class Kinematics, Release released>
 Outcome Beam2<Kinematics, released>::evaluate(const ElementIn& in, ElementOut& out) const {
   constexpr int kMostSteps = 60;
   const Law<kStrains>& law = *std::get<const Law<kStrains>*>(in.law);
-  if (!law.linear()) return evaluate_yielding<kDofs>(law, in, out);
+  if (!law.traits().linear) return evaluate_yielding<kDofs>(law, in, out);
   Points<kDofs> points(in.geometry);
   double gamma = 0.0;
   const auto inner = [&](std::size_t p) -> Strains { return gamma * points.G[p]; };
@@ -603,6 +603,7 @@ Beam3<Kinematics, released>::Beam3(std::string_view name)
                                         .nodes = 3,
                                         .dofs = kDofs,
                                         .points = 2,
+                                        .degree = 2,
                                         .law_size = kStrains}) {
   std::vector<ParentPoint> points, nodes;
   for (const LinePoint& q : GaussLine<2>::table) points.push_back({q.xi, 0.0});

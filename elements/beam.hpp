@@ -41,8 +41,7 @@ class Beam3 final : public PointElement<5, 9 + slip_dofs(released), 2> {
                  std::span<double> f) const override;
   // ElementEntry::force_at.
   static void force_at(const NodeCoordinates& x, double xi, const Vector2& force, std::span<double> f);
-  std::span<const double> point_to_node() const override { return to_nodes_; }
-  int degree() const override { return 2; }
+  std::span<const double> point_to_node(const NodeCoordinates& /*x*/) const override { return to_nodes_; }
 
  private:
   std::vector<double> to_nodes_;
@@ -68,7 +67,7 @@ class Beam2 final : public Element {
                  std::span<double> f) const override;
   // ElementEntry::force_at.
   static void force_at(const NodeCoordinates& x, double xi, const Vector2& force, std::span<double> f);
-  std::span<const double> point_to_node() const override {
+  std::span<const double> point_to_node(const NodeCoordinates& /*x*/) const override {
     static constexpr std::array<double, 6> ends{1.0, 0.0, 0.0, 0.0, 0.0, 1.0};
     return ends;
   }

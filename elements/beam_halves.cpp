@@ -78,7 +78,7 @@ template <int Dofs, int All, std::size_t Count>
 Outcome evaluate_half(const Element& element, const std::array<std::size_t, Count>& places,
                       std::size_t first_point, const ElementIn& in, const double* geometry,
                       const std::array<const double*, 2>& spread, ElementOut& out) {
-  const std::size_t history = std::get<const Law<kSectionStrains>*>(in.law)->history().size();
+  const std::size_t history = std::get<const Law<kSectionStrains>*>(in.law)->traits().history.size();
   std::array<double, Dofs> du{}, f{};
   std::array<double, Dofs * Dofs> K{};
   for (std::size_t i = 0; i < Dofs; ++i) du[i] = in.du[places[i]];
@@ -114,6 +114,7 @@ BeamHalves<Kinematics, released>::BeamHalves(std::string_view name) : first_(nam
   traits_.nodes = 3;
   traits_.dofs = kDofs;
   traits_.points = kBothPoints;
+  traits_.degree = 2;
   // The ends' places besides: loads along the element are divided by them.
   traits_.own_doubles = first_.traits().geometry_size() + second_.traits().geometry_size() + 4;
 }
@@ -219,7 +220,7 @@ void BeamHalves<Kinematics, released>::force_at(const NodeCoordinates& x, double
 }
 
 template <class Kinematics, Release released>
-std::span<const double> BeamHalves<Kinematics, released>::point_to_node() const {
+std::span<const double> BeamHalves<Kinematics, released>::point_to_node(const NodeCoordinates& /*x*/) const {
   static constexpr std::array<double, 18> ends{1.0, 0.0, 0.0, 0.0, 0.0, 0.0,   // node 1
                                                0.0, 0.0, 0.0, 0.0, 0.0, 1.0,   // node 2
                                                0.0, 0.0, 0.5, 0.5, 0.0, 0.0};  // node 3

@@ -25,8 +25,7 @@ class BeamHalves final : public Element {
                  std::span<double> f) const override;
   // Formulation::force_at.
   static void force_at(const NodeCoordinates& x, double xi, const Vector2& force, std::span<double> f);
-  std::span<const double> point_to_node() const override;
-  int degree() const override { return 2; }
+  std::span<const double> point_to_node(const NodeCoordinates& /*x*/) const override;
 
  private:
   Beam2<Kinematics, released> first_;

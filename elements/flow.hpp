@@ -21,6 +21,7 @@ class Flow final : public PointElement<3, Shape::nodes, Rule::points> {
                             .nodes = kNodes,
                             .dofs = kNodes,
                             .points = Rule::points,
+                            .degree = Shape::degree,
                             .law_size = 3}),
         solid_(name, false, false, false) {}
 
@@ -51,9 +52,10 @@ class Flow final : public PointElement<3, Shape::nodes, Rule::points> {
     for (int i = 0; i < Edge::nodes; ++i) ends.col(i) = x.col(nodes[static_cast<std::size_t>(i)]);
     add_edge_inflow<Edge, Kinematics>(ends, normal, nodes, f);
   }
-  std::span<const double> point_to_node() const override { return solid_.point_to_node(); }
+  std::span<const double> point_to_node(const NodeCoordinates& x) const override {
+    return solid_.point_to_node(x);
+  }
   std::span<const double> point_to_sample() const override { return solid_.point_to_sample(); }
-  int degree() const override { return solid_.degree(); }
   bool shape_functions(const Vector2& parent, std::span<double> N, std::span<double> dN) const override {
     return solid_.shape_functions(parent, N, dN);
   }

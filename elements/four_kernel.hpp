@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <variant>
 
-#include "sage/core/element.hpp"
+#include "sage/core/four_at_a_time.hpp"
 
 namespace sage {
 
@@ -183,8 +182,7 @@ void stiffness_of_four(const double* geometry, const Four* wDBt, const std::arra
 template <int Dofs, int Points, bool pointwise>
 Outcome evaluate_points_of_four(const FourElementsIn& in, FourElementsOut& out) {
   using Operator = OperatorOfFour<Dofs, pointwise>;
-  const SolidLaw& law = *std::get<const SolidLaw*>(in.law);
-  const std::size_t history = law.history().size();
+  const std::size_t history = in.history;
   std::array<FourPointsIn<4>, Points> point;
   std::array<FourPointsOut<4>, Points> result;
   for (std::size_t p = 0; p < Points; ++p) {
@@ -197,7 +195,7 @@ Outcome evaluate_points_of_four(const FourElementsIn& in, FourElementsOut& out) 
       result[p].h1[l] = out.h1[l] + p * history;
     }
   }
-  if (law.update_four(point, result) != Outcome::ok) return Outcome::cut_step;
+  if (in.law->update_four(point, result) != Outcome::ok) return Outcome::cut_step;
 
   std::array<std::array<Four, 4>, Points> w_sigma;
   for (std::size_t p = 0; p < Points; ++p) {

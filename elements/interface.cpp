@@ -126,7 +126,7 @@ void Interface<Line, Kinematics>::edge_load(const NodeCoordinates& x, int edge, 
 }
 
 template <class Line, class Kinematics>
-std::span<const double> Interface<Line, Kinematics>::point_to_node_at(const NodeCoordinates& x) const {
+std::span<const double> Interface<Line, Kinematics>::point_to_node(const NodeCoordinates& x) const {
   return uses_gauss(mid_line(x)) ? gauss_to_nodes_ : nodal_to_nodes_;
 }
 

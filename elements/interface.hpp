@@ -50,10 +50,7 @@ class Interface final : public PointElement<2, 4 * Line::nodes, Line::nodes> {
   void edge_load(const NodeCoordinates& x, int edge, const Vector2& normal, const Vector2& shear,
                  std::span<double> f) const override;
 
-  std::span<const double> point_to_node() const override {
-    return rule_ == InterfaceRule::gauss ? gauss_to_nodes_ : nodal_to_nodes_;
-  }
-  std::span<const double> point_to_node_at(const NodeCoordinates& x) const override;
+  std::span<const double> point_to_node(const NodeCoordinates& x) const override;
 
   // Smallest over mean J = |dx/dxi| at the points and ends.
   double shape_quality(const NodeCoordinates& x) const override;

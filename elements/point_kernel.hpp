@@ -81,7 +81,7 @@ Outcome evaluate_points(const ElementIn& in, ElementOut& out) {
   const auto* const* held = std::get_if<const Law<LawSize>*>(&in.law);
   assert(held && "the model builder pairs elements with laws of the same size");
   const Law<LawSize>& law = **held;
-  const std::size_t history = law.history().size();
+  const std::size_t history = law.traits().history.size();
   const Eigen::Map<const Vector<Dofs>> du(in.du);
 
   Vector<Dofs> f = Vector<Dofs>::Zero();
@@ -115,9 +115,28 @@ Outcome evaluate_points(const ElementIn& in, ElementOut& out) {
   return Outcome::ok;
 }
 
-// What all elements but Beam2 share: traits and the kernel.  pointwise: as OperatorOfFour says.
+// FourElements of those that fit; of others nothing.  pointwise: as OperatorOfFour says.
+template <int LawSize, int Dofs, int Points, bool pointwise, bool fit = four_fit(LawSize, Dofs, Points)>
+class FoursOfPoints {};
+
+template <int LawSize, int Dofs, int Points, bool pointwise>
+class FoursOfPoints<LawSize, Dofs, Points, pointwise, true> : public FourElements {
+ public:
+  int four_geometry_size() const final { return Points * OperatorOfFour<Dofs, pointwise>::kStride / kAbreast; }
+  void place_among_four(std::span<const double> geometry, double* among_four) const final {
+    place_geometry_among_four<Dofs, Points, pointwise>(geometry.data(), among_four);
+  }
+  Outcome evaluate_four(const FourElementsIn& in, FourElementsOut& out) const final {
+    return evaluate_points_of_four<Dofs, Points, pointwise>(in, out);
+  }
+
+ protected:
+  ~FoursOfPoints() = default;
+};
+
+// What all elements but Beam2 share: traits and the kernel.
 template <int LawSize, int Dofs, int Points, bool pointwise = false>
-class PointElement : public Element {
+class PointElement : public Element, public FoursOfPoints<LawSize, Dofs, Points, pointwise> {
  public:
   explicit PointElement(const ElementTraits& traits) : traits_(traits) {
     assert(traits.law_size == LawSize && traits.dofs == Dofs && traits.points == Points);
@@ -125,25 +144,6 @@ class PointElement : public Element {
   const ElementTraits& traits() const final { return traits_; }
   Outcome evaluate(const ElementIn& in, ElementOut& out) const final {
     return evaluate_points<LawSize, Dofs, Points>(in, out);
-  }
-  bool takes_four() const final { return four_fit(LawSize, Dofs, Points); }
-  int four_geometry_size() const final {
-    if constexpr (four_fit(LawSize, Dofs, Points))
-      return Points * OperatorOfFour<Dofs, pointwise>::kStride / kAbreast;
-    else
-      return Element::four_geometry_size();
-  }
-  void place_among_four(std::span<const double> geometry, double* among_four) const final {
-    if constexpr (four_fit(LawSize, Dofs, Points))
-      place_geometry_among_four<Dofs, Points, pointwise>(geometry.data(), among_four);
-    else
-      Element::place_among_four(geometry, among_four);
-  }
-  Outcome evaluate_four(const FourElementsIn& in, FourElementsOut& out) const final {
-    if constexpr (four_fit(LawSize, Dofs, Points))
-      return evaluate_points_of_four<Dofs, Points, pointwise>(in, out);
-    else
-      return Element::evaluate_four(in, out);
   }
 
  private:

@@ -48,6 +48,7 @@ class Solid final
                              .nodes = Shape::nodes,
                              .dofs = kDofs,
                              .points = Rule::points,
+                             .degree = Shape::degree,
                              .law_size = 4,
                              .reduced = reduced,
                              .locks = locks,
@@ -115,10 +116,9 @@ class Solid final
     add_edge_load<Edge, Kinematics>(ends, normal, shear, nodes, f);
   }
 
-  std::span<const double> point_to_node() const override { return to_nodes_; }
+  std::span<const double> point_to_node(const NodeCoordinates& /*x*/) const override { return to_nodes_; }
 
   std::span<const double> point_to_sample() const override { return to_samples_; }
-  int degree() const override { return Shape::degree; }
 
   bool shape_functions(const Vector2& parent, std::span<double> N, std::span<double> dN) const override {
     const ShapeAt<Shape> at({parent.x(), parent.y()});

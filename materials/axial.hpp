@@ -14,7 +14,6 @@ namespace sage {
 class AxialLaw : public Law<1>, public Spaced {
  public:
   AxialLaw(double stiffness, double spacing) : EA_(stiffness / spacing), spacing_(spacing) {}
-  bool symmetric() const override { return true; }
   double spacing() const override { return spacing_; }
 
  protected:
@@ -27,7 +26,7 @@ class AxialLaw : public Law<1>, public Spaced {
 class AxialElastic final : public AxialLaw {
  public:
   using AxialLaw::AxialLaw;
-  bool linear() const override { return true; }
+  LawTraits traits() const override { return {.symmetric = true, .linear = true}; }
   Outcome update(const PointIn<1>& in, PointOut<1>& out) const override;
 };
 
@@ -38,7 +37,7 @@ class AxialOneWay final : public AxialLaw {
   AxialOneWay(double stiffness, double spacing, bool tension)
       : AxialLaw(stiffness, spacing), sign_(tension ? 1.0 : -1.0) {}
   static constexpr std::array<Quantity, 1> kHistory{{{"slack", Dimension::none, 0.0}}};
-  std::span<const Quantity> history() const override { return kHistory; }
+  LawTraits traits() const override { return {.history = kHistory, .symmetric = true}; }
   bool initialise(const Vector<1>& sigma, std::span<double> h) const override;
   bool accepts_history(const Vector<1>& sigma, std::span<const double> h) const override;
   Outcome update(const PointIn<1>& in, PointOut<1>& out) const override;
@@ -54,7 +53,7 @@ class AxialPlastic final : public AxialLaw {
   AxialPlastic(double stiffness, double spacing, double tension, double compression)
       : AxialLaw(stiffness, spacing), tension_(tension / spacing), compression_(compression / spacing) {}
   static constexpr std::array<Quantity, 1> kHistory{{{"plastic_strain", Dimension::none, 0.0}}};
-  std::span<const Quantity> history() const override { return kHistory; }
+  LawTraits traits() const override { return {.history = kHistory, .symmetric = true}; }
   bool initialise(const Vector<1>& sigma, std::span<double> h) const override;
   Outcome update(const PointIn<1>& in, PointOut<1>& out) const override;
   double stress_level(const Vector<1>& sigma, std::span<const double> h) const override;

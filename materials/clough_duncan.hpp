@@ -44,10 +44,10 @@ class CloughDuncan final : public InterfaceLaw {
                                                      {"largest_shear_stress", Dimension::stress, 0.0},
                                                      {"stress_above_strength", Dimension::stress, 0.0},
                                                      {"plastic_slip", Dimension::length, 0.0}}};
-  std::span<const Quantity> history() const override { return kHistory; }
-  // Without friction, and without shear stiffness ("free ends") or any strength, shear never meets normal.
-  bool symmetric() const override {
-    return p_.tan_phi == 0.0 && (p_.k_unit == 0.0 || (p_.c == 0.0 && p_.k_sf == 0.0));
+  // Symmetric without friction and without shear stiffness ("free ends") or any strength: shear never meets normal.
+  LawTraits traits() const override {
+    return {.history = kHistory,
+            .symmetric = p_.tan_phi == 0.0 && (p_.k_unit == 0.0 || (p_.c == 0.0 && p_.k_sf == 0.0))};
   }
   bool initialise(const Vector2& sigma, std::span<double> h) const override;
   bool accepts_history(const Vector2& sigma, std::span<const double> h) const override;

@@ -12,8 +12,7 @@ class Darcy final : public Law<3> {
  public:
   // k: permeability along x and y, symmetric and positive definite.                     [length/time]
   explicit Darcy(const Matrix2& k);
-  bool symmetric() const override { return true; }
-  bool linear() const override { return true; }
+  LawTraits traits() const override { return {.symmetric = true, .linear = true}; }
   Outcome update(const PointIn<3>& in, PointOut<3>& out) const override {
     out.sigma.noalias() = in.sigma0 + D_ * in.deps;
     out.D = D_;

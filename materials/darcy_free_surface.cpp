@@ -34,8 +34,8 @@ RelativePermeability relative_permeability(double pressure_head, double ramp, do
 DarcyFreeSurface::DarcyFreeSurface(const Matrix2& k, double ramp, double least)
     : k_(k), ramp_(ramp), least_(least) {}
 
-std::span<const Quantity> DarcyFreeSurface::history() const {
-  return kHistory;
+LawTraits DarcyFreeSurface::traits() const {
+  return {.history = kHistory, .wants_context = true};
 }
 
 // Steady: what flows follows from the head itself, whatever came before.

@@ -19,8 +19,7 @@ class DarcyFreeSurface final : public Law<3> {
   // least: what is left of it where the soil is dry, 0 < least < 1.
   DarcyFreeSurface(const Matrix2& k, double ramp, double least);
 
-  std::span<const Quantity> history() const override;
-  bool wants_context() const override { return true; }
+  LawTraits traits() const override;
   Outcome update(const PointIn<3>& in, PointOut<3>& out) const override;
 
  private:

@@ -24,7 +24,7 @@ class DilatingJoint final : public InterfaceLaw {
   static constexpr std::array<Quantity, 3> kHistory{{{"gap", Dimension::length, 0.0},
                                                      {"plastic_slip", Dimension::length, 0.0},
                                                      {"plastic_opening", Dimension::length, 0.0}}};
-  std::span<const Quantity> history() const override { return kHistory; }
+  LawTraits traits() const override { return {.history = kHistory}; }
   bool initialise(const Vector2& sigma, std::span<double> h) const override;
   bool accepts_history(const Vector2& sigma, std::span<const double> h) const override;
   Outcome update(const PointIn<2>& in, PointOut<2>& out) const override;

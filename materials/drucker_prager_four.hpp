@@ -3,13 +3,13 @@
 #pragma once
 
 #include "materials/drucker_prager.hpp"
+#include "sage/core/four_at_a_time.hpp"
 
 namespace sage {
 
-class DruckerPragerFour final : public DruckerPrager {
+class DruckerPragerFour final : public DruckerPrager, public FourPointLaw<4> {
  public:
   using DruckerPrager::DruckerPrager;
-  bool takes_four() const override { return true; }
   Outcome update_four(std::span<const FourPointsIn<4>> in, std::span<FourPointsOut<4>> out) const override;
 
  private:

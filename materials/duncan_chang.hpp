@@ -16,12 +16,13 @@ enum class HyperbolicTangent {
 
 // d sigma = D(E, B or nu) d eps with stress-dependent moduli.  No yield surface: the stress level may pass 1,
 // with the stiffness that is left there (use hyperbolic_mohr_coulomb to bound it).
-class DuncanChang final : public SolidLaw {
+class DuncanChang final : public SolidLaw, public PathError<4> {
  public:
   DuncanChang(const HyperbolicSteps& steps, HyperbolicTangent tangent) : steps_(steps), tangent_(tangent) {}
   static constexpr std::array<Quantity, 1> kHistory{{{"largest_stress_state", Dimension::none, 0.0}}};
-  std::span<const Quantity> history() const override { return kHistory; }
-  bool symmetric() const override { return tangent_ == HyperbolicTangent::isotropic; }
+  LawTraits traits() const override {
+    return {.history = kHistory, .symmetric = tangent_ == HyperbolicTangent::isotropic};
+  }
   // False above the strength.
   bool initialise(const Vector4& sigma, std::span<double> h) const override;
   bool accepts_history(const Vector4& sigma, std::span<const double> h) const override;

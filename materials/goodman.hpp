@@ -20,9 +20,7 @@ class Goodman final : public InterfaceLaw {
  public:
   explicit Goodman(const GoodmanParameters& parameters) : p_(parameters) {}
   static constexpr std::array<Quantity, 1> kHistory{{{"gap", Dimension::length, 0.0}}};
-  std::span<const Quantity> history() const override { return kHistory; }
-  bool symmetric() const override { return true; }
-  bool linear() const override { return !p_.opens; }
+  LawTraits traits() const override { return {.history = kHistory, .symmetric = true, .linear = !p_.opens}; }
   bool initialise(const Vector2& sigma, std::span<double> h) const override;
   bool accepts_history(const Vector2& sigma, std::span<const double> h) const override;
   Outcome update(const PointIn<2>& in, PointOut<2>& out) const override;

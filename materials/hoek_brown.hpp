@@ -34,8 +34,7 @@ class HoekBrown final : public SolidLaw {
   static constexpr std::array<Quantity, 2> kHistory{
       {{"plastic_shear_strain", Dimension::none, 0.0, QuantityRole::plastic_shear_strain},
        {"plastic_volume_strain", Dimension::none, 0.0, QuantityRole::plastic_volume_strain}}};
-  std::span<const Quantity> history() const override { return kHistory; }
-  bool symmetric() const override { return strength_.flow == 1.0; }
+  LawTraits traits() const override { return {.history = kHistory, .symmetric = strength_.flow == 1.0}; }
   bool initialise(const Vector4& sigma, std::span<double> h) const override;
   bool accepts_history(const Vector4& sigma, std::span<const double> h) const override;
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override;

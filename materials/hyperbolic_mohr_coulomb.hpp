@@ -11,11 +11,11 @@ namespace sage {
 
 // Each substep: trial with the mean tangent moduli (E_t or E_ur, B) of its two ends, then return to the
 // envelope sigma_1 = sigma_3 + (sigma_1 - sigma_3)_f with those moduli frozen and flow of the dilation angle.
-class HyperbolicMohrCoulomb final : public SolidLaw {
+class HyperbolicMohrCoulomb final : public SolidLaw, public PathError<4> {
  public:
   explicit HyperbolicMohrCoulomb(const HyperbolicSteps& steps) : steps_(steps) {}
   static constexpr std::array<Quantity, 1> kHistory{{{"largest_stress_state", Dimension::none, 0.0}}};
-  std::span<const Quantity> history() const override { return kHistory; }
+  LawTraits traits() const override { return {.history = kHistory}; }
   bool initialise(const Vector4& sigma, std::span<double> h) const override;
   bool accepts_history(const Vector4& sigma, std::span<const double> h) const override;
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override;

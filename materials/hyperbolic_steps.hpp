@@ -36,7 +36,7 @@ Extremes extremes(const Vector4& sigma, bool in_plane);
 HyperbolicAnswer integrate(const HyperbolicSteps& steps, const Vector4& sigma0, const Vector4& deps,
                            double memory);
 
-// Law::path_error.  With compliances linear in the stress, volume and shear strain lag halfway by
+// PathError.  With compliances linear in the stress, volume and shear strain lag halfway by
 // a = (K1-K0)/(4(K0+K1)) and (G1-G0)/(4(G0+G1)) of their increments, not alike, and neighbours still
 // differently: the strain path bends by up to a.  A stress about a |d sigma| off changes the moduli by about a of its share,
 // so the end is off by 3 a^2 |d sigma|; the 3 is measured, in triaxial tests and under footings.

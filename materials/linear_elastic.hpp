@@ -23,8 +23,7 @@ Matrix4 elastic_matrix(const ElasticModuli& moduli);
 class LinearElastic final : public SolidLaw {
  public:
   explicit LinearElastic(const ElasticModuli& moduli) : D_(elastic_matrix(moduli)) {}
-  bool symmetric() const override { return true; }
-  bool linear() const override { return true; }
+  LawTraits traits() const override { return {.symmetric = true, .linear = true}; }
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override {
     out.sigma.noalias() = in.sigma0 + D_ * in.deps;
     out.D = D_;

@@ -32,7 +32,7 @@ class MohrCoulombSoftening final : public SolidLaw {
   static constexpr std::array<Quantity, 2> kHistory{
       {{"plastic_shear_strain", Dimension::none, 0.0, QuantityRole::plastic_shear_strain},
        {"plastic_volume_strain", Dimension::none, 0.0, QuantityRole::plastic_volume_strain}}};
-  std::span<const Quantity> history() const override { return kHistory; }
+  LawTraits traits() const override { return {.history = kHistory}; }
   bool initialise(const Vector4& sigma, std::span<double> h) const override;
   bool accepts_history(const Vector4& sigma, std::span<const double> h) const override;
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override;

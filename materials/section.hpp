@@ -20,8 +20,7 @@ struct SectionStiffness {
 class SectionElastic final : public Law<5> {
  public:
   explicit SectionElastic(const SectionStiffness& stiffness) : D_(stiffness.matrix()) {}
-  bool symmetric() const override { return true; }
-  bool linear() const override { return true; }
+  LawTraits traits() const override { return {.symmetric = true, .linear = true}; }
   Outcome update(const PointIn<5>& in, PointOut<5>& out) const override {
     out.sigma.noalias() = in.sigma0 + D_ * in.deps;
     out.D = D_;
@@ -43,8 +42,7 @@ class SectionPlastic final : public Law<5> {
       : s_(stiffness), D_(stiffness.matrix()), n_(1.0 / axial_strength), m_(1.0 / moment_strength) {}
   static constexpr std::array<Quantity, 2> kHistory{
       {{"plastic_axial_strain", Dimension::none, 0.0}, {"plastic_curvature", Dimension::none, 0.0}}};
-  std::span<const Quantity> history() const override { return kHistory; }
-  bool symmetric() const override { return true; }
+  LawTraits traits() const override { return {.history = kHistory, .symmetric = true}; }
   bool initialise(const Vector<5>& sigma, std::span<double> h) const override;
   Outcome update(const PointIn<5>& in, PointOut<5>& out) const override;
   double stress_level(const Vector<5>& sigma, std::span<const double> h) const override;

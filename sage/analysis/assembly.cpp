@@ -54,7 +54,7 @@ void make_elastic(GroupData& data) {
   std::ranges::fill(states.sigma, 0.0);
   std::visit(
       [&](const auto* law) {
-        const std::span<const Quantity> names = law->history();
+        const std::span<const Quantity> names = law->traits().history;
         for (std::size_t p = 0; p < states.status.size(); ++p) {
           if (data.group->interface()) states.sigma[p * size + 1] = pressure > 0.0 ? -pressure : -1.0;
           for (std::size_t i = 0; i < history; ++i) states.h[p * history + i] = names[i].initial;
@@ -97,7 +97,7 @@ Assembly::Assembly(const Model& model, const Scene& scene, const Skips& skips, W
     data.constant =
         scene.group_linear[g] != 0 && skips.elements && ConstantRegion::suits(*data.group, data.law);
     list_dofs(data, dof_map_);
-    data.by_four = goes_by_four(data);
+    find_fours(data);
     groups_.push_back(std::move(data));
     reset_group(g);
   }
@@ -146,6 +146,7 @@ void Assembly::reset_group(std::size_t group) {
 void Assembly::take_laws() {
   for (GroupData& data : groups_) {
     data.law = model_->material_of(*data.group).law_ref();
+    find_fours(data);
     std::ranges::fill(data.constant_by_four, char{0});
   }
 }

@@ -95,7 +95,7 @@ class Assembly {
   // Takes the elastic matrices of damped corrections (Tangent::damp): solids at the committed state, interfaces closed
   // and stuck, structures without force.
   void take_elastic(Tangent& tangent);
-  // Law::path_error of the trial states, the mean over all points by the work of their stress increments.
+  // PathError of the trial states, the mean over all points by the work of their stress increments.
   double path_error() const;
   // Trial states become committed; du as in the evaluation before.
   void commit(const Eigen::VectorXd& du);

@@ -4,16 +4,25 @@
 
 namespace sage {
 
-bool goes_by_four(const GroupData& data) {
+void find_fours(GroupData& data) {
+  data.four_elements = nullptr;
+  data.four_law = nullptr;
   const Element& element = *data.group->element;
-  return !data.constant && !data.wants_context && data.dof_list.empty() && element.takes_four() &&
-         four_may_go_together(element.traits()) && takes_four(data.law);
+  const auto* const solid = std::get_if<const SolidLaw*>(&data.law);
+  if (solid == nullptr || data.constant || data.wants_context || !data.dof_list.empty() ||
+      !four_may_go_together(element.traits()))
+    return;
+  const auto* const elements = dynamic_cast<const FourElements*>(&element);
+  const auto* const law = dynamic_cast<const FourPointLaw<4>*>(*solid);
+  if (elements == nullptr || law == nullptr) return;
+  data.four_elements = elements;
+  data.four_law = law;
 }
 
 void prepare_by_four(const Mesh& mesh, GroupData& data) {
   if (!data.geometry_by_four.empty()) return;
   const Group& group = *data.group;
-  const auto size = static_cast<std::size_t>(group.element->four_geometry_size());
+  const auto size = static_cast<std::size_t>(data.four_elements->four_geometry_size());
   const int fours = (group.elements() + kAbreast - 1) / kAbreast;
   data.geometry_by_four.resize(size * static_cast<std::size_t>(fours * kAbreast));
   data.constant_by_four.assign(static_cast<std::size_t>(fours), 0);
@@ -23,13 +32,13 @@ void prepare_by_four(const Mesh& mesh, GroupData& data) {
     element_coordinates(mesh, group, std::min(e, group.elements() - 1), x);
     group.element->geometry(x, geometry);
     const auto four = static_cast<std::size_t>(e / kAbreast), place = static_cast<std::size_t>(e % kAbreast);
-    group.element->place_among_four(geometry, data.geometry_by_four.data() + four * kAbreast * size + place);
+    data.four_elements->place_among_four(geometry, data.geometry_by_four.data() + four * kAbreast * size + place);
   }
 }
 
 PassByFour::PassByFour(GroupData& data, const Eigen::VectorXd& du) : data_(&data), du_(&du) {
   const ElementTraits& traits = data.group->element->traits();
-  geometry_size_ = static_cast<std::size_t>(data.group->element->four_geometry_size());
+  geometry_size_ = static_cast<std::size_t>(data.four_elements->four_geometry_size());
   dofs_ = data.dofs();
   points_ = static_cast<std::size_t>(traits.points);
   stresses_ = points_ * static_cast<std::size_t>(traits.law_size);
@@ -45,7 +54,8 @@ Outcome PassByFour::evaluate(int first, double* f, double* K, bool& changed) con
   FourElementsOut out;
   in.geometry = data_->geometry_by_four.data() + static_cast<std::size_t>(first) * geometry_size_;
   in.du = reinterpret_cast<const double*>(du);
-  in.law = data_->law;
+  in.law = data_->four_law;
+  in.history = static_cast<std::size_t>(data_->state.history_size());
 #pragma GCC unroll 4
   for (std::size_t l = 0; l < kAbreast; ++l) {
     const int element = std::min(first + static_cast<int>(l), data_->group->elements() - 1);
@@ -69,7 +79,7 @@ Outcome PassByFour::evaluate(int first, double* f, double* K, bool& changed) con
   const bool kept = K != nullptr && data_->keeps_matrices();
   out.changed = changed;
   out.constant = kept && constant != 0;
-  const Outcome outcome = data_->group->element->evaluate_four(in, out);
+  const Outcome outcome = data_->four_elements->evaluate_four(in, out);
   changed = out.changed;
   if (kept) constant = outcome == Outcome::ok && out.constant ? 1 : 0;
   return outcome;

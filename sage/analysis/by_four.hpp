@@ -5,8 +5,8 @@
 
 namespace sage {
 
-// Whether they can go by four: GroupData::by_four.
-bool goes_by_four(const GroupData& data);
+// Whether its elements can go by four, with the law that it has: GroupData::four_elements and four_law.
+void find_fours(GroupData& data);
 // w and B of all elements, side by side, where they are not there yet.
 void prepare_by_four(const Mesh& mesh, GroupData& data);
 

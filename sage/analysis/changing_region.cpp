@@ -22,7 +22,7 @@ ChangingRegion::ChangingRegion(std::vector<GroupData>& groups, ElementWork& elem
 
 void ChangingRegion::set_threads(int threads) {
   const bool useful = std::ranges::any_of(
-      *groups_, [](const GroupData& data) { return data.by_four && data.group->elements() >= kWorthThreads; });
+      *groups_, [](const GroupData& data) { return data.by_four() && data.group->elements() >= kWorthThreads; });
   pool_ = useful && threads > 1 ? std::make_unique<ThreadPool>(threads) : nullptr;
 }
 
@@ -127,7 +127,7 @@ Outcome ChangingRegion::evaluate(const Eigen::VectorXd& du, Tangent* tangent) {
   for (GroupData& data : *groups_) {
     if (!data.active || data.constant) continue;
     const Outcome outcome =
-        data.by_four ? evaluate_by_four(data, du, tangent) : evaluate_one_by_one(data, du, tangent);
+        data.by_four() ? evaluate_by_four(data, du, tangent) : evaluate_one_by_one(data, du, tangent);
     if (outcome == Outcome::cut_step) return Outcome::cut_step;
     work_->element_evaluations += data.group->elements();
   }

@@ -11,7 +11,7 @@ namespace sage {
 namespace {
 
 bool symmetric(const LawRef& law) {
-  return std::visit([](const auto* l) { return l->symmetric(); }, law);
+  return std::visit([](const auto* l) { return l->traits().symmetric; }, law);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ bool ConstantRegion::suits(const Group& group, const LawRef& law) {
   constexpr double kMostRatio = 1e4;  // of the largest to the smallest stiffness; nu = .4998
   const auto* solid = std::get_if<const SolidLaw*>(&law);
   if (solid == nullptr) return true;  // of joints the relative displacement is taken first
-  std::vector<double> h((*solid)->history().size());
+  std::vector<double> h((*solid)->traits().history.size());
   PointIn<4> in{Vector4::Zero(), Vector4::Zero(), Vector4::Zero(), h};
   std::vector<double> h1 = h;
   PointOut<4> out;

@@ -245,15 +245,16 @@ class PointsBetween {
     if (!strain_.known()) D_.reset();
     const Eigen::Index points = element_.traits().points;
     const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> to_nodes(
-        element_.point_to_node().data(), element_.traits().nodes, points);
+        element_.point_to_node(Eigen::Matrix2Xd::Zero(2, element_.traits().nodes)).data(), element_.traits().nodes,
+        points);  // of a solid the map is the same everywhere
     map_ = rule_.shares * to_nodes.topRows(static_cast<Eigen::Index>(element_.edges().size()));
   }
 
   static bool suit(const Group& group) {
     const Element& element = *group.element;
     const bool own_places = element.point_to_sample().empty();
-    return own_places && element.degree() <= 2 &&
-           (group.entry->square() || element.traits().points < 3 * element.degree());
+    return own_places && element.traits().degree <= 2 &&
+           (group.entry->square() || element.traits().points < 3 * element.traits().degree);
   }
 
   Eigen::Index count() const { return rule_.w.size(); }
@@ -314,7 +315,7 @@ GroupStress group_stress(const Model& model, const Solution& solution, std::size
   std::optional<PointsBetween> between;
   if (PointsBetween::suit(group)) between.emplace(group, model.geometry, D);
   GroupStress s;
-  s.degree = element.degree();
+  s.degree = element.traits().degree;
   s.corners = static_cast<int>(element.edges().size());
   s.samples = to_samples.size() > 0 ? to_samples.rows() : element.traits().points;
   s.points = between ? between->count() : element.traits().points;
@@ -537,7 +538,7 @@ class Estimation {
     ErrorEstimate result;
     result.element.resize(groups_.size());
     for (const GroupData& data : groups_)
-      if (const SolidLaw* law = solid_law(data)) result.energy = result.energy && law->linear();
+      if (const SolidLaw* law = solid_law(data)) result.energy = result.energy && law->traits().linear;
     take_stress(start, result.energy);
     make_fits();
     measure();

@@ -27,7 +27,7 @@ double largest_gradient(const Model& model, const GroupData& data, const FlowLin
   element_coordinates(model.mesh, *data.group, on.element, x);
   const std::vector<int>& edge = element.edges()[static_cast<std::size_t>(on.edge)];
   const Vector2 along = (x.col(edge[1]) - x.col(edge[0])).normalized(), out(along.y(), -along.x());
-  const std::span<const double> map = element.point_to_node_at(x);
+  const std::span<const double> map = element.point_to_node(x);
   double largest = -std::numeric_limits<double>::infinity();
   for (const int node : edge) {
     Vector2 slope = Vector2::Zero();

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sage/analysis/element_dofs.hpp"
+#include "sage/core/four_at_a_time.hpp"
 #include "sage/core/linear_solver.hpp"
 #include "sage/core/state_store.hpp"
 #include "sage/model/model.hpp"
@@ -13,7 +14,7 @@ namespace sage {
 // Sections of beams that may yield see the loads along their elements.
 inline bool sees_spread_loads(const Group& group, const LawRef& law) {
   return group.structure() && size_of_law(law) > 1 &&
-         !std::visit([](const auto* held) { return held->linear(); }, law);
+         !std::visit([](const auto* held) { return held->traits().linear; }, law);
 }
 
 struct GroupData {
@@ -25,7 +26,9 @@ struct GroupData {
   bool active = false;
   bool wants_context = false;  // its law does
   bool constant = false;       // of a linear law, and matrices and forces are kept: iterations call no law
-  bool by_four = false;        // not constant, and its elements are evaluated four at a time
+  // Where its elements are evaluated four at a time: what its element and its law offer for that; else nullptr.
+  const FourElements* four_elements = nullptr;
+  const FourPointLaw<4>* four_law = nullptr;
   StateStore state;
   // Pore pressure at the points of a solid at the committed state, without the excess; empty = the model has none.
   std::vector<double> pore;
@@ -33,7 +36,7 @@ struct GroupData {
   // displacements of the nodes.
   std::vector<int> dof_list, field_of_dof;
   std::vector<double> geometry;  // w and B of all elements; empty = made anew in each pass
-  // by_four: in place of it, of each four in turn, their values side by side; the last four are filled up with the
+  // by_four(): in place of it, of each four in turn, their values side by side; the last four are filled up with the
   // last element.
   std::vector<double> geometry_by_four;
   std::vector<char> constant_by_four;  // of each four: FourElementsOut::constant of the matrices that are kept
@@ -50,6 +53,7 @@ struct GroupData {
   bool sees_spread = false;
   std::vector<double> spread_start, spread_end;
 
+  bool by_four() const { return four_law != nullptr; }
   bool keeps_matrices() const { return !matrix.empty(); }
   std::size_t matrix_size() const { return dofs() * dofs(); }
   std::size_t dofs() const { return dofs_; }  // of an element

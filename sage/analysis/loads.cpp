@@ -143,7 +143,7 @@ Vector<N> initial_stress(const InitialStress& initial, const InitialStress* neig
 template <int N>
 bool start_point_with(const Law<N>& law, const InitialStress& initial, std::size_t point, StateStore& state) {
   const auto history = static_cast<std::size_t>(state.history_size());
-  const std::span<const Quantity> quantities = law.history();
+  const std::span<const Quantity> quantities = law.traits().history;
   const std::span<double> h(state.committed.h.data() + point * history, history);
   const auto first = static_cast<std::size_t>(initial.value[0]) - 1;
   for (std::size_t i = 1; i < initial.value.size() && first + i - 1 < history; ++i)

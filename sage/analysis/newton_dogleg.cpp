@@ -2,6 +2,7 @@
 
 #include "sage/analysis/dogleg.hpp"
 #include "sage/analysis/step_iteration.hpp"
+#include "sage/core/error.hpp"
 
 namespace sage {
 

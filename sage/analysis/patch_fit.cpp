@@ -18,7 +18,7 @@ Eigen::MatrixXd sample_map(const Element& element) {
   const std::span<const double> map = element.point_to_sample();
   if (!map.empty())
     return Eigen::Map<const RowMajor>(map.data(), static_cast<Eigen::Index>(map.size()) / points, points);
-  if (element.degree() > 1) return {};
+  if (element.traits().degree > 1) return {};
   // A triangle's stress is best in its middle.
   return Eigen::MatrixXd::Constant(1, points, 1.0 / static_cast<double>(points));
 }

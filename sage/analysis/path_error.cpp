@@ -13,8 +13,8 @@ struct WeightedMean {
 // w of a point of the group: the first of its doubles in the kept geometry.
 double weight_of(const GroupData& data, const ElementTraits& traits, std::size_t point) {
   const auto points = static_cast<std::size_t>(traits.points);
-  if (!data.by_four) return data.geometry[point * (static_cast<std::size_t>(traits.geometry_size()) / points)];
-  const auto size = static_cast<std::size_t>(data.group->element->four_geometry_size());
+  if (!data.by_four()) return data.geometry[point * (static_cast<std::size_t>(traits.geometry_size()) / points)];
+  const auto size = static_cast<std::size_t>(data.four_elements->four_geometry_size());
   const std::size_t element = point / points, place = element % kAbreast;
   return data.geometry_by_four[(element - place) * size + point % points * (size / points) * kAbreast + place];
 }
@@ -28,6 +28,7 @@ void add_path_error(const Mesh& mesh, const GroupData& data, const Law<N>& law, 
   const std::size_t points = state.committed.status.size();
   Eigen::Matrix2Xd x;
   PointContext context;
+  const auto* const estimate = dynamic_cast<const PathError<N>*>(&law);
   for (std::size_t p = 0; p < points; ++p) {
     const auto at = [&](const std::vector<double>& v) { return Eigen::Map<const Vector<N>>(v.data() + p * N); };
     const auto h = [&](const PointStates& s) {
@@ -37,6 +38,7 @@ void add_path_error(const Mesh& mesh, const GroupData& data, const Law<N>& law, 
     const Vector<N> eps0 = at(state.committed.eps), deps = at(state.trial.eps) - eps0;
     const double work = weight_of(data, traits, p) * std::abs((sigma1 - sigma0).dot(deps));
     mean.weight += work;
+    if (estimate == nullptr) continue;
     PointIn<N> in{sigma0, eps0, deps, h(state.committed)};
     if (data.wants_context) {
       const int element = static_cast<int>(p) / traits.points, point = static_cast<int>(p) % traits.points;
@@ -44,7 +46,7 @@ void add_path_error(const Mesh& mesh, const GroupData& data, const Law<N>& law, 
       context = context_of(data, element, x, point, moment);
       in.context = &context;
     }
-    mean.sum += work * law.path_error(in, sigma1, h(state.trial));
+    mean.sum += work * estimate->path_error(in, sigma1, h(state.trial));
   }
 }
 

@@ -7,7 +7,7 @@
 
 namespace sage {
 
-// Law::path_error of the trial states, the mean over all points by the work of their stress increments.
+// PathError of the trial states, the mean over all points by the work of their stress increments.
 // group_linear: one flag per group; their laws have no such error, whether they are evaluated (skips) or not.  moment: of
 // the step.
 double mean_path_error(const Mesh& mesh, const std::vector<GroupData>& groups,

@@ -64,7 +64,7 @@ void ProbeMaker::add_stress(Probe& probe, const Location& location, double part)
   const Group& group = model_->groups[location.group];
   const Element& element = *group.element;
   const std::size_t corners = element.edges().size();
-  if (element.degree() >= kOwnDegree && group.entry->square()) return add_own(probe, location, part);
+  if (element.traits().degree >= kOwnDegree && group.entry->square()) return add_own(probe, location, part);
   const int* nodes = group.nodes_of(location.element);
   const Patches& of_zone = patches(zone_[location.group]);
   Eigen::Matrix2Xd x;
@@ -95,7 +95,7 @@ void ProbeMaker::add_own(Probe& probe, const Location& location, double part) co
   const Group& group = model_->groups[location.group];
   Eigen::Matrix2Xd x;
   element_coordinates(model_->mesh, group, location.element, x);
-  const std::span<const double> to_nodes = group.element->point_to_node_at(x);
+  const std::span<const double> to_nodes = group.element->point_to_node(x);
   const auto points = static_cast<std::size_t>(group.element->traits().points);
   for (std::size_t p = 0; p < points; ++p) {
     double weight = 0.0;
@@ -109,7 +109,7 @@ void ProbeMaker::add_own(Probe& probe, const Location& location, double part) co
 void ProbeMaker::add_patch(Probe& probe, std::span<const std::size_t> patch, const Vector2& place,
                            double part) const {
   Eigen::Matrix2Xd places, at;
-  int degree = model_->groups[elements_[patch.front()].group].element->degree();
+  int degree = model_->groups[elements_[patch.front()].group].element->traits().degree;
   Eigen::Matrix2Xd x;
   for (std::size_t k = 0; k < patch.size(); ++k) {
     const ElementRef& ref = elements_[patch[k]];
@@ -123,7 +123,7 @@ void ProbeMaker::add_patch(Probe& probe, std::span<const std::size_t> patch, con
     const Eigen::Index before = places.cols();
     places.conservativeResize(2, before + at.cols());
     places.rightCols(at.cols()) = at;
-    degree = std::min(degree, element.degree());
+    degree = std::min(degree, element.traits().degree);
   }
   PatchFitter fitter;
   fitter.set_places(places, degree);

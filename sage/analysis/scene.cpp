@@ -25,7 +25,7 @@ Scene analyse_scene(const Model& model) {
     const LawRef law = model.material_of(group).law_ref();
     const ElementTraits& traits = group.element->traits();
     const bool linear = traits.linear && has_constant_stiffness(law);
-    const bool symmetric = traits.symmetric && ask(law, [](const auto& l) { return l.symmetric(); });
+    const bool symmetric = traits.symmetric && ask(law, [](const auto& l) { return l.traits().symmetric; });
     scene.group_linear.push_back(linear ? 1 : 0);
     scene.linear = scene.linear && linear;
     scene.symmetric = scene.symmetric && symmetric;

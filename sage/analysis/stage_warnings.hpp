@@ -25,7 +25,7 @@ struct StageFindings {
   double motion = 0.0;          // RunResult::motion
   double out_of_balance = 0.0;  // EquilibriumAudit::out_of_balance
   DigitsReport digits;
-  double path_error = 0.0;  // Law::path_error, the largest of the stage
+  double path_error = 0.0;  // PathError, the largest of the stage
   std::string loose_part;   // the first of the stage; empty = none
   double last_force = 0.0;  // out of balance at the end of the last increment, relative
 };

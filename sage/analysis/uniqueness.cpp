@@ -100,7 +100,7 @@ UniquenessCount count_loss_of_uniqueness(const Assembly& assembly, StepKind step
     return status == PointStatus::yielded;
   };
   for (const GroupData& data : assembly.groups()) {
-    if (!is_active_solid(data) || std::get<const SolidLaw*>(data.law)->symmetric()) continue;
+    if (!is_active_solid(data) || std::get<const SolidLaw*>(data.law)->traits().symmetric) continue;
     visit_tangents(assembly, data, step, yielded, [&](const StepEnd& end, const auto& start) {
       if (end.status != PointStatus::yielded) return;
       const Matrix4 elastic = start();

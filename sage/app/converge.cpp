@@ -61,8 +61,8 @@ Ladder halving(const Model& model) {
   int degree = 0;
   for (const Group& group : model.groups)
     if ((group.solid() || group.flow()) && group.elements() > 0 &&
-        (degree == 0 || group.element->degree() < degree))
-      degree = group.element->degree();
+        (degree == 0 || group.element->traits().degree < degree))
+      degree = group.element->traits().degree;
   return {.kind = Ladder::halving, .most = std::pow(4.0, std::max(degree, 1))};
 }
 

@@ -72,7 +72,7 @@ bool is_last_layer(const Model& model, const Location& holder) {
 // Of stress (or strain) components at the points of an element; NaN for elements of low degree.
 Vector4 missing_in(const Group& group, const std::vector<double>& at_points, const Location& holder) {
   constexpr int kLeastDegree = 4;
-  const int line = group.element->degree() + 1, points = group.element->traits().points;
+  const int line = group.element->traits().degree + 1, points = group.element->traits().points;
   if (!group.entry->square() || line <= kLeastDegree || points != line * line)
     return Vector4::Constant(kNoStress);
   const LegendreParts parts(line);

@@ -15,7 +15,7 @@ namespace {
 // The formulation of a group of that material: sections of beams that may yield have one of their own.
 int for_law(const ElementEntry& entry, const Formulation& named, const Material& material) {
   const auto yielding = std::ranges::find(entry.formulations, true, &Formulation::yields);
-  const bool linear = std::visit([](const auto& law) { return law == nullptr || law->linear(); }, material.law);
+  const bool linear = std::visit([](const auto& law) { return law == nullptr || law->traits().linear; }, material.law);
   return linear || yielding == entry.formulations.end() ? named.code : yielding->code;
 }
 

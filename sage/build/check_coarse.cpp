@@ -33,7 +33,7 @@ struct GroundSide {
 };
 
 bool can_fail(const Material& material) {
-  if (std::visit([](const auto* law) { return law->linear(); }, material.law_ref())) return false;
+  if (std::visit([](const auto* law) { return law->traits().linear; }, material.law_ref())) return false;
   // Of a user material nobody knows which of its properties is a strength.
   return material.parameter(ParameterRole::strength) || material.parameter(ParameterRole::friction_angle) ||
          (material.entry != nullptr && material.entry->open_ended);

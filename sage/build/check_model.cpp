@@ -250,7 +250,7 @@ void check_solver(Builder& b) {
   if (solver == nullptr || !solver->symmetric) return;
   for (const Group& group : b.model.groups) {
     const Material& material = b.model.material_of(group);
-    if (std::visit([](const auto* law) { return law->symmetric(); }, material.law_ref())) continue;
+    if (std::visit([](const auto* law) { return law->traits().symmetric; }, material.law_ref())) continue;
     const bool from_deck = b.options.solver < 0;
     b.error("S324", from_deck ? b.deck.one("control").where("solver") : b.at_line(0),
             std::string(from_deck ? "solver " + std::to_string(b.model.solver) : "the option --solver") + ": " +

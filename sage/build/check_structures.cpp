@@ -132,7 +132,7 @@ struct Answer {
 };
 
 std::optional<Answer> answer(const Law<2>& law, const Vector2& displacement) {
-  std::vector<double> before(law.history().size(), 0.0), after = before;
+  std::vector<double> before(law.traits().history.size(), 0.0), after = before;
   PointIn<2> in;
   PointOut<2> out;
   PointContext context;
@@ -446,7 +446,7 @@ void check_prestress(Builder& b, const InitialStress& initial) {
         Vector<N> sigma = Vector<N>::Zero();
         for (int i = 0; i < N; ++i) sigma[i] = 0.0 - initial.value[static_cast<std::size_t>(i)];
         std::vector<double> history;
-        for (const Quantity& quantity : law->history()) history.push_back(quantity.initial);
+        for (const Quantity& quantity : law->traits().history) history.push_back(quantity.initial);
         return law->initialise(sigma, history);
       },
       material.law_ref());

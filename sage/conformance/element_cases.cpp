@@ -109,7 +109,7 @@ ElementRun::ElementRun(const Element& e, const Eigen::Matrix2Xd& x, LawRef l) : 
   const ElementTraits& t = e.traits();
   const auto points = static_cast<std::size_t>(t.points), n = static_cast<std::size_t>(t.law_size);
   const Eigen::VectorXd start =
-      std::visit([](const auto* held) { return history_start(held->history()); }, law);
+      std::visit([](const auto* held) { return history_start(held->traits().history); }, law);
   history = static_cast<int>(start.size());
   geometry.resize(static_cast<std::size_t>(t.geometry_size()));
   e.geometry(x, geometry);

@@ -20,6 +20,7 @@
 #include "sage/conformance/law_driver.hpp"
 #include "sage/conformance/patch.hpp"
 #include "sage/conformance/sample_laws.hpp"
+#include "sage/core/four_at_a_time.hpp"
 
 namespace sage::conformance {
 
@@ -317,7 +318,8 @@ struct FourRuns {
   FourElementsOut out;
 
   // The last place is the third element again, as at the end of a group.
-  FourRuns(const Element& element, std::vector<ElementRun> three, const std::vector<Eigen::VectorXd>& u)
+  FourRuns(const FourElements& element, const FourPointLaw<4>& law, std::vector<ElementRun> three,
+           const std::vector<Eigen::VectorXd>& u)
       : runs(std::move(three)) {
     const std::size_t dofs = static_cast<std::size_t>(u[0].size());
     geometry.resize(kAbreast * static_cast<std::size_t>(element.four_geometry_size()));
@@ -341,16 +343,18 @@ struct FourRuns {
     }
     in.geometry = geometry.data();
     in.du = du.data();
-    in.law = runs[0].law;
+    in.law = &law;
+    in.history = history_of(runs[0].law).size();
   }
 };
 
 // Three elements of a case under the increments u that are made for them.
-inline FourRuns four_runs(const ElementCase& c, const Element& element, const SolidLaw& law,
-                          std::vector<Eigen::VectorXd>& u) {
+template <class Law>
+FourRuns four_runs(const ElementCase& c, const Element& element, const FourElements& fours, const Law& law,
+                   std::vector<Eigen::VectorXd>& u) {
   std::vector<ElementRun> three;
   for (int l = 0; l < 3; ++l) {
-    ElementRun& run = three.emplace_back(element, (1.0 + 0.3 * l) * sample_shape(*c.entry), &law);
+    ElementRun& run = three.emplace_back(element, (1.0 + 0.3 * l) * sample_shape(*c.entry), static_cast<const SolidLaw*>(&law));
     for (std::size_t i = 0; i < run.sigma0.size(); ++i) {
       run.sigma0[i] = 10.0 * l + std::sin(static_cast<double>(i));
       run.eps0[i] = 0.01 * (l - std::cos(static_cast<double>(i)));
@@ -358,19 +362,20 @@ inline FourRuns four_runs(const ElementCase& c, const Element& element, const So
     for (std::size_t i = 0; i < run.h0.size(); ++i) run.h0[i] = 100.0 * l + static_cast<double>(i);
     u.push_back((1.0 - 0.2 * l) * wavy(element.traits().dofs, 0.1));
   }
-  return {element, std::move(three), u};
+  return {fours, law, std::move(three), u};
 }
 
-// check(element, four, u) for every case that takes four.
-template <class Check>
-void check_fours(const std::vector<ElementCase>& cases, const SolidLaw& law, const Check& check) {
+// check(fours, four, u) for every case whose element is FourElements.  The law is a FourPointLaw too.
+template <class Law, class Check>
+void check_fours(const std::vector<ElementCase>& cases, const Law& law, const Check& check) {
   for (const ElementCase& c : cases) {
     SCOPED_TRACE(c.name);
     const auto element = c.make();
-    if (!element->takes_four()) continue;
+    const auto* const fours = dynamic_cast<const FourElements*>(element.get());
+    if (fours == nullptr) continue;
     std::vector<Eigen::VectorXd> u;
-    FourRuns four = four_runs(c, *element, law, u);
-    check(*element, four, u);
+    FourRuns four = four_runs(c, *element, *fours, law, u);
+    check(*fours, four, u);
   }
 }
 
@@ -378,7 +383,7 @@ void check_fours(const std::vector<ElementCase>& cases, const SolidLaw& law, con
 TEST_P(Elements, FourAtOnceOnlyWhereThereIsRoom) {
   for (const ElementCase& c : all_cases()) {
     const auto element = c.make();
-    if (element->takes_four()) {
+    if (dynamic_cast<const FourElements*>(element.get()) != nullptr) {
       EXPECT_TRUE(four_may_go_together(element->traits())) << c.name;
     }
   }
@@ -410,7 +415,7 @@ TEST_P(Elements, NoPointHasTheStatusOfAnother) {
 // 1e-13.
 TEST_P(Elements, FourAtOnceAreAsOneByOne) {
   const InFours<SmoothLaw<4>> law;
-  check_fours(cases(), law, [](const Element& element, FourRuns& four, const std::vector<Eigen::VectorXd>& u) {
+  check_fours(cases(), law, [](const FourElements& element, FourRuns& four, const std::vector<Eigen::VectorXd>& u) {
     ASSERT_EQ(element.evaluate_four(four.in, four.out), Outcome::ok);
     for (std::size_t l = 0; l < 3; ++l) {
       const ElementRun& run = four.runs[l];
@@ -432,7 +437,7 @@ TEST_P(Elements, FourAtOnceAreAsOneByOne) {
 // Whether a matrix changed is seen to the bit, in every term; matrices that nobody wants are left alone.
 TEST_P(Elements, FourAtOnceSeeWhatChanged) {
   const InFours<SmoothLaw<4>> law, fussy(1e-9);
-  check_fours(cases(), law, [&](const Element& element, FourRuns& four, const auto& /*u*/) {
+  check_fours(cases(), law, [&](const FourElements& element, FourRuns& four, const auto& /*u*/) {
     element.evaluate_four(four.in, four.out);
     EXPECT_TRUE(four.out.changed);
     four.out.changed = false;
@@ -452,7 +457,7 @@ TEST_P(Elements, FourAtOnceSeeWhatChanged) {
     EXPECT_EQ(element.evaluate_four(four.in, four.out), Outcome::ok);
     EXPECT_FALSE(four.out.changed);
     EXPECT_TRUE(four.runs[1].K.isZero(0.0));
-    four.in.law = static_cast<const SolidLaw*>(&fussy);
+    four.in.law = &fussy;
     EXPECT_EQ(element.evaluate_four(four.in, four.out), Outcome::cut_step);
   });
 }
@@ -461,8 +466,8 @@ TEST_P(Elements, FourAtOnceSeeWhatChanged) {
 // other cases everything is.
 TEST_P(Elements, FourAtOnceLeaveMatricesOfAConstantDAlone) {
   const InFours<SmoothLaw<4>> changing(1e9, false), constant(1e9, true);
-  check_fours(cases(), changing, [&](const Element& element, FourRuns& four, const auto& /*u*/) {
-    const auto K_after = [&](const SolidLaw& law, bool stands) {
+  check_fours(cases(), changing, [&](const FourElements& element, FourRuns& four, const auto& /*u*/) {
+    const auto K_after = [&](const FourPointLaw<4>& law, bool stands) {
       four.in.law = &law;
       four.out.constant = stands;
       for (ElementRun& run : four.runs) run.K.setConstant(7.0);
@@ -778,7 +783,7 @@ TEST_P(Elements, PointToNodeReproducesLinearFields) {
     const auto element = c.make();
     const ElementTraits& t = element->traits();
     for (const auto& x : {sample_shape(*c.entry), sample_shape_on_axis(*c.entry)}) {
-      const std::span<const double> E = element->point_to_node_at(x);
+      const std::span<const double> E = element->point_to_node(x);
       ASSERT_EQ(static_cast<int>(E.size()), t.nodes * t.points);
       for (int i = 0; i < t.nodes; ++i) {
         double value = 0.0, ones = 0.0;
@@ -897,7 +902,7 @@ TEST_P(Elements, SolidPatchCarriesLoadedEdges) {
       hold(corners.x.col(0), !c.axisymmetric(), true);
       if (!c.axisymmetric()) hold(corners.x.col(1), false, true);
       const Eigen::Matrix2Xd u = solve(mesh.x, groups, fixed, exact, traction_loads(mesh, *element, sigma));
-      const double rounding = element->degree() > 6 ? 5e-10 : 1e-10;
+      const double rounding = element->traits().degree > 6 ? 5e-10 : 1e-10;
       EXPECT_LT((u - exact).cwiseAbs().maxCoeff(), rounding * exact.cwiseAbs().maxCoeff());
       const DenseSystem solved = assemble(mesh.x, groups, u);
       double worst = 0.0;

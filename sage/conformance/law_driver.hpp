@@ -25,7 +25,7 @@ template <int N>
 PointIn<N> point_in(const Law<N>& law, const Vector<N>& sigma0, const Vector<N>& deps,
                     std::span<const double> h0) {
   return {sigma0, Vector<N>::Zero(), deps, h0,
-          law.wants_context() ? &some_context(!deps.isZero(0.0)) : nullptr};
+          law.traits().wants_context ? &some_context(!deps.isZero(0.0)) : nullptr};
 }
 
 // What stands in the outputs before a call: a field that a law leaves out differs between the two.
@@ -64,7 +64,7 @@ Answer<N> update(const Law<N>& law, const Vector<N>& sigma0, const Vector<N>& de
 template <int N>
 std::vector<double> initial_history(const Law<N>& law, const Vector<N>& sigma) {
   std::vector<double> h;
-  for (const Quantity& q : law.history()) h.push_back(q.initial);
+  for (const Quantity& q : law.traits().history) h.push_back(q.initial);
   law.initialise(sigma, h);
   return h;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "sage/core/four_at_a_time.hpp"
 #include "sage/core/law.hpp"
 
 namespace sage::conformance {
@@ -11,8 +12,7 @@ template <int N>
 class LinearLaw final : public Law<N> {
  public:
   explicit LinearLaw(const Matrix<N>& D) : D_(D) {}
-  bool symmetric() const override { return D_.isApprox(D_.transpose()); }
-  bool linear() const override { return true; }
+  LawTraits traits() const override { return {.symmetric = D_.isApprox(D_.transpose()), .linear = true}; }
   Outcome update(const PointIn<N>& in, PointOut<N>& out) const override {
     out.sigma.noalias() = in.sigma0 + D_ * in.deps;
     out.D = D_;
@@ -44,7 +44,7 @@ class SmoothLaw : public Law<N> {
       for (int j = 0; j < N; ++j) A_(i, j) = (i == j ? 50.0 : 0.0) + 3.0 * i - 5.0 * j + 2.0 * i * j;
     }
   }
-  std::span<const Quantity> history() const override { return kHistory; }
+  LawTraits traits() const override { return {.history = kHistory}; }
   Outcome update(const PointIn<N>& in, PointOut<N>& out) const override {
     if (in.deps.cwiseAbs().maxCoeff() > limit_) return Outcome::cut_step;
     const double s = b_.dot(in.deps);
@@ -66,11 +66,10 @@ class SmoothLaw : public Law<N> {
 
 // A law of solids, four points at once by asking it four times; what it says of its D is up to the test.
 template <class L>
-class InFours : public L {
+class InFours : public L, public FourPointLaw<4> {
  public:
   using L::L;
   InFours(double first, bool constant_D) : L(first), constant_D_(constant_D) {}
-  bool takes_four() const override { return true; }
   Outcome update_four(std::span<const FourPointsIn<4>> in, std::span<FourPointsOut<4>> out) const override {
     for (std::size_t p = 0; p < in.size(); ++p)
       for (std::size_t l = 0; l < kAbreast; ++l)
@@ -81,7 +80,7 @@ class InFours : public L {
 
  private:
   Outcome update_one(const FourPointsIn<4>& in, std::size_t l, FourPointsOut<4>& out) const {
-    const std::size_t history = this->history().size();
+    const std::size_t history = this->traits().history.size();
     PointIn<4> point;
     PointOut<4> result;
     point.h0 = {in.h0[l], history};
@@ -110,7 +109,7 @@ class InFours : public L {
 template <int N>
 class SilentLaw final : public Law<N> {
  public:
-  bool wants_context() const override { return true; }
+  LawTraits traits() const override { return {.wants_context = true}; }
   Outcome update(const PointIn<N>& in, PointOut<N>& out) const override {
     out.sigma = in.sigma0 + in.deps;
     out.D.setIdentity();
@@ -123,9 +122,7 @@ class SilentLaw final : public Law<N> {
 template <int N>
 class ContextLaw final : public Law<N> {
  public:
-  std::span<const Quantity> history() const override { return kHistory; }
-  bool symmetric() const override { return true; }
-  bool wants_context() const override { return true; }
+  LawTraits traits() const override { return {.history = kHistory, .symmetric = true, .wants_context = true}; }
   Outcome update(const PointIn<N>& in, PointOut<N>& out) const override {
     out.sigma = in.sigma0 + in.deps;
     out.D.setIdentity();

@@ -1,4 +1,4 @@
-// The seam between analysis and elements.  An element is a stateless formulation shared by a whole group.
+// The interface between analysis and elements.  An element is a stateless formulation shared by a whole group.
 #pragma once
 
 #include <array>
@@ -23,6 +23,7 @@ struct ElementTraits {
   int nodes = 0;
   int dofs = 0;                // 2 a node, ordered u1 v1 u2 v2 ..., or as ElementEntry::unknowns says
   int points = 0;              // integration points
+  int degree = 1;              // polynomial degree of the displacements
   int law_size = 4;            // 4 solid, 2 interface, 1, 3 or 5 structure
   bool reduced = false;        // reduced integration: fewer points than full rank needs (hourglass possible)
   bool locks = false;          // stiffens without bound as nu -> 1/2 (full integration of low order)
@@ -63,34 +64,7 @@ struct ElementOut {
   PointStatus* status = nullptr;  // points
 };
 
-// Largest number of dofs of an element that is evaluated four at a time.
-inline constexpr int kMostDofsOfFour = 18;
-// Whether elements with these traits may be.  Larger ones are evaluated one by one, whatever they offer: callers and
-// laws keep arrays of these sizes.
-inline bool four_may_go_together(const ElementTraits& traits) {
-  return traits.dofs == 2 * traits.nodes && traits.dofs <= kMostDofsOfFour &&
-         traits.points <= static_cast<int>(kMostFours) && !traits.sees_unknowns;
-}
-
-// Four elements of a group at once.  Some may be one and the same: results are written, never added to.
-struct FourElementsIn {
-  const double* geometry = nullptr;  // from Element::place_among_four of each
-  const double* du = nullptr;        // for each dof those of the four elements in a row
-  LawRef law;                        // takes four, without context
-  std::array<const double*, kAbreast> sigma0{}, eps0{}, h0{};  // of each element as in ElementIn
-};
-
-struct FourElementsOut {
-  std::array<double*, kAbreast> K{};  // nullptr = not wanted; the rest of each element as in ElementOut
-  std::array<double*, kAbreast> f{}, sigma1{}, eps1{}, h1{};
-  std::array<PointStatus*, kAbreast> status{};
-  // Some K is not, to the bit, what stood there.  True before: nobody asks any more.
-  bool changed = false;
-  // K is that of a law's constant D (FourPointsOut::constant_D).  True before: so is what stands there, and it is
-  // left alone where it would be the same again.
-  bool constant = false;
-};
-
+// Optional interface: FourElements (four_at_a_time.hpp).
 class Element {
  public:
   virtual ~Element() = default;
@@ -103,19 +77,6 @@ class Element {
 
   // f, K and the trial state.  Allocates nothing.
   virtual Outcome evaluate(const ElementIn& in, ElementOut& out) const = 0;
-
-  // The same for four elements, to the same digits: where both the element and its law offer it, and the traits
-  // allow it (four_may_go_together).
-  virtual bool takes_four() const { return false; }
-  // Of w and B what it then wants, doubles an element: those of a point together, w first.
-  virtual int four_geometry_size() const { return traits().geometry_size(); }
-  // They go from geometry() into every fourth double of among_four, which has room for four elements.
-  virtual void place_among_four(std::span<const double> /*geometry*/, double* /*among_four*/) const {
-    throw std::logic_error("an element that takes four at once says how");
-  }
-  virtual Outcome evaluate_four(const FourElementsIn& /*in*/, FourElementsOut& /*out*/) const {
-    throw std::logic_error("an element that takes four at once says how");
-  }
 
   // Position of an integration point.
   virtual Vector2 position(const NodeCoordinates& x, int point) const = 0;
@@ -142,17 +103,9 @@ class Element {
   // the stress at the points: samples x points, row-major.  Empty: the points are those places.
   virtual std::span<const double> point_to_sample() const { return {}; }
 
-  // Polynomial degree of the displacements.
-  virtual int degree() const { return 1; }
-
-  // Least-squares or exact extrapolation from points to nodes: nodes x points, row-major.
-  virtual std::span<const double> point_to_node() const = 0;
-
-  // The same for one element; differs only where the rule depends on the place (a quadratic interface
-  // at r = 0).
-  virtual std::span<const double> point_to_node_at(const NodeCoordinates& /*x*/) const {
-    return point_to_node();
-  }
+  // Least-squares or exact extrapolation from points to nodes: nodes x points, row-major.  The map depends on the place
+  // of a quadratic interface alone (at r = 0).
+  virtual std::span<const double> point_to_node(const NodeCoordinates& x) const = 0;
 
   // N (nodes) and dN/d(xi, eta) (nodes x 2, column-major) at a place of the parent shape: the square (-1, 1)^2,
   // or the triangle (0, 0) (1, 0) (0, 1).  False: the element has no inside

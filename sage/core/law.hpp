@@ -1,16 +1,14 @@
-// The seam between elements and materials.  A law sees one point: committed state in, trial state out.
+// The interface between elements and materials.  A law sees one point: committed state in, trial state out.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <variant>
 
-#include "sage/core/four.hpp"
 #include "sage/core/types.hpp"
 #include "sage/core/units.hpp"
 
@@ -54,7 +52,7 @@ enum class PointStatus : std::uint8_t {
 // cut_step: no answer for this increment, a smaller one may have one.  Everything else throws.
 enum class Outcome : std::uint8_t { ok, cut_step };
 
-// Where and when a law is asked, for laws that want to know (Law::wants_context).  A stage lasts as long as its
+// Where and when a law is asked, for laws that want to know (LawTraits::wants_context).  A stage lasts as long as its
 // duration says (1 where the deck says nothing); within it time runs in proportion to the load factor.
 struct PointContext {
   int element = 0;                  // the deck's number
@@ -100,41 +98,25 @@ struct PointOut {
   PointStatus status = PointStatus::elastic;
 };
 
-// The same for four points at once, side by side in every value; without context.  Some of the four may be one
-// and the same point: results are written, never added to.
-inline constexpr std::size_t kMostFours = 9;
-template <int N>
-struct FourPointsIn {
-  std::array<Four, N> sigma0, eps0, deps;
-  std::array<const double*, kAbreast> h0;  // of each point
-};
-template <int N>
-struct FourPointsOut {
-  std::array<Four, N> sigma;
-  std::array<std::array<Four, N>, N> D;  // D[i][j] = d(sigma_i)/d(deps_j)
-  std::array<double*, kAbreast> h1;
-  std::array<PointStatus, kAbreast> status{};
-  // D of all four is the one that this law has wherever it says so: matrices may be kept.
-  bool constant_D = false;
+// What a law is, whatever state a point is in.
+struct LawTraits {
+  std::span<const Quantity> history = {};  // lives as long as the law
+  // D is symmetric in every state.  The choice of solver depends on it, so the default is the safe one.
+  bool symmetric = false;
+  // sigma = sigma0 + D deps with one constant D for ever: the scene may then skip Newton and reassembly.
+  bool linear = false;
+  // PointIn::context is there in every update and path_error.  Such a law is never taken for linear.
+  bool wants_context = false;
 };
 
 // A constitutive law: immutable, shared by all points of a material; `update` is a pure function, which several
-// threads may call at once.
+// threads may call at once.  Optional interfaces: PathError, and FourPointLaw (four_at_a_time.hpp).
 template <int N>
 class Law {
  public:
   virtual ~Law() = default;
 
-  virtual std::span<const Quantity> history() const { return {}; }
-
-  // D is symmetric in every state.  The choice of solver depends on it, so the default is the safe one.
-  virtual bool symmetric() const { return false; }
-
-  // sigma = sigma0 + D deps with one constant D for ever: the scene may then skip Newton and reassembly.
-  virtual bool linear() const { return false; }
-
-  // PointIn::context is there in every update and path_error.  Such a law is never taken for linear.
-  virtual bool wants_context() const { return false; }
+  virtual LawTraits traits() const { return {}; }
 
   // Makes a history consistent with an initial stress (tension +).  h arrives with the initial values.
   // Returns false if the law cannot carry that stress (outside its yield surface): the caller reports it.
@@ -147,22 +129,6 @@ class Law {
   // Allocates nothing.  deps = 0 must give back sigma0 and h0 when the state is admissible.
   virtual Outcome update(const PointIn<N>& in, PointOut<N>& out) const = 0;
 
-  // Laws of many points may take four of them at once, to the same digits as one by one: then true, and
-  // update_four() is called wherever there are many, with up to kMostFours fours a time, an answer each.
-  virtual bool takes_four() const { return false; }
-  virtual Outcome update_four(std::span<const FourPointsIn<N>> /*in*/,
-                              std::span<FourPointsOut<N>> /*out*/) const {
-    throw std::logic_error("a law that takes four points at once says how");
-  }
-
-  // For an increment that is finished: about how much its stress would change, relatively, if it were taken in
-  // many small ones.  An update follows the straight line of deps; at given stresses the strains bend as the
-  // stiffness changes.  0 where that does not matter, or where there is no estimate.
-  virtual double path_error(const PointIn<N>& /*in*/, const Vector<N>& /*sigma*/,
-                            std::span<const double> /*h*/) const {
-    return 0.0;
-  }
-
   // A warning for the user about parameters that are allowed but rarely meant, empty if there is none: e.g. a
   // joint without any shear resistance.
   virtual std::string caution() const { return {}; }
@@ -171,29 +137,23 @@ class Law {
   virtual double stress_level(const Vector<N>& /*sigma*/, std::span<const double> /*h*/) const { return 0.0; }
 };
 
-// update() of a law that takes four points at once: the same code serves one.
+// Optional interface of laws whose stress depends on the size of increments; a law derives from it beside Law<N>.
 template <int N>
-Outcome update_as_four(const Law<N>& law, const PointIn<N>& in, PointOut<N>& out) {
-  std::array<FourPointsIn<N>, 1> alike;
-  std::array<FourPointsOut<N>, 1> answers;
-  FourPointsIn<N>& all = alike[0];
-  FourPointsOut<N>& results = answers[0];
-  for (int i = 0; i < N; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    all.sigma0[at] = all_four(in.sigma0[i]);
-    all.eps0[at] = all_four(in.eps0[i]);
-    all.deps[at] = all_four(in.deps[i]);
-  }
-  all.h0.fill(in.h0.data());
-  results.h1.fill(out.h1.data());
-  const Outcome outcome = law.update_four(alike, answers);
-  for (int i = 0; i < N; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    out.sigma[i] = results.sigma[at][0];
-    for (int j = 0; j < N; ++j) out.D(i, j) = results.D[at][static_cast<std::size_t>(j)][0];
-  }
-  out.status = results.status[0];
-  return outcome;
+class PathError {
+ public:
+  // For an increment that is finished, to stress sigma and history h: about how much its stress would change,
+  // relatively, if it were taken in many small ones.  An update follows the straight line of deps; at given stresses
+  // the strains bend as the stiffness changes.
+  virtual double path_error(const PointIn<N>& in, const Vector<N>& sigma, std::span<const double> h) const = 0;
+
+ protected:
+  ~PathError() = default;
+};
+// Of any law: 0 where it has no estimate.
+template <int N>
+double path_error(const Law<N>& law, const PointIn<N>& in, const Vector<N>& sigma, std::span<const double> h) {
+  const auto* const estimate = dynamic_cast<const PathError<N>*>(&law);
+  return estimate != nullptr ? estimate->path_error(in, sigma, h) : 0.0;
 }
 
 // An increment with a larger path_error (mean of its points) is taken in parts: 1 increment or 100 then agree
@@ -204,7 +164,8 @@ inline constexpr double kSmallestPart = 1.0 / 64.0;  // of an increment, for thi
 // Its stiffness never changes, whenever and wherever it is asked.
 template <int N>
 bool has_constant_stiffness(const Law<N>& law) {
-  return law.linear() && !law.wants_context();
+  const LawTraits traits = law.traits();
+  return traits.linear && !traits.wants_context;
 }
 
 using SolidLaw = Law<4>;
@@ -225,13 +186,10 @@ inline int size_of_law(const LawRef& law) {
 }
 inline std::span<const Quantity> history_of(const LawRef& law) {
   return std::visit(
-      [](const auto* held) { return held == nullptr ? std::span<const Quantity>() : held->history(); }, law);
+      [](const auto* held) { return held == nullptr ? std::span<const Quantity>() : held->traits().history; }, law);
 }
 inline bool wants_context(const LawRef& law) {
-  return std::visit([](const auto* held) { return held->wants_context(); }, law);
-}
-inline bool takes_four(const LawRef& law) {
-  return std::visit([](const auto* held) { return held->takes_four(); }, law);
+  return std::visit([](const auto* held) { return held->traits().wants_context; }, law);
 }
 inline bool has_constant_stiffness(const LawRef& law) {
   return std::visit([](const auto* held) { return has_constant_stiffness(*held); }, law);

@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "sage/core/catalogue.hpp"
+#include "sage/core/four_at_a_time.hpp"
 
 // Written by sage_add_plugin, and by the build of the program, which rejects plug-ins that have another.
 #if __has_include("sage/core/header_hash.hpp")

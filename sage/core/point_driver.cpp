@@ -45,7 +45,7 @@ std::string why_lost(double left) {
 template <int N>
 PointDriver<N>::PointDriver(const Law<N>& law, const Vector<N>& sigma, std::span<const double> history)
     : law_(law), sigma_(sigma), eps_(Vector<N>::Zero()) {
-  for (const Quantity& quantity : law.history()) h_.push_back(quantity.initial);
+  for (const Quantity& quantity : law.traits().history) h_.push_back(quantity.initial);
   h_trial_ = h_;
   if (!law_.initialise(sigma_, h_))
     throw AnalysisError("S503", "point driver: the law can't carry the initial stress");
@@ -63,7 +63,7 @@ Outcome PointDriver<N>::call(const Vector<N>& deps, PointOut<N>& out) {
 
 template <int N>
 PointIn<N> PointDriver<N>::input(const Vector<N>& deps) const {
-  return {sigma_, eps_, deps, h_, law_.wants_context() ? &context_ : nullptr};
+  return {sigma_, eps_, deps, h_, law_.traits().wants_context ? &context_ : nullptr};
 }
 
 template <int N>
@@ -211,7 +211,7 @@ bool PointDriver<N>::attempt(Aim& aim, bool may_divide) {
   const Vector<N> predicted = aim.with_strains(aim.strains_for(aim.lack(zero, out.sigma), out.D, given));
   for (Vector<N> deps : {predicted, given}) {
     if (call(deps, out) != Outcome::ok || !search(aim, deps, out)) continue;
-    if (may_divide && law_.path_error(input(deps), out.sigma, h_trial_) > kPathTolerance) return false;
+    if (may_divide && path_error(law_, input(deps), out.sigma, h_trial_) > kPathTolerance) return false;
     sigma_ = out.sigma;
     eps_ += deps;
     h_.swap(h_trial_);

@@ -82,7 +82,7 @@ double stress_level(const PointView& point) {
 void plastic_strain(const PointView& point, double* value) {
   const auto [quantities, linear] = std::visit(
       [](const auto* law) {
-        return std::pair{law->history(), has_constant_stiffness(*law)};
+        return std::pair{law->traits().history, has_constant_stiffness(*law)};
       },
       point.law);
   value[0] = value[1] = linear ? 0.0 : kNone;

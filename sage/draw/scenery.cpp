@@ -82,7 +82,7 @@ const SubGrid& grid_for(Scenery& scenery, const Group& group, const Eigen::Matri
     double& side = longest[triangle || a[1] == b[1] ? 0 : 1];
     side = std::max(side, (nodes.col(edge[0]) - nodes.col(edge[1])).norm());
   }
-  const int degree = element.degree();
+  const int degree = element.traits().degree;
   const int xi = sub_grid_cells(longest[0], degree), eta = triangle ? xi : sub_grid_cells(longest[1], degree);
   const auto [at, added] = scenery.grids.try_emplace({&element, xi, eta});
   if (added) at->second = sub_grid(group, xi, eta);

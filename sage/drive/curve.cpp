@@ -74,7 +74,7 @@ void put_row(Rows& rows, Curve& curve, const Law<N>& law, const PointDriver<N>& 
   for (int i = 0; i < N; ++i) rows.put(stress_column(N, i), Dimension::stress, turned(point.sigma()[i]));
   put_measures(rows, point, start, path);
   rows.put("stress_level", Dimension::none, point.stress_level());
-  const std::span<const Quantity> history = law.history();
+  const std::span<const Quantity> history = law.traits().history;
   for (std::size_t i = 0; i < history.size(); ++i)
     rows.put(history[i].name, history[i].dimension, outward(history[i], point.history()[i]));
   curve.status.push_back(point.status());
@@ -140,7 +140,7 @@ bool follow_leg(PointDriver<N>& point, const Law<N>& law, const Path& path, int 
 template <int N>
 std::vector<double> first_history(const Law<N>& law, const std::vector<FirstValue>& given) {
   if (given.empty()) return {};
-  const std::span<const Quantity> quantities = law.history();
+  const std::span<const Quantity> quantities = law.traits().history;
   std::vector<double> values(quantities.size(), std::nan(""));
   for (const FirstValue& one : given) {
     const auto found =

@@ -20,9 +20,9 @@ struct Stiffness {
 };
 
 Stiffness at_zero_stress(const SolidLaw& law) {
-  if (law.wants_context()) return {};
+  if (law.traits().wants_context) return {};
   std::vector<double> h, h1;
-  for (const Quantity& quantity : law.history()) h.push_back(quantity.initial);
+  for (const Quantity& quantity : law.traits().history) h.push_back(quantity.initial);
   h1 = h;
   const PointIn<4> in{Vector4::Zero(), Vector4::Zero(), Vector4::Zero(), h};
   PointOut<4> out;
@@ -34,7 +34,7 @@ Stiffness at_zero_stress(const SolidLaw& law) {
 }  // namespace
 
 UndrainedLaw::UndrainedLaw(std::unique_ptr<SolidLaw> grains) : grains_(std::move(grains)) {
-  const std::span<const Quantity> own = grains_->history();
+  const std::span<const Quantity> own = grains_->traits().history;
   quantities_.assign(own.begin(), own.end());
   quantities_.push_back({"excess_pore_pressure", Dimension::stress});
   quantities_.push_back({"water_bulk", Dimension::stress});
@@ -80,7 +80,7 @@ double UndrainedLaw::path_error(const PointIn<4>& in, const Vector4& sigma, std:
   PointIn<4> grains = in;
   grains.sigma0 = effective(in.sigma0, in.h0);
   grains.h0 = in.h0.first(excess());
-  return grains_->path_error(grains, effective(sigma, h), h.first(excess()));
+  return sage::path_error(*grains_, grains, effective(sigma, h), h.first(excess()));
 }
 
 double UndrainedLaw::stress_level(const Vector4& sigma, std::span<const double> h) const {

@@ -12,15 +12,15 @@ namespace sage {
 // one) is held by a multiplier: p grows by -B (e + p / K) with B = 1e8 G, so that what is left of an increment's
 // change of volume, (growth of p) / B, is taken out by the next one, and no digits are lost.
 // docs/decisions/0029-stiff-water.md
-class UndrainedLaw final : public SolidLaw {
+class UndrainedLaw final : public SolidLaw, public PathError<4> {
  public:
   static constexpr std::size_t kOwn = 3;
 
   explicit UndrainedLaw(std::unique_ptr<SolidLaw> grains);
 
-  std::span<const Quantity> history() const override { return quantities_; }
-  bool symmetric() const override { return grains_->symmetric(); }
-  bool wants_context() const override { return grains_->wants_context(); }
+  LawTraits traits() const override {
+    return {.history = quantities_, .symmetric = grains_->traits().symmetric, .wants_context = grains_->traits().wants_context};
+  }
   bool initialise(const Vector4& sigma, std::span<double> h) const override;
   bool accepts_history(const Vector4& sigma, std::span<const double> h) const override;
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override;

@@ -570,7 +570,7 @@ class WaterForce {
     const Group& group = model_.groups[g];
     const bool ring = model_.geometry == Geometry::axisymmetric;
     const bool as_force = water_.card(g)->action == WaterAction::force;
-    const std::vector<RulePlace> rule = rule_for(group.entry->triangle(), group.element->degree());
+    const std::vector<RulePlace> rule = rule_for(group.entry->triangle(), group.element->traits().degree);
     for (int e = 0; e < group.elements(); ++e) {
       element_coordinates(model_.mesh, group, e, x_);
       const int* const nodes = group.nodes_of(e);
@@ -684,7 +684,7 @@ class WaterForce {
     const int* const nodes = group.nodes_of(edge.element);
     const std::vector<int>& local = group.element->edges()[static_cast<std::size_t>(edge.edge)];
     const Vector2 from = parent_corner(triangle, local[0]), to = parent_corner(triangle, local[1]);
-    const GaussRule line(group.element->degree() + 2);
+    const GaussRule line(group.element->traits().degree + 2);
     for (std::size_t q = 0; q < line.x.size(); ++q) {
       mapped_.take(*group.element, x_, from + 0.5 * (1.0 + line.x[q]) * (to - from));
       const Vector2 along = 0.5 * mapped_.J * (to - from);

@@ -157,7 +157,7 @@ class EndReader {
 
   // What the points say of a node.
   Section extrapolated(int element, int node) {
-    const std::span<const double> map = group_.element->point_to_node_at(x_);
+    const std::span<const double> map = group_.element->point_to_node(x_);
     const auto points = static_cast<std::size_t>(traits_.points);
     std::ranges::fill(sigma_, 0.0);
     for (std::size_t p = 0; p < points; ++p)

@@ -163,7 +163,7 @@ void add_to_entries(const Model& model, const GroupData& data, const std::vector
       reader.carry_all({model.mesh, data, e * points + p}, at_points.data() + p * n);
     element_coordinates(model.mesh, group, static_cast<int>(e), x);
     const std::span<const double> map =
-        rule == NodalRule::element_means ? std::span<const double>(equal) : group.element->point_to_node_at(x);
+        rule == NodalRule::element_means ? std::span<const double>(equal) : group.element->point_to_node(x);
     for (std::size_t i = 0; i < nodes; ++i) {
       if (!is_here(own[i])) continue;
       ++uses[own[i]];

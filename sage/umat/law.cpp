@@ -108,9 +108,9 @@ class UmatLaw final : public SolidLaw {
     for (const char* energy : {"SSE", "SPD", "SCD"}) quantities_.push_back({energy, Dimension::stress});
   }
 
-  std::span<const Quantity> history() const override { return quantities_; }
-  bool symmetric() const override { return setup_.symmetric; }
-  bool wants_context() const override { return true; }
+  LawTraits traits() const override {
+    return {.history = quantities_, .symmetric = setup_.symmetric, .wants_context = true};
+  }
 
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override {
     static const PointContext nowhere{};

@@ -124,8 +124,8 @@ void add_body_force(Model& model, const VectorField& b) {
 Vector4 stress_of(const Material& material, const Vector4& strain) {
   const SolidLaw& law = *std::get<std::unique_ptr<SolidLaw>>(material.law);
   PointOut<4> out;
-  std::vector<double> h0, h1(law.history().size());
-  for (const Quantity& q : law.history()) h0.push_back(q.initial);
+  std::vector<double> h0, h1(law.traits().history.size());
+  for (const Quantity& q : law.traits().history) h0.push_back(q.initial);
   out.h1 = h1;
   law.update({Vector4::Zero(), Vector4::Zero(), strain, h0}, out);
   return out.sigma;
@@ -198,7 +198,7 @@ Vector4 stress_at_node(const WholeRun& run, std::size_t group, int number) {
     for (std::size_t i = 0; i < g.node_count(); ++i) {
       if (g.nodes_of(e)[i] != node) continue;
       element_coordinates(run.model->mesh, g, e, x);
-      const std::span<const double> to_node = g.element->point_to_node_at(x);
+      const std::span<const double> to_node = g.element->point_to_node(x);
       for (int p = 0; p < points; ++p)
         sum += to_node[i * static_cast<std::size_t>(points) + static_cast<std::size_t>(p)] *
                run.stress[group].col(e * points + p);

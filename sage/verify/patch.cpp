@@ -113,7 +113,7 @@ void p2(Record& record, double nu, double gate) {
 
 // The condition of an element matrix grows with the square of its degree: beyond degree 4 the gate does too.
 double rounding_gate(const Model& model) {
-  return 1e-12 * std::max(1.0, std::pow(model.groups[0].element->degree() / 4.0, 2));
+  return 1e-12 * std::max(1.0, std::pow(model.groups[0].element->traits().degree / 4.0, 2));
 }
 
 // P3: u_z = C r needs the body force b_z = -G C / r.

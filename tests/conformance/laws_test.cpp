@@ -44,8 +44,7 @@ class PlantedLaw final : public SolidLaw {
     D_.diagonal() << K + 4.0 * G / 3.0, K + 4.0 * G / 3.0, K + 4.0 * G / 3.0, G;
     if (fault == Fault::stiff_in_shear) D_(3, 3) *= 2.0;
   }
-  bool symmetric() const override { return true; }
-  bool linear() const override { return true; }
+  LawTraits traits() const override { return {.symmetric = true, .linear = true}; }
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override {
     out.sigma = in.sigma0 + D_ * in.deps;
     out.D = D_;

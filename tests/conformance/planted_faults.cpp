@@ -16,7 +16,7 @@ namespace {
 // The shear term of the tangent has the wrong sign.
 class WrongTangent final : public SolidLaw {
  public:
-  bool symmetric() const override { return true; }
+  LawTraits traits() const override { return {.symmetric = true}; }
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override {
     const Outcome outcome = elastic_.update(in, out);
     out.D(3, 3) = -out.D(3, 3);

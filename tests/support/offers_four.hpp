@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "sage/core/element.hpp"
+#include "sage/core/four_at_a_time.hpp"
 
 namespace sage::test {
 
-class OffersFour final : public Element {
+class OffersFour final : public Element, public FourElements {
  public:
   explicit OffersFour(std::shared_ptr<const Element> own) : own_(std::move(own)) {}
   const ElementTraits& traits() const override { return own_->traits(); }
@@ -17,7 +17,7 @@ class OffersFour final : public Element {
     own_->geometry(x, geometry);
   }
   Outcome evaluate(const ElementIn& in, ElementOut& out) const override { return own_->evaluate(in, out); }
-  bool takes_four() const override { return true; }
+  int four_geometry_size() const override { return traits().geometry_size(); }
   void place_among_four(std::span<const double> geometry, double* among_four) const override {
     for (std::size_t i = 0; i < geometry.size(); ++i) among_four[i * kAbreast] = geometry[i];
   }
@@ -29,7 +29,8 @@ class OffersFour final : public Element {
       for (std::size_t i = 0; i < size; ++i) geometry[i] = in.geometry[i * kAbreast + l];
       for (std::size_t i = 0; i < dofs; ++i) du[i] = in.du[i * kAbreast + l];
       ElementOut one{out.K[l], out.f[l], out.sigma1[l], out.eps1[l], out.h1[l], out.status[l]};
-      if (own_->evaluate({geometry.data(), du.data(), in.law, in.sigma0[l], in.eps0[l], in.h0[l]}, one) !=
+      const LawRef law = dynamic_cast<const SolidLaw*>(in.law);
+      if (own_->evaluate({geometry.data(), du.data(), law, in.sigma0[l], in.eps0[l], in.h0[l]}, one) !=
           Outcome::ok)
         return Outcome::cut_step;
     }
@@ -45,8 +46,9 @@ class OffersFour final : public Element {
                  std::span<double> f) const override {
     own_->edge_load(x, edge, normal, shear, f);
   }
-  int degree() const override { return own_->degree(); }
-  std::span<const double> point_to_node() const override { return own_->point_to_node(); }
+  std::span<const double> point_to_node(const NodeCoordinates& x) const override {
+    return own_->point_to_node(x);
+  }
   bool shape_functions(const Vector2& parent, std::span<double> N, std::span<double> dN) const override {
     return own_->shape_functions(parent, N, dN);
   }

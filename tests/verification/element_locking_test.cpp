@@ -101,7 +101,7 @@ TEST(ThickCylinder, BBarIsAsAccurateNearlyIncompressible) {
 // to 3.6, the cells are coarse and distorted) and that of quadratic ones by more.
 TEST(ThickCylinder, Converges) {
   for (const ElementCase& c : solid_cases()) {
-    if (c.entry->triangle() && c.make()->degree() > 2) continue;
+    if (c.entry->triangle() && c.make()->traits().degree > 2) continue;
     SCOPED_TRACE(c.name);
     EXPECT_LT(lame_error(c, 4, 0.3), lame_error(c, 2, 0.3) / (c.entry->only_corners() ? 2.5 : 4.0));
   }

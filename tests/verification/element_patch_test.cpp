@@ -36,7 +36,7 @@ std::vector<char> prescribed_dofs(const PatchMesh& mesh, const ElementCase& c, c
 
 // Rounding.  The condition of K grows as p^4, for degree 8 sixteen times that of degree 4.
 double rounding(const ElementCase& c) {
-  return c.make()->degree() > 6 ? 5e-12 : 1e-12;
+  return c.make()->traits().degree > 6 ? 5e-12 : 1e-12;
 }
 
 struct PatchErrors {
@@ -189,7 +189,7 @@ TEST(PatchP3, AxisymmetricShear) {
 TEST(PatchCurved, ExactWhereTheRuleIs) {
   const LinearElastic law(moduli_from_young(kYoung, 0.25));
   for (const ElementCase& c : solid_cases()) {
-    if (c.entry->only_corners() || (c.entry->triangle() && c.make()->degree() > 2)) continue;
+    if (c.entry->only_corners() || (c.entry->triangle() && c.make()->traits().degree > 2)) continue;
     SCOPED_TRACE(c.name);
     const bool high = c.entry->makes_nodes();
     const ElementEntry& shape = high ? *element_catalogue().elements.find(2) : *c.entry;

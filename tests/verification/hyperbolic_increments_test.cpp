@@ -1,6 +1,6 @@
 // Hyperbolic soils in whole models: the answer must not depend on how many increments the user asks
 // for.  The run divides an increment that is too long for the bend of its strain path
-// (Law::path_error).  1 % is what is promised.
+// (PathError).  1 % is what is promised.
 #include <gtest/gtest.h>
 
 #include "sage/scenes/scenes.hpp"

@@ -14,8 +14,7 @@ namespace own {
 class Rod final : public sage::Law<1> {
  public:
   explicit Rod(const sage::Parameters& p) : EA_(p.positive("youngs_modulus") * p.positive("area")) {}
-  bool symmetric() const override { return true; }
-  bool linear() const override { return true; }
+  sage::LawTraits traits() const override { return {.symmetric = true, .linear = true}; }
   sage::Outcome update(const sage::PointIn<1>& in, sage::PointOut<1>& out) const override {
     out.sigma = in.sigma0 + EA_ * in.deps;
     out.D(0, 0) = EA_;
@@ -58,7 +57,7 @@ class Bar2 final : public sage::PointElement<1, 4, 1> {
   sage::Vector2 position(const sage::NodeCoordinates& x, int /*point*/) const override {
     return 0.5 * (x.col(0) + x.col(1));
   }
-  std::span<const double> point_to_node() const override {
+  std::span<const double> point_to_node(const sage::NodeCoordinates& /*x*/) const override {
     static constexpr std::array<double, 2> same{1.0, 1.0};
     return same;
   }

@@ -16,8 +16,7 @@ class Maxwell final : public sage::SolidLaw {
       : D_(sage::elastic_matrix(
             sage::moduli_from_young(p.positive("youngs_modulus"), p.number("poissons_ratio")))),
         tau_(p.positive("relaxation_time")) {}
-  bool symmetric() const override { return true; }
-  bool wants_context() const override { return true; }
+  sage::LawTraits traits() const override { return {.symmetric = true, .wants_context = true}; }
   sage::Outcome update(const sage::PointIn<4>& in, sage::PointOut<4>& out) const override {
     const double left = 1.0 / (1.0 + in.context->dt / tau_);
     out.sigma = left * (in.sigma0 + D_ * in.deps);

@@ -31,8 +31,7 @@ class SwellingSoil final : public SolidLaw {
       : elastic_(moduli_from_young(p.positive("youngs_modulus"), p.poissons_ratio("poissons_ratio"))),
         diffusion{p.positive("diffusivity"), p.number("growth"), p.number("swelling"), p.number("storage")} {}
 
-  bool symmetric() const override { return true; }
-  bool linear() const override { return true; }
+  sage::LawTraits traits() const override { return {.symmetric = true, .linear = true}; }
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override { return elastic_.update(in, out); }
 
  private:
@@ -89,7 +88,9 @@ class DiffusionQuad final : public Element {
                  std::span<double> f) const override {
     quad_->edge_load(x, edge, normal, shear, f.first(kMoved));
   }
-  std::span<const double> point_to_node() const override { return quad_->point_to_node(); }
+  std::span<const double> point_to_node(const sage::NodeCoordinates& x) const override {
+    return quad_->point_to_node(x);
+  }
   bool shape_functions(const Vector2& parent, std::span<double> N, std::span<double> dN) const override {
     return quad_->shape_functions(parent, N, dN);
   }

@@ -23,8 +23,7 @@ class Layered final : public sage::SolidLaw {
     C(3, 3) = 1.0 / p.positive("shear_modulus");
     D_ = C.inverse();
   }
-  bool symmetric() const override { return true; }
-  bool linear() const override { return true; }
+  sage::LawTraits traits() const override { return {.symmetric = true, .linear = true}; }
   sage::Outcome update(const sage::PointIn<4>& in, sage::PointOut<4>& out) const override {
     out.sigma = in.sigma0 + D_ * in.deps;
     out.D = D_;

@@ -19,10 +19,10 @@ namespace sage {
 namespace {
 
 // The law without its own way to take four, and with an error of the path that differs from point to point.
-class OneByOne : public SolidLaw {
+class OneByOne : public SolidLaw, public PathError<4> {
  public:
   explicit OneByOne(LawPtr law) : law_(std::move(std::get<std::unique_ptr<SolidLaw>>(law))) {}
-  std::span<const Quantity> history() const override { return law_->history(); }
+  LawTraits traits() const override { return {.history = law_->traits().history}; }
   bool initialise(const Vector4& sigma, std::span<double> h) const override {
     return law_->initialise(sigma, h);
   }
@@ -136,7 +136,8 @@ TEST(ByFour, LargeElementsGoOneByOneWhateverTheyOffer) {
   GroupData data(group);
   data.law = model.materials[0].law_ref();
   EXPECT_EQ(group.element->traits().dofs, 50);
-  ASSERT_FALSE(goes_by_four(data));
+  find_fours(data);
+  ASSERT_FALSE(data.by_four());
   const LastState own = solve(text, How::by_itself, true);
   const LastState offered = solve(text, How::by_itself, true, 1, true);
   EXPECT_EQ(offered.u, own.u);

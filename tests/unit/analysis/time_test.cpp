@@ -22,10 +22,10 @@ constexpr double kE = 1000.0, kTau = 2.0;
 class Clock final : public SolidLaw {
  public:
   explicit Clock(double longest) : D_(elastic_matrix(moduli_from_young(kE, 0.0))), longest_(longest) {}
-  std::span<const Quantity> history() const override { return kHistory; }
-  bool symmetric() const override { return true; }
-  bool linear() const override { return true; }  // it is not, and nobody may believe it: it wants its context
-  bool wants_context() const override { return true; }
+  // it is not, and nobody may believe it: it wants its context
+  LawTraits traits() const override {
+    return {.history = kHistory, .symmetric = true, .linear = true, .wants_context = true};
+  }
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override {
     const PointContext& now = *in.context;
     if (now.dt > longest_) return Outcome::cut_step;

@@ -139,7 +139,7 @@ std::vector<Eigen::Matrix2Xd> parallelogram(const ElementEntry& entry) {
 TEST(PictureBands, AreLevelWhereTheFieldDependsOnHeightAlone) {
   for (const ElementCase& element : test::solid_cases()) {
     SCOPED_TRACE(element.name);
-    const int degree = element.make()->degree();
+    const int degree = element.make()->traits().degree;
     const double square = degree > 1 ? 1.0 : 0.0, slope = degree > 1 ? 2.0 : 1.0;
     const auto exact = [&](double y) { return square * y * y - slope * y; };
     const Sheet sheet(element, parallelogram(*element.entry),
@@ -252,7 +252,7 @@ TEST(PictureBands, LengthOfAVectorIsFoundBetweenTheNodes) {
 // Nodes on y = x^2 / 4 along the lower side: elements of degree 2 and more draw that parabola, not its chord.
 TEST(PictureBands, SidesAreCurvedWhereTheElementIs) {
   for (const ElementCase& element : test::solid_cases()) {
-    if (element.make()->degree() < 2 || !element.entry->square()) continue;
+    if (element.make()->traits().degree < 2 || !element.entry->square()) continue;
     SCOPED_TRACE(element.name);
     Eigen::Matrix2Xd x = test::parent_nodes(*element.entry);
     for (Eigen::Index i = 0; i < x.cols(); ++i) x(1, i) += 0.25 * x(0, i) * x(0, i) * 0.5 * (1.0 - x(1, i));

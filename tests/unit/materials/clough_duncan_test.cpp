@@ -309,7 +309,7 @@ TEST(CloughDuncan, TensileStrengthIsLostOnce) {
 // Free ends of Table 7.2: no stiffness, no strength, no failure of the check at zero stress.
 TEST(CloughDuncan, FreeEnds) {
   const auto law = test::interface(22, {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1e9, 1e9, 0.0});
-  EXPECT_TRUE(law->symmetric());
+  EXPECT_TRUE(law->traits().symmetric);
   PointDriver<2> point(*law);
   point.advance(kStrain, {0.1, -1e-8});
   EXPECT_EQ(point.sigma()[0], 0.0);
@@ -365,7 +365,7 @@ TEST(CloughDuncan, SlipCountsTheDisplacement) {
 
 TEST(CloughDuncan, SymmetricWhereShearNeverMeetsNormal) {
   const auto symmetric = [](double c, double phi, double k_j, double k_sf) {
-    return test::interface(22, {c, phi, 0.0, 0.0, k_j, 0.0, 1e6, 1e6, k_sf})->symmetric();
+    return test::interface(22, {c, phi, 0.0, 0.0, k_j, 0.0, 1e6, 1e6, k_sf})->traits().symmetric;
   };
   EXPECT_TRUE(symmetric(3.0, 0.0, 0.0, 0.0));
   EXPECT_TRUE(symmetric(0.0, 0.0, 5000.0, 0.0));

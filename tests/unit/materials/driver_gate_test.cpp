@@ -51,7 +51,7 @@ template <int N>
 class Bisected {
  public:
   Bisected(const Law<N>& law, const Vector<N>& sigma) : law_(law), sigma_(sigma), eps_(Vector<N>::Zero()) {
-    for (const Quantity& quantity : law.history()) h_.push_back(quantity.initial);
+    for (const Quantity& quantity : law.traits().history) h_.push_back(quantity.initial);
     h1_ = h_;
     if (!law.initialise(sigma_, h_)) throw AnalysisError("S503", "start");
   }

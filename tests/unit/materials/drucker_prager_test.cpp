@@ -1,6 +1,6 @@
 // Expected values: closed forms of triaxial and plane strain collapse, Krieg & Krieg and the constant-rate
 // solution (its printed digits were checked against an eighth-order Runge-Kutta integration).
-#include "materials/drucker_prager.hpp"
+#include "materials/drucker_prager_four.hpp"
 
 #include <gtest/gtest.h>
 
@@ -48,8 +48,7 @@ TEST(DruckerPrager, ConesOfEveryMatch) {
 TEST(DruckerPrager, FourPointsEachInABranchOfItsOwn) {
   const DruckerPragerParameters parameters{{1e4, 2e3}, {0.3, 3.0}, 0.0, std::numeric_limits<double>::infinity(),
                                            false,      false};
-  const DruckerPrager law(parameters);
-  ASSERT_TRUE(law.takes_four());
+  const DruckerPragerFour law(parameters);
   std::array<FourPointsIn<4>, 1> points{};
   std::array<FourPointsOut<4>, 1> answers;
   FourPointsIn<4>& in = points[0];
@@ -342,10 +341,10 @@ TEST(DruckerPrager, CautionsAboutTheCone) {
 }
 
 TEST(DruckerPrager, SymmetricOnlyIfAssociated) {
-  EXPECT_TRUE(test::solid(3, {3000, 0.3, 1, 30, 30})->symmetric());
-  EXPECT_TRUE(test::solid(3, {3000, 0.3, 1, 0, 0})->symmetric());
-  EXPECT_FALSE(test::solid(3, {3000, 0.3, 1, 30, 29})->symmetric());
-  EXPECT_FALSE(test::solid(3, {3000, 0.3, 1, 30, 30, 1, 1})->symmetric());
+  EXPECT_TRUE(test::solid(3, {3000, 0.3, 1, 30, 30})->traits().symmetric);
+  EXPECT_TRUE(test::solid(3, {3000, 0.3, 1, 0, 0})->traits().symmetric);
+  EXPECT_FALSE(test::solid(3, {3000, 0.3, 1, 30, 29})->traits().symmetric);
+  EXPECT_FALSE(test::solid(3, {3000, 0.3, 1, 30, 30, 1, 1})->traits().symmetric);
 }
 
 TEST(DruckerPrager, InitialStressMustBeAdmissible) {

@@ -167,7 +167,7 @@ TEST(DuncanChang, IsotropicTangent) {
   std::vector<double> values = kEb;
   values.insert(values.end(), {0.0, 0.49, 0.01, 1.0});
   const auto law = test::solid(6, values);
-  EXPECT_TRUE(law->symmetric());
+  EXPECT_TRUE(law->traits().symmetric);
   const Vector4 start{-100, -150, -110, 10}, deps{0.001, -0.004, 0.0, 0.003};
   const auto a = test::update<4>(*law, start, deps, test::initial_history<4>(*law, start));
   EXPECT_EQ((a.D - a.D.transpose()).norm(), 0.0);

@@ -38,11 +38,11 @@ TEST(Goodman, OpensAndClosesByTotalDisplacement) {
 
 TEST(Goodman, BondedIsLinear) {
   const auto law = test::interface(21, {200.0, 1000.0, 1.0});
-  EXPECT_TRUE(law->linear());
+  EXPECT_TRUE(law->traits().linear);
   PointDriver<2> point(*law);
   point.advance(kStrain, {0.0, 0.03});
   EXPECT_DOUBLE_EQ(point.sigma()[1], 30.0);
-  EXPECT_FALSE(test::interface(21, {200.0, 1000.0})->linear());
+  EXPECT_FALSE(test::interface(21, {200.0, 1000.0})->traits().linear);
 }
 
 TEST(Goodman, RefusesInitialTension) {

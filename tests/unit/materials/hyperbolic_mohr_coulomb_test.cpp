@@ -146,7 +146,7 @@ TEST(HyperbolicMohrCoulomb, InitialStressMustBeAdmissible) {
   const double s = std::sin(33 * kRadiansPerDegree),
                q_f = (10 * std::cos(33 * kRadiansPerDegree) + 200 * s) / (1 - s);
   EXPECT_TRUE(law->initialise({-100, -100 - q_f, -150, 0}, h));  // at failure to the last digit
-  EXPECT_FALSE(law->symmetric());
+  EXPECT_FALSE(law->traits().symmetric);
 }
 
 }  // namespace

@@ -186,8 +186,8 @@ TEST(DruckerPrager, ExactIntegrationIsNotSymmetric) {
   const auto law = [](double exact) {
     return test::solid(3, {3000.0, 0.3, 10.0, 0.0, 0.0, 1.0, 1.0, -1.0, 0.0, exact});
   };
-  EXPECT_TRUE(law(0.0)->symmetric());
-  EXPECT_FALSE(law(1.0)->symmetric());
+  EXPECT_TRUE(law(0.0)->traits().symmetric);
+  EXPECT_FALSE(law(1.0)->traits().symmetric);
   const Vector4 start{-20.0, -22.0, -20.0, 1.0}, deps{0.01, -0.012, 0.0, 0.03};
   const Matrix4 D = test::update<4>(*law(1.0), start, deps, {0.0, 0.0}).D;
   EXPECT_GT((D - D.transpose()).norm(), 1e-4 * D.norm());

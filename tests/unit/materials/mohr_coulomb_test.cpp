@@ -251,9 +251,9 @@ TEST(MohrCoulomb, AssociatedReturnIsTheClosestPoint) {
 }
 
 TEST(MohrCoulomb, SymmetricOnlyIfAssociated) {
-  EXPECT_TRUE(test::solid(4, {1e4, 0.3, 1, 30, 30})->symmetric());
-  EXPECT_TRUE(test::solid(4, {1e4, 0.3, 1, 0, 0})->symmetric());
-  EXPECT_FALSE(test::solid(4, {1e4, 0.3, 1, 30, 0})->symmetric());
+  EXPECT_TRUE(test::solid(4, {1e4, 0.3, 1, 30, 30})->traits().symmetric);
+  EXPECT_TRUE(test::solid(4, {1e4, 0.3, 1, 0, 0})->traits().symmetric);
+  EXPECT_FALSE(test::solid(4, {1e4, 0.3, 1, 30, 0})->traits().symmetric);
 }
 
 TEST(MohrCoulomb, StressLevelAndInitialStress) {
