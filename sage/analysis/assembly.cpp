@@ -89,6 +89,7 @@ Assembly::Assembly(const Model& model, const Scene& scene, const Skips& skips, W
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     GroupData data(model.groups[g]);
     data.law = model.material_of(model.groups[g]).law_ref();
+    data.second_law = model.second_law_of(model.groups[g]);
     data.wants_context = wants_context(data.law);
     data.sees_spread = sees_spread_loads(*data.group, data.law);
     eases_ = eases_ || (data.wants_context && data.group->flow());
@@ -140,12 +141,14 @@ void Assembly::reset_group(std::size_t group) {
   GroupData& data = groups_[group];
   const ElementTraits& traits = data.group->element->traits();
   data.state = StateStore(static_cast<std::size_t>(data.group->elements() * traits.points), traits.law_size,
-                          history_of(data.law), !data.constant);
+                          history_of(data.law, traits), !data.constant);
 }
 
 void Assembly::take_laws() {
   for (GroupData& data : groups_) {
     data.law = model_->material_of(*data.group).law_ref();
+    data.second_law = model_->second_law_of(*data.group);
+    data.dt_of_matrices = 0.0;
     find_fours(data);
     std::ranges::fill(data.constant_by_four, char{0});
   }

@@ -15,6 +15,13 @@ constexpr int kUnit = 16 * kAbreast;  // elements that a thread takes at a time
 // Elements from which on threads gain: waking one takes as long as some tens of elements.
 constexpr int kWorthThreads = 600;
 
+// Whether the elements of a group have one matrix for each step size.
+bool has_matrix_of_step(const GroupData& data) {
+  const ElementTraits& traits = data.group->element->traits();
+  return traits.linear_in_step && has_constant_stiffness(data.law) &&
+         (traits.second_law_size == 0 || has_constant_stiffness(data.second_law));
+}
+
 }  // namespace
 
 ChangingRegion::ChangingRegion(std::vector<GroupData>& groups, ElementWork& element, WorkCounters& work)
@@ -106,7 +113,17 @@ Outcome ChangingRegion::evaluate_by_four(GroupData& data, const Eigen::VectorXd&
   return divides(data) ? evaluate_on_threads(data, pass, tangent) : evaluate_in_units(data, pass, tangent);
 }
 
+// Whether the matrices that a group keeps are those of the step in hand.  Steps of one size differ by the rounding of
+// their times.
+bool ChangingRegion::matrices_stand(const GroupData& data) const {
+  constexpr double kRounding = 1e-9;
+  const double dt = element_->moment().dt;
+  return data.keeps_matrices() && dt > 0.0 && std::abs(dt - data.dt_of_matrices) <= kRounding * dt;
+}
+
 Outcome ChangingRegion::evaluate_one_by_one(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent) {
+  const bool in_step = has_matrix_of_step(data);
+  if (tangent != nullptr && in_step && matrices_stand(data)) tangent = nullptr;
   double* const K = tangent != nullptr ? element_->K() : nullptr;
   for (int e = 0; e < data.group->elements(); ++e) {
     element_->stop_if_asked_at(e);
@@ -118,6 +135,7 @@ Outcome ChangingRegion::evaluate_one_by_one(GroupData& data, const Eigen::Vector
     else if (replace_matrix(data, e, K))
       tangent->differs();
   }
+  if (tangent != nullptr && in_step) data.dt_of_matrices = element_->moment().dt;
   return Outcome::ok;
 }
 

@@ -33,6 +33,7 @@ class ChangingRegion {
 
  private:
   bool divides(const GroupData& data) const;
+  bool matrices_stand(const GroupData& data) const;
   Outcome evaluate_by_four(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent);
   Outcome evaluate_in_units(GroupData& data, const PassByFour& pass, Tangent* tangent);
   Outcome evaluate_on_threads(GroupData& data, const PassByFour& pass, Tangent* tangent);

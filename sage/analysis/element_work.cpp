@@ -74,6 +74,7 @@ Outcome ElementWork::evaluate(GroupData& data, int element, const Eigen::VectorX
   in.geometry = geometry_of(data, element);
   in.du = du_.data();
   in.law = data.law;
+  in.second_law = data.second_law;
   const bool has_room = !data.state.committed.sigma.empty();
   in.sigma0 = has_room ? data.state.committed.sigma.data() + at : no_stress_.data();
   in.eps0 = has_room ? data.state.committed.eps.data() + at : no_stress_.data();
@@ -82,6 +83,10 @@ Outcome ElementWork::evaluate(GroupData& data, int element, const Eigen::VectorX
   if (traits.sees_unknowns) {
     in.u0 = committed_of(dofs);
     in.dt = moment_.dt;
+  }
+  if (traits.sees_coordinates) {
+    element_coordinates(model_->mesh, *data.group, element, x_);
+    in.x = x_.data();
   }
   if (data.sees_spread) {
     in.spread = spread_of(data, element, moment_.load_factor, spread_.data());

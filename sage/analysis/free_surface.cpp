@@ -62,7 +62,7 @@ FreeSurfaceBlur free_surface_blur(const Model& model, std::span<const GroupData>
     const int at = data.active && has_free_surface(data) ? place_of_permeability(data.law) : -1;
     if (at < 0) continue;
     const ElementTraits& traits = data.group->element->traits();
-    const std::size_t history = history_of(data.law).size();
+    const auto history = static_cast<std::size_t>(data.state.history_size());
     std::vector<double> geometry(static_cast<std::size_t>(traits.geometry_size()));
     Eigen::Matrix2Xd x;
     for (int e = 0; e < data.group->elements(); ++e) {

@@ -22,7 +22,7 @@ struct GroupData {
       : group(&its_group), dofs_(static_cast<std::size_t>(its_group.element->traits().dofs)) {}
 
   const Group* group;
-  LawRef law;
+  LawRef law, second_law;  // second_law: holds nullptr where the element has one law
   bool active = false;
   bool wants_context = false;  // its law does
   bool constant = false;       // of a linear law, and matrices and forces are kept: iterations call no law
@@ -40,6 +40,7 @@ struct GroupData {
   // last element.
   std::vector<double> geometry_by_four;
   std::vector<char> constant_by_four;  // of each four: FourElementsOut::constant of the matrices that are kept
+  double dt_of_matrices = 0.0;         // of ElementTraits::linear_in_step: of the matrices that are kept; 0 = unknown
   std::vector<char> moved;  // of each element: the stage prescribes to some dof a displacement that is not zero
   int first_element = 0;    // in the solver's element order, while it is part of the system
   std::vector<double> K;    // kept element matrices, column-major

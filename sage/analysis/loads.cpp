@@ -144,9 +144,9 @@ template <int N>
 bool start_point_with(const Law<N>& law, const InitialStress& initial, std::size_t point, StateStore& state) {
   const auto history = static_cast<std::size_t>(state.history_size());
   const std::span<const Quantity> quantities = law.traits().history;
-  const std::span<double> h(state.committed.h.data() + point * history, history);
+  const std::span<double> h(state.committed.h.data() + point * history, quantities.size());
   const auto first = static_cast<std::size_t>(initial.value[0]) - 1;
-  for (std::size_t i = 1; i < initial.value.size() && first + i - 1 < history; ++i)
+  for (std::size_t i = 1; i < initial.value.size() && first + i - 1 < quantities.size(); ++i)
     if (!std::isnan(initial.value[i])) h[first + i - 1] = inward(quantities[first + i - 1], initial.value[i]);
   return law.accepts_history(Vector<N>::Map(state.committed.sigma.data() + point * N), h);
 }

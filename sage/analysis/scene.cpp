@@ -3,15 +3,19 @@
 #include <algorithm>
 
 #include "sage/analysis/congruent.hpp"
+#include "sage/core/error.hpp"
 #include "sage/model/dof_map.hpp"
 
 namespace sage {
 
 namespace {
 
-template <class Question>
-bool ask(const LawRef& law, Question question) {
-  return std::visit([&](const auto* l) { return question(*l); }, law);
+bool has_law(const LawRef& law, int size) {
+  return size_of_law(law) == size && std::visit([](const auto* held) { return held != nullptr; }, law);
+}
+
+bool is_symmetric(const LawRef& law) {
+  return std::visit([](const auto* held) { return held->traits().symmetric; }, law);
 }
 
 }  // namespace
@@ -24,8 +28,13 @@ Scene analyse_scene(const Model& model) {
   for (const Group& group : model.groups) {
     const LawRef law = model.material_of(group).law_ref();
     const ElementTraits& traits = group.element->traits();
-    const bool linear = traits.linear && has_constant_stiffness(law);
-    const bool symmetric = traits.symmetric && ask(law, [](const auto& l) { return l.traits().symmetric; });
+    const LawRef second = model.second_law_of(group);
+    if (traits.second_law_size > 0 && !has_law(second, traits.second_law_size))
+      throw AnalysisError("S225", "group " + std::to_string(group.number) + " needs a second material, whose law has " +
+                                      std::to_string(traits.second_law_size) + " component(s)");
+    const bool linear = traits.linear && traits.history.empty() && has_constant_stiffness(law) &&
+                        (traits.second_law_size == 0 || has_constant_stiffness(second));
+    const bool symmetric = traits.symmetric && is_symmetric(law) && (traits.second_law_size == 0 || is_symmetric(second));
     scene.group_linear.push_back(linear ? 1 : 0);
     scene.linear = scene.linear && linear;
     scene.symmetric = scene.symmetric && symmetric;

@@ -6,11 +6,12 @@ PointStatus shown_opening(const Mesh& mesh, const GroupData& data, std::size_t p
   constexpr double kRounding = 1e-12;
   const PointStates& state = data.state.committed;
   const auto history = history_of(data.law);
+  const auto stride = static_cast<std::size_t>(data.state.history_size());
   const int element = static_cast<int>(point) / data.group->element->traits().points;
   const int* nodes = data.group->nodes_of(element);
   const double length = (mesh.x.col(nodes[1]) - mesh.x.col(nodes[0])).norm();
   for (std::size_t i = 0; i < history.size(); ++i)
-    if (history[i].name == "gap" && state.h[point * history.size() + i] < kRounding * length)
+    if (history[i].name == "gap" && state.h[point * stride + i] < kRounding * length)
       return PointStatus::elastic;
   return PointStatus::open;
 }

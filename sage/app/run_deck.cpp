@@ -231,7 +231,7 @@ void expect_drawn(const std::vector<std::string>& pictures, const Model& model) 
     return std::ranges::any_of(model.groups, [&](const Group& group) {
       const ElementKind kind = diagram ? ElementKind::structure : ElementKind::solid;
       return drawn_as(group) == kind && group.elements() > 0 &&
-             applies(field, group.entry->kind, model.material_of(group).law_ref());
+             applies(field, group, model.material_of(group).law_ref());
     });
   };
   for (const std::string& name : pictures) {

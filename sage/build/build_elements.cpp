@@ -413,6 +413,38 @@ void build_materials(Builder& b) {
   b.materials_known = b.problems.errors() == before;
 }
 
+namespace {
+
+// Components of a law; 0 where the material has none.
+int law_size_of(const Builder& b, const Material& material) {
+  const MaterialEntry* const law = b.catalogue.materials.find(material.code);
+  return law != nullptr ? law->law_size : 0;
+}
+
+// The second law of elements that have two (ElementTraits::second_law_size).  Where the layout has no such field, a host
+// program sets Group::second_material; analyse_scene checks that it is there.
+void read_second_law(Builder& b, const CardView& card, Group& group) {
+  if (group.element == nullptr) return;
+  const int number = card.integer("second_material"), size = group.element->traits().second_law_size;
+  const std::string name = "group " + std::to_string(group.number);
+  if (number == 0) return;
+  if (size == 0) {
+    b.error("S225", card.where("second_material"), name + ": a " + group.entry->name + " has one law only");
+    return;
+  }
+  const auto found = b.material_index.find(number);
+  if (found != b.material_index.end()) {
+    group.second_material = found->second;
+    const Material& second = b.model.materials[static_cast<std::size_t>(found->second)];
+    if (law_size_of(b, second) == size) return;
+  }
+  b.error("S225", card.where("second_material"),
+          name + ": a " + group.entry->name + " needs a second material, whose law has " + std::to_string(size) +
+              (size == 1 ? " component" : " components"));
+}
+
+}  // namespace
+
 void build_groups(Builder& b) {
   const int before = b.problems.errors();
   for (const CardView& card : b.deck.all("group")) {
@@ -470,6 +502,7 @@ void build_groups(Builder& b) {
                       std::to_string(m.number) + " is " + law->name);
       }
     }
+    read_second_law(b, card, group);
     if (b.problems.errors() == before) check_replaced(b, group);
     b.model.groups.push_back(std::move(group));
   }

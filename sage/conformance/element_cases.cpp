@@ -19,12 +19,6 @@ Eigen::Matrix2Xd columns(std::initializer_list<Vector2> points) {
   return x;
 }
 
-Eigen::VectorXd history_start(std::span<const Quantity> history) {
-  Eigen::VectorXd h(static_cast<Eigen::Index>(history.size()));
-  for (std::size_t i = 0; i < history.size(); ++i) h(static_cast<Eigen::Index>(i)) = history[i].initial;
-  return h;
-}
-
 bool exists(const ElementEntry& entry, Geometry geometry, int formulation) {
   try {
     return entry.make(geometry, formulation) != nullptr;
@@ -105,17 +99,18 @@ Eigen::Matrix2Xd sample_shape_curved(const ElementEntry& entry) {
   return x;
 }
 
-ElementRun::ElementRun(const Element& e, const Eigen::Matrix2Xd& x, LawRef l) : element(&e), law(l) {
+ElementRun::ElementRun(const Element& e, const Eigen::Matrix2Xd& nodes, LawRef l)
+    : element(&e), law(l), x(nodes) {
   const ElementTraits& t = e.traits();
   const auto points = static_cast<std::size_t>(t.points), n = static_cast<std::size_t>(t.law_size);
-  const Eigen::VectorXd start =
-      std::visit([](const auto* held) { return history_start(held->traits().history); }, law);
-  history = static_cast<int>(start.size());
+  const PointHistory quantities = history_of(law, t);
+  history = static_cast<int>(quantities.size());
   geometry.resize(static_cast<std::size_t>(t.geometry_size()));
   e.geometry(x, geometry);
   sigma0.assign(points * n, 0.0);
   eps0 = sigma1 = eps1 = sigma0;
-  for (std::size_t p = 0; p < points; ++p) h0.insert(h0.end(), start.begin(), start.end());
+  for (std::size_t p = 0; p < points; ++p)
+    for (std::size_t i = 0; i < quantities.size(); ++i) h0.push_back(quantities[i].initial);
   h1.assign(h0.size(), 0.0);
   status.assign(points, PointStatus::elastic);
   u0.setZero(t.dofs);
@@ -127,6 +122,8 @@ Outcome ElementRun::evaluate(const Eigen::VectorXd& du, bool want_stiffness) {
   ElementIn in{geometry.data(), du.data(), law, sigma0.data(), eps0.data(), h0.data(), contexts};
   in.u0 = u0.data();
   in.dt = dt;
+  in.x = x.data();
+  in.second_law = second_law;
   ElementOut out{
       want_stiffness ? K.data() : nullptr, f.data(), sigma1.data(), eps1.data(), h1.data(), status.data()};
   return element->evaluate(in, out);

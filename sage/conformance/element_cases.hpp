@@ -47,7 +47,8 @@ struct ElementRun {
   Eigen::MatrixXd B(int point) const;  // law_size x dofs
 
   const Element* element;
-  LawRef law;
+  LawRef law, second_law;  // second_law: only of elements that have two
+  Eigen::Matrix2Xd x;
   const PointContext* contexts = nullptr;  // one a point, if any
   int history = 0;
   std::vector<double> geometry, sigma0, eps0, h0, sigma1, eps1, h1;

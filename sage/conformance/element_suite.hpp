@@ -299,7 +299,7 @@ TEST_P(Elements, EachPointGetsItsOwnState) {
       const auto first = static_cast<std::size_t>(p * t.law_size);
       for (std::size_t i = 0; i < static_cast<std::size_t>(t.law_size); ++i)
         EXPECT_NEAR(run.eps1[first + i], run.eps0[first + i] + deps(static_cast<int>(i)), 1e-13);
-      const auto h = static_cast<std::size_t>(2 * p);
+      const auto h = static_cast<std::size_t>(run.history_size() * p);
       EXPECT_NEAR(run.h1[h], run.h0[h] + deps.sum(), 1e-12 * (1.0 + run.h0[h]));
       EXPECT_EQ(run.h1[h + 1], run.h0[h + 1] + 1.0);
       EXPECT_EQ(run.status[static_cast<std::size_t>(p)], PointStatus::yielded);

@@ -30,8 +30,16 @@ struct ElementTraits {
   bool symmetric = true;       // K is wherever the law's D is
   bool linear = true;          // f is linear in du, with one K for every dt, wherever the law is
   bool sees_unknowns = false;  // ElementIn::u0 and dt are wanted
+  // f is linear in du, with one K for each ElementIn::dt, wherever the laws are: K is made once for a step size, and its
+  // factors serve all steps of that size.
+  bool linear_in_step = false;
+  bool sees_coordinates = false;  // ElementIn::x is wanted: for elements that recompute their geometry as they move
+  int second_law_size = 0;        // components of ElementIn::second_law; 0 = the element has one law
   bool loses_order = false;    // as nu -> 1/2 it still converges, but slower than its shape functions allow
   int own_doubles = 0;         // that geometry() writes behind the points, for evaluate() alone
+  // What the element itself remembers at each point, behind the quantities of the law in ElementIn::h0 and
+  // ElementOut::h1.  Committed, restarted and written like the law's; such an element is never taken for linear.
+  std::span<const Quantity> history = {};
   // Doubles filled by geometry(): for each point its weight w, then B^T (dofs x law_size, column-major).
   int geometry_size() const { return points * (1 + law_size * dofs) + own_doubles; }
 };
@@ -43,12 +51,16 @@ struct ElementIn {
   LawRef law;
   const double* sigma0 = nullptr;  // points x law_size, committed stress
   const double* eps0 = nullptr;    // points x law_size, committed strain
-  const double* h0 = nullptr;      // points x history size
+  const double* h0 = nullptr;      // points x (history of the law, then of the element)
   // One a point where the law wants them, else nullptr: to be handed on as PointIn::context.
   const PointContext* contexts = nullptr;
   // For elements that see them: committed unknowns (dofs), and the time of the step; 0 at a state that stands.
   const double* u0 = nullptr;
   double dt = 0.0;
+  const double* x = nullptr;  // sees_coordinates: of the nodes as the mesh has them, x1 y1 x2 y2 ...
+  // Elements with two laws (a skeleton and the flow through it): the other one.  What it needs to remember is part of the
+  // element's own history.
+  LawRef second_law = {};
   // Of lines whose law is not linear: loads spread along the element, a force a dof, at the end of the step and at the
   // committed state; nullptr = there are none.
   const double* spread = nullptr;
@@ -60,7 +72,7 @@ struct ElementOut {
   double* f = nullptr;            // dofs: internal force  sum w B^T sigma, overwritten
   double* sigma1 = nullptr;       // points x law_size, trial stress
   double* eps1 = nullptr;         // points x law_size, trial strain
-  double* h1 = nullptr;           // points x history size
+  double* h1 = nullptr;           // points x (history of the law, then of the element), overwritten
   PointStatus* status = nullptr;  // points
 };
 
@@ -122,5 +134,9 @@ class Element {
   // of nodes without stiffness.
   virtual std::string caution(const NodeCoordinates& /*x*/) const { return {}; }
 };
+
+inline PointHistory history_of(const LawRef& law, const ElementTraits& element) {
+  return {history_of(law), element.history};
+}
 
 }  // namespace sage

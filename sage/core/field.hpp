@@ -52,11 +52,12 @@ struct NodeView {
 // An integration point.  This alone is as the law keeps it: tension positive, radians.
 struct PointView {
   LawRef law;
-  std::span<const double> sigma, eps, history;  // law_size, law_size, one of each Quantity
+  std::span<const double> sigma, eps, history;  // law_size, law_size, one of each Quantity of law and element
   PointStatus status = PointStatus::elastic;
   double pore_pressure = 0.0;  // of solids, compression positive, excess included
   // Of solids: effective stress [xx yy zz xy], compression positive.
   Vector4 effective = Vector4::Zero();
+  std::span<const Quantity> element_history = {};  // of its element, behind those of the law
 };
 
 struct ElementView {
@@ -126,6 +127,7 @@ struct FieldEntry {
   FieldForm form = FieldForm::number;
   std::optional<ElementKind> kind{};      // PointField: of these elements only
   std::function<bool(LawRef)> has_law{};  // PointField: of these laws only
+  std::string element_history{};          // PointField: of elements with this history quantity only
   bool optional = false;    // may be unknown or infinite: blank.  Otherwise such a value is an error of the run
   bool from_start = false;  // reports count it from the start of their stage
   // A mean of its values means nothing (directions): of an element it is made of the mean stress or strain.

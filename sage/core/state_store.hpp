@@ -22,7 +22,7 @@ class StateStore {
  public:
   StateStore() = default;
   // with_trial: a law is going to write stress and strain here, step by step.
-  StateStore(std::size_t points, int law_size, std::span<const Quantity> history, bool with_trial = true)
+  StateStore(std::size_t points, int law_size, const PointHistory& history, bool with_trial = true)
       : law_size_(law_size), history_size_(static_cast<int>(history.size())) {
     committed.h.resize(points * history.size());
     for (std::size_t p = 0; p < points; ++p)

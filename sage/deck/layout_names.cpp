@@ -40,7 +40,7 @@ constexpr KnownCard kKnown[] = {
     {"sage1", "fill", false, "first columns rows row_step", "column_step column_ratio row_ratio", ""},
     {"sage1", "material", true, "number law", "unit_weight name k0", ""},
     {"sage1", "parameters", false, "values", "", "material"},
-    {"sage1", "group", true, "number element material", "formulation name overlay", ""},
+    {"sage1", "group", true, "number element material", "formulation name overlay second_material", ""},
     {"sage1", "element", true, "number n1 n2", kElement, ""},
     {"sage1", "fixity", false, "first x_code|y_code", "last step x_code y_code x_value y_value unknown",
      "?stage"},

@@ -53,6 +53,8 @@ std::uint64_t fingerprint(const Model& model) {
     add(archive, g.number, g.name, g.element_code, g.element_name, g.material, g.element_numbers, g.nodes);
   for (const Group& g : model.groups)
     if (g.overlay) add(archive, g.number, g.overlay);
+  for (const Group& g : model.groups)
+    if (g.second_material >= 0) add(archive, g.number, g.second_material);
   add_fixities(archive, model.fixities);
   add_field_fixities(archive, model.field_fixities);
   add_initials(archive, model.initials);

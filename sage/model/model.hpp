@@ -52,6 +52,7 @@ struct Group {
   std::shared_ptr<const ElementEntry> entry;
   std::shared_ptr<const Element> element;
   int material = 0;  // index into Model::materials
+  int second_material = -1;  // of the second law, of elements that have two (ElementTraits::second_law_size)
   std::vector<int> element_numbers;
   std::vector<int> element_lines;  // deck line of each element
   std::vector<int> nodes;          // element->traits().nodes each
@@ -231,6 +232,11 @@ struct Model {
 
   const Material& material_of(const Group& group) const {
     return materials[static_cast<std::size_t>(group.material)];
+  }
+  // Holds nullptr where the group has one law.
+  LawRef second_law_of(const Group& group) const {
+    if (group.second_material < 0) return {};
+    return materials[static_cast<std::size_t>(group.second_material)].law_ref();
   }
 };
 

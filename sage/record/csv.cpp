@@ -185,7 +185,7 @@ void Csv::choose_fields(const Model& model) {
   fields_ = fields_of(model);
   const auto applies_here = [&](const FieldEntry& row) {
     return std::ranges::any_of(model.groups, [&](const Group& group) {
-      return applies(row, group.entry->kind, model.material_of(group).law_ref());
+      return applies(row, group, model.material_of(group).law_ref());
     });
   };
   for (const FieldEntry& row : fields_.rows())

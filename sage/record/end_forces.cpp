@@ -81,7 +81,7 @@ class EndReader {
         spacing_(spacing_of(data_.law)) {
     const auto points = static_cast<std::size_t>(traits_.points);
     stress_.resize(2 * points * sigma_.size());
-    history_.resize(points * history_of(data_.law).size());
+    history_.resize(points * static_cast<std::size_t>(data_.state.history_size()));
     status_.resize(points);
   }
 
@@ -219,7 +219,7 @@ const FieldEntry& end_field(std::size_t quantity) {
 
 bool has_quantity(const Model& model, const Group& group, std::size_t quantity) {
   return group.structure() && group.elements() > 0 &&
-         applies(end_field(quantity), ElementKind::structure, model.material_of(group).law_ref());
+         applies(end_field(quantity), group, model.material_of(group).law_ref());
 }
 
 std::vector<std::size_t> end_quantities(const Model& model) {

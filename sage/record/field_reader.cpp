@@ -17,26 +17,50 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-// Place of a quantity in a law's history; -1 = it has none of the name.
-int find_quantity(const LawRef& law, std::string_view name) {
-  const std::span<const Quantity> quantities = history_of(law);
+// Place of a quantity in a history; -1 = it has none of the name.
+int find_quantity(std::span<const Quantity> quantities, std::string_view name) {
   for (std::size_t i = 0; i < quantities.size(); ++i)
     if (quantities[i].name == name) return static_cast<int>(i);
   return -1;
 }
 
-FieldEntry history_row(const Quantity& quantity) {
+FieldEntry history_row(const Quantity& quantity, const PointField& value) {
+  const std::string name(quantity.name);
+  return {.name = name, .meaning = name, .dimension = quantity.dimension, .value = value};
+}
+
+FieldEntry law_history_row(const Quantity& quantity) {
   const std::string name(quantity.name);
   const auto value = [name](const PointView& point, double* result) {
-    const int i = find_quantity(point.law, name);
+    const std::span<const Quantity> quantities = history_of(point.law);
+    const int i = find_quantity(quantities, name);
     const auto at = static_cast<std::size_t>(i);
-    *result = i < 0 ? kNone : outward(history_of(point.law)[at], point.history[at]);
+    *result = i < 0 ? kNone : outward(quantities[at], point.history[at]);
   };
-  return {.name = name,
-          .meaning = name,
-          .dimension = quantity.dimension,
-          .value = PointField{value},
-          .has_law = [name](LawRef law) { return find_quantity(law, name) >= 0; }};
+  FieldEntry row = history_row(quantity, PointField{value});
+  row.has_law = [name](LawRef law) { return find_quantity(history_of(law), name) >= 0; };
+  return row;
+}
+
+FieldEntry element_history_row(const Quantity& quantity) {
+  const std::string name(quantity.name);
+  const auto value = [name](const PointView& point, double* result) {
+    const int i = find_quantity(point.element_history, name);
+    const auto at = static_cast<std::size_t>(i);
+    *result = i < 0 ? kNone : outward(point.element_history[at], point.history[history_of(point.law).size() + at]);
+  };
+  FieldEntry row = history_row(quantity, PointField{value});
+  row.element_history = name;
+  return row;
+}
+
+void add_history_rows(const LawRef& law, const ElementTraits& element, std::vector<FieldEntry>& rows) {
+  const auto add = [&](FieldEntry row) {
+    if (std::ranges::none_of(rows, [&](const FieldEntry& other) { return other.name == row.name; }))
+      rows.push_back(std::move(row));
+  };
+  for (const Quantity& quantity : history_of(law)) add(law_history_row(quantity));
+  for (const Quantity& quantity : element.history) add(element_history_row(quantity));
 }
 
 void set_none(const FieldEntry& entry, double* value) {
@@ -45,20 +69,17 @@ void set_none(const FieldEntry& entry, double* value) {
 
 }  // namespace
 
-std::vector<FieldEntry> history_fields(const LawRef& law) {
+std::vector<FieldEntry> history_fields(const LawRef& law, const ElementTraits& element) {
   std::vector<FieldEntry> rows;
-  for (const Quantity& quantity : history_of(law)) rows.push_back(history_row(quantity));
+  add_history_rows(law, element, rows);
   return rows;
 }
 
 std::vector<FieldEntry> history_fields(const Model& model, std::optional<ElementKind> kind) {
   std::vector<FieldEntry> rows;
-  for (const Group& group : model.groups) {
-    if (kind && group.entry->kind != *kind) continue;
-    for (const Quantity& quantity : history_of(model.material_of(group).law_ref()))
-      if (std::ranges::none_of(rows, [&](const FieldEntry& row) { return row.name == quantity.name; }))
-        rows.push_back(history_row(quantity));
-  }
+  for (const Group& group : model.groups)
+    if (!kind || group.entry->kind == *kind)
+      add_history_rows(model.material_of(group).law_ref(), group.element->traits(), rows);
   return rows;
 }
 
@@ -135,6 +156,7 @@ FieldList fields_at_places(const FieldTable& table, std::initializer_list<std::s
 // 0 - x: no -0 comes out.
 PointState::PointState(const Mesh& mesh, const GroupData& data, std::size_t point)
     : view{data.law, {}, {}, {}, shown_status(mesh, data, point)},
+      group(data.group),
       kind(data.group->entry->kind),
       solid(kind == ElementKind::solid) {
   const PointStates& state = data.state.committed;
@@ -143,6 +165,7 @@ PointState::PointState(const Mesh& mesh, const GroupData& data, std::size_t poin
   view.sigma = {state.sigma.data() + point * n, n};
   view.eps = {state.eps.data() + point * n, n};
   view.history = {state.h.data() + point * history, history};
+  view.element_history = data.group->element->traits().history;
   if (!solid) return;
   stress = Vector4::Zero() - Vector4::Map(view.sigma.data());
   strain = Vector4::Zero() - Vector4::Map(view.eps.data());
@@ -163,16 +186,18 @@ bool applies(const FieldEntry& entry, ElementKind kind) {
   return std::holds_alternative<PointField>(entry.value) && entry.kind.value_or(kind) == kind;
 }
 
-bool applies(const FieldEntry& entry, ElementKind kind, const LawRef& law) {
-  return applies(entry, kind) && (!entry.has_law || entry.has_law(law));
+bool applies(const FieldEntry& entry, const Group& group, const LawRef& law) {
+  const std::string& own = entry.element_history;
+  return applies(entry, group.entry->kind) && (!entry.has_law || entry.has_law(law)) &&
+         (own.empty() || find_quantity(group.element->traits().history, own) >= 0);
 }
 
 bool applies(const FieldEntry& entry, const GroupData& data) {
-  return applies(entry, data.group->entry->kind, data.law);
+  return applies(entry, *data.group, data.law);
 }
 
 void read_field(const FieldEntry& entry, const PointState& point, double* value) {
-  if (applies(entry, point.kind, point.view.law))
+  if (applies(entry, *point.group, point.view.law))
     read_applying(entry, point, value);
   else
     set_none(entry, value);

@@ -8,8 +8,9 @@ namespace sage {
 
 using FieldList = std::vector<const FieldEntry*>;
 
-// A row for each history variable of a law; and of the laws of a kind of element (or of all), each name once.
-std::vector<FieldEntry> history_fields(const LawRef& law);
+// A row for each history variable of a law and an element; and of all groups of a kind of element (or of all kinds), each
+// name once.
+std::vector<FieldEntry> history_fields(const LawRef& law, const ElementTraits& element);
 std::vector<FieldEntry> history_fields(const Model& model, std::optional<ElementKind> kind = {});
 // Rows for the unknowns besides displacement: of one named "c" whose load is "flux", "c", "c_flux" and
 // "c_reaction".
@@ -28,6 +29,7 @@ FieldList fields_at_places(const FieldTable& table, std::initializer_list<std::s
 // An integration point as its fields see it.
 struct PointState {
   PointView view;
+  const Group* group;
   ElementKind kind = ElementKind::solid;
   bool solid = false;
   Vector4 stress = Vector4::Zero(), strain = Vector4::Zero();  // of solids, compression positive
@@ -35,9 +37,9 @@ struct PointState {
   PointState(const Mesh& mesh, const GroupData& data, std::size_t point);
 };
 
-// Whether a row that lives at points has values in elements of a kind, and of a law.
+// Whether a row that lives at points has values in elements of a kind, and in a group with a law.
 bool applies(const FieldEntry& entry, ElementKind kind);
-bool applies(const FieldEntry& entry, ElementKind kind, const LawRef& law);
+bool applies(const FieldEntry& entry, const Group& group, const LawRef& law);
 bool applies(const FieldEntry& entry, const GroupData& data);
 
 // entry.size() numbers.  At a point where the row does not apply: NaN.

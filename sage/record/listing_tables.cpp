@@ -227,7 +227,7 @@ void points(std::string& text, const Model& model, const Solution& solution,
     const int count = group.element->traits().points;
     constexpr std::size_t kRow = 112;  // characters, without a history
     text.reserve(text.size() + static_cast<std::size_t>(group.elements() * count) * kRow);
-    const std::vector<FieldEntry> history = history_fields(data.law);
+    const std::vector<FieldEntry> history = history_fields(data.law, group.element->traits());
     const GroupColumns columns = columns_of(data, table, history, asked);
     std::vector<double> values(std::max(columns.first, columns.most));
     point_columns(text, model, data, columns);

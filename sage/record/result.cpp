@@ -12,7 +12,7 @@ GroupData states_of(const GroupData& data) {
   GroupData copy(*data.group);
   copy.law = data.law;
   copy.active = data.active;
-  const auto history = history_of(data.law);
+  const PointHistory history = history_of(data.law, data.group->element->traits());
   copy.state = StateStore(0, data.state.law_size(), history, false);
   copy.state.committed = data.state.committed;
   copy.pore = data.pore;
@@ -38,8 +38,8 @@ Frame::Frame(const Model& model) : activity_(model) {
   for (const Group& group : model.groups) {
     GroupData data(group);
     data.law = model.material_of(group).law_ref();
-    const auto history = history_of(data.law);
-    data.state = StateStore(0, group.element->traits().law_size, history, false);
+    const ElementTraits& traits = group.element->traits();
+    data.state = StateStore(0, traits.law_size, history_of(data.law, traits), false);
     if (!model.water.empty() && group.solid())
       data.pore.assign(static_cast<std::size_t>(group.elements() * group.element->traits().points), 0.0);
     groups_.push_back(std::move(data));

@@ -359,7 +359,7 @@ class OwnPart {
   FieldList point_fields(const Group& group) const {
     FieldList list;
     for (const FieldEntry& field : fields_.rows())
-      if (applies(field, group.entry->kind, model_.material_of(group).law_ref())) list.push_back(&field);
+      if (applies(field, group, model_.material_of(group).law_ref())) list.push_back(&field);
     return list;
   }
   static std::size_t points_of(const Group& group) {

@@ -113,13 +113,13 @@ void add_ends(const Model& model, const Solution& s, std::vector<VtkArray>& arra
 FieldList cell_fields(const Model& model, const FieldTable& table) {
   const auto shown = [&](const FieldEntry& field) {
     return std::ranges::any_of(model.groups, [&](const Group& group) {
-      return applies(field, group.entry->kind, model.material_of(group).law_ref());
+      return applies(field, group, model.material_of(group).law_ref());
     });
   };
   FieldList fields;
   for (const FieldEntry& field : table.rows()) {
     if (field.place() != FieldPlace::point || field.shape == FieldShape::tensor) continue;
-    const bool of_solids = applies(field, ElementKind::solid) && !field.has_law;
+    const bool of_solids = applies(field, ElementKind::solid) && !field.has_law && field.element_history.empty();
     if (field.form != FieldForm::word && (of_solids || shown(field))) fields.push_back(&field);
   }
   return fields;
