@@ -1,11 +1,19 @@
-#include "solvers/twin_fronts.hpp"
-
+// Fronts that repeat.  Where an earlier front has the same terms in the same places, and the same fronts below it, both
+// have the same factors and border matrices to the last bit: they are made and kept once.  Meshes of equal elements in
+// rows have many such fronts, all others next to none.
 #include <algorithm>
+#include <atomic>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <unordered_map>
 #include <utility>
+#include <vector>
+
+#include "solvers/frontal.hpp"
+#include "solvers/frontal_solver.hpp"
 
 namespace sage {
 
@@ -119,7 +127,61 @@ bool saves_much(const FrontTree& tree, std::span<const int> first) {
   return own < all - all / 10;
 }
 
-}  // namespace
+// For matrices that are factorised once: where points yield, fronts soon differ.  They are used where they save a tenth
+// of the factors at least.
+class TwinFronts {
+ public:
+  // Of a new tree, whose values are not known yet: no front has a twin.
+  void analyse(const FrontTree& tree, bool wanted);
+  // Needs the lists of entries.
+  void find(const FrontTree& tree, std::span<const double> values);
+
+  // The first front with the factors of this one; itself where it is the first.
+  int first(int front) const { return first_[static_cast<std::size_t>(front)]; }
+  std::span<const int> first() const { return first_; }
+  bool is_first(int front) const { return first(front) == front; }
+  // Whether it may be found to be the twin of an earlier one.
+  bool may_repeat(int front) const {
+    return !shape_.empty() && shape_[static_cast<std::size_t>(front)] != front;
+  }
+
+ private:
+  std::vector<int> first_;  // of every front
+  std::vector<int> shape_;  // of every front the first one of its shape; empty: there is no use in looking
+};
+
+// Border matrices that more than one front takes.  They outlive the place that a border has in a workspace, and who
+// takes one may have to wait for the thread that makes it.
+class LentBorders {
+ public:
+  // first: of every front the first one like it.  None is made yet.
+  void plan(const FrontTree& tree, std::span<const int> first);
+  bool lends(int front) const { return !slot_.empty() && slot_[static_cast<std::size_t>(front)] >= 0; }
+
+  // Room for the border of a front that lends; who has filled it publishes it.
+  double* make(int front, std::size_t terms);
+  double* room(int front) { return border_of(front).terms.data(); }
+  void publish(int front);
+  // The border once it is published; nullptr where its maker has given it up.
+  const double* wait_for(int front);
+  // The last of those that take it frees it; after an error the rest goes with the next plan().
+  void release(int front);
+  // What the fronts begin .. end - 1 lend and have not published will not come.
+  void give_up(int begin, int end);
+
+ private:
+  enum State { kPending, kPublished, kGivenUp };
+  struct Border {
+    AlignedArray terms;
+    std::atomic<int> state{kPending}, takers{0};
+  };
+  Border& border_of(int front) {
+    return borders_[static_cast<std::size_t>(slot_[static_cast<std::size_t>(front)])];
+  }
+
+  std::vector<int> slot_;  // of every front, -1 = lends none; empty: nobody does
+  std::vector<Border> borders_;
+};
 
 void TwinFronts::analyse(const FrontTree& tree, bool wanted) {
   first_.resize(tree.fronts.size());
@@ -177,6 +239,68 @@ void LentBorders::give_up(int begin, int end) {
     border_of(f).state = kGivenUp;
     border_of(f).state.notify_all();
   }
+}
+
+// The thread that was to make a border has given up, with an error of its own that comes first.
+struct NoBorder {};
+
+class FrontalWithRepeats final : public Frontal, public RepeatedParts {
+ public:
+  explicit FrontalWithRepeats(SolverTraits solver_traits) : Frontal(solver_traits) {}
+
+  void use_repeated_parts(bool wanted) override { wanted_ = wanted; }
+  int repeated_equations() const override { return repeated_equations_; }
+
+ protected:
+  void prepare_sharing() override {
+    twins_.analyse(tree(), once() && wanted_);
+    lent_ = {};
+    repeated_equations_ = 0;
+  }
+  bool may_share(int front) const override { return twins_.may_repeat(front); }
+  void find_sharing() override {
+    twins_.find(tree(), matrix().value());
+    lent_.plan(tree(), twins_.first());
+    place_factors();
+    repeated_equations_ = 0;
+    for (int f = 0; at(f) < tree().fronts.size(); ++f)
+      if (!twins_.is_first(f)) repeated_equations_ += tree().fronts[at(f)].pivots;
+  }
+  int same_as(int front) const override { return twins_.first(front); }
+
+  void make_shared_border(int front) override {
+    if (lent_.lends(front))
+      lent_.make(front, static_cast<std::size_t>(tree().fronts[at(front)].border_terms()));
+  }
+  double* shared_border(int front) override { return lent_.lends(front) ? lent_.room(front) : nullptr; }
+  void finish_shared_border(int front) override {
+    if (lent_.lends(front)) lent_.publish(front);
+  }
+  const double* wait_for_shared_border(int front) override {
+    if (!lent_.lends(front)) return nullptr;
+    const double* const terms = lent_.wait_for(front);
+    if (terms == nullptr) throw NoBorder();
+    return terms;
+  }
+  void release_shared_border(int front) override {
+    if (lent_.lends(front)) lent_.release(front);
+  }
+  void give_up_shared_borders(int begin, int end) override { lent_.give_up(begin, end); }
+
+ private:
+  bool wanted_ = true;
+  TwinFronts twins_;
+  LentBorders lent_;
+  int repeated_equations_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<LinearSolver> make_frontal() {
+  return std::make_unique<FrontalWithRepeats>(SolverTraits{"frontal", false});
+}
+std::unique_ptr<LinearSolver> make_frontal_ldlt() {
+  return std::make_unique<FrontalWithRepeats>(SolverTraits{"frontal_ldlt", true});
 }
 
 }  // namespace sage
