@@ -148,6 +148,18 @@ expect("${bars}" ",-10(\\.0+)?,-0\\.05(0*),")
 file(READ ${SCRATCH}/own/truss.nodes.csv nodes)
 expect("${nodes}" ",-0\\.3125")
 
+# The same bars as a truss that moves, whose elements remember their largest stretch: 400 (L/5 - 1)(4 + v)/L = 16 with
+# L^2 = 9 + (4 + v)^2 gives v = 0.300923 and L/5 - 1 = 0.048770.
+file(READ ${SCRATCH}/truss.dat text)
+string(REPLACE "    1   50    0    1\n" "    1 1060    0    1\n" text "${text}")
+file(WRITE ${SCRATCH}/moving.dat "${text}")
+step("run a truss that moves" ${SCRATCH}/consumer/own_program run ${SCRATCH}/moving.dat -o ${SCRATCH}/own --points --nodes)
+file(READ ${SCRATCH}/own/moving.structures.csv bars)
+expect("${bars}" "largest_stretch")
+expect("${bars}" ",0\\.0487")
+file(READ ${SCRATCH}/own/moving.nodes.csv nodes)
+expect("${nodes}" ",-0\\.3009")
+
 # The element with a third unknown: one square, concentration 0 below and 1 above, flux k / H = 2.
 file(WRITE ${SCRATCH}/own_diffusion.dat "swelling soil
 m       kN      kPa

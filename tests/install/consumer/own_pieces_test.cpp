@@ -1,5 +1,6 @@
 // The suites that come with the package, over pieces of one's own.
 #include "bar.hpp"
+#include "consolidation.hpp"
 #include "creep.hpp"
 #include "diffusion.hpp"
 #include "layered.hpp"
@@ -8,6 +9,7 @@
 #include "sage/conformance/solver_suite.hpp"
 #include "sparse_lu.hpp"
 #include "tri10.hpp"
+#include "truss.hpp"
 
 namespace sage::conformance {
 
@@ -20,6 +22,8 @@ const Catalogue& pieces() {
     c.elements.add(40, own::tri10());
     c.elements.add(50, own::bar2());
     c.elements.add(1041, own::diffusion_quad());
+    c.elements.add(1060, own::truss2());
+    c.elements.add(1061, own::consolidation2());
     c.solvers.add(90, own::sparse_lu());
     return c;
   }();

@@ -1,7 +1,8 @@
 // `sagefe` with pieces of one's own: a law, soil that is stiffer along its layers than across them, an element,
-// the ten-node triangle, a bar with its law, a law that depends on time, an element with a third unknown, a solver
-// and a field.  This is the example of docs/manual/own_program.md.
+// the ten-node triangle, a bar with its law, a truss that moves, a law that depends on time, elements with a third
+// unknown, a solver and a field.  This is the example of docs/manual/own_program.md.
 #include "bar.hpp"
+#include "consolidation.hpp"
 #include "creep.hpp"
 #include "diffusion.hpp"
 #include "layered.hpp"
@@ -9,6 +10,7 @@
 #include "sage/app/program.hpp"
 #include "sparse_lu.hpp"
 #include "tri10.hpp"
+#include "truss.hpp"
 
 int main(int argc, char** argv) {
   return sage::sagefe(argc, argv, [](sage::Catalogue& catalogue) {
@@ -19,6 +21,8 @@ int main(int argc, char** argv) {
     catalogue.elements.add(40, own::tri10());
     catalogue.elements.add(50, own::bar2());
     catalogue.elements.add(1041, own::diffusion_quad());
+    catalogue.elements.add(1060, own::truss2());
+    catalogue.elements.add(1061, own::consolidation2());
     catalogue.solvers.add(90, own::sparse_lu());
     catalogue.fields.add(own::stress_ratio());
   });
