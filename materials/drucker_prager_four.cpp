@@ -25,7 +25,8 @@ void set_status(const FourMask& here, PointStatus status, FourPointsOut<4>& out)
 }  // namespace
 
 // Roots and quotients make a chain of each of the two halves: chains of several points go side by side.
-Outcome DruckerPragerFour::update_four(std::span<const FourPointsIn<4>> in, std::span<FourPointsOut<4>> out) const {
+Outcome DruckerPragerFour::update_four(std::span<const FourPointsIn<4>> in,
+                                       std::span<FourPointsOut<4>> out) const {
   std::array<Trial, kMostFours> trial;
   for (std::size_t p = 0; p < in.size(); ++p) predict(in[p], trial[p]);
   for (std::size_t p = 0; p < in.size(); ++p) finish(in[p], trial[p], out[p]);
@@ -78,7 +79,8 @@ void DruckerPragerFour::finish(const FourPointsIn<4>& in, const Trial& trial, Fo
   store_pairs_of_four(shear, volume, out.h1[0], out.h1[1], out.h1[2], out.h1[3]);
 }
 
-void DruckerPragerFour::stay_elastic(const FourTensors& trial, const FourMask& here, FourPointsOut<4>& out) const {
+void DruckerPragerFour::stay_elastic(const FourTensors& trial, const FourMask& here,
+                                     FourPointsOut<4>& out) const {
 #pragma GCC unroll 4
   for (std::size_t i = 0; i < 4; ++i) {
     out.sigma[i] = here ? trial[i] : out.sigma[i];
@@ -89,7 +91,8 @@ void DruckerPragerFour::stay_elastic(const FourTensors& trial, const FourMask& h
 }
 
 // s = theta s_tr,  p = p_tr - 3 K beta dlambda; tangent: de Souza Neto, Peric & Owen (2008), ch. 8.
-void DruckerPragerFour::return_to_cone(const FourInvariants& trial, const Four& p, FourPointsOut<4>& out) const {
+void DruckerPragerFour::return_to_cone(const FourInvariants& trial, const Four& p,
+                                       FourPointsOut<4>& out) const {
   const auto [K, G] = p_.elastic;
   const auto [alpha, k] = p_.cone;
   const double beta = p_.beta, A = 1.0 / (G + 9.0 * K * alpha * beta);
@@ -121,13 +124,14 @@ void DruckerPragerFour::return_to_cone(const FourInvariants& trial, const Four& 
 
 // s = 0,  p = p_trial.
 void DruckerPragerFour::drop_deviator(const FourInvariants& trial, const FourMask& here,
-                                  FourPointsOut<4>& out) const {
+                                      FourPointsOut<4>& out) const {
 #pragma GCC unroll 4
   for (std::size_t i = 0; i < 4; ++i) {
     out.sigma[i] = here ? kUnit[i] * trial.p : out.sigma[i];
 #pragma GCC unroll 4
     for (std::size_t j = 0; j < 4; ++j) {
-      const double D = multiply_add(kApexStiffness, D_elastic_(at(i), at(j)), p_.elastic.K * kUnit[i] * kUnit[j]);
+      const double D =
+          multiply_add(kApexStiffness, D_elastic_(at(i), at(j)), p_.elastic.K * kUnit[i] * kUnit[j]);
       out.D[i][j] = here ? all_four(D) : out.D[i][j];
     }
   }
@@ -136,7 +140,7 @@ void DruckerPragerFour::drop_deviator(const FourInvariants& trial, const FourMas
 
 // p = p_max; the deviator is cut to what the cone leaves there, which is nothing at the apex.
 void DruckerPragerFour::return_to_cap(const FourInvariants& trial, const FourMask& here,
-                                  FourPointsOut<4>& out) const {
+                                      FourPointsOut<4>& out) const {
   const double left = std::max(p_.cone.k - 3.0 * p_.cone.alpha * p_max_, 0.0);
   const bool at_apex = p_max_ < p_.mean_tension || left <= kRounding * p_.cone.k;
   const Four none{}, whole = all_four(1.0);
@@ -165,7 +169,7 @@ void DruckerPragerFour::return_to_cap(const FourInvariants& trial, const FourMas
 
 // Point by point, in place of the return to the cone.
 void DruckerPragerFour::take_exact_answers(const FourPointsIn<4>& in, const FourMask& here,
-                                       FourPointsOut<4>& out) const {
+                                           FourPointsOut<4>& out) const {
   const int places = bits_of_four(here);
   for (std::size_t l = 0; l < kAbreast; ++l) {
     if ((places >> l & 1) == 0) continue;

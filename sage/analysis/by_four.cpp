@@ -32,7 +32,8 @@ void prepare_by_four(const Mesh& mesh, GroupData& data) {
     element_coordinates(mesh, group, std::min(e, group.elements() - 1), x);
     group.element->geometry(x, geometry);
     const auto four = static_cast<std::size_t>(e / kAbreast), place = static_cast<std::size_t>(e % kAbreast);
-    data.four_elements->place_among_four(geometry, data.geometry_by_four.data() + four * kAbreast * size + place);
+    data.four_elements->place_among_four(geometry,
+                                         data.geometry_by_four.data() + four * kAbreast * size + place);
   }
 }
 

@@ -28,8 +28,9 @@ ChangingRegion::ChangingRegion(std::vector<GroupData>& groups, ElementWork& elem
     : groups_(&groups), element_(&element), work_(&work) {}
 
 void ChangingRegion::set_threads(int threads) {
-  const bool useful = std::ranges::any_of(
-      *groups_, [](const GroupData& data) { return data.by_four() && data.group->elements() >= kWorthThreads; });
+  const bool useful = std::ranges::any_of(*groups_, [](const GroupData& data) {
+    return data.by_four() && data.group->elements() >= kWorthThreads;
+  });
   pool_ = useful && threads > 1 ? std::make_unique<ThreadPool>(threads) : nullptr;
 }
 

@@ -245,7 +245,8 @@ class PointsBetween {
     if (!strain_.known()) D_.reset();
     const Eigen::Index points = element_.traits().points;
     const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> to_nodes(
-        element_.point_to_node(Eigen::Matrix2Xd::Zero(2, element_.traits().nodes)).data(), element_.traits().nodes,
+        element_.point_to_node(Eigen::Matrix2Xd::Zero(2, element_.traits().nodes)).data(),
+        element_.traits().nodes,
         points);  // of a solid the map is the same everywhere
     map_ = rule_.shares * to_nodes.topRows(static_cast<Eigen::Index>(element_.edges().size()));
   }

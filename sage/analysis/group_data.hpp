@@ -40,7 +40,7 @@ struct GroupData {
   // last element.
   std::vector<double> geometry_by_four;
   std::vector<char> constant_by_four;  // of each four: FourElementsOut::constant of the matrices that are kept
-  double dt_of_matrices = 0.0;         // of ElementTraits::linear_in_step: of the matrices that are kept; 0 = unknown
+  double dt_of_matrices = 0.0;  // of ElementTraits::linear_in_step: of the matrices that are kept; 0 = unknown
   std::vector<char> moved;  // of each element: the stage prescribes to some dof a displacement that is not zero
   int first_element = 0;    // in the solver's element order, while it is part of the system
   std::vector<double> K;    // kept element matrices, column-major

@@ -30,11 +30,13 @@ Scene analyse_scene(const Model& model) {
     const ElementTraits& traits = group.element->traits();
     const LawRef second = model.second_law_of(group);
     if (traits.second_law_size > 0 && !has_law(second, traits.second_law_size))
-      throw AnalysisError("S225", "group " + std::to_string(group.number) + " needs a second material, whose law has " +
+      throw AnalysisError("S225", "group " + std::to_string(group.number) +
+                                      " needs a second material, whose law has " +
                                       std::to_string(traits.second_law_size) + " component(s)");
     const bool linear = traits.linear && traits.history.empty() && has_constant_stiffness(law) &&
                         (traits.second_law_size == 0 || has_constant_stiffness(second));
-    const bool symmetric = traits.symmetric && is_symmetric(law) && (traits.second_law_size == 0 || is_symmetric(second));
+    const bool symmetric =
+        traits.symmetric && is_symmetric(law) && (traits.second_law_size == 0 || is_symmetric(second));
     scene.group_linear.push_back(linear ? 1 : 0);
     scene.linear = scene.linear && linear;
     scene.symmetric = scene.symmetric && symmetric;

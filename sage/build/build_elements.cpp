@@ -15,7 +15,8 @@ namespace {
 // The formulation of a group of that material: sections of beams that may yield have one of their own.
 int for_law(const ElementEntry& entry, const Formulation& named, const Material& material) {
   const auto yielding = std::ranges::find(entry.formulations, true, &Formulation::yields);
-  const bool linear = std::visit([](const auto& law) { return law == nullptr || law->traits().linear; }, material.law);
+  const bool linear =
+      std::visit([](const auto& law) { return law == nullptr || law->traits().linear; }, material.law);
   return linear || yielding == entry.formulations.end() ? named.code : yielding->code;
 }
 
@@ -439,8 +440,8 @@ void read_second_law(Builder& b, const CardView& card, Group& group) {
     if (law_size_of(b, second) == size) return;
   }
   b.error("S225", card.where("second_material"),
-          name + ": a " + group.entry->name + " needs a second material, whose law has " + std::to_string(size) +
-              (size == 1 ? " component" : " components"));
+          name + ": a " + group.entry->name + " needs a second material, whose law has " +
+              std::to_string(size) + (size == 1 ? " component" : " components"));
 }
 
 }  // namespace

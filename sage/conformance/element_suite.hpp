@@ -361,7 +361,8 @@ FourRuns four_runs(const ElementCase& c, const Element& element, const FourEleme
                    std::vector<Eigen::VectorXd>& u) {
   std::vector<ElementRun> three;
   for (int l = 0; l < 3; ++l) {
-    ElementRun& run = three.emplace_back(element, (1.0 + 0.3 * l) * sample_shape(*c.entry), static_cast<const SolidLaw*>(&law));
+    ElementRun& run = three.emplace_back(element, (1.0 + 0.3 * l) * sample_shape(*c.entry),
+                                         static_cast<const SolidLaw*>(&law));
     for (std::size_t i = 0; i < run.sigma0.size(); ++i) {
       run.sigma0[i] = 10.0 * l + std::sin(static_cast<double>(i));
       run.eps0[i] = 0.01 * (l - std::cos(static_cast<double>(i)));
@@ -422,23 +423,24 @@ TEST_P(Elements, NoPointHasTheStatusOfAnother) {
 // 1e-13.
 TEST_P(Elements, FourAtOnceAreAsOneByOne) {
   const InFours<SmoothLaw<4>> law;
-  check_fours(cases(), law, [](const FourElements& element, FourRuns& four, const std::vector<Eigen::VectorXd>& u) {
-    ASSERT_EQ(element.evaluate_four(four.in, four.out), Outcome::ok);
-    for (std::size_t l = 0; l < 3; ++l) {
-      const ElementRun& run = four.runs[l];
-      ElementRun one = run;
-      ASSERT_EQ(one.evaluate(u[l]), Outcome::ok);
-      EXPECT_LE((run.K - one.K).norm(), 1e-13 * one.K.norm());
-      EXPECT_LE((run.f - one.f).norm(), 1e-13 * one.f.norm());
-      EXPECT_EQ(run.status, one.status);
-      for (std::size_t i = 0; i < one.sigma1.size(); ++i) {
-        EXPECT_NEAR(run.sigma1[i], one.sigma1[i], 1e-13 * (100.0 + std::abs(one.sigma1[i])));
-        EXPECT_NEAR(run.eps1[i], one.eps1[i], 1e-13);
-      }
-      for (std::size_t i = 0; i < one.h1.size(); ++i)
-        EXPECT_NEAR(run.h1[i], one.h1[i], 1e-13 * (1.0 + std::abs(one.h1[i])));
-    }
-  });
+  check_fours(cases(), law,
+              [](const FourElements& element, FourRuns& four, const std::vector<Eigen::VectorXd>& u) {
+                ASSERT_EQ(element.evaluate_four(four.in, four.out), Outcome::ok);
+                for (std::size_t l = 0; l < 3; ++l) {
+                  const ElementRun& run = four.runs[l];
+                  ElementRun one = run;
+                  ASSERT_EQ(one.evaluate(u[l]), Outcome::ok);
+                  EXPECT_LE((run.K - one.K).norm(), 1e-13 * one.K.norm());
+                  EXPECT_LE((run.f - one.f).norm(), 1e-13 * one.f.norm());
+                  EXPECT_EQ(run.status, one.status);
+                  for (std::size_t i = 0; i < one.sigma1.size(); ++i) {
+                    EXPECT_NEAR(run.sigma1[i], one.sigma1[i], 1e-13 * (100.0 + std::abs(one.sigma1[i])));
+                    EXPECT_NEAR(run.eps1[i], one.eps1[i], 1e-13);
+                  }
+                  for (std::size_t i = 0; i < one.h1.size(); ++i)
+                    EXPECT_NEAR(run.h1[i], one.h1[i], 1e-13 * (1.0 + std::abs(one.h1[i])));
+                }
+              });
 }
 
 // Whether a matrix changed is seen to the bit, in every term; matrices that nobody wants are left alone.

@@ -33,10 +33,11 @@ struct ElementTraits {
   // f is linear in du, with one K for each ElementIn::dt, wherever the laws are: K is made once for a step size, and its
   // factors serve all steps of that size.
   bool linear_in_step = false;
-  bool sees_coordinates = false;  // ElementIn::x is wanted: for elements that recompute their geometry as they move
-  int second_law_size = 0;        // components of ElementIn::second_law; 0 = the element has one law
-  bool loses_order = false;    // as nu -> 1/2 it still converges, but slower than its shape functions allow
-  int own_doubles = 0;         // that geometry() writes behind the points, for evaluate() alone
+  bool sees_coordinates =
+      false;                 // ElementIn::x is wanted: for elements that recompute their geometry as they move
+  int second_law_size = 0;   // components of ElementIn::second_law; 0 = the element has one law
+  bool loses_order = false;  // as nu -> 1/2 it still converges, but slower than its shape functions allow
+  int own_doubles = 0;       // that geometry() writes behind the points, for evaluate() alone
   // What the element itself remembers at each point, behind the quantities of the law in ElementIn::h0 and
   // ElementOut::h1.  Committed, restarted and written like the law's; such an element is never taken for linear.
   std::span<const Quantity> history = {};

@@ -186,15 +186,14 @@ inline int size_of_law(const LawRef& law) {
 }
 inline std::span<const Quantity> history_of(const LawRef& law) {
   return std::visit(
-      [](const auto* held) { return held == nullptr ? std::span<const Quantity>() : held->traits().history; }, law);
+      [](const auto* held) { return held == nullptr ? std::span<const Quantity>() : held->traits().history; },
+      law);
 }
 // History of a point: the quantities of its law, then those of its element (ElementTraits::history).
 struct PointHistory {
   std::span<const Quantity> law, element = {};
   std::size_t size() const { return law.size() + element.size(); }
-  const Quantity& operator[](std::size_t i) const {
-    return i < law.size() ? law[i] : element[i - law.size()];
-  }
+  const Quantity& operator[](std::size_t i) const { return i < law.size() ? law[i] : element[i - law.size()]; }
 };
 inline bool wants_context(const LawRef& law) {
   return std::visit([](const auto* held) { return held->traits().wants_context; }, law);

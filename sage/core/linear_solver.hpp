@@ -34,7 +34,7 @@ struct FactorReport {
   double backward_error = -1.0;        // largest |b - K x| / (||K|| |x| + |b|) of the refined answers so far
   int negative_pivots = -1;            // LDL^T only
   std::int64_t factor_entries = -1;  // stored terms of the factors; fewer after factorise() where parts repeat
-  std::string_view kernels = {};  // name of the set of loops in use; empty: the solver has no choice
+  std::string_view kernels = {};     // name of the set of loops in use; empty: the solver has no choice
   std::size_t memory_bytes = 0;
   // Floating-point, of one factorisation, and of one solution without refinement.  Known from analyse() on; after
   // factorise() the first is what was done.
@@ -60,7 +60,7 @@ struct SolverSettings {
 };
 
 // inaccurate: x is wrong by a large part of b, and refinement did not help (FactorReport::backward_error).
-enum class [[nodiscard]] SolveStatus : std::uint8_t { ok, inaccurate };
+enum class [[nodiscard]] SolveStatus : std::uint8_t{ok, inaccurate};
 
 // The functions that every solver has.  What some solvers can do beyond them stands in solver_extensions.hpp.
 class LinearSolver {

@@ -51,7 +51,7 @@ struct Group {
   std::string element_name;  // "quad4 b-bar"
   std::shared_ptr<const ElementEntry> entry;
   std::shared_ptr<const Element> element;
-  int material = 0;  // index into Model::materials
+  int material = 0;          // index into Model::materials
   int second_material = -1;  // of the second law, of elements that have two (ElementTraits::second_law_size)
   std::vector<int> element_numbers;
   std::vector<int> element_lines;  // deck line of each element

@@ -19,7 +19,9 @@ class UndrainedLaw final : public SolidLaw, public PathError<4> {
   explicit UndrainedLaw(std::unique_ptr<SolidLaw> grains);
 
   LawTraits traits() const override {
-    return {.history = quantities_, .symmetric = grains_->traits().symmetric, .wants_context = grains_->traits().wants_context};
+    return {.history = quantities_,
+            .symmetric = grains_->traits().symmetric,
+            .wants_context = grains_->traits().wants_context};
   }
   bool initialise(const Vector4& sigma, std::span<double> h) const override;
   bool accepts_history(const Vector4& sigma, std::span<const double> h) const override;

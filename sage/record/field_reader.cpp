@@ -47,7 +47,8 @@ FieldEntry element_history_row(const Quantity& quantity) {
   const auto value = [name](const PointView& point, double* result) {
     const int i = find_quantity(point.element_history, name);
     const auto at = static_cast<std::size_t>(i);
-    *result = i < 0 ? kNone : outward(point.element_history[at], point.history[history_of(point.law).size() + at]);
+    *result =
+        i < 0 ? kNone : outward(point.element_history[at], point.history[history_of(point.law).size() + at]);
   };
   FieldEntry row = history_row(quantity, PointField{value});
   row.element_history = name;

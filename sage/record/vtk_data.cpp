@@ -119,7 +119,8 @@ FieldList cell_fields(const Model& model, const FieldTable& table) {
   FieldList fields;
   for (const FieldEntry& field : table.rows()) {
     if (field.place() != FieldPlace::point || field.shape == FieldShape::tensor) continue;
-    const bool of_solids = applies(field, ElementKind::solid) && !field.has_law && field.element_history.empty();
+    const bool of_solids =
+        applies(field, ElementKind::solid) && !field.has_law && field.element_history.empty();
     if (field.form != FieldForm::word && (of_solids || shown(field))) fields.push_back(&field);
   }
   return fields;

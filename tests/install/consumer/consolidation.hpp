@@ -33,7 +33,9 @@ class ConsolidatingBar final : public sage::Element {
     std::fill(out.begin(), out.end(), 0.0);
     bar_.geometry(x, out.first(5));
   }
-  sage::Vector2 position(const sage::NodeCoordinates& x, int point) const override { return bar_.position(x, point); }
+  sage::Vector2 position(const sage::NodeCoordinates& x, int point) const override {
+    return bar_.position(x, point);
+  }
   std::span<const double> point_to_node(const sage::NodeCoordinates& x) const override {
     return bar_.point_to_node(x);
   }
@@ -67,7 +69,8 @@ class ConsolidatingBar final : public sage::Element {
   }
 
  private:
-  static sage::Outcome ask(const sage::LawRef& law, double sigma0, double eps0, double deps, sage::PointOut<1>& out) {
+  static sage::Outcome ask(const sage::LawRef& law, double sigma0, double eps0, double deps,
+                           sage::PointOut<1>& out) {
     sage::PointIn<1> in;
     in.sigma0[0] = sigma0;
     in.eps0[0] = eps0;

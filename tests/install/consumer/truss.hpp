@@ -31,7 +31,9 @@ class MovingTruss final : public sage::Element {
 
   // For outputs: weight and operator of the bar where it has not moved.
   void geometry(const sage::NodeCoordinates& x, std::span<double> out) const override { bar_.geometry(x, out); }
-  sage::Vector2 position(const sage::NodeCoordinates& x, int point) const override { return bar_.position(x, point); }
+  sage::Vector2 position(const sage::NodeCoordinates& x, int point) const override {
+    return bar_.position(x, point);
+  }
   std::span<const double> point_to_node(const sage::NodeCoordinates& x) const override {
     return bar_.point_to_node(x);
   }
@@ -42,7 +44,9 @@ class MovingTruss final : public sage::Element {
     const std::size_t of_law = law.traits().history.size();
     const sage::Vector<4> x = sage::Vector<4>::Map(in.x), u0 = sage::Vector<4>::Map(in.u0),
                           u = u0 + sage::Vector<4>::Map(in.du);
-    const auto along = [&](const sage::Vector<4>& v) { return Vector2(x.tail<2>() + v.tail<2>() - x.head<2>() - v.head<2>()); };
+    const auto along = [&](const sage::Vector<4>& v) {
+      return Vector2(x.tail<2>() + v.tail<2>() - x.head<2>() - v.head<2>());
+    };
     const double L0 = along(sage::Vector<4>::Zero()).norm(), before = along(u0).norm() / L0 - 1.0;
     const Vector2 now = along(u);
     const double L = now.norm(), stretch = L / L0 - 1.0;

@@ -56,7 +56,8 @@ TEST(CheckedSolve, AnInaccurateAnswerIsAnErrorThatNamesTheRemedy) {
     checked_solve(LostDigits(), b, x);
     ADD_FAILURE() << "no error";
   } catch (const AnalysisError& error) {
-    EXPECT_NE(std::string(error.what()).find("wrong by 5.0e-01 of the forces"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("wrong by 5.0e-01 of the forces"), std::string::npos)
+        << error.what();
     EXPECT_NE(std::string(error.what()).find("choose a solver that pivots"), std::string::npos) << error.what();
   }
 }

@@ -392,7 +392,8 @@ TEST(Quantities, InterfacesAndStructuresAreNamed) {
 }
 [[maybe_unused]] void known(const Group& one) {
   [[maybe_unused]] const auto& [number, name, element_code, formulation, element_name, entry, element, material,
-                                second_material, element_numbers, element_lines, nodes, overlay, where, excess] = one;
+                                second_material, element_numbers, element_lines, nodes, overlay, where,
+                                excess] = one;
 }
 [[maybe_unused]] void known(const WaterCard& one) {
   [[maybe_unused]] const auto& [stage, group, kind, action, value, line, nodes, where] = one;
