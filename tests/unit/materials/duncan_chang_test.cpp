@@ -140,7 +140,7 @@ TEST(DuncanChang, PathErrorIsThatOfOneStep) {
     const auto many = triaxial_test(*law, 100.0, strain, 1000).back();
     const double error = (many.deviator - (point.sigma()[0] - point.sigma()[1])) / point.sigma().norm();
     const double stated =
-        law->path_error({start, Vector4::Zero(), point.eps(), h}, point.sigma(), point.history());
+        path_error<4>(*law, {start, Vector4::Zero(), point.eps(), h}, point.sigma(), point.history());
     EXPECT_GT(stated, error / 3) << strain;
     EXPECT_LT(stated, error * 3) << strain;
   }
@@ -152,8 +152,9 @@ TEST(DuncanChang, PathErrorOfIsotropicCompression) {
   const double p0 = 50.0, p1 = 100.0, p_a = 101.325;
   const auto stated = [&](double n, double m) {
     const auto law = test::solid(6, {400, n, 0.8, 600, 500, m, 5, 33});
-    return law->path_error({-p0 * unit_tensor(), Vector4::Zero(), Vector4::Zero(), std::vector<double>{0.0}},
-                           -p1 * unit_tensor(), std::vector<double>{0.0});
+    return path_error<4>(*law,
+                         {-p0 * unit_tensor(), Vector4::Zero(), Vector4::Zero(), std::vector<double>{0.0}},
+                         -p1 * unit_tensor(), std::vector<double>{0.0});
   };
   const auto G = [](double E, double B) { return 3 * B * E / (9 * B - E); };
   const double lag_B = (p1 - p0) / (p1 + p0) / 4;

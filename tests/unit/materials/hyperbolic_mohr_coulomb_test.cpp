@@ -130,7 +130,7 @@ TEST(HyperbolicMohrCoulomb, PathErrorAtTheEnvelope) {
   };
   const auto stated = [&](const Vector4& from, const Vector4& to) {
     const std::vector<double> h{0.0};
-    return law->path_error({from, Vector4::Zero(), Vector4::Zero(), h}, to, h);
+    return path_error<4>(*law, {from, Vector4::Zero(), Vector4::Zero(), h}, to, h);
   };
   const Vector4 inside{-200, -200, -200, 0};
   EXPECT_NEAR(stated(inside, failing(200)), 3.0 / 16.0 * (failing(200) - inside).norm() / failing(200).norm(),
