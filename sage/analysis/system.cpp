@@ -12,6 +12,15 @@ namespace {
 
 constexpr int kManyEquations = 100'000;  // their factors are the bulk of the memory
 
+std::vector<EquationPlace> places_of(const Mesh& mesh, const Assembly& assembly) {
+  std::vector<EquationPlace> places;
+  for (int eq = 0; eq < assembly.equations(); ++eq) {
+    const DofMap::Unknown unknown = assembly.dof_map().at(assembly.dof_of(eq));
+    places.push_back({mesh.x.col(unknown.node), unknown.node, unknown.field, unknown.component});
+  }
+  return places;
+}
+
 }  // namespace
 
 System::System(const Model& model, const Catalogue& catalogue, const RunSettings& settings, WorkCounters& work)
@@ -53,19 +62,10 @@ std::unique_ptr<LinearSolver> System::make(const SolverEntry& entry, bool one_fa
   return solver;
 }
 
-std::vector<EquationPlace> System::places() const {
-  std::vector<EquationPlace> places;
-  for (int eq = 0; eq < assembly_.equations(); ++eq) {
-    const DofMap::Unknown unknown = assembly_.dof_map().at(assembly_.dof_of(eq));
-    places.push_back({model_.mesh.x.col(unknown.node), unknown.node, unknown.field, unknown.component});
-  }
-  return places;
-}
-
 void System::analyse() {
   const SolverEntry* entry = choose_solver(assembly_.equations(), scene_.symmetric);
   std::unique_ptr<LinearSolver> solver = make(*entry, tangent_.constant());
-  if (auto* placed = dynamic_cast<PlacedSolver*>(solver.get())) placed->set_places(places());
+  if (auto* placed = dynamic_cast<PlacedSolver*>(solver.get())) placed->set_places(places_of(model_.mesh, assembly_));
   tangent_.analyse(std::move(solver), entry->name, assembly_.equations(), assembly_.element_equations(), work_);
   if (assembly_.equations() >= kManyEquations) return_freed_memory();
   held_before_ = activity_.held;

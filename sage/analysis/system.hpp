@@ -54,7 +54,6 @@ class System {
   void enter(const Stage& stage);
   const SolverEntry* choose_solver(int equations, bool symmetric) const;
   std::unique_ptr<LinearSolver> make(const SolverEntry& entry, bool one_factorisation) const;
-  std::vector<EquationPlace> places() const;
   void analyse();
   void take_exits(const Eigen::VectorXd& u, double part);
 
