@@ -65,7 +65,8 @@ std::unique_ptr<LinearSolver> System::make(const SolverEntry& entry, bool one_fa
 void System::analyse() {
   const SolverEntry* entry = choose_solver(assembly_.equations(), scene_.symmetric);
   std::unique_ptr<LinearSolver> solver = make(*entry, tangent_.constant());
-  if (auto* placed = dynamic_cast<PlacedSolver*>(solver.get())) placed->set_places(places_of(model_.mesh, assembly_));
+  if (auto* placed = dynamic_cast<PlacedSolver*>(solver.get()))
+    placed->set_places(places_of(model_.mesh, assembly_));
   tangent_.analyse(std::move(solver), entry->name, assembly_.equations(), assembly_.element_equations(), work_);
   if (assembly_.equations() >= kManyEquations) return_freed_memory();
   held_before_ = activity_.held;
