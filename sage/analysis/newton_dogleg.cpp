@@ -10,7 +10,8 @@ namespace sage {
 void iterate_with_dogleg(StepIteration& step) {
   const KeptMatrix* const K = step.tangent.matrix();
   if (K == nullptr)
-    throw AnalysisError("the solver " + step.tangent.name() + " keeps no matrix, which method 3 (dogleg) needs");
+    throw AnalysisError("the solver " + step.tangent.name() +
+                        " keeps no matrix, which method 3 (dogleg) needs");
   Dogleg dogleg;
   if (step.assemble(step.full_newton()) == Outcome::cut_step) return;
   Eigen::VectorXd newton(step.residual.size()), old_residual(step.residual.size());
