@@ -24,6 +24,9 @@ install(FILES ${PROJECT_BINARY_DIR}/generated/sage/core/header_hash.hpp DESTINAT
 # Of the commands only the function that is the program: the others' headers need CLI11.
 install(FILES sage/app/program.hpp sage/app/exit_codes.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sagefe/sage/app)
 
+if(TARGET sage_suites)
+  list(APPEND SAGE_PACKAGE_TARGETS sage_suites)
+endif()
 install(TARGETS ${SAGE_PACKAGE_TARGETS} EXPORT sagefeTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT sagefeTargets NAMESPACE sagefe:: DESTINATION ${SAGE_PACKAGE_DIR})
 set(SAGE_HEADERS_DIR ${CMAKE_INSTALL_INCLUDEDIR}/sagefe)

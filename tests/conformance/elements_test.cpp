@@ -1,6 +1,6 @@
 // The suite of elements over every element of the catalogue, and what is of this catalogue alone.
 #include "tests/support/elements.hpp"
-#include "sage/conformance/element_suite.hpp"
+#include "sage/conformance/suites.hpp"
 #include "tests/install/consumer/bar.hpp"
 
 namespace sage::conformance {

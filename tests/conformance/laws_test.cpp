@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "sage/conformance/law_suite.hpp"
+#include "sage/conformance/suites.hpp"
 #include "tests/conformance/law_samples.hpp"
 #include "tests/install/consumer/bar.hpp"
 #include "tests/install/consumer/creep.hpp"

@@ -3,7 +3,7 @@
 #include <atomic>
 
 #include "sage/analysis/condition.hpp"
-#include "sage/conformance/solver_suite.hpp"
+#include "sage/conformance/suites.hpp"
 #include "solvers/register_solvers.hpp"
 
 namespace sage::conformance {

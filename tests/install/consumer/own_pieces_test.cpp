@@ -1,30 +1,13 @@
 // The suites that come with the package, over pieces of one's own.
-#include "bar.hpp"
-#include "consolidation.hpp"
-#include "creep.hpp"
-#include "diffusion.hpp"
-#include "layered.hpp"
-#include "sage/conformance/element_suite.hpp"
-#include "sage/conformance/law_suite.hpp"
-#include "sage/conformance/solver_suite.hpp"
-#include "sparse_lu.hpp"
-#include "tri10.hpp"
-#include "truss.hpp"
+#include "own_pieces.hpp"
+#include "sage/conformance/suites.hpp"
 
 namespace sage::conformance {
 
 const Catalogue& pieces() {
   static const Catalogue catalogue = [] {
     Catalogue c;
-    c.materials.add(90, own::layered());
-    c.materials.add(80, own::rod());
-    c.materials.add(91, own::maxwell());
-    c.elements.add(40, own::tri10());
-    c.elements.add(50, own::bar2());
-    c.elements.add(1041, own::diffusion_quad());
-    c.elements.add(1060, own::truss2());
-    c.elements.add(1061, own::consolidation2());
-    c.solvers.add(90, own::sparse_lu());
+    own::add_pieces(c);
     return c;
   }();
   return catalogue;

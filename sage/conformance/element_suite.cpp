@@ -1,13 +1,5 @@
-// What every element must satisfy, whatever its shape, rule or geometry, as a suite of GoogleTest for elements
-// in and out of the tree.  Include it in one file of a test program and run it over a catalogue or some of its
-// codes (elements/README.md):
-//   using sage::conformance::Elements;
-//   INSTANTIATE_TEST_SUITE_P(Mine, Elements,
-//                            testing::Values(sage::conformance::ElementSubject{"tri10", &catalogue, {40}}),
-//                            sage::conformance::name_of_elements);
-#pragma once
-
-#include <gtest/gtest.h>
+// What every element must satisfy, whatever its shape, rule or geometry: sage/conformance/suites.hpp.
+#include "sage/conformance/suites.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
@@ -24,8 +16,52 @@
 
 namespace sage::conformance {
 
+void PrintTo(const ElementSubject& subject, std::ostream* out) {
+  *out << subject.what;
+}
+std::string name_of_elements(const testing::TestParamInfo<ElementSubject>& info) {
+  return info.param.what;
+}
+
+Geometry Elements::geometry_of(const ElementEntry& entry) {
+  for (const ElementCase& c : all_cases())
+    if (c.entry->name == entry.name) return c.geometry;
+  return Geometry::plane_strain;
+}
+
+std::vector<ElementCase> Elements::cases() {
+  std::vector<ElementCase> found = all_cases();
+  std::erase_if(found, [](const ElementCase& c) { return !c.entry->unknowns.empty() || moves(c); });
+  return found;
+}
+
+std::vector<ElementCase> Elements::moving_cases() {
+  std::vector<ElementCase> found = all_cases();
+  std::erase_if(found, [](const ElementCase& c) { return !c.entry->unknowns.empty() || !moves(c); });
+  return found;
+}
+
+std::vector<ElementCase> Elements::turning_cases() {
+  std::vector<ElementCase> found = of_kind(ElementKind::structure, all_cases());
+  std::erase_if(found, [](const ElementCase& c) {
+    return c.entry->unknowns.empty() || std::ranges::any_of(c.entry->unknowns, [](const ElementUnknown& u) {
+             return !u.field.displacement() && !u.field.turns;
+           });
+  });
+  return found;
+}
+
+std::vector<ElementEntry> Elements::entries() {
+  std::vector<ElementEntry> found;
+  for (const ElementCase& c : all_cases())
+    if (found.empty() || found.back().name != c.entry->name) found.push_back(*c.entry);
+  return found;
+}
+
+namespace {
+
 // A displacement without any symmetry.
-inline Eigen::VectorXd wavy(int dofs, double size) {
+Eigen::VectorXd wavy(int dofs, double size) {
   Eigen::VectorXd u(dofs);
   for (int i = 0; i < dofs; ++i) u(i) = size * std::sin(1.3 * i * i + 0.7 * i + 0.4);
   return u;
@@ -76,7 +112,7 @@ struct SmoothLaws : LawsOfAllSizes<SmoothLaw<4>, SmoothLaw<2>, SmoothLaw> {
 };
 
 // Of the unknowns that the entry lists.
-inline int dofs_of(const ElementEntry& entry) {
+int dofs_of(const ElementEntry& entry) {
   if (entry.unknowns.empty()) return 2 * entry.nodes;
   int dofs = 0;
   for (const ElementUnknown& unknown : entry.unknowns) {
@@ -85,64 +121,6 @@ inline int dofs_of(const ElementEntry& entry) {
   }
   return dofs;
 }
-
-// Elements of a catalogue, which must outlive the tests.
-struct ElementSubject {
-  std::string what;  // letters, digits and _
-  const Catalogue* catalogue;
-  std::vector<int> codes = {};  // empty: all
-};
-
-inline void PrintTo(const ElementSubject& subject, std::ostream* out) {
-  *out << subject.what;
-}
-inline std::string name_of_elements(const ::testing::TestParamInfo<ElementSubject>& info) {
-  return info.param.what;
-}
-
-class Elements : public ::testing::TestWithParam<ElementSubject> {
- protected:
-  static const Catalogue& catalogue() { return *GetParam().catalogue; }
-  static std::vector<ElementCase> all_cases() { return element_cases(catalogue(), GetParam().codes); }
-  static bool moves(const ElementCase& c) { return c.make()->traits().sees_coordinates; }
-  // Those that solve for displacements alone, with strains linear in them: the tests know what such a one has to answer.
-  static std::vector<ElementCase> cases() {
-    std::vector<ElementCase> found = all_cases();
-    std::erase_if(found, [](const ElementCase& c) { return !c.entry->unknowns.empty() || moves(c); });
-    return found;
-  }
-  // Those that recompute their geometry as they move.
-  static std::vector<ElementCase> moving_cases() {
-    std::vector<ElementCase> found = all_cases();
-    std::erase_if(found, [](const ElementCase& c) { return !c.entry->unknowns.empty() || !moves(c); });
-    return found;
-  }
-  static std::vector<ElementCase> solid_cases() { return of_kind(ElementKind::solid, cases()); }
-  static std::vector<ElementCase> interface_cases() { return of_kind(ElementKind::interface, cases()); }
-  static std::vector<ElementCase> structure_cases() { return of_kind(ElementKind::structure, cases()); }
-  // One that an element can be in.
-  static Geometry geometry_of(const ElementEntry& entry) {
-    for (const ElementCase& c : all_cases())
-      if (c.entry->name == entry.name) return c.geometry;
-    return Geometry::plane_strain;
-  }
-  // Structures whose only unknowns are displacements and rotations (UnknownField::turns).
-  static std::vector<ElementCase> turning_cases() {
-    std::vector<ElementCase> found = of_kind(ElementKind::structure, all_cases());
-    std::erase_if(found, [](const ElementCase& c) {
-      return c.entry->unknowns.empty() || std::ranges::any_of(c.entry->unknowns, [](const ElementUnknown& u) {
-               return !u.field.displacement() && !u.field.turns;
-             });
-    });
-    return found;
-  }
-  static std::vector<ElementEntry> entries() {
-    std::vector<ElementEntry> found;
-    for (const ElementCase& c : all_cases())
-      if (found.empty() || found.back().name != c.entry->name) found.push_back(*c.entry);
-    return found;
-  }
-};
 
 TEST_P(Elements, DefaultIsTheFirstFormulation) {
   for (const ElementEntry& entry : entries()) {
@@ -179,7 +157,7 @@ TEST_P(Elements, ParentNodesAreThoseOfTheShapeFunctions) {
 // Place of node i of VTK's cell types in the parent shape, from VTK's file formats: corners, sides, inner
 // nodes. Its Lagrange quadrilateral (70) runs the third side from corner 3 to 2 and the fourth from corner 0 to
 // 3, and counts equal steps where our nodes of high degree stand at Gauss-Lobatto points.
-inline std::vector<std::array<double, 2>> vtk_places(const ElementEntry& entry) {
+std::vector<std::array<double, 2>> vtk_places(const ElementEntry& entry) {
   if (entry.vtk.type == 1) return {{0.0, 0.0}};  // a vertex
   if (entry.shape == ParentShape::line) {        // ends, then the inner nodes from the first to the second
     std::vector<std::array<double, 2>> at{{-1.0, 0.0}, {1.0, 0.0}};
@@ -528,7 +506,7 @@ TEST_P(Elements, SymmetricLawGivesSymmetricStiffness) {
 
 // Columns: translations in x and y and a rotation about the origin; axisymmetric:
 // translation along the axis only.
-inline Eigen::MatrixXd rigid_motions(const ElementCase& c, const Eigen::Matrix2Xd& x) {
+Eigen::MatrixXd rigid_motions(const ElementCase& c, const Eigen::Matrix2Xd& x) {
   Eigen::MatrixXd u = Eigen::MatrixXd::Zero(2 * x.cols(), c.axisymmetric() ? 1 : 3);
   for (Eigen::Index i = 0; i < x.cols(); ++i) {
     if (c.axisymmetric()) {
@@ -558,7 +536,7 @@ TEST_P(Elements, RigidMotionsGiveNoForce) {
 }
 
 // Rigid motions of an element that turns, in the order of its dofs.
-inline Eigen::MatrixXd rigid_motions_with_turning(const ElementCase& c, const Eigen::Matrix2Xd& x) {
+Eigen::MatrixXd rigid_motions_with_turning(const ElementCase& c, const Eigen::Matrix2Xd& x) {
   const Eigen::MatrixXd moved = rigid_motions(c, x);
   Eigen::MatrixXd u = Eigen::MatrixXd::Zero(dofs_of(*c.entry), moved.cols());
   Eigen::Index dof = 0;
@@ -876,7 +854,7 @@ TEST_P(Elements, SolidPatchKeepsUniformStrain) {
 }
 
 // Consistent forces of the tractions that the uniform stress sigma puts on the edges that one element has alone.
-inline Eigen::VectorXd traction_loads(const PatchMesh& mesh, const Element& element, const Vector4& sigma) {
+Eigen::VectorXd traction_loads(const PatchMesh& mesh, const Element& element, const Vector4& sigma) {
   const Matrix2 stress = (Matrix2() << sigma(0), sigma(3), sigma(3), sigma(1)).finished();
   Eigen::VectorXd load = Eigen::VectorXd::Zero(mesh.dofs());
   for (const auto& nodes : mesh.elements)
@@ -936,5 +914,7 @@ TEST_P(Elements, SolidPatchCarriesLoadedEdges) {
     }
   }
 }
+
+}  // namespace
 
 }  // namespace sage::conformance

@@ -1,11 +1,5 @@
-// What every law must satisfy, as a suite of GoogleTest for laws in and out of the tree.  Include it in one file
-// of a test program and run it over samples of your laws (materials/README.md):
-//   using sage::conformance::Laws;
-//   INSTANTIATE_TEST_SUITE_P(Mine, Laws, testing::ValuesIn(sage::conformance::law_subjects(catalogue, samples)),
-//                            sage::conformance::name_of_law);
-#pragma once
-
-#include <gtest/gtest.h>
+// What every law must satisfy: sage/conformance/suites.hpp.
+#include "sage/conformance/suites.hpp"
 
 #include <array>
 #include <cmath>
@@ -22,40 +16,19 @@
 
 namespace sage::conformance {
 
-// The catalogue must outlive the tests.
-struct LawSubject {
-  const Catalogue* catalogue;
-  LawSample sample;
-};
-
-inline void PrintTo(const LawSubject& subject, std::ostream* out) {
+void PrintTo(const LawSubject& subject, std::ostream* out) {
   *out << subject.sample.what;
 }
-inline std::string name_of_law(const ::testing::TestParamInfo<LawSubject>& info) {
+std::string name_of_law(const testing::TestParamInfo<LawSubject>& info) {
   return info.param.sample.what;
 }
-inline std::vector<LawSubject> law_subjects(const Catalogue& catalogue, const std::vector<LawSample>& samples) {
+std::vector<LawSubject> law_subjects(const Catalogue& catalogue, const std::vector<LawSample>& samples) {
   std::vector<LawSubject> subjects;
   for (const LawSample& sample : samples) subjects.push_back({&catalogue, sample});
   return subjects;
 }
 
-class Laws : public ::testing::TestWithParam<LawSubject> {
- protected:
-  static const LawSample& sample() { return GetParam().sample; }
-  static const MaterialEntry& entry() { return *GetParam().catalogue->materials.find(sample().code); }
-
-  // Runs `check` with the law of this sample, whatever its size.
-  template <class Check>
-  static void with_law(const Check& check, const std::vector<double>& values, const UnitSystem& units) {
-    const LawPtr law = entry().make(values, units);
-    std::visit([&](const auto& p) { check(*p); }, law);
-  }
-  template <class Check>
-  static void with_law(const Check& check) {
-    with_law(check, sample().values, kpa_units());
-  }
-};
+namespace {
 
 // Random but reproducible states: an admissible isotropic start, then a few random increments.
 class Walker {
@@ -86,10 +59,10 @@ class Walker {
   std::mt19937 random_;
 };
 
-inline Vector4 start_stress(const SolidLaw&) {
+Vector4 start_stress(const SolidLaw&) {
   return {-60.0, -60.0, -60.0, 0.0};
 }
-inline Vector2 start_stress(const InterfaceLaw&) {
+Vector2 start_stress(const InterfaceLaw&) {
   return {0.0, -60.0};
 }
 template <int N>
@@ -253,7 +226,7 @@ TEST_P(Laws, StrengthIsNeverExceeded) {
 // A law at its strength says so, and no other.  Where a law starts below its strength a small increment does not reach it;
 // yielded and slipping are said at stress level 1 only (a joint without strength slips at 0), open only without stress,
 // and a linear law says nothing but elastic.  At the apex and where tension is cut off the level may be anything.
-inline bool at_strength(PointStatus status) {
+bool at_strength(PointStatus status) {
   return status != PointStatus::elastic && status != PointStatus::unloading && status != PointStatus::open;
 }
 template <int N>
@@ -403,7 +376,7 @@ TEST_P(Laws, NoHiddenUnits) {
 }
 
 // Of stress; strain, with its engineering shear, turns by the inverse transposed.
-inline Matrix4 turned_by(double degrees) {
+Matrix4 turned_by(double degrees) {
   const double c = std::cos(degrees * kRadiansPerDegree), s = std::sin(degrees * kRadiansPerDegree);
   Matrix4 turn;
   turn << c * c, s * s, 0.0, 2.0 * c * s,  //
@@ -416,7 +389,7 @@ inline Matrix4 turned_by(double degrees) {
 // A law that knows no direction in the plane: in turned axes it answer the turned stress.  90 degrees change the
 // places of xx and yy alone; only another angle brings the shear into it.  Tangents may differ at kinks, which
 // rounding meets from either side: 3 % of the states.
-inline void check_turning(const SolidLaw& law, double size) {
+void check_turning(const SolidLaw& law, double size) {
   for (const double degrees : {27.0, 90.0, -63.0}) {
     const Matrix4 stress = turned_by(degrees), strain = turned_by(-degrees).transpose();
     Walker walker(37);
@@ -591,5 +564,7 @@ TEST_P(Laws, FourAtOnceAreAsOneByOne) {
     }(law);
   });
 }
+
+}  // namespace
 
 }  // namespace sage::conformance

@@ -1,12 +1,6 @@
-// What every solver must do, as a suite of GoogleTest for solvers in and out of the tree: the answer of a dense
-// L U with pivoting, a matrix that is singular refused, the same bits every time.  Include it in one file of a
-// test program and run it over a catalogue or some of its codes (solvers/README.md):
-//   using sage::conformance::Solvers;
-//   INSTANTIATE_TEST_SUITE_P(Mine, Solvers, testing::ValuesIn(sage::conformance::solver_subjects(catalogue, {90})),
-//                            sage::conformance::name_of_solver);
-#pragma once
-
-#include <gtest/gtest.h>
+// What every solver must do: the answer of a dense L U with pivoting, a matrix that is singular refused, the same bits
+// every time: sage/conformance/suites.hpp.
+#include "sage/conformance/suites.hpp"
 
 #include <Eigen/LU>
 #include <cmath>
@@ -19,22 +13,13 @@
 
 namespace sage::conformance {
 
-// A solver of a catalogue, which must outlive the tests.
-struct SolverSubject {
-  const Catalogue* catalogue;
-  int code;
-  const SolverEntry& entry() const { return *catalogue->solvers.find(code); }
-};
-
-inline void PrintTo(const SolverSubject& subject, std::ostream* out) {
+void PrintTo(const SolverSubject& subject, std::ostream* out) {
   *out << subject.entry().name;
 }
-inline std::string name_of_solver(const testing::TestParamInfo<SolverSubject>& info) {
+std::string name_of_solver(const testing::TestParamInfo<SolverSubject>& info) {
   return info.param.entry().name;
 }
-// Those with these codes or, where there are none, all.
-inline std::vector<SolverSubject> solver_subjects(const Catalogue& catalogue,
-                                                  const std::vector<int>& codes = {}) {
+std::vector<SolverSubject> solver_subjects(const Catalogue& catalogue, const std::vector<int>& codes) {
   std::vector<SolverSubject> subjects;
   for (const auto& [code, entry] : catalogue.solvers.entries())
     if (codes.empty() || std::find(codes.begin(), codes.end(), code) != codes.end())
@@ -42,54 +27,49 @@ inline std::vector<SolverSubject> solver_subjects(const Catalogue& catalogue,
   return subjects;
 }
 
-class Solvers : public testing::TestWithParam<SolverSubject> {
- protected:
-  static const SolverEntry& entry() { return GetParam().entry(); }
-  static std::unique_ptr<LinearSolver> make() { return entry().make(); }
-  static bool symmetric() { return entry().symmetric; }
+Eigen::VectorXd Solvers::solve(const LinearSolver& solver, Eigen::VectorXd b) {
+  Eigen::VectorXd x = Eigen::VectorXd::Constant(b.size(), std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(solver.solve(span_of(b), span_of(x)), SolveStatus::ok);
+  return x;
+}
 
-  static Eigen::VectorXd solve(const LinearSolver& solver, Eigen::VectorXd b) {
-    Eigen::VectorXd x = Eigen::VectorXd::Constant(b.size(), std::numeric_limits<double>::quiet_NaN());
-    EXPECT_EQ(solver.solve(span_of(b), span_of(x)), SolveStatus::ok);
-    return x;
+// ||K x - b|| <= 1e-12 (||K|| ||x|| + ||b||) in the largest norm: a backward-stable answer has 1e-15 times a
+// small factor; 1e-12 leaves room for elimination without pivoting.
+void Solvers::expect_solved(const Eigen::MatrixXd& K, const Eigen::VectorXd& x, const Eigen::VectorXd& b) {
+  const double scale =
+      K.cwiseAbs().rowwise().sum().maxCoeff() * x.cwiseAbs().maxCoeff() + b.cwiseAbs().maxCoeff();
+  EXPECT_LE((K * x - b).cwiseAbs().maxCoeff(), 1e-12 * scale);
+}
+
+// Against a dense L U with pivoting.  The error may be the condition number times the rounding error, ~1e-12
+// for these systems (condition below 1e5).
+void Solvers::expect_answer(const System& system) {
+  const auto solver = make();
+  load(*solver, system);
+  solver->factorise();
+  const Eigen::MatrixXd K = dense(system);
+  const Eigen::PartialPivLU<Eigen::MatrixXd> reference(K);
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const Eigen::VectorXd b = random_vector(system.equations, seed);
+    const Eigen::VectorXd x = solve(*solver, b), expected = reference.solve(b);
+    expect_solved(K, x, b);
+    EXPECT_LE((x - expected).cwiseAbs().maxCoeff(), 1e-10 * expected.cwiseAbs().maxCoeff());
   }
+}
 
-  // ||K x - b|| <= 1e-12 (||K|| ||x|| + ||b||) in the largest norm: a backward-stable answer has 1e-15 times a
-  // small factor; 1e-12 leaves room for elimination without pivoting.
-  static void expect_solved(const Eigen::MatrixXd& K, const Eigen::VectorXd& x, const Eigen::VectorXd& b) {
-    const double scale =
-        K.cwiseAbs().rowwise().sum().maxCoeff() * x.cwiseAbs().maxCoeff() + b.cwiseAbs().maxCoeff();
-    EXPECT_LE((K * x - b).cwiseAbs().maxCoeff(), 1e-12 * scale);
-  }
-
-  // Against a dense L U with pivoting.  The error may be the condition number times the rounding error, ~1e-12
-  // for these systems (condition below 1e5).
-  static void expect_answer(const System& system) {
-    const auto solver = make();
-    load(*solver, system);
+SingularMatrix Solvers::singular(const System& system) {
+  const auto solver = make();
+  load(*solver, system);
+  try {
     solver->factorise();
-    const Eigen::MatrixXd K = dense(system);
-    const Eigen::PartialPivLU<Eigen::MatrixXd> reference(K);
-    for (unsigned seed = 1; seed <= 3; ++seed) {
-      const Eigen::VectorXd b = random_vector(system.equations, seed);
-      const Eigen::VectorXd x = solve(*solver, b), expected = reference.solve(b);
-      expect_solved(K, x, b);
-      EXPECT_LE((x - expected).cwiseAbs().maxCoeff(), 1e-10 * expected.cwiseAbs().maxCoeff());
-    }
+  } catch (const SingularMatrix& error) {
+    return error;
   }
+  ADD_FAILURE() << "no SingularMatrix, smallest pivot ratio " << solver->report().smallest_pivot_ratio;
+  return SingularMatrix(-1, 0.0, "");
+}
 
-  static SingularMatrix singular(const System& system) {
-    const auto solver = make();
-    load(*solver, system);
-    try {
-      solver->factorise();
-    } catch (const SingularMatrix& error) {
-      return error;
-    }
-    ADD_FAILURE() << "no SingularMatrix, smallest pivot ratio " << solver->report().smallest_pivot_ratio;
-    return SingularMatrix(-1, 0.0, "");
-  }
-};
+namespace {
 
 TEST_P(Solvers, TraitsAgreeWithTheCatalogue) {
   EXPECT_EQ(make()->traits().name, entry().name);
@@ -350,5 +330,7 @@ TEST_P(Solvers, PartsOfAnAssemblyChangeNoBit) {
   solver->factorise();
   EXPECT_EQ(solve(*solver, b), expected);
 }
+
+}  // namespace
 
 }  // namespace sage::conformance
