@@ -12,9 +12,7 @@
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/plugins.hpp"
 #include "sage/app/screen.hpp"
-#include "sage/conformance/element_suite.hpp"
-#include "sage/conformance/law_suite.hpp"
-#include "sage/conformance/solver_suite.hpp"
+#include "sage/conformance/suites.hpp"
 #include "sage/deck/printable.hpp"
 
 namespace sage::app {
