@@ -3,7 +3,6 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/input.hpp"
 #include "sage/core/near_names.hpp"
-#include "solvers/choose_solver.hpp"
 #include "solvers/register_solvers.hpp"
 
 namespace sage::app {
@@ -34,10 +33,6 @@ std::function<std::string(const std::string&)> known_solver(const Catalogue& cat
     }
     return std::string();
   };
-}
-
-scenes::Workbench make_workbench(const Catalogue& catalogue) {
-  return {catalogue, choose_solver};
 }
 
 }  // namespace sage::app

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "sage/core/catalogue.hpp"
-#include "sage/scenes/whole_run.hpp"
 #include "sage/umat/law.hpp"
 
 namespace sage::app {
@@ -22,9 +21,6 @@ Catalogue full_catalogue(std::vector<umat::Binding> umats = {});
 int solver_code(const Catalogue& catalogue, const std::string& name);
 // A check of CLI11: a message if no solver has the name.
 std::function<std::string(const std::string&)> known_solver(const Catalogue& catalogue);
-
-// To run decks that the program writes itself.
-scenes::Workbench make_workbench(const Catalogue& catalogue = full_catalogue());
 
 // The folder of the decks that come with the program: beside an installed one, else that of the source tree.
 std::filesystem::path shipped_decks();
@@ -51,7 +47,6 @@ Command stress_command(CLI::App& parser, const Catalogue& catalogue);
 Command layout_command(CLI::App& parser, const Catalogue& catalogue);
 Command explain_command(CLI::App& parser, const Catalogue& catalogue);
 Command completion_command(CLI::App& parser, const Catalogue& catalogue);
-Command manpages_command(CLI::App& parser, const Catalogue& catalogue);
 
 // The whole command line in one parser, which is to be looked at and not to parse: a run makes the options of
 // its own command alone.

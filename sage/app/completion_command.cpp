@@ -1,9 +1,8 @@
-// sagefe completion, sagefe manpages: what shells and `man` know of the commands, from the parser's own tables.
+// sagefe completion: what shells know of the commands, from the parser's own tables.
 #include <fmt/format.h>
 
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -11,7 +10,6 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/option_tables.hpp"
-#include "sage/record/out_file.hpp"
 
 namespace sage::app {
 
@@ -21,14 +19,6 @@ CommandRow whole_program(const Catalogue& catalogue) {
   CLI::App root;
   add_all_commands(root, catalogue);
   return command_row(root, catalogue, "sagefe");
-}
-
-int write_man_pages(const std::filesystem::path& folder, const Catalogue& catalogue) {
-  for (const ManPage& page : man_pages(whole_program(catalogue), SAGE_VERSION)) {
-    write_file(folder / page.file, page.text);
-    answer_file(folder / page.file);
-  }
-  return kOk;
 }
 
 }  // namespace
@@ -48,14 +38,6 @@ Command completion_command(CLI::App& parser, const Catalogue& catalogue) {
     fmt::print("{}", script);
     return kOk;
   };
-}
-
-Command manpages_command(CLI::App& parser, const Catalogue& catalogue) {
-  auto folder = std::make_shared<std::string>();
-  parser.add_option("FOLDER", *folder, "where sagefe.1 and a page for each command go")->required();
-  parser.footer(
-      "man -l FOLDER/sagefe-run.1 shows one; an installed program brings them along: man sagefe-run.");
-  return [folder, &catalogue] { return write_man_pages(*folder, catalogue); };
 }
 
 }  // namespace sage::app

@@ -1,5 +1,5 @@
-// The commands and their options as plain data, out of the tables of the parser itself: what man pages and shell
-// completion are written from.
+// The commands and their options as plain data, out of the tables of the parser itself: what shell completion is
+// written from.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -13,7 +13,7 @@ namespace sage::app {
 struct OptionRow {
   std::vector<std::string> names;  // "-o", "--output"; of what stands without a dash its name, "DECK"
   std::string about;
-  std::string value;                 // what a man page shows for it, "TEXT"; empty: a flag
+  std::string value;                 // "TEXT"; empty: a flag
   std::vector<std::string> choices;  // the values there are; empty: any, and files are offered
   bool positional = false, required = false, repeated = false;
 };
@@ -33,11 +33,5 @@ CommandRow command_row(const CLI::App& parser, const Catalogue& catalogue, const
 
 // For the bash of `complete -F`, zsh's compinit and fish.  shell: "bash", "zsh" or "fish".
 std::string completion_script(const CommandRow& program, const std::string& shell);
-
-// Name of the file ("sagefe-run.1") and text of a man page for each command, the program's first.
-struct ManPage {
-  std::string file, text;
-};
-std::vector<ManPage> man_pages(const CommandRow& program, const std::string& version);
 
 }  // namespace sage::app

@@ -18,6 +18,7 @@
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/plugins.hpp"
 #include "sage/app/screen.hpp"
+#include "sage/app/studies.hpp"
 #include "sage/core/near_names.hpp"
 #include "sage/deck/printable.hpp"
 
@@ -42,6 +43,7 @@ struct Entry {
   const char* about;
   Command (*add_options)(CLI::App& parser, const Catalogue& catalogue);
   bool takes_plugins = false;
+  bool (*apart)() = nullptr;  // true: it is done by a program beside this one
 };
 
 constexpr Entry kCommands[] = {
@@ -60,11 +62,11 @@ constexpr Entry kCommands[] = {
      new_command},
     {"tables", "rerun the source chapter's Tables 7.3 and 7.4 beside its numbers", tables_command},
     {"figures", "compute the source chapter's Figures 7.1 to 7.40 and judge its sentences about them",
-     figures_command},
+     figures_command, false, [] { return !studies().figures; }},
     {"convert", "write a deck or Gmsh mesh as sage1 deck (.dat), Gmsh mesh (.msh) or CalculiX input (.inp)",
      convert_command, true},
     {"verify", "the verification book: cases against closed forms, converged references and published values",
-     verify_command},
+     verify_command, false, [] { return !studies().verify; }},
     {"compare", "two decks, or one deck in two ways, side by side: forces, stresses, lines, theory, pictures",
      compare_command, true},
     {"drive", "a law along a laboratory's path (triaxial, oedometer, shear, ...) without a mesh; CSV and plots",
@@ -73,10 +75,9 @@ constexpr Entry kCommands[] = {
      "factor of safety by strength reduction: bracket with the reason for both ends, curve, mechanism",
      safety_command, true},
     {"stress", "stability stress test: everything swept to the edge must be right or say what is wrong",
-     stress_command},
+     stress_command, false, [] { return !studies().stress; }},
     {"explain", "what a message means and what helps, by the code behind it", explain_command},
     {"completion", "print what bash, zsh or fish need to complete commands and options", completion_command},
-    {"manpages", "write the man pages of all commands into a folder", manpages_command},
 };
 
 void describe(CLI::App& root) {
@@ -243,7 +244,11 @@ int run_command_line(int argc, char** argv, const AddToCatalogue& add) {
   } catch (const CLI::ParseError& error) {
     return refuse(named ? argv[word] : "", [&] { return say_parse_error(root, error); });
   }
-  return execute ? execute_chosen(chosen->name, execute, options) : kUsage;
+  if (!execute) return kUsage;
+  if (chosen->apart != nullptr && chosen->apart())
+    return refuse(chosen->name,
+                  [&] { return guarded("sagefe", [&]() -> int { become_study(chosen->name, argv); }); });
+  return execute_chosen(chosen->name, execute, options);
 }
 
 // Where the caller closed a standard stream, a file of results would take its number,

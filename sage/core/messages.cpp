@@ -1179,6 +1179,11 @@ constexpr MessageEntry kMessages[] = {
     {"S911", "standard output was lost",
      "The program that read the output ended, or its disk is full; results in files are not touched.",
      "Write to a file with room (> FILE), and look at it with less."},
+    {"S912", "the program behind a command is not there",
+     "sagefe figures, stress and verify are done by the programs sagefe-figures, sagefe-stress and "
+     "sagefe-verify in "
+     "the folder of sagefe itself, no other. A build for use alone has none of them.",
+     "scripts/run --all builds them, and so does scripts/test; cmake needs -DSAGE_STUDIES=ON."},
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "sage/deck/layout.hpp"
 #include "sage/deck/text.hpp"
+#include "sage/page/page.hpp"
 
 namespace sage {
 
@@ -20,13 +21,6 @@ const char* kind_text(FieldKind kind) {
       return "T or F";
   }
   return "";
-}
-
-// "|" would end a table's cell.
-std::string cell(std::string text) {
-  for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
-    text.insert(at, "\\");
-  return text;
 }
 
 // "1-5", "6-10", ... of a FORMAT's fields; a card behind the first is named.
@@ -63,7 +57,7 @@ std::string values_text(const FieldRule& rule) {
   return text;
 }
 
-void add_field(const FieldSpec& spec, const FieldRule& rule, const std::string& place, std::string& out) {
+void add_field(const FieldSpec& spec, const FieldRule& rule, const std::string& place, Page& page) {
   std::string notes = rule.codes;
   const auto note = [&](const std::string& text) { notes += (notes.empty() ? "" : "; ") + text; };
   if (spec.required) note("must be given");
@@ -75,18 +69,16 @@ void add_field(const FieldSpec& spec, const FieldRule& rule, const std::string& 
   if (spec.computed) note("computed: " + values_text(rule));
   if (!rule.count.empty()) note("repeats: " + rule.count.source);
   if (!spec.use.empty()) note(spec.use);
-  out += "| " + place + " | `" + spec.name + "` | " + kind_text(spec.kind) + " | " + cell(spec.label) + " | " +
-         cell(spec.unit) + " | " + cell(notes) + " |\n";
+  page.row({place, "`" + spec.name + "`", kind_text(spec.kind), Page::cell(spec.label), Page::cell(spec.unit),
+            Page::cell(notes)});
 }
 
-void add_fields(const CardRule& card, std::string& out) {
+void add_fields(const CardRule& card, Page& page) {
   const bool columns = !card.list_directed && !card.is_item && !card.spec.made;
-  out += columns ? "| Columns |" : "| Value |";
-  out += " Field | Kind | Meaning | Unit | Codes and defaults |\n|---|---|---|---|---|---|\n";
+  page.table({columns ? "Columns" : "Value", "Field", "Kind", "Meaning", "Unit", "Codes and defaults"});
   const std::vector<std::string> places = columns ? field_columns(card) : std::vector<std::string>();
   for (std::size_t i = 0; i < card.spec.fields.size(); ++i)
-    add_field(card.spec.fields[i], card.rules[i], columns ? places[i] : std::to_string(i + 1), out);
-  out += '\n';
+    add_field(card.spec.fields[i], card.rules[i], columns ? places[i] : std::to_string(i + 1), page);
 }
 
 std::string run_text(const LayoutEntry& entry) {
@@ -110,56 +102,61 @@ std::string run_text(const LayoutEntry& entry) {
   return text;
 }
 
-void add_overview(const Layout& layout, const std::vector<LayoutEntry>& entries, int depth, std::string& out) {
+void add_overview(const Layout& layout, const std::vector<LayoutEntry>& entries, int depth, Page& page) {
   for (const LayoutEntry& entry : entries) {
-    out += std::string(static_cast<std::size_t>(2 * depth), ' ') + "- ";
     if (entry.card < 0) {
-      out += "the following cards, " + run_text(entry) + ":\n";
-      add_overview(layout, entry.entries, depth + 1, out);
+      page.item("the following cards, " + run_text(entry) + ":", depth);
+      add_overview(layout, entry.entries, depth + 1, page);
       continue;
     }
     const CardRule& card = layout.cards[static_cast<std::size_t>(entry.card)];
-    out += "`" + card.key + "`, " + run_text(entry);
-    if (entry.headings > 0) out += ", below " + std::to_string(entry.headings) + " heading line(s)";
-    out += '\n';
+    page.item("`" + card.key + "`, " + run_text(entry) +
+                  (entry.headings > 0 ? ", below " + std::to_string(entry.headings) + " heading line(s)" : ""),
+              depth);
   }
 }
 
-void add_cards(const Layout& layout, const std::vector<LayoutEntry>& entries, std::string& out) {
+void add_cards(const Layout& layout, const std::vector<LayoutEntry>& entries, Page& page) {
   for (const LayoutEntry& entry : entries) {
-    add_cards(layout, entry.entries, out);
+    add_cards(layout, entry.entries, page);
     if (entry.card < 0) continue;
     const CardRule& card = layout.cards[static_cast<std::size_t>(entry.card)];
-    out += "### " + card.key;
-    if (card.spec.name != card.key) out += " (`" + card.spec.name + "`)";
-    out += "\n\n";
-    if (!card.about.empty()) out += card.about + "\n\n";
-    out += card.list_directed ? std::string("List-directed")
-           : card.spec.made   ? std::string("Stands in no record: its values are computed")
-                              : "FORMAT `" + card.spec.format + "`";
-    out += ", " + run_text(entry) + ".\n\n";
-    if (!card.spec.fields.empty()) add_fields(card, out);
+    page.heading(3, card.key + (card.spec.name != card.key ? " (`" + card.spec.name + "`)" : ""));
+    if (!card.about.empty()) page.paragraph(card.about);
+    page.paragraph((card.list_directed ? std::string("List-directed")
+                    : card.spec.made   ? std::string("Stands in no record: its values are computed")
+                                       : "FORMAT `" + card.spec.format + "`") +
+                   ", " + run_text(entry) + ".");
+    if (!card.spec.fields.empty()) add_fields(card, page);
     if (card.items_card < 0) continue;
     const CardRule& item = layout.cards[static_cast<std::size_t>(card.items_card)];
-    out += "Then, in the same READ, `" + card.items_count.source + "` times (`" + item.spec.name + "`):\n\n";
-    add_fields(item, out);
+    page.paragraph("Then, in the same READ, `" + card.items_count.source + "` times (`" + item.spec.name +
+                   "`):");
+    add_fields(item, page);
   }
 }
 
 }  // namespace
 
 std::string layout_manual(const Layout& layout) {
-  std::string out = "# " + layout.title + "\n\n";
-  out += "<!-- Written from legacy_inputs/layouts/" + layout.name +
-         ".toml: change that file, not this one. -->\n\n";
-  if (!layout.introduction.empty()) out += layout.introduction + "\n";
-  out += "## The cards in order\n\n";
-  add_overview(layout, layout.entries, 0, out);
-  out += "\n## Card by card\n\n";
-  add_cards(layout, layout.entries, out);
-  if (!layout.example.empty()) out += "## An example\n\n```\n" + layout.example + "```\n";
-  if (!layout.closing.empty()) out += "\n" + layout.closing;
-  return out;
+  Page page(layout.title);
+  page.note("Written from legacy_inputs/layouts/" + layout.name + ".toml: change that file, not this one.");
+  // Texts of a layout end in a newline.
+  const auto words = [](std::string text) {
+    if (text.ends_with('\n')) text.pop_back();
+    return text;
+  };
+  if (!layout.introduction.empty()) page.paragraph(words(layout.introduction));
+  page.heading(2, "The cards in order");
+  add_overview(layout, layout.entries, 0, page);
+  page.heading(2, "Card by card");
+  add_cards(layout, layout.entries, page);
+  if (!layout.example.empty()) {
+    page.heading(2, "An example");
+    page.code(layout.example);
+  }
+  if (!layout.closing.empty()) page.paragraph(words(layout.closing));
+  return page.text();
 }
 
 }  // namespace sage

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "sage/app/commands.hpp"
+#include "tests/studies/workbench.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {

@@ -2,8 +2,8 @@
 #include <Eigen/LU>
 
 #include "materials/linear_elastic.hpp"
-#include "sage/conformance/suites.hpp"
 #include "sage/conformance/sample_laws.hpp"
+#include "sage/conformance/suites.hpp"
 #include "tests/install/consumer/sparse_lu.hpp"
 #include "tests/install/consumer/tri10.hpp"
 #include "tests/support/offers_four.hpp"

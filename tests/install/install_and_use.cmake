@@ -221,6 +221,20 @@ if(gfortran)
   expect("${output}" "-0\\.014857 ")
 endif()
 
+# Commands that prove the program are done by programs of its own folder, and by no others.
+if(STUDIES)
+  step("a study" ${prefix}/bin/sagefe stress --list)
+  expect("${output}" "poisson")
+  file(RENAME ${prefix}/bin/sagefe-stress ${SCRATCH}/sagefe-stress)
+endif()
+file(WRITE ${SCRATCH}/path/sagefe-stress "#!/bin/sh\necho another program\n")
+file(CHMOD ${SCRATCH}/path/sagefe-stress PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE)
+execute_process(COMMAND ${CMAKE_COMMAND} -E env "PATH=${SCRATCH}/path:$ENV{PATH}" ${prefix}/bin/sagefe stress --list WORKING_DIRECTORY ${SCRATCH}/path
+                RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE errors)
+if(NOT code EQUAL 4 OR output OR NOT errors MATCHES "sagefe-stress, which is not there .*\\[S912\\]")
+  message(FATAL_ERROR "a study that is not installed: ${code}\n${output}\n${errors}")
+endif()
+
 # The program.
 step("list elements" ${prefix}/bin/sagefe list elements)
 expect("${output}" "quad4")

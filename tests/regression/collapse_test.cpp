@@ -4,8 +4,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "sage/scenes/deck_writer.hpp"
 #include "tests/regression/program.hpp"
+#include "tests/studies/scenes/deck_writer.hpp"
 
 namespace sage::test {
 namespace {

@@ -6,8 +6,8 @@
 #include <map>
 #include <sstream>
 
-#include "sage/scenes/scenes.hpp"
 #include "tests/regression/program.hpp"
+#include "tests/studies/scenes/scenes.hpp"
 
 namespace sage::test {
 namespace {

@@ -10,8 +10,8 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/converge.hpp"
 #include "sage/app/exit_codes.hpp"
-#include "sage/scenes/scenes.hpp"
-#include "sage/scenes/seepage.hpp"
+#include "tests/studies/scenes/scenes.hpp"
+#include "tests/studies/scenes/seepage.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace sage::app {

@@ -11,8 +11,8 @@
 #include <set>
 #include <sstream>
 
-#include "sage/scenes/specimen_deck.hpp"
 #include "tests/regression/program.hpp"
+#include "tests/studies/scenes/specimen_deck.hpp"
 
 namespace sage::test {
 namespace {

@@ -8,8 +8,8 @@
 #include <map>
 #include <set>
 
-#include "sage/scenes/specimen_deck.hpp"
 #include "tests/regression/program.hpp"
+#include "tests/studies/scenes/specimen_deck.hpp"
 
 namespace sage::test {
 namespace {

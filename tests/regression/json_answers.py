@@ -223,8 +223,6 @@ def check_small_commands(folder, plugin):
     for shell in ("bash", "zsh", "fish"):
         script = subprocess.run([SAGEFE, "completion", shell], capture_output=True, text=True).stdout
         expect(answer(folder, "completion", shell)["result"] == {"shell": shell, "script": script}, "completion", shell)
-    pages = answer(folder, "manpages", "man")["result"]["files"]
-    expect(sorted(pages) == sorted(str(file.relative_to(folder)) for file in (folder / "man").iterdir()), "manpages", pages)
     for kind in ("law", "element", "umat"):
         files = answer(folder, "new", kind, "mine", between=clean("mine"))["result"]["files"]
         expect(sorted(files) == sorted(str(file.relative_to(folder)) for file in (folder / "mine").iterdir()), "new", files)

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sage/scenes/deck_writer.hpp"
 #include "tests/regression/program.hpp"
+#include "tests/studies/scenes/deck_writer.hpp"
 
 namespace sage::test {
 namespace {

@@ -6,8 +6,9 @@
 #include <stdexcept>
 
 #include "sage/app/commands.hpp"
-#include "sage/scenes/scenes.hpp"
-#include "sage/stress/report.hpp"
+#include "tests/studies/scenes/scenes.hpp"
+#include "tests/studies/stress/report.hpp"
+#include "tests/studies/workbench.hpp"
 
 namespace sage::stress {
 

@@ -1,6 +1,7 @@
 #include "tests/support/run_text.hpp"
 
 #include "sage/app/commands.hpp"
+#include "tests/studies/workbench.hpp"
 
 namespace sage::test {
 

@@ -1,9 +1,9 @@
 // Runs a deck in memory with everything the program has.
 #pragma once
 
-#include "sage/scenes/deck_writer.hpp"
-#include "sage/scenes/specimen_deck.hpp"
-#include "sage/scenes/whole_run.hpp"
+#include "tests/studies/scenes/deck_writer.hpp"
+#include "tests/studies/scenes/specimen_deck.hpp"
+#include "tests/studies/scenes/whole_run.hpp"
 
 namespace sage::test {
 

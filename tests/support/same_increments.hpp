@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sage/scenes/whole_run.hpp"
+#include "tests/studies/scenes/whole_run.hpp"
 
 namespace sage::test {
 

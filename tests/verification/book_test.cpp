@@ -6,7 +6,8 @@
 #include <sstream>
 
 #include "sage/app/commands.hpp"
-#include "sage/verify/book.hpp"
+#include "tests/studies/verify/book.hpp"
+#include "tests/studies/workbench.hpp"
 
 namespace sage::verify {
 namespace {

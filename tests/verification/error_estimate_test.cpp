@@ -11,8 +11,8 @@
 #include "sage/app/commands.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "sage/record/discretisation.hpp"
-#include "sage/scenes/lame.hpp"
 #include "solvers/choose_solver.hpp"
+#include "tests/studies/scenes/lame.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {

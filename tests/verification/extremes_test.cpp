@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "sage/scenes/lame.hpp"
-#include "sage/scenes/scenes.hpp"
+#include "tests/studies/scenes/lame.hpp"
+#include "tests/studies/scenes/scenes.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {

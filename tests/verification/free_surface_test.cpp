@@ -7,7 +7,8 @@
 #include "sage/analysis/observer.hpp"
 #include "sage/analysis/stream_function.hpp"
 #include "sage/app/commands.hpp"
-#include "sage/scenes/seepage.hpp"
+#include "tests/studies/scenes/seepage.hpp"
+#include "tests/studies/workbench.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {

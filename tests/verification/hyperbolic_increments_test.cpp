@@ -3,7 +3,7 @@
 // (PathError).  1 % is what is promised.
 #include <gtest/gtest.h>
 
-#include "sage/scenes/scenes.hpp"
+#include "tests/studies/scenes/scenes.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "sage/scenes/lame.hpp"
+#include "tests/studies/scenes/lame.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {

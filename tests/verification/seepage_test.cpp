@@ -11,7 +11,8 @@
 #include "sage/analysis/flow_through.hpp"
 #include "sage/analysis/observer.hpp"
 #include "sage/app/commands.hpp"
-#include "sage/scenes/seepage.hpp"
+#include "tests/studies/scenes/seepage.hpp"
+#include "tests/studies/workbench.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {

@@ -7,7 +7,7 @@
 
 #include "sage/app/commands.hpp"
 #include "sage/record/report.hpp"
-#include "sage/scenes/scenes.hpp"
+#include "tests/studies/scenes/scenes.hpp"
 #include "tests/support/run_text.hpp"
 #include "tests/support/scratch_folder.hpp"
 

@@ -15,6 +15,7 @@
 #include "sage/core/error.hpp"
 #include "sage/record/end_forces.hpp"
 #include "sage/record/result.hpp"
+#include "tests/studies/workbench.hpp"
 #include "tests/support/csv_column.hpp"
 #include "tests/support/run_text.hpp"
 #include "tests/support/scratch_folder.hpp"

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "sage/scenes/soil_structure.hpp"
+#include "tests/studies/scenes/soil_structure.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {

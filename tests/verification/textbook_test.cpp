@@ -16,6 +16,7 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/run_deck.hpp"
 #include "sage/record/strength.hpp"
+#include "tests/studies/workbench.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace sage::app {

@@ -14,6 +14,7 @@
 #include "sage/record/end_forces.hpp"
 #include "sage/record/field_reader.hpp"
 #include "sage/safety/safety.hpp"
+#include "tests/studies/workbench.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {

@@ -3,6 +3,7 @@
 
 #include "sage/app/commands.hpp"
 #include "tests/install/consumer/sparse_lu.hpp"
+#include "tests/studies/workbench.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {

@@ -8,6 +8,7 @@
 #include "sage/app/commands.hpp"
 #include "sage/exchange/convert.hpp"
 #include "sage/model/fingerprint.hpp"
+#include "tests/studies/workbench.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {

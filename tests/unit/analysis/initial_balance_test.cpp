@@ -6,7 +6,8 @@
 #include <cmath>
 
 #include "sage/app/commands.hpp"
-#include "sage/scenes/scenes.hpp"
+#include "tests/studies/scenes/scenes.hpp"
+#include "tests/studies/workbench.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {

@@ -11,7 +11,7 @@
 #include "sage/app/run_deck.hpp"
 #include "sage/exchange/convert.hpp"
 #include "sage/exchange/msh_model.hpp"
-#include "sage/scenes/deck_writer.hpp"
+#include "tests/studies/scenes/deck_writer.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace sage::app {

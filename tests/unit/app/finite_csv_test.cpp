@@ -10,7 +10,7 @@
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/run_deck.hpp"
 #include "sage/record/number.hpp"
-#include "sage/scenes/deck_writer.hpp"
+#include "tests/studies/scenes/deck_writer.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace sage::app {

@@ -11,9 +11,9 @@
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/run_deck.hpp"
 #include "sage/exchange/convert.hpp"
-#include "sage/scenes/deck_writer.hpp"
-#include "sage/scenes/whole_run.hpp"
 #include "tests/install/consumer/bar.hpp"
+#include "tests/studies/scenes/deck_writer.hpp"
+#include "tests/studies/scenes/whole_run.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace sage {

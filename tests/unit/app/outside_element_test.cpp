@@ -14,8 +14,8 @@
 #include "sage/deck/read_deck.hpp"
 #include "sage/exchange/convert.hpp"
 #include "sage/exchange/msh_model.hpp"
-#include "sage/scenes/scenes.hpp"
 #include "tests/install/consumer/tri10.hpp"
+#include "tests/studies/scenes/scenes.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace sage {

@@ -6,8 +6,9 @@
 
 #include "sage/app/commands.hpp"
 #include "sage/app/run_deck.hpp"
-#include "sage/scenes/scenes.hpp"
 #include "tests/install/consumer/sparse_lu.hpp"
+#include "tests/studies/scenes/scenes.hpp"
+#include "tests/studies/workbench.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace sage {

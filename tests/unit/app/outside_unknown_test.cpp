@@ -18,9 +18,9 @@
 #include "sage/deck/read_deck.hpp"
 #include "sage/exchange/convert.hpp"
 #include "sage/model/dof_map.hpp"
-#include "sage/scenes/scenes.hpp"
 #include "solvers/choose_solver.hpp"
 #include "tests/install/consumer/diffusion.hpp"
+#include "tests/studies/scenes/scenes.hpp"
 #include "tests/support/csv_column.hpp"
 #include "tests/support/scratch_folder.hpp"
 

@@ -13,7 +13,8 @@
 #include "sage/app/run_deck.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "sage/exchange/convert.hpp"
-#include "sage/scenes/lame.hpp"
+#include "tests/studies/scenes/lame.hpp"
+#include "tests/support/sanitized.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace sage::app {
@@ -241,6 +242,7 @@ TEST(PointCards, APlaceOnAnEdgeStaysOnItInFinerMeshes) {
     std::vector<Vector2> moved;
     for (const int refine : {0, 1, 3, 5})
       for (const int layers : {0, 2, 12}) {
+        if (test::kSanitized && refine + layers > 5) continue;
         BuildOptions build;
         build.refine = refine;
         if (layers > 0) build.gradings.push_back({1, layers, 0.15});  // node 1 is (1; 0)

@@ -11,9 +11,9 @@
 #include "sage/deck/read_deck.hpp"
 #include "sage/exchange/convert.hpp"
 #include "sage/model/fingerprint.hpp"
-#include "sage/scenes/deck_writer.hpp"
 #include "tests/install/consumer/bar.hpp"
 #include "tests/install/consumer/diffusion.hpp"
+#include "tests/studies/scenes/deck_writer.hpp"
 
 namespace sage::app {
 namespace {

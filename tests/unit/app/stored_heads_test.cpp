@@ -15,8 +15,8 @@
 #include "sage/app/stored_heads.hpp"
 #include "sage/exchange/convert.hpp"
 #include "sage/record/stored_result.hpp"
-#include "sage/scenes/deck_writer.hpp"
-#include "sage/scenes/seepage.hpp"
+#include "tests/studies/scenes/deck_writer.hpp"
+#include "tests/studies/scenes/seepage.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace sage::app {

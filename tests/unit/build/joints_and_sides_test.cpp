@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "sage/app/commands.hpp"
+#include "tests/studies/workbench.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {

@@ -7,6 +7,7 @@
 
 #include "sage/app/commands.hpp"
 #include "sage/core/error.hpp"
+#include "tests/studies/workbench.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {

@@ -11,9 +11,9 @@
 #include "sage/compare/comparison.hpp"
 #include "sage/compare/pair_picture.hpp"
 #include "sage/deck/read_deck.hpp"
-#include "sage/scenes/deck_writer.hpp"
-#include "sage/scenes/scenes.hpp"
 #include "solvers/choose_solver.hpp"
+#include "tests/studies/scenes/deck_writer.hpp"
+#include "tests/studies/scenes/scenes.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace sage::compare {

@@ -14,8 +14,8 @@
 #include "sage/deck/read_deck.hpp"
 #include "sage/exchange/cande_soils.hpp"
 #include "sage/record/values.hpp"
-#include "sage/scenes/whole_run.hpp"
 #include "solvers/choose_solver.hpp"
+#include "tests/studies/scenes/whole_run.hpp"
 #include "tests/support/foreign_decks.hpp"
 
 namespace sage::app {

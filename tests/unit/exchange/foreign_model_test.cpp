@@ -15,8 +15,9 @@
 #include "sage/app/run_deck.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "sage/record/values.hpp"
-#include "sage/scenes/whole_run.hpp"
 #include "solvers/choose_solver.hpp"
+#include "tests/studies/scenes/whole_run.hpp"
+#include "tests/studies/workbench.hpp"
 #include "tests/support/foreign_decks.hpp"
 
 namespace sage::app {

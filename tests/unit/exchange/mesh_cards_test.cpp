@@ -7,7 +7,8 @@
 
 #include "sage/app/commands.hpp"
 #include "sage/deck/read_deck.hpp"
-#include "sage/scenes/whole_run.hpp"
+#include "tests/studies/scenes/whole_run.hpp"
+#include "tests/studies/workbench.hpp"
 
 namespace sage::app {
 namespace {

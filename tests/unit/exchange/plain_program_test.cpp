@@ -9,8 +9,8 @@
 
 #include "sage/app/commands.hpp"
 #include "sage/deck/layout_names.hpp"
-#include "sage/scenes/whole_run.hpp"
 #include "solvers/choose_solver.hpp"
+#include "tests/studies/scenes/whole_run.hpp"
 
 namespace sage {
 namespace {

@@ -16,7 +16,8 @@
 #include "sage/app/run_deck.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "sage/record/summary.hpp"
-#include "sage/scenes/whole_run.hpp"
+#include "tests/studies/scenes/whole_run.hpp"
+#include "tests/studies/workbench.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace sage::app {

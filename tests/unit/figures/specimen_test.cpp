@@ -4,7 +4,8 @@
 #include <numeric>
 
 #include "sage/app/commands.hpp"
-#include "sage/figures/specimen.hpp"
+#include "tests/studies/figures/specimen.hpp"
+#include "tests/studies/workbench.hpp"
 #include "tests/support/shipped_decks.hpp"
 
 namespace sage::figures {

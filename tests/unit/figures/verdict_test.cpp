@@ -4,7 +4,8 @@
 #include <set>
 
 #include "sage/app/commands.hpp"
-#include "sage/figures/verdict.hpp"
+#include "tests/studies/figures/verdict.hpp"
+#include "tests/studies/workbench.hpp"
 
 namespace sage::figures {
 namespace {

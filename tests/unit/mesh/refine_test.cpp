@@ -10,7 +10,7 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/input.hpp"
 #include "sage/deck/read_deck.hpp"
-#include "sage/scenes/scenes.hpp"
+#include "tests/studies/scenes/scenes.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {

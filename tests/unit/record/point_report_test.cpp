@@ -8,8 +8,8 @@
 #include "sage/build/build_model.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "sage/record/report.hpp"
-#include "sage/scenes/lame.hpp"
 #include "solvers/choose_solver.hpp"
+#include "tests/studies/scenes/lame.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace sage {

@@ -1,0 +1,31 @@
+# cmake -DHELP2MAN=... -DSAGEFE=... -DOUT=... -DDATE=yyyy-mm-dd -P man_pages.cmake: a man page in OUT for the program and each of
+# its commands, made by help2man of what they print for --help.
+get_filename_component(folder ${SAGEFE} DIRECTORY)
+file(REMOVE_RECURSE ${OUT})
+file(MAKE_DIRECTORY ${OUT})
+execute_process(COMMAND ${SAGEFE} --version OUTPUT_VARIABLE version OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX REPLACE "^[^ ]+ " "" version "${version}")
+execute_process(COMMAND date -u -d ${DATE} +%s OUTPUT_VARIABLE epoch OUTPUT_STRIP_TRAILING_WHITESPACE)
+set(ENV{SOURCE_DATE_EPOCH} ${epoch})
+
+# man_page("sagefe layout guess" about): its page and those of its own commands.
+function(man_page words about)
+  string(REPLACE " " "-" page "${words}")
+  string(REPLACE "sagefe" "./sagefe" command "${words}")
+  execute_process(COMMAND ${HELP2MAN} --no-info --name=${about} --version-string=${page}\ ${version} --output=${OUT}/${page}.1 ${command}
+                  WORKING_DIRECTORY ${folder} COMMAND_ERROR_IS_FATAL ANY)
+  separate_arguments(command)
+  execute_process(COMMAND ${command} --help WORKING_DIRECTORY ${folder} OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
+  string(REPLACE ";" "," help "${help}")
+  if(NOT help MATCHES "Subcommands:\n(.*)")
+    return()
+  endif()
+  string(REPLACE "\n" ";" lines "${CMAKE_MATCH_1}")
+  foreach(line IN LISTS lines)
+    if(NOT line MATCHES "^  ([a-z]+) +(.+)$")
+      break()
+    endif()
+    man_page("${words} ${CMAKE_MATCH_1}" "${CMAKE_MATCH_2}")
+  endforeach()
+endfunction()
+man_page(sagefe "2-D geotechnical finite elements from fixed-format decks")

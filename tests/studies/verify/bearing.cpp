@@ -1,0 +1,149 @@
+// Bearing capacity of strips and circles.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tests/studies/verify/cases.hpp"
+#include "tests/studies/verify/fields.hpp"
+
+namespace sage::verify {
+
+namespace {
+
+// Footing of half width or radius 1 on weightless ground, c = 1, quad8 reduced.  Cells get finer towards the
+// footing's edge.
+struct Footing {
+  int geometry = 1;
+  bool rough = false;
+  int law = 4;  // 3 Drucker-Prager, plane strain cone without volume change
+  double phi = 0.0, psi = 0.0, nu = 0.49, E = 298.0;
+  int inside = 12, outside = 14, down = 16;
+  double width = 4.0, depth = 3.0, power = 2.2;
+  Block block;
+  DeckWriter deck{1};
+  std::vector<int> base;  // nodes under the footing
+
+  void build() {
+    const int in = inside, out = outside;
+    block.cell = Cell::quad8;
+    block.columns = in + out;
+    block.rows = down;
+    block.straight = true;
+    block.place = [in, out, w = width, d = depth, p = power](double s, double t) -> Vector2 {
+      const double place = s * (in + out);
+      const double x =
+          place <= in ? 1.0 - std::pow(1.0 - place / in, p) : 1.0 + w * std::pow((place - in) / out, p);
+      return {x, -d * std::pow(1.0 - t, p)};
+    };
+    deck = DeckWriter(geometry);
+    block.write_nodes(deck);
+    std::vector<double> strength{E, nu, 1.0, phi, psi};
+    if (law == 3) strength.insert(strength.end(), {4.0, 1.0});
+    deck.material(1, law, strength);
+    deck.group(1, 2, 1, 1);
+    block.write_elements(deck, 1);
+    for (int n : block.bottom()) deck.fix(n, 1, 1);
+    for (int n : block.left()) deck.fix(n, 1, 0);
+    for (int n : block.right()) deck.fix(n, 1, 0);
+    for (int i = 0; i <= 2 * inside; ++i) base.push_back(block.node(i, block.up() - 1));
+  }
+  void press(double settlement, int increments) {
+    StageCards& stage = deck.stage(increments);
+    for (int n : base) stage.fix(n, rough ? 1 : 0, 1, 0.0, -settlement);
+  }
+  double load(const WholeRun& run, const Snapshot& at) const {
+    return -run.reaction(at, base, 1) / (geometry == 1 ? 1.0 : kPi);
+  }
+};
+
+void collapse(Record& record, Footing footing, const std::string& name, double settlement, double reference,
+              double gate) {
+  footing.build();
+  footing.press(settlement, 12);
+  const WholeRun run = record.run(footing.deck);
+  const double q = footing.load(run, run.last());
+  record.near(where_of(footing.geometry), name, q, reference, gate);
+  record.small(where_of(footing.geometry), name + ": growth in the last increment",
+               q / footing.load(run, run.increments[run.increments.size() - 2]) - 1.0, 2e-3);
+}
+
+// Drucker-Prager with phi = 0 and k = c_u, von Mises, has the same collapse load in plane strain.
+void strip(Record& record) {
+  Footing smooth, rough, von_mises;
+  rough.rough = true;
+  von_mises.law = 3;
+  collapse(record, smooth, "N_c, smooth", 0.15, 2 + kPi, 0.015);
+  collapse(record, rough, "N_c, rough", 0.15, 2 + kPi, 0.015);
+  collapse(record, von_mises, "N_c, smooth, von Mises", 0.15, 2 + kPi, 0.015);
+}
+
+// Under a flexible load that grows past collapse: the run ends, says between which loads, and is not complete.
+void load_control(Record& record) {
+  Footing footing;
+  footing.inside = 5;
+  footing.outside = 7;
+  footing.down = 7;
+  footing.build();
+  StageCards& stage = footing.deck.stage(12);
+  for (int i = 0; i < footing.inside; ++i)
+    stage.pressure(footing.block.element(i, footing.down - 1), 3, 6.0, 6.0);
+  const WholeRun run = record.try_run(footing.deck);
+  record.within(Where::plane_strain, "run completed", run.completed() ? 1.0 : 0.0, 0.0, 0.5);
+  const auto [from, to] = printed_bracket(run);
+  record.near(Where::plane_strain, "lower end of the printed bracket", 6 * from, 2 + kPi, 0.03);
+  record.small(Where::plane_strain, "width of the bracket over the load", (to - from) / from, 0.01);
+}
+
+void circle(Record& record) {
+  for (bool rough : {false, true}) {
+    Footing footing;
+    footing.geometry = 2;
+    footing.rough = rough;
+    footing.inside = 14;
+    footing.outside = 12;
+    footing.down = 16;
+    footing.width = 2.5;
+    footing.depth = 2.0;
+    collapse(record, footing, rough ? "N_c of the circle, rough" : "N_c of the circle, smooth", 0.15,
+             rough ? 6.048 : 5.689, 0.015);
+  }
+}
+
+// Weightless ground with friction, associated flow: N_c = (N_q - 1) cot phi.
+void friction(Record& record) {
+  const double phi = 20.0, Nq = std::exp(kPi * std::tan(phi * kRadiansPerDegree)) *
+                                std::pow(std::tan((45 + phi / 2) * kRadiansPerDegree), 2);
+  Footing footing;
+  footing.rough = true;
+  footing.phi = footing.psi = phi;
+  footing.nu = 0.3;
+  footing.E = 1000.0;
+  footing.inside = 12;
+  footing.outside = 18;
+  footing.down = 16;
+  footing.width = 7.0;
+  footing.depth = 4.0;
+  collapse(record, footing, "N_c, phi = psi = 20", 0.2, (Nq - 1) / std::tan(phi * kRadiansPerDegree), 0.03);
+}
+
+}  // namespace
+
+Section bearing_cases() {
+  return {
+      "Bearing capacity",
+      {
+          {"bearing.strip", "strip on Tresca clay", "Prandtl: N_c = 2 + pi, smooth and rough", Grade::exact,
+           "approached from above: 1.5 % with twelve quad8 under the half width; a plateau", strip},
+          {"bearing.load_control", "the same under a growing load: bracket of the limit load",
+           "Prandtl: N_c = 2 + pi", Grade::exact, "coarse mesh of 5 quad8 under the half width: 3 %",
+           load_control},
+          {"bearing.circle", "circle on Tresca clay",
+           "5.689 smooth, 6.048 rough: Cox, Eason & Hopkins 1961; Eason & Shield 1960; Houlsby & Wroth 1983",
+           Grade::published, "approached from above: 1.5 %; a plateau", circle},
+          {"bearing.friction", "strip on weightless ground with c = 1, phi = psi = 20",
+           "Prandtl: N_c = (N_q - 1) cot phi = 14.835", Grade::exact,
+           "3 %, as recommended for friction; a plateau", friction},
+      }};
+}
+
+}  // namespace sage::verify
