@@ -11,3 +11,4 @@ include(cmake/FindHdf5Serial.cmake)
 add_library(sage_fmt STATIC cmake/fmt.cpp)
 target_include_directories(sage_fmt SYSTEM PUBLIC $<BUILD_INTERFACE:$<TARGET_PROPERTY:fmt::fmt,INTERFACE_INCLUDE_DIRECTORIES>>)
 set_target_properties(sage_fmt PROPERTIES EXPORT_NAME fmt POSITION_INDEPENDENT_CODE ON)
+find_package(GTest QUIET)  # for the suites of conformance and the tests
