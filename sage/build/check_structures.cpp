@@ -402,7 +402,7 @@ bool is_strip(const LawRef& ref) {
   const auto* const law = std::get_if<const Law<5>*>(&ref);
   if (law == nullptr) return false;
   std::vector<double> before;
-  for (const Quantity& quantity : (*law)->history()) before.push_back(quantity.initial);
+  for (const Quantity& quantity : (*law)->traits().history) before.push_back(quantity.initial);
   std::vector<double> after = before;
   PointIn<5> in;
   PointOut<5> out;
