@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "sage/conformance/element_cases.hpp"
+#include "sage/conformance/law_driver.hpp"
 #include "sage/conformance/law_sample.hpp"
 #include "sage/core/catalogue.hpp"
 #include "sage/core/error.hpp"

@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "sage/conformance/suites.hpp"
+#include "sage/conformance/law_checks.hpp"
 #include "tests/conformance/law_samples.hpp"
 #include "tests/install/consumer/bar.hpp"
 #include "tests/install/consumer/creep.hpp"

@@ -3,6 +3,7 @@
 #include <atomic>
 
 #include "sage/analysis/condition.hpp"
+#include "sage/conformance/solver_systems.hpp"
 #include "sage/conformance/suites.hpp"
 #include "solvers/register_solvers.hpp"
 
