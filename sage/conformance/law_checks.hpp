@@ -12,6 +12,7 @@
 #include "sage/conformance/allocations.hpp"
 #include "sage/conformance/law_driver.hpp"
 #include "sage/conformance/suites.hpp"
+#include "sage/core/four_at_a_time.hpp"
 
 namespace sage::conformance {
 
@@ -104,7 +105,7 @@ void check_answers(const Law<N>& law, double size) {
     while (++halvings < kHalvings && update<N>(law, s.sigma, deps, s.h).outcome != Outcome::ok);
     EXPECT_LT(halvings, kHalvings) << "refused down to a 4096th, trial " << trial;
   }
-  EXPECT_LE(refused, law.linear() ? 0 : kStates / 20);
+  EXPECT_LE(refused, law.traits().linear ? 0 : kStates / 20);
 }
 
 // The fraction of states where the tangent and central differences agree must be all but the kinks: at a
@@ -149,7 +150,7 @@ void check_symmetry(const Law<N>& law, double size) {
     const double largest = a.D.cwiseAbs().maxCoeff();
     if (largest > 0.0) worst = std::max(worst, (a.D - a.D.transpose()).cwiseAbs().maxCoeff() / largest);
   }
-  if (law.symmetric()) {
+  if (law.traits().symmetric) {
     EXPECT_LE(worst, 1e-12);
   } else {
     EXPECT_GT(worst, 1e-6) << "the law could say that it is symmetric";
@@ -159,7 +160,7 @@ void check_symmetry(const Law<N>& law, double size) {
 // linear() = true: one D for ever, sigma = sigma0 + D deps.
 template <int N>
 void check_linear(const Law<N>& law, double size) {
-  if (!law.linear()) return;
+  if (!law.traits().linear) return;
   Walker walker(3);
   const Matrix<N> D =
       update<N>(law, Vector<N>::Zero(), Vector<N>::Zero(), initial_history<N>(law, Vector<N>::Zero())).D;
@@ -205,7 +206,7 @@ void check_status_of_state(const Law<N>& law, double size) {
     const double factor = trial % 5 == 0 ? (trial % 2 == 0 ? 0.0 : 1e-6) : std::pow(10.0, 1 - trial % 4);
     const auto a = update<N>(law, s.sigma, walker.strain(factor * size, static_cast<Vector<N>*>(nullptr)), s.h);
     if (a.outcome != Outcome::ok) continue;
-    if (law.linear()) {
+    if (law.traits().linear) {
       EXPECT_EQ(a.status, PointStatus::elastic) << trial;
     }
     const double level = law.stress_level(a.sigma, a.h);
@@ -288,7 +289,7 @@ void check_scaling(const Law<N>& law, const Law<N>& scaled, double factor, doubl
     const State<N> s = wander<N>(law, walker, size, trial % 5);
     const Vector<N> deps = walker.strain(size, static_cast<Vector<N>*>(nullptr));
     std::vector<double> h = s.h;
-    const auto quantities = law.history();
+    const auto quantities = law.traits().history;
     for (std::size_t i = 0; i < h.size(); ++i)
       if (quantities[i].dimension == Dimension::stress) h[i] *= factor;
     const auto a = update<N>(law, s.sigma, deps, s.h);
@@ -296,8 +297,8 @@ void check_scaling(const Law<N>& law, const Law<N>& scaled, double factor, doubl
     EXPECT_EQ(a.status, b.status);
     EXPECT_LE((b.sigma / factor - a.sigma).norm(), 1e-9 * (a.sigma.norm() + 60.0)) << trial;
     EXPECT_LE((b.D / factor - a.D).norm(), 1e-7 * a.D.norm()) << trial;
-    const double error = law.path_error(point_in<N>(law, s.sigma, deps, s.h), a.sigma, a.h);
-    EXPECT_NEAR(scaled.path_error(point_in<N>(scaled, factor * s.sigma, deps, h), b.sigma, b.h), error,
+    const double error = path_error(law, point_in<N>(law, s.sigma, deps, s.h), a.sigma, a.h);
+    EXPECT_NEAR(path_error(scaled, point_in<N>(scaled, factor * s.sigma, deps, h), b.sigma, b.h), error,
                 1e-6 * error)
         << trial;
   }
@@ -376,7 +377,7 @@ struct Fours {
           for (std::size_t j = 0; j < N; ++j) out[p].D[i][j] = all_four(preset.number);
         }
       }
-    return law.update_four(in, out);
+    return dynamic_cast<const FourPointLaw<N>&>(law).update_four(in, out);
   }
 };
 
@@ -408,7 +409,7 @@ bool compare_fours(const Law<N>& law, const Fours<N>& fours, bool answered,
   return refused;
 }
 
-// Against one by one: to the last bit, since a law that takes four has no other code.  As many fours as elements with
+// Against one by one, to the last bit.  As many fours as elements with
 // 1, 2 or 9 points bring, over whatever stood in the answers before.
 template <int N>
 void check_four(const Law<N>& law, double size) {
