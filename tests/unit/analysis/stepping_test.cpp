@@ -9,6 +9,7 @@
 
 #include "sage/analysis/analysis.hpp"
 #include "sage/app/commands.hpp"
+#include "tests/studies/workbench.hpp"
 #include "tests/support/run_text.hpp"
 
 namespace sage::test {
