@@ -1,19 +1,18 @@
-// Where the elastic solution of a mesh is singular: from its boundary, the angle inside and what holds both
-// sides; and where materials meet otherwise than along a smooth line.  Williams (1952): stress
-// ~ r^(lambda - 1).  A side that is held in one direction mirrors the corner.
+// Where the elastic solution of a mesh is not smooth: from its boundary, the angle inside and what holds both sides; and
+// where materials meet otherwise than along a smooth line.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <set>
 
+#include "sage/mesh/corner_exponent.hpp"
 #include "sage/mesh/subdivide.hpp"
+#include "sage/model/locking.hpp"
 
 namespace sage::mesh {
 
 namespace {
-
-enum class Side { free, held, mirror };  // mirror: held along or across only
 
 struct BoundaryEdge {
   int a = 0, z = 0;  // counter-clockwise: the body is to the left
@@ -79,6 +78,16 @@ std::vector<int> kinds_of_material(const Model& model) {
   return kinds;
 }
 
+// From an end of a side into it; of a parabola where a card gives its middle.
+Vector2 direction(const Mesh& mesh, const std::array<int, 2>& ends, int middle, std::size_t end) {
+  const Vector2 here = mesh.x.col(ends[end]), there = mesh.x.col(ends[1 - end]);
+  constexpr double kNothing = 1e-6;  // of a middle at the quarter point
+  const Vector2 chord = there - here;
+  if (middle < 0) return chord;
+  const Vector2 tangent = 4.0 * mesh.x.col(middle) - 3.0 * here - there;
+  return tangent.norm() > kNothing * chord.norm() ? tangent : chord;
+}
+
 Outline outline_of(const Model& model) {
   Outline outline;
   const std::vector<int> kinds = kinds_of_material(model);
@@ -95,18 +104,21 @@ Outline outline_of(const Model& model) {
         continue;
       }
       for (std::size_t i = 0; i < edges.size(); ++i) {
-        const int a = n[edges[i][0]], z = n[edges[i][1]];
-        const int before = n[edges[(i + edges.size() - 1) % edges.size()][0]];
+        const auto middle_node = [&](const std::vector<int>& edge) {
+          return middle_of(edge) < 0 ? -1 : n[middle_of(edge)];
+        };
+        const auto& edge_before = edges[(i + edges.size() - 1) % edges.size()];
+        const int a = n[edges[i][0]], z = n[edges[i][1]], before = n[edge_before[0]],
+                  middle = middle_node(edges[i]);
         ++uses[edge_key(a, z)];
-        const int middle = middle_of(edges[i]) < 0 ? -1 : n[middle_of(edges[i])];
         all.push_back({a, z, static_cast<int>(g), e, static_cast<int>(i), middle});
         if (const auto [it, is_first] = kind_on.try_emplace(edge_key(a, z), kinds[g]);
             !is_first && it->second != kinds[g]) {
           ++outline.borders[a];
           ++outline.borders[z];
         }
-        const Vector2 out = model.mesh.x.col(z) - model.mesh.x.col(a),
-                      in = model.mesh.x.col(before) - model.mesh.x.col(a);
+        const Vector2 out = direction(model.mesh, {a, z}, middle, 0),
+                      in = direction(model.mesh, {before, a}, middle_node(edge_before), 1);
         const double angle = degrees(std::atan2(out.x() * in.y() - out.y() * in.x(), out.dot(in)));
         outline.angle[a] += angle;
         outline.sectors[a][kinds[g]] += angle;
@@ -122,37 +134,40 @@ Outline outline_of(const Model& model) {
   return outline;
 }
 
-struct SideKind {
-  Side side = Side::free;
-  bool x = false;  // of a mirror: held in x
-};
-
-SideKind kind_of(const Model& model, const Outline& outline, std::size_t edge) {
+Side kind_of(const Model& model, const Outline& outline, std::size_t edge) {
   const BoundaryEdge& e = outline.edges[edge];
-  if (outline.joined.count(edge_key(e.a, e.z))) return {Side::held, false};
+  if (outline.joined.count(edge_key(e.a, e.z))) return Side::held;
   const Vector2 along = model.mesh.x.col(e.z) - model.mesh.x.col(e.a);
   const double length = along.norm();
   const bool on_axis = model.geometry == Geometry::axisymmetric &&
                        std::abs(model.mesh.x(0, e.a)) < 1e-9 * length &&
                        std::abs(model.mesh.x(0, e.z)) < 1e-9 * length;
   const bool x = outline.held[edge][0] || on_axis, y = outline.held[edge][1];
-  if (!x && !y) return {Side::free, false};
-  if (x && y) return {Side::held, false};
-  const bool square = std::abs(along.x()) < 1e-6 * length || std::abs(along.y()) < 1e-6 * length;
-  return {square ? Side::mirror : Side::held, x};
+  if (!x && !y) return Side::free;
+  if (x && y) return Side::held;
+  const bool level = std::abs(along.y()) < 1e-6 * length, upright = std::abs(along.x()) < 1e-6 * length;
+  if (!level && !upright) return Side::held;
+  return x == upright ? Side::across : Side::along;
 }
 
 constexpr double kSlack = 2.0;  // degrees, for meshers
 
-// Angles from which on the stress has no bound.
-bool is_singular(const SideKind& a, const SideKind& b, double angle) {
-  const bool straight = std::abs(angle - 180.0) < kSlack;
-  if (a.side == b.side) {
-    if (a.side != Side::mirror) return angle > 180.0 + kSlack;
-    return straight ? a.x != b.x : angle > 90.0 + kSlack;
-  }
-  if (a.side == Side::mirror || b.side == Side::mirror) return angle > 90.0 + kSlack;
-  return angle > 60.0;  // held and free: from 55 to 65 degrees on, by Poisson's ratio
+bool is_mirror(Side side) {
+  return side == Side::across || side == Side::along;
+}
+
+// Slopes of the stress have no bound.
+bool is_singular(Side a, Side b, double angle, double nu) {
+  const double right_angles = 90.0 * std::round(angle / 90.0);
+  if (std::abs(angle - right_angles) < kSlack) angle = right_angles;
+  return corner_exponent(a, b, angle * kRadiansPerDegree, nu) < kSmoothExponent;
+}
+
+// Near 1/2 where water keeps the volume.
+double poissons_ratio_at(const Model& model, const BoundaryEdge& edge) {
+  constexpr double kUndrained = 0.499;
+  const Group& group = model.groups[static_cast<std::size_t>(edge.group)];
+  return group.excess >= 0 ? kUndrained : std::min(poissons_ratio(model.material_of(group)), kUndrained);
 }
 
 void find_by_supports(const Model& model, const Outline& outline, std::set<int>& found) {
@@ -162,9 +177,11 @@ void find_by_supports(const Model& model, const Outline& outline, std::set<int>&
       found.insert(node);  // two parts touch in a point
       continue;
     }
-    const SideKind in = kind_of(model, outline, arriving.front());
-    const SideKind out = kind_of(model, outline, leaving.front());
-    if (is_singular(in, out, outline.angle.at(node))) found.insert(node);
+    const Side in = kind_of(model, outline, arriving.front()), out = kind_of(model, outline, leaving.front());
+    const double angle = outline.angle.at(node);
+    if (in == out && std::abs(angle - 180.0) < kSlack) continue;  // nearly all nodes
+    if (is_singular(in, out, angle, poissons_ratio_at(model, outline.edges[leaving.front()])))
+      found.insert(node);
   }
 }
 
@@ -179,9 +196,8 @@ bool goes_on(const Model& model, const Outline& outline, int node) {
   const auto leaving = outline.leaving.find(node);
   if (leaving == outline.leaving.end()) return borders == 2 && all(180.0);
   if (borders != 1 || leaving->second.size() != 1 || !all(90.0)) return false;
-  const SideKind in = kind_of(model, outline, outline.arriving.at(node).front());
-  const SideKind out = kind_of(model, outline, leaving->second.front());
-  return in.side == Side::mirror && out.side == Side::mirror && in.x == out.x;
+  const Side in = kind_of(model, outline, outline.arriving.at(node).front());
+  return is_mirror(in) && in == kind_of(model, outline, leaving->second.front());
 }
 
 void find_by_materials(const Model& model, const Outline& outline, std::set<int>& found) {
@@ -209,7 +225,7 @@ class EdgeLoads {
   // Tractions on the sides of a corner that no one stress has: it is symmetric, n_in . t_out = n_out . t_in.
   bool clash(const BoundaryEdge& in, const BoundaryEdge& out) const {
     const Vector2 t_in = traction(in, 1), t_out = traction(out, 0);
-    const double difference = std::abs(normal(in).dot(t_out) - normal(out).dot(t_in));
+    const double difference = std::abs(normal(in, 1).dot(t_out) - normal(out, 0).dot(t_in));
     return difference > std::sin(kSlack * kRadiansPerDegree) * (t_in.norm() + t_out.norm()) + 1e-6 * largest_;
   }
 
@@ -218,12 +234,13 @@ class EdgeLoads {
     const auto it = load_.find({e.group, e.element, e.edge});
     return it == load_.end() ? Vector2::Zero() : it->second[end];
   }
-  Vector2 normal(const BoundaryEdge& e) const {  // outward
-    const Vector2 along = (model_->mesh.x.col(e.z) - model_->mesh.x.col(e.a)).normalized();
+  Vector2 normal(const BoundaryEdge& e, std::size_t end) const {  // outward
+    const Vector2 along =
+        (end == 0 ? 1.0 : -1.0) * direction(model_->mesh, {e.a, e.z}, e.middle, end).normalized();
     return {along.y(), -along.x()};
   }
   Vector2 traction(const BoundaryEdge& e, std::size_t end) const {
-    const Vector2 n = normal(e), load = value(e, end);
+    const Vector2 n = normal(e, end), load = value(e, end);
     return -load.x() * n + load.y() * Vector2(-n.y(), n.x());
   }
 
@@ -243,10 +260,11 @@ void find_by_loads(const Model& model, const Outline& outline, const Stage& stag
       if (loads.jump(in, out)) found.insert(node);
       continue;
     }
-    const Side a = kind_of(model, outline, edge_in).side, b = kind_of(model, outline, edge_out).side;
+    const Side a = kind_of(model, outline, edge_in), b = kind_of(model, outline, edge_out);
     // Beside a line of symmetry the pressure adjusts itself, so that only shear can clash, at a right angle.
     const bool both_free = a == Side::free && b == Side::free;
-    const bool beside_mirror = a != b && a != Side::held && b != Side::held && std::abs(angle - 90.0) < kSlack;
+    const bool beside_mirror =
+        is_mirror(a) != is_mirror(b) && a != Side::held && b != Side::held && std::abs(angle - 90.0) < kSlack;
     if ((both_free || beside_mirror) && loads.clash(in, out)) found.insert(node);
   }
 }

@@ -10,6 +10,7 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/input.hpp"
 #include "sage/deck/read_deck.hpp"
+#include "tests/studies/scenes/lame.hpp"
 #include "tests/studies/scenes/scenes.hpp"
 #include "tests/support/run_text.hpp"
 
@@ -378,6 +379,36 @@ TEST(GradeAuto, FindsWhereSupportsAndLoadsMakeTheSolutionSingular) {
   EXPECT_EQ(graded_nodes(build(strip.text(), with(0, 0, automatic))), "8 ");
 }
 
+// Cook's panel: below the clamped side's lower end the angle is 47 degrees, stresses are bounded and go as rho^.13.  On a
+// slope of 1:2 the crest (153 degrees between free sides) has rho^.5, the toe no bound.
+TEST(GradeAuto, FindsCornersWhoseStressIsBoundedButNotSmooth) {
+  const std::vector<Grading> automatic{{0, 1, 0.15}};
+  CookDeck cook;
+  cook.n = 1;
+  EXPECT_EQ(graded_nodes(build(cook.deck().text(), with(0, 0, automatic))), "1 2 3 4 ");
+  DeckWriter slope(1);
+  const double x[] = {0, 10, 14, 0, 10, 14, 0, 6}, y[] = {0, 0, 0, 4, 4, 4, 6, 6};
+  for (int i = 0; i < 8; ++i) slope.node(i + 1, x[i], y[i]);
+  slope.material(1, 1, {1000.0, 0.3});
+  slope.group(1, 1, 0, 1);
+  slope.element(1, 1, {1, 2, 5, 4});
+  slope.element(2, 1, {2, 3, 6, 5});
+  slope.element(3, 1, {4, 5, 8, 7});
+  for (const int node : {1, 2, 3}) slope.fix(node, node == 2 ? 0 : 1, 1);
+  for (const int node : {4, 6, 7}) slope.fix(node, 1, 0);
+  slope.stage().gravity_y = -1.0;
+  EXPECT_EQ(graded_nodes(build(slope.text(), with(0, 0, automatic))), "5 8 ");
+}
+
+// Sides of 8-node elements are parabolas: where their tangents go on, there is no corner, however the chords meet.
+TEST(GradeAuto, SeesNoCornersAlongCurvedSides) {
+  const std::vector<Grading> automatic{{0, 1, 0.15}};
+  LameDeck ring{LameBody::sector, Cell::quad8, 1, 4};
+  EXPECT_EQ(graded_nodes(build(ring.text(), with(0, 0, automatic))), "");
+  ring.cell = Cell::quad4;  // the polygon has them
+  EXPECT_NE(graded_nodes(build(ring.text(), with(0, 0, automatic))), "");
+}
+
 TEST(GradeAuto, FindsReentrantCorners) {
   DeckWriter deck(1);
   for (int i = 0; i < 9; ++i) deck.node(i + 1, i % 3, i / 3);
@@ -450,7 +481,8 @@ TEST(GradeAuto, CooksMembraneIsAsGoodAsGradedByHand) {
   CookDeck cook;
   cook.n = 2;
   const Block block = cook.block();
-  const int clamped = block.left().back(), low = block.right().front(), high = block.right().back();
+  const int clamped_low = block.left().front(), clamped = block.left().back(), low = block.right().front(),
+            high = block.right().back();
   const double reference = 22.61049;
   const auto error = [&](std::vector<Grading> gradings) {
     BuildOptions options;
@@ -460,7 +492,10 @@ TEST(GradeAuto, CooksMembraneIsAsGoodAsGradedByHand) {
   };
   constexpr double kRatio = 0.15;
   const int layers = 6;
-  const double by_hand = error({{clamped, layers, kRatio}, {low, layers, kRatio}, {high, layers, kRatio}});
+  const double by_hand = error({{clamped_low, layers, kRatio},
+                                {clamped, layers, kRatio},
+                                {low, layers, kRatio},
+                                {high, layers, kRatio}});
   const double clamped_only = error({{clamped, layers, kRatio}});
   const double automatic = error({{0, layers, kRatio}});
   std::printf("    error of the top corner: by hand %.2e, clamped corner only %.2e, automatic %.2e\n", by_hand,
