@@ -430,7 +430,9 @@ class PatchFits {
       room.values.middleCols(row, s.samples) = s.samples_of(element);
       row += s.samples;
     }
-    room.fitter.set_places(room.places, degree);
+    // A polynomial in x and y is a poor one around a curve, and the error of high degrees is smaller than that.
+    constexpr int kHighDegree = 4;
+    room.fitter.set_places(room.places, degree, degree >= kHighDegree ? 2 : 1);
     Fit fit{room.fitter.terms(), {}};
     room.fitter.fit(room.values, fit.coefficients);
     return fit;

@@ -23,12 +23,13 @@ Eigen::MatrixXd sample_map(const Element& element) {
   return Eigen::MatrixXd::Constant(1, points, 1.0 / static_cast<double>(points));
 }
 
-void PatchFitter::set_places(const Eigen::Ref<const Eigen::Matrix2Xd>& places, int degree) {
+void PatchFitter::set_places(const Eigen::Ref<const Eigen::Matrix2Xd>& places, int degree, int more) {
   // What is less certain by 1000 than the rest is none of the field: bent rows of places are nearly straight.
   constexpr double kLeast = 1e-3;
   const Vector2 low = places.rowwise().minCoeff(), high = places.rowwise().maxCoeff();
-  terms_.degree = std::min(degree, PolynomialTerms::kMostDegree - 1);
-  if (3 * PolynomialTerms{terms_.degree + 1, {}, {}}.count() <= 2 * places.cols()) ++terms_.degree;
+  terms_.degree = std::min(degree, PolynomialTerms::kMostDegree - more);
+  for (int i = 0; i < more; ++i)
+    if (3 * PolynomialTerms{terms_.degree + 1, {}, {}}.count() <= 2 * places.cols()) ++terms_.degree;
   while (terms_.degree > 0 && terms_.count() > places.cols()) --terms_.degree;
   terms_.centre = 0.5 * (low + high);
   terms_.scale = 0.5 * (high - low).cwiseMax(1e-300);

@@ -28,10 +28,10 @@ struct PolynomialTerms {
 // Fits polynomials to values at places, one patch after the other.
 class PatchFitter {
  public:
-  // degree: the lowest of the patch's elements.  The stress wants that; one more takes less from the fit, and
-  // is taken where there are samples enough for it.  Fewer samples than terms lower it, and so do places that
+  // degree: the lowest of the patch's elements.  The stress wants that; `more` take less from the fit, and are taken where
+  // there are samples enough for them.  Fewer samples than terms lower it, and so do places that
   // can't tell all terms apart (a body of one row of elements).
-  void set_places(const Eigen::Ref<const Eigen::Matrix2Xd>& places, int degree);
+  void set_places(const Eigen::Ref<const Eigen::Matrix2Xd>& places, int degree, int more = 1);
 
   const PolynomialTerms& terms() const { return terms_; }
   // Coefficients (values x terms) of least squares of values at the places (values x places), which are used up.

@@ -20,6 +20,7 @@
 #include "sage/app/screen.hpp"
 #include "sage/app/surroundings.hpp"
 #include "sage/judge/convergence.hpp"
+#include "sage/model/coarse_shape.hpp"
 #include "sage/record/discretisation.hpp"
 #include "sage/record/out_file.hpp"
 #include "sage/record/report_components.hpp"
@@ -379,23 +380,6 @@ double seconds_since(Clock::time_point start) {
 std::string bytes_of(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
-}
-
-// Middle nodes off the straight line: all meshes keep the parabola through them.
-bool has_curved_sides(const Model& model) {
-  constexpr double kStraight = 1e-9;
-  for (const Group& group : model.groups) {
-    if (!group.entry->fills_area()) continue;
-    for (int e = 0; e < group.elements(); ++e)
-      for (const auto& edge : group.element->edges()) {
-        if (edge.size() != 3) continue;
-        const int* nodes = group.nodes_of(e);
-        const Vector2 a = model.mesh.x.col(nodes[edge[0]]), along = model.mesh.x.col(nodes[edge[1]]) - a,
-                      off = model.mesh.x.col(nodes[edge[2]]) - a;
-        if (std::abs(along.x() * off.y() - along.y() * off.x()) > kStraight * along.squaredNorm()) return true;
-      }
-  }
-  return false;
 }
 
 // Meshes of the ladder, one after the other.

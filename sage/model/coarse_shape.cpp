@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sage/model/model.hpp"
+
 namespace sage {
 
 Vector2 along_edge(const Vector2& a, const Vector2& z, const std::optional<Vector2>& middle, double t) {
@@ -39,6 +41,22 @@ Vector2 CoarseShape::at(const Place& q) const {
     if (middle[k]) point += bubble[k] * (*middle[k] - 0.5 * (corner[k] + corner[next]));
   }
   return point;
+}
+
+bool has_curved_sides(const Model& model) {
+  constexpr double kStraight = 1e-9;
+  for (const Group& group : model.groups) {
+    if (!group.entry->fills_area()) continue;
+    for (int e = 0; e < group.elements(); ++e)
+      for (const auto& edge : group.element->edges()) {
+        if (edge.size() != 3) continue;
+        const int* nodes = group.nodes_of(e);
+        const Vector2 a = model.mesh.x.col(nodes[edge[0]]), along = model.mesh.x.col(nodes[edge[1]]) - a,
+                      off = model.mesh.x.col(nodes[edge[2]]) - a;
+        if (std::abs(along.x() * off.y() - along.y() * off.x()) > kStraight * along.squaredNorm()) return true;
+      }
+  }
+  return false;
 }
 
 const std::array<Place, 4>& parent_corners(int corners) {

@@ -25,6 +25,10 @@ struct CoarseShape {
   Vector2 at(const Place& q) const;
 };
 
+struct Model;
+// Cards give middle nodes off the straight line: sides are parabolas in every mesh that is made of the deck's.
+bool has_curved_sides(const Model& model);
+
 // Corners of the parent shapes, counter-clockwise.
 const std::array<Place, 4>& parent_corners(int corners);
 

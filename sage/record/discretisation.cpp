@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sage/model/coarse_shape.hpp"
+
 namespace sage {
 
 namespace {
@@ -110,6 +112,10 @@ std::string DiscretisationError::text(const Model& model) const {
     text += fmt::format(", {:.0f} % of its square in element {}", 100.0 * part, group.element_numbers[e]);
   }
   text += '\n';
+  if (has_curved_sides(model))
+    text +=
+        "              curved sides count as the deck's parabolas: how far these are from another curve is not "
+        "in it\n";
   if (ratio_error_) {
     const double ratio = reports_->triaxial(static_cast<std::size_t>(report_)).back().ratio;
     text += fmt::format("              ratio of report {} at the end {}, from the energy of the error\n",

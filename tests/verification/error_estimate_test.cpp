@@ -164,6 +164,36 @@ TEST(ErrorEstimate, OfReducedElementsUpToIncompressible) {
     }
 }
 
+// Straight sides, and parabolas, whose distance from the circle is no part of the estimate: it is more than the error of
+// degrees 6 and 8.
+TEST(ErrorEstimate, OfHighDegrees) {
+  struct High {
+    const char* name;
+    Cell cell;
+    int formulation, code, element, n;
+    bool curved;
+  };
+  const High all[] = {{"tri15, 12 points", Cell::tri6, 1, 6, 0, 8, true},
+                      {"tri15, 16 points", Cell::tri6, 2, 6, 0, 8, true},
+                      {"quad25", Cell::quad8, 1, 0, 7, 8, true},
+                      {"quad49", Cell::quad8, 1, 0, 8, 8, false},
+                      {"quad81", Cell::quad8, 1, 0, 9, 4, false}};
+  for (const LameBody body : {LameBody::sector, LameBody::strip})
+    for (const High& c : all)
+      for (const double nu : {0.1, 0.3, 0.499, 0.4999}) {
+        if (body == LameBody::sector && !c.curved) continue;
+        BuildOptions options;
+        options.element = c.element;
+        LameDeck deck{body, c.cell, c.formulation, c.n, nu};
+        deck.code = c.code;
+        const double ratio = judge(deck, options).effectivity();
+        std::printf("    %-18s %-6s n %2d nu %.4f effectivity %.3f\n", c.name,
+                    body == LameBody::strip ? "ring" : "sector", c.n, nu, ratio);
+        EXPECT_GT(ratio, 0.5) << c.name << " nu " << nu;
+        EXPECT_LT(ratio, 2.0) << c.name << " nu " << nu;
+      }
+}
+
 TEST(ErrorEstimate, PartsOfTheElementsSumToTheWhole) {
   const Judge now = judge({LameBody::strip, Cell::quad4, 2, 6, 0.3});
   double sum = 0.0;

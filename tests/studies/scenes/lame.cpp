@@ -80,7 +80,7 @@ DeckWriter LameDeck::deck() const {
   DeckWriter deck(body == LameBody::sector ? 1 : 2);
   block.write_nodes(deck);
   deck.material(1, 1, {1.0, nu});
-  deck.group(1, static_cast<int>(cell), formulation, 1);
+  deck.group(1, code > 0 ? code : static_cast<int>(cell), formulation, 1);
   block.write_elements(deck, 1);
   hold_sides(deck, body, block);
   press(deck, block);

@@ -27,6 +27,7 @@ struct LameDeck {
   Cell cell = Cell::quad8;
   int formulation = 1, n = 4;  // n: cells along r; as many around, half as many up the strip
   double nu = 0.3;
+  int code = 0;  // of an element that reads the cell's cards; 0 = the cell's own
 
   DeckWriter deck() const;
   std::string text() const { return deck().text(); }
