@@ -7,13 +7,16 @@ namespace sage {
 
 namespace {
 
-constexpr std::size_t kLook = 10;  // corrections
+constexpr double kFades = 0.9;  // what counts of a correction after the next one: the last ten matter
 
 }  // namespace
 
 void Creep::take(const Eigen::VectorXd& du, double residual) {
-  steps_.push_back(du);
-  if (steps_.size() > kLook + 1) steps_.pop_front();
+  if (du_.size() == 0) du_ = recent_ = Eigen::VectorXd::Zero(du.size());
+  const Eigen::VectorXd correction = du - du_;
+  recent_ = kFades * recent_ + correction;
+  path_ = kFades * path_ + length(correction);
+  du_ = du;
   residuals_.push_back(residual);
 }
 
@@ -30,7 +33,7 @@ bool Creep::spares_ground() const {
 bool Creep::is_shaken() const {
   constexpr std::size_t kPatience = 40;
   constexpr double kCancels = 0.1, kFalls = 0.8;
-  if (residuals_.size() < kPatience || one_way() > kCancels) return false;
+  if (residuals_.size() < kPatience || length(recent_) > kCancels * path_) return false;
   const auto middle = residuals_.end() - static_cast<std::ptrdiff_t>(kPatience / 2);
   return *std::min_element(middle, residuals_.end()) > kFalls * *std::min_element(residuals_.begin(), middle);
 }
@@ -40,7 +43,7 @@ double Creep::largest(bool of_solids) const {
   for (std::size_t dof = 0; dof < of_solids_->size(); ++dof) {
     if (of_solids && (*of_solids_)[dof] == 0) continue;
     const auto at = static_cast<Eigen::Index>(dof);
-    const double moved = std::abs(steps_.back()[at] - steps_.front()[at]);
+    const double moved = std::abs(recent_[at]);
     if (!(moved <= most)) most = moved;  // not a number counts
   }
   return most;
@@ -48,13 +51,6 @@ double Creep::largest(bool of_solids) const {
 
 double Creep::length(const Eigen::VectorXd& motion) const {
   return motion.head(static_cast<Eigen::Index>(of_solids_->size())).norm();
-}
-
-// |sum| / sum | | of the last corrections.
-double Creep::one_way() const {
-  double path = 0.0;
-  for (std::size_t i = 1; i < steps_.size(); ++i) path += length(steps_[i] - steps_[i - 1]);
-  return path > 0.0 ? length(steps_.back() - steps_.front()) / path : 0.0;
 }
 
 }  // namespace sage

@@ -1,7 +1,6 @@
 // Where the corrections of a damped step lead: whether the ground goes on moving, or is only shaken to and fro.
 #pragma once
 
-#include <deque>
 #include <vector>
 
 #include <Eigen/Core>
@@ -13,7 +12,7 @@ class Creep {
   // of_solids: by dof of displacements, whether a solid has it; it must outlive this.  size: of the model, a length.
   Creep(const std::vector<char>& of_solids, double size) : of_solids_(&of_solids), size_(size) {}
 
-  // After every correction.  du: the step so far, every dof.  residual: its size.
+  // After every correction.  du: the step so far, every dof; it begins with zero.  residual: its size.
   void take(const Eigen::VectorXd& du, double residual);
 
   // The last corrections moved the ground by the size of the model, or no number is left.
@@ -26,12 +25,12 @@ class Creep {
  private:
   double largest(bool of_solids) const;
   double length(const Eigen::VectorXd& motion) const;
-  double one_way() const;
 
   const std::vector<char>* of_solids_;
   double size_;
-  std::deque<Eigen::VectorXd> steps_;  // the last ones
-  std::vector<double> residuals_;      // all
+  Eigen::VectorXd du_, recent_;    // the step so far; sum of its corrections, of which older ones count less
+  double path_ = 0.0;              // the same sum of their lengths
+  std::vector<double> residuals_;  // all
 };
 
 }  // namespace sage
