@@ -42,6 +42,7 @@ enum class StepOutcome { converged, not_converged, law_cut, singular };
 struct NewtonStep {
   StepOutcome outcome = StepOutcome::not_converged;
   bool repeated = false;  // the step is a copy of the one before
+  bool crept = false;     // its larger part has been committed before (StepControl::creep)
   bool finished = false;  // a kept tangent was replaced by the consistent one at the end
   bool flows =
       false;  // stop_at_flow: corrections only increase the residual, beyond a good part of all stress; damped: Creep::flows

@@ -54,6 +54,21 @@ Eigen::VectorXd RunParts::loads_at(double load_factor) const {
   return (1.0 - load_factor) * state.path.force_start + load_factor * state.path.force_end;
 }
 
+std::string RunParts::keep_state() const {
+  Archive archive;
+  state.exchange_totals(archive);
+  assembly().exchange(archive, false);
+  return archive.take();
+}
+
+void RunParts::restore_state(const std::string& kept) const {
+  Archive archive(kept);
+  state.exchange_totals(archive);
+  assembly().exchange(archive, false);
+  state.du.setZero();
+  tangent().forget();
+}
+
 void RunParts::show_progress(const StepReport& report, double load_factor) const {
   Pulse* const pulse = settings.pulse;
   if (pulse == nullptr) return;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "sage/analysis/audience.hpp"
 #include "sage/analysis/extent.hpp"
@@ -43,6 +44,9 @@ struct RunParts {
   double end_of(const RunPlace& place) const;
   // Loads at this load factor of the stage in hand (A1), every dof.
   Eigen::VectorXd loads_at(double load_factor) const;
+  // All that a step starts from at the committed state, except for the tangent; and back to it, with no step in hand.
+  std::string keep_state() const;
+  void restore_state(const std::string& kept) const;
   // Shows the progress of the run where somebody watches (RunSettings::pulse).
   void show_progress(const StepReport& report, double load_factor) const;
 };

@@ -130,7 +130,7 @@ void StepControl::accept(StepReport& report, const NewtonStep& step, double to) 
   if (!step.repeated) path.repeats.take(linear, size, step.iterations.back().force);
   on_last_way_ = false;
   if (path.own_tangent) tangent.set_aside();
-  stiffness_.measure(size);
+  if (!step.crept) stiffness_.measure(size);
   move_to(to);
   keep_step(size);
   path.prediction.take(report.cuts > 0);
@@ -254,11 +254,38 @@ NewtonStep StepControl::attempt_damped(StepReport& report, double from, double t
     run_.tangent().forget();
     if (!run_.tangent().has_elastic()) return failed;
     step = stepper_.attempt_damped(from, to, {fall, &of_solids_});
+    if (run_.settings.trials != nullptr && !step.flows) step = creep(report, to, fall, step);
     if (!step.flows || shows_collapse(step)) break;
   }
   step.flows = shows_collapse(step);
   const bool says_more = step.outcome == StepOutcome::converged || run_.settings.trials != nullptr;
   return says_more ? step : failed;
+}
+
+// Joints with cohesion lose it at once where they open, so that with the history of the step's start there may be no
+// equilibrium.  Damped motion is slow motion through states whose imbalance the damping carries: here the history follows
+// it, and what has opened stays so.  The damping carries nothing of an equilibrium that is found.
+NewtonStep StepControl::creep(StepReport& report, double to, double damping_fall, const NewtonStep& shaken) {
+  constexpr int kRounds = 10;
+  if (shaken.outcome != StepOutcome::not_converged) return shaken;
+  RunState& state = run_.state;
+  const std::string start = run_.keep_state();
+  const Eigen::VectorXd start_u = state.u;
+  NewtonStep step = shaken;
+  for (int round = 0; round < kRounds && step.outcome == StepOutcome::not_converged && !step.flows; ++round) {
+    report.total_iterations += static_cast<int>(step.iterations.size());
+    run_.assembly().commit(state.du);
+    state.u += state.du;
+    state.du.setZero();
+    run_.tangent().forget();
+    step = stepper_.attempt_damped(to, to, {damping_fall, &of_solids_});
+  }
+  step.crept = true;
+  if (step.outcome == StepOutcome::converged) return step;
+  const Eigen::VectorXd motion = state.u + state.du - start_u;
+  run_.restore_state(start);
+  state.du = motion;
+  return step;
 }
 
 // Whether a step that failed is tried once more in another way before it is cut.

@@ -43,6 +43,7 @@ class StepControl {
   bool tries_otherwise(const NewtonStep& step, bool went_on, double size);
   bool can_damp(const NewtonStep& step) const;
   NewtonStep attempt_damped(StepReport& report, double from, double to, const NewtonStep& failed);
+  NewtonStep creep(StepReport& report, double to, double damping_fall, const NewtonStep& shaken);
   void find_solids();
   void renew_tangent();
   void move_to(double load_factor);

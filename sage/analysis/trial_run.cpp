@@ -7,16 +7,16 @@ namespace sage {
 void TrialRun::run() {
   Trials& trials = *run_.settings.trials;
   run_.assembly().recover_states();
-  std::string kept = keep_state();
+  std::string kept = run_.keep_state();
   bool more = trials.next(nullptr, run_.solution());
   while (more) {
     control_.begin_trial(trials.max_cuts());
     run_.assembly().take_laws();
     const TrialResult result = try_stage();
     if (result.equilibrium)
-      kept = keep_state();
+      kept = run_.keep_state();
     else
-      restore_state(kept);
+      run_.restore_state(kept);
     more = trials.next(&result, run_.solution());
     stop_if_asked(run_.settings.stop_asked);
   }
@@ -64,22 +64,6 @@ void TrialRun::fail(TrialResult& trial) {
                      : explain_failure(run_.model, run_.assembly(), trial.report, step);
   control_.drop_step();
   take_motion(run_.state.u + run_.state.du, Side::trial, trial);
-}
-
-// All that the next trial starts from, except for the tangent.
-std::string TrialRun::keep_state() {
-  Archive archive;
-  run_.state.exchange_totals(archive);
-  run_.assembly().exchange(archive, false);
-  return archive.take();
-}
-
-void TrialRun::restore_state(const std::string& kept) {
-  Archive archive(kept);
-  run_.state.exchange_totals(archive);
-  run_.assembly().exchange(archive, false);
-  run_.state.du.setZero();
-  run_.tangent().forget();
 }
 
 // Since the start of the trial.  Groups whose states are recovered late have no strain here.

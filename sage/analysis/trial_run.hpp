@@ -1,7 +1,6 @@
 // A stage that is tried with other laws again and again, each time from the last state in equilibrium (trials.hpp).
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "sage/analysis/stage_start.hpp"
@@ -25,8 +24,6 @@ class TrialRun {
   TrialResult try_stage();
   void run_stage(TrialResult& trial);
   void fail(TrialResult& trial);
-  std::string keep_state();
-  void restore_state(const std::string& kept);
   void take_motion(const Eigen::VectorXd& u, Side side, TrialResult& trial) const;
 
   const RunParts& run_;

@@ -34,6 +34,8 @@ class Trials {
   // The trial is given up when 2^-max_cuts of it finds no equilibrium, after three times the iterations of its stage,
   // and at once where it flows.
   virtual int max_cuts() const = 0;
+  // A stage before the trials found no equilibrium.  u: where its last attempt went, every dof.
+  virtual void lost(const Eigen::VectorXd& /*u*/) {}
 };
 
 }  // namespace sage

@@ -112,6 +112,7 @@ class Finder final : public Trials {
 
   bool next(const TrialResult* last, const Solution& now) override;
   int stage() const override { return safety_.stages; }
+  void lost(const Eigen::VectorXd& u) override { lost_ = u; }
   int max_cuts() const override {
     return repeated_ == factor_ ? options_.cuts : std::min(options_.cuts, kFirstCuts);
   }
@@ -144,6 +145,7 @@ class Finder final : public Trials {
   std::vector<std::vector<double>> strength_;  // their parameters at factor 1
   std::vector<LawPtr> laws_before_;            // until the run has taken the new ones
   Eigen::VectorXd u_start_;                    // when the strengths began to fall
+  Eigen::VectorXd lost_;                       // where the last attempt of a failed run of the stages went
   double factor_ = 0.0, from_ = 0.0;           // in hand; whose state it begins with
   double repeated_ = 0.0;                      // the last factor that was tried again
   std::vector<double> undecided_;              // that stayed so when they were
@@ -268,8 +270,8 @@ void Finder::take_run(const RunResult& result, const LastState& last) {
   trial.page = result.reason;
   trial.yielded = inelastic(last.report.points);
   if (!last.report.iterations.empty()) trial.out_of_balance = last.report.iterations.back().force;
-  if (last.u.size() > 0) {
-    const Largest largest = largest_of(model_, last.u);
+  if (lost_.size() > 0 || last.u.size() > 0) {
+    const Largest largest = largest_of(model_, lost_.size() > 0 ? lost_ : last.u);
     trial.displacement = largest.displacement;
     trial.node = largest.node;
   }
@@ -309,6 +311,7 @@ void Finder::run_from_start(double factor) {
   LastState last;
   Observer* observers[] = {&last};
   settings_.trials = this;
+  lost_.resize(0);
   const std::size_t before = safety_.trials.size();
   RunSettings settings = settings_;
   if (options_.start == Start::anew && repeated_ != factor)
@@ -395,7 +398,7 @@ std::optional<double> Finder::next_factor() {
     search_.drop(end->factor);
   }
   std::optional<double> factor = search_.next();
-  if (factor && search_.lower() && std::ranges::find(undecided_, *factor) != undecided_.end())
+  while (factor && search_.lower() && std::ranges::find(undecided_, *factor) != undecided_.end())
     factor = *search_.lower() + kBeside * (*factor - *search_.lower());
   return factor;
 }
