@@ -285,7 +285,6 @@ struct Wall {
   double spring, start, low, high;
   bool interfaces = false;
   Start from = Start::carried;
-  double tolerance = 0.01;
 };
 
 void PrintTo(const Wall& wall, std::ostream* out) {
@@ -312,22 +311,21 @@ TEST_P(WallsInJoints, CollapseIsThatOfTheGround) {
   options.limits.start = wall.start;
   options.interfaces = wall.interfaces;
   options.start = wall.from;
-  options.limits.tolerance = wall.tolerance;
   const Safety found = find_with_fewer_trials(wall.scene.deck(), options);
   expect_within(found, wall.low, wall.high);
   EXPECT_EQ(found.at(found.upper)->verdict, Verdict::falls);
-  // Of the attempt that ran away by the size of the model; the last equilibrium has less than 3 m.
-  EXPECT_GT(found.at(found.upper)->displacement, 5.0);
+  // Of the attempt, whose last corrections moved the ground by the model's 28 m; the last equilibrium has less than 5 m.
+  EXPECT_GT(found.at(found.upper)->displacement, 15.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Safety, WallsInJoints,
-    testing::Values(
-        Wall{"cantilever", scenes::cantilever_sheet_pile(), 0.0, 1.0, 1.84, 1.855},
-        Wall{"cantilever on a soft spring", scenes::cantilever_sheet_pile(), 0.01, 1.5, 1.84, 1.855},
-        Wall{"anchored", scenes::anchored_sheet_pile(), 0.0, 1.0, 2.28, 2.31},
-        Wall{"anchored, anew", scenes::anchored_sheet_pile(), 0.0, 2.28, 2.28, 2.31, false, Start::anew, 0.002},
-        Wall{"anchored, joints divided", scenes::anchored_sheet_pile(), 0.0, 2.0, 2.25, 2.27, true}));
+    testing::Values(Wall{"cantilever", scenes::cantilever_sheet_pile(), 0.0, 1.0, 1.84, 1.855},
+                    Wall{"cantilever on a soft spring, anew", scenes::cantilever_sheet_pile(), 0.01, 1.84, 1.84,
+                         1.855, false, Start::anew},
+                    Wall{"anchored", scenes::anchored_sheet_pile(), 0.0, 1.0, 2.28, 2.31},
+                    Wall{"anchored, joints divided", scenes::anchored_sheet_pile(), 0.0, 2.0, 2.25, 2.27,
+                         true}));
 
 // Far below its limit of 5.17, and between factors of 1.656 and 1.8 without equilibrium in brackets of .002 until histories
 // followed damped motion: joints of the wall's tip opened and closed in turns.
