@@ -115,7 +115,7 @@ UniquenessCount count_loss_of_uniqueness(const Assembly& assembly, StepKind step
 std::vector<std::size_t> points_without_stiffness(const Assembly& assembly, const GroupData& data) {
   constexpr double kNothing = 1e-5;  // laws keep 1e-7 of the elastic tangent where the true one is zero
   std::vector<std::size_t> found;
-  if (!is_active_solid(data) || std::get<const SolidLaw*>(data.law)->linear()) return found;
+  if (!is_active_solid(data) || std::get<const SolidLaw*>(data.law)->traits().linear) return found;
   double largest = 0.0;
   std::vector<std::pair<std::size_t, double>> of_context;
   const auto any = [](PointStatus) { return true; };
