@@ -267,12 +267,14 @@ NewtonStep StepControl::attempt_damped(StepReport& report, double from, double t
 // it, and what has opened stays so.  The damping carries nothing of an equilibrium that is found.
 NewtonStep StepControl::creep(StepReport& report, double to, double damping_fall, const NewtonStep& shaken) {
   constexpr int kRounds = 10;
+  constexpr int kMostIterations = 20000;  // of an increment
   if (shaken.outcome != StepOutcome::not_converged) return shaken;
   RunState& state = run_.state;
   const std::string start = run_.keep_state();
   const Eigen::VectorXd start_u = state.u;
   NewtonStep step = shaken;
-  for (int round = 0; round < kRounds && step.outcome == StepOutcome::not_converged && !step.flows; ++round) {
+  for (int round = 0; round < kRounds && report.total_iterations < kMostIterations; ++round) {
+    if (step.outcome != StepOutcome::not_converged || step.flows) break;
     report.total_iterations += static_cast<int>(step.iterations.size());
     run_.assembly().commit(state.du);
     state.u += state.du;
