@@ -1,6 +1,7 @@
 #include "sage/model/coarse_shape.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "sage/model/model.hpp"
 
