@@ -1181,9 +1181,9 @@ constexpr MessageEntry kMessages[] = {
      "Write to a file with room (> FILE), and look at it with less."},
     {"S912", "the program behind a command is not there",
      "sagefe figures, stress and verify are done by the programs sagefe-figures, sagefe-stress and "
-     "sagefe-verify in "
-     "the folder of sagefe itself, no other. A build for use alone has none of them.",
-     "scripts/run --all builds them, and so does scripts/test; cmake needs -DSAGE_STUDIES=ON."},
+     "sagefe-verify, which "
+     "lie in the folder of the program sagefe, no other. A build for use alone has none of them.",
+     "cmake builds them with -DSAGE_STUDIES=ON, and so does scripts/test (docs/manual/verify.md)."},
 };
 
 }  // namespace
