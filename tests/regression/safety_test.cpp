@@ -83,8 +83,8 @@ TEST(RefinedStructures, EndAsOnTheirOwnMeshes) {
     if (!entry.is_directory()) continue;
     ++decks;
     for (int refine = 0; refine <= (test::kSanitized ? 1 : 2); ++refine) {
-      const Finished run = sagefe(folder, "run " + (entry.path() / "deck.dat").string() + " -q -o out --refine " +
-                                              std::to_string(refine));
+      const Finished run = sagefe(folder, "run " + (entry.path() / "deck.dat").string() +
+                                              " -q -o out --refine " + std::to_string(refine));
       EXPECT_EQ(run.exit_code, 0) << entry.path() << " --refine " << refine << ": " << run.err;
     }
   }
