@@ -24,8 +24,9 @@ Eigen::MatrixXd sample_map(const Element& element) {
 }
 
 void PatchFitter::set_places(const Eigen::Ref<const Eigen::Matrix2Xd>& places, int degree, int more) {
-  // What is less certain by 1000 than the rest is none of the field: bent rows of places are nearly straight.
-  constexpr double kLeast = 1e-3;
+  // What is less certain by 1000 than the rest is none of the field: bent rows of places are nearly straight.  Terms of
+  // high degree are that much alike by themselves.
+  const double least = more > 1 ? 1e-6 : 1e-3;
   const Vector2 low = places.rowwise().minCoeff(), high = places.rowwise().maxCoeff();
   terms_.degree = std::min(degree, PolynomialTerms::kMostDegree - more);
   for (int i = 0; i < more; ++i)
@@ -35,7 +36,7 @@ void PatchFitter::set_places(const Eigen::Ref<const Eigen::Matrix2Xd>& places, i
   terms_.scale = 0.5 * (high - low).cwiseMax(1e-300);
   fill(places);
   // Two rows of places can't tell y^2 from 1, nor can six on a conic tell all of degree 2.
-  while (terms_.degree > 0 && qr_.rank(kLeast) < V_.cols()) {
+  while (terms_.degree > 0 && qr_.rank(least) < V_.cols()) {
     --terms_.degree;
     fill(places);
   }

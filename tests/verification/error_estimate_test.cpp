@@ -165,7 +165,7 @@ TEST(ErrorEstimate, OfReducedElementsUpToIncompressible) {
 }
 
 // Straight sides, and parabolas, whose distance from the circle is no part of the estimate: it is more than the error of
-// degrees 6 and 8.
+// degree 6.  That of degree 8 is rounding here.
 TEST(ErrorEstimate, OfHighDegrees) {
   struct High {
     const char* name;
@@ -176,8 +176,7 @@ TEST(ErrorEstimate, OfHighDegrees) {
   const High all[] = {{"tri15, 12 points", Cell::tri6, 1, 6, 0, 8, true},
                       {"tri15, 16 points", Cell::tri6, 2, 6, 0, 8, true},
                       {"quad25", Cell::quad8, 1, 0, 7, 8, true},
-                      {"quad49", Cell::quad8, 1, 0, 8, 8, false},
-                      {"quad81", Cell::quad8, 1, 0, 9, 4, false}};
+                      {"quad49", Cell::quad8, 1, 0, 8, 8, false}};
   for (const LameBody body : {LameBody::sector, LameBody::strip})
     for (const High& c : all)
       for (const double nu : {0.1, 0.3, 0.499, 0.4999}) {
