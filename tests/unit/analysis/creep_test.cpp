@@ -16,6 +16,7 @@ const std::vector<char> kSolids{1, 1, 0, 0};
 TEST(Creep, GroundThatGoesOnMovingFlows) {
   Creep creep(kSolids, kSize);
   Eigen::VectorXd du = Eigen::VectorXd::Zero(4);
+  creep.take(du, 1.0);
   double correction = 1e-6;
   int corrections = 0;
   for (; !creep.flows() && corrections < 100; ++corrections) {
