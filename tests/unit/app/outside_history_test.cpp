@@ -11,10 +11,10 @@
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/run_deck.hpp"
 #include "sage/model/dof_map.hpp"
-#include "sage/scenes/deck_writer.hpp"
-#include "sage/scenes/whole_run.hpp"
 #include "tests/install/consumer/consolidation.hpp"
 #include "tests/install/consumer/truss.hpp"
+#include "tests/studies/scenes/deck_writer.hpp"
+#include "tests/studies/scenes/whole_run.hpp"
 #include "tests/support/csv_column.hpp"
 #include "tests/support/scratch_folder.hpp"
 
