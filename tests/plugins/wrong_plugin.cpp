@@ -17,7 +17,7 @@ bool fault(std::string_view name) {
 // Stands still under any strain.
 class Rigid final : public sage::SolidLaw {
  public:
-  LawTraits traits() const override { return {.symmetric = true}; }
+  sage::LawTraits traits() const override { return {.symmetric = true}; }
   sage::Outcome update(const sage::PointIn<4>& in, sage::PointOut<4>& out) const override {
     if (fault("crash in a law")) std::raise(SIGSEGV);
     out.sigma = in.sigma0 + 1e4 * in.deps;
