@@ -139,9 +139,8 @@ TEST(OutsideHistory, HistoryOfAnElementIsWrittenLikeThatOfALaw) {
   std::ifstream csv(folder / "truss.structures.csv");
   const std::vector<double> written =
       test::csv_column({std::istreambuf_iterator<char>(csv), {}}, "largest_stretch");
-  ASSERT_EQ(written.size(), 8u);
-  EXPECT_NEAR(written[0], stretch_at(1.0), 1e-6);
-  EXPECT_NEAR(written[7], stretch_at(2.0), 1e-6);
+  ASSERT_EQ(written.size(), 4u);  // two bars at the end of two stages
+  for (const double value : written) EXPECT_NEAR(value, stretch_at(2.0), 1e-6);
   std::ifstream listing(folder / "truss.lst");
   const std::string text{std::istreambuf_iterator<char>(listing), {}};
   EXPECT_NE(text.find("largest_stretch"), std::string::npos);
@@ -149,7 +148,8 @@ TEST(OutsideHistory, HistoryOfAnElementIsWrittenLikeThatOfALaw) {
 
 // A column of bars of length 1 from y = 0, where nothing flows, to its drained top; E = 1000, k = 0.5.
 constexpr int kBars = 6;
-constexpr double kE = 1000.0, kK = 0.5, kLoad = 10.0;
+constexpr int kSteps = 7;
+constexpr double kE = 1000.0, kK = 0.5, kLoad = 10.0, kTime = 2.1;
 
 Model column(bool second_law = true) {
   DeckWriter deck(1);
@@ -160,19 +160,17 @@ Model column(bool second_law = true) {
   for (int i = 0; i < kBars; ++i) deck.element(i + 1, 1, {i + 1, i + 2});
   deck.fix(1, 1, 1);
   for (int i = 1; i <= kBars; ++i) deck.fix(i + 1, 1, 0);
-  deck.stage().load(kBars + 1, 0.0, -kLoad);
-  deck.stage(7);
+  deck.stage(kSteps).load(kBars + 1, 0.0, -kLoad);
   Model model = bench().build(deck.text());
   if (second_law) model.groups[0].second_material = 1;
   model.field_fixities.push_back({1, kBars, FixityCode::fixed, 0.0, 0});
-  model.stages[0].duration = 0.5;
-  model.stages[1].duration = 2.1;
-  for (Stage& stage : model.stages) stage.tolerance = 1e-12;
+  model.stages[0].duration = kTime;
+  model.stages[0].tolerance = 1e-12;
   return model;
 }
 
 // [E/L G, -Q; Q^T/dt, H] of all nodes; unknowns u_1 ... u_n, then p_0 ... p_(n-1).
-Eigen::VectorXd backward_euler(const Eigen::VectorXd& before, double dt) {
+Eigen::VectorXd backward_euler(const Eigen::VectorXd& before, double dt, double load) {
   const int n = kBars;
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(2 * n + 2, 2 * n + 2);
   for (int e = 0; e < n; ++e)
@@ -186,7 +184,7 @@ Eigen::VectorXd backward_euler(const Eigen::VectorXd& before, double dt) {
       }
   Eigen::VectorXd b = Eigen::VectorXd::Zero(2 * n + 2);
   b.tail(n + 1) = K.bottomLeftCorner(n + 1, n + 1) * before.head(n + 1);
-  b[n] = -kLoad;
+  b[n] = -load;
   for (const int held : {0, 2 * n + 1}) {
     K.row(held).setZero();
     K(held, held) = 1.0;
@@ -195,24 +193,22 @@ Eigen::VectorXd backward_euler(const Eigen::VectorXd& before, double dt) {
   return K.fullPivLu().solve(b);
 }
 
-// One factorisation for each step size: the seven steps of the second stage differ by the rounding of their times alone.
+// The load grows in seven steps, whose sizes differ by the rounding of their times alone: one factorisation.
 TEST(OutsideHistory, OneFactorisationServesAllStepsOfASize) {
   const Model model = column();
   const WholeRun run = bench().run(column());
   ASSERT_TRUE(run.completed()) << run.failure;
-  ASSERT_EQ(run.increments.size(), 8u);
-  EXPECT_EQ(run.result.work.factorisations, 2);
+  ASSERT_EQ(run.increments.size(), std::size_t{kSteps});
+  EXPECT_EQ(run.result.work.factorisations, 1);
   const DofMap map(model);
   Eigen::VectorXd expected = Eigen::VectorXd::Zero(2 * kBars + 2);
-  for (std::size_t i = 0; i < 8; ++i) {
-    expected = backward_euler(expected, i == 0 ? 0.5 : 0.3);
+  for (std::size_t i = 0; i < kSteps; ++i) {
+    expected = backward_euler(expected, kTime / kSteps, kLoad * static_cast<double>(i + 1) / kSteps);
     for (int node = 0; node <= kBars; ++node) {
       EXPECT_NEAR(run.increments[i].u[DofMap::displacement(node) + 1], expected[node], 1e-9 * kLoad / kE);
       EXPECT_NEAR(run.increments[i].u[map.of(node, 1)], expected[kBars + 1 + node], 1e-9 * kLoad);
     }
   }
-  // Terzaghi: with c = E k = 500 and H = 6 almost all has gone after t = 2.6, T = 36: the settlement is P H / E.
-  EXPECT_NEAR(run.u(kBars + 1).y(), -kLoad * kBars / kE, 1e-3 * kLoad * kBars / kE);
 }
 
 TEST(OutsideHistory, AMissingSecondLawIsAnError) {
