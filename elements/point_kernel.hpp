@@ -38,7 +38,9 @@ struct StackedOperators {
   static constexpr int kRows = kBlocks * kBlockRows;
   Eigen::Matrix<double, kRows, LawSize * Points> Bt, wDBt;
 
-  void set(int p, const Eigen::Map<const OperatorT<LawSize, Dofs>>& point_Bt, const Matrix<LawSize>& wD) {
+  // Always inlined: as a call it costs the elements of quadratic solids a third of their instructions.
+  [[gnu::always_inline]] void set(int p, const Eigen::Map<const OperatorT<LawSize, Dofs>>& point_Bt,
+                                  const Matrix<LawSize>& wD) {
     auto padded = Bt.template middleCols<LawSize>(p * LawSize);
     padded.template topRows<Dofs>() = point_Bt;
     padded.template bottomRows<kRows - Dofs>().setZero();
