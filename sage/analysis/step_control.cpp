@@ -262,8 +262,8 @@ NewtonStep StepControl::attempt_damped(StepReport& report, double from, double t
   return says_more ? step : failed;
 }
 
-// Joints with cohesion lose it at once where they open, so that with the history of the step's start there may be no
-// equilibrium.  Damped motion is slow motion through states whose imbalance the damping carries: here the history follows
+// Where joints open and close in turns there may be no equilibrium with the history of the step's start, or none that
+// corrections find.  Damped motion is slow motion through states whose imbalance the damping carries: here the history follows
 // it, and what has opened stays so.  The damping carries nothing of an equilibrium that is found.
 NewtonStep StepControl::creep(StepReport& report, double to, double damping_fall, const NewtonStep& shaken) {
   constexpr int kRounds = 10;
