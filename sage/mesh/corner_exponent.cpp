@@ -51,7 +51,8 @@ double smallest_root(const Equation& equation) {
   constexpr double kFar = 6.0, kSmall = 1e-12;
   double smallest = kSmoothExponent;
   for (int i = 0; i < kColumns * kRows; ++i) {
-    Complex lambda(0.21 * (1 + i % kColumns), 0.31 * (i / kColumns));
+    const int column = i % kColumns, row = i / kColumns;
+    Complex lambda(0.21 * (1 + column), 0.31 * row);
     for (int step = 0; step < kMostSteps && std::abs(lambda) < kFar; ++step) {
       const auto [value, slope] = equation(lambda);
       const Complex change = value / slope;
