@@ -125,26 +125,31 @@ void check_faces(Builder& b) {
       }
 }
 
-// What a joint without stress answers to a displacement of its upper side; nothing where it gives no answer.
+// What a law answers without stress to a strain (of a joint: a displacement of its upper side); nothing where it gives no
+// answer.
+template <int N>
 struct Answer {
-  Vector2 sigma;
+  Vector<N> sigma;
+  Matrix<N> D;
   PointStatus status;
 };
 
-std::optional<Answer> answer(const Law<2>& law, const Vector2& displacement) {
-  std::vector<double> before(law.traits().history.size(), 0.0), after = before;
-  PointIn<2> in;
-  PointOut<2> out;
+template <int N>
+std::optional<Answer<N>> answer(const Law<N>& law, const Vector<N>& strain) {
+  std::vector<double> before = initial_values(law.traits().history), after = before;
+  PointIn<N> in;
+  PointOut<N> out;
   PointContext context;
   in.sigma0.setZero();
   in.eps0.setZero();
-  if (!law.initialise(in.sigma0, before)) return Answer{Vector2::Zero(), PointStatus::open};
-  in.deps = displacement;
+  if (!law.initialise(in.sigma0, before))
+    return Answer<N>{Vector<N>::Zero(), Matrix<N>::Zero(), PointStatus::open};
+  in.deps = strain;
   in.h0 = before;
   out.h1 = after;
   in.context = &context;
   if (law.update(in, out) != Outcome::ok) return {};
-  return Answer{out.sigma, out.status};
+  return Answer<N>{out.sigma, out.D, out.status};
 }
 
 const Law<2>* joint_law(const Model& model, const Group& group) {
@@ -157,7 +162,7 @@ const Law<2>* joint_law(const Model& model, const Group& group) {
 bool carries_tension(const Model& model, const Group& group) {
   const Law<2>* law = joint_law(model, group);
   if (law == nullptr) return true;
-  const std::optional<Answer> opened = answer(*law, {0.0, 1e-12});
+  const auto opened = answer<2>(*law, {0.0, 1e-12});
   return !opened || opened->sigma[1] > 0.0;
 }
 
@@ -166,7 +171,7 @@ bool may_slip(const Model& model, const Group& group) {
   constexpr double kSoft = 0.01, kWay = 1e-6;
   const Law<2>* law = joint_law(model, group);
   if (law == nullptr) return false;
-  const std::optional<Answer> moved = answer(*law, {kWay, -0.1 * kWay});
+  const auto moved = answer<2>(*law, {kWay, -0.1 * kWay});
   return moved && (moved->status == PointStatus::slipping ||
                    std::abs(moved->sigma[0]) < kSoft * 10.0 * std::abs(moved->sigma[1]));
 }
@@ -401,18 +406,8 @@ bool is_strip(const LawRef& ref) {
   constexpr int kBending = 3, kHoopBending = 4;  // docs/theory/structures.md
   const auto* const law = std::get_if<const Law<5>*>(&ref);
   if (law == nullptr) return false;
-  std::vector<double> before;
-  for (const Quantity& quantity : (*law)->traits().history) before.push_back(quantity.initial);
-  std::vector<double> after = before;
-  PointIn<5> in;
-  PointOut<5> out;
-  PointContext context;
-  in.sigma0 = in.eps0 = in.deps = Vector<5>::Zero();
-  in.h0 = before;
-  out.h1 = after;
-  in.context = &context;
-  return (*law)->update(in, out) == Outcome::ok && out.D(kBending, kBending) > 0.0 &&
-         out.D(kHoopBending, kHoopBending) == 0.0;
+  const auto here = answer<5>(**law, Vector<5>::Zero());
+  return here && here->D(kBending, kBending) > 0.0 && here->D(kHoopBending, kHoopBending) == 0.0;
 }
 
 // Strips that meet on the axis have no width there: their moment grows as 1/r towards it.
@@ -445,8 +440,7 @@ void check_prestress(Builder& b, const InitialStress& initial) {
       [&]<int N>(const Law<N>* law) {
         Vector<N> sigma = Vector<N>::Zero();
         for (int i = 0; i < N; ++i) sigma[i] = 0.0 - initial.value[static_cast<std::size_t>(i)];
-        std::vector<double> history;
-        for (const Quantity& quantity : law->traits().history) history.push_back(quantity.initial);
+        std::vector<double> history = initial_values(law->traits().history);
         return law->initialise(sigma, history);
       },
       material.law_ref());

@@ -63,8 +63,7 @@ Answer<N> update(const Law<N>& law, const Vector<N>& sigma0, const Vector<N>& de
 }
 template <int N>
 std::vector<double> initial_history(const Law<N>& law, const Vector<N>& sigma) {
-  std::vector<double> h;
-  for (const Quantity& q : law.traits().history) h.push_back(q.initial);
+  std::vector<double> h = initial_values(law.traits().history);
   law.initialise(sigma, h);
   return h;
 }

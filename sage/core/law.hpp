@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "sage/core/types.hpp"
 #include "sage/core/units.hpp"
@@ -36,6 +37,13 @@ inline double outward(const Quantity& quantity, double value) {
 }
 inline double inward(const Quantity& quantity, double value) {
   return quantity.dimension == Dimension::angle ? value * kRadiansPerDegree : value;
+}
+
+// What points remember before anything has happened.
+inline std::vector<double> initial_values(std::span<const Quantity> history) {
+  std::vector<double> values;
+  for (const Quantity& quantity : history) values.push_back(quantity.initial);
+  return values;
 }
 
 // What a point is doing; counted per step and shown in every report.

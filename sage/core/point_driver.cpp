@@ -44,8 +44,7 @@ std::string why_lost(double left) {
 
 template <int N>
 PointDriver<N>::PointDriver(const Law<N>& law, const Vector<N>& sigma, std::span<const double> history)
-    : law_(law), sigma_(sigma), eps_(Vector<N>::Zero()) {
-  for (const Quantity& quantity : law.traits().history) h_.push_back(quantity.initial);
+    : law_(law), sigma_(sigma), eps_(Vector<N>::Zero()), h_(initial_values(law.traits().history)) {
   h_trial_ = h_;
   if (!law_.initialise(sigma_, h_))
     throw AnalysisError("S503", "point driver: the law can't carry the initial stress");

@@ -201,9 +201,9 @@ std::vector<FirstValue> own_history(const Subject& subject, const LawRef& law) {
   if (!subject.entry->own_start) return {};
   const OwnStart start = subject.entry->own_start(subject.values, subject.name);
   if (!start.history) return {};
-  std::vector<double> sigma(static_cast<std::size_t>(size_of_law(law))), h;
+  std::vector<double> sigma(static_cast<std::size_t>(size_of_law(law)));
   const std::span<const Quantity> quantities = history_of(law);
-  for (const Quantity& quantity : quantities) h.push_back(quantity.initial);
+  std::vector<double> h = initial_values(quantities);
   start.at({.element = 1, .stage = 1, .size = 1.0}, sigma, h);
   std::vector<FirstValue> values;
   for (std::size_t i = 0; i < h.size(); ++i)

@@ -21,9 +21,8 @@ struct Stiffness {
 
 Stiffness at_zero_stress(const SolidLaw& law) {
   if (law.traits().wants_context) return {};
-  std::vector<double> h, h1;
-  for (const Quantity& quantity : law.traits().history) h.push_back(quantity.initial);
-  h1 = h;
+  const std::vector<double> h = initial_values(law.traits().history);
+  std::vector<double> h1 = h;
   const PointIn<4> in{Vector4::Zero(), Vector4::Zero(), Vector4::Zero(), h};
   PointOut<4> out;
   out.h1 = h1;

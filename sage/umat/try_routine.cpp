@@ -27,8 +27,10 @@ struct Answer {
 class Driver {
  public:
   Driver(const Trial& trial, std::ostream& out)
-      : trial_(trial), out_(out), law_(umat_law(trial.setup)), start_{trial.stress, Vector4::Zero(), {}} {
-    for (const Quantity& q : law_->traits().history) start_.h.push_back(q.initial);
+      : trial_(trial),
+        out_(out),
+        law_(umat_law(trial.setup)),
+        start_{trial.stress, Vector4::Zero(), initial_values(law_->traits().history)} {
     std::copy_n(trial.statev.begin(), std::min(trial.statev.size(), start_.h.size()), start_.h.begin());
   }
 

@@ -124,8 +124,8 @@ void add_body_force(Model& model, const VectorField& b) {
 Vector4 stress_of(const Material& material, const Vector4& strain) {
   const SolidLaw& law = *std::get<std::unique_ptr<SolidLaw>>(material.law);
   PointOut<4> out;
-  std::vector<double> h0, h1(law.traits().history.size());
-  for (const Quantity& q : law.traits().history) h0.push_back(q.initial);
+  const std::vector<double> h0 = initial_values(law.traits().history);
+  std::vector<double> h1 = h0;
   out.h1 = h1;
   law.update({Vector4::Zero(), Vector4::Zero(), strain, h0}, out);
   return out.sigma;

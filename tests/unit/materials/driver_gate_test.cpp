@@ -50,8 +50,8 @@ OpenStrain<4> open_strain(Path test) {
 template <int N>
 class Bisected {
  public:
-  Bisected(const Law<N>& law, const Vector<N>& sigma) : law_(law), sigma_(sigma), eps_(Vector<N>::Zero()) {
-    for (const Quantity& quantity : law.traits().history) h_.push_back(quantity.initial);
+  Bisected(const Law<N>& law, const Vector<N>& sigma)
+      : law_(law), sigma_(sigma), eps_(Vector<N>::Zero()), h_(initial_values(law.traits().history)) {
     h1_ = h_;
     if (!law.initialise(sigma_, h_)) throw AnalysisError("S503", "start");
   }
