@@ -16,6 +16,7 @@
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
 #include "sage/core/error.hpp"
+#include "sage/core/module.hpp"
 #include "sage/record/out_file.hpp"
 
 namespace sage::app {
@@ -31,10 +32,10 @@ struct NewOptions {
 
 // Beside an installed program, else those of the source tree.
 fs::path templates() {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path installed = (program.parent_path() / SAGE_TEMPLATES_RELATIVE).lexically_normal();
-  return !error && fs::is_directory(installed, error) ? installed : fs::path(SAGE_TEMPLATES_DIR);
+  std::error_code ignored;
+  const fs::path beside = program_folder();
+  const fs::path installed = (beside / SAGE_TEMPLATES_RELATIVE).lexically_normal();
+  return !beside.empty() && fs::is_directory(installed, ignored) ? installed : fs::path(SAGE_TEMPLATES_DIR);
 }
 
 // It becomes names of files, of a class and of a Fortran routine.

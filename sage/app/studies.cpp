@@ -11,6 +11,7 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/picture_formats.hpp"
 #include "sage/core/error.hpp"
+#include "sage/core/module.hpp"
 
 namespace sage::app {
 
@@ -50,10 +51,10 @@ Studies& studies() {
 
 void become_study(const std::string& name, char** words) {
   std::error_code error;
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
-  const std::string file = (self.parent_path() / ("sagefe-" + name)).string();
+  const std::filesystem::path beside = program_folder();
+  const std::string file = (beside / ("sagefe-" + name)).string();
   std::fflush(stdout);
-  if (!error && std::filesystem::is_regular_file(file, error)) execv(file.c_str(), words);
+  if (!beside.empty() && std::filesystem::is_regular_file(file, error)) execv(file.c_str(), words);
   const std::string reason = error ? error.message() : std::strerror(errno);
   throw OutputError("S912", "sagefe " + name + " is done by the program " + file + ", which is not there (" +
                                 reason + "): it is built by scripts/run --all and scripts/test");

@@ -15,15 +15,17 @@
 #include "sage/app/progress.hpp"
 #include "sage/app/run_deck.hpp"
 #include "sage/app/screen.hpp"
+#include "sage/core/module.hpp"
 
 namespace sage::app {
 
 std::filesystem::path shipped_decks() {
-  std::error_code error;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-  const auto installed = (program.parent_path() / SAGE_CASES_RELATIVE).lexically_normal();
-  if (!error && std::filesystem::exists(installed / "chapter7" / "tables.csv", error)) return installed;
-  return SAGE_CASES_DIR;
+  std::error_code ignored;
+  const std::filesystem::path beside = program_folder();
+  const auto installed = (beside / SAGE_CASES_RELATIVE).lexically_normal();
+  const bool is_there =
+      !beside.empty() && std::filesystem::exists(installed / "chapter7" / "tables.csv", ignored);
+  return is_there ? installed : std::filesystem::path(SAGE_CASES_DIR);
 }
 
 namespace {

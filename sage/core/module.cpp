@@ -121,12 +121,16 @@ std::string library_flaw(const std::string& file) {
   return {};
 }
 
+std::filesystem::path program_folder() {
+  std::error_code error;
+  return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+}
+
 std::vector<std::string> module_places(const Module& module) {
   std::vector<std::string> places;
   if (const char* chosen = std::getenv(module.variable.c_str())) places.emplace_back(chosen);
-  std::error_code error;
-  const auto executable = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (!error) places.push_back((executable.parent_path() / module.relative).lexically_normal().string());
+  const std::filesystem::path beside = program_folder();
+  if (!beside.empty()) places.push_back((beside / module.relative).lexically_normal().string());
   for (const std::string& folder : search_path("/proc/self/exe")) places.push_back(folder + "/" + module.file);
   return places;
 }

@@ -1,6 +1,7 @@
 // Libraries of the program that are loaded when they are needed, and then only (docs/decisions/0003).
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,9 @@ struct Module {
   std::string version;   // other modules are not accepted
   std::string function;  // what it gives to the program
 };
+
+// The folder of the running program; empty where the system does not tell.
+std::filesystem::path program_folder();
 
 // Where the variable says, beside the executable, and on the search path that the linker wrote into the
 // executable, which programs of the build tree have and installed ones have not; in this order.
