@@ -38,6 +38,11 @@ struct StagePath {
     own_tangent = false;
     loose_part.clear();
   }
+  // The next attempt neither repeats the last steps nor goes their way.
+  void forget_way() {
+    repeats.forget();
+    prediction.forget();
+  }
   // What is known of the last steps.
   void forget_steps() {
     repeats.forget();

@@ -181,8 +181,7 @@ void StepControl::drop_step() {
 // next: share of the stage of the next attempt; 0 = it starts at the committed state all the same.
 void StepControl::reject(double next) {
   RunState& state = run_.state;
-  state.path.repeats.forget();
-  state.path.prediction.forget();
+  state.path.forget_way();
   on_last_way_ = false;
   drop_step();
   const bool keep_K = run_.tangent().constant() || run_.stage().method == Method::initial_stiffness;
@@ -244,8 +243,7 @@ NewtonStep StepControl::attempt_damped(StepReport& report, double from, double t
   NewtonStep step = failed;
   for (const double fall : kFalls) {
     report.total_iterations += static_cast<int>(step.iterations.size());
-    state.path.repeats.forget();
-    state.path.prediction.forget();
+    state.path.forget_way();
     on_last_way_ = false;
     run_.assembly().drop_step();
     state.du.setZero();
