@@ -15,6 +15,7 @@
 #include "tests/studies/scenes/deck_writer.hpp"
 #include "tests/studies/scenes/whole_run.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/two_bars.hpp"
 
 namespace sage {
 namespace {
@@ -41,18 +42,8 @@ scenes::Workbench bench() {
   return {with_bar(), [](int, bool) { return 1; }};
 }
 
-// Two bars from supports at (-3, 4) and (3, 4) to the node at (0, 0); EA = 200.
 DeckWriter truss() {
-  DeckWriter deck(1);
-  deck.node(1, -3.0, 4.0);
-  deck.node(2, 3.0, 4.0);
-  deck.node(3, 0.0, 0.0);
-  deck.material(1, kRod, {1000.0, 0.2});
-  deck.group(1, kBar, 0, 1);
-  deck.element(1, 1, {1, 3});
-  deck.element(2, 1, {3, 2});
-  for (const int node : {1, 2}) deck.fix(node, 1, 1);
-  return deck;
+  return test::two_bars(kBar, kRod);
 }
 
 // Statics: N = P / (2 cos a), pulled; the node sinks by N L / (E A cos a), cos a = 4/5, L = 5.

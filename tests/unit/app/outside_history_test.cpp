@@ -17,6 +17,7 @@
 #include "tests/studies/scenes/whole_run.hpp"
 #include "tests/support/csv_column.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/two_bars.hpp"
 
 namespace sage {
 namespace {
@@ -47,18 +48,8 @@ struct Histories final : Observer {
   }
 };
 
-// Two bars of length 5 from supports at (-3, 4) and (3, 4) to the node at (0, 0); EA = 200.
 DeckWriter truss() {
-  DeckWriter deck(1);
-  deck.node(1, -3.0, 4.0);
-  deck.node(2, 3.0, 4.0);
-  deck.node(3, 0.0, 0.0);
-  deck.material(1, kRod, {1000.0, 0.2});
-  deck.group(1, kTruss, 0, 1);
-  deck.element(1, 1, {1, 3});
-  deck.element(2, 1, {3, 2});
-  for (const int node : {1, 2}) deck.fix(node, 1, 1);
-  return deck;
+  return test::two_bars(kTruss, kRod);
 }
 double length_at(double v) {
   return std::hypot(3.0, 4.0 + v);
