@@ -1,9 +1,9 @@
 set(SAGEFE_HEADER_HASH_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/sagefeHeaderHash.cmake)
 
-# sage_header_hash(TARGET FOLDER): the target sees FOLDER/sage/core/header_hash.hpp, written anew when a header in
-# SAGEFE_INCLUDE_DIR/sage/core has changed.
+# sage_header_hash(TARGET FOLDER): the target sees FOLDER/sage/core/header_hash.hpp, written anew when a header of the
+# interfaces (core, messages, platform) in SAGEFE_INCLUDE_DIR/sage has changed.
 function(sage_header_hash target folder)
-  file(GLOB headers ${SAGEFE_INCLUDE_DIR}/sage/core/*.hpp)
+  file(GLOB headers ${SAGEFE_INCLUDE_DIR}/sage/core/*.hpp ${SAGEFE_INCLUDE_DIR}/sage/messages/*.hpp ${SAGEFE_INCLUDE_DIR}/sage/platform/*.hpp)
   list(REMOVE_ITEM headers ${SAGEFE_INCLUDE_DIR}/sage/core/header_hash.hpp)
   set(out ${folder}/sage/core/header_hash.hpp)
   set(command ${CMAKE_COMMAND} -DROOT=${SAGEFE_INCLUDE_DIR} -DOUT=${out} -P ${SAGEFE_HEADER_HASH_SCRIPT})

@@ -7,7 +7,7 @@
 #include "elements/edge_load.hpp"
 #include "elements/extrapolation.hpp"
 #include "elements/shape_check.hpp"
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage {
 

@@ -4,8 +4,8 @@
 #include "elements/kinematics.hpp"
 #include "elements/shape_check.hpp"
 #include "elements/shapes.hpp"
-#include "sage/core/error.hpp"
 #include "sage/core/types.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage {
 

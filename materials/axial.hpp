@@ -6,12 +6,12 @@
 
 #include "materials/parameters.hpp"
 #include "sage/core/law.hpp"
-#include "sage/core/spaced.hpp"
+#include "sage/core/spaced_members.hpp"
 
 namespace sage {
 
 // N = EA eps for each unit of thickness: what the card gives of one bar, divided by the spacing of the bars.
-class AxialLaw : public Law<1>, public Spaced {
+class AxialLaw : public Law<1>, public SpacedMembers {
  public:
   AxialLaw(double stiffness, double spacing) : EA_(stiffness / spacing), spacing_(spacing) {}
   double spacing() const override { return spacing_; }

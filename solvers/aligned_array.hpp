@@ -6,7 +6,7 @@
 #include <memory>
 #include <new>
 
-#include "sage/core/large_pages.hpp"
+#include "sage/platform/large_pages.hpp"
 
 namespace sage {
 

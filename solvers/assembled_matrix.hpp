@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "sage/core/large_pages.hpp"
 #include "sage/core/linear_solver.hpp"
 #include "sage/core/solver_extensions.hpp"
+#include "sage/platform/large_pages.hpp"
 #include "solvers/equation_graph.hpp"
 
 namespace sage {

@@ -1,6 +1,6 @@
 #include "solvers/choose_kernels.hpp"
 
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage {
 

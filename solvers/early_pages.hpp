@@ -6,7 +6,7 @@
 #include <future>
 #include <system_error>
 
-#include "sage/core/large_pages.hpp"
+#include "sage/platform/large_pages.hpp"
 
 namespace sage {
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sage/core/large_pages.hpp"
+#include "sage/platform/large_pages.hpp"
 #include "solvers/assembled_matrix.hpp"
 #include "solvers/front.hpp"
 #include "solvers/nested_dissection.hpp"

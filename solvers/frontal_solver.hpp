@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "sage/core/thread_pool.hpp"
+#include "sage/platform/thread_pool.hpp"
 #include "solvers/aligned_array.hpp"
 #include "solvers/choose_kernels.hpp"
 #include "solvers/early_pages.hpp"

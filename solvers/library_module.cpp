@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <thread>
 
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 #include "solvers/address_space.hpp"
 
 namespace sage {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sage/core/linear_solver.hpp"
-#include "sage/core/module.hpp"
+#include "sage/platform/module.hpp"
 
 namespace sage {
 

@@ -3,9 +3,9 @@
 
 #include <utility>
 
-#include "sage/core/error.hpp"
 #include "sage/core/linear_solver.hpp"
 #include "sage/core/solver_extensions.hpp"
+#include "sage/messages/error.hpp"
 #include "solvers/assembled_matrix.hpp"
 
 namespace sage {

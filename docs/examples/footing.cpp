@@ -6,7 +6,7 @@
 #include "elements/register_elements.hpp"
 #include "materials/register_materials.hpp"
 #include "sage/analysis/run.hpp"
-#include "sage/build/model_input.hpp"
+#include "sage/builder/model_input.hpp"
 #include "sage/exchange/convert.hpp"
 #include "sage/record/result.hpp"
 #include "solvers/choose_solver.hpp"

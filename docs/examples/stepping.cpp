@@ -6,7 +6,7 @@
 #include "elements/register_elements.hpp"
 #include "materials/register_materials.hpp"
 #include "sage/analysis/analysis.hpp"
-#include "sage/build/model_input.hpp"
+#include "sage/builder/model_input.hpp"
 #include "solvers/choose_solver.hpp"
 #include "solvers/register_solvers.hpp"
 

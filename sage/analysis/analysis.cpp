@@ -54,11 +54,11 @@ class Analysis::Stages {
   const RunSettings settings_;
   const std::vector<Observer*> observers_;
   RunResult result_;
-  Audience audience_;
+  ObserverList observer_list_;
   System system_;
   RunState state_;
   const Extent extent_;
-  const RunParts run_{model_, settings_, extent_, system_, state_, result_, audience_};
+  const RunParts run_{model_, settings_, extent_, system_, state_, result_, observer_list_};
   StageStart start_{run_};
   StepControl control_{run_};
   RunPlace done_;           // increments that are complete
@@ -76,7 +76,7 @@ Analysis::Stages::Stages(const Model& model, const Catalogue& catalogue, RunSett
     : model_(model),
       settings_(std::move(settings)),
       observers_(observers.begin(), observers.end()),
-      audience_(observers_, result_.work.profile),
+      observer_list_(observers_, result_.work.profile),
       system_(model, catalogue, settings_, result_.work),
       extent_(model) {
   const int dofs = system_.assembly().dof_map().dofs();
@@ -110,7 +110,7 @@ bool Analysis::Stages::guard(Work work) {
   } catch (const InputError&) {
     throw;
   } catch (const std::runtime_error& error) {
-    if (audience_.is_outside()) throw;
+    if (observer_list_.is_outside()) throw;
     result_.status = RunStatus::failed;
     const auto* coded = dynamic_cast<const CodedError*>(&error);
     result_.code = coded != nullptr ? coded->code() : Code("S510");
@@ -162,11 +162,11 @@ void Analysis::Stages::begin_stage() {
   control_.open_stage();
   has_begun_ = true;
   if (s == 0)
-    audience_.tell([&](Observer& o) {
+    observer_list_.tell([&](Observer& o) {
       o.on_start(model_, system_.scene(), system_.tangent().name(), system_.equations());
     });
   recover_for(report);
-  audience_.tell([&](Observer& o) { o.on_stage_start(model_, s, solution()); });
+  observer_list_.tell([&](Observer& o) { o.on_stage_start(model_, s, solution()); });
 }
 
 bool Analysis::Stages::take_increment() {
@@ -208,7 +208,7 @@ void Analysis::Stages::end_increment(StepReport& report) {
     show_region_for(report);
   else
     recover_for(report);
-  audience_.tell([&](Observer& o) { o.on_increment(model_, report, solution()); });
+  observer_list_.tell([&](Observer& o) { o.on_increment(model_, report, solution()); });
   shown_u_.resize(0);
 }
 
@@ -230,7 +230,7 @@ void Analysis::Stages::end_stage() {
     run_.warn(free_surface_warnings(model_, stage, assembly));
     if (settings_.stream_function) run_.warn(stream_warnings(model_, stage, solution()));
   }
-  audience_.tell([&](Observer& o) { o.on_stage_end(model_, s, sums, solution()); });
+  observer_list_.tell([&](Observer& o) { o.on_stage_end(model_, s, sums, solution()); });
   done_ = {s + 1, 0};
   has_begun_ = false;
 }
@@ -253,13 +253,13 @@ void Analysis::Stages::fail(StepReport& report) {
   report.motion = result_.motion;
   run_.warn(motion_warnings(run_.stage(), result_.motion));
   system_.assembly().recover_states();
-  audience_.tell([&](Observer& o) { o.on_failure(model_, report, result_.reason, solution()); });
+  observer_list_.tell([&](Observer& o) { o.on_failure(model_, report, result_.reason, solution()); });
 }
 
 // Back to the committed state, with its own internal forces.
 void Analysis::Stages::leave_step() {
   state_.du.setZero();
-  run_.set_moment(state_.reached, 0.0);
+  run_.set_step_time(state_.reached, 0.0);
   control_.drop_step();
   system_.assembly().evaluate(state_.du, nullptr);
 }
@@ -276,14 +276,14 @@ void Analysis::Stages::offer_checkpoint() {
   if (!settings_.checkpoint_due || !settings_.checkpoint_due()) return;
   const Profile::Scope scope(run_.profile(), phase::kCheckpoint);
   const std::string bytes = checkpoint_bytes(run_, done_);
-  audience_.outside([&] { settings_.save_checkpoint(bytes); });
+  observer_list_.outside([&] { settings_.save_checkpoint(bytes); });
 }
 
 // Stress and strain of linear elements, if an observer needs them.  Where laws are evaluated all are recovered at once:
 // forces made from stresses are rounded otherwise than those that go on, and a stage near its limit load shows it.
 void Analysis::Stages::recover_for(const StepReport& report) {
-  const bool structures = audience_.wants_structures(model_, report);
-  if (audience_.wants_states(model_, report) || (structures && !system_.scene().linear))
+  const bool structures = observer_list_.wants_structures(model_, report);
+  if (observer_list_.wants_states(model_, report) || (structures && !system_.scene().linear))
     system_.assembly().recover_states();
   else if (structures)
     system_.assembly().recover_structures();
@@ -291,9 +291,10 @@ void Analysis::Stages::recover_for(const StepReport& report) {
 
 // Observers that need inner nodes of a region that is behind get a copy in which they are recovered.
 void Analysis::Stages::show_region_for(const StepReport& report) {
-  const bool states = audience_.wants_states(model_, report) || audience_.wants_structures(model_, report);
+  const bool states =
+      observer_list_.wants_states(model_, report) || observer_list_.wants_structures(model_, report);
   const std::vector<char>& inner = system_.assembly().condensation()->inner_nodes();
-  if (states || audience_.wants_nodes(model_, report, inner)) show_region(states);
+  if (states || observer_list_.wants_nodes(model_, report, inner)) show_region(states);
 }
 
 void Analysis::Stages::show_region(bool states) {
@@ -348,7 +349,7 @@ RunResult Analysis::Stages::close() {
                      std::to_string(result_.increments_done) + " increments complete";
   if (result_.status != RunStatus::stopped && result_.status != RunStatus::failed) {
     result_.kernels = system_.kernels();
-    audience_.tell([&](Observer& o) { o.on_finish(model_, result_); });
+    observer_list_.tell([&](Observer& o) { o.on_finish(model_, result_); });
   }
   RunResult result = result_;
   result.work.profile.show_in(nullptr);

@@ -85,7 +85,7 @@ Assembly::Assembly(const Model& model, const Scene& scene, const Skips& skips, W
       element_(model, !scene.linear),
       changing_(groups_, element_, work),
       constant_(model, groups_, element_, work),
-      late_(std::ranges::any_of(model.groups, &Group::structure)) {
+      deferred_(std::ranges::any_of(model.groups, &Group::structure)) {
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     GroupData data(model.groups[g]);
     data.law = model.material_of(model.groups[g]).law_ref();
@@ -93,8 +93,8 @@ Assembly::Assembly(const Model& model, const Scene& scene, const Skips& skips, W
     data.wants_context = wants_context(data.law);
     data.sees_spread = sees_spread_loads(*data.group, data.law);
     eases_ = eases_ || (data.wants_context && data.group->flow());
-    wants_moment_ =
-        wants_moment_ || data.wants_context || data.sees_spread || data.group->element->traits().sees_unknowns;
+    wants_step_time_ = wants_step_time_ || data.wants_context || data.sees_spread ||
+                       data.group->element->traits().sees_unknowns;
     data.constant =
         scene.group_linear[g] != 0 && skips.elements && ConstantRegion::suits(*data.group, data.law);
     list_dofs(data, dof_map_);
@@ -106,14 +106,14 @@ Assembly::Assembly(const Model& model, const Scene& scene, const Skips& skips, W
   if (!std::ranges::all_of(groups_, &GroupData::constant)) changing_.size_forces(dof_map_.dofs());
 }
 
-void Assembly::set_moment(const Moment& moment) {
-  element_.set_moment(moment);
-  if (moment.stage == spread_stage_) return;
-  spread_stage_ = moment.stage;
+void Assembly::set_step_time(const StepTime& step_time) {
+  element_.set_step_time(step_time);
+  if (step_time.stage == spread_stage_) return;
+  spread_stage_ = step_time.stage;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     if (!groups_[g].sees_spread) continue;
-    groups_[g].spread_start = spread_loads(*model_, moment.stage - 2, g);
-    groups_[g].spread_end = spread_loads(*model_, moment.stage - 1, g);
+    groups_[g].spread_start = spread_loads(*model_, step_time.stage - 2, g);
+    groups_[g].spread_end = spread_loads(*model_, step_time.stage - 1, g);
   }
 }
 
@@ -162,7 +162,7 @@ bool Assembly::constant_groups_change(const Activity& activity) const {
 }
 
 void Assembly::enter_stage(const Activity& activity, const Eigen::VectorXd& rate) {
-  if (late_.behind() && constant_groups_change(activity)) recover_states();
+  if (deferred_.behind() && constant_groups_change(activity)) recover_states();
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     groups_[g].active = activity.group[g] != 0;
     if (!groups_[g].active) continue;
@@ -315,7 +315,8 @@ Outcome Assembly::evaluate_with_border(const Eigen::VectorXd& du, Tangent* tange
 }
 
 double Assembly::path_error() const {
-  return scene_->linear ? 0.0 : mean_path_error(model_->mesh, groups_, scene_->group_linear, element_.moment());
+  return scene_->linear ? 0.0
+                        : mean_path_error(model_->mesh, groups_, scene_->group_linear, element_.step_time());
 }
 
 void Assembly::commit_again(const Eigen::VectorXd& du) {
@@ -340,7 +341,7 @@ void Assembly::commit(const Eigen::VectorXd& du) {
   const bool constant =
       std::ranges::any_of(groups_, [](const GroupData& data) { return data.active && data.constant; });
   if (!constant) return;
-  late_.move(du);
+  deferred_.move(du);
   if (!skips_.states) recover_states();
 }
 
@@ -364,7 +365,7 @@ void Assembly::exchange(Archive& archive, bool before_step) {
     if (data.constant)
       archive(forces_before && data.active && !archive.reading() ? data.trial_force : data.force);
   }
-  late_.exchange(archive);
+  deferred_.exchange(archive);
   if (condensed && archive.reading()) take_constant_force();
 }
 
@@ -455,7 +456,7 @@ void Assembly::catch_up(const Eigen::VectorXd& target, double share, const Eigen
   IteratedStep(*this, target, 0.0, {share, &start, &u}).complete(du);
   commit_constant();
   drop_step();
-  late_.move(du);
+  deferred_.move(du);
   u += du;
 }
 
@@ -469,9 +470,9 @@ void Assembly::show_region(Eigen::VectorXd& motion, Eigen::VectorXd& forces) {
 }
 
 void Assembly::recover_states_at(const Eigen::VectorXd& motion) {
-  late_.move(motion);
+  deferred_.move(motion);
   recover_states();
-  late_.move(-motion);
+  deferred_.move(-motion);
 }
 
 }  // namespace sage

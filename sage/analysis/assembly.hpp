@@ -10,8 +10,8 @@
 #include "sage/analysis/changing_region.hpp"
 #include "sage/analysis/condensation.hpp"
 #include "sage/analysis/constant_region.hpp"
+#include "sage/analysis/deferred_states.hpp"
 #include "sage/analysis/equations.hpp"
-#include "sage/analysis/late_states.hpp"
 #include "sage/analysis/records.hpp"
 #include "sage/analysis/scene.hpp"
 #include "sage/analysis/skips.hpp"
@@ -27,13 +27,13 @@ class Assembly {
 
   // The time and load factor of the evaluations that follow: needed only where a law depends on them, or an element on the
   // loads along it.
-  bool wants_moment() const { return wants_moment_; }
+  bool wants_step_time() const { return wants_step_time_; }
   // Water flows by a law that is eased (PointContext::easing).
   bool eases() const { return eases_; }
   // K is symmetric in every state of the laws.
   bool symmetric() const { return scene_->symmetric; }
-  void set_moment(const Moment& moment);
-  const Moment& moment() const { return element_.moment(); }
+  void set_step_time(const StepTime& step_time);
+  const StepTime& step_time() const { return element_.step_time(); }
   // The loads along elements at the end of the stage in hand have changed: they grow there from what acts at this load
   // factor, below 1.
   void take_spread_loads(double load_factor);
@@ -65,7 +65,7 @@ class Assembly {
   // Sets committed states from outside (initial stress): `set` gets all groups.  any: it will set some.
   template <class Set>
   void start_states(bool any, Set set) {
-    if (late_.behind()) {
+    if (deferred_.behind()) {
       if (!any) return;  // the forces of constant groups stay
       recover_states();
     }
@@ -117,9 +117,9 @@ class Assembly {
   void recover_states_at(const Eigen::VectorXd& motion);
   // Brings the states of constant groups up to date; those of others always are.  Before the first call, stress and strain
   // of constant groups may not be allocated.
-  void recover_states() { late_.recover(groups_, element_, *work_, threads_); }
+  void recover_states() { deferred_.recover(groups_, element_, *work_, threads_); }
   // The same for structures alone.
-  void recover_structures() { late_.recover_structures(groups_, element_, *work_); }
+  void recover_structures() { deferred_.recover_structures(groups_, element_, *work_); }
 
   const Eigen::VectorXd& internal_force() const { return internal_; }  // every dof
   // sqrt(sum over elements of |f_e|^2), of a field of unknowns: a scale that vanishes only in a stress-free mesh.
@@ -161,11 +161,11 @@ class Assembly {
   ChangingRegion changing_;
   int threads_ = 1;
   ConstantRegion constant_;
-  LateStates late_;
+  DeferredStates deferred_;
   std::unique_ptr<Condensation> condensation_;
   RegionStep region_step_ = RegionStep::open;
   Equations equations_;
-  bool wants_moment_ = false, eases_ = false;
+  bool wants_step_time_ = false, eases_ = false;
   int spread_stage_ = 0;  // that the groups have the loads along their elements of, from 1
   int elements_ = 0;      // of the system
   Eigen::VectorXd rate_, internal_;

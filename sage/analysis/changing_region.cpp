@@ -118,7 +118,7 @@ Outcome ChangingRegion::evaluate_by_four(GroupData& data, const Eigen::VectorXd&
 // their times.
 bool ChangingRegion::matrices_stand(const GroupData& data) const {
   constexpr double kRounding = 1e-9;
-  const double dt = element_->moment().dt;
+  const double dt = element_->step_time().dt;
   return data.keeps_matrices() && dt > 0.0 && std::abs(dt - data.dt_of_matrices) <= kRounding * dt;
 }
 
@@ -136,7 +136,7 @@ Outcome ChangingRegion::evaluate_one_by_one(GroupData& data, const Eigen::Vector
     else if (replace_matrix(data, e, K))
       tangent->differs();
   }
-  if (tangent != nullptr && in_step) data.dt_of_matrices = element_->moment().dt;
+  if (tangent != nullptr && in_step) data.dt_of_matrices = element_->step_time().dt;
   return Outcome::ok;
 }
 

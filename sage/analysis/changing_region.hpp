@@ -7,7 +7,7 @@
 #include "sage/analysis/by_four.hpp"
 #include "sage/analysis/element_work.hpp"
 #include "sage/analysis/records.hpp"
-#include "sage/core/thread_pool.hpp"
+#include "sage/platform/thread_pool.hpp"
 
 namespace sage {
 

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage {
 

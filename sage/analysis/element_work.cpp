@@ -54,7 +54,7 @@ const double* ElementWork::geometry_of(GroupData& data, int element) {
 const PointContext* ElementWork::contexts_of(const GroupData& data, int element) {
   element_coordinates(model_->mesh, *data.group, element, x_);
   for (int p = 0; p < data.group->element->traits().points; ++p)
-    contexts_[static_cast<std::size_t>(p)] = context_of(data, element, x_, p, moment_);
+    contexts_[static_cast<std::size_t>(p)] = context_of(data, element, x_, p, step_time_);
   return contexts_.data();
 }
 
@@ -82,15 +82,16 @@ Outcome ElementWork::evaluate(GroupData& data, int element, const Eigen::VectorX
   if (data.wants_context) in.contexts = contexts_of(data, element);
   if (traits.sees_unknowns) {
     in.u0 = committed_of(dofs);
-    in.dt = moment_.dt;
+    in.dt = step_time_.dt;
   }
   if (traits.sees_coordinates) {
     element_coordinates(model_->mesh, *data.group, element, x_);
     in.x = x_.data();
   }
   if (data.sees_spread) {
-    in.spread = spread_of(data, element, moment_.load_factor, spread_.data());
-    in.spread0 = spread_of(data, element, moment_.load_factor - moment_.share, spread_.data() + data.dofs());
+    in.spread = spread_of(data, element, step_time_.load_factor, spread_.data());
+    in.spread0 =
+        spread_of(data, element, step_time_.load_factor - step_time_.share, spread_.data() + data.dofs());
   }
   ElementOut out;
   out.K = K;

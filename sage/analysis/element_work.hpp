@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "sage/analysis/moment.hpp"
-#include "sage/core/stop.hpp"
+#include "sage/analysis/step_time.hpp"
+#include "sage/platform/stop.hpp"
 
 namespace sage {
 
@@ -23,8 +23,8 @@ class ElementWork {
   void stop_if_asked_at(int element) const;
 
   // Of all evaluations that follow, for laws that need it.
-  void set_moment(const Moment& moment) { moment_ = moment; }
-  const Moment& moment() const { return moment_; }
+  void set_step_time(const StepTime& step_time) { step_time_ = step_time; }
+  const StepTime& step_time() const { return step_time_; }
   // Committed unknowns, for elements that see them; they must stay there.
   void set_committed(const Eigen::VectorXd* u) { committed_ = u; }
 
@@ -51,7 +51,7 @@ class ElementWork {
   std::vector<double> geometry_, K_, f_, du_, u0_, spread_, sigma_, eps_;
   std::vector<double> no_stress_;  // zeros, of one element
   Eigen::Matrix2Xd x_;
-  Moment moment_;
+  StepTime step_time_;
   std::vector<PointContext> contexts_;  // of one element; none where no law wants them
 };
 

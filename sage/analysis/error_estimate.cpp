@@ -8,9 +8,9 @@
 
 #include "sage/analysis/patch_fit.hpp"
 #include "sage/analysis/spectrum.hpp"
-#include "sage/core/thread_pool.hpp"
 #include "sage/model/coarse_shape.hpp"
 #include "sage/model/locking.hpp"
+#include "sage/platform/thread_pool.hpp"
 
 namespace sage {
 

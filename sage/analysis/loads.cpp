@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "sage/analysis/moment.hpp"
+#include "sage/analysis/step_time.hpp"
 #include "sage/model/spread_loads.hpp"
 
 namespace sage {

@@ -2,7 +2,7 @@
 
 #include "sage/analysis/dogleg.hpp"
 #include "sage/analysis/step_iteration.hpp"
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage {
 

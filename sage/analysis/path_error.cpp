@@ -21,7 +21,7 @@ double weight_of(const GroupData& data, const ElementTraits& traits, std::size_t
 }
 
 template <int N>
-void add_path_error(const Mesh& mesh, const GroupData& data, const Law<N>& law, const Moment& moment,
+void add_path_error(const Mesh& mesh, const GroupData& data, const Law<N>& law, const StepTime& step_time,
                     WeightedMean& mean) {
   const StateStore& state = data.state;
   const ElementTraits& traits = data.group->element->traits();
@@ -44,7 +44,7 @@ void add_path_error(const Mesh& mesh, const GroupData& data, const Law<N>& law, 
     if (data.wants_context) {
       const int element = static_cast<int>(p) / traits.points, point = static_cast<int>(p) % traits.points;
       element_coordinates(mesh, *data.group, element, x);
-      context = context_of(data, element, x, point, moment);
+      context = context_of(data, element, x, point, step_time);
       in.context = &context;
     }
     mean.sum += work * estimate->path_error(in, sigma1, h(state.trial));
@@ -54,11 +54,12 @@ void add_path_error(const Mesh& mesh, const GroupData& data, const Law<N>& law, 
 }  // namespace
 
 double mean_path_error(const Mesh& mesh, const std::vector<GroupData>& groups,
-                       const std::vector<char>& group_linear, const Moment& moment) {
+                       const std::vector<char>& group_linear, const StepTime& step_time) {
   WeightedMean mean;
   for (std::size_t g = 0; g < groups.size(); ++g)
     if (groups[g].active && !group_linear[g])
-      std::visit([&](const auto* law) { add_path_error(mesh, groups[g], *law, moment, mean); }, groups[g].law);
+      std::visit([&](const auto* law) { add_path_error(mesh, groups[g], *law, step_time, mean); },
+                 groups[g].law);
   return mean.weight > 0.0 ? mean.sum / mean.weight : 0.0;
 }
 

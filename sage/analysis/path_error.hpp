@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "sage/analysis/moment.hpp"
+#include "sage/analysis/step_time.hpp"
 
 namespace sage {
 
@@ -11,6 +11,6 @@ namespace sage {
 // group_linear: one flag per group; their laws have no such error, whether they are evaluated (skips) or not.  moment: of
 // the step.
 double mean_path_error(const Mesh& mesh, const std::vector<GroupData>& groups,
-                       const std::vector<char>& group_linear, const Moment& moment);
+                       const std::vector<char>& group_linear, const StepTime& step_time);
 
 }  // namespace sage

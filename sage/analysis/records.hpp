@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "sage/core/code.hpp"
 #include "sage/core/law.hpp"
-#include "sage/core/profile.hpp"
+#include "sage/messages/code.hpp"
+#include "sage/platform/profile.hpp"
 
 namespace sage {
 

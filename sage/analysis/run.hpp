@@ -6,8 +6,8 @@
 
 #include "sage/analysis/observer.hpp"
 #include "sage/core/catalogue.hpp"
-#include "sage/core/stop.hpp"
 #include "sage/core/time_scheme.hpp"
+#include "sage/platform/stop.hpp"
 
 namespace sage {
 

@@ -42,10 +42,10 @@ void evaluate_again(const RunParts& run, const RunPlace& place, bool factorised)
   System& system = run.system;
   const bool within = place.increment > 0;
   if (!within && !factorised) return;
-  if (within && system.assembly().wants_moment()) {
+  if (within && system.assembly().wants_step_time()) {
     const double reached = run.end_of(place);
-    system.assembly().set_moment(
-        moment_at(run.model, place.stage, place.increment, reached, run.state.path.last_size));
+    system.assembly().set_step_time(
+        step_time_at(run.model, place.stage, place.increment, reached, run.state.path.last_size));
   }
   const Eigen::VectorXd end = run.state.u;
   if (within && system.assembly().sees_unknowns()) run.state.u = run.state.u_before;
@@ -62,7 +62,7 @@ std::string checkpoint_bytes(const RunParts& run, RunPlace place) {
   archive(place);
   bool factorised = run.system.tangent().factorised();
   exchange(run, archive, place, factorised);
-  run.audience.exchange(archive);
+  run.observer_list.exchange(archive);
   return archive.take();
 }
 
@@ -80,9 +80,9 @@ RunPlace resume_from(const RunParts& run, const std::string& bytes) {
   exchange(run, archive, place, factorised);
   const WorkCounts work = run.result.work;
   evaluate_again(run, place, factorised && (within || system.tangent().constant()));
-  run.audience.tell(
+  run.observer_list.tell(
       [&](Observer& o) { o.on_start(run.model, system.scene(), system.tangent().name(), system.equations()); });
-  run.audience.exchange(archive);
+  run.observer_list.exchange(archive);
   run.state.place = place;
   if (within) run.state.reached = run.end_of(place);
   if (!archive.at_end()) throw InputError("S630", {}, "the checkpoint is longer than it should be");

@@ -14,13 +14,13 @@ Solution RunParts::solution() const {
 }
 
 void RunParts::warn(const std::vector<Diagnostic>& list) const {
-  for (const Diagnostic& diagnostic : list) audience.warn(diagnostic);
+  for (const Diagnostic& diagnostic : list) observer_list.warn(diagnostic);
 }
 
-void RunParts::set_moment(double load_factor, double share) const {
-  if (assembly().wants_moment())
-    assembly().set_moment(
-        moment_at(model, state.place.stage, state.place.increment, load_factor, share, state.easing));
+void RunParts::set_step_time(double load_factor, double share) const {
+  if (assembly().wants_step_time())
+    assembly().set_step_time(
+        step_time_at(model, state.place.stage, state.place.increment, load_factor, share, state.easing));
 }
 
 void RunParts::set_water(double load_factor) const {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "sage/analysis/audience.hpp"
 #include "sage/analysis/extent.hpp"
+#include "sage/analysis/observer_list.hpp"
 #include "sage/analysis/run_state.hpp"
 #include "sage/analysis/system.hpp"
 #include "sage/model/water.hpp"
@@ -20,7 +20,7 @@ struct RunParts {
   System& system;
   RunState& state;
   RunResult& result;
-  Audience& audience;
+  ObserverList& observer_list;
 
   Assembly& assembly() const { return system.assembly(); }
   Tangent& tangent() const { return system.tangent(); }
@@ -34,7 +34,7 @@ struct RunParts {
 
   // Laws and elements that depend on time are evaluated at this load factor of the stage in hand, after a step of that
   // share of the stage; share 0 = a state at rest.
-  void set_moment(double load_factor, double share) const;
+  void set_step_time(double load_factor, double share) const;
   // Pore pressures at points, at this load factor of the stage in hand.
   void set_water(double load_factor) const;
   // Pore pressures at the end of a stage; nothing where the model has no water.  u: unknowns of an earlier flow, or null.

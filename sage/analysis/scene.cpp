@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "sage/analysis/congruent.hpp"
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 #include "sage/model/dof_map.hpp"
 
 namespace sage {

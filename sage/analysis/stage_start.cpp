@@ -65,11 +65,11 @@ void StageStart::evaluate() {
   Assembly& assembly = run_.assembly();
   const double increment = run_.end_of({run_.state.place.stage, 1});
   Tangent* tangent = run_.tangent().current() ? nullptr : &run_.tangent();
-  if (assembly.wants_moment() && tangent != nullptr) {
-    run_.set_moment(increment, increment);
+  if (assembly.wants_step_time() && tangent != nullptr) {
+    run_.set_step_time(increment, increment);
     if (assembly.evaluate(run_.state.du, tangent) == Outcome::ok) tangent = nullptr;
   }
-  run_.set_moment(0.0, 0.0);
+  run_.set_step_time(0.0, 0.0);
   if (assembly.evaluate(run_.state.du, tangent) == Outcome::cut_step)
     throw AnalysisError("S503", "stage " + std::to_string(run_.state.place.stage + 1) +
                                     ": a law cannot start from the state it is given");
@@ -131,7 +131,7 @@ void StageStart::note_imbalance(int stage) {
   const InitialImbalance imbalance =
       initial_imbalance(run_.model, run_.system.activity(), stage, path.force_start, path.force_end);
   if (!imbalance.counts()) return;
-  run_.audience.warn(
+  run_.observer_list.warn(
       stage_message(run_.stage(), "S528", explain_imbalance(run_.model, stage, imbalance), Severity::note));
 }
 

@@ -36,7 +36,7 @@ void StepControl::take_loads() {
   if (run_.assembly().condensation() == nullptr) return;
   run_.system.leave_condensation();
   run_.state.du.setZero();
-  run_.set_moment(run_.state.reached, 0.0);
+  run_.set_step_time(run_.state.reached, 0.0);
   run_.assembly().evaluate(run_.state.du, nullptr);
 }
 
@@ -187,11 +187,11 @@ void StepControl::reject(double next) {
   const bool keep_K = run_.tangent().constant() || run_.stage().method == Method::initial_stiffness;
   if (!keep_K) {
     run_.tangent().set_aside();
-    run_.set_moment(state.reached + next, next);
+    run_.set_step_time(state.reached + next, next);
     if (next > 0.0) start_on_last_way(next);
   }
   state.du.setZero();
-  run_.set_moment(state.reached, 0.0);
+  run_.set_step_time(state.reached, 0.0);
   run_.assembly().evaluate(state.du, nullptr);
 }
 
@@ -247,7 +247,7 @@ NewtonStep StepControl::attempt_damped(StepReport& report, double from, double t
     on_last_way_ = false;
     run_.assembly().drop_step();
     state.du.setZero();
-    run_.set_moment(from, 0.0);
+    run_.set_step_time(from, 0.0);
     if (!run_.tangent().has_elastic()) run_.assembly().take_elastic(run_.tangent());
     run_.tangent().forget();
     if (!run_.tangent().has_elastic()) return failed;

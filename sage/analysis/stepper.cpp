@@ -84,7 +84,7 @@ NewtonStep Stepper::attempt_damped(double from, double to, const Damping& dampin
 NewtonStep Stepper::solve(double from, double to, const NewtonSettings& settings) {
   RunState& state = run_.state;
   state.target = run_.loads_at(to);
-  run_.set_moment(to, to - from);
+  run_.set_step_time(to, to - from);
   NewtonSettings newton = settings;
   if (state.path.u_start.size() > 0) newton.so_far = {from, &state.path.u_start, &state.u};
   const Profile::Scope scope(run_.profile(), phase::kIteration);

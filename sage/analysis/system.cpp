@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "sage/analysis/loads.hpp"
-#include "sage/core/large_pages.hpp"
 #include "sage/core/solver_extensions.hpp"
+#include "sage/platform/large_pages.hpp"
 
 namespace sage {
 

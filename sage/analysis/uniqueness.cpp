@@ -72,7 +72,7 @@ void visit_tangents(const Assembly& assembly, const GroupData& data, StepKind st
     if (data.wants_context) {
       const int element = static_cast<int>(p) / points;
       element_coordinates(assembly.mesh(), *data.group, element, x);
-      context = context_of(data, element, x, static_cast<int>(p) % points, assembly.moment());
+      context = context_of(data, element, x, static_cast<int>(p) % points, assembly.step_time());
       in.context = &context;
     }
     PointOut<4> out;

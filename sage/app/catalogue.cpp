@@ -2,7 +2,7 @@
 #include "materials/register_materials.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/input.hpp"
-#include "sage/core/near_names.hpp"
+#include "sage/messages/near_names.hpp"
 #include "solvers/register_solvers.hpp"
 
 namespace sage::app {

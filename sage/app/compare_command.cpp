@@ -112,7 +112,7 @@ struct FinishedSide {
   }
 };
 
-RunRequest climb_request(const SideOptions& options, const Place& place, const std::string& stem) {
+RunRequest converge_request(const SideOptions& options, const Place& place, const std::string& stem) {
   RunRequest request;
   request.deck = options.deck;
   request.stem = stem;
@@ -174,13 +174,13 @@ FinishedSide run_side(const char* letter, const SideOptions& options, const Plac
 }
 
 // Finer and finer meshes; the best of them is the side.
-FinishedSide climb_side(const char* letter, const SideOptions& options, const ConvergeOptions& converge,
-                        const Place& place, const std::string& stem) {
+FinishedSide converge_side(const char* letter, const SideOptions& options, const ConvergeOptions& converge,
+                           const Place& place, const std::string& stem) {
   print_stderr(fmt::format("{}: {}\n", letter, options.deck));
   Convergence found;
   const std::string label = label_of(letter, options, nullptr);
   try {
-    found = climb(climb_request(options, place, stem), converge, place.catalogue);
+    found = refine_until_converged(converge_request(options, place, stem), converge, place.catalogue);
   } catch (const InputError& error) {
     print_diagnostics(error.diagnostics());
     return {{label, error.what()}};
@@ -211,7 +211,7 @@ void require_points(const CompareOptions& o, const Model* a, const Model* b) {
                                    point.place.x(), point.place.y()));
 }
 
-// Before a climb, which may take long.
+// Before refining, which may take long.
 void require_points_of_decks(const CompareOptions& o, const SideOptions (&sides)[2],
                              const Catalogue& catalogue) {
   if (o.input.build.points.empty()) return;
@@ -220,7 +220,7 @@ void require_points_of_decks(const CompareOptions& o, const SideOptions (&sides)
     try {
       models[k] = build_side(sides[k], catalogue);
     } catch (const InputError&) {
-      // The climb says what is wrong.
+      // The refined runs say what is wrong.
     }
   }
   require_points(o, models[0] ? &*models[0] : nullptr, models[1] ? &*models[1] : nullptr);
@@ -367,7 +367,7 @@ int compare_decks(const CompareOptions& asked, const Catalogue& catalogue) {
   if (converge.asked()) require_points_of_decks(o, options, catalogue);
   const auto finish = [&](const char* letter, const SideOptions& side, const char* ending) -> FinishedSide {
     if (interrupted()) return {{label_of(letter, side, nullptr), "not run, interrupted before"}};
-    return converge.asked() ? climb_side(letter, side, converge, place, stem + ending)
+    return converge.asked() ? converge_side(letter, side, converge, place, stem + ending)
                             : run_side(letter, side, place, stem + ending);
   };
   const FinishedSide side_a = finish("A", options[0], ".a"), side_b = finish("B", options[1], ".b");

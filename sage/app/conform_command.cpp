@@ -23,7 +23,7 @@
 #include "sage/app/input.hpp"
 #include "sage/app/screen.hpp"
 #include "sage/app/umat_output.hpp"
-#include "sage/core/module.hpp"
+#include "sage/platform/module.hpp"
 #include "sage/umat/try_routine.hpp"
 
 namespace sage::app {

@@ -19,7 +19,7 @@
 #include "sage/app/progress.hpp"
 #include "sage/app/screen.hpp"
 #include "sage/app/surroundings.hpp"
-#include "sage/judge/convergence.hpp"
+#include "sage/convergence/convergence.hpp"
 #include "sage/model/coarse_shape.hpp"
 #include "sage/record/discretisation.hpp"
 #include "sage/record/out_file.hpp"
@@ -30,11 +30,11 @@ namespace sage::app {
 
 namespace {
 
-using judge::Ladder;
-using judge::Limit;
+using convergence::Limit;
+using convergence::MeshSequence;
 
-// One mesh of the ladder as options of the model builder, and as a user would ask for it.
-struct Rung {
+// One mesh of the sequence as options of the model builder, and as a user would ask for it.
+struct MeshOptions {
   BuildOptions build;
   std::string options;
 };
@@ -44,7 +44,7 @@ struct Row {
   int elements = 0, dofs = 0;
   double seconds = 0.0;
   std::vector<std::pair<std::filesystem::path, std::string>> files;
-  Rung rung;
+  MeshOptions mesh;
   std::shared_ptr<RunOutcome> run = {};  // where results are kept: each mesh has fewer elements than the next
 };
 
@@ -58,17 +58,17 @@ std::vector<int> rising_degrees(const Catalogue& catalogue) {
 }
 
 // The elements are halved.
-Ladder halving(const Model& model) {
+MeshSequence halving(const Model& model) {
   int degree = 0;
   for (const Group& group : model.groups)
     if ((group.solid() || group.flow()) && group.elements() > 0 &&
         (degree == 0 || group.element->traits().degree < degree))
       degree = group.element->traits().degree;
-  return {.kind = Ladder::halving, .most = std::pow(4.0, std::max(degree, 1))};
+  return {.kind = MeshSequence::halving, .most = std::pow(4.0, std::max(degree, 1))};
 }
 
 // High degrees pay where the law is linear, and fit where all solids are quadrilaterals without interfaces.
-Ladder ladder_for(const Model& model, const Catalogue& catalogue) {
+MeshSequence sequence_for(const Model& model, const Catalogue& catalogue) {
   const std::vector<int> degrees = rising_degrees(catalogue);
   if (degrees.empty()) return halving(model);
   for (const Group& group : model.groups) {
@@ -79,7 +79,7 @@ Ladder ladder_for(const Model& model, const Catalogue& catalogue) {
     if (group.elements() > 0 && (!quad || solid == nullptr || !has_constant_stiffness(**solid)))
       return halving(model);
   }
-  return {Ladder::spectral, degrees.size()};
+  return {MeshSequence::spectral, degrees.size()};
 }
 
 std::string grade_text(const Grading& g) {
@@ -87,7 +87,7 @@ std::string grade_text(const Grading& g) {
                      g.layers, g.ratio);
 }
 
-// Layers of a rung: 4, 6, 8 ... of the ratio asked for.  Behind the rung of the highest degree two in place of each, for
+// Layers of a mesh: 4, 6, 8 ... of the ratio asked for.  Behind the mesh of the highest degree two in place of each, for
 // the error that degree 8 leaves within a layer does not depend on their number; deeper ones than 1e-12 of the mesh would
 // be rounding.
 void set_layers(Grading& grading, int level, int highest) {
@@ -100,34 +100,34 @@ void set_layers(Grading& grading, int level, int highest) {
 
 // Rising degrees (4, 6, 8) with layers at the corners, then halved elements of the highest, and with the layers of those
 // the whole mesh halved: only so no two meshes have the same elements around any place.
-Rung spectral_rung(const BuildOptions& asked, const Catalogue& catalogue, int level) {
+MeshOptions spectral_mesh(const BuildOptions& asked, const Catalogue& catalogue, int level) {
   const std::vector<int> degrees = rising_degrees(catalogue);
   const int highest = static_cast<int>(degrees.size()) - 1;
-  Rung rung{asked, {}};
-  rung.build.element = degrees[static_cast<std::size_t>(std::min(level, highest))];
-  const std::string& name = catalogue.elements.find(rung.build.element)->name;
-  rung.build.formulation = -1;
-  rung.build.refine = asked.refine + (level > highest ? 1 : 0);
-  rung.build.refine_graded = asked.refine_graded + std::max(0, level - highest - 1);
-  if (rung.build.gradings.empty()) rung.build.gradings.push_back({});
-  rung.options = (asked.coarsen ? "--coarsen --element " : "--element ") + name;
-  if (rung.build.refine > 0) rung.options += fmt::format(" --refine {}", rung.build.refine);
-  for (Grading& g : rung.build.gradings) {
+  MeshOptions mesh{asked, {}};
+  mesh.build.element = degrees[static_cast<std::size_t>(std::min(level, highest))];
+  const std::string& name = catalogue.elements.find(mesh.build.element)->name;
+  mesh.build.formulation = -1;
+  mesh.build.refine = asked.refine + (level > highest ? 1 : 0);
+  mesh.build.refine_graded = asked.refine_graded + std::max(0, level - highest - 1);
+  if (mesh.build.gradings.empty()) mesh.build.gradings.push_back({});
+  mesh.options = (asked.coarsen ? "--coarsen --element " : "--element ") + name;
+  if (mesh.build.refine > 0) mesh.options += fmt::format(" --refine {}", mesh.build.refine);
+  for (Grading& g : mesh.build.gradings) {
     set_layers(g, level, highest);
-    rung.options += grade_text(g);
+    mesh.options += grade_text(g);
   }
-  if (rung.build.refine_graded > 0)
-    rung.options += fmt::format(" --refine-graded {}", rung.build.refine_graded);
-  return rung;
+  if (mesh.build.refine_graded > 0)
+    mesh.options += fmt::format(" --refine-graded {}", mesh.build.refine_graded);
+  return mesh;
 }
 
-Rung halving_rung(const BuildOptions& asked, int level) {
-  Rung rung{asked, {}};
-  rung.build.refine = asked.refine + level;
-  rung.options = fmt::format("--refine {}", rung.build.refine);
-  for (const Grading& g : asked.gradings) rung.options += grade_text(g);
-  if (asked.refine_graded > 0) rung.options += fmt::format(" --refine-graded {}", asked.refine_graded);
-  return rung;
+MeshOptions halving_mesh(const BuildOptions& asked, int level) {
+  MeshOptions mesh{asked, {}};
+  mesh.build.refine = asked.refine + level;
+  mesh.options = fmt::format("--refine {}", mesh.build.refine);
+  for (const Grading& g : asked.gradings) mesh.options += grade_text(g);
+  if (asked.refine_graded > 0) mesh.options += fmt::format(" --refine-graded {}", asked.refine_graded);
+  return mesh;
 }
 
 double relative(const Limit& limit) {
@@ -147,13 +147,13 @@ struct Quantity {
     around.push_back(local);
   }
   // Displacements and heads converge by themselves; their derivatives do so around the point, and at it by chance.
-  judge::Around errors() const {
+  convergence::Around errors() const {
     const std::string column = name.substr(name.find('.') + 1);
     return {around, column != "ux" && column != "uy" && column != "head" && column != "pressure_head"};
   }
-  Limit limit(Ladder ladder) const { return judge::limit_of(values, ladder, errors()); }
-  Limit limit_after(std::size_t meshes, Ladder ladder) const {
-    return judge::limit_after(values, meshes, ladder, errors());
+  Limit limit(MeshSequence sequence) const { return convergence::limit_of(values, sequence, errors()); }
+  Limit limit_after(std::size_t meshes, MeshSequence sequence) const {
+    return convergence::limit_after(values, meshes, sequence, errors());
   }
   double share() const { return largest.back() > 0.0 ? std::abs(values.back()) / largest.back() : 0.0; }
 };
@@ -162,8 +162,8 @@ struct Quantity {
 class Follower {
  public:
   // names: those asked for; empty = the main ones.
-  Follower(std::vector<std::string> names, Ladder ladder, double tolerance)
-      : names_(std::move(names)), ladder_(ladder), tolerance_(tolerance) {}
+  Follower(std::vector<std::string> names, MeshSequence sequence, double tolerance)
+      : names_(std::move(names)), sequence_(sequence), tolerance_(tolerance) {}
 
   // A mesh's values, and what is known of each one's error around its point.  False where one that is followed has none
   // on it.
@@ -171,7 +171,7 @@ class Follower {
   std::size_t meshes() const { return quantities_.empty() ? 0 : quantities_.front().values.size(); }
   // The one that the table shows.
   const Quantity& shown() const { return quantities_[shown_]; }
-  Limit shown_limit() const { return shown().limit(ladder_); }
+  Limit shown_limit() const { return shown().limit(sequence_); }
   // Whether a mesh (from 1) is as certain as asked, later ones considered.
   bool certain(std::size_t mesh) const { return enough(worst(mesh)); }
   // The mesh (from 1) whose least certain quantity is the most certain.
@@ -193,7 +193,7 @@ class Follower {
   void append_others(const std::vector<ReportComponent>& components, const std::vector<double>& local);
 
   std::vector<std::string> names_;
-  Ladder ladder_;
+  MeshSequence sequence_;
   double tolerance_;
   std::vector<Quantity> quantities_;  // followed
   std::vector<Quantity> others_;      // not followed: their limits are reported, and decide nothing
@@ -267,7 +267,7 @@ std::string Follower::why_left_out(std::size_t i) const {
   const std::string beside =
       fmt::format("{:.3g} beside {:.3g} in its report", q.values.back(), q.largest.back());
   if (share <= least) return fmt::format("{}, less than {:.1g} of it", beside, least);
-  const double error = relative(q.limit(ladder_));
+  const double error = relative(q.limit(sequence_));
   if (share <= kSmall && !(error < kCertain)) return beside + ", as small as the error of the mesh";
   const std::size_t n = q.values.size();
   const bool falls = n >= 3 && std::abs(q.values[n - 1]) < std::abs(q.values[n - 2]) &&
@@ -279,7 +279,7 @@ std::string Follower::why_left_out(std::size_t i) const {
 double Follower::worst(std::size_t mesh) const {
   double worst = 0.0;
   for (std::size_t i = 0; i < quantities_.size(); ++i)
-    if (why_left_out(i).empty()) worst = std::max(worst, relative(quantities_[i].limit_after(mesh, ladder_)));
+    if (why_left_out(i).empty()) worst = std::max(worst, relative(quantities_[i].limit_after(mesh, sequence_)));
   return worst;
 }
 
@@ -292,7 +292,7 @@ std::size_t Follower::best() const {
 
 bool Follower::exhausted() const {
   constexpr double kNearlyCertain = 1e-6;
-  return ladder_.kind == Ladder::spectral && best() + 2 <= meshes() && worst(best()) <= kNearlyCertain;
+  return sequence_.kind == MeshSequence::spectral && best() + 2 <= meshes() && worst(best()) <= kNearlyCertain;
 }
 
 std::string Follower::result() const {
@@ -300,7 +300,7 @@ std::string Follower::result() const {
   std::string text;
   for (std::size_t i = 0; i < quantities_.size(); ++i) {
     if (!why_left_out(i).empty()) continue;
-    const Limit limit = quantities_[i].limit_after(mesh, ladder_);
+    const Limit limit = quantities_[i].limit_after(mesh, sequence_);
     text += (text.empty() ? "result    " : "; ") + quantities_[i].name + " ";
     text += std::isfinite(limit.error) ? with_error(limit.value, limit.error)
                                        : fmt::format("{:.6g}, error unknown", limit.value);
@@ -314,7 +314,7 @@ std::vector<ConvergedValue> Follower::values() const {
   std::vector<ConvergedValue> all;
   const std::size_t mesh = best();
   const auto add = [&](const Quantity& q, bool decides) {
-    const Limit limit = q.limit_after(mesh, ladder_);
+    const Limit limit = q.limit_after(mesh, sequence_);
     if (decides || std::isfinite(limit.error))
       all.push_back({q.name, limit.value, limit.error, !decides || enough(relative(limit))});
   };
@@ -382,25 +382,26 @@ std::string bytes_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// Meshes of the ladder, one after the other.
-class Climb {
+// Meshes of the sequence, one after the other.
+class ConvergenceStudy {
  public:
-  Climb(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue);
+  ConvergenceStudy(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue);
   Convergence run();
 
  private:
-  Ladder choose_ladder();
+  MeshSequence choose_sequence();
   std::string why_not_graded(const Deck& deck) const;
   int graded_elements(const Deck& deck, bool coarsen) const;
-  std::optional<RunOutcome> run_mesh(const Rung& rung, SurroundingsReader& reader);
-  std::string why_unusable(const RunOutcome& outcome, const Rung& rung, std::vector<Surroundings> around);
+  std::optional<RunOutcome> run_mesh(const MeshOptions& mesh, SurroundingsReader& reader);
+  std::string why_unusable(const RunOutcome& outcome, const MeshOptions& mesh,
+                           std::vector<Surroundings> around);
   void find_blanks(const Model& model, const std::vector<ReportComponent>& components);
   bool add_mesh(int level);
-  bool climb();
-  bool climb_and_close();
+  bool refine_until_converged();
+  bool refine_and_close();
   Convergence outcome(bool reached) const;
   bool out_of_time();
-  RunRequest request_for(const Rung& rung);
+  RunRequest request_for(const MeshOptions& mesh);
   void start_table(const std::string& quantity);
   void keep_best_files() const;
 
@@ -412,32 +413,33 @@ class Climb {
   std::string partial_;  // what the deck has and the model lacks
   bool curved_ = false;  // it has curved sides
   std::uint64_t deck_sum_ = 0;
-  Ladder ladder_;
+  MeshSequence sequence_;
   std::optional<ResultFiles> own_;
   ResultFiles& results_;
   Follower follower_;
   LocalErrors local_errors_;
   std::optional<Table> table_;
   std::vector<Row> rows_;
-  std::vector<std::string> blanks_;          // reports without a value at the end, and why
-  std::optional<Rung> without_equilibrium_;  // the first mesh, where that found none
-  std::string stopped_;                      // why the next mesh isn't there
-  std::shared_ptr<RunOutcome> without_run_;  // of that mesh, where results are kept
+  std::vector<std::string> blanks_;                 // reports without a value at the end, and why
+  std::optional<MeshOptions> without_equilibrium_;  // the first mesh, where that found none
+  std::string stopped_;                             // why the next mesh isn't there
+  std::shared_ptr<RunOutcome> without_run_;         // of that mesh, where results are kept
 };
 
-Climb::Climb(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue)
+ConvergenceStudy::ConvergenceStudy(const RunRequest& request, const ConvergeOptions& options,
+                                   const Catalogue& catalogue)
     : request_(request),
       options_(options),
       catalogue_(catalogue),
-      ladder_(choose_ladder()),
+      sequence_(choose_sequence()),
       results_(request.results != nullptr ? *request.results
                                           : own_.emplace(request.output.folder, stem_of(request),
                                                          ResultOwner{request.deck, deck_sum_, "convergence"})),
-      follower_(options.follow, ladder_, options.tolerance),
-      local_errors_(ladder_) {}
+      follower_(options.follow, sequence_, options.tolerance),
+      local_errors_(sequence_) {}
 
 // Degrees and layers start from the coarsest mesh that means the same as the deck's.
-Ladder Climb::choose_ladder() {
+MeshSequence ConvergenceStudy::choose_sequence() {
   const Deck deck = read_input(request_.deck, request_.input);
   deck_sum_ = checksum(*deck.source.text());
   BuildOptions& build = request_.input.build;
@@ -461,13 +463,13 @@ Ladder Climb::choose_ladder() {
                        fmt::format("--follow {}: the deck's reports have no such number, "
                                    "only {}",
                                    name, fmt::join(known, ", ")));
-  const Ladder ladder = ladder_for(first, catalogue_);
-  if (ladder.kind == Ladder::spectral && (build.element > 0 || build.formulation >= 0))
+  const MeshSequence sequence = sequence_for(first, catalogue_);
+  if (sequence.kind == MeshSequence::spectral && (build.element > 0 || build.formulation >= 0))
     say_note(request_.deck,
              "where the scene allows it --converge chooses elements and formulation itself: --element and "
              "--formulation are not used",
              "S909");
-  if (ladder.kind == Ladder::halving) return ladder;
+  if (sequence.kind == MeshSequence::halving) return sequence;
   const bool coarsen = build.coarsen;
   if (!coarsen) {
     BuildOptions coarse = build;
@@ -482,12 +484,12 @@ Ladder Climb::choose_ladder() {
              "S403");
     return halving(first);
   }
-  return ladder;
+  return sequence;
 }
 
 // Of the first mesh of high degree; 0 where it can't be made.
-int Climb::graded_elements(const Deck& deck, bool coarsen) const {
-  BuildOptions build = spectral_rung(request_.input.build, catalogue_, 0).build;
+int ConvergenceStudy::graded_elements(const Deck& deck, bool coarsen) const {
+  BuildOptions build = spectral_mesh(request_.input.build, catalogue_, 0).build;
   build.coarsen = coarsen;
   build.say = {};
   int elements = 0;
@@ -501,8 +503,8 @@ int Climb::graded_elements(const Deck& deck, bool coarsen) const {
 
 // Why the first mesh of high degree can't be made of a deck whose own mesh can: a support that its layers would
 // cut off, say.  Empty: it can.
-std::string Climb::why_not_graded(const Deck& deck) const {
-  BuildOptions build = spectral_rung(request_.input.build, catalogue_, 0).build;
+std::string ConvergenceStudy::why_not_graded(const Deck& deck) const {
+  BuildOptions build = spectral_mesh(request_.input.build, catalogue_, 0).build;
   build.say = {};
   try {
     build_model(deck, catalogue_, build);
@@ -513,9 +515,9 @@ std::string Climb::why_not_graded(const Deck& deck) const {
   return {};
 }
 
-RunRequest Climb::request_for(const Rung& rung) {
+RunRequest ConvergenceStudy::request_for(const MeshOptions& mesh) {
   RunRequest one = request_;
-  one.input.build = rung.build;
+  one.input.build = mesh.build;
   one.input.build.say = {};  // the table says it
   one.quiet = true;
   one.results = &results_;
@@ -533,18 +535,19 @@ RunRequest Climb::request_for(const Rung& rung) {
 }
 
 // Four times the elements cost four times and more; the next degree twice.
-bool Climb::out_of_time() {
+bool ConvergenceStudy::out_of_time() {
   const double last = rows_.empty() ? 0.0 : rows_.back().seconds;
-  if (seconds_since(start_) + (ladder_.kind == Ladder::halving ? 4.0 : 2.0) * last <= options_.max_seconds)
+  if (seconds_since(start_) + (sequence_.kind == MeshSequence::halving ? 4.0 : 2.0) * last <=
+      options_.max_seconds)
     return false;
   stopped_ = fmt::format("the next mesh would pass the limit of {:g} s (--max-seconds)", options_.max_seconds);
   return true;
 }
 
 // The first mesh must be possible; what only a finer one can't do is no fault of the deck.
-std::optional<RunOutcome> Climb::run_mesh(const Rung& rung, SurroundingsReader& reader) {
+std::optional<RunOutcome> ConvergenceStudy::run_mesh(const MeshOptions& mesh, SurroundingsReader& reader) {
   try {
-    RunRequest one = request_for(rung);
+    RunRequest one = request_for(mesh);
     one.watch = &reader;
     return run_deck(one, catalogue_);
   } catch (const InputError& error) {
@@ -558,7 +561,8 @@ std::optional<RunOutcome> Climb::run_mesh(const Rung& rung, SurroundingsReader& 
   return {};
 }
 
-std::string Climb::why_unusable(const RunOutcome& outcome, const Rung& rung, std::vector<Surroundings> around) {
+std::string ConvergenceStudy::why_unusable(const RunOutcome& outcome, const MeshOptions& mesh,
+                                           std::vector<Surroundings> around) {
   const RunResult& result = outcome.record.result;
   if (outcome.too_large)
     return fmt::format("the next mesh has {} dofs, more than the limit of {} (--max-dofs)",
@@ -572,9 +576,9 @@ std::string Climb::why_unusable(const RunOutcome& outcome, const Rung& rung, std
     // Of a finer mesh it is no news of the deck; of the first one it is the answer.
     if (rows_.empty()) {
       say_error(request_.deck, result.reason, *result.code);
-      without_equilibrium_ = rung;
+      without_equilibrium_ = mesh;
     }
-    return "no equilibrium with " + rung.options + ": " + result.reason.substr(0, result.reason.find('\n'));
+    return "no equilibrium with " + mesh.options + ": " + result.reason.substr(0, result.reason.find('\n'));
   }
   const std::vector<ReportComponent> components = last_components(*outcome.model, *outcome.reports);
   if (rows_.empty()) find_blanks(*outcome.model, components);
@@ -587,7 +591,7 @@ std::string Climb::why_unusable(const RunOutcome& outcome, const Rung& rung, std
 }
 
 // Reports without a value at the end: listed with the result, or a mistake where one is to be followed.
-void Climb::find_blanks(const Model& model, const std::vector<ReportComponent>& components) {
+void ConvergenceStudy::find_blanks(const Model& model, const std::vector<ReportComponent>& components) {
   for (const std::string& name : options_.follow)
     if (find_component(components, name) == nullptr) {
       const std::size_t report = std::stoul(name.substr(std::string("report").size())) - 1;
@@ -602,39 +606,40 @@ void Climb::find_blanks(const Model& model, const std::vector<ReportComponent>& 
 }
 
 // False: it can't be used, and stopped_ says why.
-bool Climb::add_mesh(int level) {
-  const Rung rung = ladder_.kind == Ladder::spectral ? spectral_rung(request_.input.build, catalogue_, level)
-                                                     : halving_rung(request_.input.build, level);
+bool ConvergenceStudy::add_mesh(int level) {
+  const MeshOptions mesh = sequence_.kind == MeshSequence::spectral
+                               ? spectral_mesh(request_.input.build, catalogue_, level)
+                               : halving_mesh(request_.input.build, level);
   SurroundingsReader reader(local_errors_.earlier());
-  std::optional<RunOutcome> outcome = run_mesh(rung, reader);
-  if (outcome) stopped_ = why_unusable(*outcome, rung, std::move(reader.found));
+  std::optional<RunOutcome> outcome = run_mesh(mesh, reader);
+  if (outcome) stopped_ = why_unusable(*outcome, mesh, std::move(reader.found));
   const bool first_without = outcome && without_equilibrium_ && rows_.empty();
   if (!stopped_.empty()) {
     if (first_without && request_.keep_result) without_run_ = std::make_shared<RunOutcome>(std::move(*outcome));
     return false;
   }
-  Row row{outcome->record.scene.elements, DofMap(*outcome->model).dofs(), outcome->record.seconds, {}, rung};
+  Row row{outcome->record.scene.elements, DofMap(*outcome->model).dofs(), outcome->record.seconds, {}, mesh};
   for (const std::filesystem::path& file : outcome->files) row.files.emplace_back(file, bytes_of(file));
   if (!table_) start_table(follower_.shown().name);
-  table_->row(follower_.meshes(), row, follower_.shown_limit(), follower_.shown().values.back(), rung.options);
+  table_->row(follower_.meshes(), row, follower_.shown_limit(), follower_.shown().values.back(), mesh.options);
   if (request_.keep_result) row.run = std::make_shared<RunOutcome>(std::move(*outcome));
   rows_.push_back(std::move(row));
   return true;
 }
 
-void Climb::start_table(const std::string& quantity) {
+void ConvergenceStudy::start_table(const std::string& quantity) {
   table_.emplace(options_.screen, title_, quantity,
                  request_.output.folder / (stem_of(request_) + ".convergence.csv"));
 }
 
 // Later meshes have written over them.
-void Climb::keep_best_files() const {
+void ConvergenceStudy::keep_best_files() const {
   for (const auto& [path, bytes] : rows_[follower_.best() - 1].files)
     if (bytes_of(path) != bytes) write_file(path, bytes);
 }
 
 // True if the tolerance was reached.
-bool Climb::climb() {
+bool ConvergenceStudy::refine_until_converged() {
   Task task("converge " + case_name(request_.deck));
   for (int level = 0; !out_of_time() && add_mesh(level); ++level) {
     if (follower_.certain(follower_.best())) return true;
@@ -646,16 +651,16 @@ bool Climb::climb() {
   return false;
 }
 
-bool Climb::climb_and_close() {
+bool ConvergenceStudy::refine_and_close() {
   try {
-    return climb();
+    return refine_until_converged();
   } catch (...) {
     if (own_) own_->close();
     throw;
   }
 }
 
-Convergence Climb::outcome(bool reached) const {
+Convergence ConvergenceStudy::outcome(bool reached) const {
   Convergence result;
   result.exit_code = reached ? kOk : kNotConverged;
   result.table = table_->path();
@@ -665,9 +670,9 @@ Convergence Climb::outcome(bool reached) const {
   if (curved_)
     result.geometry =
         "curved sides stay the parabolas of the deck: no error holds their distance from the true curve";
-  const Rung* best = !rows_.empty()         ? &rows_[follower_.best() - 1].rung
-                     : without_equilibrium_ ? &*without_equilibrium_
-                                            : nullptr;
+  const MeshOptions* best = !rows_.empty()         ? &rows_[follower_.best() - 1].mesh
+                            : without_equilibrium_ ? &*without_equilibrium_
+                                                   : nullptr;
   if (best != nullptr) {
     result.options = best->options;
     result.best_run = rows_.empty() ? without_run_ : rows_[follower_.best() - 1].run;
@@ -675,8 +680,8 @@ Convergence Climb::outcome(bool reached) const {
   return result;
 }
 
-Convergence Climb::run() {
-  const bool reached = climb_and_close();
+Convergence ConvergenceStudy::run() {
+  const bool reached = refine_and_close();
   std::string last = "result    none";
   if (!table_) {
     start_table("value");  // not even the first mesh has one
@@ -703,7 +708,7 @@ void add_converge_options(CLI::App& parser, ConvergeOptions& options, const std:
   parser
       .add_option("--converge", options.tolerance,
                   "finer and finer meshes until the reports are certain to this relative error, e.g. 1e-5")
-      ->check(number_in(judge::kLeastError, 0.5, "a relative error from 1e-10 to 0.5"));
+      ->check(number_in(convergence::kLeastError, 0.5, "a relative error from 1e-10 to 0.5"));
   parser
       .add_option(
           "--follow", options.follow,
@@ -720,9 +725,10 @@ void add_converge_options(CLI::App& parser, ConvergeOptions& options, const std:
       ->check(number_in(1e-3, 1e9, "a number of seconds from 1e-3 to 1e9"));
 }
 
-Convergence climb(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue) {
+Convergence refine_until_converged(const RunRequest& request, const ConvergeOptions& options,
+                                   const Catalogue& catalogue) {
   require_file(request.deck, "--converge");
-  return Climb(request, options, catalogue).run();
+  return ConvergenceStudy(request, options, catalogue).run();
 }
 
 Json convergence_json(const Convergence& found) {
@@ -741,7 +747,7 @@ Json convergence_json(const Convergence& found) {
 
 int converge(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue,
              Json* answer_of_deck) {
-  const Convergence found = climb(request, options, catalogue);
+  const Convergence found = refine_until_converged(request, options, catalogue);
   if (answer_of_deck != nullptr)
     *answer_of_deck = {{"convergence", convergence_json(found)}, {"files", files_json({found.table})}};
   if (!found.not_reached.empty()) say_error(request.deck, "NOT REACHED: " + found.not_reached, "S408");

@@ -50,7 +50,8 @@ struct Convergence {
 // Prints a row a mesh and the result; writes STEM.convergence.csv and the reports of the best mesh (those of
 // request.results where that is given).  Throws InputError (also for a deck without reports or with none of a
 // name that is to be followed), AnalysisError (of the first mesh), OutputError.
-Convergence climb(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue);
+Convergence refine_until_converged(const RunRequest& request, const ConvergeOptions& options,
+                                   const Catalogue& catalogue);
 // The exit code alone.  found: what --json says of it; null = nobody asks.
 int converge(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue,
              Json* found = nullptr);

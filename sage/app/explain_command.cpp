@@ -13,7 +13,7 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
-#include "sage/core/messages.hpp"
+#include "sage/messages/messages.hpp"
 
 namespace sage::app {
 

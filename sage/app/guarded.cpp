@@ -4,7 +4,7 @@
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
 #include "sage/app/screen.hpp"
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 #include "sage/record/out_file.hpp"
 
 namespace sage::app {

@@ -14,9 +14,9 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/screen.hpp"
 #include "sage/app/stored_heads.hpp"
-#include "sage/core/near_names.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "sage/draw/picture.hpp"
+#include "sage/messages/near_names.hpp"
 #include "sage/record/out_file.hpp"
 
 namespace sage::app {

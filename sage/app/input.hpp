@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "sage/build/build_model.hpp"
+#include "sage/builder/build_model.hpp"
 #include "sage/core/catalogue.hpp"
 #include "sage/deck/deck.hpp"
 

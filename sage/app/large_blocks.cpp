@@ -1,8 +1,8 @@
-// Replaces the global operator new: blocks of some megabytes lie in large pages (sage/core/large_pages.hpp).
+// Replaces the global operator new: blocks of some megabytes lie in large pages (sage/platform/large_pages.hpp).
 // A run of 800 000 equations spent as long on page faults as on arithmetic.
 #include <new>
 
-#include "sage/core/large_pages.hpp"
+#include "sage/platform/large_pages.hpp"
 
 void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
   return bytes < 2 * sage::kLargePage ? std::malloc(bytes > 0 ? bytes : 1) : sage::allocate_block(bytes);

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "sage/app/process_limit.hpp"
-#include "sage/core/large_pages.hpp"
+#include "sage/platform/large_pages.hpp"
 
 namespace sage::app {
 

@@ -16,15 +16,15 @@
 #include "sage/deck/layout.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "sage/deck/source.hpp"
-#include "sage/guess/coverage.hpp"
-#include "sage/guess/guess.hpp"
+#include "sage/layout_draft/coverage.hpp"
+#include "sage/layout_draft/layout_draft.hpp"
 #include "sage/record/out_file.hpp"
 
 namespace sage::app {
 
 namespace {
 
-struct GuessOptions {
+struct DraftOptions {
   std::string deck, out;
 };
 
@@ -34,16 +34,16 @@ bool is_built_in(const std::string& name) {
 }
 
 // After the file that it is written to, or the deck; never the name of a layout that is built in.
-std::string name_of_guess(const GuessOptions& options) {
+std::string name_of_draft(const DraftOptions& options) {
   std::string name =
       options.out.empty() ? case_name(options.deck) : std::filesystem::path(options.out).stem().string();
   return is_built_in(name) || name.empty() ? name + "_guessed" : name;
 }
 
-int guess(const GuessOptions& options) {
+int guess(const DraftOptions& options) {
   keep_input(options.deck);
-  const std::string name = name_of_guess(options);
-  const GuessedLayout layout = guess_layout(read_file(options.deck), options.deck, name);
+  const std::string name = name_of_draft(options);
+  const LayoutDraft layout = draft_layout(read_file(options.deck), options.deck, name);
   if (Json* json = answer()) {
     *json = {
         {"layout", json_text(name)}, {"cards", layout.cards}, {"lines_not_understood", layout.not_understood}};
@@ -131,9 +131,9 @@ Command layout_command(CLI::App& parser, const Catalogue&) {
   CLI::App* guessing = parser.add_subcommand(
       "guess",
       "write a first layout for a deck that nobody knows, with the reason for every guess: a draft to finish");
-  auto guess_options = std::make_shared<GuessOptions>();
-  guessing->add_option("DECK", guess_options->deck, "deck file")->required();
-  guessing->add_option("-o,--out", guess_options->out, "layout file to write (otherwise it is printed)");
+  auto draft_options = std::make_shared<DraftOptions>();
+  guessing->add_option("DECK", draft_options->deck, "deck file")->required();
+  guessing->add_option("-o,--out", draft_options->out, "layout file to write (otherwise it is printed)");
   CLI::App* checking = parser.add_subcommand("check",
                                              "show what a layout reads of a deck: each kind of card under a "
                                              "column ruler, unread columns, lines under no card");
@@ -149,7 +149,7 @@ Command layout_command(CLI::App& parser, const Catalogue&) {
   checking->footer(
       "Exit codes as for sagefe check: 0 the deck reads, 2 it doesn't (with --strict: not without "
       "warnings).\n");
-  return [=] { return guessing->parsed() ? guess(*guess_options) : check(*check_options); };
+  return [=] { return guessing->parsed() ? guess(*draft_options) : check(*check_options); };
 }
 
 }  // namespace sage::app

@@ -15,8 +15,8 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
-#include "sage/core/error.hpp"
-#include "sage/core/module.hpp"
+#include "sage/messages/error.hpp"
+#include "sage/platform/module.hpp"
 #include "sage/record/out_file.hpp"
 
 namespace sage::app {

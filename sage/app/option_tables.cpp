@@ -3,8 +3,8 @@
 #include <map>
 #include <sstream>
 
-#include "sage/core/messages.hpp"
 #include "sage/deck/layout.hpp"
+#include "sage/messages/messages.hpp"
 
 namespace sage::app {
 

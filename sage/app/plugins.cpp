@@ -18,8 +18,8 @@
 #include <optional>
 #include <sstream>
 
-#include "sage/core/module.hpp"
 #include "sage/core/plugin.hpp"
+#include "sage/platform/module.hpp"
 
 namespace sage::app {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sage/core/catalogue.hpp"
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 #include "sage/umat/law.hpp"
 
 namespace sage::app {

@@ -19,8 +19,8 @@
 #include "sage/app/plugins.hpp"
 #include "sage/app/screen.hpp"
 #include "sage/app/studies.hpp"
-#include "sage/core/near_names.hpp"
 #include "sage/deck/printable.hpp"
+#include "sage/messages/near_names.hpp"
 
 namespace sage {
 namespace app {

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <string>
 
-#include "sage/core/pulse.hpp"
+#include "sage/platform/pulse.hpp"
 
 namespace sage::app {
 

@@ -1,7 +1,7 @@
 // Heads of an earlier run, from its result file, at the nodes of another mesh or the same one.
 #pragma once
 
-#include "sage/build/build_model.hpp"
+#include "sage/builder/build_model.hpp"
 
 namespace sage::app {
 

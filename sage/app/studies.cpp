@@ -10,8 +10,8 @@
 
 #include "sage/app/commands.hpp"
 #include "sage/app/picture_formats.hpp"
-#include "sage/core/error.hpp"
-#include "sage/core/module.hpp"
+#include "sage/messages/error.hpp"
+#include "sage/platform/module.hpp"
 
 namespace sage::app {
 

@@ -191,7 +191,7 @@ void SurroundingsReader::on_increment(const Model& model, const StepReport& step
 
 namespace {
 
-// How the errors of a ladder's meshes follow from what they change: measured on 520 points in ten scenes
+// How the errors of a sequence's meshes follow from what they change: measured on 520 points in ten scenes
 // (docs/theory/accuracy.md), so that no error is too small and the median is about ten times the true one.
 struct Shares {
   double change, missing;  // of what the mesh changed, and of what its elements show to be missing
@@ -210,7 +210,7 @@ Shares shares_of(int mesh, double stiffness_of_volume) {
 
 // Of the largest of a number and its sisters: equilibrium to 1e-10 leaves pressures open by K / G times as much.
 double least_share(double stiffness_of_volume) {
-  return judge::kLeastError + 1e-11 * stiffness_of_volume;
+  return convergence::kLeastError + 1e-11 * stiffness_of_volume;
 }
 
 // The rest of a geometric series, with caution.
@@ -255,7 +255,7 @@ double LocalErrors::spectral_error(const Change& now, const Change* before, doub
 double LocalErrors::halving_error(const Change& now, const Change* before) const {
   if (now.only_rounding()) return now.own;
   if (before == nullptr) return kUnknown;
-  return now.own * rest(std::max(now.largest / before->largest, 1.0 / std::sqrt(ladder_.most)), 1.5);
+  return now.own * rest(std::max(now.largest / before->largest, 1.0 / std::sqrt(sequence_.most)), 1.5);
 }
 
 std::vector<double> LocalErrors::errors_of(const Model& model, std::size_t report, const Surroundings& now) {
@@ -269,8 +269,9 @@ std::vector<double> LocalErrors::errors_of(const Model& model, std::size_t repor
   std::vector<double> errors;
   for (std::size_t k = 0; k < count; ++k) {
     const Change* earlier = before.empty() ? nullptr : &before[k];
-    double error = ladder_.kind == judge::Ladder::spectral ? spectral_error(change[k], earlier, stiffness)
-                                                           : halving_error(change[k], earlier);
+    double error = sequence_.kind == convergence::MeshSequence::spectral
+                       ? spectral_error(change[k], earlier, stiffness)
+                       : halving_error(change[k], earlier);
     if (now.at_corner && columns.field[k]->place() != FieldPlace::node) error = kUnknown;
     errors.push_back(error);
   }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sage/analysis/observer.hpp"
-#include "sage/judge/convergence.hpp"
+#include "sage/convergence/convergence.hpp"
 #include "sage/record/report_components.hpp"
 
 namespace sage::app {
@@ -43,7 +43,7 @@ class SurroundingsReader final : public Observer {
 // Errors of the numbers of point reports, mesh by mesh.
 class LocalErrors {
  public:
-  explicit LocalErrors(judge::Ladder ladder) : ladder_(ladder) {}
+  explicit LocalErrors(convergence::MeshSequence sequence) : sequence_(sequence) {}
 
   const std::vector<Surroundings>& earlier() const { return earlier_; }
   // After the next mesh: an error for each of its components, NaN where it is not of a point.
@@ -63,7 +63,7 @@ class LocalErrors {
   double halving_error(const Change& now, const Change* before) const;
   std::vector<double> errors_of(const Model& model, std::size_t report, const Surroundings& now);
 
-  judge::Ladder ladder_;
+  convergence::MeshSequence sequence_;
   int mesh_ = 0;  // from 1
   std::vector<Surroundings> earlier_;
   std::vector<std::vector<Change>> changes_;  // by report and column: of the mesh before

@@ -15,7 +15,7 @@
 #include "sage/app/progress.hpp"
 #include "sage/app/run_deck.hpp"
 #include "sage/app/screen.hpp"
-#include "sage/core/module.hpp"
+#include "sage/platform/module.hpp"
 
 namespace sage::app {
 

@@ -9,7 +9,7 @@
 
 #include "sage/conformance/solver_systems.hpp"
 #include "sage/core/catalogue.hpp"
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage::conformance {
 

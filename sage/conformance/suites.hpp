@@ -24,7 +24,7 @@
 #include "sage/conformance/law_driver.hpp"
 #include "sage/conformance/law_sample.hpp"
 #include "sage/core/catalogue.hpp"
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage::conformance {
 

@@ -13,8 +13,8 @@
 
 #include <Eigen/Core>
 
-#include "sage/core/checksum.hpp"
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
+#include "sage/platform/checksum.hpp"
 
 namespace sage {
 

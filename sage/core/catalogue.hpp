@@ -13,12 +13,12 @@
 #include <vector>
 
 #include "sage/core/element.hpp"
-#include "sage/core/error.hpp"
 #include "sage/core/field.hpp"
 #include "sage/core/law.hpp"
 #include "sage/core/linear_solver.hpp"
 #include "sage/core/units.hpp"
 #include "sage/core/unknown.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage {
 

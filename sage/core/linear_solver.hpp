@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sage/core/stop.hpp"
+#include "sage/platform/stop.hpp"
 
 namespace sage {
 

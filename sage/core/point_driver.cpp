@@ -7,7 +7,7 @@
 #include <string>
 
 #include "sage/core/dense.hpp"
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage {
 

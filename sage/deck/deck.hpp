@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "sage/core/error.hpp"
 #include "sage/deck/source.hpp"
 #include "sage/deck/text.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage {
 

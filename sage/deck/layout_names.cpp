@@ -5,13 +5,13 @@
 #include <utility>
 #include <vector>
 
-#include "sage/core/near_names.hpp"
+#include "sage/messages/near_names.hpp"
 
 namespace sage {
 
 namespace {
 
-// One card that the model builder knows (sage/build/build_*.cpp and sage/exchange/canonical_*.cpp).  Names
+// One card that the model builder knows (sage/builder/build_*.cpp and sage/exchange/translate_*.cpp).  Names
 // stand between blanks; "a|b": one of them is enough.
 struct KnownCard {
   std::string_view family, name;

@@ -4,11 +4,11 @@
 #include <map>
 #include <optional>
 
-#include "sage/core/near_names.hpp"
 #include "sage/deck/layout.hpp"
 #include "sage/deck/layout_names.hpp"
 #include "sage/deck/text.hpp"
 #include "sage/deck/toml_file.hpp"
+#include "sage/messages/near_names.hpp"
 
 namespace sage {
 

@@ -9,8 +9,8 @@
 #include <system_error>
 #include <utility>
 
-#include "sage/core/error.hpp"
 #include "sage/deck/text.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage {
 

@@ -18,8 +18,8 @@
 #include <algorithm>
 #include <string>
 
-#include "sage/core/error.hpp"
-#include "sage/core/near_names.hpp"
+#include "sage/messages/error.hpp"
+#include "sage/messages/near_names.hpp"
 
 namespace sage {
 

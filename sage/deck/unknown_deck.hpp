@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "sage/core/error.hpp"
 #include "sage/deck/layout.hpp"
 #include "sage/deck/source.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage {
 

@@ -5,9 +5,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "sage/core/near_names.hpp"
 #include "sage/draw/diagram.hpp"
 #include "sage/draw/flow_net.hpp"
+#include "sage/messages/near_names.hpp"
 
 namespace sage {
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage::drive {
 

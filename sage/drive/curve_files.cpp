@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sage/core/code.hpp"
-#include "sage/core/error.hpp"
 #include "sage/draw/plot.hpp"
+#include "sage/messages/code.hpp"
+#include "sage/messages/error.hpp"
 #include "sage/record/number.hpp"
 #include "sage/record/values.hpp"
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <unsupported/Eigen/NonLinearOptimization>
 
-#include "sage/core/error.hpp"
 #include "sage/drive/subject.hpp"
+#include "sage/messages/error.hpp"
 #include "sage/record/csv_table.hpp"
 
 namespace sage::drive {
@@ -229,8 +229,8 @@ double student(int freedom) {
 }
 
 // Errors, correlation and combinations without influence, from the singular values of J.
-void judge(const FitProblem& problem, const Eigen::MatrixXd& J, const std::vector<Variable>& variables,
-           FitResult& result) {
+void estimate_errors(const FitProblem& problem, const Eigen::MatrixXd& J,
+                     const std::vector<Variable>& variables, FitResult& result) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(J, Eigen::ComputeThinV);
   const Eigen::VectorXd& size = svd.singularValues();
   const Eigen::MatrixXd& V = svd.matrixV();
@@ -381,7 +381,7 @@ FitResult fit(const FitProblem& problem) {
     result.values.push_back(values[static_cast<Eigen::Index>(k)]);
     result.at_bound.push_back(variables[k].at_bound(result.values.back()));
   }
-  judge(problem, scaled_jacobian(problem, comparison, variables, values), variables, result);
+  estimate_errors(problem, scaled_jacobian(problem, comparison, variables, values), variables, result);
   result.evaluations = comparison.evaluations();
   result.curves = comparison.curves(result.fitted);
   result.model = comparison.model(result.curves, false);

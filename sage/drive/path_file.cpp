@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 #include "sage/record/csv_table.hpp"
 
 namespace sage::drive {

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "sage/core/error.hpp"
 #include "sage/drive/curve.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage::drive {
 

@@ -1,9 +1,9 @@
 #include <array>
 #include <cmath>
 
-#include "sage/exchange/canonical_cande.hpp"
+#include "sage/exchange/translate_cande.hpp"
 
-namespace sage::canonical {
+namespace sage::translate {
 
 namespace {
 
@@ -304,4 +304,4 @@ void CandeJoints::add_gaps(int step, int stage, CardWriter& out) const {
               stage);
 }
 
-}  // namespace sage::canonical
+}  // namespace sage::translate

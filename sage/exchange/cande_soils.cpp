@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <span>
 
-namespace sage::canonical {
+namespace sage::translate {
 
 namespace {
 
@@ -47,4 +47,4 @@ const NamedSoil* named_soil(bool selig, std::string_view text) {
   return found == soils.end() ? nullptr : &*found;
 }
 
-}  // namespace sage::canonical
+}  // namespace sage::translate

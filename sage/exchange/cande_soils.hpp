@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace sage::canonical {
+namespace sage::translate {
 
 // Numbers of the hyperbolic laws; cohesion in psi, angles in degrees.
 struct NamedSoil {
@@ -17,4 +17,4 @@ struct NamedSoil {
 // the first word of `text`.  nullptr: unknown.
 const NamedSoil* named_soil(bool selig, std::string_view text);
 
-}  // namespace sage::canonical
+}  // namespace sage::translate

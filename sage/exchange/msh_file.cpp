@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "sage/core/error.hpp"
 #include "sage/deck/text.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage::msh {
 

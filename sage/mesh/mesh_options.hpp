@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sage/core/code.hpp"
+#include "sage/messages/code.hpp"
 
 namespace sage {
 

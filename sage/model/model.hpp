@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sage/core/catalogue.hpp"
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage {
 

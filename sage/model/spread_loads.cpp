@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sage/core/spaced.hpp"
+#include "sage/core/spaced_members.hpp"
 #include "sage/model/water.hpp"
 
 namespace sage {
@@ -63,7 +63,7 @@ class SpreadLoads {
 
 double spacing_of(const LawRef& law) {
   const auto* const* one = std::get_if<const Law<1>*>(&law);
-  const auto* const spaced = one != nullptr ? dynamic_cast<const Spaced*>(*one) : nullptr;
+  const auto* const spaced = one != nullptr ? dynamic_cast<const SpacedMembers*>(*one) : nullptr;
   return spaced != nullptr ? spaced->spacing() : 1.0;
 }
 

@@ -13,7 +13,7 @@
 #include <fstream>
 #include <new>
 
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage {
 

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <limits>
 
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage {
 

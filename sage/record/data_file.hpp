@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "sage/core/module.hpp"
+#include "sage/platform/module.hpp"
 
 namespace sage {
 

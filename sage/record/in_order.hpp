@@ -45,7 +45,7 @@ class InOrder {
 
 // Lists that are used again, so that their memory is not asked for, and filled with zeros, once more.
 template <class List>
-class Rooms {
+class ListPool {
  public:
   // Holds `size` items of any value.
   List take(std::size_t size) {

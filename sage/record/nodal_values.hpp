@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "sage/core/thread_pool.hpp"
+#include "sage/platform/thread_pool.hpp"
 #include "sage/record/field_reader.hpp"
 
 namespace sage {

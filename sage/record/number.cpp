@@ -11,7 +11,7 @@
 #include <iterator>
 #include <limits>
 
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage {
 

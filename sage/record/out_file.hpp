@@ -12,8 +12,8 @@
 #include <string_view>
 
 #include "sage/core/archive.hpp"
-#include "sage/core/checksum.hpp"
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
+#include "sage/platform/checksum.hpp"
 
 namespace sage {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "sage/core/profile.hpp"
+#include "sage/platform/profile.hpp"
 
 namespace sage {
 

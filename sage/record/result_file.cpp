@@ -8,8 +8,8 @@
 #include <fstream>
 #include <optional>
 
-#include "sage/core/checksum.hpp"
 #include "sage/model/fingerprint.hpp"
+#include "sage/platform/checksum.hpp"
 #include "sage/record/apart.hpp"
 #include "sage/record/data_file.hpp"
 #include "sage/record/in_order.hpp"
@@ -110,8 +110,8 @@ class TableFile {
 
   std::filesystem::path path_;
   std::unique_ptr<DataFile> file_;
-  Rooms<std::vector<double>> numbers_;
-  Rooms<std::string> texts_;
+  ListPool<std::vector<double>> numbers_;
+  ListPool<std::string> texts_;
   InOrder writer_;  // the last member: its thread uses the others
 };
 

@@ -6,9 +6,9 @@
 #include <bit>
 #include <cstring>
 
-#include "sage/core/checksum.hpp"
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 #include "sage/model/fingerprint.hpp"
+#include "sage/platform/checksum.hpp"
 
 namespace sage {
 

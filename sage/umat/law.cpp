@@ -12,7 +12,7 @@
 #include <sstream>
 #include <utility>
 
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage::umat {
 

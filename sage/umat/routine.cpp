@@ -21,8 +21,8 @@
 #include <utility>
 #include <vector>
 
-#include "sage/core/float_modes.hpp"
-#include "sage/core/module.hpp"
+#include "sage/platform/float_modes.hpp"
+#include "sage/platform/module.hpp"
 #include "sage/umat/host.h"
 
 namespace sage::umat {

@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-#include "sage/core/module.hpp"
+#include "sage/platform/module.hpp"
 #include "sage/umat/host.h"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <ostream>
 #include <sstream>
 
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 #include "sage/umat/law.hpp"
 
 namespace sage::umat {

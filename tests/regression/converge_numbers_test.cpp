@@ -38,7 +38,7 @@ struct Asked {
   int max_dofs = 400'000;
 };
 
-Convergence climbed(const Asked& asked) {
+Convergence converged(const Asked& asked) {
   RunRequest request;
   request.deck = asked.deck;
   request.quiet = true;
@@ -52,7 +52,7 @@ Convergence climbed(const Asked& asked) {
   options.follow = asked.follow;
   options.max_dofs = asked.max_dofs;
   options.max_seconds = 1e6;  // a busy machine decides nothing
-  return climb(request, options, full_catalogue());
+  return refine_until_converged(request, options, full_catalogue());
 }
 
 ConvergedValue value_of(const Convergence& found, const std::string& name) {
@@ -91,7 +91,7 @@ std::string rough_circle() {
 
 TEST(ConvergeAtPoints, BesideARoughFooting) {
   const Convergence found =
-      climbed({write("rough_circle", rough_circle()), 1e-4, {{1.05, 1.95}}, {"report2.stress_yy"}});
+      converged({write("rough_circle", rough_circle()), 1e-4, {{1.05, 1.95}}, {"report2.stress_yy"}});
   EXPECT_EQ(found.exit_code, kOk) << found.not_reached;
   expect_held(found, "report2.stress_yy", 1402.7981, 5e-5);
   EXPECT_LE(value_of(found, "report2.stress_yy").error, 1e-4 * 1403.0);
@@ -100,9 +100,9 @@ TEST(ConvergeAtPoints, BesideARoughFooting) {
 // On the platen u_r = 0, so that strain_rr = strain_tt = 0 and both stresses are one.
 TEST(ConvergeAtPoints, OnAPlatenBesideItsEdge) {
   const Convergence found =
-      climbed({std::string(SAGE_SOURCE_DIR) + "/legacy_inputs/chapter7/pinned_ld2_nu025/deck.dat",
-               1e-4,
-               {{1.26, 2.8}}});
+      converged({std::string(SAGE_SOURCE_DIR) + "/legacy_inputs/chapter7/pinned_ld2_nu025/deck.dat",
+                 1e-4,
+                 {{1.26, 2.8}}});
   EXPECT_EQ(found.exit_code, kOk) << found.not_reached;
   expect_held(found, "report2.stress_xx", 155.89916, 5e-6);
   expect_held(found, "report2.stress_yy", 367.69748, 5e-6);
@@ -114,11 +114,11 @@ TEST(ConvergeAtPoints, OnAPlatenBesideItsEdge) {
 
 // The stress at the edge itself has no bound, whatever two meshes have there.
 TEST(ConvergeAtPoints, AtASingularCornerNothingIsCertain) {
-  const Convergence found = climbed({.deck = write("corner", rough_circle()),
-                                     .tolerance = 1e-2,
-                                     .points = {{1.0, 2.0}},
-                                     .follow = {"report2.stress_yy"},
-                                     .max_dofs = 12'000});
+  const Convergence found = converged({.deck = write("corner", rough_circle()),
+                                       .tolerance = 1e-2,
+                                       .points = {{1.0, 2.0}},
+                                       .follow = {"report2.stress_yy"},
+                                       .max_dofs = 12'000});
   EXPECT_EQ(found.exit_code, kNotConverged);
   EXPECT_TRUE(std::isinf(value_of(found, "report2.stress_yy").error));
 }
@@ -141,14 +141,14 @@ std::string well() {
 }
 
 TEST(ConvergeOnFlow, TheDischargeOfAWell) {
-  const Convergence found = climbed({write("well", well()), 1e-5});
+  const Convergence found = converged({write("well", well()), 1e-5});
   EXPECT_EQ(found.exit_code, kOk) << found.not_reached;
   const double truth = 2.0 * std::numbers::pi * kHigh * kPermeability * kHead / std::log(kOuter / kInner);
   ConvergedValue value = value_of(found, "report1.discharge");
   EXPECT_LE(std::abs(std::abs(value.value) - truth), value.error) << value.value << " for " << truth;
   EXPECT_LE(value.error, 1e-5 * truth);
   const Convergence named =
-      climbed({.deck = write("well", well()), .tolerance = 1e-3, .follow = {"report1.gradient"}});
+      converged({.deck = write("well", well()), .tolerance = 1e-3, .follow = {"report1.gradient"}});
   value = value_of(named, "report1.gradient");
   EXPECT_LE(std::abs(std::abs(value.value) - kHead / std::log(kOuter / kInner) / kInner), value.error)
       << value.value;
@@ -156,7 +156,7 @@ TEST(ConvergeOnFlow, TheDischargeOfAWell) {
 
 // Head and velocity at a place of a model without solids, by the closed form.
 TEST(ConvergeOnFlow, AtAPoint) {
-  const Convergence found = climbed({write("well_point", well()), 1e-3, {{1.5, 0.25}}});
+  const Convergence found = converged({write("well_point", well()), 1e-3, {{1.5, 0.25}}});
   EXPECT_EQ(found.exit_code, kOk) << found.not_reached;
   const double slope = kHead / std::log(kOuter / kInner);
   expect_held(found, "report2.head", slope * std::log(1.5), 1e-12);
@@ -183,7 +183,7 @@ TEST(ConvergeFromLongElements, ReachesNineDigits) {
       for (int node : block.top()) stage.fix(node, 1, 1, 0.0, -0.03);
       deck.triaxial_report(1, block.top().front(), block.top().back(), 1, 3.0);
       const Convergence found =
-          climbed({.deck = write("long", deck.text()), .tolerance = 1e-9, .max_dofs = 60'000});
+          converged({.deck = write("long", deck.text()), .tolerance = 1e-9, .max_dofs = 60'000});
       EXPECT_EQ(found.exit_code, kOk) << "2 x " << rows << ": " << found.not_reached;
       ratios.push_back(value_of(found, "report1.ratio").value);
     }

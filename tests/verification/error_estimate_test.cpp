@@ -20,9 +20,9 @@ namespace {
 
 // Estimates at the end of a run, and measures the true error: at the integration points, and of the displacements
 // everywhere, which is what a reduced element has wrong.
-class Judge final : public Observer {
+class ErrorComparison final : public Observer {
  public:
-  Judge(LameBody body, double nu) : body_(body), nu_(nu) {}
+  ErrorComparison(LameBody body, double nu) : body_(body), nu_(nu) {}
   void on_increment(const Model& model, const StepReport&, const Solution& solution) override {
     estimate = estimate_error(model, solution);
     const Matrix4 C = compliance();
@@ -101,14 +101,14 @@ class Judge final : public Observer {
   double nu_;
 };
 
-Judge judge(const LameDeck& deck, const BuildOptions& options = {}, int threads = 1) {
+ErrorComparison compare_errors(const LameDeck& deck, const BuildOptions& options = {}, int threads = 1) {
   static const Catalogue catalogue = app::full_catalogue();
   const Model model =
       build_model(read_deck_text(deck.text(), "deck", load_layout("sage1")), catalogue, options);
   RunSettings settings;
   settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
   settings.threads = threads;
-  Judge watch(deck.body, deck.nu);
+  ErrorComparison watch(deck.body, deck.nu);
   Observer* observers[] = {&watch};
   EXPECT_EQ(run(model, catalogue, settings, observers).status, RunStatus::completed);
   return watch;
@@ -134,7 +134,7 @@ TEST(ErrorEstimate, EffectivityOnTheThickCylinder) {
       for (const int n : {c.n, 2 * c.n}) {
         BuildOptions options;
         options.element = c.element;
-        const Judge now = judge({body, c.cell, c.formulation, n, 0.3}, options);
+        const ErrorComparison now = compare_errors({body, c.cell, c.formulation, n, 0.3}, options);
         std::printf("    %-12s %-6s n %2d  relative error %.2e  effectivity %.3f\n", c.name,
                     body == LameBody::strip ? "ring" : "sector", n, now.estimate.relative(), now.effectivity());
         EXPECT_TRUE(now.estimate.energy);
@@ -153,14 +153,14 @@ TEST(ErrorEstimate, OfReducedElementsUpToIncompressible) {
     for (const double nu : {0.1, 0.3, 0.45, 0.49, 0.499, 0.4999}) {
       for (const Case& c : reduced)
         for (const int n : {8, 16}) {
-          const double ratio = judge({body, c.cell, c.formulation, n, nu}).effectivity_everywhere();
+          const double ratio = compare_errors({body, c.cell, c.formulation, n, nu}).effectivity_everywhere();
           std::printf("    %-18s %-6s n %2d nu %.4f effectivity %.3f\n", c.name,
                       body == LameBody::strip ? "ring" : "sector", n, nu, ratio);
           EXPECT_GT(ratio, 0.5) << c.name << " nu " << nu << " n " << n;
           EXPECT_LT(ratio, 2.0) << c.name << " nu " << nu << " n " << n;
         }
       for (const Case& c : own)
-        EXPECT_NEAR(judge({body, c.cell, c.formulation, 8, nu}).effectivity(), 0.93, 0.05);
+        EXPECT_NEAR(compare_errors({body, c.cell, c.formulation, 8, nu}).effectivity(), 0.93, 0.05);
     }
 }
 
@@ -185,7 +185,7 @@ TEST(ErrorEstimate, OfHighDegrees) {
         options.element = c.element;
         LameDeck deck{body, c.cell, c.formulation, c.n, nu};
         deck.code = c.code;
-        const double ratio = judge(deck, options).effectivity();
+        const double ratio = compare_errors(deck, options).effectivity();
         std::printf("    %-18s %-6s n %2d nu %.4f effectivity %.3f\n", c.name,
                     body == LameBody::strip ? "ring" : "sector", c.n, nu, ratio);
         EXPECT_GT(ratio, 0.5) << c.name << " nu " << nu;
@@ -194,7 +194,7 @@ TEST(ErrorEstimate, OfHighDegrees) {
 }
 
 TEST(ErrorEstimate, PartsOfTheElementsSumToTheWhole) {
-  const Judge now = judge({LameBody::strip, Cell::quad4, 2, 6, 0.3});
+  const ErrorComparison now = compare_errors({LameBody::strip, Cell::quad4, 2, 6, 0.3});
   double sum = 0.0;
   for (const auto& group : now.estimate.element)
     for (double part : group) {
@@ -209,10 +209,10 @@ TEST(ErrorEstimate, ThreadsChangeNoBit) {
   const LameDeck deck{LameBody::sector, Cell::quad4, 2, 8, 0.3};
   BuildOptions options;
   options.refine = 3;
-  const Judge alone = judge(deck, options, 1);
+  const ErrorComparison alone = compare_errors(deck, options, 1);
   ASSERT_GE(alone.estimate.element.at(0).size(), 2000u) << "fewer elements are left to one thread";
   for (const int threads : {2, 3}) {
-    const Judge several = judge(deck, options, threads);
+    const ErrorComparison several = compare_errors(deck, options, threads);
     EXPECT_EQ(several.estimate.error, alone.estimate.error);
     EXPECT_EQ(several.estimate.size, alone.estimate.size);
     EXPECT_EQ(several.estimate.element, alone.estimate.element);

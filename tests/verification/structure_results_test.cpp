@@ -12,7 +12,7 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/run_deck.hpp"
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 #include "sage/record/end_forces.hpp"
 #include "sage/record/result.hpp"
 #include "tests/studies/workbench.hpp"
@@ -417,7 +417,7 @@ TEST(EndForces, EnvelopeAndTablesOfAllStages) {
   EXPECT_EQ(rows[0].low_stage[kBendingMoment], 1);
 }
 
-double moment_at(const std::vector<ElementEnd>& ends, std::size_t i) {
+double step_time_at(const std::vector<ElementEnd>& ends, std::size_t i) {
   return ends[i].value[kBendingMoment];
 }
 
@@ -436,7 +436,7 @@ TEST(Releases, AnAxialReleaseLeavesTheOtherBeamTheForce) {
     EXPECT_NEAR(kept.ends(0)[1].value[kShearForce], -1.5, 1e-9);  // bending as without the release
     EXPECT_NEAR(kept.ends(1)[0].value[kShearForce], 1.5, 1e-9);
     if (element == kBeam2) {
-      EXPECT_NEAR(moment_at(kept.ends(1), 1), -3.0 * 4.0 / 8.0, 1e-9);  // P L/8
+      EXPECT_NEAR(step_time_at(kept.ends(1), 1), -3.0 * 4.0 / 8.0, 1e-9);  // P L/8
     }
   }
 }
@@ -456,7 +456,7 @@ TEST(Releases, AShearReleaseLeavesTheOtherBeamTheShear) {
       EXPECT_NEAR(end.value[kBendingMoment], 3.0 * 2.0 / 4.0, 1e-9);
     }
     EXPECT_NEAR(kept.ends(0)[1].value[kShearForce], -3.0, 1e-9);
-    EXPECT_NEAR(moment_at(kept.ends(0), 0), -3.0 * 2.0 + 3.0 * 2.0 / 4.0, 1e-9);
+    EXPECT_NEAR(step_time_at(kept.ends(0), 0), -3.0 * 2.0 + 3.0 * 2.0 / 4.0, 1e-9);
   }
 }
 

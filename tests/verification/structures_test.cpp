@@ -11,7 +11,7 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/run_deck.hpp"
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 #include "sage/model/dof_map.hpp"
 #include "tests/support/csv_column.hpp"
 #include "tests/support/run_text.hpp"

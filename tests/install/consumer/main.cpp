@@ -4,7 +4,7 @@
 #include "elements/register_elements.hpp"
 #include "materials/register_materials.hpp"
 #include "sage/analysis/run.hpp"
-#include "sage/build/build_model.hpp"
+#include "sage/builder/build_model.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "solvers/choose_solver.hpp"
 #include "solvers/register_solvers.hpp"

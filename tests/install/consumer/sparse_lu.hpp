@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "sage/core/catalogue.hpp"
-#include "sage/core/error.hpp"
 #include "sage/core/linear_solver.hpp"
 #include "sage/core/solver_extensions.hpp"
+#include "sage/messages/error.hpp"
 
 namespace own {
 

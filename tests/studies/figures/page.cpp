@@ -203,7 +203,7 @@ void append_check(Page& out, const Result& result) {
   bool first = true;
   for (const Outcome& outcome : result.outcomes) {
     const std::string k_j =
-        outcome.k_j > 0.0 ? fmt::format("K_j = {:.3g}: {}", outcome.k_j, name_of(judge(outcome))) : "";
+        outcome.k_j > 0.0 ? fmt::format("K_j = {:.3g}: {}", outcome.k_j, name_of(verdict_of(outcome))) : "";
     out.row({first ? check.quote : "", first ? what_of(check) : "", first ? limits_of(check) : "",
              with_corner(outcome.number[0]), with_corner(outcome.number[1]),
              first ? verdict_text(result) + (k_j.empty() ? "" : "; " + k_j) : k_j,
@@ -257,7 +257,7 @@ std::string met_and_not(const std::vector<Result>& results, std::size_t k, std::
   for (const Result& result : results) {
     if (result.outcomes.size() != count) continue;
     all.insert(result.check->figure);
-    const Verdict verdict = judge(result.outcomes[k]);
+    const Verdict verdict = verdict_of(result.outcomes[k]);
     if (verdict != Verdict::holds && verdict != Verdict::away_from_corner) missed.insert(result.check->figure);
   }
   std::string met, not_met;

@@ -12,7 +12,7 @@
 #include "sage/app/program.hpp"
 #include "sage/app/progress.hpp"
 #include "sage/app/studies.hpp"
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 #include "sage/record/out_file.hpp"
 #include "tests/studies/figures/page.hpp"
 #include "tests/studies/figures/pictures.hpp"

@@ -108,7 +108,7 @@ const char* name_of(Verdict verdict) {
   return kNames[static_cast<std::size_t>(verdict)];
 }
 
-Verdict judge(const Outcome& outcome) {
+Verdict verdict_of(const Outcome& outcome) {
   const auto& [full, b_bar] = outcome.pass;
   if (full[0] && b_bar[0]) return Verdict::holds;
   if (full[1] && b_bar[1]) return Verdict::away_from_corner;
@@ -116,15 +116,15 @@ Verdict judge(const Outcome& outcome) {
   return Verdict::does_not_hold;
 }
 
-Verdict judge(const std::vector<Outcome>& outcomes) {
-  const Verdict first = judge(outcomes.at(0));
+Verdict verdict_of(const std::vector<Outcome>& outcomes) {
+  const Verdict first = verdict_of(outcomes.at(0));
   const bool alike =
-      std::ranges::all_of(outcomes, [&](const Outcome& outcome) { return judge(outcome) == first; });
+      std::ranges::all_of(outcomes, [&](const Outcome& outcome) { return verdict_of(outcome) == first; });
   return alike ? first : Verdict::depends_on_k_j;
 }
 
 bool near_limit(const Check& check, const std::vector<Outcome>& outcomes) {
-  const Verdict verdict = judge(outcomes);
+  const Verdict verdict = verdict_of(outcomes);
   std::vector<Outcome> others = outcomes;
   std::vector<std::pair<bool*, bool>> near;  // what may be otherwise, and as it is
   for (Outcome& outcome : others)
@@ -134,7 +134,7 @@ bool near_limit(const Check& check, const std::vector<Outcome>& outcomes) {
           near.emplace_back(&outcome.pass[e][away], outcome.pass[e][away]);
   for (unsigned long choice = 1; choice < 1ul << near.size(); ++choice) {
     for (std::size_t i = 0; i < near.size(); ++i) *near[i].first = near[i].second != ((choice >> i & 1ul) != 0);
-    if (judge(others) != verdict) return true;
+    if (verdict_of(others) != verdict) return true;
   }
   return false;
 }
@@ -174,7 +174,7 @@ std::vector<Result> evaluate(Runs& runs, std::span<const Check> checks,
         result.outcomes.push_back(outcome_of(runs, check, choice.k_j));
     else
       result.outcomes.push_back(outcome_of(runs, check, 0.0));
-    result.verdict = judge(result.outcomes);
+    result.verdict = verdict_of(result.outcomes);
     result.near_limit = near_limit(check, result.outcomes);
     result.b_bar_only = result.verdict == Verdict::does_not_hold &&
                         std::ranges::all_of(result.outcomes, [](const Outcome& o) { return o.pass[1][1]; });

@@ -19,9 +19,9 @@ struct Outcome {
   std::array<std::array<bool, 2>, 2> pass{};
 };
 // Of one K_j.
-Verdict judge(const Outcome& outcome);
+Verdict verdict_of(const Outcome& outcome);
 // Of all of them.
-Verdict judge(const std::vector<Outcome>& outcomes);
+Verdict verdict_of(const std::vector<Outcome>& outcomes);
 
 struct Result {
   const Check* check = nullptr;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sage/analysis/run.hpp"
-#include "sage/build/build_model.hpp"
+#include "sage/builder/build_model.hpp"
 #include "sage/deck/read_deck.hpp"
 
 namespace sage::scenes {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sage/judge/attempt.hpp"
+#include "sage/convergence/attempt.hpp"
 
 namespace sage::stress {
 
@@ -134,7 +134,7 @@ double RowResult::worst_digits() const {
 
 RowResult evaluate(const Row& row, const scenes::Workbench& bench) {
   Sweep sweep(bench);
-  const judge::Attempt attempt = judge::attempt([&] { row.run(sweep); });
+  const convergence::Attempt attempt = convergence::attempt([&] { row.run(sweep); });
   return {std::move(sweep.trials), attempt.thrown, attempt.seconds};
 }
 

@@ -11,7 +11,7 @@
 #include "sage/app/progress.hpp"
 #include "sage/app/screen.hpp"
 #include "sage/app/studies.hpp"
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 #include "sage/record/out_file.hpp"
 #include "tests/studies/verify/book.hpp"
 #include "tests/studies/workbench.hpp"

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "sage/core/error.hpp"
-#include "sage/judge/attempt.hpp"
+#include "sage/convergence/attempt.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage::verify {
 
@@ -144,7 +144,7 @@ double bisect(double low, double high, double width, const std::function<bool(do
 
 CaseResult run_case(const Case& one, const Workbench& bench) {
   Record record(bench);
-  const judge::Attempt attempt = judge::attempt([&] { one.run(record); });
+  const convergence::Attempt attempt = convergence::attempt([&] { one.run(record); });
   if (attempt.threw) record.stopped(attempt.thrown);
   return {&one, record.rows(), record.sequences(), attempt.seconds};
 }

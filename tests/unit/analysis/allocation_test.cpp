@@ -6,7 +6,7 @@
 
 #include "sage/analysis/run.hpp"
 #include "sage/app/commands.hpp"
-#include "sage/build/build_model.hpp"
+#include "sage/builder/build_model.hpp"
 #include "sage/conformance/allocations.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "solvers/choose_solver.hpp"

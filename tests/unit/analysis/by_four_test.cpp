@@ -8,7 +8,7 @@
 #include "sage/analysis/by_four.hpp"
 #include "sage/analysis/run.hpp"
 #include "sage/app/commands.hpp"
-#include "sage/build/build_model.hpp"
+#include "sage/builder/build_model.hpp"
 #include "sage/conformance/sample_laws.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "solvers/choose_solver.hpp"

@@ -7,7 +7,7 @@
 #include "sage/analysis/dogleg.hpp"
 #include "sage/analysis/run.hpp"
 #include "sage/app/commands.hpp"
-#include "sage/build/build_model.hpp"
+#include "sage/builder/build_model.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "solvers/choose_solver.hpp"
 #include "tests/support/run_text.hpp"

@@ -13,7 +13,7 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/run_deck.hpp"
-#include "sage/build/build_model.hpp"
+#include "sage/builder/build_model.hpp"
 #include "sage/conformance/element_cases.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "sage/exchange/convert.hpp"

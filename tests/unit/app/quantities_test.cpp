@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "sage/app/commands.hpp"
-#include "sage/build/build_model.hpp"
+#include "sage/builder/build_model.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "sage/exchange/convert.hpp"
 #include "sage/model/fingerprint.hpp"

@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "sage/app/commands.hpp"
-#include "sage/build/build_model.hpp"
+#include "sage/builder/build_model.hpp"
 #include "sage/compare/comparison.hpp"
 #include "sage/compare/pair_picture.hpp"
 #include "sage/deck/read_deck.hpp"

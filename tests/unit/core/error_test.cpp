@@ -1,4 +1,4 @@
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 
 #include <gtest/gtest.h>
 

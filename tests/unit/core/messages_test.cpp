@@ -1,5 +1,5 @@
 // The table of messages and the places that make them.
-#include "sage/core/messages.hpp"
+#include "sage/messages/messages.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage {
 namespace {

@@ -1,5 +1,5 @@
 // The tree of phases: who is charged for what.
-#include "sage/core/profile.hpp"
+#include "sage/platform/profile.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "sage/core/thread_pool.hpp"
+#include "sage/platform/thread_pool.hpp"
 
 #include <algorithm>
 #include <atomic>

@@ -21,7 +21,7 @@
 
 #include "problem_bytes.hpp"
 #include "sage/app/commands.hpp"
-#include "sage/build/build_model.hpp"
+#include "sage/builder/build_model.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "tests/support/sanitized.hpp"
 

@@ -17,7 +17,7 @@
 #include "elements/register_elements.hpp"
 #include "materials/register_materials.hpp"
 #include "problem_bytes.hpp"
-#include "sage/build/build_model.hpp"
+#include "sage/builder/build_model.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "solvers/register_solvers.hpp"
 #include "tests/support/sanitized.hpp"

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "materials/register_materials.hpp"
-#include "sage/core/error.hpp"
 #include "sage/drive/curve_files.hpp"
 #include "sage/drive/subject.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage::drive {
 namespace {

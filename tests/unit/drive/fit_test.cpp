@@ -8,8 +8,8 @@
 #include <random>
 
 #include "materials/register_materials.hpp"
-#include "sage/core/error.hpp"
 #include "sage/drive/subject.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage::drive {
 namespace {

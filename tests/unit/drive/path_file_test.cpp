@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage::drive {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "sage/conformance/sample_laws.hpp"
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 #include "tests/support/elements.hpp"
 
 namespace sage::test {

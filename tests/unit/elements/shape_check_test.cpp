@@ -6,7 +6,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 #include "tests/support/elements.hpp"
 
 namespace sage::test {

@@ -580,7 +580,7 @@ TEST(Cande, SoilsOfSeligHaveTheirConstrainedModuli) {
                         Case{"ML95", 12.2, 14.4}, Case{"ML90", 5.2, 6.2}, Case{"ML85", 2.8, 3.5},
                         Case{"CL95", 4.8, 5.6}, Case{"CL90", 2.4, 3.2}, Case{"CL85", 1.4, 2.0}}) {
     SCOPED_TRACE(c.name);
-    const canonical::NamedSoil* soil = canonical::named_soil(true, std::string(c.name) + "  fill");
+    const translate::NamedSoil* soil = translate::named_soil(true, std::string(c.name) + "  fill");
     ASSERT_NE(soil, nullptr);
     const UnitSystem units{"m", "kN", "kPa", 101.325, 9.81};
     const std::vector<double> values{soil->K,

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "sage/app/commands.hpp"
-#include "sage/build/build_model.hpp"
+#include "sage/builder/build_model.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/shipped_decks.hpp"

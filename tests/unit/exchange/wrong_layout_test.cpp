@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "sage/app/commands.hpp"
-#include "sage/build/build_model.hpp"
+#include "sage/builder/build_model.hpp"
 #include "sage/deck/other_programs.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "tests/support/scratch_folder.hpp"

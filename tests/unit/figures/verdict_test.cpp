@@ -125,17 +125,17 @@ Outcome outcome(bool full, bool full_away, bool b_bar, bool b_bar_away) {
 }
 
 TEST(Verdicts, FollowFromTheNumbers) {
-  EXPECT_EQ(judge(outcome(true, true, true, true)), Verdict::holds);
-  EXPECT_EQ(judge(outcome(true, false, true, false)), Verdict::holds);
-  EXPECT_EQ(judge(outcome(false, true, false, true)), Verdict::away_from_corner);
-  EXPECT_EQ(judge(outcome(true, true, false, true)), Verdict::away_from_corner);
-  EXPECT_EQ(judge(outcome(true, true, false, false)), Verdict::artefact);
-  EXPECT_EQ(judge(outcome(false, true, false, false)), Verdict::artefact);
-  EXPECT_EQ(judge(outcome(false, false, true, true)), Verdict::does_not_hold);
+  EXPECT_EQ(verdict_of(outcome(true, true, true, true)), Verdict::holds);
+  EXPECT_EQ(verdict_of(outcome(true, false, true, false)), Verdict::holds);
+  EXPECT_EQ(verdict_of(outcome(false, true, false, true)), Verdict::away_from_corner);
+  EXPECT_EQ(verdict_of(outcome(true, true, false, true)), Verdict::away_from_corner);
+  EXPECT_EQ(verdict_of(outcome(true, true, false, false)), Verdict::artefact);
+  EXPECT_EQ(verdict_of(outcome(false, true, false, false)), Verdict::artefact);
+  EXPECT_EQ(verdict_of(outcome(false, false, true, true)), Verdict::does_not_hold);
   const Outcome yes = outcome(true, true, true, true), no = outcome(false, false, false, false);
-  EXPECT_EQ(judge(std::vector{yes, yes, yes}), Verdict::holds);
-  EXPECT_EQ(judge(std::vector{no, yes, yes}), Verdict::depends_on_k_j);
-  EXPECT_EQ(judge(std::vector{no, no, no}), Verdict::does_not_hold);
+  EXPECT_EQ(verdict_of(std::vector{yes, yes, yes}), Verdict::holds);
+  EXPECT_EQ(verdict_of(std::vector{no, yes, yes}), Verdict::depends_on_k_j);
+  EXPECT_EQ(verdict_of(std::vector{no, no, no}), Verdict::does_not_hold);
 }
 
 // Within 5 percent of a limit on either side; a share that can't pass 1 has less room above .99 than that.

@@ -13,8 +13,8 @@
 #include <random>
 
 #include "materials/register_materials.hpp"
-#include "sage/core/error.hpp"
 #include "sage/core/point_driver.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage {
 namespace {

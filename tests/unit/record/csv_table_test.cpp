@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 #include "tests/unit/record/specimen.hpp"
 
 namespace sage {

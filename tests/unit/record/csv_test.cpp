@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 #include "tests/support/text.hpp"
 #include "tests/unit/record/specimen.hpp"
 

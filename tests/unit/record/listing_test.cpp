@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 #include "tests/support/text.hpp"
 #include "tests/unit/record/specimen.hpp"
 

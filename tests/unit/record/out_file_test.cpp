@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "sage/core/archive.hpp"
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 #include "sage/record/values.hpp"
 #include "tests/unit/record/specimen.hpp"
 

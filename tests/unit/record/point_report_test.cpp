@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "sage/app/commands.hpp"
-#include "sage/build/build_model.hpp"
+#include "sage/builder/build_model.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "sage/record/report.hpp"
 #include "solvers/choose_solver.hpp"

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "sage/core/checksum.hpp"
+#include "sage/platform/checksum.hpp"
 #include "sage/record/data_file.hpp"
 #include "sage/record/stored_result.hpp"
 #include "tests/unit/record/specimen.hpp"

@@ -8,7 +8,7 @@
 #include <map>
 #include <sstream>
 
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 #include "sage/model/dof_map.hpp"
 #include "tests/support/elements.hpp"
 #include "tests/unit/record/specimen.hpp"

@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 
 #include "sage/conformance/solver_systems.hpp"
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 #include "solvers/frontal.hpp"
 #include "solvers/skyline.hpp"
 

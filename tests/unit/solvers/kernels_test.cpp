@@ -7,7 +7,7 @@
 
 #include "sage/conformance/solver_systems.hpp"
 #include "sage/core/catalogue.hpp"
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 #include "solvers/frontal.hpp"
 #include "solvers/skyline.hpp"
 

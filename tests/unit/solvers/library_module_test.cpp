@@ -13,7 +13,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace sage {

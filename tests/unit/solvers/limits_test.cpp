@@ -11,8 +11,8 @@
 #include <Eigen/LU>
 
 #include "sage/conformance/solver_systems.hpp"
-#include "sage/core/error.hpp"
-#include "sage/core/thread_pool.hpp"
+#include "sage/messages/error.hpp"
+#include "sage/platform/thread_pool.hpp"
 #include "solvers/aligned_array.hpp"
 #include "solvers/front_tree.hpp"
 #include "solvers/matrix_solver.hpp"

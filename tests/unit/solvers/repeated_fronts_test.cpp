@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "sage/conformance/solver_systems.hpp"
-#include "sage/core/error.hpp"
+#include "sage/messages/error.hpp"
 #include "solvers/frontal.hpp"
 
 namespace sage::test {

@@ -1,0 +1,62 @@
+#include "sage/analysis/deferred_states.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "sage/platform/thread_pool.hpp"
+
+namespace sage {
+
+namespace {
+
+void bring_up_to_date(GroupData& data, const Eigen::VectorXd& behind, const ElementWork& element,
+                      WorkCounters& work, int threads) {
+  const auto size = static_cast<std::size_t>(data.group->element->traits().points * data.state.law_size());
+  const auto elements = static_cast<std::size_t>(data.group->elements());
+  constexpr std::size_t kWorthThreads = 10000;  // elements from which on threads gain
+  std::optional<ThreadPool> pool;
+  if (threads > 1 && elements >= kWorthThreads) pool.emplace(threads);
+  in_pieces(pool ? &*pool : nullptr, elements, [&](std::size_t first, std::size_t last) {
+    ElementWork room = element;
+    for (std::size_t e = first; e < last; ++e) {
+      room.evaluate(data, static_cast<int>(e), &behind, nullptr);
+      std::copy_n(room.sigma(), size, data.state.committed.sigma.data() + e * size);
+      std::copy_n(room.eps(), size, data.state.committed.eps.data() + e * size);
+    }
+  });
+  std::swap(data.state.committed.h, data.state.trial.h);
+  std::swap(data.state.committed.status, data.state.trial.status);
+  work.element_evaluations += data.group->elements();
+}
+
+}  // namespace
+
+void DeferredStates::recover(std::vector<GroupData>& groups, ElementWork& element, WorkCounters& work,
+                             int threads) {
+  for (GroupData& data : groups) data.state.make_room();
+  if (!is_behind_) return;
+  const Profile::Scope scope(work.profile, phase::kAssembly);
+  for (GroupData& data : groups) {
+    const Eigen::VectorXd& behind = data.group->structure() ? structures_ : others_;
+    if (data.active && data.constant && behind.size() > 0)
+      bring_up_to_date(data, behind, element, work, threads);
+  }
+  others_.resize(0);
+  structures_.resize(0);
+  is_behind_ = false;
+}
+
+void DeferredStates::recover_structures(std::vector<GroupData>& groups, ElementWork& element,
+                                        WorkCounters& work) {
+  for (GroupData& data : groups)
+    if (data.group->structure()) data.state.make_room();
+  if (structures_.size() == 0) return;
+  const Profile::Scope scope(work.profile, phase::kAssembly);
+  for (GroupData& data : groups)
+    if (data.active && data.constant && data.group->structure())
+      bring_up_to_date(data, structures_, element, work, 1);
+  structures_.resize(0);
+}
+
+}  // namespace sage

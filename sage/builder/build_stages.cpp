@@ -1,0 +1,509 @@
+// Fixities, loads, initial stress and stages.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sage/builder/builder.hpp"
+
+namespace sage::builder {
+
+namespace {
+
+FixityCode fixity_code(Builder& b, const CardView& card, std::string_view field) {
+  const int code = card.integer(field);
+  if (code == 0) return FixityCode::unchanged;
+  if (code == 1) return FixityCode::fixed;
+  if (code == -1) return FixityCode::released;
+  b.error("S210", card.where(field),
+          "code " + std::to_string(code) + " is unknown; 0 unchanged, 1 fixed, -1 released");
+  return FixityCode::unchanged;
+}
+
+}  // namespace
+
+// Nodes first, first+step ... last.
+std::vector<int> node_range(Builder& b, const CardView& card) {
+  const NumberRange range = b.range(card, "first");
+  std::vector<int> nodes;
+  for (std::int64_t number = range.first; number <= range.last; number += range.step) {
+    const int node = b.node(card, number == range.first ? "first" : "last", number);
+    if (node < 0) return {};
+    nodes.push_back(node);
+  }
+  return nodes;
+}
+
+namespace {
+
+// Which field of unknowns a card is about: 0 = displacement, -1 after an error.
+int read_unknown(Builder& b, const CardView& card) {
+  if (card.blank("unknown")) return 0;
+  const std::string name = b.text(card, "unknown");
+  const int field = find_unknown(b.model.unknowns, name);
+  if (field >= 0 || !b.groups_known) return field;
+  std::string known;
+  for (const UnknownField& unknown : b.model.unknowns) known += (known.empty() ? "" : ", ") + unknown.name;
+  b.error("S235", card.where("unknown"), "no element of the deck solves for " + name + "; it has: " + known);
+  return field;
+}
+
+// The fields of a card that belong to the second component of a displacement.
+void require_one_component(Builder& b, const CardView& card, std::initializer_list<const char*> fields) {
+  for (const char* field : fields)
+    if (card.real(field) != 0.0)
+      b.error("S235", card.where(field),
+              "the " + card.label(field) + " must be blank: " + b.text(card, "unknown") +
+                  " is one number a node, in the columns of x");
+}
+
+// False: no element gives the node that field, which is an error.
+bool has_unknown(Builder& b, const CardView& card, int node, int field) {
+  if (b.dof_map.of(node, field) >= 0) return true;
+  b.error("S235", card.where("unknown"),
+          "node " + std::to_string(b.model.mesh.number[static_cast<std::size_t>(node)]) + " has no " +
+              b.model.unknowns[static_cast<std::size_t>(field)].name + ": no element there solves for it");
+  return false;
+}
+
+void read_field_fixity(Builder& b, const CardView& card, int field, const Fixity& fixity,
+                       std::vector<FieldFixity>& out) {
+  require_one_component(b, card, {"y_code", "y_value"});
+  for (int node : node_range(b, card)) {
+    if (!has_unknown(b, card, node, field)) return;
+    out.push_back({field, node, fixity.code[0], fixity.value[0], fixity.line});
+  }
+}
+
+// Code 2 of a head: an exit.  False: the card is about something else.
+bool read_exit(Builder& b, const CardView& card, int field, std::vector<Exit>* out) {
+  constexpr int kExit = 2;
+  if (card.integer("x_code") != kExit || field == 0) return false;
+  if (b.model.unknowns[static_cast<std::size_t>(field)].name != "head") return false;
+  if (out == nullptr) {
+    b.error("S233", card.where("x_code"), "an exit of water (code 2) belongs on a fixity card of a stage");
+    return true;
+  }
+  require_one_component(b, card, {"y_code", "y_value"});
+  const double pressure_head = card.real("x_value");
+  b.usable(card, "x_value", pressure_head);
+  for (const int node : node_range(b, card)) {
+    if (!has_unknown(b, card, node, field)) return true;
+    out->push_back({node, pressure_head, card.card().line});
+  }
+  return true;
+}
+
+// exits: of a stage; nullptr before the first.
+void read_fixity(Builder& b, const CardView& card, std::vector<Exit>* exits, std::vector<Fixity>& out,
+                 std::vector<FieldFixity>& out_fields) {
+  const bool in_stage = exits != nullptr;
+  const int field = read_unknown(b, card);
+  if (field < 0 || read_exit(b, card, field, exits)) return;
+  Fixity fixity;
+  fixity.code = {fixity_code(b, card, "x_code"), fixity_code(b, card, "y_code")};
+  fixity.value = {card.real("x_value"), card.real("y_value")};
+  fixity.line = card.card().line;
+  const char* const codes[] = {"x_code", "y_code"};
+  const char* const values[] = {"x_value", "y_value"};
+  for (std::size_t c = 0; c < 2; ++c) {
+    b.usable(card, values[c], fixity.value[c]);
+    if (in_stage && fixity.code[c] == FixityCode::fixed && card.blank(values[c]))
+      b.note("S234", card.where(values[c]),
+             "the " + card.label(values[c]) + " is left blank: held where it is" +
+                 (field > 0 ? "" : ", displacement 0"));
+    if (fixity.value[c] == 0.0) continue;
+    if (!in_stage)
+      b.error("S233", card.where(values[c]),
+              std::string(field > 0 ? "a value" : "a displacement") +
+                  " other than zero belongs on a fixity card of a stage");
+    else if (const int code = card.integer(codes[c]); code == 0 || code == -1)
+      b.error(
+          "S233", card.where(codes[c]),
+          std::string(field > 0 ? "a value" : "a displacement") + " is given but the code is not 1 (fixed)");
+  }
+  if (fixity.code[0] == FixityCode::unchanged && fixity.code[1] == FixityCode::unchanged)
+    b.note("S234", card.where(),
+           std::string("this fixity card changes nothing: ") +
+               (field > 0 ? "its code is" : "both its codes are") + " 0 or blank");
+  for (std::size_t c = 0; c < 2; ++c)
+    if (!in_stage && fixity.code[c] == FixityCode::released)
+      b.error("S233", card.where(codes[c]), "only a stage can release a fixity (code -1)");
+  if (field > 0) return read_field_fixity(b, card, field, fixity, out_fields);
+  for (int node : node_range(b, card)) {
+    fixity.node = node;
+    out.push_back(fixity);
+  }
+}
+
+}  // namespace
+
+void read_load(Builder& b, const CardView& card, std::vector<NodalLoad>& out,
+               std::vector<FieldLoad>& out_fields) {
+  const int field = read_unknown(b, card);
+  if (field < 0) return;
+  NodalLoad load{0, {card.real("x_force"), card.real("y_force")}, card.card().line};
+  b.usable(card, "x_force", load.force.x());
+  b.usable(card, "y_force", load.force.y());
+  if (field > 0) {
+    require_one_component(b, card, {"y_force"});
+    for (int node : node_range(b, card)) {
+      if (!has_unknown(b, card, node, field)) return;
+      out_fields.push_back({field, node, load.force.x(), load.line});
+    }
+    return;
+  }
+  for (int node : node_range(b, card)) {
+    load.node = node;
+    out.push_back(load);
+  }
+}
+
+void read_pressure(Builder& b, const CardView& card, std::vector<EdgeLoad>& out) {
+  EdgeLoad load;
+  load.normal = {card.real("normal1"), card.real("normal2")};
+  load.shear = {card.real("shear1"), card.real("shear2")};
+  for (const char* field : {"normal1", "normal2", "shear1", "shear2"}) b.usable(card, field, card.real(field));
+  const int edge = card.integer("edge") - 1;
+  load.line = card.card().line;
+  const NumberRange range = b.range(card, "element");
+  for (std::int64_t number = range.first; number <= range.last; number += range.step) {
+    const ElementPlace* place = b.element_place.find(static_cast<int>(number));
+    if (place == nullptr) {
+      if (b.elements_known)
+        b.error("S202", card.where(number == range.first ? "element" : "last"),
+                "element " + std::to_string(number) + " is not defined by any element card");
+      return;
+    }
+    const Group& group = b.model.groups[static_cast<std::size_t>(place->group)];
+    const int folded = place->folded;
+    // Edges count as the element's card lists its nodes.
+    const int edges = static_cast<int>(group.element->edges().size()) + (folded >= 0 ? 1 : 0);
+    if (edge < 0 || edge >= edges || edge == folded) {
+      const std::string numbers =
+          edge == folded && edge >= 0
+              ? " has no such edge: both of its nodes are the same, the quadrilateral is a triangle"
+          : edges == 0 ? std::string(" has no edges")
+                       : " has edges 1 to " + std::to_string(edges);
+      b.error("S230", card.where("edge"),
+              "edge " + std::to_string(edge + 1) + ": element " + std::to_string(number) + " (" +
+                  group.element_name + ")" + numbers);
+      return;
+    }
+    if (group.flow() && !load.shear.isZero(0.0)) {
+      b.error("S230", card.where("shear1"),
+              "element " + std::to_string(number) + " (" + group.element_name +
+                  ") takes an inflow through its edge, in the columns of the pressure, and no shear");
+      return;
+    }
+    load.edge = folded >= 0 && edge > folded ? edge - 1 : edge;
+    load.group = place->group;
+    load.element = place->element;
+    out.push_back(load);
+  }
+}
+
+namespace {
+
+// Values of an initial card that mean something; those of a history stand apart.
+int values_of(InitialKind kind, const Group* group) {
+  const bool known = group != nullptr && group->element;
+  if (kind == InitialKind::uniform) return known ? group->entry->law_size : 4;
+  if (kind == InitialKind::geostatic) return 4;
+  return kind == InitialKind::traction ? 1 : kind == InitialKind::history ? 6 : 0;
+}
+
+// A value that nothing reads is mostly one that was meant for something.
+void note_unused_values(Builder& b, const CardView& card, InitialKind kind, const Group* group) {
+  std::string unused;
+  for (int i = values_of(kind, group) + 1; i <= 6; ++i)
+    if (card.real("v" + std::to_string(i)) != 0.0)
+      unused += (unused.empty() ? "" : ", ") + card.label("v" + std::to_string(i));
+  if (unused.empty()) return;
+  b.note("S237", card.where(),
+         "not used of this initial stress card: " + unused +
+             (kind == InitialKind::uniform && group != nullptr && group->element
+                  ? "; a " + group->entry->name + " has " + std::to_string(values_of(kind, group)) +
+                        (values_of(kind, group) == 1 ? " component" : " components") + " of stress"
+                  : std::string()));
+}
+
+// Values that this kind of initial stress takes and the card leaves blank.
+void note_blank_stresses(Builder& b, const CardView& card, InitialKind kind, const Group* known) {
+  const bool line = known != nullptr && known->element && !known->solid();
+  const int components = line ? known->entry->law_size : 3;  // of a solid xy is mostly zero
+  const int values = kind == InitialKind::uniform ? components : kind == InitialKind::geostatic ? 3 : 0;
+  std::string blank;
+  if (card.blank("kind")) blank = "kind (0, uniform)";
+  for (int i = 1; i <= values; ++i)
+    if (card.blank("v" + std::to_string(i)))
+      blank += (blank.empty() ? "" : ", ") + std::string("value ") + std::to_string(i);
+  if (!blank.empty())
+    b.note("S237", card.where(), "left blank on this initial stress card, which reads as 0: " + blank);
+}
+
+// Quantities that a card of InitialKind::history states, by their places in the law's history.
+std::vector<std::size_t> stated_quantities(const InitialStress& initial) {
+  std::vector<std::size_t> places;
+  for (std::size_t i = 1; i < initial.value.size(); ++i)
+    if (!std::isnan(initial.value[i])) places.push_back(static_cast<std::size_t>(initial.value[0]) + i - 2);
+  return places;
+}
+
+std::string known_quantities(std::span<const Quantity> quantities) {
+  std::string text;
+  for (std::size_t i = 0; i < quantities.size(); ++i)
+    text += (i > 0 ? ", " : "") + std::to_string(i + 1) + " " + std::string(quantities[i].name);
+  return text.empty() ? "has no history" : "has the history " + text;
+}
+
+// False, and an error, where the law of a group lacks what the card states, or another card states it too.
+bool fits_history(Builder& b, const CardView& card, const InitialStress& initial,
+                  const std::vector<InitialStress>& before) {
+  const Group& group = b.model.groups[static_cast<std::size_t>(initial.group)];
+  const Material& material = b.model.material_of(group);
+  const std::string name = "group " + std::to_string(group.number);
+  const std::span<const Quantity> quantities = history_of(material.law_ref());
+  const auto first = static_cast<std::size_t>(initial.value[0]) - 1;
+  for (const std::size_t place : stated_quantities(initial)) {
+    const std::string field = "v" + std::to_string(place - first + 2);
+    if (place >= quantities.size()) {
+      b.error("S236", card.where(field),
+              name + ": " + material.law_name + " " + known_quantities(quantities) + ": there is no quantity " +
+                  std::to_string(place + 1));
+      return false;
+    }
+    for (const InitialStress& other : before) {
+      if (other.group != initial.group || other.kind != InitialKind::history) continue;
+      const std::vector<std::size_t> stated = stated_quantities(other);
+      if (std::find(stated.begin(), stated.end(), place) == stated.end()) continue;
+      b.error("S236", card.where(field),
+              name + ": the card in line " + std::to_string(other.where.line) + " states its " +
+                  std::string(quantities[place].name) + " already");
+      return false;
+    }
+  }
+  return true;
+}
+
+// Blank values become NaN.  False, and an error, without a number of the first quantity or without values.
+bool read_history(Builder& b, const CardView& card, InitialStress& initial) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const double first = initial.value[0];
+  if (!(first >= 1.0 && first <= 1e6 && first == std::floor(first))) {
+    b.error("S236", card.where("v1"),
+            "value 1 of a history card (kind 4) is the number of the first quantity that it states, 1 or more; "
+            "`sagefe list materials` counts them");
+    return false;
+  }
+  for (std::size_t i = 1; i < initial.value.size(); ++i)
+    if (card.blank("v" + std::to_string(i + 1))) initial.value[i] = kNone;
+  if (!stated_quantities(initial).empty()) return true;
+  b.error("S236", card.where("v2"), "a history card (kind 4) states at least one value, from value 2 on");
+  return false;
+}
+
+void read_initial(Builder& b, const CardView& card, std::vector<InitialStress>& out) {
+  InitialStress initial;
+  initial.where = card.where();
+  const int kind = card.integer("kind");
+  const int number = card.integer("group");
+  if (kind < 0 || kind > 4) {
+    b.error(
+        "S210", card.where("kind"),
+        "initial stress kind " + std::to_string(kind) +
+            " is unknown; 0 uniform, 1 geostatic, 2 zero, 3 traction of the neighbours, 4 history of the law");
+    return;
+  }
+  initial.kind = static_cast<InitialKind>(kind);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const std::string field = "v" + std::to_string(i + 1);
+    initial.value[i] = card.real(field);
+    b.usable(card, field, initial.value[i]);
+  }
+  if (initial.kind == InitialKind::history && !read_history(b, card, initial)) return;
+  const auto first = b.group_index.find(number);
+  const Group* const group =
+      first == b.group_index.end() ? nullptr : &b.model.groups[static_cast<std::size_t>(first->second)];
+  note_blank_stresses(b, card, initial.kind, group);
+  note_unused_values(b, card, initial.kind, group);
+  bool found = false;
+  for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
+    if (b.model.groups[g].number != number) continue;
+    found = true;
+    if (initial.kind == InitialKind::traction && b.model.groups[g].element && !b.model.groups[g].interface())
+      b.error("S236", card.where("kind"), "kind 3 (traction of the neighbours) is for interface groups");
+    if (b.model.groups[g].element && b.model.groups[g].flow())
+      b.error("S236", card.where("group"),
+              "elements of flow start without a card: their heads follow from those that are held");
+    if (initial.kind == InitialKind::geostatic && b.model.groups[g].element && b.model.groups[g].structure())
+      b.error("S236", card.where("kind"), "kind 1 (geostatic) is for solids; structures take kind 0 or 2");
+    initial.group = static_cast<int>(g);
+    if (initial.kind == InitialKind::history && b.materials_known && b.model.groups[g].element &&
+        !fits_history(b, card, initial, out))
+      return;
+    out.push_back(initial);
+  }
+  if (!found) b.group_missing(card.where("group"), number);
+}
+
+// An interface can take the traction of a group only if that group's stress is stated.
+void check_traction(Builder& b, const CardView& card) {
+  if (card.integer("kind") != static_cast<int>(InitialKind::traction)) return;
+  const int wanted = card.integer("v1");
+  const auto stated = [&](const std::vector<InitialStress>& list) {
+    return std::ranges::any_of(list, [&](const InitialStress& initial) {
+      const Group& group = b.model.groups[static_cast<std::size_t>(initial.group)];
+      return initial.kind != InitialKind::history && group.number == wanted && group.element && group.solid();
+    });
+  };
+  if (stated(b.model.initials)) return;
+  for (const Stage& stage : b.model.stages) {
+    if (stated(stage.initials)) return;
+    if (stage.where.line > card.card().line) break;  // its soil comes later
+  }
+  if (b.groups_known)
+    b.error("S236", card.where("v1"),
+            "group " + std::to_string(wanted) +
+                ", whose traction the interface should take, has no initial card of its own "
+                "or is no solid");
+}
+
+void read_groups(Builder& b, const CardView& card, bool death, std::vector<int>& out) {
+  for (const FieldValue& value : card.list("groups")) {
+    bool found = false;
+    const auto same = [&](int g) {
+      return static_cast<double>(b.model.groups[static_cast<std::size_t>(g)].number) == value.number;
+    };
+    if (death && std::any_of(out.begin(), out.end(), same)) {
+      b.note("S239", card.where(value),
+             "group " + std::to_string(static_cast<int>(value.number)) +
+                 " is listed twice among the deaths of this stage");
+      continue;
+    }
+    for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
+      if (static_cast<double>(b.model.groups[g].number) != value.number) continue;
+      found = true;
+      out.push_back(static_cast<int>(g));
+    }
+    if (!found) b.group_missing(card.where(value), static_cast<int>(std::clamp(value.number, -2e9, 2e9)));
+  }
+}
+
+Stage read_stage(Builder& b, const CardView& card, int number) {
+  Stage stage;
+  stage.number = number;
+  stage.where = card.where();
+  stage.increments = card.integer("increments", 1) == 0 ? 1 : card.integer("increments", 1);
+  if (stage.increments < 0 || stage.increments > 10'000'000)
+    b.error("S238", card.where("increments"), "the number of increments must be between 1 and 10000000");
+  if (card.real("duration") != 0.0) stage.duration = card.real("duration");
+  if (b.usable(card, "duration", stage.duration) && !(stage.duration > 0.0))
+    b.error("S238", card.where("duration"), "the duration of a stage must not be negative (blank = 1)");
+  const int method = card.integer("method");
+  if (method < 0 || method > 3)
+    b.error("S210", card.where("method"),
+            "method " + std::to_string(method) +
+                " is unknown; 0 Newton, 1 modified Newton, 2 initial stiffness, 3 dogleg");
+  else
+    stage.method = static_cast<Method>(method);
+  if (card.integer("max_iterations") != 0) stage.max_iterations = card.integer("max_iterations");
+  if (stage.max_iterations < 1)
+    b.error("S207", card.where("max_iterations"), "the number of iterations must not be negative");
+  stage.output_every = card.integer("output_every");
+  if (stage.output_every < 0)
+    b.error("S207", card.where("output_every"), "the output interval must not be negative");
+  stage.gravity = {card.real("gravity_x"), card.real("gravity_y")};
+  b.usable(card, "gravity_x", stage.gravity.x());
+  b.usable(card, "gravity_y", stage.gravity.y());
+  if (card.real("tolerance") != 0.0) stage.tolerance = card.real("tolerance");
+  if (!(stage.tolerance > 0.0 && stage.tolerance < 1.0))
+    b.error("S238", card.where("tolerance"), "the tolerance must lie between 0 and 1 (blank = 1e-8)");
+  stage.strength_factor = card.real("strength_factor");
+  if (b.usable(card, "strength_factor", stage.strength_factor) && stage.strength_factor < 0.0)
+    b.error("S207", card.where("strength_factor"),
+            "the strength factor of a stage must not be negative (blank = none)");
+  for (const CardView& c : b.deck.all("fixity", card))
+    read_fixity(b, c, &stage.exits, stage.fixities, stage.field_fixities);
+  for (const CardView& c : b.deck.all("load", card)) read_load(b, c, stage.loads, stage.field_loads);
+  for (const CardView& c : b.deck.all("pressure", card)) read_pressure(b, c, stage.pressures);
+  for (const CardView& c : b.deck.all("edge_load", card)) read_edge_load(b, c, stage.pressures, stage.loads);
+  for (const CardView& c : b.deck.all("birth", card)) read_groups(b, c, false, stage.births);
+  for (const CardView& c : b.deck.all("death", card)) read_groups(b, c, true, stage.deaths);
+  for (const CardView& c : b.deck.all("initial", card)) read_initial(b, c, stage.initials);
+  for (const CardView& c : b.deck.all("removal", card))
+    if (const auto found = b.removed.find(c.index()); found != b.removed.end())
+      stage.deaths.insert(stage.deaths.end(), found->second.begin(), found->second.end());
+  return stage;
+}
+
+}  // namespace
+
+// The stage cards are owned by nothing or by a block; what belongs to the model as a
+// whole has no stage as owner.
+bool outside_stages(const Deck& deck, const CardView& card) {
+  const int owner = card.card().owner;
+  return owner < 0 || CardView(deck, owner).spec().name != "stage";
+}
+
+namespace {
+
+// A group is born at most once, and removed at most once after that.
+void check_births(Builder& b) {
+  struct Life {
+    int born = 0, dead = 0;  // stage numbers, 0 = not
+  };
+  std::vector<Life> lives(b.model.groups.size());
+  const auto name = [&](int g) {
+    return "group " + std::to_string(b.model.groups[static_cast<std::size_t>(g)].number);
+  };
+  for (const Stage& stage : b.model.stages) {
+    for (int g : stage.births) {
+      Life& life = lives[static_cast<std::size_t>(g)];
+      if (life.born > 0)
+        b.error("S239", stage.where,
+                name(g) + " is born twice; a group that was removed needs a twin to be born again");
+      else if (life.dead > 0)
+        b.error("S239", stage.where,
+                name(g) + " is born in stage " + std::to_string(stage.number) + " but removed in stage " +
+                    std::to_string(life.dead) +
+                    ", before it exists; a group that was removed needs a twin to be born again");
+      life.born = stage.number;
+    }
+    for (int g : stage.deaths) {
+      Life& life = lives[static_cast<std::size_t>(g)];
+      if (life.born == stage.number)
+        b.error("S239", stage.where, name(g) + " is born and removed in the same stage");
+      else if (life.dead > 0)
+        b.note("S239", stage.where,
+               name(g) + " is removed again: it is gone since stage " + std::to_string(life.dead));
+      if (life.dead == 0) life.dead = stage.number;
+    }
+  }
+}
+
+}  // namespace
+
+void build_stages(Builder& b) {
+  collect_unknowns(b.model);
+  b.dof_map = DofMap(b.model);
+  for (const CardView& card : b.deck.all("fixity"))
+    if (outside_stages(b.deck, card)) read_fixity(b, card, nullptr, b.model.fixities, b.model.field_fixities);
+  for (const CardView& card : b.deck.all("initial"))
+    if (outside_stages(b.deck, card)) read_initial(b, card, b.model.initials);
+  int number = 0;
+  const std::vector<CardView> titles = b.deck.all("stage_title");
+  for (const CardView& card : b.deck.all("stage")) {
+    b.model.stages.push_back(read_stage(b, card, number + 1));
+    if (static_cast<std::size_t>(number) < titles.size())
+      b.model.stages.back().title = b.text(titles[static_cast<std::size_t>(number)], "title");
+    ++number;
+  }
+  for (const CardView& card : b.deck.all("initial")) check_traction(b, card);
+  build_steps(b);
+  build_strength_stages(b);
+  if (b.model.stages.empty())
+    b.error("S214", b.deck.one("control").where(), "the deck has no stages: nothing to compute");
+  check_births(b);
+}
+
+}  // namespace sage::builder
