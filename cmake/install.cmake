@@ -12,7 +12,7 @@ install(DIRECTORY sage/app/templates DESTINATION ${CMAKE_INSTALL_DATADIR}/sagefe
 
 # Headers keep their paths: #include "sage/core/law.hpp".  Those whose library is in the package, no others.
 # The module of library solvers is installed by solvers/.
-set(SAGE_PACKAGE_MODULES core messages platform page umat deck layout_draft model exchange mesh builder analysis record draw convergence compare drive conformance)
+set(SAGE_PACKAGE_MODULES core math messages platform page umat deck layout_draft model exchange mesh builder analysis record draw convergence compare drive conformance)
 list(TRANSFORM SAGE_PACKAGE_MODULES PREPEND sage/)
 foreach(folder ${SAGE_PACKAGE_MODULES} elements materials solvers)
   install(DIRECTORY ${folder}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sagefe/${folder} FILES_MATCHING PATTERN "*.hpp")

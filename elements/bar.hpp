@@ -8,7 +8,7 @@
 #include "elements/edge_load.hpp"
 #include "elements/line_frame.hpp"
 #include "elements/point_kernel.hpp"
-#include "elements/quadrature.hpp"
+#include "sage/math/quadrature.hpp"
 
 namespace sage {
 

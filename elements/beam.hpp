@@ -11,7 +11,7 @@
 
 #include "elements/line_frame.hpp"
 #include "elements/point_kernel.hpp"
-#include "elements/quadrature.hpp"
+#include "sage/math/quadrature.hpp"
 
 namespace sage {
 

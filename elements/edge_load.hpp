@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "elements/quadrature.hpp"
 #include "elements/shapes.hpp"
 #include "sage/core/types.hpp"
+#include "sage/math/quadrature.hpp"
 
 namespace sage {
 

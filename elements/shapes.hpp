@@ -6,8 +6,8 @@
 #include <array>
 #include <vector>
 
-#include "elements/quadrature.hpp"
 #include "sage/core/types.hpp"
+#include "sage/math/quadrature.hpp"
 
 namespace sage {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sage/core/dense.hpp"
+#include "sage/math/dense.hpp"
 
 namespace sage {
 

@@ -8,6 +8,7 @@
 
 #include "sage/analysis/patch_fit.hpp"
 #include "sage/analysis/spectrum.hpp"
+#include "sage/math/quadrature.hpp"
 #include "sage/model/coarse_shape.hpp"
 #include "sage/model/locking.hpp"
 #include "sage/platform/thread_pool.hpp"
@@ -78,28 +79,18 @@ struct CornerRule {
 // 3 x 3 Gauss, or Dunavant's rule of degree 4.
 CornerRule corner_rule(const ElementEntry& entry) {
   CornerRule rule;
-  if (entry.square()) {
-    const double at[3] = {-std::sqrt(0.6), 0.0, std::sqrt(0.6)}, w[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
-    rule.shares.resize(9, 4);
-    rule.w.resize(9);
-    for (int i = 0; i < 9; ++i) {
-      const double x = at[i % 3], y = at[i / 3];
-      rule.at.push_back({x, y});
-      rule.shares.row(i) << (1 - x) * (1 - y) / 4, (1 + x) * (1 - y) / 4, (1 + x) * (1 + y) / 4,
-          (1 - x) * (1 + y) / 4;
-      rule.w(i) = w[i % 3] * w[i / 3];
-    }
-    return rule;
-  }
-  rule.shares.resize(6, 3);
-  rule.w.resize(6);
-  const double b[2] = {0.44594849091596488632, 0.09157621350977074346},
-               w[2] = {0.2233815896780114657, 0.10995174365532186764};
-  for (int i = 0; i < 6; ++i) {
-    rule.shares.row(i).setConstant(b[i / 3]);
-    rule.shares(i, i % 3) = 1.0 - 2.0 * b[i / 3];
-    rule.at.push_back({rule.shares(i, 1), rule.shares(i, 2)});
-    rule.w(i) = w[i / 3];
+  const std::span<const RulePoint> points =
+      entry.square() ? std::span<const RulePoint>(GaussSquare<3>::table) : Triangle6::table;
+  rule.shares.resize(static_cast<Eigen::Index>(points.size()), entry.corners);
+  rule.w.resize(rule.shares.rows());
+  const double size = entry.square() ? 4.0 : 0.5;
+  for (Eigen::Index i = 0; i < rule.w.size(); ++i) {
+    const RulePoint& point = points[static_cast<std::size_t>(i)];
+    rule.at.push_back({point.xi, point.eta});
+    const std::array<double, 4> shares = corner_shares(entry.corners, rule.at.back());
+    for (Eigen::Index k = 0; k < rule.shares.cols(); ++k)
+      rule.shares(i, k) = shares[static_cast<std::size_t>(k)];
+    rule.w(i) = point.w / size;
   }
   return rule;
 }

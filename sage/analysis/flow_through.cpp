@@ -1,10 +1,12 @@
 #include "sage/analysis/flow_through.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
+
+#include "sage/math/line_shapes.hpp"
+#include "sage/math/quadrature.hpp"
 
 namespace sage {
 
@@ -42,18 +44,13 @@ double largest_gradient(const Model& model, const GroupData& data, const FlowLin
 // Of one edge with two or three nodes: pressure times the normal that points to the right of the line.
 Vector2 pressure_force(const Model& model, const GroupData& data, const FlowLine::Edge& on,
                        const DofMap& dof_map, const Eigen::VectorXd& u) {
-  constexpr std::array<double, 3> kPlace{-0.7745966692414834, 0.0, 0.7745966692414834};
-  constexpr std::array<double, 3> kWeight{5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
   const std::vector<int>& edge = data.group->element->edges()[static_cast<std::size_t>(on.edge)];
   const int field = find_unknown(model.unknowns, "head");
   const auto node = [&](int i) { return data.group->nodes_of(on.element)[edge[static_cast<std::size_t>(i)]]; };
   Vector2 force = Vector2::Zero();
-  for (std::size_t q = 0; q < kPlace.size(); ++q) {
-    const double s = kPlace[q];
-    const bool curved = edge.size() > 2;
-    const Vector<3> N = curved ? Vector<3>(0.5 * s * (s - 1.0), 0.5 * s * (s + 1.0), 1.0 - s * s)
-                               : Vector<3>(0.5 * (1.0 - s), 0.5 * (1.0 + s), 0.0);
-    const Vector<3> slope = curved ? Vector<3>(s - 0.5, s + 0.5, -2.0 * s) : Vector<3>(-0.5, 0.5, 0.0);
+  const bool curved = edge.size() > 2;
+  for (const LinePoint& q : GaussLine<3>::table) {
+    const Vector<3> N = line_shapes(curved, q.xi), slope = line_slopes(curved, q.xi);
     Vector2 x = Vector2::Zero(), along = Vector2::Zero();
     double head = 0.0;
     for (int i = 0; i < (curved ? 3 : 2); ++i) {
@@ -62,7 +59,7 @@ Vector2 pressure_force(const Model& model, const GroupData& data, const FlowLine
       head += N[i] * u[dof_map.of(node(i), field)];
     }
     const double ring = model.geometry == Geometry::axisymmetric ? 2.0 * kPi * x.x() : 1.0;
-    force += kWeight[q] * ring * (head - x.y()) * Vector2(along.y(), -along.x());
+    force += q.w * ring * (head - x.y()) * Vector2(along.y(), -along.x());
   }
   return model.units.water_unit_weight * force;
 }

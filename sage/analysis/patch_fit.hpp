@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sage/analysis/assembly.hpp"
-#include "sage/core/dense.hpp"
+#include "sage/math/dense.hpp"
 
 namespace sage {
 

@@ -1,21 +1,16 @@
 #include "sage/analysis/probe.hpp"
 
 #include <algorithm>
+#include <array>
 
-#include "sage/core/dense.hpp"
+#include "sage/math/dense.hpp"
+#include "sage/model/coarse_shape.hpp"
 
 namespace sage {
 
 namespace {
 
 constexpr int kOwnDegree = 4;  // from here on patches are coarser than an element's own polynomial
-
-// Share of each corner in a place of the parent shape.
-std::vector<double> corner_shares(const Vector2& q, const ElementEntry& entry) {
-  const double x = q.x(), y = q.y();
-  if (entry.triangle()) return {1 - x - y, x, y};
-  return {(1 - x) * (1 - y) / 4, (1 + x) * (1 - y) / 4, (1 + x) * (1 + y) / 4, (1 - x) * (1 + y) / 4};
-}
 
 }  // namespace
 
@@ -70,7 +65,8 @@ void ProbeMaker::add_stress(Probe& probe, const Location& location, double part)
   Eigen::Matrix2Xd x;
   element_coordinates(model_->mesh, group, location.element, x);
   const Vector2 place = x * Eigen::Map<const Eigen::VectorXd>(location.N.data(), x.cols());
-  std::vector<double> shares = corner_shares(location.parent, *group.entry);
+  std::array<double, 4> shares =
+      corner_shares(group.entry->corners, {location.parent.x(), location.parent.y()});
   double sum = 0.0;
   std::size_t inside = 0;
   for (std::size_t c = 0; c < corners; ++c) {

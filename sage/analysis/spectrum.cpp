@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sage/core/dense.hpp"
+#include "sage/math/dense.hpp"
 
 namespace sage {
 

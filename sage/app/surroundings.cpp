@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "sage/analysis/spectrum.hpp"
+#include "sage/math/quadrature.hpp"
 #include "sage/model/locate.hpp"
 #include "sage/model/locking.hpp"
 #include "sage/record/report.hpp"
@@ -37,22 +38,11 @@ Vector2 place_in(const Model& model, const Location& holder, const Vector2& pare
 // Gauss points: the error of an element, which has the highest degrees, has no mean over them; what comes from elsewhere has.
 void add_grid(const Model& model, const Location& holder, int element,
               std::vector<Surroundings::Place>& places) {
-  constexpr double kLines[] = {-0.906179845938664, -0.538469310105683, 0.0, 0.538469310105683,
-                               0.906179845938664},
-                   kWeights[] = {0.118463442528095, 0.239314335249683, 0.284444444444444, 0.239314335249683,
-                                 0.118463442528095};
   const bool triangle = model.groups[holder.group].entry->triangle();
-  for (std::size_t j = 0; j < 5; ++j)
-    for (std::size_t i = 0; i < 5; ++i) {
-      Vector2 parent(kLines[i], kLines[j]);
-      double weight = kWeights[i] * kWeights[j];
-      if (triangle) {  // the square with one side drawn together
-        parent = 0.5 * (parent + Vector2::Ones());
-        weight *= 2.0 * (1.0 - parent.x());
-        parent.y() *= 1.0 - parent.x();
-      }
-      places.push_back({place_in(model, holder, parent), static_cast<int>(holder.group), element, weight});
-    }
+  const double size = triangle ? 0.5 : 4.0;  // of the parent shape
+  for (const RulePoint& q : gauss_area(triangle, 5))
+    places.push_back(
+        {place_in(model, holder, {q.xi, q.eta}), static_cast<int>(holder.group), element, q.w / size});
 }
 
 double size_of(const Model& model, const Location& holder) {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "sage/core/dense.hpp"
+#include "sage/math/dense.hpp"
 #include "sage/messages/error.hpp"
 
 namespace sage {

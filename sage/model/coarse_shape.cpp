@@ -26,13 +26,12 @@ bool CoarseShape::curved() const {
 // the middle node's function.
 Vector2 CoarseShape::at(const Place& q) const {
   const auto [x, y] = q;
-  std::array<double, 4> linear{}, bubble{};
+  std::array<double, 4> bubble{};
+  const std::array<double, 4> linear = corner_shares(corners, q);
   if (corners == 4) {
-    linear = {(1 - x) * (1 - y) / 4, (1 + x) * (1 - y) / 4, (1 + x) * (1 + y) / 4, (1 - x) * (1 + y) / 4};
     bubble = {(1 - x * x) * (1 - y) / 2, (1 + x) * (1 - y * y) / 2, (1 - x * x) * (1 + y) / 2,
               (1 - x) * (1 - y * y) / 2};
   } else {
-    linear = {1 - x - y, x, y, 0.0};
     bubble = {4 * (1 - x - y) * x, 4 * x * y, 4 * y * (1 - x - y), 0.0};
   }
   Vector2 point = Vector2::Zero();
@@ -58,6 +57,12 @@ bool has_curved_sides(const Model& model) {
       }
   }
   return false;
+}
+
+std::array<double, 4> corner_shares(int corners, const Place& q) {
+  const auto [x, y] = q;
+  if (corners == 3) return {1 - x - y, x, y, 0.0};
+  return {(1 - x) * (1 - y) / 4, (1 + x) * (1 - y) / 4, (1 + x) * (1 + y) / 4, (1 - x) * (1 + y) / 4};
 }
 
 const std::array<Place, 4>& parent_corners(int corners) {

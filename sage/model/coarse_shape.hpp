@@ -29,6 +29,9 @@ struct Model;
 // Cards give middle nodes off the straight line: sides are parabolas in every mesh that is made of the deck's.
 bool has_curved_sides(const Model& model);
 
+// Share of each corner in a place: linear in a triangle, bilinear in a quadrilateral.
+std::array<double, 4> corner_shares(int corners, const Place& q);
+
 // Corners of the parent shapes, counter-clockwise.
 const std::array<Place, 4>& parent_corners(int corners);
 

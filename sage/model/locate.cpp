@@ -1,9 +1,12 @@
 #include "sage/model/locate.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
+
+#include "sage/model/coarse_shape.hpp"
 
 namespace sage {
 
@@ -15,12 +18,6 @@ bool in_parent(const Vector2& q, bool triangle) {
   constexpr double tolerance = 2.0 * kEdge;
   if (triangle) return q.minCoeff() >= -tolerance && q.sum() <= 1.0 + tolerance;
   return q.cwiseAbs().maxCoeff() <= 1.0 + tolerance;
-}
-
-// Corners of the parent shapes, in the order of their sides.
-std::vector<Vector2> parent_corners(bool triangle) {
-  if (triangle) return {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}};
-  return {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}};
 }
 
 bool share_a_node(const Model& model, const Location& a, const Location& b) {
@@ -40,6 +37,30 @@ ElementKind kind_at_points(const Model& model) {
   const bool heads =
       std::ranges::any_of(model.unknowns, [](const UnknownField& unknown) { return unknown.name == "head"; });
   return heads && has(ElementKind::flow) && !has(ElementKind::solid) ? ElementKind::flow : ElementKind::solid;
+}
+
+// Newton; exact in one step where the map is affine.
+bool find_parent(const Group& group, const Eigen::Matrix2Xd& x, const Vector2& place, Vector2& parent,
+                 std::vector<double>& N) {
+  constexpr int kSteps = 20;
+  constexpr double kFar = 10.0;
+  const auto nodes = static_cast<std::size_t>(x.cols());
+  N.resize(nodes);
+  std::vector<double> dN(2 * nodes);
+  parent = group.entry->triangle() ? Vector2(1.0 / 3.0, 1.0 / 3.0) : Vector2(0.0, 0.0);
+  for (int step = 0; step < kSteps; ++step) {
+    if (!group.element->shape_functions(parent, N, dN)) return false;
+    const Vector2 missing = place - x * Eigen::Map<const Eigen::VectorXd>(N.data(), x.cols());
+    const Matrix2 J = x * Eigen::Map<const Eigen::MatrixX2d>(dN.data(), x.cols(), 2);
+    const double det = J(0, 0) * J(1, 1) - J(0, 1) * J(1, 0);
+    if (det == 0.0 || !std::isfinite(det)) return false;
+    const Vector2 change((J(1, 1) * missing.x() - J(0, 1) * missing.y()) / det,
+                         (-J(1, 0) * missing.x() + J(0, 0) * missing.y()) / det);
+    parent += change;
+    if (parent.cwiseAbs().maxCoeff() > kFar) return false;
+    if (change.cwiseAbs().maxCoeff() < 1e-12) break;
+  }
+  return group.element->shape_functions(parent, N, dN);
 }
 
 Locator::Locator(const Model& model, ElementKind kind) : model_(&model) {
@@ -71,34 +92,14 @@ std::size_t Locator::strip_at(double x) const {
   return static_cast<std::size_t>(std::clamp(std::floor((x - left_) / strip_), 0.0, last));
 }
 
-// Newton for the place in the parent shape; exact in one step where the map is affine.
 bool Locator::inside(const Box& box, const Vector2& place, Location& found) const {
-  constexpr int kSteps = 20;
   const Group& group = model_->groups[box.group];
   Eigen::Matrix2Xd x;
   element_coordinates(model_->mesh, group, box.element, x);
-  const auto nodes = static_cast<std::size_t>(x.cols());
-  std::vector<double>& N = found.N;
-  N.resize(nodes);
-  std::vector<double> dN(2 * nodes);
-  const bool triangle = group.entry->triangle();
-  Vector2 q = triangle ? Vector2(1.0 / 3.0, 1.0 / 3.0) : Vector2(0.0, 0.0);
-  for (int step = 0; step < kSteps; ++step) {
-    if (!group.element->shape_functions(q, N, dN)) return false;
-    const Vector2 missing = place - x * Eigen::Map<const Eigen::VectorXd>(N.data(), x.cols());
-    const Matrix2 J = x * Eigen::Map<const Eigen::MatrixX2d>(dN.data(), x.cols(), 2);
-    const double det = J(0, 0) * J(1, 1) - J(0, 1) * J(1, 0);
-    if (det == 0.0 || !std::isfinite(det)) return false;
-    const Vector2 change((J(1, 1) * missing.x() - J(0, 1) * missing.y()) / det,
-                         (-J(1, 0) * missing.x() + J(0, 0) * missing.y()) / det);
-    q += change;
-    if (q.cwiseAbs().maxCoeff() > 10.0) return false;  // far outside
-    if (change.cwiseAbs().maxCoeff() < 1e-12) break;
-  }
   found.group = box.group;
   found.element = box.element;
-  found.parent = q;
-  return in_parent(q, triangle) && group.element->shape_functions(q, N, dN);
+  return find_parent(group, x, place, found.parent, found.N) &&
+         in_parent(found.parent, group.entry->triangle());
 }
 
 // Distance of the nearest place on the element's edges (infinite where there is none): Newton along each side,
@@ -111,10 +112,12 @@ double Locator::nearest(const Box& box, const Vector2& place, Location& found) c
   const auto nodes = static_cast<std::size_t>(x.cols());
   std::vector<double> N(nodes), dN(2 * nodes);
   double least = std::numeric_limits<double>::infinity();
-  const std::vector<Vector2> corners = parent_corners(group.entry->triangle());
-  for (std::size_t side = 0; side < corners.size(); ++side) {
-    const Vector2& from = corners[side];
-    const Vector2 along = corners[(side + 1) % corners.size()] - from;
+  const auto corners = static_cast<std::size_t>(group.entry->triangle() ? 3 : 4);
+  const std::array<Place, 4>& corner = parent_corners(group.entry->triangle() ? 3 : 4);
+  for (std::size_t side = 0; side < corners; ++side) {
+    const Vector2 from(corner[side][0], corner[side][1]);
+    const Place& to = corner[(side + 1) % corners];
+    const Vector2 along = Vector2(to[0], to[1]) - from;
     double t = 0.5;
     for (int step = 0; step < kSteps; ++step) {
       if (!group.element->shape_functions(from + t * along, N, dN)) return least;

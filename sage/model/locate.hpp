@@ -14,6 +14,11 @@ struct Location {
   std::vector<double> N;             // shape functions there, one a node
 };
 
+// The place in the parent shape of an element with nodes at x (2 x nodes) that is mapped to `place`, and the shape
+// functions there.  False where there is none within ten times the element, or the element has no shape functions.
+bool find_parent(const Group& group, const Eigen::Matrix2Xd& x, const Vector2& place, Vector2& parent,
+                 std::vector<double>& N);
+
 class Locator {
  public:
   // Among the solids, or the elements of flow.  The model must outlive the locator.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sage/math/line_shapes.hpp"
+#include "sage/math/quadrature.hpp"
 #include "tests/studies/scenes/structures.hpp"
 
 namespace sage::scenes {
@@ -29,16 +31,6 @@ int group_at(const WholeRun& run, int number) {
   return -1;
 }
 
-// Shape functions of a pair of nodes at -1, 1 (and 0), and their slopes.
-Eigen::Vector3d shapes(bool middle, double xi) {
-  if (!middle) return {0.5 * (1.0 - xi), 0.5 * (1.0 + xi), 0.0};
-  return {0.5 * xi * (xi - 1.0), 0.5 * xi * (xi + 1.0), 1.0 - xi * xi};
-}
-Eigen::Vector3d slopes(bool middle, double xi) {
-  if (!middle) return {-0.5, 0.5, 0.0};
-  return {xi - 0.5, xi + 0.5, -2.0 * xi};
-}
-
 // What interface elements (row-sum, plane strain or along the axis) put on the body at their nodes 1 and 2, pair by pair:
 // use(place, force).
 template <class Use>
@@ -56,14 +48,10 @@ void each_pair(const WholeRun& run, int group_number, const Use& use) {
     x.col(1) = run.model->mesh.x.col(n[1]);
     if (middle) x.col(2) = run.model->mesh.x.col(n[4]);
     Eigen::Vector3d length = Eigen::Vector3d::Zero();
-    for (const auto& [xi, w] : {std::pair{-0.9061798459386640, 0.2369268850561891},
-                                {-0.5384693101056831, 0.4786286704993665},
-                                {0.0, 0.5688888888888889},
-                                {0.5384693101056831, 0.4786286704993665},
-                                {0.9061798459386640, 0.2369268850561891}})
-      length += w * (x * slopes(middle, xi)).norm() * shapes(middle, xi);
+    for (const auto& [xi, w] : GaussLine<5>::table)
+      length += w * (x * line_slopes(middle, xi)).norm() * line_shapes(middle, xi);
     for (int p = 0; p < pairs; ++p) {
-      const Vector2 along = (x * slopes(middle, p == 2 ? 0.0 : 2.0 * p - 1.0)).normalized();
+      const Vector2 along = (x * line_slopes(middle, p == 2 ? 0.0 : 2.0 * p - 1.0)).normalized();
       const Vector2 left(-along.y(), along.x());
       const auto t = stress.col(pairs * e + p);
       use(Vector2(x.col(p)), Vector2((t[0] * along + t[1] * left) * length[p]));
@@ -417,7 +405,7 @@ CulvertForces culvert_forces(const WholeRun& run) {
   Eigen::Matrix<double, 2, 3> x = Eigen::Matrix<double, 2, 3>::Zero();
   for (std::size_t k = 0; k < group.node_count(); ++k)
     x.col(static_cast<Eigen::Index>(k)) = run.model->mesh.x.col(group.nodes_of(beside)[k]);
-  const Vector2 t = (x * slopes(middle, -1.0)).normalized();
+  const Vector2 t = (x * line_slopes(middle, -1.0)).normalized();
   f.thrust_down = -(cut[0] * t.y() + cut[1] * t.x());
   f.springline = -cut[0];
   f.crown = -crown[0];

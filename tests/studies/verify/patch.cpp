@@ -1,7 +1,7 @@
 // Patch tests P1 to P3 in whole models, P6 on single elements: every solid element of the catalogue.
 #include <cmath>
 
-#include "sage/core/dense.hpp"
+#include "sage/math/dense.hpp"
 #include "tests/studies/verify/cases.hpp"
 #include "tests/studies/verify/fields.hpp"
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "sage/math/quadrature.hpp"
 #include "tests/studies/scenes/structures.hpp"
 #include "tests/studies/verify/cases.hpp"
 #include "tests/studies/verify/fields.hpp"
@@ -261,8 +262,7 @@ double composite_deflection(const Record& record, double ks, int n) {
   std::vector<double> force(static_cast<std::size_t>(last + 1), 0.0);
   const double h = L / n;
   for (int e = 0; e < n; ++e)
-    for (const auto& [xi, w] :
-         {std::pair{-std::sqrt(0.6), 5.0 / 9.0}, {0.0, 8.0 / 9.0}, {std::sqrt(0.6), 5.0 / 9.0}}) {
+    for (const auto& [xi, w] : GaussLine<3>::table) {
       const double q = std::sin(kPi * (e + 0.5 * (1.0 + xi)) / n) * w * 0.5 * h;
       const auto at = static_cast<std::size_t>(2 * e);
       force[at] += q * 0.5 * xi * (xi - 1.0);

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "sage/core/dense.hpp"
+#include "sage/math/dense.hpp"
 
 namespace sage {
 namespace {

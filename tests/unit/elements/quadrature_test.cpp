@@ -1,5 +1,5 @@
 // Each rule integrates all monomials up to its degree, and its points lie inside.
-#include "elements/quadrature.hpp"
+#include "sage/math/quadrature.hpp"
 
 #include <gtest/gtest.h>
 
@@ -64,6 +64,26 @@ TEST(GaussSquares, ProductOfLines) {
   EXPECT_NEAR(sum, 2.0 / 5.0 * 2.0 / 3.0, 1e-15);
   EXPECT_LT(GaussSquare<2>::table[0].xi, GaussSquare<2>::table[1].xi) << "xi runs fastest";
   EXPECT_EQ(GaussSquare<2>::table[0].eta, GaussSquare<2>::table[1].eta);
+}
+
+// Rules of any size give the tables; folded onto the triangle they are exact to degree 2n - 2.
+TEST(GaussLines, OfAnySize) {
+  const std::vector<LinePoint> seven = gauss_line(7);
+  for (std::size_t i = 0; i < seven.size(); ++i) {
+    const LinePoint& wanted = GaussLine<7>::table[seven.size() - 1 - i];
+    EXPECT_NEAR(seven[i].xi, wanted.xi, 4e-16);
+    EXPECT_NEAR(seven[i].w, wanted.w, 4e-16);
+  }
+  for (const int n : {1, 4, 12}) {
+    double area = 0.0;
+    for (const RulePoint& q : gauss_area(false, n)) area += q.w;
+    EXPECT_NEAR(area, 4.0, 1e-14);
+    const int degree = 2 * n - 2;
+    double top = 0.0;
+    for (const RulePoint& q : gauss_area(true, n))
+      top += q.w * std::pow(q.xi, degree / 2) * std::pow(q.eta, degree / 2);
+    EXPECT_NEAR(top, factorial(degree / 2) * factorial(degree / 2) / factorial(degree + 2), 1e-15);
+  }
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "sage/core/dense.hpp"
+#include "sage/math/dense.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 namespace sage {
 
@@ -99,6 +100,13 @@ struct GaussLine<9> {
                                                    {0.8360311073266357943, 0.18064816069485740406},
                                                    {0.96816023950762608984, 0.081274388361574411972}}};
 };
+
+// Of any number of points, from the one next to 1 down.
+std::vector<LinePoint> gauss_line(int points);
+
+// n x n Gauss points of the square (xi slowest), or these on the square folded onto the triangle, which is exact for
+// polynomials of full degree 2n - 2.
+std::vector<RulePoint> gauss_area(bool triangle, int n);
 
 // Product of two Gauss lines; xi runs fastest.
 template <int n>
