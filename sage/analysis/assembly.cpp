@@ -150,7 +150,7 @@ void Assembly::take_laws() {
     data.second_law = model_->second_law_of(*data.group);
     data.dt_of_matrices = 0.0;
     find_fours(data);
-    std::ranges::fill(data.constant_by_four, char{0});
+    std::ranges::fill(data.constant_four_abreast, char{0});
   }
 }
 

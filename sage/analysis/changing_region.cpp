@@ -29,7 +29,7 @@ ChangingRegion::ChangingRegion(std::vector<GroupData>& groups, ElementWork& elem
 
 void ChangingRegion::set_threads(int threads) {
   const bool useful = std::ranges::any_of(*groups_, [](const GroupData& data) {
-    return data.by_four() && data.group->elements() >= kWorthThreads;
+    return data.four_abreast() && data.group->elements() >= kWorthThreads;
   });
   pool_ = useful && threads > 1 ? std::make_unique<ThreadPool>(threads) : nullptr;
 }
@@ -44,7 +44,7 @@ void ChangingRegion::add_forces(const GroupData& data, int first, int last, cons
 }
 
 // One unit, of elements first, first + 1 ...; f as in add_forces.  Matrices go where the group keeps them.
-Outcome ChangingRegion::evaluate_unit(GroupData& data, const PassByFour& pass, int first, double* f,
+Outcome ChangingRegion::evaluate_unit(GroupData& data, const PassFourAbreast& pass, int first, double* f,
                                       bool with_K, bool& changed) const {
   element_->stop_if_asked_at(first);
   const std::size_t dofs = data.dofs();
@@ -56,7 +56,7 @@ Outcome ChangingRegion::evaluate_unit(GroupData& data, const PassByFour& pass, i
   return Outcome::ok;
 }
 
-Outcome ChangingRegion::evaluate_in_units(GroupData& data, const PassByFour& pass, Tangent* tangent) {
+Outcome ChangingRegion::evaluate_in_units(GroupData& data, const PassFourAbreast& pass, Tangent* tangent) {
   bool changed = false;
   element_forces_.resize(std::max(element_forces_.size(), std::size_t{kUnit} * data.dofs()));
   double* const f = element_forces_.data();
@@ -70,7 +70,7 @@ Outcome ChangingRegion::evaluate_in_units(GroupData& data, const PassByFour& pas
 }
 
 // Threads make what belongs to one element alone; sums over elements have the order that they have on one thread.
-Outcome ChangingRegion::evaluate_on_threads(GroupData& data, const PassByFour& pass, Tangent* tangent) {
+Outcome ChangingRegion::evaluate_on_threads(GroupData& data, const PassFourAbreast& pass, Tangent* tangent) {
   const int elements = data.group->elements();
   const std::size_t dofs = data.dofs();
   element_forces_.resize(std::max(element_forces_.size(), static_cast<std::size_t>(elements) * dofs));
@@ -89,7 +89,7 @@ Outcome ChangingRegion::evaluate_on_threads(GroupData& data, const PassByFour& p
 }
 
 // Of a group that keeps no matrices.
-Outcome ChangingRegion::evaluate_and_add(GroupData& data, const PassByFour& pass, Tangent& tangent) {
+Outcome ChangingRegion::evaluate_and_add(GroupData& data, const PassFourAbreast& pass, Tangent& tangent) {
   const std::size_t dofs = data.dofs();
   element_forces_.resize(std::max(element_forces_.size(), kAbreast * dofs));
   element_matrices_.resize(std::max(element_matrices_.size(), kAbreast * dofs * dofs));
@@ -107,9 +107,9 @@ Outcome ChangingRegion::evaluate_and_add(GroupData& data, const PassByFour& pass
   return Outcome::ok;
 }
 
-Outcome ChangingRegion::evaluate_by_four(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent) {
-  prepare_by_four(element_->model().mesh, data);
-  const PassByFour pass(data, du);
+Outcome ChangingRegion::evaluate_four_abreast(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent) {
+  prepare_four_abreast(element_->model().mesh, data);
+  const PassFourAbreast pass(data, du);
   if (tangent != nullptr && !data.keeps_matrices()) return evaluate_and_add(data, pass, *tangent);
   return divides(data) ? evaluate_on_threads(data, pass, tangent) : evaluate_in_units(data, pass, tangent);
 }
@@ -146,7 +146,7 @@ Outcome ChangingRegion::evaluate(const Eigen::VectorXd& du, Tangent* tangent) {
   for (GroupData& data : *groups_) {
     if (!data.active || data.constant) continue;
     const Outcome outcome =
-        data.by_four() ? evaluate_by_four(data, du, tangent) : evaluate_one_by_one(data, du, tangent);
+        data.four_abreast() ? evaluate_four_abreast(data, du, tangent) : evaluate_one_by_one(data, du, tangent);
     if (outcome == Outcome::cut_step) return Outcome::cut_step;
     work_->element_evaluations += data.group->elements();
   }

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "sage/analysis/by_four.hpp"
 #include "sage/analysis/element_work.hpp"
+#include "sage/analysis/four_abreast.hpp"
 #include "sage/analysis/records.hpp"
 #include "sage/platform/thread_pool.hpp"
 
@@ -34,11 +34,11 @@ class ChangingRegion {
  private:
   bool divides(const GroupData& data) const;
   bool matrices_stand(const GroupData& data) const;
-  Outcome evaluate_by_four(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent);
-  Outcome evaluate_in_units(GroupData& data, const PassByFour& pass, Tangent* tangent);
-  Outcome evaluate_on_threads(GroupData& data, const PassByFour& pass, Tangent* tangent);
-  Outcome evaluate_and_add(GroupData& data, const PassByFour& pass, Tangent& tangent);
-  Outcome evaluate_unit(GroupData& data, const PassByFour& pass, int first, double* f, bool with_K,
+  Outcome evaluate_four_abreast(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent);
+  Outcome evaluate_in_units(GroupData& data, const PassFourAbreast& pass, Tangent* tangent);
+  Outcome evaluate_on_threads(GroupData& data, const PassFourAbreast& pass, Tangent* tangent);
+  Outcome evaluate_and_add(GroupData& data, const PassFourAbreast& pass, Tangent& tangent);
+  Outcome evaluate_unit(GroupData& data, const PassFourAbreast& pass, int first, double* f, bool with_K,
                         bool& changed) const;
   Outcome evaluate_one_by_one(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent);
   void add_forces(const GroupData& data, int first, int last, const double* f);

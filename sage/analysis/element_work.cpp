@@ -35,7 +35,7 @@ void ElementWork::stop_if_asked_at(int element) const {
 const double* ElementWork::geometry_of(GroupData& data, int element) {
   const Group& group = *data.group;
   const auto size = static_cast<std::size_t>(group.element->traits().geometry_size());
-  const bool keep = keep_geometry_ && !data.constant && !data.by_four();
+  const bool keep = keep_geometry_ && !data.constant && !data.four_abreast();
   if (!keep) {
     element_coordinates(model_->mesh, group, element, x_);
     group.element->geometry(x_, {geometry_.data(), size});

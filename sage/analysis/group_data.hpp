@@ -36,10 +36,11 @@ struct GroupData {
   // displacements of the nodes.
   std::vector<int> dof_list, field_of_dof;
   std::vector<double> geometry;  // w and B of all elements; empty = made anew in each pass
-  // by_four(): in place of it, of each four in turn, their values side by side; the last four are filled up with the
+  // four_abreast(): in place of it, of each four in turn, their values side by side; the last four are filled up with the
   // last element.
-  std::vector<double> geometry_by_four;
-  std::vector<char> constant_by_four;  // of each four: FourElementsOut::constant of the matrices that are kept
+  std::vector<double> geometry_four_abreast;
+  std::vector<char>
+      constant_four_abreast;    // of each four: FourElementsOut::constant of the matrices that are kept
   double dt_of_matrices = 0.0;  // of ElementTraits::linear_in_step: of the matrices that are kept; 0 = unknown
   std::vector<char> moved;  // of each element: the stage prescribes to some dof a displacement that is not zero
   int first_element = 0;    // in the solver's element order, while it is part of the system
@@ -54,7 +55,7 @@ struct GroupData {
   bool sees_spread = false;
   std::vector<double> spread_start, spread_end;
 
-  bool by_four() const { return four_law != nullptr; }
+  bool four_abreast() const { return four_law != nullptr; }
   bool keeps_matrices() const { return !matrix.empty(); }
   std::size_t matrix_size() const { return dofs() * dofs(); }
   std::size_t dofs() const { return dofs_; }  // of an element

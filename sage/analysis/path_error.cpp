@@ -13,11 +13,12 @@ struct WeightedMean {
 // w of a point of the group: the first of its doubles in the kept geometry.
 double weight_of(const GroupData& data, const ElementTraits& traits, std::size_t point) {
   const auto points = static_cast<std::size_t>(traits.points);
-  if (!data.by_four())
+  if (!data.four_abreast())
     return data.geometry[point * (static_cast<std::size_t>(traits.geometry_size()) / points)];
   const auto size = static_cast<std::size_t>(data.four_elements->four_geometry_size());
   const std::size_t element = point / points, place = element % kAbreast;
-  return data.geometry_by_four[(element - place) * size + point % points * (size / points) * kAbreast + place];
+  return data
+      .geometry_four_abreast[(element - place) * size + point % points * (size / points) * kAbreast + place];
 }
 
 template <int N>

@@ -2,7 +2,7 @@
 // states, condensation or twins results differ by rounding.  Without repeats, contraction or prediction the iterations
 // take another path: results differ by what the tolerance allows, and by more where several states are in equilibrium
 // (points at the apex of a yield surface, a singular tangent).
-// Each has a file: kept_matrices (factors), constant_region (elements), late_states, condensation, repeats, contraction,
+// Each has a file: kept_matrices (factors), constant_region (elements), deferred_states, condensation, repeats, contraction,
 // prediction, and in solvers/ repeated_fronts.
 #pragma once
 

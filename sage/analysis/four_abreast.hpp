@@ -8,12 +8,12 @@ namespace sage {
 // Whether its elements can go by four, with the law that it has: GroupData::four_elements and four_law.
 void find_fours(GroupData& data);
 // w and B of all elements, side by side, where they are not there yet.
-void prepare_by_four(const Mesh& mesh, GroupData& data);
+void prepare_four_abreast(const Mesh& mesh, GroupData& data);
 
-class PassByFour {
+class PassFourAbreast {
  public:
   // Of a prepared group.  du: increment of every dof since the committed state.  All must outlive it.
-  PassByFour(GroupData& data, const Eigen::VectorXd& du);
+  PassFourAbreast(GroupData& data, const Eigen::VectorXd& du);
 
   // Elements first, first + 1 ... of one four, at most to the group's last one; several threads may have fours of
   // their own at once.  Forces and, where K is not nullptr, matrices of the first element begin at f and K, those of

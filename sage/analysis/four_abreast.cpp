@@ -1,4 +1,4 @@
-#include "sage/analysis/by_four.hpp"
+#include "sage/analysis/four_abreast.hpp"
 
 #include <algorithm>
 
@@ -19,13 +19,13 @@ void find_fours(GroupData& data) {
   data.four_law = law;
 }
 
-void prepare_by_four(const Mesh& mesh, GroupData& data) {
-  if (!data.geometry_by_four.empty()) return;
+void prepare_four_abreast(const Mesh& mesh, GroupData& data) {
+  if (!data.geometry_four_abreast.empty()) return;
   const Group& group = *data.group;
   const auto size = static_cast<std::size_t>(data.four_elements->four_geometry_size());
   const int fours = (group.elements() + kAbreast - 1) / kAbreast;
-  data.geometry_by_four.resize(size * static_cast<std::size_t>(fours * kAbreast));
-  data.constant_by_four.assign(static_cast<std::size_t>(fours), 0);
+  data.geometry_four_abreast.resize(size * static_cast<std::size_t>(fours * kAbreast));
+  data.constant_four_abreast.assign(static_cast<std::size_t>(fours), 0);
   std::vector<double> geometry(static_cast<std::size_t>(group.element->traits().geometry_size()));
   Eigen::Matrix2Xd x;
   for (int e = 0; e < fours * kAbreast; ++e) {
@@ -33,11 +33,11 @@ void prepare_by_four(const Mesh& mesh, GroupData& data) {
     group.element->geometry(x, geometry);
     const auto four = static_cast<std::size_t>(e / kAbreast), place = static_cast<std::size_t>(e % kAbreast);
     data.four_elements->place_among_four(geometry,
-                                         data.geometry_by_four.data() + four * kAbreast * size + place);
+                                         data.geometry_four_abreast.data() + four * kAbreast * size + place);
   }
 }
 
-PassByFour::PassByFour(GroupData& data, const Eigen::VectorXd& du) : data_(&data), du_(&du) {
+PassFourAbreast::PassFourAbreast(GroupData& data, const Eigen::VectorXd& du) : data_(&data), du_(&du) {
   const ElementTraits& traits = data.group->element->traits();
   geometry_size_ = static_cast<std::size_t>(data.four_elements->four_geometry_size());
   dofs_ = data.dofs();
@@ -46,14 +46,14 @@ PassByFour::PassByFour(GroupData& data, const Eigen::VectorXd& du) : data_(&data
   history_ = points_ * static_cast<std::size_t>(data.state.history_size());
 }
 
-Outcome PassByFour::evaluate(int first, double* f, double* K, bool& changed) const {
+Outcome PassFourAbreast::evaluate(int first, double* f, double* K, bool& changed) const {
   const PointStates& committed = data_->state.committed;
   PointStates& trial = data_->state.trial;
   Four du[kMostDofsOfFour];
   std::array<const int*, kAbreast> nodes;
   FourElementsIn in;
   FourElementsOut out;
-  in.geometry = data_->geometry_by_four.data() + static_cast<std::size_t>(first) * geometry_size_;
+  in.geometry = data_->geometry_four_abreast.data() + static_cast<std::size_t>(first) * geometry_size_;
   in.du = reinterpret_cast<const double*>(du);
   in.law = data_->four_law;
   in.history = static_cast<std::size_t>(data_->state.history_size());
@@ -76,7 +76,7 @@ Outcome PassByFour::evaluate(int first, double* f, double* K, bool& changed) con
     const auto at = [&](std::size_t l) { return du_->data() + DofMap::displacement(nodes[l][i / 2]); };
     load_pairs_of_four(at(0), at(1), at(2), at(3), du[i], du[i + 1]);
   }
-  char& constant = data_->constant_by_four[static_cast<std::size_t>(first / kAbreast)];
+  char& constant = data_->constant_four_abreast[static_cast<std::size_t>(first / kAbreast)];
   const bool kept = K != nullptr && data_->keeps_matrices();
   out.changed = changed;
   out.constant = kept && constant != 0;

@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "sage/analysis/by_four.hpp"
+#include "sage/analysis/four_abreast.hpp"
 #include "sage/analysis/run.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/builder/build_model.hpp"
@@ -137,7 +137,7 @@ TEST(ByFour, LargeElementsGoOneByOneWhateverTheyOffer) {
   data.law = model.materials[0].law_ref();
   EXPECT_EQ(group.element->traits().dofs, 50);
   find_fours(data);
-  ASSERT_FALSE(data.by_four());
+  ASSERT_FALSE(data.four_abreast());
   const LastState own = solve(text, How::by_itself, true);
   const LastState offered = solve(text, How::by_itself, true, 1, true);
   EXPECT_EQ(offered.u, own.u);
