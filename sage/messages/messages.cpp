@@ -1198,30 +1198,8 @@ const MessageEntry* find_message(int number) {
   return found != std::end(kMessages) ? found : nullptr;
 }
 
-std::string messages_manual() {
-  std::string text =
-      "# Messages\n\n"
-      "Every message ends in a code, such as `[S501]`: `sagefe explain S501` prints what stands here, `sagefe "
-      "explain` "
-      "lists all\ncodes, and `sagefe explain --search WORD` looks for a word in all texts. Whether a message "
-      "is an "
-      "error, a warning or a note\nstands before it; `--strict` makes errors of warnings, and the code stays "
-      "the "
-      "same. This page is written from\n`sage/messages/messages.cpp` (`SAGE_WRITE_MANUAL=1 test_core "
-      "--gtest_filter=Messages.*`).\n\n"
-      "A new message: its place in the program names a code; where none of those here has the same cause and "
-      "cure, "
-      "it gets a new one\nand an entry in that table. A test holds the two together.\n";
-  int section = 0;
-  for (const MessageEntry& message : kMessages) {
-    if (message.code.number() / 100 != section) {
-      section = message.code.number() / 100;
-      text += std::string("\n## ") + kSections[section - 1] + "\n";
-    }
-    text += "\n### " + to_string(message.code) + ": " + message.title + "\n" + message.cause +
-            "\n\n*What helps:* " + message.cure + "\n";
-  }
-  return text;
+const char* section_of(const MessageEntry& message) {
+  return kSections[message.code.number() / 100 - 1];
 }
 
 }  // namespace sage

@@ -23,7 +23,7 @@ std::span<const MessageEntry> messages();
 // 104 for S104; nullptr where there is none.
 const MessageEntry* find_message(int number);
 
-// docs/manual/messages.md, in Markdown.
-std::string messages_manual();
+// "S1: files, cards and layouts": what the messages of its hundred are about.
+const char* section_of(const MessageEntry& message);
 
 }  // namespace sage
