@@ -13,6 +13,7 @@
 #include "materials/hoek_brown.hpp"
 #include "materials/hyperbolic_mohr_coulomb.hpp"
 #include "materials/linear_elastic.hpp"
+#include "materials/modified_cam_clay.hpp"
 #include "materials/mohr_coulomb.hpp"
 #include "materials/mohr_coulomb_softening.hpp"
 #include "materials/section.hpp"
@@ -31,6 +32,7 @@ void register_materials(Catalogue& catalogue) {
   catalogue.materials.add(8, mohr_coulomb_softening_entry());
   catalogue.materials.add(9, hoek_brown_entry());
   catalogue.materials.add(10, duncan_selig_entry());
+  catalogue.materials.add(11, modified_cam_clay_entry());
   // Interfaces
   catalogue.materials.add(21, goodman_entry());
   catalogue.materials.add(22, clough_duncan_entry());

@@ -1,0 +1,576 @@
+#include "materials/modified_cam_clay.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "materials/stress_measures.hpp"
+
+namespace sage {
+
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kOnSurface = 1e-12;   // of p_c: what rounding leaves outside
+constexpr double kIsotropic = 1e-13;   // of p_c: a deviator below has no direction
+constexpr double kAngleDigits = 1e-8;  // a last correction of Newton's method for the place on the surface
+constexpr int kRounds = 200;
+constexpr double kNearSurface = 1e-10;  // of ln(level)
+constexpr double kMostStrain = 100.0;   // change of volume that a current v can follow
+constexpr double kMostGrowth = 200.0;   // of ln p: a third of what numbers hold
+constexpr double kFar = 0.05;  // difference of ln p or s/p where extrapolation loses half of its weight
+constexpr double kFloorStiffness =
+    1e-3;  // of the bulk modulus, where the mean stress is held at its least value
+constexpr double kUsualFloor = 1e-4;
+constexpr double kLargestFloor = 0.25;
+constexpr double kConvex = 0.6;  // van Eekelen's shape: ratio of M in extension and compression
+
+const std::vector<Parameter>& rows() {
+  static const std::vector<Parameter> table{
+      required("M", Dimension::none, "q/p at the critical state in triaxial compression"),
+      required("lambda", Dimension::none, "slope of the normal compression line, v against ln p"),
+      required("kappa", Dimension::none, "slope of unloading lines, v against ln p"),
+      required("specific_volume", Dimension::none, "specific volume v = 1 + e at the start"),
+      required("poissons_ratio", Dimension::none, "Poisson's ratio; not used where shear_modulus is given",
+               ParameterRole::poissons_ratio),
+      optional("ocr", Dimension::none,
+               "p_c at the start over the p_c of a surface through the initial stress; 0 = not given", 0.0),
+      optional("pop", Dimension::stress, "the difference of those two; 0 = not given", 0.0),
+      optional("p_c", Dimension::stress, "p_c at the start; 0 = not given; one of ocr, pop, p_c is", 0.0),
+      optional("deviatoric_shape", Dimension::none, "0 circle, 1 Matsuoka-Nakai, 2 van Eekelen", 0.0),
+      optional("current_volume", Dimension::none,
+               "0 stiffness from the first specific volume, 1 from the current one", 0.0),
+      optional("shear_modulus", Dimension::stress, "constant shear modulus; 0 = from Poisson's ratio", 0.0,
+               ParameterRole::modulus),
+      optional("pressure_floor", Dimension::none, "least mean stress as a share of the first p_c", kUsualFloor),
+  };
+  return table;
+}
+
+void expect_one_start(const Parameters& p) {
+  int given = 0;
+  for (const char* const name : {"ocr", "pop", "p_c"}) given += p.not_negative(name) > 0.0 ? 1 : 0;
+  if (given == 0)
+    p.refuse("ocr", "must be at least 1, or pop or p_c must be above 0: one says where p_c starts");
+  if (given > 1)
+    p.refuse(p.number("pop") > 0.0 ? "pop" : "p_c", "must be 0 where another of ocr, pop, p_c is given");
+}
+
+CamClay clay_of(const Parameters& p) {
+  CamClay clay{};
+  clay.M = p.between("M", 0.0, 3.0);
+  clay.lambda = p.positive("lambda");
+  clay.kappa = p.positive("kappa");
+  if (!(clay.kappa < clay.lambda)) p.refuse("kappa", "must be below lambda");
+  if (!(p.number("specific_volume") > 1.0)) p.refuse("specific_volume", "must be greater than 1 (it is 1 + e)");
+  clay.v0 = p.number("specific_volume");
+  clay.G = p.not_negative("shear_modulus");
+  clay.nu = p.poissons_ratio("poissons_ratio");
+  expect_one_start(p);
+  clay.ocr = p.number("ocr");
+  if (clay.ocr != 0.0 && clay.ocr < 1.0) p.refuse("ocr", "must be at least 1");
+  clay.pop = p.number("pop");
+  clay.p_c = p.number("p_c");
+  clay.shape = static_cast<DeviatoricShape>(p.code("deviatoric_shape", {0, 1, 2}));
+  clay.current_volume = p.code("current_volume", {0, 1}) == 1;
+  clay.floor = p.number("pressure_floor");
+  if (!(clay.floor > 0.0 && clay.floor <= kLargestFloor))
+    p.refuse("pressure_floor", "must be above 0 and at most 0.25");
+  if (!(clay.M > 0.0) || clay.M >= 3.0) p.refuse("M", "must be above 0 and below 3 (90 degrees of friction)");
+  return clay;
+}
+
+LawPtr make(std::span<const double> values, const UnitSystem& units) {
+  return std::make_unique<ModifiedCamClay>(clay_of(Parameters(rows(), values, units)));
+}
+
+double sine_of_friction(double M) {
+  return 3.0 * M / (6.0 + M);
+}
+double van_eekelen_ratio(double M) {
+  const double sine = sine_of_friction(M);
+  return (3.0 - sine) / (3.0 + sine);
+}
+
+// (exp(x) - 1)/x, which is the mean of exp over [0, x], and its derivative.
+double mean_exp(double x) {
+  return std::abs(x) < 1e-5 ? 1.0 + x * (0.5 + x / 6.0) : std::expm1(x) / x;
+}
+double mean_exp_slope(double x) {
+  return std::abs(x) < 1e-3 ? 0.5 + x * (1.0 / 3.0 + x * (0.125 + x / 30.0)) : (std::exp(x) - mean_exp(x)) / x;
+}
+
+// q = sqrt(3 J2) of a deviator.
+double q_of(const Vector4& s) {
+  return std::sqrt(1.5 * contract(s, s));
+}
+// sin(3 theta) of a deviator, tension +: 1 in triaxial compression, -1 in extension.
+double lode_of(const Vector4& s, double q) {
+  return std::clamp(-13.5 * s[2] * (s[0] * s[1] - s[3] * s[3]) / (q * q * q), -1.0, 1.0);
+}
+// Its derivative with respect to the deviator, in tensor components; the mean may be anything.
+Vector4 lode_gradient(const Vector4& s, double q) {
+  const Vector4 square(s[0] * s[0] + s[3] * s[3], s[1] * s[1] + s[3] * s[3], s[2] * s[2], s[3] * (s[0] + s[1]));
+  const double determinant = s[2] * (s[0] * s[1] - s[3] * s[3]);
+  return -13.5 / (q * q * q) * (square - 4.5 * determinant / (q * q) * s);
+}
+
+// a such that a.b is a:b of two tensors.
+Vector4 work_row(const Vector4& a) {
+  return {a[0], a[1], a[2], 2.0 * a[3]};
+}
+
+const Vector4 kVolumeRate(-1.0, -1.0, -1.0, 0.0);  // of the volume, compression positive, by the strain
+
+}  // namespace
+
+// A state, and how it changes with the strain increment of the whole update (rates: a row for each quantity).
+struct ModifiedCamClay::Point {
+  Vector4 s = Vector4::Zero();  // deviator
+  Matrix4 s_rate = Matrix4::Zero();
+  double log_p = 0.0, log_c = 0.0, v = 0.0;  // ln p, ln p_c, specific volume
+  Vector4 log_p_rate = Vector4::Zero(), log_c_rate = Vector4::Zero(), log_v_rate = Vector4::Zero();
+  double log_least = 0.0;  // ln of the least p
+  double shear = 0.0, plastic_volume = 0.0;
+  PointStatus status = PointStatus::elastic;
+  bool at_floor = false;
+  double kappa = 0.0;  // of the step that led here
+};
+
+// Which share of the update's increment a step takes, and how that changes with the increment.
+struct ModifiedCamClay::Part {
+  double share = 1.0;
+  Vector4 rate = Vector4::Zero();
+};
+
+// A step from a point on.  Volume is compression positive.
+struct ModifiedCamClay::Step {
+  const Point& from;
+  Vector4 e;  // deviator of the strain increment, tensor components
+  Matrix4 e_rate;
+  double volume;
+  Vector4 volume_rate;
+  double p0;
+  double kappa, harden;   // kappa/v and (lambda - kappa)/v, v the mean over the step
+  Vector4 stiffer;        // rate of ln v
+  double elastic_growth;  // ln(p/p0) of an elastic step, without the floor
+  Vector4 elastic_growth_rate;
+};
+
+// A place on the surface: p = p_c cos^2(angle/2), q = M p_c sin(angle)/2, and what the flow rule lacks there.
+// angle = pi/2 is the critical state.  Of an elastic trial only growth, G, trial, q_trial, lode and M are set.
+struct ModifiedCamClay::OnSurface {
+  double angle, sine, cosine;
+  double log_share;                  // ln(p/p_c)
+  double log_share_rate;             // this rate and the next are by the angle
+  double hardening, hardening_rate;  // ln(p_c/p_c0)
+  double x;                          // plastic change of volume
+  double p_c, growth, G, q;          // growth: ln(p/p0)
+  Vector4 trial;                     // elastic deviator
+  double q_trial, lode;
+  Slope slope;
+  double lack, lack_rate;  // 3 G x sin(angle) - M cos(angle) (q_trial - q)
+  Vector4 lack_by_trial;   // rate by the trial deviator, tensor components
+  double by_G;             // and by G
+  bool at_floor;
+  bool has_direction;  // the trial deviator is no rounding
+};
+
+struct ModifiedCamClay::ElasticTrial {
+  OnSurface at;
+  double log_share, log_level;  // ln(p/p_c) and ln(level)
+};
+
+ModifiedCamClay::ModifiedCamClay(const CamClay& clay) : clay_(clay) {
+  by_bulk_ = 1.5 * (1.0 - 2.0 * clay.nu) / (1.0 + clay.nu);
+  const double sine = sine_of_friction(clay.M), m = van_eekelen_ratio(clay.M);
+  const double k = (9.0 - sine * sine) / (1.0 - sine * sine);
+  const double a = (k / 3.0 - 1.0) / (k - 9.0);
+  width_ = 2.0 * std::sqrt(a / 3.0);
+  skew_ = std::min(k / (27.0 * (k - 9.0)) / std::pow(a / 3.0, 1.5), 1.0);
+  m4_ = std::pow(m, 4);
+}
+
+LawTraits ModifiedCamClay::traits() const {
+  return {.history = kHistory};
+}
+
+// Matsuoka and Nakai: 1/M is the largest root of w^3 - a w + skew 2 (a/3)^(3/2) sin(3 theta) = 0.
+ModifiedCamClay::Slope ModifiedCamClay::slope(double lode) const {
+  switch (clay_.shape) {
+    case DeviatoricShape::matsuoka_nakai: {
+      const double sine = skew_ * lode, third = std::acos(-sine) / 3.0, M = 1.0 / (width_ * std::cos(third));
+      const double cosine = std::sqrt(std::max(1.0 - sine * sine, 1e-12));
+      return {M, M * std::tan(third) * skew_ / (3.0 * cosine)};
+    }
+    case DeviatoricShape::van_eekelen: {
+      const double below = 1.0 + m4_ - (1.0 - m4_) * lode;
+      const double M = clay_.M * std::pow(2.0 * m4_ / below, 0.25);
+      return {M, 0.25 * M * (1.0 - m4_) / below};
+    }
+    case DeviatoricShape::circle:
+      break;
+  }
+  return {clay_.M, 0.0};
+}
+
+// p_c of the surface through a stress; infinite where its mean is no compression.
+double ModifiedCamClay::size_through(const Vector4& sigma) const {
+  const double p = -mean_stress(sigma);
+  if (!(p > 0.0)) return kInfinite;
+  const Vector4 s = deviator(sigma);
+  const double q = q_of(s);
+  if (q == 0.0) return p;
+  const double M = slope(lode_of(s, q)).M;
+  return p + q / M * (q / M) / p;
+}
+
+double ModifiedCamClay::stress_level(const Vector4& sigma, std::span<const double> h) const {
+  const double size = size_through(sigma);
+  return h[kPressure] > 0.0 ? size / h[kPressure] : kInfinite;
+}
+
+bool ModifiedCamClay::initialise(const Vector4& sigma, std::span<double> h) const {
+  const double size = size_through(sigma);
+  const bool carried = std::isfinite(size);
+  const double through = carried ? size : 0.0;
+  const double stated = clay_.p_c > 0.0 ? clay_.p_c : std::max(clay_.ocr, 1.0) * through + clay_.pop;
+  h[kPressure] = std::max(through, stated);
+  h[kVolume] = clay_.v0;
+  h[kLeast] = clay_.floor * h[kPressure];
+  h[kShear] = h[kPlasticVolume] = 0.0;
+  return carried && -mean_stress(sigma) >= h[kLeast];
+}
+
+bool ModifiedCamClay::adjusts_start(const Vector4& sigma) const {
+  const double size = size_through(sigma);
+  return clay_.p_c > 0.0 && std::isfinite(size) && size > clay_.p_c * (1.0 + kOnSurface);
+}
+
+bool ModifiedCamClay::accepts_history(const Vector4& sigma, std::span<const double> h) const {
+  return h[kPressure] > 0.0 && h[kVolume] > 1.0 && h[kLeast] > 0.0 && h[kShear] >= 0.0 &&
+         std::isfinite(h[kPressure]) && h[kLeast] <= h[kPressure] && stress_level(sigma, h) <= 1.0 + 1e-8;
+}
+
+std::string ModifiedCamClay::caution() const {
+  if (clay_.shape == DeviatoricShape::van_eekelen && van_eekelen_ratio(clay_.M) < kConvex)
+    return "van Eekelen's shape is not convex for an M as large as this (above 48 degrees of friction); "
+           "Matsuoka and Nakai's (deviatoric_shape 1) always is";
+  return {};
+}
+
+ModifiedCamClay::Step ModifiedCamClay::step_from(const Point& point, const Vector4& deps,
+                                                 const Part& part) const {
+  const Vector4 e = deviatoric_projection() * deps;
+  const double volume = kVolumeRate.dot(deps);
+  Step step{point,
+            part.share * e,
+            part.share * deviatoric_projection() + e * part.rate.transpose(),
+            part.share * volume,
+            part.share * kVolumeRate + volume * part.rate,
+            std::exp(point.log_p),
+            0.0,
+            0.0,
+            Vector4::Zero(),
+            0.0,
+            Vector4::Zero()};
+  double v = point.v;
+  if (clay_.current_volume) {
+    const double mean = mean_exp(-step.volume);
+    v *= mean;
+    step.stiffer = point.log_v_rate - mean_exp_slope(-step.volume) / mean * step.volume_rate;
+  }
+  step.kappa = clay_.kappa / v;
+  step.harden = (clay_.lambda - clay_.kappa) / v;
+  step.elastic_growth = step.volume / step.kappa;
+  step.elastic_growth_rate = step.volume_rate / step.kappa + step.elastic_growth * step.stiffer;
+  return step;
+}
+
+// Secant moduli over the step: K is (p - p0)/(elastic strain), and G in proportion.
+double ModifiedCamClay::shear_modulus(const Step& step, double growth) const {
+  return clay_.G > 0.0 ? clay_.G : by_bulk_ * step.p0 / step.kappa * mean_exp(growth);
+}
+double ModifiedCamClay::shear_modulus_by_growth(const Step& step, double growth) const {
+  return clay_.G > 0.0 ? 0.0 : by_bulk_ * step.p0 / step.kappa * mean_exp_slope(growth);
+}
+
+// The elastic deviator for a growth of p.
+void ModifiedCamClay::set_trial(const Step& step, OnSurface& at) const {
+  at.G = shear_modulus(step, at.growth);
+  at.trial = step.from.s + 2.0 * at.G * step.e;
+  at.q_trial = q_of(at.trial);
+  at.has_direction = at.q_trial > kIsotropic * std::exp(step.from.log_c);
+  at.lode = at.has_direction ? lode_of(at.trial, at.q_trial) : 1.0;
+  at.slope = slope(at.lode);
+}
+
+ModifiedCamClay::OnSurface ModifiedCamClay::on_surface(const Step& step, double angle) const {
+  OnSurface at{};
+  at.angle = angle;
+  at.sine = std::sin(angle);
+  at.cosine = std::cos(angle);
+  at.log_share = 2.0 * std::log(std::cos(0.5 * angle));
+  at.log_share_rate = -std::tan(0.5 * angle);
+  const double ratio = clay_.kappa / clay_.lambda;
+  at.hardening = ratio * (step.from.log_p + step.elastic_growth - step.from.log_c - at.log_share);
+  const double hardening_at_floor = step.from.log_least - step.from.log_c - at.log_share;
+  at.at_floor = hardening_at_floor > at.hardening;
+  if (at.at_floor) at.hardening = hardening_at_floor;
+  at.hardening_rate = -(at.at_floor ? 1.0 : ratio) * at.log_share_rate;
+  at.x = step.harden * at.hardening;
+  const double log_c = step.from.log_c + at.hardening;
+  at.p_c = std::exp(log_c);
+  at.growth = at.log_share + log_c - step.from.log_p;
+  set_trial(step, at);
+  const double M = at.slope.M;
+  at.q = 0.5 * M * at.p_c * at.sine;
+  const double beyond = at.q_trial - at.q;
+  at.lack = 3.0 * at.G * at.x * at.sine - M * at.cosine * beyond;
+  if (at.has_direction) {
+    at.lack_by_trial = -1.5 * M * at.cosine / at.q_trial * at.trial;
+    if (at.slope.by_lode != 0.0)
+      at.lack_by_trial -= at.cosine * (beyond - at.q) * at.slope.by_lode * lode_gradient(at.trial, at.q_trial);
+  } else {
+    at.lack_by_trial.setZero();
+  }
+  at.by_G = 3.0 * at.x * at.sine + 2.0 * contract(at.lack_by_trial, step.e);
+  const double G_rate = shear_modulus_by_growth(step, at.growth) * (at.log_share_rate + at.hardening_rate);
+  const double q_rate = 0.5 * M * at.p_c * at.cosine + at.q * at.hardening_rate;
+  at.lack_rate = 3.0 * at.G * (at.x * at.cosine + step.harden * at.hardening_rate * at.sine) +
+                 M * at.sine * beyond + M * at.cosine * q_rate + at.by_G * G_rate;
+  return at;
+}
+
+// The place to which a trial stress outside the surface returns; log_trial: ln(p/p_c0) of the trial.  On the wet side it
+// lies between the trial's own mean stress and the critical state, on the dry side between the critical state and the
+// trial's: what the flow rule lacks changes its sign between, so there is an answer to every increment.
+ModifiedCamClay::OnSurface ModifiedCamClay::return_to_surface(const Step& step, double log_trial) const {
+  const auto angle_of = [](double log_share) {
+    return 2.0 * std::acos(std::exp(0.5 * std::min(log_share, 0.0)));
+  };
+  constexpr double kCritical = 0.5 * kPi;
+  OnSurface at = on_surface(step, kCritical);
+  if (at.x == 0.0) return at;
+  const double own = angle_of(log_trial);
+  double low = at.x > 0.0 ? std::min(own, kCritical) : kCritical;
+  double high = at.x > 0.0 ? kCritical : std::max(own, kCritical);
+  double next = std::clamp(angle_of(step.from.log_p - step.from.log_c), low, high), before = high - low;
+  for (int round = 0; round < kRounds; ++round) {
+    at = on_surface(step, next);
+    (at.lack < 0.0 ? low : high) = next;
+    next = at.lack_rate > 0.0 ? at.angle - at.lack / at.lack_rate : kInfinite;
+    const double way = std::abs(next - at.angle);
+    // Newton's method doubles the digits.
+    if (way <= kAngleDigits) return on_surface(step, std::clamp(next, low, high));
+    const bool slow = round % 3 == 2 && high - low > 0.5 * before;
+    if (round % 3 == 2) before = high - low;
+    if (slow || !(next > low && next < high)) next = 0.5 * (low + high);
+    if (next == low || next == high) return on_surface(step, next);
+  }
+  return at;
+}
+
+ModifiedCamClay::Point ModifiedCamClay::elastic_end(const Step& step, const OnSurface& trial) const {
+  Point end = step.from;
+  end.at_floor = trial.growth > step.elastic_growth;
+  const Vector4 growth_rate = end.at_floor ? Vector4(-step.from.log_p_rate) : step.elastic_growth_rate;
+  Vector4 G_rate = shear_modulus_by_growth(step, trial.growth) * growth_rate;
+  if (clay_.G == 0.0) G_rate += trial.G * (step.from.log_p_rate + step.stiffer);
+  end.s = trial.trial;
+  end.s_rate += 2.0 * trial.G * step.e_rate + 2.0 * step.e * G_rate.transpose();
+  end.log_p += trial.growth;
+  end.log_p_rate += growth_rate;
+  end.status = end.at_floor ? PointStatus::cut_off : PointStatus::elastic;
+  return end;
+}
+
+// First the rates at a constant angle, then that of the angle at which nothing is lacking, and with it all others.
+ModifiedCamClay::Point ModifiedCamClay::plastic_end(const Step& step, const OnSurface& at) const {
+  const Point& from = step.from;
+  const double ratio = clay_.kappa / clay_.lambda, M = at.slope.M;
+  const double G_by_growth = shear_modulus_by_growth(step, at.growth);
+  const Vector4 G_direct =
+      clay_.G > 0.0 ? Vector4(Vector4::Zero()) : Vector4(at.G * (from.log_p_rate + step.stiffer));
+  Vector4 hardening = -from.log_c_rate;
+  if (!at.at_floor) hardening = ratio * (hardening + from.log_p_rate + step.elastic_growth_rate);
+  const Vector4 growth = hardening + from.log_c_rate - from.log_p_rate;
+  const Vector4 G = G_direct + G_by_growth * growth;
+  const Matrix4 trial = from.s_rate + 2.0 * at.G * step.e_rate;  // at a constant G
+  const Vector4 lack = 3.0 * at.G * at.sine * step.harden * (hardening - at.hardening * step.stiffer) +
+                       M * at.cosine * at.q * (hardening + from.log_c_rate) + at.by_G * G +
+                       trial.transpose() * work_row(at.lack_by_trial);
+  const Vector4 angle = -lack / at.lack_rate;
+
+  Point end = from;
+  end.log_c += at.hardening;
+  end.log_c_rate += hardening + at.hardening_rate * angle;
+  end.log_p = end.log_c + at.log_share;
+  end.log_p_rate = end.log_c_rate + at.log_share_rate * angle;
+  const Vector4 G_rate = G_direct + G_by_growth * (end.log_p_rate - from.log_p_rate);
+  const Matrix4 trial_rate = trial + 2.0 * step.e * G_rate.transpose();
+  double share = M * M * at.p_c / (6.0 * at.G * at.x + M * M * at.p_c);
+  Vector4 share_rate = Vector4::Zero();
+  if (at.has_direction) {
+    share = at.q / at.q_trial;
+    Vector4 by_trial = -1.5 * share / (at.q_trial * at.q_trial) * at.trial;
+    if (at.slope.by_lode != 0.0) by_trial += share * at.slope.by_lode / M * lode_gradient(at.trial, at.q_trial);
+    share_rate = share * end.log_c_rate + 0.5 * M * at.p_c * at.cosine / at.q_trial * angle +
+                 trial_rate.transpose() * work_row(by_trial);
+  }
+  end.s = share * at.trial;
+  end.s_rate = share * trial_rate + at.trial * share_rate.transpose();
+  end.status = PointStatus::yielded;
+  end.at_floor = at.at_floor;
+  end.shear += (1.0 - share) * at.q_trial / (std::sqrt(3.0) * at.G);
+  end.plastic_volume -= at.x;
+  return end;
+}
+
+// Elastic to the end of the step; whether that is inside the surface, and ln(p/p_c) there.
+ModifiedCamClay::ElasticTrial ModifiedCamClay::elastic_trial(const Step& step) const {
+  const Point& from = step.from;
+  ElasticTrial trial{};
+  trial.at.growth = std::max(step.elastic_growth, from.log_least - from.log_p);
+  trial.log_share = trial.at.growth + from.log_p - from.log_c;
+  trial.log_level = kInfinite;
+  if (step.elastic_growth > kMostGrowth) return trial;
+  set_trial(step, trial.at);
+  const double height = trial.at.q_trial / (trial.at.slope.M * std::exp(from.log_p + trial.at.growth));
+  trial.log_level = trial.log_share + std::log1p(height * height);
+  return trial;
+}
+
+// One step of backward Euler.
+ModifiedCamClay::Point ModifiedCamClay::advance(const Point& point, const Vector4& deps,
+                                                const Part& part) const {
+  const Step step = step_from(point, deps, part);
+  const ElasticTrial trial = elastic_trial(step);
+  Point end = trial.log_level <= kOnSurface ? elastic_end(step, trial.at)
+                                            : plastic_end(step, return_to_surface(step, trial.log_share));
+  end.kappa = step.kappa;
+  if (clay_.current_volume) {
+    end.v *= std::exp(-step.volume);
+    end.log_v_rate -= step.volume_rate;
+  }
+  return end;
+}
+
+// Rate of ln(level) at an elastic state.
+Vector4 ModifiedCamClay::log_level_rate(const Point& point) const {
+  const double q = q_of(point.s), p = std::exp(point.log_p);
+  if (q <= kIsotropic * std::exp(point.log_c)) return point.log_p_rate;
+  const Slope M = slope(lode_of(point.s, q));
+  const double height = q / (M.M * p), share = 2.0 * height * height / (1.0 + height * height);
+  Vector4 by_s = 1.5 / (q * q) * point.s;
+  if (M.by_lode != 0.0) by_s -= M.by_lode / M.M * lode_gradient(point.s, q);
+  return (1.0 - share) * point.log_p_rate + share * point.s_rate.transpose() * work_row(by_s);
+}
+
+// The part of an increment that is elastic, where all of it is not: up to the surface, without an error of its own.
+ModifiedCamClay::Part ModifiedCamClay::elastic_part(const Point& start, const Vector4& deps) const {
+  const auto end_of = [&](const Step& step, const ElasticTrial& trial) { return elastic_end(step, trial.at); };
+  const Step still = step_from(start, Vector4::Zero(), {});
+  const ElasticTrial level = elastic_trial(still);
+  if (level.log_level > -kNearSurface && log_level_rate(end_of(still, level)).dot(deps) >= 0.0) return {0.0};
+  double low = 0.0, high = 1.0, share = 0.5;
+  for (int round = 0; round < kRounds; ++round) {
+    const Step step = step_from(start, deps, {share});
+    const ElasticTrial trial = elastic_trial(step);
+    (trial.log_level <= 0.0 ? low : high) = share;
+    double next = 0.5 * (low + high);
+    if (std::isfinite(trial.log_level)) {
+      const Vector4 rate = log_level_rate(end_of(step, trial));  // by the strains of the increment
+      const double slope = rate.dot(deps) / share, newton = share - trial.log_level / slope;
+      if (std::abs(trial.log_level) <= kOnSurface || high - low <= kOnSurface)
+        return slope > 0.0 ? Part{share, -rate / slope} : Part{share};
+      if (newton > low && newton < high) next = newton;
+    }
+    share = next;
+  }
+  return {low};
+}
+
+// Richardson's extrapolation from one step and two of half the size: of second order.  It works on ln p and s/p, and
+// p_c follows, so that the answer is a stress on a surface.  Where the two differ much it is left out by degrees.
+ModifiedCamClay::Point ModifiedCamClay::extrapolated(const Point& once, const Point& twice) const {
+  const auto ratio = [](const Point& point) { return Vector4(std::exp(-point.log_p) * point.s); };
+  const auto ratio_rate = [](const Point& point) {
+    return Matrix4(std::exp(-point.log_p) * (point.s_rate - point.s * point.log_p_rate.transpose()));
+  };
+  const Vector4 r1 = ratio(once), r2 = ratio(twice), dr = r2 - r1;
+  const Matrix4 r2_rate = ratio_rate(twice), dr_rate = r2_rate - ratio_rate(once);
+  const double dp = twice.log_p - once.log_p;
+  const Vector4 dp_rate = twice.log_p_rate - once.log_p_rate;
+  const double share = 1.0 / (1.0 + (dp * dp + contract(dr, dr)) / (kFar * kFar));
+  const Vector4 share_rate =
+      -2.0 * share * share / (kFar * kFar) * (dp * dp_rate + dr_rate.transpose() * work_row(dr));
+  Point end = twice;
+  end.log_p += share * dp;
+  end.log_p_rate += share * dp_rate + dp * share_rate;
+  const Vector4 r = r2 + share * dr;
+  const double p = std::exp(end.log_p);
+  end.s = p * r;
+  end.s_rate =
+      p * (r2_rate + share * dr_rate + dr * share_rate.transpose()) + end.s * end.log_p_rate.transpose();
+  end.log_c = std::log(size_through(end.s - p * unit_tensor()));
+  end.shear += share * (twice.shear - once.shear);
+  end.plastic_volume += share * (twice.plastic_volume - once.plastic_volume);
+  return end;
+}
+
+// Elastic up to the surface; the rest once in one step, once in two.
+ModifiedCamClay::Point ModifiedCamClay::plastic_increment(const Point& start, const Vector4& deps) const {
+  const Part elastic = elastic_part(start, deps), rest{1.0 - elastic.share, -elastic.rate};
+  const Part half{0.5 * rest.share, 0.5 * rest.rate};
+  const Point yield = elastic.share > 0.0 ? advance(start, deps, elastic) : start;
+  const Point once = advance(yield, deps, rest);
+  const Point middle = advance(yield, deps, half), twice = advance(middle, deps, half);
+  const bool smooth = once.status == PointStatus::yielded && twice.status == PointStatus::yielded &&
+                      !(once.at_floor || middle.at_floor || twice.at_floor);
+  return smooth ? extrapolated(once, twice) : twice;
+}
+
+Outcome ModifiedCamClay::update(const PointIn<4>& in, PointOut<4>& out) const {
+  std::copy(in.h0.begin(), in.h0.end(), out.h1.begin());
+  out.sigma = in.sigma0;
+  out.D.setZero();
+  out.status = PointStatus::elastic;
+  const bool small = !clay_.current_volume || std::abs(kVolumeRate.dot(in.deps)) < kMostStrain;
+  if (!(in.h0[kPressure] > 0.0 && in.h0[kLeast] > 0.0 && small)) return Outcome::cut_step;
+  Point start;
+  start.s = deviator(in.sigma0);
+  start.log_least = std::log(in.h0[kLeast]);
+  start.log_p = std::log(std::max(-mean_stress(in.sigma0), in.h0[kLeast]));
+  start.log_c = std::log(in.h0[kPressure]);
+  start.v = in.h0[kVolume];
+  const ElasticTrial trial = elastic_trial(step_from(start, in.deps, {}));
+  Point end;
+  if (trial.log_level <= kOnSurface) {
+    end = advance(start, in.deps, {});
+  } else {
+    end = plastic_increment(start, in.deps);
+    out.h1[kPressure] = std::exp(end.log_c);
+    out.h1[kShear] = std::max(in.h0[kShear] + end.shear, in.h0[kShear]);
+    out.h1[kPlasticVolume] += end.plastic_volume;
+  }
+  const double p = std::exp(end.log_p);
+  if (!(end.log_p < kMostGrowth && end.s.allFinite() && end.s_rate.allFinite() && end.log_p_rate.allFinite() &&
+        std::isfinite(end.log_c))) {
+    std::copy(in.h0.begin(), in.h0.end(), out.h1.begin());
+    return Outcome::cut_step;
+  }
+  out.h1[kVolume] = end.v;
+  if (!in.deps.isZero(0.0)) out.sigma = end.s - p * unit_tensor();
+  out.D = end.s_rate - p * unit_tensor() * end.log_p_rate.transpose();
+  if (end.at_floor) out.D.topLeftCorner<3, 3>().array() += kFloorStiffness * p / end.kappa;
+  out.status = end.status;
+  return Outcome::ok;
+}
+
+MaterialEntry modified_cam_clay_entry() {
+  return {"modified_cam_clay",      "modified Cam clay (Roscoe and Burland 1968)", 4, rows(), make,
+          ModifiedCamClay::kHistory};
+}
+
+}  // namespace sage
