@@ -259,6 +259,13 @@ std::string ModifiedCamClay::caution() const {
   return {};
 }
 
+std::string ModifiedCamClay::remark() const {
+  if (clay_.G > 0.0) return {};
+  return "the shear modulus follows the mean stress at constant Poisson's ratio, so that closed loops of "
+         "elastic stress "
+         "can leave a shear strain; a constant shear_modulus does not";
+}
+
 ModifiedCamClay::Step ModifiedCamClay::step_from(const Point& point, const Vector4& deps,
                                                  const Part& part) const {
   const Vector4 e = deviatoric_projection() * deps;

@@ -7,6 +7,7 @@
 
 #include "materials/parameters.hpp"
 #include "sage/core/law.hpp"
+#include "sage/core/law_remark.hpp"
 #include "sage/core/start_adjustment.hpp"
 
 namespace sage {
@@ -29,7 +30,7 @@ struct CamClay {
   double floor;         // least mean stress as a share of the first p_c                         [-]
 };
 
-class ModifiedCamClay final : public SolidLaw, public StartAdjustment<4> {
+class ModifiedCamClay final : public SolidLaw, public StartAdjustment<4>, public LawRemark {
  public:
   // Of the parameters `floor` must not exceed 1/4.
   explicit ModifiedCamClay(const CamClay& clay);
@@ -47,6 +48,7 @@ class ModifiedCamClay final : public SolidLaw, public StartAdjustment<4> {
   bool accepts_history(const Vector4& sigma, std::span<const double> h) const override;
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override;
   std::string caution() const override;
+  std::string remark() const override;
   double stress_level(const Vector4& sigma, std::span<const double> h) const override;
 
  private:

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "sage/analysis/step_time.hpp"
+#include "sage/core/start_adjustment.hpp"
 #include "sage/model/spread_loads.hpp"
 
 namespace sage {
@@ -118,11 +119,19 @@ Vector2 traction(const Vector4& sigma, const Eigen::Matrix2Xd& x) {
   return {t.dot(s), t.dot(n)};
 }
 
+// Points of a group that start otherwise than stated.
+struct StartCount {
+  long refused = 0, adjusted = 0;
+};
+
 template <int N>
-bool start_point(const Law<N>& law, const Vector<N>& sigma, std::size_t point, StateStore& state) {
+void start_point(const Law<N>& law, const Vector<N>& sigma, std::size_t point, StateStore& state,
+                 StartCount& count) {
   const auto history = static_cast<std::size_t>(state.history_size());
   Vector<N>::Map(state.committed.sigma.data() + point * N) = sigma;
-  return law.initialise(sigma, {state.committed.h.data() + point * history, history});
+  const bool carried = law.initialise(sigma, {state.committed.h.data() + point * history, history});
+  count.refused += carried ? 0 : 1;
+  count.adjusted += adjusts_start(law, sigma) ? 1 : 0;
 }
 
 // At a point of an element; x: its nodes.  neighbour: whose traction an interface takes.  u: pore pressure.
@@ -221,6 +230,22 @@ double pressure_at(const Model& model, const PorePressure* water, const GroupDat
   return anywhere ? water->at(g, 0, data.group->element->position(x, point), {}) : 0.0;
 }
 
+void report_start(const StartCount& count, const InitialStress& initial, const Group& group, int points,
+                  Diagnostics& diagnostics) {
+  if (count.refused > 0)
+    diagnostics.warning("S520", initial.where,
+                        "the initial stress of group " + std::to_string(group.number) +
+                            " lies outside the yield surface of its law at " + std::to_string(count.refused) +
+                            " point(s); the first increment will shed it");
+  if (count.adjusted > 0)
+    diagnostics.warning("S585", initial.where,
+                        "the initial stress of group " + std::to_string(group.number) +
+                            " lies outside the yield surface that its parameters state at " +
+                            std::to_string(count.adjusted) + " of " +
+                            std::to_string(static_cast<long>(group.elements()) * points) +
+                            " point(s); there the surface starts through the stress");
+}
+
 }  // namespace
 
 void apply_initial_stress(const Model& model, const InitialStress& initial, const PorePressure* water,
@@ -235,26 +260,21 @@ void apply_initial_stress(const Model& model, const InitialStress& initial, cons
                          ", whose traction the interface should take, has no initial stress card");
   data.state.make_room();
   Eigen::Matrix2Xd x;
-  long refused = 0;
+  StartCount count;
   for (int e = 0; e < group.elements(); ++e) {
     element_coordinates(model.mesh, group, e, x);
     for (int p = 0; p < traits.points; ++p) {
       const auto point = static_cast<std::size_t>(e * traits.points + p);
       const double u = pressure_at(model, water, data, neighbour, x, e, p);
-      const bool admissible = std::visit(
+      std::visit(
           [&]<int N>(const Law<N>* law) {
-            return start_point<N>(*law, initial_stress<N>(initial, neighbour, group, x, p, u), point,
-                                  data.state);
+            start_point<N>(*law, initial_stress<N>(initial, neighbour, group, x, p, u), point, data.state,
+                           count);
           },
           data.law);
-      refused += admissible ? 0 : 1;
     }
   }
-  if (refused > 0)
-    diagnostics.warning("S520", initial.where,
-                        "the initial stress of group " + std::to_string(group.number) +
-                            " lies outside the yield surface of its law at " + std::to_string(refused) +
-                            " point(s); the first increment will shed it");
+  report_start(count, initial, group, traits.points, diagnostics);
 }
 
 void apply_initial_history(const Model& model, const InitialStress& initial, GroupData& data) {

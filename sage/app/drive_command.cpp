@@ -154,7 +154,8 @@ Path path_of(const DriveOptions& options, const Subject& subject, const LabTest*
 
 // nullptr: a path from a file.
 const LabTest* test_for(const DriveOptions& options, int size) {
-  if (options.test.empty() == options.path.empty())
+  const bool own_tests = !options.fits.empty() && options.test.empty() && options.path.empty();  // in --fit
+  if (options.test.empty() == options.path.empty() && !own_tests)
     throw UsageError("S903",
                      "what is to be done with the law? --test NAME or --path FILE (sagefe drive --list)");
   if (options.normal_stiffness > 0.0 && (size != 2 || options.undrained))
@@ -165,6 +166,9 @@ const LabTest* test_for(const DriveOptions& options, int size) {
     keep_input(options.path);
     return nullptr;
   }
+  if (!options.fits.empty() && (!options.turns.empty() || !options.start.empty() || options.cycles != 1))
+    throw UsageError("S905", "--fit goes where its curves go: without --to, --cycles and --start");
+  if (own_tests) return nullptr;
   const LabTest* test = find_lab_test(options.test, size);
   if (test == nullptr)
     throw UsageError("S904", fmt::format("--test {}: none for laws of {}s; there are {}", options.test,
@@ -172,18 +176,16 @@ const LabTest* test_for(const DriveOptions& options, int size) {
   if (options.undrained && test->undrained.empty())
     throw UsageError("S905",
                      fmt::format("--undrained: nothing moves in {} without change of volume", test->name));
-  if (!options.fits.empty()) {
-    if (!options.turns.empty() || !options.start.empty() || options.cycles != 1)
-      throw UsageError("S905", "--fit goes where its curves go: without --to, --cycles and --start");
-  } else if (options.turns.empty()) {
+  if (options.fits.empty() && options.turns.empty())
     throw UsageError("S903", fmt::format("--to: how far? {} at the end", driven_column(*test)));
-  }
   return test;
 }
 
 Heading heading_of(const DriveOptions& options, const std::vector<Subject>& subjects) {
   Heading heading;
-  heading.title = options.path.empty() ? options.test : "path of " + options.path;
+  heading.title = !options.path.empty()  ? "path of " + options.path
+                  : options.test.empty() ? "curves of several tests"
+                                         : options.test;
   if (options.undrained) heading.title += ", constant volume";
   if (options.normal_stiffness > 0.0)
     heading.title += fmt::format(", normal stiffness {:g}", options.normal_stiffness);
@@ -211,18 +213,34 @@ void list_tests() {
   }
 }
 
-// FILE or FILE@PRESSURE.
-Measured measured_from(const std::string& text, const LabTest& test, double pressure) {
+// FILE, FILE@PRESSURE or FILE@PRESSURE,TEST[,undrained].  test: of the command line, nullptr = none.
+Measured measured_from(const std::string& text, const LabTest* test, bool undrained, const Subject& subject) {
+  const auto refuse = [&](const std::string& why) { throw UsageError("S904", "--fit " + text + ": " + why); };
   const std::size_t at = text.rfind('@');
+  double pressure = subject.pressure;
   if (at != std::string::npos) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    const std::string number = text.substr(at + 1, comma - at - 1);
     char* end = nullptr;
-    pressure = std::strtod(text.c_str() + at + 1, &end);
-    if (at + 1 == text.size() || *end != '\0' || !std::isfinite(pressure))
-      throw UsageError("S904", "--fit " + text + ": wanted FILE or FILE@PRESSURE");
+    pressure = std::strtod(number.c_str(), &end);
+    if (number.empty() || *end != '\0' || !std::isfinite(pressure))
+      refuse("wanted FILE, FILE@PRESSURE or FILE@PRESSURE,TEST[,undrained]");
+    if (comma < text.size()) {
+      const std::size_t next = std::min(text.find(',', comma + 1), text.size());
+      const std::string name = text.substr(comma + 1, next - comma - 1);
+      test = find_lab_test(name, subject.entry->law_size);
+      undrained = undrained || next < text.size();
+      if (test == nullptr)
+        refuse("there is no test " + name + "; there are " + known_lab_tests(subject.entry->law_size));
+      if (next < text.size() && text.substr(next) != ",undrained") refuse("only undrained may follow the test");
+      if (undrained && test->undrained.empty())
+        refuse(fmt::format("nothing moves in {} without change of volume", test->name));
+    }
   }
+  if (test == nullptr) refuse("which test? --test NAME for all curves, or FILE@PRESSURE,TEST for this one");
   const std::string file = text.substr(0, at);
   keep_input(file);
-  return read_measured(file, test, pressure);
+  return read_measured(file, *test, undrained, pressure);
 }
 
 Json curve_json(const Curve& curve) {
@@ -291,16 +309,14 @@ void finish(OutFile& file, std::string text) {
 
 // The fitted curves go where driven ones go.
 int fit_law(const DriveOptions& options, const Subject& subject, const LabTest* test) {
-  if (test == nullptr) throw UsageError("S905", "--fit goes with --test, not with --path");
+  if (!options.path.empty()) throw UsageError("S905", "--fit goes with --test, not with --path");
   if (!options.panels.empty()) throw UsageError("S905", "--fit has its own panels: --xy goes without it");
   FitProblem problem;
   problem.subject = subject;
-  problem.test = test;
-  problem.undrained = options.undrained;
   problem.normal_stiffness = options.normal_stiffness;
   problem.steps = options.steps;
   for (const std::string& text : options.fits)
-    problem.curves.push_back(measured_from(text, *test, subject.pressure));
+    problem.curves.push_back(measured_from(text, test, options.undrained, subject));
   OutFile csv, plot;
   if (!options.csv.empty() && options.csv != "-") csv = OutFile(options.csv);
   if (!options.plot.empty()) plot = OutFile(options.plot);
@@ -457,10 +473,10 @@ Command drive_command(CLI::App& parser, const Catalogue& catalogue) {
   add_law_options(parser, *options);
   add_test_options(parser, *options);
   parser
-      .add_option(
-          "--fit", options->fits,
-          "FILE or FILE@PRESSURE: a measured curve (CSV: what the test drives, then columns of --csv); finds "
-          "the parameters of --free by least squares; may be repeated")
+      .add_option("--fit", options->fits,
+                  "FILE, FILE@PRESSURE or FILE@PRESSURE,TEST[,undrained]: a measured curve (CSV: what the test "
+                  "drives, then "
+                  "columns of --csv); finds the parameters of --free by least squares; may be repeated")
       ->allow_extra_args(false);
   parser
       .add_option("--free", options->free,

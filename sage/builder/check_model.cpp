@@ -5,6 +5,7 @@
 #include <set>
 
 #include "sage/builder/builder.hpp"
+#include "sage/core/law_remark.hpp"
 #include "sage/deck/text.hpp"
 #include "sage/model/activity.hpp"
 #include "sage/model/locking.hpp"
@@ -206,6 +207,45 @@ void warn_materials(Builder& b) {
   }
 }
 
+// What they say of themselves, once a material.
+void note_remarks(Builder& b) {
+  std::set<int> noted;
+  for (const Group& group : b.model.groups) {
+    const Material& material = b.model.material_of(group);
+    const std::string words = std::visit([](const auto* law) { return remark_of(*law); }, material.law_ref());
+    if (!words.empty() && noted.insert(material.number).second)
+      b.note("S587", material.where,
+             "material " + std::to_string(material.number) + " (" + material.law_name + "): " + words);
+  }
+}
+
+bool has_initial_stress(const Model& model, int group) {
+  const auto states = [&](const std::vector<InitialStress>& initials) {
+    return std::ranges::any_of(initials, [&](const InitialStress& initial) {
+      return initial.group == group && initial.kind != InitialKind::zero &&
+             initial.kind != InitialKind::history;
+    });
+  };
+  return states(model.initials) ||
+         std::ranges::any_of(model.stages, [&](const Stage& stage) { return states(stage.initials); });
+}
+
+// Laws whose strength and stiffness come from the stress of the ground.
+void check_start_without_stress(Builder& b) {
+  for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
+    const Group& group = b.model.groups[g];
+    const Material& material = b.model.material_of(group);
+    const LawRef law = material.law_ref();
+    const auto* const solid = std::get_if<const SolidLaw*>(&law);
+    if (solid == nullptr || *solid == nullptr || has_initial_stress(b.model, static_cast<int>(g))) continue;
+    std::vector<double> h = initial_values((*solid)->traits().history);
+    if ((*solid)->initialise(Vector4::Zero(), h)) continue;
+    b.error("S586", group.where,
+            "group " + std::to_string(group.number) + ", material " + std::to_string(material.number) + " (" +
+                material.law_name + "): the law can't start without stress; give the group an initial stress");
+  }
+}
+
 // Whether beams of a part could hold it by their rotation.
 bool turns(const Model& model, const std::vector<int>& part, int p) {
   const DofMap map(model);
@@ -346,6 +386,8 @@ void check_model(Builder& b) {
   check_joints(b);
   check_sides(b);
   warn_materials(b);
+  note_remarks(b);
+  check_start_without_stress(b);
   if (b.problems.errors() == 0) check_supports(b);
   if (b.problems.errors() == 0) check_held_structures(b);
   check_solver(b);

@@ -136,7 +136,7 @@ class Comparison {
     return (static_cast<std::size_t>(problem_.steps) + points - 1) / points;
   }
   Path path_of(const Measured& measured) const {
-    const LabTest& test = *problem_.test;
+    const LabTest& test = *measured.test;
     Path path;
     path.history = problem_.subject.history;
     path.start = test.law_size == 4
@@ -144,9 +144,9 @@ class Comparison {
                      : std::vector<double>{0.0, measured.pressure};
     std::vector<double> turns = measured.driven;
     for (double& turn : turns) turn *= test.sense;
-    path.legs = legs_of(test, problem_.undrained, path.start, turns, static_cast<int>(steps_of(measured)));
+    path.legs = legs_of(test, measured.undrained, path.start, turns, static_cast<int>(steps_of(measured)));
     path.normal_stiffness = problem_.normal_stiffness;
-    if (problem_.undrained && test.law_size == 4) path.total_stress_stays = test.total_stress_stays;
+    if (measured.undrained && test.law_size == 4) path.total_stress_stays = test.total_stress_stays;
     return path;
   }
 
@@ -330,7 +330,8 @@ FreeParameter free_parameter_from(const Subject& subject, std::string_view text)
   return parameter;
 }
 
-Measured read_measured(const std::filesystem::path& file, const LabTest& test, double pressure) {
+Measured read_measured(const std::filesystem::path& file, const LabTest& test, bool undrained,
+                       double pressure) {
   const CsvTable table = read_csv_table(file);
   const SourcePosition where{file.string()};
   if (!table.words.empty()) {
@@ -343,7 +344,7 @@ Measured read_measured(const std::filesystem::path& file, const LabTest& test, d
                      fmt::format("the first column is to be {}, which {} drives, and others what was measured "
                                  "there (columns of `sagefe drive --csv`)",
                                  driven_column(test), test.name));
-  Measured measured{file.stem().string(), pressure, table.columns.front().values, {}};
+  Measured measured{file.stem().string(), &test, undrained, pressure, table.columns.front().values, {}};
   if (measured.driven.empty()) throw InputError("S660", where, "holds no point");
   for (std::size_t i = 0; i < measured.driven.size(); ++i)
     if (!std::isfinite(measured.driven[i]))

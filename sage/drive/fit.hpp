@@ -26,6 +26,8 @@ FreeParameter free_parameter_from(const Subject& subject, std::string_view text)
 // A curve of a test: values of what is driven, and of what was measured there.  Compression positive.
 struct Measured {
   std::string name;
+  const LabTest* test = nullptr;
+  bool undrained = false;
   double pressure = 0.0;  // at the start
   std::vector<double> driven;
   struct Response {
@@ -37,12 +39,10 @@ struct Measured {
 
 // Reads a table whose first column is what the test drives and whose others are columns of a Curve.  Throws
 // InputError with line and column.
-Measured read_measured(const std::filesystem::path& file, const LabTest& test, double pressure);
+Measured read_measured(const std::filesystem::path& file, const LabTest& test, bool undrained, double pressure);
 
 struct FitProblem {
   Subject subject;  // with the starting values
-  const LabTest* test = nullptr;
-  bool undrained = false;
   double normal_stiffness = 0.0;
   int steps = 100;  // of a curve, about; more where it has more points
   std::vector<Measured> curves;

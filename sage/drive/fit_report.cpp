@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "sage/draw/plot.hpp"
 #include "sage/drive/fit.hpp"
@@ -40,6 +42,21 @@ void append_correlation(std::string& text, const FitProblem& problem, const FitR
   }
 }
 
+// What is measured over what is driven: a panel each.
+std::vector<std::pair<std::string, std::string>> panels_of(const FitProblem& problem) {
+  std::vector<std::pair<std::string, std::string>> panels;
+  for (const Measured& measured : problem.curves)
+    for (const Measured::Response& response : measured.responses) {
+      const std::pair panel{std::string(driven_column(*measured.test)), response.column};
+      if (std::find(panels.begin(), panels.end(), panel) == panels.end()) panels.push_back(panel);
+    }
+  return panels;
+}
+
+std::string label_of(const Column& column) {
+  return column.unit == "-" ? column.name : column.name + " [" + column.unit + "]";
+}
+
 }  // namespace
 
 std::string fit_text(const FitProblem& problem, const FitResult& result) {
@@ -68,31 +85,21 @@ std::string fit_plot(const FitProblem& problem, const FitResult& result) {
   PlotSheet sheet;
   sheet.title = "fit of " + result.fitted.entry->name;
   sheet.note = "markers: measured; lines: fitted; right: fitted less measured. Compression positive";
-  std::vector<std::string> columns;
-  for (const Measured& measured : problem.curves)
-    for (const Measured::Response& response : measured.responses)
-      if (std::find(columns.begin(), columns.end(), response.column) == columns.end())
-        columns.push_back(response.column);
-  const std::string over(driven_column(*problem.test));
-  const auto label = [&](const std::string& column) {
-    const std::string& unit = result.curves.front().find(column)->unit;
-    return unit == "-" ? column : column + " [" + unit + "]";
-  };
-  for (const std::string& column : columns) {
+  for (const auto& [over, column] : panels_of(problem)) {
     Plot curves, rest;
-    curves.x_label = rest.x_label = label(over);
-    curves.y_label = label(column);
-    rest.y_label = label(column) + ", fitted less measured";
     for (std::size_t c = 0; c < problem.curves.size(); ++c) {
       const Measured& measured = problem.curves[c];
+      if (driven_column(*measured.test) != over) continue;
       for (std::size_t r = 0; r < measured.responses.size(); ++r) {
         if (measured.responses[r].column != column) continue;
         const std::vector<double>& values = measured.responses[r].values;
-        const Curve& fitted = result.curves[c];
+        const Column &x = *result.curves[c].find(over), &y = *result.curves[c].find(column);
+        curves.x_label = rest.x_label = label_of(x);
+        curves.y_label = label_of(y);
+        rest.y_label = label_of(y) + ", fitted less measured";
         const int style = static_cast<int>(c);
         curves.series.push_back({measured.name, measured.driven, values, false, true, false, style});
-        curves.series.push_back(
-            {"", fitted.find(over)->values, fitted.find(column)->values, true, false, false, style});
+        curves.series.push_back({"", x.values, y.values, true, false, false, style});
         std::vector<double> left = result.model[c][r];
         for (std::size_t i = 0; i < left.size(); ++i) left[i] -= values[i];
         rest.series.push_back({measured.name, measured.driven, left, false, true, false, style});

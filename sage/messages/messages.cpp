@@ -927,6 +927,19 @@ constexpr MessageEntry kMessages[] = {
      "of the embedment), or by the force on it."},
 
     // S6: results, checkpoints and result files.
+    {"S585", "initial stresses raise the preconsolidation pressure",
+     "The parameters state a preconsolidation pressure whose surface lies inside the initial stress. At "
+     "those points the surface is enlarged until the stress lies on it: normally consolidated soil.",
+     "Check p_c and the initial stress against each other. An ocr or a pop in place of p_c follows the "
+     "initial stress."},
+    {"S586", "a group of soil has no initial stress, and its law can't start without",
+     "Stiffness and strength of the law grow with the mean stress; without any there is neither.",
+     "Give an initial card of kind 1 or 2 for the group (for a group that is activated later, among the "
+     "cards of that stage)."},
+    {"S587", "a note about a law",
+     "Something that follows from the way the law is meant, such as stiffness that is not derived from an "
+     "energy.",
+     "Nothing has to be done; docs/theory has the page of the law."},
     {"S601", "a result can't be written",
      "The disk is full, the folder may not be written to, or there is a folder or a device of that name. "
      "The message gives the system's reason.",

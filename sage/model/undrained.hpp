@@ -2,6 +2,8 @@
 #pragma once
 
 #include "sage/core/law.hpp"
+#include "sage/core/law_remark.hpp"
+#include "sage/core/start_adjustment.hpp"
 
 namespace sage {
 
@@ -12,7 +14,7 @@ namespace sage {
 // one) is held by a multiplier: p grows by -B (e + p / K) with B = 1e8 G, so that what is left of an increment's
 // change of volume, (growth of p) / B, is taken out by the next one, and no digits are lost.
 // docs/decisions/0029-stiff-water.md
-class UndrainedLaw final : public SolidLaw, public PathError<4> {
+class UndrainedLaw final : public SolidLaw, public PathError<4>, public StartAdjustment<4>, public LawRemark {
  public:
   static constexpr std::size_t kOwn = 3;
 
@@ -28,6 +30,9 @@ class UndrainedLaw final : public SolidLaw, public PathError<4> {
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override;
   double path_error(const PointIn<4>& in, const Vector4& sigma, std::span<const double> h) const override;
   std::string caution() const override { return grains_->caution(); }
+  std::string remark() const override { return remark_of(*grains_); }
+  // Of the effective stress; no excess pressure stands at the start.
+  bool adjusts_start(const Vector4& sigma) const override { return sage::adjusts_start(*grains_, sigma); }
   double stress_level(const Vector4& sigma, std::span<const double> h) const override;
 
   // Place of p in the history; those of the bulk and of e + p / K come next.

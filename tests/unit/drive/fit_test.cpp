@@ -29,26 +29,36 @@ Subject subject(const std::string& text) {
   return subject_from(catalogue(), text, kKilopascal, 0.0, nullptr);
 }
 
+// The curve of `truth` as a measured one.
+Measured measured_of(const Subject& truth, const std::string& test, double pressure,
+                     const std::vector<double>& driven, const std::vector<std::string>& columns) {
+  Measured measured{test + " at " + std::to_string(static_cast<int>(pressure)),
+                    find_lab_test(test, 4),
+                    false,
+                    pressure,
+                    driven,
+                    {}};
+  Path path{{pressure, pressure, pressure, 0.0}, {}};
+  path.legs = legs_of(*measured.test, false, path.start, driven, 1);
+  const Curve curve = follow(reference(make_law(truth)), kKilopascal, path);
+  for (const std::string& column : columns) {
+    std::vector<double> values = curve.find(column)->values;
+    values.erase(values.begin());
+    measured.responses.push_back({column, values});
+  }
+  return measured;
+}
+
 // The start of a problem: curves of `truth` at these pressures, as measured at `points` equal strains.
 FitProblem problem_of(const Subject& truth, const Subject& start, const std::vector<double>& pressures,
                       const std::vector<std::string>& columns, int points = 12, double strain = 0.03) {
   FitProblem problem;
   problem.subject = start;
-  problem.test = find_lab_test("triaxial_compression", 4);
   problem.steps = points;
-  for (const double pressure : pressures) {
-    Measured measured{"at " + std::to_string(static_cast<int>(pressure)), pressure, {}, {}};
-    for (int i = 1; i <= points; ++i) measured.driven.push_back(strain * i / points);
-    Path path{{pressure, pressure, pressure, 0.0}, {}};
-    path.legs = legs_of(*problem.test, false, path.start, measured.driven, 1);
-    const Curve curve = follow(reference(make_law(truth)), kKilopascal, path);
-    for (const std::string& column : columns) {
-      std::vector<double> values = curve.find(column)->values;
-      values.erase(values.begin());
-      measured.responses.push_back({column, values});
-    }
-    problem.curves.push_back(measured);
-  }
+  std::vector<double> strains;
+  for (int i = 1; i <= points; ++i) strains.push_back(strain * i / points);
+  for (const double pressure : pressures)
+    problem.curves.push_back(measured_of(truth, "triaxial_compression", pressure, strains, columns));
   return problem;
 }
 
@@ -166,6 +176,27 @@ TEST(Fit, WhatTheCurveLeavesOpenStaysAtItsStart) {
         (2.0 * result.values[1] * std::cos(phi) + 200.0 * std::sin(phi)) / (1.0 - std::sin(phi));
     EXPECT_NEAR(strength, 243.49930788, 243.5e-6);
   }
+}
+
+// An oedometer test with an unloading and a drained triaxial test together: slopes, M and p_c of Cam clay.
+TEST(Fit, CamClayFromTwoKindsOfTests) {
+  const std::string rest = ",specific_volume=2,nu=.3";
+  const Subject truth = subject("modified_cam_clay,M=1.1,lambda=.2,kappa=.04,p_c=180" + rest);
+  FitProblem problem;
+  problem.subject = subject("modified_cam_clay,M=.9,lambda=.15,kappa=.05,p_c=130" + rest);
+  problem.steps = 12;
+  problem.curves.push_back(measured_of(
+      truth, "oedometer", 50.0, {.01, .02, .03, .04, .06, .08, .075, .07, .065, .07, .08, .1}, {"stress_yy"}));
+  problem.curves.push_back(measured_of(truth, "triaxial_compression", 100.0, {.01, .02, .03, .05, .1, .15},
+                                       {"axial_deviator", "volume_strain"}));
+  set_free(problem, {"M", "lambda", "kappa", "p_c"});
+  const FitResult result = fit(problem);
+  EXPECT_TRUE(result.converged);
+  const double expected[] = {1.1, .2, .04, 180.0};
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(result.values[k], expected[k], 1e-5 * expected[k]) << k;
+  const std::string plot = fit_plot(problem, result);
+  EXPECT_NE(plot.find("stress_yy"), std::string::npos);
+  EXPECT_NE(plot.find("volume_strain"), std::string::npos);
 }
 
 // Poisson's ratio says nothing about the deviator.
