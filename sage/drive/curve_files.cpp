@@ -60,12 +60,6 @@ const Column* find_in(const std::vector<Curve>& curves, const std::string& name)
   return nullptr;
 }
 
-std::string label_of(const Column& column) {
-  std::string label = column.name;
-  std::ranges::replace(label, '_', ' ');
-  return column.unit == "-" ? label : label + " [" + column.unit + "]";
-}
-
 Plot panel_of(const std::vector<Curve>& curves, const std::string& panel) {
   const auto [x, y] = sides_of(panel);
   Plot plot;
@@ -85,6 +79,12 @@ std::size_t place_of_largest(const std::vector<double>& values) {
 }
 
 }  // namespace
+
+std::string label_of(const Column& column) {
+  std::string label = column.name;
+  std::ranges::replace(label, '_', ' ');
+  return column.unit == "-" ? label : label + " [" + column.unit + "]";
+}
 
 std::string csv_text(const Heading& heading, const std::vector<Curve>& curves, int digits) {
   std::string text = "# " + heading.title + "\n# " + signs(heading.units) + "\n";

@@ -8,6 +8,9 @@
 
 namespace sage::drive {
 
+// Of an axis: "mean stress [kPa]".
+std::string label_of(const Column& column);
+
 // What stands above all curves: test, start, drainage.
 struct Heading {
   std::string title;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sage/draw/plot.hpp"
+#include "sage/drive/curve_files.hpp"
 #include "sage/drive/fit.hpp"
 
 namespace sage::drive {
@@ -51,10 +52,6 @@ std::vector<std::pair<std::string, std::string>> panels_of(const FitProblem& pro
       if (std::find(panels.begin(), panels.end(), panel) == panels.end()) panels.push_back(panel);
     }
   return panels;
-}
-
-std::string label_of(const Column& column) {
-  return column.unit == "-" ? column.name : column.name + " [" + column.unit + "]";
 }
 
 }  // namespace

@@ -195,8 +195,8 @@ TEST(Fit, CamClayFromTwoKindsOfTests) {
   const double expected[] = {1.1, .2, .04, 180.0};
   for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(result.values[k], expected[k], 1e-5 * expected[k]) << k;
   const std::string plot = fit_plot(problem, result);
-  EXPECT_NE(plot.find("stress_yy"), std::string::npos);
-  EXPECT_NE(plot.find("volume_strain"), std::string::npos);
+  EXPECT_NE(plot.find("stress yy"), std::string::npos);
+  EXPECT_NE(plot.find("volume strain"), std::string::npos);
 }
 
 // Poisson's ratio says nothing about the deviator.
