@@ -120,6 +120,14 @@ Vector4 work_row(const Vector4& a) {
   return {a[0], a[1], a[2], 2.0 * a[3]};
 }
 
+// Square of the difference of ln p and s/p; over kFar^2 it is what extrapolation is weighted by.
+double square_difference(double log_p, const Vector4& ratio) {
+  return log_p * log_p + contract(ratio, ratio);
+}
+double weight_of(double square) {
+  return 1.0 / (1.0 + square / (kFar * kFar));
+}
+
 const Vector4 kVolumeRate(-1.0, -1.0, -1.0, 0.0);  // of the volume, compression positive, by the strain
 
 }  // namespace
@@ -135,6 +143,8 @@ struct ModifiedCamClay::Point {
   PointStatus status = PointStatus::elastic;
   bool at_floor = false;
   double kappa = 0.0;  // of the step that led here
+
+  Vector4 ratio() const;  // s/p
 };
 
 // Which share of the update's increment a step takes, and how that changes with the increment.
@@ -179,6 +189,12 @@ struct ModifiedCamClay::OnSurface {
 struct ModifiedCamClay::ElasticTrial {
   OnSurface at;
   double log_share, log_level;  // ln(p/p_c) and ln(level)
+};
+
+// An increment that leaves the surface, in one step and in two.
+struct ModifiedCamClay::PlasticIncrement {
+  Point once, twice;
+  bool smooth;  // both are plastic throughout
 };
 
 ModifiedCamClay::ModifiedCamClay(const CamClay& clay) : clay_(clay) {
@@ -498,18 +514,21 @@ ModifiedCamClay::Part ModifiedCamClay::elastic_part(const Point& start, const Ve
   return {low};
 }
 
+Vector4 ModifiedCamClay::Point::ratio() const {
+  return std::exp(-log_p) * s;
+}
+
 // Richardson's extrapolation from one step and two of half the size: of second order.  It works on ln p and s/p, and
 // p_c follows, so that the answer is a stress on a surface.  Where the two differ much it is left out by degrees.
 ModifiedCamClay::Point ModifiedCamClay::extrapolated(const Point& once, const Point& twice) const {
-  const auto ratio = [](const Point& point) { return Vector4(std::exp(-point.log_p) * point.s); };
   const auto ratio_rate = [](const Point& point) {
     return Matrix4(std::exp(-point.log_p) * (point.s_rate - point.s * point.log_p_rate.transpose()));
   };
-  const Vector4 r1 = ratio(once), r2 = ratio(twice), dr = r2 - r1;
+  const Vector4 r2 = twice.ratio(), dr = r2 - once.ratio();
   const Matrix4 r2_rate = ratio_rate(twice), dr_rate = r2_rate - ratio_rate(once);
   const double dp = twice.log_p - once.log_p;
   const Vector4 dp_rate = twice.log_p_rate - once.log_p_rate;
-  const double share = 1.0 / (1.0 + (dp * dp + contract(dr, dr)) / (kFar * kFar));
+  const double share = weight_of(square_difference(dp, dr));
   const Vector4 share_rate =
       -2.0 * share * share / (kFar * kFar) * (dp * dp_rate + dr_rate.transpose() * work_row(dr));
   Point end = twice;
@@ -527,15 +546,39 @@ ModifiedCamClay::Point ModifiedCamClay::extrapolated(const Point& once, const Po
 }
 
 // Elastic up to the surface; the rest once in one step, once in two.
-ModifiedCamClay::Point ModifiedCamClay::plastic_increment(const Point& start, const Vector4& deps) const {
+ModifiedCamClay::PlasticIncrement ModifiedCamClay::plastic_increment(const Point& start,
+                                                                     const Vector4& deps) const {
   const Part elastic = elastic_part(start, deps), rest{1.0 - elastic.share, -elastic.rate};
   const Part half{0.5 * rest.share, 0.5 * rest.rate};
   const Point yield = elastic.share > 0.0 ? advance(start, deps, elastic) : start;
-  const Point once = advance(yield, deps, rest);
-  const Point middle = advance(yield, deps, half), twice = advance(middle, deps, half);
-  const bool smooth = once.status == PointStatus::yielded && twice.status == PointStatus::yielded &&
-                      !(once.at_floor || middle.at_floor || twice.at_floor);
-  return smooth ? extrapolated(once, twice) : twice;
+  PlasticIncrement increment{advance(yield, deps, rest), {}, false};
+  const Point middle = advance(yield, deps, half);
+  increment.twice = advance(middle, deps, half);
+  const Point &once = increment.once, &twice = increment.twice;
+  increment.smooth = once.status == PointStatus::yielded && twice.status == PointStatus::yielded &&
+                     !(once.at_floor || middle.at_floor || twice.at_floor);
+  return increment;
+}
+
+ModifiedCamClay::Point ModifiedCamClay::start_of(const PointIn<4>& in) const {
+  Point start;
+  start.s = deviator(in.sigma0);
+  start.log_least = std::log(in.h0[kLeast]);
+  start.log_p = std::log(std::max(-mean_stress(in.sigma0), in.h0[kLeast]));
+  start.log_c = std::log(in.h0[kPressure]);
+  start.v = in.h0[kVolume];
+  return start;
+}
+
+// What extrapolation leaves is less than the square of what it takes away, but for what it was not allowed to.
+double ModifiedCamClay::path_error(const PointIn<4>& in, const Vector4& /*sigma*/,
+                                   std::span<const double> h) const {
+  if (h[kShear] == in.h0[kShear] && h[kPlasticVolume] == in.h0[kPlasticVolume]) return 0.0;
+  const PlasticIncrement increment = plastic_increment(start_of(in), in.deps);
+  const double square = square_difference(increment.twice.log_p - increment.once.log_p,
+                                          increment.twice.ratio() - increment.once.ratio());
+  const double left = increment.smooth ? 1.0 - weight_of(square) : 1.0;
+  return std::isfinite(square) ? left * std::sqrt(square) + square : 0.0;
 }
 
 Outcome ModifiedCamClay::update(const PointIn<4>& in, PointOut<4>& out) const {
@@ -545,18 +588,14 @@ Outcome ModifiedCamClay::update(const PointIn<4>& in, PointOut<4>& out) const {
   out.status = PointStatus::elastic;
   const bool small = !clay_.current_volume || std::abs(kVolumeRate.dot(in.deps)) < kMostStrain;
   if (!(in.h0[kPressure] > 0.0 && in.h0[kLeast] > 0.0 && small)) return Outcome::cut_step;
-  Point start;
-  start.s = deviator(in.sigma0);
-  start.log_least = std::log(in.h0[kLeast]);
-  start.log_p = std::log(std::max(-mean_stress(in.sigma0), in.h0[kLeast]));
-  start.log_c = std::log(in.h0[kPressure]);
-  start.v = in.h0[kVolume];
+  const Point start = start_of(in);
   const ElasticTrial trial = elastic_trial(step_from(start, in.deps, {}));
   Point end;
   if (trial.log_level <= kOnSurface) {
     end = advance(start, in.deps, {});
   } else {
-    end = plastic_increment(start, in.deps);
+    const PlasticIncrement increment = plastic_increment(start, in.deps);
+    end = increment.smooth ? extrapolated(increment.once, increment.twice) : increment.twice;
     out.h1[kPressure] = std::exp(end.log_c);
     out.h1[kShear] = std::max(in.h0[kShear] + end.shear, in.h0[kShear]);
     out.h1[kPlasticVolume] += end.plastic_volume;

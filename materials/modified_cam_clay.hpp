@@ -30,7 +30,10 @@ struct CamClay {
   double floor;         // least mean stress as a share of the first p_c                         [-]
 };
 
-class ModifiedCamClay final : public SolidLaw, public StartAdjustment<4>, public LawRemark {
+class ModifiedCamClay final : public SolidLaw,
+                              public PathError<4>,
+                              public StartAdjustment<4>,
+                              public LawRemark {
  public:
   // Of the parameters `floor` must not exceed 1/4.
   explicit ModifiedCamClay(const CamClay& clay);
@@ -47,6 +50,7 @@ class ModifiedCamClay final : public SolidLaw, public StartAdjustment<4>, public
   bool adjusts_start(const Vector4& sigma) const override;
   bool accepts_history(const Vector4& sigma, std::span<const double> h) const override;
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override;
+  double path_error(const PointIn<4>& in, const Vector4& sigma, std::span<const double> h) const override;
   std::string caution() const override;
   std::string remark() const override;
   double stress_level(const Vector4& sigma, std::span<const double> h) const override;
@@ -61,6 +65,7 @@ class ModifiedCamClay final : public SolidLaw, public StartAdjustment<4>, public
   struct Step;
   struct OnSurface;
   struct ElasticTrial;
+  struct PlasticIncrement;
   Slope slope(double lode) const;
   double size_through(const Vector4& sigma) const;
   Step step_from(const Point& point, const Vector4& deps, const Part& part) const;
@@ -75,8 +80,9 @@ class ModifiedCamClay final : public SolidLaw, public StartAdjustment<4>, public
   Point advance(const Point& point, const Vector4& deps, const Part& part) const;
   Vector4 log_level_rate(const Point& point) const;
   Part elastic_part(const Point& start, const Vector4& deps) const;
-  Point plastic_increment(const Point& start, const Vector4& deps) const;
+  PlasticIncrement plastic_increment(const Point& start, const Vector4& deps) const;
   Point extrapolated(const Point& once, const Point& twice) const;
+  Point start_of(const PointIn<4>& in) const;
 
   CamClay clay_;
   double by_bulk_;            // G over the bulk modulus

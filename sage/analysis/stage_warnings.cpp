@@ -35,13 +35,29 @@ void add_motion(Messages& messages, double motion) {
                            short_number(kLargeMotion) + " times) do not describe this");
 }
 
-// Points at the apex, cut off in tension, or otherwise without stiffness in the tangent of the last iteration, and the
-// elements that have them, the first few by number.
-struct WeakPoints {
+// Elements by number, the first few of them.
+class NamedElements {
+ public:
+  void add(int number) {
+    if (++count_ <= kNamed) named_ += (count_ > 1 ? ", " : "") + std::to_string(number);
+  }
+  bool empty() const { return count_ == 0; }
+  std::string words() const {
+    const std::string text = "in element(s) " + named_;
+    return count_ > kNamed ? text + " and " + std::to_string(count_ - kNamed) + " more" : text;
+  }
+
+ private:
   static constexpr int kNamed = 8;
+  int count_ = 0;
+  std::string named_;
+};
+
+// Points at the apex, cut off in tension, or otherwise without stiffness in the tangent of the last iteration, and the
+// elements that have them.
+struct WeakPoints {
   long apex = 0, cut_off = 0, others = 0;
-  int elements = 0;
-  std::string named;
+  NamedElements elements;
 
   std::string words() const {
     std::string text;
@@ -52,11 +68,7 @@ struct WeakPoints {
     add(apex, "at the apex");
     add(cut_off, "cut off in tension");
     add(others, "with a tangent that has no stiffness");
-    text += ", in element(s) " + named;
-    return elements > kNamed ? text + " and " + std::to_string(elements - kNamed) + " more" : text;
-  }
-  void count_element(int number) {
-    if (++elements <= kNamed) named += (elements > 1 ? ", " : "") + std::to_string(number);
+    return text + ", " + elements.words();
   }
 };
 
@@ -74,7 +86,7 @@ void add_weak_points(WeakPoints& weak, const Assembly& assembly, const GroupData
     ++(apex ? weak.apex : cut_off ? weak.cut_off : weak.others);
     if (p / points == last) continue;
     last = p / points;
-    weak.count_element(data.group->element_numbers[last]);
+    weak.elements.add(data.group->element_numbers[last]);
   }
 }
 
@@ -82,15 +94,17 @@ void add_points(Messages& messages, const Assembly& assembly) {
   WeakPoints weak;
   for (const GroupData& data : assembly.groups())
     if (data.active) add_weak_points(weak, assembly, data);
-  if (weak.elements > 0)
+  if (!weak.elements.empty())
     messages.add("S522",
                  weak.words() +
                      ": the tangent there has little stiffness or none; results there depend on how the "
                      "law treats tension, and on the path of the iteration");
   const UniquenessCount unique = count_loss_of_uniqueness(assembly);
   if (unique.lost == 0) return;
-  const std::string count =
-      std::to_string(unique.lost) + " of " + std::to_string(unique.plastic) + " yielding points";
+  NamedElements elements;
+  for (const int number : unique.elements) elements.add(number);
+  const std::string count = std::to_string(unique.lost) + " of " + std::to_string(unique.plastic) +
+                            " yielding points " + elements.words();
   if (unique.softening > 0)
     messages.add("S523", "loss of uniqueness at " + count + ", and the strength falls at " +
                              std::to_string(unique.softening) +

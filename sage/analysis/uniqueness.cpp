@@ -101,11 +101,14 @@ UniquenessCount count_loss_of_uniqueness(const Assembly& assembly, StepKind step
   };
   for (const GroupData& data : assembly.groups()) {
     if (!is_active_solid(data) || std::get<const SolidLaw*>(data.law)->traits().symmetric) continue;
+    const auto points = static_cast<std::size_t>(data.group->element->traits().points);
     visit_tangents(assembly, data, step, yielded, [&](const StepEnd& end, const auto& start) {
       if (end.status != PointStatus::yielded) return;
       const Matrix4 elastic = start();
       if (smallest_acoustic_ratio(end.D, elastic) >= kNegative) return;
       ++count.lost;
+      const int number = data.group->element_numbers[end.point / points];
+      if (count.elements.empty() || count.elements.back() != number) count.elements.push_back(number);
       if (softens(end.D, elastic)) ++count.softening;
     });
   }

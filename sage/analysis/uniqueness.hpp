@@ -12,8 +12,9 @@ namespace sage {
 double smallest_acoustic_ratio(const Matrix4& D, const Matrix4& elastic);
 
 struct UniquenessCount {
-  long lost = 0, plastic = 0;  // points with a negative ratio, of those that yield
-  long softening = 0;          // of those that lost it: the tangent itself has a negative determinant
+  long lost = 0, plastic = 0;   // points with a negative ratio, of those that yield
+  long softening = 0;           // of those that lost it: the tangent itself has a negative determinant
+  std::vector<int> elements{};  // numbers of those that have points which lost it
 };
 
 // Which step: the last one that was committed (right after it the trial states hold the state before), or the
