@@ -12,7 +12,8 @@ std::vector<Section> book() {
           bearing_cases(),   slope_cases(),
           ground_cases(),    law_cases(),
           structure_cases(), soil_structure_cases(),
-          seepage_cases(),   water_cases()};
+          seepage_cases(),   water_cases(),
+          clay_cases()};
 }
 
 }  // namespace sage::verify

@@ -19,6 +19,7 @@ Section bearing_cases();
 Section slope_cases();
 Section ground_cases();
 Section law_cases();
+Section clay_cases();
 Section structure_cases();
 Section soil_structure_cases();
 Section seepage_cases();
