@@ -193,8 +193,8 @@ struct ModifiedCamClay::ElasticTrial {
 
 // An increment that leaves the surface, in one step and in two.
 struct ModifiedCamClay::PlasticIncrement {
-  Point once, twice;
-  bool smooth;  // both are plastic throughout
+  Point once, middle, twice;  // middle: after the first of the two
+  bool smooth;                // both are plastic throughout
 };
 
 ModifiedCamClay::ModifiedCamClay(const CamClay& clay) : clay_(clay) {
@@ -551,10 +551,9 @@ ModifiedCamClay::PlasticIncrement ModifiedCamClay::plastic_increment(const Point
   const Part elastic = elastic_part(start, deps), rest{1.0 - elastic.share, -elastic.rate};
   const Part half{0.5 * rest.share, 0.5 * rest.rate};
   const Point yield = elastic.share > 0.0 ? advance(start, deps, elastic) : start;
-  PlasticIncrement increment{advance(yield, deps, rest), {}, false};
-  const Point middle = advance(yield, deps, half);
+  PlasticIncrement increment{advance(yield, deps, rest), advance(yield, deps, half), {}, false};
+  const auto& [once, middle, twice, smooth] = increment;
   increment.twice = advance(middle, deps, half);
-  const Point &once = increment.once, &twice = increment.twice;
   increment.smooth = once.status == PointStatus::yielded && twice.status == PointStatus::yielded &&
                      !(once.at_floor || middle.at_floor || twice.at_floor);
   return increment;
@@ -570,15 +569,23 @@ ModifiedCamClay::Point ModifiedCamClay::start_of(const PointIn<4>& in) const {
   return start;
 }
 
-// What extrapolation leaves is less than the square of what it takes away, but for what it was not allowed to.
-double ModifiedCamClay::path_error(const PointIn<4>& in, const Vector4& /*sigma*/,
+// Two errors.  Of the steps: what extrapolation leaves is less than the square of what it takes away, but for what it was
+// not allowed to.  Of the path: where stresses are held, the strains bend, and their straight line leads the stress off
+// its chord by about as much as the end is wrong.
+double ModifiedCamClay::path_error(const PointIn<4>& in, const Vector4& sigma,
                                    std::span<const double> h) const {
   if (h[kShear] == in.h0[kShear] && h[kPlasticVolume] == in.h0[kPlasticVolume]) return 0.0;
   const PlasticIncrement increment = plastic_increment(start_of(in), in.deps);
   const double square = square_difference(increment.twice.log_p - increment.once.log_p,
                                           increment.twice.ratio() - increment.once.ratio());
-  const double left = increment.smooth ? 1.0 - weight_of(square) : 1.0;
-  return std::isfinite(square) ? left * std::sqrt(square) + square : 0.0;
+  const double left = increment.smooth ? 1.0 - weight_of(square) : 1.0,
+               steps = left * std::sqrt(square) + square;
+  const Vector4 chord = sigma - in.sigma0,
+                middle = increment.middle.s - std::exp(increment.middle.log_p) * unit_tensor() - in.sigma0;
+  const double length = contract(chord, chord);
+  const Vector4 off = length > 0.0 ? Vector4(middle - contract(middle, chord) / length * chord) : middle;
+  const double path = std::sqrt(contract(off, off) / contract(sigma, sigma));
+  return std::isfinite(steps) && std::isfinite(path) ? std::max(steps, path) : 0.0;
 }
 
 Outcome ModifiedCamClay::update(const PointIn<4>& in, PointOut<4>& out) const {

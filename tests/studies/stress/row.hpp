@@ -89,6 +89,7 @@ std::vector<Row> stage_rows();
 std::vector<Row> input_rows();
 std::vector<Row> water_rows();
 std::vector<Row> structure_rows();
+std::vector<Row> clay_rows();
 
 struct RowResult {
   std::vector<Trial> trials;
