@@ -622,8 +622,12 @@ Outcome ModifiedCamClay::update(const PointIn<4>& in, PointOut<4>& out) const {
 }
 
 MaterialEntry modified_cam_clay_entry() {
-  return {"modified_cam_clay",      "modified Cam clay (Roscoe and Burland 1968)", 4, rows(), make,
-          ModifiedCamClay::kHistory};
+  MaterialEntry entry{"modified_cam_clay",      "modified Cam clay (Roscoe and Burland 1968)", 4, rows(), make,
+                      ModifiedCamClay::kHistory};
+  // For a plug-in that is built from this file.
+  entry.trials = {{.values = {1.2, 0.2, 0.04, 2.0, 0.3, 4.0}, .bounded = true},
+                  {.values = {0.9, 0.15, 0.02, 2.2, 0.2, 0.0, 50.0, 0.0, 1.0, 1.0}, .bounded = true}};
+  return entry;
 }
 
 }  // namespace sage

@@ -934,7 +934,7 @@ constexpr MessageEntry kMessages[] = {
      "initial stress."},
     {"S586", "a group of soil has no initial stress, and its law can't start without",
      "Stiffness and strength of the law grow with the mean stress; without any there is neither.",
-     "Give an initial card of kind 1 or 2 for the group (for a group that is activated later, among the "
+     "Give an initial card of kind 0 or 1 for the group (for a group that is activated later, among the "
      "cards of that stage)."},
     {"S587", "a note about a law",
      "Something that follows from the way the law is meant, such as stiffness that is not derived from an "

@@ -148,6 +148,30 @@ TEST(Plugins, ConformRunsTheSuites) {
                            "FAILS  law 1001 rigid trial 1: no hidden units", "verdict: does NOT conform"});
 }
 
+// One source, in the program and in a library of its own.
+TEST(Plugins, ALawOfTheProgramAsAPlugin) {
+  const fs::path folder = empty_folder("plugin_cam_clay");
+  const std::string library = kPlugins + "/cam_clay_plugin.so";
+  const Finished conform = sagefe(folder, "conform " + library);
+  EXPECT_EQ(conform.exit_code, 0) << conform.out << conform.err;
+  expect_words(conform.out,
+               {"trial 1: 17 checks, all hold", "trial 2: 17 checks, all hold", "verdict: conforms"});
+  const auto curve = [&](const std::string& law) {
+    return sagefe(folder,
+                  "drive --law NAME:" + law +
+                      " --set M=1.2 --set lambda=.2 --set kappa=.04 --set specific_volume=2 --set nu=.3"
+                      " --set ocr=8 --test triaxial_compression --pressure 100 --to .1 --csv - --plugin " +
+                      library)
+        .out;
+  };
+  const auto rows = [](const std::string& text) {
+    return text.substr(std::min(text.find("case,"), text.size()));
+  };
+  const std::string own = rows(curve("modified_cam_clay"));
+  EXPECT_FALSE(own.empty());
+  EXPECT_EQ(rows(curve("cam_clay")), own);
+}
+
 TEST(Plugins, ConformSaysWhereAPieceCrashesAndWhatIsNotTried) {
   const fs::path folder = empty_folder("plugin_crash");
   const Finished crash = sagefe(folder, "conform " + kWrong, "env 'SAGE_TEST_FAULT=crash in a law'");
