@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "materials/stress_measures.hpp"
 
@@ -92,12 +93,16 @@ double van_eekelen_ratio(double M) {
   return (3.0 - sine) / (3.0 + sine);
 }
 
-// (exp(x) - 1)/x, which is the mean of exp over [0, x], and its derivative.
-double mean_exp(double x) {
-  return std::abs(x) < 1e-5 ? 1.0 + x * (0.5 + x / 6.0) : std::expm1(x) / x;
-}
-double mean_exp_slope(double x) {
-  return std::abs(x) < 1e-3 ? 0.5 + x * (1.0 / 3.0 + x * (0.125 + x / 30.0)) : (std::exp(x) - mean_exp(x)) / x;
+// The mean of exp over [0, x], (exp(x) - 1)/x, and its derivative.
+struct MeanExp {
+  double value, slope;
+};
+MeanExp mean_exp(double x) {
+  if (std::abs(x) < 0.01)
+    return {1.0 + x * (1.0 / 2 + x * (1.0 / 6 + x * (1.0 / 24 + x * (1.0 / 120 + x / 720)))),
+            1.0 / 2 + x * (1.0 / 3 + x * (1.0 / 8 + x * (1.0 / 30 + x * (1.0 / 144 + x / 840))))};
+  const double exponential = std::exp(x), mean = (exponential - 1.0) / x;
+  return {mean, (exponential - mean) / x};
 }
 
 // q = sqrt(3 J2) of a deviator.
@@ -160,7 +165,7 @@ struct ModifiedCamClay::Step {
   Matrix4 e_rate;
   double volume;
   Vector4 volume_rate;
-  double p0;
+  double p0, p_c0;
   double kappa, harden;   // kappa/v and (lambda - kappa)/v, v the mean over the step
   Vector4 stiffer;        // rate of ln v
   double elastic_growth;  // ln(p/p0) of an elastic step, without the floor
@@ -171,12 +176,12 @@ struct ModifiedCamClay::Step {
 // angle = pi/2 is the critical state.  Of an elastic trial only growth, G, trial, q_trial, lode and M are set.
 struct ModifiedCamClay::OnSurface {
   double angle, sine, cosine;
-  double log_share;                  // ln(p/p_c)
-  double log_share_rate;             // this rate and the next are by the angle
-  double hardening, hardening_rate;  // ln(p_c/p_c0)
-  double x;                          // plastic change of volume
-  double p_c, growth, G, q;          // growth: ln(p/p0)
-  Vector4 trial;                     // elastic deviator
+  double log_share;                       // ln(p/p_c)
+  double log_share_rate;                  // this rate and the next are by the angle
+  double hardening, hardening_rate;       // ln(p_c/p_c0)
+  double x;                               // plastic change of volume
+  double p_c, growth, G, G_by_growth, q;  // growth: ln(p/p0)
+  Vector4 trial;                          // elastic deviator
   double q_trial, lode;
   Slope slope;
   double lack, lack_rate;  // 3 G x sin(angle) - M cos(angle) (q_trial - q)
@@ -292,6 +297,7 @@ ModifiedCamClay::Step ModifiedCamClay::step_from(const Point& point, const Vecto
             part.share * volume,
             part.share * kVolumeRate + volume * part.rate,
             std::exp(point.log_p),
+            std::exp(point.log_c),
             0.0,
             0.0,
             Vector4::Zero(),
@@ -299,9 +305,9 @@ ModifiedCamClay::Step ModifiedCamClay::step_from(const Point& point, const Vecto
             Vector4::Zero()};
   double v = point.v;
   if (clay_.current_volume) {
-    const double mean = mean_exp(-step.volume);
-    v *= mean;
-    step.stiffer = point.log_v_rate - mean_exp_slope(-step.volume) / mean * step.volume_rate;
+    const MeanExp mean = mean_exp(-step.volume);
+    v *= mean.value;
+    step.stiffer = point.log_v_rate - mean.slope / mean.value * step.volume_rate;
   }
   step.kappa = clay_.kappa / v;
   step.harden = (clay_.lambda - clay_.kappa) / v;
@@ -310,20 +316,20 @@ ModifiedCamClay::Step ModifiedCamClay::step_from(const Point& point, const Vecto
   return step;
 }
 
-// Secant moduli over the step: K is (p - p0)/(elastic strain), and G in proportion.
-double ModifiedCamClay::shear_modulus(const Step& step, double growth) const {
-  return clay_.G > 0.0 ? clay_.G : by_bulk_ * step.p0 / step.kappa * mean_exp(growth);
-}
-double ModifiedCamClay::shear_modulus_by_growth(const Step& step, double growth) const {
-  return clay_.G > 0.0 ? 0.0 : by_bulk_ * step.p0 / step.kappa * mean_exp_slope(growth);
-}
-
-// The elastic deviator for a growth of p.
+// The elastic deviator for a growth of p.  Secant moduli over the step: K is (p - p0)/(elastic strain), and G in
+// proportion.
 void ModifiedCamClay::set_trial(const Step& step, OnSurface& at) const {
-  at.G = shear_modulus(step, at.growth);
+  at.G = clay_.G;
+  at.G_by_growth = 0.0;
+  if (clay_.G == 0.0) {
+    const MeanExp mean = mean_exp(at.growth);
+    const double first = by_bulk_ * step.p0 / step.kappa;
+    at.G = first * mean.value;
+    at.G_by_growth = first * mean.slope;
+  }
   at.trial = step.from.s + 2.0 * at.G * step.e;
   at.q_trial = q_of(at.trial);
-  at.has_direction = at.q_trial > kIsotropic * std::exp(step.from.log_c);
+  at.has_direction = at.q_trial > kIsotropic * step.p_c0;
   at.lode = at.has_direction ? lode_of(at.trial, at.q_trial) : 1.0;
   at.slope = slope(at.lode);
 }
@@ -331,10 +337,11 @@ void ModifiedCamClay::set_trial(const Step& step, OnSurface& at) const {
 ModifiedCamClay::OnSurface ModifiedCamClay::on_surface(const Step& step, double angle) const {
   OnSurface at{};
   at.angle = angle;
-  at.sine = std::sin(angle);
-  at.cosine = std::cos(angle);
-  at.log_share = 2.0 * std::log(std::cos(0.5 * angle));
-  at.log_share_rate = -std::tan(0.5 * angle);
+  const double c = std::cos(0.5 * angle), s = std::sin(0.5 * angle);
+  at.sine = 2.0 * s * c;
+  at.cosine = (c - s) * (c + s);
+  at.log_share = 2.0 * std::log(c);
+  at.log_share_rate = -s / c;
   const double ratio = clay_.kappa / clay_.lambda;
   at.hardening = ratio * (step.from.log_p + step.elastic_growth - step.from.log_c - at.log_share);
   const double hardening_at_floor = step.from.log_least - step.from.log_c - at.log_share;
@@ -342,9 +349,8 @@ ModifiedCamClay::OnSurface ModifiedCamClay::on_surface(const Step& step, double 
   if (at.at_floor) at.hardening = hardening_at_floor;
   at.hardening_rate = -(at.at_floor ? 1.0 : ratio) * at.log_share_rate;
   at.x = step.harden * at.hardening;
-  const double log_c = step.from.log_c + at.hardening;
-  at.p_c = std::exp(log_c);
-  at.growth = at.log_share + log_c - step.from.log_p;
+  at.p_c = step.p_c0 * std::exp(at.hardening);
+  at.growth = at.log_share + at.hardening + step.from.log_c - step.from.log_p;
   set_trial(step, at);
   const double M = at.slope.M;
   at.q = 0.5 * M * at.p_c * at.sine;
@@ -358,7 +364,7 @@ ModifiedCamClay::OnSurface ModifiedCamClay::on_surface(const Step& step, double 
     at.lack_by_trial.setZero();
   }
   at.by_G = 3.0 * at.x * at.sine + 2.0 * contract(at.lack_by_trial, step.e);
-  const double G_rate = shear_modulus_by_growth(step, at.growth) * (at.log_share_rate + at.hardening_rate);
+  const double G_rate = at.G_by_growth * (at.log_share_rate + at.hardening_rate);
   const double q_rate = 0.5 * M * at.p_c * at.cosine + at.q * at.hardening_rate;
   at.lack_rate = 3.0 * at.G * (at.x * at.cosine + step.harden * at.hardening_rate * at.sine) +
                  M * at.sine * beyond + M * at.cosine * q_rate + at.by_G * G_rate;
@@ -373,11 +379,13 @@ ModifiedCamClay::OnSurface ModifiedCamClay::return_to_surface(const Step& step, 
     return 2.0 * std::acos(std::exp(0.5 * std::min(log_share, 0.0)));
   };
   constexpr double kCritical = 0.5 * kPi;
-  OnSurface at = on_surface(step, kCritical);
-  if (at.x == 0.0) return at;
+  const double to_critical = std::max(step.from.log_p + step.elastic_growth, step.from.log_least) -
+                             step.from.log_c +
+                             std::numbers::ln2;  // in its sign: of the plastic change of volume on the way
   const double own = angle_of(log_trial);
-  double low = at.x > 0.0 ? std::min(own, kCritical) : kCritical;
-  double high = at.x > 0.0 ? kCritical : std::max(own, kCritical);
+  double low = to_critical >= 0.0 ? std::min(own, kCritical) : kCritical;
+  double high = to_critical <= 0.0 ? std::max(own, kCritical) : kCritical;
+  OnSurface at{};
   double next = std::clamp(angle_of(step.from.log_p - step.from.log_c), low, high), before = high - low;
   for (int round = 0; round < kRounds; ++round) {
     at = on_surface(step, next);
@@ -398,7 +406,7 @@ ModifiedCamClay::Point ModifiedCamClay::elastic_end(const Step& step, const OnSu
   Point end = step.from;
   end.at_floor = trial.growth > step.elastic_growth;
   const Vector4 growth_rate = end.at_floor ? Vector4(-step.from.log_p_rate) : step.elastic_growth_rate;
-  Vector4 G_rate = shear_modulus_by_growth(step, trial.growth) * growth_rate;
+  Vector4 G_rate = trial.G_by_growth * growth_rate;
   if (clay_.G == 0.0) G_rate += trial.G * (step.from.log_p_rate + step.stiffer);
   end.s = trial.trial;
   end.s_rate += 2.0 * trial.G * step.e_rate + 2.0 * step.e * G_rate.transpose();
@@ -412,13 +420,12 @@ ModifiedCamClay::Point ModifiedCamClay::elastic_end(const Step& step, const OnSu
 ModifiedCamClay::Point ModifiedCamClay::plastic_end(const Step& step, const OnSurface& at) const {
   const Point& from = step.from;
   const double ratio = clay_.kappa / clay_.lambda, M = at.slope.M;
-  const double G_by_growth = shear_modulus_by_growth(step, at.growth);
   const Vector4 G_direct =
       clay_.G > 0.0 ? Vector4(Vector4::Zero()) : Vector4(at.G * (from.log_p_rate + step.stiffer));
   Vector4 hardening = -from.log_c_rate;
   if (!at.at_floor) hardening = ratio * (hardening + from.log_p_rate + step.elastic_growth_rate);
   const Vector4 growth = hardening + from.log_c_rate - from.log_p_rate;
-  const Vector4 G = G_direct + G_by_growth * growth;
+  const Vector4 G = G_direct + at.G_by_growth * growth;
   const Matrix4 trial = from.s_rate + 2.0 * at.G * step.e_rate;  // at a constant G
   const Vector4 lack = 3.0 * at.G * at.sine * step.harden * (hardening - at.hardening * step.stiffer) +
                        M * at.cosine * at.q * (hardening + from.log_c_rate) + at.by_G * G +
@@ -430,7 +437,7 @@ ModifiedCamClay::Point ModifiedCamClay::plastic_end(const Step& step, const OnSu
   end.log_c_rate += hardening + at.hardening_rate * angle;
   end.log_p = end.log_c + at.log_share;
   end.log_p_rate = end.log_c_rate + at.log_share_rate * angle;
-  const Vector4 G_rate = G_direct + G_by_growth * (end.log_p_rate - from.log_p_rate);
+  const Vector4 G_rate = G_direct + at.G_by_growth * (end.log_p_rate - from.log_p_rate);
   const Matrix4 trial_rate = trial + 2.0 * step.e * G_rate.transpose();
   double share = M * M * at.p_c / (6.0 * at.G * at.x + M * M * at.p_c);
   Vector4 share_rate = Vector4::Zero();

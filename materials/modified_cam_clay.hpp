@@ -69,8 +69,6 @@ class ModifiedCamClay final : public SolidLaw,
   Slope slope(double lode) const;
   double size_through(const Vector4& sigma) const;
   Step step_from(const Point& point, const Vector4& deps, const Part& part) const;
-  double shear_modulus(const Step& step, double growth) const;
-  double shear_modulus_by_growth(const Step& step, double growth) const;
   void set_trial(const Step& step, OnSurface& at) const;
   OnSurface on_surface(const Step& step, double angle) const;
   OnSurface return_to_surface(const Step& step, double log_trial) const;
