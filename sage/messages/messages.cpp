@@ -452,12 +452,52 @@ constexpr MessageEntry kMessages[] = {
      "that the cards lack are made. Nodes that the cards give are never dropped, and triangles stay.",
      "Choose an element with enough nodes (sagefe list elements), or write the deck with 4-node "
      "quadrilaterals."},
+    {"S254", "the data of a section are incomplete",
+     "A point, line or area of a drawn section lacks something: an index names no point or line, a line has "
+     "too "
+     "few points, the ends of an arc are not equally far from its centre, or a size is negative.",
+     "Complete or correct the item that the message names."},
+    {"S255", "an outline encloses no area",
+     "The outline of an area or of its hole crosses or touches itself, encloses nothing, or the hole reaches "
+     "outside of the outline. Inside and outside can't be told apart then.",
+     "List the corners in their order around the area. Divide an area that touches itself into two."},
+    {"S256", "areas of a section overlap",
+     "Two areas contain the same ground. Each place belongs to one area with one material.",
+     "Let the areas share an edge, or give the larger one a hole that the smaller one fills."},
+    {"S257", "a line of a section lies outside of all areas",
+     "A line without a beam needs an area on one side at least, and a joint needs areas on both sides. A line "
+     "with a beam may stick out of the ground, but must touch it.",
+     "Correct the line's points, or the outline of the area that should reach there."},
+    {"S258", "two lines with structures lie on each other",
+     "A piece of a section's outline or ground can carry one beam, and one row of interface elements on each "
+     "side of it. Here two lines ask for it.",
+     "Let one of the lines end where the other begins, or remove the beam or the interfaces of one."},
+    {"S259", "this section needs Gmsh",
+     "Gmsh makes meshes of general areas and can't be loaded. Without it sagefe meshes areas of four sides "
+     "whose "
+     "opposite sides have as many pieces, and sections in which all lines are horizontal or vertical.",
+     "Install Gmsh's library (Debian: libgmsh4.8), name its file in SAGEFE_GMSH, or divide the area into "
+     "blocks."},
     {"S260", "there is nothing to divide for a safety factor",
      "sagefe safety divides the strengths of the chosen groups. The deck has no such stage or group, or no "
      "chosen group has a law whose entry names a strength: elastic laws have none, interfaces and structures "
      "are divided on request only, and a law of one's own names its strengths by the roles of its parameters.",
      "Correct --stage or --group, add --interfaces or --structures, or give the soil a law with strength "
      "(sagefe list materials)."},
+    {"S261", "Gmsh can't mesh an area",
+     "Gmsh reported an error, left a part of the area empty, or put elements across a line. Lines that almost "
+     "touch, or that meet at a very small angle, are the usual cause.",
+     "Let lines that almost meet share a point, or choose smaller sizes around them."},
+    {"S262", "the sizes ask for too many elements",
+     "The number of elements that a size asks for grows with its inverse square. Sizes are lengths of edges, "
+     "in "
+     "the unit of length of the coordinates.",
+     "Choose larger sizes, or small ones only at the points and lines that need them."},
+    {"S263", "an element of a meshed section is turned inside out",
+     "Arcs become straight edges with nodes on the arc. Where another line passes closer than the arc bulges, "
+     "an "
+     "element between them has no area left.",
+     "Choose smaller sizes along the arc, or move the other line."},
 
     // S3: a legal model that may not be meant.
     {"S301", "p_a or gamma_w does not fit the units",

@@ -29,10 +29,10 @@ enum class InterfaceSide { none, left, right, both };
 // What becomes of a line with interfaces at an end inside the ground.  Ends on an outline, or on another line with
 // interfaces, need no choice.
 enum class LineEnd {
-  automatic,  // joined with a beam, open without
-  joined,     // the ground is one node at the end, the beam there has a node of its own (the wall's toe may slip)
-  tied,       // as joined; the beam's node and the ground's are listed in SectionMesh::ties
-  open,       // the ground has two nodes at the end; they close at the next node of the mesh straight ahead
+  automatic,  // joined for a beam with interfaces on both sides, else open
+  joined,  // the ground is one node at the end, the beam there has a node of its own (the wall's toe may slip)
+  tied,    // as joined; the beam's node and the ground's are listed in SectionMesh::ties
+  open,    // the ground has two nodes at the end; they close at the next node of the mesh straight ahead
 };
 
 struct SectionLine {
@@ -44,7 +44,7 @@ struct SectionLine {
   double start_angle = 0.0;  // of circles, radians, counter-clockwise from the x axis
   bool clockwise = false;    // of arcs and circles
   double size = 0.0;         // length of element edges along it; 0 = no wish
-  bool beam = false;         // a wall, slab, raft, lining or geogrid: the line has nodes in an order for beams or bars
+  bool beam = false;  // a wall, slab, raft, lining or geogrid: the line has nodes in an order for beams or bars
   InterfaceSide interface = InterfaceSide::none;
   LineEnd first_end = LineEnd::automatic, last_end = LineEnd::automatic;
 };

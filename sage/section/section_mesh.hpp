@@ -40,23 +40,27 @@ struct InterfaceElement {
 // between their ends; of a closed line the last is the first again.
 struct LineMesh {
   std::vector<LineSegment> segments;
-  std::vector<int> left, right;  // nodes of the bodies; -1 where there is none.  The same where they are not split
-  std::vector<int> beam;         // empty without a beam
+  std::vector<int> left,
+      right;               // nodes of the bodies; -1 where there is none.  The same where they are not split;
+                           // where another line ends at this one, those of the segment that follows
+  std::vector<int> beam;   // empty without a beam
+  std::vector<int> nodes;  // all nodes on the line, of bodies and beams, each once: for supports
   std::vector<InterfaceElement> left_interfaces;   // between the body on the left and the beam, or joints
   std::vector<InterfaceElement> right_interfaces;  // between the beam and the body on the right
 };
 
 struct PointMesh {
-  std::vector<int> nodes;  // at its place, of bodies and beams; empty for a point on no area and no beam (a centre)
-  int beam = -1;           // the one that beams have there
+  std::vector<int>
+      nodes;      // at its place, of bodies and beams; empty for a point on no area and no beam (a centre)
+  int beam = -1;  // the one that beams have there
 };
 
 // Two nodes at one place that should move as one but must be two, since the pairs of an interface are two nodes.
 struct Tie {
   enum class Kind {
-    toe,    // the end of a beam inside the ground, asked for by LineEnd::tied
-    end,    // the joined end of a line with interfaces but no beam: `second` belongs to nothing else
-    bond,   // a beam on the side that has no interfaces, where another line with interfaces meets it
+    toe,   // the end of a beam inside the ground, asked for by LineEnd::tied
+    end,   // the joined end of a line with interfaces but no beam: `second` belongs to nothing else
+    bond,  // a beam on the side that has no interfaces, where another line with interfaces meets it
   };
   int first = -1, second = -1;
   int line = -1;
