@@ -1,0 +1,16 @@
+# The Debian package: scripts/package makes it, scripts/check_package tries it.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME sagefe)
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_CONTACT "The SAGE developers <maintainers@users.noreply.example>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "2-D geotechnical finite elements from fixed-format decks")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
+    "sagefe computes stresses, displacements, forces in structures, seepage and factors of safety of soil in plane strain and axisymmetry. Plug-ins add laws and elements; they need g++, cmake and libeigen3-dev.")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, cmake, libeigen3-dev, libgtest-dev, gfortran, paraview")
+include(CPack)
