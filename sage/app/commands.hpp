@@ -31,6 +31,7 @@ int guarded(const std::string& name, const std::function<int()>& work);
 
 Command run_command(CLI::App& parser, const Catalogue& catalogue);
 Command check_command(CLI::App& parser, const Catalogue& catalogue);
+Command align_command(CLI::App& parser, const Catalogue& catalogue);
 Command echo_command(CLI::App& parser, const Catalogue& catalogue);
 Command conform_command(CLI::App& parser, const Catalogue& catalogue);
 Command list_command(CLI::App& parser, const Catalogue& catalogue);

@@ -1,5 +1,5 @@
-// sagefe new: a folder with a piece of one's own, which builds against the installed package, passes the suites and
-// is ready to be changed.
+// sagefe new: a deck that runs, or a folder with a piece of one's own, which builds against the installed package and
+// passes the suites.  Both are there to be changed.
 #include <fmt/format.h>
 
 #include <CLI/Option.hpp>
@@ -16,6 +16,7 @@
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
 #include "sage/messages/error.hpp"
+#include "sage/messages/near_names.hpp"
 #include "sage/platform/module.hpp"
 #include "sage/record/out_file.hpp"
 
@@ -110,18 +111,58 @@ int write_folder(const NewOptions& options, const Catalogue& catalogue) {
   return kOk;
 }
 
+std::vector<std::string> deck_names() {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const fs::directory_entry& file : fs::directory_iterator(templates() / "deck", error))
+    if (file.path().extension() == ".dat") names.push_back(file.path().stem().string());
+  std::ranges::sort(names);
+  return names;
+}
+
+int write_deck(const NewOptions& options) {
+  const std::vector<std::string> names = deck_names();
+  if (names.empty())
+    throw OutputError("S807", "the templates are missing: no decks in " + (templates() / "deck").string());
+  if (std::ranges::find(names, options.name) == names.end())
+    throw UsageError("S904", fmt::format("there is no template {}; expected one of: {}{}", options.name,
+                                         fmt::join(names, ", "), did_you_mean(options.name, names)));
+  const fs::path from = templates() / "deck" / (options.name + ".dat");
+  fs::path to = options.folder.empty() ? fs::path(options.name + ".dat") : options.folder;
+  std::error_code error;
+  if (fs::is_directory(to, error)) to /= options.name + ".dat";
+  if (fs::exists(to, error)) throw UsageError("S807", to.string() + " exists already; it was not changed");
+  std::ifstream in(from);
+  OutFile out(to);
+  out.text() = std::string{std::istreambuf_iterator<char>(in), {}};
+  out.finish();
+  answer_file(out.path());
+  fmt::print("{}: a deck that runs; its first lines say what it computes and which commands to use\n",
+             to.string());
+  return kOk;
+}
+
 }  // namespace
 
 Command new_command(CLI::App& parser, const Catalogue& catalogue) {
   auto options = std::make_shared<NewOptions>();
-  parser.add_option("KIND", options->kind, "law, element or umat")
+  parser.add_option("KIND", options->kind, "deck, law, element or umat")
       ->required()
-      ->check(CLI::IsMember({"law", "element", "umat"}));
-  parser.add_option("NAME", options->name, "its name: lower-case letters, digits and _")
+      ->check(CLI::IsMember({"deck", "law", "element", "umat"}));
+  parser
+      .add_option("NAME", options->name,
+                  fmt::format("of a deck: {}; else the name of the new piece: lower-case letters, digits and _",
+                              fmt::join(deck_names(), ", ")))
       ->required()
       ->check(name_flaw);
-  parser.add_option("-o,--output", options->folder, "folder to write (default: NAME)");
-  return [options, &catalogue] { return write_folder(*options, catalogue); };
+  parser.add_option("-o,--output", options->folder,
+                    "file of the deck (default: NAME.dat), or folder of the piece (default: NAME)");
+  parser.footer(
+      "Example:  sagefe new deck footing\n"
+      "          sagefe run footing.dat -o out");
+  return [options, &catalogue] {
+    return options->kind == "deck" ? write_deck(*options) : write_folder(*options, catalogue);
+  };
 }
 
 }  // namespace sage::app

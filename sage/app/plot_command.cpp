@@ -76,6 +76,7 @@ constexpr OptionPlace kPlaces[] = {
     {"--levels", kDrawn, kOfPictures},
     {"--extrapolate", kDrawn, kOfPictures},
     {"--no-mesh", kDrawn, kOfPictures},
+    {"--deformed", kDrawn, kOfPictures},
     {"--undeformed", kDrawn, kOfPictures},
     {"--mirror", kDrawn, kOfPictures},
     {"--yielded", kDrawn, kOfPictures},
@@ -231,7 +232,11 @@ void add_look_options(CLI::App& parser, PlotOptions& options) {
       ->group(kGroupLook);
   parser
       .add_flag_callback(
-          "--undeformed", [&look] { look.deformed = false; }, "the mesh as it was at the start")
+          "--deformed", [&look] { look.deformed = true; }, "the displaced mesh, magnified")
+      ->group(kGroupLook);
+  parser
+      .add_flag_callback(
+          "--undeformed", [&look] { look.deformed = false; }, "the mesh as it was at the start (default)")
       ->group(kGroupLook);
   parser
       .add_option_function<std::string>(

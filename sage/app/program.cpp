@@ -12,6 +12,7 @@
 #include <sstream>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "sage/app/answer.hpp"
 #include "sage/app/commands.hpp"
@@ -19,6 +20,7 @@
 #include "sage/app/plugins.hpp"
 #include "sage/app/screen.hpp"
 #include "sage/app/studies.hpp"
+#include "sage/app/wrap.hpp"
 #include "sage/deck/printable.hpp"
 #include "sage/messages/near_names.hpp"
 
@@ -27,16 +29,19 @@ namespace app {
 namespace {
 
 constexpr const char* kDescription =
-    "sagefe: 2-D geotechnical finite elements (plane strain and axisymmetry) from fixed-format decks.\n"
-    "Try:  sagefe run DECK         compute a deck\n"
+    "sagefe: 2-D geotechnical finite elements from fixed-format decks, in plane\n"
+    "strain and axisymmetry.\n"
+    "Try:  sagefe new deck KIND    write a deck to start from\n"
+    "      sagefe run DECK         compute a deck\n"
     "      sagefe check DECK       read and validate it, compute nothing\n"
     "      sagefe list elements    what a deck can ask for\n"
-    "      sagefe list decks       decks to start from, such as those of the source chapter";
+    "      sagefe list decks       decks that come with the program";
 constexpr const char* kFooter =
-    "Signs: outside, compression is positive for stress and strain; inside and in displacements, axes are.\n"
-    "Exit codes: 0 done, 1 command line, 2 input, 3 no equilibrium, singular or out of memory, 4 output could "
-    "not be\n"
-    "            written, 5 interrupted (Ctrl-C, SIGTERM): sagefe run --restart goes on.";
+    "Signs: compression is positive for stress and strain; displacements and forces\n"
+    "are positive along the axes.\n"
+    "Exit codes: 0 done; 1 command line; 2 input; 3 no equilibrium, singular or out\n"
+    "of memory; 4 output could not be written; 5 interrupted (Ctrl-C, SIGTERM), and\n"
+    "sagefe run --restart goes on.";
 
 struct Entry {
   const char* name;
@@ -50,6 +55,7 @@ constexpr Entry kCommands[] = {
     {"run", "compute decks; listing, CSV and reports go to the output folder", run_command, true},
     {"check", "read and validate decks; compute nothing", check_command, true},
     {"echo", "show each card of a deck as it was read, under a column ruler", echo_command, true},
+    {"align", "move the values of a deck into their columns, and name each move", align_command},
     {"layout", "a first layout for a deck that nobody knows (guess); what a layout reads of a deck (check)",
      layout_command},
     {"list", "show the elements, materials or solvers that a deck can ask for, the fields of results, or decks",
@@ -58,7 +64,7 @@ constexpr Entry kCommands[] = {
      plot_command, true},
     {"conform", "try the pieces of a plug-in: the suites that the program's own pieces pass", conform_command,
      true},
-    {"new", "write a folder with a law, an element or a UMAT of one's own, ready to be built and changed",
+    {"new", "write a commented deck that runs, or a folder with a law, an element or a UMAT of your own",
      new_command},
     {"tables", "rerun the source chapter's Tables 7.3 and 7.4 beside its numbers", tables_command},
     {"figures", "compute the source chapter's Figures 7.1 to 7.40 and judge its sentences about them",
@@ -80,7 +86,16 @@ constexpr Entry kCommands[] = {
     {"completion", "print what bash, zsh or fish need to complete commands and options", completion_command},
 };
 
+// Help in the columns of a terminal.
+class HelpFormatter final : public CLI::Formatter {
+ public:
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    return wrapped(CLI::Formatter::make_help(app, std::move(name), mode), kHelpColumns);
+  }
+};
+
 void describe(CLI::App& root) {
+  root.formatter(std::make_shared<HelpFormatter>());
   root.description(kDescription);
   root.footer(kFooter);
   root.require_subcommand(1);
@@ -213,6 +228,17 @@ Catalogue catalogue_for(const Entry& entry, int argc, char** argv, const AddToCa
   return catalogue;
 }
 
+// The command line with --help in the place of nothing, and of `help`: "sagefe help run" is "sagefe run --help".
+std::vector<char*> with_help(int argc, char** argv) {
+  static char help[] = "--help";
+  std::vector<char*> words(argv, argv + argc);
+  const bool asked = argc > 1 && std::strcmp(argv[1], "help") == 0;
+  if (asked) words.erase(words.begin() + 1);
+  if (asked || argc <= 1) words.push_back(help);
+  words.push_back(nullptr);
+  return words;
+}
+
 int run_command_line(int argc, char** argv, const AddToCatalogue& add) {
   CLI::App root("", "sagefe");
   describe(root);
@@ -282,7 +308,8 @@ int sagefe(int argc, char** argv, const AddToCatalogue& add) {
   const PrintableOutput filter;
   int code = kOutput;
   try {
-    code = run_command_line(argc, argv, add);
+    std::vector<char*> words = with_help(argc, argv);
+    code = run_command_line(static_cast<int>(words.size()) - 1, words.data(), add);
   } catch (const std::system_error&) {
     return kOutput;  // not even a message could be written
   } catch (const std::bad_alloc&) {

@@ -108,7 +108,8 @@ int compute_deck(const RunOptions& options, const std::string& deck, const Catal
     } else {
       if (request.input.strict) say_report_messages(request, *outcome.reports);
       fmt::print("{}\n", summary(*outcome.model, outcome.record, outcome.reports.get(), outcome.files,
-                                 outcome.error.get(), request.output.digits, sketch_for_screen(outcome)));
+                                 outcome.error.get(), request.output.digits, sketch_for_screen(outcome),
+                                 screen().verbose));
     }
     if (request.profile) fmt::print("{}\n", profile_table(outcome.record.profile));
     if (const std::optional<Code>& code = outcome.record.result.code; code && outcome.exit_code != kOk)

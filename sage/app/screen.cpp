@@ -12,6 +12,7 @@
 
 #include "sage/app/answer.hpp"
 #include "sage/app/progress.hpp"
+#include "sage/app/wrap.hpp"
 #include "sage/app/write_all.hpp"
 #include "sage/deck/printable.hpp"
 
@@ -72,7 +73,7 @@ void print_stderr(const std::string& text) {
 
 void pass_on_stderr(const std::string& text) {
   const ProgressPause pause;
-  fmt::print(stderr, "{}", text);
+  fmt::print(stderr, "{}", is_screen(stderr) ? wrapped(text, columns_of(stderr)) : text);
 }
 
 void say(Severity severity, const std::string& who, const std::string& text, Code code) {
@@ -146,20 +147,31 @@ PrintableOutput::PrintableOutput()
   std::fflush(before_);
   if (filter_ == nullptr) return;
   if (isatty(STDOUT_FILENO) != 0) std::setvbuf(filter_, nullptr, _IOLBF, BUFSIZ);
+  if (is_screen(stdout)) columns_ = columns_of(stdout);
   stdout = filter_;
+}
+
+std::string PrintableOutput::on_screen(std::string_view text, bool all) {
+  if (columns_ == 0) return std::string(text);
+  pending_ += text;
+  const std::size_t end = all ? pending_.size() : pending_.rfind('\n') + 1;  // npos + 1 = 0
+  const std::string lines = wrapped(std::string_view(pending_).substr(0, end), columns_);
+  pending_.erase(0, end);
+  return lines;
 }
 
 PrintableOutput::~PrintableOutput() {
   if (filter_ == nullptr) return;
   stdout = before_;
   std::fclose(filter_);
-  write_all(STDOUT_FILENO, printable(cut_));
+  write_all(STDOUT_FILENO, on_screen(printable(cut_), true));
 }
 
 ssize_t PrintableOutput::write(void* self, const char* text, std::size_t size) {
-  std::string& cut = static_cast<PrintableOutput*>(self)->cut_;
-  const std::string whole = cut + std::string(text, size);
-  return write_all(STDOUT_FILENO, printable(whole, &cut)) ? static_cast<ssize_t>(size) : 0;
+  auto& output = *static_cast<PrintableOutput*>(self);
+  const std::string whole = output.cut_ + std::string(text, size);
+  const std::string lines = output.on_screen(printable(whole, &output.cut_), false);
+  return write_all(STDOUT_FILENO, lines) ? static_cast<ssize_t>(size) : 0;
 }
 
 MutedOutput::MutedOutput() {

@@ -70,8 +70,13 @@ class PrintableOutput {
  private:
   static ssize_t write(void* self, const char* text, std::size_t size);
 
+  // Lines that are complete, broken to the columns of a screen.
+  std::string on_screen(std::string_view text, bool all);
+
   std::FILE *before_, *filter_;
-  std::string cut_;  // of a character whose other bytes are still to come
+  int columns_ = 0;      // of the screen; 0 = standard output is none
+  std::string cut_;      // of a character whose other bytes are still to come
+  std::string pending_;  // of a line whose end is still to come
 };
 
 // While one lives, standard output leads nowhere but through write().  Not nested.

@@ -54,7 +54,7 @@ std::string signs(const Side& a, const Side& b) {
       "a side along +x or +y";
   for (const Side* side : {&a, &b})
     if (side->has_model())
-      text += fmt::format("; {}: forces {}", side == &a ? "A" : "B", forces_per(side->model().geometry));
+      text += fmt::format("; {}: forces {}", side == &a ? "A" : "B", forces_per(side->model()));
   return text;
 }
 

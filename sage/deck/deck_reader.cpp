@@ -23,6 +23,7 @@ DeckReader::DeckReader(const SourceText& source, const Layout& layout, const Rea
       records_(source, layout.records),
       log_(deck_, options),
       whole_(options.whole),
+      aligned_(options.aligned),
       texts_(std::make_shared<std::deque<std::string>>()),
       latest_(layout.cards.size(), -1),
       previous_(layout.cards.size(), -1),
@@ -333,7 +334,11 @@ bool DeckReader::read_formatted(const CardRule& rule, Card& card) {
     const std::size_t last_field_end = read.last_field_end();
     read.finish();
     const bool list = records_.line() != card.line;
-    if (complete && !stopped_ && is_doubtful_line(rule, card.line) && take_moved(rule, card.line)) continue;
+    if (complete && !stopped_ && aligned_ != nullptr) {
+      if (is_beside_columns(rule, card.line, last_field_end) && align_line(rule, card.line)) continue;
+    } else if (complete && !stopped_ && is_doubtful_line(rule, card.line) && take_moved(rule, card.line)) {
+      continue;
+    }
     const bool cut = complete && list && cut_list(rule, card);
     Misplaced misplaced = Misplaced::no;
     if (complete && !stopped_ && !list && is_doubtful(rule)) misplaced = check_place(rule, card);

@@ -102,6 +102,10 @@ class DeckReader : private ExpressionScope {
   bool reads_in_columns(const CardRule& rule, int line, std::string_view text) const;
   bool reads_as_neighbour(const CardRule& rule, int line) const;
   bool take_moved(const CardRule& rule, int line);
+  // Values of a line that is off its columns, for `sagefe align` (align_card.cpp).
+  bool is_beside_columns(const CardRule& rule, int line, std::size_t last_field_end);
+  bool align_line(const CardRule& rule, int line);
+  bool take_aligned(const CardRule& rule, AlignedLine line);
   // Numbers that the end of a field cuts, or that a shift moved into the next field.
   bool check_seams(const CardRule& rule);
   void check_rest(const CardRule& rule, std::size_t last_field_end, bool slip_found);
@@ -160,6 +164,7 @@ class DeckReader : private ExpressionScope {
   RecordSource records_;
   ReadLog log_;
   bool whole_ = true;
+  std::vector<AlignedLine>* aligned_ = nullptr;  // lines are moved into their columns and go here
   std::shared_ptr<std::deque<std::string>> texts_;
   std::vector<FieldValue> fields_;  // of the card being read
   std::vector<FieldFlaw> flaws_;    // of these

@@ -3,16 +3,27 @@
 
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 #include "sage/deck/deck.hpp"
 #include "sage/deck/layout.hpp"
 
 namespace sage {
 
+// A line whose values were moved into their columns.
+struct AlignedLine {
+  int line = 0;
+  std::string text;  // the whole line as it reads then
+  std::string
+      moves;  // what was moved where, for the user; empty = the line is doubtful and there is not one way alone
+  std::string card;  // label of the card
+};
+
 struct ReadOptions {
   bool strict = false;  // warnings become errors
   bool whole = true;  // numbers that no card reads are errors; false: warnings, while a layout is being written
   int shown = 50;     // errors (and as many warnings, and notes) that are listed; the rest are counted
+  std::vector<AlignedLine>* aligned = nullptr;  // cards beside their columns are moved, and go here
 };
 
 // Reads a whole deck, once: the file may be a pipe.  Throws InputError with every mistake found in one pass.

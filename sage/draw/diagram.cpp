@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <span>
 
 #include "sage/draw/svg.hpp"
 
@@ -14,10 +15,37 @@ namespace {
 
 constexpr const char* kColour = "#d94801";
 
-// Moments stand on the side that they pull, the right of the way where they are positive; all else on the left.
-double sense(const Diagram& diagram) {
+bool is_moment(const Diagram& diagram) {
   const auto q = static_cast<std::size_t>(diagram.quantity);
-  return q == kBendingMoment || q == kHoopMoment ? -1.0 : 1.0;
+  return q == kBendingMoment || q == kHoopMoment;
+}
+
+// Moments are drawn on the side that they pull, the right of the way where they are positive; all else on the left.
+double sense(const Diagram& diagram) {
+  return is_moment(diagram) ? -1.0 : 1.0;
+}
+
+// Pipes and linings: sides that look towards the middle of a curved group are turned outwards.
+void turn_outwards(std::span<DiagramElement> group) {
+  constexpr double kCurved = 0.05;  // of what a ring has; a straight wall has none
+  Vector2 middle = Vector2::Zero();
+  double length = 0.0;
+  const auto length_of = [](const DiagramElement& e) { return (e.at[1] - e.at[0]).norm(); };
+  for (const DiagramElement& e : group) {
+    middle += length_of(e) * 0.5 * (e.at[0] + e.at[1]);
+    length += length_of(e);
+  }
+  if (!(length > 0.0)) return;
+  middle /= length;
+  double outwards = 0.0, distance = 0.0;
+  for (const DiagramElement& e : group) {
+    const Vector2 arm = 0.5 * (e.at[0] + e.at[1]) - middle;
+    outwards += length_of(e) * e.side[0].dot(arm);
+    distance += length_of(e) * arm.norm();
+  }
+  if (outwards > -kCurved * distance) return;
+  for (DiagramElement& e : group)
+    for (Vector2& side : e.side) side = -side;
 }
 
 void append(std::string& path, const char* command, const Vector2& at) {
@@ -99,12 +127,14 @@ Diagram make_diagram(const Scenery& scenery, std::string_view picture, const std
     if (diagram.envelope)
       for (auto at = ends->rbegin(); at != ends->rend(); ++at)
         if (at->group == static_cast<std::int64_t>(g)) row = &*at;  // the first of the group
+    const std::size_t first = diagram.elements.size();
     for (const ElementEnd& end : now) {
       if (!std::isnan(end.value[q]))
         take(diagram, scenery, end, row != nullptr ? row->low[q] : end.value[q],
              row != nullptr ? row->high[q] : end.value[q]);
       if (row != nullptr) ++row;
     }
+    if (!is_moment(diagram)) turn_outwards(std::span(diagram.elements).subspan(first));
   }
   if (diagram.elements.empty()) return diagram;
   drop_rounding(diagram);
@@ -157,7 +187,8 @@ std::string draw_diagram(std::string& out, const Scenery& scenery, const Diagram
   draw_labels(out, diagram, scale);
   std::string words = diagram.envelope ? "envelope: largest of all stages full, least dashed; " : "diagram: ";
   words += sense(diagram) < 0.0 ? "on the side that is pulled"
-                                : "positive to the left of the way from node 1 to node 2";
+                                : "positive to the left of the way from node 1 to node 2, of curved "
+                                  "structures outwards";
   return words;
 }
 

@@ -25,7 +25,7 @@ struct PictureOptions {
   std::string title = {};  // empty = the model's
   std::string state = {};  // "end of stage 2", before the name of the field
   int width = 760;         // at most, for the mesh; the height follows from it
-  bool deformed = true;    // with the undeformed outline dashed
+  bool deformed = false;   // with the undeformed outline dashed
   double scale =
       0.0;  // of the displacements; 0 = such that the largest is about 5 % of the mesh, but at least 1
   double paper = 0.0;  // px for each unit of length; 0 = such that the mesh fits into `width`

@@ -980,6 +980,9 @@ constexpr MessageEntry kMessages[] = {
      "Something that follows from the way the law is meant, such as stiffness that is not derived from an "
      "energy.",
      "Nothing has to be done; docs/theory has the page of the law."},
+    {"S590", "a card is not in its columns and was left as it is",
+     "sagefe align found values beside their columns. More than one set of fields can hold them, or none can.",
+     "Write 0 for each blank field of the card, or move the values by hand; sagefe echo shows the columns."},
     {"S601", "a result can't be written",
      "The disk is full, the folder may not be written to, or there is a folder or a device of that name. "
      "The message gives the system's reason.",
@@ -1175,8 +1178,9 @@ constexpr MessageEntry kMessages[] = {
      "number, or gave an unsymmetric matrix though the card calls it symmetric. Nothing of that step is kept.",
      "sagefe conform --umat LIBRARY drives the routine alone and says what is wrong with it. Too few state "
      "variables or properties on the card are the most frequent cause of writing beyond an array."},
-    {"S807", "a folder for a new piece can't be written",
-     "The folder is there already and is not empty, or the templates of the program are not where they were "
+    {"S807", "`sagefe new` can't write its file or folder",
+     "The file exists already, the folder is not empty, or the templates of the program are not where they "
+     "were "
      "installed.",
      "Choose another name or folder, or empty it; where the templates are missing install the program anew."},
     {"S808", "the suites that try pieces are not there",

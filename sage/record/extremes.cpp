@@ -112,16 +112,20 @@ std::string extremes_table(const Model& model, const std::vector<ExtremeRow>& ro
   if (rows.empty()) return {};
   const FieldList fields = structure_forces(model);
   const auto value = [&](double number, std::int64_t at, std::int64_t stage) {
-    return fmt::format("{:>14.5g}{:>9}", number, at) + (with_stages ? fmt::format("{:>7}", stage + 1) : "");
+    return fmt::format("{:>11.5g}{:>8}", number, at) + (with_stages ? fmt::format("{:>6}", stage + 1) : "");
   };
-  const std::string stage = with_stages ? fmt::format("{:>7}", "stage") : "";
-  std::string text = fmt::format("    {:<20}{:<24}{:>14}{:>9}{}{:>14}{:>9}{}\n", "structure", "quantity",
-                                 "least", "element", stage, "largest", "element", stage);
+  const std::string stage = with_stages ? fmt::format("{:>6}", "stage") : "";
+  std::string text = fmt::format("      {:<23}{:>11}{:>8}{}{:>11}{:>8}{}\n", "quantity", "least", "element",
+                                 stage, "largest", "element", stage);
+  std::int64_t group = -1;
   for (const ExtremeRow& row : rows) {
+    if (row.low == 0.0 && row.high == 0.0) continue;
+    if (row.group != group)
+      text += fmt::format("    {}\n", structure_name(model.groups[static_cast<std::size_t>(row.group)]));
+    group = row.group;
     const FieldEntry& field = *fields[static_cast<std::size_t>(row.field)];
     text += fmt::format(
-        "    {:<20.20}{:<24}{}{}\n", structure_name(model.groups[static_cast<std::size_t>(row.group)]),
-        fmt::format("{} [{}]", field.name, unit_text(field.dimension, model.units)),
+        "      {:<23}{}{}\n", fmt::format("{} [{}]", field.name, unit_text(field.dimension, model.units)),
         value(row.low, row.low_at, row.low_stage), value(row.high, row.high_at, row.high_stage));
   }
   return text;

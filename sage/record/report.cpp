@@ -70,7 +70,7 @@ const SolidLaw* specimen_law(const Model& model, const Report& report) {
 std::string remarks(const Model& model, std::size_t index) {
   const Report& report = model.reports[index];
   const UnitSystem& u = model.units;
-  const std::string per = forces_per(model.geometry);
+  const std::string per = forces_per(model);
   if (report.kind == ReportKind::triaxial)
     return fmt::format(
         "# triaxial report; compression positive; strain and deviator count from the start of stage {0}; units "

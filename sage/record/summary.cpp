@@ -68,6 +68,18 @@ std::vector<Row> chosen(const std::vector<Row>& rows) {
   return result;
 }
 
+// A number that is smaller than what rounding leaves of the largest one in its table says nothing.
+double without_rounding(double value, double largest) {
+  constexpr double kRounding = 1e-12;
+  return std::abs(value) < kRounding * largest ? 0.0 : value + 0.0;
+}
+
+template <class Numbers>
+void take_largest(double& largest, const Numbers& numbers) {
+  for (const double number : numbers)
+    if (std::isfinite(number)) largest = std::max(largest, std::abs(number));
+}
+
 constexpr const char* kHeldNote =
     "    * holds part of forces that are let go over the stage, borne by no load and no support\n";
 
@@ -81,12 +93,12 @@ std::string cell(double value, const char* usual, int width, int digits) {
 
 void triaxial_table(std::string& text, const Model& model, std::size_t index,
                     const std::vector<TriaxialRow>& rows, int digits) {
-  fmt::format_to(to(text), "  triaxial {:<8}{:>7}{:>{}}{:>{}}{:>{}}{:>{}}\n", index + 1, "incr", "strain",
-                 wide(11, digits), "measured [" + model.units.stress + "]", wide(18, digits),
+  fmt::format_to(to(text), "  triaxial {:<6}{:>7}{:>{}}{:>{}}{:>{}}{:>{}}\n", index + 1, "incr", "strain",
+                 wide(10, digits), "measured [" + model.units.stress + "]", wide(18, digits),
                  "correct [" + model.units.stress + "]", wide(18, digits), "ratio", wide(10, digits));
   for (const TriaxialRow& r : chosen(rows))
     fmt::format_to(to(text), "    stage {:<7}{:>7}{}{:>{}}{}{}\n", r.stage, r.increment,
-                   cell(r.axial_strain, "{:.4g}", 11, digits),
+                   cell(r.axial_strain, "{:.4g}", 10, digits),
                    cell(r.measured_deviator, "{:.5g}", 0, digits) + (r.held != 0.0 ? "*" : ""),
                    wide(18, digits), cell(r.correct_deviator, "{:.5g}", 18, digits),
                    cell(r.ratio, "{:.4f}", 10, digits));
@@ -97,47 +109,69 @@ void node_table(std::string& text, const Model& model, std::size_t index, const 
                 int digits) {
   const AxisNames names = axis_names(model.geometry);
   const UnitSystem& u = model.units;
-  fmt::format_to(to(text), "  nodes {:<11}{:>7}", index + 1, "incr");
+  double length = 0.0, most = 0.0;
+  for (const NodesRow& r : rows) {
+    take_largest(length, r.displacement);
+    take_largest(most, r.force);
+  }
+  fmt::format_to(to(text), "  nodes {:<11}sum of the forces on these nodes, {}\n    {:<13}{:>7}", index + 1,
+                 forces_per(model), "", "incr");
   for (const std::string_view axis : {names.x, names.y})
-    fmt::format_to(to(text), "{:>{}}", fmt::format("u-{} [{}]", axis, u.length), wide(14, digits));
+    fmt::format_to(to(text), "{:>{}}", fmt::format("u-{} [{}]", axis, u.length), wide(12, digits));
   for (const std::string_view axis : {names.x, names.y})
-    fmt::format_to(to(text), "{:>{}}", fmt::format("force-{} [{}]", axis, u.force), wide(16, digits));
+    fmt::format_to(to(text), "{:>{}}", fmt::format("force-{} [{}]", axis, u.force), wide(15, digits));
   text += '\n';
   bool any_held = false;
   for (const NodesRow& r : chosen(rows)) {
     const bool held = r.held[0] != 0.0 || r.held[1] != 0.0;
     any_held = any_held || held;
     fmt::format_to(to(text), "    stage {:<7}{:>7}", r.stage, r.increment);
-    for (double d : r.displacement) text += cell(d + 0.0, "{:.5g}", 14, digits);
-    for (double f : r.force) text += cell(f + 0.0, "{:.6g}", 16, digits);
+    for (double d : r.displacement) text += cell(without_rounding(d, length), "{:.5g}", 12, digits);
+    for (double f : r.force) text += cell(without_rounding(f, most), "{:.6g}", 15, digits);
     text += held ? " *\n" : "\n";
   }
   if (any_held) text += kHeldNote;
 }
 
+// Names of the columns over their units.
+void point_headings(std::string& text, const Model& model, const FieldList& fields, int width) {
+  std::string names, units;
+  for (const FieldEntry* field : fields)
+    for (std::size_t c = 0; c < field->size(); ++c) {
+      names += fmt::format("{:>{}}", field->label(c, model.geometry), width);
+      units += fmt::format("{:>{}}", "[" + unit_text(field->dimension, model.units) + "]", width);
+    }
+  fmt::format_to(to(text), "    {:<5}{:>5}{}\n    {:<10}{}\n", "stage", "incr", names, "", units);
+}
+
 void point_table(std::string& text, const Model& model, std::size_t index, const std::vector<PointRow>& rows,
                  int digits) {
-  constexpr int kWidth = 14;
+  constexpr int kWidth = 11;
   const Report& report = model.reports[index];
-  fmt::format_to(to(text), "  point {:<11}{} ({:.10g}; {:.10g})\n    {:<13}{:>7}", index + 1, report.name,
-                 report.place.x(), report.place.y(), "", "incr");
+  fmt::format_to(to(text), "  point {:<11}{} ({:.10g}; {:.10g})\n", index + 1, report.name, report.place.x(),
+                 report.place.y());
   const bool flow = kind_at_points(model) == ElementKind::flow;
   const FieldTable table = fields_of(model);
-  for (const FieldEntry* field : flow ? fields_named(table, {"head", "pressure_head", "velocity"})
-                                      : fields_named(table, {"displacement", "stress"}))
-    for (std::size_t c = 0; c < field->size(); ++c)
-      fmt::format_to(
-          to(text), "{:>{}}",
-          fmt::format("{} [{}]", field->label(c, model.geometry), unit_text(field->dimension, model.units)),
-          wide(kWidth, digits));
-  text += '\n';
+  point_headings(text, model,
+                 flow ? fields_named(table, {"head", "pressure_head", "velocity"})
+                      : fields_named(table, {"displacement", "stress"}),
+                 wide(kWidth, digits));
+  double length = 0.0, most = 0.0;
+  for (const PointRow& r : rows) {
+    take_largest(length, r.displacement);
+    take_largest(most, r.stress);
+  }
+  const auto number = [&](double value) {
+    const std::string five = cell(value, "{:.5g}", kWidth, digits);
+    return digits == 0 && five.front() != ' ' ? cell(value, "{:.3g}", kWidth, digits) : five;
+  };
   for (const PointRow& r : chosen(rows)) {
-    fmt::format_to(to(text), "    stage {:<7}{:>7}", r.stage, r.increment);
+    fmt::format_to(to(text), "    {:<5}{:>5}", r.stage, r.increment);
     if (flow) {
-      for (double number : r.flow) text += cell(number, "{:.5g}", kWidth, digits);
+      for (double value : r.flow) text += number(value);
     } else {
-      for (double u : r.displacement) text += cell(u, "{:.5g}", kWidth, digits);
-      for (double stress : r.stress) text += cell(stress, "{:.5g}", kWidth, digits);
+      for (double u : r.displacement) text += number(without_rounding(u, length));
+      for (double stress : r.stress) text += number(without_rounding(stress, most));
     }
     text += '\n';
   }
@@ -145,7 +179,7 @@ void point_table(std::string& text, const Model& model, std::size_t index, const
 
 void discharge_table(std::string& text, const Model& model, std::size_t index,
                      const std::vector<DischargeRow>& rows, int digits) {
-  fmt::format_to(to(text), "  discharge {:<7}{:>7}{:>{}}{:>{}}{:>{}}\n", index + 1, "incr",
+  fmt::format_to(to(text), "  discharge {:<5}{:>7}{:>{}}{:>{}}{:>{}}\n", index + 1, "incr",
                  "[" + unit_text(Dimension::discharge, model.units) + "]", wide(18, digits), "gradient",
                  wide(14, digits), "head [" + model.units.length + "]", wide(14, digits));
   for (const DischargeRow& r : chosen(rows))
@@ -184,19 +218,23 @@ void status_lines(std::string& text, const Model& model, const RunRecord& record
     fmt::format_to(to(text), "              {}\n", beyond);
 }
 
-void counts(std::string& text, const Model& model, const RunRecord& record) {
+void counts(std::string& text, const Model& model, const RunRecord& record, bool details) {
   RunRecord::StageCount sum;
   for (const auto& stage : record.stages) {
     sum.increments += stage.increments;
     sum.iterations += stage.iterations;
     sum.cuts += stage.cuts;
   }
-  fmt::format_to(to(text), "  scene       {}, {}; {} elements, {} points, {} equations\n",
-                 model.geometry == Geometry::axisymmetric ? "axisymmetric" : "plane strain",
-                 describe(record.scene), record.scene.elements, record.scene.points, record.equations);
-  const std::string& kernels = record.result.kernels;
-  fmt::format_to(to(text), "  solver      {}{}\n", record.solver,
-                 kernels.empty() ? "" : ", kernels " + kernels);
+  const char* geometry = model.geometry == Geometry::axisymmetric ? "axisymmetric" : "plane strain";
+  fmt::format_to(to(text), "  model       {}; {} elements, {} equations\n", geometry, record.scene.elements,
+                 record.equations);
+  if (details) {
+    fmt::format_to(to(text), "  scene       {}, {}; {} elements, {} points, {} equations\n", geometry,
+                   describe(record.scene), record.scene.elements, record.scene.points, record.equations);
+    const std::string& kernels = record.result.kernels;
+    fmt::format_to(to(text), "  solver      {}{}\n", record.solver,
+                   kernels.empty() ? "" : ", kernels " + kernels);
+  }
   fmt::format_to(to(text), "  path        {} of {} stages, {} increments, {} iterations, {} cuts\n",
                  record.result.stages_done, model.stages.size(), record.result.increments_done, sum.iterations,
                  sum.cuts);
@@ -320,17 +358,17 @@ void RunRecord::on_finish(const Model&, const RunResult& run_result) {
 
 std::string summary(const Model& model, const RunRecord& record, const Reports* reports,
                     const std::vector<std::filesystem::path>& files, const DiscretisationError* error,
-                    int digits, const std::string& sketch) {
-  const bool ring = model.geometry == Geometry::axisymmetric;
+                    int digits, const std::string& sketch, bool details) {
   const UnitSystem& u = model.units;
   std::string text = model.title + "\n";
   status_lines(text, model, record);
-  counts(text, model, record);
+  counts(text, model, record, details);
   if (const auto& rows = record.strength.rows(); !rows.empty())
     text += "  strength divided by factors, each an analysis of its own\n" + strength_table(model, rows);
   if (const std::vector<ExtremeRow> all = envelope(record.structures); !all.empty())
-    text += "  structures  extremes of " +
-            std::string(model.stages.size() > 1 ? "all stages, each at its end\n" : "the stage\n") +
+    text += fmt::format("  structures  extremes of {}; {}\n",
+                        model.stages.size() > 1 ? "all stages, each at its end" : "the stage",
+                        structure_forces_per(model)) +
             extremes_table(model, all, model.stages.size() > 1);
   if (reports != nullptr) report_tables(text, model, *reports, digits);
   text += sketch;
@@ -338,12 +376,13 @@ std::string summary(const Model& model, const RunRecord& record, const Reports* 
   if (record.audited > 0)
     fmt::format_to(to(text), "  equilibrium whole model out of balance by {:.1e} of its largest force\n",
                    record.out_of_balance);
-  work_lines(text, record);
+  if (details) work_lines(text, record);
   if (record.warnings > 0) fmt::format_to(to(text), "  warnings    {} (see the listing)\n", record.warnings);
   note_lines(text, record.notes);
   file_lines(text, files);
   fmt::format_to(to(text), "  signs       compression positive; units {}, {}, {}; forces {}\n", u.length,
-                 u.force, u.stress, ring ? "for the full circle" : "per unit thickness");
+                 u.force, u.stress,
+                 model.geometry == Geometry::axisymmetric ? "for the full circle" : forces_per(model));
   if (record.result.status != RunStatus::completed)
     fmt::format_to(
         to(text), "  {}\n",

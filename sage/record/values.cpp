@@ -119,8 +119,22 @@ std::optional<std::string> name_from_plain(std::string_view text) {
   return name;
 }
 
-std::string forces_per(Geometry geometry) {
-  return geometry == Geometry::axisymmetric ? "for the full circle (2 pi r)" : "per unit thickness";
+std::string length_word(const std::string& unit) {
+  static const std::pair<std::string_view, std::string_view> words[] = {
+      {"m", "metre"}, {"mm", "millimetre"}, {"cm", "centimetre"}, {"in", "inch"}, {"ft", "foot"}};
+  for (const auto& [letters, word] : words)
+    if (unit == letters) return std::string(word);
+  return unit.empty() ? "unit thickness" : unit;
+}
+
+std::string forces_per(const Model& model) {
+  return model.geometry == Geometry::axisymmetric ? "for the full circle (2 pi r)"
+                                                  : "per " + length_word(model.units.length);
+}
+
+std::string structure_forces_per(const Model& model) {
+  const bool ring = model.geometry == Geometry::axisymmetric;
+  return "per " + length_word(model.units.length) + (ring ? " of circumference" : "");
 }
 
 std::string sign_convention(const Model& model, std::string_view mark) {
@@ -135,7 +149,7 @@ std::string sign_convention(const Model& model, std::string_view mark) {
       "{0}displacements, loads and reactions: positive along +{4} and +{5}; reactions are what the supports do "
       "to the mesh\n"
       "{0}forces: {6}\n",
-      mark, u.length, u.force, u.stress, ring ? "r" : "x", ring ? "z" : "y", forces_per(model.geometry));
+      mark, u.length, u.force, u.stress, ring ? "r" : "x", ring ? "z" : "y", forces_per(model));
 }
 
 }  // namespace sage

@@ -51,8 +51,12 @@ std::string xml_text(std::string_view text);
 std::string plain_name(std::string_view name, std::string_view also = "%");
 std::optional<std::string> name_from_plain(std::string_view text);
 
-// "per unit thickness" or "for the full circle (2 pi r)".
-std::string forces_per(Geometry geometry);
+// "per metre", by the deck's unit of length, or "for the full circle (2 pi r)".
+std::string forces_per(const Model& model);
+// The same of forces in structures: a ring's are for each unit of its circumference.
+std::string structure_forces_per(const Model& model);
+// "metre", "foot", ... ; another unit as the deck has it.
+std::string length_word(const std::string& unit);
 
 // The sign convention in a few lines; `mark` stands before each.
 std::string sign_convention(const Model& model, std::string_view mark);

@@ -133,6 +133,7 @@ std::string mechanism_svg(Model& model, const Safety& found) {
                       .value = StrainField{
                           [](const Vector4& e, double* value) { *value = std::hypot(e[0] - e[1], e[3]); }}});
   PictureOptions look;
+  look.deformed = true;  // a mechanism is a movement
   look.state = fmt::format("attempt at F = {:.6g}, scaled", found.mechanism_factor);
   look.arrows = true;
   return field_svg(model, found.mechanism->view(), "shear_strain", look);

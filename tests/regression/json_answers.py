@@ -229,6 +229,14 @@ def check_small_commands(folder, plugin):
         answer(folder, "new", kind, "mine", code=1)
         shutil.rmtree(folder / "mine")
     answer(folder, "new", "law", "No Name", code=1)
+    expect(answer(folder, "new", "deck", "slope", between=clean("slope.dat"))["result"]["files"] == ["slope.dat"], "new deck")
+    answer(folder, "new", "deck", "slope", code=1)
+    moved = (folder / "slope.dat").read_text().replace("\n    1   31    1    1    1", "\n     1   31    1    1    1")
+    (folder / "moved.dat").write_text(moved)
+    aligned = answer(folder, "align", "moved.dat", between=clean("moved_aligned.dat"))["result"]
+    expect([one["card"] for one in aligned["moves"]] == ["fixity card"], "align", aligned)
+    expect(aligned["files"] == ["moved_aligned.dat"], "align", aligned)
+    expect((folder / "moved_aligned.dat").read_text() == (folder / "slope.dat").read_text(), "align", "text")
     tests = answer(folder, "drive", "--list")["result"]["tests"]
     expect(len(tests) > 5, "drive --list", tests)
     law = ["drive", "--law", "mohr_coulomb", "--set", "E=2e4", "--set", "nu=.3", "--set", "c=5", "--set", "phi=30"]

@@ -70,26 +70,5 @@ TEST(Manual, EchoAndListingSayWhatTheUnitWeightOfWaterIsFor) {
   EXPECT_TRUE(has(read(folder / "out" / "deck.lst"), "no pore pressure is computed"));
 }
 
-// What is shown as the program's output is what it prints, but for times, kernels and the path of the files.
-TEST(Manual, ReadmeShowsWhatARunPrints) {
-  const std::string readme = read(kSource + "/README.md");
-  const std::string deck = "legacy_inputs/chapter7/pinned_ld2_nu0495/deck.dat";
-  const std::filesystem::path folder = empty_folder("readme");
-  const Finished run = sagefe(folder, "run " + kSource + "/" + deck);
-  ASSERT_EQ(run.exit_code, 0);
-  const std::size_t begin = readme.find("    Pinned ends, L/D = 2");
-  ASSERT_NE(begin, std::string::npos);
-  std::size_t compared = 0;
-  for (std::size_t at = begin; readme.compare(at, 4, "    ") == 0; at = readme.find('\n', at) + 1) {
-    std::string line = readme.substr(at + 4, readme.find('\n', at) - at - 4);
-    if (has(line, " s,") || has(line, "out of balance by")) continue;  // seconds; rounding of this build
-    const std::size_t kernels = line.find(", kernels ");               // of this machine
-    line = kernels == std::string::npos ? line + "\n" : line.substr(0, kernels + 10);
-    EXPECT_TRUE(has(run.out, line)) << line << "\nis not in\n" << run.out;
-    ++compared;
-  }
-  EXPECT_GE(compared, 12u);
-}
-
 }  // namespace
 }  // namespace sage::test

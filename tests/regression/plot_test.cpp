@@ -484,11 +484,11 @@ TEST(Plot, OptionsThatWouldMeanNothingAreRefused) {
   };
   for (const char* option :
        {"--at 1", "--increment 5", "--sheet", "--own-scales", "--range full", "--levels 5", "--extrapolate",
-        "--no-mesh", "--undeformed", "--mirror left", "--yielded", "--crosses", "--arrows"}) {
+        "--no-mesh", "--deformed", "--undeformed", "--mirror left", "--yielded", "--crosses", "--arrows"}) {
     const std::string name = std::string(option).substr(0, std::string(option).find(' '));
     expect_refused("out/deck.report1.csv " + std::string(option), name + " is for");
   }
-  for (const char* option : {"--range 0:1", "--levels 5", "--extrapolate", "--no-mesh", "--undeformed",
+  for (const char* option : {"--range 0:1", "--levels 5", "--extrapolate", "--no-mesh", "--deformed",
                              "--mirror both", "--yielded", "--crosses", "--arrows", "--sheet", "--own-scales"})
     for (const char* mode : {"--interface ", "--line 0,0:1,1 --picture dev "}) {
       const std::string name = std::string(option).substr(0, std::string(option).find(' '));

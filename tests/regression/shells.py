@@ -85,7 +85,7 @@ def check_bash(folder):
         expect(offered == shown, command, "offers", offered - shown, "and lacks", shown - offered)
     expect(set(bash.offers("sagefe layout guess --")) == {o for o in options_of("layout", "guess") if o[:2] == "--"}, "layout guess")
     expect(bash.offers("sagefe layout ") == ["check", "guess"], "parts of layout", bash.offers("sagefe layout "))
-    expect(bash.offers("sagefe new ") == ["element", "law", "umat"], "new", bash.offers("sagefe new "))
+    expect(bash.offers("sagefe new ") == ["deck", "element", "law", "umat"], "new", bash.offers("sagefe new "))
     expect(bash.offers("sagefe completion ") == ["bash", "fish", "zsh"], "completion", bash.offers("sagefe completion "))
     codes = re.findall(r"^(S50\d) ", output("explain"), re.MULTILINE)
     expect(len(codes) > 4 and bash.offers("sagefe explain S50") == codes, "codes", bash.offers("sagefe explain S50"))

@@ -42,10 +42,10 @@ TEST(FieldSvg, DisplacementsAreAlongTheAxes) {
 TEST(FieldSvg, ScalesTheDeformationByARoundNumber) {
   Specimen specimen(Geometry::axisymmetric, false);
   specimen.compress(0.01);
-  EXPECT_TRUE(has(field_svg(specimen.model, specimen.solution(), "deviator"), "deformation x 2<"));
-  PictureOptions undeformed;
-  undeformed.deformed = false;
-  EXPECT_FALSE(has(field_svg(specimen.model, specimen.solution(), "deviator", undeformed), "deformation"));
+  PictureOptions deformed;
+  deformed.deformed = true;
+  EXPECT_TRUE(has(field_svg(specimen.model, specimen.solution(), "deviator", deformed), "deformation x 2<"));
+  EXPECT_FALSE(has(field_svg(specimen.model, specimen.solution(), "deviator"), "deformation"));
 }
 
 TEST(FieldSvg, EscapesTheTitle) {

@@ -38,13 +38,18 @@ TEST(Summary, TellsTheRunOnOneScreen) {
   Specimen specimen(Geometry::axisymmetric, false);
   const Result result = run_summary(specimen, false, 10);
   EXPECT_EQ(lines_of(result.text)[0], "compressed specimen");
-  for (const char* part :
-       {"completed: every increment in equilibrium", "axisymmetric", "linear, symmetric", "7 equations", "fake",
-        "1 of 1 stages, 10 increments, 20 iterations, 0 cuts", "warnings    1", "a/t.report1.csv",
-        "compression positive", "full circle", "whole run 0.125 s"})
+  for (const char* part : {"completed: every increment in equilibrium", "axisymmetric", "7 equations",
+                           "1 of 1 stages, 10 increments, 20 iterations, 0 cuts", "warnings    1",
+                           "a/t.report1.csv", "compression positive", "full circle"})
     EXPECT_TRUE(has(result.text, part)) << part << "\n" << result.text;
   EXPECT_FALSE(has(result.text, "NOT CONVERGED"));
   EXPECT_LE(lines_of(result.text).size(), 30u);
+  for (const std::string& line : lines_of(result.text)) EXPECT_LE(line.size(), 80u) << line;
+  for (const char* part : {"  scene ", "  work ", "  solver ", "whole run"})
+    EXPECT_FALSE(has(result.text, part)) << part << "\n" << result.text;
+  const std::string details = summary(specimen.model, result.record, nullptr, {}, nullptr, 0, "", true);
+  for (const char* part : {"linear, symmetric", "fake", "  work ", "whole run 0.125 s"})
+    EXPECT_TRUE(has(details, part)) << part << "\n" << details;
 }
 
 // Ten increments to 2 % : E e = 20 psi at the end, ratio 1.
