@@ -94,16 +94,16 @@ std::string signed_text(double value, int decimals) {
 
 void print_header(const std::string& table) {
   fmt::print("\nTable {}: measured / correct axial stress\n", table);
-  fmt::print("{:<15} {:<22} {:>8} {:>9} {:>10} {:>10} {:>13}\n", "", "", "chapter", "sagefe", "difference",
-             "converged", "chapter error");
+  fmt::print("{:<11} {:<19} {:>8}{:>10}{:>11}{:>10}{:>10}\n", "", "", "chapter", "sagefe", "difference",
+             "converged", "its error");
 }
 
 void print_entry(const ChapterEntry& entry, double ratio) {
   const auto [chapter, computed] = decimals_of(entry.table);
-  fmt::print("{:<15} {:<22} {:8.{}f} {:9.{}f} {:>10}", entry.row, entry.column, entry.chapter, chapter, ratio,
+  fmt::print("{:<11} {:<19} {:8.{}f}{:10.{}f}{:>11}", entry.row, entry.column, entry.chapter, chapter, ratio,
              computed, signed_text(ratio - entry.chapter, computed));
   if (entry.converged > 0.0)
-    fmt::print(" {:10.{}f} {:>12}%", entry.converged, computed,
+    fmt::print("{:10.{}f}{:>9}%", entry.converged, computed,
                signed_text(100.0 * (entry.chapter / entry.converged - 1.0), 2));
   fmt::print("\n");
 }

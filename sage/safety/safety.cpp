@@ -42,6 +42,27 @@ Largest largest_of(const Model& model, const Eigen::VectorXd& u) {
   return largest;
 }
 
+std::vector<double> largest_of_groups(const Model& model, const Eigen::VectorXd& u) {
+  std::vector<double> largest;
+  for (const Group& group : model.groups) {
+    double most = 0.0;
+    for (int e = 0; e < group.elements(); ++e)
+      for (std::size_t n = 0; n < group.node_count(); ++n)
+        for (int c = 0; c < 2; ++c)
+          most = std::max(most, std::abs(u[DofMap::displacement(group.nodes_of(e)[n], c)]));
+    largest.push_back(most);
+  }
+  return largest;
+}
+
+// What the trial has moved.
+void take_motion(FactorTrial& trial, const Model& model, const Eigen::VectorXd& u) {
+  const Largest largest = largest_of(model, u);
+  trial.displacement = largest.displacement;
+  trial.node = largest.node;
+  trial.displacement_of_groups = largest_of_groups(model, u);
+}
+
 long inelastic(const std::array<long, kStatuses>& points) {
   long count = 0;
   for (PointStatus s : kAtStrength) count += points[static_cast<std::size_t>(s)];
@@ -270,11 +291,7 @@ void Finder::take_run(const RunResult& result, const LastState& last) {
   trial.page = result.reason;
   trial.yielded = inelastic(last.report.points);
   if (!last.report.iterations.empty()) trial.out_of_balance = last.report.iterations.back().force;
-  if (lost_.size() > 0 || last.u.size() > 0) {
-    const Largest largest = largest_of(model_, lost_.size() > 0 ? lost_ : last.u);
-    trial.displacement = largest.displacement;
-    trial.node = largest.node;
-  }
+  if (lost_.size() > 0 || last.u.size() > 0) take_motion(trial, model_, lost_.size() > 0 ? lost_ : last.u);
   if (result.status == RunStatus::completed) {
     trial.reason = fmt::format("equilibrium at the end of stage {}", safety_.stages);
   } else {
@@ -334,9 +351,7 @@ void Finder::take_trial(const TrialResult& result) {
   trial.page = result.reason;
   if (!result.report.iterations.empty()) trial.out_of_balance = result.report.iterations.back().force;
   trial.yielded = inelastic(result.report.points);
-  const Largest largest = largest_of(model_, result.motion);
-  trial.displacement = largest.displacement;
-  trial.node = largest.node;
+  take_motion(trial, model_, result.motion);
   if (result.equilibrium) {
     trial.reason = why(trial, safety_.tolerance);
   } else {
@@ -410,21 +425,13 @@ bool Finder::next(const TrialResult* last, const Solution& now) {
     FactorTrial first;
     first.factor = factor_;
     first.reason = fmt::format("equilibrium at the end of stage {}", safety_.stages);
-    if (options_.start == Start::anew) {
-      const Largest largest = largest_of(model_, u_start_);
-      first.displacement = largest.displacement;
-      first.node = largest.node;
-    }
+    if (options_.start == Start::anew) take_motion(first, model_, u_start_);
     take(std::move(first));
   } else {
     take_trial(*last);
     FactorTrial& trial = safety_.trials.back();
     const bool stands = trial.verdict == Verdict::stands;
-    if (stands) {
-      const Largest largest = largest_of(model_, *now.u - u_start_);
-      trial.displacement = largest.displacement;
-      trial.node = largest.node;
-    }
+    if (stands) take_motion(trial, model_, *now.u - u_start_);
     if (stands ? !search_.upper() : search_.upper() == factor_) keep_mechanism(*last, now);
   }
   if (options_.start == Start::anew) return false;

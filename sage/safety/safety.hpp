@@ -50,6 +50,7 @@ struct FactorTrial {
   double displacement =
       0.0;        // largest along an axis since the strengths began to fall; Start::anew: since the run began
   int node = -1;  // where: index
+  std::vector<double> displacement_of_groups;  // the same of each group of the deck; empty where nothing moved
   int iterations = 0, cuts = 0;
   long yielded = 0;  // points that yield, slip, are open, at the apex or cut off in tension
 };

@@ -100,6 +100,29 @@ std::string to_csv(const Model& model, const Safety& found, int digits) {
   return text;
 }
 
+namespace {
+
+// Groups of solids that have a curve of their own: those that move most, where the deck has several.
+std::vector<std::size_t> groups_of_curves(const Model& model, const std::vector<const FactorTrial*>& rows) {
+  constexpr std::size_t kMost = 6;
+  std::vector<std::size_t> groups;
+  const bool known =
+      std::ranges::any_of(rows, [](const FactorTrial* t) { return !t->displacement_of_groups.empty(); });
+  for (std::size_t g = 0; known && g < model.groups.size(); ++g)
+    if (model.groups[g].solid() && !model.groups[g].overlay && model.groups[g].elements() > 0)
+      groups.push_back(g);
+  if (groups.size() < 2) return {};
+  const auto last = [&](std::size_t g) {
+    const std::vector<double>& moved = rows.back()->displacement_of_groups;
+    return g < moved.size() ? -moved[g] : 0.0;
+  };
+  std::ranges::stable_sort(groups, {}, last);
+  groups.resize(std::min(groups.size(), kMost));
+  return groups;
+}
+
+}  // namespace
+
 std::string curve_svg(const Model& model, const Safety& found) {
   Plot plot;
   plot.title = model.title;
@@ -116,6 +139,20 @@ std::string curve_svg(const Model& model, const Safety& found) {
   }
   const double most = stands.x.empty() ? 1.0 : std::max(stands.x.back(), 1e-300);
   plot.series.push_back(std::move(stands));
+  int style = 2;
+  for (const std::size_t g : groups_of_curves(model, rows)) {
+    const Group& group = model.groups[g];
+    PlotSeries curve{.name = group.name.empty() ? fmt::format("group {}", group.number) : group.name,
+                     .x = {},
+                     .y = {},
+                     .markers = true,
+                     .style = style++};
+    for (const FactorTrial* trial : rows) {
+      curve.x.push_back(trial->displacement_of_groups.empty() ? 0.0 : trial->displacement_of_groups[g]);
+      curve.y.push_back(trial->factor);
+    }
+    plot.series.push_back(std::move(curve));
+  }
   if (found.upper)
     plot.series.push_back({.name = "no equilibrium",
                            .x = {0.0, most},
