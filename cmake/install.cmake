@@ -9,12 +9,12 @@ set(SAGE_PACKAGE_TARGETS sage_fmt sage_core sage_page sage_umat sage_layout sage
 sage_install(sagefe RUNTIME ${CMAKE_INSTALL_BINDIR})
 # Without the decks whose licence names no holder (NOTICE).
 install(DIRECTORY legacy_inputs DESTINATION ${CMAKE_INSTALL_DATADIR}/sagefe PATTERN smith_griffiths EXCLUDE PATTERN quad4m EXCLUDE)
-install(FILES LICENSE NOTICE CITATION.cff README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(DIRECTORY docs/manual docs/theory docs/tutorial DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
+install(FILES LICENSE NOTICE CITATION.cff README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/sagefe)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/sagefe)
 file(READ ${PROJECT_SOURCE_DIR}/LICENSE license)
 file(READ ${PROJECT_SOURCE_DIR}/NOTICE notice)
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/copyright CONTENT "@license@\n\n@notice@" @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES ${PROJECT_BINARY_DIR}/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/sagefe)
 install(DIRECTORY sage/app/templates DESTINATION ${CMAKE_INSTALL_DATADIR}/sagefe)
 
 # Headers keep their paths: #include "sage/core/law.hpp".  Those whose library is in the package, no others.
