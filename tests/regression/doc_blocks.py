@@ -1,24 +1,58 @@
 #!/usr/bin/env python3
 """What pages show as commands does what they say.
 
-    doc_blocks.py SAGEFE SOURCE [PAGE ...]
+    doc_blocks.py SAGEFE SOURCE             README.md and the tutorials
+    doc_blocks.py SAGEFE SOURCE --manual    the manual, whose decks are those of MANUAL below
+    doc_blocks.py SAGEFE SOURCE PAGE ...
 
-README.md and the tutorials: every line of a code block that begins with a command is run, in the order of the page
+Every line of a code block that begins with a command is run, in the order of the page
 and in a folder of its own beside the tree's decks; it must end with exit code 0.  Lines below a command that begins
 with "$ " must be printed, in their order, numbers to 0.5 %; "..." stands for any lines, and at the end of a line for
 its rest.
 """
+import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
 
 SAGEFE = pathlib.Path(sys.argv[1]).resolve()
 SOURCE = pathlib.Path(sys.argv[2]).resolve()
-PAGES = [pathlib.Path(name).resolve() for name in sys.argv[3:]]
+PAGES = [pathlib.Path(name).resolve() for name in sys.argv[3:] if name != "--manual"]
 COMMANDS = ("sagefe", "sed", "scripts/", "cmake", "ctest", "cp", "cd", "man", "export")
 # Commands that build or install: tests of their own run them (tests/install), or scripts/check_package.
 ELSEWHERE = ("scripts/", "cmake", "ctest", "man ", "export ")
+# Of a page of the manual: what it takes for granted, and words of its commands that stand for something.
+CHAPTER = "legacy_inputs/chapter7"
+MANUAL = {
+    "accuracy": ([], {}),
+    "compare": ([f"cp {CHAPTER}/pinned_ld2_nu0333/deck.dat A.dat", f"cp {CHAPTER}/pinned_ld2_nu0495/deck.dat B.dat"], {"DECK": "A.dat"}),
+    "convert": (["sagefe new deck embankment -o IN", "sagefe convert IN layer.msh"], {"OUT": "OUT.inp"}),
+    "drive": (["sagefe new deck triaxial -o deck.dat"]
+              + [f"sagefe drive --law mohr_coulomb --set E=2e4 --set nu=.3 --set c=10 --set phi=30 --test triaxial_compression --pressure {p} "
+                 f"--to .05 --csv all.csv && printf 'strain_yy,axial_deviator\\n.002,40\\n.01,{2 * p + 34}\\n.03,{2 * p + 34}\\n' > cd{p}.csv"
+                 for p in (50, 200)], {}),
+    "figures": ([], {}),
+    "json": (["sagefe new deck triaxial -o deck.dat"], {}),
+    "layout_guess": (["cp legacy_inputs/stap/plate.dat old.dat"], {}),
+    "plots": ([f"sagefe run {CHAPTER}/dp_285/deck.dat -o out -q", "sagefe new deck footing", "sagefe run footing.dat -o out -q", "mkdir triaxial",
+               f"cp {CHAPTER}/dp_285/deck.dat triaxial/", f"cp {CHAPTER}/friction_285_nu0333/deck.dat a.dat",
+               f"cp {CHAPTER}/friction_285_nu025/deck.dat b.dat", "sagefe run a.dat b.dat -o out -q --result --states 1:5 --states strain=.05,.1"], {}),
+    "safety": (["sagefe new deck slope", "sagefe new deck excavation -o wall.dat"], {}),
+    "stress": (["mkdir docs"], {}),
+    "structures": ([], {}),
+    "verify": (["mkdir docs"], {}),
+}
+# Commands of the manual that are not run here, and why.
+NOT_HERE = {
+    "sagefe stress ": "all rows: tests/stress; the page: scripts/pictures",
+    "sagefe verify ": "all cases: tests/verification; the page: scripts/pictures",
+    "sagefe safety slope.dat --converge": "minutes; tests/regression/safety_test.cpp converges a smaller deck",
+    "sagefe drive --law clough_duncan ...": "an outline",
+    "sagefe check old.dat --layout ./old.toml": "the draft has to be finished by hand first; tests/unit/layout_draft",
+}
+HERE = ("--list", "--only lame", "--only poisson")  # of those all the same
 failed = 0
 
 
@@ -79,20 +113,50 @@ def check_output(page, line, wanted, output):
         at, free = found + 1, False
 
 
+def shell(command, folder):
+    return subprocess.run(["bash", "-c", command], cwd=folder, capture_output=True, text=True,
+                          env={**os.environ, "PATH": f"{SAGEFE.parent}:{os.environ['PATH']}"})
+
+
+def whole_lines(block):
+    """(offset, line) with what goes on behind a backslash."""
+    begin, text = 0, ""
+    for offset, line in enumerate(block):
+        begin = begin if text else offset
+        text += line
+        if text.endswith("\\"):
+            text = text[:-1]
+            continue
+        yield begin, text
+        text = ""
+
+
+def is_left_out(command):
+    return any(command.startswith(start) or command == start.strip() for start in NOT_HERE) and not any(w in command for w in HERE)
+
+
 def run_page(page, folder):
     """Gives how many commands were run."""
     count = 0
+    prepare, words = MANUAL.get(page.stem, ([], {})) if page.parent.name == "manual" else ([], {})
+    for command in prepare:
+        run = shell(command, folder)
+        if run.returncode != 0:
+            fail(page, 1, f"exit code {run.returncode} of {command}\n{run.stdout}{run.stderr}")
     for begin, block in blocks(page.read_text()):
         if not is_command(block[0]):
             continue
-        for offset, line in enumerate(block):
+        for offset, line in whole_lines(block):
             if not is_command(line):
                 continue
             command = line[2:] if line.startswith("$ ") else line
-            if command.startswith(ELSEWHERE):
+            for word, meaning in words.items():
+                command = re.sub(rf"\b{word}\b", meaning, command)
+            # What stands behind a gap in the manual explains the command.
+            command = re.split(r" {3,}(?=#|[a-z]+ (?:and|against) )", command)[0].rstrip()
+            if command.startswith(ELSEWHERE) or is_left_out(command):
                 continue
-            run = subprocess.run(["bash", "-c", command.replace("sagefe ", f"{SAGEFE} ", 1)], cwd=folder, capture_output=True,
-                                 text=True)
+            run = shell(command, folder)
             count += 1
             if run.returncode != 0:
                 fail(page, begin + offset, f"exit code {run.returncode} of {command}\n{run.stdout}{run.stderr}")
@@ -106,7 +170,8 @@ def run_page(page, folder):
     return count
 
 
-for page in PAGES or [SOURCE / "README.md", *sorted((SOURCE / "docs/tutorial").glob("*.md"))]:
+manual = [SOURCE / f"docs/manual/{name}.md" for name in MANUAL] if "--manual" in sys.argv else []
+for page in manual or PAGES or [SOURCE / "README.md", *sorted((SOURCE / "docs/tutorial").glob("*.md"))]:
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         (folder / "legacy_inputs").symlink_to(SOURCE / "legacy_inputs")
