@@ -130,8 +130,8 @@ constexpr MessageEntry kMessages[] = {
      "not at its columns.",
      "Remove the comma, or separate all values of the card by commas."},
     {"S124", "a number in an unusual form",
-     "The exponent letter Q is read by some compilers only, and a lone sign or point reads as 0. The "
-     "program says how it understood it.",
+     "The exponent letter Q is read by some compilers only, and a lone sign or point reads as 0. The message "
+     "gives the way in which it was read.",
      "Write the number with E or D, or a 0 where zero is meant."},
     {"S125", "blanks count as zeros",
      "Under this layout blanks inside a numeric field are zeros (Fortran's BZ): 15 with two blanks "
@@ -193,7 +193,7 @@ constexpr MessageEntry kMessages[] = {
      "as eight fields."},
     {"S143", "an entry of a layout is wrong",
      "A key of the layout is unknown, missing, or holds a value of another kind, or two entries "
-     "contradict each other. An unknown key is refused since a typing error would otherwise change the "
+     "contradict each other. An unknown key is rejected since a typing error would otherwise change the "
      "reading without a word.",
      "Correct the entry on that line; docs/manual/own_layout.md lists all keys with what they take."},
     {"S146", "an expression of a layout is wrong",
@@ -224,8 +224,8 @@ constexpr MessageEntry kMessages[] = {
      "A card (pressure, removal, strength) names an element that no element card or block makes.",
      "Correct the number or the block; element numbers of a block run along its rows."},
     {"S203", "a group is not defined",
-     "A card names a group that no group card defines. In lists of births and deaths and on initial "
-     "stress cards group numbers are meant, not element numbers.",
+     "A card names a group that no group card defines. Lists of groups that a stage activates or removes, and "
+     "initial stress cards, hold group numbers, not element numbers.",
      "Correct the number or add the group card."},
     {"S204", "a material is not defined", "A group names a material number that no material card has.",
      "Correct the material number on the group card, or add the material."},
@@ -284,9 +284,9 @@ constexpr MessageEntry kMessages[] = {
      "Give all corners, and all mid-side nodes or none; or choose the element type for that number of "
      "nodes on the group card."},
     {"S218", "a generated line or block does not work out",
-     "The numbers of nodes or elements, the steps and the corners of a line or block contradict each "
-     "other: the last number is not met, a corner is not defined before it, two nodes would get one "
-     "number, or far too many would be made.",
+     "The numbers of nodes or elements, the steps and the corners of a line or block contradict each other. "
+     "The last number is not reached, a corner is not defined before it, two nodes would get one number, or "
+     "far too many would be made.",
      "Check columns, rows and steps: node = first + column x column step + row x row step. Corners must "
      "be defined on cards before the block."},
     {"S219", "a step or count was left blank",
@@ -378,10 +378,10 @@ constexpr MessageEntry kMessages[] = {
      "tolerance between 0 and 1 (1e-8 where blank), no negative time.",
      "Correct the field."},
     {"S239", "births and deaths contradict each other",
-     "A group is born twice, removed before it is born, or in the same stage; or an element is removed "
-     "twice. A group that was removed can't come back: its history is gone.",
-     "Correct the stages. To place a body again, give it a twin: another group with the same nodes and a "
-     "material of its own."},
+     "A group is activated twice, or removed before it is activated or in the same stage; or an element is "
+     "removed twice. A group that was removed can't come back: its history is gone.",
+     "Correct the stages. To place a body again, use another group with the same nodes and a material of its "
+     "own."},
     {"S240", "increments and what they drive do not fit",
      "Load factors stand without a load, displacements without a displacement card, or both kinds on one "
      "card.",
@@ -412,7 +412,7 @@ constexpr MessageEntry kMessages[] = {
      "group (kind 1 for ground, kind 3 for interfaces)."},
     {"S246", "the start stress and equilibrium",
      "The state at the start holds only with forces that the deck does not state: pressures at free "
-     "edges, or K0 that differs along one level. The program says what it added or what will move in the "
+     "edges, or K0 that differs along one level. The message names what was added, or what will move in the "
      "first increment.",
      "Where K0 differs, give one value a level, or let a gravity stage find the stresses."},
     {"S247", "p_a or gamma_w is missing",
@@ -422,9 +422,8 @@ constexpr MessageEntry kMessages[] = {
      "0.036111 pci."},
     {"S248", "a water card does not fit",
      "The card lacks what its kind needs (points of a line, pairs of node and pressure, r_u, a bulk of water), "
-     "has numbers where its kind reads none, names a stage that is not there or a group that is no solid, or "
-     "asks "
-     "for heads where none are solved for.",
+     "or has numbers where its kind reads none. Or it names a stage that does not exist or a group that is no "
+     "solid, or needs heads where none are solved for.",
      "Complete the card: docs/manual/deck_format.md, card water; docs/manual/water.md."},
     {"S249", "undrained, and a pressure is given",
      "The pore pressure of an undrained group follows from its change of volume. A card that changes it in the "
@@ -480,8 +479,8 @@ constexpr MessageEntry kMessages[] = {
      "blocks."},
     {"S260", "there is nothing to divide for a safety factor",
      "sagefe safety divides the strengths of the chosen groups. The deck has no such stage or group, or no "
-     "chosen group has a law whose entry names a strength: elastic laws have none, interfaces and structures "
-     "are divided on request only, and a law of one's own names its strengths by the roles of its parameters.",
+     "chosen group has a law whose entry names a strength. Elastic laws have none; interfaces and structures "
+     "are divided on request only. A law of your own names its strengths by the roles of its parameters.",
      "Correct --stage or --group, add --interfaces or --structures, or give the soil a law with strength "
      "(sagefe list materials)."},
     {"S261", "Gmsh can't mesh an area",
@@ -561,7 +560,7 @@ constexpr MessageEntry kMessages[] = {
     {"S315", "an initial stress is replaced",
      "Two initial cards are for one group in one stage. The later card stands.", "Remove one of them."},
     {"S316", "a stage adds nothing",
-     "No load, displacement, gravity, birth or death: the stage only lets go what is out of balance. "
+     "The stage has no load, displacement, gravity, activation or removal. It only releases unbalanced forces. "
      "That is right behind an initial stress, and else often a card that ended up in another stage.",
      "Check the order of the cards, or remove the stage."},
     {"S317", "a report's numbers do not fit the mesh",
@@ -572,7 +571,7 @@ constexpr MessageEntry kMessages[] = {
     {"S318", "a point lies on a border, or in nothing active",
      "Where bodies meet, stresses jump and one group has to answer; or no element that holds the point "
      "is active when the report starts.",
-     "Give the point's group, or move it off the border. Check births and deaths."},
+     "Give the point's group, or move it off the border. Check which groups the stages activate and remove."},
     {"S319", "a straight side is held in part",
      "Most nodes of a side are held along one direction and some are free: a forgotten node on a line of "
      "symmetry, or the last number of a range.",
@@ -587,7 +586,7 @@ constexpr MessageEntry kMessages[] = {
      "Remove the load, or check whether plane strain (geometry 1) is meant."},
     {"S322", "no element takes part in a stage",
      "Every group is removed or not born yet, so there is nothing to be in equilibrium.",
-     "Correct births and deaths of the stage or of those before."},
+     "Correct which groups this stage or one before it activates and removes."},
     {"S323", "nothing holds the mesh",
      "A part of the body can move without straining: as a whole along x or y, or turn. The stiffness "
      "matrix is singular then. Parts that touch without common nodes or an interface are separate.",
@@ -604,10 +603,10 @@ constexpr MessageEntry kMessages[] = {
      "--formulation 2 (B-bar) or 8-node elements (--element quad8). Compare both: sagefe compare DECK "
      "--formulation-b 2."},
     {"S326", "elements overlap",
-     "Two elements cover the same ground: its stiffness and weight count twice. A block stands twice, a "
-     "node lies beyond its neighbour, or a twin for a later birth is not declared.",
-     "Correct nodes or blocks. A group that lies on others on purpose (a twin, a reinforced zone) says "
-     "so: overlay 1."},
+     "Two elements cover the same ground: its stiffness and weight count twice. A block is there twice, a node "
+     "lies beyond its neighbour, or a group that a later stage activates on the same nodes is not declared.",
+     "Correct nodes or blocks. A group that lies on others on purpose (a reinforced zone, a body that comes "
+     "back) needs overlay 1."},
     {"S327", "an interface does not lie between its bodies",
      "The sides of an interface element belong to the wrong bodies, or its nodes are not those of the "
      "solids beside it: normal stress would come with the wrong sign.",
@@ -629,7 +628,7 @@ constexpr MessageEntry kMessages[] = {
     {"S332", "a card does nothing in its stage",
      "What it names is not active then: the elements are removed or not yet born, or the nodes belong to "
      "none that is, or have no such unknown (a support of displacements where only water flows).",
-     "Move the card to the stage meant, correct births and deaths, or give the unknown's name (head)."},
+     "Move the card to the right stage, correct which groups are active, or give the unknown's name (head)."},
     {"S334", "the mesh is coarse for what is asked",
      "Between two loads or supports lie so few elements that the answer there is far from that of a fine "
      "mesh. The message says by about how much.",
@@ -720,9 +719,9 @@ constexpr MessageEntry kMessages[] = {
      "Give a plate its thickness (law plate), or a section its hoop stiffnesses. Spokes that end on a hub are "
      "held at its radius."},
     {"S355", "4-node elements dilate",
-     "A group of 4-node quadrilaterals has a law whose plastic flow increases the volume. These elements can't "
-     "follow that flow and resist too long: on a slope of 1:2 with phi = psi = 20 degrees the factor of safety "
-     "is 1.52 with b-bar and 1.58 with full integration, where 8-node elements give 1.39 and 1.36 to 1.37 is "
+     "A group of 4-node quadrilaterals has a law whose plastic flow increases the volume. These elements "
+     "cannot follow that flow and resist too long. On a slope of 1:2 with phi = psi = 20 degrees the factor of "
+     "safety is 1.52 with b-bar and 1.58 with full integration. 8-node elements give 1.39, and 1.36 to 1.37 is "
      "right. With psi = 5 degrees the error is the same. docs/theory/accuracy.md has the measurement.",
      "Use 8-node elements (--element quad8), or a dilation angle of 0 (sagefe safety --dilation none), with "
      "which 4-node b-bar elements are about 3 % high."},
@@ -734,10 +733,9 @@ constexpr MessageEntry kMessages[] = {
      "Give the unit weight in the deck's force per cubed length: 18 to 21 kN/m^3, 115 to 130 lb/ft^3 or 0.066 "
      "to 0.075 lb/in^3. Correct the units card where that is wrong."},
     {"S358", "a modulus or cohesion is not one of soil",
-     "As a multiple of the atmosphere in the deck's units the number is far from what soils have: a modulus "
-     "below 0.5 or, for a law with strength, above 100000 times; a cohesion above 10 times, or without "
-     "friction "
-     "below 0.005 times. Likely it is in another unit (Pa, MPa).",
+     "As a multiple of the atmosphere in the deck's units the number is far from what soils have. These are a "
+     "modulus below 0.5 or, for a law with strength, above 100000 times; a cohesion above 10 times, or without "
+     "friction below 0.005 times. Likely it is in another unit (Pa, MPa).",
      "Give moduli and strengths in the stress unit of the units card. A warning for rock, concrete or a peat "
      "is "
      "no mistake of the deck."},
@@ -848,9 +846,9 @@ constexpr MessageEntry kMessages[] = {
      "Try another solver (--solver) and one thread (--threads 1), to see what it depends on. A report with the "
      "deck, the command and the message helps to mend it."},
     {"S515", "the safety factor is not proved",
-     "The search for the factor ended without the bracket that was asked for: no factor stands, every factor "
-     "stands, or at the upper end no equilibrium was found although the ground does not go on moving there, "
-     "so that the iterations may have failed and not the soil.",
+     "The search for the factor ended without the bracket that was requested. No factor is stable, every "
+     "factor is stable, or the upper end proves nothing: no equilibrium was found, but the ground does not go "
+     "on moving. There the iterations may have failed and not the soil.",
      "Read the reasons of both ends. Move --smallest or --largest; for an end that is not proved more "
      "--iterations and --cuts, --from anew, or --dilation reduced with a dilation angle nearer to friction."},
     {"S520", "the initial stress is outside the yield surface",
@@ -940,10 +938,9 @@ constexpr MessageEntry kMessages[] = {
      "whether "
      "the soil may let water out where it must (exits, code 2)."},
     {"S540", "the flow has no stream function",
-     "What flows between two places is one number only where nothing comes in or goes out inside the flow: "
-     "around "
-     "a well, a drain or a held head inside, and around a hole whose edge takes water, each turn adds what is "
-     "taken. "
+     "What flows between two places is one number only where nothing comes in or goes out inside the flow. "
+     "Around a well, a drain or a held head inside, and around a hole whose edge takes water, each turn adds "
+     "what is taken. "
      "The field is left blank in that part of the flow.",
      "Take discharge through lines of nodes (report 4), or --picture flow_net, whose lines jump along a line."},
 
@@ -998,7 +995,7 @@ constexpr MessageEntry kMessages[] = {
      "Wait for its end, stop it, or choose another folder (-o). The lock goes with its process, also "
      "after a crash."},
     {"S604", "the picture can't be converted",
-     "PDF and PNG are made of SVG by the program rsvg-convert, which is not there or refused.",
+     "PDF and PNG are made of SVG by the program rsvg-convert, which is not there or failed.",
      "Install librsvg2-bin, or take --format svg."},
     {"S605", "the library of result files crashed",
      "HDF5 crashes where an allocation fails, as it does under a limit on memory (ulimit -v, ulimit -d). The "
@@ -1151,9 +1148,9 @@ constexpr MessageEntry kMessages[] = {
      "Give --plugin LIBRARY with the library that has this name; sagefe list plugins --plugin LIBRARY shows "
      "name and pieces of a library."},
     {"S802", "a library is no plug-in that can be used",
-     "The file is no library, misses another library that it was linked to, has no entry point "
-     "sage_plugin_v1, was built by another compiler or for another version of the program (the message names "
-     "the field and both values), or crashed or gave up when its pieces were asked for.",
+     "The file is no library, misses another library that it was linked to, or has no entry point "
+     "sage_plugin_v1. Or it was built by another compiler or for another version of the program; the message "
+     "names the field and both values. Or it crashed or gave up when it had to give its pieces.",
      "Build it against the installed package of this very program (sage_add_plugin in CMake, "
      "docs/manual/plugins.md) with the compiler that the message names; ldd LIBRARY shows missing libraries, "
      "sagefe conform LIBRARY tries its pieces."},
@@ -1210,7 +1207,7 @@ constexpr MessageEntry kMessages[] = {
     {"S903", "something is missing on the command line",
      "A deck, a file or the value of an option is wanted and not there.",
      "sagefe COMMAND --help shows the order: what stands in brackets can be left out."},
-    {"S904", "an option's value is refused",
+    {"S904", "an option's value is rejected",
      "The value is none of those known, no number, out of range, or a file that is not there.",
      "The message says what is wanted; values with blanks need quotes."},
     {"S905", "options do not go together", "Two options exclude each other, or one needs another.",

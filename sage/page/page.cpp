@@ -17,6 +17,23 @@ void Page::paragraph(const std::string& words) {
   line(words);
 }
 
+std::string Page::filled(std::string_view text) {
+  constexpr std::size_t kColumns = 100;
+  std::string out;
+  std::size_t used = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t end = at;
+    for (bool code = false; end < text.size() && (code || text[end] != ' '); ++end)
+      code = code != (text[end] == '`');
+    const std::string_view word = text.substr(at, end - at);
+    if (used > 0) out += used + 1 + word.size() > kColumns ? '\n' : ' ';
+    used = used > 0 && used + 1 + word.size() <= kColumns ? used + 1 + word.size() : word.size();
+    out += word;
+    at = end + 1;
+  }
+  return out;
+}
+
 void Page::note(const std::string& words) {
   paragraph("<!-- " + words + " -->");
 }

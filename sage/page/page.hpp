@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sage {
@@ -12,6 +13,8 @@ class Page {
 
   void heading(int level, const std::string& words);
   void paragraph(const std::string& words);
+  // A paragraph in lines of at most 100 columns; code in `...` is not broken.
+  void prose(const std::string& words) { paragraph(filled(words)); }
   // For those who look at the source of the page; readers don't see it.
   void note(const std::string& words);
   void figure(const std::string& title, const std::string& file);
@@ -36,6 +39,7 @@ class Page {
 
  private:
   void begin();
+  static std::string filled(std::string_view text);
   static std::string row_of(const std::vector<std::string>& cells);
 
   std::string text_;

@@ -69,21 +69,22 @@ TEST(Messages, AreThoseThatTheProgramMakes) {
 
 std::string manual() {
   Page page("Messages");
-  page.paragraph(
-      "Every message ends in a code, such as `[S501]`: `sagefe explain S501` prints what stands here,\n"
-      "`sagefe explain` lists all codes, and `sagefe explain --search WORD` looks for a word in all texts.\n"
-      "Whether a message is an error, a warning or a note stands before it; `--strict` makes errors of\n"
-      "warnings, and the code stays the same. This page is written from `sage/messages/messages.cpp`\n"
+  page.prose(
+      "Every message ends in a code, such as `[S501]`. `sagefe explain S501` prints its entry on this page, "
+      "`sagefe explain` lists all codes, and `sagefe explain --search WORD` looks for a word in all texts. The "
+      "word error, warning or note comes before a message. `--strict` makes errors of warnings, and the code "
+      "stays the same. This page is written from `sage/messages/messages.cpp` "
       "(`SAGE_WRITE_MANUAL=1 test_core --gtest_filter=Messages.*`).");
-  page.paragraph(
-      "A new message: its place in the program names a code; where none of those here has the same cause and\n"
-      "cure, it gets a new one and an entry in that table. A test holds the two together.");
+  page.prose(
+      "A new message names a code in the program. Where no entry has the same cause and cure, it gets a new "
+      "code "
+      "and an entry. A test holds both together.");
   const char* section = nullptr;
   for (const MessageEntry& message : messages()) {
     if (section_of(message) != section) page.heading(2, section = section_of(message));
     page.heading(3, to_string(message.code) + ": " + message.title);
-    page.line(message.cause);
-    page.paragraph(std::string("*What helps:* ") + message.cure);
+    page.prose(message.cause);
+    page.prose(std::string("*What helps:* ") + message.cure);
   }
   return page.text();
 }
