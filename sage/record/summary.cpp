@@ -228,13 +228,12 @@ void counts(std::string& text, const Model& model, const RunRecord& record, bool
   const char* geometry = model.geometry == Geometry::axisymmetric ? "axisymmetric" : "plane strain";
   fmt::format_to(to(text), "  model       {}; {} elements, {} equations\n", geometry, record.scene.elements,
                  record.equations);
-  if (details) {
+  if (details)
     fmt::format_to(to(text), "  scene       {}, {}; {} elements, {} points, {} equations\n", geometry,
                    describe(record.scene), record.scene.elements, record.scene.points, record.equations);
-    const std::string& kernels = record.result.kernels;
-    fmt::format_to(to(text), "  solver      {}{}\n", record.solver,
-                   kernels.empty() ? "" : ", kernels " + kernels);
-  }
+  const std::string& kernels = record.result.kernels;
+  fmt::format_to(to(text), "  solver      {}{}\n", record.solver,
+                 kernels.empty() ? "" : ", kernels " + kernels);
   fmt::format_to(to(text), "  path        {} of {} stages, {} increments, {} iterations, {} cuts\n",
                  record.result.stages_done, model.stages.size(), record.result.increments_done, sum.iterations,
                  sum.cuts);

@@ -57,7 +57,7 @@ class RunRecord final : public Observer {
 
 // About 30 lines of at most 80 columns.  A run that did not converge says so in its second line and in its last.  digits:
 // of the reports' numbers; 0 = as many as fit the eye.  sketch: lines that stand behind the reports (sketch_text).
-// details: also the kind of scene, the solver, the work and its times.
+// details: also the kind of scene, the work and its times.
 std::string summary(const Model& model, const RunRecord& record, const Reports* reports,
                     const std::vector<std::filesystem::path>& files, const DiscretisationError* error = nullptr,
                     int digits = 0, const std::string& sketch = "", bool details = false);
