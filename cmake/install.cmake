@@ -2,7 +2,7 @@
 include(CMakePackageConfigHelpers)
 
 set(SAGE_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/sagefe)
-set(SAGE_PACKAGE_TARGETS sage_fmt sage_core sage_page sage_umat sage_layout sage_deck sage_layout_draft sage_model sage_exchange sage_mesh sage_section sage_builder sage_analysis sage_record
+set(SAGE_PACKAGE_TARGETS sage_fmt sage_core sage_page sage_umat sage_layout sage_deck sage_layout_draft sage_model sage_exchange sage_mesh sage_section sage_model_file sage_builder sage_analysis sage_record
                          sage_draw sage_convergence sage_safety sage_compare sage_drive sage_app sage_commands
                          sage_elements sage_materials sage_solvers sage_conformance)
 
@@ -19,7 +19,7 @@ install(DIRECTORY sage/app/templates DESTINATION ${CMAKE_INSTALL_DATADIR}/sagefe
 
 # Headers keep their paths: #include "sage/core/law.hpp".  Those whose library is in the package, no others.
 # The module of library solvers is installed by solvers/.
-set(SAGE_PACKAGE_MODULES core math messages platform page umat deck layout_draft model exchange mesh section builder analysis record draw convergence compare drive conformance)
+set(SAGE_PACKAGE_MODULES core math messages platform page umat deck layout_draft model exchange mesh section model_file builder analysis record draw convergence compare drive conformance)
 list(TRANSFORM SAGE_PACKAGE_MODULES PREPEND sage/)
 foreach(folder ${SAGE_PACKAGE_MODULES} elements materials solvers)
   install(DIRECTORY ${folder}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sagefe/${folder} FILES_MATCHING PATTERN "*.hpp")

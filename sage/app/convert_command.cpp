@@ -12,8 +12,10 @@
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
 #include "sage/app/screen.hpp"
+#include "sage/deck/read_deck.hpp"
 #include "sage/exchange/convert.hpp"
 #include "sage/exchange/msh_model.hpp"
+#include "sage/model_file/model_file.hpp"
 #include "sage/record/out_file.hpp"
 #include "sage/record/values.hpp"
 
@@ -62,8 +64,11 @@ void warn_of_results(const std::filesystem::path& to, Diagnostics& diagnostics) 
 
 int convert(const ConvertOptions& options, const Catalogue& catalogue) {
   const std::string to = ending(options.to);
-  if (to != ".dat" && to != ".msh" && to != ".inp") {
-    say_error("sagefe", options.to + ": the ending tells the format: .dat deck, .msh Gmsh, .inp CalculiX",
+  const bool model_file = is_model_file(options.to);
+  if (to != ".dat" && to != ".msh" && to != ".inp" && !model_file) {
+    say_error("sagefe",
+              options.to +
+                  ": the ending tells the format: .dat deck, .sage.toml model file, .msh Gmsh, .inp CalculiX",
               "S904");
     return kUsage;
   }
@@ -76,7 +81,8 @@ int convert(const ConvertOptions& options, const Catalogue& catalogue) {
   const FieldWidth width = options.wide     ? FieldWidth::wide
                            : options.narrow ? FieldWidth::narrow
                                             : FieldWidth::as_needed;
-  write_file(options.to, to == ".dat"   ? sage1_text(model, model.diagnostics, width)
+  write_file(options.to, model_file     ? model_file_text(model, catalogue, model.diagnostics)
+                         : to == ".dat" ? sage1_text(model, model.diagnostics, width)
                          : to == ".msh" ? msh_text(model, model.diagnostics)
                                         : inp_text(model, model.diagnostics));
   if (to == ".inp") warn_of_results(options.to, model.diagnostics);
@@ -96,7 +102,7 @@ int convert(const ConvertOptions& options, const Catalogue& catalogue) {
 Command convert_command(CLI::App& parser, const Catalogue& catalogue) {
   auto options = std::make_shared<ConvertOptions>();
   parser.add_option("IN", options->from, "deck of any layout, or .msh (MSH 4.1 ASCII)")->required();
-  parser.add_option("OUT", options->to, "file to write: .dat, .msh or .inp")->required();
+  parser.add_option("OUT", options->to, "file to write: .dat, .sage.toml, .msh or .inp")->required();
   parser.add_option("--young", options->mesh.youngs_modulus, "from .msh: Young's modulus of all groups")
       ->check(number_in(1e-99, 1e99, "a positive number below 1e99"));
   parser.add_option("--poisson", options->mesh.poissons_ratio, "from .msh: Poisson's ratio of all groups");

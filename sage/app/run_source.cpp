@@ -84,10 +84,12 @@ RunSource source_of(const std::string& deck, const std::string& layout, const st
 }
 
 Model model_of(const RunSource& source, const std::string& deck_name, const Catalogue& catalogue) {
-  const Layout layout = source.layout_text.empty() ? load_layout(source.layout)
-                                                   : load_layout_text(source.layout_text, source.layout);
   BuildOptions build = build_options_of(source.options, catalogue);
   if (!source.heads.empty()) build.heads = kept_heads(source.heads);
+  if (source.layout == kModelFile)
+    return build_model(read_model_file_text(source.deck, deck_name), catalogue, build);
+  const Layout layout = source.layout_text.empty() ? load_layout(source.layout)
+                                                   : load_layout_text(source.layout_text, source.layout);
   return build_model(read_deck_text(source.deck, deck_name, layout), catalogue, build);
 }
 

@@ -3,8 +3,10 @@
 #include <cmath>
 
 #include "sage/builder/builder.hpp"
+#include "sage/deck/read_deck.hpp"
 #include "sage/exchange/translate.hpp"
 #include "sage/model/locate.hpp"
+#include "sage/model_file/model_file.hpp"
 
 namespace sage {
 
@@ -294,11 +296,16 @@ void refuse_draft(const Deck& deck) {
             "finish it, then take out its line draft = true");
 }
 
+// The cards that the builder knows, of a deck that has others.
+std::optional<Deck> cards_of(const Deck& as_read, const Catalogue& catalogue) {
+  refuse_draft(as_read);
+  return is_model_file(as_read) ? model_file_deck(as_read, catalogue) : translated_deck(as_read, catalogue);
+}
+
 }  // namespace
 
 Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOptions& options) {
-  refuse_draft(as_read);
-  const std::optional<Deck> rewritten = translated_deck(as_read, catalogue);
+  const std::optional<Deck> rewritten = cards_of(as_read, catalogue);
   const Deck& deck = rewritten ? *rewritten : as_read;
   builder::Builder b{{deck, catalogue, options}, options};
   b.model.diagnostics = deck.diagnostics;
@@ -334,8 +341,7 @@ Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOp
 }
 
 Model build_materials_alone(const Deck& as_read, const Catalogue& catalogue, const BuildOptions& options) {
-  refuse_draft(as_read);
-  const std::optional<Deck> rewritten = translated_deck(as_read, catalogue);
+  const std::optional<Deck> rewritten = cards_of(as_read, catalogue);
   const Deck& deck = rewritten ? *rewritten : as_read;
   builder::Builder b{{deck, catalogue, options}, options};
   b.model.fields = catalogue.fields;

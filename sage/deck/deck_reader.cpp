@@ -437,6 +437,18 @@ Deck read_deck_text(std::string text, const std::string& name, const Layout& lay
   return DeckReader(source, layout, options).read();
 }
 
+bool is_model_file(std::string_view path) {
+  return path.ends_with(".sage.toml");
+}
+
+Deck read_model_file_text(std::string text, const std::string& name) {
+  Deck deck;
+  deck.source = source_of(std::move(text), name);
+  deck.file = name;
+  deck.layout = kModelFile;
+  return deck;
+}
+
 Deck read_what_can_be(std::string text, const std::string& name, const Layout& layout,
                       const ReadOptions& options, Diagnostics& problems) {
   const SourceText source = source_of(std::move(text), name);
@@ -444,6 +456,7 @@ Deck read_what_can_be(std::string text, const std::string& name, const Layout& l
 }
 
 Deck read_deck(const std::string& path, const ReadOptions& options) {
+  if (is_model_file(path)) return read_model_file_text(read_file(path), path);
   const SourceText source = source_of(read_file(path), path);
   const std::string recognised = recognised_layout(*source.text());
   const Layout layout = load_layout(recognised.empty() ? std::string(kStandardLayout) : recognised);

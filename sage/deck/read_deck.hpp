@@ -3,6 +3,7 @@
 
 #include <iosfwd>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sage/deck/deck.hpp"
@@ -32,6 +33,15 @@ Deck read_deck(const std::string& path, const ReadOptions& options = {});
 Deck read_deck(const std::string& path, const Layout& layout, const ReadOptions& options = {});
 Deck read_deck_text(std::string text, const std::string& name, const Layout& layout,
                     const ReadOptions& options = {});
+
+// A model as a TOML file (docs/manual/model_file.md) is told by its name.  read_deck() takes its text as it stands, without
+// cards: what it says is read when the model is built.
+inline constexpr std::string_view kModelFile = "model file";  // Deck::layout
+bool is_model_file(std::string_view path);
+inline bool is_model_file(const Deck& deck) {
+  return deck.layout == kModelFile;
+}
+Deck read_model_file_text(std::string text, const std::string& name);
 
 // The cards that can be read of a deck with mistakes, which go into `problems`.  Throws InputError only for what
 // is no text.

@@ -1,6 +1,9 @@
 // Values of a TOML table, with the file's own line in every complaint.
 #pragma once
 
+// toml++ needs it and does not ask for it.
+#include <cstdint>
+
 // toml++ 3.3 asserts (or lets clang assume) what a malformed file breaks, where it would go on and report it;
 // and its test for white space calls letters from U+00A1 to U+0499 impossible.
 #include <toml++/impl/preprocessor.h>

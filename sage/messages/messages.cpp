@@ -213,6 +213,34 @@ constexpr MessageEntry kMessages[] = {
     {"S149", "deck and layout are exchanged", "sagefe layout check takes the layout first, then the deck.",
      "Exchange the two names."},
 
+    {"S150", "a model file is no TOML",
+     "The text breaks the rules of TOML at this place: a quote or bracket that is not closed, a key that "
+     "stands twice, "
+     "a value that TOML has not.",
+     "Correct the line; https://toml.io shows the format on one page, docs/manual/model_file.md what stands in "
+     "it."},
+    {"S151", "a model file has a key that means nothing",
+     "The table has no key of this name. Keys are the names of the fields of a card, and for a material the "
+     "parameters "
+     "of its law.",
+     "Take one of the keys that the message lists; docs/manual/model_file.md says what each is for."},
+    {"S152", "a value of a model file is of another kind",
+     "A number, a text in quotes, true or false, a list in brackets or a table is wanted here, and something "
+     "else "
+     "stands there.",
+     "Write what the message asks for; docs/manual/model_file.md has an example of every kind."},
+    {"S153", "a model file names something that there is not",
+     "The law, element, formulation, solver, material, group or choice of this name does not exist, or several "
+     "have "
+     "it.",
+     "Take one of the names in the message; `sagefe list` shows laws, elements and solvers."},
+    {"S154", "a unit of a model file does not fit",
+     "A number bears a unit that the program does not know, or that measures something else than the value.",
+     "Write a unit of the same kind, such as \"50 MPa\" for a stress, or the number alone in the model's own "
+     "unit."},
+    {"S155", "a model file lacks something",
+     "A table lacks a key without which it has no meaning, or the model a table.",
+     "Add the key or table that the message names; docs/manual/model_file.md."},
     // S2: what the cards say together, until there is a model.
     {"S201", "a node is not defined",
      "A card names a node that no node card, line or block makes. With generated nodes a step that is "

@@ -9,7 +9,9 @@
 
 #include "sage/app/commands.hpp"
 #include "sage/app/run_deck.hpp"
+#include "sage/deck/read_deck.hpp"
 #include "sage/exchange/convert.hpp"
+#include "sage/model_file/model_file.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/shipped_decks.hpp"
 
@@ -84,6 +86,25 @@ TEST_P(RoundTrip, GivesTheSameModelAndListing) {
   EXPECT_TRUE(sage1_text(back, none) == text);
   EXPECT_EQ(first_difference(listing_of(GetParam(), input, "deck"), listing_of(written, as_written, "written")),
             "");
+}
+
+// A model file has the numbers of wide cards: none is rounded.
+TEST_P(RoundTrip, ModelFileGivesTheSameModel) {
+  const InputOptions input = input_of(GetParam());
+  const Catalogue catalogue = full_catalogue();
+  std::optional<Model> model;
+  try {
+    model = build_model(read_input(GetParam().string(), input), catalogue, input.build);
+  } catch (const InputError&) {
+    GTEST_SKIP() << "no model: the deck is refused";
+  }
+  Diagnostics lost;
+  const std::string cards = sage1_text(*model, lost, FieldWidth::wide);
+  const std::string text = model_file_text(*model, catalogue, lost);
+  EXPECT_TRUE(lost.list().empty()) << lost.list().front().message;
+  const Model back = build_model(read_model_file_text(text, "model.sage.toml"), catalogue, input.build);
+  Diagnostics none;
+  EXPECT_EQ(first_difference(cards, sage1_text(back, none, FieldWidth::wide)), "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, RoundTrip, testing::ValuesIn(test::shipped_decks()),

@@ -1,0 +1,201 @@
+// Models as TOML files: what they may say, and what is said of those with mistakes.
+#include "sage/model_file/model_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "elements/register_elements.hpp"
+#include "materials/register_materials.hpp"
+#include "sage/builder/build_model.hpp"
+#include "sage/deck/read_deck.hpp"
+#include "sage/model_file/unit_of.hpp"
+#include "solvers/register_solvers.hpp"
+
+namespace sage {
+namespace {
+
+const Catalogue& catalogue() {
+  static const Catalogue all = [] {
+    Catalogue list;
+    register_elements(list);
+    register_materials(list);
+    register_solvers(list);
+    return list;
+  }();
+  return all;
+}
+
+// A column of one element, 1 m x 2 m, pressed by 100 kPa.
+const std::string kColumn = R"(title = "column"
+geometry = "plane strain"
+node = [
+  {x = 0.0, y = 0.0}, {x = 1.0, y = 0.0},
+  {x = 1.0, y = 2.0}, {x = 0.0, y = "200 cm"},
+]
+element = [{group = "soil", nodes = [1, 2, 3, 4]}]
+fixity = [{first = 1, last = 2, x = "fixed", y = "fixed"}, {first = 3, last = 4, x = "fixed"}]
+
+[units]
+length = "m"
+force = "kN"
+stress = "kPa"
+
+[[material]]
+name = "clay"
+law = "linear_elastic"
+unit_weight = "20 kN/m^3"
+youngs_modulus = "20 MPa"
+poissons_ratio = 0.0
+
+[[group]]
+name = "soil"
+element = "quad4"
+formulation = "b-bar"
+material = "clay"
+
+[[stage]]
+title = "press"
+increments = 2
+pressure = [{element = 1, edge = 3, normal1 = 100, normal2 = 100.0}]
+
+[[report]]
+kind = "point"
+x = 0.5
+y = 1.0
+name = "middle"
+)";
+
+Model model_of(const std::string& text) {
+  return build_model(read_model_file_text(text, "column.sage.toml"), catalogue());
+}
+
+std::string with(const std::string& old, const std::string& now) {
+  std::string text = kColumn;
+  const std::size_t at = text.find(old);
+  EXPECT_NE(at, std::string::npos) << old;
+  return text.replace(at, old.size(), now);
+}
+
+TEST(ModelFile, ReadsNamesNumbersAndUnits) {
+  const Model model = model_of(kColumn);
+  EXPECT_EQ(model.title, "column");
+  ASSERT_EQ(model.mesh.nodes(), 4);
+  EXPECT_EQ(model.mesh.number, (std::vector<int>{1, 2, 3, 4}));
+  EXPECT_EQ(model.mesh.x(1, 3), 2.0);
+  ASSERT_EQ(model.materials.size(), 1u);
+  EXPECT_EQ(model.materials[0].law_name, "linear_elastic");
+  EXPECT_EQ(model.materials[0].parameters, (std::vector<double>{20e3, 0.0}));
+  EXPECT_EQ(model.materials[0].unit_weight, 20.0);
+  EXPECT_EQ(model.groups[0].element_name, "quad4 b-bar");
+  ASSERT_EQ(model.stages.size(), 1u);
+  EXPECT_EQ(model.stages[0].title, "press");
+  EXPECT_EQ(model.stages[0].increments, 2);
+  EXPECT_EQ(model.stages[0].pressures[0].normal, Vector2(100.0, 100.0));
+  EXPECT_EQ(model.reports[0].place, Vector2(0.5, 1.0));
+}
+
+TEST(ModelFile, IsWrittenAndReadAgain) {
+  const Model model = model_of(kColumn);
+  Diagnostics lost;
+  const std::string text = model_file_text(model, catalogue(), lost);
+  EXPECT_TRUE(lost.list().empty());
+  EXPECT_EQ(model_file_text(model_of(text), catalogue(), lost), text);
+}
+
+struct Broken {
+  const char* old;
+  const char* now;
+  int line;
+  const char* code;
+  const char* says;
+};
+
+class BrokenModelFile : public testing::TestWithParam<Broken> {};
+
+TEST_P(BrokenModelFile, IsRefusedAtItsLineWithWhatHelps) {
+  const Broken& broken = GetParam();
+  try {
+    model_of(with(broken.old, broken.now));
+    FAIL() << "taken";
+  } catch (const InputError& error) {
+    const Diagnostic* found = nullptr;
+    for (const Diagnostic& one : error.diagnostics().list())
+      if (found == nullptr && one.severity == Severity::error) found = &one;
+    ASSERT_NE(found, nullptr);
+    EXPECT_EQ(found->where.line, broken.line);
+    EXPECT_GT(found->where.first_column, 0);
+    EXPECT_EQ(to_string(found->code), broken.code);
+    EXPECT_NE(found->message.find(broken.says), std::string::npos) << found->message;
+  }
+}
+
+const Broken kBroken[] = {
+    {"[units]", "[units", 10, "S150", "this is no TOML"},
+    {"title = \"column\"", "titel = \"column\"", 1, "S151", "did you mean title?"},
+    {"geometry = \"plane strain\"", "geometry = \"plain strain\"", 2, "S153", "did you mean plane strain?"},
+    {"{x = 0.0, y = 0.0}", "{x = \"a\", y = 0.0}", 4, "S152", "a number and its unit"},
+    {"{x = 1.0, y = 0.0}", "{z = 1.0, y = 0.0}", 4, "S151", "known: number, step"},
+    {"\"200 cm\"", "\"200 kPa\"", 5, "S154", "can't be turned into"},
+    {"\"200 cm\"", "\"200 furlongs\"", 5, "S154", "no unit that the program knows"},
+    {"nodes = [1, 2, 3, 4]", "nodes = 1", 7, "S152", "stands in a list"},
+    {"nodes = [1, 2, 3, 4]", "nodes = [1, 2, 3.5, 4]", 7, "S152", "whole number"},
+    {"nodes = [1, 2, 3, 4]", "nodes = [1, 2, 3, 9]", 7, "S201", "node 9"},
+    {"group = \"soil\", nodes", "group = \"sol\", nodes", 7, "S153", "did you mean soil?"},
+    {"x = \"fixed\", y", "x = \"fixd\", y", 8, "S153", "did you mean fixed?"},
+    {"length = \"m\"\n", "", 10, "S155", "needs its length"},
+    {"law = \"linear_elastic\"", "law = \"linear_plastic\"", 17, "S153", "did you mean linear_elastic?"},
+    {"law = \"linear_elastic\"\n", "", 15, "S155", "needs its law"},
+    {"youngs_modulus = ", "young_modulus = ", 19, "S151", "did you mean youngs_modulus?"},
+    {"poissons_ratio = 0.0", "poissons_ratio = 0.5", 20, "S223", "ratio"},
+    {"element = \"quad4\"", "element = \"quad5\"", 24, "S153", "did you mean quad4?"},
+    {"formulation = \"b-bar\"", "formulation = \"bbar\"", 25, "S153", "did you mean b-bar?"},
+    {"material = \"clay\"", "material = \"sand\"", 26, "S153", "no [[material]]"},
+    {"increments = 2", "increments = \"two\"", 30, "S152", "whole number"},
+    {"edge = 3", "edge = 5", 31, "S205", "edge"},
+    {"kind = \"point\"", "kind = \"pont\"", 34, "S153", "did you mean point?"},
+    {"y = 1.0\nname", "y = inf\nname", 36, "S152", "not finite"},
+};
+
+INSTANTIATE_TEST_SUITE_P(All, BrokenModelFile, testing::ValuesIn(kBroken));
+
+TEST(ModelFile, AllMistakesAreShownAtOnce) {
+  std::string text = with("increments = 2", "increments = 2.5");
+  text.replace(text.find("\"quad4\""), 7, "\"quad5\"");
+  try {
+    model_of(text);
+    FAIL() << "taken";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.diagnostics().errors(), 2);
+  }
+}
+
+TEST(ModelFile, UnitsAreTurnedIntoThoseOfTheModel) {
+  using model_file::unit_of;
+  EXPECT_DOUBLE_EQ(unit_of("psi")->size, 4.4482216152605 / (0.0254 * 0.0254));
+  EXPECT_TRUE(unit_of("kN/m^3")->same_kind(*unit_of("lbf/in3")));
+  EXPECT_TRUE(unit_of("kN m^2")->same_kind(*unit_of("N mm2")));
+  EXPECT_DOUBLE_EQ(unit_of("kN/m3")->size, 1e3);
+  EXPECT_FALSE(unit_of("kN/m/m").has_value());
+  EXPECT_FALSE(unit_of("").has_value());
+  EXPECT_FALSE(unit_of("kNm").has_value());
+}
+
+// What editors and the manual say of the keys is written from the table that the reader has.
+TEST(ModelFile, SchemaAndTablesAreWrittenFromTheKeys) {
+  const std::filesystem::path source = SAGE_SOURCE_DIR;
+  const std::pair<std::filesystem::path, std::string> pages[] = {
+      {source / "docs/schema/model_file.schema.json", model_file_schema(catalogue())},
+      {source / "docs/manual/model_file_keys.md", model_file_tables()}};
+  for (const auto& [file, text] : pages) {
+    if (std::getenv("SAGE_WRITE_MANUAL") != nullptr) std::ofstream(file, std::ios::binary) << text;
+    std::ifstream in(file, std::ios::binary);
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), text)
+        << "SAGE_WRITE_MANUAL=1 test_model --gtest_filter=ModelFile.* writes " << file << " anew";
+  }
+}
+
+}  // namespace
+}  // namespace sage
