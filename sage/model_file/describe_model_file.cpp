@@ -184,13 +184,15 @@ std::string model_file_schema(const Catalogue& catalogue) {
 std::string model_file_tables() {
   using namespace model_file;
   Page page("Tables and keys of model files");
-  page.paragraph(
-      "Written from the layout `sage1` (`sage/model_file/keys.cpp`). Keys without \"required\" may be left "
-      "out.\n"
+  page.prose(
+      "Written from the layout `sage1` (`sage/model_file/keys.cpp`). Keys without \"required\" may be left out. "
       "Numbers of materials, groups, nodes and elements count on from the last one where they are left out.");
   for (const Table& one : tables()) {
     page.heading(2, heading_of(one));
-    if (!one.key.empty()) page.line(one.about);
+    if (one.card.empty())
+      page.prose(one.about);
+    else if (!one.key.empty())
+      page.paragraph("Card `" + one.card + "` of `deck_format.md`.");
     page.table({"key", "value", "what it is"});
     for (const Key& key : one.keys)
       page.row({"`" + key.key + "`", std::string(kind_word(key)) + (key.required ? ", required" : ""),
