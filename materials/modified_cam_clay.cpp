@@ -133,6 +133,12 @@ double weight_of(double square) {
   return 1.0 / (1.0 + square / (kFar * kFar));
 }
 
+constexpr double kCritical = 0.5 * kPi;
+// Of a place on the surface, from ln(p/p_c).
+double angle_at(double log_share) {
+  return 2.0 * std::acos(std::exp(0.5 * std::min(log_share, 0.0)));
+}
+
 const Vector4 kVolumeRate(-1.0, -1.0, -1.0, 0.0);  // of the volume, compression positive, by the strain
 
 }  // namespace
@@ -147,7 +153,8 @@ struct ModifiedCamClay::Point {
   double shear = 0.0, plastic_volume = 0.0;
   PointStatus status = PointStatus::elastic;
   bool at_floor = false;
-  double kappa = 0.0;  // of the step that led here
+  double angle = kCritical;  // of the place on the surface, for the first guess of the next one
+  double kappa = 0.0;        // of the step that led here
 
   Vector4 ratio() const;  // s/p
 };
@@ -374,19 +381,16 @@ ModifiedCamClay::OnSurface ModifiedCamClay::on_surface(const Step& step, double 
 // The place to which a trial stress outside the surface returns; log_trial: ln(p/p_c0) of the trial.  On the wet side it
 // lies between the trial's own mean stress and the critical state, on the dry side between the critical state and the
 // trial's: what the flow rule lacks changes its sign between, so there is an answer to every increment.
-ModifiedCamClay::OnSurface ModifiedCamClay::return_to_surface(const Step& step, double log_trial) const {
-  const auto angle_of = [](double log_share) {
-    return 2.0 * std::acos(std::exp(0.5 * std::min(log_share, 0.0)));
-  };
-  constexpr double kCritical = 0.5 * kPi;
+ModifiedCamClay::OnSurface ModifiedCamClay::return_to_surface(const Step& step, double log_trial,
+                                                              double guess) const {
   const double to_critical = std::max(step.from.log_p + step.elastic_growth, step.from.log_least) -
                              step.from.log_c +
                              std::numbers::ln2;  // in its sign: of the plastic change of volume on the way
-  const double own = angle_of(log_trial);
+  const double own = angle_at(log_trial);
   double low = to_critical >= 0.0 ? std::min(own, kCritical) : kCritical;
   double high = to_critical <= 0.0 ? std::max(own, kCritical) : kCritical;
   OnSurface at{};
-  double next = std::clamp(angle_of(step.from.log_p - step.from.log_c), low, high), before = high - low;
+  double next = std::clamp(guess, low, high), before = high - low;
   for (int round = 0; round < kRounds; ++round) {
     at = on_surface(step, next);
     (at.lack < 0.0 ? low : high) = next;
@@ -452,6 +456,7 @@ ModifiedCamClay::Point ModifiedCamClay::plastic_end(const Step& step, const OnSu
   end.s_rate = share * trial_rate + at.trial * share_rate.transpose();
   end.status = PointStatus::yielded;
   end.at_floor = at.at_floor;
+  end.angle = at.angle;
   end.shear += (1.0 - share) * at.q_trial / (std::sqrt(3.0) * at.G);
   end.plastic_volume -= at.x;
   return end;
@@ -472,12 +477,13 @@ ModifiedCamClay::ElasticTrial ModifiedCamClay::elastic_trial(const Step& step) c
 }
 
 // One step of backward Euler.
-ModifiedCamClay::Point ModifiedCamClay::advance(const Point& point, const Vector4& deps,
-                                                const Part& part) const {
+ModifiedCamClay::Point ModifiedCamClay::advance(const Point& point, const Vector4& deps, const Part& part,
+                                                double guess) const {
   const Step step = step_from(point, deps, part);
   const ElasticTrial trial = elastic_trial(step);
-  Point end = trial.log_level <= kOnSurface ? elastic_end(step, trial.at)
-                                            : plastic_end(step, return_to_surface(step, trial.log_share));
+  Point end = trial.log_level <= kOnSurface
+                  ? elastic_end(step, trial.at)
+                  : plastic_end(step, return_to_surface(step, trial.log_share, guess));
   end.kappa = step.kappa;
   if (clay_.current_volume) {
     end.v *= std::exp(-step.volume);
@@ -557,10 +563,12 @@ ModifiedCamClay::PlasticIncrement ModifiedCamClay::plastic_increment(const Point
                                                                      const Vector4& deps) const {
   const Part elastic = elastic_part(start, deps), rest{1.0 - elastic.share, -elastic.rate};
   const Part half{0.5 * rest.share, 0.5 * rest.rate};
-  const Point yield = elastic.share > 0.0 ? advance(start, deps, elastic) : start;
-  PlasticIncrement increment{advance(yield, deps, rest), advance(yield, deps, half), {}, false};
+  Point yield = elastic.share > 0.0 ? advance(start, deps, elastic, kCritical) : start;
+  yield.angle = angle_at(yield.log_p - yield.log_c);
+  PlasticIncrement increment{{}, advance(yield, deps, half, yield.angle), {}, false};
   const auto& [once, middle, twice, smooth] = increment;
-  increment.twice = advance(middle, deps, half);
+  increment.twice = advance(middle, deps, half, 2.0 * middle.angle - yield.angle);
+  increment.once = advance(yield, deps, rest, twice.angle);
   increment.smooth = once.status == PointStatus::yielded && twice.status == PointStatus::yielded &&
                      !(once.at_floor || middle.at_floor || twice.at_floor);
   return increment;
@@ -606,7 +614,7 @@ Outcome ModifiedCamClay::update(const PointIn<4>& in, PointOut<4>& out) const {
   const ElasticTrial trial = elastic_trial(step_from(start, in.deps, {}));
   Point end;
   if (trial.log_level <= kOnSurface) {
-    end = advance(start, in.deps, {});
+    end = advance(start, in.deps, {}, kCritical);
   } else {
     const PlasticIncrement increment = plastic_increment(start, in.deps);
     end = increment.smooth ? extrapolated(increment.once, increment.twice) : increment.twice;

@@ -71,11 +71,11 @@ class ModifiedCamClay final : public SolidLaw,
   Step step_from(const Point& point, const Vector4& deps, const Part& part) const;
   void set_trial(const Step& step, OnSurface& at) const;
   OnSurface on_surface(const Step& step, double angle) const;
-  OnSurface return_to_surface(const Step& step, double log_trial) const;
+  OnSurface return_to_surface(const Step& step, double log_trial, double guess) const;
   Point elastic_end(const Step& step, const OnSurface& trial) const;
   Point plastic_end(const Step& step, const OnSurface& at) const;
   ElasticTrial elastic_trial(const Step& step) const;
-  Point advance(const Point& point, const Vector4& deps, const Part& part) const;
+  Point advance(const Point& point, const Vector4& deps, const Part& part, double guess) const;
   Vector4 log_level_rate(const Point& point) const;
   Part elastic_part(const Point& start, const Vector4& deps) const;
   PlasticIncrement plastic_increment(const Point& start, const Vector4& deps) const;
