@@ -187,7 +187,8 @@ TEST(Fit, CamClayFromTwoKindsOfTests) {
   problem.steps = 12;
   problem.curves.push_back(measured_of(
       truth, "oedometer", 50.0, {.01, .02, .03, .04, .06, .08, .075, .07, .065, .07, .08, .1}, {"stress_yy"}));
-  problem.curves.push_back(measured_of(truth, "triaxial_compression", 100.0, {.01, .02, .03, .05, .1, .15},
+  problem.curves.push_back(measured_of(truth, "triaxial_compression", 100.0,
+                                       {.005, .01, .015, .02, .03, .04, .05, .06, .08, .1, .12, .15},
                                        {"axial_deviator", "volume_strain"}));
   set_free(problem, {"M", "lambda", "kappa", "p_c"});
   const FitResult result = fit(problem);
