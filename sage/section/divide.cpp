@@ -72,6 +72,55 @@ FlatMesh divide(const Arrangement& arrangement, const SizeField& sizes, const st
 
 namespace {
 
+// Whether edges that share no more than an end have another place in common.
+bool edges_cross(const std::vector<Vector2>& x, const int* one, const int* other) {
+  const auto place = [&](int node) -> const Vector2& { return x[static_cast<std::size_t>(node)]; };
+  const auto side = [&](const int* edge, int node) {
+    return cross(place(edge[1]) - place(edge[0]), place(node) - place(edge[0]));
+  };
+  const auto separate = [&](const int* edge, const int* of) {
+    const double a = side(edge, of[0]), b = side(edge, of[1]);
+    return (a > 0.0 && b > 0.0) || (a < 0.0 && b < 0.0);
+  };
+  for (const int i : {0, 1})
+    for (const int j : {0, 1})
+      if (one[i] == other[j]) {
+        // A common end: they overlap only if they leave it in one direction.
+        const Vector2 d = place(one[1 - i]) - place(one[i]), e = place(other[1 - j]) - place(one[i]);
+        return one[1 - i] == other[1 - j] || (cross(d, e) == 0.0 && d.dot(e) > 0.0);
+      }
+  return !separate(one, other) && !separate(other, one);
+}
+
+bool pieces_cross(const FlatMesh& mesh, std::size_t p, std::size_t q) {
+  const std::vector<int>&one = mesh.on_piece[p], &other = mesh.on_piece[q];
+  for (std::size_t i = 0; i + 1 < one.size(); ++i)
+    for (std::size_t j = 0; j + 1 < other.size(); ++j)
+      if (edges_cross(mesh.x, &one[i], &other[j])) return true;
+  return false;
+}
+
+}  // namespace
+
+std::vector<int> crossed_arcs(const Arrangement& arrangement, const FlatMesh& mesh) {
+  std::vector<int> crossed;
+  for (std::size_t p = 0; p < arrangement.pieces.size(); ++p) {
+    const Curve& arc = arrangement.pieces[p].curve;
+    if (!arc.arc) continue;
+    bool any = false;
+    for (std::size_t q = 0; q < arrangement.pieces.size() && !any; ++q) {
+      const Curve& other = arrangement.pieces[q].curve;
+      // Curves that are farther apart than they are long can't cross.
+      const double reach = 0.5 * (arc.length() + other.length());
+      any = p != q && (arc.at(0.5) - other.at(0.5)).norm() <= reach && pieces_cross(mesh, p, q);
+    }
+    if (any) crossed.push_back(static_cast<int>(p));
+  }
+  return crossed;
+}
+
+namespace {
+
 using Edge = std::pair<int, int>;
 
 Edge edge_of(int a, int b) {

@@ -29,6 +29,9 @@ std::vector<int> edges_by_size(const Arrangement& arrangement, const SizeField& 
 FlatMesh divide(const Arrangement& arrangement, const SizeField& sizes, const std::vector<int>& edges,
                 bool even);
 
+// Arcs whose straight edges cross or touch those of other pieces.
+std::vector<int> crossed_arcs(const Arrangement& arrangement, const FlatMesh& mesh);
+
 // Every edge in two, every quadrilateral in four, every triangle in three quadrilaterals.  Nodes on arcs stay there.
 FlatMesh into_quadrilaterals(const Arrangement& arrangement, const FlatMesh& coarse);
 

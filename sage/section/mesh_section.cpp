@@ -13,6 +13,8 @@ namespace {
 
 // More elements than this are an error in a size, not a wish.
 constexpr double kMostElements = 2e6;
+// Edges of a circle, at least, and where lines pass close to it.
+constexpr double kEdgesOfCircle = 16.0, kMostEdgesOfCircle = 1000.0;
 
 [[noreturn]] void refuse(Code code, SectionItem item, int index, const std::string& message) {
   throw SectionError({{code, item, index, message}});
@@ -28,10 +30,12 @@ class Making {
     check_settings();
     if (faults.empty()) arrangement_ = arrange(section_, {}, faults);
     if (!faults.empty()) throw SectionError(faults);
+    edges_of_circle_.assign(arrangement_.pieces.size(), kEdgesOfCircle);
     bool by_gmsh = !fill();
-    // Where another line passes closer to an arc than its edges bulge, shorter edges find their place between them.
-    for (; bad_cell() != nullptr && edges_of_circle_ < 200.0; edges_of_circle_ *= 2.0) by_gmsh = !fill();
-    if (const Cell* cell = bad_cell()) refuse_cell(*cell);
+    while (const Cell* cell = bad_cell()) {
+      if (!refine_arcs_at(*cell)) refuse_cell(*cell);
+      by_gmsh = !fill();
+    }
     SectionMesh mesh = split(section_, arrangement_, mesh_);
     mesh.by_gmsh = by_gmsh;
     return mesh;
@@ -86,14 +90,18 @@ class Making {
     Arrangement cut = arrange(section_, cuts, faults);
     if (!faults.empty()) return false;
     std::swap(arrangement_, cut);
+    edges_of_circle_.assign(arrangement_.pieces.size(), kEdgesOfCircle);
     int area = 0;
     return fill_as_blocks(area);
   }
 
   void fill_with_gmsh() {
-    const SizeField sizes = sizes_now();
     const double factor = quadrilaterals() ? 2.0 : 1.0;
-    mesh_ = divide(arrangement_, sizes, edges_by_size(arrangement_, sizes, factor), false);
+    SizeField sizes = sizes_now();
+    do {
+      sizes = sizes_now();
+      mesh_ = divide(arrangement_, sizes, edges_by_size(arrangement_, sizes, factor), false);
+    } while (refine(crossed_arcs(arrangement_, mesh_)));
     fill_by_gmsh(section_, arrangement_, sizes, factor, mesh_);
     if (!quadrilaterals()) return;
     join_triangles(mesh_);
@@ -117,6 +125,31 @@ class Making {
     return nullptr;
   }
 
+  // Where a line passes closer to an arc than its edges bulge, shorter edges find their place between them.
+  bool refine_arcs_at(const Cell& cell) {
+    std::vector<int> arcs;
+    for (std::size_t p = 0; p < arrangement_.pieces.size(); ++p) {
+      const std::vector<int>& nodes = mesh_.on_piece[p];
+      const bool has = std::any_of(cell.nodes.begin(), cell.nodes.end(), [&](int node) {
+        return node >= 0 && std::find(nodes.begin(), nodes.end(), node) != nodes.end();
+      });
+      if (has && arrangement_.pieces[p].curve.arc) arcs.push_back(static_cast<int>(p));
+    }
+    return refine(arcs);
+  }
+
+  // False where they are short enough already.
+  bool refine(const std::vector<int>& arcs) {
+    bool any = false;
+    for (const int p : arcs) {
+      double& edges = edges_of_circle_[static_cast<std::size_t>(p)];
+      if (edges > kMostEdgesOfCircle) continue;
+      edges *= 2.0;
+      any = true;
+    }
+    return any;
+  }
+
   [[noreturn]] void refuse_cell(const Cell& cell) const {
     refuse("S263", SectionItem::area, cell.area,
            name_of(section_, SectionItem::area, cell.area) + " can't be meshed around " +
@@ -128,7 +161,7 @@ class Making {
   const MeshSettings& settings_;
   Arrangement arrangement_;
   FlatMesh mesh_;
-  double edges_of_circle_ = 16.0;
+  std::vector<double> edges_of_circle_;  // by piece
 };
 
 }  // namespace

@@ -20,7 +20,7 @@ double diagonal_of(const Arrangement& arrangement) {
 }  // namespace
 
 SizeField::SizeField(const Section& section, const Arrangement& arrangement, const MeshSettings& settings,
-                     double edges_of_circle)
+                     const std::vector<double>& edges_of_circle)
     : growth_(settings.growth), factor_(settings.size_factor) {
   default_ = factor_ * (section.size > 0.0 ? section.size : diagonal_of(arrangement) / 20.0);
   for (const SectionArea& area : section.areas)
@@ -46,10 +46,12 @@ void SizeField::add(const Curve& curve, double size) {
 }
 
 // Where lines meet closer than the sizes wished, elements are as small as that.
-void SizeField::add_short_pieces(const Arrangement& arrangement, double edges_of_circle) {
-  for (const Piece& piece : arrangement.pieces) {
+void SizeField::add_short_pieces(const Arrangement& arrangement, const std::vector<double>& edges_of_circle) {
+  for (std::size_t p = 0; p < arrangement.pieces.size(); ++p) {
+    const Piece& piece = arrangement.pieces[p];
     const double length = piece.curve.length(), here = at(piece.curve.at(0.5));
-    const double edge = piece.curve.arc ? factor_ * 2.0 * kPi * piece.curve.radius / edges_of_circle : length;
+    const double edge =
+        piece.curve.arc ? factor_ * 2.0 * kPi * piece.curve.radius / edges_of_circle[p] : length;
     if (std::min(length, edge) < 0.7 * here) add(piece.curve, std::min(length, edge));
   }
 }

@@ -10,9 +10,9 @@ namespace sage::section {
 // The least of the wishes around, each growing with the distance from its place.
 class SizeField {
  public:
-  // No arc gets fewer edges than a circle of `edges_of_circle` has.
+  // An arc, by piece, gets no fewer edges than a circle of `edges_of_circle` has.
   SizeField(const Section& section, const Arrangement& arrangement, const MeshSettings& settings,
-            double edges_of_circle);
+            const std::vector<double>& edges_of_circle);
 
   // Without the limits of areas.
   double at(const Vector2& x) const;
@@ -27,7 +27,7 @@ class SizeField {
     double size;
   };
   void add(const Curve& curve, double size);
-  void add_short_pieces(const Arrangement& arrangement, double edges_of_circle);
+  void add_short_pieces(const Arrangement& arrangement, const std::vector<double>& edges_of_circle);
 
   std::vector<Source> sources_;
   std::vector<double> limits_;  // by area
