@@ -32,8 +32,8 @@ class Making {
     if (!faults.empty()) throw SectionError(faults);
     edges_of_circle_.assign(arrangement_.pieces.size(), kEdgesOfCircle);
     bool by_gmsh = !fill();
-    while (const Cell* cell = bad_cell()) {
-      if (!refine_arcs_at(*cell)) refuse_cell(*cell);
+    for (std::vector<const Cell*> bad = bad_cells(); !bad.empty(); bad = bad_cells()) {
+      if (!refine_arcs_at(bad)) refuse_cell(*bad.front());
       by_gmsh = !fill();
     }
     SectionMesh mesh = split(section_, arrangement_, mesh_);
@@ -119,21 +119,25 @@ class Making {
     return sizes;
   }
 
-  const Cell* bad_cell() const {
+  std::vector<const Cell*> bad_cells() const {
+    std::vector<const Cell*> bad;
     for (const Cell& cell : mesh_.cells)
-      if (worst_corner(mesh_, cell) <= 1e-3) return &cell;
-    return nullptr;
+      if (worst_corner(mesh_, cell) <= 1e-3) bad.push_back(&cell);
+    return bad;
   }
 
   // Where a line passes closer to an arc than its edges bulge, shorter edges find their place between them.
-  bool refine_arcs_at(const Cell& cell) {
+  bool refine_arcs_at(const std::vector<const Cell*>& cells) {
+    std::vector<char> among(mesh_.x.size(), 0);
+    for (const Cell* cell : cells)
+      for (const int node : cell->nodes)
+        if (node >= 0) among[static_cast<std::size_t>(node)] = 1;
     std::vector<int> arcs;
     for (std::size_t p = 0; p < arrangement_.pieces.size(); ++p) {
       const std::vector<int>& nodes = mesh_.on_piece[p];
-      const bool has = std::any_of(cell.nodes.begin(), cell.nodes.end(), [&](int node) {
-        return node >= 0 && std::find(nodes.begin(), nodes.end(), node) != nodes.end();
-      });
-      if (has && arrangement_.pieces[p].curve.arc) arcs.push_back(static_cast<int>(p));
+      const auto is_among = [&](int node) { return among[static_cast<std::size_t>(node)] != 0; };
+      if (arrangement_.pieces[p].curve.arc && std::any_of(nodes.begin(), nodes.end(), is_among))
+        arcs.push_back(static_cast<int>(p));
     }
     return refine(arcs);
   }
