@@ -381,7 +381,7 @@ std::string summary(const Model& model, const RunRecord& record, const Reports* 
   file_lines(text, files);
   fmt::format_to(to(text), "  signs       compression positive; units {}, {}, {}; forces {}\n", u.length,
                  u.force, u.stress,
-                 model.geometry == Geometry::axisymmetric ? "for the full circle" : forces_per(model));
+                 model.geometry == Geometry::axisymmetric ? "for full circle" : forces_per(model));
   if (record.result.status != RunStatus::completed)
     fmt::format_to(
         to(text), "  {}\n",

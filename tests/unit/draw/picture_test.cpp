@@ -71,6 +71,7 @@ TEST(FieldSvg, DoesNotMagnifyRounding) {
   specimen.compress(1e-17);
   PictureOptions look;
   look.arrows = true;
+  look.deformed = true;
   const std::string svg = field_svg(specimen.model, specimen.solution(), "displacement", look);
   EXPECT_FALSE(has(svg, "deformation x"));
   EXPECT_TRUE(has(svg, "displacements are rounding")) << svg.substr(0, 900);
