@@ -30,19 +30,13 @@ bool shows(const Side& side, std::string_view field) {
   return side.has_state() && fields_of(side.model()).choose(field).has_value();
 }
 
-// The smaller factor of the displacements and the smaller scale of lengths of the two, for both.
+// The smaller scale of lengths of the two, for both.
 void set_common_scales(PictureOptions& options, const Side& a, const Side& b, std::string_view field) {
-  const auto lower = [](double& common, double one) {
-    if (one > 0.0) common = common > 0.0 ? std::min(common, one) : one;
-  };
-  double deformation = 0.0, paper = 0.0;
-  for (const Side* side : {&a, &b})
-    if (shows(*side, field))
-      lower(deformation, scales_of(side->model(), side->last(), field, options).deformation);
-  options.scale = deformation;
-  for (const Side* side : {&a, &b})
-    if (shows(*side, field)) lower(paper, scales_of(side->model(), side->last(), field, options).paper);
-  options.paper = paper;
+  for (const Side* side : {&a, &b}) {
+    if (!shows(*side, field)) continue;
+    const double paper = scales_of(side->model(), side->last(), field, options).paper;
+    if (paper > 0.0) options.paper = options.paper > 0.0 ? std::min(options.paper, paper) : paper;
+  }
 }
 
 }  // namespace
@@ -86,8 +80,8 @@ std::string pair_svg(const Side& a, const Side& b, std::string_view field) {
   if (!missing.empty()) svg::text(out, 8.0, kTop + 16.0, missing, 16, "start", "font-weight=\"bold\"");
   out += fmt::format("<g transform=\"translate(0 {})\">\n{}</g>\n", top, drawing);
   svg::text(out, 8.0, height - 10.0,
-            diagram_of(field) >= 0 ? "one scale for both: of the diagrams, of lengths and of the deformation"
-                                   : "one scale for both: of colours, of lengths and of the deformation",
+            diagram_of(field) >= 0 ? "one scale for both: of the diagrams and of lengths"
+                                   : "one scale for both: of colours and of lengths",
             13, "start");
   return out + std::string(svg::kClose);
 }

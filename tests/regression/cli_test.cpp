@@ -489,11 +489,29 @@ TEST(CommandLine, LayoutCheckEndsAsCheckDoes) {
   EXPECT_EQ(sagefe(folder, "layout guess deck.dat -o deck.dat").exit_code, 1);  // never over the deck
 }
 
+// Alone and with `help` the program shows its help, and that of a command.
+TEST(CommandLine, HelpWithoutDashes) {
+  const fs::path folder = empty_folder("help_words");
+  const std::string help = sagefe(folder, "--help").out;
+  for (const char* call : {"", "help", "help --help"}) {
+    const Finished run = sagefe(folder, call);
+    EXPECT_EQ(run.exit_code, 0) << call;
+    EXPECT_EQ(run.out, help) << call;
+  }
+  EXPECT_EQ(sagefe(folder, "help check").out, sagefe(folder, "check --help").out);
+  EXPECT_EQ(sagefe(folder, "help frobnicate").exit_code, 1);
+  for (const char* command : {"", "run", "plot", "safety", "drive", "compare", "new", "layout guess"}) {
+    std::istringstream lines(sagefe(folder, std::string(command) + " --help").out);
+    for (std::string line; std::getline(lines, line);)
+      EXPECT_TRUE(line.size() <= 80 || line.find(' ', line.find_first_not_of(' ')) == std::string::npos)
+          << line;
+  }
+}
+
 TEST(CommandLine, MistakesGiveExitCode1AndNameTheWord) {
   const fs::path folder = empty_folder("usage");
   write(folder / "deck.dat", block_deck().text());
   const std::pair<const char*, const char*> calls[] = {
-      {"", "subcommand"},
       {"frobnicate", "frobnicate"},
       {"run", "DECK"},
       {"run deck.dat --frobnicate", "--frobnicate"},

@@ -56,7 +56,7 @@ TEST(NewDeck, ExcavationIsTheBracedCut) {
   const Finished run = sagefe(folder, "new deck excavation");
   ASSERT_EQ(run.exit_code, 0);
   const std::string out = sagefe(folder, "run excavation.dat -o out").out;
-  EXPECT_NE(out.find("force_each [kN]            63.204     255     3     112.15     255     5"),
+  EXPECT_NE(out.find("force_each [kN]             63.204     255     3     112.15     255     5"),
             std::string::npos)
       << out;
 }

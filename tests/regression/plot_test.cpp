@@ -548,7 +548,7 @@ TEST(Plot, SeveralFilesAgreeInUnitsAndSayTheirGeometry) {
   ASSERT_EQ(mixed.exit_code, 0) << mixed.err;
   const std::string note = read((folder / "out/mixed.svg").string());
   EXPECT_NE(note.find("full circle"), std::string::npos) << "forces of a ring";
-  EXPECT_NE(note.find("unit thickness"), std::string::npos) << "and of a slice";
+  EXPECT_NE(note.find("per inch"), std::string::npos) << "and of a slice";
   const Finished run = sagefe(folder, "run a.dat b.dat -q -o out --result");
   if (without_module(run)) GTEST_SKIP() << "built without HDF5";
   ASSERT_EQ(sagefe(folder, "run a.dat -q -o ax --geometry 2 --result").exit_code, 0);
