@@ -92,6 +92,29 @@ class HelpFormatter final : public CLI::Formatter {
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
     return wrapped(CLI::Formatter::make_help(app, std::move(name), mode), kHelpColumns);
   }
+
+  // A long list of choices is part of the description, which can be broken.
+  std::string make_option_opts(const CLI::Option* option) const override {
+    std::string text = CLI::Formatter::make_option_opts(option);
+    if (const std::string list = long_list(text); !list.empty()) text.erase(text.find(list), list.size());
+    return text;
+  }
+  std::string make_option_desc(const CLI::Option* option) const override {
+    std::string list = long_list(CLI::Formatter::make_option_opts(option));
+    if (list.empty()) return option->get_description();
+    list = list.substr(2, list.size() - 3);
+    for (std::size_t at = 0; (at = list.find(',', at)) != std::string::npos; at += 2) list.replace(at, 1, ", ");
+    return option->get_description() + "; one of: " + list;
+  }
+
+ private:
+  // ":{a,b,c}"; empty where it is short or there is none.
+  static std::string long_list(const std::string& text) {
+    constexpr std::size_t kShort = 40;
+    const std::size_t begin = text.find(":{"), end = text.find('}', begin);
+    if (begin == std::string::npos || end == std::string::npos || end - begin < kShort) return {};
+    return text.substr(begin, end - begin + 1);
+  }
 };
 
 void describe(CLI::App& root) {

@@ -52,7 +52,9 @@ void wrap_line(std::string_view line, std::size_t columns, std::string& out) {
     if (next == line.size()) return;
     const std::size_t blanks = next - end;
     const std::size_t next_end = std::min(line.find(' ', next), line.size());
-    if (used + blanks + columns_in(line.substr(next, next_end - next)) > columns && used > indent) {
+    const std::size_t width = columns_in(line.substr(next, next_end - next));
+    // A word that is too long for a line of its own stays where it is.
+    if (used + blanks + width > columns && used > indent && indent + width <= columns) {
       out += '\n';
       out.append(indent, ' ');
       used = indent;

@@ -229,11 +229,11 @@ def check_small_commands(folder, plugin):
         answer(folder, "new", kind, "mine", code=1)
         shutil.rmtree(folder / "mine")
     answer(folder, "new", "law", "No Name", code=1)
-    expect(answer(folder, "new", "deck", "slope", between=clean("slope.dat"))["result"]["files"] == ["slope.dat"], "new deck")
+    expect(answer(folder, "new", "deck", "slope", between=(folder / "slope.dat").unlink)["result"]["files"] == ["slope.dat"], "new deck")
     answer(folder, "new", "deck", "slope", code=1)
     moved = (folder / "slope.dat").read_text().replace("\n    1   31    1    1    1", "\n     1   31    1    1    1")
     (folder / "moved.dat").write_text(moved)
-    aligned = answer(folder, "align", "moved.dat", between=clean("moved_aligned.dat"))["result"]
+    aligned = answer(folder, "align", "moved.dat", between=(folder / "moved_aligned.dat").unlink)["result"]
     expect([one["card"] for one in aligned["moves"]] == ["fixity card"], "align", aligned)
     expect(aligned["files"] == ["moved_aligned.dat"], "align", aligned)
     expect((folder / "moved_aligned.dat").read_text() == (folder / "slope.dat").read_text(), "align", "text")
