@@ -30,18 +30,6 @@ double number_from(const Setting& setting, const SourcePosition& where) {
   return value;
 }
 
-// What people call them; the names are those of parameters without a role of their own.
-struct ShortName {
-  std::string_view key;
-  ParameterRole role;
-  std::string_view name;
-};
-constexpr ShortName kShortNames[] = {
-    {"E", ParameterRole::youngs_modulus, ""},  {"nu", ParameterRole::poissons_ratio, ""},
-    {"c", ParameterRole::strength, ""},        {"phi", ParameterRole::friction_angle, ""},
-    {"gamma", ParameterRole::unit_weight, ""}, {"psi", ParameterRole::dilation_angle, ""},
-};
-
 std::string parameter_names(const MaterialEntry& entry) {
   std::string names;
   for (const Parameter& parameter : entry.parameters) names += (names.empty() ? "" : ", ") + parameter.name;
@@ -79,13 +67,6 @@ Setting setting_from(std::string_view text, const SourcePosition& where) {
   if (equals == std::string_view::npos || trimmed(text.substr(0, equals)).empty())
     throw InputError("S651", where, fmt::format("{}: wanted NAME=VALUE", text));
   return {std::string(trimmed(text.substr(0, equals))), std::string(trimmed(text.substr(equals + 1)))};
-}
-
-int parameter_place(const MaterialEntry& entry, std::string_view key) {
-  if (const int place = entry.find(key); place >= 0) return place;
-  for (const ShortName& known : kShortNames)
-    if (known.key == key) return known.name.empty() ? entry.find(known.role) : entry.find(known.name);
-  return -1;
 }
 
 Subject subject_of(const Catalogue& catalogue, std::string_view law, const UnitSystem& units,

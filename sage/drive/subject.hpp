@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sage/core/short_names.hpp"
 #include "sage/drive/curve.hpp"
 #include "sage/messages/error.hpp"
 
@@ -17,9 +18,6 @@ struct Setting {
 
 // "NAME=VALUE".  Throws InputError at `where`.
 Setting setting_from(std::string_view text, const SourcePosition& where = {});
-
-// Place of a parameter by its name, or by E, nu, c, phi, psi, gamma; -1 = there is none.
-int parameter_place(const MaterialEntry& entry, std::string_view key);
 
 // A law by name or code with blank values: what is not set takes its fallback, what must be set is missing.
 // Throws InputError with the laws that there are.

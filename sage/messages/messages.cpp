@@ -1169,6 +1169,24 @@ constexpr MessageEntry kMessages[] = {
     {"S723", "the other program would write over a file",
      "CalculiX names its results after its input, and a file of that name is there already.",
      "Convert to the name in the message."},
+    // S73: models with other values, from Python and in sweeps.
+    {"S730", "the model has no number of that name",
+     "Names of numbers are made of the deck's materials, stages, reports and the parameters of its laws; a "
+     "sweep or "
+     "a program names one that this deck lacks.",
+     "Take the name that the message proposes; docs/manual/python.md lists how names are made, and "
+     "Model.names() "
+     "lists those of a deck."},
+    {"S731", "the value can't be given to that name",
+     "A number was expected and the value is none, or is not finite, or counts something and is not whole; or "
+     "the "
+     "name takes one of a few words.",
+     "Give what the message wants."},
+    {"S733", "a law written in Python raised an exception",
+     "The function that Python gave as a law ended with an exception or returned something else than stress, "
+     "tangent "
+     "and history of the right shapes. A program in Python gets the exception itself.",
+     "Mend the function; Law(NAME).drive() tries it without a mesh."},
     // S8: pieces from outside of the program.
     {"S801", "the deck needs a plug-in that is not loaded",
      "A line \"* plugin: NAME\" before the first card names a plug-in that the deck was written for. A deck "

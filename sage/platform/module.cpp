@@ -126,9 +126,31 @@ std::filesystem::path program_folder() {
   return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
 }
 
+namespace {
+
+// The shared library that this code is a part of; empty where it is a part of the running program.
+std::filesystem::path own_library() {
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<const void*>(&program_folder), &info) == 0 || info.dli_fname == nullptr)
+    return {};
+  const std::filesystem::path file = info.dli_fname;
+  std::error_code error;
+  const bool is_program = std::filesystem::equivalent(file, "/proc/self/exe", error);
+  return is_program || error || file.extension() != ".so" ? std::filesystem::path() : file;
+}
+
+}  // namespace
+
 std::vector<std::string> module_places(const Module& module) {
   std::vector<std::string> places;
   if (const char* chosen = std::getenv(module.variable.c_str())) places.emplace_back(chosen);
+  if (const std::filesystem::path library = own_library(); !library.empty()) {
+    // As the package of Python is installed: PREFIX/lib/python3/dist-packages/sagefe.
+    const std::filesystem::path programs = library.parent_path() / "../../../../bin";
+    places.push_back((programs / module.relative).lexically_normal().string());
+    for (const std::string& folder : search_path(library.string()))
+      places.push_back(folder + "/" + module.file);
+  }
   const std::filesystem::path beside = program_folder();
   if (!beside.empty()) places.push_back((beside / module.relative).lexically_normal().string());
   for (const std::string& folder : search_path("/proc/self/exe")) places.push_back(folder + "/" + module.file);

@@ -249,8 +249,10 @@ void Reports::on_start(const Model& model, const Scene&, std::string_view, int) 
   fields_ = fields_of(model);
   for (std::size_t i = 0; i < model.reports.size(); ++i) {
     Series series;
-    series.file = OutFile(folder_ / (stem_ + ".report" + std::to_string(i + 1) + ".csv"));
-    series.file.text() = header(model, i);
+    if (to_files_) {
+      series.file = OutFile(folder_ / (stem_ + ".report" + std::to_string(i + 1) + ".csv"));
+      series.file.text() = header(model, i);
+    }
     if (model.reports[i].kind == ReportKind::point) {
       series.fields = point_report_fields(model, fields_, model.reports[i]);
       series.of_flow = kind_at_points(model) == ElementKind::flow;
@@ -517,7 +519,10 @@ void Reports::add_rows(const Model& model, const StepReport& step, const Solutio
         add_nodes(series, step, sums);
     }
     append_row(i);
-    series.file.checkpoint();
+    if (to_files_)
+      series.file.checkpoint();
+    else
+      series.file.text().clear();
   }
 }
 

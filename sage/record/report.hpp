@@ -110,6 +110,8 @@ class Reports final : public Output {
   // digits: of the files' numbers.
   Reports(std::filesystem::path folder, std::string stem, int digits = kCsvDigits)
       : folder_(std::move(folder)), stem_(std::move(stem)), digits_(digits) {}
+  // In memory alone.
+  Reports() : digits_(kCsvDigits), to_files_(false) {}
 
   // Rows so far of the model's report `index` (0-based); empty if it is of the other kind.
   const std::vector<TriaxialRow>& triaxial(std::size_t index) const { return series_[index].triaxial; }
@@ -117,6 +119,7 @@ class Reports final : public Output {
   const std::vector<PointRow>& points(std::size_t index) const { return series_[index].points; }
   const std::vector<DischargeRow>& discharges(std::size_t index) const { return series_[index].discharges; }
   std::size_t count() const { return series_.size(); }
+  const std::vector<ReportColumn>& columns(std::size_t index) const { return columns_[index]; }
 
   // Warnings about a report, with their codes: why values are blank, and from where on.
   const std::vector<std::string>& messages(std::size_t index) const { return series_[index].messages; }
@@ -184,6 +187,7 @@ class Reports final : public Output {
   std::filesystem::path folder_;
   std::string stem_;
   int digits_;
+  bool to_files_ = true;
   std::vector<Series> series_;
   std::vector<std::vector<ReportColumn>> columns_;
   FieldTable fields_;
