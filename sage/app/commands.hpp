@@ -44,6 +44,7 @@ Command compare_command(CLI::App& parser, const Catalogue& catalogue);
 Command drive_command(CLI::App& parser, const Catalogue& catalogue);
 Command figures_command(CLI::App& parser, const Catalogue& catalogue);
 Command safety_command(CLI::App& parser, const Catalogue& catalogue);
+Command sweep_command(CLI::App& parser, const Catalogue& catalogue);
 Command stress_command(CLI::App& parser, const Catalogue& catalogue);
 Command layout_command(CLI::App& parser, const Catalogue& catalogue);
 Command explain_command(CLI::App& parser, const Catalogue& catalogue);

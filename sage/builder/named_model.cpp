@@ -74,6 +74,16 @@ void NamedModel::add_numbered(const char* prefix, const char* card, std::initial
       add_card(fmt::format("{}.{}", prefix, ++number), one, fields);
 }
 
+// Of triaxial reports: others have no use for these numbers.
+void NamedModel::add_reports() {
+  int number = 0;
+  for (const CardView& card : deck_.all("report")) {
+    ++number;
+    if (card.integer("kind", 1) == static_cast<int>(ReportKind::triaxial))
+      add_card(fmt::format("report.{}", number), card, {"height", "area", "cell_pressure"});
+  }
+}
+
 void NamedModel::add_materials() {
   for (const CardView& card : deck_.all("material")) {
     const std::vector<CardView> parameters = deck_.all("parameters", card);
@@ -125,7 +135,7 @@ void NamedModel::find_names() {
   add_materials();
   add_stages();
   add_numbered("initial", "initial", {"v1", "v2", "v3", "v4", "v5", "v6"});
-  add_numbered("report", "report", {"height", "area", "cell_pressure"});
+  add_reports();
   add_numbered("water", "water", {"value1", "value2"});
   for (const CardView& units : deck_.all("units"))
     add_card("units", units, {"atmospheric_pressure", "water_unit_weight"});
@@ -179,18 +189,18 @@ void NamedModel::set_formulation(const NamedValue& value, int& code) const {
 }
 
 // Whether the name is that of an option.
-bool NamedModel::set_option(const NamedValue& value) {
+bool NamedModel::set_option(const NamedValue& value, BuildOptions& options) const {
   if (value.name == kGeometry) {
     const std::string wanted = text_of(value, "\"plane_strain\" or \"axisymmetric\"");
     if (wanted != "plane_strain" && wanted != "axisymmetric")
       fail("S731", to_string(value) + ": wanted plane_strain or axisymmetric");
-    options_.geometry = wanted == "axisymmetric" ? 2 : 1;
+    options.geometry = wanted == "axisymmetric" ? 2 : 1;
   } else if (value.name == kFormulation) {
-    set_formulation(value, options_.formulation);
+    set_formulation(value, options.formulation);
   } else if (value.name == kElement) {
     const std::string wanted = text_of(value, "the name of an element");
-    options_.element = catalogue_->elements.code_of(wanted);
-    const ElementEntry* element = catalogue_->elements.find(options_.element);
+    options.element = catalogue_->elements.code_of(wanted);
+    const ElementEntry* element = catalogue_->elements.find(options.element);
     if (element == nullptr || !element->solid() || !element->square())
       fail("S731", fmt::format("{}: wanted an element that can take the place of a quadrilateral; known: {}",
                                to_string(value), catalogue_->elements.known()));
@@ -198,11 +208,11 @@ bool NamedModel::set_option(const NamedValue& value) {
     const double times = number_of(value);
     if (times != std::floor(times) || times < 0.0 || times > kMostRefinements)
       fail("S731", fmt::format("{}: wanted a whole number from 0 to {}", to_string(value), kMostRefinements));
-    options_.refine = static_cast<int>(times);
+    options.refine = static_cast<int>(times);
   } else if (value.name == kSolver) {
     const std::string wanted = text_of(value, "the name of a solver");
-    options_.solver = catalogue_->solvers.code_of(wanted);
-    if (options_.solver == 0 && wanted != "automatic")
+    options.solver = catalogue_->solvers.code_of(wanted);
+    if (options.solver == 0 && wanted != "automatic")
       fail("S731", to_string(value) + ": known are automatic, " + catalogue_->solvers.known());
   } else {
     return false;
@@ -247,21 +257,27 @@ void NamedModel::put(int index, const std::string& field, int in_list, double nu
   deck_.places.insert(deck_.places.end(), values.places.begin(), values.places.end());
 }
 
+void NamedModel::check(const NamedValue& value) const {
+  if (BuildOptions options = options_; set_option(value, options)) return;
+  const Place& where = place(value.name);
+  const double number = number_of(value);
+  if (where.integer && (number != std::floor(number) || number < 0.0 || number > 1e9))
+    fail("S731", to_string(value) + ": wanted a whole number that is not negative");
+}
+
 void NamedModel::set(const NamedValue& value) {
-  if (!set_option(value)) {
-    const Place& where = place(value.name);
-    const double number = number_of(value);
-    if (where.integer && (number != std::floor(number) || number < 0.0 || number > 1e9))
-      fail("S731", to_string(value) + ": wanted a whole number that is not negative");
-    for (std::size_t i = 0; i < where.cards.size(); ++i) {
-      const double old = number_at(where.cards[i], where.fields[i], where.in_list);
-      if (!where.factor)
-        put(where.cards[i], where.fields[i], where.in_list, number);
-      else if (!Deck::is_blank(old))
-        put(where.cards[i], where.fields[i], where.in_list, old * number);
-    }
-  }
+  check(value);
   set_.push_back(value);
+  if (set_option(value, options_)) return;
+  const Place& where = place(value.name);
+  const double number = number_of(value);
+  for (std::size_t i = 0; i < where.cards.size(); ++i) {
+    const double old = number_at(where.cards[i], where.fields[i], where.in_list);
+    if (!where.factor)
+      put(where.cards[i], where.fields[i], where.in_list, number);
+    else if (!Deck::is_blank(old))
+      put(where.cards[i], where.fields[i], where.in_list, old * number);
+  }
 }
 
 double NamedModel::get(const std::string& name) const {

@@ -28,6 +28,8 @@ class NamedModel {
   // Throws InputError at the deck: S730 for a name that it lacks, with names that are near; S731 for a value that can't be
   // meant.  What the model makes of the value shows in build().
   void set(const NamedValue& value);
+  // Throws as set() does, and changes nothing.
+  void check(const NamedValue& value) const;
   // The number that has this name; NaN where the deck leaves it blank, or it is a text.  Throws InputError (S730).
   double get(const std::string& name) const;
   // All names: materials by number and by name.
@@ -53,11 +55,12 @@ class NamedModel {
   };
   void find_names();
   void add_materials();
+  void add_reports();
   void add_numbered(const char* prefix, const char* card, std::initializer_list<const char*> fields);
   void add_stages();
   void add_card(const std::string& prefix, const CardView& card, std::initializer_list<const char*> fields);
   const Place& place(const std::string& name) const;
-  bool set_option(const NamedValue& value);
+  bool set_option(const NamedValue& value, BuildOptions& options) const;
   void set_formulation(const NamedValue& value, int& code) const;
   void put(int card, const std::string& field, int in_list, double number);
   double number_at(int card, const std::string& field, int in_list) const;

@@ -28,10 +28,11 @@ namespace sage {
 
 class TomlFile {
  public:
-  explicit TomlFile(std::string file) : file_(std::move(file)) {}
+  // code: of complaints without one of their own.
+  explicit TomlFile(std::string file, Code code = "S143") : file_(std::move(file)), code_(code) {}
 
   [[noreturn]] void fail(const toml::node& node, const std::string& message) const {
-    fail("S143", node, message);
+    fail(code_, node, message);
   }
   [[noreturn]] void fail(Code code, const toml::node& node, const std::string& message) const {
     const toml::source_position at = node.source().begin;
@@ -74,6 +75,7 @@ class TomlFile {
 
  protected:
   std::string file_;
+  Code code_;
 };
 
 }  // namespace sage

@@ -1182,11 +1182,27 @@ constexpr MessageEntry kMessages[] = {
      "the "
      "name takes one of a few words.",
      "Give what the message wants."},
+    {"S732", "the study of a sweep can't be used",
+     "The TOML file of the study has a mistake at that line, an unknown key, or says too little.",
+     "docs/manual/sweep.md shows what a study holds."},
     {"S733", "a law written in Python raised an exception",
      "The function that Python gave as a law ended with an exception or returned something else than stress, "
      "tangent "
      "and history of the right shapes. A program in Python gets the exception itself.",
      "Mend the function; Law(NAME).drive() tries it without a mesh."},
+    {"S734", "a sweep names what the deck does not read or give",
+     "A quantity or a name is none of the deck's, or no value of it changes the model: a parameter of a "
+     "material that no "
+     "group has, for example. Every case would have the same answer.",
+     "Take the name that the message proposes, or leave it out."},
+    {"S737", "a tool that should start the parts of a sweep is missing or failed",
+     "--parallel needs GNU parallel, --slurm needs sbatch. Where parts failed, the cases that they left are "
+     "computed by "
+     "the process that merges the table.",
+     "Install the tool, or leave the option out; the logs in the output folder say more."},
+    {"S738", "another sweep works on this study",
+     "The file with finished cases is in use by another process with the same study and output folder.",
+     "Wait for it, or give another folder, -o."},
     // S8: pieces from outside of the program.
     {"S801", "the deck needs a plug-in that is not loaded",
      "A line \"* plugin: NAME\" before the first card names a plug-in that the deck was written for. A deck "

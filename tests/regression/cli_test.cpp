@@ -62,6 +62,7 @@ TEST(CommandLine, HelpOfEverySubcommandNamesItsOptions) {
        {"DECK", "--stage", "--tolerance", "--start", "--smallest", "--largest", "--iterations", "--cuts",
         "--dilation", "--from", "--group", "--interfaces", "--structures", "--converge", "--max-dofs",
         "--output"}},
+      {"sweep", {"STUDY", "--collect", "--jobs", "--part", "--parallel", "--slurm", "--output", "Examples"}},
       {"stress", {"--list", "--only", "--details", "--csv", "--write"}},
       {"drive",
        {"--law", "--set", "--deck", "--material", "--case", "--cases", "--test", "--path", "--pressure", "--to",
