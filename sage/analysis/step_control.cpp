@@ -260,14 +260,18 @@ NewtonStep StepControl::attempt_damped(StepReport& report, double from, double t
   return says_more ? step : failed;
 }
 
+namespace {
+
 // A soft spring at a wall's tip may hold ground that slipped by more than the equations of small strain can tell.
-bool StepControl::has_slipped_away(const Eigen::VectorXd& motion) const {
+bool has_slipped_away(const Eigen::VectorXd& motion, const std::vector<char>& of_solids, double size) {
   constexpr double kFar = 0.1;  // of the model's size
   double most = 0.0;
-  for (std::size_t i = 0; i < of_solids_.size(); ++i)
-    if (of_solids_[i] != 0) most = std::max(most, std::abs(motion[static_cast<Eigen::Index>(i)]));
-  return !(most <= kFar * run_.extent.size());
+  for (std::size_t i = 0; i < of_solids.size(); ++i)
+    if (of_solids[i] != 0) most = std::max(most, std::abs(motion[static_cast<Eigen::Index>(i)]));
+  return !(most <= kFar * size);
 }
+
+}  // namespace
 
 // Where joints open and close in turns there may be no equilibrium with the history of the step's start, or none that
 // corrections find.  Damped motion is slow motion through states whose imbalance the damping carries: here the history follows
@@ -290,7 +294,7 @@ NewtonStep StepControl::creep(StepReport& report, double to, double damping_fall
     step = stepper_.attempt_damped(to, to, {damping_fall, &of_solids_});
   }
   step.crept = true;
-  step.flows = step.flows || has_slipped_away(state.u + state.du - start_u);
+  step.flows = step.flows || has_slipped_away(state.u + state.du - start_u, of_solids_, run_.extent.size());
   if (step.outcome == StepOutcome::converged && !step.flows) return step;
   step.outcome = StepOutcome::not_converged;
   const Eigen::VectorXd motion = state.u + state.du - start_u;

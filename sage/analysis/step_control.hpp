@@ -44,7 +44,6 @@ class StepControl {
   bool can_damp(const NewtonStep& step) const;
   NewtonStep attempt_damped(StepReport& report, double from, double to, const NewtonStep& failed);
   NewtonStep creep(StepReport& report, double to, double damping_fall, const NewtonStep& shaken);
-  bool has_slipped_away(const Eigen::VectorXd& motion) const;
   void find_solids();
   void renew_tangent();
   void move_to(double load_factor);

@@ -185,7 +185,8 @@ std::string model_file_tables() {
   using namespace model_file;
   Page page("Tables and keys of model files");
   page.prose(
-      "Written from the layout `sage1` (`sage/model_file/keys.cpp`). Keys without \"required\" may be left out. "
+      "Written from the layout `sage1` (`sage/model_file/keys.cpp`). Keys without \"required\" may be left "
+      "out. "
       "Numbers of materials, groups, nodes and elements count on from the last one where they are left out.");
   for (const Table& one : tables()) {
     page.heading(2, heading_of(one));
