@@ -41,9 +41,10 @@ class Reader {
 };
 
 void Reader::count_on(std::vector<NewField>& card, double& last, double more) {
-  const auto number = std::ranges::find(card, "number", &NewField::name);
-  if (number == card.end()) card.insert(card.begin(), {"number", last + 1.0, {}, {}});
-  last = (number == card.end() ? last + 1.0 : number->number) + more - 1.0;
+  const auto given = std::ranges::find(card, "number", &NewField::name);
+  const double number = given != card.end() ? given->number : last + 1.0;
+  if (given == card.end()) card.insert(card.begin(), {"number", number, {}, {}});
+  last = number + more - 1.0;
 }
 
 // Title, units, geometry and solver.
