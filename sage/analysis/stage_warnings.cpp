@@ -176,10 +176,9 @@ std::vector<Diagnostic> stage_warnings(const Stage& stage, const StageFindings& 
   if (!findings.digits.words.empty())
     messages.add("S525", findings.digits.words, findings.digits.poor ? Severity::warning : Severity::note);
   if (findings.path_error > kPathTolerance)
-    messages.add(
-        "S526",
-        "the stiffness of a hyperbolic law changes so much that an increment in 64 parts is still too long; "
-        "with more increments the results would change by more than 1 %");
+    messages.add("S526",
+                 "the stiffness of a law changes so much that an increment in 64 parts is still too long; "
+                 "with more increments the results would change by more than 1 %");
   if (!findings.loose_part.empty()) messages.add("S527", findings.loose_part);
   add_points(messages, assembly);
   if (findings.last_force > stage.tolerance)

@@ -913,8 +913,9 @@ constexpr MessageEntry kMessages[] = {
      "Less stiff stiff parts (1e3 to 1e6 times), nu of 0.499 with B-bar. Where four digits are enough "
      "nothing is to be done."},
     {"S526", "increments are too long for the law",
-     "Moduli of a hyperbolic law change within an increment; even divided into 64 parts it is too long "
-     "to follow, and twice the increments would give something else by more than 1 percent.",
+     "The stiffness of a law (hyperbolic, Cam clay) changes within an increment; even divided into 64 parts it "
+     "is "
+     "too long to follow, and twice the increments would give something else by more than 1 percent.",
      "More increments in this stage: compare with twice as many until nothing changes."},
     {"S527", "a part hangs on open interfaces",
      "All interfaces around the part are open: nothing but a remnant of stiffness says where it stands. "
