@@ -162,7 +162,7 @@ void cycles(Sweep& s) {
 
 // Rigid rough circular footing, radius 1, surcharge 20 kPa, settlement .2, default settings.
 Ran footing(const Sweep& s, double ocr, double shape, bool undrained, int increments) {
-  constexpr double kSurcharge = 20.0, kWeight = 8.0, kAtRest = 0.65;
+  constexpr double kSurcharge = 20.0, kClayWeight = 8.0, kAtRest = 0.65;
   Block block;
   block.cell = Cell::quad8;
   block.columns = 9;
@@ -173,13 +173,13 @@ Ran footing(const Sweep& s, double ocr, double shape, bool undrained, int increm
   };
   DeckWriter deck(2);
   block.write_nodes(deck);
-  deck.material(1, kCamClay, clay(ocr, 0.2, 0.04, shape), kWeight);
+  deck.material(1, kCamClay, clay(ocr, 0.2, 0.04, shape), kClayWeight);
   deck.group(1, 2, 1, 1);
   block.write_elements(deck, 1);
   for (const int n : block.bottom()) deck.fix(n, 1, 1);
   for (const int n : block.left()) deck.fix(n, 1, 0);
   for (const int n : block.right()) deck.fix(n, 1, 0);
-  deck.initial(1, 1, 0.0, kWeight, kAtRest, kSurcharge);
+  deck.initial(1, 1, 0.0, kClayWeight, kAtRest, kSurcharge);
   StageCards& rest = deck.stage();
   rest.gravity_y = -1.0;
   for (int i = 0; i < block.columns; ++i)
