@@ -182,6 +182,28 @@ void clay_strength(Record& record) {
   }
 }
 
+// Drained compression of a dry clay under a load that grows: the run ends at the peak, q = 3 (p - 100) on the surface.
+void clay_peak(Record& record) {
+  constexpr double kOcr = 8.0, kLoad = 500.0;
+  Block block;
+  block.place = rectangle(0.0, 1.0, 0.0, 1.0);
+  DeckWriter deck(2);
+  block.write_nodes(deck);
+  deck.material(1, kCamClay, clay_parameters(kOcr));
+  deck.group(1, static_cast<int>(Cell::quad4), 0, 1);
+  block.write_elements(deck, 1);
+  for (const int node : block.bottom()) deck.fix(node, 0, 1);
+  for (const int node : block.left()) deck.fix(node, 1, 0);
+  deck.initial(1, 0, kClayStart, kClayStart, kClayStart, 0.0);
+  StageCards& cell = deck.stage();
+  for (const int edge : {2, 3}) cell.pressure(block.element(0, 0), edge, kClayStart, kClayStart);
+  deck.stage(20).pressure(block.element(0, 0), 3, kLoad, kLoad);
+  const WholeRun run = record.try_run(deck);
+  record.small(Where::axisymmetric, "runs that go on beyond the peak", run.completed() ? 1.0 : 0.0, 0.5);
+  record.near(Where::axisymmetric, "OCR 8: largest deviator with equilibrium", kLoad * run.last().load_factor,
+              443.9922379395, 1e-4);
+}
+
 }  // namespace
 
 Section clay_cases() {
@@ -199,6 +221,9 @@ Section clay_cases() {
               {"clay.undrained_strength", "undrained strength in plane strain",
                "s_u = M p_0^(kappa/lambda) (p_c0/2)^(1 - kappa/lambda)/sqrt 3", Grade::exact,
                "approach to the critical state and stiff water: 1e-4", clay_strength},
+              {"clay.peak", "peak of a dry clay under a growing load",
+               "q = 3 (p - sigma_3) on the yield surface, closed form", Grade::exact,
+               "12 halvings of a twentieth of the load: 1e-4", clay_peak},
           }};
 }
 
