@@ -191,7 +191,7 @@ Ran footing(const Sweep& s, double ocr, double shape, bool undrained, int increm
 }
 
 void footings(Sweep& s) {
-  for (const double ocr : {1.2, 4.0, 8.0})
+  for (const double ocr : {1.2, 8.0})
     for (const double shape : {0.0, 1.0})
       for (const bool undrained : {true, false})
         for (const int increments : {2, 20}) {
