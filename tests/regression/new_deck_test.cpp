@@ -1,7 +1,10 @@
 // Decks of `sagefe new deck`, which must run as they are, and `sagefe align`, which moves values into their columns.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <sstream>
 
 #include "tests/regression/program.hpp"
@@ -102,6 +105,49 @@ TEST(NewDeck, CulvertIsTheBondedPipe) {
             std::string::npos)
       << out;
   EXPECT_EQ(out.find("hoop_force"), std::string::npos) << "rows of zeros say nothing\n" << out;
+}
+
+// The thrust of the half ring is drawn on its outer side, though its elements run counter-clockwise.
+TEST(NewDeck, DiagramsOfLiningsAreDrawnOutwards) {
+  const fs::path folder = empty_folder("template_culvert_picture");
+  ASSERT_EQ(sagefe(folder, "new deck culvert").exit_code, 0);
+  ASSERT_EQ(sagefe(folder, "run culvert.dat -o out -q --picture axial_force").exit_code, 0);
+  const std::string svg = read(folder / "out/culvert_stage5_axial_force.svg");
+  const std::size_t mark = svg.find("fill-opacity=\"0.25\" d=\"");
+  ASSERT_NE(mark, std::string::npos) << svg.substr(0, 500);
+  const std::string path = svg.substr(mark + 22, svg.find('"', mark + 22) - mark - 22);
+  std::vector<std::array<double, 2>> points;  // of each element two on the pipe, then two of the diagram
+  for (std::size_t at = 0; at < path.size(); ++at)
+    if (path[at] == 'M' || path[at] == 'L') {
+      std::array<double, 2> point{};
+      ASSERT_EQ(std::sscanf(path.c_str() + at + 1, "%lf %lf", &point[0], &point[1]), 2);
+      points.push_back(point);
+    }
+  ASSERT_EQ(points.size(), 64u);
+  double left = 1e9, low = 1e9, high = -1e9;
+  for (std::size_t i = 0; i < points.size(); i += 4) {
+    left = std::min({left, points[i][0], points[i + 1][0]});
+    low = std::min({low, points[i][1], points[i + 1][1]});
+    high = std::max({high, points[i][1], points[i + 1][1]});
+  }
+  const auto radius = [&](std::size_t i) {
+    return std::hypot(points[i][0] - left, points[i][1] - 0.5 * (low + high));
+  };
+  for (std::size_t i = 0; i < points.size(); i += 4) {
+    EXPECT_GT(radius(i + 3), radius(i) + 1.0) << i;
+    EXPECT_GT(radius(i + 2), radius(i + 1) + 1.0) << i;
+  }
+}
+
+// Each group of solids has a curve of its own.
+TEST(NewDeck, SafetyGraphShowsTheGroupsOfTheDeck) {
+  const fs::path folder = empty_folder("template_embankment_safety");
+  ASSERT_EQ(sagefe(folder, "new deck embankment").exit_code, 0);
+  const Finished run = sagefe(folder, "safety embankment.dat -o out --tolerance .2 --start 1.8");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::string svg = read(folder / "out/embankment.safety.svg");
+  for (const char* name : {">clay<", ">lift 1<", ">lift 4<", ">equilibrium<"})
+    EXPECT_NE(svg.find(name), std::string::npos) << name;
 }
 
 TEST(NewDeck, NothingIsOverwrittenAndUnknownNamesAreNamed) {
