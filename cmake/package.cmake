@@ -12,5 +12,5 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
     "sagefe computes stresses, displacements, forces in structures, seepage and factors of safety of soil in plane strain and axisymmetry. Plug-ins add laws and elements; they need g++, cmake and libeigen3-dev.")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, cmake, libeigen3-dev, libgtest-dev, gfortran, paraview")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, cmake, libeigen3-dev, libgtest-dev, gfortran, python3-numpy, libgmsh4.8, paraview")
 include(CPack)

@@ -481,8 +481,7 @@ constexpr MessageEntry kMessages[] = {
      "quadrilaterals."},
     {"S254", "the data of a section are incomplete",
      "A point, line or area of a drawn section lacks something. An index names no point or line, a line has "
-     "too few "
-     "points, the ends of an arc are not equally far from its centre, or a size is negative.",
+     "too few points, the ends of an arc are not equally far from its centre, or a size is negative.",
      "Complete or correct the item that the message names."},
     {"S255", "an outline encloses no area",
      "The outline of an area or of its hole crosses or touches itself, encloses nothing, or the hole reaches "
