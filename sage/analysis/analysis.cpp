@@ -224,7 +224,7 @@ void Analysis::Stages::end_stage() {
     sums = audit_equilibrium(model_, assembly, state_.external, path.force_start, state_.u);
     run_.warn(stage_warnings(stage,
                              {result_.motion, sums.out_of_balance, system_.digits(), path.path_error,
-                              path.loose_part, control_.force_left()},
+                              path.loose_part, path.relaxed, control_.force_left()},
                              assembly));
     run_.warn(gradient_warnings(model_, stage, system_.activity()));
     run_.warn(free_surface_warnings(model_, stage, assembly));

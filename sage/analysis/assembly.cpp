@@ -291,15 +291,20 @@ Outcome Assembly::evaluate(const Eigen::VectorXd& du, Tangent* tangent) {
   return outcome;
 }
 
-void Assembly::take_elastic(Tangent& tangent) {
+Outcome Assembly::evaluate_elastic(Tangent& tangent) {
   std::vector<PointStates> committed;
   for (GroupData& data : groups_) {
     committed.push_back(data.state.committed);
     if (data.active && !data.constant && !data.group->solid() && !data.group->flow()) make_elastic(data);
   }
-  tangent.begin_elastic();
-  tangent.end_elastic(evaluate(Eigen::VectorXd::Zero(dof_map_.dofs()), &tangent));
+  const Outcome outcome = evaluate(Eigen::VectorXd::Zero(dof_map_.dofs()), &tangent);
   for (std::size_t g = 0; g < groups_.size(); ++g) std::swap(groups_[g].state.committed, committed[g]);
+  return outcome;
+}
+
+void Assembly::take_elastic(Tangent& tangent) {
+  tangent.begin_elastic();
+  tangent.end_elastic(evaluate_elastic(tangent));
 }
 
 // The force scale of the constant region is that of the last whole evaluation.

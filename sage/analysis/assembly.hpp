@@ -92,8 +92,10 @@ class Assembly {
   // Internal forces at committed state + du.  With a tangent, K too.  While a condensed region is behind, its forces are
   // those of its border in the step in hand.
   Outcome evaluate(const Eigen::VectorXd& du, Tangent* tangent);
-  // Takes the elastic matrices of damped corrections (Tangent::damp): solids at the committed state, interfaces closed
-  // and stuck, structures without force.
+  // The elastic K into the tangent: solids at the committed state, interfaces closed and stuck, structures without force.
+  // Internal forces then mean nothing until the next evaluation.
+  Outcome evaluate_elastic(Tangent& tangent);
+  // Takes the elastic matrices of damped corrections (Tangent::damp).
   void take_elastic(Tangent& tangent);
   // PathError of the trial states, the mean over all points by the work of their stress increments.
   double path_error() const;

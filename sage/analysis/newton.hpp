@@ -42,10 +42,11 @@ enum class StepOutcome { converged, not_converged, law_cut, singular };
 struct NewtonStep {
   StepOutcome outcome = StepOutcome::not_converged;
   bool repeated = false;  // the step is a copy of the one before
-  bool crept = false;     // its larger part has been committed before (StepControl::creep)
+  bool crept = false;     // its larger part has been committed before (StepControl::creep, relax)
   bool finished = false;  // a kept tangent was replaced by the consistent one at the end
   bool flows =
       false;  // stop_at_flow: corrections only increase the residual, beyond a good part of all stress; damped: Creep::flows
+  bool moved = false;          // `flows` by motion (StepReport::proved)
   bool spares_ground = false;  // damped, not converged: Creep::spares_ground
   std::vector<IterationRecord> iterations;
   WorstDof worst;               // of the last iteration, or where none converged, of the best

@@ -78,7 +78,10 @@ struct StepReport {
   bool converged = true;
   // After a failure of the last attempt: the ground moved on and on, and nothing but what hangs on joints did.
   bool flows = false, spares_ground = false;
-  int cuts = 0;  // halvings needed within this increment
+  // `flows` was found by motion through the size of the model, not by a residual that grows.
+  bool proved = false;
+  int cuts = 0;     // halvings needed within this increment
+  int relaxed = 0;  // substeps that were found by dynamic relaxation
   int substeps = 1;
   std::vector<IterationRecord> iterations;  // of the last substep
   int total_iterations = 0;                 // of all substeps, cut ones included

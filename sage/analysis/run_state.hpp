@@ -28,7 +28,8 @@ struct StagePath {
   double stiffest = 0.0, last_stiffness = 0.0;  // along the motion: largest so far, of the last step
   double path_error = 0.0;                      // largest so far
   bool own_tangent = false;  // modified Newton, initial stiffness: steps begin with K of their start
-  std::string loose_part;    // the first; empty = none
+  int relaxed = 0;         // steps found by dynamic relaxation: if any, others are relaxed before they are cut
+  std::string loose_part;  // the first; empty = none
   std::vector<std::vector<double>> pore_start, pore_end;  // pore pressure at points, by group; empty = no water
 
   // No step of the stage has been taken yet; loads and pore pressures stay.
@@ -36,6 +37,7 @@ struct StagePath {
     forget_steps();
     path_error = 0.0;
     own_tangent = false;
+    relaxed = 0;
     loose_part.clear();
   }
   // The next attempt neither repeats the last steps nor goes their way.
@@ -76,6 +78,7 @@ struct RunState {
     archive(path.last_stiffness);
     archive(path.path_error);
     archive(path.own_tangent);
+    archive(path.relaxed);
     archive(path.loose_part);
     archive(path.external_start);
     archive(path.force_start);

@@ -180,6 +180,13 @@ std::vector<Diagnostic> stage_warnings(const Stage& stage, const StageFindings& 
                  "the stiffness of a law changes so much that an increment in 64 parts is still too long; "
                  "with more increments the results would change by more than 1 %");
   if (!findings.loose_part.empty()) messages.add("S527", findings.loose_part);
+  if (findings.relaxed > 0)
+    messages.add(
+        "S550",
+        "Newton's method found no equilibrium for some increments: " + std::to_string(findings.relaxed) +
+            " step(s) were found by dynamic relaxation. They satisfy the same tolerance, but the answer "
+            "depends on the path",
+        Severity::note);
   add_points(messages, assembly);
   if (findings.last_force > stage.tolerance)
     messages.add(

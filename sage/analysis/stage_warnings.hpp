@@ -27,6 +27,7 @@ struct StageFindings {
   DigitsReport digits;
   double path_error = 0.0;  // PathError, the largest of the stage
   std::string loose_part;   // the first of the stage; empty = none
+  int relaxed = 0;          // steps found by dynamic relaxation
   double last_force = 0.0;  // out of balance at the end of the last increment, relative
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sage/analysis/explain.hpp"
+#include "sage/analysis/trials.hpp"
 
 namespace sage {
 
@@ -13,6 +14,7 @@ StepControl::StepControl(const RunParts& run)
 
 void StepControl::open_stage() {
   find_solids();
+  refused_at_ = -1.0;
   on_last_way_ = false;
   if (!run_.tangent().constant()) stiffness_.set_committed(run_.state.path.force_start);
 }
@@ -78,8 +80,7 @@ bool StepControl::take_increment(StepReport& report) {
     NewtonStep step = search_.attempt(state.reached, to);
     iterations += static_cast<int>(step.iterations.size());
     const bool last_cut = tried < 1.001 * std::ldexp(whole, -max_cuts_);
-    const bool damps = run_.settings.trials != nullptr || last_cut;
-    if (damps && !went_on && can_damp(step)) step = attempt_damped(report, state.reached, to, step);
+    if (damps(last_cut) && !went_on && can_damp(step)) step = attempt_damped(report, state.reached, to, step);
     if (record(report, step, tried)) {
       const double error = run_.assembly().path_error();
       if (error > kPathTolerance && tried > 1.001 * kSmallestPart * whole) {
@@ -98,7 +99,15 @@ bool StepControl::take_increment(StepReport& report) {
     report.failed_at = to;  // beyond `reached`, which may have passed an earlier failure
     const bool given_up =
         is_trial_ && (step.flows || iterations >= kMostAttempts * run_.stage().max_iterations);
-    if (given_up || last_cut || run_.tangent().linear()) return fail(report, step, tried);
+    const bool last = given_up || last_cut || run_.tangent().linear();
+    if (can_relax(last)) {
+      if (relax(report, end)) {
+        size = end - state.reached;
+        continue;
+      }
+      if (run_.settings.trials != nullptr) return fail(report, relaxed_, tried);
+    }
+    if (last) return fail(report, step, tried);
     ++report.cuts;
     size = 0.5 * tried;
     reject(size);
@@ -142,6 +151,7 @@ bool StepControl::fail(StepReport& report, const NewtonStep& step, double size) 
   report.stiffness_share = stiffness_.share(size, step);
   report.converged = false;
   report.flows = step.flows || (step.outcome == StepOutcome::singular && !has_walls_);
+  report.proved = report.flows && step.moved;
   report.spares_ground = step.spares_ground;
   failed_ = step;
   return false;
@@ -211,6 +221,19 @@ void StepControl::start_on_last_way(double size) {
   on_last_way_ = run_.assembly().evaluate(state.du, &run_.tangent()) == Outcome::ok;
 }
 
+bool StepControl::descends() const {
+  return run_.settings.trials != nullptr && !is_trial_ && run_.settings.trials->descends();
+}
+
+bool StepControl::damps(bool last_cut) const {
+  if (run_.settings.trials == nullptr) return last_cut;
+  return has_walls_ || !(descends() || proves());
+}
+
+bool StepControl::proves() const {
+  return run_.settings.trials != nullptr && run_.settings.trials->proves();
+}
+
 // Whether a step that failed is tried once more with damped corrections.  Walls in joints lose their hold in single
 // iterations, without a limit of the ground.
 bool StepControl::can_damp(const NewtonStep& step) const {
@@ -252,10 +275,10 @@ NewtonStep StepControl::attempt_damped(StepReport& report, double from, double t
     run_.tangent().forget();
     if (!run_.tangent().has_elastic()) return failed;
     step = stepper_.attempt_damped(from, to, {fall, &of_solids_});
-    if (run_.settings.trials != nullptr && !step.flows) step = creep(report, to, fall, step);
+    if (run_.settings.trials != nullptr && !descends() && !step.flows) step = creep(report, to, fall, step);
     if (!step.flows || shows_collapse(step)) break;
   }
-  step.flows = shows_collapse(step);
+  step.flows = step.moved = shows_collapse(step);
   const bool says_more = step.outcome == StepOutcome::converged || run_.settings.trials != nullptr;
   return says_more ? step : failed;
 }
@@ -300,6 +323,76 @@ NewtonStep StepControl::creep(StepReport& report, double to, double damping_fall
   const Eigen::VectorXd motion = state.u + state.du - start_u;
   run_.restore_state(start);
   state.du = motion;
+  return step;
+}
+
+// Where no motion is prescribed, a failure at the shortest step is a limit load as a rule, and remains one.
+bool StepControl::can_relax(bool last) const {
+  if (run_.tangent().linear() || !Relaxation::suits(run_.model) ||
+      run_.assembly().dof_map().displacements() == 0)
+    return false;
+  if (run_.settings.trials != nullptr) return proves() && !has_walls_;
+  const bool fails_here = refused_at_ == run_.state.reached && !last;
+  return (last || run_.state.path.relaxed > 0) && !fails_here && !run_.system.rate().isZero(0.0);
+}
+
+// Takes the rest of the increment, or a part of it, by dynamic relaxation.  False: none of it; then nothing has changed.
+bool StepControl::relax(StepReport& report, double end) {
+  RunState& state = run_.state;
+  const double begin = state.reached;
+  drop_step();
+  if (run_.assembly().condensation() != nullptr) take_loads();
+  while (state.reached < end) {
+    double to = end;
+    const Eigen::VectorXd start_u = state.u;
+    Relaxation relaxation(run_, of_solids_);
+    relaxed_ = relax_step(relaxation, report, state.reached, to);
+    if (relaxed_.outcome != StepOutcome::converged && run_.settings.trials == nullptr) break;
+    if (!record(report, relaxed_, to - state.reached)) break;
+    accept(report, relaxed_, to);
+    relaxation.show_strength();
+    last_du_ = state.u - start_u;
+    state.path.forget_way();
+    ++state.path.relaxed;
+    ++report.relaxed;
+  }
+  if (state.reached == begin) refused_at_ = begin;
+  return state.reached > begin;
+}
+
+// to: in, the end that is wanted; out, that of the step.  Once the motion has nearly come to rest, Newton's method finds the
+// end of it as a rule; else the motion goes on.
+NewtonStep StepControl::relax_step(Relaxation& relaxation, StepReport& report, double from, double& to) {
+  constexpr double kFirst = 1e-5, kFiner = 0.1,
+                   kLast = 1e-3;  // residuals; of the last one, times the tolerance
+  RunState& state = run_.state;
+  const std::string start = run_.keep_state();
+  const Eigen::VectorXd start_u = state.u, failed_du = state.du;
+  const double tolerance = run_.stage().tolerance;
+  Relaxation::End end = Relaxation::End::rest;
+  NewtonStep step;
+  to = relaxation.start(from, to);
+  const double first = run_.settings.trials != nullptr ? tolerance : std::min(kFirst, tolerance);
+  for (double goal = first; goal > 0.99 * kLast * tolerance; goal *= kFiner) {
+    end = relaxation.settle(goal);
+    if (end != Relaxation::End::rest) break;
+    run_.tangent().forget();
+    step = stepper_.attempt_near(to);
+    if (step.outcome == StepOutcome::converged) break;
+    state.du.setZero();
+    run_.tangent().forget();
+  }
+  const bool found = end == Relaxation::End::rest && step.outcome == StepOutcome::converged;
+  if (found || run_.settings.trials != nullptr) report.total_iterations += relaxation.passes();
+  step.crept = true;
+  if (found) return step;
+  const Eigen::VectorXd motion = state.u + state.du - start_u;
+  run_.restore_state(start);
+  step = {};
+  step.flows = step.moved = end == Relaxation::End::flow;
+  step.iterations.push_back({relaxation.residual(), 0.0, 0.0, 1.0});
+  state.du = run_.settings.trials != nullptr ? motion : failed_du;
+  run_.assembly().evaluate(state.du, nullptr);
   return step;
 }
 

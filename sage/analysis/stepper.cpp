@@ -81,6 +81,14 @@ NewtonStep Stepper::attempt_damped(double from, double to, const Damping& dampin
   return solve(from, to, newton);
 }
 
+NewtonStep Stepper::attempt_near(double at) {
+  constexpr int kFew = 10;  // iterations
+  NewtonSettings newton = settings();
+  newton.method = Method::newton;
+  newton.max_iterations = kFew;
+  return solve(at, at, newton);
+}
+
 NewtonStep Stepper::solve(double from, double to, const NewtonSettings& settings) {
   RunState& state = run_.state;
   state.target = run_.loads_at(to);

@@ -27,6 +27,8 @@ class Stepper {
   // From one load factor of the stage in hand to another; RunState::du becomes the step.
   NewtonStep attempt(double from, double to, Begin begin);
   NewtonStep attempt_damped(double from, double to, const Damping& damping);
+  // A few corrections of Newton's method from a committed state near equilibrium at that load factor.
+  NewtonStep attempt_near(double at);
   // The attempt from the committed state would start in the direction of the step before.
   bool starts_from_last_step(double size) const;
 

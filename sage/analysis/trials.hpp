@@ -34,6 +34,10 @@ class Trials {
   // The trial is given up when 2^-max_cuts of it finds no equilibrium, after three times the iterations of its stage,
   // and at once where it flows.
   virtual int max_cuts() const = 0;
+  // A failure must be proved by motion, or be found to be none (Relaxation).
+  virtual bool proves() const { return false; }
+  // A failure of the stages before the trials leads to weaker laws, whatever its reason is: it is not worth much work.
+  virtual bool descends() const { return false; }
   // A stage before the trials found no equilibrium.  u: where its last attempt went, every dof.
   virtual void lost(const Eigen::VectorXd& /*u*/) {}
 };

@@ -34,6 +34,20 @@ bool has_strength(const MaterialEntry& entry) {
   return std::ranges::any_of(entry.parameters, [](const Parameter& p) { return is_strength(p.role); });
 }
 
+bool has_less_dilation(const Model& model) {
+  return std::ranges::any_of(model.groups, [&](const Group& group) {
+    if (group.material < 0 || !group.solid()) return false;
+    const Material& material = model.materials[static_cast<std::size_t>(group.material)];
+    const std::vector<Parameter>& rows = material.entry->parameters;
+    double phi = 0.0;
+    for (std::size_t i = 0; i < std::min(material.parameters.size(), rows.size()); ++i) {
+      if (rows[i].role == ParameterRole::friction_angle) phi = material.parameters[i];
+      if (rows[i].role == ParameterRole::dilation_angle && material.parameters[i] < phi) return true;
+    }
+    return false;
+  });
+}
+
 bool reduce_strength(std::span<double> parameters, const MaterialEntry& entry,
                      const StrengthReduction& reduction) {
   if (!has_strength(entry)) return false;

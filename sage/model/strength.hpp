@@ -34,6 +34,9 @@ struct StrengthReduction {
 // Some parameter of the law is a strength.
 bool has_strength(const MaterialEntry& entry);
 
+// Some material of a solid group has a dilation angle below its friction angle: flow is not associated.
+bool has_less_dilation(const Model& model);
+
 // parameters: as the deck writes them, perhaps fewer than the entry has.  Cohesions and tensile strengths / F, angles
 // of friction atan(tan(phi) / F), dilation by the rule.  Numbers that are not positive (0, or -1 for "none") stay.
 // False: the law has no strength, nothing changes.

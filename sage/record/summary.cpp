@@ -311,6 +311,7 @@ void RunRecord::exchange(Archive& archive) {
   archive(out_of_balance);
   archive(audited);
   strength.exchange(archive);
+  pushes.exchange(archive);
   archive(structures);
   envelope.exchange(archive);
 }
@@ -323,8 +324,11 @@ void RunRecord::on_start(const Model& model, const Scene& scene_found, std::stri
   warnings += model.diagnostics.warnings();
 }
 
-void RunRecord::on_increment(const Model& model, const StepReport& report, const Solution&) {
-  if (report.converged) strength.increment(model, report);
+void RunRecord::on_increment(const Model& model, const StepReport& report, const Solution& solution) {
+  if (report.converged) {
+    strength.increment(model, report);
+    pushes.increment(model, report, solution);
+  }
   stages.resize(std::max(stages.size(), static_cast<std::size_t>(report.stage) + 1));
   StageCount& stage = stages[static_cast<std::size_t>(report.stage)];
   ++stage.increments;
@@ -370,6 +374,10 @@ std::string summary(const Model& model, const RunRecord& record, const Reports* 
                         structure_forces_per(model)) +
             extremes_table(model, all, model.stages.size() > 1);
   if (reports != nullptr) report_tables(text, model, *reports, digits);
+  if (record.result.status == RunStatus::completed) {
+    const auto yielded = record.points[static_cast<std::size_t>(PointStatus::yielded)];
+    text += record.pushes.text(model, yielded);
+  }
   text += sketch;
   if (error != nullptr) text += error->text(model);
   if (record.audited > 0)

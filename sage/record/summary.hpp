@@ -6,6 +6,7 @@
 #include "sage/record/discretisation.hpp"
 #include "sage/record/extremes.hpp"
 #include "sage/record/output.hpp"
+#include "sage/record/push.hpp"
 #include "sage/record/report.hpp"
 #include "sage/record/strength.hpp"
 
@@ -28,7 +29,10 @@ class RunRecord final : public Observer {
   void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
   // At the ends of stages, for the extremes of structures.
   bool wants_states(const Model&, const StepReport&) const override { return false; }
-  bool wants_nodes(const Model&, const StepReport&, std::span<const char>) const override { return false; }
+  // Forces of supports that are moved.
+  bool wants_nodes(const Model& model, const StepReport& report, std::span<const char> behind) const override {
+    return Pushes::needs_nodes(model, report.stage, behind);
+  }
   bool wants_structures(const Model& model, const StepReport& report) const override {
     return has_structures(model) &&
            report.increment == model.stages[static_cast<std::size_t>(report.stage)].increments;
@@ -46,6 +50,7 @@ class RunRecord final : public Observer {
   double out_of_balance = 0.0;           // the largest of all stages
   int audited = 0;                       // stages that reached their end
   StrengthRows strength;
+  Pushes pushes;
   std::vector<ExtremeRow> structures;  // at the end of each stage
   Envelope envelope;                   // of the same stages, at the ends of elements
   StepReport failed;                   // of a run that did not converge

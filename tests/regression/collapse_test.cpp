@@ -1,11 +1,14 @@
 // Footings under loads beyond collapse: what the program accepts, and what it says of it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
+#include "sage/record/push.hpp"
 #include "tests/regression/program.hpp"
 #include "tests/studies/scenes/deck_writer.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace sage::test {
 namespace {
@@ -222,6 +225,43 @@ TEST(Collapse, FewerLayersAreTheAdviceWhereUniquenessIsLostOnAGradedMesh) {
   EXPECT_EQ(graded.exit_code, 3);
   EXPECT_NE(graded.err.find("loss of uniqueness"), std::string::npos) << graded.err;
   EXPECT_NE(graded.err.find("try: fewer layers of grading (--grade auto:2)"), std::string::npos) << graded.err;
+}
+
+std::string with_replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+// A rough strip with phi = 30 and psi = 0.  An explicit code of others follows this mesh to 78.7 +- 1.3 kN after a first peak
+// of 83.5; the associated load is 95.0.  Newton's method alone stops in the second of 60 increments with 31.8.  Half of
+// the push shows the plateau.
+TEST(Collapse, FootingWithoutDilationReachesItsPlateau) {
+  const fs::path folder = empty_folder("no_dilation");
+  const std::string increments = kSanitized ? "        10" : "        30",
+                    settlement = kSanitized ? "-.012" : "-.05";
+  std::string deck = read(SAGE_SOURCE_DIR "/tests/regression/data/footing_phi30_psi0_quad8.dat");
+  deck = with_replaced(deck, "\n        60         0        60 ", "\n" + increments + "         0        60 ");
+  write(folder / "push.dat", with_replaced(deck, "-0.1\n", settlement + "\n"));
+  const Finished run = sagefe(folder, "run push.dat -o out");
+  ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
+  EXPECT_NE(run.out.find("  push        stage 2: force along the motion"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("dilation is less than friction"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("S550"), std::string::npos) << run.out;
+  if (kSanitized) return;
+  const std::vector<double> forces = column(folder / "out/push.report1.csv", "fy");
+  ASSERT_EQ(forces.size(), 30u);
+  const Plateau plateau = plateau_of(forces);
+  EXPECT_NEAR(-plateau.mean, 78.7, 1.6);
+  EXPECT_LT(-*std::ranges::min_element(forces), 0.95 * 95.0);
+}
+
+TEST(Collapse, PlateauOfTheSecondHalf) {
+  const Plateau plateau = plateau_of({1.0, 2.0, 3.0, 4.0, 5.0, 7.0, 6.0, 10.0});
+  EXPECT_DOUBLE_EQ(plateau.mean, 7.0);
+  EXPECT_DOUBLE_EQ(plateau.scatter, std::sqrt(14.0 / 4.0));
+  EXPECT_DOUBLE_EQ(plateau.third_quarter, 6.0);
+  EXPECT_DOUBLE_EQ(plateau.last_quarter, 8.0);
 }
 
 }  // namespace
