@@ -134,6 +134,8 @@ class Finder final : public Trials {
   bool next(const TrialResult* last, const Solution& now) override;
   int stage() const override { return safety_.stages; }
   void lost(const Eigen::VectorXd& u) override { lost_ = u; }
+  bool proves() const override { return repeated_ == factor_; }
+  bool descends() const override { return options_.start == Start::carried && !search_.lower(); }
   int max_cuts() const override {
     return repeated_ == factor_ ? options_.cuts : std::min(options_.cuts, kFirstCuts);
   }
@@ -298,6 +300,7 @@ void Finder::take_run(const RunResult& result, const LastState& last) {
     const Attempt attempt{last.report, false};
     trial.released = last.report.load_factor;
     trial.verdict = last.report.flows ? Verdict::falls : Verdict::undecided;
+    trial.proved = last.report.proved;
     trial.reason = fmt::format("stage {}: {}", last.report.stage + 1, why_not(model_, trial, attempt));
   }
   take(std::move(trial));
@@ -358,6 +361,7 @@ void Finder::take_trial(const TrialResult& result) {
     const Attempt attempt{result.report, result.outcome == StepOutcome::law_cut};
     trial.released = result.report.load_factor;
     trial.verdict = result.report.flows ? Verdict::falls : Verdict::undecided;
+    trial.proved = result.report.proved;
     trial.reason = why_not(model_, trial, attempt);
   }
   take(std::move(trial));
@@ -387,12 +391,13 @@ void Finder::keep_mechanism(const TrialResult& result, const Solution& now) {
   safety_.mechanism_factor = factor_;
 }
 
-// An end that was tried from far below, or whose iterations failed, deserves a second trial from the other end.
+// An end that was tried from far below, whose iterations failed, or whose motion proves nothing yet, deserves a second trial
+// from the other end.
 bool Finder::must_repeat(const FactorTrial& end) const {
   if (repeated_ == end.factor) return false;
   const bool far =
       options_.start == Start::carried && end.factor - end.from > kFarBelow * options_.limits.tolerance;
-  return end.verdict == Verdict::undecided || far;
+  return end.verdict == Verdict::undecided || !end.proved || far;
 }
 
 std::optional<double> Finder::next_factor() {
@@ -460,6 +465,9 @@ void Finder::conclude() {
     safety_.incomplete =
         "at the upper end no equilibrium was found, but the ground does not go on moving there: F may be "
         "larger";
+  else if (!safety_.at(safety_.upper)->proved)
+    safety_.incomplete =
+        "at the upper end no equilibrium was found, but it was not proved by motion: F may be larger";
 }
 
 Safety Finder::find() {

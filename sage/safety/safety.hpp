@@ -42,6 +42,7 @@ struct FactorTrial {
   double factor = 0.0,
          from = 0.0;  // from: the factor whose state it began with; 0 = from the start of the deck
   Verdict verdict = Verdict::stands;
+  bool proved = false;          // of one that falls: the ground moved by the size of the model
   std::string reason;           // why, in one line
   std::string page;             // of a failure: all that the run says of it
   double out_of_balance = 0.0;  // relative force, of the last iteration
