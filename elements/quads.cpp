@@ -13,15 +13,19 @@ ElementEntry quad4_entry() {
                          .vtk = {9},
                          .gmsh = {3},
                          .calculix = {"4"}}),
-      {solid<Quad4, GaussSquare<2>, Volumetric::mean>(
+      {solid<Quad4, GaussSquare<2>, AssumedStrain::mean_dilatation>(
            {2, "b-bar", "2x2 Gauss, mean dilatation (weighted by volume): does not lock"}, "quad4 b-bar"),
        solid<Quad4, GaussSquare<2>>({1, "full", "2x2 Gauss, as in the source chapter; locks as nu -> 1/2"},
                                     "quad4 full", {.locks = true}),
        // One point for the dilatation is the mean in plane strain, and only the mean is in equilibrium with loaded
        // edges in a ring (docs/decisions/0038).
-       solid<Quad4, GaussSquare<2>, Volumetric::mean>(
+       solid<Quad4, GaussSquare<2>, AssumedStrain::mean_dilatation>(
            {3, "selective", "the same element as b-bar, under the name of selective integration"},
            "quad4 selective"),
+       solid<Quad4, GaussSquare<2>, AssumedStrain::enhanced>(
+           {5, "enhanced",
+            "2x2 Gauss, enhanced assumed strain: locks neither in flow that dilates nor as nu -> 1/2"},
+           "quad4 enhanced"),
        solid<Quad4, GaussSquare<3>>(
            {4, "full 3x3", "3x3 Gauss, for the hoop strain of coarse rings; locks as nu -> 1/2"},
            "quad4 full 3x3", {.locks = true})});

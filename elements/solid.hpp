@@ -1,13 +1,15 @@
-// Isoparametric solid: shape x kinematics x rule (x volumetric part).  All it does is to make w and B;
-// point_kernel.hpp does the rest.
+// Isoparametric solid: shape x kinematics x rule (x where its strain comes from).  All it does is to make w and B, and
+// the modes of an enhanced strain; point_kernel.hpp or enhanced.hpp does the rest.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "elements/edge_load.hpp"
+#include "elements/enhanced.hpp"
 #include "elements/extrapolation.hpp"
 #include "elements/kinematics.hpp"
 #include "elements/point_kernel.hpp"
@@ -16,8 +18,9 @@
 
 namespace sage {
 
-// Where the volumetric part of B comes from: each point itself, or the element's mean (B-bar).
-enum class Volumetric { pointwise, mean };
+// Strain of the points: of the displacements there as it is, with its volumetric part replaced by the element's mean
+// (B-bar), or with modes of the element's own added (enhanced.hpp).
+enum class AssumedStrain { none, mean_dilatation, enhanced };
 
 // N and dN/d(xi, eta) at one place of the parent shape.
 template <class Shape>
@@ -34,16 +37,22 @@ inline double determinant(const Matrix2& J) {
   return J(0, 0) * J(1, 1) - J(0, 1) * J(1, 0);
 }
 
-template <class Shape, class Kinematics, class Rule, Volumetric volumetric = Volumetric::pointwise>
-class Solid final
-    : public PointElement<4, 2 * Shape::nodes, Rule::points, volumetric == Volumetric::pointwise> {
+template <class Shape, class Kinematics, class Rule, AssumedStrain strain>
+using SolidKernel =
+    std::conditional_t<strain == AssumedStrain::enhanced,
+                       EnhancedElement<2 * Shape::nodes, Rule::points, EnhancedModes<Kinematics>::kCount>,
+                       PointElement<4, 2 * Shape::nodes, Rule::points, strain == AssumedStrain::none>>;
+
+template <class Shape, class Kinematics, class Rule, AssumedStrain strain = AssumedStrain::none>
+class Solid final : public SolidKernel<Shape, Kinematics, Rule, strain> {
+  using Kernel = SolidKernel<Shape, Kinematics, Rule, strain>;
   static constexpr int kDofs = 2 * Shape::nodes;
   static constexpr int kStride = kPointStride<4, kDofs>;
   using Coordinates = Eigen::Matrix<double, 2, Shape::nodes>;
 
  public:
   Solid(std::string_view name, bool reduced, bool locks, bool loses_order)
-      : Solid::PointElement({.name = name,
+      : Kernel(ElementTraits{.name = name,
                              .geometry = Kinematics::geometry,
                              .nodes = Shape::nodes,
                              .dofs = kDofs,
@@ -77,16 +86,17 @@ class Solid final
     std::array<Gradients, Rule::points> at_points;
     for (std::size_t p = 0; p < Rule::points; ++p) at_points[p] = gradients(x, points_[p]);
     NodePairs b_new;
-    if constexpr (volumetric == Volumetric::mean) b_new = mean_volumetric_part(at_points);
+    if constexpr (strain == AssumedStrain::mean_dilatation) b_new = mean_volumetric_part(at_points);
     double* block = geometry.data();
     for (const Gradients& g : at_points) {
       *block = g.w;
-      if constexpr (volumetric == Volumetric::pointwise)
-        write_operator(g, NodePairs::Zero(), block + 1);
-      else
+      if constexpr (strain == AssumedStrain::mean_dilatation)
         write_operator(g, (b_new - g.volumetric_part()) / 3.0, block + 1);
+      else
+        write_operator(g, NodePairs::Zero(), block + 1);
       block += kStride;
     }
+    if constexpr (strain == AssumedStrain::enhanced) write_modes(x, block);
   }
 
   Vector2 position(const NodeCoordinates& x, int point) const override {
@@ -178,6 +188,15 @@ class Solid final
       Bt.row(2 * i) << Nx + u, u, g.hoop(i) + u, Ny;
       Bt.row(2 * i + 1) << v, Ny + v, v, Nx;
     }
+  }
+
+  void write_modes(const Coordinates& x, double* to) const {
+    std::array<double, Rule::points> det, measure;
+    for (std::size_t p = 0; p < Rule::points; ++p) {
+      det[p] = determinant(x.lazyProduct(points_[p].dN));
+      measure[p] = Kinematics::measure(x.row(0).dot(points_[p].N));
+    }
+    EnhancedModes<Kinematics>::write(Rule::table, det, measure, x.lazyProduct(Shape::dN({0.0, 0.0})), to);
   }
 
   // Smallest detJ over mean detJ at points and corners; 0 or -1 where there is no area or a negative one.

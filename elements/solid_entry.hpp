@@ -32,23 +32,23 @@ ElementEntry with_shape(ElementEntry entry) {
   return entry;
 }
 
-template <class Shape, class Rule, Volumetric volumetric = Volumetric::pointwise>
+template <class Shape, class Rule, AssumedStrain strain = AssumedStrain::none>
 auto solid_maker(std::string_view name, SolidFlags flags = {}) {
   return [name, flags](Geometry geometry) -> std::unique_ptr<Element> {
     if (geometry == Geometry::plane_strain)
-      return std::make_unique<Solid<Shape, PlaneStrain, Rule, volumetric>>(name, flags.reduced_plane,
-                                                                           flags.locks, flags.loses_order);
-    return std::make_unique<Solid<Shape, Axisymmetric, Rule, volumetric>>(name, flags.reduced_axisymmetric,
-                                                                          flags.locks, flags.loses_order);
+      return std::make_unique<Solid<Shape, PlaneStrain, Rule, strain>>(name, flags.reduced_plane, flags.locks,
+                                                                       flags.loses_order);
+    return std::make_unique<Solid<Shape, Axisymmetric, Rule, strain>>(name, flags.reduced_axisymmetric,
+                                                                      flags.locks, flags.loses_order);
   };
 }
 
 // One formulation of a solid.  full_name: what its traits say.
-template <class Shape, class Rule, Volumetric volumetric = Volumetric::pointwise>
+template <class Shape, class Rule, AssumedStrain strain = AssumedStrain::none>
 Choice solid(Formulation formulation, std::string_view full_name, SolidFlags flags = {}) {
   formulation.points = static_cast<int>(Rule::points);
-  formulation.plain = volumetric == Volumetric::pointwise;
-  return {std::move(formulation), solid_maker<Shape, Rule, volumetric>(full_name, flags)};
+  formulation.plain = strain == AssumedStrain::none;
+  return {std::move(formulation), solid_maker<Shape, Rule, strain>(full_name, flags)};
 }
 
 }  // namespace sage

@@ -35,7 +35,8 @@ TEST(Catalogue, UnknownFormulationListsTheKnownOnes) {
     element_catalogue().elements.find(1)->make(Geometry::plane_strain, 7);
     FAIL() << "no exception";
   } catch (const ParameterError& e) {
-    EXPECT_STREQ(e.what(), "quad4: formulation 7 unknown; known: 2 b-bar, 1 full, 3 selective, 4 full 3x3");
+    EXPECT_STREQ(e.what(),
+                 "quad4: formulation 7 unknown; known: 2 b-bar, 1 full, 3 selective, 5 enhanced, 4 full 3x3");
   }
 }
 
