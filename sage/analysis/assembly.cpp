@@ -302,11 +302,6 @@ Outcome Assembly::evaluate_elastic(Tangent& tangent) {
   return outcome;
 }
 
-void Assembly::take_elastic(Tangent& tangent) {
-  tangent.begin_elastic();
-  tangent.end_elastic(evaluate_elastic(tangent));
-}
-
 // The force scale of the constant region is that of the last whole evaluation.
 Outcome Assembly::evaluate_with_border(const Eigen::VectorXd& du, Tangent* tangent) {
   const Profile::Scope scope(work_->profile, phase::kAssembly);

@@ -95,8 +95,6 @@ class Assembly {
   // The elastic K into the tangent: solids at the committed state, interfaces closed and stuck, structures without force.
   // Internal forces then mean nothing until the next evaluation.
   Outcome evaluate_elastic(Tangent& tangent);
-  // Takes the elastic matrices of damped corrections (Tangent::damp).
-  void take_elastic(Tangent& tangent);
   // PathError of the trial states, the mean over all points by the work of their stress increments.
   double path_error() const;
   // Trial states become committed; du as in the evaluation before.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sage/analysis/current_stiffness.hpp"
+#include "sage/analysis/damped_steps.hpp"
 #include "sage/analysis/free_surface_search.hpp"
 #include "sage/analysis/relaxation.hpp"
 #include "sage/analysis/stepper.hpp"
@@ -42,16 +43,9 @@ class StepControl {
   bool fail(StepReport& report, const NewtonStep& step, double size);
   void reject(double next);
   bool tries_otherwise(const NewtonStep& step, bool went_on, double size);
-  bool descends() const;
-  bool proves() const;
-  bool damps(bool last_cut) const;
-  bool can_damp(const NewtonStep& step) const;
-  NewtonStep attempt_damped(StepReport& report, double from, double to, const NewtonStep& failed);
   bool can_relax(bool last) const;
   bool relax(StepReport& report, double end);
   NewtonStep relax_step(Relaxation& relaxation, StepReport& report, double from, double& to);
-  NewtonStep creep(StepReport& report, double to, double damping_fall, const NewtonStep& shaken);
-  void find_solids();
   void renew_tangent();
   void move_to(double load_factor);
   void keep_step(double size);
@@ -60,14 +54,13 @@ class StepControl {
 
   const RunParts& run_;
   Stepper stepper_;
+  DampedSteps damped_;
   FreeSurfaceSearch search_;
   CurrentStiffness stiffness_;
   NewtonStep failed_, relaxed_;
   double force_left_ = 0.0;
-  Eigen::VectorXd last_du_;      // the last step of the stage, if StagePath::last_size > 0
-  bool on_last_way_ = false;     // the next attempt starts with the tangent in the middle of that step
-  std::vector<char> of_solids_;  // by dof: some solid of the stage has it
-  bool has_walls_ = false;       // interfaces or structures
+  Eigen::VectorXd last_du_;   // the last step of the stage, if StagePath::last_size > 0
+  bool on_last_way_ = false;  // the next attempt starts with the tangent in the middle of that step
   bool is_trial_ = false;
   double refused_at_ = -1.0;  // load factor from which no motion came to rest
   int max_cuts_;
