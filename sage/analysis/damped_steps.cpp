@@ -119,9 +119,11 @@ NewtonStep DampedSteps::creep(StepReport& report, double to, double damping_fall
     step = stepper_.attempt_damped(to, to, {damping_fall, &of_solids_});
   }
   step.crept = true;
-  step.flows = step.flows || has_slipped_away(state.u + state.du - start_u, of_solids_, run_.extent.size());
-  if (step.outcome == StepOutcome::converged && !step.flows) return step;
-  step.outcome = StepOutcome::not_converged;
+  if (step.outcome == StepOutcome::converged) {
+    if (!has_slipped_away(state.u + state.du - start_u, of_solids_, run_.extent.size())) return step;
+    step.outcome = StepOutcome::not_converged;
+    step.flows = true;
+  }
   const Eigen::VectorXd motion = state.u + state.du - start_u;
   run_.restore_state(start);
   state.du = motion;
