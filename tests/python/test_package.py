@@ -419,3 +419,10 @@ def test_place_of_a_stepped_analysis():
     with pytest.raises(ValueError, match="no increment is left"):
         analysis.set_pressure(1.0, stage=1)
     assert analysis.close().converged
+
+
+def test_library_solvers_are_found(pinned):
+    """Their module is found from the place of the extension module, not from that of the interpreter."""
+    result = sagefe.read(PINNED).with_(solver="umfpack").run(strict=True)
+    assert result.solver == "umfpack"
+    np.testing.assert_allclose(result.report[1].force, pinned.report[1].force, rtol=1e-9)
