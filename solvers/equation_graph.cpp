@@ -86,6 +86,7 @@ IndexLists elements_of_equations(int equations, const ElementEquations& elements
 
 EquationGraph make_equation_graph(int equations, const ElementEquations& elements, int border) {
   EquationGraph graph;
+  graph.pressure = elements.pressure;
   const IndexLists elements_of = elements_of_equations(equations, elements);
   group_equations(elements_of, elements.count(), equations - border, graph);
   const int groups = graph.members.count();

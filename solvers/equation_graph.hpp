@@ -22,9 +22,10 @@ struct IndexLists {
 // Equations that belong to exactly the same elements form a group: as a rule the dofs of one node.  Numberings
 // work on groups, a quarter of the edges.  An equation of no element is a group of its own.
 struct EquationGraph {
-  std::vector<int> group_of;  // equation -> group
-  IndexLists members;         // group -> its equations, ascending
-  IndexLists neighbours;      // group -> groups that share an element with it, ascending, without itself
+  std::vector<int> group_of;   // equation -> group
+  IndexLists members;          // group -> its equations, ascending
+  IndexLists neighbours;       // group -> groups that share an element with it, ascending, without itself
+  std::vector<char> pressure;  // ElementEquations::pressure
 };
 
 // The last `border` equations share no group with others.

@@ -21,8 +21,21 @@ int whole_tiles(int n) {
   return (n + kTile - 1) / kTile;
 }
 
+// Within each front: what is inside its subtree has been eliminated by then, as delay_pressures() wants it.
+void put_pressures_last(const EquationGraph& graph, const SeparatorTree& tree, std::vector<int>& order) {
+  auto begin = order.begin();
+  for (int f = 0; f < tree.groups.count(); ++f) {
+    auto end = begin;
+    for (const int group : tree.groups.of(f))
+      end += static_cast<std::ptrdiff_t>(graph.members.of(group).size());
+    std::stable_partition(begin, end, [&](int equation) { return graph.pressure[at(equation)] == 0; });
+    begin = end;
+  }
+}
+
 void number_equations(const EquationGraph& graph, const SeparatorTree& tree, FrontTree& fronts) {
   fronts.order = expand(graph, tree.groups.item);
+  if (!graph.pressure.empty()) put_pressures_last(graph, tree, fronts.order);
   fronts.position.resize(fronts.order.size());
   for (std::size_t p = 0; p < fronts.order.size(); ++p)
     fronts.position[at(fronts.order[p])] = static_cast<int>(p);
@@ -83,6 +96,7 @@ void lay_out_fronts(const EquationGraph& graph, const SeparatorTree& tree, bool 
     for (const int r : borders.of(f))
       for (const int equation : graph.members.of(tree.groups.item[at(r)]))
         fronts.border.push_back(fronts.position[at(equation)]);
+    if (!graph.pressure.empty()) std::sort(fronts.border.begin() + front.border_begin, fronts.border.end());
     front.border = static_cast<int>(fronts.border.size()) - front.border_begin;
     front.pivot_tiles = whole_tiles(front.pivots);
     front.border_tiles = whole_tiles(front.border);

@@ -23,6 +23,7 @@ void MatrixSolver::analyse(int equations, ElementEquations elements) {
   report_ = {};
   stop_here_if_asked();
   const EquationGraph graph = make_equation_graph(equations, elements, border_);
+  pressure_ = elements.pressure;
   matrix_.analyse(graph, std::move(elements), traits_.symmetric);
   stop_here_if_asked();
   analyse_matrix(graph);
@@ -56,6 +57,29 @@ SolveStatus MatrixSolver::solve(std::span<const double> b, std::span<double> x) 
   if (refined) std::ranges::copy(b, right_side_.begin());
   solve_matrix(b, x);
   return refined ? refine(x) : SolveStatus::ok;
+}
+
+// A unit of pressure is any number of units of force over displacement: K_up and K_pp mean nothing beside K_uu.  The row of a
+// displacement is measured by K_uu alone, that of a pressure by K_pp and K_pu^2 / K_uu, which scale as its pivot does.
+void MatrixSolver::measure_pressures() {
+  const std::size_t n = pressure_.size();
+  std::vector<double> diagonal(n, 0.0);
+  const auto visit = [&](auto&& use) {
+    for (std::size_t column = 0; column < n; ++column)
+      for (int k = matrix_.column_start()[column]; k < matrix_.column_start()[column + 1]; ++k)
+        use(static_cast<std::size_t>(matrix_.row()[static_cast<std::size_t>(k)]), column,
+            std::abs(matrix_.value()[static_cast<std::size_t>(k)]));
+  };
+  visit([&](std::size_t i, std::size_t j, double size) {
+    if (i == j) diagonal[i] = size;
+  });
+  std::ranges::fill(row_maxima_, 0.0);
+  const auto raise = [&](std::size_t i, double size) { row_maxima_[i] = std::max(row_maxima_[i], size); };
+  visit([&](std::size_t i, std::size_t j, double size) {
+    if (pressure_[i] == pressure_[j]) return raise(i, size), raise(j, size);
+    const std::size_t p = pressure_[i] != 0 ? i : j, u = pressure_[i] != 0 ? j : i;
+    if (diagonal[u] > 0.0) raise(p, size / diagonal[u] * size);
+  });
 }
 
 // A correction is taken as long as it is at most half of the one before (Higham 2002, chapter 12).

@@ -54,19 +54,23 @@ class MatrixSolver : public LinearSolver, public ParallelAssembly, public KeptMa
   // Throws Stopped.  To be called every thousand operations or so, from any thread.
   void stop_here_if_asked() const { stop_if_asked(settings_.stop_asked); }
   // Largest |term| of every row of the matrix as it stands; the same array at every call.
+  // What the pivots of pressures have to be compared with is what displacements leave of them.
   std::span<const double> row_maxima() {
     matrix_.row_maxima(row_maxima_);
+    if (!pressure_.empty()) measure_pressures();
     return row_maxima_;
   }
   mutable FactorReport report_;  // its memory: all but the matrix
 
  private:
   SolveStatus refine(std::span<double> x) const;
+  void measure_pressures();
 
   SolverTraits traits_;
   SolverSettings settings_;
   AssembledMatrix matrix_;
   std::vector<double> row_maxima_;
+  std::vector<char> pressure_;  // ElementEquations::pressure
   int steps_ = 0;
   int border_ = 0;
   double norm_ = 0.0;

@@ -163,4 +163,26 @@ std::vector<int> expand(const EquationGraph& graph, std::span<const int> order) 
   return equations;
 }
 
+void delay_pressures(const EquationGraph& graph, std::vector<int>& equations) {
+  if (graph.pressure.empty()) return;
+  const auto is_pressure = [&](int equation) { return graph.pressure[at(equation)] != 0; };
+  std::vector<int> last(at(graph.members.count()), -1);  // place of each group's last other equation
+  for (std::size_t p = 0; p < equations.size(); ++p)
+    if (!is_pressure(equations[p])) last[at(graph.group_of[at(equations[p])])] = static_cast<int>(p);
+  const auto place = [&](int equation, int own) {
+    if (!is_pressure(equation)) return own;
+    const int group = graph.group_of[at(equation)];
+    int behind = last[at(group)];
+    for (const int other : graph.neighbours.of(group)) behind = std::max(behind, last[at(other)]);
+    return std::max(behind, own);
+  };
+  std::vector<std::pair<int, int>> ranked;
+  for (std::size_t p = 0; p < equations.size(); ++p)
+    ranked.emplace_back(place(equations[p], static_cast<int>(p)), equations[p]);
+  std::ranges::stable_sort(ranked, [&](const auto& a, const auto& b) {
+    return a.first != b.first ? a.first < b.first : is_pressure(a.second) < is_pressure(b.second);
+  });
+  for (std::size_t p = 0; p < equations.size(); ++p) equations[p] = ranked[p].second;
+}
+
 }  // namespace sage

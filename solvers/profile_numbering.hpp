@@ -26,4 +26,8 @@ std::vector<int> best_profile_numbering(const EquationGraph& graph);
 // Equations in the order of elimination, group by group.
 std::vector<int> expand(const EquationGraph& graph, std::span<const int> order);
 
+// Moves every pressure behind the last other equation that shares an element with it.  The pivots of a symmetric matrix
+// [K -Q; -Q^T -C], C >= 0, are then those of K and of -(C + Q^T K^-1 Q), of any size of C (docs/theory/consolidation.md).
+void delay_pressures(const EquationGraph& graph, std::vector<int>& equations);
+
 }  // namespace sage

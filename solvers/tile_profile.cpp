@@ -51,6 +51,7 @@ TileProfile make_tile_profile(const EquationGraph& graph) {
   profile.equations = static_cast<int>(graph.group_of.size());
   profile.tiles = (profile.equations + kTile - 1) / kTile;
   profile.order = expand(graph, best_profile_numbering(graph));
+  delay_pressures(graph, profile.order);
   profile.position.resize(profile.order.size());
   for (std::size_t p = 0; p < profile.order.size(); ++p)
     profile.position[at(profile.order[p])] = static_cast<int>(p);

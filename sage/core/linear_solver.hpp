@@ -15,6 +15,9 @@ namespace sage {
 struct ElementEquations {
   std::vector<std::int64_t> offset{0};
   std::vector<int> equations;
+  // A flag for each equation, or none at all: a pressure that balances a change of volume.  Its diagonal is zero or
+  // negative, so that it is eliminated behind the displacements around it.
+  std::vector<char> pressure{};
   int count() const { return static_cast<int>(offset.size()) - 1; }
   std::span<const int> of(int element) const {
     const auto e = static_cast<std::size_t>(element);
